@@ -1,0 +1,30 @@
+// What an experiment writes its measurements into.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "results/record.h"
+#include "terrain/source.h"
+
+namespace terrabench {
+
+class Recorder {
+ public:
+  Recorder(Record& record, std::filesystem::path folder) : record_(record), folder_(std::move(folder)) {}
+
+  // Adds a sample to the metric of that name.
+  void add(std::string_view metric, std::string_view unit, double sample);
+  // Declares a picture of a ledger row; returns the path to write it to. `extension` without the dot.
+  std::filesystem::path figure(std::string_view id, std::string_view extension, std::string_view caption);
+  // Notes which ground was measured.
+  void terrain(const TerrainSource& source);
+  void terrain(std::string_view name, std::string_view checksum);
+
+ private:
+  Record& record_;
+  std::filesystem::path folder_;
+};
+
+}  // namespace terrabench

@@ -1,0 +1,60 @@
+// What a run leaves behind: measurements with where they came from. Verdicts, tables and plots are computed
+// from these and nothing else.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "terrain/parameters.h"
+
+namespace terrabench {
+
+// One measured quantity with its raw samples, in the order taken; exact quantities have one sample.
+struct Metric {
+  std::string name, unit;  // unit: "s", "B", "m", "1/s", "" for counts
+  std::vector<double> samples;
+};
+
+// A picture that a case drew, relative to the results folder.
+struct Figure {
+  std::string id;       // ledger row, such as hybrid.F3
+  std::string file;     // figures/hybrid.F3.png
+  std::string caption;  // names the paper's figure and what is seen
+};
+
+// Where numbers came from. One a process; every record names the one it was measured under.
+struct Provenance {
+  std::string id;  // digest of the rest
+  std::string time, command, git_revision, compiler, flags, build_type, cpu, os, gl_renderer;
+  bool git_dirty = true;
+  int threads = 0;
+  std::uint64_t memory = 0;                                    // bytes of the machine
+  std::string simd;                                            // instruction set chosen at run time
+  std::vector<std::pair<std::string, std::string>> libraries;  // name, version
+};
+
+// One case of one experiment, measured.
+struct Record {
+  std::string experiment, case_name, profile;
+  std::string run;  // Provenance::id
+  std::uint64_t seed = 0;
+  std::string terrain, terrain_checksum;  // what was measured on
+  std::vector<std::pair<std::string, Value>> parameters;
+  std::vector<Metric> metrics;
+  std::vector<Figure> figures;
+
+  const Metric* find(std::string_view metric) const;  // null when absent
+};
+
+// Order statistics of raw samples.
+struct Summary {
+  std::size_t count = 0;
+  double median = 0, low = 0,
+         high = 0;  // low, high: 95 % bootstrap interval of the median; equal to it for one sample
+};
+Summary summarise(const std::vector<double>& samples);
+
+}  // namespace terrabench

@@ -1,0 +1,62 @@
+#include "terrain/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace terrabench {
+namespace {
+
+std::string join(std::string_view what, std::string_view where) {
+  return where.empty() ? std::string(what) : fmt::format("{}: {}", where, what);
+}
+
+// Levenshtein distance, one row at a time.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i] != b[j]);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+Error::Error(ExitCode code, std::string_view what, std::string_view where, std::string_view advice)
+    : std::runtime_error(join(what, where)), code_(code), advice_(advice) {}
+
+Error usage_error(std::string_view what, std::string_view where, std::string_view advice) {
+  return {ExitCode::kUsage, what, where, advice};
+}
+
+Error bad_input(std::string_view what, std::string_view where, std::string_view advice) {
+  return {ExitCode::kBadInput, what, where, advice};
+}
+
+Error environment_error(std::string_view what, std::string_view where, std::string_view advice) {
+  return {ExitCode::kEnvironment, what, where, advice};
+}
+
+Error unknown_name(std::string_view kind, std::string_view name, std::span<const std::string_view> known) {
+  std::string what = fmt::format("unknown {} '{}'", kind, name);
+  if (!known.empty()) {
+    const auto nearest = *std::min_element(known.begin(), known.end(), [&](auto a, auto b) {
+      return edit_distance(name, a) < edit_distance(name, b);
+    });
+    if (edit_distance(name, nearest) <= std::max<std::size_t>(2, nearest.size() / 3)) {
+      what += fmt::format("; did you mean '{}'?", nearest);
+    }
+  }
+  return usage_error(what, "", fmt::format("known: {}", fmt::join(known, ", ")));
+}
+
+}  // namespace terrabench

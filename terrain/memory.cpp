@@ -1,0 +1,93 @@
+#include "terrain/memory.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <fstream>
+#include <new>
+#include <string>
+
+namespace terrabench {
+namespace {
+
+constinit std::atomic<std::int64_t> g_live{0}, g_peak{0};
+
+void* count_in(void* block) {
+  const std::int64_t live =
+      g_live.fetch_add(static_cast<std::int64_t>(malloc_usable_size(block)), std::memory_order_relaxed) +
+      static_cast<std::int64_t>(malloc_usable_size(block));
+  std::int64_t peak = g_peak.load(std::memory_order_relaxed);
+  while (live > peak && !g_peak.compare_exchange_weak(peak, live, std::memory_order_relaxed)) {
+  }
+  return block;
+}
+
+void count_out(void* block) {
+  if (block != nullptr) {
+    g_live.fetch_sub(static_cast<std::int64_t>(malloc_usable_size(block)), std::memory_order_relaxed);
+  }
+}
+
+void* allocate(std::size_t size) {
+  void* const block = std::malloc(size == 0 ? 1 : size);
+  if (block == nullptr) throw std::bad_alloc();
+  return count_in(block);
+}
+
+void* allocate(std::size_t size, std::align_val_t align) {
+  const auto alignment = static_cast<std::size_t>(align);
+  // aligned_alloc wants a multiple of the alignment.
+  void* const block = std::aligned_alloc(
+      alignment, (size + alignment - 1) / alignment * alignment + (size == 0 ? alignment : 0));
+  if (block == nullptr) throw std::bad_alloc();
+  return count_in(block);
+}
+
+}  // namespace
+
+Memory& Memory::operator+=(const Memory& other) {
+  payload += other.payload;
+  index += other.index;
+  slack += other.slack;
+  return *this;
+}
+
+std::int64_t HeapCounter::live() { return g_live.load(std::memory_order_relaxed); }
+std::int64_t HeapCounter::peak() { return g_peak.load(std::memory_order_relaxed); }
+void HeapCounter::reset_peak() { g_peak.store(live(), std::memory_order_relaxed); }
+
+std::uint64_t physical_memory() {
+  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+         static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+}
+
+std::uint64_t available_memory() {
+  std::ifstream info("/proc/meminfo");
+  for (std::string key, unit; info >> key;) {
+    std::uint64_t kib = 0;
+    if (!(info >> kib)) break;
+    std::getline(info, unit);
+    if (key == "MemAvailable:") return kib * 1024;
+  }
+  return physical_memory();
+}
+
+}  // namespace terrabench
+
+// The hook: the global allocation functions, replaced for every program that links terrain.
+void* operator new(std::size_t size) { return terrabench::allocate(size); }
+void* operator new[](std::size_t size) { return terrabench::allocate(size); }
+void* operator new(std::size_t size, std::align_val_t align) { return terrabench::allocate(size, align); }
+void* operator new[](std::size_t size, std::align_val_t align) { return terrabench::allocate(size, align); }
+void operator delete(void* block) noexcept {
+  terrabench::count_out(block);
+  std::free(block);
+}
+void operator delete[](void* block) noexcept { operator delete(block); }
+void operator delete(void* block, std::size_t) noexcept { operator delete(block); }
+void operator delete[](void* block, std::size_t) noexcept { operator delete(block); }
+void operator delete(void* block, std::align_val_t) noexcept { operator delete(block); }
+void operator delete[](void* block, std::align_val_t) noexcept { operator delete(block); }
+void operator delete(void* block, std::size_t, std::align_val_t) noexcept { operator delete(block); }
+void operator delete[](void* block, std::size_t, std::align_val_t) noexcept { operator delete(block); }

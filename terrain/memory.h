@@ -1,0 +1,63 @@
+// Memory, by part and by measurement. memory() of a structure says what each heap byte is for; HeapCounter
+// measures the same bytes behind the program's back. The two agree, and the tests say so.
+#pragma once
+
+#include <malloc.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+namespace terrabench {
+
+struct Memory {
+  std::size_t payload = 0;  // the data itself
+  std::size_t index = 0;    // offsets, tables, nodes: what finds the payload
+  std::size_t slack = 0;    // reserved and unused, rounding by the allocator included
+  std::size_t total() const { return payload + index + slack; }
+  Memory& operator+=(const Memory& other);
+};
+
+// Bytes the allocator really gave for a block (0 for null).
+inline std::size_t heap_bytes(const void* block) {
+  return block == nullptr ? 0 : malloc_usable_size(const_cast<void*>(block));
+}
+
+// A vector's heap block as payload and slack, or as index and slack.
+template <class T>
+Memory payload_memory(const std::vector<T>& v) {
+  static_assert(std::is_trivially_copyable_v<T>,
+                "elements with heap blocks of their own must be counted too");
+  const std::size_t used = v.size() * sizeof(T);
+  return {used, 0, heap_bytes(v.data()) - used};
+}
+template <class T>
+Memory index_memory(const std::vector<T>& v) {
+  const Memory m = payload_memory(v);
+  return {0, m.payload, m.slack};
+}
+
+// Every block that operator new hands out anywhere in the process is counted with the size that the allocator
+// gave it. Blocks that C libraries take from malloc directly (GDAL, Mesa) are not ours and not counted.
+struct HeapCounter {
+  static std::int64_t live();  // bytes held now, by all threads
+  static std::int64_t peak();  // largest live() since the last reset_peak()
+  static void reset_peak();
+};
+
+// Heap bytes that the code between construction and held() left allocated.
+class HeapScope {
+ public:
+  HeapScope() : before_(HeapCounter::live()) {}
+  std::int64_t held() const { return HeapCounter::live() - before_; }
+
+ private:
+  std::int64_t before_;
+};
+
+// Physical memory in bytes, and how much of it could still be taken: for refusing input that would not fit.
+std::uint64_t physical_memory();
+std::uint64_t available_memory();
+
+}  // namespace terrabench

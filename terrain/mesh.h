@@ -1,0 +1,31 @@
+// Indexed triangles: what representations produce and renderers draw.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace terrabench {
+
+struct TriangleMesh {
+  std::vector<glm::vec3> positions;    // metres
+  std::vector<glm::vec3> normals;      // unit length, one a position; may be empty until compute_normals()
+  std::vector<std::uint32_t> indices;  // three a triangle, counter-clockwise seen from the air
+
+  std::size_t triangles() const { return indices.size() / 3; }
+};
+
+// Area-weighted vertex normals. O(triangles).
+void compute_normals(TriangleMesh&);
+
+// How well a mesh closes: an edge used by one triangle only is open, by more than two non-manifold.
+struct EdgeReport {
+  std::size_t edges = 0, open = 0, non_manifold = 0,
+              misoriented = 0;  // misoriented: both triangles run it the same way
+  bool watertight() const { return open == 0 && non_manifold == 0 && misoriented == 0; }
+};
+// O(triangles log triangles).
+EdgeReport check_edges(const TriangleMesh&);
+
+}  // namespace terrabench

@@ -1,0 +1,56 @@
+// One small typed key-value set, shared by the command line, TOML files, JSON records and the report.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace terrabench {
+
+using Value = std::variant<bool, std::int64_t, double, std::string>;
+std::string to_string(const Value&);
+
+// One parameter that a method takes. The type is the type of `fallback`; numbers lie in [lowest, highest].
+struct ParameterSpec {
+  std::string_view name;
+  Value fallback;
+  std::string_view unit;  // "m", "samples", "" for none
+  std::string_view help;
+  double lowest = -std::numeric_limits<double>::infinity();
+  double highest = std::numeric_limits<double>::infinity();
+};
+
+// Values for a list of specs; whatever is not set has its fallback. Specs must outlive the set (they are
+// static tables).
+class Parameters {
+ public:
+  Parameters() = default;
+  explicit Parameters(std::span<const ParameterSpec> specs);
+
+  // Throws usage_error for an unknown name (with the nearest), a value of another type, or one out of range.
+  void set(std::string_view name, const Value& value);
+  // "key=value", as --set gives it.
+  void set_from_text(std::string_view assignment);
+
+  bool flag(std::string_view name) const;
+  std::int64_t integer(std::string_view name) const;
+  double number(std::string_view name) const;
+  const std::string& text(std::string_view name) const;
+
+  bool has(std::string_view name) const;
+  std::span<const ParameterSpec> specs() const { return specs_; }
+  const Value& value(std::size_t spec) const { return values_[spec]; }
+
+ private:
+  std::size_t find(std::string_view name) const;  // throws unknown_name
+
+  std::span<const ParameterSpec> specs_;
+  std::vector<Value> values_;
+};
+
+}  // namespace terrabench

@@ -1,0 +1,40 @@
+// What a structure is built from: a named piece of ground, as heights or as a solid, with what identifies it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "terrain/heightfield.h"
+#include "terrain/progress.h"
+#include "terrain/solid.h"
+
+namespace terrabench {
+
+// Exactly one of the two is set.
+struct TerrainSource {
+  std::string name;      // catalogue name or path
+  std::string checksum;  // of the content
+  std::optional<Heightfield> heights;
+  std::optional<Solid> solid;
+
+  // For heights: the ground's floor lies one cell under the lowest sample, so that every column has
+  // substance.
+  Bounds bounds() const;
+};
+
+// A name in the catalogue: one line in terrain/sources/catalogue.cpp.
+struct TerrainType {
+  std::string_view name, summary, origin;
+  TerrainSource (*open)(std::uint64_t seed);
+};
+std::span<const TerrainType> terrains();
+
+// By catalogue name or, for anything else, the path of any DEM that GDAL opens. Throws unknown_name or
+// bad_input.
+TerrainSource open_terrain(std::string_view name_or_path, std::uint64_t seed = 0);
+
+}  // namespace terrabench

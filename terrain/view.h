@@ -1,0 +1,23 @@
+// A camera: what a level-of-detail method adapts to and a renderer looks through.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "terrain/solid.h"
+
+namespace terrabench {
+
+struct View {
+  glm::vec3 eye{0}, target{0, 0, -1}, up{0, 1, 0};  // metres, y up
+  float vertical_fov = 0.8F;                        // radians, in (0, π)
+  int width = 800, height = 600;                    // pixels
+  float near = 0.5F, far = 10000.0F;                // metres
+};
+
+glm::mat4 world_to_clip(const View&);  // OpenGL clip space, z in [-1, 1]
+
+// Looks down at the whole box from the south-east, as relief maps in papers do, filling the picture.
+View overview(const Bounds&, int width, int height);
+
+}  // namespace terrabench
