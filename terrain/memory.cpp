@@ -14,9 +14,8 @@ namespace {
 constinit std::atomic<std::int64_t> g_live{0}, g_peak{0};
 
 void* count_in(void* block) {
-  const std::int64_t live =
-      g_live.fetch_add(static_cast<std::int64_t>(malloc_usable_size(block)), std::memory_order_relaxed) +
-      static_cast<std::int64_t>(malloc_usable_size(block));
+  const auto size = static_cast<std::int64_t>(malloc_usable_size(block));
+  const std::int64_t live = g_live.fetch_add(size, std::memory_order_relaxed) + size;
   std::int64_t peak = g_peak.load(std::memory_order_relaxed);
   while (live > peak && !g_peak.compare_exchange_weak(peak, live, std::memory_order_relaxed)) {
   }
