@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+
+#include "experiments/fidelity.h"
+#include "experiments/overview/overview.h"
+#include "renderers/relief.h"
+#include "representations/representation.h"
+#include "terrain/view.h"
+
+namespace terrabench::overview {
+namespace {
+
+constexpr std::array kSpecs{
+    ParameterSpec{"representation", std::string("heightmap"), "", "a name of `terrabench list representations`"},
+    ParameterSpec{"width", std::int64_t{1600}, "pixels", "width of the picture", 1, 16384},
+    ParameterSpec{"height", std::int64_t{1000}, "pixels", "height of the picture", 1, 16384},
+};
+constexpr int kFidelityResolution = 128;  // lattice samples a side
+
+// Names for files: a path's slashes and dots would read as folders and extensions.
+std::string file_name(std::string_view terrain) {
+  std::string name(terrain.substr(terrain.find_last_of('/') + 1));
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  }
+  return name;
+}
+
+}  // namespace
+
+const std::span<const ParameterSpec> kReliefParameters = kSpecs;
+
+std::vector<Case> relief_cases(const RunOptions& options) {
+  std::vector<std::string> terrains = options.terrains;
+  if (terrains.empty()) terrains = {"jacksboro", "caves"};
+  std::vector<Case> cases;
+  for (const std::string& terrain : terrains) {
+    for (const RepresentationType& type : representations()) {
+      Case& added = cases.emplace_back(
+          Case{fmt::format("{}/{}", terrain, type.name), Parameters(kReliefParameters), terrain});
+      added.parameters.set("representation", std::string(type.name));
+    }
+  }
+  return cases;
+}
+
+void measure_relief(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = open_terrain(at.terrain, options.seed);
+  recorder.terrain(source);
+  const RepresentationType& type = representation(at.parameters.text("representation"));
+  const auto begin = std::chrono::steady_clock::now();
+  const auto built = type.build(source, Parameters(type.parameters), progress);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  recorder.add("build_time", "s", seconds.count());
+  recorder.add("bytes", "B", static_cast<double>(built->memory().total()));
+  const Fidelity fidelity = measure_fidelity(*built, source, kFidelityResolution, progress);
+  if (fidelity.from_heights) {
+    recorder.add("rmse", "m", fidelity.rmse);
+    recorder.add("largest_error", "m", fidelity.largest_error);
+  } else {
+    recorder.add("volume_iou", "", fidelity.volume_iou);
+  }
+
+  const TriangleMesh mesh = built->mesh({});
+  recorder.add("triangles", "", static_cast<double>(mesh.triangles()));
+  const View view = overview(source.bounds(), static_cast<int>(at.parameters.integer("width")),
+                             static_cast<int>(at.parameters.integer("height")));
+  const auto context = open_context(options.renderer, view.width, view.height);
+  const Bounds bounds = source.bounds();
+  const Image image = render_relief(*context, mesh, view, {.lowest = bounds.low.y, .highest = bounds.high.y});
+  const std::string id = fmt::format("relief.{}.{}", file_name(at.terrain), type.name);
+  write_png(recorder.figure(id, "png", fmt::format("{} as {}: {} triangles, sun from the north-west, view from the south",
+                                                   source.name, type.name, mesh.triangles())),
+            image);
+}
+
+}  // namespace terrabench::overview

@@ -1,0 +1,32 @@
+#include "experiments/recorder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace terrabench {
+
+void Recorder::add(std::string_view metric, std::string_view unit, double sample) {
+  auto it = std::find_if(record_.metrics.begin(), record_.metrics.end(),
+                         [&](const Metric& m) { return m.name == metric; });
+  if (it == record_.metrics.end()) {
+    it = record_.metrics.insert(it, Metric{std::string(metric), std::string(unit), {}});
+  }
+  it->samples.push_back(sample);
+}
+
+std::filesystem::path Recorder::figure(std::string_view id, std::string_view extension, std::string_view caption) {
+  Figure figure{std::string(id), fmt::format("figures/{}.{}", id, extension), std::string(caption)};
+  const std::filesystem::path path = folder_ / figure.file;
+  record_.figures.push_back(std::move(figure));
+  return path;
+}
+
+void Recorder::terrain(const TerrainSource& source) { terrain(source.name, source.checksum); }
+
+void Recorder::terrain(std::string_view name, std::string_view checksum) {
+  record_.terrain = name;
+  record_.terrain_checksum = checksum;
+}
+
+}  // namespace terrabench
