@@ -90,7 +90,7 @@ std::vector<float> curvature_shading(const TriangleMesh& mesh) {
 
   // In units of the mesh's own typical bend, so that fine and coarse meshes of one ground look alike; below a
   // hundredth of a radian an edge counts as straight.
-  constexpr float kStrength = 0.22F, kStraight = 0.01F;
+  constexpr float kStrength = 0.17F, kStraight = 0.01F;
   double squares = 0;
   for (const float b : bend) squares += static_cast<double>(b) * b;
   const float typical = std::max(static_cast<float>(std::sqrt(squares / static_cast<double>(n))), kStraight);

@@ -41,11 +41,11 @@ RenderTarget::RenderTarget(int width, int height)
     : width_((check_size(width, height), width)), height_(height) {
   glNamedRenderbufferStorageMultisample(color_.id(), kSamples, GL_RGBA8, width, height);
   glNamedRenderbufferStorageMultisample(depth_.id(), kSamples, GL_DEPTH_COMPONENT32F, width, height);
-  glNamedRenderbufferStorage(averaged_color_.id(), GL_RGBA8, width, height);
   glNamedFramebufferRenderbuffer(drawn_.id(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color_.id());
   glNamedFramebufferRenderbuffer(drawn_.id(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
+  require_complete(drawn_);  // before more is taken: this is where a driver's own limits show
+  glNamedRenderbufferStorage(averaged_color_.id(), GL_RGBA8, width, height);
   glNamedFramebufferRenderbuffer(averaged_.id(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, averaged_color_.id());
-  require_complete(drawn_);
   require_complete(averaged_);
 }
 

@@ -50,7 +50,7 @@ void main() {
   float direct = (1.0 - kAmbient) * max(dot(n, sun), 0.0) / max(sun.y, 0.3);
   float light = (sky + direct) * (1.0 + bend);
   vec3 tint = mix(kSky, vec3(1.0), min(light, 1.0));
-  // Slopes towards the sun lighten towards white instead of being cut off there.
-  vec3 lit = light <= 1.0 ? albedo * light * tint : mix(albedo, vec3(1.0), 1.0 - exp(-0.7 * (light - 1.0)));
+  // Slopes towards the sun near white without being cut off there, and dark colours keep their hue.
+  vec3 lit = light <= 1.0 ? albedo * light * tint : 1.0 - pow(1.0 - albedo, vec3(light));
   color = vec4(to_srgb(clamp(lit, 0.0, 1.0)), 1.0);
 }
