@@ -66,7 +66,8 @@ struct Overlap {
 Fidelity against_solid(const Representation& built, const Solid& solid, int resolution, Progress& progress) {
   const glm::vec3 size = solid.bounds.size();
   const float step = std::max({size.x, size.y, size.z}) / static_cast<float>(resolution);
-  const int nx = std::max(1, static_cast<int>(size.x / step)), nz = std::max(1, static_cast<int>(size.z / step));
+  const int nx = std::max(1, static_cast<int>(size.x / step)),
+            nz = std::max(1, static_cast<int>(size.z / step));
   const int ny = std::max(1, static_cast<int>(size.y / step));
   std::vector<Overlap> rows(nz);
   progress.begin("comparing with the solid", rows.size());
@@ -93,13 +94,15 @@ Fidelity against_solid(const Representation& built, const Solid& solid, int reso
   Fidelity result;
   result.from_heights = false;
   result.samples = static_cast<std::size_t>(nx) * ny * nz;
-  result.volume_iou = total.either == 0 ? 1 : static_cast<double>(total.both) / static_cast<double>(total.either);
+  result.volume_iou =
+      total.either == 0 ? 1 : static_cast<double>(total.both) / static_cast<double>(total.either);
   return result;
 }
 
 }  // namespace
 
-Fidelity measure_fidelity(const Representation& built, const TerrainSource& source, int resolution, Progress& progress) {
+Fidelity measure_fidelity(const Representation& built, const TerrainSource& source, int resolution,
+                          Progress& progress) {
   return source.heights ? against_heights(built, *source.heights, progress)
                         : against_solid(built, *source.solid, resolution, progress);
 }

@@ -15,7 +15,8 @@ void Recorder::add(std::string_view metric, std::string_view unit, double sample
   it->samples.push_back(sample);
 }
 
-std::filesystem::path Recorder::figure(std::string_view id, std::string_view extension, std::string_view caption) {
+std::filesystem::path Recorder::figure(std::string_view id, std::string_view extension,
+                                       std::string_view caption) {
   Figure figure{std::string(id), fmt::format("figures/{}.{}", id, extension), std::string(caption)};
   const std::filesystem::path path = folder_ / figure.file;
   record_.figures.push_back(std::move(figure));

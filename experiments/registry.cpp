@@ -8,12 +8,12 @@ namespace terrabench {
 namespace {
 
 const std::array kExperiments{
-    Experiment{"hybrid.table1", "hybrid", "Table 1: memory of the discrete data structure", hybrid::kSizeParameters,
-               hybrid::table1_cases, hybrid::measure_table1},
+    Experiment{"hybrid.table1", "hybrid", "Table 1: memory of the discrete data structure",
+               hybrid::kSizeParameters, hybrid::table1_cases, hybrid::measure_table1},
     Experiment{"hybrid.table2", "hybrid", "Table 2: terrain generation times", hybrid::kSizeParameters,
                hybrid::table2_cases, hybrid::measure_table2},
-    Experiment{"hybrid.caves", "hybrid", "§3.1.3: overhangs, caves and floating islands", hybrid::kCaveParameters,
-               hybrid::cave_cases, hybrid::measure_caves},
+    Experiment{"hybrid.caves", "hybrid", "§3.1.3: overhangs, caves and floating islands",
+               hybrid::kCaveParameters, hybrid::cave_cases, hybrid::measure_caves},
     Experiment{"hybrid.noise-stages", "hybrid", "Figures 3-13: the noise pipeline, step by step",
                hybrid::kStageParameters, hybrid::stage_cases, hybrid::measure_stage},
     Experiment{"overview.relief", "overview", "Shaded relief of each terrain in each representation",

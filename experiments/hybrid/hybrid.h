@@ -1,5 +1,5 @@
-// Experiments of "hybrid": layered stacks, an implicit surface, clipmaps and grass, with terrain from 3-D noise.
-// Here: Table 1 (memory), Table 2 (generation time), the cave claims of §3.1.3 and figures 3 to 13.
+// Experiments of "hybrid": layered stacks, an implicit surface, clipmaps and grass, with terrain from 3-D
+// noise. Here: Table 1 (memory), Table 2 (generation time), the cave claims of §3.1.3 and figures 3 to 13.
 #pragma once
 
 #include <span>
@@ -14,8 +14,8 @@ extern const std::span<const ParameterSpec> kSizeParameters;
 
 // Table 1 prints 128, 256 and 512; the quick profile runs 64, 128 and 256.
 std::vector<Case> table1_cases(const RunOptions&);
-// Bytes of the stacks by the paper's accounting (the fixed part of one array of layers a column), the stacks' true heap
-// bytes, a dense grid of one byte a cell, and OpenVDB, all of the same terrain.
+// Bytes of the stacks by the paper's accounting (the fixed part of one array of layers a column), the stacks'
+// true heap bytes, a dense grid of one byte a cell, and OpenVDB, all of the same terrain.
 void measure_table1(const Case&, const RunOptions&, Recorder&, Progress&);
 
 // As Table 2, and 64 below it, so that the first growth factor can be taken too.

@@ -60,7 +60,7 @@ Bytes bytes_of(std::string_view name, const TerrainSource& source, std::int64_t 
 
 }  // namespace
 
-const std::span<const ParameterSpec> kSizeParameters = kSizeSpecs;
+constinit const std::span<const ParameterSpec> kSizeParameters = kSizeSpecs;
 
 std::vector<Case> table1_cases(const RunOptions& options) {
   return options.profile == Profile::kPaper ? size_cases({128, 256, 512}) : size_cases({64, 128, 256});
@@ -71,7 +71,8 @@ void measure_table1(const Case& at, const RunOptions& options, Recorder& recorde
   const auto columns = static_cast<double>(n * n);
   const TerrainSource source = cave_source(options.seed);
   recorder.terrain(source);
-  // 24 bytes a column are what one std::vector object takes, whatever it holds: the paper counts no more than that.
+  // 24 bytes a column are what one std::vector object takes, whatever it holds: the paper counts no more than
+  // that.
   const double paper_bytes = columns * sizeof(std::vector<Span>);
   const Bytes stack = bytes_of("layered_stack", source, n, progress);
   const Bytes dense = bytes_of("dense_voxel", source, n, progress);

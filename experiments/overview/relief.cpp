@@ -1,3 +1,5 @@
+#include "renderers/relief.h"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -5,15 +7,15 @@
 
 #include "experiments/fidelity.h"
 #include "experiments/overview/overview.h"
-#include "renderers/relief.h"
 #include "representations/representation.h"
 #include "terrain/view.h"
 
 namespace terrabench::overview {
 namespace {
 
-constexpr std::array kSpecs{
-    ParameterSpec{"representation", std::string("heightmap"), "", "a name of `terrabench list representations`"},
+const std::array kSpecs{
+    ParameterSpec{"representation", std::string("heightmap"), "",
+                  "a name of `terrabench list representations`"},
     ParameterSpec{"width", std::int64_t{1600}, "pixels", "width of the picture", 1, 16384},
     ParameterSpec{"height", std::int64_t{1000}, "pixels", "height of the picture", 1, 16384},
 };
@@ -30,7 +32,7 @@ std::string file_name(std::string_view terrain) {
 
 }  // namespace
 
-const std::span<const ParameterSpec> kReliefParameters = kSpecs;
+constinit const std::span<const ParameterSpec> kReliefParameters = kSpecs;
 
 std::vector<Case> relief_cases(const RunOptions& options) {
   std::vector<std::string> terrains = options.terrains;
@@ -71,9 +73,11 @@ void measure_relief(const Case& at, const RunOptions& options, Recorder& recorde
   const Bounds bounds = source.bounds();
   const Image image = render_relief(*context, mesh, view, {.lowest = bounds.low.y, .highest = bounds.high.y});
   const std::string id = fmt::format("relief.{}.{}", file_name(at.terrain), type.name);
-  write_png(recorder.figure(id, "png", fmt::format("{} as {}: {} triangles, sun from the north-west, view from the south",
-                                                   source.name, type.name, mesh.triangles())),
-            image);
+  write_png(
+      recorder.figure(id, "png",
+                      fmt::format("{} as {}: {} triangles, sun from the north-west, view from the south",
+                                  source.name, type.name, mesh.triangles())),
+      image);
 }
 
 }  // namespace terrabench::overview

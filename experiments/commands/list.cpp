@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "experiments/commands/commands.h"
+#include "experiments/experiment.h"
+#include "representations/representation.h"
+#include "results/claims.h"
+#include "terrain/source.h"
+
+namespace terrabench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json parameters_json(std::span<const ParameterSpec> specs) {
+  Json list = Json::array();
+  for (const ParameterSpec& spec : specs) {
+    Json entry = {{"name", spec.name}, {"unit", spec.unit}, {"help", spec.help}};
+    std::visit([&](const auto& value) { entry["default"] = value; }, spec.fallback);
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+Json list_representations() {
+  Json list = Json::array();
+  for (const RepresentationType& type : representations()) {
+    list.push_back({{"name", type.name},
+                    {"summary", type.summary},
+                    {"paper", type.paper},
+                    {"overhangs", type.traits.overhangs},
+                    {"materials", type.traits.materials},
+                    {"lossless", type.traits.lossless},
+                    {"editable", type.traits.editable},
+                    {"parameters", parameters_json(type.parameters)}});
+  }
+  return list;
+}
+
+Json list_experiments() {
+  Json list = Json::array();
+  for (const Experiment& experiment : experiments()) {
+    list.push_back({{"name", experiment.id},
+                    {"summary", experiment.title},
+                    {"paper", experiment.paper},
+                    {"parameters", parameters_json(experiment.parameters)}});
+  }
+  return list;
+}
+
+Json list_claims() {
+  Json list = Json::array();
+  for (const Paper& paper : papers()) {
+    for (const Claim& claim : paper.claims) {
+      list.push_back({{"name", claim.id},
+                      {"summary", claim.statement},
+                      {"paper", paper.id},
+                      {"where", claim.where},
+                      {"class", std::string(1, claim.type)},
+                      {"known", name(claim.known)}});
+    }
+  }
+  return list;
+}
+
+Json list_terrains() {
+  Json list = Json::array();
+  for (const TerrainType& terrain : terrains()) {
+    list.push_back({{"name", terrain.name}, {"summary", terrain.summary}, {"origin", terrain.origin}});
+  }
+  return list;
+}
+
+struct Listing {
+  std::string_view name;
+  Json (*list)();
+};
+constexpr std::array kListings{
+    Listing{"representations", list_representations},
+    Listing{"experiments", list_experiments},
+    Listing{"claims", list_claims},
+    Listing{"terrains", list_terrains},
+};
+
+void print_text(std::string_view title, const Json& list) {
+  std::size_t width = 0;
+  for (const Json& entry : list) width = std::max(width, entry["name"].get_ref<const std::string&>().size());
+  fmt::print("{}\n", title);
+  for (const Json& entry : list) {
+    fmt::print("  {:<{}}  {}\n", entry["name"].get<std::string>(), width,
+               entry["summary"].get<std::string>());
+    if (!entry.contains("parameters")) continue;
+    for (const Json& parameter : entry["parameters"]) {
+      const std::string unit = parameter["unit"].get<std::string>();
+      fmt::print("  {:<{}}    --set {}={}  {}{}\n", "", width, parameter["name"].get<std::string>(),
+                 parameter["default"].dump(), parameter["help"].get<std::string>(),
+                 unit.empty() ? "" : fmt::format(" [{}]", unit));
+    }
+  }
+}
+
+}  // namespace
+
+ExitCode list_command(const ListArguments& arguments) {
+  Json chosen = Json::object();
+  std::vector<std::string_view> known;
+  for (const Listing& listing : kListings) {
+    known.push_back(listing.name);
+    if (arguments.what.empty() || arguments.what == listing.name)
+      chosen[std::string(listing.name)] = listing.list();
+  }
+  if (chosen.empty()) throw unknown_name("listing", arguments.what, known);
+  if (arguments.json) {
+    fmt::print("{}\n", chosen.dump(2));
+    return ExitCode::kGood;
+  }
+  for (const auto& [title, list] : chosen.items()) print_text(title, list);
+  return ExitCode::kGood;
+}
+
+}  // namespace terrabench

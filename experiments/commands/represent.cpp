@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "experiments/commands/commands.h"
+#include "experiments/fidelity.h"
+#include "renderers/relief.h"
+#include "representations/representation.h"
+#include "results/format.h"
+#include "terrain/sources/dem/dem.h"
+
+namespace terrabench {
+namespace {
+
+constexpr int kFidelityResolution = 128;  // lattice samples along the longest side of a solid
+
+bool in_catalogue(std::string_view name) {
+  return std::any_of(terrains().begin(), terrains().end(),
+                     [&](const TerrainType& t) { return t.name == name; });
+}
+
+// Files are cropped and resampled while they are read, so that only the result must fit into memory.
+TerrainSource open_file(const RepresentArguments& a, Progress& progress) {
+  DemOptions options;
+  if (!a.crop.empty()) options.window = {a.crop[0], a.crop[1], a.crop[2], a.crop[3]};
+  if (!a.resample.empty()) {
+    options.width = a.resample[0];
+    options.depth = a.resample[1];
+  }
+  options.fill_no_data = a.fill;
+  Dem dem = read_dem(a.terrain, options, &progress);
+  for (const std::string& note : dem.notes) fmt::print("note: {}\n", note);
+  TerrainSource source;
+  source.name = a.terrain;
+  source.checksum = checksum(dem.heights);
+  source.heights = std::move(dem.heights);
+  return source;
+}
+
+TerrainSource open_named(const RepresentArguments& a) {
+  TerrainSource source = open_terrain(a.terrain, a.seed);
+  const bool shaped = !a.crop.empty() || !a.resample.empty() || a.fill;
+  if (!shaped) return source;
+  if (!source.heights) {
+    throw usage_error("this terrain is a solid, not a grid of heights", "--crop, --resample, --fill",
+                      "leave them out, or set the representation's resolution");
+  }
+  if (!a.crop.empty()) source.heights = crop(*source.heights, a.crop[0], a.crop[1], a.crop[2], a.crop[3]);
+  if (!a.resample.empty()) source.heights = resample(*source.heights, a.resample[0], a.resample[1]);
+  if (a.fill) source.heights = fill_no_data(*source.heights);
+  source.checksum = checksum(*source.heights);
+  return source;
+}
+
+void print_fidelity(const Fidelity& fidelity) {
+  if (!fidelity.from_heights) {
+    fmt::print("agreement   {:.6f} volume IoU over {} samples\n", fidelity.volume_iou, fidelity.samples);
+    return;
+  }
+  fmt::print("error       {:.4g} m RMSE, {:.4g} m largest, over {} columns", fidelity.rmse,
+             fidelity.largest_error, fidelity.columns);
+  fmt::print(fidelity.lost > 0 ? "; {} columns gained or lost\n" : "\n", fidelity.lost);
+}
+
+void draw(const RepresentArguments& a, const Representation& built, Bounds bounds) {
+  const View view = overview(bounds, a.view_width, a.view_height);
+  const auto context = open_context(a.renderer, view.width, view.height);
+  const TriangleMesh mesh = built.mesh({});
+  write_png(a.render,
+            render_relief(*context, mesh, view, {.lowest = bounds.low.y, .highest = bounds.high.y}));
+  fmt::print("rendered    {} ({} triangles, {})\n", a.render, mesh.triangles(), context->renderer());
+}
+
+}  // namespace
+
+ExitCode represent_command(const RepresentArguments& a) {
+  const RepresentationType& type = representation(a.as);
+  Parameters parameters(type.parameters);
+  for (const std::string& assignment : a.assignments) parameters.set_from_text(assignment);
+  Progress progress(isatty(STDERR_FILENO) != 0 ? Progress::Output::kTerminal : Progress::Output::kLines);
+
+  const TerrainSource source =
+      in_catalogue(a.terrain) || !std::filesystem::exists(a.terrain) ? open_named(a) : open_file(a, progress);
+  const auto begin = std::chrono::steady_clock::now();
+  const HeapScope scope;
+  const auto built = type.build(source, parameters, progress);
+  const std::int64_t heap = scope.held();
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  const Fidelity fidelity = measure_fidelity(*built, source, kFidelityResolution, progress);
+  progress.end();
+
+  const Memory memory = built->memory();
+  fmt::print("terrain     {}  checksum {}\n", source.name, source.checksum);
+  fmt::print("built as    {} in {:.3g} s\n", type.name, seconds.count());
+  fmt::print("memory      {} (payload {}, index {}, slack {}); the allocator counted {}\n",
+             format_quantity(static_cast<double>(memory.total()), "B"), memory.payload, memory.index,
+             memory.slack, format_quantity(static_cast<double>(heap), "B"));
+  print_fidelity(fidelity);
+  if (!a.save.empty()) {
+    const std::size_t bytes = save_representation(a.save, type, *built);
+    fmt::print("saved       {} ({})\n", a.save, format_quantity(static_cast<double>(bytes), "B"));
+  }
+  if (!a.render.empty()) draw(a, *built, source.bounds());
+  return ExitCode::kGood;
+}
+
+}  // namespace terrabench

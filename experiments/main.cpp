@@ -1,0 +1,172 @@
+// The command line: options to arguments, one handler for errors, exit codes as documented in README.md.
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <memory>
+#include <new>
+#include <thread>
+
+#include "experiments/commands/commands.h"
+#include "experiments/runner.h"
+#include "terrain/error.h"
+#include "terrain/progress.h"
+
+namespace terrabench {
+namespace {
+
+constexpr const char* kFooter =
+    "Exit codes: 0 good, 1 a claim falls short, 2 wrong use, 3 bad input, 4 environment (no GL, disk full), "
+    "130 interrupted.\n"
+    "Examples:\n"
+    "  terrabench run 'hybrid.*' --profile quick --out out && terrabench check out && terrabench report out\n"
+    "  terrabench represent mountain.tif --as layered_stack --save mountain.tb --render mountain.png";
+
+void on_signal(int) {
+  // The second one ends the process at once: the first may find it in code that never asks.
+  if (Progress::interrupted()) _exit(static_cast<int>(ExitCode::kInterrupted));
+  Progress::interrupt();
+}
+
+// "2/4": the second of four parts.
+void parse_shard(const std::string& text, RunPlan& plan) {
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%d/%d%c", &plan.shard, &plan.shards, &rest) != 2 || plan.shard < 1 ||
+      plan.shards < 1 || plan.shard > plan.shards) {
+    throw usage_error(fmt::format("'{}' is no share", text), "--shard",
+                      "write i/n with 1 ≤ i ≤ n, such as 2/4");
+  }
+}
+
+// Everything that options fill. Lives as long as the parser.
+struct Arguments {
+  ListArguments list;
+  RunPlan run;
+  RepresentArguments represent;
+  CheckArguments check;
+  CompareArguments compare;
+  std::filesystem::path report = "out", info;
+  std::string profile = "quick", shard = "1/1";
+  int threads = 0;
+};
+
+void add_list(CLI::App& app, Arguments& a) {
+  auto* command = app.add_subcommand("list", "What there is: representations, experiments, claims, terrains");
+  command->add_option("what", a.list.what, "representations, experiments, claims or terrains (default: all)");
+  command->add_flag("--json", a.list.json, "Print JSON");
+}
+
+void add_run(CLI::App& app, Arguments& a) {
+  auto* command = app.add_subcommand("run", "Measure experiments into a results folder");
+  command->add_option("ids", a.run.patterns, "Experiment ids or globs such as 'hybrid.*' (default: all)");
+  command->add_option("--profile", a.profile, "quick: minutes; paper: the sizes as printed")
+      ->check(CLI::IsMember({"quick", "paper"}))
+      ->capture_default_str();
+  command->add_option("--terrain", a.run.options.terrains, "Names of `list terrains` or paths of DEMs");
+  command->add_option("--out", a.run.folder, "Results folder")->capture_default_str();
+  command->add_flag("--resume", a.run.resume, "Skip cases that the folder already holds");
+  command->add_option("--shard", a.shard, "i/n: measure every n-th case only, from the i-th")
+      ->capture_default_str();
+  command->add_option("--renderer", a.run.options.renderer, "OpenGL context")->capture_default_str();
+  command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
+      ->check(CLI::Range(1, 4096));
+  command->add_option("--seed", a.run.options.seed, "Seed of all randomness")->capture_default_str();
+  command->add_option("--set", a.run.assignments, "name=value for each case that has the parameter");
+}
+
+void add_results(CLI::App& app, Arguments& a) {
+  auto* check = app.add_subcommand("check", "Verdict of every ledger row; exit 0 only when each is as known");
+  check->add_option("dir", a.check.folder, "Results folder")->capture_default_str();
+  check->add_flag("--json", a.check.json, "Print JSON");
+  check->add_option("--junit", a.check.junit, "Also write JUnit XML for a CI server");
+  auto* report =
+      app.add_subcommand("report", "Tables, plots and a page from the measurements: DIR/report/index.html");
+  report->add_option("dir", a.report, "Results folder")->capture_default_str();
+  auto* compare =
+      app.add_subcommand("compare", "Two results folders, metric by metric, with confidence intervals");
+  compare->add_option("a", a.compare.before, "Results folder")->required();
+  compare->add_option("b", a.compare.after, "Results folder")->required();
+  compare->add_flag("--json", a.compare.json, "Print JSON");
+}
+
+void add_represent(CLI::App& app, Arguments& a) {
+  auto* command =
+      app.add_subcommand("represent", "Build one structure; print its bytes and error, save it, draw it");
+  command->add_option("terrain", a.represent.terrain, "A name of `list terrains` or the path of a DEM")
+      ->required();
+  command->add_option("--as", a.represent.as, "A name of `list representations`")->required();
+  command->add_option("--set", a.represent.assignments, "Parameters of the representation, name=value");
+  command->add_option("--save", a.represent.save, "Write the structure to this file");
+  command->add_option("--render", a.represent.render, "Write a shaded relief to this PNG");
+  command->add_option("--crop", a.represent.crop, "First column, first row, width, depth in samples")
+      ->expected(4);
+  command->add_option("--resample", a.represent.resample, "Width and depth in samples")->expected(2);
+  command->add_flag("--fill", a.represent.fill, "Fill no-data holes from their rims");
+  command->add_option("--renderer", a.represent.renderer, "OpenGL context")->capture_default_str();
+  command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
+      ->check(CLI::Range(1, 4096));
+  command->add_option("--seed", a.represent.seed, "Seed of procedural terrains")->capture_default_str();
+  auto* info = app.add_subcommand("info", "What is in a DEM, a saved structure or a results folder");
+  info->add_option("file", a.info, "File or folder")->required();
+}
+
+ExitCode dispatch(const CLI::App& app, Arguments& a) {
+  if (app.got_subcommand("list")) return list_command(a.list);
+  if (app.got_subcommand("check")) return check_command(a.check);
+  if (app.got_subcommand("report")) return report_command(a.report);
+  if (app.got_subcommand("compare")) return compare_command(a.compare);
+  if (app.got_subcommand("represent")) return represent_command(a.represent);
+  if (app.got_subcommand("info")) return info_command(a.info);
+  parse_shard(a.shard, a.run);
+  a.run.threads = a.threads;
+  a.run.options.profile = a.profile == "paper" ? Profile::kPaper : Profile::kQuick;
+  run(a.run);
+  fmt::print("measurements: {}\nnext: terrabench check {}; terrabench report {}\n",
+             (a.run.folder / "measurements.jsonl").string(), a.run.folder.string(), a.run.folder.string());
+  return ExitCode::kGood;
+}
+
+int main_program(int argc, char** argv) {
+  CLI::App app{"terrabench reproduces five terrain papers and measures their methods against each other."};
+  app.footer(kFooter);
+  app.require_subcommand(1);
+  app.set_version_flag("--version", TERRABENCH_VERSION);
+  Arguments arguments;
+  arguments.run.command.assign(argv, argv + argc);
+  add_list(app, arguments);
+  add_run(app, arguments);
+  add_results(app, arguments);
+  add_represent(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
+  }
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  std::signal(SIGPIPE, SIG_IGN);
+  const std::size_t threads = arguments.threads > 0 ? arguments.threads : std::thread::hardware_concurrency();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  std::max<std::size_t>(1, threads));
+  return static_cast<int>(dispatch(app, arguments));
+}
+
+}  // namespace
+}  // namespace terrabench
+
+int main(int argc, char** argv) {
+  using terrabench::ExitCode;
+  try {
+    return terrabench::main_program(argc, argv);
+  } catch (const terrabench::Error& error) {
+    fmt::print(stderr, "terrabench: {}\n", error.what());
+    if (!error.advice().empty()) fmt::print(stderr, "  {}\n", error.advice());
+    return static_cast<int>(error.code());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr,
+               "terrabench: out of memory\n  use a smaller terrain (--crop, --resample) or resolution\n");
+    return static_cast<int>(ExitCode::kEnvironment);
+  }
+}

@@ -1,0 +1,135 @@
+#include "experiments/runner.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "renderers/context.h"
+#include "results/provenance.h"
+#include "results/store.h"
+#include "terrain/error.h"
+#include "terrain/sources/noise/noise.h"
+
+namespace terrabench {
+namespace {
+
+// GL_RENDERER, or why there is none: a run without pictures is still worth having.
+std::string renderer_name(const std::string& context) {
+  try {
+    return open_context(context, 16, 16)->renderer();
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kEnvironment) throw;
+    return fmt::format("none ({})", error.what());
+  }
+}
+
+std::vector<std::pair<std::string, Value>> values(const Parameters& parameters) {
+  std::vector<std::pair<std::string, Value>> out;
+  for (std::size_t i = 0; i < parameters.specs().size(); ++i) {
+    out.emplace_back(parameters.specs()[i].name, parameters.value(i));
+  }
+  return out;
+}
+
+void apply(const std::vector<std::string>& assignments, std::vector<PlannedCase>& cases) {
+  for (const std::string& assignment : assignments) {
+    const std::string name = assignment.substr(0, assignment.find('='));
+    bool used = false;
+    for (PlannedCase& planned : cases) {
+      if (!planned.at.parameters.has(name)) continue;
+      planned.at.parameters.set_from_text(assignment);
+      used = true;
+    }
+    if (used) continue;
+    std::vector<std::string_view> known;
+    for (const PlannedCase& planned : cases) {
+      for (const ParameterSpec& spec : planned.experiment->parameters) {
+        if (std::find(known.begin(), known.end(), spec.name) == known.end()) known.push_back(spec.name);
+      }
+    }
+    throw unknown_name("parameter", name, known);
+  }
+}
+
+}  // namespace
+
+bool matches(std::string_view pattern, std::string_view text) {
+  if (pattern.empty()) return text.empty();
+  if (pattern[0] == '*') {
+    return matches(pattern.substr(1), text) || (!text.empty() && matches(pattern, text.substr(1)));
+  }
+  return !text.empty() && (pattern[0] == '?' || pattern[0] == text[0]) &&
+         matches(pattern.substr(1), text.substr(1));
+}
+
+std::vector<PlannedCase> plan_cases(const RunPlan& plan) {
+  std::vector<std::string_view> ids;
+  for (const Experiment& experiment : experiments()) ids.push_back(experiment.id);
+  for (const std::string& pattern : plan.patterns) {
+    if (std::none_of(ids.begin(), ids.end(), [&](auto id) { return matches(pattern, id); })) {
+      throw unknown_name("experiment", pattern, ids);
+    }
+  }
+  std::vector<PlannedCase> cases;
+  for (const Experiment& experiment : experiments()) {
+    const bool chosen = plan.patterns.empty() || std::any_of(plan.patterns.begin(), plan.patterns.end(),
+                                                             [&](const std::string& pattern) {
+                                                               return matches(pattern, experiment.id);
+                                                             });
+    if (!chosen) continue;
+    for (Case& at : experiment.cases(plan.options)) cases.push_back({&experiment, std::move(at)});
+  }
+  apply(plan.assignments, cases);
+  std::vector<PlannedCase> mine;
+  for (std::size_t i = plan.shard - 1; i < cases.size(); i += plan.shards)
+    mine.push_back(std::move(cases[i]));
+  return mine;
+}
+
+void run(const RunPlan& plan) {
+  const std::vector<PlannedCase> cases = plan_cases(plan);
+  Store store(plan.folder);
+  for (const std::string& warning : store.warnings()) fmt::print(stderr, "warning: {}\n", warning);
+  const Provenance provenance = collect_provenance({.command = plan.command,
+                                                    .gl_renderer = renderer_name(plan.options.renderer),
+                                                    .simd = std::string(noise::simd_name()),
+                                                    .threads = plan.threads,
+                                                    .libraries = {}});
+  store.begin_run(provenance);
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  std::size_t number = 0, skipped = 0;
+  for (const PlannedCase& planned : cases) {
+    ++number;
+    Record record;
+    record.experiment = planned.experiment->id;
+    record.case_name = planned.at.name;
+    record.profile = plan.options.profile == Profile::kPaper ? "paper" : "quick";
+    record.run = provenance.id;
+    record.seed = plan.options.seed;
+    record.parameters = values(planned.at.parameters);
+    if (plan.resume && store.find({.experiment = record.experiment,
+                                   .case_name = record.case_name,
+                                   .profile = record.profile,
+                                   .parameters = record.parameters,
+                                   .seed = record.seed,
+                                   .terrain_checksum = std::nullopt}) != nullptr) {
+      ++skipped;
+      continue;
+    }
+    Progress progress(terminal ? Progress::Output::kTerminal : Progress::Output::kLines);
+    Recorder recorder(record, plan.folder);
+    const auto begin = std::chrono::steady_clock::now();
+    planned.experiment->measure(planned.at, plan.options, recorder, progress);
+    progress.end();
+    store.append(record);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    fmt::print(stderr, "[{}/{}] {} {}: {:.2f} s\n", number, cases.size(), record.experiment, record.case_name,
+               seconds.count());
+  }
+  if (skipped > 0) fmt::print(stderr, "{} of {} cases were already there\n", skipped, cases.size());
+}
+
+}  // namespace terrabench
