@@ -11,7 +11,7 @@
 #include "results/provenance.h"
 #include "results/store.h"
 #include "terrain/error.h"
-#include "terrain/sources/noise/noise.h"
+#include "terrain/sources/noise/program.h"
 
 namespace terrabench {
 namespace {
