@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "terrain/heightfield.h"
 #include "terrain/progress.h"
@@ -16,8 +17,9 @@ namespace terrabench {
 
 // Exactly one of the two is set.
 struct TerrainSource {
-  std::string name;      // catalogue name or path
-  std::string checksum;  // of the content
+  std::string name;                // catalogue name or path
+  std::string checksum;            // of the content
+  std::vector<std::string> notes;  // what the reader converted, guessed or left out, for the user
   std::optional<Heightfield> heights;
   std::optional<Solid> solid;
 

@@ -1,0 +1,126 @@
+#include "terrain/resampling.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "terrain/error.h"
+#include "terrain/heightfield.h"
+
+namespace terrabench {
+namespace {
+
+// New cell k covers [k, k + 1)·from/to of the old axis. Whole numbers keep the borders exact: in units of
+// 1/to old cells, cell k runs from k·from to (k + 1)·from.
+Taps area_taps(long from, long to, long k) {
+  const long begin = k * from, end = begin + from;
+  const long first = begin / to, last = (end - 1) / to;
+  Taps taps;
+  taps.first = static_cast<int>(first);
+  taps.count = static_cast<int>(last - first + 1);
+  if (taps.count == 1) return taps;
+  const auto share = [&](long units) { return static_cast<double>(units) / static_cast<double>(from); };
+  taps.first_weight = share((first + 1) * to - begin);
+  taps.inner_weight = share(to);
+  taps.last_weight = share(end - last * to);
+  return taps;
+}
+
+// New sample k stands at the centre of its cell; beyond the outermost old samples their height goes on.
+Taps linear_taps(int from, int to, int k) {
+  const double at = std::clamp((k + 0.5) * from / to - 0.5, 0.0, from - 1.0);
+  Taps taps;
+  taps.first = std::min(static_cast<int>(at), from - 1);
+  const double share = at - taps.first;
+  if (share == 0) return taps;
+  taps.count = 2;
+  taps.first_weight = 1 - share;
+  taps.last_weight = share;
+  return taps;
+}
+
+}  // namespace
+
+std::vector<Taps> resampling_taps(int from, int to) {
+  std::vector<Taps> taps(static_cast<std::size_t>(to));
+  for (int k = 0; k < to; ++k) taps[k] = to < from ? area_taps(from, to, k) : linear_taps(from, to, k);
+  return taps;
+}
+
+void RowAccumulator::add(const float* row, double weight) {
+  double* const sums = sums_.data();
+  double* const weights = weights_.data();
+  const std::size_t n = sums_.size();
+  if (empty_) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const bool has = row[i] == row[i];
+      sums[i] = has ? weight * row[i] : 0;
+      weights[i] = has ? weight : 0;
+    }
+    empty_ = false;
+    return;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool has = row[i] == row[i];
+    sums[i] += has ? weight * row[i] : 0;
+    weights[i] += has ? weight : 0;
+  }
+}
+
+void RowAccumulator::finish(const std::vector<Taps>& columns, float* row) {
+  // Half the weight is enough; the tolerance lets rounding decide nothing.
+  constexpr double kEnough = 0.5 - 1e-9;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const Taps& taps = columns[i];
+    const double* const sums = sums_.data() + taps.first;
+    const double* const weights = weights_.data() + taps.first;
+    double sum = taps.first_weight * sums[0], weight = taps.first_weight * weights[0];
+    const int last = taps.count - 1;
+    for (int k = 1; k < last; ++k) {
+      sum += taps.inner_weight * sums[k];
+      weight += taps.inner_weight * weights[k];
+    }
+    if (last > 0) {
+      sum += taps.last_weight * sums[last];
+      weight += taps.last_weight * weights[last];
+    }
+    row[i] = weight >= kEnough ? static_cast<float>(sum / weight) : Heightfield::kNoData;
+  }
+}
+
+Heightfield resample(const Heightfield& field, int width, int depth) {
+  if (width < 1 || depth < 1) {
+    throw usage_error(fmt::format("cannot resample to {}×{} samples", width, depth), "",
+                      "both must be at least 1");
+  }
+  if (field.width == width && field.depth == depth) return field;
+  Heightfield out;
+  out.width = width;
+  out.depth = depth;
+  const double ratio_x = static_cast<double>(field.width) / width,
+               ratio_z = static_cast<double>(field.depth) / depth;
+  out.cell_x = static_cast<float>(field.cell_x * ratio_x);
+  out.cell_z = static_cast<float>(field.cell_z * ratio_z);
+  out.georeference = field.georeference;
+  for (const int k : {1, 4}) out.georeference.transform[k] *= ratio_x;
+  for (const int k : {2, 5}) out.georeference.transform[k] *= ratio_z;
+  out.heights.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(depth));
+  const std::vector<Taps> columns = resampling_taps(field.width, width);
+  const std::vector<Taps> rows = resampling_taps(field.depth, depth);
+  tbb::parallel_for(tbb::blocked_range<int>(0, depth, 8), [&](const tbb::blocked_range<int>& range) {
+    RowAccumulator accumulator(field.width);
+    for (int j = range.begin(); j < range.end(); ++j) {
+      accumulator.clear();
+      for (int y = rows[j].first; y <= rows[j].last(); ++y) {
+        accumulator.add(field.heights.data() + static_cast<std::size_t>(y) * field.width, rows[j].weight(y));
+      }
+      accumulator.finish(columns, out.heights.data() + static_cast<std::size_t>(j) * width);
+    }
+  });
+  return out;
+}
+
+}  // namespace terrabench

@@ -1,0 +1,105 @@
+#include "terrain/sources/catalogue.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+#include <vector>
+
+#include "terrain/error.h"
+#include "terrain/source.h"
+#include "terrain/sources/dem/dem.h"
+
+namespace terrabench {
+namespace {
+
+constexpr std::string_view kSampleData = "/usr/share/matplotlib/mpl-data/sample_data";
+
+// One array inside one of matplotlib's .npz files, which are plain zip archives of raw arrays with a short
+// header.
+struct PackagedArray {
+  std::string_view archive, member;
+  int width, depth;
+  std::string_view type;  // GDAL's name
+  int sample_bytes, header_bytes;
+  std::array<double, 6> transform;  // the archives hold no georeference that GDAL would find
+};
+
+// SRTM, 3″, at Jacksboro, Tennessee. The archive's ymin and ymax are swapped: the rows run from north to
+// south.
+constexpr PackagedArray kJacksboro = {"jacksboro_fault_dem.npz",
+                                      "elevation.npy",
+                                      403,
+                                      344,
+                                      "Int16",
+                                      2,
+                                      80,
+                                      {-84.41375, 1.0 / 1200, 0, 36.732916666666668, 0, -1.0 / 1200}};
+
+// Off Vancouver Island. A Mercator grid of 2′: its parallels lie 0.0223° apart in the south and 0.0214° in
+// the north, here 0.02186° throughout, which moves no row by more than one. The rows run from south to north.
+constexpr PackagedArray kTopobathy = {
+    "topobathy.npz", "topo.npy", 120, 91,
+    "Float32",       4,          128, {-126.0 - 1.0 / 3000, 1.0 / 30, 0, 48.0054366, 0, 0.0218646}};
+
+std::string vrt(const PackagedArray& array) {
+  const std::string path = fmt::format("{}/{}", kSampleData, array.archive);
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    throw environment_error("no such file", path, "install it: apt-get install python-matplotlib-data");
+  }
+  return fmt::format(
+      "<VRTDataset rasterXSize=\"{}\" rasterYSize=\"{}\">"
+      "<SRS dataAxisToSRSAxisMapping=\"2,1\">EPSG:4326</SRS><GeoTransform>{}</GeoTransform>"
+      "<VRTRasterBand dataType=\"{}\" band=\"1\" subClass=\"VRTRawRasterBand\"><UnitType>m</UnitType>"
+      "<SourceFilename relativeToVRT=\"0\">/vsizip/{{{}}}/{}</SourceFilename><ImageOffset>{}</ImageOffset>"
+      "<PixelOffset>{}</PixelOffset><LineOffset>{}</LineOffset><ByteOrder>LSB</ByteOrder>"
+      "</VRTRasterBand></VRTDataset>",
+      array.width, array.depth, fmt::join(array.transform, ", "), array.type, path, array.member,
+      array.header_bytes, array.sample_bytes, array.sample_bytes * array.width);
+}
+
+TerrainSource from_dem(std::string_view name, const std::string& path) {
+  Dem dem = read_dem(path);
+  TerrainSource source;
+  source.name = name;
+  source.checksum = checksum(dem.heights);
+  source.notes = std::move(dem.notes);
+  source.heights = std::move(dem.heights);
+  return source;
+}
+
+constexpr TerrainType kTerrains[] = {
+    {"jacksboro", "mountains with a fault valley, 403×344 samples of 3″",
+     "SRTM, in Debian's python-matplotlib-data",
+     [](std::uint64_t) { return from_dem("jacksboro", jacksboro_vrt()); }},
+    {"topobathy", "sea floor and coast off Vancouver Island, 120×91 samples of 2′",
+     "ETOPO, in Debian's python-matplotlib-data",
+     [](std::uint64_t) { return from_dem("topobathy", topobathy_vrt()); }},
+};
+
+// What can only be meant as a path: a typing slip in a name has neither.
+bool looks_like_path(std::string_view text) { return text.find_first_of("./\\<") != std::string_view::npos; }
+
+}  // namespace
+
+std::string jacksboro_vrt() { return vrt(kJacksboro); }
+std::string topobathy_vrt() { return vrt(kTopobathy); }
+
+std::span<const TerrainType> terrains() { return kTerrains; }
+
+TerrainSource open_terrain(std::string_view name_or_path, std::uint64_t seed) {
+  for (const TerrainType& type : terrains()) {
+    if (type.name == name_or_path) return type.open(seed);
+  }
+  const std::string path(name_or_path);
+  std::error_code error;
+  // A missing file gets its error from the reader.
+  if (looks_like_path(path) || std::filesystem::exists(path, error)) return from_dem(path, path);
+  std::vector<std::string_view> known;
+  for (const TerrainType& type : terrains()) known.push_back(type.name);
+  const Error unknown = unknown_name("terrain", name_or_path, known);
+  throw Error(unknown.code(), unknown.what(), "", unknown.advice() + "; the path of a DEM file works too");
+}
+
+}  // namespace terrabench

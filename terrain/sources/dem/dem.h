@@ -1,0 +1,58 @@
+// Digital elevation models from files: whatever raster GDAL opens (GeoTIFF, SRTM .hgt, Arc/Info ASCII, USGS
+// .dem, VRT, PNG …) as a Heightfield in metres, rows from north to south, and a Heightfield as GeoTIFF.
+//
+// Files are streamed in rows of blocks: reading needs the result's memory and about one row of blocks, and a
+// reduction by `width` and `depth` is averaged on the way in, so that a raster far larger than memory can be
+// read small.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "terrain/heightfield.h"
+#include "terrain/progress.h"
+
+namespace terrabench {
+
+// A rectangle of the file's pixels, counted from its first row and column; width 0 means the whole raster.
+struct DemWindow {
+  int x = 0, y = 0, width = 0, depth = 0;
+};
+
+struct DemOptions {
+  int band = 1;
+  DemWindow window;
+  int width = 0, depth = 0;  // resample to so many samples; 0 keeps the file's (resample() in heightfield.h)
+  bool fill_no_data = false;
+  std::uint64_t max_samples = std::uint64_t{1}
+                              << 28;  // more than this after cropping and resampling is refused
+};
+
+struct Dem {
+  Heightfield heights;
+  std::string format;  // GDAL's name of the driver that read it
+  std::vector<std::string>
+      notes;  // what had to be converted, guessed or left out, one sentence each, for the user
+};
+
+// `path` is anything GDAL takes, /vsizip/… and inline VRT included; drivers that fetch from the network are
+// off. Throws bad_input for files that cannot be used and usage_error for options that do not fit the file.
+// Each says what to do. Nothing is printed. Safe to call from several threads at once. O(pixels of the
+// window).
+Dem read_dem(const std::string& path, const DemOptions& options = {}, Progress* progress = nullptr);
+
+// Float32, compressed without loss, with georeference and no-data value. Written whole or not at all: throws
+// environment_error with nothing left behind. O(n).
+void write_geotiff(const std::filesystem::path& path, const Heightfield& field);
+
+// Metres in one degree along the parallel and along the meridian at a latitude on an ellipsoid (WGS 84 by
+// default).
+struct DegreeLengths {
+  double east, north;
+};
+DegreeLengths degree_lengths(double latitude, double semi_major = 6378137.0,
+                             double inverse_flattening = 298.257223563);
+
+}  // namespace terrabench

@@ -1,0 +1,27 @@
+// Where a raster's pixels lie and how large they are in metres. Internal to terrain/sources/dem.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "terrain/sources/dem/dem.h"
+#include "terrain/sources/dem/gdal_session.h"
+
+namespace terrabench {
+
+struct Placement {
+  Georeference georeference;                   // of the window as the file stores it, before any flip
+  double cell_x = 1, cell_z = 1;               // metres, both > 0
+  bool mirrored = false, south_first = false;  // columns run west, rows run north: both are turned around
+};
+
+// Degrees become metres at the window's middle latitude; feet and other units by their definition. Throws
+// bad_input for rotated grids and cells without a size. `where` names the file in errors; what was decided
+// goes to `notes`.
+Placement place_raster(GDALDataset& dataset, const DemWindow& window, const std::string& where,
+                       std::vector<std::string>& notes);
+
+// Metres in one unit of a band's heights, by the unit's name as GDAL gives it.
+double metres_per_height_unit(const std::string& unit, std::vector<std::string>& notes);
+
+}  // namespace terrabench
