@@ -91,7 +91,7 @@ class Compiler {
   void assign_registers();
   std::optional<std::uint32_t> interval(Id id, std::map<Id, std::uint32_t>& known,
                                         std::vector<IntervalStep>& steps) const;
-  Instruction instruction(Id id) const;
+  Instruction instruction(Id id);
   void emit();
   void emit_lazily(Id user, int slot);
   void emit_region(std::uint32_t region);
@@ -302,7 +302,7 @@ void Compiler::assign_registers() {
   code_.result = registers_[result_];
 }
 
-Instruction Compiler::instruction(Id id) const {
+Instruction Compiler::instruction(Id id) {
   const Value& v = values_[id];
   const auto reg = [&](int slot) {
     const Id operand = v.operands[static_cast<std::size_t>(slot)];
@@ -315,6 +315,8 @@ Instruction Compiler::instruction(Id id) const {
   if (v.op == Op::kFbm || v.op == Op::kRidged || v.op == Op::kBillow) {
     in.along_column =
         !values_[v.operands[0]].varies && !values_[v.operands[2]].varies && values_[v.operands[1]].even;
+    in.window = code_.windows;
+    if (in.along_column) code_.windows += in.count;
   }
   return in;
 }
@@ -371,6 +373,7 @@ void Compiler::emit_lazily(Id user, int slot) {
   }
   const std::size_t at = code_.batch.size();
   code_.batch.push_back(skip);
+  code_.skips = true;
   emit_region(region->second);
   // A decided step jumps past its own instruction too, which follows the region.
   code_.batch[at].jump = static_cast<std::uint32_t>(code_.batch.size()) + (v.op == Op::kStep ? 1 : 0);
