@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "terrain/sources/noise/octaves.h"
+
 namespace terrabench::noise {
 namespace {
 
@@ -37,17 +39,6 @@ struct Coordinates {
   Id x, y, z;
   auto operator<=>(const Coordinates&) const = default;
 };
-
-// SplitMix64 (Steele et al. 2014): spreads a seed over the octaves.
-std::uint64_t next_random(std::uint64_t& state) {
-  std::uint64_t z = (state += 0x9E3779B97F4A7C15U);
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
-  return z ^ (z >> 31);
-}
-
-// In [0, 256), in steps of 1/256: exact for any coordinate that is.
-float lattice_offset(std::uint64_t& state) { return static_cast<float>(next_random(state) >> 48) / 256.0F; }
 
 // Whether an operand is evaluated only where needed.
 bool is_lazy(Op op, int slot) {
@@ -164,8 +155,8 @@ Id Compiler::fractal(Op op, const Fractal& f, const Coordinates& at) {
   const auto [known, inserted] =
       octaves_of_.try_emplace(key, static_cast<std::uint32_t>(code_.octaves.size()));
   if (inserted) {
-    const std::vector<Octave> octaves = compile_octaves(f);
-    code_.octaves.insert(code_.octaves.end(), octaves.begin(), octaves.end());
+    const std::vector<Octave> drawn = octaves(f);
+    code_.octaves.insert(code_.octaves.end(), drawn.begin(), drawn.end());
   }
   Value value{.op = op,
               .operands = {at.x, at.y, at.z},
@@ -396,28 +387,6 @@ void Compiler::emit() {
 }
 
 }  // namespace
-
-std::vector<Octave> compile_octaves(const Fractal& f) {
-  std::vector<Octave> octaves;
-  std::uint64_t state = f.seed;
-  Octave octave{.frequency = f.frequency};
-  float total = 0;
-  for (int i = 0; i < f.octaves; ++i) {
-    octave.seed = static_cast<std::uint32_t>(next_random(state));
-    octave.offset_x = lattice_offset(state);
-    octave.offset_y = lattice_offset(state);
-    octave.offset_z = lattice_offset(state);
-    octaves.push_back(octave);
-    total += octave.weight;
-    octave.frequency *= f.lacunarity;
-    octave.weight *= f.gain;
-  }
-  // A sum of rounded weights may exceed 1 by half an ulp an octave; the range that graph.h promises, and that
-  // bounds rely on, must hold exactly.
-  constexpr float kRoom = 1.0F - 2e-6F;
-  for (Octave& each : octaves) each.weight = each.weight / total * kRoom;
-  return octaves;
-}
 
 Code compile(const Graph& graph, Node root, Mode mode) { return Compiler(graph, mode).compile(root); }
 
