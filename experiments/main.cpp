@@ -146,7 +146,8 @@ int main_program(int argc, char** argv) {
   }
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);  // both come back as errors of write(), which say what was being written
+  std::signal(SIGXFSZ, SIG_IGN);
   const std::size_t threads = arguments.threads > 0 ? arguments.threads : std::thread::hardware_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   std::max<std::size_t>(1, threads));

@@ -17,7 +17,8 @@ const std::array kExperiments{
     Experiment{"hybrid.noise-stages", "hybrid", "Figures 3-13: the noise pipeline, step by step",
                hybrid::kStageParameters, hybrid::stage_cases, hybrid::measure_stage},
     Experiment{"overview.relief", "overview", "Shaded relief of each terrain in each representation",
-               overview::kReliefParameters, overview::relief_cases, overview::measure_relief},
+               overview_experiments::kReliefParameters, overview_experiments::relief_cases,
+               overview_experiments::measure_relief},
 };
 
 }  // namespace

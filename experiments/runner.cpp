@@ -11,7 +11,7 @@
 #include "results/provenance.h"
 #include "results/store.h"
 #include "terrain/error.h"
-#include "terrain/sources/noise/noise.h"
+#include "terrain/sources/noise/program.h"
 
 namespace terrabench {
 namespace {
@@ -41,6 +41,7 @@ void apply(const std::vector<std::string>& assignments, std::vector<PlannedCase>
     for (PlannedCase& planned : cases) {
       if (!planned.at.parameters.has(name)) continue;
       planned.at.parameters.set_from_text(assignment);
+      planned.at.name += fmt::format(" ({})", assignment);  // no longer the case that the ledger means
       used = true;
     }
     if (used) continue;

@@ -61,7 +61,8 @@ void print_fidelity(const Fidelity& fidelity) {
   }
   fmt::print("error       {:.4g} m RMSE, {:.4g} m largest, over {} columns", fidelity.rmse,
              fidelity.largest_error, fidelity.columns);
-  fmt::print(fidelity.lost > 0 ? "; {} columns gained or lost\n" : "\n", fidelity.lost);
+  if (fidelity.lost > 0) fmt::print("; {} columns gained or lost", fidelity.lost);
+  fmt::print("\n");
 }
 
 void draw(const RepresentArguments& a, const Representation& built, Bounds bounds) {

@@ -5,10 +5,9 @@
 #include <chrono>
 #include <memory>
 
+#include "experiments/hybrid/cave_source.h"
 #include "experiments/hybrid/hybrid.h"
-#include "representations/representation.h"
 #include "terrain/memory.h"
-#include "terrain/sources/noise/cave_terrain.h"
 
 namespace terrabench::hybrid {
 namespace {
@@ -26,22 +25,10 @@ std::vector<Case> size_cases(std::initializer_list<std::int64_t> sizes) {
   return cases;
 }
 
-TerrainSource cave_source(std::uint64_t seed) {
-  CaveOptions options;
-  options.seed = seed;
-  TerrainSource source;
-  source.name = "caves";
-  source.solid = cave_terrain(options);
-  source.checksum = source.solid->checksum;
-  return source;
-}
-
-std::unique_ptr<Representation> build(std::string_view name, const TerrainSource& source, std::int64_t n,
-                                      Progress& progress) {
-  const RepresentationType& type = representation(name);
-  Parameters parameters(type.parameters);
-  parameters.set("resolution", n);
-  return type.build(source, parameters, progress);
+noise::CaveOptions seeded(const RunOptions& options) {
+  noise::CaveOptions terrain;
+  terrain.seed = options.seed;
+  return terrain;
 }
 
 // A structure's bytes twice: as it accounts for them itself and as the allocator saw them.
@@ -52,9 +39,9 @@ struct Bytes {
 
 Bytes bytes_of(std::string_view name, const TerrainSource& source, std::int64_t n, Progress& progress) {
   // The first build in a process also fills thread pools and registries, which are not the structure's.
-  build(name, source, 2, progress);
+  build_at_resolution(name, source, 2, progress);
   const HeapScope scope;
-  const auto built = build(name, source, n, progress);
+  const auto built = build_at_resolution(name, source, n, progress);
   return {built->memory(), scope.held()};
 }
 
@@ -69,7 +56,7 @@ std::vector<Case> table1_cases(const RunOptions& options) {
 void measure_table1(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const std::int64_t n = at.parameters.integer("n");
   const auto columns = static_cast<double>(n * n);
-  const TerrainSource source = cave_source(options.seed);
+  const TerrainSource source = cave_source(seeded(options));
   recorder.terrain(source);
   // 24 bytes a column are what one std::vector object takes, whatever it holds: the paper counts no more than
   // that.
@@ -95,13 +82,14 @@ std::vector<Case> table2_cases(const RunOptions& options) {
 
 void measure_table2(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const std::int64_t n = at.parameters.integer("n");
-  const TerrainSource source = cave_source(options.seed);
+  const TerrainSource source = cave_source(seeded(options));
   recorder.terrain(source);
-  build("layered_stack", source, std::min<std::int64_t>(n, 64), progress);  // warm caches, pool and clock
+  build_at_resolution("layered_stack", source, std::min<std::int64_t>(n, 64),
+                      progress);  // warm caches, pool and clock
   const int samples = n >= 512 ? 3 : n >= 256 ? 5 : 11;
   for (int i = 0; i < samples; ++i) {
     const auto begin = std::chrono::steady_clock::now();
-    const auto stack = build("layered_stack", source, n, progress);
+    const auto stack = build_at_resolution("layered_stack", source, n, progress);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     recorder.add("generation_time", "s", seconds.count());
     recorder.add("samples_per_second", "1/s", static_cast<double>(n * n * n) / seconds.count());

@@ -10,7 +10,7 @@
 #include "representations/representation.h"
 #include "terrain/view.h"
 
-namespace terrabench::overview {
+namespace terrabench::overview_experiments {
 namespace {
 
 const std::array kSpecs{
@@ -80,4 +80,4 @@ void measure_relief(const Case& at, const RunOptions& options, Recorder& recorde
       image);
 }
 
-}  // namespace terrabench::overview
+}  // namespace terrabench::overview_experiments

@@ -1,0 +1,69 @@
+// §3.1.3 of "hybrid": what each noise adds to the terrain, counted.
+#include <array>
+
+#include "experiments/hybrid/cave_source.h"
+#include "experiments/hybrid/hybrid.h"
+#include "representations/layered_stack/components.h"
+
+namespace terrabench::hybrid {
+namespace {
+
+constexpr std::array kSpecs{
+    ParameterSpec{"n", std::int64_t{128}, "cells", "cells along each side of the cube", 2, 4096},
+    ParameterSpec{"perturb_x", true, "", "move samples sideways (overhangs)"},
+    ParameterSpec{"caves", true, "", "carve with two ridged multifractals"},
+    ParameterSpec{"attenuation", true, "", "weaken the carving with height"},
+    ParameterSpec{"printed_product", false, "",
+                  "multiply the two cave maps as printed: a cave where either says so"},
+};
+
+}  // namespace
+
+constinit const std::span<const ParameterSpec> kCaveParameters = kSpecs;
+
+std::vector<Case> cave_cases(const RunOptions& options) {
+  struct Variant {
+    const char* name;
+    bool perturb_x, caves, attenuation, printed_product;
+  };
+  constexpr std::array kVariants{
+      Variant{"y-only", false, false, false, false},
+      Variant{"x-and-y", true, false, false, false},
+      Variant{"caves-no-attenuation", true, true, false, false},
+      Variant{"caves-attenuated", true, true, true, false},
+      Variant{"caves-printed-product", true, true, true, true},
+  };
+  std::vector<Case> cases;
+  for (const Variant& variant : kVariants) {
+    Case& added = cases.emplace_back(Case{variant.name, Parameters(kCaveParameters), ""});
+    added.parameters.set("n", std::int64_t{options.profile == Profile::kPaper ? 256 : 128});
+    added.parameters.set("perturb_x", variant.perturb_x);
+    added.parameters.set("caves", variant.caves);
+    added.parameters.set("attenuation", variant.attenuation);
+    added.parameters.set("printed_product", variant.printed_product);
+  }
+  return cases;
+}
+
+void measure_caves(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  noise::CaveOptions terrain;
+  terrain.seed = options.seed;
+  terrain.perturb_x = at.parameters.flag("perturb_x");
+  terrain.caves = at.parameters.flag("caves");
+  terrain.attenuation = at.parameters.flag("attenuation");
+  terrain.printed_product = at.parameters.flag("printed_product");
+  const TerrainSource source = cave_source(terrain);
+  recorder.terrain(source);
+  const auto built = build_at_resolution("layered_stack", source, at.parameters.integer("n"), progress);
+  const auto& stack = dynamic_cast<const LayeredStack&>(*built);
+  const Components found = find_components(stack);
+
+  recorder.add("overhang_columns", "", static_cast<double>(found.overhang_columns));
+  recorder.add("solid_components", "", static_cast<double>(found.total));
+  recorder.add("floating_components", "", static_cast<double>(found.floating));
+  recorder.add("floating_volume", "m³", found.floating_volume);
+  const glm::vec3 size = source.bounds().size();
+  recorder.add("solid_share", "", found.solid_volume / (static_cast<double>(size.x) * size.y * size.z));
+}
+
+}  // namespace terrabench::hybrid

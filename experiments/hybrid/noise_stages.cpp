@@ -1,0 +1,89 @@
+// Figures 3 to 13 of "hybrid": the noise graph, stage by stage, on one vertical slice.
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "experiments/hybrid/hybrid.h"
+#include "terrain/error.h"
+#include "terrain/files.h"
+#include "terrain/image.h"
+#include "terrain/sources/noise/cave_terrain.h"
+#include "terrain/sources/noise/program.h"
+
+namespace terrabench::hybrid {
+namespace {
+
+constexpr std::array kSpecs{
+    ParameterSpec{"figure", std::int64_t{3}, "", "number of the figure in the paper", 3, 13},
+    ParameterSpec{"pixels", std::int64_t{512}, "pixels", "side of the square picture", 16, 8192},
+};
+
+const noise::StageInfo& stage_of_figure(std::int64_t figure) {
+  for (int i = 0; i < noise::kStages; ++i) {
+    const noise::StageInfo& stage = noise::info(static_cast<noise::Stage>(i));
+    if (stage.figure == figure) return stage;
+  }
+  throw usage_error(fmt::format("no noise stage is figure {}", figure), "figure",
+                    "figures 3 to 13 are noise stages");
+}
+
+}  // namespace
+
+constinit const std::span<const ParameterSpec> kStageParameters = kSpecs;
+
+std::vector<Case> stage_cases(const RunOptions&) {
+  std::vector<Case> cases;
+  for (int i = 0; i < noise::kStages; ++i) {
+    const int figure = noise::info(static_cast<noise::Stage>(i)).figure;
+    Case& added = cases.emplace_back(Case{fmt::format("F{}", figure), Parameters(kStageParameters), ""});
+    added.parameters.set("figure", std::int64_t{figure});
+  }
+  return cases;
+}
+
+void measure_stage(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const noise::StageInfo& stage = stage_of_figure(at.parameters.integer("figure"));
+  const int side = static_cast<int>(at.parameters.integer("pixels"));
+  noise::CaveOptions terrain;
+  terrain.seed = options.seed;
+  const noise::CaveGraph graph = noise::graph_for(stage.stage, terrain);
+  recorder.terrain(fmt::format("caves ({})", stage.name), checksum(graph.graph.describe()));
+  const noise::Program program(graph.graph, graph.root);
+
+  // Rows bottom up in the slice, top down in the picture; samples at pixel centres.
+  const float step = terrain.extent / static_cast<float>(side);
+  std::vector<float> values(static_cast<std::size_t>(side) * side);
+  progress.begin(stage.name, side);
+  tbb::parallel_for(0, side, [&](int row) {
+    program.slice(
+        {step / 2, (static_cast<float>(row) + 0.5F) * step, step, step, terrain.extent / 2, side, 1},
+        std::span(values).subspan(static_cast<std::size_t>(row) * side, side));
+    progress.advance();
+  });
+
+  Image image(side, side, {});
+  double sum = 0;
+  for (int row = 0; row < side; ++row) {
+    for (int i = 0; i < side; ++i) {
+      const float value = values[static_cast<std::size_t>(row) * side + i];
+      sum += value;
+      const float grey = std::clamp((value - stage.low) / (stage.high - stage.low), 0.0F, 1.0F);
+      const auto byte = static_cast<std::uint8_t>(std::lround(grey * 255));
+      image.set(i, side - 1 - row, {byte, byte, byte});
+    }
+  }
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  recorder.add("mean", "", sum / static_cast<double>(values.size()));
+  recorder.add("least", "", *least);
+  recorder.add("most", "", *most);
+  write_png(recorder.figure(
+                fmt::format("hybrid.F{}", stage.figure), "png",
+                fmt::format("Figure {} of the paper: {}. Vertical slice of {} m × {} m, black {}, white {}",
+                            stage.figure, stage.name, terrain.extent, terrain.extent, stage.low, stage.high)),
+            image);
+}
+
+}  // namespace terrabench::hybrid

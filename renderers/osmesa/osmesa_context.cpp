@@ -1,0 +1,100 @@
+#include "renderers/osmesa/osmesa_context.h"
+
+#include <dlfcn.h>
+
+#include <array>
+#include <cstdint>
+
+#include "renderers/gl.h"
+#include "renderers/target.h"
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+constexpr const char* kAdvice = "install Debian's package libosmesa6, version 22 or newer";
+
+// The four functions of GL/osmesa.h that we call, found at run time: a program linked to libOSMesa would take
+// all gl* functions from it, and other contexts in the process would get the wrong ones.
+struct Library {
+  using Handle = struct OsmesaContext*;
+  Handle (*create)(const int* attributes, Handle share);
+  void (*destroy)(Handle);
+  GLboolean (*make_current)(Handle, void* pixels, GLenum type, GLsizei width, GLsizei height);
+  GLADloadfunc get_function;
+};
+
+template <class Function>
+void find(void* library, const char* path, const char* name, Function& function) {
+  function = reinterpret_cast<Function>(dlsym(library, name));
+  if (function == nullptr) throw environment_error("this is no usable OSMesa library", path, kAdvice);
+}
+
+// Stays open for the life of the process: Mesa keeps threads and exit handlers that unloading would cut.
+Library load_library(const char* path) {
+  void* const library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) throw environment_error("the software renderer is not installed", path, kAdvice);
+  Library functions{};
+  find(library, path, "OSMesaCreateContextAttribs", functions.create);
+  find(library, path, "OSMesaDestroyContext", functions.destroy);
+  find(library, path, "OSMesaMakeCurrent", functions.make_current);
+  find(library, path, "OSMesaGetProcAddress", functions.get_function);
+  return functions;
+}
+
+class OsmesaContext final : public GlContext {
+ public:
+  OsmesaContext(const Library& library, int width, int height) : library_(library), handle_(create(library)) {
+    try {
+      activate();
+      target_ = std::make_unique<RenderTarget>(width, height);
+    } catch (...) {
+      close();
+      throw;
+    }
+  }
+
+  ~OsmesaContext() override {
+    if (library_.make_current(handle_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) != 0) target_.reset();
+    close();
+  }
+
+  void make_current() override { activate(); }
+
+ private:
+  static Library::Handle create(const Library& library) {
+    // Names and values of GL/osmesa.h. Our own framebuffer has the depth.
+    constexpr int kFormat = 0x22, kDepthBits = 0x30, kProfile = 0x33, kCoreProfile = 0x34, kMajor = 0x36,
+                  kMinor = 0x37;
+    const int attributes[] = {kFormat, GL_RGBA, kDepthBits, 0, kProfile, kCoreProfile,
+                              kMajor,  4,       kMinor,     5, 0};
+    const Library::Handle handle = library.create(attributes, nullptr);
+    if (handle == nullptr) throw environment_error("this Mesa has no OpenGL 4.5", "OSMesa", kAdvice);
+    return handle;
+  }
+
+  void activate() {
+    if (library_.make_current(handle_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) == 0) {
+      throw environment_error("the OpenGL context cannot be made current", "OSMesa", kAdvice);
+    }
+    load_gl(library_.get_function, "OSMesa");
+  }
+
+  void close() {
+    library_.make_current(nullptr, nullptr, 0, 0, 0);
+    library_.destroy(handle_);
+  }
+
+  Library library_;
+  Library::Handle handle_;
+  // OSMesa wants memory of its own to draw into, which our framebuffer makes needless.
+  std::array<std::uint8_t, 4> pixel_{};
+};
+
+}  // namespace
+
+std::unique_ptr<GlContext> open_osmesa(int width, int height, const char* library) {
+  return std::make_unique<OsmesaContext>(load_library(library), width, height);
+}
+
+}  // namespace terrabench

@@ -1,0 +1,211 @@
+// Starts the program as a user does and looks at exit codes, output and what is left on disk.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "terrain/files.h"
+#include "terrain/image.h"
+
+namespace terrabench {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class CommandLine : public ::testing::Test {
+ protected:
+  CommandLine() {
+    std::string name = (fs::temp_directory_path() / "terrabench_cli_XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+  }
+  ~CommandLine() override { fs::remove_all(folder_); }
+
+  struct Outcome {
+    int code = -1;
+    std::string text;  // standard output and standard error
+  };
+
+  // Starts a shell command in which $T is the program; standard input is empty.
+  pid_t start(const std::string& command) const {
+    const pid_t child = fork();
+    if (child == 0) {
+      setpgid(0, 0);
+      const int out = open((folder_ / "log").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+      const int in = open("/dev/null", O_RDONLY);
+      dup2(in, 0);
+      dup2(out, 1);
+      dup2(out, 2);
+      setenv("T", TERRABENCH_PROGRAM, 1);
+      if (chdir(folder_.c_str()) != 0) _exit(126);
+      execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+      _exit(127);
+    }
+    return child;
+  }
+  Outcome wait(pid_t child) const {
+    int status = 0;
+    waitpid(child, &status, 0);
+    std::ostringstream text;
+    text << std::ifstream(folder_ / "log").rdbuf();
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), text.str()};
+  }
+  Outcome call(const std::string& command) const { return wait(start(command)); }
+
+  std::size_t temporary_files() const {
+    const fs::recursive_directory_iterator all(folder_);
+    return std::count_if(begin(all), end(all),
+                         [](const auto& entry) { return entry.path().extension() == ".tmp"; });
+  }
+
+  fs::path folder_;
+};
+
+constexpr const char* kSmallRun = "$T run 'hybrid.noise*' --set pixels=32 --out out ";
+
+TEST_F(CommandLine, HelpAndVersionExitGood) {
+  const Outcome help = call("$T --help");
+  EXPECT_EQ(help.code, 0);
+  EXPECT_THAT(help.text, HasSubstr("Exit codes"));
+  for (const char* command : {"list", "run", "check", "report", "compare", "represent", "info"}) {
+    EXPECT_EQ(call(std::string("$T ") + command + " --help").code, 0) << command;
+  }
+  EXPECT_EQ(call("$T --version").code, 0);
+}
+
+TEST_F(CommandLine, WrongUseExits2AndSuggests) {
+  EXPECT_EQ(call("$T").code, 2);
+  EXPECT_EQ(call("$T run --profile huge").code, 2);
+  EXPECT_EQ(call("$T run --shard 3/2").code, 2);
+  EXPECT_EQ(call("$T run --threads 0").code, 2);
+  const Outcome experiment = call("$T run hybrid.tabel1");
+  EXPECT_EQ(experiment.code, 2);
+  EXPECT_THAT(experiment.text, HasSubstr("did you mean 'hybrid.table1'"));
+  const Outcome method = call("$T represent jacksboro --as layered_stak");
+  EXPECT_EQ(method.code, 2);
+  EXPECT_THAT(method.text, HasSubstr("did you mean 'layered_stack'"));
+  const Outcome terrain = call("$T represent jaksboro --as heightmap");
+  EXPECT_EQ(terrain.code, 2);
+  EXPECT_THAT(terrain.text, HasSubstr("did you mean 'jacksboro'"));
+  EXPECT_EQ(call("$T list nonsense").code, 2);
+  EXPECT_EQ(call("$T represent caves --as layered_stack --crop 0 0 5 5").code, 2);
+}
+
+TEST_F(CommandLine, BadInputExits3) {
+  std::ofstream(folder_ / "text.tif") << "these are no heights";
+  for (const char* command :
+       {"$T info nowhere.tif", "$T info text.tif", "$T represent text.tif --as heightmap", "$T check nowhere",
+        "$T report nowhere", "$T compare nowhere nowhere"}) {
+    const Outcome outcome = call(command);
+    EXPECT_EQ(outcome.code, 3) << command << "\n" << outcome.text;
+    EXPECT_THAT(outcome.text, HasSubstr("terrabench: "));
+  }
+}
+
+TEST_F(CommandLine, ListsEverythingAsTextAndJson) {
+  const Outcome text = call("$T list");
+  EXPECT_EQ(text.code, 0);
+  for (const char* name :
+       {"heightmap", "layered_stack", "voxel", "hybrid.table1", "hybrid.T1.128", "jacksboro"}) {
+    EXPECT_THAT(text.text, HasSubstr(name));
+  }
+  EXPECT_EQ(call("$T list --json | python3 -m json.tool").code, 0);
+}
+
+TEST_F(CommandLine, RepresentSavesRendersAndInfoReadsBack) {
+  const Outcome built =
+      call("$T represent jacksboro --as layered_stack --crop 10 20 64 48 --save s.tb --render s.png");
+  EXPECT_EQ(built.code, 0) << built.text;
+  EXPECT_THAT(built.text, HasSubstr("RMSE"));
+  EXPECT_EQ(read_png(folder_ / "s.png").width, 1600);
+  const Outcome info = call("$T info s.tb");
+  EXPECT_EQ(info.code, 0) << info.text;
+  EXPECT_THAT(info.text, HasSubstr("layered_stack"));
+  EXPECT_EQ(temporary_files(), 0U);
+}
+
+TEST_F(CommandLine, ResumeSkipsWhatIsThere) {
+  const Outcome first = call(std::string(kSmallRun) + "--shard 1/2");
+  ASSERT_EQ(first.code, 0) << first.text;
+  EXPECT_THAT(first.text, HasSubstr("F3"));
+  const Outcome second = call(std::string(kSmallRun) + "--resume");
+  ASSERT_EQ(second.code, 0) << second.text;
+  EXPECT_THAT(second.text, HasSubstr("6 of 11 cases were already there"));
+  EXPECT_THAT(second.text, Not(HasSubstr("noise-stages F3 ")));
+}
+
+TEST_F(CommandLine, TheSameSeedGivesTheSamePicturesOnAnyThreadCount) {
+  ASSERT_EQ(call("$T run 'hybrid.noise*' --set pixels=64 --threads 1 --out one").code, 0);
+  ASSERT_EQ(call("$T run 'hybrid.noise*' --set pixels=64 --out all").code, 0);
+  for (const auto& entry : fs::directory_iterator(folder_ / "one/figures")) {
+    EXPECT_EQ(read_file(entry.path()), read_file(folder_ / "all/figures" / entry.path().filename()))
+        << entry.path();
+  }
+}
+
+TEST_F(CommandLine, InterruptKeepsRecordsExits130AndResumes) {
+  // Small cases first, then one of minutes that the signal finds at work.
+  const pid_t child = start(
+      "exec $T run hybrid.noise-stages hybrid.table2 --profile quick --set n=1024 --set pixels=16 --out out");
+  const fs::path measurements = folder_ / "out/measurements.jsonl";
+  const auto lines = [&] {
+    std::ifstream in(measurements);
+    return std::count(std::istreambuf_iterator<char>(in), {}, '\n');
+  };
+  for (int i = 0; i < 600 && lines() < 2; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  ASSERT_GE(lines(), 2);
+  kill(child, SIGINT);
+  const Outcome outcome = wait(child);
+  EXPECT_EQ(outcome.code, 130) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("interrupted"));
+  EXPECT_GE(lines(), 2);
+  EXPECT_EQ(temporary_files(), 0U);
+}
+
+TEST_F(CommandLine, FullOrUnwritableOutputExits4AndLeavesNothingHalf) {
+  std::ofstream(folder_ / "file") << "in the way";
+  const Outcome blocked = call("$T run 'hybrid.noise*' --set pixels=16 --out file/out");
+  EXPECT_EQ(blocked.code, 4) << blocked.text;
+  // One block of 512 bytes a file: the first picture does not fit.
+  const Outcome full = call("ulimit -f 1; $T represent jacksboro --as heightmap --save s.tb");
+  EXPECT_EQ(full.code, 4) << full.text;
+  EXPECT_FALSE(fs::exists(folder_ / "s.tb"));
+  EXPECT_EQ(temporary_files(), 0U);
+}
+
+TEST_F(CommandLine, CheckFailsWhenAFigureIsAltered) {
+  ASSERT_EQ(call("$T run hybrid.noise-stages --out out").code, 0);
+  EXPECT_THAT(call("$T check out").text, HasSubstr("hybrid.F3"));
+  const std::string lines = read_file(folder_ / "out/measurements.jsonl");
+  std::string altered = lines;
+  const std::size_t at = altered.find("\"samples\":[");
+  ASSERT_NE(at, std::string::npos);
+  altered.insert(at + 11, "7");
+  write_file(folder_ / "out/measurements.jsonl", altered);
+  const Outcome outcome = call("$T check out");
+  EXPECT_EQ(outcome.code, 1) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("altered"));
+}
+
+TEST_F(CommandLine, APartialRunStillMakesAReport) {
+  ASSERT_EQ(call("$T run hybrid.noise-stages --shard 1/4 --out out").code, 0);
+  const Outcome report = call("$T report out");
+  EXPECT_EQ(report.code, 0) << report.text;
+  EXPECT_TRUE(fs::exists(folder_ / "out/report/index.html"));
+}
+
+}  // namespace
+}  // namespace terrabench

@@ -1,0 +1,94 @@
+#include "experiments/runner.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::vector<std::string> names(const RunPlan& plan) {
+  std::vector<std::string> out;
+  for (const PlannedCase& planned : plan_cases(plan)) {
+    out.push_back(std::string(planned.experiment->id) + " " + planned.at.name);
+  }
+  return out;
+}
+
+TEST(Globs, MatchWholeTexts) {
+  EXPECT_TRUE(matches("hybrid.*", "hybrid.table1"));
+  EXPECT_TRUE(matches("*", ""));
+  EXPECT_TRUE(matches("h?brid.t*1", "hybrid.table1"));
+  EXPECT_FALSE(matches("hybrid", "hybrid.table1"));
+  EXPECT_FALSE(matches("", "hybrid.table1"));
+  EXPECT_FALSE(matches("hybrid.table1?", "hybrid.table1"));
+}
+
+TEST(Plan, ExperimentIdsAndCasesAreUnique) {
+  for (const Profile profile : {Profile::kQuick, Profile::kPaper}) {
+    RunPlan plan;
+    plan.options.profile = profile;
+    const auto all = names(plan);
+    EXPECT_EQ(std::set<std::string>(all.begin(), all.end()).size(), all.size());
+    EXPECT_FALSE(all.empty());
+  }
+}
+
+TEST(Plan, PaperProfileHasThePrintedSizes) {
+  RunPlan plan;
+  plan.options.profile = Profile::kPaper;
+  plan.patterns = {"hybrid.table1"};
+  EXPECT_EQ(names(plan),
+            (std::vector<std::string>{"hybrid.table1 n=128", "hybrid.table1 n=256", "hybrid.table1 n=512"}));
+}
+
+TEST(Plan, ShardsPartitionTheCases) {
+  RunPlan plan;
+  const auto all = names(plan);
+  std::vector<std::string> together;
+  plan.shards = 3;
+  for (plan.shard = 1; plan.shard <= 3; ++plan.shard) {
+    const auto part = names(plan);
+    EXPECT_LT(part.size(), all.size());
+    together.insert(together.end(), part.begin(), part.end());
+  }
+  EXPECT_THAT(together, ::testing::UnorderedElementsAreArray(all));
+}
+
+TEST(Plan, AssignmentsReachEveryCaseThatHasTheParameterAndRenameIt) {
+  RunPlan plan;
+  plan.patterns = {"hybrid.table2"};
+  plan.assignments = {"n=16"};
+  for (const PlannedCase& planned : plan_cases(plan)) {
+    EXPECT_EQ(planned.at.parameters.integer("n"), 16);
+    EXPECT_THAT(planned.at.name, HasSubstr("(n=16)"));
+  }
+}
+
+TEST(Plan, UnknownNamesSuggestTheNearest) {
+  RunPlan plan;
+  plan.patterns = {"hybrid.tabel1"};
+  try {
+    plan_cases(plan);
+    FAIL() << "an unknown experiment was accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+    EXPECT_THAT(error.what(), HasSubstr("did you mean 'hybrid.table1'"));
+  }
+  plan.patterns = {"hybrid.table1"};
+  plan.assignments = {"m=3"};
+  EXPECT_THROW(plan_cases(plan), Error);
+  plan.assignments = {"n=0"};
+  EXPECT_THROW(plan_cases(plan), Error);
+  plan.assignments = {"n=many"};
+  EXPECT_THROW(plan_cases(plan), Error);
+}
+
+}  // namespace
+}  // namespace terrabench
