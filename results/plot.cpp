@@ -51,9 +51,9 @@ constexpr std::array<Style, 7> kStyles = {{{{0x00, 0x72, 0xB2}, vtkPlotPoints::C
 class ErrorBarLine : public vtkPlotLine {
  public:
   static ErrorBarLine* New();
-  vtkTypeMacro(ErrorBarLine, vtkPlotLine);
+  vtkTypeMacro(ErrorBarLine, vtkPlotLine)
 
-  void set_bars(std::vector<std::array<float, 3>> bars, float cap) {
+      void set_bars(std::vector<std::array<float, 3>> bars, float cap) {
     bars_ = std::move(bars);
     cap_ = cap;
   }

@@ -79,12 +79,21 @@ void* operator new(std::size_t size) { return terrabench::allocate(size); }
 void* operator new[](std::size_t size) { return terrabench::allocate(size); }
 void* operator new(std::size_t size, std::align_val_t align) { return terrabench::allocate(size, align); }
 void* operator new[](std::size_t size, std::align_val_t align) { return terrabench::allocate(size, align); }
-// The standard library's own would call those above, but a sanitizer's would not.
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  void* const block = std::malloc(size == 0 ? 1 : size);
-  return block == nullptr ? nullptr : terrabench::count_in(block);
+// The forms that return null would call those above, were it not that sanitizers bring their own.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept try {
+  return terrabench::allocate(size);
+} catch (const std::bad_alloc&) {
+  return nullptr;
 }
 void* operator new[](std::size_t size, const std::nothrow_t& tag) noexcept { return operator new(size, tag); }
+void* operator new(std::size_t size, std::align_val_t align, const std::nothrow_t&) noexcept try {
+  return terrabench::allocate(size, align);
+} catch (const std::bad_alloc&) {
+  return nullptr;
+}
+void* operator new[](std::size_t size, std::align_val_t align, const std::nothrow_t& tag) noexcept {
+  return operator new(size, align, tag);
+}
 void operator delete(void* block) noexcept {
   terrabench::count_out(block);
   std::free(block);
@@ -96,5 +105,3 @@ void operator delete(void* block, std::align_val_t) noexcept { operator delete(b
 void operator delete[](void* block, std::align_val_t) noexcept { operator delete(block); }
 void operator delete(void* block, std::size_t, std::align_val_t) noexcept { operator delete(block); }
 void operator delete[](void* block, std::size_t, std::align_val_t) noexcept { operator delete(block); }
-void operator delete(void* block, const std::nothrow_t&) noexcept { operator delete(block); }
-void operator delete[](void* block, const std::nothrow_t&) noexcept { operator delete(block); }
