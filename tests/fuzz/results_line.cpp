@@ -26,7 +26,7 @@ std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
   record.case_name = "c";
   record.profile = "quick";
   record.run = "0123";
-  record.parameters = {{"n", std::int64_t{3}}, {"x", 0.5}, {"on", true}, {"s", std::string("t")}};
+  record.parameters = {{"n", std::int64_t{3}}, {"x", 0.5}, {"on", true}, {"s", record.profile}};
   record.metrics = {{"m", "s", {1, 2.5, 1e-300}}};
   record.figures = {{"p.F1", "figures/p.F1.png", "caption"}};
   terrabench::Provenance run;

@@ -24,7 +24,8 @@ void expect_refused(const std::string& text, const std::string& what, int line) 
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kBadInput);
     EXPECT_THAT(error.what(), HasSubstr(what));
-    if (line > 0) EXPECT_THAT(error.what(), HasSubstr(fmt::format("claims.toml:{}:", line)));
+    const std::string where = line > 0 ? fmt::format("claims.toml:{}:", line) : "claims.toml";
+    EXPECT_THAT(error.what(), HasSubstr(where));
   }
 }
 

@@ -70,7 +70,7 @@ TEST_F(CompareTest, RatioToZeroIsStillJson) {
   write("b", {{"m", "", {1}}, {"t", "s", {1, 1}}});
   const Comparison c = compare(folder_ / "a", folder_ / "b");
   EXPECT_FALSE(c.exact_equal());
-  EXPECT_NO_THROW((void)nlohmann::json::parse(compare_json(c)));
+  EXPECT_TRUE(nlohmann::json::accept(compare_json(c)));
 }
 
 TEST_F(CompareTest, RunAgainstItselfIsTheSame) {

@@ -34,7 +34,7 @@ std::size_t count(const std::string& text, std::string_view what) {
 TEST(PlotTest, ShowsLabelsUnitsTicksAndEveryPoint) {
   const std::string svg = plot_svg(growth());
   for (const char* label : {"samples along each side, n", "generation time [s]", ">64<", ">512<", ">0.01<",
-                            ">1,000<", ">paper<", "this &lt;program&gt;"}) {
+                            ">1,000<", "paper<", "this &lt;program&gt;"}) {
     EXPECT_THAT(svg, HasSubstr(label));
   }
   EXPECT_EQ(count(svg, "<circle"), 4U) << "three points and the legend";
