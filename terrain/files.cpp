@@ -58,7 +58,7 @@ void write_file(const std::filesystem::path& name, std::span<const std::byte> co
   // A link stays a link: what it points to is replaced. Renaming over a device would remove the device.
   const bool link = std::filesystem::is_symlink(name, error);
   const std::filesystem::path path = link ? std::filesystem::weakly_canonical(name, error) : name;
-  if (error) throw cannot_write(name, error.value());
+  error.clear();  // a new file has no status yet
   const auto status = std::filesystem::status(path, error);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     throw environment_error("cannot write: it is a folder or a device", path.string(), "name a file");
