@@ -13,7 +13,8 @@ if(CMAKE_SCRIPT_MODE_FILE)
       execute_process(COMMAND ${GIT} -C ${ROOT} rev-parse HEAD
                       OUTPUT_VARIABLE head OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
     endif()
-    execute_process(COMMAND ${GIT} -C ${ROOT} status --porcelain --untracked-files=no
+    # A file that was not added yet is code all the same.
+    execute_process(COMMAND ${GIT} -C ${ROOT} status --porcelain --untracked-files=normal
                     OUTPUT_VARIABLE changes ERROR_QUIET RESULT_VARIABLE status_failed)
     if(NOT failed)
       set(revision ${head})

@@ -1,5 +1,5 @@
 # Shaders become part of the program: terrabench_shaders(TARGET FILE…) writes a table of (file name, text) that
-# shader_source() in renderers/gl.h reads, so nothing has to be found at run time.
+# shader_file() in renderers/gl.h reads, so nothing has to be found at run time.
 function(terrabench_shaders target)
   set(table "")
   foreach(file IN LISTS ARGN)

@@ -11,6 +11,7 @@
 #include "results/provenance.h"
 #include "results/store.h"
 #include "terrain/error.h"
+#include "terrain/files.h"
 #include "terrain/sources/noise/program.h"
 
 namespace terrabench {
@@ -132,7 +133,8 @@ void run(const RunPlan& plan) {
                                    .profile = record.profile,
                                    .parameters = record.parameters,
                                    .seed = record.seed,
-                                   .terrain_checksum = std::nullopt}) != nullptr) {
+                                   .terrain_checksum = std::nullopt},
+                                  provenance) != nullptr) {
       ++skipped;
       continue;
     }
@@ -141,6 +143,7 @@ void run(const RunPlan& plan) {
     const auto begin = std::chrono::steady_clock::now();
     planned.experiment->measure(planned.at, plan.options, recorder, progress);
     progress.end();
+    for (Figure& figure : record.figures) figure.checksum = checksum(read_file(plan.folder / figure.file));
     store.append(record);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     fmt::print(stderr, "[{}/{}] {} {}: {:.2f} s\n", number, cases.size(), record.experiment, record.case_name,

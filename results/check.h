@@ -23,14 +23,15 @@ struct Row {
 struct CheckReport {
   std::string profile;  // the one that was run last
   std::vector<Row> rows;
-  std::vector<std::string> warnings, faults;  // of the store
+  std::vector<std::string> warnings, faults;  // of the store and of the pictures that its records drew
 
   bool passed() const;  // no complaint, no fault
 };
 
-// Claims must outlive the report. Throws bad_input when the folder holds no results.
-CheckReport check(const std::filesystem::path& folder);
-CheckReport check(const Store&, std::span<const Paper>);
+// Claims must outlive the report. Only rows whose id matches one of the globs (* and ?) are judged; none:
+// all. Throws bad_input when the folder holds no results, usage_error when a glob matches no row.
+CheckReport check(const std::filesystem::path& folder, std::span<const std::string> row_globs = {});
+CheckReport check(const Store&, std::span<const Paper>, std::span<const std::string> row_globs = {});
 
 // For terminals, programs and continuous integration.
 std::string check_text(const CheckReport&, bool colour);

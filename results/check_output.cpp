@@ -61,7 +61,7 @@ std::string check_text(const CheckReport& report, bool colour) {
   text += fmt::format("\n{}{}{}: {}\n", paint, passed ? "PASS" : "FAIL", colour ? kPlain : "",
                       tally(report.rows));
   if (!report.faults.empty()) {
-    text += fmt::format("{} lines of the results cannot be trusted: measure again into a new folder\n",
+    text += fmt::format("{} faults, the results cannot be trusted: measure again into a new folder\n",
                         report.faults.size());
   }
   return text;

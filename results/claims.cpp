@@ -186,8 +186,14 @@ Claim claim_from(const toml::node& node, const std::string& origin) {
                                                       : Verdict::kReproduced;
   const std::string known = entry.text_or("known", std::string(name(usual)));
   const auto* const verdict = std::find(std::begin(kVerdicts), std::end(kVerdicts), known);
-  if (verdict == std::end(kVerdicts)) entry.refuse(fmt::format("'{}' is no verdict", known));
   claim.known = static_cast<Verdict>(verdict - std::begin(kVerdicts));
+  // The others say what a run lacks, which nobody can know beforehand.
+  if (claim.known > Verdict::kNotComparable) {
+    entry.refuse(fmt::format("'{}' is no verdict that a row can be known to have", known));
+  }
+  if (claim.known == Verdict::kDiffers && claim.note.empty()) {
+    entry.refuse("a row known to differ needs a 'note' that says why");
+  }
   entry.refuse_unknown();
   return claim;
 }
@@ -208,11 +214,9 @@ TableLayout::Row row_from(const toml::node& node, const std::string& origin) {
 
 TableLayout::Column column_from(const toml::node& node, const std::string& origin) {
   using Kind = TableLayout::Column::Kind;
-  constexpr std::pair<std::string_view, Kind> kKinds[] = {{"reported", Kind::kReported},
-                                                          {"metric", Kind::kMetric},
-                                                          {"interval", Kind::kInterval},
-                                                          {"speed_up", Kind::kSpeedUp},
-                                                          {"verdict", Kind::kVerdict}};
+  constexpr std::pair<std::string_view, Kind> kKinds[] = {
+      {"reported", Kind::kReported}, {"metric", Kind::kMetric},    {"interval", Kind::kInterval},
+      {"growth", Kind::kGrowth},     {"speed_up", Kind::kSpeedUp}, {"verdict", Kind::kVerdict}};
   Entry entry(node, origin);
   TableLayout::Column column;
   column.title = entry.text("title");
@@ -220,7 +224,7 @@ TableLayout::Column column_from(const toml::node& node, const std::string& origi
   const auto* const kind = std::find_if(std::begin(kKinds), std::end(kKinds),
                                         [&](const auto& k) { return entry.table().contains(k.first); });
   if (kind == std::end(kKinds)) {
-    entry.refuse("a column is one of reported, metric, interval, speed_up, verdict");
+    entry.refuse("a column is one of reported, metric, interval, growth, speed_up, verdict");
   }
   column.kind = kind->second;
   if (column.kind == Kind::kSpeedUp) {
@@ -228,7 +232,8 @@ TableLayout::Column column_from(const toml::node& node, const std::string& origi
     column.key = entry.text_of(*key, "speed_up");
     column.metric = entry.text_of(*metric, "speed_up");
   } else {
-    const bool measured = column.kind == Kind::kMetric || column.kind == Kind::kInterval;
+    const bool measured =
+        column.kind == Kind::kMetric || column.kind == Kind::kInterval || column.kind == Kind::kGrowth;
     (measured ? column.metric : column.key) = entry.text(kind->first);
   }
   entry.refuse_unknown();

@@ -66,11 +66,11 @@ struct TableLayout {
     std::map<std::string, std::variant<double, std::string>, std::less<>> values;
   };
   struct Column {
-    enum class Kind { kReported, kMetric, kInterval, kSpeedUp, kVerdict };
+    enum class Kind { kReported, kMetric, kInterval, kGrowth, kSpeedUp, kVerdict };
     Kind kind = Kind::kMetric;
     std::string title, unit;
     std::string key;     // of Row::values; kReported, kSpeedUp (reported ÷ measured), kVerdict
-    std::string metric;  // kMetric, kInterval, kSpeedUp
+    std::string metric;  // kMetric, kInterval, kGrowth (÷ the row before), kSpeedUp
   };
   std::string id, title, caption, experiment, rows_title;
   std::vector<Row> rows;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -73,12 +72,21 @@ bool Comparison::exact_equal() const {
                       [](const auto& m) { return m.change == Change::kDiffers; });
 }
 
+std::size_t Comparison::count(Change change) const {
+  return static_cast<std::size_t>(
+      std::count_if(metrics.begin(), metrics.end(), [&](const auto& m) { return m.change == change; }));
+}
+
 Comparison compare(const std::filesystem::path& before, const std::filesystem::path& after) {
   return compare(Store::open(before), Store::open(after));
 }
 
 Comparison compare(const Store& before, const Store& after) {
   Comparison out;
+  for (const Store* const store : {&before, &after}) {
+    out.warnings.insert(out.warnings.end(), store->warnings().begin(), store->warnings().end());
+    out.faults.insert(out.faults.end(), store->faults().begin(), store->faults().end());
+  }
   for (const Record& record : before.records()) {
     const Record* const other = after.find(record.experiment, record.case_name, record.profile);
     for (const Metric& metric : record.metrics) {
@@ -101,9 +109,7 @@ Comparison compare(const Store& before, const Store& after) {
 
 std::string compare_text(const Comparison& comparison, bool colour) {
   std::string text, heading;
-  std::array<int, std::size(kNames)> counts{};
   for (const MetricChange& m : comparison.metrics) {
-    ++counts[static_cast<std::size_t>(m.change)];
     const std::string title = fmt::format("{} {} ({}){}", m.experiment, m.case_name, m.profile,
                                           m.same_ground ? "" : ": another seed, terrain or parameter");
     if (title != heading) text += title + "\n";
@@ -126,10 +132,16 @@ std::string compare_text(const Comparison& comparison, bool colour) {
     text += '\n';
   }
   std::string tally;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts[i] > 0) tally += fmt::format("{}{} {}", tally.empty() ? "" : ", ", counts[i], kNames[i]);
+  for (std::size_t i = 0; i < std::size(kNames); ++i) {
+    const std::size_t count = comparison.count(static_cast<Change>(i));
+    if (count > 0) tally += fmt::format("{}{} {}", tally.empty() ? "" : ", ", count, kNames[i]);
   }
-  return text + fmt::format("\n{}\n", tally.empty() ? "nothing to compare" : tally);
+  text += fmt::format("\n{}\n", tally.empty() ? "nothing to compare" : tally);
+  for (const std::string& warning : comparison.warnings) text += fmt::format("warning: {}\n", warning);
+  if (!comparison.faults.empty()) {
+    text += fmt::format("{} faults, the results cannot be trusted\n", comparison.faults.size());
+  }
+  return text;
 }
 
 std::string compare_json(const Comparison& comparison) {
@@ -148,7 +160,13 @@ std::string compare_json(const Comparison& comparison) {
     }
     list.push_back(std::move(entry));
   }
-  const Json json = {{"exact_equal", comparison.exact_equal()}, {"metrics", list}};
+  const Json json = {{"passed", comparison.passed()},
+                     {"exact_equal", comparison.exact_equal()},
+                     {"only_before", comparison.count(Change::kOnlyBefore)},
+                     {"only_after", comparison.count(Change::kOnlyAfter)},
+                     {"metrics", list},
+                     {"warnings", comparison.warnings},
+                     {"faults", comparison.faults}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

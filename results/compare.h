@@ -31,7 +31,11 @@ struct MetricChange {
 
 struct Comparison {
   std::vector<MetricChange> metrics;  // in the order of the first folder, then what only the second has
-  bool exact_equal() const;           // no exact metric differs
+  std::vector<std::string> warnings, faults;  // of both stores, as Store says them
+
+  bool exact_equal() const;  // no exact metric differs
+  bool passed() const { return exact_equal() && faults.empty(); }
+  std::size_t count(Change) const;
 };
 
 // Throws bad_input when a folder holds no results.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "results/format.h"
 #include "results/statistics.h"
@@ -31,6 +32,17 @@ Cell measured_cell(const TableLayout::Column& column, const TableLayout::Row& ro
   const auto reported = row.values.find(column.key);
   if (reported == row.values.end() || !std::holds_alternative<double>(reported->second)) return kNothing;
   return number_cell(std::get<double>(reported->second) / s.median);
+}
+
+// Nothing across machines or builds: `check` would refuse it too.
+Cell growth_cell(const std::string& metric, const Record* before, const Record* record, const Store& store) {
+  const Metric* const from = before == nullptr ? nullptr : before->find(metric);
+  const Metric* const to = record == nullptr ? nullptr : record->find(metric);
+  if (from == nullptr || to == nullptr) return kNothing;
+  const Provenance* const earlier = store.run(before->run);
+  const Provenance* const later = store.run(record->run);
+  if (earlier == nullptr || later == nullptr || !comparable(*earlier, *later)) return kNothing;
+  return number_cell(summarise_ratio(to->samples, from->samples).median);
 }
 
 Cell cell_for(const TableLayout::Column& column, const TableLayout::Row& row, const Record* record,
@@ -69,13 +81,17 @@ FilledTable fill(const TableLayout& layout, const Store& store, const CheckRepor
   for (const TableLayout::Column& column : layout.columns) {
     filled.table.columns.push_back({column.title, column.unit, column.kind != ColumnKind::kVerdict});
   }
+  const Record* before = nullptr;
   for (const TableLayout::Row& row : layout.rows) {
     const Record* const record = store.find(layout.experiment, row.case_name, check.profile);
+    const Record* const above = std::exchange(before, record);
     if (record == nullptr && row.values.empty()) continue;
     if (record != nullptr) note_run(filled.runs, *record);
     std::vector<Cell> cells = {{row.label, "", "", ""}};
-    for (const TableLayout::Column& column : layout.columns)
-      cells.push_back(cell_for(column, row, record, check));
+    for (const TableLayout::Column& column : layout.columns) {
+      cells.push_back(column.kind == ColumnKind::kGrowth ? growth_cell(column.metric, above, record, store)
+                                                         : cell_for(column, row, record, check));
+    }
     filled.table.rows.push_back(std::move(cells));
   }
   return filled;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gdal_version.h>
 #include <png.h>
+#include <sched.h>
 #include <sys/utsname.h>
 #include <tbb/version.h>
 #include <vtkVersionMacros.h>
@@ -56,6 +57,15 @@ std::string utc_time() {
   return text;
 }
 
+// Fewer than the machine has, in a container or under taskset.
+int allowed_processors() {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  return sched_getaffinity(0, sizeof allowed, &allowed) == 0
+             ? std::max(1, CPU_COUNT(&allowed))
+             : static_cast<int>(std::thread::hardware_concurrency());
+}
+
 std::string packed(int number, int step) {
   return fmt::format("{}.{}.{}", number / (step * step), number / step % step, number % step);
 }
@@ -105,7 +115,7 @@ Provenance collect_provenance(const RunFacts& facts) {
   p.flags = kFlags;
   p.build_type = kBuildType;
   p.cpu = value_in("/proc/cpuinfo", "model name", ':');
-  p.threads = facts.threads > 0 ? facts.threads : static_cast<int>(std::thread::hardware_concurrency());
+  p.threads = facts.threads > 0 ? facts.threads : allowed_processors();
   p.memory = physical_memory();
   p.os = operating_system();
   p.gl_renderer = facts.gl_renderer;

@@ -14,7 +14,7 @@ struct RunFacts {
   std::vector<std::string> command;  // argv
   std::string gl_renderer;           // as GlContext::renderer() says; empty when nothing was drawn
   std::string simd;                  // instruction set chosen at run time
-  int threads = 0;                   // 0: as many as the machine runs at once
+  int threads = 0;                   // that really work; 0: as many as this process may use
   std::vector<std::pair<std::string, std::string>> libraries;  // added to those known here: name, version
 };
 

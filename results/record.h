@@ -21,9 +21,10 @@ struct Metric {
 
 // A picture that a case drew, relative to the results folder.
 struct Figure {
-  std::string id;       // ledger row, such as hybrid.F3
-  std::string file;     // figures/hybrid.F3.png
-  std::string caption;  // names the paper's figure and what is seen
+  std::string id;             // ledger row, such as hybrid.F3
+  std::string file;           // figures/hybrid.F3.png
+  std::string caption;        // names the paper's figure and what is seen
+  std::string checksum = "";  // of the file's bytes, so that another picture in its place is noticed
 };
 
 // Where numbers came from. One a process; every record names the one it was measured under.
@@ -37,6 +38,11 @@ struct Provenance {
   std::vector<std::pair<std::string, std::string>> libraries;  // name, version
 };
 
+// Whether times of the two can be set against each other, and one be taken for the other: same machine, same
+// code, same compiler. Two builds with uncommitted changes of one revision count as the same code, though
+// they need not be: an interrupted run must be able to go on.
+bool comparable(const Provenance&, const Provenance&);
+
 // One case of one experiment, measured.
 struct Record {
   std::string experiment, case_name, profile;
@@ -48,6 +54,8 @@ struct Record {
   std::vector<Figure> figures;
 
   const Metric* find(std::string_view metric) const;  // null when absent
+  // Measured with `--set`, which says so behind the name: not the case that the ledger means.
+  bool overridden() const { return case_name.find(" (") != case_name.npos; }
 };
 
 }  // namespace terrabench

@@ -151,7 +151,7 @@ Metric metric_from(const Json& json, std::string& warning) {
 
 Figure figure_from(const Json& json, std::string& warning) {
   Fields fields(json, "a figure");
-  Figure figure{fields.name("id"), fields.name("file"), fields.text("caption")};
+  Figure figure{fields.name("id"), fields.name("file"), fields.text("caption"), fields.text("checksum")};
   const std::filesystem::path path(figure.file);
   require(path.is_relative() && std::find(path.begin(), path.end(), "..") == path.end(),
           fmt::format("figure '{}' lies outside the results folder", figure.id));
@@ -232,7 +232,10 @@ std::string to_line(const Record& record) {
     metrics.push_back({{"name", metric.name}, {"unit", metric.unit}, {"samples", metric.samples}});
   }
   for (const Figure& figure : record.figures) {
-    figures.push_back({{"id", figure.id}, {"file", figure.file}, {"caption", figure.caption}});
+    figures.push_back({{"id", figure.id},
+                       {"file", figure.file},
+                       {"caption", figure.caption},
+                       {"checksum", figure.checksum}});
   }
   return sealed({{"kind", "record"},
                  {"experiment", record.experiment},
@@ -250,6 +253,8 @@ std::string to_line(const Record& record) {
 std::string to_line(const Provenance& provenance) { return sealed(to_json(provenance)); }
 
 std::string digest(const Provenance& provenance) { return checksum(canonical(to_json(provenance))); }
+
+bool is_complete_json(std::string_view text) { return Json::accept(text); }
 
 Line parse_line(std::string_view text, const std::string& where) {
   std::string what;

@@ -23,6 +23,8 @@ struct Line {
   bool altered = false;  // the digest does not belong to the content
   std::string warning;   // something in it that was ignored; empty for none
 };
+// Whether the text is one JSON value from beginning to end: what a cut line never is.
+bool is_complete_json(std::string_view text);
 // Takes any bytes. Throws bad_input("what is wrong", where) for what is not such a line: not JSON, wrong
 // types, numbers that no double holds, names with control characters, a picture outside the folder.
 Line parse_line(std::string_view text, const std::string& where);

@@ -117,8 +117,8 @@ class Report {
     document_.push_back(Paragraph{intro});
     if (!check_.faults.empty()) {
       document_.push_back(
-          Paragraph{fmt::format("{} lines of the measurements were altered or damaged, or lack their run: "
-                                "these results cannot be trusted. The first: {}",
+          Paragraph{fmt::format("{} lines or pictures were altered or damaged, or lack their run: these "
+                                "results cannot be trusted. The first: {}",
                                 check_.faults.size(), without_folder(check_.faults.front())),
                     true});
     }
@@ -159,9 +159,17 @@ class Report {
     add_table(std::move(table), {});
   }
 
+  // A table may show what no row judges yet.
   bool has_results(const Paper& paper) const {
     return std::any_of(check_.rows.begin(), check_.rows.end(),
-                       [&](const Row& row) { return row.paper == &paper && !row.runs.empty(); });
+                       [&](const Row& row) { return row.paper == &paper && !row.runs.empty(); }) ||
+           std::any_of(paper.tables.begin(), paper.tables.end(),
+                       [&](const TableLayout& layout) { return !fill(layout, store_, check_).runs.empty(); });
+  }
+  bool has_verdicts(const Paper& paper) const {
+    return std::any_of(check_.rows.begin(), check_.rows.end(), [&](const Row& row) {
+      return row.paper == &paper && row.verdict != Verdict::kPending;
+    });
   }
 
   void add_paper(const Paper& paper) {
@@ -172,7 +180,7 @@ class Report {
       if (!filled.runs.empty()) add_table(std::move(filled.table), run_links(filled.runs));
     }
     for (const PlotLayout& layout : paper.plots) add_plot(layout);
-    add_verdicts(paper);
+    if (has_verdicts(paper)) add_verdicts(paper);
     add_gallery(paper);
   }
 
@@ -214,7 +222,7 @@ class Report {
     for (const Row& row : check_.rows) {
       if (row.paper != &paper || row.claim->type != 'F') continue;
       for (const Condition& condition : row.claim->conditions) {
-        const auto [record, figure] = find_figure(condition.figure);
+        const auto [record, figure] = store_.find_figure(condition.figure, check_.profile);
         if (figure == nullptr) continue;
         claimed_.insert(figure->id);
         add_picture(gallery, *record, *figure, row.claim->where,
@@ -240,16 +248,6 @@ class Report {
     document_.push_back(Heading{2, "Terrains", "terrains"});
     document_.push_back(Paragraph{"The ground that was measured, as each representation holds it."});
     document_.push_back(std::move(gallery));
-  }
-
-  std::pair<const Record*, const Figure*> find_figure(const std::string& id) const {
-    for (const Record& record : store_.records()) {
-      if (record.profile != check_.profile) continue;
-      for (const Figure& figure : record.figures) {
-        if (figure.id == id) return {&record, &figure};
-      }
-    }
-    return {nullptr, nullptr};
   }
 
   // The picture travels with the report, so that the folder can be moved alone.

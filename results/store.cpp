@@ -17,7 +17,7 @@
 namespace terrabench {
 namespace {
 
-constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 30;
+constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 30, kLargestPicture = std::uint64_t{1} << 28;
 
 Error cannot_append(const std::filesystem::path& file, int error) {
   return environment_error(fmt::format("cannot write: {}", std::strerror(error)), file.string(),
@@ -82,14 +82,6 @@ class LockedFile {
   int descriptor_ = -1;
 };
 
-bool is_whole(std::string_view line) {
-  try {
-    return !parse_line(line, "").altered;
-  } catch (const Error&) {
-    return false;
-  }
-}
-
 using Named = std::vector<std::pair<std::string, Value>>;
 Named by_name(Named parameters) {
   std::sort(parameters.begin(), parameters.end());
@@ -127,7 +119,7 @@ void Store::read(std::string_view content) {
     at = last ? content.size() : newline + 1;
     ++number;
     if (text.find_first_not_of(" \t\r") == text.npos) continue;
-    if (last && !is_whole(text)) {
+    if (last && !is_complete_json(text)) {
       warnings_.push_back(
           fmt::format("{}:{}: the last line was cut short and is dropped", file_.string(), number));
     } else {
@@ -174,10 +166,12 @@ void Store::keep(Record record, bool altered) {
     }
     records_[i] = std::move(record);
     altered_[i] = altered;
+    ages_[i] = ++kept_;
     return;
   }
   records_.push_back(std::move(record));
   altered_.push_back(altered);
+  ages_.push_back(++kept_);
 }
 
 void Store::append_line(const std::string& line) const {
@@ -186,7 +180,7 @@ void Store::append_line(const std::string& line) const {
   if (error) throw cannot_append(file_, error.value());
   LockedFile file(file_);
   const std::string tail = file.unfinished_line();
-  const bool finish = !tail.empty() && is_whole(tail);  // an editor may have taken the last newline
+  const bool finish = is_complete_json(tail);  // an editor may have taken the last newline
   if (!tail.empty() && !finish) file.cut_to(file.size() - static_cast<off_t>(tail.size()));
   file.append((finish ? "\n" : "") + line + "\n");
 }
@@ -214,16 +208,29 @@ const Record* Store::find(std::string_view experiment, std::string_view case_nam
   return it == records_.end() ? nullptr : &*it;
 }
 
-const Record* Store::find(const CaseKey& key) const {
+const Record* Store::find(const CaseKey& key, const Provenance& now) const {
   const Record* const record = find(key.experiment, key.case_name, key.profile);
-  if (record == nullptr || altered(*record) || run(record->run) == nullptr) return nullptr;
+  if (record == nullptr || altered(*record)) return nullptr;
+  const Provenance* const measured_under = run(record->run);
+  if (measured_under == nullptr || !comparable(*measured_under, now)) return nullptr;
   if (record->seed != key.seed || by_name(record->parameters) != by_name(key.parameters)) return nullptr;
   if (key.terrain_checksum && record->terrain_checksum != *key.terrain_checksum) return nullptr;
-  std::error_code error;
-  const bool pictures = std::all_of(
-      record->figures.begin(), record->figures.end(),
-      [&](const Figure& figure) { return std::filesystem::is_regular_file(folder_ / figure.file, error); });
+  const bool pictures = std::all_of(record->figures.begin(), record->figures.end(),
+                                    [&](const Figure& figure) { return intact(figure); });
   return pictures ? record : nullptr;
+}
+
+std::pair<const Record*, const Figure*> Store::find_figure(std::string_view id,
+                                                           std::string_view profile) const {
+  std::pair<const Record*, const Figure*> found{nullptr, nullptr};
+  for (const Record& record : records_) {
+    if (record.profile != profile || record.overridden()) continue;
+    if (found.first != nullptr && ages_[index(record)] < ages_[index(*found.first)]) continue;
+    for (const Figure& figure : record.figures) {
+      if (figure.id == id) found = {&record, &figure};
+    }
+  }
+  return found;
 }
 
 const Provenance* Store::run(std::string_view id) const {
@@ -232,8 +239,17 @@ const Provenance* Store::run(std::string_view id) const {
   return it == runs_.end() ? nullptr : &*it;
 }
 
-bool Store::altered(const Record& record) const {
-  return altered_[static_cast<std::size_t>(&record - records_.data())];
+bool Store::altered(const Record& record) const { return altered_[index(record)]; }
+
+bool Store::intact(const Figure& figure) const {
+  const std::filesystem::path path = folder_ / figure.file;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  try {
+    return checksum(read_file(path, kLargestPicture)) == figure.checksum;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 }  // namespace terrabench

@@ -25,8 +25,8 @@ struct CaseKey {
 class Store {
  public:
   // Reads what the folder holds; a folder without measurements is an empty store. A last line that was cut
-  // short is dropped with a warning (and removed by the next append); so is any line that is damaged. Throws
-  // bad_input when the file cannot be read, or holds nothing but damage.
+  // short, so that it is no JSON, is dropped with a warning (and removed by the next append); so is any line
+  // that is damaged. Throws bad_input when the file cannot be read, or holds nothing but damage.
   explicit Store(std::filesystem::path folder);
 
   // As above, for reading results: throws bad_input when there are no measurements.
@@ -41,11 +41,17 @@ class Store {
   // records are among them: see altered().
   const std::vector<Record>& records() const { return records_; }
   const Record* find(std::string_view experiment, std::string_view case_name, std::string_view profile) const;
-  // The record with this key, if it is unaltered and its pictures are still there.
-  const Record* find(const CaseKey&) const;
+  // The record with this key, if it is unaltered, its pictures are still those that it drew, and its run is
+  // comparable with `now`.
+  const Record* find(const CaseKey&, const Provenance& now) const;
+  // The newest record of the profile that drew this picture for the ledger: not one with overridden
+  // parameters. Both null when there is none.
+  std::pair<const Record*, const Figure*> find_figure(std::string_view id, std::string_view profile) const;
   const Provenance* run(std::string_view id) const;  // null when unknown
 
   bool altered(const Record&) const;  // of records()
+  // The picture is there, byte for byte as it was recorded. Reads the file.
+  bool intact(const Figure&) const;
   // The profile of what was measured last; empty for an empty store.
   const std::string& last_profile() const { return last_profile_; }
 
@@ -59,11 +65,16 @@ class Store {
   void read(std::string_view content);
   void read_line(std::string_view text, std::size_t number);
   void keep(Record record, bool altered);
+  std::size_t index(const Record& record) const {
+    return static_cast<std::size_t>(&record - records_.data());
+  }
   void append_line(const std::string& line) const;
 
   std::filesystem::path folder_, file_;
   std::vector<Record> records_;
-  std::vector<bool> altered_;  // beside records_
+  std::vector<bool> altered_;      // beside records_
+  std::vector<std::size_t> ages_;  // beside records_: the larger, the later it was measured
+  std::size_t kept_ = 0;
   std::vector<Provenance> runs_;
   std::string last_profile_;
   std::vector<std::string> warnings_, faults_;

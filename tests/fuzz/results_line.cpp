@@ -28,7 +28,7 @@ std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
   record.run = "0123";
   record.parameters = {{"n", std::int64_t{3}}, {"x", 0.5}, {"on", true}, {"s", record.profile}};
   record.metrics = {{"m", "s", {1, 2.5, 1e-300}}};
-  record.figures = {{"p.F1", "figures/p.F1.png", "caption"}};
+  record.figures = {{"p.F1", "figures/p.F1.png", "caption", "0123"}};
   terrabench::Provenance run;
   run.libraries = {{"GDAL", "3.6.2"}};
   std::vector<std::vector<std::uint8_t>> seeds;

@@ -157,6 +157,10 @@ TEST(Claims, RefusesWithFileAndLine) {
   expect_refused(claim + "check = [{within = [\"e/c/m\"]}]\n", "'range' is missing", 9);
   expect_refused(claim + "check = [{within = [\"e/c/m\"], range = [2, 1]}]\n", "the range is empty", 9);
   expect_refused(claim + "check = [{figure = \"f\"}]\nknown = \"maybe\"\n", "'maybe' is no verdict", 4);
+  for (const char* verdict : {"pending", "not run", "missing"}) {
+    expect_refused(claim + "check = [{figure = \"f\"}]\nknown = \"" + verdict + "\"\n", "is no verdict", 4);
+  }
+  expect_refused(claim + "check = [{figure = \"f\"}]\nknown = \"differs\"\n", "needs a 'note'", 4);
   expect_refused(claim + "pending = \"x\"\n" + std::string(kClaim) + "pending = \"x\"\n", "used twice", 0);
   expect_refused(
       head + "[[claim]]\nid = \"../p\"\nwhere = \"\"\nstatement = \"\"\nclass = \"E\"\npending = \"x\"\n",

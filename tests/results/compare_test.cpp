@@ -57,11 +57,15 @@ TEST_F(CompareTest, SaysWhatOnlyOneSideHasAndWhatWasMeasuredOnOtherGround) {
   EXPECT_EQ(c.metrics[2].change, Change::kOnlyAfter);
   EXPECT_FALSE(c.metrics[0].same_ground);
   EXPECT_TRUE(c.exact_equal());
+  EXPECT_TRUE(c.passed());
   const std::string text = compare_text(c, false);
   EXPECT_THAT(text, HasSubstr("only before"));
   EXPECT_THAT(text, HasSubstr("another seed"));
   const auto json = nlohmann::json::parse(compare_json(c));
+  EXPECT_THAT(text, HasSubstr("1 same, 1 only before, 1 only after"));
   EXPECT_EQ(json["metrics"].size(), 3U);
+  EXPECT_EQ(json["only_before"], 1);
+  EXPECT_EQ(json["only_after"], 1);
   EXPECT_EQ(json["metrics"][2]["change"], "only after");
 }
 
@@ -78,6 +82,21 @@ TEST_F(CompareTest, RunAgainstItselfIsTheSame) {
   const Comparison c = compare(folder_ / "a", folder_ / "a");
   EXPECT_GT(c.metrics.size(), 20U);
   for (const MetricChange& m : c.metrics) EXPECT_EQ(m.change, Change::kSame) << m.case_name << m.metric;
+}
+
+TEST_F(CompareTest, FaultsOfEitherSideAreSaidAndFail) {
+  write("a", {{"m", "B", {1}}});
+  write("b", {{"m", "B", {1}}});
+  EXPECT_TRUE(compare(folder_ / "a", folder_ / "b").passed());
+  edit(folder_ / "b/measurements.jsonl", "\"seed\":1", "\"seed\":2");
+  for (const auto& [before, after] : {std::pair("a", "b"), std::pair("b", "a")}) {
+    const Comparison c = compare(folder_ / before, folder_ / after);
+    EXPECT_EQ(c.faults.size(), 1U);
+    EXPECT_TRUE(c.exact_equal());
+    EXPECT_FALSE(c.passed());
+    EXPECT_THAT(compare_text(c, false), HasSubstr("altered"));
+    EXPECT_EQ(nlohmann::json::parse(compare_json(c))["passed"], false);
+  }
 }
 
 TEST_F(CompareTest, FolderWithoutResultsIsBadInput) {

@@ -1,6 +1,7 @@
 #include "results/provenance.h"
 
 #include <gmock/gmock.h>
+#include <sched.h>
 
 #include <algorithm>
 
@@ -40,7 +41,18 @@ TEST(ProvenanceTest, NamesCodeMachineAndCommand) {
   EXPECT_THAT(version("fmt"), MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));
 }
 
-TEST(ProvenanceTest, ThreadsDefaultToTheMachines) { EXPECT_GE(collect_provenance({}).threads, 1); }
+TEST(ProvenanceTest, ThreadsDefaultToThoseThatTheProcessMayUse) {
+  cpu_set_t before, one;
+  ASSERT_EQ(sched_getaffinity(0, sizeof before, &before), 0);
+  EXPECT_EQ(collect_provenance({}).threads, CPU_COUNT(&before));
+  CPU_ZERO(&one);
+  for (std::size_t cpu = 0; CPU_COUNT(&one) == 0; ++cpu) {
+    if (CPU_ISSET(cpu, &before)) CPU_SET(cpu, &one);
+  }
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+  EXPECT_EQ(collect_provenance({}).threads, 1);
+  ASSERT_EQ(sched_setaffinity(0, sizeof before, &before), 0);
+}
 
 TEST(ProvenanceTest, IdChangesWithAnythingInIt) {
   Provenance p = collect_provenance({});

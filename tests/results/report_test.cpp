@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "results/record_json.h"
 #include "terrain/error.h"
 #include "tests/results/fake_results.h"
 
@@ -86,6 +87,40 @@ TEST_F(ReportTest, ComesOutOfAPartialRun) {
   const std::string page = read_file(write_report(folder_));
   EXPECT_THAT(page, HasSubstr("Table 2"));
   EXPECT_THAT(page, HasSubstr("missing"));
+}
+
+TEST_F(ReportTest, GrowthIsFromTheRowAboveOnTheSameMachine) {
+  write_fake_results(folder_, "quick");
+  write_report(folder_);
+  const auto growth = [&] {
+    const std::string table = read_file(folder_ / "report/tables/hybrid.table2.md");
+    std::vector<std::string> cells;
+    for (const char* row : {"| 64³", "| 128³", "| 256³"}) {
+      std::string cell = table.substr(table.find(row));
+      for (int i = 0; i < 5; ++i) cell.erase(0, cell.find(" | ") + 3);
+      cells.push_back(cell.substr(0, cell.find(" | ")));
+    }
+    return cells;
+  };
+  EXPECT_THAT(growth(), testing::ElementsAre("–", "7.781", "7.781"));
+  Provenance other = fake_provenance();
+  other.cpu = "another";
+  other.id = digest(other);
+  Store store(folder_);
+  store.begin_run(other);
+  Record record = fake_record(other, "hybrid.table2", "n=128");
+  add(record, "generation_time", "s", {0.16});
+  store.append(record);
+  write_report(folder_);
+  EXPECT_THAT(growth(), testing::ElementsAre("–", "–", "–"));
+}
+
+TEST_F(ReportTest, ShowsTablesThatNoRowJudgesYet) {
+  write_fake_results(folder_, "quick");
+  const std::string page = read_file(write_report(folder_));
+  EXPECT_THAT(page, HasSubstr("jacksboro, heightmap"));
+  EXPECT_THAT(page, HasSubstr("id=\"cross\""));
+  EXPECT_THAT(page, Not(HasSubstr("id=\"cross-verdicts\"")));
 }
 
 TEST_F(ReportTest, AlteredResultsCarryAWarning) {

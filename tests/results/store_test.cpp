@@ -110,6 +110,27 @@ TEST_F(StoreTest, SurvivesACutAtEveryByte) {
   }
 }
 
+// A kill cannot leave a whole line with another digest: somebody altered it and took the newline along.
+TEST_F(StoreTest, AlteredLastLineIsAFaultEvenWithoutItsNewline) {
+  write_two(folder_);
+  edit(file(), "2.5,2.6", "1.5,2.6");
+  std::string text = content();
+  text.pop_back();
+  write_file(file(), text);
+  Store store(folder_);
+  ASSERT_EQ(store.faults().size(), 1U);
+  EXPECT_THAT(store.faults()[0], HasSubstr("measurements.jsonl:3: altered"));
+  store.append(timed(fake_provenance(), "n=256", 20));
+  EXPECT_EQ(Store(folder_).faults(), store.faults()) << "nothing is taken out of the file";
+  EXPECT_EQ(Store(folder_).records().size(), 3U);
+}
+
+TEST_F(StoreTest, LastLineThatIsNoRecordIsAFault) {
+  write_two(folder_);
+  write_file(file(), content() + "{\"kind\":\"record\"}");
+  ASSERT_EQ(Store(folder_).faults().size(), 1U);
+}
+
 TEST_F(StoreTest, DamageInTheMiddleIsReportedAndTheRestUsed) {
   write_two(folder_);
   edit(file(), "\"seed\":1", "\"seed\":\"one\"");
@@ -174,7 +195,7 @@ TEST(RecordLine, RefusesWhatIsNoLine) {
   expect_bad_input(changed("hybrid.table2", "hybrid\\u001b[31m"), "control characters");
   expect_bad_input(changed("\"figures\":[]", "\"figures\":{}"), "'figures' is not a list");
   for (const char* path : {"../secret.png", "/etc/passwd", "figures/../../x.png"}) {
-    const std::string figure = std::string(R"("figures":[{"id":"a","file":")") + path + R"(","caption":""}])";
+    const std::string figure = std::string(R"("figures":[{"id":"a","file":")") + path + R"(","caption":"","checksum":""}])";
     expect_bad_input(changed("\"figures\":[]", figure), "outside the results folder");
   }
   expect_bad_input(std::string(2'000'000, '['), "nested too deeply");
@@ -249,23 +270,90 @@ TEST_F(StoreTest, ResumeKnowsACaseByAllThatDefinesIt) {
                    record.profile,    {record.parameters.rbegin(), record.parameters.rend()},
                    record.seed,       record.terrain_checksum};
   };
-  EXPECT_NE(store.find(key()), nullptr);
+  const Provenance run = fake_provenance();
+  EXPECT_NE(store.find(key(), run), nullptr);
   CaseKey other = key();
   other.seed = 2;
-  EXPECT_EQ(store.find(other), nullptr);
+  EXPECT_EQ(store.find(other, run), nullptr);
   other = key();
   other.parameters[0].second = std::int64_t{3};
-  EXPECT_EQ(store.find(other), nullptr);
+  EXPECT_EQ(store.find(other, run), nullptr);
   other = key();
   other.terrain_checksum = "another";
-  EXPECT_EQ(store.find(other), nullptr);
+  EXPECT_EQ(store.find(other, run), nullptr);
   other.terrain_checksum = std::nullopt;
-  EXPECT_NE(store.find(other), nullptr);
+  EXPECT_NE(store.find(other, run), nullptr);
   other = key();
   other.profile = "paper";
-  EXPECT_EQ(store.find(other), nullptr);
-  std::filesystem::remove(folder_ / record.figures[0].file);
-  EXPECT_EQ(store.find(key()), nullptr) << "its picture is gone";
+  EXPECT_EQ(store.find(other, run), nullptr);
+  const std::filesystem::path picture = folder_ / record.figures[0].file;
+  const std::string bytes = read_file(picture);
+  write_file(picture, bytes + "x");
+  EXPECT_EQ(store.find(key(), run), nullptr) << "its picture is another";
+  write_file(picture, bytes);
+  EXPECT_NE(store.find(key(), run), nullptr);
+  std::filesystem::remove(picture);
+  EXPECT_EQ(store.find(key(), run), nullptr) << "its picture is gone";
+}
+
+TEST_F(StoreTest, ResumeMeasuresAgainWhatAnotherBuildOrMachineMeasured) {
+  write_two(folder_);
+  const Store store(folder_);
+  const Record record = *store.find("hybrid.table2", "n=64", "quick");
+  const CaseKey key{record.experiment, record.case_name, record.profile,
+                    record.parameters, record.seed,      record.terrain_checksum};
+  const Provenance same = fake_provenance();
+  const auto found_after = [&](auto change) {
+    Provenance now = same;
+    change(now);
+    return store.find(key, now) != nullptr;
+  };
+  EXPECT_TRUE(
+      found_after([](Provenance& p) { p.time = "later", p.command = "run --resume", p.id = "other"; }));
+  EXPECT_FALSE(found_after([](Provenance& p) { p.git_revision = "fedcba"; }));
+  EXPECT_FALSE(found_after([](Provenance& p) { p.git_dirty = true; })) << "clean figures stay clean";
+  EXPECT_FALSE(found_after([](Provenance& p) { p.compiler = "Clang 15"; }));
+  EXPECT_FALSE(found_after([](Provenance& p) { p.flags = "-O2"; }));
+  EXPECT_FALSE(found_after([](Provenance& p) { p.cpu = "another"; }));
+  EXPECT_FALSE(found_after([](Provenance& p) { p.threads = 1; }));
+  EXPECT_FALSE(found_after([](Provenance& p) { p.simd = "SSE4"; }));
+}
+
+TEST_F(StoreTest, InterruptedRunOfADirtyBuildGoesOn) {
+  Provenance dirty = fake_provenance();
+  dirty.git_dirty = true;
+  dirty.id = digest(dirty);
+  Store store(folder_);
+  store.begin_run(dirty);
+  const Record record = timed(dirty, "n=64", 0.25);
+  store.append(record);
+  const CaseKey key{record.experiment, record.case_name, record.profile,
+                    record.parameters, record.seed,      std::nullopt};
+  dirty.time = "later";
+  EXPECT_NE(store.find(key, dirty), nullptr);
+}
+
+// A figure of the ledger is the newest that was drawn with the ledger's parameters, whichever case drew it.
+TEST_F(StoreTest, FigureIsTheNewestWithoutOverriddenParameters) {
+  Store store(folder_);
+  const Provenance run = fake_provenance();
+  store.begin_run(run);
+  const auto draw = [&](const std::string& name, const std::string& profile, const std::string& caption) {
+    Record record = fake_record(run, "e", name, profile);
+    record.figures = {{"p.F1", "figures/p.F1.png", caption, "0123"}};
+    store.append(record);
+  };
+  EXPECT_EQ(store.find_figure("p.F1", "quick").second, nullptr);
+  draw("a", "quick", "first");
+  draw("b", "quick", "second");
+  draw("c", "paper", "of another profile");
+  draw("b (n=3)", "quick", "overridden");
+  EXPECT_EQ(store.find_figure("p.F1", "quick").second->caption, "second");
+  draw("a", "quick", "third");
+  EXPECT_EQ(store.find_figure("p.F1", "quick").second->caption, "third");
+  EXPECT_EQ(store.find_figure("p.F1", "quick").first->case_name, "a");
+  EXPECT_EQ(Store(folder_).find_figure("p.F1", "quick").second->caption, "third");
+  EXPECT_EQ(store.find_figure("p.F2", "quick").first, nullptr);
 }
 
 }  // namespace
