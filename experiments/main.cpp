@@ -82,6 +82,7 @@ void add_run(CLI::App& app, Arguments& a) {
 void add_results(CLI::App& app, Arguments& a) {
   auto* check = app.add_subcommand("check", "Verdict of every ledger row; exit 0 only when each is as known");
   check->add_option("dir", a.check.folder, "Results folder")->capture_default_str();
+  check->add_option("--rows", a.check.rows, "Only these rows: ids or globs such as 'hybrid.T1.*'");
   check->add_flag("--json", a.check.json, "Print JSON");
   check->add_option("--junit", a.check.junit, "Also write JUnit XML for a CI server");
   auto* report =

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "renderers/context.h"
+#include "results/glob.h"
 #include "results/provenance.h"
 #include "results/store.h"
 #include "terrain/error.h"
@@ -67,21 +68,12 @@ void apply(const std::vector<std::string>& assignments, std::vector<PlannedCase>
 
 }  // namespace
 
-bool matches(std::string_view pattern, std::string_view text) {
-  if (pattern.empty()) return text.empty();
-  if (pattern[0] == '*') {
-    return matches(pattern.substr(1), text) || (!text.empty() && matches(pattern, text.substr(1)));
-  }
-  return !text.empty() && (pattern[0] == '?' || pattern[0] == text[0]) &&
-         matches(pattern.substr(1), text.substr(1));
-}
-
 std::vector<PlannedCase> plan_cases(const RunPlan& plan) {
   for (const std::string& terrain : plan.options.terrains) check_terrain(terrain);
   std::vector<std::string_view> ids;
   for (const Experiment& experiment : experiments()) ids.push_back(experiment.id);
   for (const std::string& pattern : plan.patterns) {
-    if (std::none_of(ids.begin(), ids.end(), [&](auto id) { return matches(pattern, id); })) {
+    if (std::none_of(ids.begin(), ids.end(), [&](auto id) { return matches_glob(pattern, id); })) {
       throw unknown_name("experiment", pattern, ids);
     }
   }
@@ -89,7 +81,7 @@ std::vector<PlannedCase> plan_cases(const RunPlan& plan) {
   for (const Experiment& experiment : experiments()) {
     const bool chosen = plan.patterns.empty() || std::any_of(plan.patterns.begin(), plan.patterns.end(),
                                                              [&](const std::string& pattern) {
-                                                               return matches(pattern, experiment.id);
+                                                               return matches_glob(pattern, experiment.id);
                                                              });
     if (!chosen) continue;
     for (Case& at : experiment.cases(plan.options)) cases.push_back({&experiment, std::move(at)});

@@ -32,7 +32,4 @@ std::vector<PlannedCase> plan_cases(const RunPlan&);
 // Error(kInterrupted) on Ctrl-C; the records so far stay.
 void run(const RunPlan&);
 
-// "hybrid.*" against "hybrid.table1".
-bool matches(std::string_view pattern, std::string_view text);
-
 }  // namespace terrabench

@@ -33,6 +33,7 @@ ExitCode represent_command(const RepresentArguments&);
 
 struct CheckArguments {
   std::filesystem::path folder = "out", junit;
+  std::vector<std::string> rows;  // ids or globs; empty: all
   bool json = false;
 };
 ExitCode check_command(const CheckArguments&);

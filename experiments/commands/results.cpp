@@ -11,7 +11,7 @@
 namespace terrabench {
 
 ExitCode check_command(const CheckArguments& arguments) {
-  const CheckReport report = check(arguments.folder);
+  const CheckReport report = check(arguments.folder, arguments.rows);
   fmt::print("{}", arguments.json ? check_json(report) : check_text(report, isatty(STDOUT_FILENO) != 0));
   if (!arguments.junit.empty()) write_file(arguments.junit, check_junit(report));
   return report.passed() ? ExitCode::kGood : ExitCode::kClaimFallsShort;
@@ -26,7 +26,7 @@ ExitCode compare_command(const CompareArguments& arguments) {
   const Comparison comparison = compare(arguments.before, arguments.after);
   fmt::print(
       "{}", arguments.json ? compare_json(comparison) : compare_text(comparison, isatty(STDOUT_FILENO) != 0));
-  return comparison.exact_equal() ? ExitCode::kGood : ExitCode::kClaimFallsShort;
+  return comparison.exact_equal() && comparison.faults.empty() ? ExitCode::kGood : ExitCode::kClaimFallsShort;
 }
 
 }  // namespace terrabench

@@ -157,9 +157,7 @@ TEST_F(CommandLine, TheSameSeedGivesTheSamePicturesOnAnyThreadCount) {
 }
 
 TEST_F(CommandLine, InterruptKeepsRecordsExits130AndResumes) {
-  // Small cases first, then one of minutes that the signal finds at work.
-  const pid_t child = start(
-      "exec $T run hybrid.noise-stages hybrid.table2 --profile quick --set n=1024 --set pixels=16 --out out");
+  const pid_t child = start("exec $T run hybrid.noise-stages --set pixels=4000 --out out");
   const fs::path measurements = folder_ / "out/measurements.jsonl";
   const auto lines = [&] {
     std::ifstream in(measurements);
@@ -171,8 +169,13 @@ TEST_F(CommandLine, InterruptKeepsRecordsExits130AndResumes) {
   const Outcome outcome = wait(child);
   EXPECT_EQ(outcome.code, 130) << outcome.text;
   EXPECT_THAT(outcome.text, HasSubstr("interrupted"));
-  EXPECT_GE(lines(), 2);
+  const auto kept = lines();
+  EXPECT_GE(kept, 2);
   EXPECT_EQ(temporary_files(), 0U);
+  // Goes on from there: the first stage is not measured again.
+  const Outcome resumed =
+      call("$T run hybrid.noise-stages --set pixels=4000 --shard 1/11 --out out --resume");
+  EXPECT_THAT(resumed.text, HasSubstr("already there"));
 }
 
 TEST_F(CommandLine, FullOrUnwritableOutputExits4AndLeavesNothingHalf) {
@@ -186,18 +189,31 @@ TEST_F(CommandLine, FullOrUnwritableOutputExits4AndLeavesNothingHalf) {
   EXPECT_EQ(temporary_files(), 0U);
 }
 
-TEST_F(CommandLine, CheckFailsWhenAFigureIsAltered) {
-  ASSERT_EQ(call("$T run hybrid.noise-stages --out out").code, 0);
-  EXPECT_THAT(call("$T check out").text, HasSubstr("hybrid.F3"));
-  const std::string lines = read_file(folder_ / "out/measurements.jsonl");
+TEST_F(CommandLine, CheckPassesOnTrueMeasurementsAndFailsOnAlteredOnes) {
+  const Outcome measured = call("$T run hybrid.table1 hybrid.caves --out out");
+  ASSERT_EQ(measured.code, 0) << measured.text;
+  const std::string rows = "$T check out --rows 'hybrid.T1.*' hybrid.caves";
+  const Outcome good = call(rows);
+  ASSERT_EQ(good.code, 0) << good.text;
+  // One more digit in a figure: the structure would still be smaller than the paper's.
+  const fs::path file = folder_ / "out/measurements.jsonl";
+  const std::string lines = read_file(file);
+  const std::size_t metric = lines.find("stack_bytes_per_column");
+  ASSERT_NE(metric, std::string::npos);
   std::string altered = lines;
-  const std::size_t at = altered.find("\"samples\":[");
-  ASSERT_NE(at, std::string::npos);
-  altered.insert(at + 11, "7");
-  write_file(folder_ / "out/measurements.jsonl", altered);
-  const Outcome outcome = call("$T check out");
-  EXPECT_EQ(outcome.code, 1) << outcome.text;
-  EXPECT_THAT(outcome.text, HasSubstr("altered"));
+  altered.insert(altered.find('[', metric) + 1, "1");
+  ASSERT_NE(altered, lines);
+  write_file(file, altered);
+  const Outcome caught = call(rows);
+  EXPECT_EQ(caught.code, 1) << caught.text;
+  EXPECT_THAT(caught.text, HasSubstr("altered"));
+}
+
+TEST_F(CommandLine, OutputThatCannotBeWrittenExits4) {
+  EXPECT_EQ(call("$T list > /dev/full").code, 4);
+  EXPECT_EQ(call("$T represent jacksboro --as heightmap --render /dev/null").code, 4);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_EQ(call("$T info " + std::string(300, 'x')).code, 3);
 }
 
 TEST_F(CommandLine, APartialRunStillMakesAReport) {

@@ -21,15 +21,6 @@ std::vector<std::string> names(const RunPlan& plan) {
   return out;
 }
 
-TEST(Globs, MatchWholeTexts) {
-  EXPECT_TRUE(matches("hybrid.*", "hybrid.table1"));
-  EXPECT_TRUE(matches("*", ""));
-  EXPECT_TRUE(matches("h?brid.t*1", "hybrid.table1"));
-  EXPECT_FALSE(matches("hybrid", "hybrid.table1"));
-  EXPECT_FALSE(matches("", "hybrid.table1"));
-  EXPECT_FALSE(matches("hybrid.table1?", "hybrid.table1"));
-}
-
 TEST(Plan, ExperimentIdsAndCasesAreUnique) {
   for (const Profile profile : {Profile::kQuick, Profile::kPaper}) {
     RunPlan plan;
