@@ -12,7 +12,8 @@
 
 namespace terrabench {
 
-// One measured quantity with its raw samples, in the order taken; exact quantities have one sample.
+// One measured quantity with its raw samples, in the order taken; exact quantities have one sample. All
+// finite.
 struct Metric {
   std::string name, unit;  // unit: "s", "B", "m", "1/s", "" for counts
   std::vector<double> samples;
@@ -48,13 +49,5 @@ struct Record {
 
   const Metric* find(std::string_view metric) const;  // null when absent
 };
-
-// Order statistics of raw samples.
-struct Summary {
-  std::size_t count = 0;
-  double median = 0, low = 0,
-         high = 0;  // low, high: 95 % bootstrap interval of the median; equal to it for one sample
-};
-Summary summarise(const std::vector<double>& samples);
 
 }  // namespace terrabench

@@ -138,7 +138,7 @@ Heightfield fill_no_data(const Heightfield& field) {
   for (std::size_t k = levels.size() - 1; k > 0; --k) {
     const std::vector<float> pushed = levels[k - 1].heights;
     fill_level(pushed.data(), levels[k], levels[k - 1]);
-    levels[k].heights = {};
+    levels.pop_back();
   }
   Level finest{field.width, field.depth, field.heights};
   fill_level(field.heights.data(), levels[0], finest);

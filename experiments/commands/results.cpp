@@ -26,7 +26,7 @@ ExitCode compare_command(const CompareArguments& arguments) {
   const Comparison comparison = compare(arguments.before, arguments.after);
   fmt::print(
       "{}", arguments.json ? compare_json(comparison) : compare_text(comparison, isatty(STDOUT_FILENO) != 0));
-  return ExitCode::kGood;
+  return comparison.exact_equal() ? ExitCode::kGood : ExitCode::kClaimFallsShort;
 }
 
 }  // namespace terrabench

@@ -66,6 +66,23 @@ GDALRasterBand& choose_band(GDALDataset& dataset, int number, const std::string&
   return band;
 }
 
+// Some raw formats read what lies beyond the file's end as zeros without a word (ENVI allows sparse files).
+void check_raw_length(GDALDataset& dataset, int band, const std::string& where) {
+  GDALDataset::RawBinaryLayout layout;
+  VSIStatBufL file;
+  if (!dataset.GetRawBinaryLayout(layout) || VSIStatL(layout.osRawFilename.c_str(), &file) != 0) return;
+  // In double: the offsets come from the file and may be anything.
+  const auto stretch = [](int count, GIntBig step) { return (count - 1.0) * static_cast<double>(step); };
+  const double needed = static_cast<double>(layout.nImageOffset) + stretch(band, layout.nBandOffset) +
+                        std::max(0.0, stretch(dataset.GetRasterYSize(), layout.nLineOffset)) +
+                        std::max(0.0, stretch(dataset.GetRasterXSize(), layout.nPixelOffset)) +
+                        GDALGetDataTypeSizeBytes(layout.eDataType);
+  if (static_cast<double>(file.st_size) < needed) {
+    throw bad_input(fmt::format("its pixels need {:.0f} bytes, but there are {}", needed, file.st_size),
+                    where, "the file was cut short: fetch it again");
+  }
+}
+
 DemWindow choose_window(GDALDataset& dataset, const DemWindow& asked, const std::string& where) {
   const int width = dataset.GetRasterXSize(), depth = dataset.GetRasterYSize();
   if (asked.width == 0 && asked.depth == 0 && asked.x == 0 && asked.y == 0) return {0, 0, width, depth};
@@ -365,6 +382,7 @@ Dem read(const std::string& path, const DemOptions& options, Progress* progress)
   Dem dem;
   dem.format = dataset->GetDriver() != nullptr ? dataset->GetDriver()->GetDescription() : "";
   GDALRasterBand& band = choose_band(*dataset, options.band, where, dem.notes);
+  check_raw_length(*dataset, options.band, where);
   const DemWindow window = choose_window(*dataset, options.window, where);
   const Placement placement = place_raster(*dataset, window, where, dem.notes);
   Reader reader(band, window, height_rule(band, where, dem.notes), messages, where);

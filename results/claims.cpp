@@ -1,0 +1,365 @@
+#include "results/claims.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "results/embedded.h"
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+constexpr std::string_view kVerdicts[] = {
+    "reproduced", "reproduced (shape)", "differs", "not comparable", "pending", "not run", "missing"};
+constexpr std::string_view kAllProfiles[] = {"quick", "paper"};
+
+[[noreturn]] void fail(const toml::node& node, const std::string& origin, std::string_view what) {
+  throw bad_input(what, fmt::format("{}:{}", origin, node.source().begin.line), "correct the claims file");
+}
+
+// One table of the file: every key is asked for by type, and one that nobody asked for is an error.
+class Entry {
+ public:
+  Entry(const toml::node& node, const std::string& origin) : node_(node), origin_(origin) {
+    if (!node.is_table()) refuse("a table is expected here");
+  }
+
+  [[noreturn]] void refuse(std::string_view what) const { fail(node_, origin_, what); }
+
+  const toml::node* find(std::string_view key) {
+    known_.insert(std::string(key));
+    return table().get(key);
+  }
+  const toml::node& get(std::string_view key) {
+    const toml::node* const node = find(key);
+    if (node == nullptr) refuse(fmt::format("'{}' is missing", key));
+    return *node;
+  }
+  std::string text(std::string_view key) { return text_of(get(key), key); }
+  std::string text_or(std::string_view key, std::string fallback) {
+    const toml::node* const node = find(key);
+    return node == nullptr ? std::move(fallback) : text_of(*node, key);
+  }
+  bool flag(std::string_view key) {
+    const toml::node* const node = find(key);
+    if (node != nullptr && !node->is_boolean()) refuse(fmt::format("'{}' is neither true nor false", key));
+    return node != nullptr && node->ref<bool>();
+  }
+  // An empty list when the key is absent.
+  std::vector<const toml::node*> list(std::string_view key) {
+    std::vector<const toml::node*> nodes;
+    const toml::node* const node = find(key);
+    if (node == nullptr) return nodes;
+    if (!node->is_array()) refuse(fmt::format("'{}' is not a list", key));
+    for (const toml::node& element : *node->as_array()) nodes.push_back(&element);
+    return nodes;
+  }
+  std::string text_of(const toml::node& node, std::string_view what) const {
+    if (!node.is_string()) fail(node, origin_, fmt::format("'{}' is not text", what));
+    return node.ref<std::string>();
+  }
+  double number_of(const toml::node& node, std::string_view what) const {
+    const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!value || !std::isfinite(*value))
+      fail(node, origin_, fmt::format("'{}' is not a finite number", what));
+    return *value;
+  }
+  // Two elements.
+  std::pair<const toml::node*, const toml::node*> pair_of(const toml::node& node,
+                                                          std::string_view what) const {
+    const toml::array* const array = node.as_array();
+    if (array == nullptr || array->size() != 2) fail(node, origin_, fmt::format("'{}' is not a pair", what));
+    return {array->get(0), array->get(1)};
+  }
+  void refuse_unknown() const {
+    for (const auto& [key, value] : table()) {
+      if (!known_.contains(key.str())) fail(value, origin_, fmt::format("unknown key '{}'", key.str()));
+    }
+  }
+  const toml::table& table() const { return *node_.as_table(); }
+  const std::string& origin() const { return origin_; }
+
+ private:
+  const toml::node& node_;
+  const std::string& origin_;
+  std::set<std::string, std::less<>> known_;
+};
+
+Operand operand_from(const Entry& entry, const toml::node& node) {
+  Operand operand;
+  if (!node.is_string()) {
+    operand.number = entry.number_of(node, "operand");
+    return operand;
+  }
+  const std::string path = node.ref<std::string>();
+  const std::size_t first = path.find('/'), last = path.rfind('/');
+  if (first == path.npos || first == last || first == 0 || last + 1 == path.size()) {
+    fail(node, entry.origin(), "an operand is a number or \"experiment/case/metric\"");
+  }
+  operand.experiment = path.substr(0, first);
+  operand.case_name = path.substr(first + 1, last - first - 1);
+  operand.metric = path.substr(last + 1);
+  return operand;
+}
+
+Condition condition_from(const toml::node& node, const std::string& origin) {
+  using Kind = Condition::Kind;
+  struct Form {
+    std::string_view key;
+    Kind kind;
+    std::size_t fewest, most;
+    bool range;
+  };
+  constexpr Form kForms[] = {{"equal", Kind::kEqual, 2, 16, false},
+                             {"order", Kind::kOrder, 2, 16, false},
+                             {"within", Kind::kWithin, 1, 1, true},
+                             {"ratio", Kind::kRatio, 2, 2, true},
+                             {"growth", Kind::kGrowth, 2, 2, true}};
+  Entry entry(node, origin);
+  Condition condition;
+  if (entry.find("figure") != nullptr) {
+    condition.kind = Kind::kFigure;
+    condition.figure = entry.text("figure");
+    entry.refuse_unknown();
+    return condition;
+  }
+  const auto* const form = std::find_if(std::begin(kForms), std::end(kForms),
+                                        [&](const Form& f) { return entry.table().contains(f.key); });
+  if (form == std::end(kForms)) {
+    entry.refuse("a check is one of equal, order, within, ratio, growth, figure");
+  }
+  condition.kind = form->kind;
+  for (const toml::node* const operand : entry.list(form->key)) {
+    condition.operands.push_back(operand_from(entry, *operand));
+  }
+  if (condition.operands.size() < form->fewest || condition.operands.size() > form->most) {
+    entry.refuse(fmt::format("'{}' takes {} to {} operands", form->key, form->fewest, form->most));
+  }
+  if (form->range) {
+    const auto [low, high] = entry.pair_of(entry.get("range"), "range");
+    condition.low = entry.number_of(*low, "range");
+    condition.high = entry.number_of(*high, "range");
+    if (condition.low > condition.high) entry.refuse("the range is empty");
+  }
+  entry.refuse_unknown();
+  return condition;
+}
+
+Claim claim_from(const toml::node& node, const std::string& origin) {
+  Entry entry(node, origin);
+  Claim claim;
+  claim.id = entry.text("id");
+  claim.where = entry.text("where");
+  claim.statement = entry.text("statement");
+  const std::string type = entry.text("class");
+  if (type.size() != 1 || std::string_view("ETSFQ").find(type[0]) == std::string_view::npos) {
+    entry.refuse("'class' is one of E, T, S, F, Q");
+  }
+  claim.type = type[0];
+  for (const toml::node* const value : entry.list("reported")) {
+    claim.reported.push_back(entry.number_of(*value, "reported"));
+  }
+  claim.unit = entry.text_or("unit", "");
+  claim.tolerance = entry.text_or("tolerance", "");
+  claim.note = entry.text_or("note", "");
+  claim.pending = entry.text_or("pending", "");
+  claim.not_comparable = entry.text_or("not_comparable", "");
+  for (const toml::node* const profile : entry.list("profiles")) {
+    claim.profiles.push_back(entry.text_of(*profile, "profiles"));
+  }
+  if (claim.profiles.empty()) claim.profiles.assign(std::begin(kAllProfiles), std::end(kAllProfiles));
+  for (const toml::node* const condition : entry.list("check")) {
+    claim.conditions.push_back(condition_from(*condition, origin));
+  }
+  const bool measured = claim.pending.empty() && claim.not_comparable.empty();
+  if (measured == claim.conditions.empty()) {
+    entry.refuse(
+        fmt::format("{} needs either 'check' or a reason in 'pending' or 'not_comparable'", claim.id));
+  }
+  const Verdict usual = !claim.not_comparable.empty() ? Verdict::kNotComparable
+                        : claim.type == 'S'           ? Verdict::kShape
+                                                      : Verdict::kReproduced;
+  const std::string known = entry.text_or("known", std::string(name(usual)));
+  const auto* const verdict = std::find(std::begin(kVerdicts), std::end(kVerdicts), known);
+  if (verdict == std::end(kVerdicts)) entry.refuse(fmt::format("'{}' is no verdict", known));
+  claim.known = static_cast<Verdict>(verdict - std::begin(kVerdicts));
+  entry.refuse_unknown();
+  return claim;
+}
+
+TableLayout::Row row_from(const toml::node& node, const std::string& origin) {
+  Entry entry(node, origin);
+  TableLayout::Row row{entry.text("label"), entry.text("case"), {}};
+  for (const auto& [key, value] : entry.table()) {
+    if (key == "label" || key == "case") continue;
+    if (value.is_string()) {
+      row.values.emplace(key.str(), value.ref<std::string>());
+    } else {
+      row.values.emplace(key.str(), entry.number_of(value, key.str()));
+    }
+  }
+  return row;
+}
+
+TableLayout::Column column_from(const toml::node& node, const std::string& origin) {
+  using Kind = TableLayout::Column::Kind;
+  constexpr std::pair<std::string_view, Kind> kKinds[] = {{"reported", Kind::kReported},
+                                                          {"metric", Kind::kMetric},
+                                                          {"interval", Kind::kInterval},
+                                                          {"speed_up", Kind::kSpeedUp},
+                                                          {"verdict", Kind::kVerdict}};
+  Entry entry(node, origin);
+  TableLayout::Column column;
+  column.title = entry.text("title");
+  column.unit = entry.text_or("unit", "");
+  const auto* const kind = std::find_if(std::begin(kKinds), std::end(kKinds),
+                                        [&](const auto& k) { return entry.table().contains(k.first); });
+  if (kind == std::end(kKinds)) {
+    entry.refuse("a column is one of reported, metric, interval, speed_up, verdict");
+  }
+  column.kind = kind->second;
+  if (column.kind == Kind::kSpeedUp) {
+    const auto [key, metric] = entry.pair_of(entry.get("speed_up"), "speed_up");
+    column.key = entry.text_of(*key, "speed_up");
+    column.metric = entry.text_of(*metric, "speed_up");
+  } else {
+    const bool measured = column.kind == Kind::kMetric || column.kind == Kind::kInterval;
+    (measured ? column.metric : column.key) = entry.text(kind->first);
+  }
+  entry.refuse_unknown();
+  return column;
+}
+
+TableLayout table_from(const toml::node& node, const std::string& origin) {
+  Entry entry(node, origin);
+  TableLayout table;
+  table.id = entry.text("id");
+  table.title = entry.text("title");
+  table.caption = entry.text("caption");
+  table.experiment = entry.text("experiment");
+  table.rows_title = entry.text("rows_title");
+  for (const toml::node* const row : entry.list("rows")) table.rows.push_back(row_from(*row, origin));
+  for (const toml::node* const column : entry.list("columns")) {
+    table.columns.push_back(column_from(*column, origin));
+  }
+  if (table.rows.empty() || table.columns.empty()) entry.refuse("a table needs rows and columns");
+  entry.refuse_unknown();
+  return table;
+}
+
+PlotLayout::Axis axis_from(const toml::node& node, const std::string& origin) {
+  Entry entry(node, origin);
+  PlotLayout::Axis axis{entry.text("label"), entry.text_or("unit", ""), entry.flag("log")};
+  entry.refuse_unknown();
+  return axis;
+}
+
+PlotLayout::Series series_from(const toml::node& node, const std::string& origin) {
+  Entry entry(node, origin);
+  PlotLayout::Series series;
+  series.label = entry.text("label");
+  series.slope = entry.flag("slope");
+  for (const toml::node* const point : entry.list("values")) {
+    const auto [x, y] = entry.pair_of(*point, "values");
+    series.values.emplace_back(entry.number_of(*x, "values"), entry.number_of(*y, "values"));
+  }
+  for (const toml::node* const point : entry.list("cases")) {
+    const auto [x, case_name] = entry.pair_of(*point, "cases");
+    series.cases.emplace_back(entry.number_of(*x, "cases"), entry.text_of(*case_name, "cases"));
+  }
+  if (series.values.empty() == series.cases.empty()) entry.refuse("a series has either 'values' or 'cases'");
+  if (!series.cases.empty()) {
+    series.experiment = entry.text("experiment");
+    series.metric = entry.text("metric");
+  }
+  entry.refuse_unknown();
+  return series;
+}
+
+PlotLayout plot_from(const toml::node& node, const std::string& origin) {
+  Entry entry(node, origin);
+  PlotLayout plot;
+  plot.id = entry.text("id");
+  plot.title = entry.text("title");
+  plot.caption = entry.text("caption");
+  plot.x = axis_from(entry.get("x"), origin);
+  plot.y = axis_from(entry.get("y"), origin);
+  for (const toml::node* const series : entry.list("series"))
+    plot.series.push_back(series_from(*series, origin));
+  if (plot.series.empty()) entry.refuse("a plot needs series");
+  entry.refuse_unknown();
+  return plot;
+}
+
+// Ids become file names and anchors.
+void check_ids(const Paper& paper, const std::string& origin) {
+  std::set<std::string_view> seen;
+  const auto check = [&](std::string_view id) {
+    constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
+    if (id.empty() || id[0] == '.' || id.find_first_not_of(kPlain) != id.npos) {
+      throw bad_input(fmt::format("'{}' is no id: letters, digits, '.', '_' and '-' only", id), origin,
+                      "correct the claims file");
+    }
+    if (!seen.insert(id).second) {
+      throw bad_input(fmt::format("the id '{}' is used twice", id), origin, "correct the claims file");
+    }
+  };
+  check(paper.id);
+  for (const Claim& claim : paper.claims) check(claim.id);
+  for (const TableLayout& table : paper.tables) check(table.id);
+  for (const PlotLayout& plot : paper.plots) check(plot.id);
+}
+
+}  // namespace
+
+std::string_view name(Verdict verdict) { return kVerdicts[static_cast<std::size_t>(verdict)]; }
+
+Paper parse_claims(std::string_view text, const std::string& origin) {
+  toml::table file;
+  try {
+    file = toml::parse(text, origin);
+  } catch (const toml::parse_error& error) {
+    throw bad_input(error.description(), fmt::format("{}:{}", origin, error.source().begin.line),
+                    "correct the claims file");
+  }
+  Entry entry(file, origin);
+  Paper paper{entry.text("paper"), entry.text("title"), entry.text("source"), {}, {}, {}};
+  for (const toml::node* const claim : entry.list("claim"))
+    paper.claims.push_back(claim_from(*claim, origin));
+  for (const toml::node* const table : entry.list("table"))
+    paper.tables.push_back(table_from(*table, origin));
+  for (const toml::node* const plot : entry.list("plot")) paper.plots.push_back(plot_from(*plot, origin));
+  entry.refuse_unknown();
+  check_ids(paper, origin);
+  return paper;
+}
+
+std::span<const Paper> papers() {
+  static const std::vector<Paper> kPapers = [] {
+    constexpr std::string_view kOrder[] = {"hybrid", "ght", "drill", "mrbsp", "meshgrow", "cross"};
+    std::vector<Paper> all;
+    for (const EmbeddedFile& file : embedded_claims())
+      all.push_back(parse_claims(file.text, std::string(file.name)));
+    const auto rank = [&](const Paper& paper) {
+      return std::find(std::begin(kOrder), std::end(kOrder), paper.id) - std::begin(kOrder);
+    };
+    std::stable_sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    return all;
+  }();
+  return kPapers;
+}
+
+std::vector<const Claim*> claims() {
+  std::vector<const Claim*> all;
+  for (const Paper& paper : papers()) {
+    for (const Claim& claim : paper.claims) all.push_back(&claim);
+  }
+  return all;
+}
+
+}  // namespace terrabench

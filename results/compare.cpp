@@ -1,0 +1,155 @@
+#include "results/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "results/format.h"
+
+namespace terrabench {
+namespace {
+
+constexpr std::string_view kNames[] = {"same",       "rose",        "fell",      "differs",
+                                       "unresolved", "only before", "only after"};
+
+Change judge(const Metric& before, const Metric& after, const Summary& ratio) {
+  if (!is_timing(before.unit) || before.unit != after.unit) {
+    return before.unit == after.unit && before.samples == after.samples ? Change::kSame : Change::kDiffers;
+  }
+  if (before.samples.size() < 2 || after.samples.size() < 2 || !std::isfinite(ratio.median)) {
+    return Change::kUnresolved;
+  }
+  return ratio.low > 1 ? Change::kRose : ratio.high < 1 ? Change::kFell : Change::kSame;
+}
+
+bool same_ground(const Record& a, const Record& b) {
+  auto left = a.parameters, right = b.parameters;
+  std::sort(left.begin(), left.end());
+  std::sort(right.begin(), right.end());
+  return a.seed == b.seed && left == right && a.terrain_checksum == b.terrain_checksum;
+}
+
+MetricChange described(const Record& record, const Metric& metric) {
+  MetricChange change;
+  change.experiment = record.experiment;
+  change.case_name = record.case_name;
+  change.profile = record.profile;
+  change.metric = metric.name;
+  change.unit = metric.unit;
+  return change;
+}
+
+void add_only(const Record& record, const Metric& metric, bool before, Comparison& out) {
+  MetricChange change = described(record, metric);
+  change.change = before ? Change::kOnlyBefore : Change::kOnlyAfter;
+  (before ? change.before : change.after) = summarise(metric.samples).median;
+  out.metrics.push_back(std::move(change));
+}
+
+void add_both(const Record& record, const Record& other, const Metric& before, const Metric& after,
+              Comparison& out) {
+  MetricChange change = described(record, before);
+  change.before = summarise(before.samples).median;
+  change.after = summarise(after.samples).median;
+  change.ratio = summarise_ratio(after.samples, before.samples);
+  change.change = judge(before, after, change.ratio);
+  change.same_ground = same_ground(record, other);
+  out.metrics.push_back(std::move(change));
+}
+
+bool one_sided(const MetricChange& m) {
+  return m.change == Change::kOnlyBefore || m.change == Change::kOnlyAfter;
+}
+
+}  // namespace
+
+std::string_view name(Change change) { return kNames[static_cast<std::size_t>(change)]; }
+
+bool Comparison::exact_equal() const {
+  return std::none_of(metrics.begin(), metrics.end(),
+                      [](const auto& m) { return m.change == Change::kDiffers; });
+}
+
+Comparison compare(const std::filesystem::path& before, const std::filesystem::path& after) {
+  return compare(Store::open(before), Store::open(after));
+}
+
+Comparison compare(const Store& before, const Store& after) {
+  Comparison out;
+  for (const Record& record : before.records()) {
+    const Record* const other = after.find(record.experiment, record.case_name, record.profile);
+    for (const Metric& metric : record.metrics) {
+      const Metric* const match = other == nullptr ? nullptr : other->find(metric.name);
+      if (match == nullptr) {
+        add_only(record, metric, true, out);
+      } else {
+        add_both(record, *other, metric, *match, out);
+      }
+    }
+  }
+  for (const Record& record : after.records()) {
+    const Record* const other = before.find(record.experiment, record.case_name, record.profile);
+    for (const Metric& metric : record.metrics) {
+      if (other == nullptr || other->find(metric.name) == nullptr) add_only(record, metric, false, out);
+    }
+  }
+  return out;
+}
+
+std::string compare_text(const Comparison& comparison, bool colour) {
+  std::string text, heading;
+  std::array<int, std::size(kNames)> counts{};
+  for (const MetricChange& m : comparison.metrics) {
+    ++counts[static_cast<std::size_t>(m.change)];
+    const std::string title = fmt::format("{} {} ({}){}", m.experiment, m.case_name, m.profile,
+                                          m.same_ground ? "" : ": another seed, terrain or parameter");
+    if (title != heading) text += title + "\n";
+    heading = title;
+    const bool marked = m.change != Change::kSame && m.change != Change::kUnresolved;
+    const std::string_view paint = !colour || !marked ? "" : "\x1b[33m",
+                           plain = paint.empty() ? "" : "\x1b[0m";
+    text += fmt::format("  {} {:<26} {}{:<11}{}", marked ? '*' : ' ', m.metric, paint, name(m.change), plain);
+    if (one_sided(m)) {
+      text += fmt::format("  {}\n",
+                          format_quantity(m.change == Change::kOnlyBefore ? m.before : m.after, m.unit));
+      continue;
+    }
+    text += fmt::format("  {} → {}", format_quantity(m.before, m.unit), format_quantity(m.after, m.unit));
+    if (m.before != 0 && m.change != Change::kUnresolved && is_timing(m.unit)) {
+      text += fmt::format("  × {:.3f} [{:.3f}, {:.3f}]", m.ratio.median, m.ratio.low, m.ratio.high);
+    } else if (m.before != 0 && m.before != m.after) {
+      text += fmt::format("  × {:.4f}", m.ratio.median);
+    }
+    text += '\n';
+  }
+  std::string tally;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] > 0) tally += fmt::format("{}{} {}", tally.empty() ? "" : ", ", counts[i], kNames[i]);
+  }
+  return text + fmt::format("\n{}\n", tally.empty() ? "nothing to compare" : tally);
+}
+
+std::string compare_json(const Comparison& comparison) {
+  using Json = nlohmann::ordered_json;
+  Json list = Json::array();
+  for (const MetricChange& m : comparison.metrics) {
+    Json entry = {{"experiment", m.experiment}, {"case", m.case_name}, {"profile", m.profile},
+                  {"metric", m.metric},         {"unit", m.unit},      {"change", name(m.change)}};
+    if (m.change != Change::kOnlyAfter) entry["before"] = m.before;
+    if (m.change != Change::kOnlyBefore) entry["after"] = m.after;
+    if (!one_sided(m)) {
+      // JSON has no infinity: a ratio to zero is null.
+      entry["ratio"] = m.ratio.median;
+      entry["interval"] = {m.ratio.low, m.ratio.high};
+      entry["same_ground"] = m.same_ground;
+    }
+    list.push_back(std::move(entry));
+  }
+  const Json json = {{"exact_equal", comparison.exact_equal()}, {"metrics", list}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace terrabench

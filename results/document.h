@@ -1,0 +1,49 @@
+// The report as blocks, written as one HTML page that needs nothing from outside, and as Markdown.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "results/table.h"
+
+namespace terrabench {
+
+struct Link {
+  std::string text, target;  // a relative file, or #id
+};
+
+struct Heading {
+  int level;  // 1 is the page's title, 2 appears in the table of contents
+  std::string text, id;
+};
+struct Paragraph {
+  std::string text;
+  bool warning = false;
+};
+// Terms and what they mean, one a line.
+struct Facts {
+  std::vector<std::pair<std::string, std::string>> lines;
+};
+struct TableBlock {
+  Table table;
+  std::vector<Link> links;  // where it came from, other forms
+};
+struct Picture {
+  std::string title, caption, file;  // file: for HTML
+  std::string bitmap;                // for Markdown, when it differs
+  std::vector<Link> links;
+};
+// Pictures side by side where there is room; a single one is wide.
+struct Gallery {
+  std::vector<Picture> pictures;
+};
+
+using Block = std::variant<Heading, Paragraph, Facts, TableBlock, Gallery>;
+using Document = std::vector<Block>;
+
+std::string html(const Document&);
+std::string markdown(const Document&);
+
+}  // namespace terrabench

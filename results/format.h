@@ -1,0 +1,22 @@
+// How numbers and text look to people, and in each of the languages that we write.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace terrabench {
+
+// Whole numbers in full with thousands separators, others with four significant digits: 393,216
+// 0.1423  1.5e-07.
+std::string format_number(double);
+// "393,216 B", "0.1423 s", "12" for no unit.
+std::string format_quantity(double, std::string_view unit);
+// The shortest digits that read back the same: for CSV.
+std::string format_exact(double);
+
+std::string escape_html(std::string_view);  // also XML; control characters become spaces
+std::string escape_markdown(std::string_view);
+std::string escape_latex(std::string_view);
+std::string escape_csv(std::string_view);  // RFC 4180
+
+}  // namespace terrabench

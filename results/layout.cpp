@@ -1,0 +1,109 @@
+#include "results/layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "results/format.h"
+#include "results/statistics.h"
+
+namespace terrabench {
+namespace {
+
+using ColumnKind = TableLayout::Column::Kind;
+
+const Cell kNothing{"–", "", "", ""};
+
+void note_run(std::vector<std::string>& runs, const Record& record) {
+  if (std::find(runs.begin(), runs.end(), record.run) == runs.end()) runs.push_back(record.run);
+}
+
+Cell number_cell(double number) { return {format_number(number), format_exact(number), "", ""}; }
+
+Cell measured_cell(const TableLayout::Column& column, const TableLayout::Row& row, const Metric& metric) {
+  const Summary s = summarise(metric.samples);
+  if (column.kind == ColumnKind::kMetric) return number_cell(s.median);
+  if (column.kind == ColumnKind::kInterval) {
+    if (s.count == 1) return kNothing;
+    return {fmt::format("{} … {}", format_number(s.low), format_number(s.high)),
+            fmt::format("{} … {}", format_exact(s.low), format_exact(s.high)), "", ""};
+  }
+  const auto reported = row.values.find(column.key);
+  if (reported == row.values.end() || !std::holds_alternative<double>(reported->second)) return kNothing;
+  return number_cell(std::get<double>(reported->second) / s.median);
+}
+
+Cell cell_for(const TableLayout::Column& column, const TableLayout::Row& row, const Record* record,
+              const CheckReport& check) {
+  const auto value = row.values.find(column.key);
+  const bool given = value != row.values.end();
+  if (column.kind == ColumnKind::kReported) {
+    return given && std::holds_alternative<double>(value->second)
+               ? number_cell(std::get<double>(value->second))
+               : kNothing;
+  }
+  if (column.kind == ColumnKind::kVerdict) {
+    if (!given || !std::holds_alternative<std::string>(value->second)) return kNothing;
+    const std::string& id = std::get<std::string>(value->second);
+    const auto it =
+        std::find_if(check.rows.begin(), check.rows.end(), [&](const Row& r) { return r.claim->id == id; });
+    return it == check.rows.end() ? kNothing : verdict_cell(*it);
+  }
+  const Metric* const metric = record == nullptr ? nullptr : record->find(column.metric);
+  return metric == nullptr ? kNothing : measured_cell(column, row, *metric);
+}
+
+}  // namespace
+
+Cell verdict_cell(const Row& row) {
+  // The class is the verdict's last word, such as "shape" or "run".
+  constexpr std::string_view kClasses[] = {"reproduced", "shape", "differs", "incomparable",
+                                           "pending",    "unrun", "missing"};
+  return {std::string(name(row.verdict)), "", "",
+          "verdict " + std::string(kClasses[static_cast<std::size_t>(row.verdict)])};
+}
+
+FilledTable fill(const TableLayout& layout, const Store& store, const CheckReport& check) {
+  FilledTable filled;
+  filled.table = {layout.id, layout.title, layout.caption, {{layout.rows_title, "", false}}, {}};
+  for (const TableLayout::Column& column : layout.columns) {
+    filled.table.columns.push_back({column.title, column.unit, column.kind != ColumnKind::kVerdict});
+  }
+  for (const TableLayout::Row& row : layout.rows) {
+    const Record* const record = store.find(layout.experiment, row.case_name, check.profile);
+    if (record == nullptr && row.values.empty()) continue;
+    if (record != nullptr) note_run(filled.runs, *record);
+    std::vector<Cell> cells = {{row.label, "", "", ""}};
+    for (const TableLayout::Column& column : layout.columns)
+      cells.push_back(cell_for(column, row, record, check));
+    filled.table.rows.push_back(std::move(cells));
+  }
+  return filled;
+}
+
+FilledPlot fill(const PlotLayout& layout, const Store& store, const std::string& profile) {
+  FilledPlot filled{{layout.title,
+                     {layout.x.label, layout.x.unit, layout.x.log},
+                     {layout.y.label, layout.y.unit, layout.y.log},
+                     {}},
+                    {}};
+  for (const PlotLayout::Series& series : layout.series) {
+    PlotSeries& line = filled.plot.series.emplace_back();
+    line.label = series.label;
+    line.reported = series.cases.empty();
+    for (const auto& [x, y] : series.values) line.points.push_back({x, y, y, y});
+    for (const auto& [x, case_name] : series.cases) {
+      const Record* const record = store.find(series.experiment, case_name, profile);
+      const Metric* const metric = record == nullptr ? nullptr : record->find(series.metric);
+      if (metric == nullptr) continue;
+      note_run(filled.runs, *record);
+      const Summary s = summarise(metric->samples);
+      line.points.push_back({x, s.median, s.low, s.high});
+    }
+    if (!series.slope) continue;
+    if (const auto slope = power_law(line.points)) line.label += fmt::format(", slope {:.2f}", *slope);
+  }
+  return filled;
+}
+
+}  // namespace terrabench

@@ -1,0 +1,272 @@
+#include "results/plot.h"
+
+#include <fmt/format.h>
+#include <vtkAxis.h>
+#include <vtkBrush.h>
+#include <vtkChartLegend.h>
+#include <vtkChartXY.h>
+#include <vtkContext2D.h>
+#include <vtkContextScene.h>
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPen.h>
+#include <vtkPlotLine.h>
+#include <vtkStringArray.h>
+#include <vtkTable.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "results/format.h"
+#include "results/svg_device.h"
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+constexpr int kWidth = 880, kHeight = 560, kFontSize = 17;
+constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+
+// Okabe & Ito (2008): told apart by all kinds of colour vision, and in print.
+struct Style {
+  std::array<unsigned char, 3> colour;
+  int marker;
+};
+constexpr std::array<Style, 7> kStyles = {{{{0x00, 0x72, 0xB2}, vtkPlotPoints::CIRCLE},
+                                           {{0xD5, 0x5E, 0x00}, vtkPlotPoints::SQUARE},
+                                           {{0x00, 0x9E, 0x73}, vtkPlotPoints::DIAMOND},
+                                           {{0xCC, 0x79, 0xA7}, vtkPlotPoints::CROSS},
+                                           {{0xE6, 0x9F, 0x00}, vtkPlotPoints::PLUS},
+                                           {{0x56, 0xB4, 0xE9}, vtkPlotPoints::CIRCLE},
+                                           {{0x00, 0x00, 0x00}, vtkPlotPoints::SQUARE}}};
+
+// A line with error bars; the chart's coordinates are ours (already logarithms where the axis is
+// logarithmic).
+class ErrorBarLine : public vtkPlotLine {
+ public:
+  static ErrorBarLine* New();
+  vtkTypeMacro(ErrorBarLine, vtkPlotLine);
+
+  void set_bars(std::vector<std::array<float, 3>> bars, float cap) {
+    bars_ = std::move(bars);
+    cap_ = cap;
+  }
+  bool Paint(vtkContext2D* painter) override {
+    painter->ApplyPen(Pen);
+    painter->GetPen()->SetLineType(vtkPen::SOLID_LINE);
+    painter->GetPen()->SetWidth(1.5F);
+    for (const auto& [x, low, high] : bars_) {
+      painter->DrawLine(x, low, x, high);
+      painter->DrawLine(x - cap_, low, x + cap_, low);
+      painter->DrawLine(x - cap_, high, x + cap_, high);
+    }
+    return vtkPlotLine::Paint(painter);
+  }
+
+ protected:
+  ErrorBarLine() = default;
+
+ private:
+  std::vector<std::array<float, 3>> bars_;  // x, low, high
+  float cap_ = 0;
+};
+vtkStandardNewMacro(ErrorBarLine)
+
+    // What an axis shows: chart coordinates are logarithms on a logarithmic axis, so VTK needs to know of
+    // none.
+    struct Scale {
+  bool log = false;
+  double low = 0, high = 1;   // chart coordinates
+  std::vector<double> ticks;  // true values
+
+  double chart(double value) const { return log ? std::log10(value) : value; }
+};
+
+bool shown(const PlotAxis& axis, double value) { return std::isfinite(value) && (!axis.log || value > 0); }
+
+// 1, 2 or 5 times a power of ten, so that about five steps cover the span.
+double round_step(double span) {
+  const double step = span / 5, power = std::pow(10, std::floor(std::log10(step)));
+  const double mantissa = step / power;
+  return power * (mantissa <= 1.5 ? 1 : mantissa <= 3.5 ? 2 : mantissa <= 7.5 ? 5 : 10);
+}
+
+std::vector<double> log_ticks(double low, double high) {
+  std::vector<double> ticks;
+  const bool few = high - low < 2;  // decades
+  const int stride = std::max(1, static_cast<int>((high - low) / 8));
+  for (int power = static_cast<int>(std::floor(low)); power <= high; power += stride) {
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      const double value = digit * std::pow(10, power), at = std::log10(value);
+      if ((digit == 1 || few) && at >= low && at <= high) ticks.push_back(value);
+    }
+  }
+  return ticks;
+}
+
+// Values are those of all points; when they are few and the axis is logarithmic, each is a tick of its own.
+Scale scale_for(const PlotAxis& axis, std::vector<double> values, bool own_ticks, double margin) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  Scale scale{axis.log, 0, 1, {}};
+  scale.low = scale.chart(values.front());
+  scale.high = scale.chart(values.back());
+  // A linear axis starts at zero: bars and lines must not exaggerate.
+  if (!axis.log) scale.low = std::min(scale.low, 0.0);
+  double span = scale.high - scale.low;
+  if (span <= 0) span = axis.log ? 1 : std::max(1e-12, std::abs(scale.high));
+  if (axis.log || scale.low < 0) scale.low -= margin * span;
+  scale.high += margin * span;
+  if (axis.log && own_ticks && values.size() <= 8) {
+    scale.ticks = values;
+  } else if (axis.log) {
+    scale.ticks = log_ticks(scale.low, scale.high);
+  } else {
+    const double step = round_step(scale.high - scale.low);
+    for (double at = std::ceil(scale.low / step); at * step <= scale.high; ++at)
+      scale.ticks.push_back(at * step);
+  }
+  return scale;
+}
+
+void set_font(vtkTextProperty* property, bool bold) {
+  if (std::filesystem::exists(kFont)) {
+    property->SetFontFamily(VTK_FONT_FILE);
+    property->SetFontFile(kFont);
+  }
+  property->SetFontSize(kFontSize);
+  property->SetBold(bold);
+  property->SetItalic(0);
+  property->SetColor(0.1, 0.1, 0.1);
+}
+
+void set_axis(vtkAxis* axis, const PlotAxis& what, const Scale& scale) {
+  axis->SetTitle(what.unit.empty() ? what.label : fmt::format("{} [{}]", what.label, what.unit));
+  axis->SetBehavior(vtkAxis::FIXED);
+  axis->SetRange(scale.low, scale.high);
+  vtkNew<vtkDoubleArray> positions;
+  vtkNew<vtkStringArray> labels;
+  for (const double tick : scale.ticks) {
+    positions->InsertNextValue(scale.chart(tick));
+    labels->InsertNextValue(format_number(tick));
+  }
+  axis->SetCustomTickPositions(positions, labels);
+  set_font(axis->GetTitleProperties(), false);
+  set_font(axis->GetLabelProperties(), false);
+  axis->GetPen()->SetColor(60, 60, 60);
+  axis->GetPen()->SetWidth(1.4F);
+  axis->GetGridPen()->SetColor(222, 222, 222);
+  axis->GetGridPen()->SetWidth(1.0F);
+}
+
+void add_series(vtkChartXY* chart, const PlotSeries& series, std::size_t number, const Scale& x,
+                const Scale& y) {
+  vtkNew<vtkFloatArray> xs, ys;
+  xs->SetName("x");
+  ys->SetName("y");
+  std::vector<std::array<float, 3>> bars;
+  for (const PlotPoint& point : series.points) {
+    xs->InsertNextValue(static_cast<float>(x.chart(point.x)));
+    ys->InsertNextValue(static_cast<float>(y.chart(point.y)));
+    if (point.low < point.high && (!y.log || point.low > 0)) {
+      bars.push_back({static_cast<float>(x.chart(point.x)), static_cast<float>(y.chart(point.low)),
+                      static_cast<float>(y.chart(point.high))});
+    }
+  }
+  vtkNew<vtkTable> table;
+  table->AddColumn(xs);
+  table->AddColumn(ys);
+  vtkNew<ErrorBarLine> line;
+  const Style& style = kStyles[number % kStyles.size()];
+  line->SetInputData(table, 0, 1);
+  line->SetLabel(series.label);
+  line->SetColor(style.colour[0], style.colour[1], style.colour[2], 255);
+  line->SetWidth(2.5F);
+  line->GetPen()->SetLineType(series.reported ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
+  line->SetMarkerStyle(style.marker);
+  line->SetMarkerSize(11.0F);
+  line->set_bars(std::move(bars), static_cast<float>((x.high - x.low) * 0.008));
+  chart->AddPlot(line);
+}
+
+// The points that both axes can show, from left to right.
+std::vector<PlotSeries> showable(const Plot& plot) {
+  std::vector<PlotSeries> all = plot.series;
+  for (PlotSeries& series : all) {
+    std::erase_if(series.points,
+                  [&](const PlotPoint& p) { return !shown(plot.x, p.x) || !shown(plot.y, p.y); });
+    std::stable_sort(series.points.begin(), series.points.end(), [](auto& a, auto& b) { return a.x < b.x; });
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string plot_svg(const Plot& plot) {
+  const std::vector<PlotSeries> all = showable(plot);
+  std::vector<double> xs, ys;
+  for (const PlotSeries& series : all) {
+    for (const PlotPoint& point : series.points) {
+      xs.push_back(point.x);
+      ys.push_back(point.y);
+      if (shown(plot.y, point.low)) ys.push_back(point.low);
+      if (shown(plot.y, point.high)) ys.push_back(point.high);
+    }
+  }
+  if (xs.empty()) throw bad_input("there is no point to plot", plot.title, "measure the cases that it shows");
+  const Scale x = scale_for(plot.x, xs, true, 0.06), y = scale_for(plot.y, ys, false, 0.08);
+
+  vtkNew<vtkChartXY> chart;
+  chart->SetAutoSize(false);
+  chart->SetSize(vtkRectf(0, 0, kWidth - 12, kHeight - 8));
+  set_axis(chart->GetAxis(vtkAxis::BOTTOM), plot.x, x);
+  set_axis(chart->GetAxis(vtkAxis::LEFT), plot.y, y);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!all[i].points.empty()) add_series(chart, all[i], i, x, y);
+  }
+  chart->SetShowLegend(true);
+  set_font(chart->GetLegend()->GetLabelProperties(), false);
+  chart->GetLegend()->SetSymbolWidth(44);
+  chart->GetLegend()->SetPadding(8);
+  chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);
+  chart->GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);
+  chart->GetLegend()->GetPen()->SetColor(200, 200, 200);
+
+  vtkNew<vtkContextScene> scene;
+  scene->AddItem(chart);
+  scene->SetGeometry(kWidth, kHeight);
+  vtkNew<SvgDevice> device;
+  vtkNew<vtkContext2D> painter;
+  // The first painting lays the chart out, the second draws it there.
+  for (int pass = 0; pass < 2; ++pass) {
+    device->start(kWidth, kHeight);
+    painter->Begin(device);
+    scene->Paint(painter);
+    painter->End();
+  }
+  return device->svg(plot.title);
+}
+
+std::optional<double> power_law(std::span<const PlotPoint> points) {
+  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (const PlotPoint& point : points) {
+    if (!(point.x > 0 && point.y > 0)) continue;
+    const double x = std::log(point.x), y = std::log(point.y);
+    n += 1;
+    sx += x;
+    sy += y;
+    sxx += x * x;
+    sxy += x * y;
+  }
+  const double spread = n * sxx - sx * sx;
+  if (n < 2 || spread <= 1e-12 * std::abs(n * sxx)) return std::nullopt;
+  return (n * sxy - sx * sy) / spread;
+}
+
+}  // namespace terrabench

@@ -1,0 +1,40 @@
+// Line plots with error bars on linear or logarithmic axes, painted by VTK's charts and written as SVG.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace terrabench {
+
+struct PlotPoint {
+  double x, y, low, high;  // low, high: the ends of the error bar, both equal to y for none
+};
+
+struct PlotSeries {
+  std::string label;
+  std::vector<PlotPoint> points;  // any order
+  bool reported = false;          // printed in a paper, not measured: dashed
+};
+
+struct PlotAxis {
+  std::string label, unit;
+  bool log = false;
+};
+
+struct Plot {
+  std::string title;  // for screen readers: a caption belongs to the page
+  PlotAxis x, y;
+  std::vector<PlotSeries> series;
+};
+
+// Points that a logarithmic axis cannot show are left out; throws bad_input when no point is left. Not
+// thread-safe (VTK's fonts are one object). The same plot gives the same bytes.
+std::string plot_svg(const Plot&);
+
+// The exponent of the power law through the points (least squares of the logarithms); nothing for fewer than
+// two distinct positive x.
+std::optional<double> power_law(std::span<const PlotPoint>);
+
+}  // namespace terrabench

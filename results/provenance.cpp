@@ -1,0 +1,123 @@
+#include "results/provenance.h"
+
+#include <fmt/format.h>
+#include <gdal_version.h>
+#include <png.h>
+#include <sys/utsname.h>
+#include <tbb/version.h>
+#include <vtkVersionMacros.h>
+#include <xxhash.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <glm/detail/setup.hpp>
+#include <thread>
+#if __has_include(<openvdb/version.h>)
+#include <openvdb/version.h>
+#endif
+
+#include "results/build_info.h"
+#include "results/record_json.h"
+#include "terrain/memory.h"
+
+namespace terrabench {
+namespace {
+
+// The value of the first line "key<separator>value" in a file of such lines.
+std::string value_in(const char* file, std::string_view key, char separator) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with(key)) continue;
+    const std::size_t at = line.find(separator);
+    if (at == line.npos) continue;
+    std::string value = line.substr(at + 1);
+    value.erase(0, value.find_first_not_of(" \t\""));
+    value.erase(value.find_last_not_of(" \t\"") + 1);
+    return value;
+  }
+  return "unknown";
+}
+
+std::string operating_system() {
+  utsname name{};
+  const std::string system = value_in("/etc/os-release", "PRETTY_NAME", '=');
+  return uname(&name) == 0 ? fmt::format("{}, {} {} {}", system, name.sysname, name.release, name.machine)
+                           : system;
+}
+
+std::string utc_time() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+std::string packed(int number, int step) {
+  return fmt::format("{}.{}.{}", number / (step * step), number / step % step, number % step);
+}
+
+std::vector<std::pair<std::string, std::string>> library_versions() {
+  return {
+      {"fmt", packed(FMT_VERSION, 100)},
+      {"GDAL", GDAL_RELEASE_NAME},
+      {"glm", fmt::format("{}.{}.{}", GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH)},
+      {"libpng", PNG_LIBPNG_VER_STRING},
+      {"oneTBB", TBB_VERSION_STRING},
+#ifdef OPENVDB_LIBRARY_VERSION_STRING
+      {"OpenVDB", OPENVDB_LIBRARY_VERSION_STRING},
+#endif
+      {"VTK", VTK_VERSION},
+      {"xxHash", packed(XXH_VERSION_NUMBER, 100)},
+      {"zstd", ZSTD_VERSION_STRING},
+  };
+}
+
+}  // namespace
+
+std::string quote_command(const std::vector<std::string>& arguments) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+  std::string command;
+  for (const std::string& argument : arguments) {
+    if (!command.empty()) command += ' ';
+    if (!argument.empty() && argument.find_first_not_of(kPlain) == argument.npos) {
+      command += argument;
+      continue;
+    }
+    command += '\'';
+    for (const char c : argument) command += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    command += '\'';
+  }
+  return command;
+}
+
+Provenance collect_provenance(const RunFacts& facts) {
+  Provenance p;
+  p.time = utc_time();
+  p.command = quote_command(facts.command);
+  p.git_revision = kGitRevision;
+  p.git_dirty = kGitDirty;
+  p.compiler = kCompiler;
+  p.flags = kFlags;
+  p.build_type = kBuildType;
+  p.cpu = value_in("/proc/cpuinfo", "model name", ':');
+  p.threads = facts.threads > 0 ? facts.threads : static_cast<int>(std::thread::hardware_concurrency());
+  p.memory = physical_memory();
+  p.os = operating_system();
+  p.gl_renderer = facts.gl_renderer;
+  p.simd = facts.simd;
+  p.libraries = library_versions();
+  for (const auto& library : facts.libraries) {
+    std::erase_if(p.libraries, [&](const auto& known) { return known.first == library.first; });
+    p.libraries.push_back(library);
+  }
+  std::sort(p.libraries.begin(), p.libraries.end());
+  p.id = digest(p);
+  return p;
+}
+
+}  // namespace terrabench

@@ -1,0 +1,267 @@
+#include "results/record_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "terrain/error.h"
+#include "terrain/files.h"
+
+namespace terrabench {
+namespace {
+
+using Json = nlohmann::json;
+
+// A line is an object of arrays of objects of arrays; anything deeper is no line of ours, and could exhaust
+// the stack.
+constexpr int kDeepest = 6;
+
+struct Damaged {
+  std::string what;
+};
+
+void require(bool good, std::string_view what) {
+  if (!good) throw Damaged{std::string(what)};
+}
+
+// nlohmann::json keeps keys sorted and prints doubles with the fewest digits that read back the same, so the
+// text of equal content is equal.
+std::string canonical(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+std::string sealed(Json json) {
+  json["digest"] = checksum(canonical(json));
+  return canonical(json);
+}
+
+void check_finite(double number, const std::string& name) {
+  if (!std::isfinite(number)) {
+    throw bad_input(fmt::format("{} cannot be recorded", number), name,
+                    "a measurement must be a finite number: the experiment is at fault");
+  }
+}
+
+Json to_json(const Value& value, const std::string& name) {
+  if (const auto* number = std::get_if<double>(&value)) check_finite(*number, name);
+  return std::visit([](const auto& v) { return Json(v); }, value);
+}
+
+Json to_json(const Provenance& p) {
+  Json libraries = Json::object();
+  for (const auto& [name, version] : p.libraries) libraries[name] = version;
+  return {{"kind", "run"},
+          {"time", p.time},
+          {"command", p.command},
+          {"git_revision", p.git_revision},
+          {"git_dirty", p.git_dirty},
+          {"compiler", p.compiler},
+          {"flags", p.flags},
+          {"build_type", p.build_type},
+          {"cpu", p.cpu},
+          {"threads", p.threads},
+          {"memory", p.memory},
+          {"os", p.os},
+          {"gl_renderer", p.gl_renderer},
+          {"simd", p.simd},
+          {"libraries", libraries}};
+}
+
+// One object of a line: typed access, and what was never asked for is what we do not know.
+class Fields {
+ public:
+  Fields(const Json& json, std::string_view what) : json_(json) {
+    require(json.is_object(), fmt::format("{} is not an object", what));
+  }
+
+  const Json& get(const char* name) {
+    known_.insert(name);
+    const auto it = json_.find(name);
+    require(it != json_.end(), fmt::format("'{}' is missing", name));
+    return *it;
+  }
+  std::string text(const char* name) {
+    const Json& value = get(name);
+    require(value.is_string(), fmt::format("'{}' is not text", name));
+    return value.get<std::string>();
+  }
+  // Names become keys, table cells and terminal output.
+  std::string name(const char* field) {
+    std::string value = text(field);
+    require(!value.empty() && value.size() <= 200, fmt::format("'{}' is empty or too long", field));
+    require(std::none_of(value.begin(), value.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }),
+            fmt::format("'{}' holds control characters", field));
+    return value;
+  }
+  std::uint64_t natural(const char* name) {
+    const Json& value = get(name);
+    require(value.is_number_unsigned(), fmt::format("'{}' is not a natural number", name));
+    return value.get<std::uint64_t>();
+  }
+  bool flag(const char* name) {
+    const Json& value = get(name);
+    require(value.is_boolean(), fmt::format("'{}' is neither true nor false", name));
+    return value.get<bool>();
+  }
+  const Json& array(const char* name) {
+    const Json& value = get(name);
+    require(value.is_array(), fmt::format("'{}' is not a list", name));
+    return value;
+  }
+  const Json& object(const char* name) {
+    const Json& value = get(name);
+    require(value.is_object(), fmt::format("'{}' is not an object", name));
+    return value;
+  }
+  void note_unknown(std::string& warning) const {
+    for (const auto& [key, value] : json_.items()) {
+      if (!known_.contains(key) && warning.empty())
+        warning = fmt::format("unknown field '{}' is ignored", key);
+    }
+  }
+
+ private:
+  const Json& json_;
+  std::set<std::string, std::less<>> known_;
+};
+
+Value value_from(const Json& json, const std::string& name) {
+  if (json.is_boolean()) return json.get<bool>();
+  if (json.is_number_integer()) return json.get<std::int64_t>();
+  if (json.is_number_float()) return json.get<double>();
+  require(json.is_string(), fmt::format("parameter '{}' is neither number, text, true nor false", name));
+  return json.get<std::string>();
+}
+
+Metric metric_from(const Json& json, std::string& warning) {
+  Fields fields(json, "a metric");
+  Metric metric{fields.name("name"), fields.text("unit"), {}};
+  const Json& samples = fields.array("samples");
+  require(!samples.empty(), fmt::format("metric '{}' has no samples", metric.name));
+  metric.samples.reserve(samples.size());
+  for (const Json& sample : samples) {
+    require(sample.is_number(), fmt::format("a sample of '{}' is not a number", metric.name));
+    metric.samples.push_back(sample.get<double>());
+  }
+  fields.note_unknown(warning);
+  return metric;
+}
+
+Figure figure_from(const Json& json, std::string& warning) {
+  Fields fields(json, "a figure");
+  Figure figure{fields.name("id"), fields.name("file"), fields.text("caption")};
+  const std::filesystem::path path(figure.file);
+  require(path.is_relative() && std::find(path.begin(), path.end(), "..") == path.end(),
+          fmt::format("figure '{}' lies outside the results folder", figure.id));
+  fields.note_unknown(warning);
+  return figure;
+}
+
+Record record_from(Fields& fields, std::string& warning) {
+  Record record;
+  record.experiment = fields.name("experiment");
+  record.case_name = fields.name("case");
+  record.profile = fields.name("profile");
+  record.run = fields.name("run");
+  record.seed = fields.natural("seed");
+  record.terrain = fields.text("terrain");
+  record.terrain_checksum = fields.text("terrain_checksum");
+  for (const auto& [name, value] : fields.object("parameters").items()) {
+    record.parameters.emplace_back(name, value_from(value, name));
+  }
+  for (const Json& metric : fields.array("metrics")) record.metrics.push_back(metric_from(metric, warning));
+  for (const Json& figure : fields.array("figures")) record.figures.push_back(figure_from(figure, warning));
+  return record;
+}
+
+Provenance provenance_from(Fields& fields) {
+  Provenance p;
+  p.time = fields.text("time");
+  p.command = fields.text("command");
+  p.git_revision = fields.text("git_revision");
+  p.git_dirty = fields.flag("git_dirty");
+  p.compiler = fields.text("compiler");
+  p.flags = fields.text("flags");
+  p.build_type = fields.text("build_type");
+  p.cpu = fields.text("cpu");
+  const std::uint64_t threads = fields.natural("threads");
+  require(threads < 1'000'000, "'threads' is too large");
+  p.threads = static_cast<int>(threads);
+  p.memory = fields.natural("memory");
+  p.os = fields.text("os");
+  p.gl_renderer = fields.text("gl_renderer");
+  p.simd = fields.text("simd");
+  for (const auto& [name, version] : fields.object("libraries").items()) {
+    require(version.is_string(), fmt::format("the version of '{}' is not text", name));
+    p.libraries.emplace_back(name, version.get<std::string>());
+  }
+  return p;
+}
+
+Line line_from(std::string_view text) {
+  Json json = Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
+    require(depth <= kDeepest, "is nested too deeply");
+    return true;
+  });
+  Fields fields(json, "the line");
+  Line line;
+  const std::string kind = fields.text("kind"), digest = fields.name("digest");
+  if (kind == "record") {
+    line.content = record_from(fields, line.warning);
+  } else {
+    require(kind == "run", "'kind' is neither 'run' nor 'record'");
+    line.content = provenance_from(fields);
+  }
+  fields.note_unknown(line.warning);
+  json.erase("digest");
+  line.altered = checksum(canonical(json)) != digest;
+  if (auto* run = std::get_if<Provenance>(&line.content)) run->id = digest;
+  return line;
+}
+
+}  // namespace
+
+std::string to_line(const Record& record) {
+  const std::string where = record.experiment + "/" + record.case_name + "/";
+  Json parameters = Json::object(), metrics = Json::array(), figures = Json::array();
+  for (const auto& [name, value] : record.parameters) parameters[name] = to_json(value, where + name);
+  for (const Metric& metric : record.metrics) {
+    for (const double sample : metric.samples) check_finite(sample, where + metric.name);
+    metrics.push_back({{"name", metric.name}, {"unit", metric.unit}, {"samples", metric.samples}});
+  }
+  for (const Figure& figure : record.figures) {
+    figures.push_back({{"id", figure.id}, {"file", figure.file}, {"caption", figure.caption}});
+  }
+  return sealed({{"kind", "record"},
+                 {"experiment", record.experiment},
+                 {"case", record.case_name},
+                 {"profile", record.profile},
+                 {"run", record.run},
+                 {"seed", record.seed},
+                 {"terrain", record.terrain},
+                 {"terrain_checksum", record.terrain_checksum},
+                 {"parameters", parameters},
+                 {"metrics", metrics},
+                 {"figures", figures}});
+}
+
+std::string to_line(const Provenance& provenance) { return sealed(to_json(provenance)); }
+
+std::string digest(const Provenance& provenance) { return checksum(canonical(to_json(provenance))); }
+
+Line parse_line(std::string_view text, const std::string& where) {
+  std::string what;
+  try {
+    return line_from(text);
+  } catch (const Damaged& damaged) {
+    what = damaged.what;
+  } catch (const Json::exception& error) {
+    // The library's own text quotes the line; its kind is enough here.
+    what = error.id == 406 ? "holds a number that is too large" : "is not valid JSON";
+  }
+  throw bad_input(what, where, "remove the line, or measure again into a new folder");
+}
+
+}  // namespace terrabench

@@ -1,0 +1,20 @@
+// The page, tables and figures that are made from a results folder, whole or partial, in seconds: no
+// measuring here.
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "results/claims.h"
+#include "results/store.h"
+
+namespace terrabench {
+
+// DIR/report/: index.html, report.md, tables/*.{csv,md,tex}, figures/*.{svg,png}. Replaces an earlier report
+// as a whole or not at all; equal measurements give equal bytes. Returns the path of index.html. Throws
+// bad_input when the folder holds no results, environment_error when the report cannot be written. Not
+// thread-safe.
+std::filesystem::path write_report(const std::filesystem::path& folder);
+std::filesystem::path write_report(const Store&, std::span<const Paper>);
+
+}  // namespace terrabench

@@ -1,0 +1,26 @@
+// Order statistics of raw samples, with percentile-bootstrap intervals (Efron & Tibshirani 1993, ch. 13).
+// Deterministic: the resampling has a fixed seed. O(resamples · n) up to a thousand samples, O(n log n)
+// above.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+namespace terrabench {
+
+// low, high: the 95 % interval of the median; both equal to it for one sample.
+struct Summary {
+  std::size_t count = 0;
+  double median = 0, low = 0, high = 0;
+};
+Summary summarise(std::span<const double> samples);  // at least one sample, all finite
+
+// median(numerator) / median(denominator) with its 95 % interval. Both need samples; a denominator that can
+// be zero gives infinities or NaN, which lie inside no tolerance.
+Summary summarise_ratio(std::span<const double> numerator, std::span<const double> denominator);
+
+// Whether a quantity of this unit varies from run to run (times, rates); all others are exact.
+bool is_timing(std::string_view unit);
+
+}  // namespace terrabench

@@ -1,0 +1,239 @@
+#include "results/store.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "results/record_json.h"
+#include "terrain/error.h"
+#include "terrain/files.h"
+
+namespace terrabench {
+namespace {
+
+constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 30;
+
+Error cannot_append(const std::filesystem::path& file, int error) {
+  return environment_error(fmt::format("cannot write: {}", std::strerror(error)), file.string(),
+                           error == ENOSPC || error == EDQUOT
+                               ? "free some space on the disk, then go on with --resume"
+                               : "check the folder's permissions, or choose another with --out");
+}
+
+// The file, held alone among all processes that append to it.
+class LockedFile {
+ public:
+  explicit LockedFile(const std::filesystem::path& path) : path_(path) {
+    descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    if (descriptor_ < 0) throw cannot_append(path, errno);
+    // A file system without locks still gets whole lines: each is one write.
+    while (flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+  }
+  ~LockedFile() { close(descriptor_); }
+  LockedFile(const LockedFile&) = delete;
+  LockedFile& operator=(const LockedFile&) = delete;
+
+  off_t size() const { return lseek(descriptor_, 0, SEEK_END); }
+
+  // What stands after the last newline.
+  std::string unfinished_line() const {
+    std::string tail;
+    char block[4096];
+    for (off_t end = size(); end > 0;) {
+      const auto length = std::min<off_t>(end, sizeof block);
+      const ssize_t got = pread(descriptor_, block, static_cast<std::size_t>(length), end - length);
+      if (got != length) throw cannot_append(path_, got < 0 ? errno : EIO);
+      const std::string_view text(block, static_cast<std::size_t>(length));
+      const std::size_t newline = text.rfind('\n');
+      tail.insert(0, text.substr(newline == text.npos ? 0 : newline + 1));
+      if (newline != text.npos) break;
+      end -= length;
+    }
+    return tail;
+  }
+
+  void cut_to(off_t size) {
+    if (ftruncate(descriptor_, size) != 0) throw cannot_append(path_, errno);
+  }
+
+  // All or nothing.
+  void append(std::string_view text) {
+    const off_t before = size();
+    const ssize_t written = pwrite(descriptor_, text.data(), text.size(), before);
+    const bool whole = written == static_cast<ssize_t>(text.size());
+    // A short write is what a full disk looks like at first.
+    int error = whole ? 0 : written < 0 ? errno : ENOSPC;
+    if (whole && fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) error = errno;
+    if (error == 0) return;
+    // If even this fails, the next append cuts the half line off.
+    [[maybe_unused]] const int cut = ftruncate(descriptor_, before);
+    throw cannot_append(path_, error);
+  }
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+};
+
+bool is_whole(std::string_view line) {
+  try {
+    return !parse_line(line, "").altered;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+using Named = std::vector<std::pair<std::string, Value>>;
+Named by_name(Named parameters) {
+  std::sort(parameters.begin(), parameters.end());
+  return parameters;
+}
+
+}  // namespace
+
+Store::Store(std::filesystem::path folder)
+    : folder_(std::move(folder)), file_(folder_ / "measurements.jsonl") {
+  std::error_code error;
+  if (std::filesystem::exists(file_, error)) read(read_file(file_, kLargestFile));
+}
+
+Store Store::open(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error)) {
+    throw bad_input("no such folder", folder.string(),
+                    "name a folder that 'terrabench run --out' has written");
+  }
+  Store store(folder);
+  if (store.records_.empty()) {
+    throw bad_input("holds no measurements", folder.string(),
+                    "measure first: terrabench run --out " + folder.string());
+  }
+  return store;
+}
+
+void Store::read(std::string_view content) {
+  std::size_t number = 0;
+  for (std::size_t at = 0; at < content.size();) {
+    const std::size_t newline = content.find('\n', at);
+    const bool last = newline == content.npos;
+    const std::string_view text = content.substr(at, last ? content.npos : newline - at);
+    at = last ? content.size() : newline + 1;
+    ++number;
+    if (text.find_first_not_of(" \t\r") == text.npos) continue;
+    if (last && !is_whole(text)) {
+      warnings_.push_back(
+          fmt::format("{}:{}: the last line was cut short and is dropped", file_.string(), number));
+    } else {
+      read_line(text, number);
+    }
+  }
+  for (std::size_t i = 0; i < records_.size(); ++i) {
+    if (run(records_[i].run) != nullptr) continue;
+    faults_.push_back(fmt::format("{}: {} {} names a run that is not in the file", file_.string(),
+                                  records_[i].experiment, records_[i].case_name));
+    warnings_.push_back(faults_.back());
+  }
+  if (records_.empty() && runs_.empty() && !faults_.empty()) {
+    throw bad_input("holds no measurements", file_.string(), "the first fault: " + faults_.front());
+  }
+}
+
+void Store::read_line(std::string_view text, std::size_t number) {
+  const std::string where = fmt::format("{}:{}", file_.string(), number);
+  try {
+    Line line = parse_line(text, where);
+    if (!line.warning.empty()) warnings_.push_back(where + ": " + line.warning);
+    if (line.altered) {
+      faults_.push_back(where + ": altered: the digest does not belong to the content");
+      warnings_.push_back(faults_.back());
+    }
+    if (auto* record = std::get_if<Record>(&line.content)) {
+      keep(std::move(*record), line.altered);
+    } else {
+      runs_.push_back(std::get<Provenance>(std::move(line.content)));
+    }
+  } catch (const Error& error) {
+    faults_.push_back(fmt::format("{}; the line is not used", error.what()));
+    warnings_.push_back(faults_.back());
+  }
+}
+
+void Store::keep(Record record, bool altered) {
+  last_profile_ = record.profile;
+  for (std::size_t i = 0; i < records_.size(); ++i) {
+    if (records_[i].experiment != record.experiment || records_[i].case_name != record.case_name ||
+        records_[i].profile != record.profile) {
+      continue;
+    }
+    records_[i] = std::move(record);
+    altered_[i] = altered;
+    return;
+  }
+  records_.push_back(std::move(record));
+  altered_.push_back(altered);
+}
+
+void Store::append_line(const std::string& line) const {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) throw cannot_append(file_, error.value());
+  LockedFile file(file_);
+  const std::string tail = file.unfinished_line();
+  const bool finish = !tail.empty() && is_whole(tail);  // an editor may have taken the last newline
+  if (!tail.empty() && !finish) file.cut_to(file.size() - static_cast<off_t>(tail.size()));
+  file.append((finish ? "\n" : "") + line + "\n");
+}
+
+void Store::begin_run(const Provenance& provenance) {
+  const std::string line = to_line(provenance);
+  Line parsed = parse_line(line, "this run");
+  append_line(line);
+  runs_.push_back(std::get<Provenance>(std::move(parsed.content)));
+}
+
+void Store::append(const Record& record) {
+  const std::string line = to_line(record);
+  // What cannot be read back must not be written.
+  Line parsed = parse_line(line, record.experiment + "/" + record.case_name);
+  append_line(line);
+  keep(std::get<Record>(std::move(parsed.content)), false);
+}
+
+const Record* Store::find(std::string_view experiment, std::string_view case_name,
+                          std::string_view profile) const {
+  const auto it = std::find_if(records_.begin(), records_.end(), [&](const Record& record) {
+    return record.experiment == experiment && record.case_name == case_name && record.profile == profile;
+  });
+  return it == records_.end() ? nullptr : &*it;
+}
+
+const Record* Store::find(const CaseKey& key) const {
+  const Record* const record = find(key.experiment, key.case_name, key.profile);
+  if (record == nullptr || altered(*record) || run(record->run) == nullptr) return nullptr;
+  if (record->seed != key.seed || by_name(record->parameters) != by_name(key.parameters)) return nullptr;
+  if (key.terrain_checksum && record->terrain_checksum != *key.terrain_checksum) return nullptr;
+  std::error_code error;
+  const bool pictures = std::all_of(
+      record->figures.begin(), record->figures.end(),
+      [&](const Figure& figure) { return std::filesystem::is_regular_file(folder_ / figure.file, error); });
+  return pictures ? record : nullptr;
+}
+
+const Provenance* Store::run(std::string_view id) const {
+  const auto it =
+      std::find_if(runs_.begin(), runs_.end(), [&](const Provenance& run) { return run.id == id; });
+  return it == runs_.end() ? nullptr : &*it;
+}
+
+bool Store::altered(const Record& record) const {
+  return altered_[static_cast<std::size_t>(&record - records_.data())];
+}
+
+}  // namespace terrabench

@@ -1,0 +1,95 @@
+#include "results/table.h"
+
+#include <fmt/format.h>
+
+#include "results/format.h"
+
+namespace terrabench {
+namespace {
+
+std::string heading(const Column& column) {
+  return column.unit.empty() ? column.title : fmt::format("{} [{}]", column.title, column.unit);
+}
+
+// One line: what `cell` makes of each column's entry, between separators.
+template <class Entries, class Write>
+std::string line(const Entries& entries, std::string_view separator, Write write) {
+  std::string text;
+  bool first = true;
+  for (const auto& entry : entries) {
+    if (!first) text += separator;
+    text += write(entry);
+    first = false;
+  }
+  return text;
+}
+
+std::string html_cell(const Cell& cell, const Column& column, bool heads_row) {
+  const std::string text = cell.link.empty() ? escape_html(cell.text)
+                                             : fmt::format("<a href=\"{}\">{}</a>", escape_html(cell.link),
+                                                           escape_html(cell.text));
+  std::string style = cell.style;
+  if (column.numeric) style += style.empty() ? "number" : " number";
+  const std::string attribute = style.empty() ? "" : fmt::format(" class=\"{}\"", escape_html(style));
+  return heads_row ? fmt::format("<th scope=\"row\"{}>{}</th>", attribute, text)
+                   : fmt::format("<td{}>{}</td>", attribute, text);
+}
+
+std::string markdown_cell(const Cell& cell) {
+  const std::string text = escape_markdown(cell.text);
+  return cell.link.empty() ? text : fmt::format("[{}]({})", text, cell.link);
+}
+
+}  // namespace
+
+std::string html(const Table& table) {
+  std::string text = fmt::format("<table id=\"{}\">\n<caption><strong>{}.</strong> {}</caption>\n<thead><tr>",
+                                 escape_html(table.id), escape_html(table.title), escape_html(table.caption));
+  for (const Column& column : table.columns) {
+    text += fmt::format("<th scope=\"col\"{}>{}</th>", column.numeric ? " class=\"number\"" : "",
+                        escape_html(heading(column)));
+  }
+  text += "</tr></thead>\n<tbody>\n";
+  for (const auto& row : table.rows) {
+    text += "<tr>";
+    for (std::size_t i = 0; i < row.size(); ++i) text += html_cell(row[i], table.columns[i], i == 0);
+    text += "</tr>\n";
+  }
+  return text + "</tbody>\n</table>\n";
+}
+
+std::string markdown(const Table& table) {
+  std::string text =
+      "| " + line(table.columns, " | ", [](const Column& c) { return escape_markdown(heading(c)); });
+  text +=
+      " |\n|" + line(table.columns, "|", [](const Column& c) { return c.numeric ? "---:" : "---"; }) + "|\n";
+  for (const auto& row : table.rows) text += "| " + line(row, " | ", markdown_cell) + " |\n";
+  return text;
+}
+
+std::string csv(const Table& table) {
+  std::string text =
+      line(table.columns, ",", [](const Column& c) { return escape_csv(heading(c)); }) + "\r\n";
+  for (const auto& row : table.rows) {
+    text += line(row, ",", [](const Cell& c) { return escape_csv(c.raw.empty() ? c.text : c.raw); }) + "\r\n";
+  }
+  return text;
+}
+
+std::string latex(const Table& table) {
+  const auto row_of = [](const auto& entries, auto write) {
+    return "  " + line(entries, " & ", write) + " \\\\\n";
+  };
+  std::string text =
+      fmt::format("\\begin{{table}}\n  \\centering\n  \\caption{{{}. {}}}\n  \\label{{tab:{}}}\n",
+                  escape_latex(table.title), escape_latex(table.caption), table.id);
+  text +=
+      "  \\begin{tabular}{" + line(table.columns, "", [](const Column& c) { return c.numeric ? "r" : "l"; });
+  text +=
+      "}\n  \\toprule\n" + row_of(table.columns, [](const Column& c) { return escape_latex(heading(c)); });
+  text += "  \\midrule\n";
+  for (const auto& row : table.rows) text += row_of(row, [](const Cell& c) { return escape_latex(c.text); });
+  return text + "  \\bottomrule\n  \\end{tabular}\n\\end{table}\n";
+}
+
+}  // namespace terrabench

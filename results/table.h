@@ -1,0 +1,32 @@
+// One table, written as HTML, Markdown, CSV and LaTeX (booktabs), each correctly escaped.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace terrabench {
+
+struct Cell {
+  std::string text;   // as people read it
+  std::string raw;    // what CSV holds instead, such as all digits; empty: the text
+  std::string link;   // HTML and Markdown: where the text points, empty for nowhere
+  std::string style;  // HTML class of the cell
+};
+
+struct Column {
+  std::string title, unit;
+  bool numeric = false;  // aligned right
+};
+
+struct Table {
+  std::string id, title, caption;
+  std::vector<Column> columns;
+  std::vector<std::vector<Cell>> rows;  // each as long as columns
+};
+
+std::string html(const Table&);      // <table> with caption and scopes
+std::string markdown(const Table&);  // pipes; the caption is the document's affair
+std::string csv(const Table&);       // RFC 4180, units in the header
+std::string latex(const Table&);     // a table float; needs \usepackage{booktabs} and UTF-8
+
+}  // namespace terrabench

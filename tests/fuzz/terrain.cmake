@@ -1,0 +1,2 @@
+find_package(GDAL CONFIG REQUIRED)
+terrabench_fuzz(dem_fuzz SOURCES dem_fuzz.cpp LIBRARIES terrain GDAL::GDAL)

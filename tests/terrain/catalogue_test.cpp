@@ -1,0 +1,93 @@
+#include "terrain/sources/catalogue.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "terrain/source.h"
+#include "tests/terrain/errors.h"
+#include "tests/terrain/raster_file.h"
+#include "tests/terrain/temporary_folder.h"
+
+namespace terrabench {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(Catalogue, JacksboroIsTheKnownMountain) {
+  const TerrainSource source = open_terrain("jacksboro");
+  ASSERT_TRUE(source.heights);
+  EXPECT_FALSE(source.solid);
+  const Heightfield& field = *source.heights;
+  EXPECT_EQ(field.width, 403);
+  EXPECT_EQ(field.depth, 344);
+  const HeightRange range = height_range(field);
+  EXPECT_EQ(range.lowest, 236);
+  EXPECT_EQ(range.highest, 1076);
+  EXPECT_EQ(range.no_data, 0U);
+  EXPECT_NEAR(field.cell_x, 74.57, 0.01);
+  EXPECT_NEAR(field.cell_z, 92.47, 0.01);
+  EXPECT_EQ(source.name, "jacksboro");
+  EXPECT_EQ(source.checksum, checksum(field));
+  EXPECT_THAT(source.notes, Contains(HasSubstr("cells of 3″")));
+  EXPECT_LT(source.bounds().low.y, 236);
+  EXPECT_EQ(source.bounds().high.y, 1076);
+}
+
+TEST(Catalogue, TopobathyHasSeaAndLandNorthFirst) {
+  const TerrainSource source = open_terrain("topobathy");
+  ASSERT_TRUE(source.heights);
+  const Heightfield& field = *source.heights;
+  EXPECT_EQ(field.width, 120);
+  EXPECT_EQ(field.depth, 91);
+  const HeightRange range = height_range(field);
+  EXPECT_EQ(range.lowest, -1437);
+  EXPECT_EQ(range.highest, 2205);
+  // The south-west corner is open Pacific, the north-east the Coast Mountains.
+  EXPECT_LT(field.at(0, 90), -1000);
+  EXPECT_GT(field.at(119, 0), 0);
+  EXPECT_LT(field.georeference.transform[5], 0);
+  // A Mercator grid: cells are nearly square on the ground.
+  EXPECT_NEAR(field.cell_x / field.cell_z, 1, 0.01);
+}
+
+TEST(Catalogue, EveryLineIsCompleteAndUnique) {
+  std::set<std::string_view> names;
+  for (const TerrainType& type : terrains()) {
+    EXPECT_TRUE(names.insert(type.name).second) << type.name;
+    EXPECT_FALSE(type.summary.empty());
+    EXPECT_FALSE(type.origin.empty());
+    EXPECT_NE(type.open, nullptr);
+  }
+}
+
+TEST(Catalogue, APathIsATerrainToo) {
+  const TemporaryFolder folder;
+  RasterFile().write(folder / "hill.tif");
+  const TerrainSource source = open_terrain(folder / "hill.tif");
+  EXPECT_EQ(source.name, folder / "hill.tif");
+  EXPECT_EQ(source.heights->width, 6);
+}
+
+TEST(Catalogue, ATypingSlipGetsTheNearestName) {
+  const Failure failure = failure_of([] { (void)open_terrain("jaksboro"); });
+  EXPECT_EQ(failure.code, ExitCode::kUsage);
+  EXPECT_THAT(failure.what, HasSubstr("unknown terrain 'jaksboro'; did you mean 'jacksboro'?"));
+  EXPECT_THAT(failure.advice, HasSubstr("topobathy"));
+  EXPECT_THAT(failure.advice, HasSubstr("path"));
+  EXPECT_THAT(failure_of([] { (void)open_terrain("himalaya"); }).what, Not(HasSubstr("did you mean")));
+}
+
+TEST(Catalogue, WhatLooksLikeAPathIsAMissingFile) {
+  for (const char* const path : {"./foo.tif", "foo.tif", "dems/foo"}) {
+    const Failure failure = failure_of([&] { (void)open_terrain(path); });
+    EXPECT_EQ(failure.code, ExitCode::kBadInput) << path;
+    EXPECT_THAT(failure.what, HasSubstr("no such file")) << path;
+  }
+}
+
+}  // namespace
+}  // namespace terrabench

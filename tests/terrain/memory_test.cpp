@@ -1,0 +1,90 @@
+#include "terrain/memory.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <thread>
+
+namespace terrabench {
+namespace {
+
+TEST(Memory, CounterAgreesWithWhatAVectorSays) {
+  const HeapScope scope;
+  std::vector<float> values(100003);
+  const Memory memory = payload_memory(values);
+  EXPECT_EQ(memory.payload, 100003 * sizeof(float));
+  EXPECT_EQ(scope.held(), static_cast<std::int64_t>(memory.total()));
+  std::vector<float>().swap(values);
+  EXPECT_EQ(scope.held(), 0);
+  EXPECT_EQ(payload_memory(values).total(), 0U);
+}
+
+TEST(Memory, ReservedSpaceIsSlack) {
+  std::vector<std::uint64_t> values;
+  values.reserve(1000);
+  values.resize(10);
+  const Memory payload = payload_memory(values), index = index_memory(values);
+  EXPECT_EQ(payload.payload, 80U);
+  EXPECT_GE(payload.slack, 990 * 8U);
+  EXPECT_EQ(index.payload, 0U);
+  EXPECT_EQ(index.index, 80U);
+  EXPECT_EQ(index.total(), payload.total());
+  Memory sum = payload;
+  sum += index;
+  EXPECT_EQ(sum.total(), 2 * payload.total());
+}
+
+TEST(Memory, PeakRemembersWhatWasFreed) {
+  HeapCounter::reset_peak();
+  const std::int64_t before = HeapCounter::live();
+  std::int64_t size = 0;
+  {
+    const std::vector<std::byte> large(5 << 20);
+    size = static_cast<std::int64_t>(heap_bytes(large.data()));
+  }
+  EXPECT_EQ(HeapCounter::live(), before);
+  EXPECT_EQ(HeapCounter::peak(), before + size);
+  HeapCounter::reset_peak();
+  EXPECT_EQ(HeapCounter::peak(), before);
+}
+
+TEST(Memory, EveryFormOfNewIsCounted) {
+  struct alignas(256) Wide {
+    std::byte bytes[512];
+  };
+  const HeapScope scope;
+  {
+    const auto one = std::make_unique<int>(1);
+    const auto wide = std::make_unique<Wide>();
+    const auto wides = std::make_unique<Wide[]>(3);
+    EXPECT_GE(scope.held(), static_cast<std::int64_t>(sizeof(int) + 4 * sizeof(Wide)));
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(wide.get()) % 256, 0U);
+  }
+  EXPECT_EQ(scope.held(), 0);
+}
+
+TEST(Memory, ThreadsAreCountedTogether) {
+  std::vector<std::unique_ptr<std::vector<int>>> blocks(4);
+  const HeapScope scope;
+  {
+    std::vector<std::thread> threads;
+    for (auto& block : blocks) {
+      threads.emplace_back([&] {
+        for (int k = 0; k < 1000; ++k) block = std::make_unique<std::vector<int>>(1000);
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+  }
+  std::size_t expected = 0;
+  for (const auto& block : blocks) expected += heap_bytes(block.get()) + heap_bytes(block->data());
+  EXPECT_EQ(scope.held(), static_cast<std::int64_t>(expected));
+}
+
+TEST(Memory, TheMachineHasSome) {
+  EXPECT_GT(physical_memory(), std::uint64_t{1} << 28);
+  EXPECT_GT(available_memory(), 0U);
+  EXPECT_LE(available_memory(), physical_memory());
+}
+
+}  // namespace
+}  // namespace terrabench
