@@ -1,1 +1,4 @@
 terrabench_benchmark(hydrology_bench SOURCES hydrology_bench.cpp LIBRARIES terrain)
+# Not a Google Benchmark: it runs a program of another package.
+add_executable(hydrology_peer hydrology_peer.cpp)
+target_link_libraries(hydrology_peer PRIVATE terrain)
