@@ -118,6 +118,8 @@ struct Loaded {
   std::unique_ptr<Representation> representation;
 };
 Loaded load_representation(const std::filesystem::path&);
+// Whether the file says that it is one, by its first bytes; damaged ones say so too.
+bool is_saved_representation(const std::filesystem::path&);
 Loaded load_representation(std::span<const std::byte> file, const std::string& origin);
 
 }  // namespace terrabench

@@ -31,10 +31,10 @@ TerrainSource open_file(const RepresentArguments& a, Progress& progress) {
   }
   options.fill_no_data = a.fill;
   Dem dem = read_dem(a.terrain, options, &progress);
-  for (const std::string& note : dem.notes) fmt::print("note: {}\n", note);
   TerrainSource source;
   source.name = a.terrain;
   source.checksum = checksum(dem.heights);
+  source.notes = std::move(dem.notes);
   source.heights = std::move(dem.heights);
   return source;
 }
@@ -93,7 +93,8 @@ ExitCode represent_command(const RepresentArguments& a) {
   progress.end();
 
   const Memory memory = built->memory();
-  fmt::print("terrain     {}  checksum {}\n", source.name, source.checksum);
+  fmt::print("terrain     {}, checksum {}\n", source.name, source.checksum);
+  for (const std::string& note : source.notes) fmt::print("note        {}\n", note);
   fmt::print("built as    {} in {:.3g} s\n", type.name, seconds.count());
   fmt::print("memory      {} (payload {}, index {}, slack {}); the allocator counted {}\n",
              format_quantity(static_cast<double>(memory.total()), "B"), memory.payload, memory.index,

@@ -1,0 +1,88 @@
+// The flat register program that a noise graph is compiled to, shared by the compiler (program.cpp) and the
+// per-instruction-set machine (machine.cpp). Registers are runs of floats in one scratch array: kMaxLanes equal
+// values for what is constant along a column, kBatch values for what varies.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace terrabench::noise {
+
+inline constexpr std::uint32_t kMaxLanes = 16;  // of the widest vector used
+// Samples evaluated between two decisions to skip. Small batches skip more, large ones dispatch less often.
+inline constexpr std::uint32_t kBatch = 64;
+
+enum class Op : std::uint8_t {
+  kInputX,
+  kInputY,
+  kInputZ,
+  kConstant,
+  kScaleOffset,  // a·p + q
+  kAdd,
+  kMultiply,  // 0 where a is 0, else a·b
+  kClamp,     // to [p, q]
+  kStep,      // 0 below p - q, 1 from p + q, quintic between
+  kMix,       // c where t = a is 0, b at 1, else c + t(b - c): operands (t, high, low)
+  kBias,
+  kGain,
+  kFbm,
+  kRidged,
+  kBillow,
+  // Jumps; `jump` is where to go on.
+  kSkipIfAllZero,
+  kSkipIfAllOne,
+  kSkipIfDecided  // fills register `out` when bounds show that a kStep is all 0 or all 1
+};
+
+// Sample i of an operand is scratch[offset + (i & mask)].
+struct Operand {
+  std::uint32_t offset = 0;
+  std::uint32_t mask = 0;  // 0: constant along the column, else all ones
+};
+
+struct Instruction {
+  Op op = Op::kConstant;
+  bool along_column = false;  // fractal whose x and z are constant and whose y grows evenly
+  Operand out, a, b, c;
+  float p = 0, q = 0;
+  std::uint32_t first = 0, count = 0;  // octaves of a fractal, or interval steps of kSkipIfDecided
+  std::uint32_t jump = 0;
+};
+
+struct Octave {
+  std::uint32_t seed = 0;
+  float frequency = 1;
+  float offset_x = 0, offset_y = 0, offset_z = 0;
+  float weight = 1;  // gain^i, divided by the sum of all of the fractal
+};
+
+// Interval arithmetic on one batch: step i computes interval i from earlier ones, the last is the control's.
+struct IntervalStep {
+  Op op = Op::kConstant;
+  std::uint32_t a = 0, b = 0, c = 0;  // earlier steps; or a = scratch offset for a value known (kConstant)
+  float p = 0, q = 0;                 // for fractals: the range
+};
+inline constexpr std::uint32_t kMaxIntervalSteps = 64;
+
+struct Code {
+  std::vector<Instruction> once;   // run once a column, for what is constant along it
+  std::vector<Instruction> batch;  // run for each batch
+  std::vector<IntervalStep> intervals;
+  std::vector<Octave> octaves;
+  Operand x, y, z, result;
+  std::uint32_t scratch_floats = 0;
+};
+
+// Where the samples lie: a column (x, z, y0, dy), or arrays.
+struct Samples {
+  bool column = false;
+  float x = 0, z = 0, y0 = 0, dy = 0;
+  const float *xs = nullptr, *ys = nullptr, *zs = nullptr;
+};
+
+// Evaluates `count` samples into `out`. `scratch` holds code.scratch_floats floats, aligned to 64 bytes.
+void execute(const Code& code, const Samples& samples, float* scratch, float* out, std::size_t count);
+
+}  // namespace terrabench::noise
