@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cstddef>
@@ -47,7 +48,7 @@ class BucketSet {
   }
 
  private:
-  std::vector<std::uint64_t> levels_[4];
+  std::array<std::vector<std::uint64_t>, 4> levels_;
 };
 
 // One first-in-first-out bucket a key, for whole numbers. Buckets are chains of blocks from one pool, so that

@@ -1,0 +1,1 @@
+terrabench_benchmark(hydrology_bench SOURCES hydrology_bench.cpp LIBRARIES terrain)
