@@ -1,0 +1,43 @@
+// A height for every point of a grid, bilinear between them: the form that "hybrid" §2.1 and all other papers
+// start from. One span a column, so no overhangs: a solid loses all but its topmost surface. 4 B a sample; a
+// query is O(1).
+#pragma once
+
+#include <vector>
+
+#include "representations/representation.h"
+
+namespace terrabench {
+
+class Heightmap final : public Representation {
+ public:
+  static std::unique_ptr<Representation> build(const TerrainSource&, const Parameters&, Progress&);
+  static std::unique_ptr<Representation> load(ByteSource&);
+
+  // Bilinear; no-data outside the bounds, and where a sample that carries weight has none. Between the
+  // outermost samples and the bounds (half a cell, for solids) the height of the border goes on.
+  float height(float x, float z) const;
+
+  void spans(Columns where, SpanSink& out) const override;
+  // The block between surface and floor, closed by walls along the border and around no-data; always
+  // watertight. Empty for a single row of samples, which has no area.
+  TriangleMesh mesh(MeshDetail) const override;
+  Memory memory() const override;
+  void save(ByteSink&) const override;
+  Bounds bounds() const override { return bounds_; }
+
+ private:
+  Heightmap() = default;
+  void take_heights(const Heightfield&, const Bounds&);
+  void take_topmost(const TerrainSource&, const Parameters&, Progress&);
+  std::vector<float> lines(float cell, float low, float high, double origin, double own_cell,
+                           int samples) const;
+
+  int width_ = 1, depth_ = 1;
+  double origin_x_ = 0, origin_z_ = 0;  // of sample (0, 0), metres
+  double cell_x_ = 1, cell_z_ = 1;
+  Bounds bounds_;
+  std::vector<float> heights_;  // row-major, NaN where there is no data
+};
+
+}  // namespace terrabench

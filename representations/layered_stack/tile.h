@@ -1,0 +1,91 @@
+// A square of neighbouring material stacks in one heap block: where each column starts, then all levels, then
+// all materials. 2 B a column and 3 B a run; nothing is allocated per column, and an edit rewrites one tile.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "representations/runs.h"
+#include "terrain/memory.h"
+
+namespace terrabench {
+
+// The runs of one column, bottom up: run r reaches from tops[r-1] (0 for the first) to tops[r]. Air above the
+// last.
+struct ColumnRuns {
+  const std::uint16_t* tops;
+  const Material* materials;
+  std::size_t count;
+};
+
+class StackTile {
+ public:
+  static constexpr int kSide = 16;  // 8 costs 0.4 B a column more, 32 makes an edit four times dearer
+
+  StackTile() = default;
+
+  ColumnRuns column(std::size_t slot) const {
+    const std::size_t first = start(slot);
+    return {tops() + first, materials() + first, start(slot + 1) - first};
+  }
+  std::size_t columns() const { return columns_; }
+  std::size_t runs() const { return runs_; }
+  // Where column()'s first read goes, and (when the starts are in the cache) its second.
+  const void* start_address(std::size_t slot) const { return block_.get() + slot * start_bytes(); }
+  const void* tops_address(std::size_t slot) const { return tops() + start(slot); }
+  const void* materials_address(std::size_t slot) const { return materials() + start(slot); }
+  Memory memory() const;
+  bool operator==(const StackTile&) const;
+
+ private:
+  friend class TileBuilder;
+  std::size_t start_bytes() const { return wide_ ? sizeof(std::uint32_t) : sizeof(std::uint16_t); }
+  std::size_t start(std::size_t slot) const {
+    return wide_ ? reinterpret_cast<const std::uint32_t*>(block_.get())[slot]
+                 : reinterpret_cast<const std::uint16_t*>(block_.get())[slot];
+  }
+  std::size_t used_bytes() const {
+    return (columns_ + 1U) * start_bytes() + runs_ * (sizeof(std::uint16_t) + sizeof(Material));
+  }
+  const std::uint16_t* tops() const {
+    return reinterpret_cast<const std::uint16_t*>(block_.get() + (columns_ + 1U) * start_bytes());
+  }
+  const Material* materials() const { return reinterpret_cast<const Material*>(tops() + runs_); }
+
+  std::unique_ptr<std::byte[]> block_;
+  std::uint32_t runs_ = 0;
+  std::uint16_t columns_ = 0;
+  bool wide_ = false;  // more than 65535 runs, so that starts take 32 bits
+};
+
+// Scratch in which a tile's columns are gathered, then laid out. Kept between tiles, it allocates only the
+// tiles.
+class TileBuilder {
+ public:
+  void begin() {
+    starts_.assign(1, 0);
+    tops_.clear();
+    materials_.clear();
+  }
+  void add(std::span<const Run> column) {
+    for (const Run& run : column) {
+      tops_.push_back(run.top);
+      materials_.push_back(run.material);
+    }
+    end_column();
+  }
+  // Slots [first, end) of a tile as they are.
+  void add(const StackTile&, std::size_t first, std::size_t end);
+  StackTile finish() const;
+
+ private:
+  void end_column() { starts_.push_back(static_cast<std::uint32_t>(tops_.size())); }
+
+  std::vector<std::uint32_t> starts_;
+  std::vector<std::uint16_t> tops_;
+  std::vector<Material> materials_;
+};
+
+}  // namespace terrabench

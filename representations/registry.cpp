@@ -1,0 +1,54 @@
+#include "representations/column_grid.h"
+#include "representations/heightmap/heightmap.h"
+#include "representations/layered_stack/layered_stack.h"
+#include "representations/representation.h"
+#include "representations/voxel/dense_grid.h"
+#include "representations/voxel/voxel.h"
+#include "terrain/error.h"
+
+namespace terrabench {
+
+std::span<const RepresentationType> representations() {
+  static const RepresentationType kTypes[] = {
+      {"heightmap",
+       "one height a grid point, bilinear",
+       "hybrid §2.1",
+       {.lossless = true},
+       column_parameters(),
+       Heightmap::build,
+       Heightmap::load},
+      {"layered_stack",
+       "a stack of material runs a column, in flat tiles",
+       "hybrid §3.1.1",
+       {.overhangs = true, .materials = true, .editable = true},
+       column_parameters(),
+       LayeredStack::build,
+       LayeredStack::load},
+      {"voxel",
+       "sparse voxels: one OpenVDB mask tree a material",
+       "peer of hybrid Table 1",
+       {.overhangs = true, .materials = true, .editable = true},
+       column_parameters(),
+       Voxel::build,
+       Voxel::load},
+      {"dense_voxel",
+       "one byte a voxel",
+       "hybrid Table 1",
+       {.overhangs = true, .materials = true, .editable = true},
+       column_parameters(),
+       DenseGrid::build,
+       DenseGrid::load},
+  };
+  return kTypes;
+}
+
+const RepresentationType& representation(std::string_view name) {
+  std::vector<std::string_view> known;
+  for (const RepresentationType& type : representations()) {
+    if (type.name == name) return type;
+    known.push_back(type.name);
+  }
+  throw unknown_name("representation", name, known);
+}
+
+}  // namespace terrabench

@@ -1,0 +1,26 @@
+#include "representations/representation.h"
+
+#include <algorithm>
+
+#include "terrain/error.h"
+
+namespace terrabench {
+
+void Representation::materials(Points where, std::span<Material> out) const {
+  SpanSink sink;
+  spans({where.x, where.z}, sink);
+  for (std::size_t i = 0; i < where.size(); ++i) {
+    const float y = where.y[i];
+    const std::span<const Span> column = sink.column(i);
+    const auto above =
+        std::find_if(column.begin(), column.end(), [&](const Span& span) { return y < span.top; });
+    out[i] = above != column.end() && above->bottom <= y ? above->material : Material::kAir;
+  }
+}
+
+void Representation::paint(Columns, std::span<const Span>) {
+  throw usage_error("cannot be edited", "paint",
+                    "choose a representation that `terrabench list` calls editable");
+}
+
+}  // namespace terrabench
