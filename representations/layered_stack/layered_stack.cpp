@@ -1,5 +1,6 @@
 #include "representations/layered_stack/layered_stack.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -147,14 +148,12 @@ StackTile LayeredStack::repaint(std::size_t tile, std::span<const Stroke> stroke
                                 TileBuilder& builder) const {
   RunList before, after;
   const StackTile& old = tiles_[tile];
+  std::size_t copied = 0;  // slots done
   builder.begin();
-  auto stroke = strokes.begin();
-  for (std::size_t slot = 0; slot < old.columns(); ++slot) {
+  for (auto stroke = strokes.begin(); stroke != strokes.end();) {
+    const std::size_t slot = stroke->slot;
+    builder.add(old, copied, slot);
     const ColumnRuns runs = old.column(slot);
-    if (stroke == strokes.end() || stroke->slot != slot) {
-      builder.add(runs);
-      continue;
-    }
     before.clear();
     for (std::size_t r = 0; r < runs.count; ++r) before.add(runs.tops[r], runs.materials[r]);
     for (; stroke != strokes.end() && stroke->slot == slot; ++stroke) {
@@ -162,7 +161,9 @@ StackTile LayeredStack::repaint(std::size_t tile, std::span<const Stroke> stroke
       std::swap(before, after);
     }
     builder.add(before.runs());
+    copied = slot + 1;
   }
+  builder.add(old, copied, old.columns());
   return builder.finish();
 }
 
@@ -186,10 +187,14 @@ void LayeredStack::paint(Columns where, std::span<const Span> what) {
         std::find_if(begin, strokes.cend(), [&](const Stroke& stroke) { return stroke.tile != begin->tile; });
     touched.emplace_back(begin, end);
   }
+  constexpr std::size_t kTilesATask = 16;
   std::vector<StackTile> repainted(touched.size());
-  tbb::enumerable_thread_specific<TileBuilder> builders;
-  tbb::parallel_for(std::size_t{0}, touched.size(), [&](std::size_t t) {
-    repainted[t] = repaint(touched[t].front().tile, touched[t], builders.local());
+  using Range = tbb::blocked_range<std::size_t>;
+  tbb::parallel_for(Range(0, touched.size(), kTilesATask), [&](const Range& range) {
+    TileBuilder builder;
+    for (std::size_t t = range.begin(); t < range.end(); ++t) {
+      repainted[t] = repaint(touched[t].front().tile, touched[t], builder);
+    }
   });
   for (std::size_t t = 0; t < touched.size(); ++t) tiles_[touched[t].front().tile] = std::move(repainted[t]);
 }

@@ -16,6 +16,15 @@ bool StackTile::operator==(const StackTile& other) const {
          std::memcmp(block_.get(), other.block_.get(), used_bytes()) == 0;
 }
 
+void TileBuilder::add(const StackTile& tile, std::size_t first, std::size_t end) {
+  const std::size_t begin_run = tile.start(first), end_run = tile.start(end), begin = tops_.size();
+  for (std::size_t slot = first; slot < end; ++slot) {
+    starts_.push_back(static_cast<std::uint32_t>(begin + tile.start(slot + 1) - begin_run));
+  }
+  tops_.insert(tops_.end(), tile.tops() + begin_run, tile.tops() + end_run);
+  materials_.insert(materials_.end(), tile.materials() + begin_run, tile.materials() + end_run);
+}
+
 StackTile TileBuilder::finish() const {
   StackTile tile;
   tile.runs_ = static_cast<std::uint32_t>(tops_.size());

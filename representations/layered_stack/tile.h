@@ -76,11 +76,8 @@ class TileBuilder {
     }
     end_column();
   }
-  void add(const ColumnRuns& column) {
-    tops_.insert(tops_.end(), column.tops, column.tops + column.count);
-    materials_.insert(materials_.end(), column.materials, column.materials + column.count);
-    end_column();
-  }
+  // Slots [first, end) of a tile as they are.
+  void add(const StackTile&, std::size_t first, std::size_t end);
   StackTile finish() const;
 
  private:

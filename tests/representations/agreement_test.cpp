@@ -1,6 +1,9 @@
 // Every representation that can hold a terrain gives back the samples it was built from, and all give the
 // same.
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
 
 #include "representations/column_grid.h"
 #include "representations/layered_stack/layered_stack.h"
@@ -186,6 +189,23 @@ TEST(Agreement, OneThreadBuildsWhatManyBuild) {
     EXPECT_TRUE(std::equal(many.bytes().begin(), many.bytes().end(), one.bytes().begin(), one.bytes().end()))
         << type.name;
     EXPECT_EQ(alone->mesh({}).indices, many_mesh.indices) << type.name;
+  }
+}
+
+TEST(Agreement, ManyThreadsMayAskAtOnce) {
+  for (const RepresentationType& type : representations()) {
+    const auto built = build(type.name, random_boxes(5, 30, 40, 3), 30);
+    const Cloud cloud(built->bounds(), 2000, 6);
+    std::vector<Material> expected(cloud.x.size());
+    built->materials(cloud.points(), expected);
+    const SpanSink columns = spans_of(*built, {cloud.x, cloud.z});
+    std::atomic<int> wrong = 0;
+    tbb::parallel_for(0, 16, [&](int) {
+      std::vector<Material> got(cloud.x.size());
+      built->materials(cloud.points(), got);
+      if (got != expected || !same_spans(spans_of(*built, {cloud.x, cloud.z}), columns)) ++wrong;
+    });
+    EXPECT_EQ(wrong, 0) << type.name;
   }
 }
 

@@ -1,0 +1,1 @@
+terrabench_benchmark(stack_bench SOURCES stack_bench.cpp LIBRARIES representations)

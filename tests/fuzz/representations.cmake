@@ -1,0 +1,1 @@
+terrabench_fuzz(representations_fuzz SOURCES representations_fuzz.cpp LIBRARIES representations)

@@ -1,0 +1,96 @@
+// Saved structures: the container, and behind its checksum, where mutations rarely get, each type's own
+// reader.
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <span>
+
+#include "representations/representation.h"
+#include "terrain/error.h"
+#include "tests/fuzz/fuzz.h"
+
+namespace {
+
+using namespace terrabench;
+
+// The first byte of an input: a type's own reader, or the container.
+constexpr std::uint8_t kContainer = 255;
+
+// What loaded must also answer, and save what it was loaded from.
+void use(const RepresentationType& type, Representation& structure) {
+  const Bounds bounds = structure.bounds();
+  const std::array x{bounds.low.x, bounds.high.x, 0.5F * (bounds.low.x + bounds.high.x)};
+  const std::array y{bounds.low.y, bounds.high.y, 0.5F * (bounds.low.y + bounds.high.y)};
+  const std::array z{bounds.low.z, bounds.high.z, 0.5F * (bounds.low.z + bounds.high.z)};
+  SpanSink sink;
+  structure.spans({x, z}, sink);
+  std::array<Material, 3> materials;
+  structure.materials({x, y, z}, materials);
+  if (sink.columns() != x.size() || structure.memory().total() == 0) std::abort();
+  if (type.traits.editable && y[0] < y[1]) {
+    structure.paint({std::span(x).first(1), std::span(z).first(1)},
+                    std::array{Span{y[0], y[1], Material::kBedrock}});
+  }
+  ByteSink saved;
+  structure.save(saved);
+  ByteSource again(saved.bytes(), "saved again");
+  type.load(again);
+  if (again.left() != 0) std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const auto bytes = std::as_bytes(std::span(data + 1, size - 1));
+  Loaded loaded;
+  try {
+    if (data[0] == kContainer) {
+      loaded = load_representation(bytes, "fuzz");
+    } else {
+      loaded.type = &representations()[data[0] % representations().size()];
+      ByteSource in(bytes, "fuzz");
+      loaded.representation = loaded.type->load(in);
+    }
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kBadInput) throw;
+    return 0;
+  }
+  use(*loaded.type, *loaded.representation);
+  return 0;
+}
+
+std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
+  TerrainSource boxes, heights;
+  boxes.name = heights.name = "seed";
+  boxes.solid = Solid{{{0, 0, 0}, {20, 40, 20}}, "", [](const ColumnSamples& at, std::span<Material> out) {
+                        for (std::size_t i = 0; i < out.size(); ++i) {
+                          const auto layer = static_cast<int>(i) / (2 + static_cast<int>(at.x + at.z) / 4);
+                          out[i] = static_cast<Material>(layer < 6 ? layer % 3 : 0);
+                        }
+                      }};
+  heights.heights = Heightfield{3, 2, 10, 20, {1, 2, 3, 4, Heightfield::kNoData, 6}, {}};
+  std::vector<std::vector<std::uint8_t>> seeds;
+  Progress progress;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  for (std::size_t t = 0; t < representations().size(); ++t) {
+    const RepresentationType& type = representations()[t];
+    for (const TerrainSource* source : {&boxes, &heights}) {
+      Parameters parameters(type.parameters);
+      parameters.set("resolution", std::int64_t{source->solid ? 40 : 0});
+      const auto built = type.build(*source, parameters, progress);
+      ByteSink sink;
+      built->save(sink);
+      const auto* own = reinterpret_cast<const std::uint8_t*>(sink.bytes().data());
+      seeds.emplace_back(1, static_cast<std::uint8_t>(t))
+          .insert(seeds.back().end(), own, own + sink.bytes().size());
+      const std::filesystem::path path = folder / ("terrabench_fuzz_seed_" + std::to_string(getpid()));
+      save_representation(path, type, *built);
+      const std::string file = read_file(path);
+      std::filesystem::remove(path);
+      seeds.emplace_back(1, kContainer).insert(seeds.back().end(), file.begin(), file.end());
+    }
+  }
+  return seeds;
+}
