@@ -87,6 +87,9 @@ class Representation {
   virtual Bounds bounds() const = 0;
 };
 
+// Heap bytes that the structure holds by the allocator's count: what destroying it gives back. Nothing else may run.
+std::int64_t destroy_and_count(std::unique_ptr<Representation>);
+
 struct Traits {
   bool overhangs = false;
   bool materials = false;

@@ -15,16 +15,23 @@
 namespace terrabench::noise {
 namespace {
 
-// The paper prints no numbers for the following; chosen so that hills, overhangs and tunnels are all clearly there
-// in a cube of 128 samples. Lengths are shares of the extent, frequencies are lattice cells an extent.
-constexpr float kHillFrequency = 2.5F, kHillHeight = 0.4F;
-// The fractal's proven range is twice what it ever uses: limiting it costs no hill and lets the evaluation know
-// that the surface lies in the middle of the cube.
-constexpr float kHillLimit = 0.5F;
-constexpr float kOverhangFrequency = 4.0F, kOverhangReach = 0.25F;
-constexpr float kCaveFrequency = 2.0F, kCaveThreshold = 0.78F;
-constexpr float kRoughnessFrequency = 5.0F, kRoughnessReach = 0.06F;
-constexpr float kAttenuationBias = 0.8F;
+// The paper prints no numbers for the following; chosen so that hills, overhangs and tunnels are all clearly
+// there at 128³, and little is cut off by roughness alone. Lengths are shares of the extent, frequencies are
+// lattice cells an extent.
+struct Shape {
+  float frequency, gain, reach;
+};
+constexpr Shape kHills{2.0F, 0.42F, 0.55F};
+constexpr Shape kOverhangs{3.0F, 0.32F, 0.5F};
+constexpr Shape kCaves{3.5F, 0.35F, 0.0F};
+constexpr Shape kRoughness{5.0F, 0.32F, 0.06F};
+// The fractal's proven range is twice what it ever uses: limiting it costs no hill and lets the evaluation
+// know that the surface lies in the middle of the cube.
+constexpr float kHillLimit = 0.55F;
+// Where a ridged multifractal, weakened by the attenuation, reaches this, it allows a cave.
+constexpr float kCaveThreshold = 0.72F;
+// Caves have their full width up to the lower height, and none at all well below the upper.
+constexpr float kAttenuationLow = 0.15F, kAttenuationHigh = 0.75F, kAttenuationBias = 0.75F;
 
 constexpr std::array<StageInfo, kStages> kStageInfo = {{
     {Stage::kGradient, 3, "gradient", 0, 1},
@@ -51,20 +58,20 @@ class Builder {
 
   Node ground() { return graph_.select(graph_.constant(0), graph_.constant(1), gradient(), 0.5F); }
 
-  Node hill_noise() { return graph_.fbm(fractal(0, kHillFrequency)); }
+  Node hill_noise() { return graph_.fbm(fractal(0, kHills)); }
 
   Node flat_hill_noise() { return graph_.scale_domain(hill_noise(), 1, 0, 1); }
 
   Node y_perturbed() {
     const Node limited = graph_.clamp(flat_hill_noise(), -kHillLimit, kHillLimit);
-    const Node height = graph_.scale_offset(limited, kHillHeight * options_.extent, 0);
+    const Node height = graph_.scale_offset(limited, kHills.reach * options_.extent, 0);
     return graph_.translate_domain(ground(), {}, height);
   }
 
-  Node xy_perturbed() { return graph_.translate_domain(y_perturbed(), shift(1, kOverhangFrequency, kOverhangReach)); }
+  Node xy_perturbed() { return graph_.translate_domain(y_perturbed(), shift(1, kOverhangs)); }
 
   // 0 or 1: the two multifractals differ in their seed and with it in the offsets of their octaves.
-  Node ridged(std::uint64_t which) { return graph_.ridged_multifractal(fractal(2 + which, kCaveFrequency)); }
+  Node ridged(std::uint64_t which) { return graph_.ridged_multifractal(fractal(2 + which, kCaves)); }
 
   // 1 where ridged multifractal `which` is so near its crests that it allows a cave.
   Node cave(std::uint64_t which, bool attenuated) {
@@ -75,9 +82,7 @@ class Builder {
   // The paper's form of the same: 0 in caves.
   Node map(Node cave) { return graph_.scale_offset(cave, -1, 1); }
 
-  Node perturbed(Node cave) {
-    return graph_.translate_domain(cave, graph_.cache(shift(4, kRoughnessFrequency, kRoughnessReach)));
-  }
+  Node perturbed(Node cave) { return graph_.translate_domain(cave, graph_.cache(shift(4, kRoughness))); }
 
   Node both_caves(bool attenuated) {
     const Node first = cave(0, attenuated), second = cave(1, attenuated);
@@ -90,16 +95,23 @@ class Builder {
   Node carved(Node terrain, bool attenuated) { return graph_.multiply(terrain, both_caves(attenuated)); }
 
  private:
-  Fractal fractal(std::uint64_t which, float cells) const {
-    // Consecutive seeds of one terrain and of the next never meet.
-    return {.seed = options_.seed * 16 + which, .frequency = cells / options_.extent, .octaves = 6};
+  Fractal fractal(std::uint64_t which, const Shape& shape) const {
+    // The seeds of one terrain's fractals and of the next terrain's never meet.
+    return {.seed = options_.seed * 16 + which,
+            .frequency = shape.frequency / options_.extent,
+            .octaves = 6,
+            .gain = shape.gain};
   }
 
-  Node shift(std::uint64_t which, float cells, float reach) {
-    return graph_.scale_offset(graph_.fbm(fractal(which, cells)), reach * options_.extent, 0);
+  Node shift(std::uint64_t which, const Shape& shape) {
+    return graph_.scale_offset(graph_.fbm(fractal(which, shape)), shape.reach * options_.extent, 0);
   }
 
-  Node attenuation() { return graph_.bias(gradient(), kAttenuationBias); }
+  Node attenuation() {
+    const float e = options_.extent;
+    return graph_.bias(graph_.gradient({0, kAttenuationHigh * e, 0}, {0, kAttenuationLow * e, 0}),
+                       kAttenuationBias);
+  }
 
   CaveOptions options_;
   Graph graph_;
@@ -145,7 +157,8 @@ void fill_column(const Program& program, const ColumnSamples& at, std::span<Mate
   thread_local std::vector<float> values;
   if (values.size() < out.size()) values.resize(out.size());
   program.column(at, std::span(values).first(out.size()));
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = values[i] > 0.5F ? Material::kBedrock : Material::kAir;
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = values[i] > 0.5F ? Material::kBedrock : Material::kAir;
 }
 
 }  // namespace
@@ -167,8 +180,8 @@ Solid cave_terrain(const CaveOptions& options) {
   Solid solid;
   solid.bounds = {glm::vec3(0), glm::vec3(options.extent)};
   // The graph's text holds every option that shapes the terrain.
-  solid.checksum = checksum(fmt::format("cave terrain {} root {}\n{}", options.extent, cave.root.index,
-                                        cave.graph.describe()));
+  solid.checksum = checksum(
+      fmt::format("cave terrain {} root {}\n{}", options.extent, cave.root.index, cave.graph.describe()));
   solid.column = [program = std::make_shared<const Program>(cave.graph, cave.root)](
                      const ColumnSamples& at, std::span<Material> out) { fill_column(*program, at, out); };
   return solid;

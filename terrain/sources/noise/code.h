@@ -1,6 +1,6 @@
 // The flat register program that a noise graph is compiled to, shared by the compiler (program.cpp) and the
-// per-instruction-set machine (machine.cpp). Registers are runs of floats in one scratch array: kMaxLanes equal
-// values for what is constant along a column, kBatch values for what varies.
+// per-instruction-set machine (machine.cpp). Registers are runs of floats in one scratch array: kMaxLanes
+// equal values for what is constant along a column, kBatch values for what varies.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,10 @@
 namespace terrabench::noise {
 
 inline constexpr std::uint32_t kMaxLanes = 16;  // of the widest vector used
-// Samples evaluated between two decisions to skip. Small batches skip more, large ones dispatch less often.
+// Samples evaluated between two decisions to skip, at most, and how many such batches a column should have.
+// Small batches skip more, large ones dispatch less often.
 inline constexpr std::uint32_t kBatch = 64;
+inline constexpr std::uint32_t kBatchesPerColumn = 8;
 
 enum class Op : std::uint8_t {
   kInputX,

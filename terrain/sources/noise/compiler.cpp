@@ -25,7 +25,8 @@ struct Value {
   bool even = false;                   // input y, scaled and offset by what is constant along the column
 };
 
-// Instructions that run only when a batch needs them: operand `slot` of value `user`. The regions form a tree.
+// Instructions that run only when a batch needs them: operand `slot` of value `user`. The regions form a
+// tree.
 struct Region {
   Id user = kNone;
   int slot = 0;
@@ -46,9 +47,7 @@ std::uint64_t next_random(std::uint64_t& state) {
 }
 
 // In [0, 256), in steps of 1/256: exact for any coordinate that is.
-float lattice_offset(std::uint64_t& state) {
-  return static_cast<float>(next_random(state) >> 48) / 256.0F;
-}
+float lattice_offset(std::uint64_t& state) { return static_cast<float>(next_random(state) >> 48) / 256.0F; }
 
 // Whether an operand is evaluated only where needed.
 bool is_lazy(Op op, int slot) {
@@ -72,7 +71,8 @@ class Compiler {
   }
 
  private:
-  // --- from nodes to values -------------------------------------------------------------------------------------
+  // --- from nodes to values
+  // -------------------------------------------------------------------------------------
   Id add(const Value& value);
   Id add_operation(Op op, std::array<Id, 3> operands, float p = 0, float q = 0);
   Id constant(float value) { return add({.op = Op::kConstant, .p = value}); }
@@ -84,7 +84,8 @@ class Compiler {
   Id evaluate(Node node, const Coordinates& at);
   Id evaluate_module(const Module& module, const Coordinates& at);
 
-  // --- from values to code --------------------------------------------------------------------------------------
+  // --- from values to code
+  // --------------------------------------------------------------------------------------
   std::uint32_t common(std::uint32_t a, std::uint32_t b) const;
   void find_regions();
   void assign_registers();
@@ -105,10 +106,10 @@ class Compiler {
   std::map<std::array<std::uint32_t, 6>, std::uint32_t> octaves_of_;  // first octave of a fractal
 
   std::vector<Region> regions_;
-  std::vector<std::uint32_t> region_of_;                       // by value; ~0: not needed
-  std::map<std::pair<Id, int>, std::uint32_t> lazy_region_;    // by user and slot
-  std::vector<std::vector<Id>> members_;                       // by region, in order
-  std::vector<Operand> registers_;                             // by value
+  std::vector<std::uint32_t> region_of_;                     // by value; ~0: not needed
+  std::map<std::pair<Id, int>, std::uint32_t> lazy_region_;  // by user and slot
+  std::vector<std::vector<Id>> members_;                     // by region, in order
+  std::vector<Operand> registers_;                           // by value
   Code code_;
 };
 
@@ -133,8 +134,10 @@ Id Compiler::add_operation(Op op, std::array<Id, 3> operands, float p, float q) 
   }
   const auto steady = [&](Id id) { return values_[id].even || !values_[id].varies; };
   if (op == Op::kScaleOffset || op == Op::kAdd) {
-    const bool one_moves = op == Op::kScaleOffset || !(values_[operands[0]].even && values_[operands[1]].even);
-    value.even = value.varies && one_moves && steady(operands[0]) && (operands[1] == kNone || steady(operands[1]));
+    const bool one_moves =
+        op == Op::kScaleOffset || !(values_[operands[0]].even && values_[operands[1]].even);
+    value.even =
+        value.varies && one_moves && steady(operands[0]) && (operands[1] == kNone || steady(operands[1]));
   }
   return add(value);
 }
@@ -154,28 +157,15 @@ Id Compiler::sum(Id a, Id b) {
 Id Compiler::mix(Id t, Id high, Id low) { return add_operation(Op::kMix, {t, high, low}); }
 
 Id Compiler::fractal(Op op, const Fractal& f, const Coordinates& at) {
-  const std::array<std::uint32_t, 6> key = {static_cast<std::uint32_t>(f.seed),
-                                            static_cast<std::uint32_t>(f.seed >> 32),
-                                            std::bit_cast<std::uint32_t>(f.frequency),
-                                            static_cast<std::uint32_t>(f.octaves),
-                                            std::bit_cast<std::uint32_t>(f.lacunarity),
-                                            std::bit_cast<std::uint32_t>(f.gain)};
-  const auto [known, inserted] = octaves_of_.try_emplace(key, static_cast<std::uint32_t>(code_.octaves.size()));
+  const std::array<std::uint32_t, 6> key = {
+      static_cast<std::uint32_t>(f.seed),         static_cast<std::uint32_t>(f.seed >> 32),
+      std::bit_cast<std::uint32_t>(f.frequency),  static_cast<std::uint32_t>(f.octaves),
+      std::bit_cast<std::uint32_t>(f.lacunarity), std::bit_cast<std::uint32_t>(f.gain)};
+  const auto [known, inserted] =
+      octaves_of_.try_emplace(key, static_cast<std::uint32_t>(code_.octaves.size()));
   if (inserted) {
-    std::uint64_t state = f.seed;
-    Octave octave{.frequency = f.frequency};
-    float total = 0;
-    for (int i = 0; i < f.octaves; ++i) {
-      octave.seed = static_cast<std::uint32_t>(next_random(state));
-      octave.offset_x = lattice_offset(state);
-      octave.offset_y = lattice_offset(state);
-      octave.offset_z = lattice_offset(state);
-      code_.octaves.push_back(octave);
-      total += octave.weight;
-      octave.frequency *= f.lacunarity;
-      octave.weight *= f.gain;
-    }
-    for (auto i = known->second; i < code_.octaves.size(); ++i) code_.octaves[i].weight /= total;
+    const std::vector<Octave> octaves = compile_octaves(f);
+    code_.octaves.insert(code_.octaves.end(), octaves.begin(), octaves.end());
   }
   Value value{.op = op,
               .operands = {at.x, at.y, at.z},
@@ -252,8 +242,8 @@ Id Compiler::evaluate_module(const Module& m, const Coordinates& at) {
       return evaluate(m.inputs[0], {moved(at.x, 1), moved(at.y, 2), moved(at.z, 3)});
     }
     case Kind::kScaleDomain:
-      return evaluate(m.inputs[0],
-                      {scale_offset(at.x, p[0], 0), scale_offset(at.y, p[1], 0), scale_offset(at.z, p[2], 0)});
+      return evaluate(m.inputs[0], {scale_offset(at.x, p[0], 0), scale_offset(at.y, p[1], 0),
+                                    scale_offset(at.z, p[2], 0)});
     case Kind::kCache:
       return input(0);
   }
@@ -269,8 +259,8 @@ std::uint32_t Compiler::common(std::uint32_t a, std::uint32_t b) const {
   return a;
 }
 
-// Users come after their operands, so going backwards every user has its region before its operands need it. A
-// value belongs to the innermost region that contains all its uses.
+// Users come after their operands, so going backwards every user has its region before its operands need it.
+// A value belongs to the innermost region that contains all its uses.
 void Compiler::find_regions() {
   constexpr std::uint32_t kUnused = ~std::uint32_t{0};
   regions_.assign(1, {});
@@ -318,7 +308,8 @@ Instruction Compiler::instruction(Id id) const {
     const Id operand = v.operands[static_cast<std::size_t>(slot)];
     return operand == kNone ? Operand{} : registers_[operand];
   };
-  Instruction in{.op = v.op, .out = registers_[id], .a = reg(0), .b = reg(1), .c = reg(2), .p = v.p, .q = v.q};
+  Instruction in{
+      .op = v.op, .out = registers_[id], .a = reg(0), .b = reg(1), .c = reg(2), .p = v.p, .q = v.q};
   in.first = v.first;
   in.count = v.count;
   if (v.op == Op::kFbm || v.op == Op::kRidged || v.op == Op::kBillow) {
@@ -402,6 +393,28 @@ void Compiler::emit() {
 }
 
 }  // namespace
+
+std::vector<Octave> compile_octaves(const Fractal& f) {
+  std::vector<Octave> octaves;
+  std::uint64_t state = f.seed;
+  Octave octave{.frequency = f.frequency};
+  float total = 0;
+  for (int i = 0; i < f.octaves; ++i) {
+    octave.seed = static_cast<std::uint32_t>(next_random(state));
+    octave.offset_x = lattice_offset(state);
+    octave.offset_y = lattice_offset(state);
+    octave.offset_z = lattice_offset(state);
+    octaves.push_back(octave);
+    total += octave.weight;
+    octave.frequency *= f.lacunarity;
+    octave.weight *= f.gain;
+  }
+  // A sum of rounded weights may exceed 1 by half an ulp an octave; the range that graph.h promises, and that
+  // bounds rely on, must hold exactly.
+  constexpr float kRoom = 1.0F - 2e-6F;
+  for (Octave& each : octaves) each.weight = each.weight / total * kRoom;
+  return octaves;
+}
 
 Code compile(const Graph& graph, Node root, Mode mode) { return Compiler(graph, mode).compile(root); }
 

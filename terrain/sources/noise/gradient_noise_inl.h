@@ -1,7 +1,8 @@
-// Improved gradient noise (Perlin 2002) in SIMD: quintic fades, the twelve edge directions as gradients, chosen by
-// an integer hash of the lattice point instead of a permutation table. Every operation is an exactly rounded
-// float or an integer one, in a fixed order and without fused multiply-add, so all instruction sets agree bit
-// for bit. Compiled once for each target: included by machine.cpp through Highway's foreach_target.
+// Improved gradient noise (Perlin 2002) in SIMD: quintic fades, the twelve edge directions as gradients,
+// chosen by an integer hash of the lattice point instead of a permutation table. Every operation is an
+// exactly rounded float or an integer one, in a fixed order and without fused multiply-add, so all
+// instruction sets agree bit for bit. Compiled once for each target: included by machine.cpp through
+// Highway's foreach_target.
 //
 // Noise in a cell is written as n = n0 + fade(fy)(n1 - n0), plane k at height k of the cell being
 // nk = Ak + Bk (fy - k), where A and B interpolate the gradients' x,z parts and y parts over x and z. Along a
@@ -36,8 +37,8 @@ struct Axis {
   VF f0, f1, fade;  // distance to the cell's lower and upper lattice plane, weight of the upper
 };
 
-// Splits a coordinate into cell and fraction. Truncates and corrects instead of calling Floor(), whose sign of
-// zero differs between targets.
+// Splits a coordinate into cell and fraction. Truncates and corrects instead of calling Floor(), whose sign
+// of zero differs between targets.
 HWY_INLINE Axis split(VF p) {
   const F f;
   const I i;
@@ -79,8 +80,9 @@ HWY_INLINE void lines(const Axis& x, const Axis& z, std::uint32_t seed, Line (&l
   const VU x0 = hn::Mul(hn::BitCast(u, x.cell), hn::Set(u, kLatticeX));
   const VU z0 = hn::Xor(hn::Mul(hn::BitCast(u, z.cell), hn::Set(u, kLatticeZ)), hn::Set(u, seed));
   const VU x1 = hn::Add(x0, hn::Set(u, kLatticeX));
-  const VU z1 = hn::Xor(hn::Add(hn::Mul(hn::BitCast(u, z.cell), hn::Set(u, kLatticeZ)), hn::Set(u, kLatticeZ)),
-                        hn::Set(u, seed));
+  const VU z1 =
+      hn::Xor(hn::Add(hn::Mul(hn::BitCast(u, z.cell), hn::Set(u, kLatticeZ)), hn::Set(u, kLatticeZ)),
+              hn::Set(u, seed));
   const VF one = hn::Set(f, 1.0F);
   const VF u0 = hn::Sub(one, x.fade), v0 = hn::Sub(one, z.fade);
   line[0].hash = hash_xz(hn::Xor(x0, z0));
@@ -101,8 +103,8 @@ struct Plane {
   VF a, b;  // A and B of the header comment
 };
 
-// The edge direction of a lattice point has one zero component, drawn from the hash's low 29 bits in equal thirds,
-// and the signs of the other two in the top bits.
+// The edge direction of a lattice point has one zero component, drawn from the hash's low 29 bits in equal
+// thirds, and the signs of the other two in the top bits.
 HWY_INLINE Plane corner(const Line& line, VU y) {
   const F f;
   const U u;
@@ -124,7 +126,8 @@ HWY_INLINE Plane corner(const Line& line, VU y) {
 HWY_INLINE Plane plane(const Line (&line)[4], VU y) {
   const Plane c0 = corner(line[0], y), c1 = corner(line[1], y);
   const Plane c2 = corner(line[2], y), c3 = corner(line[3], y);
-  return {hn::Add(hn::Add(c0.a, c1.a), hn::Add(c2.a, c3.a)), hn::Add(hn::Add(c0.b, c1.b), hn::Add(c2.b, c3.b))};
+  return {hn::Add(hn::Add(c0.a, c1.a), hn::Add(c2.a, c3.a)),
+          hn::Add(hn::Add(c0.b, c1.b), hn::Add(c2.b, c3.b))};
 }
 
 HWY_INLINE VF between(const Axis& y, const Plane& low, const Plane& high) {
@@ -155,7 +158,8 @@ HWY_INLINE bool gradient_noise_along_y(VF px, const float* HWY_RESTRICT py, VF p
   const auto n = static_cast<std::uint32_t>(hn::Lanes(f));
   const float first = py[0], last = py[count - 1];
   // Written so that NaN fails.
-  if (!(first > -kPlaneLimit && first < kPlaneLimit && last > -kPlaneLimit && last < kPlaneLimit)) return false;
+  if (!(first > -kPlaneLimit && first < kPlaneLimit && last > -kPlaneLimit && last < kPlaneLimit))
+    return false;
   const float low = first < last ? first : last, span = first < last ? last - first : first - last;
   if (span * kPlaneCost > static_cast<float>(count)) return false;
 
@@ -181,8 +185,10 @@ HWY_INLINE bool gradient_noise_along_y(VF px, const float* HWY_RESTRICT py, VF p
     for (std::int32_t cell = from + 1; cell <= to; ++cell) {
       ++ka, ++kb;
       const MF here = hn::RebindMask(f, hn::Eq(y.cell, hn::Set(i, cell)));
-      lower = {hn::IfThenElse(here, hn::Set(f, ka[0]), lower.a), hn::IfThenElse(here, hn::Set(f, kb[0]), lower.b)};
-      upper = {hn::IfThenElse(here, hn::Set(f, ka[1]), upper.a), hn::IfThenElse(here, hn::Set(f, kb[1]), upper.b)};
+      lower = {hn::IfThenElse(here, hn::Set(f, ka[0]), lower.a),
+               hn::IfThenElse(here, hn::Set(f, kb[0]), lower.b)};
+      upper = {hn::IfThenElse(here, hn::Set(f, ka[1]), upper.a),
+               hn::IfThenElse(here, hn::Set(f, kb[1]), upper.b)};
     }
     hn::Store(between(y, lower, upper), f, out + s);
   }

@@ -11,8 +11,10 @@ namespace terrabench::noise {
 namespace {
 
 constexpr std::string_view kKindNames[] = {
-    "constant", "gradient", "fbm", "ridged_multifractal", "billow",           "clamp",        "select", "blend",
-    "scale_offset", "bias", "gain", "add",                "multiply", "translate_domain", "scale_domain", "cache"};
+    "constant", "gradient", "fbm",      "ridged_multifractal", "billow",
+    "clamp",    "select",   "blend",    "scale_offset",        "bias",
+    "gain",     "add",      "multiply", "translate_domain",    "scale_domain",
+    "cache"};
 
 }  // namespace
 

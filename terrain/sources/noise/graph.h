@@ -34,9 +34,9 @@ enum class Kind : std::uint8_t {
   kCache
 };
 
-// Octave i has frequency·lacunarity^i cells a metre and the weight gain^i. Each octave's lattice is shifted by an
-// offset drawn from the seed, or the zeros of all octaves would coincide at whole coordinates; fractals of
-// different seeds therefore also have different offsets.
+// Octave i has frequency·lacunarity^i cells a metre and the weight gain^i. Each octave's lattice is shifted
+// by an offset drawn from the seed, or the zeros of all octaves would coincide at whole coordinates; fractals
+// of different seeds therefore also have different offsets.
 struct Fractal {
   std::uint64_t seed = 0;
   float frequency = 1.0F;  // cells a metre of the first octave, finite and > 0
@@ -71,7 +71,8 @@ class Graph {
   // Σ wᵢ nᵢ / Σ wᵢ of gradient noise n (Perlin 2002), wᵢ = gainⁱ. Range [-1, 1], mean 0.
   Node fbm(const Fractal&);
   // Σ wᵢ sᵢ mᵢ / Σ wᵢ with sᵢ = (1 - |nᵢ|)², m₀ = 1, mᵢ = clamp(2·sᵢ₋₁·mᵢ₋₁, 0, 1) (Musgrave 1994): crests,
-  // where noise crosses zero, keep their detail, valleys are smooth. Range [0, 1]; 1 on a crest of all octaves.
+  // where noise crosses zero, keep their detail, valleys are smooth. Range [0, 1]; 1 on a crest of all
+  // octaves.
   Node ridged_multifractal(const Fractal&);
   // Σ wᵢ (2|nᵢ| - 1) / Σ wᵢ: round hills with creases between. Range [-1, 1].
   Node billow(const Fractal&);
@@ -87,8 +88,8 @@ class Graph {
 
   // source·scale + offset.
   Node scale_offset(Node source, float scale, float offset);
-  // Schlick's bias of t = clamp(source, 0, 1): t / ((1/bias - 2)(1 - t) + 1), bias in (0, 1). Range [0, 1], keeps
-  // 0 and 1, maps 1/2 to bias. The rational form instead of a power: it is exact on every machine.
+  // Schlick's bias of t = clamp(source, 0, 1): t / ((1/bias - 2)(1 - t) + 1), bias in (0, 1). Range [0, 1],
+  // keeps 0 and 1, maps 1/2 to bias. The rational form instead of a power: it is exact on every machine.
   Node bias(Node source, float bias);
   // Schlick's gain: bias(2t)/2 below 1/2, 1 - bias(2 - 2t)/2 above. Range [0, 1], keeps 0, 1/2 and 1.
   Node gain(Node source, float gain);
@@ -103,8 +104,8 @@ class Graph {
   // Samples the source at (x·sx, y·sy, z·sz). A scale of 0 makes the source constant along that axis.
   Node scale_domain(Node source, float sx, float sy, float sz);
 
-  // The value of the source, unchanged: says that it is used more than once. Only a hint, because the compiler
-  // evaluates equal expressions at equal coordinates once whether marked or not.
+  // The value of the source, unchanged: says that it is used more than once. Only a hint, because the
+  // compiler evaluates equal expressions at equal coordinates once whether marked or not.
   Node cache(Node source);
 
   const std::vector<Module>& modules() const { return modules_; }

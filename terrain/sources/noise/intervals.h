@@ -1,6 +1,6 @@
-// Interval arithmetic over one batch of a column: proves that a step is wholly 0 or wholly 1 without evaluating
-// its control. Float rounding is monotone, so the rounded ends of an interval, computed by the operations that
-// the machine uses, still bound every rounded value inside. Tens of nanoseconds a batch.
+// Interval arithmetic over one batch of a column: proves that a step is wholly 0 or wholly 1 without
+// evaluating its control. Float rounding is monotone, so the rounded ends of an interval, computed by the
+// operations that the machine uses, still bound every rounded value inside. Tens of nanoseconds a batch.
 #pragma once
 
 #include <span>

@@ -1,4 +1,5 @@
-// Constants of the gradient noise lattice, apart from the SIMD code so that a scalar reference can share them.
+// Constants of the gradient noise lattice, apart from the SIMD code so that a scalar reference can share
+// them.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +16,13 @@ inline constexpr std::int32_t kThird = 0x0AAAAAAA;
 // Coordinates of this size or more count as 0: their cell would not fit 32 bits.
 inline constexpr float kLatticeLimit = 1073741824.0F;  // 2^30
 
-// 1 / (the largest value of the sum of corner weights times the best gradient's product, 1.0363538), rounded down
-// so far that float rounding cannot leave [-1, 1].
+// 1 / (the largest value of the sum of corner weights times the best gradient's product, 1.0363538), rounded
+// down so far that float rounding cannot leave [-1, 1].
 inline constexpr float kNormalise = 0.96492F;
 
-// Shared lattice planes are used where y fits exactly and a batch has at least this many samples a cell: making a
-// plane costs half a sample's noise, and finding a sample's plane costs more the more planes a vector spans.
+// Shared lattice planes are used where y fits exactly and a batch has at least this many samples a cell:
+// making a plane costs half a sample's noise, and finding a sample's plane costs more the more planes a
+// vector spans.
 inline constexpr float kPlaneLimit = 4194304.0F;  // 2^22
 inline constexpr float kPlaneCost = 1.5F;
 

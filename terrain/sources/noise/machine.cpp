@@ -202,8 +202,8 @@ void run(const Machine& m, std::span<const Instruction> program) {
   }
 }
 
-// Fills the input registers for samples [begin, begin + n), up to whole vectors: a column goes on past its end,
-// arrays repeat their last sample.
+// Fills the input registers for samples [begin, begin + n), up to whole vectors: a column goes on past its
+// end, arrays repeat their last sample.
 void fill_inputs(const Machine& m, const Samples& samples, std::size_t begin, std::uint32_t n) {
   const Code& code = m.code;
   if (samples.column) {
@@ -223,6 +223,13 @@ void fill_inputs(const Machine& m, const Samples& samples, std::size_t begin, st
   }
 }
 
+// Batches of the same share of a column at any sampling, where the limits allow: what can be skipped is then
+// a matter of the terrain and not of the resolution.
+std::uint32_t batch_size(std::size_t count) {
+  const std::size_t share = (count / kBatchesPerColumn + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
+  return static_cast<std::uint32_t>(share < kMaxLanes ? kMaxLanes : share > kBatch ? kBatch : share);
+}
+
 void execute_here(const Code& code, const Samples& samples, float* scratch, float* out, std::size_t count) {
   const auto lanes = static_cast<std::uint32_t>(hn::Lanes(F()));
   Machine m{code, scratch, kMaxLanes};
@@ -231,8 +238,9 @@ void execute_here(const Code& code, const Samples& samples, float* scratch, floa
     m.each(code.z, [&](std::uint32_t) { return hn::Set(F(), samples.z); });
   }
   run(m, code.once);
-  for (std::size_t begin = 0; begin < count; begin += kBatch) {
-    const auto n = static_cast<std::uint32_t>(count - begin < kBatch ? count - begin : kBatch);
+  const std::uint32_t batch = batch_size(count);
+  for (std::size_t begin = 0; begin < count; begin += batch) {
+    const auto n = static_cast<std::uint32_t>(count - begin < batch ? count - begin : batch);
     m.count = (n + lanes - 1) / lanes * lanes;
     fill_inputs(m, samples, begin, n);
     run(m, code.batch);

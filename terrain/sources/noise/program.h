@@ -1,9 +1,12 @@
-// Evaluates a noise graph (graph.h): compiled once to a flat register program, then run over batches of samples.
+// Evaluates a noise graph (graph.h): compiled once to a flat register program, then run over batches of
+// samples.
 //  - Equal expressions at equal coordinates are evaluated once (hash consing while compiling).
 //  - What does not change along a column is evaluated once a column.
-//  - Operands of multiply, select and blend that a whole batch does not need are skipped, and so is the control
+//  - Operands of multiply, select and blend that a whole batch does not need are skipped, and so is the
+//  control
 //    of a select that interval bounds decide. Skipping never changes a value.
-//  - SIMD on the best instruction set of the machine, with bit-identical results on all of them, in columns or
+//  - SIMD on the best instruction set of the machine, with bit-identical results on all of them, in columns
+//  or
 //    points alike.
 // Compiling is O(nodes), a few microseconds. Evaluation allocates nothing after a thread's first call.
 #pragma once
