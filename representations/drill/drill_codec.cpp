@@ -73,16 +73,21 @@ class DrillCoder {
     Numbers coded;
     coded.rise = rise_[context(down.rise)].code(coder_, own.elevation - down.elevation);
     coded.turn = turn_[context(down.turn)].code(coder_, own.slope - down.slope);
-    coded.elevation = down.elevation + coded.rise;
-    coded.slope = down.slope + coded.turn;
+    coded.elevation = sum(down.elevation, coded.rise);
+    coded.slope = sum(down.slope, coded.turn);
     const int level = (down.curvature == 0 ? 1 : 0) + (coded.slope == 0 ? 2 : 0);
-    coded.curvature = down.curvature + curvature_[level].code(coder_, own.curvature - down.curvature);
+    coded.curvature = sum(down.curvature, curvature_[level].code(coder_, own.curvature - down.curvature));
     if (with_influence)
-      coded.influence = down.influence + influence_.code(coder_, own.influence - down.influence);
+      coded.influence = sum(down.influence, influence_.code(coder_, own.influence - down.influence));
     return coded;
   }
 
  private:
+  // Damaged files hold differences of any size; the sum is looked at afterwards.
+  static std::int32_t sum(std::int32_t a, std::int32_t b) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
+  }
+
   static constexpr int kContexts = 12;
   Coder& coder_;
   SymbolModel<8> outlet_children_;
@@ -340,7 +345,7 @@ void quantise(Drills& drills, float quantum) {
 float automatic_quantum(const Heightfield& field) {
   const HeightRange range = height_range(field);
   const float largest = std::max(std::abs(range.lowest), std::abs(range.highest));
-  const float wanted = std::max((range.highest - range.lowest) / 1024, largest / (kLargest / 2));
+  const float wanted = std::max((range.highest - range.lowest) / 256, largest / (kLargest / 2));
   if (!(wanted > 0)) return 1;
   return std::clamp(std::exp2(std::floor(std::log2(wanted))), kLeastQuantum, kMostQuantum);
 }
@@ -349,7 +354,8 @@ void encode_drills(const Drills& drills, ByteSink& out) {
   out.put(drills.width);
   out.put(drills.depth);
   for (const float metres : {drills.cell_x, drills.cell_z, drills.plateau, drills.quantum}) out.put(metres);
-  for (const int small : {drills.w, drills.k, drills.influence.empty() ? 0 : 1}) {
+  for (const int small :
+       {drills.w, drills.k, drills.influence.empty() ? 0 : 1, drills.interpolated ? 1 : 0}) {
     out.put(static_cast<std::uint8_t>(small));
   }
   const std::vector<std::byte> coded = Encoder(drills).run();
@@ -366,6 +372,7 @@ Drills decode_drills(ByteSource& in) {
   drills.w = in.get<std::uint8_t>();
   drills.k = in.get<std::uint8_t>();
   const bool with_influence = in.get<std::uint8_t>() != 0;
+  drills.interpolated = in.get<std::uint8_t>() != 0;
   check_frame(drills, in);
   const std::vector<std::byte> coded = in.get_array<std::byte>(in.get<std::uint64_t>());
   Decoder(drills, with_influence, coded, in).run();

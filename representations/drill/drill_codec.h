@@ -19,8 +19,8 @@ namespace terrabench {
 // fine that a number does not fit 22 bits.
 void quantise(Drills& drills, float quantum);
 
-// A power of two near 1/1024 of the range of heights: small against the error that drills leave, and exact
-// for whole metres in most terrains.
+// A power of two near 1/256 of the range of heights: drills err by some 2 % of the range, beside which such
+// rounding is lost.
 float automatic_quantum(const Heightfield& field);
 
 // Bit for bit what decode_drills() gives back. `drills` are quantised, as extract_drills() orders them.

@@ -32,6 +32,7 @@ struct Drills {
   int w = 1;                     // how far, in samples, the terrain was looked at for the shapes
   int k = 0;                     // influence: windows are 2k + 1 samples wide; the largest, with `influence`
   float quantum = 0;             // see quantise() in drill_codec.h; 0 when nothing is rounded
+  bool interpolated = false;     // pixels that no drill touches take after those around them
 
   std::vector<std::uint32_t> pixel;
   std::vector<std::uint8_t> direction;  // to the drill downstream (kFlowSteps), or FlowNetwork::kOutlet
@@ -59,6 +60,8 @@ struct DrillOptions {
   bool window_only = false;
   // §4.1: elevations never rise downstream. With shapes monotone everywhere no pit can be left (pits.h).
   bool monotone_profiles = false;
+  bool adaptive_k = false;             // §4.1: a k of its own for every drill, up to `k` (influence.h)
+  bool interpolate_untouched = false;  // §4.1: see regenerate.h
 };
 
 // Throws usage_error: τ < 1, w < 1 or larger than the terrain, w or k above 255, k < 0.

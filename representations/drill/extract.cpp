@@ -7,6 +7,7 @@
 
 #include "representations/drill/cross_sections.h"
 #include "representations/drill/drills.h"
+#include "representations/drill/influence.h"
 #include "representations/drill/profile_fit.h"
 #include "terrain/error.h"
 
@@ -112,7 +113,10 @@ Drills extract_drills(const Heightfield& field, const FlowNetwork& network, cons
     drills.elevation[i] = elevation[channel[i]];
   }
   drills.pixel = std::move(channel);
-  if (drills.count() > 0) shape_drills(CrossSections(field, options.w), rises_to(options), drills, progress);
+  drills.interpolated = options.interpolate_untouched;
+  if (drills.count() == 0) return drills;
+  shape_drills(CrossSections(field, options.w), rises_to(options), drills, progress);
+  if (options.adaptive_k) choose_influence(field, drills, progress);
   return drills;
 }
 

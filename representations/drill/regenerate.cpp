@@ -185,6 +185,7 @@ Heightfield regenerate(const Drills& drills) {
   field.cell_z = drills.cell_z;
   field.heights.resize(drills.pixels());
   regenerate(drills, field.heights);
+  if (drills.interpolated) interpolate_untouched(drills, field);
   return field;
 }
 

@@ -12,8 +12,9 @@
 
 namespace terrabench {
 
-// Row-major heights of all pixels: the plateau where no drill reached, no-data in holes.
+// Row-major heights of all pixels: the plateau where no drill reached, no-data in holes. Never interpolates.
 void regenerate(const Drills& drills, std::span<float> heights);
+// The same as a field, interpolated when drills.interpolated.
 Heightfield regenerate(const Drills& drills);
 
 // Whether a drill lowered the pixel. Some that no drill touches may lie inside windows, higher up the shape
