@@ -1,4 +1,5 @@
-// Channel networks of the drill paper's §2.1 and §3.1: how many pixels a threshold gives, and the largest flow.
+// Channel networks of the drill paper's §2.1 and §3.1: how many pixels a threshold gives, and the largest
+// flow.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,8 +36,8 @@ void measure_channels(const Case& at, const RunOptions& options, Recorder& recor
   recorder.terrain(source);
   const FlowNetwork network = route_flow(*source.heights, &progress);
   const auto channels = channel_pixels(network, static_cast<std::uint32_t>(at.parameters.integer("tau")));
-  const auto largest = static_cast<double>(
-      *std::max_element(network.accumulation.begin(), network.accumulation.end()));
+  const auto largest =
+      static_cast<double>(*std::max_element(network.accumulation.begin(), network.accumulation.end()));
   const auto pixels = static_cast<double>(source.heights->heights.size()) -
                       static_cast<double>(height_range(*source.heights).no_data);
   recorder.add("channel_pixels", "", static_cast<double>(channels.size()));

@@ -81,8 +81,8 @@ std::vector<Case> factorial_cases(const RunOptions& options) {
     for (const std::uint32_t tau : kTaus) {
       for (const int w : kWidths) {
         for (const int k : kInfluences) {
-          Case& added = cases.emplace_back(
-              Case{fmt::format("{}/{}", ground, name({tau, w, k})), Parameters(kFactorialParameters), ground});
+          Case& added = cases.emplace_back(Case{fmt::format("{}/{}", ground, name({tau, w, k})),
+                                                Parameters(kFactorialParameters), ground});
           added.parameters.set("tau", std::int64_t{tau});
           added.parameters.set("w", std::int64_t{w});
           added.parameters.set("k", std::int64_t{k});

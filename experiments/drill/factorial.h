@@ -1,5 +1,5 @@
-// The factorial of the drill paper's §3: 3 thresholds × 3 cross-sections × 6 influences. The paper names τ = 25
-// and 100 and "above 100", w = 10 and k = 20 only; the other levels are our choice around these.
+// The factorial of the drill paper's §3: 3 thresholds × 3 cross-sections × 6 influences. The paper names τ =
+// 25 and 100 and "above 100", w = 10 and k = 20 only; the other levels are our choice around these.
 #pragma once
 
 #include <array>
@@ -24,7 +24,8 @@ struct Setting {
 };
 std::string name(const Setting&);  // "tau=25,w=10,k=20"
 
-inline constexpr std::array kReadings{ChannelReading::kPlane, ChannelReading::kSpace, ChannelReading::kSample};
+inline constexpr std::array kReadings{ChannelReading::kPlane, ChannelReading::kSpace,
+                                      ChannelReading::kSample};
 
 // What one setting measures. Errors are normalised as in §3.1.
 struct Outcome {
@@ -74,9 +75,12 @@ Effects main_effects(const std::vector<Outcome>& outcomes, const ErrorOf& error)
     return squares / total;
   };
   Effects effects;
-  effects.tau = between(kTaus, [](const Setting& s) { return s.tau; }, effects.mean_at_tau.data());
-  effects.w = between(kWidths, [](const Setting& s) { return s.w; }, nullptr);
-  effects.k = between(kInfluences, [](const Setting& s) { return s.k; }, nullptr);
+  effects.tau = between(
+      kTaus, [](const Setting& s) { return s.tau; }, effects.mean_at_tau.data());
+  effects.w = between(
+      kWidths, [](const Setting& s) { return s.w; }, nullptr);
+  effects.k = between(
+      kInfluences, [](const Setting& s) { return s.k; }, nullptr);
   effects.interactions = 1 - effects.tau - effects.w - effects.k;
   return effects;
 }

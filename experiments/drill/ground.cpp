@@ -33,7 +33,8 @@ TerrainSource from_noise(std::string_view name, const noise::Graph& graph, noise
       x[i] = static_cast<float>(i) * field.cell_x;
       z[i] = static_cast<float>(j) * field.cell_z;
     }
-    program.points(x, y, z, std::span(field.heights).subspan(static_cast<std::size_t>(j) * kPaperSize, kPaperSize));
+    program.points(x, y, z,
+                   std::span(field.heights).subspan(static_cast<std::size_t>(j) * kPaperSize, kPaperSize));
   }
   for (float& h : field.heights) h = std::round(lift + relief * h);
   return from_heights(name, std::move(field));
