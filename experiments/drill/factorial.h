@@ -45,7 +45,7 @@ struct Effects {
   double tau = 0, w = 0, k = 0, interactions = 0;  // shares, sum 1; all 0 when nothing varies
   std::array<double, 3> mean_at_tau{};
 };
-// `outcomes` in the order of factorial(); error: one of its values.
+// `outcomes`: those of factorial(), or of some of its levels with all combinations of these.
 template <class ErrorOf>
 Effects main_effects(const std::vector<Outcome>& outcomes, const ErrorOf& error);
 
@@ -69,6 +69,7 @@ Effects main_effects(const std::vector<Outcome>& outcomes, const ErrorOf& error)
         sum += error(o);
         ++count;
       }
+      if (count == 0) continue;
       if (means != nullptr) means[l] = sum / count;
       squares += count * (sum / count - mean) * (sum / count - mean);
     }

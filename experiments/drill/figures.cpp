@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "experiments/drill/sheet.h"
@@ -34,20 +35,21 @@ double panel_height(const Heightfield& field, double width) {
   return width * field.depth * field.cell_z / (field.width * field.cell_x);
 }
 
-// A pixel whose surroundings show a channel well: of those with room for w all around and a flow of at least
-// 200 pixels, that with the most relief in its cross-sections' union.
+// A pixel whose surroundings show a valley: of those with room for w all around and a flow of at least 200
+// pixels, that from which the rays rise most, on average.
 std::uint32_t example_pixel(const Study& study, const CrossSections& sections) {
   const int w = sections.w();
-  std::vector<float> joined(static_cast<std::size_t>(w));
+  std::vector<float> rays(static_cast<std::size_t>(CrossSections::kRays) * static_cast<std::size_t>(w));
   std::uint32_t best = 0;
-  float most = -1;
+  float most = -std::numeric_limits<float>::infinity();
   for (const std::uint32_t pixel : channel_pixels(study.network, 200)) {
     const int i = static_cast<int>(pixel) % study.ground.width,
               j = static_cast<int>(pixel) / study.ground.width;
     if (i < w || j < w || i >= study.ground.width - w || j >= study.ground.depth - w) continue;
-    sections.join(pixel, joined);
-    const float rise = joined.back() - study.ground.heights[pixel];
-    if (CrossSections::is_sample(joined.back()) && rise > most) {
+    sections.rays(pixel, rays);
+    float rise = 0;
+    for (const float h : rays) rise += h - study.ground.heights[pixel];
+    if (rise > most) {
       most = rise;
       best = pixel;
     }
@@ -186,7 +188,7 @@ void draw_best(const Study& study, const Outcome& least_rmse, const Outcome& lea
     const Outcome& outcome = panel == 0 ? least_rmse : least_ahd;
     const double x = kGap + panel * (width + kGap);
     const std::string label =
-        fmt::format("{}: τ = {}, w = {}, k = {}; RMSE {:.4f}, AHD {:.4f}", panel == 0 ? "RMSE" : "AHD",
+        fmt::format("{}: τ = {}, w = {}, k = {}; RMSE {:.4f}, AHD {:.5f}", panel == 0 ? "RMSE" : "AHD",
                     outcome.setting.tau, outcome.setting.w, outcome.setting.k, outcome.rmse, outcome.ahd[0]);
     sheet.picture(x, kGap, width, height, relief_of(terrains[panel], range));
     maps.picture(x, kGap, width, height, difference_map(study.ground, terrains[panel], most));
@@ -227,7 +229,8 @@ void draw_matrices(const Study& study, const std::vector<Outcome>& outcomes, Rec
                      y = y0 + static_cast<double>(t) * cell_height;
         sheet.box(x, y, cell_width - 1, cell_height - 1, error_colour((error(o) - low) / span));
         const double share = (error(o) - low) / span;
-        sheet.text(x + cell_width / 2, y + cell_height / 2 + 5, fmt::format("{:.4f}", error(o)), 13, "middle",
+        sheet.text(x + cell_width / 2, y + cell_height / 2 + 5,
+                   fmt::format("{:.{}f}", error(o), column == 0 ? 4 : 5), 13, "middle",
                    share < 0.2 || share > 0.85 ? Rgb{255, 255, 255} : kInk);
       }
       for (std::size_t t = 0; t < kTaus.size(); ++t) {

@@ -49,37 +49,39 @@ GDALDriver& driver(const char* name) {
   return *found;
 }
 
+// A file that GDAL keeps in memory.
 struct MemoryFile {
   std::string path;
   ~MemoryFile() { VSIUnlink(path.c_str()); }
 };
 
-// Through a file in memory and back.
-Encoded through(const char* format, const Heightfield& field, GDALDataType type, const void* samples,
+void check(bool good, const char* what) {
+  if (good) return;
+  throw environment_error(fmt::format("GDAL cannot {}: {}", what, CPLGetLastErrorMsg()), "",
+                          "check GDAL's installation");
+}
+
+void write_tiff(const MemoryFile& file, const Heightfield& field, GDALDataType type, const void* samples,
                 const CPLStringList& options) {
-  DatasetPointer memory(driver("MEM").Create("", field.width, field.depth, 1, type, nullptr));
-  GDALRasterBand& band = *memory->GetRasterBand(1);
-  const auto check = [&](bool good) {
-    if (!good) {
-      throw environment_error(fmt::format("GDAL cannot write {}: {}", format, CPLGetLastErrorMsg()), "",
-                              "check GDAL's installation");
-    }
-  };
-  const GdalMessages messages;
-  check(band.RasterIO(GF_Write, 0, 0, field.width, field.depth, const_cast<void*>(samples), field.width,
-                      field.depth, type, 0, 0, nullptr) == CE_None);
-  const MemoryFile file{fmt::format("/vsimem/terrabench-{}", format)};
-  DatasetPointer written(
-      driver(format).CreateCopy(file.path.c_str(), memory.get(), 0, options, nullptr, nullptr));
-  check(written != nullptr);
-  written.reset();
+  const DatasetPointer dataset(
+      driver("GTiff").Create(file.path.c_str(), field.width, field.depth, 1, type, options));
+  check(dataset != nullptr, "write GeoTIFF");
+  // GDAL's signature serves reading too; writing leaves the samples as they are.
+  check(dataset->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, field.width, field.depth,
+                                            const_cast<void*>(samples), field.width, field.depth, type, 0, 0,
+                                            nullptr) == CE_None,
+        "write GeoTIFF");
+}
+
+Encoded measure(const MemoryFile& file, const Heightfield& field) {
   VSIStatBufL status;
-  check(VSIStatL(file.path.c_str(), &status) == 0);
-  DatasetPointer read(GDALDataset::Open(file.path.c_str()));
-  check(read != nullptr);
+  check(VSIStatL(file.path.c_str(), &status) == 0, "find its own file");
+  const DatasetPointer dataset(GDALDataset::Open(file.path.c_str()));
+  check(dataset != nullptr, "open its own file");
   std::vector<float> decoded(field.heights.size());
-  check(read->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, field.width, field.depth, decoded.data(), field.width,
-                                         field.depth, GDT_Float32, 0, 0, nullptr) == CE_None);
+  check(dataset->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, field.width, field.depth, decoded.data(),
+                                            field.width, field.depth, GDT_Float32, 0, 0, nullptr) == CE_None,
+        "read its own file");
   return {static_cast<std::size_t>(status.st_size), error_of(field, std::move(decoded))};
 }
 
@@ -118,7 +120,17 @@ Encoded jpeg2000(const Heightfield& field, double quality) {
   options.SetNameValue("GMLJP2", "NO");
   options.SetNameValue("GeoJP2", "NO");
   const std::vector<std::int16_t> values = whole_metres(field);
-  return through("JP2OpenJPEG", field, GDT_Int16, values.data(), options);
+  const GdalMessages messages;
+  const MemoryFile from{"/vsimem/terrabench-from.tif"}, to{"/vsimem/terrabench-to.jp2"};
+  write_tiff(from, field, GDT_Int16, values.data(), {});
+  {
+    const DatasetPointer source(GDALDataset::Open(from.path.c_str()));
+    check(source != nullptr, "open its own file");
+    const DatasetPointer written(
+        driver("JP2OpenJPEG").CreateCopy(to.path.c_str(), source.get(), 0, options, nullptr, nullptr));
+    check(written != nullptr, "write JPEG 2000");
+  }
+  return measure(to, field);
 }
 
 Encoded lerc(const Heightfield& field, double error) {
@@ -127,7 +139,10 @@ Encoded lerc(const Heightfield& field, double error) {
   options.SetNameValue("MAX_Z_ERROR", fmt::format("{}", error).c_str());
   // One strip: the fewest headers.
   options.SetNameValue("BLOCKYSIZE", fmt::format("{}", field.depth).c_str());
-  return through("GTiff", field, GDT_Float32, field.heights.data(), options);
+  const GdalMessages messages;
+  const MemoryFile file{"/vsimem/terrabench-lerc.tif"};
+  write_tiff(file, field, GDT_Float32, field.heights.data(), options);
+  return measure(file, field);
 }
 
 Encoded jpeg2000_at(const Heightfield& field, double rmse) {

@@ -8,7 +8,7 @@
 #include "experiments/drill/drill.h"
 #include "experiments/drill/ground.h"
 #include "representations/drill/regenerate.h"
-#include "results/record.h"
+#include "results/statistics.h"
 #include "terrain/hydrology/flow.h"
 
 namespace terrabench::drill {
