@@ -102,7 +102,8 @@ Drills extract_drills(const Heightfield& field, const FlowNetwork& network, cons
   drills.depth = field.depth;
   drills.cell_x = field.cell_x;
   drills.cell_z = field.cell_z;
-  drills.plateau = height_range(field).highest;
+  const HeightRange range = height_range(field);
+  drills.plateau = range.no_data == field.heights.size() ? 0 : range.highest;
   drills.w = options.w;
   drills.k = options.k;
   drills.holes = find_holes(field);
