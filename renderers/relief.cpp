@@ -160,8 +160,10 @@ void draw_triangles(const TriangleMesh& mesh) {
   constexpr std::size_t kMostIndices = 3U << 28;
   for (std::size_t first = 0; first < mesh.indices.size(); first += kMostIndices) {
     const auto count = static_cast<GLsizei>(std::min(kMostIndices, mesh.indices.size() - first));
-    glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(first * sizeof(std::uint32_t)));
+    // OpenGL takes the offset in the form of a pointer.
+    const auto* const offset =
+        reinterpret_cast<const void*>(first * sizeof(std::uint32_t));  // NOLINT(performance-no-int-to-ptr)
+    glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 
 #include "representations/representation.h"
 #include "terrain/error.h"
@@ -94,6 +95,12 @@ Loaded load_representation(std::span<const std::byte> file, const std::string& o
 Loaded load_representation(const std::filesystem::path& path) {
   const std::string file = read_file(path);
   return load_representation(std::as_bytes(std::span(file)), path.string());
+}
+
+bool is_saved_representation(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::array<char, kMagic.size()> first{};
+  return in.read(first.data(), first.size()) && first == kMagic;
 }
 
 }  // namespace terrabench

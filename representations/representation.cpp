@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "terrain/error.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 
@@ -21,6 +22,12 @@ void Representation::materials(Points where, std::span<Material> out) const {
 void Representation::paint(Columns, std::span<const Span>) {
   throw usage_error("cannot be edited", "paint",
                     "choose a representation that `terrabench list` calls editable");
+}
+
+std::int64_t destroy_and_count(std::unique_ptr<Representation> structure) {
+  const std::int64_t before = HeapCounter::live();
+  structure.reset();
+  return before - HeapCounter::live();
 }
 
 }  // namespace terrabench

@@ -87,6 +87,9 @@ class Representation {
   virtual Bounds bounds() const = 0;
 };
 
+// Heap bytes that the structure holds by the allocator's count: what destroying it gives back. Nothing else may run.
+std::int64_t destroy_and_count(std::unique_ptr<Representation>);
+
 struct Traits {
   bool overhangs = false;
   bool materials = false;
@@ -118,6 +121,8 @@ struct Loaded {
   std::unique_ptr<Representation> representation;
 };
 Loaded load_representation(const std::filesystem::path&);
+// Whether the file says that it is one, by its first bytes; damaged ones say so too.
+bool is_saved_representation(const std::filesystem::path&);
 Loaded load_representation(std::span<const std::byte> file, const std::string& origin);
 
 }  // namespace terrabench

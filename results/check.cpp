@@ -32,7 +32,18 @@ struct Quantity {
 // Reads one claim from one profile's records, noting what it rests on.
 class Reader {
  public:
-  Reader(const Store& store, const std::string& profile) : store_(store), profile_(profile) {}
+  Reader(const Store& store, const std::string& profile, const Claim& claim)
+      : store_(store), profile_(profile) {
+    // Quantities of one case need only their names; of several, the case too.
+    const Operand* first = nullptr;
+    for (const Condition& condition : claim.conditions) {
+      for (const Operand& operand : condition.operands) {
+        if (operand.is_number()) continue;
+        if (first == nullptr) first = &operand;
+        name_cases_ = name_cases_ || operand.case_name != first->case_name;
+      }
+    }
+  }
 
   Finding read(const Condition& condition) {
     if (condition.kind == Condition::Kind::kFigure) return read_figure(condition.figure);
@@ -49,7 +60,10 @@ class Reader {
                                                         operand.experiment, operand.case_name)};
       }
       rest_on(*record);
-      quantities.push_back({metric->samples, metric->name, metric->unit});
+      std::string spoken = metric->name;
+      std::replace(spoken.begin(), spoken.end(), '_', ' ');
+      if (name_cases_) spoken = operand.case_name + " " + spoken;
+      quantities.push_back({metric->samples, std::move(spoken), metric->unit});
     }
     return compare(condition, quantities);
   }
@@ -94,7 +108,7 @@ class Reader {
   const Store& store_;
   const std::string& profile_;
   std::vector<std::string> runs_;
-  bool altered_ = false;
+  bool altered_ = false, name_cases_ = false;
 };
 
 std::string show(const Quantity& quantity, double value) {
@@ -145,7 +159,7 @@ Finding Reader::compare(const Condition& condition, const std::vector<Quantity>&
                          fmt::format("{} ÷ {}", quantities[0].name, quantities[1].name), "");
     case Kind::kGrowth:
       return judge_range(condition, summarise_ratio(quantities[1].samples, quantities[0].samples),
-                         fmt::format("{} grows ×", quantities[1].name), "");
+                         fmt::format("{} grows by the factor", quantities[1].name), "");
     case Kind::kFigure:
       break;
   }
@@ -164,7 +178,7 @@ std::string joined(const std::vector<Finding>& findings) {
 
 void judge(Row& row, const Store& store, const std::string& profile) {
   const Claim& claim = *row.claim;
-  Reader reader(store, profile);
+  Reader reader(store, profile, claim);
   std::vector<Finding> findings;
   for (const Condition& condition : claim.conditions) findings.push_back(reader.read(condition));
   row.runs = reader.runs();

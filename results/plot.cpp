@@ -51,22 +51,25 @@ constexpr std::array<Style, 7> kStyles = {{{{0x00, 0x72, 0xB2}, vtkPlotPoints::C
 class ErrorBarLine : public vtkPlotLine {
  public:
   static ErrorBarLine* New();
-  vtkTypeMacro(ErrorBarLine, vtkPlotLine);
+  vtkTypeMacro(ErrorBarLine, vtkPlotLine)
 
-  void set_bars(std::vector<std::array<float, 3>> bars, float cap) {
+      void set_bars(std::vector<std::array<float, 3>> bars, float cap) {
     bars_ = std::move(bars);
     cap_ = cap;
   }
   bool Paint(vtkContext2D* painter) override {
+    // VTK warns of a line through one point; its marker is all there is.
+    const bool painted =
+        GetInput()->GetNumberOfRows() < 2 ? vtkPlotPoints::Paint(painter) : vtkPlotLine::Paint(painter);
     painter->ApplyPen(Pen);
     painter->GetPen()->SetLineType(vtkPen::SOLID_LINE);
-    painter->GetPen()->SetWidth(1.5F);
+    painter->GetPen()->SetWidth(1.8F);
     for (const auto& [x, low, high] : bars_) {
       painter->DrawLine(x, low, x, high);
       painter->DrawLine(x - cap_, low, x + cap_, low);
       painter->DrawLine(x - cap_, high, x + cap_, high);
     }
-    return vtkPlotLine::Paint(painter);
+    return painted;
   }
 
  protected:
@@ -185,7 +188,7 @@ void add_series(vtkChartXY* chart, const PlotSeries& series, std::size_t number,
   vtkNew<ErrorBarLine> line;
   const Style& style = kStyles[number % kStyles.size()];
   line->SetInputData(table, 0, 1);
-  line->SetLabel(series.label);
+  line->SetLabel("\u00a0" + series.label);  // VTK leaves no room between the legend's symbol and its text
   line->SetColor(style.colour[0], style.colour[1], style.colour[2], 255);
   line->SetWidth(2.5F);
   line->GetPen()->SetLineType(series.reported ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
@@ -234,7 +237,9 @@ std::string plot_svg(const Plot& plot) {
   set_font(chart->GetLegend()->GetLabelProperties(), false);
   chart->GetLegend()->SetSymbolWidth(44);
   chart->GetLegend()->SetPadding(8);
-  chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);
+  // Above the plot, where it can cover nothing.
+  chart->GetLegend()->SetInline(false);
+  chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::CENTER);
   chart->GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);
   chart->GetLegend()->GetPen()->SetColor(200, 200, 200);
 

@@ -20,6 +20,9 @@ namespace {
 
 constexpr int kDotsPerInch = 72;  // one font point is one pixel of the picture
 
+// Added to the width of every text, so that charts keep axis titles off the numbers.
+constexpr int kRoom = 8;
+
 // Two decimals are a hundredth of a pixel; equal charts give equal bytes.
 std::string number(double value) {
   const double rounded = std::round(value * 100) / 100;
@@ -56,7 +59,7 @@ std::string SvgDevice::svg(const std::string& title) const {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
       "role=\"img\">\n"
       "<title>{2}</title>\n<defs>\n{3}</defs>\n<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n"
-      "<g font-family=\"DejaVu Sans, sans-serif\" stroke-linecap=\"round\" "
+      "<g xml:space=\"preserve\" font-family=\"DejaVu Sans, sans-serif\" stroke-linecap=\"round\" "
       "stroke-linejoin=\"round\">\n{4}</g>\n</svg>\n",
       Geometry[0], Geometry[1], escape_html(title), defs_, body_);
 }
@@ -191,7 +194,7 @@ void SvgDevice::DrawString(float* point, const vtkStdString& text) {
   // From the anchor down to the baseline, in font sizes: a DejaVu Sans capital is 0.73 high, a descender 0.24
   // deep.
   const int vertical = TextProp->GetVerticalJustification();
-  const double shift = vertical == VTK_TEXT_TOP ? 0.76 : vertical == VTK_TEXT_CENTERED ? 0.36 : -0.02;
+  const double shift = vertical == VTK_TEXT_TOP ? 0.76 : vertical == VTK_TEXT_CENTERED ? 0.36 : -0.18;
   double rgb[3];
   TextProp->GetColor(rgb);
   unsigned char bytes[3];
@@ -213,7 +216,7 @@ void SvgDevice::ComputeStringBounds(const vtkStdString& text, float bounds[4]) {
   int box[4] = {0, 0, 0, 0};
   std::fill(bounds, bounds + 4, 0.0F);
   if (!vtkTextRenderer::GetInstance()->GetBoundingBox(TextProp, text, box, kDotsPerInch)) return;
-  bounds[2] = static_cast<float>(box[1] - box[0] + 1);
+  bounds[2] = static_cast<float>(box[1] - box[0] + 1 + kRoom);
   bounds[3] = static_cast<float>(box[3] - box[2] + 1);
 }
 

@@ -17,9 +17,9 @@ namespace terrabench {
 class SvgDevice : public vtkContextDevice2D {
  public:
   static SvgDevice* New();
-  vtkTypeMacro(SvgDevice, vtkContextDevice2D);
+  vtkTypeMacro(SvgDevice, vtkContextDevice2D)
 
-  void start(int width, int height);  // forgets what was painted
+      void start(int width, int height);  // forgets what was painted
   std::string svg(const std::string& title) const;
 
   void DrawPoly(float* points, int n, unsigned char* colors, int components) override;

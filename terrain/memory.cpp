@@ -79,6 +79,21 @@ void* operator new(std::size_t size) { return terrabench::allocate(size); }
 void* operator new[](std::size_t size) { return terrabench::allocate(size); }
 void* operator new(std::size_t size, std::align_val_t align) { return terrabench::allocate(size, align); }
 void* operator new[](std::size_t size, std::align_val_t align) { return terrabench::allocate(size, align); }
+// The forms that return null would call those above, were it not that sanitizers bring their own.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept try {
+  return terrabench::allocate(size);
+} catch (const std::bad_alloc&) {
+  return nullptr;
+}
+void* operator new[](std::size_t size, const std::nothrow_t& tag) noexcept { return operator new(size, tag); }
+void* operator new(std::size_t size, std::align_val_t align, const std::nothrow_t&) noexcept try {
+  return terrabench::allocate(size, align);
+} catch (const std::bad_alloc&) {
+  return nullptr;
+}
+void* operator new[](std::size_t size, std::align_val_t align, const std::nothrow_t& tag) noexcept {
+  return operator new(size, align, tag);
+}
 void operator delete(void* block) noexcept {
   terrabench::count_out(block);
   std::free(block);

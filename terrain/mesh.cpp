@@ -2,9 +2,20 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace terrabench {
+
+Bounds bounds_of(const TriangleMesh& mesh) {
+  if (mesh.positions.empty()) return {};
+  Bounds box{mesh.positions[0], mesh.positions[0]};
+  for (const glm::vec3& position : mesh.positions) {
+    box.low = glm::min(box.low, position);
+    box.high = glm::max(box.high, position);
+  }
+  return box;
+}
 
 void compute_normals(TriangleMesh& mesh) {
   mesh.normals.assign(mesh.positions.size(), glm::vec3(0));

@@ -6,6 +6,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "terrain/solid.h"
+
 namespace terrabench {
 
 struct TriangleMesh {
@@ -15,6 +17,9 @@ struct TriangleMesh {
 
   std::size_t triangles() const { return indices.size() / 3; }
 };
+
+// The box around all positions; zero for an empty mesh. O(vertices).
+Bounds bounds_of(const TriangleMesh&);
 
 // Area-weighted vertex normals. O(triangles).
 void compute_normals(TriangleMesh&);

@@ -42,6 +42,21 @@ Taps linear_taps(int from, int to, int k) {
   return taps;
 }
 
+bool has_hole(const float* row, std::size_t n) {
+  int holes = 0;
+  for (std::size_t i = 0; i < n; ++i) holes |= row[i] != row[i];
+  return holes != 0;
+}
+
+double combine(const Taps& taps, const double* values) {
+  values += taps.first;
+  const int last = taps.count - 1;
+  double sum = taps.first_weight * values[0];
+  for (int k = 1; k < last; ++k) sum += taps.inner_weight * values[k];
+  if (last > 0) sum += taps.last_weight * values[last];
+  return sum;
+}
+
 }  // namespace
 
 std::vector<Taps> resampling_taps(int from, int to) {
@@ -52,17 +67,19 @@ std::vector<Taps> resampling_taps(int from, int to) {
 
 void RowAccumulator::add(const float* row, double weight) {
   double* const sums = sums_.data();
-  double* const weights = weights_.data();
   const std::size_t n = sums_.size();
-  if (empty_) {
-    for (std::size_t i = 0; i < n; ++i) {
-      const bool has = row[i] == row[i];
-      sums[i] = has ? weight * row[i] : 0;
-      weights[i] = has ? weight : 0;
-    }
-    empty_ = false;
+  if (total_ == 0) std::fill_n(sums, n, 0.0);
+  if (!holed_ && has_hole(row, n)) {
+    // Up to here all columns weighed the same.
+    weights_.assign(n, total_);
+    holed_ = true;
+  }
+  total_ += weight;
+  if (!holed_) {
+    for (std::size_t i = 0; i < n; ++i) sums[i] += weight * row[i];
     return;
   }
+  double* const weights = weights_.data();
   for (std::size_t i = 0; i < n; ++i) {
     const bool has = row[i] == row[i];
     sums[i] += has ? weight * row[i] : 0;
@@ -70,24 +87,18 @@ void RowAccumulator::add(const float* row, double weight) {
   }
 }
 
-void RowAccumulator::finish(const std::vector<Taps>& columns, float* row) {
+void RowAccumulator::finish(const std::vector<Taps>& columns, float* row) const {
+  if (!holed_) {
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      row[i] = static_cast<float>(combine(columns[i], sums_.data()));
+    return;
+  }
   // Half the weight is enough; the tolerance lets rounding decide nothing.
   constexpr double kEnough = 0.5 - 1e-9;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const Taps& taps = columns[i];
-    const double* const sums = sums_.data() + taps.first;
-    const double* const weights = weights_.data() + taps.first;
-    double sum = taps.first_weight * sums[0], weight = taps.first_weight * weights[0];
-    const int last = taps.count - 1;
-    for (int k = 1; k < last; ++k) {
-      sum += taps.inner_weight * sums[k];
-      weight += taps.inner_weight * weights[k];
-    }
-    if (last > 0) {
-      sum += taps.last_weight * sums[last];
-      weight += taps.last_weight * weights[last];
-    }
-    row[i] = weight >= kEnough ? static_cast<float>(sum / weight) : Heightfield::kNoData;
+    const double weight = combine(columns[i], weights_.data());
+    row[i] = weight >= kEnough ? static_cast<float>(combine(columns[i], sums_.data()) / weight)
+                               : Heightfield::kNoData;
   }
 }
 

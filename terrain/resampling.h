@@ -26,18 +26,23 @@ struct Taps {
 std::vector<Taps> resampling_taps(int from, int to);
 
 // Makes one new row from weighted old rows. Rows are summed first, which vectorises; columns once per new
-// row. Holds 16 bytes per old column.
+// row. Holds 8 bytes per old column, and 8 more once it met a hole.
 class RowAccumulator {
  public:
-  explicit RowAccumulator(int width) : sums_(width), weights_(width) {}
+  explicit RowAccumulator(int width) : sums_(static_cast<std::size_t>(width)) {}
 
-  void clear() { empty_ = true; }
-  void add(const float* row, double weight);                  // row: as many heights as there are old columns
-  void finish(const std::vector<Taps>& columns, float* row);  // row: as many heights as there are new columns
+  void clear() {
+    total_ = 0;
+    holed_ = false;
+  }
+  void add(const float* row, double weight);  // as many heights as there are old columns
+  void finish(const std::vector<Taps>& columns,
+              float* row) const;  // as many heights as there are new columns
 
  private:
   std::vector<double> sums_, weights_;
-  bool empty_ = true;
+  double total_ = 0;    // weight of all rows added so far
+  bool holed_ = false;  // one of them has a hole: weights_ holds each column's own weight
 };
 
 }  // namespace terrabench

@@ -31,10 +31,10 @@ TerrainSource open_file(const RepresentArguments& a, Progress& progress) {
   }
   options.fill_no_data = a.fill;
   Dem dem = read_dem(a.terrain, options, &progress);
-  for (const std::string& note : dem.notes) fmt::print("note: {}\n", note);
   TerrainSource source;
   source.name = a.terrain;
   source.checksum = checksum(dem.heights);
+  source.notes = std::move(dem.notes);
   source.heights = std::move(dem.heights);
   return source;
 }
@@ -66,9 +66,9 @@ void print_fidelity(const Fidelity& fidelity) {
 }
 
 void draw(const RepresentArguments& a, const Representation& built, Bounds bounds) {
-  const View view = overview(bounds, a.view_width, a.view_height);
-  const auto context = open_context(a.renderer, view.width, view.height);
   const TriangleMesh mesh = built.mesh({});
+  const View view = overview(bounds_of(mesh), a.view_width, a.view_height);
+  const auto context = open_context(a.renderer, view.width, view.height);
   write_png(a.render,
             render_relief(*context, mesh, view, {.lowest = bounds.low.y, .highest = bounds.high.y}));
   fmt::print("rendered    {} ({} triangles, {})\n", a.render, mesh.triangles(), context->renderer());
@@ -85,25 +85,26 @@ ExitCode represent_command(const RepresentArguments& a) {
   const TerrainSource source =
       in_catalogue(a.terrain) || !std::filesystem::exists(a.terrain) ? open_named(a) : open_file(a, progress);
   const auto begin = std::chrono::steady_clock::now();
-  const HeapScope scope;
-  const auto built = type.build(source, parameters, progress);
-  const std::int64_t heap = scope.held();
+  auto built = type.build(source, parameters, progress);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   const Fidelity fidelity = measure_fidelity(*built, source, kFidelityResolution, progress);
   progress.end();
 
   const Memory memory = built->memory();
-  fmt::print("terrain     {}  checksum {}\n", source.name, source.checksum);
+  fmt::print("terrain     {}, checksum {}\n", source.name, source.checksum);
+  for (const std::string& note : source.notes) fmt::print("note        {}\n", note);
   fmt::print("built as    {} in {:.3g} s\n", type.name, seconds.count());
-  fmt::print("memory      {} (payload {}, index {}, slack {}); the allocator counted {}\n",
+  fmt::print("memory      {} (payload {}, index {}, slack {})\n",
              format_quantity(static_cast<double>(memory.total()), "B"), memory.payload, memory.index,
-             memory.slack, format_quantity(static_cast<double>(heap), "B"));
+             memory.slack);
   print_fidelity(fidelity);
   if (!a.save.empty()) {
     const std::size_t bytes = save_representation(a.save, type, *built);
     fmt::print("saved       {} ({})\n", a.save, format_quantity(static_cast<double>(bytes), "B"));
   }
   if (!a.render.empty()) draw(a, *built, source.bounds());
+  fmt::print("allocator   {} given back\n",
+             format_quantity(static_cast<double>(destroy_and_count(std::move(built))), "B"));
   return ExitCode::kGood;
 }
 

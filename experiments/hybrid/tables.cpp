@@ -38,11 +38,9 @@ struct Bytes {
 };
 
 Bytes bytes_of(std::string_view name, const TerrainSource& source, std::int64_t n, Progress& progress) {
-  // The first build in a process also fills thread pools and registries, which are not the structure's.
-  build_at_resolution(name, source, 2, progress);
-  const HeapScope scope;
-  const auto built = build_at_resolution(name, source, n, progress);
-  return {built->memory(), scope.held()};
+  auto built = build_at_resolution(name, source, n, progress);
+  const Memory memory = built->memory();
+  return {memory, destroy_and_count(std::move(built))};
 }
 
 }  // namespace

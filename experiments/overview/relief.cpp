@@ -67,11 +67,11 @@ void measure_relief(const Case& at, const RunOptions& options, Recorder& recorde
 
   const TriangleMesh mesh = built->mesh({});
   recorder.add("triangles", "", static_cast<double>(mesh.triangles()));
-  const View view = overview(source.bounds(), static_cast<int>(at.parameters.integer("width")),
+  const View view = overview(bounds_of(mesh), static_cast<int>(at.parameters.integer("width")),
                              static_cast<int>(at.parameters.integer("height")));
   const auto context = open_context(options.renderer, view.width, view.height);
-  const Bounds bounds = source.bounds();
-  const Image image = render_relief(*context, mesh, view, {.lowest = bounds.low.y, .highest = bounds.high.y});
+  const Bounds ground = source.bounds();  // the same colours for every representation of it
+  const Image image = render_relief(*context, mesh, view, {.lowest = ground.low.y, .highest = ground.high.y});
   const std::string id = fmt::format("relief.{}.{}", file_name(at.terrain), type.name);
   write_png(
       recorder.figure(id, "png",

@@ -98,3 +98,10 @@ std::unique_ptr<GlContext> open_osmesa(int width, int height, const char* librar
 }
 
 }  // namespace terrabench
+
+#ifdef __SANITIZE_ADDRESS__
+// Mesa 22.3 forgets 160 bytes with each context that closes. That is not ours to mend, and must not hide
+// leaks that are: only blocks that libOSMesa took itself are left out.
+extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa.so"; }
+#endif

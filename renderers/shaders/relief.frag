@@ -14,6 +14,7 @@ uniform bool edges;            // this draws the wireframe
 out vec4 color;
 
 const float kAmbient = 0.30;
+const float kFill = 0.3;                       // from the viewer, on steep ground: walls and caves in shade keep form
 const vec3 kSky = vec3(0.86, 0.93, 1.0);       // what shadows are tinted with
 const vec3 kBack = vec3(0.30, 0.29, 0.28);     // the inside of a mesh, seen where it is open
 const vec3 kEdge = vec3(0.05, 0.05, 0.06);
@@ -48,7 +49,8 @@ void main() {
   vec3 n = surface_normal();
   float sky = kAmbient * (0.5 + 0.5 * n.y);
   float direct = (1.0 - kAmbient) * max(dot(n, sun), 0.0) / max(sun.y, 0.3);
-  float light = (sky + direct) * (1.0 + bend);
+  float fill = kFill * (1.0 - abs(n.y)) * max(dot(n, normalize(eye - world)), 0.0);
+  float light = (sky + direct + fill) * (1.0 + bend);
   vec3 tint = mix(kSky, vec3(1.0), min(light, 1.0));
   // Slopes towards the sun near white without being cut off there, and dark colours keep their hue.
   vec3 lit = light <= 1.0 ? albedo * light * tint : 1.0 - pow(1.0 - albedo, vec3(light));

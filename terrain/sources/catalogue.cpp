@@ -9,6 +9,7 @@
 #include "terrain/error.h"
 #include "terrain/source.h"
 #include "terrain/sources/dem/dem.h"
+#include "terrain/sources/noise/cave_terrain.h"
 
 namespace terrabench {
 namespace {
@@ -69,6 +70,16 @@ TerrainSource from_dem(std::string_view name, const std::string& path) {
   return source;
 }
 
+TerrainSource open_caves(std::uint64_t seed) {
+  noise::CaveOptions options;
+  options.seed = seed;
+  TerrainSource source;
+  source.name = "caves";
+  source.solid = noise::cave_terrain(options);
+  source.checksum = source.solid->checksum;
+  return source;
+}
+
 constexpr TerrainType kTerrains[] = {
     {"jacksboro", "mountains with a fault valley, 403×344 samples of 3″",
      "SRTM, in Debian's python-matplotlib-data",
@@ -76,6 +87,8 @@ constexpr TerrainType kTerrains[] = {
     {"topobathy", "sea floor and coast off Vancouver Island, 120×91 samples of 2′",
      "ETOPO, in Debian's python-matplotlib-data",
      [](std::uint64_t) { return from_dem("topobathy", topobathy_vrt()); }},
+    {"caves", "hills with overhangs and tunnels from 3-D noise, a cube of 128 m",
+     "the hybrid paper's noise graph", open_caves},
 };
 
 // What can only be meant as a path: a typing slip in a name has neither.

@@ -1,1 +1,9 @@
 terrabench_benchmark(hydrology_bench SOURCES hydrology_bench.cpp LIBRARIES terrain)
+find_package(GDAL CONFIG REQUIRED)
+terrabench_benchmark(dem_bench SOURCES dem_bench.cpp LIBRARIES terrain GDAL::GDAL)
+
+# libnoise is the packaged peer of the noise graph.
+find_library(NOISE_LIBRARY noise REQUIRED)
+pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
+terrabench_benchmark(noise_bench SOURCES noise_bench.cpp
+                     LIBRARIES terrain TBB::tbb PkgConfig::HWY ${NOISE_LIBRARY})

@@ -3,6 +3,7 @@
 #include <cpl_vsi.h>
 #include <gdal_priv.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -21,8 +22,9 @@ constexpr std::string_view kEndings[] = {"tif", "asc", "png", "dem", "vrt",
 constexpr int kTif = 0, kAsc = 1, kPng = 2, kVrt = 4, kXyz = 9;
 
 std::vector<std::uint8_t> seed(int format, std::string_view content) {
-  std::vector<std::uint8_t> bytes{static_cast<std::uint8_t>(format)};
-  bytes.insert(bytes.end(), content.begin(), content.end());
+  std::vector<std::uint8_t> bytes(1 + content.size());
+  bytes[0] = static_cast<std::uint8_t>(format);
+  std::copy(content.begin(), content.end(), bytes.begin() + 1);
   return bytes;
 }
 

@@ -76,7 +76,7 @@ TEST(Context, NamesTheNearestRenderer) {
 
 TEST(Context, RefusesSizesThatCannotBeDrawn) {
   for (const auto& [width, height] : {std::pair{0, 64}, {64, 0}, {-1, 64}, {16385, 64}, {64, 16385}}) {
-    const Error error = error_of([&] { open_context("osmesa", width, height); });
+    const Error error = error_of([w = width, h = height] { open_context("osmesa", w, h); });
     EXPECT_EQ(error.code(), ExitCode::kUsage) << width << " x " << height;
     EXPECT_THAT(error.advice(), HasSubstr("16384"));
   }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <iostream>
@@ -28,7 +29,7 @@ Rgb to_bytes(const glm::vec3& linear) {
   const glm::vec3 srgb = to_srgb(linear);
   Rgb bytes;
   for (int i = 0; i < 3; ++i)
-    bytes[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(srgb[i] * 255 + 0.5F);
+    bytes[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(srgb[i] * 255));
   return bytes;
 }
 

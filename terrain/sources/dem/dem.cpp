@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
-#include <optional>
 
 #include "terrain/error.h"
 #include "terrain/memory.h"
 #include "terrain/resampling.h"
 #include "terrain/sources/dem/gdal_session.h"
+#include "terrain/sources/dem/height_values.h"
 #include "terrain/sources/dem/placement.h"
 
 namespace terrabench {
@@ -94,75 +94,6 @@ DemWindow choose_window(GDALDataset& dataset, const DemWindow& asked, const std:
         where, "give a window of at least one pixel inside the raster");
   }
   return asked;
-}
-
-// How a pixel's number becomes a height.
-struct HeightRule {
-  std::optional<double> no_data;
-  bool masked = false;           // the file brings a mask of its own
-  double scale = 1, offset = 0;  // to metres
-};
-
-HeightRule height_rule(GDALRasterBand& band, const std::string& where, std::vector<std::string>& notes) {
-  HeightRule rule;
-  int given = 0;
-  const GDALDataType type = band.GetRasterDataType();
-  if (type == GDT_Int64) {
-    const std::int64_t value = band.GetNoDataValueAsInt64(&given);
-    if (given != 0) rule.no_data = static_cast<double>(value);
-  } else if (type == GDT_UInt64) {
-    const std::uint64_t value = band.GetNoDataValueAsUInt64(&given);
-    if (given != 0) rule.no_data = static_cast<double>(value);
-  } else {
-    const double value = band.GetNoDataValue(&given);
-    if (given != 0) rule.no_data = value;
-  }
-  rule.masked = (band.GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA)) == 0;
-  const double scale = band.GetScale(&given), offset = band.GetOffset(&given);
-  if (!std::isfinite(scale) || !std::isfinite(offset) || scale == 0) {
-    throw bad_input(fmt::format("its heights are scaled by {} and shifted by {}", scale, offset), where,
-                    "set both anew with gdal_edit.py -scale 1 -offset 0");
-  }
-  if (scale != 1 || offset != 0) {
-    notes.push_back(fmt::format("heights are the stored numbers times {:.6g} plus {:.6g}", scale, offset));
-  }
-  const double metres = metres_per_height_unit(band.GetUnitType(), notes);
-  rule.scale = scale * metres;
-  rule.offset = offset * metres;
-  return rule;
-}
-
-// What was found that is no height.
-struct Tally {
-  std::uint64_t missing = 0, impossible = 0;
-};
-
-// No ground is a thousand kilometres high: such values are undeclared no-data (±3.4e38, 1e20), as are NaN and
-// infinity.
-constexpr float kImpossible = 1e6F;
-
-// In and out may be the same array. `mask` may be null; 0 in it is no height.
-template <class T>
-void to_metres(const T* in, const std::uint8_t* mask, std::size_t count, const HeightRule& rule, float* out,
-               Tally& tally) {
-  const bool nan_is_missing = rule.no_data && std::isnan(*rule.no_data);
-  // Compared as the file's type has it: -3.4028234663852886e+38 names a float. NaN equals nothing.
-  const double no_data = rule.no_data.value_or(std::nan(""));
-  const T hole =
-      std::abs(no_data) <= std::numeric_limits<T>::max() ? static_cast<T>(no_data) : static_cast<T>(NAN);
-  std::size_t missing = 0, impossible = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const T value = in[i];
-    const auto height = static_cast<float>(static_cast<double>(value) * rule.scale + rule.offset);
-    const bool is_hole =
-        (value == hole) | (nan_is_missing & (value != value)) | (mask != nullptr && mask[i] == 0);
-    const bool is_wrong = !(std::abs(height) <= kImpossible) & !is_hole;
-    missing += is_hole;
-    impossible += is_wrong;
-    out[i] = is_hole | is_wrong ? Heightfield::kNoData : height;
-  }
-  tally.missing += missing;
-  tally.impossible += impossible;
 }
 
 // Float holds these exactly; the others pass through double.
@@ -253,11 +184,11 @@ class Reader {
     }
     if (fits_float(band_.GetRasterDataType())) {
       fetch(band_, y, rows, out, GDT_Float32);
-      to_metres(out, mask, samples, rule_, out, tally_);
+      to_metres(out, mask, window_.width, rows, rule_, tally_);
     } else {
       wide_.resize(samples);
       fetch(band_, y, rows, wide_.data(), GDT_Float64);
-      to_metres(wide_.data(), mask, samples, rule_, out, tally_);
+      to_metres(wide_.data(), mask, window_.width, rows, rule_, out, tally_);
     }
   }
 

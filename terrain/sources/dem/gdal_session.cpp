@@ -72,9 +72,11 @@ GdalMessages::~GdalMessages() { CPLPopErrorHandler(); }
 
 void GdalMessages::collect(CPLErr severity, CPLErrorNum, const char* text) {
   auto& messages = *static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
-  if (severity >= CE_Failure) {
+  // Trouble with the reference system's data base costs the name of a reference system, not the heights.
+  const bool about_place = text != nullptr && std::string_view(text).starts_with("PROJ:");
+  if (severity >= CE_Failure && !about_place) {
     if (messages.first_failure_.empty()) messages.first_failure_ = tidy(text);
-  } else if (severity == CE_Warning && messages.warnings_.size() < kMostWarnings) {
+  } else if (severity >= CE_Warning && messages.warnings_.size() < kMostWarnings) {
     std::string warning = tidy(text);
     auto& known = messages.warnings_;
     if (std::find(known.begin(), known.end(), warning) == known.end()) known.push_back(std::move(warning));

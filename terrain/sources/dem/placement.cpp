@@ -114,55 +114,6 @@ DegreeLengths degree_lengths(double latitude, double semi_major, double inverse_
           kRadiansPerDegree * semi_major * (1 - e2) / (q * std::sqrt(q))};
 }
 
-double metres_per_height_unit(const std::string& unit, std::vector<std::string>& notes) {
-  struct Unit {
-    std::string_view name;
-    double metres;
-  };
-  constexpr double kFoot = 0.3048, kSurveyFoot = 1200.0 / 3937.0;
-  constexpr Unit kUnits[] = {{"m", 1},
-                             {"metre", 1},
-                             {"metres", 1},
-                             {"meter", 1},
-                             {"meters", 1},
-                             {"ft", kFoot},
-                             {"foot", kFoot},
-                             {"feet", kFoot},
-                             {"international foot", kFoot},
-                             {"us survey foot", kSurveyFoot},
-                             {"us survey feet", kSurveyFoot},
-                             {"us-ft", kSurveyFoot},
-                             {"ftus", kSurveyFoot},
-                             {"foot_us", kSurveyFoot},
-                             {"km", 1000},
-                             {"kilometre", 1000},
-                             {"kilometer", 1000},
-                             {"dm", 0.1},
-                             {"decimetre", 0.1},
-                             {"decimeter", 0.1},
-                             {"cm", 0.01},
-                             {"centimetre", 0.01},
-                             {"centimeter", 0.01},
-                             {"mm", 0.001},
-                             {"millimetre", 0.001},
-                             {"millimeter", 0.001},
-                             {"fathom", 1.8288},
-                             {"yd", 0.9144},
-                             {"yard", 0.9144}};
-  if (unit.empty()) return 1;
-  std::string lower(unit);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  for (const Unit& known : kUnits) {
-    if (known.name != lower) continue;
-    if (known.metres != 1) notes.push_back(fmt::format("heights in '{}' were converted to metres", unit));
-    return known.metres;
-  }
-  notes.push_back(
-      fmt::format("heights are in '{}', which is no known unit of length: taken as metres", unit));
-  return 1;
-}
-
 Placement place_raster(GDALDataset& dataset, const DemWindow& window, const std::string& where,
                        std::vector<std::string>& notes) {
   Placement placement;

@@ -21,7 +21,4 @@ struct Placement {
 Placement place_raster(GDALDataset& dataset, const DemWindow& window, const std::string& where,
                        std::vector<std::string>& notes);
 
-// Metres in one unit of a band's heights, by the unit's name as GDAL gives it.
-double metres_per_height_unit(const std::string& unit, std::vector<std::string>& notes);
-
 }  // namespace terrabench

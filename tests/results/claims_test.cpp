@@ -1,0 +1,167 @@
+#include "results/claims.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <set>
+
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::string_view kHead = "paper = \"p\"\ntitle = \"t\"\nsource = \"s\"\n";
+constexpr std::string_view kClaim =
+    "[[claim]]\nid = \"p.1\"\nwhere = \"w\"\nstatement = \"s\"\nclass = \"E\"\n";
+
+void expect_refused(const std::string& text, const std::string& what, int line) {
+  try {
+    parse_claims(text, "claims.toml");
+    ADD_FAILURE() << "accepted:\n" << text;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    EXPECT_THAT(error.what(), HasSubstr(what));
+    const std::string where = line > 0 ? fmt::format("claims.toml:{}:", line) : "claims.toml";
+    EXPECT_THAT(error.what(), HasSubstr(where));
+  }
+}
+
+TEST(Claims, EveryRowOfTheLedgerIsThere) {
+  std::set<std::string> ids;
+  for (const Claim* claim : claims()) EXPECT_TRUE(ids.insert(claim->id).second) << claim->id << " twice";
+  std::vector<std::string> expected = {"hybrid.T3",
+                                       "hybrid.implicit",
+                                       "hybrid.slope",
+                                       "hybrid.bary",
+                                       "hybrid.sky",
+                                       "hybrid.caves",
+                                       "hybrid.stitch",
+                                       "hybrid.less-geometry",
+                                       "ght.count.tunnel",
+                                       "ght.count.cave",
+                                       "ght.continuity",
+                                       "ght.overhang",
+                                       "ght.effective",
+                                       "drill.factorial",
+                                       "drill.channels.25",
+                                       "drill.maxflow",
+                                       "drill.error",
+                                       "drill.best",
+                                       "drill.tau",
+                                       "drill.size",
+                                       "drill.time",
+                                       "drill.local-minima",
+                                       "drill.plateau",
+                                       "mrbsp.tris",
+                                       "mrbsp.T2.tris.both",
+                                       "mrbsp.T2.time.both",
+                                       "mrbsp.lodtime",
+                                       "mrbsp.threshold",
+                                       "mrbsp.holes",
+                                       "mrbsp.T1",
+                                       "mrbsp.vis-safe",
+                                       "mrbsp.vis-small",
+                                       "mrbsp.grow",
+                                       "mrbsp.landscape",
+                                       "meshgrow.cc",
+                                       "meshgrow.1f",
+                                       "meshgrow.converge",
+                                       "meshgrow.wellformed",
+                                       "meshgrow.fork-u",
+                                       "meshgrow.size",
+                                       "meshgrow.time",
+                                       "meshgrow.lod",
+                                       "cross.representations",
+                                       "cross.lod-equal-error",
+                                       "cross.scale"};
+  for (const int n : {128, 256, 512}) {
+    for (const char* row : {"hybrid.T1", "hybrid.T1.voxels", "hybrid.T1.ratio", "hybrid.T2"}) {
+      expected.push_back(fmt::format("{}.{}", row, n));
+    }
+  }
+  const auto figures = [&](std::string_view paper, std::initializer_list<int> numbers) {
+    for (const int number : numbers) expected.push_back(fmt::format("{}.F{}", paper, number));
+  };
+  for (int i = 1; i <= 25; ++i) figures("hybrid", {i});
+  for (int i = 1; i <= 16; ++i) figures("meshgrow", {i});
+  figures("ght", {1, 5, 6, 7, 8, 9, 10, 13, 15, 17, 18, 19, 20, 21, 22, 23, 24});
+  figures("drill", {1, 2, 3, 4});
+  figures("mrbsp", {1, 2});
+  for (const std::string& id : expected) EXPECT_TRUE(ids.contains(id)) << id;
+  EXPECT_EQ(papers().size(), 6U);
+  EXPECT_EQ(papers()[0].id, "hybrid");
+}
+
+TEST(Claims, IdsBelongToTheirPaper) {
+  for (const Paper& paper : papers()) {
+    for (const Claim& claim : paper.claims) EXPECT_TRUE(claim.id.starts_with(paper.id + ".")) << claim.id;
+    for (const TableLayout& table : paper.tables) {
+      for (const TableLayout::Row& row : table.rows) {
+        const auto claim = row.values.find("claim");
+        if (claim == row.values.end()) continue;
+        const auto& id = std::get<std::string>(claim->second);
+        EXPECT_TRUE(std::any_of(paper.claims.begin(), paper.claims.end(), [&](auto& c) {
+          return c.id == id;
+        })) << id;
+      }
+    }
+  }
+}
+
+TEST(Claims, TheLargestSizeIsMeasuredInThePaperProfileOnly) {
+  for (const Claim* claim : claims()) {
+    const bool large = claim->id.starts_with("hybrid.T") && claim->id.ends_with(".512");
+    EXPECT_EQ(claim->profiles.size(), large ? 1U : 2U) << claim->id;
+  }
+}
+
+TEST(Claims, ReadsEveryKindOfCheck) {
+  const std::string text =
+      std::string(kHead) + std::string(kClaim) +
+      "check = [{equal = [\"e/c/m\", 3]}, {order = [1, \"e/a/b/m\", 9]},\n"
+      "{within = [\"e/c/m\"], range = [0.5, 1]}, {ratio = [\"e/c/m\", \"e/c/n\"], range = [1, 2]},\n"
+      "{growth = [\"e/c/m\", \"e/d/m\"], range = [-1, 2]}, {figure = \"p.F1\"}]\n";
+  const Claim claim = parse_claims(text, "x").claims.at(0);
+  using Kind = Condition::Kind;
+  const Kind kinds[] = {Kind::kEqual, Kind::kOrder,  Kind::kWithin,
+                        Kind::kRatio, Kind::kGrowth, Kind::kFigure};
+  ASSERT_EQ(claim.conditions.size(), std::size(kinds));
+  for (std::size_t i = 0; i < std::size(kinds); ++i) EXPECT_EQ(claim.conditions[i].kind, kinds[i]);
+  const Operand& operand = claim.conditions[1].operands[1];
+  EXPECT_EQ(operand.experiment, "e");
+  EXPECT_EQ(operand.case_name, "a/b");
+  EXPECT_EQ(operand.metric, "m");
+  EXPECT_EQ(claim.conditions[0].operands[1].number, 3);
+  EXPECT_EQ(claim.conditions[4].low, -1);
+  EXPECT_EQ(claim.known, Verdict::kReproduced);
+}
+
+TEST(Claims, RefusesWithFileAndLine) {
+  const std::string head(kHead), claim = head + std::string(kClaim);
+  expect_refused("paper = ", "", 1);
+  expect_refused("\xff\xfe\x00", "", 0);
+  expect_refused("title = \"t\"", "'paper' is missing", 0);
+  expect_refused(head + "colour = 1\n", "unknown key 'colour'", 4);
+  expect_refused(head + "claim = 3\n", "'claim' is not a list", 0);
+  expect_refused(head + "[[claim]]\nid = \"p.1\"\n", "'where' is missing", 4);
+  expect_refused(claim, "needs either 'check' or a reason", 4);
+  expect_refused(claim + "pending = \"x\"\ncheck = [{figure = \"f\"}]\n", "needs either", 4);
+  expect_refused(claim + "check = [{figure = 3}]\n", "'figure' is not text", 9);
+  expect_refused(claim + "check = [{exact = [1, 2]}]\n", "a check is one of", 9);
+  expect_refused(claim + "check = [{equal = [1]}]\n", "takes 2 to 16 operands", 9);
+  expect_refused(claim + "check = [{equal = [1, \"e/m\"]}]\n", "an operand is a number or", 9);
+  expect_refused(claim + "check = [{equal = [1, nan]}]\n", "not a finite number", 9);
+  expect_refused(claim + "check = [{within = [\"e/c/m\"]}]\n", "'range' is missing", 9);
+  expect_refused(claim + "check = [{within = [\"e/c/m\"], range = [2, 1]}]\n", "the range is empty", 9);
+  expect_refused(claim + "check = [{figure = \"f\"}]\nknown = \"maybe\"\n", "'maybe' is no verdict", 4);
+  expect_refused(claim + "pending = \"x\"\n" + std::string(kClaim) + "pending = \"x\"\n", "used twice", 0);
+  expect_refused(
+      head + "[[claim]]\nid = \"../p\"\nwhere = \"\"\nstatement = \"\"\nclass = \"E\"\npending = \"x\"\n",
+      "is no id", 0);
+}
+
+}  // namespace
+}  // namespace terrabench

@@ -1,0 +1,89 @@
+#include "results/compare.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "terrain/error.h"
+#include "tests/results/fake_results.h"
+
+namespace terrabench {
+namespace {
+
+using testing::HasSubstr;
+
+class CompareTest : public FolderTest {
+ protected:
+  void write(const std::string& name, const std::vector<Metric>& metrics, std::uint64_t seed = 1) {
+    Store store(folder_ / name);
+    const Provenance run = fake_provenance();
+    store.begin_run(run);
+    Record record = fake_record(run, "e", "c");
+    record.metrics = metrics;
+    record.seed = seed;
+    store.append(record);
+  }
+  Change change(const Metric& before, const Metric& after) {
+    std::filesystem::remove_all(folder_ / "a");
+    std::filesystem::remove_all(folder_ / "b");
+    write("a", {before});
+    write("b", {after});
+    return compare(folder_ / "a", folder_ / "b").metrics.at(0).change;
+  }
+};
+
+TEST_F(CompareTest, ExactMetricsMustBeEqual) {
+  EXPECT_EQ(change({"bytes", "B", {100}}, {"bytes", "B", {100}}), Change::kSame);
+  EXPECT_EQ(change({"bytes", "B", {100}}, {"bytes", "B", {101}}), Change::kDiffers);
+  EXPECT_EQ(change({"bytes", "B", {100}}, {"bytes", "KiB", {100}}), Change::kDiffers);
+}
+
+TEST_F(CompareTest, TimingsChangeOnlyBeyondTheirNoise) {
+  const Metric base{"t", "s", {1.0, 1.1, 0.9, 1.05, 0.95}}, noisy{"t", "s", {1.02, 1.12, 0.88, 1.0, 1.01}},
+      slow{"t", "s", {2.0, 2.1, 1.9, 2.05, 1.95}};
+  EXPECT_EQ(change(base, noisy), Change::kSame);
+  EXPECT_EQ(change(base, slow), Change::kRose);
+  EXPECT_EQ(change(slow, base), Change::kFell);
+  EXPECT_EQ(change(base, {"t", "s", {7.0}}), Change::kUnresolved);
+  EXPECT_EQ(change({"t", "s", {0, 0, 0}}, base), Change::kUnresolved);
+}
+
+TEST_F(CompareTest, SaysWhatOnlyOneSideHasAndWhatWasMeasuredOnOtherGround) {
+  write("a", {{"m", "B", {1}}, {"gone", "B", {2}}});
+  write("b", {{"m", "B", {1}}, {"new", "B", {3}}}, 9);
+  const Comparison c = compare(folder_ / "a", folder_ / "b");
+  ASSERT_EQ(c.metrics.size(), 3U);
+  EXPECT_EQ(c.metrics[1].change, Change::kOnlyBefore);
+  EXPECT_EQ(c.metrics[2].change, Change::kOnlyAfter);
+  EXPECT_FALSE(c.metrics[0].same_ground);
+  EXPECT_TRUE(c.exact_equal());
+  const std::string text = compare_text(c, false);
+  EXPECT_THAT(text, HasSubstr("only before"));
+  EXPECT_THAT(text, HasSubstr("another seed"));
+  const auto json = nlohmann::json::parse(compare_json(c));
+  EXPECT_EQ(json["metrics"].size(), 3U);
+  EXPECT_EQ(json["metrics"][2]["change"], "only after");
+}
+
+TEST_F(CompareTest, RatioToZeroIsStillJson) {
+  write("a", {{"m", "", {0}}, {"t", "s", {0, 0}}});
+  write("b", {{"m", "", {1}}, {"t", "s", {1, 1}}});
+  const Comparison c = compare(folder_ / "a", folder_ / "b");
+  EXPECT_FALSE(c.exact_equal());
+  EXPECT_TRUE(nlohmann::json::accept(compare_json(c)));
+}
+
+TEST_F(CompareTest, RunAgainstItselfIsTheSame) {
+  write_fake_results(folder_ / "a", "quick");
+  const Comparison c = compare(folder_ / "a", folder_ / "a");
+  EXPECT_GT(c.metrics.size(), 20U);
+  for (const MetricChange& m : c.metrics) EXPECT_EQ(m.change, Change::kSame) << m.case_name << m.metric;
+}
+
+TEST_F(CompareTest, FolderWithoutResultsIsBadInput) {
+  write("a", {{"m", "B", {1}}});
+  EXPECT_THROW(compare(folder_ / "a", folder_ / "nothing"), Error);
+}
+
+}  // namespace
+}  // namespace terrabench

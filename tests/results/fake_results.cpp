@@ -1,0 +1,138 @@
+#include "tests/results/fake_results.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+
+#include "results/record_json.h"
+#include "terrain/image.h"
+
+namespace terrabench {
+namespace {
+
+Image gradient(int width, int height) {
+  Image image(width, height, {255, 255, 255});
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const auto v = static_cast<std::uint8_t>(255 * (x + y) / (width + height));
+      image.set(x, y, {v, static_cast<std::uint8_t>(200 - v / 2), 90});
+    }
+  }
+  return image;
+}
+
+void add_picture(Record& record, const std::filesystem::path& folder, const std::string& id,
+                 std::string caption) {
+  const std::string file = "figures/" + id + ".png";
+  write_png(folder / file, gradient(320, 200));
+  record.figures.push_back({id, file, std::move(caption)});
+}
+
+void add_tables(Store& store, const Provenance& run, const std::string& profile) {
+  const bool paper = profile == "paper";
+  for (const int n : {64, 128, 256, 512}) {
+    const double columns = n * n, cells = columns * n;
+    Record memory = fake_record(run, "hybrid.table1", fmt::format("n={}", n), profile);
+    add(memory, "paper_stack_bytes", "B", {columns * 24});
+    add(memory, "dense_voxel_bytes", "B", {cells});
+    add(memory, "voxel_to_stack_ratio", "", {cells / (columns * 24)});
+    add(memory, "stack_bytes", "B", {columns * 13 + 48});
+    add(memory, "stack_heap_bytes", "B", {columns * 13 + 48});
+    add(memory, "stack_bytes_per_column", "B", {(columns * 13 + 48) / columns});
+    add(memory, "openvdb_bytes", "B", {cells / 30 + 4096});
+    Record time = fake_record(run, "hybrid.table2", fmt::format("n={}", n), profile);
+    const double seconds = 0.021 * std::pow(n / 64.0, 2.96);
+    add(time, "generation_time", "s",
+        {seconds, seconds * 1.04, seconds * 0.98, seconds * 1.2, seconds * 1.01});
+    add(time, "samples_per_second", "1/s", {cells / seconds, cells / seconds / 1.04});
+    if (paper ? n >= 128 : n <= 256) store.append(memory);
+    if (paper || n <= 256) store.append(time);
+  }
+}
+
+}  // namespace
+
+FolderTest::FolderTest() {
+  const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+  folder_ = std::filesystem::temp_directory_path() /
+            fmt::format("terrabench.{}.{}.{}", test->test_suite_name(), test->name(), getpid());
+  std::filesystem::remove_all(folder_);
+  std::filesystem::create_directories(folder_);
+}
+
+FolderTest::~FolderTest() { std::filesystem::remove_all(folder_); }
+
+Provenance fake_provenance() {
+  Provenance p;
+  p.time = "2024-02-29T12:00:00Z";
+  p.command = "terrabench run --profile quick";
+  p.git_revision = "0123456789abcdef0123456789abcdef01234567";
+  p.git_dirty = false;
+  p.compiler = "GNU 12.2.0";
+  p.flags = "-O3";
+  p.build_type = "Release";
+  p.cpu = "A processor <of & for> tests";
+  p.os = "Debian GNU/Linux 12";
+  p.gl_renderer = "llvmpipe";
+  p.threads = 2;
+  p.memory = std::uint64_t{8} << 30;
+  p.simd = "AVX2";
+  p.libraries = {{"GDAL", "3.6.2"}, {"VTK", "9.1.0"}};
+  p.id = digest(p);
+  return p;
+}
+
+Record fake_record(const Provenance& run, std::string experiment, std::string case_name,
+                   std::string profile) {
+  Record record;
+  record.experiment = std::move(experiment);
+  record.case_name = std::move(case_name);
+  record.profile = std::move(profile);
+  record.run = run.id;
+  record.seed = 1;
+  record.terrain = "caves";
+  record.terrain_checksum = "00112233445566778899aabbccddeeff";
+  record.parameters = {{"n", std::int64_t{128}}, {"scale", 1.0}, {"name", std::string("x")}, {"flag", true}};
+  return record;
+}
+
+void add(Record& record, std::string metric, std::string unit, std::vector<double> samples) {
+  record.metrics.push_back({std::move(metric), std::move(unit), std::move(samples)});
+}
+
+void write_fake_results(const std::filesystem::path& folder, const std::string& profile) {
+  Store store(folder);
+  const Provenance run = fake_provenance();
+  store.begin_run(run);
+  add_tables(store, run, profile);
+  const std::pair<const char*, std::array<double, 2>> caves[] = {{"y-only", {0, 0}},
+                                                                 {"x-and-y", {812, 3}},
+                                                                 {"caves-no-attenuation", {950, 41}},
+                                                                 {"caves-attenuated", {700, 2}},
+                                                                 {"caves-printed-product", {640, 9}}};
+  for (const auto& [name, counts] : caves) {
+    Record record = fake_record(run, "hybrid.caves", name, profile);
+    add(record, "overhang_columns", "", {counts[0]});
+    add(record, "floating_components", "", {counts[1]});
+    store.append(record);
+  }
+  for (int figure = 3; figure <= 13; ++figure) {
+    Record record = fake_record(run, "hybrid.noise-stages", fmt::format("F{}", figure), profile);
+    add_picture(record, folder, fmt::format("hybrid.F{}", figure), "Vertical slice of 64 m × 64 m.");
+    store.append(record);
+  }
+  Record relief = fake_record(run, "overview.relief", "jacksboro/heightmap", profile);
+  add(relief, "bytes", "B", {554528});
+  add_picture(relief, folder, "relief.jacksboro.heightmap", "jacksboro as heightmap.");
+  store.append(relief);
+}
+
+void edit(const std::filesystem::path& file, std::string_view from, std::string_view to) {
+  std::string text = read_file(file);
+  const std::size_t at = text.find(from);
+  ASSERT_NE(at, text.npos) << from;
+  write_file(file, text.replace(at, from.size(), to));
+}
+
+}  // namespace terrabench

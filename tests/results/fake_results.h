@@ -1,0 +1,37 @@
+// Results folders with plausible measurements, to exercise what reads them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "results/record.h"
+#include "results/store.h"
+#include "terrain/files.h"
+
+namespace terrabench {
+
+// A folder of its own for each test, gone afterwards.
+class FolderTest : public testing::Test {
+ protected:
+  FolderTest();
+  ~FolderTest() override;
+  std::string content() const { return read_file(file()); }
+  std::filesystem::path file() const { return folder_ / "measurements.jsonl"; }
+
+  std::filesystem::path folder_;
+};
+
+Provenance fake_provenance();
+Record fake_record(const Provenance&, std::string experiment, std::string case_name,
+                   std::string profile = "quick");
+void add(Record&, std::string metric, std::string unit, std::vector<double> samples);
+
+// All that the hybrid experiments measure in this profile, figures included, every known verdict met.
+void write_fake_results(const std::filesystem::path& folder, const std::string& profile);
+
+// Replaces one stretch of the measurements file, as an editor would.
+void edit(const std::filesystem::path& file, std::string_view from, std::string_view to);
+
+}  // namespace terrabench

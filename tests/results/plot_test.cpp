@@ -1,0 +1,109 @@
+#include "results/plot.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "results/rasterise.h"
+#include "terrain/error.h"
+#include "terrain/image.h"
+#include "tests/results/fake_results.h"
+
+namespace terrabench {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+Plot growth() {
+  return {
+      "Growth",
+      {"samples along each side, n", "", true},
+      {"generation time", "s", true},
+      {{"paper", {{128, 33, 33, 33}, {256, 256, 256, 256}, {512, 2019, 2019, 2019}}, true},
+       {"this <program>", {{256, 1.3, 1.2, 1.9}, {64, 0.02, 0.018, 0.03}, {128, 0.15, 0.15, 0.15}}, false}}};
+}
+
+std::size_t count(const std::string& text, std::string_view what) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+TEST(PlotTest, ShowsLabelsUnitsTicksAndEveryPoint) {
+  const std::string svg = plot_svg(growth());
+  for (const char* label : {"samples along each side, n", "generation time [s]", ">64<", ">512<", ">0.01<",
+                            ">1,000<", "paper<", "this &lt;program&gt;"}) {
+    EXPECT_THAT(svg, HasSubstr(label));
+  }
+  EXPECT_EQ(count(svg, "<circle"), 4U) << "three points and the legend";
+  EXPECT_THAT(svg, HasSubstr("stroke-dasharray"));
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+}
+
+TEST(PlotTest, SamePlotSameBytes) { EXPECT_EQ(plot_svg(growth()), plot_svg(growth())); }
+
+TEST(PlotTest, LeavesOutWhatALogarithmicAxisCannotShow) {
+  Plot plot = growth();
+  plot.series[1].points.push_back({0, 1, 1, 1});
+  plot.series[1].points.push_back({512, -3, -3, -3});
+  plot.series[1].points.push_back({512, std::numeric_limits<double>::infinity(), 0, 0});
+  EXPECT_EQ(plot_svg(plot), plot_svg(growth()));
+  plot.series = {{"nothing", {{-1, 1, 1, 1}}, false}};
+  EXPECT_THROW(plot_svg(plot), Error);
+}
+
+TEST(PlotTest, OnePointAndHugeRangesStillHaveAnAxis) {
+  Plot plot = growth();
+  plot.series = {{"one", {{5, 7, 7, 7}}, false}};
+  EXPECT_THAT(plot_svg(plot), Not(HasSubstr("nan")));
+  plot.x.log = plot.y.log = false;
+  EXPECT_THAT(plot_svg(plot), HasSubstr(">5<"));
+  plot.series = {{"zero", {{0, 0, 0, 0}}, false}};
+  EXPECT_THAT(plot_svg(plot), Not(HasSubstr("nan")));
+  plot.x.log = plot.y.log = true;
+  plot.series = {{"huge", {{1e-300, 1e-300, 0, 1}, {1e300, 1e300, 1, 1e301}}, false}};
+  EXPECT_LT(plot_svg(plot).size(), 50'000U);
+}
+
+TEST(PlotTest, PowerLaw) {
+  std::vector<PlotPoint> points;
+  for (const double x : {64.0, 128.0, 256.0}) points.push_back({x, 3 * std::pow(x, 2.5), 0, 0});
+  EXPECT_NEAR(*power_law(points), 2.5, 1e-9);
+  points.resize(1);
+  EXPECT_FALSE(power_law(points));
+  points.push_back(points[0]);
+  EXPECT_FALSE(power_law(points));
+  EXPECT_FALSE(power_law(std::vector<PlotPoint>{{-1, 2, 2, 2}, {0, 3, 3, 3}}));
+}
+
+using RasteriseTest = FolderTest;
+
+TEST_F(RasteriseTest, MakesAPicture) {
+  write_file(folder_ / "plot.svg", std::string_view(plot_svg(growth())));
+  svg_to_png(folder_ / "plot.svg", folder_ / "plot.png", 880);
+  const Image image = read_png(folder_ / "plot.png");
+  EXPECT_EQ(image.width, 880);
+  EXPECT_EQ(image.height, 560);
+  EXPECT_EQ(image.pixel(0, 0), (Rgb{255, 255, 255}));
+}
+
+TEST_F(RasteriseTest, MissingProgramAndBadInputAreEnvironmentErrors) {
+  write_file(folder_ / "bad.svg", std::string_view("<svg"));
+  EXPECT_THROW(svg_to_png(folder_ / "bad.svg", folder_ / "bad.png", 100), Error);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "bad.png"));
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", folder_.c_str(), 1);
+  try {
+    svg_to_png(folder_ / "bad.svg", folder_ / "bad.png", 100);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kEnvironment);
+    EXPECT_THAT(error.advice(), HasSubstr("librsvg2-bin"));
+  }
+  setenv("PATH", path.c_str(), 1);
+}
+
+}  // namespace
+}  // namespace terrabench

@@ -1,0 +1,58 @@
+#include "results/provenance.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "results/record_json.h"
+#include "terrain/memory.h"
+
+namespace terrabench {
+namespace {
+
+using testing::MatchesRegex;
+
+TEST(ProvenanceTest, NamesCodeMachineAndCommand) {
+  const Provenance p = collect_provenance({.command = {"terrabench", "run", "hybrid.*"},
+                                           .gl_renderer = "llvmpipe",
+                                           .simd = "AVX2",
+                                           .threads = 3,
+                                           .libraries = {{"Mine", "1.2"}, {"VTK", "other"}}});
+  EXPECT_THAT(p.time, MatchesRegex("20[0-9][0-9]-[01][0-9]-[0-3][0-9]T[0-2][0-9]:[0-5][0-9]:[0-6][0-9]Z"));
+  EXPECT_EQ(p.command, "terrabench run 'hybrid.*'");
+  EXPECT_THAT(p.git_revision, MatchesRegex("unknown|[0-9a-f]{40}"));
+  EXPECT_FALSE(p.compiler.empty());
+  EXPECT_THAT(p.flags, testing::HasSubstr("-std=c++20"));
+  EXPECT_FALSE(p.cpu.empty());
+  EXPECT_FALSE(p.os.empty());
+  EXPECT_EQ(p.memory, physical_memory());
+  EXPECT_EQ(p.threads, 3);
+  EXPECT_EQ(p.simd, "AVX2");
+  EXPECT_EQ(p.id, digest(p));
+  const auto version = [&](std::string_view name) {
+    const auto it =
+        std::find_if(p.libraries.begin(), p.libraries.end(), [&](auto& l) { return l.first == name; });
+    return it == p.libraries.end() ? "" : it->second;
+  };
+  EXPECT_EQ(version("Mine"), "1.2");
+  EXPECT_EQ(version("VTK"), "other") << "the caller knows better";
+  EXPECT_THAT(version("GDAL"), MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));
+  EXPECT_THAT(version("fmt"), MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));
+}
+
+TEST(ProvenanceTest, ThreadsDefaultToTheMachines) { EXPECT_GE(collect_provenance({}).threads, 1); }
+
+TEST(ProvenanceTest, IdChangesWithAnythingInIt) {
+  Provenance p = collect_provenance({});
+  const std::string id = p.id;
+  p.git_dirty = !p.git_dirty;
+  EXPECT_NE(digest(p), id);
+}
+
+TEST(ProvenanceTest, CommandsCanBePasted) {
+  EXPECT_EQ(quote_command({"a", "b c", "", "it's", "$x", "--set=k=v"}),
+            "a 'b c' '' 'it'\\''s' '$x' --set=k=v");
+}
+
+}  // namespace
+}  // namespace terrabench

@@ -1,0 +1,140 @@
+#include "results/report.h"
+
+#include <gmock/gmock.h>
+
+#include <map>
+
+#include "terrain/error.h"
+#include "tests/results/fake_results.h"
+
+namespace terrabench {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+using ReportTest = FolderTest;
+
+// Every file of a folder with its content.
+std::map<std::string, std::string> files_of(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) {
+      files[std::filesystem::relative(entry.path(), folder).string()] = read_file(entry.path());
+    }
+  }
+  return files;
+}
+
+TEST_F(ReportTest, HoldsTablesPlotsFiguresAndProvenance) {
+  write_fake_results(folder_, "quick");
+  EXPECT_EQ(write_report(folder_), folder_ / "report/index.html");
+  const auto files = files_of(folder_ / "report");
+  for (const char* file : {"index.html", "report.md", "tables/hybrid.table1.csv", "tables/hybrid.table2.tex",
+                           "tables/hybrid.verdicts.md", "figures/hybrid.table2-growth.svg",
+                           "figures/hybrid.table2-growth.png", "figures/hybrid.table1-bytes.svg",
+                           "figures/hybrid.F3.png", "figures/relief.jacksboro.heightmap.png"}) {
+    EXPECT_TRUE(files.contains(file)) << file;
+  }
+  const std::string& page = files.at("index.html");
+  for (const char* text : {"393,216", "2,097,152", "reproduced (shape)", "pending", "Figure 13",
+                           "0123456789abcdef0123456789abcdef01234567", "terrabench run --profile quick",
+                           "A processor &lt;of &amp; for&gt; tests", "00112233445566778899aabbccddeeff"}) {
+    EXPECT_THAT(page, HasSubstr(text));
+  }
+  EXPECT_THAT(files.at("report.md"), HasSubstr("393,216"));
+  EXPECT_THAT(files.at("tables/hybrid.table1.csv"), HasSubstr("128³,2097152,2097152"));
+}
+
+TEST_F(ReportTest, EveryLinkLeadsSomewhere) {
+  write_fake_results(folder_, "paper");
+  const std::string page = read_file(write_report(folder_));
+  int links = 0;
+  for (const std::string_view attribute : {"href=\"", "src=\""}) {
+    for (std::size_t at = page.find(attribute); at != page.npos; at = page.find(attribute, at + 1), ++links) {
+      const std::size_t begin = at + attribute.size();
+      const std::string target = page.substr(begin, page.find('"', begin) - begin);
+      if (target.starts_with('#')) {
+        EXPECT_THAT(page, HasSubstr("id=\"" + target.substr(1) + "\""));
+      } else {
+        EXPECT_TRUE(std::filesystem::is_regular_file(folder_ / "report" / target)) << target;
+      }
+    }
+  }
+  EXPECT_GT(links, 50);
+}
+
+TEST_F(ReportTest, SameMeasurementsSameBytes) {
+  write_fake_results(folder_, "quick");
+  write_report(folder_);
+  const auto first = files_of(folder_ / "report");
+  write_file(folder_ / "report/stray.txt", std::string_view("from an older version"));
+  write_report(folder_);
+  EXPECT_EQ(files_of(folder_ / "report"), first) << "the earlier report is replaced as a whole";
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+    EXPECT_THAT(entry.path().string(), Not(HasSubstr(".tmp")));
+  }
+}
+
+TEST_F(ReportTest, ComesOutOfAPartialRun) {
+  Store store(folder_);
+  const Provenance run = fake_provenance();
+  store.begin_run(run);
+  Record record = fake_record(run, "hybrid.table2", "n=64");
+  add(record, "generation_time", "s", {0.02});
+  store.append(record);
+  const std::string page = read_file(write_report(folder_));
+  EXPECT_THAT(page, HasSubstr("Table 2"));
+  EXPECT_THAT(page, HasSubstr("missing"));
+}
+
+TEST_F(ReportTest, AlteredResultsCarryAWarning) {
+  write_fake_results(folder_, "quick");
+  edit(file(), "\"seed\":1", "\"seed\":2");
+  EXPECT_THAT(read_file(write_report(folder_)), HasSubstr("cannot be trusted"));
+}
+
+TEST_F(ReportTest, NamesAndCaptionsFromOutsideCannotBreakThePage) {
+  write_fake_results(folder_, "quick");
+  Store store(folder_);
+  Record record = fake_record(fake_provenance(), "<b>x</b>", "\"><script>alert(1)</script>");
+  write_file(folder_ / "figures/x.png", std::string_view("x"));
+  record.figures = {{"../../<script>", "figures/x.png", "</figure><script>alert(2)</script>"}};
+  store.append(record);
+  const std::string page = read_file(write_report(folder_));
+  EXPECT_THAT(page, Not(HasSubstr("<script>")));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "<script>.png"));
+}
+
+TEST_F(ReportTest, EmptyFolderIsBadInput) {
+  try {
+    write_report(folder_);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    EXPECT_THAT(error.what(), HasSubstr("holds no measurements"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "report"));
+}
+
+TEST_F(ReportTest, DoesNotReplaceWhatIsNoReport) {
+  write_fake_results(folder_, "quick");
+  write_file(folder_ / "report/thesis.tex", std::string_view("years of work"));
+  EXPECT_THROW(write_report(folder_), Error);
+  EXPECT_EQ(read_file(folder_ / "report/thesis.tex"), "years of work");
+}
+
+// The renderer of plots is gone: no half report may appear, and the earlier one stays.
+TEST_F(ReportTest, IsWrittenWholeOrNotAtAll) {
+  write_fake_results(folder_, "quick");
+  write_report(folder_);
+  const auto before = files_of(folder_);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", folder_.c_str(), 1);
+  EXPECT_THROW(write_report(folder_), Error);
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(files_of(folder_), before);
+}
+
+}  // namespace
+}  // namespace terrabench

@@ -1,0 +1,272 @@
+#include "results/store.h"
+
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <limits>
+
+#include "results/record_json.h"
+#include "terrain/error.h"
+#include "tests/results/fake_results.h"
+
+namespace terrabench {
+namespace {
+
+using testing::HasSubstr;
+
+using StoreTest = FolderTest;
+
+Record timed(const Provenance& run, const std::string& name, double seconds) {
+  Record record = fake_record(run, "hybrid.table2", name);
+  add(record, "generation_time", "s", {seconds, 0.1 + seconds, 1.0 / 3});
+  return record;
+}
+
+// A run and two cases.
+void write_two(const std::filesystem::path& folder) {
+  Store store(folder);
+  const Provenance run = fake_provenance();
+  store.begin_run(run);
+  store.append(timed(run, "n=64", 0.25));
+  store.append(timed(run, "n=128", 2.5));
+}
+
+void expect_bad_input(const std::string& line, const std::string& what) {
+  try {
+    parse_line(line, "there:3");
+    ADD_FAILURE() << "accepted: " << line.substr(0, 100);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    EXPECT_THAT(error.what(), HasSubstr("there:3"));
+    EXPECT_THAT(error.what(), HasSubstr(what));
+  }
+}
+
+TEST_F(StoreTest, GivesBackWhatWasAppended) {
+  write_two(folder_);
+  const Store store = Store::open(folder_);
+  EXPECT_TRUE(store.warnings().empty());
+  ASSERT_EQ(store.records().size(), 2U);
+  const Record* const record = store.find("hybrid.table2", "n=128", "quick");
+  ASSERT_NE(record, nullptr);
+  EXPECT_EQ(record->find("generation_time")->samples, (std::vector{2.5, 2.6, 1.0 / 3}));
+  EXPECT_EQ(record->find("generation_time")->unit, "s");
+  EXPECT_EQ(record->find("other"), nullptr);
+  EXPECT_EQ(record->seed, 1U);
+  EXPECT_EQ(record->parameters.size(), 4U);
+  EXPECT_FALSE(store.altered(*record));
+  const Provenance* const run = store.run(record->run);
+  ASSERT_NE(run, nullptr);
+  EXPECT_EQ(run->cpu, fake_provenance().cpu);
+  EXPECT_EQ(run->libraries, fake_provenance().libraries);
+  EXPECT_EQ(store.last_profile(), "quick");
+}
+
+TEST_F(StoreTest, NewestRecordOfACaseWins) {
+  write_two(folder_);
+  Store(folder_).append(timed(fake_provenance(), "n=64", 99));
+  const Store store = Store::open(folder_);
+  EXPECT_EQ(store.records().size(), 2U);
+  EXPECT_EQ(store.find("hybrid.table2", "n=64", "quick")->find("generation_time")->samples[0], 99);
+  EXPECT_THAT(content(), HasSubstr("0.25")) << "nothing is ever taken out of the file";
+}
+
+TEST_F(StoreTest, FindsAFigureAlteredByHand) {
+  write_two(folder_);
+  edit(file(), "2.5,2.6", "1.5,2.6");
+  const Store store = Store::open(folder_);
+  ASSERT_EQ(store.faults().size(), 1U);
+  EXPECT_THAT(store.faults()[0], HasSubstr("measurements.jsonl:3: altered"));
+  EXPECT_TRUE(store.altered(*store.find("hybrid.table2", "n=128", "quick")));
+  EXPECT_FALSE(store.altered(*store.find("hybrid.table2", "n=64", "quick")));
+}
+
+TEST_F(StoreTest, FindsProvenanceAlteredByHand) {
+  write_two(folder_);
+  edit(file(), "\"git_dirty\":false", "\"git_dirty\":true");
+  EXPECT_FALSE(Store::open(folder_).faults().empty());
+}
+
+// Wherever a kill cuts the file, what came before is used and the next append restores whole lines.
+TEST_F(StoreTest, SurvivesACutAtEveryByte) {
+  write_two(folder_);
+  const std::string whole = content();
+  const std::size_t last = whole.rfind('\n', whole.size() - 2) + 1;
+  const Record again = timed(fake_provenance(), "n=128", 4);
+  for (std::size_t size = last; size < whole.size();
+       size += size < last + 5 || size + 5 > whole.size() ? 1 : 41) {
+    write_file(file(), whole.substr(0, size));
+    Store store(folder_);
+    const bool complete = size + 1 == whole.size();  // only the newline is gone
+    const bool cut = size > last && !complete;
+    EXPECT_EQ(store.records().size(), complete ? 2U : 1U) << size;
+    EXPECT_EQ(store.warnings().size(), cut ? 1U : 0U) << size;
+    EXPECT_TRUE(store.faults().empty());
+    store.append(again);
+    const Store healed(folder_);
+    EXPECT_TRUE(healed.warnings().empty()) << size;
+    EXPECT_EQ(healed.find("hybrid.table2", "n=128", "quick")->find("generation_time")->samples[0], 4) << size;
+  }
+}
+
+TEST_F(StoreTest, DamageInTheMiddleIsReportedAndTheRestUsed) {
+  write_two(folder_);
+  edit(file(), "\"seed\":1", "\"seed\":\"one\"");
+  const Store store = Store::open(folder_);
+  EXPECT_EQ(store.records().size(), 1U);
+  ASSERT_EQ(store.faults().size(), 1U);
+  EXPECT_THAT(store.faults()[0], HasSubstr("measurements.jsonl:2: 'seed' is not a natural number"));
+}
+
+TEST_F(StoreTest, RecordWithoutItsRunIsAFault) {
+  write_two(folder_);
+  const std::string text = content();
+  write_file(file(), text.substr(text.find('\n') + 1));
+  const Store store(folder_);
+  EXPECT_EQ(store.faults().size(), 2U);
+  EXPECT_THAT(store.faults()[0], HasSubstr("names a run that is not in the file"));
+}
+
+TEST_F(StoreTest, NothingMeasuredIsAnEmptyStoreButCannotBeOpenedForReading) {
+  EXPECT_TRUE(Store(folder_).records().empty());
+  EXPECT_TRUE(Store(folder_ / "not there").records().empty());
+  EXPECT_THROW(Store::open(folder_), Error);
+  EXPECT_THROW(Store::open(folder_ / "not there"), Error);
+  write_file(file(), std::string_view(""));
+  EXPECT_TRUE(Store(folder_).records().empty());
+  EXPECT_THROW(Store::open(folder_), Error);
+}
+
+TEST_F(StoreTest, GarbageIsBadInput) {
+  using namespace std::string_literals;
+  const std::string noise = "\x89PNG\r\n\x1a\n\0\xff\xfe\n\n{}\n[1]\n"s;
+  write_file(file(), std::string_view(noise));
+  try {
+    const Store store(folder_);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+  }
+  std::filesystem::remove(file());
+  std::filesystem::create_directory(file());
+  EXPECT_THROW(Store{folder_}, Error);
+}
+
+TEST(RecordLine, RefusesWhatIsNoLine) {
+  const std::string good = to_line(timed(fake_provenance(), "n=64", 0.25));
+  const auto changed = [&](std::string_view from, std::string_view to) {
+    std::string line = good;
+    const std::size_t at = line.find(from);
+    EXPECT_NE(at, line.npos) << from;
+    return line.replace(at, from.size(), to);
+  };
+  expect_bad_input("", "not valid JSON");
+  expect_bad_input("null", "not an object");
+  expect_bad_input("{}", "'kind' is missing");
+  expect_bad_input(good.substr(0, good.size() / 2), "not valid JSON");
+  expect_bad_input(changed("\"record\"", "\"recrod\""), "'kind' is neither");
+  expect_bad_input(changed("0.25", "NaN"), "not valid JSON");
+  expect_bad_input(changed("0.25", "1e999"), "too large");
+  expect_bad_input(changed("0.25", "\"0.25\""), "is not a number");
+  expect_bad_input(changed("[0.25,0.35,0.3333333333333333]", "[]"), "has no samples");
+  expect_bad_input(changed("\"hybrid.table2\"", "7"), "'experiment' is not text");
+  expect_bad_input(changed("hybrid.table2", "hybrid\\u001b[31m"), "control characters");
+  expect_bad_input(changed("\"figures\":[]", "\"figures\":{}"), "'figures' is not a list");
+  for (const char* path : {"../secret.png", "/etc/passwd", "figures/../../x.png"}) {
+    const std::string figure = std::string(R"("figures":[{"id":"a","file":")") + path + R"(","caption":""}])";
+    expect_bad_input(changed("\"figures\":[]", figure), "outside the results folder");
+  }
+  expect_bad_input(std::string(2'000'000, '['), "nested too deeply");
+}
+
+TEST(RecordLine, UnknownFieldIsIgnoredWithAWarningAndCountsAsAltered) {
+  std::string line = to_line(timed(fake_provenance(), "n=64", 0.25));
+  line.insert(1, "\"comment\":\"hello\",");
+  const Line parsed = parse_line(line, "x");
+  EXPECT_EQ(parsed.warning, "unknown field 'comment' is ignored");
+  EXPECT_TRUE(parsed.altered);
+}
+
+TEST(RecordLine, SurvivesBytesThatAreNoText) {
+  Provenance run = fake_provenance();
+  run.command = "terrabench run \xff\xfe";
+  const Line line = parse_line(to_line(run), "x");
+  EXPECT_FALSE(line.altered);
+  EXPECT_EQ(std::get<Provenance>(line.content).id, digest(run));
+}
+
+TEST_F(StoreTest, RefusesNumbersThatAreNotFinite) {
+  Store store(folder_);
+  const Provenance run = fake_provenance();
+  store.begin_run(run);
+  const std::string before = content();
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW(store.append(timed(run, "n=64", bad)), Error);
+  }
+  EXPECT_EQ(content(), before);
+}
+
+// A file size limit is how a full disk is had without filling one: the write stops in the middle of the line.
+TEST_F(StoreTest, FullDiskLeavesNoHalfLine) {
+  write_two(folder_);
+  const std::string before = content();
+  rlimit old{};
+  getrlimit(RLIMIT_FSIZE, &old);
+  auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{before.size() + 20, old.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  ExitCode code = ExitCode::kGood;
+  try {
+    Store(folder_).append(timed(fake_provenance(), "n=256", 20));
+  } catch (const Error& error) {
+    code = error.code();
+  }
+  setrlimit(RLIMIT_FSIZE, &old);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(code, ExitCode::kEnvironment);
+  EXPECT_EQ(content(), before);
+}
+
+TEST_F(StoreTest, FolderThatCannotBeMadeIsAnEnvironmentError) {
+  write_file(folder_ / "plain", std::string_view("x"));
+  Store store(folder_ / "plain" / "inside");
+  try {
+    store.begin_run(fake_provenance());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kEnvironment);
+  }
+}
+
+TEST_F(StoreTest, ResumeKnowsACaseByAllThatDefinesIt) {
+  write_fake_results(folder_, "quick");
+  const Store store(folder_);
+  const Record record = *store.find("hybrid.noise-stages", "F3", "quick");
+  const auto key = [&] {
+    return CaseKey{record.experiment, record.case_name,
+                   record.profile,    {record.parameters.rbegin(), record.parameters.rend()},
+                   record.seed,       record.terrain_checksum};
+  };
+  EXPECT_NE(store.find(key()), nullptr);
+  CaseKey other = key();
+  other.seed = 2;
+  EXPECT_EQ(store.find(other), nullptr);
+  other = key();
+  other.parameters[0].second = std::int64_t{3};
+  EXPECT_EQ(store.find(other), nullptr);
+  other = key();
+  other.terrain_checksum = "another";
+  EXPECT_EQ(store.find(other), nullptr);
+  other.terrain_checksum = std::nullopt;
+  EXPECT_NE(store.find(other), nullptr);
+  other = key();
+  other.profile = "paper";
+  EXPECT_EQ(store.find(other), nullptr);
+  std::filesystem::remove(folder_ / record.figures[0].file);
+  EXPECT_EQ(store.find(key()), nullptr) << "its picture is gone";
+}
+
+}  // namespace
+}  // namespace terrabench

@@ -1,0 +1,83 @@
+#include "results/table.h"
+
+#include <gmock/gmock.h>
+
+#include "results/document.h"
+#include "results/format.h"
+
+namespace terrabench {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+Table awkward() {
+  return {"a.b",
+          "Title & <co>",
+          "50 % of $x_1$",
+          {{"Name|s", "", false}, {"Size", "B", true}},
+          {{{"a,\"b\"\nc", "", "", ""}, {"1,024", "1024", "", ""}},
+           {{"<script>alert(1)</script>", "", "", ""}, {"2 % & 3 # {4} ~^\\", "", "#x", "verdict"}}}};
+}
+
+TEST(Format, NumbersForPeople) {
+  EXPECT_EQ(format_number(0), "0");
+  EXPECT_EQ(format_number(-0.0), "0");
+  EXPECT_EQ(format_number(393216), "393,216");
+  EXPECT_EQ(format_number(-1234567), "-1,234,567");
+  EXPECT_EQ(format_number(-123), "-123");
+  EXPECT_EQ(format_number(0.142345), "0.1423");
+  EXPECT_EQ(format_number(12345.6), "12,346");
+  EXPECT_EQ(format_number(1e20), "1e+20");
+  EXPECT_EQ(format_quantity(2.5, "s"), "2.5 s");
+  EXPECT_EQ(format_exact(0.1), "0.1");
+}
+
+TEST(TableTest, Csv) {
+  EXPECT_EQ(csv(awkward()),
+            "Name|s,Size [B]\r\n\"a,\"\"b\"\"\nc\",1024\r\n<script>alert(1)</script>,2 % & 3 # {4} ~^\\\r\n");
+}
+
+TEST(TableTest, HtmlEscapesAndMarksUp) {
+  const std::string text = html(awkward());
+  EXPECT_THAT(text, Not(HasSubstr("<script>")));
+  EXPECT_THAT(text, HasSubstr("Title &amp; &lt;co&gt;"));
+  EXPECT_THAT(text, HasSubstr("<th scope=\"col\" class=\"number\">Size [B]</th>"));
+  EXPECT_THAT(text, HasSubstr("<td class=\"verdict number\"><a href=\"#x\">"));
+}
+
+TEST(TableTest, MarkdownKeepsRowsOnOneLine) {
+  const std::string text = markdown(awkward());
+  EXPECT_THAT(text, HasSubstr("| Name\\|s | Size \\[B\\] |\n|---|---:|\n"));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);
+}
+
+TEST(TableTest, LatexIsBooktabsAndEscaped) {
+  const std::string text = latex(awkward());
+  EXPECT_THAT(text, HasSubstr("\\toprule"));
+  EXPECT_THAT(text, HasSubstr("\\begin{tabular}{lr}"));
+  EXPECT_THAT(text, HasSubstr("50 \\% of \\$x\\_1\\$"));
+  EXPECT_THAT(text, HasSubstr("\\# \\{4\\} \\textasciitilde{}\\textasciicircum{}\\textbackslash{}"));
+  EXPECT_EQ(escape_latex("64³ × 2"), "64\\textsuperscript{3} $\\times$ 2");
+}
+
+TEST(DocumentTest, PageNeedsNothingFromOutside) {
+  const Document document = {Heading{1, "A <title>", "top"},
+                             Heading{2, "Part", "part"},
+                             Paragraph{"a & b", true},
+                             Facts{{{"x", "<y>"}}},
+                             TableBlock{awkward(), {{"CSV", "a.csv"}}},
+                             Gallery{{{"P", "c", "p.svg", "p.png", {}}}}};
+  const std::string page = html(document);
+  EXPECT_THAT(page, HasSubstr("<html lang=\"en\">"));
+  EXPECT_THAT(page, HasSubstr("<li><a href=\"#part\">Part</a></li>"));
+  EXPECT_THAT(page, HasSubstr("alt=\"P: c\""));
+  EXPECT_THAT(page, Not(HasSubstr("http")));
+  EXPECT_THAT(page, Not(HasSubstr("<y>")));
+  const std::string text = markdown(document);
+  EXPECT_THAT(text, HasSubstr("![P](p.png)"));
+  EXPECT_THAT(text, HasSubstr("[CSV](a.csv)"));
+}
+
+}  // namespace
+}  // namespace terrabench
