@@ -72,6 +72,9 @@ class BlockMesher {
       if (vertices > kNone)
         throw usage_error("has more than 2³² vertices", "block mesh", "ask for larger cells");
     }
+    // A closed surface has about two triangles a vertex; they are gathered by row first.
+    require_memory(static_cast<std::size_t>(vertices) * (sizeof(glm::vec3) + 12 * sizeof(std::uint32_t)),
+                   "block mesh");
     TriangleMesh mesh;
     mesh.positions.resize(static_cast<std::size_t>(vertices));
     std::vector<std::vector<std::uint32_t>> triangles(corners_.size());

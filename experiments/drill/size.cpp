@@ -10,13 +10,13 @@
 #include "experiments/drill/drill.h"
 #include "experiments/drill/factorial.h"
 #include "experiments/drill/ground.h"
-#include "experiments/drill/raster_codecs.h"
 #include "representations/drill/drill_codec.h"
 #include "representations/drill/regenerate.h"
 #include "results/plot.h"
 #include "results/rasterise.h"
 #include "terrain/files.h"
 #include "terrain/metrics/elevation_error.h"
+#include "terrain/sources/dem/compressed_sizes.h"
 
 namespace terrabench::drill {
 namespace {
@@ -74,6 +74,7 @@ void draw_rate_distortion(const Heightfield& ground, const FlowNetwork& network,
   plot.x = {"bits a sample", "", true};
   plot.y = {"RMSE", "m", true};
   plot.series = {{"drills", {}, false}, {"JPEG 2000", {}, false}, {"LERC", {}, false}};
+  const Heightfield filled = fill_no_data(ground);
   constexpr std::array kThresholds{10U, 25U, 50U, 100U, 200U, 400U, 800U};
   constexpr std::array kQualities{0.1, 0.3, 1.0, 3.0, 10.0, 30.0};
   constexpr std::array kErrors{0.5, 2.0, 8.0, 32.0, 128.0};
@@ -84,12 +85,12 @@ void draw_rate_distortion(const Heightfield& ground, const FlowNetwork& network,
     progress.advance();
   }
   for (const double quality : kQualities) {
-    const Encoded e = jpeg2000(ground, quality);
+    const CompressedSize e = compressed_size(filled, RasterCodec::kJpeg2000, quality);
     plot.series[1].points.push_back(point(static_cast<double>(e.bytes), samples, e.rmse));
     progress.advance();
   }
   for (const double error : kErrors) {
-    const Encoded e = lerc(ground, error);
+    const CompressedSize e = compressed_size(filled, RasterCodec::kLerc, error);
     plot.series[2].points.push_back(point(static_cast<double>(e.bytes), samples, e.rmse));
     progress.advance();
   }
@@ -121,13 +122,18 @@ void measure_size(const Case& at, const RunOptions& options, Recorder& recorder,
   recorder.add("rmse", "m", stored.error.rmse);
   recorder.add("rmse_normalised", "", stored.error.normalised());
   recorder.add("drill_bytes", "B", static_cast<double>(stored.bytes));
-  recorder.add("zstd_int16_bytes", "B", static_cast<double>(zstd_int16(ground).bytes));
-  recorder.add("lossless_jpeg2000_bytes", "B", static_cast<double>(jpeg2000(ground, 100).bytes));
-  const Encoded jpeg = jpeg2000_at(ground, stored.error.rmse), other = lerc_at(ground, stored.error.rmse);
-  recorder.add("jpeg2000_bytes", "B", static_cast<double>(jpeg.bytes));
-  recorder.add("jpeg2000_rmse", "m", jpeg.rmse);
-  recorder.add("lerc_bytes", "B", static_cast<double>(other.bytes));
-  recorder.add("lerc_rmse", "m", other.rmse);
+  const auto add = [&](std::string_view metric, const CompressedSize& size) {
+    recorder.add(fmt::format("{}_bytes", metric), "B", static_cast<double>(size.bytes));
+    recorder.add(fmt::format("{}_rmse", metric), "m", size.rmse);
+  };
+  // Other compressors know no holes.
+  const Heightfield filled = fill_no_data(ground);
+  add("zstd_metres", compressed_size(filled, RasterCodec::kZstd, 1));
+  add("jpeg2000_lossless", compressed_size(filled, RasterCodec::kJpeg2000, 100));
+  const double rmse = stored.error.rmse;
+  add("zstd", compressed_size_at(filled, RasterCodec::kZstdDifferences, rmse));
+  add("jpeg2000", compressed_size_at(filled, RasterCodec::kJpeg2000, rmse));
+  add("lerc", compressed_size_at(filled, RasterCodec::kLerc, rmse));
   draw_rate_distortion(ground, network, at.terrain == kMainGround ? "" : "." + file_name(at.terrain),
                        recorder, progress);
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t kTaus[] = {6, 12, 25, 50, 100, 200, 400, 800};
 constexpr int kCrossSections[] = {3, 5, 7, 10, 14, 20}, kInfluences[] = {4, 6, 8, 10, 12, 15, 20, 30};
-constexpr float kQuanta[] = {0.5F, 1, 2, 4};  // times the automatic one
+constexpr float kQuanta[] = {1, 2, 4, 8};  // times the automatic one
 
 double rmse(const Heightfield& a, const Heightfield& b) {
   double sum = 0;

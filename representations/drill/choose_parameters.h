@@ -26,8 +26,8 @@ struct DrillChoice {
 // Sets tau, w and k of `options` and a quantum: for a budget of bytes those of the least error, for one of
 // error those of the fewest bytes; when nothing looked at keeps the budget, what comes nearest to it. Looks
 // at eight τ, for each of them at every w and k of a small grid, and at four quanta for the best of these,
-// since rounding hardly moves the best shape. Some 300 regenerations: about 2 s for 400², linear in pixels.
-// Throws usage_error unless exactly one budget is given.
+// since rounding hardly moves the best shape. Some 400 regenerations: a few seconds for 400², linear in
+// pixels. Throws usage_error unless exactly one budget is given.
 DrillChoice choose_parameters(const Heightfield& field, const FlowNetwork& network, const DrillBudget& budget,
                               const DrillOptions& options, Progress* progress = nullptr);
 

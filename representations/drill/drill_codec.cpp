@@ -344,6 +344,7 @@ void quantise(Drills& drills, float quantum) {
 
 float automatic_quantum(const Heightfield& field) {
   const HeightRange range = height_range(field);
+  if (range.no_data == field.heights.size()) return 1;
   const float largest = std::max(std::abs(range.lowest), std::abs(range.highest));
   const float wanted = std::max((range.highest - range.lowest) / 256, largest / (kLargest / 2));
   if (!(wanted > 0)) return 1;

@@ -68,10 +68,11 @@ DrillTerrain::DrillTerrain(Drills drills, HeightGrid grid) : drills_(std::move(d
   Heightfield field = regenerate(drills_);
   // Shapes that may fall can dig through the floor.
   const HeightRange range = height_range(field);
-  if (range.lowest <= grid.bounds.low.y) {
+  const bool empty = range.no_data == field.heights.size();
+  if (!empty && range.lowest <= grid.bounds.low.y) {
     grid.bounds.low.y = range.lowest - static_cast<float>(std::max(grid.cell_x, grid.cell_z));
   }
-  grid.bounds.high.y = std::max(grid.bounds.high.y, range.highest);
+  if (!empty) grid.bounds.high.y = std::max(grid.bounds.high.y, range.highest);
   surface_ = std::make_unique<Heightmap>(grid, std::move(field.heights));
 }
 
@@ -82,8 +83,8 @@ std::unique_ptr<Representation> DrillTerrain::build(const TerrainSource& source,
   const Heightfield field = as_field(map);
   DrillOptions options = options_from(parameters);
   check_options(options, field.width, field.depth);
-  const HeightRange range = height_range(field);
-  if (!(std::abs(range.lowest) <= kMostHeight && std::abs(range.highest) <= kMostHeight)) {
+  if (std::any_of(field.heights.begin(), field.heights.end(),
+                  [](float h) { return std::abs(h) > kMostHeight; })) {
     throw bad_input("heights reach beyond 10⁹ m", source.name,
                     "check the file's units and its no-data value");
   }

@@ -55,8 +55,7 @@ struct DrillOptions {
   // Without, the fit is the one printed in §2.2, whose parabolas may bend down; beyond w they then fall
   // without end.
   bool monotone = true;
-  // Another reading of monotone: shapes may bend, as long as they do not fall within the window (nor within
-  // w).
+  // Another reading of monotone: shapes may bend as long as they do not fall within window or cross-section.
   bool window_only = false;
   // §4.1: elevations never rise downstream. With shapes monotone everywhere no pit can be left (pits.h).
   bool monotone_profiles = false;

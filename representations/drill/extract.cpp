@@ -28,11 +28,10 @@ std::vector<HoleRun> find_holes(const Heightfield& field) {
   return holes;
 }
 
-// Each pixel's elevation, or the lowest met upstream of it: channels come upstream first.
-std::vector<float> channel_elevations(const Heightfield& field, const FlowNetwork& network,
-                                      std::span<const std::uint32_t> channel, bool monotone) {
+// Lowers every channel pixel to the lowest upstream of it: channels come upstream first.
+std::vector<float> monotone_elevations(const Heightfield& field, const FlowNetwork& network,
+                                       std::span<const std::uint32_t> channel) {
   std::vector<float> elevation = field.heights;
-  if (!monotone) return elevation;
   for (const std::uint32_t pixel : channel) {
     if (!network.flows(pixel)) continue;
     float& below = elevation[network.receiver(pixel)];
@@ -94,7 +93,9 @@ Drills extract_drills(const Heightfield& field, const FlowNetwork& network, cons
   check_options(options, field.width, field.depth);
   assert(network.width == field.width && network.depth == field.depth);
   std::vector<std::uint32_t> channel = channel_pixels(network, options.tau);
-  const std::vector<float> elevation = channel_elevations(field, network, channel, options.monotone_profiles);
+  std::vector<float> lowered;
+  if (options.monotone_profiles) lowered = monotone_elevations(field, network, channel);
+  const std::vector<float>& elevation = options.monotone_profiles ? lowered : field.heights;
   std::sort(channel.begin(), channel.end());
 
   Drills drills;
@@ -102,7 +103,8 @@ Drills extract_drills(const Heightfield& field, const FlowNetwork& network, cons
   drills.depth = field.depth;
   drills.cell_x = field.cell_x;
   drills.cell_z = field.cell_z;
-  drills.plateau = height_range(field).highest;
+  const HeightRange range = height_range(field);
+  drills.plateau = range.no_data == field.heights.size() ? 0 : range.highest;
   drills.w = options.w;
   drills.k = options.k;
   drills.holes = find_holes(field);

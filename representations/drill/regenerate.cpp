@@ -81,15 +81,14 @@ void drill(const Drills& drills, std::size_t first, std::size_t last, int y, con
     const Shape shape{hn::Set(F(), drills.elevation[i]), hn::Set(F(), drills.slope[i]),
                       hn::Set(F(), drills.curvature[i])};
     const std::size_t size = 2 * static_cast<std::size_t>(k) + 1;
-    float* const centre = tile.heights +
-                          (std::ptrdiff_t{y} - tile.row) * static_cast<std::ptrdiff_t>(tile.stride) +
-                          (x - k - tile.left);
+    const auto window_row = [&](int row) -> float* {
+      if (row < tile.row || row >= tile.row + tile.rows) return nullptr;
+      return tile.heights + static_cast<std::size_t>(row - tile.row) * tile.stride + (x - k - tile.left);
+    };
     for (int j = 0; j <= k; ++j) {
-      const std::ptrdiff_t rows = static_cast<std::ptrdiff_t>(tile.stride) * j;
-      const auto inside = [&](int row) { return row >= tile.row && row < tile.row + tile.rows; };
-      lower_rows(shape, tile.distance + static_cast<std::size_t>(j) * tile.distance_stride + (drills.k - k),
-                 size, inside(y - j) ? centre - rows : nullptr,
-                 j > 0 && inside(y + j) ? centre + rows : nullptr);
+      const float* const distance =
+          tile.distance + static_cast<std::size_t>(j) * tile.distance_stride + (drills.k - k);
+      lower_rows(shape, distance, size, window_row(y - j), j > 0 ? window_row(y + j) : nullptr);
     }
   }
 }

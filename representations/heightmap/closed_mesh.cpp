@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "representations/column_grid.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -27,9 +28,11 @@ class ClosedMesher {
 
   TriangleMesh run() {
     number_vertices();
+    const std::size_t vertices = 2 * static_cast<std::size_t>(tops_), indices = 3 * count_triangles();
+    require_memory(vertices * sizeof(glm::vec3) + indices * sizeof(std::uint32_t), "mesh of a heightmap");
     TriangleMesh mesh;
-    mesh.positions.resize(2 * static_cast<std::size_t>(tops_));
-    mesh.indices.resize(count_triangles() * 3);
+    mesh.positions.resize(vertices);
+    mesh.indices.resize(indices);
     tbb::parallel_for(0, rows_, [&](int j) { place_vertices(j, mesh); });
     tbb::parallel_for(0, rows_, [&](int j) {
       if (std::uint32_t* out = mesh.indices.data() + first_index_[j]; j + 1 < rows_) emit_row(j, out);

@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <map>
 #include <set>
 
 #include "representations/runs.h"
+#include "representations/voxel/leaf_masks.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -23,7 +23,7 @@ using Leaf = Tree::LeafNodeType;
 using Coord = openvdb::Coord;
 // Reads without a lock and without entering itself in the tree's list: for trees that nobody edits meanwhile.
 using Reader = openvdb::tree::ValueAccessor<const Tree, false>;
-constexpr int kLeaf = 8;  // voxels along a leaf
+constexpr int kLeaf = kLeafSide;
 static_assert(Leaf::DIM == kLeaf);
 // Voxels along what a node of each depth covers when it is one tile: root, both inner levels, and (-1) no
 // node at all.
@@ -62,62 +62,24 @@ struct Column8 {
   std::vector<Coord> full;
 };
 
-// Samples a block of 8 × 8 columns and cuts it into leaves.
-class BlockBuilder {
- public:
-  explicit BlockBuilder(int levels)
-      : samples_(static_cast<std::size_t>(levels)),
-        leaves_((static_cast<std::size_t>(levels) + kLeaf - 1) / kLeaf) {}
-
-  std::vector<Column8> build(const ColumnSampler& sampler, int i0, int j0) {
-    std::map<Material, std::vector<std::array<std::uint64_t, kLeaf>>> masks;  // a word a slice of equal x
-    const ColumnGrid& grid = sampler.grid();
-    for (int i = i0; i < std::min(i0 + kLeaf, grid.width); ++i) {
-      for (int j = j0; j < std::min(j0 + kLeaf, grid.depth); ++j) {
-        sampler.sample(i, j, samples_);
-        for (std::size_t begin = 0, end = 0; begin < samples_.size(); begin = end) {
-          end = run_end(samples_, begin);
-          if (samples_[begin] == Material::kAir) continue;
-          auto& mask = masks[samples_[begin]];
-          mask.resize(leaves_);
-          for (std::size_t level = begin; level < end;) {  // a leaf a step
-            const std::size_t low = level % kLeaf, high = std::min<std::size_t>(kLeaf, low + end - level);
-            const std::uint64_t bits = (0xFFU >> (kLeaf - (high - low))) << low;
-            mask[level / kLeaf][static_cast<std::size_t>(i - i0)] |= bits << (kLeaf * (j - j0));
-            level += high - low;
-          }
-        }
-      }
+Column8 cut(Material material, const std::vector<LeafMask>& masks, int i0, int j0) {
+  Column8 column{material, {}, {}};
+  for (std::size_t l = 0; l < masks.size(); ++l) {
+    const auto all = [&](std::uint64_t word) {
+      return std::all_of(masks[l].begin(), masks[l].end(), [&](std::uint64_t w) { return w == word; });
+    };
+    const Coord origin = at(i0, j0, static_cast<int>(l) * kLeaf);
+    if (all(0)) continue;
+    if (all(~std::uint64_t{0})) {
+      column.full.push_back(origin);
+      continue;
     }
-    std::vector<Column8> columns;
-    for (const auto& [material, mask] : masks) columns.push_back(cut(material, mask, i0, j0));
-    return columns;
+    auto leaf = std::make_unique<Leaf>(origin);
+    for (unsigned x = 0; x < kLeaf; ++x) leaf->getValueMask().getWord<openvdb::Index64>(x) = masks[l][x];
+    column.leaves.push_back(std::move(leaf));
   }
-
- private:
-  static Column8 cut(Material material, const std::vector<std::array<std::uint64_t, kLeaf>>& mask, int i0,
-                     int j0) {
-    Column8 column{material, {}, {}};
-    for (std::size_t l = 0; l < mask.size(); ++l) {
-      const auto all = [&](std::uint64_t word) {
-        return std::all_of(mask[l].begin(), mask[l].end(), [&](std::uint64_t w) { return w == word; });
-      };
-      const Coord origin = at(i0, j0, static_cast<int>(l) * kLeaf);
-      if (all(0)) continue;
-      if (all(~std::uint64_t{0})) {
-        column.full.push_back(origin);
-        continue;
-      }
-      auto leaf = std::make_unique<Leaf>(origin);
-      for (unsigned x = 0; x < kLeaf; ++x) leaf->getValueMask().getWord<openvdb::Index64>(x) = mask[l][x];
-      column.leaves.push_back(std::move(leaf));
-    }
-    return column;
-  }
-
-  std::vector<Material> samples_;
-  std::size_t leaves_;
-};
+  return column;
+}
 
 // The allocator's real size of a block of so many bytes.
 std::size_t block_bytes(std::size_t size) {
@@ -197,18 +159,19 @@ std::unique_ptr<Representation> Voxel::build(const TerrainSource& source, const 
   std::unique_ptr<Voxel> built(new Voxel(sampler.grid()));
   const ColumnGrid& grid = built->grid_;
   const int blocks_x = (grid.width + kLeaf - 1) / kLeaf, blocks_z = (grid.depth + kLeaf - 1) / kLeaf;
-  tbb::enumerable_thread_specific<BlockBuilder> builders([&] { return BlockBuilder(grid.levels); });
-  progress.begin("voxel", static_cast<std::uint64_t>(blocks_z));
+  tbb::enumerable_thread_specific<std::vector<Material>> samples;
+  progress.begin("voxel", static_cast<std::uint64_t>(blocks_x) * static_cast<std::uint64_t>(blocks_z));
   constexpr int kBatch = 64;  // rows of blocks held beside the tree
   std::vector<std::vector<Column8>> blocks;
   for (int first = 0; first < blocks_z; first += kBatch) {
     const int rows = std::min(kBatch, blocks_z - first);
     blocks.clear();
     blocks.resize(static_cast<std::size_t>(rows) * blocks_x);
-    tbb::parallel_for(0, rows, [&](int row) {
-      for (int b = 0; b < blocks_x; ++b) {
-        blocks[static_cast<std::size_t>(row) * blocks_x + b] =
-            builders.local().build(sampler, b * kLeaf, (first + row) * kLeaf);
+    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+      const int i0 = static_cast<int>(b % blocks_x) * kLeaf;
+      const int j0 = (first + static_cast<int>(b / blocks_x)) * kLeaf;
+      for (const auto& [material, masks] : sample_masks(sampler, i0, j0, samples.local())) {
+        blocks[b].push_back(cut(material, masks, i0, j0));
       }
       progress.advance();
     });

@@ -139,8 +139,9 @@ TEST_F(StoreTest, NothingMeasuredIsAnEmptyStoreButCannotBeOpenedForReading) {
 }
 
 TEST_F(StoreTest, GarbageIsBadInput) {
-  std::string noise("\x89PNG\r\n\x1a\n\0\xff\xfe\n\n{}\n[1]\n", 24);
-  write_file(file(), noise);
+  using namespace std::string_literals;
+  const std::string noise = "\x89PNG\r\n\x1a\n\0\xff\xfe\n\n{}\n[1]\n"s;
+  write_file(file(), std::string_view(noise));
   try {
     const Store store(folder_);
     FAIL();

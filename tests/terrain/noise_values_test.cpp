@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "terrain/sources/noise/compiler.h"
+#include "terrain/sources/noise/octaves.h"
 #include "terrain/sources/noise/program.h"
 #include "tests/terrain/noise_reference.h"
 
@@ -74,7 +74,7 @@ TEST(NoiseValues, OneOctaveEqualsTheScalarReferenceBitForBit) {
   const Fractal fractal{.seed = 99, .frequency = 0.37F, .octaves = 1};
   Graph g;
   const Node node = g.fbm(fractal);
-  const Octave octave = compile_octaves(fractal).front();
+  const Octave octave = octaves(fractal).front();
   for (const float reach : {3.0F, 1000.0F, 1e7F}) {
     const Points p = spread(2000, -reach, reach);
     const std::vector<float> values = evaluate(Program(g, node), p);
@@ -89,7 +89,7 @@ TEST(NoiseValues, OneOctaveEqualsTheScalarReferenceBitForBit) {
 
 TEST(NoiseValues, VanishesAtLatticePoints) {
   const Fractal fractal{.seed = 5, .octaves = 1};
-  const Octave octave = compile_octaves(fractal).front();
+  const Octave octave = octaves(fractal).front();
   Points p;
   for (int i = -40; i < 40; ++i) {
     p.push(static_cast<float>(i) - octave.offset_x, static_cast<float>(3 * i) - octave.offset_y,

@@ -8,12 +8,16 @@
 #include <span>
 #include <vector>
 
+#include "terrain/sources/noise/lattice.h"
+
 namespace terrabench::noise {
 
 inline constexpr std::uint32_t kMaxLanes = 16;  // of the widest vector used
-// Samples evaluated between two decisions to skip, at most, and how many such batches a column should have.
-// Small batches skip more, large ones dispatch less often.
-inline constexpr std::uint32_t kBatch = 64;
+// Samples evaluated at a time. A program that can skip takes a share of the column, within limits, so that
+// what it skips is a matter of the terrain and not of the resolution; one that cannot takes as many as the
+// registers hold.
+inline constexpr std::uint32_t kBatch = 256;
+inline constexpr std::uint32_t kBatchToSkip = 64;
 inline constexpr std::uint32_t kBatchesPerColumn = 8;
 
 enum class Op : std::uint8_t {
@@ -47,6 +51,7 @@ struct Operand {
 struct Instruction {
   Op op = Op::kConstant;
   bool along_column = false;  // fractal whose x and z are constant and whose y grows evenly
+  std::uint32_t window = 0;   // its first PlaneWindow, one an octave
   Operand out, a, b, c;
   float p = 0, q = 0;
   std::uint32_t first = 0, count = 0;  // octaves of a fractal, or interval steps of kSkipIfDecided
@@ -75,6 +80,24 @@ struct Code {
   std::vector<Octave> octaves;
   Operand x, y, z, result;
   std::uint32_t scratch_floats = 0;
+  std::uint32_t windows = 0;
+  bool skips = false;  // whether `batch` has jumps
+};
+
+// Lattice planes of one octave of noise along the column at hand: what gradient_noise_inl.h computes once for
+// all samples between the same planes.
+struct alignas(64) PlaneWindow {
+  static constexpr std::uint32_t kSize =
+      (static_cast<std::uint32_t>(kBatch / kPlaneCost) + 5 + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
+  float a[kSize], b[kSize];
+  std::int32_t base = 0;    // cell height of the first
+  std::uint32_t count = 0;  // 0: none yet
+};
+
+// Where a program works. Registers are aligned to 64 bytes.
+struct Scratch {
+  float* registers = nullptr;      // Code::scratch_floats
+  PlaneWindow* windows = nullptr;  // Code::windows
 };
 
 // Where the samples lie: a column (x, z, y0, dy), or arrays.
@@ -84,7 +107,7 @@ struct Samples {
   const float *xs = nullptr, *ys = nullptr, *zs = nullptr;
 };
 
-// Evaluates `count` samples into `out`. `scratch` holds code.scratch_floats floats, aligned to 64 bytes.
-void execute(const Code& code, const Samples& samples, float* scratch, float* out, std::size_t count);
+// Evaluates `count` samples into `out`.
+void execute(const Code& code, const Samples& samples, const Scratch& scratch, float* out, std::size_t count);
 
 }  // namespace terrabench::noise

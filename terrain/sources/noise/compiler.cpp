@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "terrain/sources/noise/octaves.h"
+
 namespace terrabench::noise {
 namespace {
 
@@ -37,17 +39,6 @@ struct Coordinates {
   Id x, y, z;
   auto operator<=>(const Coordinates&) const = default;
 };
-
-// SplitMix64 (Steele et al. 2014): spreads a seed over the octaves.
-std::uint64_t next_random(std::uint64_t& state) {
-  std::uint64_t z = (state += 0x9E3779B97F4A7C15U);
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
-  return z ^ (z >> 31);
-}
-
-// In [0, 256), in steps of 1/256: exact for any coordinate that is.
-float lattice_offset(std::uint64_t& state) { return static_cast<float>(next_random(state) >> 48) / 256.0F; }
 
 // Whether an operand is evaluated only where needed.
 bool is_lazy(Op op, int slot) {
@@ -91,7 +82,7 @@ class Compiler {
   void assign_registers();
   std::optional<std::uint32_t> interval(Id id, std::map<Id, std::uint32_t>& known,
                                         std::vector<IntervalStep>& steps) const;
-  Instruction instruction(Id id) const;
+  Instruction instruction(Id id);
   void emit();
   void emit_lazily(Id user, int slot);
   void emit_region(std::uint32_t region);
@@ -164,8 +155,8 @@ Id Compiler::fractal(Op op, const Fractal& f, const Coordinates& at) {
   const auto [known, inserted] =
       octaves_of_.try_emplace(key, static_cast<std::uint32_t>(code_.octaves.size()));
   if (inserted) {
-    const std::vector<Octave> octaves = compile_octaves(f);
-    code_.octaves.insert(code_.octaves.end(), octaves.begin(), octaves.end());
+    const std::vector<Octave> drawn = octaves(f);
+    code_.octaves.insert(code_.octaves.end(), drawn.begin(), drawn.end());
   }
   Value value{.op = op,
               .operands = {at.x, at.y, at.z},
@@ -302,7 +293,7 @@ void Compiler::assign_registers() {
   code_.result = registers_[result_];
 }
 
-Instruction Compiler::instruction(Id id) const {
+Instruction Compiler::instruction(Id id) {
   const Value& v = values_[id];
   const auto reg = [&](int slot) {
     const Id operand = v.operands[static_cast<std::size_t>(slot)];
@@ -315,6 +306,8 @@ Instruction Compiler::instruction(Id id) const {
   if (v.op == Op::kFbm || v.op == Op::kRidged || v.op == Op::kBillow) {
     in.along_column =
         !values_[v.operands[0]].varies && !values_[v.operands[2]].varies && values_[v.operands[1]].even;
+    in.window = code_.windows;
+    if (in.along_column) code_.windows += in.count;
   }
   return in;
 }
@@ -371,6 +364,7 @@ void Compiler::emit_lazily(Id user, int slot) {
   }
   const std::size_t at = code_.batch.size();
   code_.batch.push_back(skip);
+  code_.skips = true;
   emit_region(region->second);
   // A decided step jumps past its own instruction too, which follows the region.
   code_.batch[at].jump = static_cast<std::uint32_t>(code_.batch.size()) + (v.op == Op::kStep ? 1 : 0);
@@ -393,28 +387,6 @@ void Compiler::emit() {
 }
 
 }  // namespace
-
-std::vector<Octave> compile_octaves(const Fractal& f) {
-  std::vector<Octave> octaves;
-  std::uint64_t state = f.seed;
-  Octave octave{.frequency = f.frequency};
-  float total = 0;
-  for (int i = 0; i < f.octaves; ++i) {
-    octave.seed = static_cast<std::uint32_t>(next_random(state));
-    octave.offset_x = lattice_offset(state);
-    octave.offset_y = lattice_offset(state);
-    octave.offset_z = lattice_offset(state);
-    octaves.push_back(octave);
-    total += octave.weight;
-    octave.frequency *= f.lacunarity;
-    octave.weight *= f.gain;
-  }
-  // A sum of rounded weights may exceed 1 by half an ulp an octave; the range that graph.h promises, and that
-  // bounds rely on, must hold exactly.
-  constexpr float kRoom = 1.0F - 2e-6F;
-  for (Octave& each : octaves) each.weight = each.weight / total * kRoom;
-  return octaves;
-}
 
 Code compile(const Graph& graph, Node root, Mode mode) { return Compiler(graph, mode).compile(root); }
 

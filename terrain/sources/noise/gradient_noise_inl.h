@@ -148,39 +148,53 @@ HWY_INLINE VF gradient_noise(VF px, VF py, VF pz, std::uint32_t seed) {
   return between(y, low, high);
 }
 
-// Noise at (px, py[i], pz) for `count` samples, a multiple of the vector size, py growing or falling
-// steadily. Returns false, with nothing written, where the samples lie too sparse for planes to be shared.
-HWY_INLINE bool gradient_noise_along_y(VF px, const float* HWY_RESTRICT py, VF pz, std::uint32_t seed,
-                                       std::uint32_t count, float* HWY_RESTRICT out) {
+// Computes the planes from `base` on, and as many more as fill whole vectors, on the side to which y moves:
+// there the next batch will look for them.
+HWY_INLINE void fill_window(VF px, VF pz, std::uint32_t seed, std::int32_t base, std::uint32_t planes,
+                            bool rising, PlaneWindow& window) {
   const F f;
   const I i;
   const U u;
+  Line line[4];
+  lines(split(px), split(pz), seed, line);
+  window.count = (planes + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
+  window.base = rising ? base : base + static_cast<std::int32_t>(planes - window.count);
+  for (std::uint32_t k = 0; k < window.count; k += static_cast<std::uint32_t>(hn::Lanes(f))) {
+    const VI at = hn::Iota(i, window.base + static_cast<std::int32_t>(k));
+    const Plane p = plane(line, hn::Mul(hn::BitCast(u, at), hn::Set(u, kLatticeY)));
+    hn::Store(p.a, f, window.a + k);
+    hn::Store(p.b, f, window.b + k);
+  }
+}
+
+// Noise at (px, py[i], pz) for `count` samples, a multiple of the vector size, py growing or falling
+// steadily. `window` holds planes of the same px, pz and seed, or none. Returns false, with nothing written,
+// where the samples lie too sparse for planes to be shared.
+HWY_INLINE bool gradient_noise_along_y(VF px, const float* HWY_RESTRICT py, VF pz, std::uint32_t seed,
+                                       std::uint32_t count, PlaneWindow& window, float* HWY_RESTRICT out) {
+  const F f;
+  const I i;
   const auto n = static_cast<std::uint32_t>(hn::Lanes(f));
   const float first = py[0], last = py[count - 1];
   // Written so that NaN fails.
-  if (!(first > -kPlaneLimit && first < kPlaneLimit && last > -kPlaneLimit && last < kPlaneLimit))
+  if (!(first > -kPlaneLimit && first < kPlaneLimit && last > -kPlaneLimit && last < kPlaneLimit)) {
     return false;
-  const float low = first < last ? first : last, span = first < last ? last - first : first - last;
-  if (span * kPlaneCost > static_cast<float>(count)) return false;
-
-  Line line[4];
-  lines(split(px), split(pz), seed, line);
-  const std::int32_t base = static_cast<std::int32_t>(low) - 1;  // not above the lowest cell
-  const auto planes = static_cast<std::uint32_t>(span) + 5;      // past the plane above the highest
-  alignas(64) float a[kBatch + 5 + kMaxLanes], b[kBatch + 5 + kMaxLanes];
-  alignas(64) std::int32_t cells[kMaxLanes];
-  for (std::uint32_t k = 0; k < planes; k += n) {
-    const VI at = hn::Iota(i, base + static_cast<std::int32_t>(k));
-    const Plane p = plane(line, hn::Mul(hn::BitCast(u, at), hn::Set(u, kLatticeY)));
-    hn::Store(p.a, f, a + k);
-    hn::Store(p.b, f, b + k);
   }
+  const bool rising = first < last;
+  const float low = rising ? first : last, span = rising ? last - first : first - last;
+  if (span * kPlaneCost > static_cast<float>(count)) return false;
+  const std::int32_t lowest = static_cast<std::int32_t>(low) - 1;  // not above the lowest cell
+  const auto planes = static_cast<std::uint32_t>(span) + 5;        // past the plane above the highest
+  if (lowest < window.base || static_cast<std::uint32_t>(lowest - window.base) + planes > window.count) {
+    fill_window(px, pz, seed, lowest, planes, rising, window);
+  }
+  alignas(64) std::int32_t cells[kMaxLanes];
   for (std::uint32_t s = 0; s < count; s += n) {
     const Axis y = split(hn::Load(f, py + s));
     hn::Store(y.cell, i, cells);
     const std::int32_t from = cells[0] < cells[n - 1] ? cells[0] : cells[n - 1];
     const std::int32_t to = cells[0] < cells[n - 1] ? cells[n - 1] : cells[0];
-    const float *ka = a + (from - base), *kb = b + (from - base);
+    const float *ka = window.a + (from - window.base), *kb = window.b + (from - window.base);
     Plane lower{hn::Set(f, ka[0]), hn::Set(f, kb[0])}, upper{hn::Set(f, ka[1]), hn::Set(f, kb[1])};
     for (std::int32_t cell = from + 1; cell <= to; ++cell) {
       ++ka, ++kb;

@@ -15,6 +15,7 @@ namespace HWY_NAMESPACE {
 struct Machine {
   const Code& code;
   float* scratch;
+  PlaneWindow* windows;
   std::uint32_t count;  // samples of the batch at hand, rounded up to whole vectors
 
   VF load(const Operand& operand, std::uint32_t at) const {
@@ -66,9 +67,10 @@ HWY_INLINE VF schlick_gain(VF t, VF p) {
   return hn::IfThenElse(hn::Lt(t, half), low, high);
 }
 
-// Noise of one octave for the whole batch.
-HWY_NOINLINE void octave_noise(const Machine& m, const Instruction& in, const Octave& octave, std::uint32_t n,
+// Noise of octave `k` of a fractal for the whole batch.
+HWY_NOINLINE void octave_noise(const Machine& m, const Instruction& in, std::uint32_t k, std::uint32_t n,
                                float* HWY_RESTRICT out) {
+  const Octave& octave = m.code.octaves[in.first + k];
   const F f;
   const auto lanes = static_cast<std::uint32_t>(hn::Lanes(f));
   const VF frequency = hn::Set(f, octave.frequency), ox = hn::Set(f, octave.offset_x);
@@ -80,7 +82,7 @@ HWY_NOINLINE void octave_noise(const Machine& m, const Instruction& in, const Oc
     }
     const VF x = hn::Add(hn::Mul(m.load(in.a, 0), frequency), ox);
     const VF z = hn::Add(hn::Mul(m.load(in.c, 0), frequency), oz);
-    if (gradient_noise_along_y(x, y, z, octave.seed, n, out)) return;
+    if (gradient_noise_along_y(x, y, z, octave.seed, n, m.windows[in.window + k], out)) return;
   }
   for (std::uint32_t i = 0; i < n; i += lanes) {
     const VF x = hn::Add(hn::Mul(m.load(in.a, i), frequency), ox);
@@ -114,9 +116,8 @@ HWY_NOINLINE void fractal(const Machine& m, const Instruction& in) {
   const std::uint32_t n = in.out.mask == 0 ? kMaxLanes : m.count;
   float* const out = m.scratch + in.out.offset;
   for (std::uint32_t k = 0; k < in.count; ++k) {
-    const Octave& octave = m.code.octaves[in.first + k];
-    octave_noise(m, in, octave, n, noise);
-    accumulate(in.op, k == 0, octave.weight, n, noise, feedback, out);
+    octave_noise(m, in, k, n, noise);
+    accumulate(in.op, k == 0, m.code.octaves[in.first + k].weight, n, noise, feedback, out);
   }
 }
 
@@ -223,29 +224,32 @@ void fill_inputs(const Machine& m, const Samples& samples, std::size_t begin, st
   }
 }
 
-// Batches of the same share of a column at any sampling, where the limits allow: what can be skipped is then
-// a matter of the terrain and not of the resolution.
-std::uint32_t batch_size(std::size_t count) {
+std::uint32_t batch_size(const Code& code, std::size_t count) {
+  if (!code.skips) return kBatch;
   const std::size_t share = (count / kBatchesPerColumn + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
-  return static_cast<std::uint32_t>(share < kMaxLanes ? kMaxLanes : share > kBatch ? kBatch : share);
+  return static_cast<std::uint32_t>(share < kMaxLanes      ? kMaxLanes
+                                    : share > kBatchToSkip ? kBatchToSkip
+                                                           : share);
 }
 
-void execute_here(const Code& code, const Samples& samples, float* scratch, float* out, std::size_t count) {
+void execute_here(const Code& code, const Samples& samples, const Scratch& scratch, float* out,
+                  std::size_t count) {
   const auto lanes = static_cast<std::uint32_t>(hn::Lanes(F()));
-  Machine m{code, scratch, kMaxLanes};
+  Machine m{code, scratch.registers, scratch.windows, kMaxLanes};
+  for (std::uint32_t k = 0; k < code.windows; ++k) m.windows[k].count = 0;
   if (samples.column) {
     m.each(code.x, [&](std::uint32_t) { return hn::Set(F(), samples.x); });
     m.each(code.z, [&](std::uint32_t) { return hn::Set(F(), samples.z); });
   }
   run(m, code.once);
-  const std::uint32_t batch = batch_size(count);
+  const std::uint32_t batch = batch_size(code, count);
   for (std::size_t begin = 0; begin < count; begin += batch) {
     const auto n = static_cast<std::uint32_t>(count - begin < batch ? count - begin : batch);
     m.count = (n + lanes - 1) / lanes * lanes;
     fill_inputs(m, samples, begin, n);
     run(m, code.batch);
     for (std::uint32_t i = 0; i < n; ++i) {
-      out[begin + i] = scratch[code.result.offset + (i & code.result.mask)];
+      out[begin + i] = m.scratch[code.result.offset + (i & code.result.mask)];
     }
   }
 }
@@ -262,7 +266,8 @@ namespace terrabench::noise {
 HWY_EXPORT(execute_here);
 HWY_EXPORT(target_name);
 
-void execute(const Code& code, const Samples& samples, float* scratch, float* out, std::size_t count) {
+void execute(const Code& code, const Samples& samples, const Scratch& scratch, float* out,
+             std::size_t count) {
   HWY_DYNAMIC_DISPATCH(execute_here)(code, samples, scratch, out, count);
 }
 

@@ -1,8 +1,6 @@
 #include "terrain/sources/noise/program.h"
 
 #include <cassert>
-#include <memory>
-#include <new>
 #include <vector>
 
 #include "terrain/sources/noise/compiler.h"
@@ -10,21 +8,18 @@
 namespace terrabench::noise {
 namespace {
 
-constexpr std::align_val_t kAlignment{64};  // of the widest vector
-
-struct Release {
-  void operator()(float* block) const { ::operator delete[](block, kAlignment); }
+struct alignas(64) Registers {
+  float values[kMaxLanes];
 };
 
-// The thread's registers, as many as the largest program needed so far.
-float* scratch(std::size_t floats) {
-  thread_local std::unique_ptr<float[], Release> block;
-  thread_local std::size_t size = 0;
-  if (size < floats) {
-    block.reset(new (kAlignment) float[floats]());
-    size = floats;
-  }
-  return block.get();
+// The thread's own, as large as the largest program needed so far.
+Scratch scratch(const Code& code) {
+  thread_local std::vector<Registers> registers;
+  thread_local std::vector<PlaneWindow> windows;
+  const std::size_t blocks = code.scratch_floats / kMaxLanes;
+  if (registers.size() < blocks) registers.resize(blocks);
+  if (windows.size() < code.windows) windows.resize(code.windows);
+  return {reinterpret_cast<float*>(registers.data()), windows.data()};
 }
 
 }  // namespace
@@ -34,14 +29,14 @@ Program::Program(const Graph& graph, Node root)
 
 void Program::column(const ColumnSamples& at, std::span<float> out) const {
   const Samples samples{.column = true, .x = at.x, .z = at.z, .y0 = at.y0, .dy = at.dy};
-  execute(column_, samples, scratch(column_.scratch_floats), out.data(), out.size());
+  execute(column_, samples, scratch(column_), out.data(), out.size());
 }
 
 void Program::points(std::span<const float> x, std::span<const float> y, std::span<const float> z,
                      std::span<float> out) const {
   assert(x.size() == out.size() && y.size() == out.size() && z.size() == out.size());
   const Samples samples{.xs = x.data(), .ys = y.data(), .zs = z.data()};
-  execute(points_, samples, scratch(points_.scratch_floats), out.data(), out.size());
+  execute(points_, samples, scratch(points_), out.data(), out.size());
 }
 
 void Program::slice(const Slice& s, std::span<float> out) const {
