@@ -1,7 +1,5 @@
 #include "experiments/fidelity.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -63,12 +61,12 @@ struct Overlap {
   std::size_t both = 0, either = 0;
 };
 
-Fidelity against_solid(const Representation& built, const Solid& solid, int resolution, Progress& progress) {
+Fidelity against_solid(const Representation& built, const Solid& solid, Progress& progress) {
   const glm::vec3 size = solid.bounds.size();
-  const float step = std::max({size.x, size.y, size.z}) / static_cast<float>(resolution);
-  const int nx = std::max(1, static_cast<int>(size.x / step)),
-            nz = std::max(1, static_cast<int>(size.z / step));
-  const int ny = std::max(1, static_cast<int>(size.y / step));
+  const float step = std::max({size.x, size.y, size.z}) / static_cast<float>(kFidelitySamples);
+  const int nx = std::max(1, static_cast<int>(std::lround(size.x / step))),
+            nz = std::max(1, static_cast<int>(std::lround(size.z / step)));
+  const int ny = std::max(1, static_cast<int>(std::lround(size.y / step)));
   std::vector<Overlap> rows(nz);
   progress.begin("comparing with the solid", rows.size());
   tbb::parallel_for(0, nz, [&](int k) {
@@ -101,10 +99,9 @@ Fidelity against_solid(const Representation& built, const Solid& solid, int reso
 
 }  // namespace
 
-Fidelity measure_fidelity(const Representation& built, const TerrainSource& source, int resolution,
-                          Progress& progress) {
+Fidelity measure_fidelity(const Representation& built, const TerrainSource& source, Progress& progress) {
   return source.heights ? against_heights(built, *source.heights, progress)
-                        : against_solid(built, *source.solid, resolution, progress);
+                        : against_solid(built, *source.solid, progress);
 }
 
 }  // namespace terrabench

@@ -4,9 +4,12 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <memory>
 #include <new>
+#include <system_error>
 #include <thread>
 
 #include "experiments/commands/commands.h"
@@ -114,13 +117,20 @@ void add_represent(CLI::App& app, Arguments& a) {
   info->add_option("file", a.info, "File or folder")->required();
 }
 
+// Only where the work asks Progress whether to stop; elsewhere the signal ends the process at once, as usual.
+void install_signals() {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+}
+
 ExitCode dispatch(const CLI::App& app, Arguments& a) {
   if (app.got_subcommand("list")) return list_command(a.list);
   if (app.got_subcommand("check")) return check_command(a.check);
   if (app.got_subcommand("report")) return report_command(a.report);
   if (app.got_subcommand("compare")) return compare_command(a.compare);
-  if (app.got_subcommand("represent")) return represent_command(a.represent);
   if (app.got_subcommand("info")) return info_command(a.info);
+  install_signals();
+  if (app.got_subcommand("represent")) return represent_command(a.represent);
   parse_shard(a.shard, a.run);
   a.run.threads = a.threads;
   a.run.options.profile = a.profile == "paper" ? Profile::kPaper : Profile::kQuick;
@@ -146,14 +156,14 @@ int main_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
   }
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
   std::signal(SIGPIPE, SIG_IGN);  // both come back as errors of write(), which say what was being written
   std::signal(SIGXFSZ, SIG_IGN);
   const std::size_t threads = arguments.threads > 0 ? arguments.threads : std::thread::hardware_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   std::max<std::size_t>(1, threads));
-  return static_cast<int>(dispatch(app, arguments));
+  const ExitCode code = dispatch(app, arguments);
+  if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "standard output");
+  return static_cast<int>(code);
 }
 
 }  // namespace
@@ -170,6 +180,9 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     fmt::print(stderr,
                "terrabench: out of memory\n  use a smaller terrain (--crop, --resample) or resolution\n");
+    return static_cast<int>(ExitCode::kEnvironment);
+  } catch (const std::exception& error) {  // a full or closed standard output, above all
+    std::fprintf(stderr, "terrabench: %s\n", error.what());
     return static_cast<int>(ExitCode::kEnvironment);
   }
 }

@@ -34,6 +34,15 @@ std::vector<std::pair<std::string, Value>> values(const Parameters& parameters) 
   return out;
 }
 
+// Before anything is measured, not hours later.
+void check_terrain(const std::string& terrain) {
+  std::error_code error;
+  const bool virtual_file = terrain.starts_with("/vsi") || terrain.starts_with('<');
+  if (names_dem_file(terrain) && !virtual_file && !std::filesystem::exists(terrain, error)) {
+    throw bad_input("no such file", terrain, "check the path, or see `terrabench list terrains`");
+  }
+}
+
 void apply(const std::vector<std::string>& assignments, std::vector<PlannedCase>& cases) {
   for (const std::string& assignment : assignments) {
     const std::string name = assignment.substr(0, assignment.find('='));
@@ -67,6 +76,7 @@ bool matches(std::string_view pattern, std::string_view text) {
 }
 
 std::vector<PlannedCase> plan_cases(const RunPlan& plan) {
+  for (const std::string& terrain : plan.options.terrains) check_terrain(terrain);
   std::vector<std::string_view> ids;
   for (const Experiment& experiment : experiments()) ids.push_back(experiment.id);
   for (const std::string& pattern : plan.patterns) {
@@ -84,6 +94,11 @@ std::vector<PlannedCase> plan_cases(const RunPlan& plan) {
     for (Case& at : experiment.cases(plan.options)) cases.push_back({&experiment, std::move(at)});
   }
   apply(plan.assignments, cases);
+  if (!plan.options.terrains.empty() &&
+      std::none_of(cases.begin(), cases.end(), [](const PlannedCase& p) { return !p.at.terrain.empty(); })) {
+    throw usage_error("none of these experiments takes a terrain", "--terrain",
+                      "leave it out, or choose another experiment");
+  }
   std::vector<PlannedCase> mine;
   for (std::size_t i = plan.shard - 1; i < cases.size(); i += plan.shards)
     mine.push_back(std::move(cases[i]));
@@ -104,6 +119,7 @@ void run(const RunPlan& plan) {
   std::size_t number = 0, skipped = 0;
   for (const PlannedCase& planned : cases) {
     ++number;
+    if (Progress::interrupted()) throw Error(ExitCode::kInterrupted, "interrupted", "run", "");
     Record record;
     record.experiment = planned.experiment->id;
     record.case_name = planned.at.name;

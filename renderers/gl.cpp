@@ -29,7 +29,7 @@ class Shader {
     log.resize(static_cast<std::size_t>(log_size));
     glDeleteShader(id_);
     throw environment_error(fmt::format("the shader does not compile: {}", log), file.name,
-                            "report it with what `terrabench list` says about your OpenGL driver");
+                            "report it with the OpenGL renderer that the results' provenance names");
   }
   ~Shader() { glDeleteShader(id_); }
   Shader(const Shader&) = delete;
@@ -133,7 +133,7 @@ Program link_program(const ShaderFile& vertex, const ShaderFile& fragment) {
     log.resize(static_cast<std::size_t>(log_size));
     throw environment_error(fmt::format("the shaders do not link: {}", log),
                             fmt::format("{} and {}", vertex.name, fragment.name),
-                            "report it with what `terrabench list` says about your OpenGL driver");
+                            "report it with the OpenGL renderer that the results' provenance names");
   }
   glDetachShader(program.id(), first.id());
   glDetachShader(program.id(), second.id());

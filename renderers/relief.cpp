@@ -19,16 +19,6 @@
 namespace terrabench {
 namespace {
 
-Bounds bounds_of(const std::vector<glm::vec3>& positions) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  Bounds bounds{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
-  for (const glm::vec3& p : positions) {
-    bounds.low = glm::min(bounds.low, p);
-    bounds.high = glm::max(bounds.high, p);
-  }
-  return bounds;
-}
-
 // The view with its depth range drawn close around the mesh, so that depth is as precise as it can be.
 View fit_depth(View view, const Bounds& bounds) {
   const glm::vec3 forward = glm::normalize(view.target - view.eye);
@@ -169,7 +159,7 @@ void draw_triangles(const TriangleMesh& mesh) {
 
 void set_uniforms(const Program& program, const TriangleMesh& mesh, const View& view,
                   const ReliefStyle& style) {
-  const glm::mat4 to_clip = world_to_clip(fit_depth(view, bounds_of(mesh.positions)));
+  const glm::mat4 to_clip = world_to_clip(fit_depth(view, bounds_of(mesh)));
   const glm::vec3 sun = glm::normalize(style.sun);
   const float exaggeration =
       style.shading_exaggeration > 0 ? style.shading_exaggeration : choose_exaggeration(mesh);

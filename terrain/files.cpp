@@ -53,8 +53,17 @@ void ByteSource::fail(std::string_view what) const {
                   "the file is damaged or was cut short: make it again from its source");
 }
 
-void write_file(const std::filesystem::path& path, std::span<const std::byte> content) {
+void write_file(const std::filesystem::path& name, std::span<const std::byte> content) {
   std::error_code error;
+  // A link stays a link: what it points to is replaced. Renaming over a device would remove the device.
+  const bool link = std::filesystem::is_symlink(name, error);
+  const std::filesystem::path path = link ? std::filesystem::weakly_canonical(name, error) : name;
+  error.clear();  // a new file has no status yet
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw environment_error("cannot write: it is a folder or a device", path.string(), "name a file");
+  }
+  error.clear();
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
   if (error) throw cannot_write(path, error.value());
   TemporaryFile temporary{path.string() + fmt::format(".{}.tmp", getpid())};

@@ -36,6 +36,7 @@ void* allocate(std::size_t size) {
 
 void* allocate(std::size_t size, std::align_val_t align) {
   const auto alignment = static_cast<std::size_t>(align);
+  if (size > SIZE_MAX - alignment) throw std::bad_alloc();
   // aligned_alloc wants a multiple of the alignment.
   void* const block = std::aligned_alloc(
       alignment, (size + alignment - 1) / alignment * alignment + (size == 0 ? alignment : 0));

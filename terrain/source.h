@@ -35,6 +35,10 @@ struct TerrainType {
 };
 std::span<const TerrainType> terrains();
 
+// True for what can only be a file (it exists, or looks like a path), false for a catalogue name. Throws
+// unknown_name, with the nearest, for anything else.
+bool names_dem_file(std::string_view name_or_path);
+
 // By catalogue name or, for anything else, the path of any DEM that GDAL opens. Throws unknown_name or
 // bad_input.
 TerrainSource open_terrain(std::string_view name_or_path, std::uint64_t seed = 0);

@@ -1,11 +1,10 @@
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "experiments/commands/commands.h"
 #include "representations/representation.h"
 #include "results/format.h"
 #include "results/store.h"
+#include "terrain/files.h"
 #include "terrain/sources/dem/dem.h"
 
 namespace terrabench {
@@ -29,10 +28,11 @@ void describe_dem(const std::filesystem::path& path) {
 }
 
 void describe_representation(const std::filesystem::path& path) {
-  const Loaded loaded = load_representation(path);
+  const std::string file = read_file(path);
+  const Loaded loaded = load_representation(std::as_bytes(std::span(file)), path.string());
   const Memory memory = loaded.representation->memory();
   fmt::print("{}: {} ({})\n", path.string(), loaded.type->name, loaded.type->summary);
-  fmt::print("on disk     {}\n", format_quantity(static_cast<double>(std::filesystem::file_size(path)), "B"));
+  fmt::print("on disk     {}\n", format_quantity(static_cast<double>(file.size()), "B"));
   fmt::print("memory      {} (payload {}, index {}, slack {})\n",
              format_quantity(static_cast<double>(memory.total()), "B"), memory.payload, memory.index,
              memory.slack);
@@ -53,14 +53,14 @@ void describe_results(const std::filesystem::path& folder) {
 }  // namespace
 
 ExitCode info_command(const std::filesystem::path& path) {
-  if (!std::filesystem::exists(path))
-    throw bad_input("no such file or folder", path.string(), "check the path");
-  if (std::filesystem::is_directory(path)) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status)) {
     describe_results(path);
   } else if (is_saved_representation(path)) {
     describe_representation(path);
   } else {
-    describe_dem(path);
+    describe_dem(path);  // says what is wrong with a path that is none of these
   }
   return ExitCode::kGood;
 }

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 
 #include "experiments/commands/commands.h"
@@ -14,13 +13,6 @@
 
 namespace terrabench {
 namespace {
-
-constexpr int kFidelityResolution = 128;  // lattice samples along the longest side of a solid
-
-bool in_catalogue(std::string_view name) {
-  return std::any_of(terrains().begin(), terrains().end(),
-                     [&](const TerrainType& t) { return t.name == name; });
-}
 
 // Files are cropped and resampled while they are read, so that only the result must fit into memory.
 TerrainSource open_file(const RepresentArguments& a, Progress& progress) {
@@ -97,12 +89,11 @@ ExitCode represent_command(const RepresentArguments& a) {
   for (const std::string& assignment : a.assignments) parameters.set_from_text(assignment);
   Progress progress(isatty(STDERR_FILENO) != 0 ? Progress::Output::kTerminal : Progress::Output::kLines);
 
-  const TerrainSource source =
-      in_catalogue(a.terrain) || !std::filesystem::exists(a.terrain) ? open_named(a) : open_file(a, progress);
+  const TerrainSource source = names_dem_file(a.terrain) ? open_file(a, progress) : open_named(a);
   const auto begin = std::chrono::steady_clock::now();
   auto built = type.build(source, parameters, progress);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-  const Fidelity fidelity = measure_fidelity(*built, source, kFidelityResolution, progress);
+  const Fidelity fidelity = measure_fidelity(*built, source, progress);
   progress.end();
 
   const Memory memory = built->memory();

@@ -1,9 +1,10 @@
 // §3.1.3 of "hybrid": what each noise adds to the terrain, counted.
 #include <array>
 
-#include "experiments/hybrid/cave_source.h"
+#include "experiments/build_at.h"
 #include "experiments/hybrid/hybrid.h"
 #include "representations/layered_stack/components.h"
+#include "terrain/sources/noise/cave_terrain.h"
 
 namespace terrabench::hybrid {
 namespace {
@@ -32,6 +33,7 @@ std::vector<Case> cave_cases(const RunOptions& options) {
       Variant{"caves-no-attenuation", true, true, false, false},
       Variant{"caves-attenuated", true, true, true, false},
       Variant{"caves-printed-product", true, true, true, true},
+      Variant{"caves-printed-product-no-attenuation", true, true, false, true},
   };
   std::vector<Case> cases;
   for (const Variant& variant : kVariants) {
@@ -52,7 +54,7 @@ void measure_caves(const Case& at, const RunOptions& options, Recorder& recorder
   terrain.caves = at.parameters.flag("caves");
   terrain.attenuation = at.parameters.flag("attenuation");
   terrain.printed_product = at.parameters.flag("printed_product");
-  const TerrainSource source = cave_source(terrain);
+  const TerrainSource source = noise::cave_source(terrain);
   recorder.terrain(source);
   const auto built = build_at_resolution("layered_stack", source, at.parameters.integer("n"), progress);
   const auto& stack = dynamic_cast<const LayeredStack&>(*built);

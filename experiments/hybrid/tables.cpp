@@ -4,10 +4,14 @@
 #include <array>
 #include <chrono>
 #include <memory>
+#include <random>
+#include <vector>
 
-#include "experiments/hybrid/cave_source.h"
+#include "experiments/build_at.h"
 #include "experiments/hybrid/hybrid.h"
+#include "representations/layered_stack/layered_stack.h"
 #include "terrain/memory.h"
+#include "terrain/sources/noise/cave_terrain.h"
 
 namespace terrabench::hybrid {
 namespace {
@@ -25,11 +29,10 @@ std::vector<Case> size_cases(std::initializer_list<std::int64_t> sizes) {
   return cases;
 }
 
-noise::CaveOptions seeded(const RunOptions& options) {
-  noise::CaveOptions terrain;
-  terrain.seed = options.seed;
-  return terrain;
-}
+struct Layer {
+  float top;  // metres
+  Material material;
+};
 
 // A structure's bytes twice: as it accounts for them itself and as the allocator saw them.
 struct Bytes {
@@ -43,6 +46,63 @@ Bytes bytes_of(std::string_view name, const TerrainSource& source, std::int64_t 
   return {memory, destroy_and_count(std::move(built))};
 }
 
+// The layout that the paper's figure fits: an array of one std::vector of layers a column. Its figure is the
+// array alone, 24 bytes a column whatever they hold; the layers lie in a heap block each, which it leaves
+// out.
+struct PaperLayout {
+  Memory columns;         // the array
+  std::int64_t heap = 0;  // with all blocks
+};
+
+PaperLayout paper_layout(const TerrainSource& source, std::int64_t n, Progress& progress) {
+  const auto built = build_at_resolution("layered_stack", source, n, progress);
+  const auto& stack = dynamic_cast<const LayeredStack&>(*built);
+  const ColumnGrid& grid = stack.grid();
+  const HeapScope scope;
+  std::vector<std::vector<Layer>> columns(grid.columns());
+  for (int j = 0; j < grid.depth; ++j) {
+    for (int i = 0; i < grid.width; ++i) {
+      const ColumnRuns runs = stack.column(i, j);
+      std::vector<Layer>& column = columns[grid.index(i, j)];
+      column.reserve(runs.count);
+      for (std::size_t k = 0; k < runs.count; ++k) {
+        column.push_back({grid.edge_y(runs.tops[k]), runs.materials[k]});
+      }
+    }
+  }
+  const std::size_t array = columns.size() * sizeof columns[0];
+  return {{array, 0, heap_bytes(columns.data()) - array}, scope.held()};
+}
+
+// Queries a second of one thread at random positions: the material of a point, all spans of a column.
+void measure_queries(const Representation& structure, const Bounds& bounds, Recorder& recorder) {
+  constexpr std::size_t kQueries = 1 << 20;
+  constexpr int kSamples = 7;
+  std::mt19937 random(1);
+  const auto positions = [&](float low, float high) {
+    std::uniform_real_distribution<float> position(low, high);
+    std::vector<float> all(kQueries);
+    for (float& at : all) at = position(random);
+    return all;
+  };
+  const std::vector<float> x = positions(bounds.low.x, bounds.high.x),
+                           y = positions(bounds.low.y, bounds.high.y);
+  const std::vector<float> z = positions(bounds.low.z, bounds.high.z);
+  std::vector<Material> materials(kQueries);
+  SpanSink sink;
+  const auto rate = [&](const auto& query) {
+    const auto begin = std::chrono::steady_clock::now();
+    query();
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    return static_cast<double>(kQueries) / seconds.count();
+  };
+  for (int i = 0; i < kSamples; ++i) {
+    recorder.add("point_queries_per_second", "1/s", rate([&] { structure.materials({x, y, z}, materials); }));
+    sink.clear();
+    recorder.add("column_queries_per_second", "1/s", rate([&] { structure.spans({x, z}, sink); }));
+  }
+}
+
 }  // namespace
 
 constinit const std::span<const ParameterSpec> kSizeParameters = kSizeSpecs;
@@ -54,16 +114,17 @@ std::vector<Case> table1_cases(const RunOptions& options) {
 void measure_table1(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const std::int64_t n = at.parameters.integer("n");
   const auto columns = static_cast<double>(n * n);
-  const TerrainSource source = cave_source(seeded(options));
+  const TerrainSource source = noise::cave_source({.seed = options.seed});
   recorder.terrain(source);
-  // 24 bytes a column are what one std::vector object takes, whatever it holds: the paper counts no more than
-  // that.
-  const double paper_bytes = columns * sizeof(std::vector<Span>);
+  const PaperLayout paper = paper_layout(source, n, progress);
+  measure_queries(*build_at_resolution("layered_stack", source, n, progress), source.bounds(), recorder);
   const Bytes stack = bytes_of("layered_stack", source, n, progress);
   const Bytes dense = bytes_of("dense_voxel", source, n, progress);
   const Bytes openvdb = bytes_of("voxel", source, n, progress);
 
+  const auto paper_bytes = static_cast<double>(paper.columns.payload);
   recorder.add("paper_stack_bytes", "B", paper_bytes);
+  recorder.add("paper_layout_heap_bytes", "B", static_cast<double>(paper.heap));
   recorder.add("dense_voxel_bytes", "B", static_cast<double>(dense.memory.payload));
   recorder.add("voxel_to_stack_ratio", "", static_cast<double>(dense.memory.payload) / paper_bytes);
   recorder.add("stack_bytes", "B", static_cast<double>(stack.memory.total()));
@@ -80,11 +141,11 @@ std::vector<Case> table2_cases(const RunOptions& options) {
 
 void measure_table2(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const std::int64_t n = at.parameters.integer("n");
-  const TerrainSource source = cave_source(seeded(options));
+  const TerrainSource source = noise::cave_source({.seed = options.seed});
   recorder.terrain(source);
   build_at_resolution("layered_stack", source, std::min<std::int64_t>(n, 64),
                       progress);  // warm caches, pool and clock
-  const int samples = n >= 512 ? 3 : n >= 256 ? 5 : 11;
+  const int samples = n >= 512 ? 7 : 11;
   for (int i = 0; i < samples; ++i) {
     const auto begin = std::chrono::steady_clock::now();
     const auto stack = build_at_resolution("layered_stack", source, n, progress);

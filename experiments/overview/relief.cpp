@@ -8,6 +8,7 @@
 #include "experiments/fidelity.h"
 #include "experiments/overview/overview.h"
 #include "representations/representation.h"
+#include "terrain/files.h"
 #include "terrain/view.h"
 
 namespace terrabench::overview_experiments {
@@ -19,15 +20,17 @@ const std::array kSpecs{
     ParameterSpec{"width", std::int64_t{1600}, "pixels", "width of the picture", 1, 16384},
     ParameterSpec{"height", std::int64_t{1000}, "pixels", "height of the picture", 1, 16384},
 };
-constexpr int kFidelityResolution = 128;  // lattice samples a side
+constexpr int kBuilds = 5;
 
-// Names for files: a path's slashes and dots would read as folders and extensions.
-std::string file_name(std::string_view terrain) {
-  std::string name(terrain.substr(terrain.find_last_of('/') + 1));
+// For files: the name itself or, of a path, its last part and a digest, since two folders may hold equal
+// names.
+std::string file_name(const std::string& terrain) {
+  if (!names_dem_file(terrain)) return terrain;
+  std::string name = std::filesystem::path(terrain).stem().string();
   for (char& c : name) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
   }
-  return name;
+  return fmt::format("{}-{}", name, checksum(terrain).substr(0, 8));
 }
 
 }  // namespace
@@ -52,15 +55,20 @@ void measure_relief(const Case& at, const RunOptions& options, Recorder& recorde
   const TerrainSource source = open_terrain(at.terrain, options.seed);
   recorder.terrain(source);
   const RepresentationType& type = representation(at.parameters.text("representation"));
-  const auto begin = std::chrono::steady_clock::now();
-  const auto built = type.build(source, Parameters(type.parameters), progress);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-  recorder.add("build_time", "s", seconds.count());
+  std::unique_ptr<Representation> built;
+  for (int i = 0; i < kBuilds; ++i) {
+    built.reset();
+    const auto begin = std::chrono::steady_clock::now();
+    built = type.build(source, Parameters(type.parameters), progress);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    recorder.add("build_time", "s", seconds.count());
+  }
   recorder.add("bytes", "B", static_cast<double>(built->memory().total()));
-  const Fidelity fidelity = measure_fidelity(*built, source, kFidelityResolution, progress);
+  const Fidelity fidelity = measure_fidelity(*built, source, progress);
   if (fidelity.from_heights) {
     recorder.add("rmse", "m", fidelity.rmse);
     recorder.add("largest_error", "m", fidelity.largest_error);
+    recorder.add("lost_columns", "", static_cast<double>(fidelity.lost));
   } else {
     recorder.add("volume_iou", "", fidelity.volume_iou);
   }

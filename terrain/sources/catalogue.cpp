@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <vector>
 
@@ -70,16 +71,6 @@ TerrainSource from_dem(std::string_view name, const std::string& path) {
   return source;
 }
 
-TerrainSource open_caves(std::uint64_t seed) {
-  noise::CaveOptions options;
-  options.seed = seed;
-  TerrainSource source;
-  source.name = "caves";
-  source.solid = noise::cave_terrain(options);
-  source.checksum = source.solid->checksum;
-  return source;
-}
-
 constexpr TerrainType kTerrains[] = {
     {"jacksboro", "mountains with a fault valley, 403×344 samples of 3″",
      "SRTM, in Debian's python-matplotlib-data",
@@ -88,7 +79,7 @@ constexpr TerrainType kTerrains[] = {
      "ETOPO, in Debian's python-matplotlib-data",
      [](std::uint64_t) { return from_dem("topobathy", topobathy_vrt()); }},
     {"caves", "hills with overhangs and tunnels from 3-D noise, a cube of 128 m",
-     "the hybrid paper's noise graph", open_caves},
+     "the hybrid paper's noise graph", [](std::uint64_t seed) { return noise::cave_source({.seed = seed}); }},
 };
 
 // What can only be meant as a path: a typing slip in a name has neither.
@@ -101,18 +92,24 @@ std::string topobathy_vrt() { return vrt(kTopobathy); }
 
 std::span<const TerrainType> terrains() { return kTerrains; }
 
+bool names_dem_file(std::string_view text) {
+  std::vector<std::string_view> known;
+  for (const TerrainType& type : terrains()) {
+    if (type.name == text) return false;
+    known.push_back(type.name);
+  }
+  std::error_code error;
+  if (looks_like_path(text) || std::filesystem::exists(std::filesystem::path(text), error)) return true;
+  const Error unknown = unknown_name("terrain", text, known);
+  throw Error(unknown.code(), unknown.what(), "", unknown.advice() + "; the path of a DEM file works too");
+}
+
 TerrainSource open_terrain(std::string_view name_or_path, std::uint64_t seed) {
+  if (names_dem_file(name_or_path)) return from_dem(name_or_path, std::string(name_or_path));
   for (const TerrainType& type : terrains()) {
     if (type.name == name_or_path) return type.open(seed);
   }
-  const std::string path(name_or_path);
-  std::error_code error;
-  // A missing file gets its error from the reader.
-  if (looks_like_path(path) || std::filesystem::exists(path, error)) return from_dem(path, path);
-  std::vector<std::string_view> known;
-  for (const TerrainType& type : terrains()) known.push_back(type.name);
-  const Error unknown = unknown_name("terrain", name_or_path, known);
-  throw Error(unknown.code(), unknown.what(), "", unknown.advice() + "; the path of a DEM file works too");
+  std::abort();  // names_dem_file() found it in the same table
 }
 
 }  // namespace terrabench

@@ -187,4 +187,12 @@ Solid cave_terrain(const CaveOptions& options) {
   return solid;
 }
 
+TerrainSource cave_source(const CaveOptions& options) {
+  TerrainSource source;
+  source.name = "caves";
+  source.solid = cave_terrain(options);
+  source.checksum = source.solid->checksum;
+  return source;
+}
+
 }  // namespace terrabench::noise

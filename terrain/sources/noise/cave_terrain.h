@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "terrain/solid.h"
+#include "terrain/source.h"
 #include "terrain/sources/noise/graph.h"
 
 namespace terrabench::noise {
@@ -63,5 +64,8 @@ CaveGraph graph_for(Stage stage, const CaveOptions& options);
 
 // Throws usage_error when the extent is not a positive number. Safe to sample from many threads.
 Solid cave_terrain(const CaveOptions& options = {});
+
+// The same as ground to build structures from.
+TerrainSource cave_source(const CaveOptions& options = {});
 
 }  // namespace terrabench::noise

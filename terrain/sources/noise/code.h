@@ -1,4 +1,4 @@
-// The flat register program that a noise graph is compiled to, shared by the compiler (program.cpp) and the
+// The flat register program that a noise graph is compiled to, shared by the compiler (compiler.cpp) and the
 // per-instruction-set machine (machine.cpp). Registers are runs of floats in one scratch array: kMaxLanes
 // equal values for what is constant along a column, kBatch values for what varies.
 #pragma once

@@ -62,8 +62,7 @@ class Compiler {
   }
 
  private:
-  // --- from nodes to values
-  // -------------------------------------------------------------------------------------
+  // from nodes to values
   Id add(const Value& value);
   Id add_operation(Op op, std::array<Id, 3> operands, float p = 0, float q = 0);
   Id constant(float value) { return add({.op = Op::kConstant, .p = value}); }
@@ -75,8 +74,7 @@ class Compiler {
   Id evaluate(Node node, const Coordinates& at);
   Id evaluate_module(const Module& module, const Coordinates& at);
 
-  // --- from values to code
-  // --------------------------------------------------------------------------------------
+  // from values to code
   std::uint32_t common(std::uint32_t a, std::uint32_t b) const;
   void find_regions();
   void assign_registers();

@@ -2,12 +2,11 @@
 // samples.
 //  - Equal expressions at equal coordinates are evaluated once (hash consing while compiling).
 //  - What does not change along a column is evaluated once a column.
-//  - Operands of multiply, select and blend that a whole batch does not need are skipped, and so is the
-//  control
-//    of a select that interval bounds decide. Skipping never changes a value.
-//  - SIMD on the best instruction set of the machine, with bit-identical results on all of them, in columns
-//  or
-//    points alike.
+//  - Operands of multiply, select and blend that a whole batch does not need are skipped; so is the control
+//  of a
+//    select that interval bounds decide. Skipping never changes a value.
+//  - SIMD on the best instruction set of the machine, bit-identical on all of them, in columns or points
+//  alike.
 // Compiling is O(nodes), a few microseconds. Evaluation allocates nothing after a thread's first call.
 #pragma once
 

@@ -1,0 +1,20 @@
+// Structures of a given size, as the papers' tables ask for them.
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "representations/representation.h"
+
+namespace terrabench {
+
+// The named representation with its parameter "resolution" set to n.
+inline std::unique_ptr<Representation> build_at_resolution(std::string_view name, const TerrainSource& source,
+                                                           std::int64_t n, Progress& progress) {
+  const RepresentationType& type = representation(name);
+  Parameters parameters(type.parameters);
+  parameters.set("resolution", n);
+  return type.build(source, parameters, progress);
+}
+
+}  // namespace terrabench
