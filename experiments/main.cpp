@@ -104,6 +104,8 @@ void add_represent(CLI::App& app, Arguments& a) {
   command->add_option("--set", a.represent.assignments, "Parameters of the representation, name=value");
   command->add_option("--save", a.represent.save, "Write the structure to this file");
   command->add_option("--render", a.represent.render, "Write a shaded relief to this PNG");
+  command->add_option("--write-flow", a.represent.write_flow,
+                      "Write flow accumulation to this GeoTIFF, and directions beside it");
   command->add_option("--crop", a.represent.crop, "First column, first row, width, depth in samples")
       ->expected(4);
   command->add_option("--resample", a.represent.resample, "Width and depth in samples")->expected(2);

@@ -1,5 +1,6 @@
 #include <array>
 
+#include "experiments/drill/drill.h"
 #include "experiments/experiment.h"
 #include "experiments/hybrid/hybrid.h"
 #include "experiments/overview/overview.h"
@@ -16,6 +17,18 @@ const std::array kExperiments{
                hybrid::kCaveParameters, hybrid::cave_cases, hybrid::measure_caves},
     Experiment{"hybrid.noise-stages", "hybrid", "Figures 3-13: the noise pipeline, step by step",
                hybrid::kStageParameters, hybrid::stage_cases, hybrid::measure_stage},
+    Experiment{"drill.channels", "drill", "§3.1: channel pixels and the largest flow",
+               drill::kChannelParameters, drill::channel_cases, drill::measure_channels},
+    Experiment{"drill.factorial", "drill", "§3: the factorial of 54 parameter sets",
+               drill::kFactorialParameters, drill::factorial_cases, drill::measure_factorial},
+    Experiment{"drill.effects", "drill", "§3.1: best sets, main effects, figures 1-4",
+               drill::kGroundParameters, drill::ground_cases, drill::measure_effects},
+    Experiment{"drill.time", "drill", "§3.1: time against channel pixels", drill::kGroundParameters,
+               drill::ground_cases, drill::measure_time},
+    Experiment{"drill.size", "drill", "§4.1: values and bytes", drill::kGroundParameters, drill::ground_cases,
+               drill::measure_size},
+    Experiment{"drill.promises", "drill", "§2.3 and §4: order of drills, pits", drill::kGroundParameters,
+               drill::ground_cases, drill::measure_promises},
     Experiment{"overview.relief", "overview", "Shaded relief of each terrain in each representation",
                overview_experiments::kReliefParameters, overview_experiments::relief_cases,
                overview_experiments::measure_relief},

@@ -1,4 +1,5 @@
 #include "representations/column_grid.h"
+#include "representations/drill/drill_terrain.h"
 #include "representations/heightmap/heightmap.h"
 #include "representations/layered_stack/layered_stack.h"
 #include "representations/representation.h"
@@ -38,6 +39,13 @@ std::span<const RepresentationType> representations() {
        column_parameters(),
        DenseGrid::build,
        DenseGrid::load},
+      {"drill",
+       "channels drilled into a plateau",
+       "drill §2",
+       {},
+       DrillTerrain::parameters(),
+       DrillTerrain::build,
+       DrillTerrain::load},
   };
   return kTypes;
 }

@@ -22,6 +22,7 @@ struct RepresentArguments {
   std::string terrain, as;
   std::vector<std::string> assignments;
   std::string save, render;   // files to write; empty: none
+  std::string write_flow;     // likewise: flow accumulation, and beside it the directions
   std::vector<int> crop;      // i, j, width, depth
   std::vector<int> resample;  // width, depth
   bool fill = false;          // fill no-data holes

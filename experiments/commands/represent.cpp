@@ -8,6 +8,7 @@
 #include "renderers/relief.h"
 #include "representations/representation.h"
 #include "results/format.h"
+#include "terrain/hydrology/flow.h"
 #include "terrain/sources/dem/dem.h"
 
 namespace terrabench {
@@ -66,6 +67,20 @@ void draw(const RepresentArguments& a, const Representation& built, Bounds bound
   fmt::print("rendered    {} ({} triangles, {})\n", a.render, mesh.triangles(), context->renderer());
 }
 
+// For other programs to read and check: how many pixels drain through each, and where to.
+void write_flow(const std::filesystem::path& path, const TerrainSource& source, Progress& progress) {
+  if (!source.heights) {
+    throw usage_error("this terrain is a solid, over which no flow is routed", "--write-flow",
+                      "leave it out, or name a terrain of heights");
+  }
+  const FlowNetwork network = route_flow(*source.heights, &progress);
+  std::filesystem::path directions = path;
+  directions.replace_filename(path.stem().string() + "-direction" + path.extension().string());
+  write_geotiff(path, accumulation_raster(network, *source.heights));
+  write_geotiff(directions, direction_raster(network, *source.heights));
+  fmt::print("flow        {}, directions {}\n", path.string(), directions.string());
+}
+
 }  // namespace
 
 ExitCode represent_command(const RepresentArguments& a) {
@@ -93,6 +108,7 @@ ExitCode represent_command(const RepresentArguments& a) {
     const std::size_t bytes = save_representation(a.save, type, *built);
     fmt::print("saved       {} ({})\n", a.save, format_quantity(static_cast<double>(bytes), "B"));
   }
+  if (!a.write_flow.empty()) write_flow(a.write_flow, source, progress);
   if (!a.render.empty()) draw(a, *built, source.bounds());
   fmt::print("allocator   {} given back\n",
              format_quantity(static_cast<double>(destroy_and_count(std::move(built))), "B"));

@@ -45,31 +45,31 @@ std::unique_ptr<Representation> Heightmap::build(const TerrainSource& source, co
 }
 
 void Heightmap::take_heights(const Heightfield& field, const Bounds& bounds) {
-  width_ = field.width;
-  depth_ = field.depth;
-  cell_x_ = field.cell_x;
-  cell_z_ = field.cell_z;
-  bounds_ = {{0, bounds.low.y, 0}, {field.extent_x(), bounds.high.y, field.extent_z()}};
+  grid_.width = field.width;
+  grid_.depth = field.depth;
+  grid_.cell_x = field.cell_x;
+  grid_.cell_z = field.cell_z;
+  grid_.bounds = {{0, bounds.low.y, 0}, {field.extent_x(), bounds.high.y, field.extent_z()}};
   heights_ = field.heights;
 }
 
 void Heightmap::take_topmost(const TerrainSource& source, const Parameters& parameters, Progress& progress) {
   const ColumnSampler sampler(source, parameters, ColumnGrid::kMaxLevels);
   const ColumnGrid& grid = sampler.grid();
-  width_ = grid.width;
-  depth_ = grid.depth;
-  cell_x_ = grid.cell_x;
-  cell_z_ = grid.cell_z;
-  origin_x_ = grid.origin_x + 0.5 * cell_x_;
-  origin_z_ = grid.origin_z + 0.5 * cell_z_;
-  bounds_ = grid.bounds();
+  grid_.width = grid.width;
+  grid_.depth = grid.depth;
+  grid_.cell_x = grid.cell_x;
+  grid_.cell_z = grid.cell_z;
+  grid_.origin_x = grid.origin_x + 0.5 * grid_.cell_x;
+  grid_.origin_z = grid.origin_z + 0.5 * grid_.cell_z;
+  grid_.bounds = grid.bounds();
   require_memory(grid.columns() * sizeof(float), "heightmap");
   heights_.resize(grid.columns());
-  progress.begin("heightmap", static_cast<std::uint64_t>(depth_));
-  tbb::parallel_for(tbb::blocked_range<int>(0, depth_), [&](const tbb::blocked_range<int>& rows) {
+  progress.begin("heightmap", static_cast<std::uint64_t>(grid_.depth));
+  tbb::parallel_for(tbb::blocked_range<int>(0, grid_.depth), [&](const tbb::blocked_range<int>& rows) {
     std::vector<Material> column(static_cast<std::size_t>(grid.levels));
     for (int j = rows.begin(); j < rows.end(); ++j) {
-      for (int i = 0; i < width_; ++i) {
+      for (int i = 0; i < grid_.width; ++i) {
         sampler.sample(i, j, column);
         int top = grid.levels;
         while (top > 0 && column[static_cast<std::size_t>(top) - 1] == Material::kAir) --top;
@@ -81,13 +81,14 @@ void Heightmap::take_topmost(const TerrainSource& source, const Parameters& para
 }
 
 float Heightmap::height(float x, float z) const {
-  if (!(x >= bounds_.low.x && x <= bounds_.high.x && z >= bounds_.low.z && z <= bounds_.high.z)) {
+  if (!(x >= grid_.bounds.low.x && x <= grid_.bounds.high.x && z >= grid_.bounds.low.z &&
+        z <= grid_.bounds.high.z)) {
     return Heightfield::kNoData;
   }
-  const Between u = between((x - origin_x_) / cell_x_, width_),
-                v = between((z - origin_z_) / cell_z_, depth_);
-  const float* const north = heights_.data() + static_cast<std::size_t>(v.first) * width_;
-  const float* const south = heights_.data() + static_cast<std::size_t>(v.second) * width_;
+  const Between u = between((x - grid_.origin_x) / grid_.cell_x, grid_.width),
+                v = between((z - grid_.origin_z) / grid_.cell_z, grid_.depth);
+  const float* const north = heights_.data() + static_cast<std::size_t>(v.first) * grid_.width;
+  const float* const south = heights_.data() + static_cast<std::size_t>(v.second) * grid_.width;
   const float a = north[u.first] + u.weight * (north[u.second] - north[u.first]);
   const float b = south[u.first] + u.weight * (south[u.second] - south[u.first]);
   return a + v.weight * (b - a);
@@ -96,7 +97,7 @@ float Heightmap::height(float x, float z) const {
 void Heightmap::spans(Columns where, SpanSink& out) const {
   for (std::size_t c = 0; c < where.size(); ++c) {
     const float top = height(where.x[c], where.z[c]);
-    if (top > bounds_.low.y) out.add({bounds_.low.y, top, Material::kBedrock});
+    if (top > grid_.bounds.low.y) out.add({grid_.bounds.low.y, top, Material::kBedrock});
     out.end_column();
   }
 }
@@ -122,13 +123,15 @@ std::vector<float> Heightmap::lines(float cell, float low, float high, double or
 }
 
 TriangleMesh Heightmap::mesh(MeshDetail detail) const {
-  const std::vector<float> x = lines(detail.cell, bounds_.low.x, bounds_.high.x, origin_x_, cell_x_, width_);
-  const std::vector<float> z = lines(detail.cell, bounds_.low.z, bounds_.high.z, origin_z_, cell_z_, depth_);
+  const std::vector<float> x =
+      lines(detail.cell, grid_.bounds.low.x, grid_.bounds.high.x, grid_.origin_x, grid_.cell_x, grid_.width);
+  const std::vector<float> z =
+      lines(detail.cell, grid_.bounds.low.z, grid_.bounds.high.z, grid_.origin_z, grid_.cell_z, grid_.depth);
   std::vector<float> heights(x.size() * z.size());
   tbb::parallel_for(std::size_t{0}, z.size(), [&](std::size_t j) {
     for (std::size_t i = 0; i < x.size(); ++i) heights[j * x.size() + i] = height(x[i], z[j]);
   });
-  return closed_mesh(x, z, heights, bounds_.low.y);
+  return closed_mesh(x, z, heights, grid_.bounds.low.y);
 }
 
 Memory Heightmap::memory() const {
@@ -137,33 +140,44 @@ Memory Heightmap::memory() const {
   return memory;
 }
 
+void HeightGrid::save(ByteSink& out) const {
+  out.put(width);
+  out.put(depth);
+  for (const double metres : {origin_x, origin_z, cell_x, cell_z}) out.put(metres);
+  out.put(bounds);
+}
+
+HeightGrid HeightGrid::load(ByteSource& in) {
+  HeightGrid grid;
+  grid.width = in.get<int>();
+  grid.depth = in.get<int>();
+  for (double* metres : {&grid.origin_x, &grid.origin_z, &grid.cell_x, &grid.cell_z}) {
+    *metres = in.get<double>();
+    if (!std::isfinite(*metres)) in.fail("a position or size is not a number of metres");
+  }
+  grid.bounds = in.get<Bounds>();
+  if (grid.width < 1 || grid.depth < 1 || grid.width > ColumnGrid::kMaxColumns ||
+      grid.depth > ColumnGrid::kMaxColumns || !(grid.cell_x > 0 && grid.cell_z > 0)) {
+    in.fail("the grid's sizes cannot be");
+  }
+  const Bounds& bounds = grid.bounds;
+  if (!(bounds.low.x <= bounds.high.x && bounds.low.y <= bounds.high.y && bounds.low.z <= bounds.high.z &&
+        std::isfinite(bounds.size().x + bounds.size().y + bounds.size().z))) {
+    in.fail("the bounds cannot be");
+  }
+  return grid;
+}
+
 void Heightmap::save(ByteSink& out) const {
-  out.put(width_);
-  out.put(depth_);
-  for (const double metres : {origin_x_, origin_z_, cell_x_, cell_z_}) out.put(metres);
-  out.put(bounds_);
+  grid_.save(out);
   out.put_array(std::span<const float>(heights_));
 }
 
 std::unique_ptr<Representation> Heightmap::load(ByteSource& in) {
   std::unique_ptr<Heightmap> built(new Heightmap);
-  built->width_ = in.get<int>();
-  built->depth_ = in.get<int>();
-  for (double* metres : {&built->origin_x_, &built->origin_z_, &built->cell_x_, &built->cell_z_}) {
-    *metres = in.get<double>();
-    if (!std::isfinite(*metres)) in.fail("a position or size is not a number of metres");
-  }
-  const Bounds bounds = built->bounds_ = in.get<Bounds>();
-  if (built->width_ < 1 || built->depth_ < 1 || built->width_ > ColumnGrid::kMaxColumns ||
-      built->depth_ > ColumnGrid::kMaxColumns || !(built->cell_x_ > 0 && built->cell_z_ > 0)) {
-    in.fail("the grid's sizes cannot be");
-  }
-  if (!(bounds.low.x <= bounds.high.x && bounds.low.y <= bounds.high.y && bounds.low.z <= bounds.high.z &&
-        std::isfinite(bounds.size().x + bounds.size().y + bounds.size().z))) {
-    in.fail("the bounds cannot be");
-  }
-  built->heights_ = in.get_array<float>(static_cast<std::uint64_t>(built->width_) *
-                                        static_cast<std::uint64_t>(built->depth_));
+  built->grid_ = HeightGrid::load(in);
+  built->heights_ = in.get_array<float>(static_cast<std::uint64_t>(built->grid_.width) *
+                                        static_cast<std::uint64_t>(built->grid_.depth));
   if (std::any_of(built->heights_.begin(), built->heights_.end(), [](float h) { return std::isinf(h); })) {
     in.fail("a height is infinite");
   }

@@ -9,10 +9,26 @@
 
 namespace terrabench {
 
+// Where the samples of a heightmap stand.
+struct HeightGrid {
+  int width = 1, depth = 1;
+  double origin_x = 0, origin_z = 0;  // of sample (0, 0), metres
+  double cell_x = 1, cell_z = 1;
+  Bounds bounds;
+
+  void save(ByteSink&) const;
+  static HeightGrid load(ByteSource&);
+};
+
 class Heightmap final : public Representation {
  public:
   static std::unique_ptr<Representation> build(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<Representation> load(ByteSource&);
+  // Row-major, NaN where there is no data.
+  Heightmap(const HeightGrid& grid, std::vector<float> heights) : grid_(grid), heights_(std::move(heights)) {}
+
+  const HeightGrid& grid() const { return grid_; }
+  std::span<const float> heights() const { return heights_; }
 
   // Bilinear; no-data outside the bounds, and where a sample that carries weight has none. Between the
   // outermost samples and the bounds (half a cell, for solids) the height of the border goes on.
@@ -24,7 +40,7 @@ class Heightmap final : public Representation {
   TriangleMesh mesh(MeshDetail) const override;
   Memory memory() const override;
   void save(ByteSink&) const override;
-  Bounds bounds() const override { return bounds_; }
+  Bounds bounds() const override { return grid_.bounds; }
 
  private:
   Heightmap() = default;
@@ -33,11 +49,8 @@ class Heightmap final : public Representation {
   std::vector<float> lines(float cell, float low, float high, double origin, double own_cell,
                            int samples) const;
 
-  int width_ = 1, depth_ = 1;
-  double origin_x_ = 0, origin_z_ = 0;  // of sample (0, 0), metres
-  double cell_x_ = 1, cell_z_ = 1;
-  Bounds bounds_;
-  std::vector<float> heights_;  // row-major, NaN where there is no data
+  HeightGrid grid_;
+  std::vector<float> heights_;
 };
 
 }  // namespace terrabench

@@ -1,1 +1,2 @@
 terrabench_benchmark(stack_bench SOURCES stack_bench.cpp LIBRARIES representations)
+terrabench_benchmark(drill_bench SOURCES drill_bench.cpp LIBRARIES representations)

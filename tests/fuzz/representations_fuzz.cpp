@@ -79,6 +79,9 @@ std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
     for (const TerrainSource* source : {&boxes, &heights}) {
       Parameters parameters(type.parameters);
       parameters.set("resolution", std::int64_t{source->solid ? 40 : 0});
+      for (const char* name : {"w", "tau"}) {
+        if (parameters.has(name)) parameters.set(name, std::int64_t{1});
+      }
       const auto built = type.build(*source, parameters, progress);
       ByteSink sink;
       built->save(sink);

@@ -99,6 +99,7 @@ inline Parameters with(const RepresentationType& type, std::int64_t resolution, 
   Parameters parameters(type.parameters);
   parameters.set("resolution", resolution);
   parameters.set("step", step);
+  if (parameters.has("w")) parameters.set("w", std::int64_t{1});  // the grounds are small
   return parameters;
 }
 

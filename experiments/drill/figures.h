@@ -1,0 +1,24 @@
+// The drill paper's figures 1 to 4, in its layout, and maps of what regeneration changes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/drill/factorial.h"
+#include "experiments/recorder.h"
+
+namespace terrabench::drill {
+
+struct Study {
+  const Heightfield& ground;
+  const FlowNetwork& network;
+  std::string suffix;  // of figure ids: empty for the ground of the claims
+};
+
+void draw_channels(const Study&, Recorder&);        // figure 1
+void draw_cross_sections(const Study&, Recorder&);  // figure 2
+// Figure 3, and beside it the difference from the ground.
+void draw_best(const Study&, const Outcome& least_rmse, const Outcome& least_ahd, Recorder&);
+void draw_matrices(const Study&, const std::vector<Outcome>&, Recorder&);  // figure 4
+
+}  // namespace terrabench::drill

@@ -1,0 +1,127 @@
+// What the drill paper's text promises of regeneration: equation 1 never raises anything, gives the same in
+// any order, and drills keep no promise about pits.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "experiments/drill/drill.h"
+#include "experiments/drill/ground.h"
+#include "representations/drill/pits.h"
+#include "representations/drill/regenerate.h"
+#include "terrain/hydrology/flow.h"
+#include "terrain/metrics/elevation_error.h"
+
+namespace terrabench::drill {
+namespace {
+
+struct Serial {
+  Heightfield terrain;
+  std::size_t rises = 0;  // pixels that some drill left higher than it found them
+};
+
+// Equation 1 as printed: one drill after another, in the given order.
+Serial drill_one_by_one(const Drills& drills, const std::vector<std::uint32_t>& order) {
+  Serial result;
+  result.terrain.width = drills.width;
+  result.terrain.depth = drills.depth;
+  result.terrain.heights.assign(drills.pixels(), drills.plateau);
+  for (const HoleRun& hole : drills.holes) {
+    std::fill_n(result.terrain.heights.begin() + hole.first, hole.count, Heightfield::kNoData);
+  }
+  for (const std::uint32_t drill : order) {
+    const int x = static_cast<int>(drills.pixel[drill]) % drills.width;
+    const int z = static_cast<int>(drills.pixel[drill]) / drills.width;
+    const int k = drills.influence_of(drill);
+    for (int j = std::max(0, z - k); j <= std::min(drills.depth - 1, z + k); ++j) {
+      for (int i = std::max(0, x - k); i <= std::min(drills.width - 1, x + k); ++i) {
+        const auto squared = static_cast<float>((i - x) * (i - x) + (j - z) * (j - z));
+        const float r = std::sqrt(squared);
+        const float shape = drills.elevation[drill] + r * (drills.slope[drill] + drills.curvature[drill] * r);
+        float& height = result.terrain.at(i, j);
+        const float before = height;
+        height = shape < height ? shape : height;
+        result.rises += height > before;
+      }
+    }
+  }
+  return result;
+}
+
+std::size_t differences(const Heightfield& a, const Heightfield& b) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.heights.size(); ++i) {
+    const bool holes = std::isnan(a.heights[i]) && std::isnan(b.heights[i]);
+    count += !holes && a.heights[i] != b.heights[i];
+  }
+  return count;
+}
+
+void record_orders(const Drills& drills, const Heightfield& regenerated, std::uint64_t seed,
+                   Recorder& recorder, Progress& progress) {
+  std::vector<std::uint32_t> order(drills.count());
+  std::iota(order.begin(), order.end(), 0U);
+  std::mt19937_64 random(seed);
+  std::size_t differing = 0, rises = 0;
+  progress.begin("drilling in other orders", 3);
+  for (int i = 0; i < 3; ++i) {
+    // As listed, backwards, shuffled.
+    if (i == 1) std::reverse(order.begin(), order.end());
+    if (i == 2) std::shuffle(order.begin(), order.end(), random);
+    const Serial serial = drill_one_by_one(drills, order);
+    differing += differences(serial.terrain, regenerated);
+    rises += serial.rises;
+    progress.advance();
+  }
+  recorder.add("order_differences", "", static_cast<double>(differing));
+  recorder.add("rises", "", static_cast<double>(rises));
+}
+
+void record_channels(const Drills& drills, const Heightfield& ground, const Heightfield& regenerated,
+                     Recorder& recorder) {
+  std::size_t kept = 0, above = 0, over_plateau = 0;
+  for (const std::uint32_t pixel : drills.pixel) {
+    kept += regenerated.heights[pixel] == ground.heights[pixel];
+    above += regenerated.heights[pixel] > ground.heights[pixel];
+  }
+  for (const float height : regenerated.heights) over_plateau += height > drills.plateau;
+  recorder.add("channel_pixels", "", static_cast<double>(drills.count()));
+  recorder.add("channel_pixels_kept", "", static_cast<double>(kept));
+  recorder.add("channel_pixels_above", "", static_cast<double>(above));
+  recorder.add("pixels_above_plateau", "", static_cast<double>(over_plateau));
+}
+
+void record_pits(std::string_view of, const Heightfield& terrain, Recorder& recorder) {
+  const Pits pits = count_pits(terrain);
+  recorder.add(std::string("pits_") + std::string(of), "", static_cast<double>(pits.count));
+  recorder.add(std::string("pit_pixels_") + std::string(of), "", static_cast<double>(pits.pixels));
+}
+
+}  // namespace
+
+void measure_promises(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = open_ground(at.terrain, options.seed);
+  recorder.terrain(source);
+  const Heightfield& ground = *source.heights;
+  const FlowNetwork network = route_flow(ground, &progress);
+  DrillOptions extract;
+  extract.k = 20;
+  const Drills drills = extract_drills(ground, network, extract, &progress);
+  const Heightfield regenerated = regenerate(drills);
+  record_orders(drills, regenerated, options.seed, recorder, progress);
+  record_channels(drills, ground, regenerated, recorder);
+
+  std::size_t falling = 0;
+  for (std::size_t i = 0; i < drills.count(); ++i) falling += drills.slope[i] < 0 || drills.curvature[i] < 0;
+  recorder.add("shapes_that_fall", "", static_cast<double>(falling));
+  record_pits("original", ground, recorder);
+  record_pits("regenerated", regenerated, recorder);
+  // §4.1: channels that never rise downstream.
+  extract.monotone_profiles = true;
+  const Heightfield legal = regenerate(extract_drills(ground, network, extract, &progress));
+  record_pits("monotone_profiles", legal, recorder);
+  recorder.add("rmse_normalised", "", elevation_error(ground, regenerated).normalised());
+  recorder.add("rmse_monotone_profiles", "", elevation_error(ground, legal).normalised());
+}
+
+}  // namespace terrabench::drill

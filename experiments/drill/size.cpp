@@ -1,0 +1,141 @@
+// What drills take: the paper's count of values (§4.1) and true bytes, beside the same ground through other
+// compressors at the same error.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "experiments/drill/drill.h"
+#include "experiments/drill/factorial.h"
+#include "experiments/drill/ground.h"
+#include "representations/drill/drill_codec.h"
+#include "representations/drill/regenerate.h"
+#include "results/plot.h"
+#include "results/rasterise.h"
+#include "terrain/files.h"
+#include "terrain/metrics/elevation_error.h"
+#include "terrain/sources/dem/compressed_sizes.h"
+
+namespace terrabench::drill {
+namespace {
+
+// The paper's 13,000 drills of 160,000 pixels.
+constexpr double kPaperShare = 13000.0 / 160000.0;
+
+struct Stored {
+  std::uint32_t tau = 0;
+  int k = 0;
+  std::size_t drills = 0, bytes = 0;
+  ElevationError error;
+};
+
+// The k of the factorial with the least error, as stored: rounded.
+Stored store(const Heightfield& ground, const FlowNetwork& network, std::uint32_t tau) {
+  DrillOptions options;
+  options.tau = tau;
+  Drills drills = extract_drills(ground, network, options);
+  quantise(drills, automatic_quantum(ground));
+  ByteSink bytes;
+  encode_drills(drills, bytes);
+  Stored best;
+  for (const int k : kInfluences) {
+    drills.k = k;
+    const ElevationError error = elevation_error(ground, regenerate(drills));
+    if (best.k == 0 || error.rmse < best.error.rmse)
+      best = {tau, k, drills.count(), bytes.bytes().size(), error};
+  }
+  return best;
+}
+
+// The threshold whose channel pixels are nearest to so many.
+std::uint32_t threshold_for(const FlowNetwork& network, std::size_t pixels) {
+  std::vector<std::uint32_t> flow = network.accumulation;
+  pixels = std::clamp<std::size_t>(pixels, 1, flow.size());
+  std::nth_element(flow.begin(), flow.begin() + static_cast<std::ptrdiff_t>(pixels) - 1, flow.end(),
+                   std::greater<>());
+  const std::uint32_t tau = std::max(flow[pixels - 1], 1U);
+  // With equal flows the count jumps past the wish; the next threshold may be nearer.
+  const auto distance = [&](std::uint32_t t) {
+    const auto count = std::count_if(flow.begin(), flow.end(), [=](std::uint32_t f) { return f >= t; });
+    return std::abs(static_cast<double>(count) - static_cast<double>(pixels));
+  };
+  return distance(tau + 1) < distance(tau) ? tau + 1 : tau;
+}
+
+PlotPoint point(double bytes, double samples, double rmse) { return {8 * bytes / samples, rmse, rmse, rmse}; }
+
+void draw_rate_distortion(const Heightfield& ground, const FlowNetwork& network, const std::string& suffix,
+                          Recorder& recorder, Progress& progress) {
+  const auto samples = static_cast<double>(ground.heights.size());
+  Plot plot;
+  plot.title = "Error against bits a sample";
+  plot.x = {"bits a sample", "", true};
+  plot.y = {"RMSE", "m", true};
+  plot.series = {{"drills", {}, false}, {"JPEG 2000", {}, false}, {"LERC", {}, false}};
+  const Heightfield filled = fill_no_data(ground);
+  constexpr std::array kThresholds{10U, 25U, 50U, 100U, 200U, 400U, 800U};
+  constexpr std::array kQualities{0.1, 0.3, 1.0, 3.0, 10.0, 30.0};
+  constexpr std::array kErrors{0.5, 2.0, 8.0, 32.0, 128.0};
+  progress.begin("rate and distortion", kThresholds.size() + kQualities.size() + kErrors.size());
+  for (const std::uint32_t tau : kThresholds) {
+    const Stored stored = store(ground, network, tau);
+    plot.series[0].points.push_back(point(static_cast<double>(stored.bytes), samples, stored.error.rmse));
+    progress.advance();
+  }
+  for (const double quality : kQualities) {
+    const CompressedSize e = compressed_size(filled, RasterCodec::kJpeg2000, quality);
+    plot.series[1].points.push_back(point(static_cast<double>(e.bytes), samples, e.rmse));
+    progress.advance();
+  }
+  for (const double error : kErrors) {
+    const CompressedSize e = compressed_size(filled, RasterCodec::kLerc, error);
+    plot.series[2].points.push_back(point(static_cast<double>(e.bytes), samples, e.rmse));
+    progress.advance();
+  }
+  const std::filesystem::path png = recorder.figure(
+      "drill.rate-distortion" + suffix, "png",
+      "Drills in their own file form, w = 10 and the best k at each of seven thresholds, beside the "
+      "same ground as JPEG 2000 and LERC");
+  std::filesystem::path svg = png;
+  svg.replace_extension("svg");
+  write_file(svg, plot_svg(plot));
+  svg_to_png(svg, png, 1200);
+}
+
+}  // namespace
+
+void measure_size(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = open_ground(at.terrain, options.seed);
+  recorder.terrain(source);
+  const Heightfield& ground = *source.heights;
+  const FlowNetwork network = route_flow(ground, &progress);
+  const auto samples = static_cast<double>(ground.heights.size());
+  const Stored stored = store(
+      ground, network, threshold_for(network, static_cast<std::size_t>(std::lround(kPaperShare * samples))));
+  recorder.add("tau", "pixels", stored.tau);
+  recorder.add("k", "samples", stored.k);
+  recorder.add("drills", "", static_cast<double>(stored.drills));
+  recorder.add("drills_per_160000", "", static_cast<double>(stored.drills) * 160000 / samples);
+  recorder.add("values_to_samples", "", 4 * static_cast<double>(stored.drills) / samples);
+  recorder.add("rmse", "m", stored.error.rmse);
+  recorder.add("rmse_normalised", "", stored.error.normalised());
+  recorder.add("drill_bytes", "B", static_cast<double>(stored.bytes));
+  const auto add = [&](std::string_view metric, const CompressedSize& size) {
+    recorder.add(fmt::format("{}_bytes", metric), "B", static_cast<double>(size.bytes));
+    recorder.add(fmt::format("{}_rmse", metric), "m", size.rmse);
+  };
+  // Other compressors know no holes.
+  const Heightfield filled = fill_no_data(ground);
+  add("zstd_metres", compressed_size(filled, RasterCodec::kZstd, 1));
+  add("jpeg2000_lossless", compressed_size(filled, RasterCodec::kJpeg2000, 100));
+  const double rmse = stored.error.rmse;
+  add("zstd", compressed_size_at(filled, RasterCodec::kZstdDifferences, rmse));
+  add("jpeg2000", compressed_size_at(filled, RasterCodec::kJpeg2000, rmse));
+  add("lerc", compressed_size_at(filled, RasterCodec::kLerc, rmse));
+  draw_rate_distortion(ground, network, at.terrain == kMainGround ? "" : "." + file_name(at.terrain),
+                       recorder, progress);
+}
+
+}  // namespace terrabench::drill

@@ -1,0 +1,53 @@
+// Cross-sections of the terrain around a pixel and their union (Stuetzle & Franklin 2012, §2.2): 120 rays
+// three degrees apart, sampled bilinearly at 1 … w samples from the pixel; the union takes the highest at
+// each distance, which is the narrowest channel any ray sees.
+//
+// The offsets and weights are the same for every pixel, so they are made once and the rays run in SIMD lanes:
+// 480·w loads a pixel and no branch. Samples that need ground outside the terrain or without data are left
+// out.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "terrain/heightfield.h"
+
+namespace terrabench {
+
+class CrossSections {
+ public:
+  static constexpr int kRays = 120;
+  // Rays beyond the last repeat others, which no maximum notices, so that all vector lengths divide them.
+  static constexpr int kLanes = 128;
+  // Stands for no data. Any bilinear weight of at least 10⁻⁸ of it outweighs every true height.
+  static constexpr float kNothing = -1e30F;
+  static bool is_sample(float height) { return height > -1e20F; }
+
+  // Copies the field with a margin of w + 1. O(pixels), parallel.
+  CrossSections(const Heightfield& field, int w);
+
+  int w() const { return w_; }
+  // The union at a pixel: w heights, the i-th at distance i + 1; not is_sample() where no ray has one.
+  void join(std::uint32_t pixel, std::span<float> out) const;
+  // The rays themselves: kRays·w heights, ray by ray.
+  void rays(std::uint32_t pixel, std::span<float> out) const;
+
+ private:
+  const float* centre(std::uint32_t pixel) const {
+    const std::size_t row = pixel / static_cast<std::uint32_t>(width_),
+                      column = pixel % static_cast<std::uint32_t>(width_);
+    const auto margin = static_cast<std::size_t>(w_) + 1;
+    return heights_.data() + (row + margin) * stride_ + column + margin;
+  }
+
+  int width_, w_;
+  std::size_t stride_;
+  std::vector<float> heights_;
+  // For distance i + 1 and ray m at i·kLanes + m: the sample to the north-west and how far past it, in
+  // samples.
+  std::vector<std::int32_t> offset_;
+  std::vector<float> east_, south_;
+};
+
+}  // namespace terrabench

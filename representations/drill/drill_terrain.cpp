@@ -1,0 +1,132 @@
+#include "representations/drill/drill_terrain.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "representations/column_grid.h"
+#include "representations/drill/choose_parameters.h"
+#include "representations/drill/drill_codec.h"
+#include "representations/drill/regenerate.h"
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+constexpr float kMostHeight = 1e9F;  // CrossSections takes what lies far below for no data
+
+std::vector<ParameterSpec> make_parameters() {
+  const std::span<const ParameterSpec> grid = column_parameters();
+  std::vector<ParameterSpec> specs(grid.begin(), grid.end());
+  specs.insert(
+      specs.end(),
+      {{"tau", std::int64_t{25}, "pixels", "least flow of a channel", 1, 4294967295.0},
+       {"w", std::int64_t{10}, "samples", "length of the cross-sections", 1, Drills::kMaxInfluence},
+       {"k", std::int64_t{10}, "samples", "influence: a drill's window is 2k + 1 wide", 0,
+        Drills::kMaxInfluence},
+       {"monotone", true, "", "shapes never fall from the centre outward"},
+       {"monotone_profiles", false, "", "elevations never rise downstream, so that no pit is left"},
+       {"adaptive_k", false, "", "an influence of its own for every drill, up to k"},
+       {"interpolate_untouched", false, "", "draw what no drill touches from its surroundings"},
+       {"quantum", 0.0, "m", "drills are rounded to; 0: about 1/256 of the range of heights", 0, 1e6},
+       {"budget_bytes", std::int64_t{0}, "B", "choose tau, w, k and quantum for so many bytes; 0: do not", 0,
+        1e15},
+       {"max_rmse", 0.0, "m", "choose tau, w, k and quantum for so small an error; 0: do not", 0, 1e9}});
+  return specs;
+}
+
+DrillOptions options_from(const Parameters& parameters) {
+  DrillOptions options;
+  options.tau = static_cast<std::uint32_t>(parameters.integer("tau"));
+  options.w = static_cast<int>(parameters.integer("w"));
+  options.k = static_cast<int>(parameters.integer("k"));
+  options.monotone = parameters.flag("monotone");
+  options.monotone_profiles = parameters.flag("monotone_profiles");
+  options.adaptive_k = parameters.flag("adaptive_k");
+  options.interpolate_untouched = parameters.flag("interpolate_untouched");
+  return options;
+}
+
+Heightfield as_field(const Heightmap& map) {
+  Heightfield field;
+  field.width = map.grid().width;
+  field.depth = map.grid().depth;
+  field.cell_x = static_cast<float>(map.grid().cell_x);
+  field.cell_z = static_cast<float>(map.grid().cell_z);
+  field.heights.assign(map.heights().begin(), map.heights().end());
+  return field;
+}
+
+}  // namespace
+
+std::span<const ParameterSpec> DrillTerrain::parameters() {
+  static const std::vector<ParameterSpec> specs = make_parameters();
+  return specs;
+}
+
+DrillTerrain::DrillTerrain(Drills drills, HeightGrid grid) : drills_(std::move(drills)) {
+  require_memory(drills_.pixels() * 2 * sizeof(float), "terrain from drills");
+  Heightfield field = regenerate(drills_);
+  // Shapes that may fall can dig through the floor.
+  const HeightRange range = height_range(field);
+  const bool empty = range.no_data == field.heights.size();
+  if (!empty && range.lowest <= grid.bounds.low.y) {
+    grid.bounds.low.y = range.lowest - static_cast<float>(std::max(grid.cell_x, grid.cell_z));
+  }
+  if (!empty) grid.bounds.high.y = std::max(grid.bounds.high.y, range.highest);
+  surface_ = std::make_unique<Heightmap>(grid, std::move(field.heights));
+}
+
+std::unique_ptr<Representation> DrillTerrain::build(const TerrainSource& source, const Parameters& parameters,
+                                                    Progress& progress) {
+  const auto sampled = Heightmap::build(source, parameters, progress);
+  const auto& map = static_cast<const Heightmap&>(*sampled);
+  const Heightfield field = as_field(map);
+  DrillOptions options = options_from(parameters);
+  check_options(options, field.width, field.depth);
+  if (std::any_of(field.heights.begin(), field.heights.end(),
+                  [](float h) { return std::abs(h) > kMostHeight; })) {
+    throw bad_input("heights reach beyond 10⁹ m", source.name,
+                    "check the file's units and its no-data value");
+  }
+  const FlowNetwork network = route_flow(field, &progress);
+  auto quantum = static_cast<float>(parameters.number("quantum"));
+  DrillBudget budget;
+  budget.bytes = static_cast<std::size_t>(parameters.integer("budget_bytes"));
+  budget.rmse = parameters.number("max_rmse");
+  if (budget.bytes > 0 || budget.rmse > 0) {
+    const DrillChoice choice = choose_parameters(field, network, budget, options, &progress);
+    options = choice.options;
+    quantum = choice.quantum;
+  }
+  Drills drills = extract_drills(field, network, options, &progress);
+  quantise(drills, quantum > 0 ? quantum : automatic_quantum(field));
+  return std::unique_ptr<Representation>(new DrillTerrain(std::move(drills), map.grid()));
+}
+
+Memory DrillTerrain::memory() const {
+  Memory memory = surface_->memory();
+  for (const auto* numbers : {&drills_.elevation, &drills_.slope, &drills_.curvature}) {
+    memory += payload_memory(*numbers);
+  }
+  memory += payload_memory(drills_.influence);
+  memory += index_memory(drills_.pixel);
+  memory += index_memory(drills_.direction);
+  memory += index_memory(drills_.holes);
+  memory.index += heap_bytes(this);
+  return memory;
+}
+
+void DrillTerrain::save(ByteSink& out) const {
+  surface_->grid().save(out);
+  encode_drills(drills_, out);
+}
+
+std::unique_ptr<Representation> DrillTerrain::load(ByteSource& in) {
+  const HeightGrid grid = HeightGrid::load(in);
+  Drills drills = decode_drills(in);
+  if (grid.width != drills.width || grid.depth != drills.depth)
+    in.fail("the drills belong to another terrain");
+  return std::unique_ptr<Representation>(new DrillTerrain(std::move(drills), grid));
+}
+
+}  // namespace terrabench

@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cassert>
+#include <numbers>
+
+#include "representations/drill/cross_sections.h"
+#include "representations/drill/drills.h"
+#include "representations/drill/influence.h"
+#include "representations/drill/profile_fit.h"
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+constexpr std::size_t kDrillsAStep = 1024;
+
+std::vector<HoleRun> find_holes(const Heightfield& field) {
+  std::vector<HoleRun> holes;
+  bool inside = false;
+  for (std::size_t i = 0; i < field.heights.size(); ++i) {
+    const bool hole = Heightfield::is_no_data(field.heights[i]);
+    if (hole && !inside) holes.push_back({static_cast<std::uint32_t>(i), 0});
+    if (hole) ++holes.back().count;
+    inside = hole;
+  }
+  return holes;
+}
+
+// Lowers every channel pixel to the lowest upstream of it: channels come upstream first.
+std::vector<float> monotone_elevations(const Heightfield& field, const FlowNetwork& network,
+                                       std::span<const std::uint32_t> channel) {
+  std::vector<float> elevation = field.heights;
+  for (const std::uint32_t pixel : channel) {
+    if (!network.flows(pixel)) continue;
+    float& below = elevation[network.receiver(pixel)];
+    below = std::min(below, elevation[pixel]);
+  }
+  return elevation;
+}
+
+void shape_drills(const CrossSections& sections, double rises_to, Drills& drills, Progress* progress) {
+  const std::size_t count = drills.count();
+  if (progress != nullptr) progress->begin("drill shapes", (count + kDrillsAStep - 1) / kDrillsAStep);
+  drills.slope.resize(count);
+  drills.curvature.resize(count);
+  tbb::parallel_for(std::size_t{0}, (count + kDrillsAStep - 1) / kDrillsAStep, [&](std::size_t step) {
+    std::vector<float> joined(static_cast<std::size_t>(sections.w()));
+    for (std::size_t i = step * kDrillsAStep; i < std::min(count, (step + 1) * kDrillsAStep); ++i) {
+      sections.join(drills.pixel[i], joined);
+      const float centre = drills.elevation[i];
+      const Profile profile = fit_profile(joined, centre, rises_to);
+      // A drill that sees no ground around it digs its own pixel only: the plateau is one sample away.
+      drills.slope[i] = profile.determined ? profile.slope : drills.plateau - centre;
+      drills.curvature[i] = profile.curvature;
+    }
+    if (progress != nullptr) progress->advance();
+  });
+}
+
+double rises_to(const DrillOptions& options) {
+  if (!options.monotone) return kRisesNowhere;
+  if (!options.window_only) return kRisesEverywhere;
+  return std::max(static_cast<double>(options.w), options.k * std::numbers::sqrt2);
+}
+
+Error bad_option(std::string_view name, std::int64_t value, std::string_view why, std::string_view advice) {
+  return usage_error(fmt::format("{} = {} {}", name, value, why), "drill", advice);
+}
+
+}  // namespace
+
+void check_options(const DrillOptions& options, int width, int depth) {
+  constexpr int kMost = Drills::kMaxInfluence;
+  const int most_w = std::min(kMost, std::max(width, depth));
+  if (options.tau < 1) {
+    throw bad_option("tau", options.tau, "is no flow", "choose 1 or more: at 1 every pixel is a channel");
+  }
+  if (options.w < 1 || options.w > most_w) {
+    throw bad_option("w", options.w, "is no length of a cross-section of this terrain",
+                     fmt::format("choose 1 to {} samples", most_w));
+  }
+  if (options.k < 0 || options.k > kMost) {
+    throw bad_option(
+        "k", options.k, "is no influence",
+        fmt::format("choose 0 to {}: a window is 2k + 1 samples wide, which is odd for any k", kMost));
+  }
+}
+
+Drills extract_drills(const Heightfield& field, const FlowNetwork& network, const DrillOptions& options,
+                      Progress* progress) {
+  check_options(options, field.width, field.depth);
+  assert(network.width == field.width && network.depth == field.depth);
+  std::vector<std::uint32_t> channel = channel_pixels(network, options.tau);
+  std::vector<float> lowered;
+  if (options.monotone_profiles) lowered = monotone_elevations(field, network, channel);
+  const std::vector<float>& elevation = options.monotone_profiles ? lowered : field.heights;
+  std::sort(channel.begin(), channel.end());
+
+  Drills drills;
+  drills.width = field.width;
+  drills.depth = field.depth;
+  drills.cell_x = field.cell_x;
+  drills.cell_z = field.cell_z;
+  const HeightRange range = height_range(field);
+  drills.plateau = range.no_data == field.heights.size() ? 0 : range.highest;
+  drills.w = options.w;
+  drills.k = options.k;
+  drills.holes = find_holes(field);
+  drills.direction.resize(channel.size());
+  drills.elevation.resize(channel.size());
+  for (std::size_t i = 0; i < channel.size(); ++i) {
+    drills.direction[i] = network.direction[channel[i]];
+    drills.elevation[i] = elevation[channel[i]];
+  }
+  drills.pixel = std::move(channel);
+  drills.interpolated = options.interpolate_untouched;
+  if (drills.count() == 0) return drills;
+  shape_drills(CrossSections(field, options.w), rises_to(options), drills, progress);
+  if (options.adaptive_k) choose_influence(field, drills, progress);
+  return drills;
+}
+
+}  // namespace terrabench

@@ -1,0 +1,239 @@
+#include "terrain/sources/dem/compressed_sizes.h"
+
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <fmt/format.h>
+#include <zstd.h>
+
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "terrain/error.h"
+#include "terrain/sources/dem/gdal_session.h"
+
+namespace terrabench {
+namespace {
+
+constexpr RasterCodec kCodecs[] = {RasterCodec::kZstd, RasterCodec::kZstdDifferences, RasterCodec::kJpeg2000,
+                                   RasterCodec::kLerc};
+constexpr double kMostSteps = 65535;
+constexpr int kZstdLevel = 19;
+
+// A file in memory that goes with its name.
+struct MemoryFile {
+  std::string path;
+  MemoryFile() {
+    static std::atomic<unsigned> next{0};
+    path = fmt::format("/vsimem/terrabench_size_{}", next++);
+  }
+  ~MemoryFile() { VSIUnlink(path.c_str()); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  std::size_t size() const {
+    VSIStatBufL status;
+    return VSIStatL(path.c_str(), &status) == 0 ? static_cast<std::size_t>(status.st_size) : 0;
+  }
+};
+
+// Heights as whole steps above the lowest.
+struct Steps {
+  double step, lowest;
+  std::vector<std::uint16_t> numbers;
+
+  Steps(const Heightfield& field, double step) : step(step) {
+    const HeightRange range = height_range(field);
+    lowest = range.lowest;
+    if (!(step > 0) || std::round((range.highest - lowest) / step) > kMostSteps) {
+      throw usage_error(fmt::format("a step of {} m does not cover the heights in 16 bits", step),
+                        "compressed size",
+                        fmt::format("choose at least {} m", (range.highest - lowest) / kMostSteps));
+    }
+    numbers.reserve(field.heights.size());
+    for (const float h : field.heights) {
+      numbers.push_back(static_cast<std::uint16_t>(std::lround((h - lowest) / step)));
+    }
+  }
+  double height(std::uint16_t number) const { return lowest + number * step; }
+};
+
+// Whole metres where the heights are that, otherwise as fine as 16 bits allow.
+double natural_step(const Heightfield& field) {
+  const HeightRange range = height_range(field);
+  const double finest = (static_cast<double>(range.highest) - range.lowest) / kMostSteps;
+  for (const float h : field.heights) {
+    if (h != std::round(h)) return finest > 0 ? finest * (1 + 1e-9) : 1;
+  }
+  return std::max(1.0, finest * (1 + 1e-9));
+}
+
+template <class Height>
+double rmse(const Heightfield& field, const Height& height) {
+  double sum = 0;
+  for (std::size_t i = 0; i < field.heights.size(); ++i) {
+    const double error = height(i) - field.heights[i];
+    sum += error * error;
+  }
+  return std::sqrt(sum / static_cast<double>(field.heights.size()));
+}
+
+CompressedSize zstd_size(const Heightfield& field, double step, bool differences) {
+  const Steps steps(field, step);
+  std::vector<std::uint16_t> numbers = steps.numbers;
+  if (differences) {
+    for (std::size_t i = numbers.size() - 1; i > 0; --i) {
+      if (i % static_cast<std::size_t>(field.width) != 0) {
+        numbers[i] = static_cast<std::uint16_t>(numbers[i] - numbers[i - 1]);
+      }
+    }
+  }
+  const std::size_t raw = numbers.size() * sizeof numbers[0];
+  std::vector<char> packed(ZSTD_compressBound(raw));
+  const std::size_t bytes = ZSTD_compress(packed.data(), packed.size(), numbers.data(), raw, kZstdLevel);
+  if (ZSTD_isError(bytes) != 0) throw std::bad_alloc();  // the only way left to fail
+  return {bytes, rmse(field, [&](std::size_t i) { return steps.height(steps.numbers[i]); }), step};
+}
+
+Error gdal_failed(RasterCodec codec, const GdalMessages& messages) {
+  return environment_error(fmt::format("GDAL cannot write {}: {}", name(codec),
+                                       messages.failed() ? messages.first_failure() : "no reason"),
+                           "compressed size", "install a GDAL with this format (Debian's libgdal has it)");
+}
+
+// Rows of `data` written into a new band of a GeoTIFF in memory.
+DatasetPointer make_tiff(const MemoryFile& file, const Heightfield& field, GDALDataType type, void* data,
+                         const CPLStringList& options) {
+  auto* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+  DatasetPointer tiff(driver->Create(file.path.c_str(), field.width, field.depth, 1, type, options.List()));
+  if (tiff != nullptr &&
+      tiff->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, field.width, field.depth, data, field.width,
+                                       field.depth, type, 0, 0, nullptr) != CE_None) {
+    tiff.reset();
+  }
+  return tiff;
+}
+
+template <class Number>
+bool read_back(const MemoryFile& file, const Heightfield& field, GDALDataType type,
+               std::vector<Number>& numbers) {
+  const DatasetPointer dataset(GDALDataset::Open(file.path.c_str(), GDAL_OF_RASTER));
+  numbers.resize(field.heights.size());
+  return dataset != nullptr &&
+         dataset->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, field.width, field.depth, numbers.data(),
+                                             field.width, field.depth, type, 0, 0, nullptr) == CE_None;
+}
+
+CompressedSize jpeg2000_size(const Heightfield& field, double quality) {
+  if (!(quality > 0 && quality <= 100)) {
+    throw usage_error(fmt::format("{} is no quality", quality), "compressed size", "choose above 0 to 100");
+  }
+  Steps steps(field, natural_step(field));
+  register_gdal();
+  const GdalMessages messages;
+  const MemoryFile plain, packed;
+  auto* const driver = GetGDALDriverManager()->GetDriverByName("JP2OpenJPEG");
+  const DatasetPointer source = make_tiff(plain, field, GDT_UInt16, steps.numbers.data(), {});
+  if (driver == nullptr || source == nullptr) throw gdal_failed(RasterCodec::kJpeg2000, messages);
+  CPLStringList options;
+  options.SetNameValue("CODEC", "J2K");
+  options.SetNameValue("QUALITY", fmt::format("{:.6f}", quality).c_str());
+  options.SetNameValue("REVERSIBLE", quality == 100 ? "YES" : "NO");
+  DatasetPointer copy(
+      driver->CreateCopy(packed.path.c_str(), source.get(), FALSE, options.List(), nullptr, nullptr));
+  if (copy == nullptr) throw gdal_failed(RasterCodec::kJpeg2000, messages);
+  copy.reset();
+  std::vector<std::uint16_t> numbers;
+  if (!read_back(packed, field, GDT_UInt16, numbers)) throw gdal_failed(RasterCodec::kJpeg2000, messages);
+  return {packed.size(), rmse(field, [&](std::size_t i) { return steps.height(numbers[i]); }), quality};
+}
+
+CompressedSize lerc_size(const Heightfield& field, double largest_error) {
+  if (!(largest_error >= 0)) {
+    throw usage_error(fmt::format("{} m is no error", largest_error), "compressed size", "choose 0 or more");
+  }
+  register_gdal();
+  const GdalMessages messages;
+  const MemoryFile packed;
+  CPLStringList options;
+  options.SetNameValue("COMPRESS", "LERC");
+  options.SetNameValue("MAX_Z_ERROR", fmt::format("{:.9g}", largest_error).c_str());
+  options.SetNameValue("BLOCKYSIZE", fmt::format("{}", field.depth).c_str());
+  std::vector<float> heights = field.heights;
+  DatasetPointer tiff = make_tiff(packed, field, GDT_Float32, heights.data(), options);
+  if (tiff == nullptr) throw gdal_failed(RasterCodec::kLerc, messages);
+  tiff.reset();
+  if (messages.failed() || !read_back(packed, field, GDT_Float32, heights)) {
+    throw gdal_failed(RasterCodec::kLerc, messages);
+  }
+  return {packed.size(), rmse(field, [&](std::size_t i) { return static_cast<double>(heights[i]); }),
+          largest_error};
+}
+
+// The settings between which bisection looks, from the finest to the coarsest.
+std::pair<double, double> setting_range(const Heightfield& field, RasterCodec codec) {
+  const HeightRange range = height_range(field);
+  const double span = std::max(static_cast<double>(range.highest) - range.lowest, 1e-6);
+  switch (codec) {
+    case RasterCodec::kJpeg2000:
+      return {100, 0.01};
+    case RasterCodec::kLerc:
+      return {span * 1e-6, span};
+    default:
+      return {natural_step(field), span};
+  }
+}
+
+}  // namespace
+
+std::span<const RasterCodec> raster_codecs() { return kCodecs; }
+
+std::string_view name(RasterCodec codec) {
+  switch (codec) {
+    case RasterCodec::kZstd:
+      return "int16 + zstd";
+    case RasterCodec::kZstdDifferences:
+      return "int16 differences + zstd";
+    case RasterCodec::kJpeg2000:
+      return "JPEG 2000";
+    default:
+      return "LERC";
+  }
+}
+
+CompressedSize compressed_size(const Heightfield& field, RasterCodec codec, double setting) {
+  for (const float h : field.heights) {
+    if (!std::isfinite(h)) {
+      throw bad_input("has samples without data", "compressed size", "fill them first");
+    }
+  }
+  switch (codec) {
+    case RasterCodec::kJpeg2000:
+      return jpeg2000_size(field, setting);
+    case RasterCodec::kLerc:
+      return lerc_size(field, setting);
+    default:
+      return zstd_size(field, setting, codec == RasterCodec::kZstdDifferences);
+  }
+}
+
+CompressedSize compressed_size_at(const Heightfield& field, RasterCodec codec, double rmse) {
+  constexpr int kSteps = 14;
+  auto [fine, coarse] = setting_range(field, codec);
+  CompressedSize best = compressed_size(field, codec, fine);
+  // Settings matter by their ratio.
+  for (int i = 0; i < kSteps; ++i) {
+    const double middle = std::sqrt(fine * coarse);
+    const CompressedSize at = compressed_size(field, codec, middle);
+    if (at.rmse > rmse) {
+      coarse = middle;
+      continue;
+    }
+    fine = middle;
+    if (at.bytes <= best.bytes) best = at;
+  }
+  return best;
+}
+
+}  // namespace terrabench

@@ -1,0 +1,37 @@
+// How small usual raster formats make a height field, and at what error: the yardstick for representations
+// that claim to be compact. Files are made in memory and read back; the error is that of what is read.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "terrain/heightfield.h"
+
+namespace terrabench {
+
+enum class RasterCodec {
+  kZstd,             // 16-bit numbers of steps above the lowest height, row by row, zstd level 19
+  kZstdDifferences,  // the same, each number less the one to the west
+  kJpeg2000,         // GDAL and OpenJPEG, codestream only, of 16-bit numbers
+  kLerc,             // GDAL's GeoTIFF with LERC compression in one block, of floats
+};
+std::span<const RasterCodec> raster_codecs();
+std::string_view name(RasterCodec);
+
+struct CompressedSize {
+  std::size_t bytes = 0;
+  double rmse = 0;     // metres
+  double setting = 0;  // what it was made with, as below
+};
+
+// `setting`: the step in metres for zstd, the largest error in metres for LERC (0: none), and for JPEG 2000
+// its quality, percent of the uncompressed size (100: no loss). Throws usage_error for settings out of range
+// or so fine that 16 bits do not suffice, bad_input for fields with holes, environment_error when GDAL lacks
+// the format.
+CompressedSize compressed_size(const Heightfield& field, RasterCodec codec, double setting);
+
+// The smallest found by bisection whose error is not above `rmse` metres. Some 15 times the cost.
+CompressedSize compressed_size_at(const Heightfield& field, RasterCodec codec, double rmse);
+
+}  // namespace terrabench

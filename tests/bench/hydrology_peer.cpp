@@ -1,0 +1,118 @@
+// Flow routing beside GRASS r.watershed (Debian: grass-core) on the same int16 DEM in one run, alternately:
+//   hydrology_peer [SIZE [REPEATS]]
+// Ours is timed from heights in memory to directions and accumulation in memory. GRASS runs as its own
+// process with the map imported beforehand; its time includes reading that map and writing two. Prints pixels
+// a second of both and the ratio; ours alone without GRASS.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "terrain/error.h"
+#include "terrain/files.h"
+#include "terrain/hydrology/flow.h"
+#include "terrain/sources/dem/dem.h"
+#include "tests/bench/mountains.h"
+
+namespace terrabench {
+namespace {
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "hydrology_peer.XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr)
+      throw environment_error("cannot make a folder", name, "check TMPDIR");
+    path = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::filesystem::path path;
+};
+
+double median(std::vector<double> samples) {
+  std::sort(samples.begin(), samples.end());
+  return samples[samples.size() / 2];
+}
+
+double ours(const Heightfield& field) {
+  const auto begin = std::chrono::steady_clock::now();
+  const FlowNetwork network = route_flow(field);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  if (network.accumulation.empty()) std::abort();  // keeps the result alive
+  return seconds.count();
+}
+
+// Runs shell commands in a GRASS session on the folder's map; false when that fails.
+bool grass(const std::filesystem::path& folder, const std::string& commands) {
+  write_file(folder / "commands.sh", "set -e\n" + commands);
+  const auto run = [&](const std::string& arguments) {
+    const std::string line = fmt::format("cd {} && grass {} >log 2>&1", folder.string(), arguments);
+    return std::system(line.c_str()) == 0;
+  };
+  // GRASS wants the location's whole path.
+  if (!std::filesystem::exists(folder / "location") && !run("-c XY $PWD/location -e")) return false;
+  return run("$PWD/location/PERMANENT --exec sh commands.sh");
+}
+
+int compare(int size, int repeats) {
+  const Heightfield field = mountains(size);
+  const auto pixels = static_cast<double>(field.heights.size());
+  const TemporaryFolder folder;
+  write_geotiff(folder.path / "dem.tif", field);
+  const bool peer = grass(folder.path,
+                          "r.in.gdal -o --quiet input=dem.tif output=floats\ng.region raster=floats\n"
+                          "r.mapcalc 'dem = int(floats)'\n");
+  std::vector<double> our_times, peer_times;
+  for (int i = 0; i < repeats; ++i) {
+    our_times.push_back(ours(field));
+    if (!peer) continue;
+    if (!grass(folder.path,
+               "g.region raster=dem\nbegin=$(date +%s.%N)\n"
+               "r.watershed -s --overwrite elevation=dem accumulation=acc drainage=dir\n"
+               "echo $begin $(date +%s.%N) >time\n")) {
+      fmt::print(stderr, "r.watershed failed: {}\n", read_file(folder.path / "log"));
+      return 1;
+    }
+    const std::string line = read_file(folder.path / "time");
+    double begin = 0, end = 0;
+    std::sscanf(line.c_str(), "%lf %lf", &begin, &end);
+    peer_times.push_back(end - begin);
+  }
+  fmt::print("route_flow     {0}×{0}: {1:.3f} s, {2:.1f} Mpixel/s\n", size, median(our_times),
+             pixels / median(our_times) * 1e-6);
+  if (!peer) {
+    fmt::print("GRASS (Debian: grass-core) does not run here: {}\n", read_file(folder.path / "log"));
+    return 0;
+  }
+  fmt::print("r.watershed -s {0}×{0}: {1:.3f} s, {2:.1f} Mpixel/s\nratio {3:.1f}\n", size, median(peer_times),
+             pixels / median(peer_times) * 1e-6, median(peer_times) / median(our_times));
+  return 0;
+}
+
+}  // namespace
+}  // namespace terrabench
+
+int main(int count, char** arguments) {
+  const int size = count > 1 ? std::atoi(arguments[1]) : 4096,
+            repeats = count > 2 ? std::atoi(arguments[2]) : 3;
+  if (size < 1 || size > 32768 || repeats < 1) {
+    fmt::print(stderr, "usage: hydrology_peer [SIZE [REPEATS]], SIZE up to 32768\n");
+    return 2;
+  }
+  try {
+    return terrabench::compare(size, repeats);
+  } catch (const terrabench::Error& error) {
+    fmt::print(stderr, "{}\n{}\n", error.what(), error.advice());
+    return static_cast<int>(error.code());
+  }
+}

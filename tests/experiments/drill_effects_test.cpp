@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "experiments/drill/factorial.h"
+#include "experiments/drill/ground.h"
+
+namespace terrabench::drill {
+namespace {
+
+// The 54 settings with the error put where `error` says.
+template <class ErrorOf>
+std::vector<Outcome> outcomes(const ErrorOf& error) {
+  std::vector<Outcome> all;
+  for (const std::uint32_t tau : kTaus) {
+    for (const int w : kWidths) {
+      for (const int k : kInfluences) {
+        Outcome outcome;
+        outcome.setting = {tau, w, k};
+        outcome.rmse = error(outcome.setting);
+        all.push_back(outcome);
+      }
+    }
+  }
+  return all;
+}
+
+double rmse(const Outcome& outcome) { return outcome.rmse; }
+
+TEST(DrillEffects, OneFactorExplainsAll) {
+  const Effects effects = main_effects(outcomes([](const Setting& s) { return 0.5 * s.w; }), rmse);
+  EXPECT_NEAR(effects.w, 1, 1e-12);
+  EXPECT_NEAR(effects.tau, 0, 1e-12);
+  EXPECT_NEAR(effects.k, 0, 1e-12);
+  EXPECT_NEAR(effects.interactions, 0, 1e-12);
+}
+
+TEST(DrillEffects, SumsOfFactorsShareTheVariance) {
+  // Variances of the levels: of 0, 1, 1 over three τ 2/9, of 0, 2 over the six k 1.
+  const auto all =
+      outcomes([](const Setting& s) { return (s.tau > 25 ? 1.0 : 0.0) + (s.k > 15 ? 2.0 : 0.0); });
+  const Effects effects = main_effects(all, rmse);
+  EXPECT_NEAR(effects.tau, (2.0 / 9) / (2.0 / 9 + 1), 1e-12);
+  EXPECT_NEAR(effects.k, 1 / (2.0 / 9 + 1), 1e-12);
+  EXPECT_NEAR(effects.interactions, 0, 1e-12);
+  EXPECT_NEAR(effects.mean_at_tau[0], 1, 1e-12);
+  EXPECT_NEAR(effects.mean_at_tau[2], 2, 1e-12);
+}
+
+TEST(DrillEffects, WhatNoFactorExplainsIsInteraction) {
+  // The sign changes with τ and with k: each mean is the same.
+  const auto all = outcomes([](const Setting& s) {
+    const double tau = s.tau == 25 ? 1 : s.tau == 100 ? -1 : 0;
+    return tau * (s.k > 15 ? 1 : -1);
+  });
+  EXPECT_NEAR(main_effects(all, rmse).interactions, 1, 1e-12);
+}
+
+TEST(DrillEffects, SomeLevelsAloneAndNoVarianceAtAll) {
+  auto all = outcomes([](const Setting& s) { return s.k == 5 ? 100.0 : s.tau; });
+  all.erase(std::remove_if(all.begin(), all.end(), [](const Outcome& o) { return o.setting.k == 5; }),
+            all.end());
+  EXPECT_NEAR(main_effects(all, rmse).tau, 1, 1e-12);
+  const Effects none = main_effects(outcomes([](const Setting&) { return 3.0; }), rmse);
+  EXPECT_EQ(none.tau + none.w + none.k + none.interactions, 0);
+}
+
+TEST(DrillGround, NoiseIsWholeMetresAndItsSeeds) {
+  for (const char* const name : {"noise-ridges", "noise-hills"}) {
+    const TerrainSource one = open_ground(name, 1), again = open_ground(name, 1), two = open_ground(name, 2);
+    ASSERT_TRUE(one.heights);
+    EXPECT_EQ(one.heights->width, 400);
+    for (const float h : one.heights->heights) ASSERT_EQ(h, std::floor(h));
+    EXPECT_EQ(one.checksum, again.checksum);
+    EXPECT_NE(one.checksum, two.checksum);
+  }
+}
+
+}  // namespace
+}  // namespace terrabench::drill

@@ -1,0 +1,84 @@
+#include "terrain/sources/dem/compressed_sizes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/terrain/errors.h"
+
+namespace terrabench {
+namespace {
+
+Heightfield waves(int width, int depth, bool whole) {
+  Heightfield field{width, depth, 30, 30, {}, {}};
+  for (int j = 0; j < depth; ++j) {
+    for (int i = 0; i < width; ++i) {
+      const float h = 300 +
+                      90 * std::sin(0.07F * static_cast<float>(i)) * std::cos(0.05F * static_cast<float>(j)) +
+                      static_cast<float>((i * 7919 + j * 104729) % 13);
+      field.heights.push_back(whole ? std::round(h) : h);
+    }
+  }
+  return field;
+}
+
+TEST(CompressedSizes, WholeMetresAreKeptWithoutLoss) {
+  const Heightfield field = waves(120, 90, true);
+  for (const auto& [codec, setting] : {std::pair{RasterCodec::kZstd, 1.0},
+                                       {RasterCodec::kZstdDifferences, 1.0},
+                                       {RasterCodec::kJpeg2000, 100.0},
+                                       {RasterCodec::kLerc, 0.0}}) {
+    const CompressedSize size = compressed_size(field, codec, setting);
+    EXPECT_EQ(size.rmse, 0) << name(codec);
+    EXPECT_GT(size.bytes, 1000U) << name(codec);
+    EXPECT_LT(size.bytes, field.heights.size() * 5) << name(codec);
+  }
+}
+
+TEST(CompressedSizes, ShrinkAsTheErrorGrowsAndKeepWithinIt) {
+  const Heightfield field = waves(150, 100, false);
+  for (const RasterCodec codec : raster_codecs()) {
+    std::size_t before = field.heights.size() * 5;
+    for (const double rmse : {1.0, 4.0, 15.0}) {
+      const CompressedSize size = compressed_size_at(field, codec, rmse);
+      EXPECT_LE(size.rmse, rmse) << name(codec);
+      EXPECT_LT(size.bytes, before) << name(codec);
+      before = size.bytes;
+      const CompressedSize again = compressed_size(field, codec, size.setting);
+      EXPECT_EQ(again.bytes, size.bytes);
+      EXPECT_EQ(again.rmse, size.rmse);
+    }
+  }
+}
+
+TEST(CompressedSizes, LercKeepsItsPromise) {
+  const Heightfield field = waves(64, 64, false);
+  EXPECT_LE(compressed_size(field, RasterCodec::kLerc, 2).rmse, 2);
+  EXPECT_GT(compressed_size(field, RasterCodec::kLerc, 2).rmse, 0.5);
+}
+
+TEST(CompressedSizes, OfFlatAndTinyFields) {
+  for (const Heightfield& field :
+       {Heightfield{1, 1, 1, 1, {5}, {}}, Heightfield{70, 70, 1, 1, std::vector<float>(4900, -3), {}}}) {
+    for (const RasterCodec codec : raster_codecs()) EXPECT_EQ(compressed_size_at(field, codec, 1).rmse, 0);
+  }
+}
+
+TEST(CompressedSizes, SettingsAndHolesThatCannotBeAreRefused) {
+  Heightfield field = waves(40, 40, false);
+  const auto code = [&](RasterCodec codec, double setting) {
+    return failure_of([&] { compressed_size(field, codec, setting); }).code;
+  };
+  EXPECT_EQ(code(RasterCodec::kZstd, 0), ExitCode::kUsage);
+  EXPECT_EQ(code(RasterCodec::kZstd, -1), ExitCode::kUsage);
+  EXPECT_EQ(code(RasterCodec::kZstdDifferences, 1e-6), ExitCode::kUsage);
+  EXPECT_EQ(code(RasterCodec::kJpeg2000, 0), ExitCode::kUsage);
+  EXPECT_EQ(code(RasterCodec::kJpeg2000, 101), ExitCode::kUsage);
+  EXPECT_EQ(code(RasterCodec::kLerc, -1), ExitCode::kUsage);
+  EXPECT_EQ(code(RasterCodec::kLerc, std::nan("")), ExitCode::kUsage);
+  field.heights[3] = Heightfield::kNoData;
+  for (const RasterCodec codec : raster_codecs()) EXPECT_EQ(code(codec, 1), ExitCode::kBadInput);
+}
+
+}  // namespace
+}  // namespace terrabench
