@@ -161,8 +161,8 @@ Finding judge_range(const Condition& condition, const Summary& s, const std::str
   std::string text = what + " " + format_quantity(s.median, unit);
   if (s.low != s.high) text += fmt::format(" [{}, {}]", format_number(s.low), format_number(s.high));
   const bool holds = s.median >= condition.low && s.median <= condition.high;
-  text += fmt::format(", {} [{}, {}]", holds ? "in" : "not in", format_number(condition.low),
-                      format_number(condition.high));
+  text += fmt::format(", {} [{}, {}]", holds ? "in" : "not in", format_exact(condition.low),
+                      format_exact(condition.high));
   if (!holds) {
     text += " but " + missed_by(s.median, s.median < condition.low ? condition.low : condition.high);
   }

@@ -209,7 +209,13 @@ class Report {
            {row.measured, "", "", ""},
            verdict_cell(row),
            {run.empty() ? "" : short_id(run), "", run.empty() ? "" : "#" + run_anchor(run), ""}});
-      if (!claim.note.empty()) notes.lines.emplace_back(claim.id, claim.note);
+      if (claim.note.empty()) continue;
+      // Rows of one table often share a note.
+      if (!notes.lines.empty() && notes.lines.back().second == claim.note) {
+        notes.lines.back().first += ", " + claim.id;
+      } else {
+        notes.lines.emplace_back(claim.id, claim.note);
+      }
     }
     add_table(std::move(table), {});
     if (notes.lines.empty()) return;

@@ -195,7 +195,8 @@ TEST(RecordLine, RefusesWhatIsNoLine) {
   expect_bad_input(changed("hybrid.table2", "hybrid\\u001b[31m"), "control characters");
   expect_bad_input(changed("\"figures\":[]", "\"figures\":{}"), "'figures' is not a list");
   for (const char* path : {"../secret.png", "/etc/passwd", "figures/../../x.png"}) {
-    const std::string figure = std::string(R"("figures":[{"id":"a","file":")") + path + R"(","caption":"","checksum":""}])";
+    const std::string figure =
+        std::string(R"("figures":[{"id":"a","file":")") + path + R"(","caption":"","checksum":""}])";
     expect_bad_input(changed("\"figures\":[]", figure), "outside the results folder");
   }
   expect_bad_input(std::string(2'000'000, '['), "nested too deeply");
