@@ -13,6 +13,7 @@
 namespace terrabench::noise {
 
 inline constexpr std::uint32_t kMaxLanes = 16;  // of the widest vector used
+inline constexpr std::uint32_t kMaxOctaves = 24;
 // Samples evaluated at a time. A program that can skip takes a share of the column, within limits, so that
 // what it skips is a matter of the terrain and not of the resolution; one that cannot takes as many as the
 // registers hold.

@@ -74,15 +74,14 @@ struct Line {
   VF weight, x, z;
 };
 
-HWY_INLINE void lines(const Axis& x, const Axis& z, std::uint32_t seed, Line (&line)[4]) {
+HWY_INLINE void lines(const Axis& x, const Axis& z, VU seed, Line (&line)[4]) {
   const F f;
   const U u;
   const VU x0 = hn::Mul(hn::BitCast(u, x.cell), hn::Set(u, kLatticeX));
-  const VU z0 = hn::Xor(hn::Mul(hn::BitCast(u, z.cell), hn::Set(u, kLatticeZ)), hn::Set(u, seed));
+  const VU z0 = hn::Xor(hn::Mul(hn::BitCast(u, z.cell), hn::Set(u, kLatticeZ)), seed);
   const VU x1 = hn::Add(x0, hn::Set(u, kLatticeX));
   const VU z1 =
-      hn::Xor(hn::Add(hn::Mul(hn::BitCast(u, z.cell), hn::Set(u, kLatticeZ)), hn::Set(u, kLatticeZ)),
-              hn::Set(u, seed));
+      hn::Xor(hn::Add(hn::Mul(hn::BitCast(u, z.cell), hn::Set(u, kLatticeZ)), hn::Set(u, kLatticeZ)), seed);
   const VF one = hn::Set(f, 1.0F);
   const VF u0 = hn::Sub(one, x.fade), v0 = hn::Sub(one, z.fade);
   line[0].hash = hash_xz(hn::Xor(x0, z0));
@@ -137,7 +136,7 @@ HWY_INLINE VF between(const Axis& y, const Plane& low, const Plane& high) {
   return hn::Mul(hn::Add(n0, hn::Mul(y.fade, hn::Sub(n1, n0))), hn::Set(f, kNormalise));
 }
 
-HWY_INLINE VF gradient_noise(VF px, VF py, VF pz, std::uint32_t seed) {
+HWY_INLINE VF gradient_noise(VF px, VF py, VF pz, VU seed) {
   const U u;
   const Axis x = split(px), y = split(py), z = split(pz);
   Line line[4];
@@ -156,7 +155,7 @@ HWY_INLINE void fill_window(VF px, VF pz, std::uint32_t seed, std::int32_t base,
   const I i;
   const U u;
   Line line[4];
-  lines(split(px), split(pz), seed, line);
+  lines(split(px), split(pz), hn::Set(u, seed), line);
   window.count = (planes + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
   window.base = rising ? base : base + static_cast<std::int32_t>(planes - window.count);
   for (std::uint32_t k = 0; k < window.count; k += static_cast<std::uint32_t>(hn::Lanes(f))) {

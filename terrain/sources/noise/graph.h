@@ -40,7 +40,7 @@ enum class Kind : std::uint8_t {
 struct Fractal {
   std::uint64_t seed = 0;
   float frequency = 1.0F;  // cells a metre of the first octave, finite and > 0
-  int octaves = 6;         // 1 … 24
+  int octaves = 6;         // 1 … 24 (kMaxOctaves)
   float lacunarity = 2.0F;
   float gain = 0.5F;
   bool operator==(const Fractal&) const = default;

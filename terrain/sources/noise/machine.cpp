@@ -88,7 +88,28 @@ HWY_NOINLINE void octave_noise(const Machine& m, const Instruction& in, std::uin
     const VF x = hn::Add(hn::Mul(m.load(in.a, i), frequency), ox);
     const VF y = hn::Add(hn::Mul(m.load(in.b, i), frequency), oy);
     const VF z = hn::Add(hn::Mul(m.load(in.c, i), frequency), oz);
-    hn::Store(gradient_noise(x, y, z, octave.seed), f, out + i);
+    hn::Store(gradient_noise(x, y, z, hn::Set(U(), octave.seed)), f, out + i);
+  }
+}
+
+// Noise of all octaves of a fractal that is constant along the column, one octave a lane instead of one value
+// in all.
+HWY_NOINLINE void constant_octaves(const Machine& m, const Instruction& in, float* HWY_RESTRICT out) {
+  const F f;
+  const auto lanes = static_cast<std::uint32_t>(hn::Lanes(f));
+  alignas(64) float x[kMaxLanes], y[kMaxLanes], z[kMaxLanes];
+  alignas(64) std::uint32_t seed[kMaxLanes];
+  for (std::uint32_t first = 0; first < in.count; first += lanes) {
+    for (std::uint32_t i = 0; i < lanes; ++i) {
+      const std::uint32_t k = first + i < in.count ? first + i : in.count - 1;
+      const Octave& octave = m.code.octaves[in.first + k];
+      x[i] = m.scratch[in.a.offset] * octave.frequency + octave.offset_x;
+      y[i] = m.scratch[in.b.offset] * octave.frequency + octave.offset_y;
+      z[i] = m.scratch[in.c.offset] * octave.frequency + octave.offset_z;
+      seed[i] = octave.seed;
+    }
+    hn::Store(gradient_noise(hn::Load(f, x), hn::Load(f, y), hn::Load(f, z), hn::Load(U(), seed)), f,
+              out + first);
   }
 }
 
@@ -113,10 +134,17 @@ HWY_INLINE void accumulate(Op op, bool first, float weight, std::uint32_t n, con
 
 HWY_NOINLINE void fractal(const Machine& m, const Instruction& in) {
   alignas(64) float noise[kBatch], feedback[kBatch];
-  const std::uint32_t n = in.out.mask == 0 ? kMaxLanes : m.count;
+  const bool constant = in.out.mask == 0;
+  const std::uint32_t n = constant ? kMaxLanes : m.count;
   float* const out = m.scratch + in.out.offset;
+  alignas(64) float octaves[kMaxOctaves + kMaxLanes];
+  if (constant) constant_octaves(m, in, octaves);
   for (std::uint32_t k = 0; k < in.count; ++k) {
-    octave_noise(m, in, k, n, noise);
+    if (constant) {
+      for (std::uint32_t i = 0; i < n; ++i) noise[i] = octaves[k];
+    } else {
+      octave_noise(m, in, k, n, noise);
+    }
     accumulate(in.op, k == 0, m.code.octaves[in.first + k].weight, n, noise, feedback, out);
   }
 }
