@@ -185,7 +185,7 @@ TEST_F(CheckTest, WholeRunsPassInBothProfiles) {
   for (const char* profile : {"quick", "paper"}) {
     std::filesystem::remove(file());
     write_fake_results(folder_, profile);
-    const CheckReport report = check(folder_);
+    const CheckReport report = check(Store::open(folder_), faked_papers());
     EXPECT_TRUE(report.passed()) << check_text(report, false);
     EXPECT_EQ(report.profile, profile);
     EXPECT_EQ(row(report, "hybrid.T1.128").verdict, Verdict::kReproduced);
@@ -262,7 +262,7 @@ TEST_F(CheckTest, EmptyOrGarbledFolderIsBadInput) {
 
 TEST_F(CheckTest, TextIsColouredOnATerminalOnly) {
   write_fake_results(folder_, "quick");
-  const CheckReport report = check(folder_);
+  const CheckReport report = check(Store::open(folder_), faked_papers());
   EXPECT_THAT(check_text(report, false), Not(HasSubstr("\x1b[")));
   EXPECT_THAT(check_text(report, true), HasSubstr("\x1b[32mreproduced"));
   EXPECT_THAT(check_text(report, false), HasSubstr("PASS"));
@@ -271,7 +271,7 @@ TEST_F(CheckTest, TextIsColouredOnATerminalOnly) {
 TEST_F(CheckTest, JsonAndJunitHoldEveryRow) {
   write_fake_results(folder_, "quick");
   edit(file(), "\"overhang_columns\",\"samples\":[0.0]", "\"overhang_columns\",\"samples\":[5.0]");
-  const CheckReport report = check(folder_);
+  const CheckReport report = check(Store::open(folder_), faked_papers());
   const auto json = nlohmann::json::parse(check_json(report));
   EXPECT_EQ(json["passed"], false);
   EXPECT_EQ(json["rows"].size(), report.rows.size());

@@ -90,7 +90,10 @@ TEST(Claims, EveryRowOfTheLedgerIsThere) {
   figures("ght", {1, 5, 6, 7, 8, 9, 10, 13, 15, 17, 18, 19, 20, 21, 22, 23, 24});
   figures("drill", {1, 2, 3, 4});
   figures("mrbsp", {1, 2});
-  for (const std::string& id : expected) EXPECT_TRUE(ids.contains(id)) << id;
+  // A row with several figures may be split: drill.error into drill.error.rmse and drill.error.ahd.
+  for (const std::string& id : expected) {
+    EXPECT_TRUE(ids.contains(id) || ids.lower_bound(id + ".") != ids.lower_bound(id + "/")) << id;
+  }
   EXPECT_EQ(papers().size(), 6U);
   EXPECT_EQ(papers()[0].id, "hybrid");
 }

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <span>
 #include <string>
 
+#include "results/claims.h"
 #include "results/record.h"
 #include "results/store.h"
 #include "terrain/files.h"
@@ -27,6 +29,9 @@ Provenance fake_provenance();
 Record fake_record(const Provenance&, std::string experiment, std::string case_name,
                    std::string profile = "quick");
 void add(Record&, std::string metric, std::string unit, std::vector<double> samples);
+
+// The papers that write_fake_results() measures.
+std::span<const Paper> faked_papers();
 
 // All that the hybrid experiments measure in this profile, figures included, every known verdict met.
 void write_fake_results(const std::filesystem::path& folder, const std::string& profile);
