@@ -79,7 +79,13 @@ class ProfileChart {
   template <class LevelOf>
   void curve(const LevelOf& level, Rgb colour, double thickness, double opacity) {
     std::vector<SheetPoint> points;
-    for (int i = 0; i <= static_cast<int>(reach_); ++i) points.push_back(at(i, level(i)));
+    for (int i = 0; i <= static_cast<int>(reach_); ++i) {
+      if (level(i) > high_) {  // a fitted curve may leave the chart: it ends at the upper border
+        if (i > 0) points.push_back(at(i - (level(i) - high_) / (level(i) - level(i - 1)), high_));
+        break;
+      }
+      points.push_back(at(i, level(i)));
+    }
     sheet_.line(points, colour, thickness, opacity);
   }
 
