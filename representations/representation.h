@@ -87,7 +87,8 @@ class Representation {
   virtual Bounds bounds() const = 0;
 };
 
-// Heap bytes that the structure holds by the allocator's count: what destroying it gives back. Nothing else may run.
+// Heap bytes that the structure holds by the allocator's count: what destroying it gives back. Nothing else
+// may run.
 std::int64_t destroy_and_count(std::unique_ptr<Representation>);
 
 struct Traits {

@@ -1,7 +1,6 @@
-// Drives a libFuzzer target without libFuzzer: `NAME [--runs N] [--seed S] [FILE …]`. Runs each given file as it is, then
-// the target's own seeds, then N mutations of them (bits, bytes, numbers at their limits, cuts, splices). Deterministic.
-#include "tests/fuzz/fuzz.h"
-
+// Drives a libFuzzer target without libFuzzer: `NAME [--runs N] [--seed S] [FILE …]`. Runs each given file as
+// it is, then the target's own seeds, then N mutations of them (bits, bytes, numbers at their limits, cuts,
+// splices). Deterministic.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -9,6 +8,7 @@
 #include <string_view>
 
 #include "terrain/files.h"
+#include "tests/fuzz/fuzz.h"
 
 namespace {
 
@@ -25,7 +25,8 @@ void mutate(Input& input, const std::vector<Input>& seeds, std::mt19937_64& rand
       if (!input.empty()) input[at] = static_cast<std::uint8_t>(random());
       break;
     case 2:  // four bytes at a limit
-      for (std::size_t i = at; i < std::min(at + 4, input.size()); ++i) input[i] = random() % 2 == 0 ? 0xFF : 0x00;
+      for (std::size_t i = at; i < std::min(at + 4, input.size()); ++i)
+        input[i] = random() % 2 == 0 ? 0xFF : 0x00;
       break;
     case 3:  // cut the end
       input.resize(at);
