@@ -32,7 +32,28 @@ class FieldSource : public HeightSource {
   const Heightfield& field_;
 };
 
+class PyramidSource : public HeightSource {
+ public:
+  explicit PyramidSource(std::unique_ptr<HeightPyramid> pyramid) : pyramid_(std::move(pyramid)) {}
+  int width() const override { return pyramid_->width(); }
+  int depth() const override { return pyramid_->depth(); }
+  float cell_x() const override { return pyramid_->cell_x(); }
+  float cell_z() const override { return pyramid_->cell_z(); }
+  std::size_t bytes() const override { return heap_bytes(this) + pyramid_->bytes(); }
+
+  void read(int level, int a, int b, int columns, int rows, float* out, int stride) override {
+    pyramid_->read(level, a, b, columns, rows, out, stride);
+  }
+
+ private:
+  std::unique_ptr<HeightPyramid> pyramid_;
+};
+
 }  // namespace
+
+std::unique_ptr<HeightSource> heights_on_disk(std::unique_ptr<HeightPyramid> pyramid) {
+  return std::make_unique<PyramidSource>(std::move(pyramid));
+}
 
 std::unique_ptr<HeightSource> heights_in_memory(const Heightfield& field) {
   return std::make_unique<FieldSource>(field);

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "terrain/heightfield.h"
+#include "terrain/sources/dem/height_pyramid.h"
 
 namespace terrabench {
 
@@ -26,5 +27,6 @@ class HeightSource {
 
 // The field must outlive it.
 std::unique_ptr<HeightSource> heights_in_memory(const Heightfield&);
+std::unique_ptr<HeightSource> heights_on_disk(std::unique_ptr<HeightPyramid>);
 
 }  // namespace terrabench
