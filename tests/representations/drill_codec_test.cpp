@@ -6,6 +6,7 @@
 #include "representations/drill/pits.h"
 #include "representations/drill/range_coder.h"
 #include "representations/drill/regenerate.h"
+#include "terrain/memory.h"
 #include "tests/representations/drill_ground.h"
 #include "tests/terrain/errors.h"
 
@@ -214,6 +215,29 @@ TEST(DrillCodec, CutBytesAreRefusedAndAlteredOnesNeverCrash) {
     }
   }
   EXPECT_GT(refused, 1000U);
+}
+
+// A few bytes can stand for millions of drills, and whoever damages a file may claim the largest terrain.
+TEST(DrillCodec, AlteredBytesOfTheLargestTerrainTakeLittleMemory) {
+  ByteSink head;
+  for (const int size : {1 << 14, 1 << 14}) head.put(size);
+  for (const float metres : {30.0F, 30.0F, 1000.0F, 1.0F}) head.put(metres);
+  for (const int small : {10, 10, 0, 0}) head.put(static_cast<std::uint8_t>(small));
+  head.put(std::uint64_t{1} << 16);
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    std::mt19937 random(seed);
+    std::vector<std::byte> bytes(head.bytes().begin(), head.bytes().end());
+    bytes.resize(bytes.size() + (std::size_t{1} << 16));
+    // No holes, one outlet or several: leading zeros are small numbers.
+    for (std::size_t i = head.bytes().size() + 1 + seed % 3; i < bytes.size(); ++i) {
+      bytes[i] = std::byte(random());
+    }
+    ByteSource source(bytes, "memory");
+    HeapCounter::reset_peak();
+    const std::int64_t before = HeapCounter::live();
+    EXPECT_EQ(failure_of([&] { decode_drills(source); }).code, ExitCode::kBadInput) << seed;
+    EXPECT_LT(HeapCounter::peak() - before, 48 << 20) << seed;
+  }
 }
 
 TEST(DrillCodec, MeasuresThatCannotBeAreRefused) {

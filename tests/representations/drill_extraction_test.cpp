@@ -266,6 +266,10 @@ TEST(Extraction, RefusesOptionsThatMakeNoSense) {
   EXPECT_TRUE(fails([](DrillOptions& o) { o.w = 21; }));
   EXPECT_TRUE(fails([](DrillOptions& o) { o.k = -1; }));
   EXPECT_TRUE(fails([](DrillOptions& o) { o.k = 256; }));
+  DrillOptions longest;
+  longest.w = 255;
+  check_options(longest, 8000000, 2);
+  EXPECT_EQ(failure_of([&] { check_options(longest, 1 << 24, 2); }).code, ExitCode::kUsage);
   DrillOptions widest;
   widest.w = 20;
   EXPECT_GT(extract_drills(field, network, widest).count(), 0U);
