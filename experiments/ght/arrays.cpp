@@ -44,9 +44,9 @@ void draw_grid(Sheet& sheet, const ArrayPlace& array) {
   }
 }
 
-// A stroke as wide as the radius, along a circle of half of it, fills the disc.
+// A wide stroke along a circle of about half the radius fills the disc, its centre included.
 void draw_dot(Sheet& sheet, SheetPoint centre, double radius, Rgb colour) {
-  circle(sheet, centre, radius / 2, colour, radius);
+  circle(sheet, centre, 0.45 * radius, colour, 1.1 * radius);
 }
 
 void draw_ring(Sheet& sheet, SheetPoint centre, double radius, Rgb colour, double thickness) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/ght/arrays.h"
@@ -25,6 +27,10 @@ constexpr double kMargin = 28, kLabel = 26;
 
 void label(Sheet& sheet, double x, double y, std::string_view words) {
   sheet.text(x, y, words, 15, "middle");
+}
+
+std::string height_text(float metres) {
+  return fmt::format("{}{:.1f} m", metres < 0 ? "−" : "", std::abs(metres));
 }
 
 bool is_set(const Heightfield& field, int i, int j) { return !Heightfield::is_no_data(field.at(i, j)); }
@@ -74,15 +80,18 @@ void draw_midpoints(std::uint64_t seed, Recorder& recorder) {
   constexpr double kWidth = 300, kHeight = 150;
   Sheet sheet(static_cast<int>(3 * kWidth + 4 * kMargin),
               static_cast<int>(2 * (kHeight + kLabel) + 3 * kMargin));
+  float most = 0;  // of all panels, the last one has the highest and the lowest point
+  for (const float h : fractal::midpoint_displacement({.seed = seed, .levels = kLevels.back()})) {
+    most = std::max(most, std::abs(h));
+  }
   for (std::size_t panel = 0; panel < kLevels.size(); ++panel) {
     const int levels = kLevels[panel];
     const double x0 = kMargin + static_cast<double>(panel % 3) * (kWidth + kMargin);
     const double y0 = kMargin + static_cast<double>(panel / 3) * (kHeight + kLabel + kMargin);
     const std::vector<float> heights = fractal::midpoint_displacement({.seed = seed, .levels = levels});
     const auto place = [&](std::size_t i) {
-      // One metre of height, the most that the first middle moves, is 45 units.
       return SheetPoint{x0 + kWidth * static_cast<double>(i) / static_cast<double>(heights.size() - 1),
-                        y0 + kHeight / 2 - 45 * heights[i]};
+                        y0 + kHeight / 2 * (1 - heights[i] / most)};
     };
     std::vector<SheetPoint> points;
     for (std::size_t i = 0; i < heights.size(); ++i) points.push_back(place(i));
@@ -90,7 +99,8 @@ void draw_midpoints(std::uint64_t seed, Recorder& recorder) {
     sheet.line(points, kInk, levels < 6 ? 2 : 1.2);
     if (levels < 6) {
       for (std::size_t i = 0; i < points.size(); ++i) {
-        draw_dot(sheet, points[i], i % 2 == 1 ? 4.5 : 3, i % 2 == 1 ? kAccent : kInk);
+        const bool fresh = levels > 0 && i % 2 == 1;
+        draw_dot(sheet, points[i], fresh ? 4.5 : 3, fresh ? kAccent : kInk);
       }
     }
     label(sheet, x0 + kWidth / 2, y0 + kHeight + 18,
@@ -180,7 +190,7 @@ void draw_straddling_diamond(std::uint64_t seed, Recorder& recorder) {
     const SheetPoint at = array.at(border, 1);
     draw_ring(sheet, at, 8, kInk, 2.5);
     const bool west = border == 0;
-    sheet.text(at.x + (west ? -16 : 16), at.y + 5, fmt::format("{:.1f} m", field.at(border, 1)), 15,
+    sheet.text(at.x + (west ? -16 : 16), at.y + 5, height_text(field.at(border, 1)), 15,
                west ? "end" : "start");
   }
   sheet.write(recorder.figure(
@@ -219,7 +229,7 @@ void draw_first_fault(std::uint64_t seed, Recorder& recorder) {
   }
   if (ends.size() >= 2) stroke(sheet, ends[0], ends[1], kInk, 2.5);
   label(sheet, array.at((kSide - 1) / 2.0, 0).x, array.at(0, kSide - 1).y + 2 * kMargin,
-        "× height decreased    ✱ height increased");
+        "× height decreased,  ✱ height increased");
   sheet.write(
       recorder.figure("ght.F8", "png",
                       "Figure 8 of the paper: the first fault divides the height field; points on its one "

@@ -94,7 +94,8 @@ void draw_diamond_square_terrains(GlContext& context, std::uint64_t seed, Record
     const double x = kMargin + (n - 1) % 3 * (kWide + kMargin);
     const double y = kMargin + (n - 1) / 3 * (kHigh + kLabel + kMargin);
     sheet.picture(x, y, kWide, kHigh, wire_view(context, field, kWide, kHigh, n < 5 ? 2 : 1.2F));
-    sheet.text(x + kWide / 2, y + kHigh + 20, fmt::format("{} × {} points", side, side), 15, "middle");
+    sheet.text(x + kWide / 2, y + kHigh + 20,
+               fmt::format("{} iteration{}: {} × {}", n, n == 1 ? "" : "s", side, side), 15, "middle");
   }
   sheet.write(recorder.figure(
       "ght.F7", "png", "Figure 7 of the paper: one terrain after 1 to 6 iterations of diamond-square"));
