@@ -49,10 +49,21 @@ void sort(std::vector<Side>& sides) {
   });
 }
 
-bool faces(const TriangleMesh& mesh, std::size_t triangle, const glm::vec3& eye) {
-  const std::uint32_t* const v = mesh.indices.data() + 3 * triangle;
-  const glm::vec3 &a = mesh.positions[v[0]], &b = mesh.positions[v[1]], &c = mesh.positions[v[2]];
-  return glm::dot(glm::cross(b - a, c - a), eye - a) > 0;
+// The surface turns away from the eye at the edge of the two sides: one triangle faces the eye, and the
+// other, which does not, lies behind its plane. (Where it lies before it, the fold is hollow and no outline.)
+bool is_outline(const TriangleMesh& mesh, const Side& first, const Side& second, const glm::vec3& eye) {
+  const auto corner = [&](const Side& side, int k) -> const glm::vec3& {
+    return mesh
+        .positions[mesh.indices[3 * std::size_t{side.triangle} + static_cast<std::size_t>((side.k + k) % 3)]];
+  };
+  const auto normal = [&](const Side& side) {
+    return glm::cross(corner(side, 1) - corner(side, 0), corner(side, 2) - corner(side, 0));
+  };
+  const auto faces = [&](const Side& side) { return glm::dot(normal(side), eye - corner(side, 0)) > 0; };
+  if (faces(first) == faces(second)) return false;
+  const Side& front = faces(first) ? first : second;
+  const Side& back = faces(first) ? second : first;
+  return glm::dot(normal(front), corner(back, 2) - corner(front, 0)) < 0;
 }
 
 }  // namespace
@@ -93,8 +104,7 @@ std::vector<std::uint8_t> with_outlines(const TriangleMesh& mesh, std::vector<st
     while (next < sides.size() && sides[next].edge == sides[i].edge) ++next;
     if (next - i == 1) {
       mark(sides[i], kOutlineBit);
-    } else if (next - i == 2 &&
-               faces(mesh, sides[i].triangle, eye) != faces(mesh, sides[i + 1].triangle, eye)) {
+    } else if (next - i == 2 && is_outline(mesh, sides[i], sides[i + 1], eye)) {
       mark(sides[i], kOutlineBit | 1U);
       mark(sides[i + 1], kOutlineBit | 1U);
     }

@@ -9,8 +9,8 @@ namespace terrabench {
 // one side only and is drawn in its full width there.
 inline constexpr unsigned kOutlineBit = 1U << 3;
 
-// Marks outlines: open borders, where they are wires, and edges between a triangle that faces the eye and one
-// that does not, which become wires if they were none. Empty `wires` stand for all edges. O(triangles log
+// Marks outlines: open borders, where they are wires, and edges at which the surface turns away from the
+// eye, which become wires if they were none. Empty `wires` stand for all edges. O(triangles log
 // triangles).
 std::vector<std::uint8_t> with_outlines(const TriangleMesh&, std::vector<std::uint8_t> wires,
                                         const glm::vec3& eye);

@@ -103,7 +103,7 @@ void draw_midpoints(std::uint64_t seed, Recorder& recorder) {
         draw_dot(sheet, points[i], fresh ? 4.5 : 3, fresh ? kAccent : kInk);
       }
     }
-    label(sheet, x0 + kWidth / 2, y0 + kHeight + 18,
+    label(sheet, x0 + kWidth / 2, y0 + kHeight + 26,
           levels == 0 ? "start" : fmt::format("{} step{}", levels, levels == 1 ? "" : "s"));
   }
   sheet.write(recorder.figure("ght.F3", "png",
