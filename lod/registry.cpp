@@ -1,6 +1,7 @@
 #include <vector>
 
 #include "lod/brute_force/brute_force.h"
+#include "lod/clipmap/clipmap.h"
 #include "lod/lod.h"
 #include "terrain/error.h"
 
@@ -15,6 +16,13 @@ std::span<const LodType> lods() {
        BruteForce::knob(),
        {},
        BruteForce::build},
+      {"clipmap",
+       "nested windows of samples around the eye, each twice as coarse as the one inside",
+       "hybrid §3.2",
+       {},
+       Clipmap::knob(),
+       {},
+       Clipmap::build},
   };
   return kTypes;
 }
