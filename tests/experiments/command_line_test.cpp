@@ -147,6 +147,20 @@ TEST_F(CommandLine, ResumeSkipsWhatIsThere) {
   EXPECT_THAT(second.text, Not(HasSubstr("noise-stages F3 ")));
 }
 
+TEST_F(CommandLine, TwoProfilesInOneFolderKeepTheirPictures) {
+  const std::string run = "$T run hybrid.noise-stages --set pixels=16 --shard 1/4 --out out --profile ";
+  ASSERT_EQ(call(run + "quick").code, 0);
+  const auto pictures = [&] {
+    const fs::directory_iterator all(folder_ / "out/figures");
+    return std::distance(begin(all), end(all));
+  };
+  const auto quick = pictures();
+  ASSERT_EQ(call(run + "paper").code, 0);
+  EXPECT_EQ(pictures(), 2 * quick);
+  ASSERT_EQ(call("$T report out").code, 0);
+  EXPECT_THAT(call("ls out/report/figures").text, HasSubstr(".paper"));
+}
+
 TEST_F(CommandLine, TheSameSeedGivesTheSamePicturesOnAnyThreadCount) {
   ASSERT_EQ(call("$T run 'hybrid.noise*' --set pixels=64 --threads 1 --out one").code, 0);
   ASSERT_EQ(call("$T run 'hybrid.noise*' --set pixels=64 --out all").code, 0);
