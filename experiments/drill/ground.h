@@ -19,6 +19,11 @@ inline constexpr std::string_view kMainGround = "jacksboro-400";
 // 400 whole metres from noise. Any other name is opened as a terrain.
 TerrainSource open_ground(std::string_view name, std::uint64_t seed);
 
+// The ground of noise-hills from its north-western corner on, as large as wanted: size × size samples, not
+// rounded. O(samples), parallel.
+Heightfield noise_hills(int size, std::uint64_t seed);
+Heightfield whole_metres(Heightfield);  // rounded, as elevation models have it
+
 // Those that the options name; otherwise the main ground, and in the paper profile the other three too.
 std::vector<std::string> grounds(const RunOptions& options);
 

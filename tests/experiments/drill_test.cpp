@@ -1,3 +1,5 @@
+#include "experiments/drill/drill.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -74,6 +76,23 @@ TEST(DrillGround, NoiseIsWholeMetresAndItsSeeds) {
     EXPECT_EQ(one.checksum, again.checksum);
     EXPECT_NE(one.checksum, two.checksum);
   }
+}
+
+TEST(DrillGround, LargerHillsContinueSmallerOnes) {
+  const Heightfield small = noise_hills(96, 7), large = noise_hills(150, 7);
+  for (int j = 0; j < 96; ++j) {
+    for (int i = 0; i < 96; ++i) ASSERT_EQ(small.at(i, j), large.at(i, j)) << i << " " << j;
+  }
+  EXPECT_EQ(open_ground("noise-hills", 7).heights->heights, whole_metres(noise_hills(400, 7)).heights);
+}
+
+TEST(DrillGrowth, DoublesTheSideUpToTheProfilesLargest) {
+  RunOptions options;
+  EXPECT_EQ(growth_cases(options).back().name, "n=1024");
+  options.profile = Profile::kPaper;
+  const std::vector<Case> cases = growth_cases(options);
+  EXPECT_EQ(cases.size(), 6U);
+  EXPECT_EQ(cases.back().parameters.integer("n"), 8192);
 }
 
 }  // namespace
