@@ -90,12 +90,13 @@ std::vector<std::string> grounds(const RunOptions& options) {
   return names;
 }
 
-std::string file_name(std::string_view ground) {
+std::string figure_suffix(std::string_view ground) {
+  if (ground == kMainGround) return "";
   std::string name(ground.substr(ground.find_last_of('/') + 1));
   for (char& c : name) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
   }
-  return name;
+  return "." + name;
 }
 
 }  // namespace terrabench::drill

@@ -27,7 +27,7 @@ Heightfield whole_metres(Heightfield);  // rounded, as elevation models have it
 // Those that the options name; otherwise the main ground, and in the paper profile the other three too.
 std::vector<std::string> grounds(const RunOptions& options);
 
-// A ground's name as part of a file's name.
-std::string file_name(std::string_view ground);
+// What goes behind the ids of a ground's figures: nothing for the main one, whose figures are the paper's.
+std::string figure_suffix(std::string_view ground);
 
 }  // namespace terrabench::drill

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "experiments/drill/colours.h"
 #include "experiments/drill/factorial.h"
 #include "experiments/drill/ground.h"
 
@@ -93,6 +95,63 @@ TEST(DrillGrowth, DoublesTheSideUpToTheProfilesLargest) {
   const std::vector<Case> cases = growth_cases(options);
   EXPECT_EQ(cases.size(), 6U);
   EXPECT_EQ(cases.back().parameters.integer("n"), 8192);
+}
+
+// Relative luminance (WCAG 2) as seen with all cones, and without the red or the green ones (Viénot, Brettel
+// & Mollon 1999, in linear RGB).
+enum class Eyes { kAll, kProtan, kDeutan };
+
+double luminance(const Rgb& colour, Eyes eyes) {
+  double c[3];
+  for (int i = 0; i < 3; ++i) {
+    const double v = colour[i] / 255.0;
+    c[i] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+  }
+  if (eyes != Eyes::kAll) {
+    const double red_green =
+        eyes == Eyes::kProtan ? 0.11238 * c[0] + 0.88762 * c[1] : 0.29275 * c[0] + 0.70725 * c[1];
+    const double blue =
+        eyes == Eyes::kProtan ? 0.00401 * (c[0] - c[1]) + c[2] : -0.02234 * (c[0] - c[1]) + c[2];
+    c[0] = c[1] = red_green;
+    c[2] = blue;
+  }
+  return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+}
+
+TEST(DrillColours, ChannelsStandOutOnEveryElevationForAllEyes) {
+  for (const Eyes eyes : {Eyes::kAll, Eyes::kProtan, Eyes::kDeutan}) {
+    for (double t = 0; t <= 1; t += 0.05) {
+      const double ground = luminance(elevation_colour(t), eyes), water = luminance(kChannel, eyes);
+      EXPECT_GE((ground + 0.05) / (water + 0.05), 2.5) << t;  // thin lines in full light
+    }
+  }
+}
+
+TEST(DrillColours, ErrorsGrowDarkerOrRedderAndInkIsLegible) {
+  for (double t = 0; t <= 1; t += 0.02) {
+    const Rgb colour = error_colour(t);
+    const double paper = luminance(colour, Eyes::kAll), ink = luminance(ink_on(colour), Eyes::kAll);
+    EXPECT_GE((std::max(paper, ink) + 0.05) / (std::min(paper, ink) + 0.05), 4.5) << t;
+  }
+  EXPECT_EQ(difference_colour(0.5), (Rgb{250, 250, 250}));
+  EXPECT_EQ(direction_colour(0), direction_colour(1));
+}
+
+TEST(DrillColours, LightIsEvenOnFlatGroundAndComesFromTheNorthWest) {
+  Heightfield field;
+  field.width = field.depth = 5;
+  field.heights.assign(25, 7.0F);
+  const Light flat(field);
+  for (int j = 0; j < 5; ++j) {
+    for (int i = 0; i < 5; ++i) EXPECT_NEAR(flat.at(i, j), std::sqrt(0.5), 1e-3);
+  }
+  for (int j = 0; j < 5; ++j) {
+    for (int i = 0; i < 5; ++i) field.at(i, j) = static_cast<float>(i + j);  // faces north-west
+  }
+  const Light slope(field);
+  EXPECT_GT(slope.at(2, 2), std::sqrt(0.5) + 0.1);
+  for (float& h : field.heights) h = -h;
+  EXPECT_LT(Light(field).at(2, 2), std::sqrt(0.5) - 0.1);
 }
 
 }  // namespace
