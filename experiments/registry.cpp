@@ -30,6 +30,8 @@ const std::array kExperiments{
                drill::kGroundParameters, drill::ground_cases, drill::measure_effects},
     Experiment{"drill.time", "drill", "§3.1: time against channel pixels", drill::kGroundParameters,
                drill::ground_cases, drill::measure_time},
+    Experiment{"drill.growth", "drill", "§3.1: time against the size of the ground", drill::kGrowthParameters,
+               drill::growth_cases, drill::measure_growth},
     Experiment{"drill.size", "drill", "§4.1: values and bytes", drill::kGroundParameters, drill::ground_cases,
                drill::measure_size},
     Experiment{"drill.promises", "drill", "§2.3 and §4: order of drills, pits", drill::kGroundParameters,
