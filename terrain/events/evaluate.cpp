@@ -308,16 +308,17 @@ double Evaluation::mouth(const Carving& carving, std::size_t event, double from,
 
 void Evaluation::carve(const Carving& carving, std::size_t event) {
   const Line line = carving.line();
-  const int steps = 1 + static_cast<int>(2 * line.length / cell_);
-  for (int s = 0; s <= steps; ++s) {
-    const double u = line.length * s / steps;
-    if (cover(carving, line, u, event) == Cover::kGround) continue;
-    const bool starts = s == 0, ends = s == steps;
-    throw EventError(sculpture_->events[event], event + 1,
-                     starts ? "starts in the air: not all of the section at 'from' is underground"
-                     : ends ? "ends in the air: not all of the section at 'to' is underground"
-                            : fmt::format("leaves the ground {:.6g} m from 'from'", u),
+  const auto require = [&](double u, std::string_view what) {
+    if (cover(carving, line, u, event) == Cover::kGround) return;
+    throw EventError(sculpture_->events[event], event + 1, what,
                      "move 'from' and 'to' deeper into the ground, or take a smaller section");
+  };
+  require(0, "starts in the air: not all of the section at 'from' is underground");
+  require(line.length, "ends in the air: not all of the section at 'to' is underground");
+  const int steps = 1 + static_cast<int>(2 * line.length / cell_);
+  for (int s = 1; s < steps; ++s) {
+    const double u = line.length * s / steps;
+    require(u, fmt::format("leaves the ground {:.6g} m from 'from'", u));
   }
   Prism prism{&carving, line, mouth(carving, event, 0, -cell_ / 2), line.length, {}};
   if (!carving.cave) prism.high = mouth(carving, event, line.length, cell_ / 2);

@@ -79,8 +79,9 @@ struct RadialErosion {
 //   left:   d' = d + σ·(o/2)·(1 - d/extent)      y' = h + (rise/2)·(1 - d/extent)
 //   right:  d' = d - σ·(o/2)·(1 - |d|/extent)    y' = h - (rise/2)·(1 - |d|/extent)
 // The scarp runs straight between the lips at equal u. That of a normal fault is an open slope; over that of
-// an inverse fault hangs the left block, with air between scarp and right block where there is any. At u = 0
-// and u = L the blocks end in cliffs.
+// an inverse fault hangs the left block, with air between scarp and right block where there is any: solid is
+// where the sheet's crossings above add up to more than 0, each +1 where it faces up, -1 where it faces down.
+// At u = 0 and u = L the blocks end in cliffs.
 struct DipFault {
   bool inverse = false;
   glm::dvec2 from{0}, to{0};  // plan
