@@ -274,8 +274,11 @@ void validate(const Event& event, glm::dvec2 extent, std::size_t number) {
   }
 }
 
+std::string where(const Event& event, std::size_t number) {
+  return fmt::format("event {} ({})", number, name(kind(event)));
+}
+
 EventError::EventError(const Event& event, std::size_t number, std::string_view what, std::string_view advice)
-    : Error(bad_input(what, fmt::format("event {} ({})", number, name(kind(event))), advice)),
-      number_(number) {}
+    : Error(bad_input(what, where(event, number), advice)), number_(number) {}
 
 }  // namespace terrabench::events

@@ -172,7 +172,10 @@ PlanBox source_box(const Event&);
 // ground: whoever carves asks that.
 void validate(const Event&, glm::dvec2 extent, std::size_t number);
 
-// bad_input about an event; it says where by "event 3 (tunnel)".
+// "event 3 (tunnel)": the `where` of errors about an event.
+std::string where(const Event&, std::size_t number);
+
+// bad_input about an event that knows its number.
 class EventError : public Error {
  public:
   EventError(const Event& event, std::size_t number, std::string_view what, std::string_view advice);
