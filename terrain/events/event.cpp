@@ -4,14 +4,11 @@
 
 #include <algorithm>
 
-#include "terrain/error.h"
-
 namespace terrabench::events {
 namespace {
 
 // Beyond this, products of lengths lose the metre.
 constexpr double kFarthest = 1e9;
-constexpr std::size_t kMostCorners = 64;
 // Walls bulge by at most this share of the shortest side, which keeps neighbouring walls apart.
 constexpr double kRoughestShare = 1.0 / 16;
 // A bulge is this many times as wide as high.
@@ -29,7 +26,7 @@ class Checks {
   Checks(const Event& event, std::size_t number) : event_(event), number_(number) {}
 
   [[noreturn]] void refuse(std::string_view what, std::string_view advice) const {
-    throw bad_input(what, where(event_, number_), advice);
+    throw EventError(event_, number_, what, advice);
   }
   void finite(double value, std::string_view field) const {
     if (!(std::abs(value) <= kFarthest)) {
@@ -280,5 +277,8 @@ void validate(const Event& event, glm::dvec2 extent, std::size_t number) {
 std::string where(const Event& event, std::size_t number) {
   return fmt::format("event {} ({})", number, name(kind(event)));
 }
+
+EventError::EventError(const Event& event, std::size_t number, std::string_view what, std::string_view advice)
+    : Error(bad_input(what, where(event, number), advice)), number_(number) {}
 
 }  // namespace terrabench::events

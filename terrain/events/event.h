@@ -21,6 +21,7 @@
 #include <variant>
 #include <vector>
 
+#include "terrain/error.h"
 #include "terrain/heightfield.h"
 
 namespace terrabench::events {
@@ -78,8 +79,9 @@ struct RadialErosion {
 //   left:   d' = d + σ·(o/2)·(1 - d/extent)      y' = h + (rise/2)·(1 - d/extent)
 //   right:  d' = d - σ·(o/2)·(1 - |d|/extent)    y' = h - (rise/2)·(1 - |d|/extent)
 // The scarp runs straight between the lips at equal u. That of a normal fault is an open slope; over that of
-// an inverse fault hangs the left block, with air between scarp and right block where there is any. At u = 0
-// and u = L the blocks end in cliffs.
+// an inverse fault hangs the left block, with air between scarp and right block where there is any: solid is
+// where the sheet's crossings above add up to more than 0, each +1 where it faces up, -1 where it faces down.
+// At u = 0 and u = L the blocks end in cliffs.
 struct DipFault {
   bool inverse = false;
   glm::dvec2 from{0}, to{0};  // plan
@@ -130,6 +132,8 @@ struct Carving {
   glm::dvec2 wall(std::size_t side, double u, double across) const;
 };
 
+inline constexpr std::size_t kMostCorners = 64;  // of a section
+
 using Event = std::variant<LinearErosion, RadialErosion, DipFault, LateralFault, Carving>;
 
 enum class Kind : std::uint8_t {
@@ -161,15 +165,25 @@ PlanBox plan_box(const Event&);  // around the outline
 // half the slip beyond the ends.
 PlanBox source_box(const Event&);
 
-// Throws bad_input, naming the event by its number (counted from 1), the field and what to do, when a value
+// Throws EventError, naming the event by its number (counted from 1), the field and what to do, when a value
 // cannot be (not finite, zero length, radius not positive, angle not between the horizontal and the vertical,
 // a section of fewer than three points, not simple or clockwise …) or when the outline does not lie on the
 // terrain [0, extent.x] × [0, extent.y]. Whether a carving starts and stays underground depends on the
 // ground: whoever carves asks that.
 void validate(const Event&, glm::dvec2 extent, std::size_t number);
 
-// "event 3 (tunnel)": the `where` of every error about an event.
+// "event 3 (tunnel)": the `where` of errors about an event.
 std::string where(const Event&, std::size_t number);
+
+// bad_input about an event that knows its number.
+class EventError : public Error {
+ public:
+  EventError(const Event& event, std::size_t number, std::string_view what, std::string_view advice);
+  std::size_t number() const { return number_; }  // counted from 1
+
+ private:
+  std::size_t number_;
+};
 
 // Ground and what happened to it, in order.
 struct Sculpture {
