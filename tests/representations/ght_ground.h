@@ -23,8 +23,8 @@ inline Heightfield rolling(int width, int depth, float cell = 1, float rough = 0
   for (int j = 0; j < depth; ++j) {
     for (int i = 0; i < width; ++i) {
       const auto x = static_cast<float>(i), z = static_cast<float>(j);
-      field.heights.push_back(
-          cell * (20 + 2.5F * std::sin(0.25F * x + phase) * std::cos(0.21F * z - phase) + rough * unit(random)));
+      field.heights.push_back(cell * (20 + 2.5F * std::sin(0.25F * x + phase) * std::cos(0.21F * z - phase) +
+                                      rough * unit(random)));
     }
   }
   return field;
