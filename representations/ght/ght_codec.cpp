@@ -253,18 +253,20 @@ Surface Surface::load(ByteSource& in, const Tree& tree) {
 using namespace ght;
 
 void Ght::save(ByteSink& out) const {
-  out.put(model_.floor);
-  out.put(model_.ceiling);
   model_.tree.save(out);
   model_.surface.save(out);
+  out.put(model_.floor);
+  out.put(model_.ceiling);
 }
 
 std::unique_ptr<Representation> Ght::load(ByteSource& in) {
   std::unique_ptr<Ght> loaded(new Ght);
-  const auto floor = in.get<float>(), ceiling = in.get<float>();
-  if (!sane(floor) || !sane(ceiling) || floor > ceiling) in.fail("the bounds cannot be");
-  Model& model = loaded->model_ = Model(Tree::load(in), floor, ceiling);
+  Model& model = loaded->model_ = Model(Tree::load(in), 0, 0);
   model.surface = Surface::load(in, model.tree);
+  model.floor = in.get<float>();
+  model.ceiling = in.get<float>();
+  if (!sane(model.floor) || !sane(model.ceiling) || model.floor > model.ceiling)
+    in.fail("the bounds cannot be");
   check_plain(model, in);
   for (NodeId n = 1; n < model.tree.nodes().size(); ++n) {
     const Node& node = model.tree.nodes()[n];

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <queue>
 
 namespace terrabench::ght {
 namespace {
@@ -78,27 +79,35 @@ class EarCutter {
       previous_[i] = static_cast<std::uint32_t>((i + n - 1) % n);
     }
     gone_.assign(n, 0);
+    version_.assign(n, 0);
+    waiting_.assign(n, kNobody);
   }
 
   std::optional<std::vector<Triangle>> run() {
     std::size_t left = polygon_.size();
-    std::uint32_t at = 0;
-    for (const double least : {0.4, 0.2, 0.05, 1e-4, 0.0}) {
-      std::size_t tried = 0;
-      while (left > 3 && tried < left) {
-        if (is_ear(at, least)) {
-          cut(at);
-          --left;
-          tried = 0;
-          at = next_[next_[at]];  // not the neighbour: fans from one point make slivers
-        } else {
-          ++tried;
-          at = next_[at];
-        }
+    for (std::uint32_t at = 0; at < left; ++at) consider(at);
+    while (left > 3 && !candidates_.empty()) {
+      const Candidate best = candidates_.top();
+      candidates_.pop();
+      if (gone_[best.at] != 0 || best.version != version_[best.at]) continue;
+      if (const std::uint32_t blocking = blocker(best.at); blocking != kNobody) {
+        waits_.push_back({best.at, waiting_[blocking]});
+        waiting_[blocking] = static_cast<std::uint32_t>(waits_.size() - 1);
+        continue;
       }
+      const std::uint32_t before = previous_[best.at], after = next_[best.at];
+      cut(best.at);
+      --left;
+      for (const std::uint32_t changed : {before, after}) {
+        ++version_[changed];
+        consider(changed);
+      }
+      for (std::uint32_t w = waiting_[best.at]; w != kNobody; w = waits_[w].next) consider(waits_[w].at);
     }
-    if (left != 3 || turn(corner(previous_[at]), corner(at), corner(next_[at])) < 0) return std::nullopt;
-    cut(at);
+    const auto last = static_cast<std::uint32_t>(std::find(gone_.begin(), gone_.end(), 0) - gone_.begin());
+    if (left != 3 || turn(corner(previous_[last]), corner(last), corner(next_[last])) < 0)
+      return std::nullopt;
+    cut(last);
     return std::move(triangles_);
   }
 
@@ -111,22 +120,32 @@ class EarCutter {
   }
   glm::dvec2 corner(std::uint32_t at) const { return points_[polygon_[at]]; }
 
-  bool is_ear(std::uint32_t at, double least) const {
+  // A corner that could be an ear: first those that leave a short side behind and are no sliver.
+  void consider(std::uint32_t at) {
     const std::uint32_t before = previous_[at], after = next_[at];
-    if (polygon_[before] == polygon_[after]) return false;  // the bridge's far end, while more is left
+    if (gone_[at] != 0 || polygon_[before] == polygon_[after]) return;  // or the bridge's far end
+    const glm::dvec2 a = corner(before), b = corner(at), c = corner(after), side = c - a;
+    const double form = shape(a, b, c);
+    if (form >= 0) candidates_.push({glm::dot(side, side) / std::max(form, 1e-12), at, version_[at]});
+  }
+
+  // A corner that lies in the ear.
+  std::uint32_t blocker(std::uint32_t at) const {
+    const std::uint32_t before = previous_[at], after = next_[at];
     const glm::dvec2 a = corner(before), b = corner(at), c = corner(after);
-    if (shape(a, b, c) < least) return false;
+    std::uint32_t found = kNobody;
     const auto blocks = [&](std::uint32_t other) {
-      if (gone_[other] != 0) return false;
-      const std::uint32_t p = polygon_[other];
-      if (p == polygon_[before] || p == polygon_[at] || p == polygon_[after]) return false;
-      const glm::dvec2 q = points_[p];
+      if (gone_[other] != 0 || other == before || other == at || other == after) return false;
+      const glm::dvec2 q = corner(other);
       if (q == a || q == b || q == c) return false;
-      return turn(a, b, q) >= 0 && turn(b, c, q) >= 0 && turn(c, a, q) >= 0;
+      if (turn(a, b, q) < 0 || turn(b, c, q) < 0 || turn(c, a, q) < 0) return false;
+      found = other;
+      return true;
     };
     const glm::dvec2 low = {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})};
     const glm::dvec2 high = {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
-    return !hash_.any(low, high, blocks);
+    hash_.any(low, high, blocks);
+    return found;
   }
 
   void cut(std::uint32_t at) {
@@ -136,9 +155,25 @@ class EarCutter {
     gone_[at] = 1;
   }
 
+  static constexpr std::uint32_t kNobody = 0xFFFFFFFF;
+  struct Candidate {
+    double cost;
+    std::uint32_t at, version;
+    bool operator<(const Candidate& other) const {  // the cheapest is on top
+      return cost > other.cost || (cost == other.cost && at > other.at);
+    }
+  };
+
   std::span<const glm::dvec2> points_;
   std::vector<std::uint32_t> polygon_, next_, previous_;
+  std::vector<std::uint32_t> version_;  // counts the changes of a corner's neighbours
+  std::vector<std::uint32_t> waiting_;  // first of the corners that could be ears but for this one
+  struct Wait {
+    std::uint32_t at, next;
+  };
+  std::vector<Wait> waits_;
   std::vector<char> gone_;
+  std::priority_queue<Candidate> candidates_;
   PointHash hash_;
   std::vector<Triangle> triangles_;
 };

@@ -1,4 +1,5 @@
 // Single events on the grounded heightmap tree: what they add, and that the tree stays whole.
+#include "tests/representations/ght_agreement.h"
 #include "tests/representations/ght_ground.h"
 
 namespace terrabench::test {
@@ -43,6 +44,16 @@ TEST_P(SingleEvent, AddsThePapersHeightmapsAndLeavesTheTreeWhole) {
   EXPECT_EQ(ght.model().tree.nodes().size(), 1 + GetParam().nodes);
   expect_sound(ght);
   EXPECT_GT(ght::census(ght.model()).links, 20U);
+}
+
+TEST_P(SingleEvent, IsWhatTheEvaluationSays) {
+  for (const float rough : {0.0F, 0.3F}) {
+    const Heightfield ground = rolling(65, 65, kCell, rough);
+    Ght ght = make_ght(ground);
+    ght.apply(GetParam().event);
+    Agreement agreement(ght, std::make_shared<Sculpture>(Sculpture{ground, {GetParam().event}}));
+    EXPECT_EQ(agreement.disagreements(1500, 1), 0U) << "roughness " << rough;
+  }
 }
 
 }  // namespace
