@@ -47,27 +47,23 @@ inline Disagreement compare(const Ght& ght, const events::Evaluation& truth, int
         const bool tree_says = std::any_of(sink.column(0).begin(), sink.column(0).end(),
                                            [&](const Span& s) { return y > s.bottom && y < s.top; });
         if (tree_says == solid_at({x, y, z}, scratch)) continue;
-        // The other answer within a ball of one cell?
         bool near = false;
-        constexpr int kSteps = 6;
+        constexpr int kSteps = 6;  // a cell
         for (int dz = -kSteps; dz <= kSteps && !near; ++dz) {
           for (int dx = -kSteps; dx <= kSteps && !near; ++dx) {
-            const double square = kSteps * kSteps - dx * dx - dz * dz;
-            if (square < 0) continue;
-            const glm::dvec2 plan{x + dx * cell / kSteps, z + dz * cell / kSteps};
+            const glm::dvec2 plan{x + dx * lattice.cell_x / kSteps, z + dz * lattice.cell_z / kSteps};
             if (plan.x < 0 || plan.y < 0 || plan.x > lattice.x(lattice.width - 1) ||
                 plan.y > lattice.z(lattice.depth - 1)) {
               continue;
             }
-            const double reach = std::sqrt(square) * cell / kSteps;
             truth.column(plan, scratch);
-            // Whether [y - reach, y + reach] has what the tree says.
+            // Whether [y - cell, y + cell] has what the tree says.
             if (tree_says) {
-              for (const events::Stretch& s : scratch) near |= s.top >= y - reach && s.bottom <= y + reach;
+              for (const events::Stretch& s : scratch) near |= s.top >= y - cell && s.bottom <= y + cell;
             } else {
               double from = HUGE_VAL;  // the bottom of the stretch above
               for (const events::Stretch& s : scratch) {
-                near |= s.top < from && s.top < y + reach && from > y - reach;
+                near |= s.top < from && s.top < y + cell && from > y - cell;
                 from = s.bottom;
               }
             }
