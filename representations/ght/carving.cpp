@@ -209,10 +209,22 @@ class Bore {
         if (!e_.cave) high_[r] = last_under_ground(k, i, rows_, 1);
       }
     }
+    check_out(low_, -1);
+    if (!e_.cave) check_out(high_, 1);
     trim(low_, -1);
     trim(high_, 1);
     row0_ = *std::min_element(low_.begin(), low_.end());
     row1_ = *std::max_element(high_.begin(), high_.end());
+  }
+  // A row on from the last, all of the section is in the air: no column has gone back into the ground.
+  void check_out(const std::vector<int>& ends, int sign) const {
+    const int row = sign < 0 ? *std::min_element(ends.begin(), ends.end()) - 1
+                             : *std::max_element(ends.begin(), ends.end()) + 1;
+    for (std::size_t k = 0; k < e_.section.size(); ++k) {
+      for (int i = 0; i < columns(k); ++i) {
+        if (last_under_ground(k, i, row - sign, sign) != row - sign) refuse_mouth();
+      }
+    }
   }
   // Cells further out than one beyond both neighbouring columns would be part of no face.
   static void trim(std::vector<int>& ends, int sign) {
@@ -432,7 +444,9 @@ class Bore {
     const auto loops = boundary(edit_.faces().subspan(before));
     if (loops && loops->size() == 1 && sew(ring, outer, (*loops)[0])) return;
     edit_.drop_faces(before);
-    edit_.close_facet(ring, [&](glm::vec3 p) { return section_point(p); });
+    const auto triangles = triangulate(outer);
+    if (!triangles) refusal_.refuse("has an end that cannot be closed", "take a smoother or simpler section");
+    for (const Triangle& t : *triangles) edit_.face(ring[t[0]], ring[t[1]], ring[t[2]]);
   }
   glm::dvec2 section_point(glm::vec3 p) const { return {-line_.local({p.x, p.z}).y, p.y - e_.to.y}; }
   bool sew(const Loop& ring, std::span<const glm::dvec2> outer, const Loop& loop) {

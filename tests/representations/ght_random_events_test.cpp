@@ -158,10 +158,10 @@ void run(unsigned seed, Shares& shares) {
                              << to_text(done);
 }
 
-class GhtSequences : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Shard, GhtSequences, testing::Range(0, kShards));
+class GhtRandomEvents : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Shard, GhtRandomEvents, testing::Range(0, kShards));
 
-TEST_P(GhtSequences, KeepAllInvariantsAndAgreeWithTheEvaluation) {
+TEST_P(GhtRandomEvents, KeepAllInvariantsAndAgreeWithTheEvaluation) {
   Shares shares;
   for (int s = 0; s < kSequences; ++s) {
     run(static_cast<unsigned>(GetParam() * kSequences + s + 1), shares);
