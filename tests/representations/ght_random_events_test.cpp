@@ -44,11 +44,11 @@ Ground random_ground(Dice& dice) {
   field.cell_x = static_cast<float>(dice.chance(0.3) ? dice.number(0.5, 3) : 1);
   field.cell_z = dice.chance(0.8) ? field.cell_x : 1.25F * field.cell_x;
   const double cell = field.cell_x, rough = dice.chance(0.5) ? 0 : dice.number(0, 0.3) * cell;
-  for (int h = dice.whole(1, 3); h > 0; --h) {
+  for (int h = dice.whole(1, 2); h > 0; --h) {
     ground.hills.push_back(
         {{dice.number(0.25, 0.75) * field.extent_x(), dice.number(0.25, 0.75) * field.extent_z()},
-         dice.number(6, 12) * cell,
-         dice.number(6, 10) * cell});
+         dice.number(8, 14) * cell,
+         dice.number(7, 10) * cell});
   }
   for (int j = 0; j < field.depth; ++j) {
     for (int i = 0; i < field.width; ++i) {
@@ -69,13 +69,15 @@ Event random_carving(Dice& dice, const Ground& ground, bool cave) {
       ground.hills[static_cast<std::size_t>(dice.whole(0, static_cast<int>(ground.hills.size()) - 1))];
   const double angle = dice.number(0, 2 * std::numbers::pi);
   const glm::dvec2 along{std::cos(angle), std::sin(angle)};
-  const glm::dvec2 from = hill.centre - dice.number(0.2, 0.5) * hill.radius * along,
-                   to = hill.centre + dice.number(0.2, 0.5) * hill.radius * along;
+  const glm::dvec2 from = hill.centre - dice.number(0.1, 0.35) * hill.radius * along,
+                   to = hill.centre + dice.number(0.1, 0.35) * hill.radius * along;
   Carving carving;
   carving.cave = cave;
-  const double y = 10 * cell + dice.number(0.1, 0.35) * hill.height, size = dice.number(1.1, 1.8) * cell;
+  // The floor mostly lies over the plain around the hill, so that the carving comes out.
+  const double size = dice.number(1.05, 1.4) * cell,
+               y = 10 * cell + 2.1 * size + dice.number(-0.05, 0.15) * hill.height;
   carving.from = {from.x, y, from.y};
-  carving.to = {to.x, y + dice.number(-0.5, 0.5) * cell, to.y};
+  carving.to = {to.x, y + dice.number(-0.2, 0.3) * cell, to.y};
   const int sides = dice.whole(3, 8);
   for (int k = 0; k < sides; ++k) {
     const double turn = 2 * std::numbers::pi * (k + 0.5) / sides - std::numbers::pi / 2;
