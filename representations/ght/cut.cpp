@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "representations/ght/surgery.h"
 #include "representations/ght/triangulate.h"
@@ -29,7 +30,8 @@ class Surveyor {
   Surveyor(const Model& model, const Refusal& refusal)
       : model_(model), tree_(model.tree), refusal_(refusal) {}
 
-  void take(const Region& region, Cut& out) const {
+  template <class Shape>
+  void take(const Shape& region, Cut& out) const {
     const auto corners = region.corners();
     glm::dvec2 low = corners[0], high = corners[0];
     for (const glm::dvec2 p : corners) low = glm::min(low, p), high = glm::max(high, p);
@@ -79,12 +81,11 @@ class Surveyor {
     refusal_.refuse("comes too near to the terrain's border", "keep two cells between them");
   }
 
-  // Where the convex outline lies between two lines of equal z.
-  static std::pair<double, double> extent_in_row(const std::array<glm::dvec2, 4>& corners, double z0,
-                                                 double z1) {
+  // Where the outline lies between two lines of equal z.
+  static std::pair<double, double> extent_in_row(std::span<const glm::dvec2> corners, double z0, double z1) {
     double west = HUGE_VAL, east = -HUGE_VAL;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const glm::dvec2 a = corners[k], b = corners[(k + 1) % 4];
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const glm::dvec2 a = corners[k], b = corners[(k + 1) % corners.size()];
       const double low = std::max(std::min(a.y, b.y), z0), high = std::min(std::max(a.y, b.y), z1);
       if (low > high) continue;
       for (const double z : {low, high}) {
@@ -98,7 +99,8 @@ class Surveyor {
     return {west, east};
   }
 
-  void take(const Region& region, Square s, Cut& out) const {
+  template <class Shape>
+  void take(const Shape& region, Square s, Cut& out) const {
     const Lattice& lattice = tree_.lattice();
     if (!model_.surface.covered(s)) {
       const glm::dvec2 nw{lattice.x(s.i), lattice.z(s.j)}, se{lattice.x(s.i + 1), lattice.z(s.j + 1)};
@@ -240,6 +242,54 @@ std::vector<CellId> within(const Model& model, const Cut& cut) {
   return inside;
 }
 
+double distance_to_segment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
+  const glm::dvec2 along = b - a;
+  const double length = glm::dot(along, along);
+  const double at = length > 0 ? std::clamp(glm::dot(p - a, along) / length, 0.0, 1.0) : 0;
+  return glm::distance(p, a + at * along);
+}
+
+bool segments_within(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d, double margin) {
+  if (turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0) return true;
+  return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d), distance_to_segment(c, a, b),
+                   distance_to_segment(d, a, b)}) < margin;
+}
+
+bool inside(std::span<const glm::dvec2> polygon, glm::dvec2 p) {
+  bool in = false;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const glm::dvec2 a = polygon[k], b = polygon[(k + 1) % polygon.size()];
+    if ((a.y <= p.y) != (b.y <= p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)) in = !in;
+  }
+  return in;
+}
+
+template <class Shape>
+Cut cut_along(const Model& model, const Shape& shape, const Refusal& refusal) {
+  const Surveyor surveyor(model, refusal);
+  Cut cut;
+  surveyor.take(shape, cut);
+  for (int widening = 0; widening <= kMostWidenings; ++widening) {
+    std::vector<CellId> around;
+    Loops loops = loops_of(border(model, cut), around);
+    if (loops.size() == 1) {
+      cut.loop = std::move(loops[0]);
+      cut.superseded = within(model, cut);
+      return cut;
+    }
+    // What a loop other than the outermost encloses goes too, from its rim on.
+    const auto outermost = std::max_element(loops.begin(), loops.end(), [&](const auto& a, const auto& b) {
+      return area(model.tree, a) < area(model.tree, b);
+    });
+    for (auto loop = loops.begin(); loop != loops.end(); ++loop) {
+      if (loop != outermost) around.insert(around.end(), loop->begin(), loop->end());
+    }
+    for (const CellId c : around) surveyor.take_around(c, cut);
+    surveyor.finish(cut);
+  }
+  refusal.refuse("does not leave one ring of ground around it", kMove);
+}
+
 }  // namespace
 
 std::array<glm::dvec2, 4> Region::corners() const {
@@ -265,6 +315,17 @@ bool Region::touches(std::array<glm::dvec2, 3> p) const {
   return true;
 }
 
+bool Patch::touches(std::array<glm::dvec2, 3> triangle) const {
+  if (inside(polygon, triangle[0]) || inside(triangle, polygon[0])) return true;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const glm::dvec2 a = polygon[k], b = polygon[(k + 1) % polygon.size()];
+    for (std::size_t e = 0; e < 3; ++e) {
+      if (segments_within(a, b, triangle[e], triangle[(e + 1) % 3], margin)) return true;
+    }
+  }
+  return false;
+}
+
 Cut survey(const Model& model, const Region& region, const Refusal& refusal) {
   Cut cut;
   Surveyor(model, refusal).take(region, cut);
@@ -272,28 +333,11 @@ Cut survey(const Model& model, const Region& region, const Refusal& refusal) {
 }
 
 Cut cut(const Model& model, const Region& region, const Refusal& refusal) {
-  const Surveyor surveyor(model, refusal);
-  Cut cut;
-  surveyor.take(region, cut);
-  for (int widening = 0; widening <= kMostWidenings; ++widening) {
-    std::vector<CellId> around;
-    Loops loops = loops_of(border(model, cut), around);
-    if (loops.size() == 1) {
-      cut.loop = std::move(loops[0]);
-      cut.superseded = within(model, cut);
-      return cut;
-    }
-    // What a loop other than the outermost encloses goes too, from its rim on.
-    const auto outermost = std::max_element(loops.begin(), loops.end(), [&](const auto& a, const auto& b) {
-      return area(model.tree, a) < area(model.tree, b);
-    });
-    for (auto loop = loops.begin(); loop != loops.end(); ++loop) {
-      if (loop != outermost) around.insert(around.end(), loop->begin(), loop->end());
-    }
-    for (const CellId c : around) surveyor.take_around(c, cut);
-    surveyor.finish(cut);
-  }
-  refusal.refuse("does not leave one ring of ground around it", kMove);
+  return cut_along(model, region, refusal);
+}
+
+Cut cut(const Model& model, const Patch& patch, const Refusal& refusal) {
+  return cut_along(model, patch, refusal);
 }
 
 }  // namespace terrabench::ght

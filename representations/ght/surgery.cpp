@@ -120,10 +120,29 @@ void Edit::close_ring(std::span<const CellId> loop, std::span<const CellId> outl
   std::vector<glm::dvec2> outer, inner;
   for (const CellId c : loop) outer.push_back(map_point(tree().position(c)));
   for (const CellId c : outline) inner.push_back(map_point(tree().position(c)));
-  const auto triangles = triangulate_ring(outer, inner);
+  const auto cell = [&](std::uint32_t k) { return k < loop.size() ? loop[k] : outline[k - loop.size()]; };
+  // Cells of one loop may be joined already by faces that lie over or upright next to the ring.
+  std::vector<std::pair<CellId, CellId>> joined;
+  const auto join = [&](const Face& face) {
+    for (std::size_t k = 0; k < 3; ++k) joined.push_back(std::minmax({face[k], face[(k + 1) % 3]}));
+  };
+  for (const Face& face : faces_) join(face);
+  std::vector<FaceId> removed = removed_, left;
+  std::sort(removed.begin(), removed.end());
+  for (const CellId c : loop) {
+    const glm::dvec2 p = tree().plan(c);
+    const SquareRange r = model_.surface.range(p, p);
+    model_.surface.over({r.i0, r.j0}, [&](FaceId f) {
+      if (!std::binary_search(removed.begin(), removed.end(), f)) left.push_back(f);
+    });
+  }
+  for (const FaceId f : left) join(model_.surface.face(f));
+  std::sort(joined.begin(), joined.end());
+  const auto triangles = triangulate_ring(outer, inner, [&](std::uint32_t a, std::uint32_t b) {
+    return std::binary_search(joined.begin(), joined.end(), std::pair(std::minmax({cell(a), cell(b)})));
+  });
   if (!triangles)
     refusal_.refuse("does not fit to the ground around it", "move the event, or make it smaller");
-  const auto cell = [&](std::uint32_t k) { return k < loop.size() ? loop[k] : outline[k - loop.size()]; };
   for (const Triangle& t : *triangles) face(cell(t[0]), cell(t[1]), cell(t[2]));
 }
 

@@ -8,10 +8,8 @@
 // written down; commit() makes room for all of it and then changes the tree without a step that could fail.
 // An Edit that goes out of scope before that leaves the tree as it was, to the bit.
 //
-// Carvings use the same steps: cut() a root-aligned Region around each mouth, append the border node and the
-// walls, face() for the walls and for what lies between them, close_ring() with the border's outline, and
-// relink() for what the border supersedes; a mouth's own ring is a triangulate_ring() between the border's
-// loop around the hole and the first cells of the walls.
+// Carvings use the same steps: the walls come first, what they cut out of the ground at each mouth is the
+// cut, and their rim is the outline that its ring closes.
 #pragma once
 
 #include <span>
@@ -89,6 +87,15 @@ struct Region {
   bool touches(std::array<glm::dvec2, 3> triangle) const;  // (x, z)
 };
 
+// A simple polygon in plan (x, z), and what is less than `margin` away from it.
+struct Patch {
+  std::span<const glm::dvec2> polygon;
+  double margin;
+
+  std::span<const glm::dvec2> corners() const { return polygon; }
+  bool touches(std::array<glm::dvec2, 3> triangle) const;
+};
+
 // Why an event cannot be: thrown as bad_input that names the event.
 class Refusal {
  public:
@@ -114,6 +121,7 @@ struct Cut {
 Cut survey(const Model& model, const Region& region, const Refusal& refusal);
 // With its loop; a bit more than the region touches where that has no simple loop. Refuses what has none.
 Cut cut(const Model& model, const Region& region, const Refusal& refusal);
+Cut cut(const Model& model, const Patch& patch, const Refusal& refusal);
 
 class Edit {
  public:
@@ -136,6 +144,8 @@ class Edit {
   void quad(std::array<CellId, 4> corners);
   // All quadrilaterals of a node. `mirrored` when columns and rows run clockwise seen from the air.
   void quads(const Node& node, bool mirrored);
+  std::span<const Face> faces() const { return faces_; }
+  void drop_faces(std::size_t from) { faces_.resize(from); }
   void make_plain(Square s) { plain_.push_back(s); }
   // `old` becomes a link to `by`, which is later.
   void relink(CellId old, CellId by) { links_.push_back({old, by}); }

@@ -83,7 +83,7 @@ class EarCutter {
     waiting_.assign(n, kNobody);
   }
 
-  std::optional<std::vector<Triangle>> run() {
+  std::optional<std::vector<Triangle>> run(const Joined& joined) {
     std::size_t left = polygon_.size();
     for (std::uint32_t at = 0; at < left; ++at) consider(at);
     while (left > 3 && !candidates_.empty()) {
@@ -96,6 +96,7 @@ class EarCutter {
         continue;
       }
       const std::uint32_t before = previous_[best.at], after = next_[best.at];
+      if (joined(polygon_[before], polygon_[after])) continue;
       cut(best.at);
       --left;
       for (const std::uint32_t changed : {before, after}) {
@@ -209,11 +210,14 @@ std::optional<std::vector<Triangle>> triangulate(std::span<const glm::dvec2> poi
   if (points.size() < 3) return std::nullopt;
   std::vector<std::uint32_t> polygon(points.size());
   std::iota(polygon.begin(), polygon.end(), 0U);
-  return EarCutter(points, std::move(polygon), mean_side(points)).run();
+  return EarCutter(points, std::move(polygon), mean_side(points)).run([](std::uint32_t, std::uint32_t) {
+    return false;
+  });
 }
 
 std::optional<std::vector<Triangle>> triangulate_ring(std::span<const glm::dvec2> outer,
-                                                      std::span<const glm::dvec2> inner) {
+                                                      std::span<const glm::dvec2> inner,
+                                                      const Joined& joined) {
   if (outer.size() < 3 || inner.size() < 3) return std::nullopt;
   std::vector<glm::dvec2> points(outer.begin(), outer.end());
   points.insert(points.end(), inner.begin(), inner.end());
@@ -225,7 +229,7 @@ std::optional<std::vector<Triangle>> triangulate_ring(std::span<const glm::dvec2
   polygon.reserve(points.size() + 2);
   for (std::uint32_t k = 0; k <= n; ++k) polygon.push_back((*bridge + k) % n);
   for (std::uint32_t k = 0; k <= m; ++k) polygon.push_back(n + (m - k) % m);
-  return EarCutter(points, std::move(polygon), mean_side(inner)).run();
+  return EarCutter(points, std::move(polygon), mean_side(inner)).run(joined);
 }
 
 }  // namespace terrabench::ght

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <span>
@@ -18,10 +19,14 @@ using Triangle = std::array<std::uint32_t, 3>;  // counter-clockwise
 // A simple polygon, counter-clockwise. Indices into `points`. Nothing when it is not simple.
 std::optional<std::vector<Triangle>> triangulate(std::span<const glm::dvec2> points);
 
+// Whether two points may not be joined, since they are so elsewhere.
+using Joined = std::function<bool(std::uint32_t, std::uint32_t)>;
+
 // Between two loops, both counter-clockwise, `inner` inside `outer`. Indices count the outer points, then the
-// inner ones. Nothing when the loops meet or are not simple.
-std::optional<std::vector<Triangle>> triangulate_ring(std::span<const glm::dvec2> outer,
-                                                      std::span<const glm::dvec2> inner);
+// inner ones. Nothing when the loops meet or are not simple, or all ways are barred.
+std::optional<std::vector<Triangle>> triangulate_ring(
+    std::span<const glm::dvec2> outer, std::span<const glm::dvec2> inner,
+    const Joined& joined = [](std::uint32_t, std::uint32_t) { return false; });
 
 // Twice the area of a triangle; positive when counter-clockwise.
 inline double turn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
