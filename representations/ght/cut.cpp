@@ -148,15 +148,8 @@ class Surveyor {
                                         tree_.position(face[2])};
     const double area = turn(map_point(p[0]), map_point(p[1]), map_point(p[2]));
     const double cell = tree_.lattice().cell(), upright = 1e-4 * cell * cell;
-    // Upright faces are open cliffs, but those of an inverse fault close the ends of its overhang.
-    if (area > upright || (area >= -upright && !of_inverse_fault(face))) return;
+    if (area >= -upright) return;  // cliffs are upright
     refusal_.refuse("touches ground that lies over itself", kMove);
-  }
-  bool of_inverse_fault(const Face& face) const {
-    return std::any_of(face.begin(), face.end(), [&](CellId c) {
-      const std::uint32_t event = tree_.nodes()[tree_.node_of(c)].event;
-      return event != kNone && tree_.events()[event].kind == events::Kind::kInverseFault;
-    });
   }
   void check_outdoor(CellId c) const {
     if (area(c) != Area::kOutdoor) refusal_.refuse("touches the mouth of a tunnel or cave", kMove);

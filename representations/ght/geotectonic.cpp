@@ -65,8 +65,8 @@ class Replacement {
   }
 
   // Height of the ground before; nodes are cut out but still there.
-  float ground(double u, double d) const {
-    const float y = model_.surface.top(model_.tree, line_.plan({u, d}));
+  float ground(glm::dvec2 local) const {
+    const float y = model_.surface.top(model_.tree, line_.plan(local));
     if (Heightfield::is_no_data(y)) refusal_.refuse("touches ground without data", "fill the no-data cells");
     return y;
   }
@@ -174,7 +174,7 @@ class Trench {
         } else if (sign > 0 && j == 0) {
           tree().set_link(c, right_.cell(i, 0));
         } else {
-          tree().set_height(c, replace_.ground(-d + width * i / columns_, sign * d));
+          tree().set_height(c, replace_.ground({-d + width * i / columns_, sign * d}));
         }
       }
     }
@@ -185,7 +185,7 @@ class Trench {
     for (int j = 0; j <= rows_; ++j) {
       for (int k = -j; k <= j; ++k) {
         tree().set_height(node.cell(rows_ + k, j),
-                          replace_.ground(u0 + sign * j * step(), -sign * k * step()));
+                          replace_.ground({u0 + sign * j * step(), -sign * k * step()}));
       }
     }
     replace_.sheets.push_back({node, false});
@@ -224,9 +224,10 @@ class Fault {
         line_(e.line()),
         lip_((e.inverse ? -0.5 : 0.5) * e.offset()),
         replace_(model, line_, Region{line_, 0, line_.length, -e.extent, e.extent}, refusal),
-        columns_(steps(line_.length, model.tree.lattice())),
+        columns_(std::max(2, steps(line_.length, model.tree.lattice()))),
         rows_(steps(std::hypot(std::max(e.extent, e.extent - lip_), e.rise / 2), model.tree.lattice())),
-        scarp_rows_(steps(std::hypot(e.offset(), e.rise), model.tree.lattice())) {
+        scarp_rows_(steps(std::hypot(e.offset(), e.rise), model.tree.lattice())),
+        folded_(rows_under_overhang()) {
     left_ = block(host, 1);
     right_ = block(host, -1);
     scarp_ = scarp(host);
@@ -246,7 +247,6 @@ class Fault {
 
  private:
   Tree& tree() { return model_.tree; }
-  double before(int row) const { return e_.extent * row / rows_; }  // |d| of a block's row before the fault
 
   Node block(NodeId host, int sign) {
     Node node = new_node(model_, host, Area::kOutdoor);
@@ -257,29 +257,32 @@ class Fault {
     node.frame.v = spatial(line_, 0, sign * (e_.extent - lip_) / rows_, -sign * e_.rise / 2 / rows_);
     return replace_.edit.append(node);
   }
+  bool at_end(int column) const { return column == 0 || column == columns_; }
+  // The height that puts a cell on the ground as it is.
+  float height_on_ground(const Node& node, int column, int row) const {
+    const glm::dvec3 p = node.frame.at(column, row, 0);
+    return replace_.ground(line_.local({p.x, p.z})) - static_cast<float>(p.y);
+  }
+
   // The scarp holds both lips.
   void fill_block(const Node& node, int sign) {
     for (int i = 0; i <= columns_; ++i) {
-      tree().set_link(node.cell(i, 0), scarp_.cell(i, sign < 0 ? 0 : scarp_rows_));
-      for (int j = 1; j <= rows_; ++j) {
-        float height = replace_.ground(u(i), sign * before(j));
-        // At the ends the sunk ground stays under the overhang, or the upright face between them would cross
-        // itself.
-        if (e_.inverse && sign < 0 && (i == 0 || i == columns_)) height = std::min(height, ceiling(i, j));
-        tree().set_height(node.cell(i, j), height);
+      for (int j = 0; j <= rows_; ++j) {
+        const CellId c = node.cell(i, j);
+        if (at_end(i) && sign < 0 && j < folded_) {
+          tree().set_link(c, scarp_.cell(i, scarp_rows_));
+        } else if (j == 0) {
+          tree().set_link(c, scarp_.cell(i, sign < 0 ? 0 : scarp_rows_));
+        } else if (at_end(i)) {
+          tree().set_height(c, height_on_ground(node, i, j));
+        } else {
+          tree().set_height(c, replace_.ground({u(i), sign * e_.extent * j / rows_}));
+        }
       }
     }
     replace_.sheets.push_back({node, sign < 0});
   }
   double u(int column) const { return line_.length * column / columns_; }
-
-  // The height in row j of the right block that puts it on the scarp.
-  float ceiling(int column, int row) const {
-    const double part = static_cast<double>(row) / rows_, d = -lip_ * (1 - part) - e_.extent * part;
-    if (d <= lip_) return HUGE_VALF;
-    const double scarp = replace_.ground(u(column), 0) - e_.rise * d / e_.offset();
-    return static_cast<float>(scarp + e_.rise / 2 * (1 - part));
-  }
 
   // From the right block's lip to the left one's.
   Node scarp(NodeId host) {
@@ -293,46 +296,36 @@ class Fault {
   }
   void fill_scarp() {
     for (int i = 0; i <= columns_; ++i) {
-      const float height = replace_.ground(u(i), 0);
-      for (int j = 0; j <= scarp_rows_; ++j) tree().set_height(scarp_.cell(i, j), height);
+      for (int j = 0; j <= scarp_rows_; ++j) {
+        const CellId c = scarp_.cell(i, j);
+        if (at_end(i) && folded_ > 0 && j < scarp_rows_) {
+          tree().set_link(c, scarp_.cell(i, scarp_rows_));
+        } else {
+          tree().set_height(c, at_end(i) ? height_on_ground(scarp_, i, j) : replace_.ground({u(i), 0}));
+        }
+      }
     }
     replace_.sheets.push_back({scarp_, false});
   }
 
-  // Cells across the fault at one of its ends, from right to left. Under an overhang the profile runs back
-  // and forth; an upright face closes it from below, up to the first row that is out of it.
-  std::vector<CellId> profile(int column) {
-    std::vector<CellId> cells;
-    int first = 0;
-    if (e_.inverse) {
-      const double out = 1e-3 * model_.tree.lattice().cell();
-      while (first < rows_ && across(right_.cell(column, first)) > lip_ - out) ++first;
-      if (first == rows_) {
-        refusal_.refuse("hangs over all of the sunk block", "give a larger 'extent' or a smaller 'throw'");
-      }
+  // Rows of the right block that lie under the overhang of an inverse fault.
+  int rows_under_overhang() const {
+    if (!e_.inverse) return 0;
+    const double slip = 1e-3 * model_.tree.lattice().cell(), step = (e_.extent - lip_) / rows_;
+    const int rows = static_cast<int>(std::floor((-2 * lip_ + slip) / step)) + 1;
+    if (rows > rows_) {
+      refusal_.refuse("hangs over all of the sunk block", "give a larger 'extent' or a smaller 'throw'");
     }
-    for (int j = rows_; j >= first; --j) cells.push_back(right_.cell(column, j));
-    if (first == 0) {
-      for (int j = 1; j < scarp_rows_; ++j) cells.push_back(scarp_.cell(column, j));
-    } else {
-      close_end(column, first);
-    }
-    for (int j = 0; j <= rows_; ++j) cells.push_back(left_.cell(column, j));
-    return cells;
+    return rows;
   }
 
-  double across(CellId c) { return line_.local(tree().plan(tree().resolve(c))).y; }
-
-  void close_end(int column, int first) {
-    std::vector<CellId> polygon = {right_.cell(column, first), left_.cell(column, 0)};
-    for (int j = scarp_rows_ - 1; j > 0; --j) polygon.push_back(scarp_.cell(column, j));
-    for (int j = 0; j < first; ++j) polygon.push_back(right_.cell(column, j));
-    for (CellId& c : polygon) c = tree().resolve(c);
-    const double flip = column == 0 ? 1 : -1;
-    if (column == 0) std::reverse(polygon.begin(), polygon.end());
-    replace_.edit.close_facet(polygon, [&](glm::vec3 p) {
-      return glm::dvec2(flip * line_.local({p.x, p.z}).y, p.y);
-    });
+  // Cells across the fault at one of its ends, from right to left.
+  std::vector<CellId> profile(int column) const {
+    std::vector<CellId> cells;
+    for (int j = rows_; j >= 0; --j) cells.push_back(right_.cell(column, j));
+    for (int j = 0; j <= scarp_rows_; ++j) cells.push_back(scarp_.cell(column, j));
+    for (int j = 0; j <= rows_; ++j) cells.push_back(left_.cell(column, j));
+    return cells;
   }
 
   CellId nearest(glm::dvec2 p) const {
@@ -347,11 +340,12 @@ class Fault {
   double lip_;  // d of the left block's lip
   Replacement replace_;
   int columns_, rows_, scarp_rows_;
+  int folded_;  // rows of the right block whose end cells are gathered in the scarp's last one
   Node left_, right_, scarp_;
 };
 
-// Two pieces whose ground comes from further along the line; between them a cliff of no width, which at both
-// ends closes in a cell that they share.
+// Two pieces whose ground comes from further along the line; between them a cliff of no width. At their ends
+// they stay on the ground as it is, like a fault's.
 class Slip {
  public:
   Slip(Model& model, const events::LateralFault& e, NodeId host, const Refusal& refusal)
@@ -359,7 +353,7 @@ class Slip {
         e_(e),
         line_(e.line()),
         replace_(model, line_, Region{line_, 0, line_.length, -e.extent, e.extent}, refusal),
-        columns_(steps(line_.length, model.tree.lattice())),
+        columns_(std::max(2, steps(line_.length, model.tree.lattice()))),
         rows_(steps(e.extent, model.tree.lattice())) {
     survey(model, Region{line_, -e.slip / 2, line_.length + e.slip / 2, -e.extent, e.extent}, refusal);
     left_ = piece(host, 1);
@@ -392,14 +386,15 @@ class Slip {
   }
   void fill(const Node& node, int sign) {
     for (int j = 0; j <= rows_; ++j) {
-      const double part = static_cast<double>(j) / rows_, shift = sign * e_.slip / 2 * (1 - part);
+      const double d = sign * e_.extent * j / rows_;
       for (int i = 0; i <= columns_; ++i) {
         const CellId c = node.cell(i, j);
-        if (sign > 0 && j == 0 && (i == 0 || i == columns_)) {
+        const bool at_end = i == 0 || i == columns_;
+        if (sign > 0 && j == 0 && at_end) {
           model_.tree.set_link(c, right_.cell(i, 0));
         } else {
-          model_.tree.set_height(
-              c, replace_.ground(line_.length * i / columns_ - shift, sign * e_.extent * part));
+          const double shift = at_end ? 0 : sign * e_.slip / 2 * (1 - static_cast<double>(j) / rows_);
+          model_.tree.set_height(c, replace_.ground({line_.length * i / columns_ - shift, d}));
         }
       }
     }

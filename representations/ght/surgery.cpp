@@ -146,15 +146,6 @@ void Edit::close_ring(std::span<const CellId> loop, std::span<const CellId> outl
   for (const Triangle& t : *triangles) face(cell(t[0]), cell(t[1]), cell(t[2]));
 }
 
-void Edit::close_facet(std::span<const CellId> polygon, const std::function<glm::dvec2(glm::vec3)>& project) {
-  std::vector<glm::dvec2> points;
-  for (const CellId c : polygon) points.push_back(project(tree().position(c)));
-  const auto triangles = triangulate(points);
-  if (!triangles)
-    refusal_.refuse("ends where the ground is too rough for it", "move an end, or make it smaller");
-  for (const Triangle& t : *triangles) face(polygon[t[0]], polygon[t[1]], polygon[t[2]]);
-}
-
 void Edit::keep_clear_of_carvings() const {
   if (!model_.carved) return;
   const Tree& tree = model_.tree;

@@ -12,7 +12,6 @@
 // cut, and their rim is the outline that its ring closes.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -152,8 +151,6 @@ class Edit {
   void relink(CellId old, CellId by) { links_.push_back({old, by}); }
   // Triangles between the loop of a cut and the outline, both counter-clockwise.
   void close_ring(std::span<const CellId> loop, std::span<const CellId> outline);
-  // An upright polygon of cells, counter-clockwise seen from the air, of which project() gives a view.
-  void close_facet(std::span<const CellId> polygon, const std::function<glm::dvec2(glm::vec3)>& project);
   // Refuses new heights within a cell of a tunnel or cave below.
   void keep_clear_of_carvings() const;
 

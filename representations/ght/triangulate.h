@@ -1,5 +1,5 @@
 // Triangles between given points by cutting off ears (Meisters 1975), none added: for the ring between a hole
-// in the surface and what is set into it, and for upright facets. The ear that leaves the shortest side goes
+// in the surface and what is set into it. The ear that leaves the shortest side goes
 // first, slivers last, so that the triangles of a thin ring stay short. A spatial hash keeps each test local:
 // O(n log n) for rings of even spacing.
 #pragma once
