@@ -1,14 +1,14 @@
 // The generators beside the methods as the textbooks tell them, on the same terrain. times_naive is the ratio
-// measured in this very run, both on one thread; the naive loops of faults and hills are timed on a smaller
-// share of the work and scaled, since they would take minutes.
+// of thread time measured in this very run; the naive loops of faults and hills are timed on a smaller share
+// of the work and scaled, since they would take minutes.
 #include <benchmark/benchmark.h>
 #include <libnoise/noise.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <ctime>
 #include <map>
 #include <vector>
 
@@ -21,35 +21,38 @@
 namespace terrabench::fractal {
 namespace {
 
-// Seconds of the fastest call so far, by side: the least disturbed on a machine that is rarely alone.
+// Seconds of the fastest call, by side: the least disturbed on a machine that is rarely alone.
 using Fastest = std::map<std::int64_t, double>;
 
+double seconds_of(clockid_t clock) {
+  timespec t;
+  clock_gettime(clock, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// `share`: of the work that body() does.
 template <class Body>
-void measure(benchmark::State& state, Fastest& fastest, double share, const Body& body) {
+double measure(benchmark::State& state, clockid_t clock, double share, const Body& body) {
   double best = 1e30;
   for (auto _ : state) {
-    const auto begin = std::chrono::steady_clock::now();
+    const double begin = seconds_of(clock);
     body();
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    best = std::min(best, seconds.count() / share);
+    best = std::min(best, (seconds_of(clock) - begin) / share);
   }
   const auto side = static_cast<double>(state.range(0));
   state.counters["ns_a_sample"] = best * 1e9 / (side * side);
   state.counters["fastest_ms"] = best * 1e3;
-  fastest[state.range(0)] = best;
+  return best;
 }
 
+// Thread time on one thread, wall time on all.
 template <class Body>
 void measure_ours(benchmark::State& state, const Fastest& naive, bool all_threads, const Body& body) {
-  const tbb::global_control limit(
-      tbb::global_control::max_allowed_parallelism,
-      all_threads ? tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) : 1);
-  Fastest ours;
-  measure(state, ours, 1, body);
+  constexpr auto kThreads = tbb::global_control::max_allowed_parallelism;
+  const tbb::global_control limit(kThreads, all_threads ? tbb::global_control::active_value(kThreads) : 1);
+  const double best = measure(state, all_threads ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID, 1, body);
   const auto found = naive.find(state.range(0));
-  if (found != naive.end() && !all_threads) {
-    state.counters["times_naive"] = found->second / ours[state.range(0)];
-  }
+  if (found != naive.end() && !all_threads) state.counters["times_naive"] = found->second / best;
 }
 
 Fastest g_diamond_square, g_faults, g_planet, g_hills;
@@ -60,7 +63,7 @@ int side_of(const benchmark::State& state) { return static_cast<int>(state.range
 // Steps within the final array, a hash a point, as the method is usually written.
 void naive_diamond_square(benchmark::State& state) {
   const int side = side_of(state), last = side - 1;
-  measure(state, g_diamond_square, 1, [&] {
+  g_diamond_square[state.range(0)] = measure(state, CLOCK_THREAD_CPUTIME_ID, 1, [&] {
     std::vector<float> h(static_cast<std::size_t>(side) * side);
     const auto at = [&](int x, int z) -> float& { return h[static_cast<std::size_t>(z) * side + x]; };
     float range = 1000;
@@ -98,17 +101,19 @@ void our_diamond_square(benchmark::State& state, bool all_threads) {
 void naive_faults(benchmark::State& state) {
   constexpr int kSome = 50;
   const FaultOptions options{.width = side_of(state), .depth = side_of(state), .faults = kSome};
-  measure(state, g_faults, static_cast<double>(kSome) / kFaults, [&] {
-    std::vector<float> h(static_cast<std::size_t>(options.width) * options.depth);
-    for (const FaultLine& line : fault_lines(options)) {
-      for (int j = 0; j < options.depth; ++j) {
-        float* const row = h.data() + static_cast<std::ptrdiff_t>(j) * options.width;
-        const auto rest = static_cast<float>(line.c - line.b * j), a = static_cast<float>(line.a);
-        for (int i = 0; i < options.width; ++i) row[i] += a * static_cast<float>(i) > rest ? 20.0F : -20.0F;
-      }
-    }
-    benchmark::DoNotOptimize(h.data());
-  });
+  g_faults[state.range(0)] =
+      measure(state, CLOCK_THREAD_CPUTIME_ID, static_cast<double>(kSome) / kFaults, [&] {
+        std::vector<float> h(static_cast<std::size_t>(options.width) * options.depth);
+        for (const FaultLine& line : fault_lines(options)) {
+          for (int j = 0; j < options.depth; ++j) {
+            float* const row = h.data() + static_cast<std::ptrdiff_t>(j) * options.width;
+            const auto rest = static_cast<float>(line.c - line.b * j), a = static_cast<float>(line.a);
+            for (int i = 0; i < options.width; ++i)
+              row[i] += a * static_cast<float>(i) > rest ? 20.0F : -20.0F;
+          }
+        }
+        benchmark::DoNotOptimize(h.data());
+      });
 }
 
 void our_faults(benchmark::State& state, bool all_threads) {
@@ -121,27 +126,29 @@ void naive_planet(benchmark::State& state) {
   constexpr int kSome = 50;
   const int side = side_of(state);
   const PlanetFaultOptions options{.width = side, .depth = side, .faults = kSome};
-  measure(state, g_planet, static_cast<double>(kSome) / kFaults, [&] {
-    std::vector<float> h(static_cast<std::size_t>(side) * side), sine, cosine;
-    for (int i = 0; i < side; ++i) {
-      sine.push_back(std::sin(6.2831853F * static_cast<float>(i) / static_cast<float>(side - 1)));
-      cosine.push_back(std::cos(6.2831853F * static_cast<float>(i) / static_cast<float>(side - 1)));
-    }
-    for (const FaultPlane& plane : fault_planes(options)) {
-      for (int j = 0; j < side; ++j) {
-        const float latitude = 1.5707963F - 3.1415927F * static_cast<float>(j) / static_cast<float>(side - 1);
-        const auto a = static_cast<float>(plane.x) * std::cos(latitude);
-        const auto b = static_cast<float>(plane.z) * std::cos(latitude);
-        const auto c = static_cast<float>(plane.offset - plane.y * std::sin(latitude));
-        float* const row = h.data() + static_cast<std::ptrdiff_t>(j) * side;
+  g_planet[state.range(0)] =
+      measure(state, CLOCK_THREAD_CPUTIME_ID, static_cast<double>(kSome) / kFaults, [&] {
+        std::vector<float> h(static_cast<std::size_t>(side) * side), sine, cosine;
         for (int i = 0; i < side; ++i) {
-          const auto at = static_cast<std::size_t>(i);
-          row[i] += a * cosine[at] + b * sine[at] > c ? 20.0F : -20.0F;
+          sine.push_back(std::sin(6.2831853F * static_cast<float>(i) / static_cast<float>(side - 1)));
+          cosine.push_back(std::cos(6.2831853F * static_cast<float>(i) / static_cast<float>(side - 1)));
         }
-      }
-    }
-    benchmark::DoNotOptimize(h.data());
-  });
+        for (const FaultPlane& plane : fault_planes(options)) {
+          for (int j = 0; j < side; ++j) {
+            const float latitude =
+                1.5707963F - 3.1415927F * static_cast<float>(j) / static_cast<float>(side - 1);
+            const auto a = static_cast<float>(plane.x) * std::cos(latitude);
+            const auto b = static_cast<float>(plane.z) * std::cos(latitude);
+            const auto c = static_cast<float>(plane.offset - plane.y * std::sin(latitude));
+            float* const row = h.data() + static_cast<std::ptrdiff_t>(j) * side;
+            for (int i = 0; i < side; ++i) {
+              const auto at = static_cast<std::size_t>(i);
+              row[i] += a * cosine[at] + b * sine[at] > c ? 20.0F : -20.0F;
+            }
+          }
+        }
+        benchmark::DoNotOptimize(h.data());
+      });
 }
 
 void our_planet(benchmark::State& state, bool all_threads) {
@@ -160,7 +167,7 @@ HillOptions hill_options(int side, int hills) {
 void naive_hills(benchmark::State& state) {
   constexpr int kSome = 50;
   const HillOptions options = hill_options(side_of(state), kSome);
-  measure(state, g_hills, static_cast<double>(kSome) / kHills, [&] {
+  g_hills[state.range(0)] = measure(state, CLOCK_THREAD_CPUTIME_ID, static_cast<double>(kSome) / kHills, [&] {
     std::vector<float> h(static_cast<std::size_t>(options.width) * options.depth);
     for (const Hill& hill : draw_hills(options)) {
       for (int j = 0; j < options.depth; ++j) {
@@ -188,9 +195,8 @@ void libnoise_fbm(benchmark::State& state) {
   ::noise::module::Perlin module;
   module.SetOctaveCount(static_cast<int>(std::log2(side)));
   module.SetFrequency(1.0 / side);
-  Fastest fastest;
   constexpr int kRows = 64;
-  measure(state, fastest, static_cast<double>(kRows) / side, [&] {
+  measure(state, CLOCK_THREAD_CPUTIME_ID, static_cast<double>(kRows) / side, [&] {
     double sum = 0;
     for (int j = 0; j < kRows; ++j) {
       for (int i = 0; i < side; ++i) sum += module.GetValue(i, 0.5, j);

@@ -1,0 +1,48 @@
+// The full terrain at every sample, culled by the view alone: the yardstick of the other methods ("brute" in
+// Table 2 of the MRBSP paper). Blocks of 32 × 32 cells share one index pattern. update() is O(blocks), 1/1024
+// of the cells.
+#pragma once
+
+#include <vector>
+
+#include "lod/lod.h"
+
+namespace terrabench {
+
+class BruteForce : public Lod {
+ public:
+  // The field must outlive it.
+  static std::unique_ptr<Lod> build(const Heightfield&, const Parameters&, Progress&);
+  static Knob knob() { return {"stride", "samples", 1, 1, 1, true}; }
+
+  explicit BruteForce(const Heightfield&);
+  const Frame& update(const View&) override;
+  void tune(double) override {}  // it has one setting: everything
+  Memory memory() const override;
+
+ private:
+  static constexpr int kBlock = 32;  // cells along a block's side
+  struct Block {
+    std::uint32_t corner;  // vertex
+    std::uint16_t shape;   // which index pattern: full, or cut by the field's border
+    float lowest, highest;
+  };
+  // Where the indices of a block of `columns` × `rows` cells lie.
+  struct Shape {
+    int columns, rows;
+    std::uint32_t first_index, index_count;
+  };
+  std::uint16_t shape_of(int columns, int rows);
+  void add_block(const Heightfield&, int i0, int j0);
+
+  GroundGrid grid_;
+  std::vector<Shape> shapes_;  // four at most
+  std::vector<Block> blocks_;
+  std::vector<std::uint32_t> indices_;
+  std::vector<Batch> batches_;
+  std::vector<DirtyRange> uploads_;
+  Frame frame_;
+  bool first_ = true;
+};
+
+}  // namespace terrabench

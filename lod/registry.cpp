@@ -1,0 +1,39 @@
+#include <vector>
+
+#include "lod/brute_force/brute_force.h"
+#include "lod/clipmap/clipmap.h"
+#include "lod/lod.h"
+#include "terrain/error.h"
+
+namespace terrabench {
+
+std::span<const LodType> lods() {
+  static const LodType kTypes[] = {
+      {"brute_force",
+       "every triangle of the blocks that the view sees",
+       "mrbsp Table 2",
+       {},
+       BruteForce::knob(),
+       {},
+       BruteForce::build},
+      {"clipmap",
+       "nested windows of samples around the eye, each twice as coarse as the one inside",
+       "hybrid §3.2",
+       {},
+       Clipmap::knob(),
+       {},
+       Clipmap::build},
+  };
+  return kTypes;
+}
+
+const LodType& lod(std::string_view name) {
+  std::vector<std::string_view> known;
+  for (const LodType& type : lods()) {
+    if (type.name == name) return type;
+    known.push_back(type.name);
+  }
+  throw unknown_name("level-of-detail method", name, known);
+}
+
+}  // namespace terrabench
