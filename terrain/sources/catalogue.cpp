@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "terrain/error.h"
+#include "terrain/events/event_file.h"
+#include "terrain/files.h"
 #include "terrain/source.h"
 #include "terrain/sources/dem/dem.h"
 #include "terrain/sources/fractal/diamond_square.h"
@@ -133,7 +135,11 @@ bool names_dem_file(std::string_view text) {
 }
 
 TerrainSource open_terrain(std::string_view name_or_path, std::uint64_t seed) {
-  if (names_dem_file(name_or_path)) return from_dem(name_or_path, std::string(name_or_path));
+  if (names_dem_file(name_or_path)) {
+    const std::string path(name_or_path);
+    if (path.ends_with(events::kExtension)) return events::open_script(read_file(path, events::kMostBytes), path);
+    return from_dem(path, path);
+  }
   for (const TerrainType& type : terrains()) {
     if (type.name == name_or_path) return type.open(seed);
   }
