@@ -2,6 +2,7 @@
 
 #include "lod/brute_force/brute_force.h"
 #include "lod/lod.h"
+#include "lod/roam/roam.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -15,6 +16,13 @@ std::span<const LodType> lods() {
        BruteForce::knob(),
        {},
        BruteForce::build},
+      {"roam",
+       "binary triangle trees split and merged by priority as the view moves",
+       "Duchaineau et al. 1997",
+       {.conforming = true, .bounds_error = true},
+       Roam::knob(),
+       Roam::parameters(),
+       Roam::build},
   };
   return kTypes;
 }
