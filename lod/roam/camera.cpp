@@ -30,7 +30,8 @@ Camera::Camera(const View& view, double extent) : eye_(view.eye) {
   // Float matrices put a point on another side of a plane than we do when it is about this near to it.
   const double rounding = 1e-6 * (extent + glm::length(eye_));
   const auto plane = [&](const glm::dvec3& normal, double offset) {
-    return Plane{normal, offset - glm::dot(normal, eye_) + rounding * glm::length(normal)};
+    const double length = glm::length(normal);
+    return Plane{normal / length, (offset - glm::dot(normal, eye_)) / length + rounding};
   };
   planes_ = {plane(x * forward_ + right_, 0), plane(x * forward_ - right_, 0), plane(y * forward_ + up_, 0),
              plane(y * forward_ - up_, 0),    plane(forward_, -view.near),     plane(-forward_, view.far)};
@@ -60,9 +61,11 @@ Distortion Camera::distortion(const Corners& corners, double thickness) const {
           std::max((1 + up_rate_) / depth, 1 / most_up + 2 / depth), reach};
 }
 
-Sight Camera::sight(const Corners& corners, double thickness, double spill, Sight parent) const {
-  if ((parent & kOutside) != 0) return kOutside;
+// A corner's distance from a plane changes by moved + ρ·turned at most, and so does a wedgie's, ρ being the
+// distance of its farthest point. Half of the slack is for either.
+Seeing Camera::sight(const Corners& corners, double thickness, double spill, Sight parent) const {
   Sight sight = parent;
+  double slack = std::numeric_limits<double>::infinity(), outside = 0;
   for (int i = 0; i < 6; ++i) {
     if ((parent >> i & 1) != 0) continue;
     const Plane& plane = planes_[i];
@@ -70,10 +73,21 @@ Sight Camera::sight(const Corners& corners, double thickness, double spill, Sigh
                  c = glm::dot(plane.normal, corners.at[2]);
     const double low = std::min(a, std::min(b, c)), high = std::max(a, std::max(b, c));
     const double margin = thickness * std::abs(plane.normal.y) + spill * (high - low);
-    if (high + plane.offset < -margin) return kOutside;
-    if (low + plane.offset >= margin) sight |= static_cast<Sight>(1U << i);
+    const double inside = low + plane.offset - margin, beyond = -(high + plane.offset + margin);
+    outside = std::max(outside, beyond);
+    slack = std::min(slack, std::min(std::abs(inside), std::abs(beyond)));
+    if (inside >= 0) sight |= static_cast<Sight>(1U << i);
   }
-  return sight;
+  if (outside > 0) {
+    sight = kOutside;
+    slack = outside;  // as long as it is outside one plane the others do not matter
+  }
+  double farthest = 0;
+  for (const glm::dvec3& corner : corners.at) {
+    farthest = std::max(farthest, glm::dot(corner - eye_, corner - eye_));
+  }
+  const double reach = std::sqrt(farthest) * (1 + 2 * spill) + thickness;
+  return {sight, {0.5 * slack, 0.5 * slack / std::max(reach, 1e-9)}};
 }
 
 Motion Camera::since(const Camera& before) const {

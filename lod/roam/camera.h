@@ -31,6 +31,12 @@ struct Motion {
   bool none() const { return moved == 0 && turned == 0; }
 };
 
+// A sight, and the motion, of both kinds at once, up to which it stays.
+struct Seeing {
+  Sight sight = 0;
+  Motion slack;
+};
+
 class Camera {
  public:
   Camera() = default;
@@ -46,9 +52,9 @@ class Camera {
   // twice that.
   Distortion distortion(const Corners&, double thickness) const;
 
-  // The sight of a wedgie, given its parent's. `spill` is the share of its size by which descendants may
-  // stick out of the triangle.
-  Sight sight(const Corners&, double thickness, double spill, Sight parent) const;
+  // The sight of a wedgie whose parent is neither outside nor inside of all planes. `spill` is the share of
+  // its size by which descendants may stick out of the triangle.
+  Seeing sight(const Corners&, double thickness, double spill, Sight parent) const;
 
   // From another camera to this one. The lens must be the same.
   Motion since(const Camera& before) const;

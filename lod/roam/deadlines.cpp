@@ -1,19 +1,19 @@
 #include "lod/roam/deadlines.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 
 namespace terrabench::roam {
 namespace {
 
-double distance_of(int clock) { return std::ldexp(1.0, clock + 1); }
+double distance_of(int clock) { return static_cast<double>(std::uint64_t{2} << clock); }
 
 }  // namespace
 
 void Deadlines::put_off(std::vector<Node>& nodes, std::uint32_t id, double slack, double reach) {
-  int k = 0;
-  std::frexp(reach * 4 / 3, &k);  // reach · 4/3 ≤ 2^k
-  k = std::max(k - 1, 0);
+  // The first clock whose distance is over reach · 4/3: the exponent of a double, by its bits.
+  const auto exponent = static_cast<int>(std::bit_cast<std::uint64_t>(reach * 4 / 3) >> 52) - 1023;
+  int k = std::max(exponent, 0);
   if (k >= kClocks) {
     k = kClocks - 1;
     slack = 0;
@@ -44,10 +44,7 @@ void Deadlines::advance(std::vector<Node>& nodes, const Motion& motion, std::vec
 }
 
 void Deadlines::empty(std::vector<Node>& nodes, int list, std::vector<std::uint32_t>& due) {
-  for (std::uint32_t id = waiting_.first(list); id != kNone; id = waiting_.first(list)) {
-    due.push_back(id);
-    waiting_.remove(nodes, id);
-  }
+  waiting_.clear(nodes, static_cast<std::uint16_t>(list), due);
 }
 
 }  // namespace terrabench::roam

@@ -53,9 +53,8 @@ void Mesh::add_roots() {
 
 void Mesh::bound(Node& node) const {
   if (!splittable(node)) return;
-  const int reach = middle_steps(lattice_.side_log, node.level);
-  node.thickness =
-      wedgies_.thickness(node.u + kSteps[node.heading].u * reach, node.v + kSteps[node.heading].v * reach);
+  const Place m = middle(node);
+  node.thickness = wedgies_.thickness(m.u, m.v);
 }
 
 bool Mesh::on_edge(const Node& node) const {
@@ -92,10 +91,10 @@ void Mesh::split(std::uint32_t id) {
 void Mesh::bisect(std::uint32_t id) {
   const std::uint32_t pair = take_pair();
   Node& node = nodes_[id];
-  const int reach = middle_steps(lattice_.side_log, node.level);
+  const Place apex = middle(node);
   Node child;
-  child.u = node.u + kSteps[node.heading].u * reach;
-  child.v = node.v + kSteps[node.heading].v * reach;
+  child.u = apex.u;
+  child.v = apex.v;
   child.level = static_cast<std::uint8_t>(node.level + 1);
   child.parent = id;
   child.heading = static_cast<std::uint8_t>((node.heading + 5) % 8);
@@ -150,6 +149,12 @@ void Mesh::relink(std::uint32_t neighbour, std::uint32_t from, std::uint32_t to)
   }
 }
 
+// Of the hypotenuse.
+Mesh::Place Mesh::middle(const Node& node) const {
+  const int reach = middle_steps(lattice_.side_log, node.level);
+  return {node.u + kSteps[node.heading].u * reach, node.v + kSteps[node.heading].v * reach};
+}
+
 std::array<Mesh::Place, 3> Mesh::places(const Node& node) const {
   const int legs = leg_steps(lattice_.side_log, node.level);
   const Step left = kSteps[(node.heading + 7U) % 8], right = kSteps[(node.heading + 1U) % 8];
@@ -163,16 +168,31 @@ std::array<std::uint32_t, 3> Mesh::vertices(const Node& node) const {
   return {vertex(apex), vertex(right), vertex(left)};
 }
 
+glm::dvec3 Mesh::corner(Place p) const {
+  const int i = lattice_.column[p.u], j = lattice_.row[p.v];
+  return {static_cast<float>(i) * grid_.cell_x, grid_.heights[static_cast<std::size_t>(j) * grid_.width + i],
+          static_cast<float>(j) * grid_.cell_z};
+}
+
 Corners Mesh::corners(const Node& node) const {
-  Corners corners;
-  const std::array<Place, 3> where = places(node);
-  for (int k = 0; k < 3; ++k) {
-    const int i = lattice_.column[where[k].u], j = lattice_.row[where[k].v];
-    corners.at[k] = {static_cast<float>(i) * grid_.cell_x,
-                     grid_.heights[static_cast<std::size_t>(j) * grid_.width + i],
-                     static_cast<float>(j) * grid_.cell_z};
+  const auto [apex, left, right] = places(node);
+  return {{corner(apex), corner(left), corner(right)}};
+}
+
+std::array<Corners, 2> Mesh::corners_of_children(const Node& node, const Corners& own) const {
+  const glm::dvec3 apex = corner(middle(node));
+  return {{{{apex, own.at[0], own.at[1]}}, {{apex, own.at[2], own.at[0]}}}};
+}
+
+void Mesh::prefetch_split(const Node& node) const {
+  const Place m = middle(node);
+  __builtin_prefetch(&grid_.heights[vertex(m)]);
+  if (node.level + 1 >= lattice_.finest_level()) return;
+  const int reach = middle_steps(lattice_.side_log, node.level + 1);
+  for (const unsigned turn : {3U, 5U}) {
+    const Step ahead = kSteps[(node.heading + turn) % 8];
+    wedgies_.prefetch(m.u + ahead.u * reach, m.v + ahead.v * reach);
   }
-  return corners;
 }
 
 // Each line of samples lies less than a cell off where its lattice line ideally would: descendants stay

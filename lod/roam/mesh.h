@@ -50,6 +50,10 @@ class Mesh {
   // Grid vertices, counter-clockwise from above.
   std::array<std::uint32_t, 3> vertices(const Node&) const;
   Corners corners(const Node&) const;
+  // Those of both children of a triangle, from its own.
+  std::array<Corners, 2> corners_of_children(const Node&, const Corners& own) const;
+  // Has the memory fetched that splitting the triangle will read.
+  void prefetch_split(const Node&) const;
   // The share of its size by which descendants may stick out of a triangle, where lattice lines share
   // samples.
   double spill(const Node&) const;
@@ -61,6 +65,8 @@ class Mesh {
     std::int32_t u, v;
   };
   std::array<Place, 3> places(const Node&) const;
+  Place middle(const Node&) const;
+  glm::dvec3 corner(Place) const;
   std::uint32_t vertex(Place p) const {
     return static_cast<std::uint32_t>(lattice_.row[p.v]) * static_cast<std::uint32_t>(grid_.width) +
            static_cast<std::uint32_t>(lattice_.column[p.u]);

@@ -78,6 +78,16 @@ class NodeLists {
     node.*kList = kNoList;
   }
 
+  // Empties a list and appends what was in it.
+  void clear(std::vector<Node>& nodes, std::uint16_t list, std::vector<std::uint32_t>& members) {
+    for (std::uint32_t id = heads_[list]; id != kNone; id = (nodes[id].*kLinks).after) {
+      nodes[id].*kList = kNoList;
+      members.push_back(id);
+    }
+    heads_[list] = kNone;
+    used_[list / 64] &= ~(std::uint64_t{1} << (list % 64));
+  }
+
   std::uint32_t first(int list) const { return heads_[static_cast<std::size_t>(list)]; }
 
   // Of the lists that hold something; -1 when none does.

@@ -37,10 +37,10 @@ double Roam::ratio_from(int bucket) {
   return std::ldexp(1 + static_cast<double>(above % kPerOctave) / kPerOctave, above / kPerOctave - 64);
 }
 
-Distortion Roam::distortion(std::uint32_t id) const {
+Distortion Roam::distortion(std::uint32_t id, const roam::Corners& corners) const {
   const Node& node = mesh_.nodes()[id];
   if (!node.visible() || node.thickness == 0) return {};
-  return camera_.distortion(mesh_.corners(node), node.thickness);
+  return camera_.distortion(corners, node.thickness);
 }
 
 void Roam::take_off(std::uint32_t id) {
@@ -50,7 +50,7 @@ void Roam::take_off(std::uint32_t id) {
 
 void Roam::reconsider(std::uint32_t id) {
   if (mesh_.nodes()[id].leaf()) {
-    rank_leaf(id);
+    rank_leaf(id, mesh_.corners(mesh_.nodes()[id]));
   } else {
     requeue_diamond(id);
   }
@@ -63,22 +63,26 @@ void Roam::reconsider_all() {
 }
 
 // A leaf that a split would gain nothing for is in no queue.
-void Roam::rank_leaf(std::uint32_t id) {
-  take_off(id);
-  const Distortion now = mesh_.splittable(mesh_.nodes()[id]) ? distortion(id) : Distortion{};
-  if (now.pixels == 0) return;
+void Roam::rank_leaf(std::uint32_t id, const roam::Corners& corners) {
+  std::vector<Node>& nodes = mesh_.nodes();
+  deadlines_.remove(nodes, id);
+  const Distortion now = mesh_.splittable(nodes[id]) ? distortion(id, corners) : Distortion{};
+  if (now.pixels == 0) return splits_.remove(nodes, id);
   const double ratio = now.pixels / options_.max_error;
-  splits_.push(mesh_.nodes(), id, bucket_of(ratio));
+  if (const std::uint16_t bucket = bucket_of(ratio); bucket != nodes[id].bucket) {
+    splits_.remove(nodes, id);
+    splits_.push(nodes, id, bucket);
+  }
   // From below the reference it must be looked at before it can have risen to it.
   const double factor = ratio_from(reference_) / ratio;
-  deadlines_.put_off(mesh_.nodes(), id, slack(now, factor > 1 ? factor : kBucketWidth), now.reach);
+  deadlines_.put_off(nodes, id, slack(now, factor > 1 ? factor : kBucketWidth), now.reach);
 }
 
 // Puts a diamond, by its name, into the merge queue, by the larger error of its halves.
 void Roam::rank_diamond(std::uint32_t id) {
   Distortion now;
   const auto include = [&](std::uint32_t part) {
-    const Distortion other = distortion(part);
+    const Distortion other = distortion(part, mesh_.corners(mesh_.nodes()[part]));
     if (other.pixels > now.pixels) now = other;
   };
   for (const std::uint32_t half : halves(id)) {
@@ -95,6 +99,17 @@ void Roam::rank_diamond(std::uint32_t id) {
   if (now.pixels == 0) return;  // until its sight changes
   const double factor = std::max(ratio / ratio_from(reference_), kBucketWidth);
   deadlines_.put_off(mesh_.nodes(), id, slack(now, factor), now.reach);
+}
+
+// Most diamonds that a frame makes are split on in the same frame, so only what is left is looked at.
+void Roam::rank_pending() {
+  for (const std::uint32_t id : pending_) {
+    const Node& node = mesh_.nodes()[id];
+    if (node.in_use && !node.leaf() && node.bucket != roam::kNoList && node.due == roam::kNoList) {
+      requeue_diamond(id);
+    }
+  }
+  pending_.clear();
 }
 
 // A diamond goes by the lower number of its halves.

@@ -75,33 +75,47 @@ void Roam::split(std::uint32_t id) {
 }
 
 void Roam::split_diamond(std::uint32_t id) {
+  std::vector<Node>& nodes = mesh_.nodes();
   const std::array<std::uint32_t, 2> both = halves(id);
+  std::uint16_t bucket = 0;
   for (const std::uint32_t half : both) {
     if (half == kNone) continue;
+    mesh_.prefetch_split(nodes[half]);
+    if (nodes[half].bucket != roam::kNoList) bucket = std::max(bucket, nodes[half].bucket);
     take_off(half);
-    drawn_.remove(mesh_.nodes(), half);
+    drawn_.remove(nodes, half);
   }
   mesh_.split(id);
   ++changes_;
+  quiet_.resize(nodes.size());
   for (const std::uint32_t half : both) {
-    if (half == kNone) continue;
-    const Node& parent = mesh_.nodes()[half];
-    for (const std::uint32_t child : {parent.child, parent.child + 1}) {
-      see(child, parent.sight);
-      show(child);
-      rank_leaf(child);
-    }
+    if (half != kNone) add_children(half);
   }
-  requeue_diamond(id);
-  for (const std::uint32_t half : both) {
-    if (half != kNone) requeue_diamond(mesh_.nodes()[half].parent);
+  const std::uint32_t name = diamond(id);
+  if (mergeable(name)) {
+    merges_.push(nodes, name, bucket);
+    pending_.push_back(name);
   }
   for (const std::uint32_t half : both) {
+    if (half != kNone) requeue_diamond(nodes[half].parent);
+  }
+  for (const std::uint32_t half : both) {
     if (half == kNone) continue;
-    const std::uint32_t pair = mesh_.nodes()[half].child;
-    for (const std::uint32_t child : {pair, pair + 1}) {
-      if (mesh_.on_edge(mesh_.nodes()[child]) && mesh_.nodes()[child].leaf()) split(child);
+    for (const std::uint32_t child : {nodes[half].child, nodes[half].child + 1}) {
+      if (mesh_.on_edge(nodes[child]) && nodes[child].leaf()) split(child);
     }
+  }
+}
+
+void Roam::add_children(std::uint32_t id) {
+  const Node& parent = mesh_.nodes()[id];
+  const std::array<roam::Corners, 2> corners = mesh_.corners_of_children(parent, mesh_.corners(parent));
+  for (std::uint32_t k = 0; k < 2; ++k) {
+    const std::uint32_t child = parent.child + k;
+    see(child, parent.sight, corners[k]);
+    disturb_ancestors(child);
+    show(child);
+    rank_leaf(child, corners[k]);
   }
 }
 
@@ -132,7 +146,7 @@ void Roam::merge_diamond(std::uint32_t id) {
   for (const std::uint32_t half : both) {
     if (half == kNone) continue;
     show(half);
-    rank_leaf(half);
+    rank_leaf(half, mesh_.corners(mesh_.nodes()[half]));
     requeue_diamond(mesh_.nodes()[half].parent);
   }
 }

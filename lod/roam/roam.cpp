@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace terrabench {
 
@@ -38,7 +39,11 @@ std::unique_ptr<Lod> Roam::build(const Heightfield& ground, const Parameters& pa
 }
 
 Roam::Roam(const Heightfield& ground, const RoamOptions& options, Progress& progress)
-    : mesh_(grid_of(ground), progress), options_(options), extent_(extent_of(mesh_.grid())), batches_(1) {}
+    : mesh_(grid_of(ground), progress),
+      options_(options),
+      extent_(extent_of(mesh_.grid())),
+      quiet_(mesh_.nodes().size()),
+      batches_(1) {}
 
 void Roam::tune(double max_error) {
   options_.max_error = max_error;
@@ -55,7 +60,11 @@ const Frame& Roam::update(const View& view) {
   const roam::Motion motion = afresh ? roam::Motion{} : camera_.since(before);
   due_.clear();
   if (afresh || !motion.none()) {
-    for (std::uint32_t id = 0; id < mesh_.roots(); ++id) look(id, 0);
+    journey_ = {journey_.moved + motion.moved, journey_.turned + motion.turned};
+    // Before floats cannot tell small motions apart.
+    const bool anew = afresh || !(journey_.moved < 1e3 && journey_.turned < 10);
+    if (anew) journey_ = {};
+    for (std::uint32_t id = 0; id < mesh_.roots(); ++id) look(id, 0, anew);
   }
   if (afresh) {
     reference_ = kAsked;
@@ -64,8 +73,10 @@ const Frame& Roam::update(const View& view) {
     deadlines_.advance(mesh_.nodes(), motion, due_);
     for (const std::uint32_t id : due_) reconsider(id);
   }
-  do settle();
-  while (lower_reference());
+  do {
+    settle();
+    rank_pending();
+  } while (lower_reference());
 
   uploads_.clear();
   drawn_.finish(mesh_.nodes(), uploads_);
@@ -87,31 +98,50 @@ const Frame& Roam::update(const View& view) {
   return frame_;
 }
 
-// Culling labels, from the root down to where neither they nor what they imply below can have changed.
-void Roam::look(std::uint32_t id, Sight parent) {
+// Culling labels, from the root down, but not into where neither the labels above nor the motion can have
+// changed any.
+void Roam::look(std::uint32_t id, Sight parent, bool parent_changed) {
+  if (!parent_changed && journey_.moved <= quiet_[id].moved && journey_.turned <= quiet_[id].turned) return;
   const Node& node = mesh_.nodes()[id];
   const Sight before = node.sight;
-  see(id, parent);
+  see(id, parent, mesh_.corners(node));
   const Sight now = node.sight;
+  // Wholly inside or outside, all below is so too.
   if (now == before && (now == roam::kAllInside || now == roam::kOutside)) return;
   const bool turned_up = (now & roam::kOutside) != (before & roam::kOutside);
+  if (turned_up) due_.push_back(id);
   if (node.leaf()) {
-    if (!turned_up) return;
-    show(id);
-    due_.push_back(id);
+    if (turned_up) show(id);
     return;
   }
-  if (turned_up) due_.push_back(id);
-  const std::uint32_t child = node.child;
-  look(child, now);
-  look(child + 1, now);
+  for (const std::uint32_t child : {node.child, node.child + 1}) {
+    look(child, now, parent_changed || now != before);
+    quiet_[id].moved = std::min(quiet_[id].moved, quiet_[child].moved);
+    quiet_[id].turned = std::min(quiet_[id].turned, quiet_[child].turned);
+  }
 }
 
-void Roam::see(std::uint32_t id, Sight parent) {
+void Roam::see(std::uint32_t id, Sight parent, const roam::Corners& corners) {
   Node& node = mesh_.nodes()[id];
-  const bool inherited = parent == roam::kAllInside || (parent & roam::kOutside) != 0;
-  node.sight =
-      inherited ? parent : camera_.sight(mesh_.corners(node), node.thickness, mesh_.spill(node), parent);
+  if (parent == roam::kAllInside || (parent & roam::kOutside) != 0) {
+    node.sight = parent;
+    quiet_[id] = {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
+    return;
+  }
+  const roam::Seeing seeing = camera_.sight(corners, node.thickness, mesh_.spill(node), parent);
+  node.sight = seeing.sight;
+  quiet_[id] = {static_cast<float>(journey_.moved + seeing.slack.moved),
+                static_cast<float>(journey_.turned + seeing.slack.turned)};
+}
+
+// Lets the ancestors of a new triangle know how long its sight stays.
+void Roam::disturb_ancestors(std::uint32_t id) {
+  const Quiet quiet = quiet_[id];
+  for (id = mesh_.nodes()[id].parent; id != kNone; id = mesh_.nodes()[id].parent) {
+    if (quiet_[id].moved <= quiet.moved && quiet_[id].turned <= quiet.turned) return;
+    quiet_[id].moved = std::min(quiet_[id].moved, quiet.moved);
+    quiet_[id].turned = std::min(quiet_[id].turned, quiet.turned);
+  }
 }
 
 // Puts a leaf on or off the draw list, as its sight has it.
@@ -133,6 +163,8 @@ Memory Roam::memory() const {
   memory += deadlines_.memory();
   memory += drawn_.memory();
   memory += index_memory(due_);
+  memory += index_memory(pending_);
+  memory += index_memory(quiet_);
   memory += index_memory(batches_);
   memory += index_memory(uploads_);
   return memory;

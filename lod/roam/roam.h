@@ -51,23 +51,26 @@ class Roam : public Lod {
   static std::uint16_t bucket_of(double ratio);
   static double ratio_from(int bucket);
 
-  void look(std::uint32_t id, roam::Sight parent);
-  void see(std::uint32_t id, roam::Sight parent);
+  void look(std::uint32_t id, roam::Sight parent, bool parent_changed);
+  void see(std::uint32_t id, roam::Sight parent, const roam::Corners& corners);
   void reconsider(std::uint32_t id);
   void reconsider_all();
-  void rank_leaf(std::uint32_t id);
+  void rank_leaf(std::uint32_t id, const roam::Corners&);
   void rank_diamond(std::uint32_t id);
+  void rank_pending();
   void take_off(std::uint32_t id);
-  roam::Distortion distortion(std::uint32_t id) const;
+  roam::Distortion distortion(std::uint32_t id, const roam::Corners&) const;
 
   // The two halves of a diamond, the second kNone on the border.
   std::array<std::uint32_t, 2> halves(std::uint32_t id) const { return {id, mesh_.nodes()[id].base}; }
   std::uint32_t diamond(std::uint32_t id) const;
   bool mergeable(std::uint32_t id) const;
   void requeue_diamond(std::uint32_t id);
+  void disturb_ancestors(std::uint32_t id);
   void show(std::uint32_t id);
   void split(std::uint32_t id);
   void split_diamond(std::uint32_t id);
+  void add_children(std::uint32_t id);
   void merge(std::uint32_t id);
   void merge_diamond(std::uint32_t id);
   std::size_t cost_of_split(std::uint32_t id) const;
@@ -82,7 +85,14 @@ class Roam : public Lod {
   roam::PriorityQueue splits_{kBuckets}, merges_{kBuckets};
   roam::Deadlines deadlines_;
   roam::DrawList drawn_;
-  std::vector<std::uint32_t> due_;  // whose priority must be looked at
+  std::vector<std::uint32_t> due_;      // whose priority must be looked at
+  std::vector<std::uint32_t> pending_;  // diamonds in the merge queue by what their halves had as leaves
+  // For each node, the journey up to which no sight in its subtree changes.
+  struct Quiet {
+    float moved, turned;
+  };
+  std::vector<Quiet> quiet_;
+  roam::Motion journey_;  // all motion since quiet_ was made anew
   std::vector<Batch> batches_;
   std::vector<DirtyRange> uploads_;
   Frame frame_;

@@ -23,6 +23,9 @@ class Wedgies {
 
   // Of the triangles that lattice point (u, v) splits; 0 where all samples lie in the triangles' planes.
   float thickness(int u, int v) const { return decode(bounds_[static_cast<std::size_t>(v) * width_ + u]); }
+  void prefetch(int u, int v) const {
+    __builtin_prefetch(&bounds_[static_cast<std::size_t>(v) * width_ + u]);
+  }
   Memory memory() const { return index_memory(bounds_); }
 
  private:
