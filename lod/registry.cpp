@@ -1,6 +1,7 @@
 #include <vector>
 
 #include "lod/brute_force/brute_force.h"
+#include "lod/clipmap/clipmap.h"
 #include "lod/lod.h"
 #include "lod/roam/roam.h"
 #include "terrain/error.h"
@@ -23,6 +24,13 @@ std::span<const LodType> lods() {
        Roam::knob(),
        Roam::parameters(),
        Roam::build},
+      {"clipmap",
+       "nested windows of samples around the eye, each twice as coarse as the one inside",
+       "hybrid §3.2",
+       {},
+       Clipmap::knob(),
+       {},
+       Clipmap::build},
   };
   return kTypes;
 }

@@ -15,6 +15,7 @@
 #include "renderers/overlay.h"
 #include "renderers/ramp.h"
 #include "renderers/target.h"
+#include "renderers/wires.h"
 
 namespace terrabench {
 namespace {
@@ -137,7 +138,6 @@ void set_surface(const Program& program, const SceneMesh& item) {
   set(program, "painted", !item.colors.empty());
   set(program, "flat_fill", !lit);
   set(program, "fill_color", as_shares(item.fill));
-  set(program, "wire_width", item.wire_width);
   const glm::vec4 ink(as_shares(item.wire_color), item.wire_opacity);
   glProgramUniform4fv(program.id(), uniform(program, "wire_ink"), 1, glm::value_ptr(ink));
 }
@@ -179,11 +179,10 @@ class MeshPainter {
     set_surface(program, item);
     glProgramUniform2f(id, uniform(program, "pixels"), static_cast<float>(view_.width),
                        static_cast<float>(view_.height));
-    set(program, "all_edges", item.wires.empty());
+    set(program, "wire_width", item.wire_width);
     glProgramUniform1i(id, uniform(program, "drawn"), kWiresUnit);
-    const std::uint8_t none = 0;
-    const Buffer masks = make_buffer(item.wires.empty() ? std::span<const std::uint8_t>(&none, 1)
-                                                        : std::span<const std::uint8_t>(item.wires));
+    const std::vector<std::uint8_t> wires = with_outlines(*item.mesh, item.wires, view_.eye);
+    const Buffer masks = make_buffer(std::span<const std::uint8_t>(wires));
     const BufferTexture drawn;
     glTextureBuffer(drawn.id(), GL_R8UI, masks.id());
     glBindTextureUnit(kWiresUnit, drawn.id());

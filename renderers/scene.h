@@ -32,7 +32,7 @@ struct SceneMesh {
   Rgb wire_color{13, 13, 15};
   float wire_opacity = 1;
   // Which edges are wires, one byte a triangle: bit k for the edge from its corner k to the next. Empty: all.
-  // quad_wires() leaves out diagonals.
+  // quad_wires() leaves out diagonals. Where the surface turns away from the eye its outline is drawn too.
   std::vector<std::uint8_t> wires{};
 };
 
@@ -65,7 +65,8 @@ Bounds bounds_of(const Scene&);
 
 // Draws with 4x multisampling into view.width × view.height, which the context's picture takes as its size;
 // the context is current afterwards. The depth range is the scene's, not the view's. The same scene and view
-// give the same bytes whatever the number of threads. O(triangles + pixels).
+// give the same bytes whatever the number of threads. O(triangles + pixels), with wires O(triangles log
+// triangles).
 Image render_scene(GlContext&, const Scene&, const View&);
 
 // For SceneMesh::wires: all edges but the diagonals of four-sided cells, that is, those that are the longest

@@ -13,6 +13,7 @@ out Vertex {
   float bend;
   noperspective vec3 to_edge;
   flat vec3 strength;
+  flat vec3 reach;
 } vertex;
 
 void main() {
@@ -22,5 +23,6 @@ void main() {
   vertex.bend = curvature;
   vertex.to_edge = vec3(0.0);  // no wires, unless wire.geom comes next
   vertex.strength = vec3(0.0);
+  vertex.reach = vec3(0.0);
   gl_Position = world_to_clip * vec4(position, 1.0);
 }

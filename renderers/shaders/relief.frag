@@ -6,6 +6,7 @@ in Vertex {
   float bend;
   noperspective vec3 to_edge;
   flat vec3 strength;
+  flat vec3 reach;
 } vertex;
 
 uniform sampler1D ramp;        // linear light
@@ -17,7 +18,6 @@ uniform bool facets;           // the mesh has no normals
 uniform bool painted;          // vertex.paint holds sRGB
 uniform bool flat_fill;        // no light: all one colour, for hidden-line drawings
 uniform vec3 fill_color;       // sRGB
-uniform float wire_width;      // pixels, half of it on each side of an edge
 uniform vec4 wire_ink;         // sRGB and opacity
 
 out vec4 color;
@@ -71,7 +71,7 @@ vec3 lit_color() {
 
 // How much of the pixel the nearest wire covers.
 float wire_cover() {
-  vec3 cover = vertex.strength * clamp(0.5 * wire_width + 0.5 - vertex.to_edge, 0.0, 1.0);
+  vec3 cover = vertex.strength * clamp(vertex.reach + 0.5 - vertex.to_edge, 0.0, 1.0);
   return max(cover.x, max(cover.y, cover.z));
 }
 

@@ -5,8 +5,8 @@ layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
 
 uniform vec2 pixels;          // width and height of the picture
-uniform usamplerBuffer drawn; // a triangle's edges to draw: bit k for the edge from corner k to the next
-uniform bool all_edges;       // `drawn` holds nothing
+uniform usamplerBuffer drawn; // a triangle's edges to draw: bit k for the edge from corner k to the next;
+                              // bit k + 3: it is an outline, and the neighbour shows no half of it
 uniform int first_triangle;   // of this draw
 uniform float wire_width;     // pixels
 
@@ -17,6 +17,7 @@ in Vertex {
   float bend;
   noperspective vec3 to_edge;
   flat vec3 strength;
+  flat vec3 reach;
 } corner[];
 
 out Vertex {
@@ -26,6 +27,7 @@ out Vertex {
   float bend;
   noperspective vec3 to_edge;
   flat vec3 strength;  // 0 for an edge that is not drawn
+  flat vec3 reach;     // pixels of ink from an edge into the triangle
 } vertex;
 
 // Lines closer than two widths to the next thin out, or far ground would be solid ink.
@@ -39,15 +41,16 @@ void main() {
     on_screen = on_screen && w > 0.0;
     at[k] = 0.5 * pixels * gl_in[k].gl_Position.xy / w;
   }
-  uint mask = !on_screen ? 0u : all_edges ? 7u : texelFetch(drawn, gl_PrimitiveIDIn + first_triangle).r;
+  uint mask = !on_screen ? 0u : texelFetch(drawn, gl_PrimitiveIDIn + first_triangle).r;
   vec2 a = at[1] - at[0], b = at[2] - at[0];
   float area = abs(a.x * b.y - a.y * b.x);
-  vec3 height = vec3(0.0), ink = vec3(0.0);
+  vec3 height = vec3(0.0), ink = vec3(0.0), reach = vec3(0.5 * wire_width);
   for (int k = 0; k < 3; ++k) {
     float side = length(at[(k + 1) % 3] - at[k]);
     if ((mask >> k & 1u) == 0u || side <= 0.0) continue;
     height[k] = area / side;
     ink[k] = strength(height[k]);
+    if ((mask >> (k + 3) & 1u) != 0u) reach[k] = wire_width;
   }
   for (int k = 0; k < 3; ++k) {
     vertex.world = corner[k].world;
@@ -57,6 +60,7 @@ void main() {
     vertex.to_edge = vec3(0.0);
     vertex.to_edge[(k + 1) % 3] = height[(k + 1) % 3];  // the edge across from corner k
     vertex.strength = ink;
+    vertex.reach = reach;
     gl_Position = gl_in[k].gl_Position;
     EmitVertex();
   }

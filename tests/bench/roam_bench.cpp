@@ -68,7 +68,7 @@ void from_cold(benchmark::State& state) {
   }
   state.counters["changes/s"] = benchmark::Counter(changes, benchmark::Counter::kIsRate);
 }
-BENCHMARK(from_cold)->Arg(20000)->Arg(80000)->Arg(320000)->Unit(benchmark::kMillisecond)->Iterations(5);
+BENCHMARK(from_cold)->Arg(20000)->Arg(80000)->Arg(320000)->Unit(benchmark::kMillisecond)->Iterations(60);
 
 template <class Path>
 void frames(benchmark::State& state, const RoamOptions& options, Path path) {

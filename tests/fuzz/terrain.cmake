@@ -1,2 +1,3 @@
 find_package(GDAL CONFIG REQUIRED)
 terrabench_fuzz(dem_fuzz SOURCES dem_fuzz.cpp LIBRARIES terrain GDAL::GDAL)
+terrabench_fuzz(hydrology_fuzz SOURCES hydrology_fuzz.cpp LIBRARIES terrain)

@@ -87,6 +87,47 @@ TEST_F(SceneTest, WiresBehindTheSurfaceAreHidden) {
   EXPECT_GT(ink(), 500);
 }
 
+TEST_F(SceneTest, OutlinesHaveTheWidthOfOtherWires) {
+  // The border of the mesh lies 20 pixels inside the picture.
+  TriangleMesh mesh = ground(1, 60, [](float, float) { return 0.0F; });
+  for (glm::vec3& at : mesh.positions) at += glm::vec3(20, 0, 20);
+  Scene scene;
+  scene.meshes = {wired(mesh, 6)};
+  scene.meshes[0].wires = quad_wires(mesh);
+  const Image image = draw(scene);
+  int across = 0;
+  for (int x = 10; x < 40; ++x) across += dark(image.pixel(x, 50)) ? 1 : 0;
+  EXPECT_NEAR(across, 6, 1);
+}
+
+TEST_F(SceneTest, OutlinesAreDrawnWhereNoWireRuns) {
+  // A roof of two triangles that meet in the only edge that is not asked for; seen from the side, it is the
+  // outline against the sky.
+  TriangleMesh roof;
+  roof.positions = {{0, 0, 0}, {50, 40, 0}, {50, 40, 100}, {100, 0, 0}};
+  roof.indices = {0, 2, 1, 1, 2, 3};
+  Scene scene;
+  scene.meshes = {wired(roof, 4)};
+  scene.meshes[0].wires = {0, 0};
+  View view = map_view();
+  view.up = {0, 1, 0};
+  view.eye = {-10000, 20, 50};
+  view.target = {0, 20, 50};
+  const auto ink = [&] {
+    const Image image = draw(scene, view);
+    int count = 0;
+    for (int y = 0; y < 100; ++y) {
+      for (int x = 0; x < 100; ++x) count += dark(image.pixel(x, y)) ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_GT(ink(), 150);
+  view.eye = {50, 10000, 50};  // from above both triangles face the eye, and the ridge is no outline
+  view.target = {50, 0, 50};
+  view.up = {0, 0, -1};
+  EXPECT_EQ(ink(), 0);
+}
+
 TEST_F(SceneTest, FarWiresThinOutInsteadOfBlackening) {
   const TriangleMesh mesh = level(0, 400);  // four cells a pixel
   Scene scene;
