@@ -3,6 +3,7 @@
 #include "lod/brute_force/brute_force.h"
 #include "lod/clipmap/clipmap.h"
 #include "lod/lod.h"
+#include "lod/roam/roam.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -16,6 +17,13 @@ std::span<const LodType> lods() {
        BruteForce::knob(),
        {},
        BruteForce::build},
+      {"roam",
+       "binary triangle trees split and merged by priority as the view moves",
+       "Duchaineau et al. 1997",
+       {.conforming = true, .bounds_error = true},
+       Roam::knob(),
+       Roam::parameters(),
+       Roam::build},
       {"clipmap",
        "nested windows of samples around the eye, each twice as coarse as the one inside",
        "hybrid §3.2",
