@@ -2,6 +2,7 @@
 
 #include "lod/brute_force/brute_force.h"
 #include "lod/lod.h"
+#include "lod/mrbsp/mrbsp.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -15,6 +16,14 @@ std::span<const LodType> lods() {
        BruteForce::knob(),
        {},
        BruteForce::build},
+      {"mrbsp",
+       "a tree of bisected triangles, each drawn at the depth its distance asks for; what the ground hides "
+       "left out",
+       "mrbsp",
+       {},
+       Mrbsp::knob(),
+       Mrbsp::parameters(),
+       Mrbsp::build},
   };
   return kTypes;
 }
