@@ -7,7 +7,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
     file(READ ${ROOT}/${file} text)
     string(APPEND entries "    {R\"name(${file})name\",\n     R\"embedded(${text})embedded\"},\n")
   endforeach()
-  file(WRITE ${OUTPUT} "#include \"results/embedded.h\"\n\nnamespace terrabench {\nnamespace {\n\n\
+  file(WRITE ${OUTPUT} "#include \"terrain/embedded.h\"\n\nnamespace terrabench {\nnamespace {\n\n\
 constexpr EmbeddedFile kFiles[] = {\n${entries}};\n\n}  // namespace\n\n\
 std::span<const EmbeddedFile> ${SYMBOL}() { return kFiles; }\n\n}  // namespace terrabench\n")
   return()

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "terrain/error.h"
@@ -19,7 +20,10 @@ void check_view(const View& view) {
   if (!is_finite(view.target) || view.target == view.eye) {
     throw usage_error("the view looks nowhere", "target", "give a finite point other than the eye");
   }
-  if (!is_finite(view.up)) throw usage_error("the view has no upward", "up", "0 1 0 is usual");
+  const glm::dvec3 sight = glm::normalize(glm::dvec3(view.target) - glm::dvec3(view.eye));
+  if (!is_finite(view.up) || !(glm::length(glm::cross(sight, glm::normalize(glm::dvec3(view.up)))) > 1e-6)) {
+    throw usage_error("the view has no upward", "up", "give a direction across the line of sight");
+  }
   if (!(view.vertical_fov > 0 && view.vertical_fov < std::numbers::pi_v<float>)) {
     throw usage_error(fmt::format("a field of view of {} rad shows nothing", view.vertical_fov),
                       "vertical_fov", "choose more than 0 and less than π");

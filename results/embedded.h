@@ -1,14 +1,11 @@
-// Data files that travel inside the binary, so that the program needs no path to its sources.
+// The data files of results and experiments that are compiled in.
 #pragma once
 
 #include <span>
-#include <string_view>
+
+#include "terrain/embedded.h"
 
 namespace terrabench {
-
-struct EmbeddedFile {
-  std::string_view name, text;  // name: the path from the project's root
-};
 
 // Every experiments/*/claims.toml, in alphabetical order.
 std::span<const EmbeddedFile> embedded_claims();

@@ -1,26 +1,33 @@
 #include "terrain/frustum.h"
 
+#include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 namespace terrabench {
 
 Frustum::Frustum(const View& view) {
-  const glm::mat4 rows = glm::transpose(world_to_clip(view));
-  for (int axis = 0; axis < 3; ++axis) {
-    planes_[2 * axis] = rows[3] + rows[axis];
-    planes_[2 * axis + 1] = rows[3] - rows[axis];
-  }
+  const glm::dvec3 eye(view.eye);
+  const glm::dvec3 forward = glm::normalize(glm::dvec3(view.target) - eye);
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(view.up)));
+  const glm::dvec3 above = glm::cross(right, forward);
+  const double slope_y = std::tan(0.5 * static_cast<double>(view.vertical_fov));
+  const double slope_x = slope_y * view.width / view.height;
+  const auto plane = [&](const glm::dvec3& normal, double at_eye) {
+    return Plane{normal, at_eye - glm::dot(normal, eye)};
+  };
+  planes_ = {plane(slope_x * forward + right, 0), plane(slope_x * forward - right, 0),
+             plane(slope_y * forward + above, 0), plane(slope_y * forward - above, 0),
+             plane(forward, -view.near),          plane(-forward, view.far)};
 }
 
 Sight Frustum::see(const Bounds& box) const {
-  const glm::vec3 centre = 0.5F * (box.low + box.high);
-  const glm::vec3 half = 0.5F * box.size();
+  const glm::dvec3 centre = 0.5 * (glm::dvec3(box.low) + glm::dvec3(box.high));
+  const glm::dvec3 half = glm::dvec3(box.high) - centre;
   Sight sight = Sight::kInside;
-  for (const glm::vec4& plane : planes_) {
-    const glm::vec3 normal(plane);
-    const float distance = glm::dot(normal, centre) + plane.w;
-    const float reach = glm::dot(glm::abs(normal), half);
+  for (const Plane& plane : planes_) {
+    const double distance = glm::dot(plane.normal, centre) + plane.offset;
+    const double reach = glm::dot(glm::abs(plane.normal), half);
     if (distance < -reach) return Sight::kOutside;
     if (distance < reach) sight = Sight::kCrossing;
   }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <array>
-#include <glm/vec4.hpp>
+#include <glm/vec3.hpp>
 
 #include "terrain/solid.h"
 #include "terrain/view.h"
@@ -19,7 +19,13 @@ class Frustum {
   Sight see(const Bounds& box) const;
 
  private:
-  std::array<glm::vec4, 6> planes_;  // dot(plane, (p, 1)) ≥ 0 inside
+  // In double: floats lose centimetres where coordinates have six digits, and what is culled must not be in
+  // view.
+  struct Plane {
+    glm::dvec3 normal;
+    double offset;  // dot(normal, p) + offset ≥ 0 inside
+  };
+  std::array<Plane, 6> planes_;
 };
 
 }  // namespace terrabench

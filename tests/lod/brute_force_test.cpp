@@ -94,6 +94,7 @@ TEST(CheckView, RefusesWhatShowsNothing) {
   refused([](View& v) { v.eye.x = kNan; });
   refused([](View& v) { v.eye.y = std::numeric_limits<float>::infinity(); });
   refused([](View& v) { v.target = v.eye; });
+  refused([](View& v) { v.target = v.eye + glm::vec3(0, -5, 0); });  // no way is up
   refused([](View& v) { v.vertical_fov = 0; });
   refused([](View& v) { v.vertical_fov = 4; });
   refused([](View& v) { v.width = 0; });

@@ -1,0 +1,186 @@
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "lod/camera/camera_path.h"
+#include "terrain/embedded.h"
+#include "terrain/error.h"
+#include "terrain/files.h"
+
+namespace terrabench {
+
+std::span<const EmbeddedFile> embedded_camera_paths();
+
+namespace {
+
+constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 20;
+constexpr double kLongest = 1e7;  // units: a quarter of the way around the Earth
+
+[[noreturn]] void fail(const toml::node& node, const std::string& origin, std::string_view what) {
+  throw bad_input(what, fmt::format("{}:{}", origin, node.source().begin.line), "correct the camera path");
+}
+
+// One table of the file: a key that nobody asked for is an error.
+class Entry {
+ public:
+  Entry(const toml::node& node, const std::string& origin) : node_(node), origin_(origin) {
+    if (!node.is_table()) refuse("a table is expected here");
+  }
+
+  [[noreturn]] void refuse(std::string_view what) const { fail(node_, origin_, what); }
+  bool has(std::string_view key) const { return node_.as_table()->contains(key); }
+
+  double number(std::string_view key, double lowest, double highest) {
+    return number_of(get(key), key, lowest, highest);
+  }
+  double number_or(std::string_view key, double lowest, double highest, double fallback) {
+    return has(key) ? number(key, lowest, highest) : fallback;
+  }
+  glm::dvec2 pair(std::string_view key, double lowest, double highest) {
+    const toml::node& node = get(key);
+    const toml::array* const array = node.as_array();
+    if (array == nullptr || array->size() != 2) fail(node, origin_, fmt::format("'{}' is not a pair", key));
+    return {number_of(*array->get(0), key, lowest, highest), number_of(*array->get(1), key, lowest, highest)};
+  }
+  // Which of the words it is.
+  std::size_t word(std::string_view key, std::span<const std::string_view> words) {
+    const toml::node& node = get(key);
+    const std::optional<std::string_view> text = node.value<std::string_view>();
+    for (std::size_t w = 0; w < words.size(); ++w) {
+      if (node.is_string() && text == words[w]) return w;
+    }
+    fail(node, origin_, fmt::format("'{}' is none of {}", key, fmt::join(words, ", ")));
+  }
+  const toml::array& list(std::string_view key) {
+    const toml::node& node = get(key);
+    if (!node.is_array()) fail(node, origin_, fmt::format("'{}' is not a list", key));
+    return *node.as_array();
+  }
+  void refuse_unknown() const {
+    for (const auto& [key, value] : *node_.as_table()) {
+      if (!known_.contains(key.str()))
+        fail(value, origin_, fmt::format("'{}' means nothing here", key.str()));
+    }
+  }
+
+ private:
+  const toml::node& get(std::string_view key) {
+    known_.insert(std::string(key));
+    const toml::node* const node = node_.as_table()->get(key);
+    if (node == nullptr) refuse(fmt::format("'{}' is missing", key));
+    return *node;
+  }
+  double number_of(const toml::node& node, std::string_view key, double lowest, double highest) const {
+    const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!value || !(*value >= lowest && *value <= highest)) {
+      fail(node, origin_, fmt::format("'{}' is not a number from {} to {}", key, lowest, highest));
+    }
+    return *value;
+  }
+
+  const toml::node& node_;
+  const std::string& origin_;
+  std::set<std::string, std::less<>> known_;
+};
+
+CameraPath::Look look_of(const Entry& entry) {
+  if (entry.has("look_at")) return CameraPath::Look::kPlace;
+  return entry.has("heading") ? CameraPath::Look::kHeading : CameraPath::Look::kAhead;
+}
+
+constexpr double kSlowest = 1e-6;
+
+Keyframe keyframe_from(Entry& entry, const CameraPath& path, double speed) {
+  Keyframe key;
+  const bool turns = path.kind == CameraPath::Kind::kTurn;
+  if (!turns || path.keyframes.empty()) key.at = entry.pair("at", -kLongest, kLongest);
+  if (path.kind == CameraPath::Kind::kFly) key.height = entry.number("height", 0, kLongest);
+  key.speed = entry.number_or("speed", kSlowest, kLongest, speed);
+  if (path.look == CameraPath::Look::kPlace) key.look_at = entry.pair("look_at", -kLongest, kLongest);
+  if (path.look == CameraPath::Look::kHeading) {
+    key.heading = entry.number("heading", -1e5, 1e5);
+    key.pitch = entry.number_or("pitch", -89, 89, 0);
+  }
+  entry.refuse_unknown();
+  if (key.speed == 0) entry.refuse("'speed' is missing, here and of the whole path");
+  if (path.keyframes.empty()) return key;
+  const Keyframe& last = path.keyframes.back();
+  if (turns ? last.heading == key.heading : last.at == key.at)
+    entry.refuse("nothing moves since the last keyframe");
+  return key;
+}
+
+void read_keyframes(Entry& file, CameraPath& path, double speed, const std::string& origin) {
+  const toml::array& list = file.list("keyframe");
+  if (list.size() < 2) file.refuse("a path has two keyframes at least");
+  for (const toml::node& node : list) {
+    Entry entry(node, origin);
+    const CameraPath::Look look = look_of(entry);
+    if (path.keyframes.empty()) path.look = look;
+    if (look != path.look) entry.refuse("all keyframes look by heading, or at a place, or ahead");
+    if (path.kind == CameraPath::Kind::kTurn && look != CameraPath::Look::kHeading) {
+      entry.refuse("a turn goes from heading to heading");
+    }
+    path.keyframes.push_back(keyframe_from(entry, path, speed));
+  }
+}
+
+}  // namespace
+
+CameraPath parse_camera_path(std::string_view text, std::string name, const std::string& origin) {
+  toml::table table;
+  try {
+    table = toml::parse(text, origin);
+  } catch (const toml::parse_error& error) {
+    throw bad_input(error.description(), fmt::format("{}:{}", origin, error.source().begin.line),
+                    "correct the camera path");
+  }
+  Entry file(table, origin);
+  constexpr std::string_view kKinds[] = {"walk", "fly", "turn"}, kUnits[] = {"m", "extent"};
+  CameraPath path;
+  path.name = std::move(name);
+  path.kind = static_cast<CameraPath::Kind>(file.word("kind", kKinds));
+  path.by_extent = file.has("unit") && file.word("unit", kUnits) == 1;
+  if (file.has("origin")) path.origin = file.pair("origin", 0, 1);
+  path.field_of_view = file.number("field_of_view", 0.1, 170);
+  const glm::dvec2 screen = file.pair("screen", 1, 16384);
+  path.screen = glm::ivec2(screen);
+  if (glm::dvec2(path.screen) != screen) file.refuse("'screen' is not in whole pixels");
+  path.frames_per_second = file.number("frames_per_second", 0.01, 1000);
+  path.near = file.number_or("near", 1e-3, 1e6, path.near);
+  const double speed = file.number_or("speed", kSlowest, kLongest, 0);
+  read_keyframes(file, path, speed, origin);
+  file.refuse_unknown();
+  return path;
+}
+
+CameraPath read_camera_path(const std::filesystem::path& file) {
+  return parse_camera_path(read_file(file, kLargestFile), file.stem().string(), file.string());
+}
+
+std::span<const CameraPath> camera_paths() {
+  static const std::vector<CameraPath> kPaths = [] {
+    std::vector<CameraPath> paths;
+    for (const EmbeddedFile& file : embedded_camera_paths()) {
+      const std::string origin(file.name);
+      paths.push_back(parse_camera_path(file.text, std::filesystem::path(origin).stem().string(), origin));
+    }
+    return paths;
+  }();
+  return kPaths;
+}
+
+const CameraPath& camera_path(std::string_view name) {
+  std::vector<std::string_view> known;
+  for (const CameraPath& path : camera_paths()) {
+    if (path.name == name) return path;
+    known.push_back(path.name);
+  }
+  throw unknown_name("camera path", name, known);
+}
+
+}  // namespace terrabench

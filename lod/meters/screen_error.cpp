@@ -1,0 +1,92 @@
+#include "lod/meters/screen_error.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace terrabench {
+namespace {
+
+struct Row {
+  std::size_t first = 0;  // of its pixels
+  std::size_t samples = 0, undrawn = 0;
+  double sum = 0;
+};
+
+// `pixels`: room for all; left in an order of its own.
+Deviation deviation_of(const std::vector<Row>& rows, std::vector<float>& pixels) {
+  Deviation all;
+  double sum = 0;
+  for (const Row& row : rows) {
+    std::copy_n(pixels.begin() + static_cast<std::ptrdiff_t>(row.first), row.samples,
+                pixels.begin() + static_cast<std::ptrdiff_t>(all.samples));
+    all.samples += row.samples;
+    all.undrawn += row.undrawn;
+    sum += row.sum;
+  }
+  if (all.samples == 0) return all;
+  const auto end = pixels.begin() + static_cast<std::ptrdiff_t>(all.samples);
+  const auto rank = pixels.begin() + static_cast<std::ptrdiff_t>((99 * all.samples + 99) / 100 - 1);
+  std::nth_element(pixels.begin(), rank, end);
+  all.mean = sum / static_cast<double>(all.samples);
+  all.p99 = *rank;
+  all.largest = *std::max_element(rank, end);
+  return all;
+}
+
+// from(i, j) and to(i, j) are heights, NaN where there is none.
+template <class From, class To>
+Deviation measure(const Visibility& seen, Seen least, const From& from, const To& to) {
+  const Projector project(seen.view());
+  std::vector<Row> rows(static_cast<std::size_t>(seen.depth()));
+  tbb::parallel_for(0, seen.depth(), [&](int j) {
+    for (int i = 0; i < seen.width(); ++i)
+      rows[static_cast<std::size_t>(j)].samples += seen.at(i, j) >= least;
+  });
+  std::size_t total = 0;
+  for (Row& row : rows) {
+    row.first = total;
+    total += row.samples;
+    row.samples = 0;
+  }
+  std::vector<float> pixels(total);
+  tbb::parallel_for(0, seen.depth(), [&](int j) {
+    Row& row = rows[static_cast<std::size_t>(j)];
+    for (int i = 0; i < seen.width(); ++i) {
+      if (seen.at(i, j) < least) continue;
+      const float a = from(i, j), b = to(i, j);
+      if (std::isnan(a) || std::isnan(b)) {
+        ++row.undrawn;
+        continue;
+      }
+      const double x = static_cast<float>(i) * seen.cell_x(), z = static_cast<float>(j) * seen.cell_z();
+      const double distance = a == b ? 0 : project.pixels_between({x, a, z}, {x, b, z});
+      pixels[row.first + row.samples++] = static_cast<float>(distance);
+      row.sum += distance;
+    }
+  });
+  return deviation_of(rows, pixels);
+}
+
+template <class From, class To>
+ScreenDeviation measure(const Visibility& seen, const From& from, const To& to) {
+  return {measure(seen, Seen::kVisible, from, to), measure(seen, Seen::kHidden, from, to)};
+}
+
+}  // namespace
+
+ScreenDeviation screen_error(const SurfaceRaster& drawn, const Heightfield& ground, const Visibility& seen) {
+  assert(drawn.width() == seen.width() && drawn.depth() == seen.depth());
+  return measure(
+      seen, [&](int i, int j) { return ground.at(i, j); }, [&](int i, int j) { return drawn.at(i, j); });
+}
+
+ScreenDeviation popping(const SurfaceRaster& before, const SurfaceRaster& after, const Visibility& seen) {
+  assert(before.width() == seen.width() && after.width() == seen.width());
+  return measure(
+      seen, [&](int i, int j) { return before.at(i, j); }, [&](int i, int j) { return after.at(i, j); });
+}
+
+}  // namespace terrabench

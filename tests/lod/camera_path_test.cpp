@@ -1,0 +1,178 @@
+// Paths give the views that they say, over any ground, and garbage is refused by line.
+#include "lod/camera/camera_path.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "lod/lod.h"
+#include "terrain/error.h"
+#include "tests/lod/drawing.h"
+
+namespace terrabench::test {
+namespace {
+
+constexpr std::string_view kWalk = R"(kind = "walk"
+field_of_view = 90
+screen = [640, 480]
+frames_per_second = 10
+speed = 2
+[[keyframe]]
+at = [10, 20]
+[[keyframe]]
+at = [20, 20]
+speed = 4
+[[keyframe]]
+at = [20, 8]
+)";
+
+CameraPath parse(std::string_view text) { return parse_camera_path(text, "test", "test.toml"); }
+
+std::string replaced(std::string_view text, std::string_view from, std::string_view to) {
+  std::string result(text);
+  const std::size_t at = result.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return result.replace(at, from.size(), to);
+}
+
+void expect_refused(const std::string& text, int line, const std::string& what) {
+  try {
+    parse(text);
+    ADD_FAILURE() << "taken: " << text;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    EXPECT_THAT(error.what(), testing::HasSubstr("test.toml:" + std::to_string(line))) << text;
+    EXPECT_THAT(error.what(), testing::HasSubstr(what));
+  }
+}
+
+TEST(CameraPath, AWalkKeepsPaceAndEyeHeight) {
+  const Heightfield ground = hilly(60, 60);
+  const std::vector<View> all = views(parse(kWalk), ground);
+  ASSERT_EQ(all.size(), 81U);  // 10 m at 2 m/s and 12 m at 4 m/s, ten frames a second
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    EXPECT_NEAR(all[k].eye.y - ground.sample(all[k].eye.x, all[k].eye.z), 1.8, 1e-4);
+    EXPECT_EQ(all[k].width, 640);
+    EXPECT_NEAR(all[k].vertical_fov, 1.5708, 1e-4);
+    if (k > 0) {
+      const float step =
+          glm::length(glm::vec2(all[k].eye.x - all[k - 1].eye.x, all[k].eye.z - all[k - 1].eye.z));
+      EXPECT_NEAR(step, k <= 50 ? 0.2 : 0.4, 1e-4) << k;
+    }
+  }
+  EXPECT_NEAR(all.front().eye.x, 10, 1e-5);
+  EXPECT_NEAR(all.back().eye.z, 8, 1e-4);
+  const glm::vec3 east = glm::normalize(all[20].target - all[20].eye);
+  EXPECT_NEAR(east.x, 1, 1e-5);
+  const glm::vec3 north = glm::normalize(all[70].target - all[70].eye);
+  EXPECT_NEAR(north.z, -1, 1e-5);
+}
+
+TEST(CameraPath, ScalesWithTheGround) {
+  const std::string text =
+      replaced(replaced(kWalk, "speed = 2", "speed = 0.1\nunit = \"extent\"\norigin = [0.5, 0]"),
+               "at = [10, 20]", "at = [-0.25, 0.5]");
+  const CameraPath path = parse(replaced(
+      replaced(replaced(text, "at = [20, 20]", "at = [0.25, 0.5]"), "at = [20, 8]", "at = [0.25, 1]"),
+      "speed = 4", "speed = 0.2"));
+  for (const int size : {51, 501}) {
+    const Heightfield ground = flat(size, size, 7);
+    const std::vector<View> all = views(path, ground);
+    ASSERT_EQ(all.size(), 76U);
+    EXPECT_NEAR(all.front().eye.x, 0.25 * (size - 1), 1e-3);
+    EXPECT_NEAR(all.back().eye.x, 0.75 * (size - 1), 1e-3);
+    EXPECT_NEAR(all.back().eye.z, size - 1, 1e-3);
+    EXPECT_NEAR(all.back().eye.y, 8.8, 1e-5);
+  }
+}
+
+TEST(CameraPath, AFlightSinksEvenlyAndClearsPeaks) {
+  Heightfield ground = flat(101, 3);
+  ground.at(50, 1) = 500;
+  const std::vector<View> all = views(parse(R"(kind = "fly"
+field_of_view = 60
+screen = [800, 600]
+frames_per_second = 1
+speed = 1
+[[keyframe]]
+at = [0, 1]
+height = 100
+look_at = [50, 1]
+[[keyframe]]
+at = [100, 1]
+height = 50
+look_at = [50, 1]
+)"),
+                                      ground);
+  ASSERT_EQ(all.size(), 101U);
+  EXPECT_NEAR(all[20].eye.y, 90, 1e-3);
+  EXPECT_NEAR(all[50].eye.y, 501.8, 1e-3);
+  EXPECT_NEAR(all[80].eye.y, 60, 1e-3);
+  EXPECT_LT(all[80].target.x, all[80].eye.x);  // looks back at the peak
+  EXPECT_GT(all[80].target.y, all[80].eye.y);
+}
+
+TEST(CameraPath, ATurnStaysAndGoesAround) {
+  const std::vector<View> all = views(camera_path("turn"), flat(30, 30));
+  ASSERT_EQ(all.size(), 226U);
+  for (const View& view : all) EXPECT_EQ(view.eye, all[0].eye);
+  const auto looks = [&](std::size_t k) { return glm::normalize(all[k].target - all[k].eye); };
+  EXPECT_NEAR(looks(0).z, -1, 1e-5);
+  EXPECT_GT(looks(56).x, 0.99F);  // a quarter: east
+  EXPECT_GT(looks(112).z, 0.99F);
+  EXPECT_NEAR(looks(225).z, -1, 1e-5);
+}
+
+TEST(CameraPath, CommittedPathsHoldOnAnyGround) {
+  EXPECT_GE(camera_paths().size(), 4U);
+  for (const CameraPath& path : camera_paths()) {
+    for (const auto& [width, depth] : {std::pair{2, 2}, {3, 100}, {403, 344}}) {
+      Heightfield ground = hilly(width, depth, 2);
+      ground.cell_x = ground.cell_z = 30;
+      const std::vector<View> all = views(path, ground);
+      EXPECT_GE(all.size(), 200U) << path.name;
+      EXPECT_LE(all.size(), 400U) << path.name;
+      for (const View& view : all) EXPECT_NO_THROW(check_view(view));
+      EXPECT_EQ(all.size(), views(path, ground).size());
+    }
+  }
+  EXPECT_THROW(camera_path("wlak"), Error);
+}
+
+TEST(CameraPath, RefusesGarbageByLine) {
+  const auto refused = [](std::string_view from, std::string_view to, int line, const std::string& what) {
+    expect_refused(replaced(kWalk, from, to), line, what);
+  };
+  refused("[10, 20]", "[nan, 20]", 7, "'at'");
+  refused("[10, 20]", "[10, inf]", 7, "'at'");
+  refused("[10, 20]", "[10]", 7, "pair");
+  refused("[10, 20]", "[10, \"x\"]", 7, "'at'");
+  refused("[10, 20]", "[20, 20]", 8, "nothing moves");
+  refused("speed = 4", "speed = 0", 10, "'speed'");
+  refused("speed = 4", "spede = 4", 10, "'spede'");
+  refused("speed = 4", "speed = ", 10, "");
+  refused("speed = 4", "heading = 4", 8, "all keyframes look");
+  refused("speed = 4", "height = 4", 10, "'height'");
+  refused("\"walk\"", "\"swim\"", 1, "walk, fly, turn");
+  refused("\"walk\"", "7", 1, "'kind'");
+  refused("\"walk\"", "\"turn\"", 6, "heading");
+  refused("= 90", "= 180", 2, "'field_of_view'");
+  refused("= 90", "= -nan", 2, "'field_of_view'");
+  refused("[640, 480]", "[640, 0]", 3, "'screen'");
+  refused("[640, 480]", "[640, 48.5]", 1, "whole pixels");
+  refused("= 10", "= 1e9", 4, "'frames_per_second'");
+  expect_refused("", 1, "'kind'");
+  expect_refused(std::string(kWalk.substr(0, kWalk.find("[[keyframe]]"))), 1, "'keyframe'");
+  expect_refused("keyframe = 3\n" + std::string(kWalk.substr(0, kWalk.find("[[keyframe]]"))), 1,
+                 "not a list");
+}
+
+TEST(CameraPath, RefusesPathsWithoutEnd) {
+  const CameraPath path =
+      parse(replaced(replaced(kWalk, "speed = 2", "speed = 0.000001"), "= 10\n", "= 1000\n"));
+  EXPECT_THROW(views(path, flat(9, 9)), Error);
+}
+
+}  // namespace
+}  // namespace terrabench::test

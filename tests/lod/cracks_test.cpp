@@ -1,0 +1,182 @@
+// The detector finds planted cracks of every kind, and none where there are none.
+#include "lod/meters/cracks.h"
+
+#include <gtest/gtest.h>
+
+#include "lod/brute_force/brute_force.h"
+#include "lod/meters/projector.h"
+#include "tests/lod/drawing.h"
+
+namespace terrabench::test {
+namespace {
+
+CrackReport report_of(const Drawing& drawing, const Heightfield& field) {
+  return find_cracks(drawing.frame(), field.width, field.depth, from_above(field));
+}
+
+// Looks along the ground from the south, so that height shows.
+View from_south(const Heightfield& field) {
+  View view;
+  view.eye = {0.5F * field.extent_x(), 1, field.extent_z() + 20};
+  view.target = {0.5F * field.extent_x(), 1, 0};
+  return view;
+}
+
+// A coarse square in the west, two fine ones in the east: a T-junction at (4, 2).
+Drawing coarse_beside_fine(const Heightfield& field) {
+  Drawing drawing(field);
+  drawing.square(0, 0, 4);
+  for (const int j : {0, 2}) {
+    for (const int i : {4, 6}) drawing.square(i, j, 2);
+  }
+  return drawing;
+}
+
+TEST(Cracks, NoneAtFullDetail) {
+  const Heightfield field = hilly(100, 77, 5);
+  BruteForce lod(field);
+  const View view = from_above(field);
+  const CrackReport report = find_cracks(lod.update(view), field.width, field.depth, view);
+  EXPECT_TRUE(report.tight());
+  EXPECT_EQ(report.t_junctions, 0U);
+  EXPECT_EQ(report.largest_gap_m, 0);
+}
+
+TEST(Cracks, NoneAtTheRimOfWhatIsCulled) {
+  const Heightfield field = hilly(300, 300, 5);
+  BruteForce lod(field);
+  View view;
+  view.eye = {150, 60, 150};
+  view.target = {100, 20, 60};
+  const Frame& frame = lod.update(view);
+  ASSERT_LT(frame.stats.triangles, std::size_t{299} * 299);
+  EXPECT_TRUE(find_cracks(frame, field.width, field.depth, view).tight());
+}
+
+TEST(Cracks, LevelTJunctionIsNoGap) {
+  Heightfield field = flat(9, 5, 7.1F);
+  field.at(4, 0) = 3.3F;
+  field.at(4, 4) = 12.7F;
+  field.at(4, 2) = 0.5F * (3.3F + 12.7F);  // to a float's rounding
+  const CrackReport report = report_of(coarse_beside_fine(field), field);
+  EXPECT_EQ(report.t_junctions, 1U);
+  EXPECT_EQ(report.open_t_junctions, 0U);
+  EXPECT_TRUE(report.tight());
+}
+
+TEST(Cracks, FindsTheGapOfATJunction) {
+  Heightfield field = flat(9, 5, 2);
+  field.cell_x = 3;
+  field.cell_z = 5;
+  field.at(4, 2) = 2.5F;
+  const Drawing drawing = coarse_beside_fine(field);
+  const View view = from_south(field);
+  const CrackReport report = find_cracks(drawing.frame(), field.width, field.depth, view);
+  EXPECT_EQ(report.t_junctions, 1U);
+  EXPECT_EQ(report.open_t_junctions, 1U);
+  EXPECT_EQ(report.gaps, 1U);
+  EXPECT_EQ(report.bare_edges, 0U);
+  EXPECT_EQ(report.overlaps, 0U);
+  EXPECT_DOUBLE_EQ(report.largest_gap_m, 0.5);
+  const Projector project(view);
+  EXPECT_DOUBLE_EQ(report.largest_gap_px, project.pixels_between({12, 2, 10}, {12, 2.5, 10}));
+  EXPECT_GT(report.largest_gap_px, 5);
+  EXPECT_FALSE(report.tight());
+}
+
+TEST(Cracks, FindsGapsOnSlantedEdges) {
+  Heightfield field = flat(7, 7);
+  field.at(2, 2) = 1;  // on the slant from (0, 4) to (4, 0)
+  Drawing drawing(field);
+  drawing.triangle({0, 0}, {0, 4}, {4, 0});
+  drawing.triangle({2, 2}, {0, 4}, {6, 6});
+  drawing.triangle({4, 0}, {2, 2}, {6, 6});
+  drawing.triangle({0, 4}, {0, 6}, {6, 6});
+  drawing.triangle({4, 0}, {6, 6}, {6, 0});
+  const CrackReport report = report_of(drawing, field);
+  EXPECT_EQ(report.t_junctions, 1U);
+  EXPECT_EQ(report.open_t_junctions, 1U);
+  EXPECT_DOUBLE_EQ(report.largest_gap_m, 1);
+  EXPECT_EQ(report.bare_edges, 0U);
+}
+
+TEST(Cracks, FindsGapsBetweenTheSameVertices) {
+  Heightfield field = flat(9, 5);
+  field.at(4, 2) = 3;
+  Drawing drawing(field);
+  drawing.batch(1, 0.5F);  // in the west the odd vertices have gone half of their way
+  for (const int j : {0, 2}) {
+    for (const int i : {0, 2}) drawing.square(i, j, 2);
+  }
+  drawing.batch(1, 0);
+  for (const int j : {0, 2}) {
+    for (const int i : {4, 6}) drawing.square(i, j, 2);
+  }
+  // (4, 2) lacks in level 2: odd along z alone.
+  const CrackReport report = report_of(drawing, field);
+  EXPECT_EQ(report.t_junctions, 0U);
+  EXPECT_EQ(report.gaps, 1U);
+  EXPECT_DOUBLE_EQ(report.largest_gap_m, 1.5);
+}
+
+TEST(Cracks, FindsAMissingTriangleWhereItIsInView) {
+  const Heightfield field = hilly(21, 21);
+  Drawing drawing(field);
+  for (int j = 0; j < 20; ++j) {
+    for (int i = 0; i < 20; ++i) {
+      if (i == 10 && j == 10) {
+        drawing.triangle({i, j}, {i, j + 1}, {i + 1, j});
+      } else {
+        drawing.square(i, j, 1);
+      }
+    }
+  }
+  const CrackReport report = report_of(drawing, field);
+  EXPECT_EQ(report.bare_edges, 3U);
+  EXPECT_EQ(report.gaps, 0U);
+  EXPECT_FALSE(report.tight());
+  View away = from_above(field);
+  away.target.y = 2 * away.eye.y;
+  EXPECT_TRUE(find_cracks(drawing.frame(), 21, 21, away).tight());
+}
+
+TEST(Cracks, FindsATriangleDrawnTwice) {
+  const Heightfield field = hilly(9, 9);
+  Drawing drawing(field);
+  for (int j = 0; j < 8; j += 4) {
+    for (int i = 0; i < 8; i += 4) drawing.square(i, j, 4);
+  }
+  EXPECT_TRUE(report_of(drawing, field).tight());
+  drawing.triangle({4, 0}, {0, 4}, {4, 4});
+  const CrackReport report = report_of(drawing, field);
+  EXPECT_EQ(report.overlaps, 3U);
+  EXPECT_EQ(report.gaps, 0U);
+}
+
+TEST(Cracks, FindsATriangleOverOthers) {
+  const Heightfield field = flat(9, 9);
+  Drawing drawing(field);
+  for (int j = 0; j < 8; j += 2) {
+    for (int i = 0; i < 8; i += 2) drawing.square(i, j, 2);
+  }
+  drawing.triangle({2, 2}, {2, 6}, {6, 2});
+  const CrackReport report = report_of(drawing, field);
+  EXPECT_FALSE(report.tight());
+  EXPECT_EQ(report.bare_edges + report.overlaps, 3U);
+}
+
+TEST(Cracks, HangingSkirtsHideNothing) {
+  Heightfield field = flat(9, 5);
+  field.at(4, 2) = -1;
+  Drawing drawing = coarse_beside_fine(field);
+  drawing.triangle({4, 0}, {4, 2}, {4, 4});
+  EXPECT_EQ(report_of(drawing, field).gaps, 1U);
+}
+
+TEST(Cracks, NoneInAnEmptyFrame) {
+  const Heightfield field = flat(4, 4);
+  EXPECT_TRUE(report_of(Drawing(field), field).tight());
+}
+
+}  // namespace
+}  // namespace terrabench::test

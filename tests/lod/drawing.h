@@ -1,0 +1,83 @@
+// Ground and hand-made frames to hold meters and methods against.
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "terrain/frame.h"
+#include "terrain/heightfield.h"
+#include "terrain/view.h"
+
+namespace terrabench::test {
+
+inline Heightfield flat(int width, int depth, float height = 0) {
+  Heightfield field;
+  field.width = width;
+  field.depth = depth;
+  field.heights.assign(static_cast<std::size_t>(width) * depth, height);
+  return field;
+}
+
+// Waves of several lengths, with noise of `noise` metres.
+inline Heightfield hilly(int width, int depth, float noise = 0, unsigned seed = 1) {
+  Heightfield field = flat(width, depth);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> spread(-noise, noise);
+  for (int j = 0; j < depth; ++j) {
+    for (int i = 0; i < width; ++i) {
+      const float x = static_cast<float>(i), z = static_cast<float>(j);
+      field.at(i, j) = 12 * std::sin(0.05F * x) * std::cos(0.07F * z) + 2 * std::sin(0.31F * x + 0.2F * z) +
+                       spread(random);
+    }
+  }
+  return field;
+}
+
+// From high above the middle: the whole field is in view.
+inline View from_above(const Heightfield& field) {
+  View view;
+  view.target = {0.5F * field.extent_x(), 0, 0.5F * field.extent_z()};
+  view.eye = view.target + glm::vec3(0, 4 * (field.extent_x() + field.extent_z()) + 100, 0);
+  view.up = {0, 0, -1};
+  view.far = 10 * view.eye.y;
+  return view;
+}
+
+// A frame over a field, made triangle by triangle.
+class Drawing {
+ public:
+  explicit Drawing(const Heightfield& field) : field_(field) { batches_.emplace_back(); }
+
+  // Corners by sample. Counter-clockwise from above, z to the south.
+  void triangle(glm::ivec2 a, glm::ivec2 b, glm::ivec2 c) {
+    for (const glm::ivec2 p : {a, b, c})
+      indices_.push_back(static_cast<std::uint32_t>(p.y * field_.width + p.x));
+    batches_.back().index_count += 3;
+  }
+  // A square of two triangles.
+  void square(int i, int j, int side) {
+    triangle({i, j}, {i, j + side}, {i + side, j});
+    triangle({i + side, j}, {i, j + side}, {i + side, j + side});
+  }
+  void batch(std::uint16_t level, float morph) {
+    batches_.push_back({static_cast<std::uint32_t>(indices_.size()), 0, 0, level, morph});
+  }
+  Frame frame() const {
+    return {.grid = {field_.width, field_.depth, field_.cell_x, field_.cell_z, field_.heights},
+            .levels = {},
+            .cell_x = field_.cell_x,
+            .cell_z = field_.cell_z,
+            .indices = indices_,
+            .batches = batches_,
+            .uploads = {},
+            .stats = count(batches_, {}, 0)};
+  }
+
+ private:
+  const Heightfield& field_;
+  std::vector<std::uint32_t> indices_;
+  std::vector<Batch> batches_;
+};
+
+}  // namespace terrabench::test
