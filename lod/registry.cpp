@@ -3,6 +3,7 @@
 #include "lod/brute_force/brute_force.h"
 #include "lod/clipmap/clipmap.h"
 #include "lod/lod.h"
+#include "lod/mrbsp/mrbsp.h"
 #include "lod/roam/roam.h"
 #include "terrain/error.h"
 
@@ -31,6 +32,14 @@ std::span<const LodType> lods() {
        Clipmap::knob(),
        {},
        Clipmap::build},
+      {"mrbsp",
+       "a tree of bisected triangles, each drawn at the depth its distance asks for; what the ground hides "
+       "left out",
+       "mrbsp",
+       {},
+       Mrbsp::knob(),
+       Mrbsp::parameters(),
+       Mrbsp::build},
   };
   return kTypes;
 }

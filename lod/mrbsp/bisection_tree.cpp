@@ -1,0 +1,76 @@
+#include "lod/mrbsp/bisection_tree.h"
+
+#include <fmt/format.h>
+
+#include <cassert>
+
+#include "terrain/error.h"
+
+namespace terrabench {
+
+BisectionTree::BisectionTree(int side_bits, int depth) : side_bits_(side_bits), depth_(depth) {
+  if (side_bits < 0 || 2 * side_bits + 1 > kDeepest) {
+    throw usage_error(fmt::format("a bisection tree over a side of 2^{} has no room", side_bits), "",
+                      fmt::format("choose a side of at most 2^{}", (kDeepest - 1) / 2));
+  }
+  if (depth < 1 || depth > 2 * side_bits + 1) {
+    throw usage_error(fmt::format("a bisection tree over a side of 2^{} has no depth {}", side_bits, depth),
+                      "depth", fmt::format("choose 1 to {}", 2 * side_bits + 1));
+  }
+}
+
+BisectionTree BisectionTree::over(int width, int samples_deep, int depth) {
+  const int cells = std::max({width, samples_deep, 2}) - 1;
+  const int side_bits = std::bit_width(static_cast<unsigned>(cells - 1));
+  return {side_bits, depth == 0 ? 2 * side_bits + 1 : depth};
+}
+
+std::uint64_t BisectionTree::vertices() const {
+  const std::uint64_t along = (std::uint64_t{1} << (depth_ / 2)) + 1;
+  return depth_ % 2 == 1 ? along * along : (along * along + 1) / 2;
+}
+
+bool BisectionTree::has_vertex(glm::ivec2 at) const {
+  const int step = spacing();
+  if (at.x % step != 0 || at.y % step != 0) return false;
+  return depth_ % 2 == 1 || (at.x / step + at.y / step) % 2 == 0;
+}
+
+std::array<PlanTriangle, 2> BisectionTree::roots() const {
+  const int n = side();
+  return {{{{n, 0}, {0, 0}, {n, n}}, {{0, n}, {n, n}, {0, 0}}}};
+}
+
+PlanTriangle BisectionTree::triangle(NodeNumber node) const {
+  assert(node >= 2);
+  const int depth = depth_of(node);
+  PlanTriangle t = roots()[(node >> (depth - 1)) & 1];
+  for (int bit = depth - 2; bit >= 0; --bit) t = child(t, (node >> bit) & 1);
+  return t;
+}
+
+int BisectionTree::split_depth(glm::ivec2 vertex) const {
+  const int bit = std::countr_zero(static_cast<unsigned>(vertex.x | vertex.y));
+  if (bit >= side_bits_) return 0;
+  const int halvings = side_bits_ - bit - 1;  // the square around it has side 2^(k - halvings)
+  const bool both = (((vertex.x & vertex.y) >> bit) & 1) != 0;
+  return (both ? 1 : 2) + 2 * halvings;
+}
+
+std::string label(NodeNumber node) {
+  std::string text;
+  for (int bit = depth_of(node) - 1; bit >= 0; --bit) text += ((node >> bit) & 1) != 0 ? '1' : '0';
+  return text;
+}
+
+bool parse_label(std::string_view text, NodeNumber& node) {
+  if (text.empty() || text.size() > BisectionTree::kDeepest) return false;
+  node = 1;
+  for (const char digit : text) {
+    if (digit != '0' && digit != '1') return false;
+    node = 2 * node + static_cast<NodeNumber>(digit - '0');
+  }
+  return true;
+}
+
+}  // namespace terrabench

@@ -1,0 +1,116 @@
+// What can be seen from where, found once before the walk (MRBSP paper, §4). The ground is divided into
+// rectangular cells in plan; for each, the coarse triangles that an observer standing anywhere in it can see;
+// kept as the changes between neighbouring cells. Coarse triangles are those of one odd depth of the tree, so
+// that they are the halves of squares; what they hide or show, their subtrees do.
+//
+// Two ways to find the sets:
+// - sampled, as printed: from eyes in the cell to the corners of coarse triangles, with the coarse surface in
+//   the way. An eye stands above the fine ground, and above the coarse one where that is higher. A triangle
+//   counts when it faces an eye that sees one of its corners, or when the cell stands on it: neighbours share
+//   corners, so that the paper's own table 1 cannot come from corners alone. Ground that the coarse surface
+//   lacks can be missed.
+// - conservative: never misses, for the full surface and every eye up to the eye height above it. Whole cells
+//   are tested against whole blocks of ground: hidden when, on some grid line between the two, the lowest
+//   ground along all of the stretch that the lines of sight cross stands above the highest of these lines.
+//   Both are quartered where that fails. For the sight line's height only the highest eye in the cell and the
+//   highest ground in the block count: a lower one sees, or shows, no more.
+//
+// Cost: cells × blocks × lines between them, in parallel over cells.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <span>
+#include <vector>
+
+#include "lod/mrbsp/bisection_tree.h"
+#include "terrain/frame.h"
+#include "terrain/memory.h"
+#include "terrain/progress.h"
+
+namespace terrabench {
+
+struct VisibilityOptions {
+  bool conservative = true;
+  int cells = 16;           // at most so many along the longer side
+  int coarseness = 6;       // coarse triangles lie at least so many levels above the finest
+  int eyes = 2;             // sampled: along each side of a cell, in the middles of equal parts
+  float eye_height = 1.8F;  // metres above the ground
+};
+
+// Cells are squares of `side` samples, a power of two; the last ones end at the field's border.
+struct CellGrid {
+  int columns = 1, rows = 1, side = 1;
+  int count() const { return columns * rows; }
+  bool operator==(const CellGrid&) const = default;
+};
+
+// A bit a cell and coarse triangle: element e of depth C is node 2^C + e.
+struct VisibleSets {
+  CellGrid cells;
+  int depth = 1;          // C
+  std::size_t words = 1;  // a cell
+  float eye_height = 0;   // metres
+  std::vector<std::uint64_t> bits;
+
+  VisibleSets() = default;
+  VisibleSets(CellGrid cells, int depth, float eye_height);
+  bool sees(int cell, std::uint32_t element) const {
+    return ((bits[cell * words + element / 64] >> (element % 64)) & 1) != 0;
+  }
+  void add(int cell, std::uint32_t element) {
+    bits[cell * words + element / 64] |= std::uint64_t{1} << (element % 64);
+  }
+  std::size_t count(int cell) const;
+  bool operator==(const VisibleSets&) const = default;
+};
+
+// Throws usage_error for options out of range or sets beyond 512 MiB. The same for any number of threads.
+VisibleSets find_visible(const GroundGrid&, const BisectionTree&, const VisibilityOptions&, Progress&);
+
+// What is stored: the first cell's set, and what toggles from each cell to its right and to its lower
+// neighbour. Element numbers rise in every list.
+struct VisibilityTable {
+  CellGrid cells;
+  int depth = 0;  // 0: no table
+  float eye_height = 0;
+  std::vector<std::uint32_t> start;
+  std::vector<std::uint32_t> first;  // of each step between neighbours, and the end; see step()
+  std::vector<std::uint32_t> changes;
+
+  // Steps to the right come first, row by row, then steps down.
+  int steps() const { return (cells.columns - 1) * cells.rows + cells.columns * (cells.rows - 1); }
+  int step_right(int column, int row) const { return row * (cells.columns - 1) + column; }
+  int step_down(int column, int row) const {
+    return (cells.columns - 1) * cells.rows + row * cells.columns + column;
+  }
+  std::span<const std::uint32_t> step(int index) const {
+    return std::span(changes).subspan(first[index], first[index + 1] - first[index]);
+  }
+  bool operator==(const VisibilityTable&) const = default;
+};
+VisibilityTable changes_of(const VisibleSets&);
+VisibleSets sets_of(const VisibilityTable&);
+
+// The flags of the nodes at run time: a node's is up when something beneath it can be seen, so a walk down
+// the tree stops at the top of what is hidden. Moving toggles what changes on the way.
+class VisibleNodes {
+ public:
+  VisibleNodes() = default;
+  explicit VisibleNodes(const VisibilityTable&);  // in the first cell
+
+  // Returns how many coarse triangles were toggled. The table must be the one it was made with.
+  std::size_t move_to(const VisibilityTable&, glm::ivec2 cell);
+  // Of a node down to the table's depth.
+  bool operator[](NodeNumber node) const { return ((flags_[node / 64] >> (node % 64)) & 1) != 0; }
+  glm::ivec2 cell() const { return cell_; }
+  Memory memory() const { return payload_memory(flags_); }
+
+ private:
+  void toggle(NodeNumber leaf);
+
+  std::vector<std::uint64_t> flags_;
+  glm::ivec2 cell_{0};
+};
+
+}  // namespace terrabench

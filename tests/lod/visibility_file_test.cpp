@@ -1,0 +1,133 @@
+// Both file forms come back as written; nothing else is taken.
+#include "lod/mrbsp/visibility_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "lod/lod.h"
+#include "lod/mrbsp/profile_visibility.h"
+#include "tests/lod/mrbsp_ground.h"
+#include "tests/terrain/errors.h"
+#include "tests/terrain/temporary_folder.h"
+
+namespace terrabench {
+namespace {
+
+using testing::HasSubstr;
+
+VisibilityTable table_of(int width, int depth) {
+  const Heightfield field = rough_ground(width, depth);
+  Progress progress;
+  VisibilityOptions options;
+  options.cells = 8;
+  options.coarseness = 4;
+  return changes_of(find_visible(grid_of(field), BisectionTree::over(width, depth), options, progress));
+}
+
+std::vector<std::byte> bytes_of(const VisibilityTable& table) {
+  ByteSink sink;
+  save_visibility(table, sink);
+  return {sink.bytes().begin(), sink.bytes().end()};
+}
+
+// With a checksum that fits, as an attacker would write it.
+std::vector<std::byte> sealed(std::vector<std::byte> file) {
+  file.resize(file.size() - 32);
+  const std::string sum = checksum(file);
+  for (const char c : sum) file.push_back(static_cast<std::byte>(c));
+  return file;
+}
+
+TEST(VisibilityFile, BothFormsComeBack) {
+  for (const VisibilityTable& table :
+       {table_of(65, 50), table_of(9, 65), changes_of(find_visible(table1_profile()))}) {
+    EXPECT_EQ(parse_visibility(visibility_text(table), "memory"), table);
+    EXPECT_EQ(load_visibility(bytes_of(table), "memory"), table);
+    const TemporaryFolder folder;
+    for (const char* const name : {"v.txt", "v.tbv"}) {
+      write_visibility(folder / name, table);
+      EXPECT_EQ(read_visibility(folder / name), table);
+    }
+  }
+}
+
+TEST(VisibilityFile, CellsAreNamedByColumnAndRow) {
+  EXPECT_EQ(cell_name({8, 1, 2}, 0, 0), "a");
+  EXPECT_EQ(cell_name({8, 1, 2}, 7, 0), "h");
+  EXPECT_EQ(cell_name({30, 4, 2}, 25, 0), "z1");
+  EXPECT_EQ(cell_name({30, 4, 2}, 26, 3), "aa4");
+  EXPECT_EQ(cell_name({800, 1, 2}, 701, 0), "zz");
+  EXPECT_EQ(cell_name({800, 1, 2}, 702, 0), "aaa");
+}
+
+TEST(VisibilityFile, TextNamesTheLineAtFault) {
+  const std::string head = "terrabench-visibility 1\ncells 2 2\nside 2\ndepth 2\neye-height 1.8\n";
+  EXPECT_NO_THROW((void)parse_visibility(head + "start 01\na1-b1 11\na2-b2 11\n", "f"));
+  for (const auto& [text, line] : std::vector<std::pair<std::string, std::string>>{
+           {"", "line 0"},
+           {"something else\n", "line 1"},
+           {"terrabench-visibility 1\ncells 2\n", "line 2"},
+           {"terrabench-visibility 1\ncells 2 2 2\n", "line 2"},
+           {"terrabench-visibility 1\ncells 2 99999999999\n", "line 2"},
+           {"terrabench-visibility 1\ncells 2 2\nside 3\ndepth 2\neye-height 1\nstart \n", "line 5"},
+           {"terrabench-visibility 1\ncells 9999 9999\nside 2\ndepth 2\neye-height 1\nstart \n", "line 5"},
+           {"terrabench-visibility 1\ncells 2 2\nside 2\ndepth 99\neye-height 1\nstart \n", "line 5"},
+           {"terrabench-visibility 1\ncells 2 2\nside 2\ndepth 2\neye-height nan\nstart \n", "line 5"},
+           {head + "start 1\n", "line 6"},
+           {head + "start 11, 01\n", "line 6"},
+           {head + "start 01, 01\n", "line 6"},
+           {head + "start 01,10\n", "line 6"},
+           {head + "start 01\na1-b1 11", "line 7"},
+           {head + "start 01\na1-b1\n", "line 7"},
+           {head + "start 01\na1-b1 \n", "line 7"},
+           {head + "start 01\nb1-a1 11\n", "line 7"},
+           {head + "start 01\na2-b2 11\na1-b1 11\n", "line 8"},
+           {head + "start 01\na1-b1 11\na1-b1 11\n", "line 8"},
+           {head + "start 01\na1-b1 11\n", "line 7"}}) {
+    const Failure failure = failure_of([&] { (void)parse_visibility(text, "f"); });
+    EXPECT_EQ(failure.code, ExitCode::kBadInput) << text;
+    EXPECT_THAT(failure.what, HasSubstr(line)) << text;
+  }
+}
+
+TEST(VisibilityFile, DamagedBinariesAreRefused) {
+  const std::vector<std::byte> good = bytes_of(table_of(33, 33));
+  for (std::size_t k = 0; k < good.size(); k += 7) {
+    std::vector<std::byte> bad = good;
+    bad[k] ^= std::byte{0x10};
+    EXPECT_EQ(failure_of([&] { (void)load_visibility(bad, "f"); }).code, ExitCode::kBadInput);
+    EXPECT_EQ(failure_of([&] { (void)load_visibility(std::span(good).first(k), "f"); }).code,
+              ExitCode::kBadInput);
+  }
+}
+
+TEST(VisibilityFile, WhatCannotBeIsRefusedWhateverItsChecksum) {
+  const std::vector<std::byte> good = bytes_of(table_of(33, 33));
+  const auto refused = [&](std::size_t at, std::initializer_list<int> bytes) {
+    std::vector<std::byte> bad = good;
+    for (const int b : bytes) bad[at++] = static_cast<std::byte>(b);
+    EXPECT_EQ(failure_of([&] { (void)load_visibility(sealed(bad), "f"); }).code, ExitCode::kBadInput);
+  };
+  EXPECT_NO_THROW((void)load_visibility(sealed(good), "f"));
+  refused(8, {9});                              // version
+  refused(12, {0xFF, 0xFF, 0xFF, 0x7F});        // columns
+  refused(12, {0, 0, 16, 0});                   // columns: more steps than bytes
+  refused(20, {3});                             // side
+  refused(24, {31});                            // depth
+  refused(28, {0, 0, 0xC0, 0x7F});              // eye height: NaN
+  refused(32, {0xFF, 0xFF, 0xFF, 0xFF, 0xFF});  // a count
+  std::vector<std::byte> longer = good;
+  longer.insert(longer.end() - 32, std::byte{0});
+  EXPECT_EQ(failure_of([&] { (void)load_visibility(sealed(longer), "f"); }).code, ExitCode::kBadInput);
+}
+
+TEST(VisibilityFile, BytesAreThoseOfTheSavedLists) {
+  const VisibilityTable table = table_of(65, 65);
+  const VisibilityBytes bytes = visibility_bytes(table);
+  EXPECT_EQ(bytes.changes, bytes_of(table).size() - 32 - 32);
+  EXPECT_EQ(bytes.bits, (8U * 8U * (1U << table.depth)) / 8);
+  EXPECT_GT(bytes.lists, 0U);
+}
+
+}  // namespace
+}  // namespace terrabench
