@@ -18,7 +18,7 @@ void circle(Sheet& sheet, SheetPoint centre, double radius, Rgb colour, double t
     const double angle = 2 * std::numbers::pi * k / kCorners;
     points.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
   }
-  sheet.line(points, colour, thickness);
+  sheet.line(points, {.colour = colour, .thickness = thickness, .dashes = {}});
 }
 
 // Strokes through the centre, evenly turned from `first` (as a share of a half turn) on.
@@ -33,7 +33,7 @@ void rays(Sheet& sheet, SheetPoint centre, double radius, int count, double firs
 }  // namespace
 
 void stroke(Sheet& sheet, SheetPoint from, SheetPoint to, Rgb colour, double thickness) {
-  sheet.line(std::array{from, to}, colour, thickness);
+  sheet.line(std::array{from, to}, {.colour = colour, .thickness = thickness, .dashes = {}});
 }
 
 void draw_grid(Sheet& sheet, const ArrayPlace& array) {

@@ -96,7 +96,7 @@ void draw_midpoints(std::uint64_t seed, Recorder& recorder) {
     std::vector<SheetPoint> points;
     for (std::size_t i = 0; i < heights.size(); ++i) points.push_back(place(i));
     stroke(sheet, {x0, y0 + kHeight / 2}, {x0 + kWidth, y0 + kHeight / 2}, kUnset, 1);
-    sheet.line(points, kInk, levels < 6 ? 2 : 1.2);
+    sheet.line(points, {.colour = kInk, .thickness = levels < 6 ? 2 : 1.2, .dashes = {}});
     if (levels < 6) {
       for (std::size_t i = 0; i < points.size(); ++i) {
         const bool fresh = levels > 0 && i % 2 == 1;
