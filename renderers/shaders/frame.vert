@@ -31,6 +31,7 @@ out Vertex {
   float bend;
   noperspective vec3 to_edge;
   flat vec3 strength;
+  flat vec3 reach;
 } vertex;
 flat out uint first_triangle;
 
@@ -93,6 +94,7 @@ void main() {
   vertex.bend = 0.0;
   vertex.to_edge = vec3(0.0);
   vertex.strength = vec3(0.0);
+  vertex.reach = vec3(0.0);
   first_triangle = batch.first_triangle;
   gl_Position = world_to_clip * vec4(vertex.world, 1.0);
 }

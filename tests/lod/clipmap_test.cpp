@@ -39,7 +39,7 @@ View everything(const Heightfield& field, float x, float z, float above) {
   view.vertical_fov = 3.14F;
   view.width = view.height = 100;
   view.near = 0.01F;
-  view.far = 100 * (field.extent_x() + field.extent_z());
+  view.far = 100 * (field.extent_x() + field.extent_z()) + 10 * view.eye.y;
   return view;
 }
 
@@ -225,6 +225,7 @@ TEST(Clipmap, TakesFarEyesAndTinyScreens) {
   Clipmap lod(heights_in_memory(field), 15);
   View view;
   view.width = view.height = 1;
+  view.up = {0.1F, 1, 0.2F};
   for (const glm::vec3 eye :
        {glm::vec3(0, -1000, 0), glm::vec3(1e30F, 5, 1e30F), glm::vec3(-1e9F, 1e20F, 50)}) {
     view.eye = eye;
