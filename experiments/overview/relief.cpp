@@ -81,11 +81,12 @@ void measure_relief(const Case& at, const RunOptions& options, Recorder& recorde
   const Bounds ground = source.bounds();  // the same colours for every representation of it
   const Image image = render_relief(*context, mesh, view, {.lowest = ground.low.y, .highest = ground.high.y});
   const std::string id = fmt::format("relief.{}.{}", file_name(at.terrain), type.name);
-  write_png(
-      recorder.figure(id, "png",
-                      fmt::format("{} as {}: {} triangles, sun from the north-west, view from the south",
-                                  source.name, type.name, mesh.triangles())),
-      with_few_colours(image));
+  write_png(recorder.figure(
+                id, "png",
+                fmt::format("{} as {}: {} triangles, from {:.0f} m (dark) to {:.0f} m (light), sun from the "
+                            "north-west, view from the south",
+                            source.name, type.name, mesh.triangles(), ground.low.y, ground.high.y)),
+            with_few_colours(image));
 }
 
 }  // namespace terrabench::overview_experiments

@@ -10,6 +10,8 @@
 
 #include "terrain/files.h"
 #include "terrain/image.h"
+#include "terrain/source.h"
+#include "terrain/sources/dem/dem.h"
 
 namespace terrabench {
 namespace {
@@ -103,6 +105,24 @@ TEST_F(CommandLine, TwoProfilesInOneFolderKeepTheirPictures) {
   EXPECT_EQ(pictures(), 2 * quick);
   ASSERT_EQ(call("$T report out").code, 0);
   EXPECT_THAT(call("ls out/report/figures").text, HasSubstr(".paper"));
+}
+
+TEST_F(CommandLine, EveryPictureLeftBehindIsARecordsOwn) {
+  // With a hole, and not as wide as deep.
+  Heightfield ground = crop(*open_terrain("jacksboro").heights, 100, 100, 64, 90);
+  for (int j = 40; j < 50; ++j) ground.at(30, j) = Heightfield::kNoData;
+  write_geotiff(folder_ / "ground.tif", ground);
+  const Outcome run = call("$T run drill.effects drill.size --terrain ground.tif --out out");
+  ASSERT_EQ(run.code, 0) << run.text;
+  const std::string records = read_file(folder_ / "out/measurements.jsonl");
+  int pictures = 0;
+  for (const auto& entry : fs::directory_iterator(folder_ / "out/figures")) {
+    EXPECT_THAT(records, HasSubstr("figures/" + entry.path().filename().string()));
+    EXPECT_GT(read_png(entry.path()).width, 400) << entry.path();
+    ++pictures;
+  }
+  EXPECT_EQ(pictures, 6);  // figures 1 to 4, differences, rate and distortion
+  EXPECT_EQ(temporary_files(), 0U);
 }
 
 TEST_F(CommandLine, TheSameSeedGivesTheSamePicturesOnAnyThreadCount) {

@@ -27,7 +27,8 @@ TEST(CompressedSizes, WholeMetresAreKeptWithoutLoss) {
   for (const auto& [codec, setting] : {std::pair{RasterCodec::kZstd, 1.0},
                                        {RasterCodec::kZstdDifferences, 1.0},
                                        {RasterCodec::kJpeg2000, 100.0},
-                                       {RasterCodec::kLerc, 0.0}}) {
+                                       {RasterCodec::kLerc, 0.0},
+                                       {RasterCodec::kLercDeflate, 0.0}}) {
     const CompressedSize size = compressed_size(field, codec, setting);
     EXPECT_EQ(size.rmse, 0) << name(codec);
     EXPECT_GT(size.bytes, 1000U) << name(codec);
@@ -55,6 +56,25 @@ TEST(CompressedSizes, LercKeepsItsPromise) {
   const Heightfield field = waves(64, 64, false);
   EXPECT_LE(compressed_size(field, RasterCodec::kLerc, 2).rmse, 2);
   EXPECT_GT(compressed_size(field, RasterCodec::kLerc, 2).rmse, 0.5);
+  EXPECT_EQ(compressed_size(field, RasterCodec::kLercDeflate, 2).rmse,
+            compressed_size(field, RasterCodec::kLerc, 2).rmse);
+}
+
+TEST(CompressedSizes, DeflateFindsWhatLercLeaves) {
+  // The same wave again and again: blocks of LERC that repeat.
+  Heightfield field{256, 256, 30, 30, {}, {}};
+  for (int j = 0; j < 256; ++j) {
+    for (int i = 0; i < 256; ++i) field.heights.push_back(static_cast<float>((i * 37 + j * 11) % 8 * 50));
+  }
+  EXPECT_LT(2 * compressed_size(field, RasterCodec::kLercDeflate, 1).bytes,
+            compressed_size(field, RasterCodec::kLerc, 1).bytes);
+}
+
+// A block's header and one height, without a file around it.
+TEST(CompressedSizes, LercIsCountedWithoutItsContainer) {
+  const Heightfield flat{70, 70, 1, 1, std::vector<float>(4900, 3), {}};
+  EXPECT_LT(compressed_size(flat, RasterCodec::kLerc, 1).bytes, 200U);
+  EXPECT_GT(compressed_size(flat, RasterCodec::kLerc, 1).bytes, 20U);
 }
 
 TEST(CompressedSizes, OfFlatAndTinyFields) {
@@ -76,6 +96,7 @@ TEST(CompressedSizes, SettingsAndHolesThatCannotBeAreRefused) {
   EXPECT_EQ(code(RasterCodec::kJpeg2000, 101), ExitCode::kUsage);
   EXPECT_EQ(code(RasterCodec::kLerc, -1), ExitCode::kUsage);
   EXPECT_EQ(code(RasterCodec::kLerc, std::nan("")), ExitCode::kUsage);
+  EXPECT_EQ(code(RasterCodec::kLercDeflate, -1), ExitCode::kUsage);
   field.heights[3] = Heightfield::kNoData;
   for (const RasterCodec codec : raster_codecs()) EXPECT_EQ(code(codec, 1), ExitCode::kBadInput);
 }

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -17,7 +18,7 @@ namespace terrabench {
 namespace {
 
 constexpr RasterCodec kCodecs[] = {RasterCodec::kZstd, RasterCodec::kZstdDifferences, RasterCodec::kJpeg2000,
-                                   RasterCodec::kLerc};
+                                   RasterCodec::kLerc, RasterCodec::kLercDeflate};
 constexpr double kMostSteps = 65535;
 constexpr int kZstdLevel = 19;
 
@@ -149,25 +150,35 @@ CompressedSize jpeg2000_size(const Heightfield& field, double quality) {
   return {packed.size(), rmse(field, [&](std::size_t i) { return steps.height(numbers[i]); }), quality};
 }
 
-CompressedSize lerc_size(const Heightfield& field, double largest_error) {
+// Of the first block of a GeoTIFF: what surrounds it is the file's, not the codec's.
+std::size_t block_bytes(const MemoryFile& file) {
+  const DatasetPointer dataset(GDALDataset::Open(file.path.c_str(), GDAL_OF_RASTER));
+  const char* const bytes =
+      dataset == nullptr ? nullptr : dataset->GetRasterBand(1)->GetMetadataItem("BLOCK_SIZE_0_0", "TIFF");
+  return bytes == nullptr ? file.size() : std::strtoull(bytes, nullptr, 10);
+}
+
+CompressedSize lerc_size(const Heightfield& field, double largest_error, bool deflate) {
   if (!(largest_error >= 0)) {
     throw usage_error(fmt::format("{} m is no error", largest_error), "compressed size", "choose 0 or more");
   }
   register_gdal();
+  const RasterCodec codec = deflate ? RasterCodec::kLercDeflate : RasterCodec::kLerc;
   const GdalMessages messages;
   const MemoryFile packed;
   CPLStringList options;
-  options.SetNameValue("COMPRESS", "LERC");
+  options.SetNameValue("COMPRESS", deflate ? "LERC_DEFLATE" : "LERC");
+  if (deflate) options.SetNameValue("ZLEVEL", "9");
   options.SetNameValue("MAX_Z_ERROR", fmt::format("{:.9g}", largest_error).c_str());
   options.SetNameValue("BLOCKYSIZE", fmt::format("{}", field.depth).c_str());
   std::vector<float> heights = field.heights;
   DatasetPointer tiff = make_tiff(packed, field, GDT_Float32, heights.data(), options);
-  if (tiff == nullptr) throw gdal_failed(RasterCodec::kLerc, messages);
+  if (tiff == nullptr) throw gdal_failed(codec, messages);
   tiff.reset();
   if (messages.failed() || !read_back(packed, field, GDT_Float32, heights)) {
-    throw gdal_failed(RasterCodec::kLerc, messages);
+    throw gdal_failed(codec, messages);
   }
-  return {packed.size(), rmse(field, [&](std::size_t i) { return static_cast<double>(heights[i]); }),
+  return {block_bytes(packed), rmse(field, [&](std::size_t i) { return static_cast<double>(heights[i]); }),
           largest_error};
 }
 
@@ -179,6 +190,7 @@ std::pair<double, double> setting_range(const Heightfield& field, RasterCodec co
     case RasterCodec::kJpeg2000:
       return {100, 0.01};
     case RasterCodec::kLerc:
+    case RasterCodec::kLercDeflate:
       return {span * 1e-6, span};
     default:
       return {natural_step(field), span};
@@ -197,8 +209,10 @@ std::string_view name(RasterCodec codec) {
       return "int16 differences + zstd";
     case RasterCodec::kJpeg2000:
       return "JPEG 2000";
-    default:
+    case RasterCodec::kLerc:
       return "LERC";
+    default:
+      return "LERC + DEFLATE";
   }
 }
 
@@ -212,7 +226,8 @@ CompressedSize compressed_size(const Heightfield& field, RasterCodec codec, doub
     case RasterCodec::kJpeg2000:
       return jpeg2000_size(field, setting);
     case RasterCodec::kLerc:
-      return lerc_size(field, setting);
+    case RasterCodec::kLercDeflate:
+      return lerc_size(field, setting, codec == RasterCodec::kLercDeflate);
     default:
       return zstd_size(field, setting, codec == RasterCodec::kZstdDifferences);
   }

@@ -14,7 +14,8 @@ enum class RasterCodec {
   kZstd,             // 16-bit numbers of steps above the lowest height, row by row, zstd level 19
   kZstdDifferences,  // the same, each number less the one to the west
   kJpeg2000,         // GDAL and OpenJPEG, codestream only, of 16-bit numbers
-  kLerc,             // GDAL's GeoTIFF with LERC compression in one block, of floats
+  kLerc,             // the one block of GDAL's GeoTIFF with LERC compression, of floats
+  kLercDeflate,      // the same block through DEFLATE: LERC itself packs bits and codes no entropy
 };
 std::span<const RasterCodec> raster_codecs();
 std::string_view name(RasterCodec);
@@ -25,7 +26,7 @@ struct CompressedSize {
   double setting = 0;  // what it was made with, as below
 };
 
-// `setting`: the step in metres for zstd, the largest error in metres for LERC (0: none), and for JPEG 2000
+// `setting`: the step in metres for zstd, the largest error in metres for both LERCs (0: none), and for JPEG 2000
 // its quality, percent of the uncompressed size (100: no loss). Throws usage_error for settings out of range
 // or so fine that 16 bits do not suffice, bad_input for fields with holes, environment_error when GDAL lacks
 // the format.
