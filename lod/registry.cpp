@@ -2,6 +2,7 @@
 
 #include "lod/brute_force/brute_force.h"
 #include "lod/clipmap/clipmap.h"
+#include "lod/geomipmap/geomipmap.h"
 #include "lod/lod.h"
 #include "lod/mrbsp/mrbsp.h"
 #include "lod/roam/roam.h"
@@ -25,6 +26,13 @@ std::span<const LodType> lods() {
        Roam::knob(),
        Roam::parameters(),
        Roam::build},
+      {"geomipmap",
+       "patches at the coarsest level that keeps the bound, stitched to their neighbours",
+       "de Boer 2000",
+       {.conforming = true, .bounds_error = true},
+       GeoMipMap::knob(),
+       GeoMipMap::parameters(),
+       GeoMipMap::build},
       {"clipmap",
        "nested windows of samples around the eye, each twice as coarse as the one inside",
        "hybrid §3.2",

@@ -29,7 +29,8 @@ glm::vec3 grid_position(const Frame& frame, const Batch& batch, std::uint32_t ve
     return grid.heights[static_cast<std::size_t>(at_j) * grid.width + at_i];
   };
   float y = height(i, j);
-  if (batch.morph > 0) y = glm::mix(y, coarser_height(i, j, 1 << batch.level, height), batch.morph);
+  // Not mix(), whose rounding moves the vertices that stay.
+  if (batch.morph > 0) y += batch.morph * (coarser_height(i, j, 1 << batch.level, height) - y);
   return {static_cast<float>(i) * grid.cell_x, y, static_cast<float>(j) * grid.cell_z};
 }
 

@@ -30,11 +30,6 @@ std::vector<Run> runs_of(const Frame& frame) {
 
 }  // namespace
 
-long long doubled_plan_area(const Corner* triangle) {
-  const Corner &a = triangle[0], &b = triangle[1], &c = triangle[2];
-  return static_cast<long long>(b.z - a.z) * (c.x - a.x) - static_cast<long long>(b.x - a.x) * (c.z - a.z);
-}
-
 void for_drawn_triangles(const Frame& frame, const std::function<void(std::span<const Corner>)>& use) {
   const std::vector<Run> runs = runs_of(frame);
   tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t r) {

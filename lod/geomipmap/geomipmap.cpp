@@ -1,0 +1,157 @@
+#include "lod/geomipmap/geomipmap.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+constexpr int kSmallestSide = 2, kLargestSide = 256;
+
+}  // namespace
+
+std::span<const ParameterSpec> GeoMipMap::parameters() {
+  static const ParameterSpec kSpecs[] = {
+      {"patch", std::int64_t{64}, "cells", "cells along a patch's side, a power of two", kSmallestSide,
+       kLargestSide},
+      {"level_camera", false, "", "choose levels by the paper's rule for a level camera, which bounds less"},
+  };
+  return kSpecs;
+}
+
+std::unique_ptr<Lod> GeoMipMap::build(const Heightfield& ground, const Parameters& parameters,
+                                      Progress& progress) {
+  check_ground(ground);
+  const Options options{static_cast<int>(parameters.integer("patch")), parameters.flag("level_camera")};
+  if (!std::has_single_bit(static_cast<unsigned>(options.side))) {
+    throw usage_error("the side of a patch is no power of two", "patch", "choose 16, 32, 64 or 128");
+  }
+  return std::make_unique<GeoMipMap>(ground, options, progress);
+}
+
+GeoMipMap::GeoMipMap(const Heightfield& ground, const Options& options, Progress& progress)
+    : grid_(grid_of(ground)),
+      options_(options),
+      cut_{grid_.width, grid_.depth, options.side},
+      offsets_(cut_.offsets()),
+      levels_(std::bit_width(static_cast<unsigned>(options.side))),
+      pixels_(knob().fallback),
+      patterns_(cut_, levels_),
+      errors_(grid_, cut_, patterns_, levels_, progress),
+      tree_(grid_, cut_),
+      level_(cut_.slots(), kUnseen),
+      last_level_(cut_.slots(), kUnseen),
+      queued_(cut_.slots(), 0),
+      allowed_(cut_.slots()) {
+  seen_.reserve(cut_.count());
+  last_seen_.reserve(cut_.count());
+  queue_.reserve(cut_.count());
+  batches_.reserve(cut_.count());
+  uploads_.reserve(2);
+}
+
+void GeoMipMap::tune(double pixels) { pixels_ = std::clamp(pixels, knob().finest, knob().coarsest); }
+
+const Frame& GeoMipMap::update(const View& view) {
+  check_view(view);
+  for (const PatchTree::Seen& p : last_seen_) last_level_[p.slot] = kUnseen;
+  for (const PatchTree::Seen& p : seen_) last_level_[p.slot] = std::exchange(level_[p.slot], kUnseen);
+  std::swap(seen_, last_seen_);
+  seen_.clear();
+  tree_.collect(Frustum(view), seen_);
+  choose_levels(ScreenBound(view, pixels_));
+  fit_neighbours();
+  draw();
+  return frame_;
+}
+
+void GeoMipMap::choose_levels(const ScreenBound& bound) {
+  for (const PatchTree::Seen& p : seen_) {
+    const Bounds box = tree_.box(p);
+    const float allowed =
+        options_.level_camera ? bound.allowed_level_camera(0.5F * (box.low + box.high)) : bound.allowed(box);
+    int level = levels_ - 1;
+    while (errors_.of_level(p.slot, level) > allowed) --level;  // ends at level 0, which has no error
+    level_[p.slot] = static_cast<std::uint8_t>(level + 1);
+    allowed_[p.slot] = allowed;
+  }
+}
+
+// Refines the coarser of two neighbours until it differs by one level at most and the seam keeps the bound.
+// `side` is the finer one's.
+void GeoMipMap::fit(std::uint32_t fine, std::uint32_t coarse, int side) {
+  const int level = level_[fine];
+  if (level_[coarse] <= level || level == kUnseen) return;
+  const int most = errors_.of_seam(fine, level - 1, side) <= allowed_[fine] ? level + 1 : level;
+  if (level_[coarse] <= most) return;
+  level_[coarse] = static_cast<std::uint8_t>(most);
+  if (std::exchange(queued_[coarse], 1) == 0) queue_.push_back(coarse);
+}
+
+// Levels only sink, so this ends; a patch whose level sank looks at its four sides again.
+void GeoMipMap::fit_neighbours() {
+  for (const PatchTree::Seen& p : seen_) {
+    for (const int side : {kNorth, kEast, kSouth, kWest}) fit(p.slot, p.slot + offsets_[side], side);
+  }
+  while (!queue_.empty()) {
+    const std::uint32_t slot = queue_.back();
+    queue_.pop_back();
+    queued_[slot] = 0;
+    for (const int side : {kNorth, kEast, kSouth, kWest}) {
+      fit(slot, slot + offsets_[side], side);
+      fit(slot + offsets_[side], slot, side ^ 2);
+    }
+  }
+}
+
+void GeoMipMap::draw() {
+  batches_.clear();
+  std::size_t changes = 0;
+  for (const PatchTree::Seen& p : seen_) {
+    const std::uint8_t level = level_[p.slot];
+    changes += level != last_level_[p.slot] ? 1 : 0;
+    int seams = 0;
+    for (const int side : {kNorth, kEast, kSouth, kWest}) {
+      seams |= level_[p.slot + offsets_[side]] > level ? 1 << side : 0;
+    }
+    const PatchGrid::Patch patch = cut_.patch(p.x, p.z);
+    const PatchPatterns::Run& run = patterns_.run(cut_.shape(patch), level - 1, seams);
+    const std::uint32_t corner =
+        static_cast<std::uint32_t>(patch.j0) * static_cast<std::uint32_t>(grid_.width) + patch.i0;
+    batches_.push_back({run.first, run.count, corner, static_cast<std::uint16_t>(level - 1)});
+  }
+  uploads_.clear();
+  if (first_) {
+    const auto size = [](const auto& values) { return static_cast<std::uint32_t>(values.size()); };
+    uploads_.push_back({.target = DirtyRange::Target::kIndices, .count = size(patterns_.indices())});
+    uploads_.push_back({.target = DirtyRange::Target::kHeights, .count = size(grid_.heights)});
+    first_ = false;
+  }
+  frame_ = {.grid = grid_,
+            .levels = {},
+            .cell_x = grid_.cell_x,
+            .cell_z = grid_.cell_z,
+            .indices = patterns_.indices(),
+            .batches = batches_,
+            .uploads = uploads_,
+            .stats = count(batches_, uploads_, changes)};
+}
+
+Memory GeoMipMap::memory() const {
+  Memory memory = patterns_.memory();
+  memory.index += heap_bytes(this);
+  memory += errors_.memory();
+  memory += tree_.memory();
+  for (const auto* bytes : {&level_, &last_level_, &queued_}) memory += index_memory(*bytes);
+  for (const auto* seen : {&seen_, &last_seen_}) memory += index_memory(*seen);
+  memory += index_memory(allowed_);
+  memory += index_memory(queue_);
+  memory += index_memory(batches_);
+  memory += index_memory(uploads_);
+  return memory;
+}
+
+}  // namespace terrabench

@@ -1,0 +1,45 @@
+// How a field of any size is cut into patches: squares of `side` cells that share their border vertices, the
+// last ones to the east and south cut to what is left.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace terrabench {
+
+struct PatchGrid {
+  int width = 0, depth = 0;  // samples of the field
+  int side = 0;              // cells, a power of two
+
+  int across() const { return (width - 2) / side + 1; }
+  int down() const { return (depth - 2) / side + 1; }
+  std::size_t count() const { return static_cast<std::size_t>(across()) * down(); }
+
+  struct Patch {
+    int i0, j0;         // low corner, samples
+    int columns, rows;  // cells
+  };
+  Patch patch(int at_x, int at_z) const {
+    const int i0 = at_x * side, j0 = at_z * side;
+    return {i0, j0, std::min(side, width - 1 - i0), std::min(side, depth - 1 - j0)};
+  }
+
+  // What is kept by patch has a rim of one, so that every patch has four neighbours: the place of a patch
+  // there, from which its neighbours are `offsets` away, by side.
+  std::size_t slots() const { return static_cast<std::size_t>(across() + 2) * (down() + 2); }
+  std::uint32_t slot(int at_x, int at_z) const {
+    return static_cast<std::uint32_t>(at_z + 1) * static_cast<std::uint32_t>(across() + 2) +
+           static_cast<std::uint32_t>(at_x + 1);
+  }
+  std::array<std::int32_t, 4> offsets() const { return {-(across() + 2), 1, across() + 2, -1}; }
+
+  // Whole, cut to the east, to the south, or both: 0 … 3.
+  int shape(const Patch& patch) const { return (patch.columns < side ? 1 : 0) + (patch.rows < side ? 2 : 0); }
+};
+
+// Sides of a patch, as bits of a seam case. The opposite of side s is s ^ 2.
+enum Side : int { kNorth = 0, kEast = 1, kSouth = 2, kWest = 3 };
+
+}  // namespace terrabench

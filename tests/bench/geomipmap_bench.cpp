@@ -1,0 +1,58 @@
+// Geomipmapping on 4097²: building, and update() along a committed path, by patch side and asked error.
+#include <benchmark/benchmark.h>
+
+#include "lod/camera/camera_path.h"
+#include "lod/geomipmap/geomipmap.h"
+#include "tests/bench/mountains.h"
+
+namespace terrabench {
+namespace {
+
+const Heightfield& ground() {
+  static const Heightfield kGround = [] {
+    Heightfield field = mountains(4097);
+    field.cell_x = field.cell_z = 10;  // 41 km, 3 km high
+    return field;
+  }();
+  return kGround;
+}
+
+void build(benchmark::State& state) {
+  Progress silent;
+  const GeoMipMap::Options options{static_cast<int>(state.range(0)), false};
+  double bytes = 0;
+  for (auto _ : state) bytes = static_cast<double>(GeoMipMap(ground(), options, silent).memory().total());
+  state.counters["bytes_per_sample"] = bytes / static_cast<double>(ground().heights.size());
+}
+BENCHMARK(build)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
+
+// One iteration is one frame. range: patch side, pixels.
+void update(benchmark::State& state, const char* path) {
+  Progress silent;
+  GeoMipMap lod(ground(), {static_cast<int>(state.range(0)), false}, silent);
+  lod.tune(static_cast<double>(state.range(1)));
+  const std::vector<View> frames = views(camera_path(path), ground());
+  lod.update(frames[0]);
+  double triangles = 0, batches = 0;
+  std::size_t at = 0;
+  for (auto _ : state) {
+    at = (at + 1) % frames.size();
+    const Frame& frame = lod.update(frames[at]);
+    triangles += static_cast<double>(frame.stats.triangles);
+    batches += static_cast<double>(frame.batches.size());
+  }
+  state.counters["triangles"] = benchmark::Counter(triangles, benchmark::Counter::kAvgIterations);
+  state.counters["batches"] = benchmark::Counter(batches, benchmark::Counter::kAvgIterations);
+}
+void cases(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgNames({"side", "px"})->Unit(benchmark::kMicrosecond)->MinTime(0.3);
+  for (const int side : {32, 64}) benchmark->Args({side, 2});
+  benchmark->Args({64, 1})->Args({64, 4});
+}
+BENCHMARK_CAPTURE(update, walk, "walk")->Apply(cases);
+BENCHMARK_CAPTURE(update, cross, "cross")->Apply(cases);
+BENCHMARK_CAPTURE(update, fly, "fly")->Apply(cases);
+BENCHMARK_CAPTURE(update, turn, "turn")->Apply(cases);
+
+}  // namespace
+}  // namespace terrabench

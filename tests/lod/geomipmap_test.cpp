@@ -1,0 +1,240 @@
+// No crack, no error above the bound, on any field and from anywhere; and what a frame may cost.
+#include "lod/geomipmap/geomipmap.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <set>
+
+#include "lod/camera/camera_path.h"
+#include "lod/meters/cracks.h"
+#include "lod/meters/screen_error.h"
+#include "lod/plan_triangle.h"
+#include "terrain/error.h"
+#include "tests/lod/drawing.h"
+
+namespace terrabench::test {
+namespace {
+
+GeoMipMap make(const Heightfield& field, const GeoMipMap::Options& options, double pixels) {
+  Progress silent;
+  GeoMipMap lod(field, options, silent);
+  lod.tune(pixels);
+  return lod;
+}
+
+// Near the ground, high above it, below it, and outside, in any direction.
+View random_view(const Heightfield& field, std::mt19937& random) {
+  std::uniform_real_distribution<float> unit(0, 1);
+  const float size = std::max(field.extent_x(), field.extent_z());
+  View view;
+  view.eye = {(1.4F * unit(random) - 0.2F) * field.extent_x(), 0,
+              (1.4F * unit(random) - 0.2F) * field.extent_z()};
+  view.eye.y = unit(random) < 0.5F ? 20 * unit(random) : -15 + size * unit(random);
+  view.target = view.eye + glm::vec3(unit(random) - 0.5F, 0.6F * unit(random) - 0.5F, unit(random) - 0.5F);
+  view.vertical_fov = 0.3F + 1.5F * unit(random);
+  view.width = 50 + static_cast<int>(700 * unit(random));
+  view.height = 50 + static_cast<int>(500 * unit(random));
+  view.near = 0.1F + unit(random);
+  view.far = 4 * size + 100;
+  return view;
+}
+
+// Cracks none, error under the bound, nothing in view left out. Returns the largest error.
+double expect_promises(const Frame& frame, const Heightfield& field, const View& view, double pixels) {
+  const CrackReport cracks = find_cracks(frame, field.width, field.depth, view);
+  EXPECT_TRUE(cracks.tight()) << cracks.gaps << " gaps, " << cracks.bare_edges << " bare, "
+                              << cracks.overlaps;
+  EXPECT_EQ(cracks.t_junctions, 0U);
+  const ScreenDeviation error =
+      screen_error(SurfaceRaster(frame, field.width, field.depth), field, Visibility(field, view));
+  EXPECT_LE(error.in_frustum.largest, pixels);
+  EXPECT_EQ(error.in_frustum.undrawn, 0U);
+  return error.in_frustum.largest;
+}
+
+TEST(GeoMipMap, KeepsItsPromisesOnAnyFieldFromAnywhere) {
+  std::mt19937 random(7);
+  double closest = 0;
+  for (const auto& [width, depth] : {std::pair{2, 2}, {3, 100}, {65, 65}, {131, 70}, {403, 344}}) {
+    const Heightfield field = hilly(width, depth, 0.5F, static_cast<unsigned>(width));
+    for (const int side : {2, 8, 64}) {
+      GeoMipMap lod = make(field, {side, false}, 1);
+      for (int k = 0; k < 18; ++k) {
+        const double pixels = std::array{0.5, 2.0, 9.0}[static_cast<std::size_t>(k % 3)];
+        lod.tune(pixels);
+        const View view = random_view(field, random);
+        closest = std::max(closest, expect_promises(lod.update(view), field, view, pixels) / pixels);
+        if (HasFailure()) FAIL() << width << " × " << depth << ", patches of " << side;
+      }
+    }
+  }
+  EXPECT_GT(closest, 0.5);  // a bound that is never neared is no choice of detail
+}
+
+TEST(GeoMipMap, KeepsItsPromisesAlongThePaths) {
+  Heightfield field = hilly(403, 344, 1);
+  field.cell_x = field.cell_z = 5;
+  GeoMipMap lod = make(field, {32, false}, 2);
+  for (const CameraPath& path : camera_paths()) {
+    const std::vector<View> all = views(path, field);
+    for (std::size_t k = 0; k < all.size(); k += 25) expect_promises(lod.update(all[k]), field, all[k], 2);
+  }
+}
+
+// Looking steeply down on a spike from close by, the paper's distance is the patch's middle's.
+TEST(GeoMipMap, ThePapersRuleBoundsLess) {
+  Heightfield field = flat(65, 65);
+  field.at(8, 8) = 1;
+  View view;
+  view.eye = {3, 6, 3};
+  view.target = {12, 0, 12};
+  const auto error = [&](bool level_camera) {
+    GeoMipMap lod = make(field, {64, level_camera}, 20);
+    return screen_error(SurfaceRaster(lod.update(view), 65, 65), field, Visibility(field, view))
+        .in_frustum.largest;
+  };
+  EXPECT_LE(error(false), 20);
+  EXPECT_GT(error(true), 20);
+}
+
+TEST(GeoMipMap, DrawsTheWholeFieldOnceFromAbove) {
+  for (const auto& [width, depth] : {std::pair{2, 2}, {3, 100}, {129, 129}, {403, 344}}) {
+    const Heightfield field = hilly(width, depth, 2);
+    GeoMipMap lod = make(field, {16, false}, 1);
+    double area = 0;
+    triangles(lod.update(from_above(field)), [&](std::span<const glm::vec3> corners) {
+      for (std::size_t k = 0; k < corners.size(); k += 3) {
+        const glm::vec3 u = corners[k + 1] - corners[k], v = corners[k + 2] - corners[k];
+        const double part = 0.5 * (static_cast<double>(u.z) * v.x - static_cast<double>(u.x) * v.z);
+        EXPECT_GT(part, 0);  // counter-clockwise
+        area += part;
+      }
+    });
+    EXPECT_DOUBLE_EQ(area, static_cast<double>(field.extent_x()) * field.extent_z());
+  }
+}
+
+TEST(GeoMipMap, FlatLandIsTwoTrianglesAPatch) {
+  const Heightfield field = flat(200, 129, 700);
+  GeoMipMap lod = make(field, {64, false}, 0.05);
+  EXPECT_EQ(lod.update(from_above(field)).stats.triangles, 2U * 4 * 2);
+}
+
+TEST(GeoMipMap, LargerErrorsTakeFewerTriangles) {
+  const Heightfield field = hilly(403, 344, 0.3F);
+  const View view = views(camera_path("fly"), field)[60];
+  std::size_t last = std::size_t{2} * 402 * 343 + 1;
+  for (const double pixels : {0.5, 1.0, 2.0, 4.0, 8.0}) {
+    const std::size_t drawn = make(field, {16, false}, pixels).update(view).stats.triangles;
+    EXPECT_LT(drawn, last);
+    last = drawn;
+  }
+  EXPECT_GT(last, 0U);
+}
+
+TEST(GeoMipMap, UploadsOnceAndCountsChanges) {
+  const Heightfield field = hilly(300, 200, 1);
+  GeoMipMap lod = make(field, {32, false}, 9);
+  const std::vector<View> all = views(camera_path("fly"), field);
+  const Frame& first = lod.update(all[0]);
+  EXPECT_EQ(first.stats.bytes_uploaded, 4 * (first.indices.size() + field.heights.size()));
+  EXPECT_EQ(first.stats.changes, first.batches.size());  // all is new
+  EXPECT_EQ(lod.update(all[0]).stats.changes, 0U);
+  const FrameStats later = lod.update(all[100]).stats;
+  EXPECT_GT(later.changes, 0U);
+  EXPECT_EQ(later.bytes_uploaded, 0U);
+}
+
+TEST(GeoMipMap, CountsItsHeapBytesAndTakesNoneAFrame) {
+  const Heightfield field = hilly(300, 257, 1);
+  Progress silent;
+  const auto built = [&] {
+    return std::make_unique<GeoMipMap>(field, GeoMipMap::Options{16, false}, silent);
+  };
+  built();  // the thread pool is made once
+  const HeapScope heap;
+  auto lod = built();
+  EXPECT_EQ(heap.held(), static_cast<std::int64_t>(lod->memory().total()));
+  const std::vector<View> all = views(camera_path("fly"), field);
+  lod->update(from_above(field));
+  const std::int64_t live = HeapCounter::live();
+  HeapCounter::reset_peak();
+  for (const View& view : all) lod->update(view);
+  EXPECT_EQ(HeapCounter::peak(), live);
+}
+
+TEST(GeoMipMap, EveryViewIsLegal) {
+  const Heightfield field = hilly(150, 90, 1);
+  GeoMipMap lod = make(field, {16, false}, 2);
+  View view = from_above(field);
+  view.width = view.height = 1;
+  expect_promises(lod.update(view), field, view, 2);
+  view = from_above(field);
+  view.eye.y = 1e6F;  // seen as a point
+  view.far = 1e7F;
+  EXPECT_EQ(lod.update(view).stats.triangles, 2U * 10 * 6);
+  view.eye = {1e30F, 1e30F, -1e30F};
+  view.target = {0, 0, 0};
+  EXPECT_EQ(lod.update(view).stats.triangles, 0U);  // behind the far plane
+  view = View{};
+  view.eye = {75, -40, 45};  // under ground, looking up
+  view.target = {75, 0, 46};
+  expect_promises(lod.update(view), field, view, 2);
+  view.target = {75, -80, 46};
+  EXPECT_EQ(lod.update(view).stats.triangles, 0U);
+  view.vertical_fov = 3.1F;  // nearly half of all directions
+  view.target = {75, 0, 46};
+  expect_promises(lod.update(view), field, view, 2);
+  view.eye.x = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(lod.update(view), Error);
+}
+
+TEST(GeoMipMap, RefusesPatchesOfOtherSizes) {
+  Progress silent;
+  const Heightfield field = flat(9, 9);
+  const LodType& type = lod("geomipmap");
+  Parameters parameters(type.parameters);
+  EXPECT_NO_THROW(type.build(field, parameters, silent));
+  parameters.set("patch", std::int64_t{48});
+  EXPECT_THROW(type.build(field, parameters, silent), Error);
+  EXPECT_THROW(type.build(flat(1, 5), Parameters(type.parameters), silent), Error);
+}
+
+// Whatever the seams, a pattern covers its patch once, and a pulled side has the coarser level's vertices
+// alone.
+TEST(PatchPatterns, CoverTheirPatchInEverySeamCase) {
+  for (const auto& [width, depth] : {std::pair{9, 9}, {12, 11}, {4, 9}, {2, 2}}) {
+    const PatchGrid cut{width, depth, 8};
+    constexpr int kLevels = 4;
+    const PatchPatterns patterns(cut, kLevels);
+    for (const int at_z : {0, cut.down() - 1}) {
+      const PatchGrid::Patch patch = cut.patch(cut.across() - 1, at_z);
+      for (int level = 0; level < kLevels; ++level) {
+        for (int seams = 0; seams < (level + 1 < kLevels ? 16 : 1); ++seams) {
+          const auto indices = patterns.indices(patterns.run(cut.shape(patch), level, seams));
+          long long area = 0;
+          std::set<int> north;
+          for (std::size_t k = 0; k < indices.size(); k += 3) {
+            std::array<Corner, 3> c;
+            for (std::size_t n = 0; n < 3; ++n) {
+              c[n] = {static_cast<int>(indices[k + n]) % width, static_cast<int>(indices[k + n]) / width, 0};
+              if (c[n].z == 0) north.insert(c[n].x);
+            }
+            EXPECT_GT(doubled_plan_area(c.data()), 0);
+            area += doubled_plan_area(c.data());
+          }
+          EXPECT_EQ(area, 2LL * patch.columns * patch.rows);
+          std::set<int> expected;
+          const int step = 1 << (level + (seams & 1));
+          for (int x = 0; x < patch.columns; x += step) expected.insert(x);
+          expected.insert(patch.columns);
+          EXPECT_EQ(north, expected);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace terrabench::test
