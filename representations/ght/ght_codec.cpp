@@ -67,9 +67,10 @@ void check_cells(const Tree& tree, ByteSource& in) {
         if (!sane(tree.height(c))) in.fail("a height is no number of metres");
         break;
       case CellKind::kLink:
-        // Later cells only, so that links end.
+        // Later cells only, so that links end: in a height, or over the mouth of a carving in nothing.
         if (tree.target(c) <= c || tree.target(c) >= tree.cells() ||
-            tree.kind(tree.target(c)) == CellKind::kVoid) {
+            (tree.kind(tree.target(c)) == CellKind::kVoid &&
+             tree.nodes()[tree.node_of(tree.target(c))].area != Area::kBorder)) {
           in.fail("a link leads nowhere");
         }
         break;
@@ -108,6 +109,7 @@ void check_plain(const Model& model, ByteSource& in) {
       for (int k = 0; k < 4; ++k) {
         const int a = i + k % 2, b = j + k / 2;
         const CellId c = tree.at_sample(a, b);
+        if (tree.kind(c) != CellKind::kHeight) in.fail("a plain square has no such corner");
         if (c < root) {
           if (c != tree.root_cell(a, b)) in.fail("a sample links to another one");
           continue;

@@ -126,7 +126,8 @@ class EarCutter {
     const std::uint32_t before = previous_[at], after = next_[at];
     if (gone_[at] != 0 || polygon_[before] == polygon_[after]) return;  // or the bridge's far end
     const glm::dvec2 a = corner(before), b = corner(at), c = corner(after), side = c - a;
-    const double form = shape(a, b, c);
+    // Cells over one another, on a cliff, make an upright triangle whatever it leads to: no worse than others.
+    const double form = a == b || b == c ? 1 : shape(a, b, c);
     if (form >= 0) candidates_.push({glm::dot(side, side) / std::max(form, 1e-12), at, version_[at]});
   }
 

@@ -1,6 +1,5 @@
 // Single events on the grounded heightmap tree: what they add, and that the tree stays whole.
-#include "tests/representations/ght_agreement.h"
-#include "tests/representations/ght_ground.h"
+#include "tests/representations/ght_oracle.h"
 
 namespace terrabench::test {
 namespace {
@@ -51,8 +50,8 @@ TEST_P(SingleEvent, IsWhatTheEvaluationSays) {
     const Heightfield ground = rolling(65, 65, kCell, rough);
     Ght ght = make_ght(ground);
     ght.apply(GetParam().event);
-    Agreement agreement(ght, std::make_shared<Sculpture>(Sculpture{ground, {GetParam().event}}));
-    EXPECT_EQ(agreement.disagreements(1500, 1), 0U) << "roughness " << rough;
+    const Evaluation truth(std::make_shared<Sculpture>(Sculpture{ground, {GetParam().event}}));
+    EXPECT_EQ(compare(ght, truth).wrong, 0U) << "roughness " << rough;
   }
 }
 

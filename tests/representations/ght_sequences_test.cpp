@@ -1,7 +1,6 @@
 // Events over, in and across one another: the tree stays whole after each, an event that cannot be leaves it
 // as it was to the bit, and what comes out is what the evaluation says.
-#include "tests/representations/ght_agreement.h"
-#include "tests/representations/ght_ground.h"
+#include "tests/representations/ght_oracle.h"
 
 namespace terrabench::test {
 namespace {
@@ -60,10 +59,6 @@ TEST_P(Sequence, KeepsTheTreeWholeAndIsWhatTheEvaluationSays) {
     try {
       ght.apply(event);
       sculpture->events.push_back(event);
-      if (getenv("GHTDBG")) {
-        for (auto c : outline(event)) printf("(%g,%g) ", c.x / cell, c.y / cell);
-        printf("%s\n", where(event, 1).c_str());
-      }
       ASSERT_THAT(ght::broken_invariants(ght.model()), testing::IsEmpty())
           << "after " << where(event, attempt);
     } catch (const Error& error) {
@@ -76,8 +71,10 @@ TEST_P(Sequence, KeepsTheTreeWholeAndIsWhatTheEvaluationSays) {
   RecordProperty("refused", refused);
   expect_sound(ght);
   EXPECT_EQ(saved(*reloaded("ght", ght)), saved(ght));
-  EXPECT_EQ(Agreement(ght, sculpture).disagreements(800, GetParam()), 0U)
-      << sculpture->events.size() << " events";
+  const Disagreement found = compare(ght, Evaluation(sculpture));
+  EXPECT_EQ(found.wrong, 0U) << "of " << found.points << " after " << sculpture->events.size()
+                             << " events, at " << found.worst.x / cell << ' ' << found.worst.y / cell << ' '
+                             << found.worst.z / cell;
 }
 
 }  // namespace
