@@ -10,6 +10,7 @@
 
 #include "terrain/error.h"
 #include "terrain/events/evaluate.h"
+#include "terrain/sources/fractal/diamond_square.h"
 
 namespace terrabench::events {
 namespace {
@@ -184,6 +185,12 @@ Heightfield ground_of(const Script& script, const std::string& origin, TerrainSo
   if (script.terrain.ends_with(kExtension)) {
     throw bad_input(fmt::format("the ground '{}' is itself a file of events", script.terrain), origin,
                     "name a plain ground and give all events here");
+  }
+  if (script.terrain == "diamond-square" && script.size > 0) {  // the same mountains, in other steps
+    fractal::DiamondSquareOptions options{.seed = script.seed, .side = script.size};
+    options.cell *=
+        static_cast<float>(fractal::DiamondSquareOptions{}.side - 1) / static_cast<float>(script.size - 1);
+    return fractal::diamond_square(options);
   }
   source = open_terrain(script.terrain, script.seed);
   if (!source.heights) {

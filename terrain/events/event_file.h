@@ -3,7 +3,7 @@
 //
 //   terrain = "diamond-square"   # a name in the catalogue, or a DEM file
 //   seed = 7
-//   size = 129                   # samples a side; left out, as the ground comes
+//   size = 129                   # samples a side of the same ground; left out, as it comes
 //   [[event]]
 //   kind = "tunnel"              # the other keys are the event's fields in event.h
 //   from = [20, 30, 40]

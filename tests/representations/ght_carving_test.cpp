@@ -111,6 +111,96 @@ TEST(GhtCarving, ImpossibleOnesAreRefused) {
   EXPECT_THAT(refusal(ght, square_tunnel({12, 15, 32}, {44, 15, 32})), HasSubstr("starts in the air"));
   EXPECT_THAT(refusal(ght, square_tunnel({20, 15, 32}, {50, 15, 32})), HasSubstr("ends in the air"));
   EXPECT_THAT(refusal(ght, square_tunnel({20, 5, 32}, {44, 5, 32})), HasSubstr("does not come out"));
+  EXPECT_THAT(refusal(ght, square_tunnel({20, 5, 32}, {44, 15, 32})), HasSubstr("beyond 'from'"));
+  EXPECT_THAT(refusal(ght, square_tunnel({20, 15, 32}, {44, 5, 32})), HasSubstr("beyond 'to'"));
+  EXPECT_THAT(refusal(ght, square_tunnel({20, 15, 1.9}, {44, 15, 1.9})), HasSubstr("outside the terrain"));
+  EXPECT_THAT(refusal(ght, square_tunnel({20, 15, 3}, {44, 15, 3})), HasSubstr("border"));
+  Carving thin = square_tunnel({20, 15, 32}, {44, 15, 32});
+  thin.scale_to = 0.45;
+  EXPECT_THAT(refusal(ght, thin), HasSubstr("less than two cells"));
+  Carving crossed = square_tunnel({20, 15, 32}, {44, 15, 32});
+  std::swap(crossed.section[1], crossed.section[2]);
+  EXPECT_THAT(refusal(ght, crossed), HasSubstr("crosses itself"));
+  // Far down: more cells than any terrain has room for.
+  EXPECT_THAT(refusal(ght, square_tunnel({20, -1e9, 32}, {44, 15, 32})), HasSubstr("too many cells"));
+  // A section that narrows to nothing before it is out.
+  Carving cone = square_tunnel({31, 15, 32}, {33, 15, 32});
+  cone.scale_to = 1.4;
+  EXPECT_THAT(refusal(ght, cone), HasSubstr("does not come out"));
+  const events::Event valley[] = {events::LinearErosion{{32, 26}, {32, 38}, 15, 60},
+                                  square_tunnel({20, 15, 32}, {44, 15, 32})};
+  ght.apply(valley[0]);
+  EXPECT_THAT(refusal(ght, valley[1]), HasSubstr("leaves the ground"));
+  expect_sound(ght);
+}
+
+TEST(GhtCarving, KeepsToItself) {
+  Ght ght = make_ght(ridge());
+  ght.apply(square_tunnel({20, 15, 32}, {44, 15, 32}));
+  EXPECT_THAT(refusal(ght, square_tunnel({20, 15, 32}, {44, 15, 32})), HasSubstr("another tunnel"));
+  EXPECT_THAT(refusal(ght, square_tunnel({20, 15, 36.5}, {44, 15, 36.5})), HasSubstr("another tunnel"));
+  EXPECT_THAT(refusal(ght, square_tunnel({22, 18.5, 22}, {42, 18.5, 42})), HasSubstr("another tunnel"));
+  // Events at its mouths and above it.
+  EXPECT_THAT(refusal(ght, events::RadialErosion{{48, 16, 33}, {3, 3, 3}}), HasSubstr("mouth"));
+  EXPECT_THAT(refusal(ght, events::LinearErosion{{18, 26}, {18, 38}, 2, 45}), HasSubstr("mouth"));
+  EXPECT_THAT(refusal(ght, events::RadialErosion{{32, 30, 32}, {5, 12.5, 5}}), HasSubstr("breaks into"));
+  EXPECT_THAT(refusal(ght, events::LinearErosion{{30, 32}, {34, 32}, 14, 70}), HasSubstr("breaks into"));
+  // Room is left over it, under it, and beside it.
+  ght.apply(square_tunnel({20, 15, 40}, {44, 15, 40}));
+  ght.apply(events::LinearErosion{{30, 32}, {34, 32}, 6, 60});
+  ght.apply(events::RadialErosion{{32, 30, 24}, {5, 6, 5}});
+  expect_sound(ght);
+  EXPECT_EQ(ght.model().tree.nodes().size(), 1U + 6 + 6 + 4 + 1);
+  const Disagreement found =
+      compare(ght, events::after(ridge(), {square_tunnel({20, 15, 32}, {44, 15, 32}),
+                                           square_tunnel({20, 15, 40}, {44, 15, 40}),
+                                           events::LinearErosion{{30, 32}, {34, 32}, 6, 60},
+                                           events::RadialErosion{{32, 30, 24}, {5, 6, 5}}}));
+  EXPECT_EQ(found.wrong, 0U);
+}
+
+TEST(GhtCarving, KeepsFromAnOverhang) {
+  Ght ght = make_ght(ridge());
+  ght.apply(events::DipFault{true, {20, 20}, {44, 20}, 10, 5, 45});
+  EXPECT_THAT(refusal(ght, square_tunnel({20, 24, 20}, {44, 24, 20})), testing::Not(testing::IsEmpty()));
+  ght.apply(square_tunnel({20, 15, 40}, {44, 15, 40}));
+  expect_sound(ght);
+}
+
+// Each node is what the paper says it is: walls with smooth noise along the axis, borders on the root's
+// samples with nothing where the section is, all hung from the root.
+TEST(GhtCarving, NodesAreThePapers) {
+  Ght ght = make_ght(ridge());
+  Carving cave = square_tunnel({20, 15, 32}, {33, 15, 32});
+  cave.cave = true;
+  cave.roughness = 0.2;
+  ght.apply(cave);
+  const ght::Tree& tree = ght.model().tree;
+  ASSERT_THAT(tree.nodes(), SizeIs(1 + 4 + 2));
+  for (std::size_t n = 1; n < tree.nodes().size(); ++n) {
+    const ght::Node& node = tree.nodes()[n];
+    EXPECT_EQ(node.parent, 0U);
+    EXPECT_EQ(node.depth, 1U);
+    double most = 0;
+    std::size_t voids = 0;
+    for (ght::CellId c = node.first; c < node.first + node.cells(); ++c) {
+      voids += tree.kind(c) == ght::CellKind::kVoid;
+      if (tree.kind(c) == ght::CellKind::kHeight) most = std::max<double>(most, std::abs(tree.height(c)));
+    }
+    if (node.area == ght::Area::kBorder) {
+      EXPECT_TRUE(node.aligned);
+      EXPECT_GT(voids, 5U);
+      EXPECT_LT(voids, node.cells());
+    } else if (n <= 4) {
+      EXPECT_EQ(node.area, ght::Area::kIndoor);
+      EXPECT_LE(most, 0.2F);
+      EXPECT_GT(most, 0.02);
+    }
+  }
+  EXPECT_EQ(nodes_of(ght, ght::Area::kBorder), 1U);
+  EXPECT_EQ(nodes_of(ght, ght::Area::kIndoor), 5U);
+  const auto copy = reloaded("ght", ght);
+  EXPECT_EQ(saved(*copy), saved(ght));
 }
 
 }  // namespace
