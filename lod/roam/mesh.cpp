@@ -5,9 +5,11 @@
 
 namespace terrabench::roam {
 
-Mesh::Mesh(const GroundGrid& grid, Progress& progress)
+Mesh::Mesh(const GroundGrid& grid, std::size_t expected_leaves, Progress& progress)
     : grid_(grid), lattice_(lattice_over(grid.width, grid.depth)), wedgies_(lattice_, grid, progress) {
   add_roots();
+  const std::size_t all = std::size_t{roots()} << lattice_.finest_level();
+  add_pairs(std::max(std::min(expected_leaves, all), leaves_) - leaves_);
 }
 
 // Neighbouring squares have diagonals that mirror each other, so that their legs meet and all bintrees fit.
@@ -64,14 +66,22 @@ bool Mesh::on_edge(const Node& node) const {
                       : lattice_.row[node.v] == lattice_.row[node.v + ahead.v];
 }
 
-std::uint32_t Mesh::take_pair() {
-  if (free_pair_ != kNone) {
-    const std::uint32_t pair = free_pair_;
-    free_pair_ = nodes_[pair].parent;
-    return pair;
+// To be taken in the order of their numbers.
+void Mesh::add_pairs(std::size_t pairs) {
+  const std::size_t first = nodes_.size();
+  nodes_.resize(first + 2 * pairs);
+  for (std::size_t pair = nodes_.size(); pair > first;) {
+    pair -= 2;
+    nodes_[pair].in_use = nodes_[pair + 1].in_use = false;
+    nodes_[pair].parent = free_pair_;
+    free_pair_ = static_cast<std::uint32_t>(pair);
   }
-  const auto pair = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.resize(nodes_.size() + 2);
+}
+
+std::uint32_t Mesh::take_pair() {
+  if (free_pair_ == kNone) add_pairs(nodes_.size() / 2);
+  const std::uint32_t pair = free_pair_;
+  free_pair_ = nodes_[pair].parent;
   return pair;
 }
 

@@ -18,7 +18,8 @@ namespace terrabench::roam {
 
 class Mesh {
  public:
-  Mesh(const GroundGrid&, Progress&);
+  // The pool has room for so many leaves from the start, and grows when more are asked for.
+  Mesh(const GroundGrid&, std::size_t expected_leaves, Progress&);
 
   std::vector<Node>& nodes() { return nodes_; }
   const std::vector<Node>& nodes() const { return nodes_; }
@@ -72,6 +73,7 @@ class Mesh {
            static_cast<std::uint32_t>(lattice_.column[p.u]);
   }
   void add_roots();
+  void add_pairs(std::size_t pairs);
   std::uint32_t take_pair();
   void bisect(std::uint32_t id);
   void join(std::uint32_t id);

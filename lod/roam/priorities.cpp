@@ -13,11 +13,6 @@ using roam::Node;
 
 namespace {
 
-// Motion after which the error can have changed by a factor.
-double slack(const Distortion& now, double factor) {
-  return std::isfinite(now.pixels) ? (1 - 1 / factor) / now.rate : 0;
-}
-
 // Where the order counts and no threshold is near, a change by a bucket's width is worth a look.
 constexpr double kBucketWidth = 1 + 1.0 / 16;
 
@@ -75,7 +70,24 @@ void Roam::rank_leaf(std::uint32_t id, const roam::Corners& corners) {
   }
   // From below the reference it must be looked at before it can have risen to it.
   const double factor = ratio_from(reference_) / ratio;
-  deadlines_.put_off(nodes, id, slack(now, factor > 1 ? factor : kBucketWidth), now.reach);
+  put_off(id, now, factor > 1 ? factor : kBucketWidth);
+}
+
+// Until the error can have changed by a factor. Most triangles that a frame makes are split on in the same
+// frame, so only what is left at its end is made to wait.
+void Roam::put_off(std::uint32_t id, const Distortion& now, double factor) {
+  const double slack = std::isfinite(now.pixels) ? (1 - 1 / factor) / now.rate : 0;
+  fresh_.push_back({id, static_cast<float>(0.9999 * slack), static_cast<float>(1.0001 * now.reach)});
+}
+
+// The last word on a node counts: an earlier one is of another node in its place or of other days.
+void Roam::start_waiting() {
+  for (std::size_t k = fresh_.size(); k-- > 0;) {
+    const Node& node = mesh_.nodes()[fresh_[k].id];
+    if (!node.in_use || node.bucket == roam::kNoList || node.due != roam::kNoList) continue;
+    deadlines_.put_off(mesh_.nodes(), fresh_[k].id, fresh_[k].slack, fresh_[k].reach);
+  }
+  fresh_.clear();
 }
 
 // Puts a diamond, by its name, into the merge queue, by the larger error of its halves.
@@ -98,14 +110,14 @@ void Roam::rank_diamond(std::uint32_t id) {
   merges_.push(mesh_.nodes(), id, bucket_of(ratio));
   if (now.pixels == 0) return;  // until its sight changes
   const double factor = std::max(ratio / ratio_from(reference_), kBucketWidth);
-  deadlines_.put_off(mesh_.nodes(), id, slack(now, factor), now.reach);
+  put_off(id, now, factor);
 }
 
 // Most diamonds that a frame makes are split on in the same frame, so only what is left is looked at.
 void Roam::rank_pending() {
   for (const std::uint32_t id : pending_) {
     const Node& node = mesh_.nodes()[id];
-    if (node.in_use && !node.leaf() && node.bucket != roam::kNoList && node.due == roam::kNoList) {
+    if (node.in_use && !node.leaf() && node.bucket != roam::kNoList) {
       requeue_diamond(id);
     }
   }

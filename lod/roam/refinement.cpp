@@ -97,7 +97,12 @@ void Roam::split_diamond(std::uint32_t id) {
     pending_.push_back(name);
   }
   for (const std::uint32_t half : both) {
-    if (half != kNone) requeue_diamond(nodes[half].parent);
+    if (half == kNone) continue;
+    // Its parent's diamond can no longer merge, unless it is one that does not count. When its sibling has
+    // been split the diamond could not before.
+    const std::uint32_t parent = nodes[half].parent;
+    if (parent == kNone || mesh_.on_edge(nodes[half])) continue;
+    if (nodes[half ^ 1U].leaf() || mesh_.on_edge(nodes[half ^ 1U])) take_off(diamond(parent));
   }
   for (const std::uint32_t half : both) {
     if (half == kNone) continue;

@@ -1,6 +1,7 @@
 #include "lod/roam/roam.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -13,10 +14,13 @@ using roam::Sight;
 namespace {
 
 double extent_of(const GroundGrid& grid) {
-  double highest = 0;
-  for (const float height : grid.heights) highest = std::max(highest, std::abs(static_cast<double>(height)));
+  // Of positive floats the larger has the larger bits: integers, so that many are compared at once.
+  std::uint32_t highest = 0;
+  for (const float height : grid.heights) {
+    highest = std::max(highest, std::bit_cast<std::uint32_t>(height) & 0x7FFFFFFFU);
+  }
   return static_cast<double>(grid.width) * grid.cell_x + static_cast<double>(grid.depth) * grid.cell_z +
-         highest;
+         static_cast<double>(std::bit_cast<float>(highest));
 }
 
 }  // namespace
@@ -39,7 +43,7 @@ std::unique_ptr<Lod> Roam::build(const Heightfield& ground, const Parameters& pa
 }
 
 Roam::Roam(const Heightfield& ground, const RoamOptions& options, Progress& progress)
-    : mesh_(grid_of(ground), progress),
+    : mesh_(grid_of(ground), options.triangles, progress),
       options_(options),
       extent_(extent_of(mesh_.grid())),
       quiet_(mesh_.nodes().size()),
@@ -77,6 +81,7 @@ const Frame& Roam::update(const View& view) {
     settle();
     rank_pending();
   } while (lower_reference());
+  start_waiting();
 
   uploads_.clear();
   drawn_.finish(mesh_.nodes(), uploads_);
@@ -164,6 +169,7 @@ Memory Roam::memory() const {
   memory += drawn_.memory();
   memory += index_memory(due_);
   memory += index_memory(pending_);
+  memory += index_memory(fresh_);
   memory += index_memory(quiet_);
   memory += index_memory(batches_);
   memory += index_memory(uploads_);

@@ -1,0 +1,161 @@
+// Looks inside ROAM: everything that must hold between two updates.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "lod/roam/roam.h"
+
+namespace terrabench {
+
+struct RoamAudit {
+  const Roam& roam;
+  std::vector<std::string> problems{};
+
+  static std::size_t leaves(const Roam& roam) { return roam.mesh_.leaves(); }
+  static int reference(const Roam& roam) { return roam.reference_; }
+  static int asked() { return Roam::kAsked; }
+
+  // What is wrong, the first of it; empty when nothing is.
+  static std::string first_problem(const Roam& roam) {
+    RoamAudit audit{roam};
+    audit.trees();
+    audit.queue(roam.splits_, true);
+    audit.queue(roam.merges_, false);
+    audit.drawn();
+    return audit.problems.empty() ? "" : audit.problems.front();
+  }
+
+ private:
+  using Node = roam::Node;
+  const std::vector<Node>& nodes() const { return roam.mesh_.nodes(); }
+
+  template <class... Args>
+  void check(bool holds, fmt::format_string<Args...> text, Args&&... args) {
+    if (!holds) problems.push_back(fmt::format(text, std::forward<Args>(args)...));
+  }
+
+  void trees() {
+    std::size_t leaves = 0, reached = 0;
+    for (std::uint32_t id = 0; id < roam.mesh_.roots(); ++id) tree(id, 0, leaves, reached);
+    check(leaves == roam.mesh_.leaves(), "{} leaves counted as {}", leaves, roam.mesh_.leaves());
+    std::size_t used = 0;
+    for (const Node& node : nodes()) used += node.in_use ? 1 : 0;
+    check(used == reached, "{} nodes in use, {} reached", used, reached);
+  }
+
+  void tree(std::uint32_t id, roam::Sight parent, std::size_t& leaves, std::size_t& reached) {
+    const Node& node = nodes()[id];
+    ++reached;
+    check(node.in_use, "node {} is free", id);
+    const bool inherited = parent == roam::kAllInside || (parent & roam::kOutside) != 0;
+    const roam::Sight sight =
+        inherited
+            ? parent
+            : roam.camera_.sight(roam.mesh_.corners(node), node.thickness, roam.mesh_.spill(node), parent)
+                  .sight;
+    check(node.sight == sight, "node {} has sight {:x}, not {:x}", id, node.sight, sight);
+    if (node.leaf()) {
+      ++leaves;
+      leaf(id);
+      return;
+    }
+    check(node.base == roam::kNone || nodes()[node.base].base == id, "half {} has lost the other", id);
+    check(node.base == roam::kNone || !nodes()[node.base].leaf(), "half {} is split alone", id);
+    const bool queued = roam.diamond(id) == id && roam.mergeable(id);
+    check(queued == (node.bucket != roam::kNoList), "diamond {}: mergeable {}", id, queued);
+    for (const std::uint32_t child : {node.child, node.child + 1}) {
+      check(nodes()[child].parent == id, "child {} has another parent", child);
+      check(nodes()[child].level == node.level + 1, "child {} has another level", child);
+      tree(child, node.sight, leaves, reached);
+    }
+  }
+
+  void leaf(std::uint32_t id) {
+    const Node& node = nodes()[id];
+    const auto [apex, right, left] = roam.mesh_.vertices(node);
+    across(id, node.left, apex, left);
+    across(id, node.right, apex, right);
+    across(id, node.base, left, right);
+    check(!roam.mesh_.on_edge(node), "leaf {} stands on edge", id);
+    const bool empty = roam.mesh_.empty({apex, right, left});
+    check((node.slot != roam::kNone) == (node.visible() && !empty), "leaf {}: drawn {}", id,
+          node.slot != roam::kNone);
+    const roam::Distortion now =
+        roam.mesh_.splittable(node) ? roam.distortion(id, roam.mesh_.corners(node)) : roam::Distortion{};
+    check((now.pixels > 0) == (node.bucket != roam::kNoList), "leaf {} of {} px in bucket {}", id, now.pixels,
+          node.bucket);
+    if (now.pixels == 0) return;
+    check(node.due != roam::kNoList, "leaf {} waits for nothing", id);
+    const double ratio = now.pixels / roam.options_.max_error;
+    if (node.bucket < roam.reference_) {
+      check(ratio < Roam::ratio_from(roam.reference_) * (1 + 1e-6), "leaf {} has risen to {}", id, ratio);
+    } else {
+      check(std::abs(Roam::bucket_of(ratio) - node.bucket) <= 1, "leaf {} of bucket {} in {}", id,
+            Roam::bucket_of(ratio), node.bucket);
+    }
+  }
+
+  void across(std::uint32_t id, std::uint32_t other, std::uint32_t a, std::uint32_t b) {
+    if (other == roam::kNone) {
+      const GroundGrid& grid = roam.mesh_.grid();
+      const auto width = static_cast<std::uint32_t>(grid.width),
+                 last = static_cast<std::uint32_t>(grid.depth) - 1;
+      const bool border = (a % width == b % width && (a % width == 0 || a % width == width - 1)) ||
+                          (a / width == b / width && (a / width == 0 || a / width == last));
+      check(border, "leaf {} has no neighbour inside the field", id);
+      return;
+    }
+    const Node& node = nodes()[other];
+    check(node.leaf() && node.in_use, "neighbour {} of leaf {} is none", other, id);
+    check((node.left == id) + (node.right == id) + (node.base == id) == 1, "neighbour {} knows not {}", other,
+          id);
+    const auto vertices = roam.mesh_.vertices(node);
+    const std::set<std::uint32_t> theirs(vertices.begin(), vertices.end());
+    check(theirs.contains(a) && theirs.contains(b), "leaves {} and {} share no edge", id, other);
+  }
+
+  void queue(const roam::PriorityQueue& queue, bool of_leaves) {
+    std::size_t held = 0;
+    int highest = -1, lowest = -1;
+    for (int list = 0; list < Roam::kBuckets; ++list) {
+      std::uint32_t before = roam::kNone;
+      for (std::uint32_t id = queue.first(list); id != roam::kNone; id = nodes()[id].queue.after) {
+        check(nodes()[id].bucket == list && nodes()[id].leaf() == of_leaves, "node {} in a wrong list", id);
+        check(nodes()[id].queue.before == before, "list {} is torn at {}", list, id);
+        if (lowest < 0) lowest = list;
+        highest = list;
+        before = id;
+        if (++held > nodes().size()) return check(false, "list {} is a ring", list);
+      }
+    }
+    check(queue.highest() == highest && queue.lowest() == lowest, "ends {} and {}, not {} and {}",
+          queue.lowest(), queue.highest(), lowest, highest);
+    std::size_t members = 0;
+    for (const Node& node : nodes()) {
+      members += node.in_use && node.leaf() == of_leaves && node.bucket != roam::kNoList ? 1 : 0;
+    }
+    check(held == members, "{} in the queue, {} think so", held, members);
+  }
+
+  void drawn() {
+    const std::span<const std::uint32_t> indices = roam.drawn_.indices();
+    for (std::size_t slot = 0; slot < roam.drawn_.triangles(); ++slot) {
+      const std::uint32_t id = roam.drawn_.owner(slot);
+      check(id != roam::kNone && nodes()[id].slot == slot, "place {} has no owner", slot);
+      if (id == roam::kNone) return;
+      const auto vertices = roam.mesh_.vertices(nodes()[id]);
+      check(std::equal(vertices.begin(), vertices.end(),
+                       indices.begin() + static_cast<std::ptrdiff_t>(3 * slot)),
+            "place {} shows another triangle", slot);
+    }
+    check(indices.size() == 3 * roam.drawn_.triangles(), "{} indices", indices.size());
+  }
+};
+
+}  // namespace terrabench
