@@ -102,6 +102,25 @@ void add_represent(CLI::App& app, Arguments& a) {
       ->required();
   command->add_option("--as", a.represent.as, "A name of `list representations`")->required();
   command->add_option("--set", a.represent.assignments, "Parameters of the representation, name=value");
+  // Short for --set, since whoever has a budget should not have to know how it is spent.
+  const auto budget = [&](const char* option, const char* parameter, const char* help) {
+    command
+        ->add_option_function<std::string>(
+            option,
+            [&a, parameter](const std::string& value) {
+              a.represent.assignments.push_back(fmt::format("{}={}", parameter, value));
+            },
+            help)
+        ->check(CLI::Validator(
+            [](const std::string& value) {
+              double number = 0;
+              const bool above = CLI::detail::lexical_cast(value, number) && number > 0;
+              return above ? std::string() : fmt::format("'{}' is no number above 0", value);
+            },
+            "NUMBER"));
+  };
+  budget("--budget-bytes", "budget_bytes", "Choose the drills' parameters for at most so many bytes");
+  budget("--max-rmse", "max_rmse", "Choose the drills' parameters for at most so many metres of RMSE");
   command->add_option("--save", a.represent.save, "Write the structure to this file");
   command->add_option("--render", a.represent.render, "Write a shaded relief to this PNG");
   command->add_option("--write-flow", a.represent.write_flow,

@@ -19,12 +19,12 @@ void Recorder::add(std::string_view metric, std::string_view unit, double sample
 
 std::filesystem::path Recorder::figure(std::string_view id, std::string_view extension,
                                        std::string_view caption) {
-  // A case with changed parameters draws another picture under the same ledger id: it must not replace that
-  // one.
+  // Another profile, or a case with changed parameters, draws another picture under the same ledger id: it
+  // must not replace that one.
   const std::size_t override = record_.case_name.find(" (");
   const std::string variant =
       override == std::string::npos ? "" : "-" + checksum(record_.case_name).substr(0, 8);
-  Figure figure{std::string(id), fmt::format("figures/{}{}.{}", id, variant, extension),
+  Figure figure{std::string(id), fmt::format("figures/{}.{}{}.{}", id, record_.profile, variant, extension),
                 std::string(caption)};
   const std::filesystem::path path = folder_ / figure.file;
   record_.figures.push_back(std::move(figure));

@@ -2,6 +2,7 @@
 
 #include "experiments/drill/drill.h"
 #include "experiments/experiment.h"
+#include "experiments/ght/ght.h"
 #include "experiments/hybrid/hybrid.h"
 #include "experiments/overview/overview.h"
 
@@ -17,6 +18,10 @@ const std::array kExperiments{
                hybrid::kCaveParameters, hybrid::cave_cases, hybrid::measure_caves},
     Experiment{"hybrid.noise-stages", "hybrid", "Figures 3-13: the noise pipeline, step by step",
                hybrid::kStageParameters, hybrid::stage_cases, hybrid::measure_stage},
+    Experiment{"ght.generators", "ght", "§2.3: what the generators of base terrain promise",
+               ght::kGeneratorParameters, ght::generator_cases, ght::measure_generator},
+    Experiment{"ght.stages", "ght", "Figures 1 and 3-10: the generators, step by step", ght::kStageParameters,
+               ght::stage_cases, ght::draw_stage},
     Experiment{"drill.channels", "drill", "§3.1: channel pixels and the largest flow",
                drill::kChannelParameters, drill::channel_cases, drill::measure_channels},
     Experiment{"drill.factorial", "drill", "§3: the factorial of 54 parameter sets",
@@ -25,6 +30,8 @@ const std::array kExperiments{
                drill::kGroundParameters, drill::ground_cases, drill::measure_effects},
     Experiment{"drill.time", "drill", "§3.1: time against channel pixels", drill::kGroundParameters,
                drill::ground_cases, drill::measure_time},
+    Experiment{"drill.growth", "drill", "§3.1: time against the size of the ground", drill::kGrowthParameters,
+               drill::growth_cases, drill::measure_growth},
     Experiment{"drill.size", "drill", "§4.1: values and bytes", drill::kGroundParameters, drill::ground_cases,
                drill::measure_size},
     Experiment{"drill.promises", "drill", "§2.3 and §4: order of drills, pits", drill::kGroundParameters,

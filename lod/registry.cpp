@@ -1,8 +1,10 @@
 #include <vector>
 
 #include "lod/brute_force/brute_force.h"
+#include "lod/clipmap/clipmap.h"
 #include "lod/lod.h"
 #include "lod/mrbsp/mrbsp.h"
+#include "lod/roam/roam.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -16,6 +18,20 @@ std::span<const LodType> lods() {
        BruteForce::knob(),
        {},
        BruteForce::build},
+      {"roam",
+       "binary triangle trees split and merged by priority as the view moves",
+       "Duchaineau et al. 1997",
+       {.conforming = true, .bounds_error = true},
+       Roam::knob(),
+       Roam::parameters(),
+       Roam::build},
+      {"clipmap",
+       "nested windows of samples around the eye, each twice as coarse as the one inside",
+       "hybrid §3.2",
+       {},
+       Clipmap::knob(),
+       {},
+       Clipmap::build},
       {"mrbsp",
        "a tree of bisected triangles, each drawn at the depth its distance asks for; what the ground hides "
        "left out",

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "terrain/error.h"
@@ -110,6 +111,12 @@ GLuint Texture1dKind::create() {
   return id;
 }
 
+GLuint BufferTextureKind::create() {
+  GLuint id = 0;
+  glCreateTextures(GL_TEXTURE_BUFFER, 1, &id);
+  return id;
+}
+
 const ShaderFile& shader_file(std::string_view name) {
   const auto files = shader_files();
   const auto found =
@@ -118,11 +125,14 @@ const ShaderFile& shader_file(std::string_view name) {
   return *found;
 }
 
-Program link_program(const ShaderFile& vertex, const ShaderFile& fragment) {
-  const Shader first(GL_VERTEX_SHADER, vertex), second(GL_FRAGMENT_SHADER, fragment);
+Program link_program(const ShaderFile& vertex, const ShaderFile& fragment, const ShaderFile* geometry) {
+  const Shader first(GL_VERTEX_SHADER, vertex), last(GL_FRAGMENT_SHADER, fragment);
+  std::optional<Shader> between;
+  if (geometry != nullptr) between.emplace(GL_GEOMETRY_SHADER, *geometry);
   Program program;
   glAttachShader(program.id(), first.id());
-  glAttachShader(program.id(), second.id());
+  if (between) glAttachShader(program.id(), between->id());
+  glAttachShader(program.id(), last.id());
   glLinkProgram(program.id());
   GLint good = 0, log_size = 0;
   glGetProgramiv(program.id(), GL_LINK_STATUS, &good);
@@ -136,7 +146,8 @@ Program link_program(const ShaderFile& vertex, const ShaderFile& fragment) {
                             "report it with the OpenGL renderer that the results' provenance names");
   }
   glDetachShader(program.id(), first.id());
-  glDetachShader(program.id(), second.id());
+  if (between) glDetachShader(program.id(), between->id());
+  glDetachShader(program.id(), last.id());
   return program;
 }
 

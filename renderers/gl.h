@@ -57,6 +57,10 @@ struct Texture1dKind {
   static GLuint create();
   static void destroy(GLuint id) { glDeleteTextures(1, &id); }
 };
+struct BufferTextureKind {
+  static GLuint create();
+  static void destroy(GLuint id) { glDeleteTextures(1, &id); }
+};
 struct ProgramKind {
   static GLuint create() { return glCreateProgram(); }
   static void destroy(GLuint id) { glDeleteProgram(id); }
@@ -67,6 +71,7 @@ using VertexArray = GlObject<VertexArrayKind>;
 using Renderbuffer = GlObject<RenderbufferKind>;
 using Framebuffer = GlObject<FramebufferKind>;
 using Texture1d = GlObject<Texture1dKind>;
+using BufferTexture = GlObject<BufferTextureKind>;
 using Program = GlObject<ProgramKind>;
 
 // A buffer that is written once.
@@ -84,8 +89,10 @@ struct ShaderFile {
 std::span<const ShaderFile> shader_files();
 const ShaderFile& shader_file(std::string_view name);  // the name must exist
 
-// Compiles and links. Throws environment_error with the file's name and the driver's log.
-Program link_program(const ShaderFile& vertex, const ShaderFile& fragment);
+// Compiles and links; a geometry shader is optional. Throws environment_error with the file's name and the
+// driver's log.
+Program link_program(const ShaderFile& vertex, const ShaderFile& fragment,
+                     const ShaderFile* geometry = nullptr);
 
 // Where a uniform lives; it must be in use.
 GLint uniform(const Program&, const char* name);

@@ -1,5 +1,6 @@
 #include "representations/column_grid.h"
 #include "representations/drill/drill_terrain.h"
+#include "representations/ght/ght.h"
 #include "representations/heightmap/heightmap.h"
 #include "representations/layered_stack/layered_stack.h"
 #include "representations/representation.h"
@@ -46,6 +47,13 @@ std::span<const RepresentationType> representations() {
        DrillTerrain::parameters(),
        DrillTerrain::build,
        DrillTerrain::load},
+      {"ght",
+       "a tree of heightmaps on planes of their own",
+       "ght §3",
+       {.overhangs = true, .lossless = true},
+       Ght::parameters(),
+       Ght::build,
+       Ght::load},
   };
   return kTypes;
 }

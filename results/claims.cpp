@@ -9,6 +9,7 @@
 #include <set>
 
 #include "results/embedded.h"
+#include "results/further_grounds.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -150,6 +151,28 @@ Condition condition_from(const toml::node& node, const std::string& origin) {
   return condition;
 }
 
+// All when none is named.
+std::vector<std::string> profiles_from(Entry& entry) {
+  std::vector<std::string> profiles;
+  for (const toml::node* const profile : entry.list("profiles"))
+    profiles.push_back(entry.text_of(*profile, "profiles"));
+  if (profiles.empty()) profiles.assign(std::begin(kAllProfiles), std::end(kAllProfiles));
+  return profiles;
+}
+
+Verdict known_verdict(const Entry& entry, const std::string& known, const std::string& note) {
+  const auto* const at = std::find(std::begin(kVerdicts), std::end(kVerdicts), known);
+  const auto verdict = static_cast<Verdict>(at - std::begin(kVerdicts));
+  // The others say what a run lacks, which nobody can know beforehand.
+  if (verdict > Verdict::kNotComparable) {
+    entry.refuse(fmt::format("'{}' is no verdict that a row can be known to have", known));
+  }
+  if (verdict == Verdict::kDiffers && note.empty()) {
+    entry.refuse("a row known to differ needs a 'note' that says why");
+  }
+  return verdict;
+}
+
 Claim claim_from(const toml::node& node, const std::string& origin) {
   Entry entry(node, origin);
   Claim claim;
@@ -161,21 +184,16 @@ Claim claim_from(const toml::node& node, const std::string& origin) {
     entry.refuse("'class' is one of E, T, S, F, Q");
   }
   claim.type = type[0];
-  for (const toml::node* const value : entry.list("reported")) {
+  for (const toml::node* const value : entry.list("reported"))
     claim.reported.push_back(entry.number_of(*value, "reported"));
-  }
   claim.unit = entry.text_or("unit", "");
   claim.tolerance = entry.text_or("tolerance", "");
   claim.note = entry.text_or("note", "");
   claim.pending = entry.text_or("pending", "");
   claim.not_comparable = entry.text_or("not_comparable", "");
-  for (const toml::node* const profile : entry.list("profiles")) {
-    claim.profiles.push_back(entry.text_of(*profile, "profiles"));
-  }
-  if (claim.profiles.empty()) claim.profiles.assign(std::begin(kAllProfiles), std::end(kAllProfiles));
-  for (const toml::node* const condition : entry.list("check")) {
+  claim.profiles = profiles_from(entry);
+  for (const toml::node* const condition : entry.list("check"))
     claim.conditions.push_back(condition_from(*condition, origin));
-  }
   const bool measured = claim.pending.empty() && claim.not_comparable.empty();
   if (measured == claim.conditions.empty()) {
     entry.refuse(
@@ -184,18 +202,26 @@ Claim claim_from(const toml::node& node, const std::string& origin) {
   const Verdict usual = !claim.not_comparable.empty() ? Verdict::kNotComparable
                         : claim.type == 'S'           ? Verdict::kShape
                                                       : Verdict::kReproduced;
-  const std::string known = entry.text_or("known", std::string(name(usual)));
-  const auto* const verdict = std::find(std::begin(kVerdicts), std::end(kVerdicts), known);
-  claim.known = static_cast<Verdict>(verdict - std::begin(kVerdicts));
-  // The others say what a run lacks, which nobody can know beforehand.
-  if (claim.known > Verdict::kNotComparable) {
-    entry.refuse(fmt::format("'{}' is no verdict that a row can be known to have", known));
-  }
-  if (claim.known == Verdict::kDiffers && claim.note.empty()) {
-    entry.refuse("a row known to differ needs a 'note' that says why");
-  }
+  claim.known = known_verdict(entry, entry.text_or("known", std::string(name(usual))), claim.note);
   entry.refuse_unknown();
   return claim;
+}
+
+FurtherGround ground_from(const toml::node& node, const std::string& origin,
+                          const std::vector<Claim>& claims) {
+  Entry entry(node, origin);
+  FurtherGround ground{entry.text("name"), entry.text("of"), entry.text("label"), profiles_from(entry), {}};
+  for (const toml::node* const row : entry.list("known")) {
+    Entry known(*row, origin);
+    const std::string id = known.text("claim"), verdict = known.text("verdict");
+    const auto claim = std::find_if(claims.begin(), claims.end(), [&](const Claim& c) { return c.id == id; });
+    if (claim == claims.end()) known.refuse(fmt::format("there is no row '{}'", id));
+    const std::string note = known.text_or("note", "");
+    ground.known.push_back({id, known_verdict(known, verdict, note.empty() ? claim->note : note), note});
+    known.refuse_unknown();
+  }
+  entry.refuse_unknown();
+  return ground;
 }
 
 TableLayout::Row row_from(const toml::node& node, const std::string& origin) {
@@ -336,6 +362,10 @@ Paper parse_claims(std::string_view text, const std::string& origin) {
   Paper paper{entry.text("paper"), entry.text("title"), entry.text("source"), {}, {}, {}};
   for (const toml::node* const claim : entry.list("claim"))
     paper.claims.push_back(claim_from(*claim, origin));
+  std::vector<FurtherGround> grounds;
+  for (const toml::node* const ground : entry.list("ground"))
+    grounds.push_back(ground_from(*ground, origin, paper.claims));
+  paper.claims = on_further_grounds(paper.claims, grounds);
   for (const toml::node* const table : entry.list("table"))
     paper.tables.push_back(table_from(*table, origin));
   for (const toml::node* const plot : entry.list("plot")) paper.plots.push_back(plot_from(*plot, origin));

@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 
 #include "terrain/error.h"
+#include "terrain/files.h"
+#include "terrain/image.h"
 
 extern char** environ;
 
@@ -35,11 +38,27 @@ void svg_to_png(const std::filesystem::path& svg, const std::filesystem::path& p
     throw environment_error(fmt::format("cannot be run: {}", std::strerror(error != 0 ? error : ENOENT)),
                             program, "install Debian's librsvg2-bin, which turns plots into PNG");
   }
-  if (status == 0) return;
+  if (status == 0) {
+    write_png(png, with_few_colours(read_png(png)));
+    return;
+  }
   std::error_code ignored;
   std::filesystem::remove(png, ignored);
   throw environment_error(fmt::format("failed with status {}", status), program + " " + in,
                           "check the free space on the disk and the folder's permissions");
+}
+
+void svg_text_to_png(std::string_view svg, const std::filesystem::path& png, int width) {
+  const std::filesystem::path file = png.string() + fmt::format(".{}.tmp", getpid());
+  write_file(file, svg);
+  std::error_code ignored;
+  try {
+    svg_to_png(file, png, width);
+  } catch (...) {
+    std::filesystem::remove(file, ignored);
+    throw;
+  }
+  std::filesystem::remove(file, ignored);
 }
 
 }  // namespace terrabench

@@ -262,7 +262,8 @@ class Report {
     const std::filesystem::path from = store_.folder() / figure.file;
     std::error_code error;
     if (!std::filesystem::is_regular_file(from, error)) return;
-    const std::string to = "figures/" + file_name(figure.id) + from.extension().string();
+    // Under its own name, as two pictures may have one id, and results/reference has its pictures here only.
+    const std::string to = "figures/" + file_name(from.filename().string());
     write_file(out_ / to, read_file(from));
     gallery.pictures.push_back({std::move(title), std::move(caption), to, "", run_links({record.run})});
   }

@@ -54,14 +54,22 @@ glm::vec3 clip_position(const Frame& frame, const Batch& batch, std::uint32_t ve
   const float weight = blend(level, a, b);
   if (weight > 0) {
     // The coarser level's own samples, not this level's means: the two agree to the bit where they meet.
+    // Beyond the ground only the outer one, which stands at the border too.
     const ClipLevel& coarser = frame.levels[batch.level + 1];
-    const int odd_x = a & 1, odd_z = b & 1;
-    const float there = 0.5F * (clip_height(coarser, (a - odd_x) / 2, (b + odd_z) / 2) +
-                                clip_height(coarser, (a + odd_x) / 2, (b - odd_z) / 2));
+    const auto ends = [&](int lattice, int last) {
+      const int odd = lattice & 1;
+      int low = (lattice - odd) / 2, high = (lattice + odd) / 2;
+      if (lattice * level.spacing >= last) low = high;
+      if (lattice * level.spacing <= 0) high = low;
+      return glm::ivec2(low, high);
+    };
+    const glm::ivec2 x = ends(a, frame.last.x), z = ends(b, frame.last.y);
+    const float there = 0.5F * (clip_height(coarser, x[0], z[1]) + clip_height(coarser, x[1], z[0]));
     y = glm::mix(y, there, weight);
   }
-  return {static_cast<float>(a * level.spacing) * frame.cell_x, y,
-          static_cast<float>(b * level.spacing) * frame.cell_z};
+  const int i = std::clamp(a * level.spacing, 0, frame.last.x);
+  const int j = std::clamp(b * level.spacing, 0, frame.last.y);
+  return {static_cast<float>(i) * frame.cell_x, y, static_cast<float>(j) * frame.cell_z};
 }
 
 }  // namespace

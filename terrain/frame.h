@@ -66,6 +66,9 @@ struct FrameStats {
 struct Frame {
   GroundGrid grid;
   std::span<const ClipLevel> levels;
+  // The last sample of the full terrain along x and z: vertices of clip levels beyond the ground stand at its
+  // border, where their triangles have no area.
+  glm::ivec2 last{0};
   float cell_x = 1.0F, cell_z = 1.0F;  // metres between the samples of the full terrain
   std::span<const std::uint32_t> indices;
   std::span<const Batch> batches;

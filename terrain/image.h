@@ -20,7 +20,13 @@ struct Image {
   void set(int x, int y, Rgb);
 };
 
-void write_png(const std::filesystem::path&, const Image&);  // whole or not at all, as write_file
-Image read_png(const std::filesystem::path&);                // any PNG, converted; throws bad_input
+// The same picture in at most `most` colours, chosen for it: a third of the bytes as PNG, where 256 do.
+// Flat areas keep their colour. O(pixels · log pixels + colours · most).
+Image with_few_colours(Image image, int most = 256);
+
+// Whole or not at all, as write_file; with a palette where 256 colours suffice and that is smaller.
+void write_png(const std::filesystem::path&, const Image&);
+// Any PNG, converted; what is transparent becomes white. Throws bad_input.
+Image read_png(const std::filesystem::path&);
 
 }  // namespace terrabench

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <tuple>
 
 #include "terrain/error.h"
 
@@ -34,7 +35,9 @@ void Progress::begin(std::string_view what, std::uint64_t steps) {
 }
 
 void Progress::advance(std::uint64_t steps) {
-  const std::uint64_t done = done_.fetch_add(steps, std::memory_order_relaxed) + steps;
+  // Release here, acquire in end(): whoever ends a phase sees what its steps wrote, even through a scheduler
+  // whose hand-over a race detector cannot follow.
+  const std::uint64_t done = done_.fetch_add(steps, std::memory_order_release) + steps;
   if (interrupted()) throw Error(ExitCode::kInterrupted, "interrupted", what_, "");
   if (output_ != Output::kSilent) show(done);
 }
@@ -54,6 +57,7 @@ void Progress::show(std::uint64_t done) {
 }
 
 void Progress::end() {
+  std::ignore = done_.load(std::memory_order_acquire);
   if (output_ == Output::kTerminal && !what_.empty()) std::fputs("\r\033[K", stderr);
   what_.clear();
 }

@@ -15,6 +15,10 @@
 
 namespace terrabench {
 
+namespace events {
+struct Sculpture;
+}
+
 // Exactly one of the two is set.
 struct TerrainSource {
   std::string name;                // catalogue name or path
@@ -22,6 +26,9 @@ struct TerrainSource {
   std::vector<std::string> notes;  // what the reader converted, guessed or left out, for the user
   std::optional<Heightfield> heights;
   std::optional<Solid> solid;
+  // What the solid was evaluated from, for structures that can repeat the events; null for other solids and
+  // for heights.
+  std::shared_ptr<const events::Sculpture> events;
 
   // For heights: the ground's floor lies one cell under the lowest sample, so that every column has
   // substance.

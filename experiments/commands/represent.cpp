@@ -6,6 +6,8 @@
 #include "experiments/commands/commands.h"
 #include "experiments/fidelity.h"
 #include "renderers/relief.h"
+#include "representations/drill/drill_codec.h"
+#include "representations/drill/drill_terrain.h"
 #include "representations/representation.h"
 #include "results/format.h"
 #include "terrain/hydrology/flow.h"
@@ -67,17 +69,40 @@ void draw(const RepresentArguments& a, const Representation& built, Bounds bound
   fmt::print("rendered    {} ({} triangles, {})\n", a.render, mesh.triangles(), context->renderer());
 }
 
+// What drills came to, which a budget chooses and no other line shows.
+void print_drills(const DrillTerrain& built, const Parameters& parameters, const Fidelity& fidelity) {
+  const Drills& drills = built.drills();
+  ByteSink encoded;
+  encode_drills(drills, encoded);
+  const std::size_t bytes = encoded.bytes().size();
+  fmt::print("drills      {}, w = {}, k = {}, rounded to {} m: {} encoded\n",
+             format_number(static_cast<double>(drills.count())), drills.w, drills.k, drills.quantum,
+             format_quantity(static_cast<double>(bytes), "B"));
+  const std::int64_t budget = parameters.integer("budget_bytes");
+  const double largest = parameters.number("max_rmse");
+  if (drills.count() == 0) {
+    fmt::print(
+        "warning     no channels: the flow of no pixel reaches tau = {}, so that the terrain is a "
+        "plateau at {} m; choose a smaller tau\n",
+        parameters.integer("tau"), drills.plateau);
+  }
+  if (budget > 0 && bytes > static_cast<std::size_t>(budget)) {
+    fmt::print("warning     over the budget of {}: no parameters that were tried take fewer\n",
+               format_quantity(static_cast<double>(budget), "B"));
+  }
+  if (largest > 0 && fidelity.from_heights && fidelity.rmse > largest) {
+    fmt::print("warning     over the budget of {} RMSE: no parameters that were tried err less\n",
+               format_quantity(largest, "m"));
+  }
+}
+
 // For other programs to read and check: how many pixels drain through each, and where to.
 void write_flow(const std::filesystem::path& path, const TerrainSource& source, Progress& progress) {
-  if (!source.heights) {
-    throw usage_error("this terrain is a solid, over which no flow is routed", "--write-flow",
-                      "leave it out, or name a terrain of heights");
-  }
   const FlowNetwork network = route_flow(*source.heights, &progress);
   std::filesystem::path directions = path;
   directions.replace_filename(path.stem().string() + "-direction" + path.extension().string());
-  write_geotiff(path, accumulation_raster(network, *source.heights));
-  write_geotiff(directions, direction_raster(network, *source.heights));
+  write_geotiff(path, accumulation_raster(network, *source.heights), "");
+  write_geotiff(directions, direction_raster(network, *source.heights), "");
   fmt::print("flow        {}, directions {}\n", path.string(), directions.string());
 }
 
@@ -90,6 +115,10 @@ ExitCode represent_command(const RepresentArguments& a) {
   Progress progress(isatty(STDERR_FILENO) != 0 ? Progress::Output::kTerminal : Progress::Output::kLines);
 
   const TerrainSource source = names_dem_file(a.terrain) ? open_file(a, progress) : open_named(a);
+  if (!a.write_flow.empty() && !source.heights) {  // before work that may take minutes
+    throw usage_error("this terrain is a solid, over which no flow is routed", "--write-flow",
+                      "leave it out, or name a terrain of heights");
+  }
   const auto begin = std::chrono::steady_clock::now();
   auto built = type.build(source, parameters, progress);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
@@ -104,6 +133,9 @@ ExitCode represent_command(const RepresentArguments& a) {
              format_quantity(static_cast<double>(memory.total()), "B"), memory.payload, memory.index,
              memory.slack);
   print_fidelity(fidelity);
+  if (const auto* const drills = dynamic_cast<const DrillTerrain*>(built.get())) {
+    print_drills(*drills, parameters, fidelity);
+  }
   if (!a.save.empty()) {
     const std::size_t bytes = save_representation(a.save, type, *built);
     fmt::print("saved       {} ({})\n", a.save, format_quantity(static_cast<double>(bytes), "B"));

@@ -28,6 +28,10 @@ std::vector<Case> ground_cases(const RunOptions&);
 void measure_effects(const Case&, const RunOptions&, Recorder&, Progress&);
 // Seconds at several thresholds and the straight line through them.
 void measure_time(const Case&, const RunOptions&, Recorder&, Progress&);
+// Seconds of each step on grounds of noise from 256² samples up.
+extern const std::span<const ParameterSpec> kGrowthParameters;
+std::vector<Case> growth_cases(const RunOptions&);
+void measure_growth(const Case&, const RunOptions&, Recorder&, Progress&);
 // Values and bytes at about 13,000 drills of 160,000 pixels, beside other ways to store the ground.
 void measure_size(const Case&, const RunOptions&, Recorder&, Progress&);
 // Order-independence and the other promises of equation 1, and pits left behind.

@@ -83,9 +83,12 @@ void measure_effects(const Case& at, const RunOptions& options, Recorder& record
     if (o.setting.w == 10 && o.setting.k == 20) at_paper_best = std::min(at_paper_best, o.rmse);
   }
   recorder.add("rmse_at_w10_k20", "", at_paper_best);
-  recorder.add("rmse_at_w10_k20_to_least", "", at_paper_best / least(outcomes, kMeasures[0]).rmse);
+  // On flat ground there is no error to compare with.
+  if (const double best = least(outcomes, kMeasures[0]).rmse; best > 0) {
+    recorder.add("rmse_at_w10_k20_to_least", "", at_paper_best / best);
+  }
 
-  const Study study{*source.heights, network, at.terrain == kMainGround ? "" : "." + file_name(at.terrain)};
+  const Study study{*source.heights, network, source.name, figure_suffix(at.terrain)};
   draw_channels(study, recorder);
   draw_cross_sections(study, recorder);
   draw_best(study, least(outcomes, kMeasures[0]), least(outcomes, kMeasures[1]), recorder);

@@ -12,6 +12,7 @@ namespace terrabench::drill {
 struct Study {
   const Heightfield& ground;
   const FlowNetwork& network;
+  std::string name;    // for captions
   std::string suffix;  // of figure ids: empty for the ground of the claims
 };
 

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "results/rasterise.h"
@@ -29,12 +28,6 @@ std::string escaped(std::string_view words) {
   return text;
 }
 
-Rgb blend(const Rgb& a, const Rgb& b, double t) {
-  Rgb c;
-  for (int i = 0; i < 3; ++i) c[i] = static_cast<std::uint8_t>(std::lround(a[i] + (b[i] - a[i]) * t));
-  return c;
-}
-
 std::string base64(std::string_view bytes) {
   static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -50,24 +43,30 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-template <std::size_t N>
-Rgb along(const std::array<Rgb, N>& stops, double t) {
-  const double at = std::clamp(t, 0.0, 1.0) * (N - 1);
-  const auto i = std::min(static_cast<std::size_t>(at), N - 2);
-  return blend(stops[i], stops[i + 1], at - static_cast<double>(i));
+// Whole multiples, so that what draws the sheet has nothing to interpolate.
+Image enlarged(const Image& image, int across, int down) {
+  Image large(image.width * across, image.height * down, {});
+  for (int y = 0; y < large.height; ++y) {
+    for (int x = 0; x < large.width; ++x) large.set(x, y, image.pixel(x / across, y / down));
+  }
+  return large;
 }
 
 }  // namespace
+
+Sheet::Sheet(double width, double height)
+    : width_(static_cast<int>(std::ceil(width))), height_(static_cast<int>(std::ceil(height))) {}
 
 void Sheet::box(double x, double y, double width, double height, Rgb fill) {
   body_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", x, y, width,
                        height, css(fill));
 }
 
-void Sheet::line(std::span<const SheetPoint> points, Rgb colour, double thickness, double opacity) {
-  body_ +=
-      fmt::format("<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-opacity=\"{}\" points=\"",
-                  css(colour), thickness, opacity);
+void Sheet::line(std::span<const SheetPoint> points, const Stroke& stroke) {
+  body_ += fmt::format("<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-opacity=\"{}\"",
+                       css(stroke.colour), stroke.thickness, stroke.opacity);
+  if (!stroke.dashes.empty()) body_ += fmt::format(" stroke-dasharray=\"{}\"", stroke.dashes);
+  body_ += " points=\"";
   for (const SheetPoint& p : points) body_ += fmt::format("{:.2f},{:.2f} ", p.x, p.y);
   body_ += "\"/>\n";
 }
@@ -78,10 +77,13 @@ void Sheet::text(double x, double y, std::string_view words, int size, std::stri
 }
 
 void Sheet::picture(double x, double y, double width, double height, const Image& image) {
+  const auto times = [](double units, int pixels) {
+    return std::max(1, static_cast<int>(std::lround(kPixels * units / pixels)));
+  };
   // By way of a file, which is what writes PNG.
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / fmt::format("terrabench-panel.{}.png", getpid());
-  write_png(file, image);
+  write_png(file, enlarged(image, times(width, image.width), times(height, image.height)));
   const std::string bytes = read_file(file);
   std::filesystem::remove(file);
   body_ += fmt::format(
@@ -90,55 +92,26 @@ void Sheet::picture(double x, double y, double width, double height, const Image
       x, y, width, height, base64(bytes));
 }
 
+void Sheet::colour_bar(double x, double y, double width, const std::function<Rgb(double)>& colour,
+                       std::span<const Tick> ticks) {
+  constexpr double kHeight = 12;
+  constexpr Rgb kGrey{96, 96, 96};
+  Image bar(static_cast<int>(kPixels * width), 1, {});
+  for (int i = 0; i < bar.width; ++i) bar.set(i, 0, colour((i + 0.5) / bar.width));
+  picture(x, y, width, kHeight, bar);
+  for (const Tick& tick : ticks) {
+    const double at = x + tick.at * width;
+    line(std::array{SheetPoint{at, y + kHeight}, SheetPoint{at, y + kHeight + 4}}, {.colour = kGrey});
+    text(at, y + kHeight + 17, tick.words, 12, "middle");
+  }
+}
+
 void Sheet::write(const std::filesystem::path& png) const {
-  std::filesystem::path svg = png;
-  svg += ".svg";
-  write_file(svg, fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+  svg_text_to_png(fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
                               "viewBox=\"0 0 {0} {1}\" font-family=\"DejaVu Sans\">\n"
                               "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n{2}</svg>\n",
-                              width_, height_, body_));
-  try {
-    svg_to_png(svg, png, 2 * width_);
-  } catch (...) {
-    std::filesystem::remove(svg);
-    throw;
-  }
-  std::filesystem::remove(svg);
-}
-
-Rgb height_colour(double t) {
-  static constexpr std::array<Rgb, 6> kStops{
-      {{52, 98, 178}, {70, 150, 110}, {120, 170, 80}, {160, 130, 80}, {190, 165, 135}, {252, 252, 252}}};
-  return along(kStops, t);
-}
-
-Rgb error_colour(double t) {
-  static constexpr std::array<Rgb, 5> kStops{
-      {{48, 80, 200}, {130, 180, 230}, {240, 240, 220}, {240, 150, 90}, {190, 20, 40}}};
-  return along(kStops, t);
-}
-
-Image relief(const Heightfield& field, double lowest, double highest) {
-  Image image(field.width, field.depth, {255, 255, 255});
-  const auto height = [&](int i, int j, float fallback) {
-    const float h = field.at(std::clamp(i, 0, field.width - 1), std::clamp(j, 0, field.depth - 1));
-    return Heightfield::is_no_data(h) ? fallback : h;
-  };
-  for (int j = 0; j < field.depth; ++j) {
-    for (int i = 0; i < field.width; ++i) {
-      const float h = field.at(i, j);
-      if (Heightfield::is_no_data(h)) continue;
-      const double east = (height(i + 1, j, h) - height(i - 1, j, h)) / (2 * field.cell_x);
-      const double south = (height(i, j + 1, h) - height(i, j - 1, h)) / (2 * field.cell_z);
-      // Lambert's law with the sun in the north-west, halfway up.
-      const double light = (0.5 * east + 0.5 * south + 0.7071) / std::sqrt(1 + east * east + south * south);
-      const double shade = std::clamp(0.35 + 0.92 * light, 0.0, 1.0);
-      const Rgb base =
-          highest > lowest ? height_colour((h - lowest) / (highest - lowest)) : Rgb{225, 225, 225};
-      image.set(i, j, blend({0, 0, 0}, base, shade));
-    }
-  }
-  return image;
+                              width_, height_, body_),
+                  png, kPixels * width_);
 }
 
 }  // namespace terrabench::drill

@@ -134,8 +134,7 @@ void measure_size(const Case& at, const RunOptions& options, Recorder& recorder,
   add("zstd", compressed_size_at(filled, RasterCodec::kZstdDifferences, rmse));
   add("jpeg2000", compressed_size_at(filled, RasterCodec::kJpeg2000, rmse));
   add("lerc", compressed_size_at(filled, RasterCodec::kLerc, rmse));
-  draw_rate_distortion(ground, network, at.terrain == kMainGround ? "" : "." + file_name(at.terrain),
-                       recorder, progress);
+  draw_rate_distortion(ground, network, figure_suffix(at.terrain), recorder, progress);
 }
 
 }  // namespace terrabench::drill

@@ -85,7 +85,7 @@ void measure_relief(const Case& at, const RunOptions& options, Recorder& recorde
       recorder.figure(id, "png",
                       fmt::format("{} as {}: {} triangles, sun from the north-west, view from the south",
                                   source.name, type.name, mesh.triangles())),
-      image);
+      with_few_colours(image));
 }
 
 }  // namespace terrabench::overview_experiments

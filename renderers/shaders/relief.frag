@@ -1,7 +1,13 @@
 #version 450 core
-in vec3 world;
-in vec3 world_normal;
-in float bend;
+in Vertex {
+  vec3 world;
+  vec3 normal;
+  vec3 paint;
+  float bend;
+  noperspective vec3 to_edge;
+  flat vec3 strength;
+  flat vec3 reach;
+} vertex;
 
 uniform sampler1D ramp;        // linear light
 uniform vec2 height_range;     // metres at the ramp's ends
@@ -9,7 +15,10 @@ uniform vec3 sun;              // unit length, towards the light
 uniform vec3 eye;
 uniform float exaggeration;    // of slopes, for the light only
 uniform bool facets;           // the mesh has no normals
-uniform bool edges;            // this draws the wireframe
+uniform bool painted;          // vertex.paint holds sRGB
+uniform bool flat_fill;        // no light: all one colour, for hidden-line drawings
+uniform vec3 fill_color;       // sRGB
+uniform vec4 wire_ink;         // sRGB and opacity
 
 out vec4 color;
 
@@ -17,42 +26,56 @@ const float kAmbient = 0.30;
 const float kFill = 0.3;                       // from the viewer, on steep ground: walls and caves in shade keep form
 const vec3 kSky = vec3(0.86, 0.93, 1.0);       // what shadows are tinted with
 const vec3 kBack = vec3(0.30, 0.29, 0.28);     // the inside of a mesh, seen where it is open
-const vec3 kEdge = vec3(0.05, 0.05, 0.06);
 
 vec3 to_srgb(vec3 linear) {
   return mix(12.92 * linear, 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, greaterThan(linear, vec3(0.0031308)));
+}
+
+vec3 to_linear(vec3 srgb) {
+  return mix(srgb / 12.92, pow((srgb + 0.055) / 1.055, vec3(2.4)), greaterThan(srgb, vec3(0.04045)));
+}
+
+vec3 ramp_color() {
+  // Texel centres stand at the ends of the range.
+  float size = float(textureSize(ramp, 0));
+  float t = clamp((vertex.world.y - height_range.x) / (height_range.y - height_range.x), 0.0, 1.0);
+  return texture(ramp, (t * (size - 1.0) + 0.5) / size).rgb;
 }
 
 // Which way the surface faces, on the side that is seen.
 vec3 surface_normal() {
   vec3 n;
   if (facets) {
-    n = cross(dFdx(world), dFdy(world));
-    n = dot(n, eye - world) < 0.0 ? -n : n;
+    n = cross(dFdx(vertex.world), dFdy(vertex.world));
+    n = dot(n, eye - vertex.world) < 0.0 ? -n : n;
   } else {
-    n = gl_FrontFacing ? world_normal : -world_normal;
+    n = gl_FrontFacing ? vertex.normal : -vertex.normal;
   }
   return normalize(vec3(n.x * exaggeration, n.y, n.z * exaggeration));
 }
 
-void main() {
-  if (edges) {
-    color = vec4(to_srgb(kEdge), 0.55);
-    return;
-  }
-  // Texel centres stand at the ends of the range.
-  float size = float(textureSize(ramp, 0));
-  float t = clamp((world.y - height_range.x) / (height_range.y - height_range.x), 0.0, 1.0);
-  vec3 albedo = gl_FrontFacing ? texture(ramp, (t * (size - 1.0) + 0.5) / size).rgb : kBack;
+vec3 lit_color() {
+  vec3 albedo = painted ? to_linear(vertex.paint) : gl_FrontFacing ? ramp_color() : kBack;
 
   // Sun and sky, in units of what level ground receives.
   vec3 n = surface_normal();
   float sky = kAmbient * (0.5 + 0.5 * n.y);
   float direct = (1.0 - kAmbient) * max(dot(n, sun), 0.0) / max(sun.y, 0.3);
-  float fill = kFill * (1.0 - abs(n.y)) * max(dot(n, normalize(eye - world)), 0.0);
-  float light = (sky + direct + fill) * (1.0 + bend);
+  float fill = kFill * (1.0 - abs(n.y)) * max(dot(n, normalize(eye - vertex.world)), 0.0);
+  float light = (sky + direct + fill) * (1.0 + vertex.bend);
   vec3 tint = mix(kSky, vec3(1.0), min(light, 1.0));
   // Slopes towards the sun near white without being cut off there, and dark colours keep their hue.
   vec3 lit = light <= 1.0 ? albedo * light * tint : 1.0 - pow(1.0 - albedo, vec3(light));
-  color = vec4(to_srgb(clamp(lit, 0.0, 1.0)), 1.0);
+  return to_srgb(clamp(lit, 0.0, 1.0));
+}
+
+// How much of the pixel the nearest wire covers.
+float wire_cover() {
+  vec3 cover = vertex.strength * clamp(vertex.reach + 0.5 - vertex.to_edge, 0.0, 1.0);
+  return max(cover.x, max(cover.y, cover.z));
+}
+
+void main() {
+  vec3 surface = flat_fill ? fill_color : lit_color();
+  color = vec4(mix(surface, wire_ink.rgb, wire_ink.a * wire_cover()), 1.0);
 }

@@ -1,12 +1,12 @@
 #include "representations/drill/choose_parameters.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "representations/drill/drill_codec.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/error.h"
+#include "terrain/metrics/elevation_error.h"
 
 namespace terrabench {
 namespace {
@@ -14,18 +14,6 @@ namespace {
 constexpr std::uint32_t kTaus[] = {6, 12, 25, 50, 100, 200, 400, 800};
 constexpr int kCrossSections[] = {3, 5, 7, 10, 14, 20}, kInfluences[] = {4, 6, 8, 10, 12, 15, 20, 30};
 constexpr float kQuanta[] = {1, 2, 4, 8};  // times the automatic one
-
-double rmse(const Heightfield& a, const Heightfield& b) {
-  double sum = 0;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < a.heights.size(); ++i) {
-    const double error = static_cast<double>(a.heights[i]) - b.heights[i];
-    if (std::isnan(error)) continue;
-    sum += error * error;
-    ++count;
-  }
-  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(count, 1)));
-}
 
 // How far a choice is from the budget, and then what it costs in the other coin: less is better.
 std::pair<double, double> cost(const DrillChoice& choice, const DrillBudget& budget) {
@@ -44,7 +32,10 @@ class Search {
 
   // The w and k of least error for a τ.
   DrillOptions best_shape(std::uint32_t tau) {
+    // Of terrains smaller than the shortest cross-section, which are not looked at further.
     DrillOptions best = options_;
+    best.tau = tau;
+    best.w = std::min(options_.w, std::max(field_.width, field_.depth));
     double least = std::numeric_limits<double>::infinity();
     for (const int w : kCrossSections) {
       if (w > std::max(field_.width, field_.depth)) continue;
@@ -57,7 +48,7 @@ class Search {
         at.k = drills.k = k;
         // The shapes depend on k in this reading alone.
         if (at.window_only) drills = extract_drills(field_, network_, at);
-        const double error = rmse(regenerate(drills), field_);
+        const double error = elevation_error(field_, regenerate(drills)).rmse;
         if (error >= least) continue;
         least = error;
         best = at;
@@ -96,7 +87,7 @@ DrillChoice choose_parameters(const Heightfield& field, const FlowNetwork& netwo
       ByteSink bytes;
       encode_drills(drills, bytes);
       choice.bytes = bytes.bytes().size();
-      choice.rmse = rmse(regenerate(drills), field);
+      choice.rmse = elevation_error(field, regenerate(drills)).rmse;
       const std::pair<double, double> at = cost(choice, budget);
       choice.within_budget = at.first == 0;
       if (at >= least) continue;

@@ -63,8 +63,8 @@ float mix(float a, float b, float weight) { return a + weight * (b - a); }
 
 CrossSections::CrossSections(const Heightfield& field, int w) : width_(field.width), w_(w) {
   const std::size_t margin = static_cast<std::size_t>(w) + 1;
-  stride_ = static_cast<std::size_t>(width_) + 2 * margin;
-  heights_.resize(stride_ * (static_cast<std::size_t>(field.depth) + 2 * margin));
+  stride_ = row_length(width_, w);
+  heights_.resize(stride_ * row_length(field.depth, w));
   tbb::parallel_for(std::size_t{0}, heights_.size() / stride_, [&](std::size_t row) {
     float* const out = heights_.data() + row * stride_;
     std::fill_n(out, stride_, kNothing);

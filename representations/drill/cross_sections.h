@@ -24,8 +24,15 @@ class CrossSections {
   static constexpr float kNothing = -1e30F;
   static bool is_sample(float height) { return height > -1e20F; }
 
-  // Copies the field with a margin of w + 1. O(pixels), parallel.
+  // Copies the field with a margin of w + 1, into bytes(). O(pixels), parallel. Needs reaches().
   CrossSections(const Heightfield& field, int w);
+  static std::size_t bytes(const Heightfield& field, int w) {
+    return row_length(field.width, w) * row_length(field.depth, w) * sizeof(float);
+  }
+  // Whether offsets within a terrain so wide fit 32 bits, as all do up to 8 million samples.
+  static bool reaches(int width, int w) {
+    return row_length(width, w) * (static_cast<std::size_t>(w) + 1) < std::size_t{1} << 31;
+  }
 
   int w() const { return w_; }
   // The union at a pixel: w heights, the i-th at distance i + 1; not is_sample() where no ray has one.
@@ -34,6 +41,9 @@ class CrossSections {
   void rays(std::uint32_t pixel, std::span<float> out) const;
 
  private:
+  static std::size_t row_length(int samples, int w) {
+    return static_cast<std::size_t>(samples) + 2 * (static_cast<std::size_t>(w) + 1);
+  }
   const float* centre(std::uint32_t pixel) const {
     const std::size_t row = pixel / static_cast<std::uint32_t>(width_),
                       column = pixel % static_cast<std::uint32_t>(width_);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 
+#include "representations/column_grid.h"
 #include "representations/drill/range_coder.h"
 #include "terrain/error.h"
 
@@ -18,6 +19,8 @@ namespace {
 constexpr std::int32_t kLargest = 1 << 22;  // products with any quantum then round back to the same number
 constexpr float kLeastQuantum = 1e-9F, kMostQuantum = 1e6F, kMostHeight = 1e9F;
 constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28;
+constexpr std::size_t kBytesADrill =
+    2 * (4 * sizeof(float) + 2) + sizeof(std::uint32_t);  // while being sorted
 
 // A drill's numbers in quanta, and how they differ from those downstream.
 struct Numbers {
@@ -213,7 +216,8 @@ class Decoder {
         source_(source),
         quanta_(drills.quantum, drills.w),
         coder_(bytes, source),
-        code_(coder_) {}
+        code_(coder_),
+        taken_(drills.pixels()) {}
 
   void run() {
     get_holes();
@@ -227,23 +231,30 @@ class Decoder {
       if (gap < 0 || last >= drills_.pixels()) source_.fail("an outlet lies outside the terrain");
       numbers = get_tree({static_cast<std::uint32_t>(last), FlowNetwork::kOutlet, kAtOutlet, numbers});
     }
+    if (!coder_.at_end()) source_.fail("bytes follow the last drill");
     sort();
   }
 
  private:
   void get_holes() {
     const std::int32_t holes = code_.count(0);
+    if (holes < 0) source_.fail("the number of holes cannot be");
     std::uint64_t last = 0;
     for (std::int32_t i = 0; i < holes; ++i) {
       const std::int32_t gap = code_.hole_gap(0), count = code_.hole_count(0);
       const std::uint64_t first = last + static_cast<std::uint32_t>(gap);
       last = first + static_cast<std::uint32_t>(count);
-      if (gap < 0 || count < 1 || last > drills_.pixels()) source_.fail("a hole lies outside the terrain");
+      if (gap < (i == 0 ? 0 : 1) || count < 1 || last > drills_.pixels()) {
+        source_.fail("a hole lies outside the terrain or touches another");
+      }
+      before_growth(drills_.holes.size(), sizeof(HoleRun));
       drills_.holes.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)});
+      std::fill_n(taken_.begin() + static_cast<std::ptrdiff_t>(first), count, true);
     }
   }
 
   Numbers get_tree(const Place& root) {
+    take(root.pixel);
     const Numbers first = get_drill(root);
     while (!stack_.empty()) {
       const Place place = stack_.back();
@@ -253,8 +264,22 @@ class Decoder {
     return first;
   }
 
+  // Before each doubling of what a damaged file may ask for: a few bytes can stand for millions of drills.
+  void before_growth(std::size_t count, std::size_t size) const {
+    constexpr std::size_t kUnasked = 1 << 20;
+    if (count >= kUnasked && std::has_single_bit(count)) {
+      require_memory(2 * count * size, "drills of " + source_.origin());
+    }
+  }
+
+  // Every pixel once: no channel may close on itself.
+  void take(std::uint32_t pixel) {
+    if (taken_[pixel]) source_.fail("a drill stands where another does, or in a hole");
+    taken_[pixel] = true;
+  }
+
   Numbers get_drill(const Place& place) {
-    if (drills_.count() == drills_.pixels()) source_.fail("there are more drills than pixels");
+    before_growth(drills_.count(), kBytesADrill);
     const Numbers own = code_.numbers(place, {}, with_influence_);
     const auto fits = [](std::int32_t number) { return number >= -kLargest && number <= kLargest; };
     if (!fits(own.elevation) || !fits(own.slope) || !fits(own.curvature) || own.influence < 0 ||
@@ -272,12 +297,14 @@ class Decoder {
       if ((mask >> e & 1U) == 0) continue;
       const auto child = upstream(drills_, place, e, own);
       if (!child) source_.fail("a channel leaves the terrain");
+      take(child->pixel);
+      before_growth(stack_.size(), sizeof(Place));
       stack_.push_back(*child);
     }
     return own;
   }
 
-  // Into row-major order. A pixel met twice would have been a channel that closes on itself.
+  // Into row-major order.
   void sort() {
     std::vector<std::uint32_t> order(drills_.count());
     std::iota(order.begin(), order.end(), 0U);
@@ -294,9 +321,6 @@ class Decoder {
     permute(drills_.slope);
     permute(drills_.curvature);
     permute(drills_.influence);
-    if (std::adjacent_find(drills_.pixel.begin(), drills_.pixel.end()) != drills_.pixel.end()) {
-      source_.fail("two drills share a pixel");
-    }
   }
 
   Drills& drills_;
@@ -305,6 +329,7 @@ class Decoder {
   Quanta quanta_;
   RangeDecoder coder_;
   DrillCoder<RangeDecoder> code_;
+  std::vector<bool> taken_;
   std::vector<Place> stack_;
 };
 
@@ -372,20 +397,13 @@ Drills decode_drills(ByteSource& in) {
     *metres = in.get<float>();
   drills.w = in.get<std::uint8_t>();
   drills.k = in.get<std::uint8_t>();
-  const bool with_influence = in.get<std::uint8_t>() != 0;
-  drills.interpolated = in.get<std::uint8_t>() != 0;
+  const auto with_influence = in.get<std::uint8_t>(), interpolated = in.get<std::uint8_t>();
+  if (with_influence > 1 || interpolated > 1) in.fail("the drills' flags cannot be");
+  drills.interpolated = interpolated == 1;
   check_frame(drills, in);
   const std::vector<std::byte> coded = in.get_array<std::byte>(in.get<std::uint64_t>());
-  Decoder(drills, with_influence, coded, in).run();
+  Decoder(drills, with_influence == 1, coded, in).run();
   return drills;
-}
-
-std::size_t encoded_size(const Drills& drills, float quantum) {
-  Drills rounded = drills;
-  quantise(rounded, quantum);
-  ByteSink sink;
-  encode_drills(rounded, sink);
-  return sink.bytes().size();
 }
 
 }  // namespace terrabench

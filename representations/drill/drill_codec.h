@@ -25,10 +25,8 @@ float automatic_quantum(const Heightfield& field);
 
 // Bit for bit what decode_drills() gives back. `drills` are quantised, as extract_drills() orders them.
 void encode_drills(const Drills& drills, ByteSink& out);
-// Throws bad_input for bytes that encode_drills() cannot have written.
+// Throws bad_input for bytes that encode_drills() cannot have written, environment_error for more drills than
+// fit into memory. Every pixel is taken at most once, so that damaged bytes end soon.
 Drills decode_drills(ByteSource& in);
-
-// Bytes that encode_drills() writes after rounding to `quantum`.
-std::size_t encoded_size(const Drills& drills, float quantum);
 
 }  // namespace terrabench

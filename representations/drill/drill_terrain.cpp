@@ -1,5 +1,7 @@
 #include "representations/drill/drill_terrain.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,8 +30,8 @@ std::vector<ParameterSpec> make_parameters() {
        {"adaptive_k", false, "", "an influence of its own for every drill, up to k"},
        {"interpolate_untouched", false, "", "draw what no drill touches from its surroundings"},
        {"quantum", 0.0, "m", "drills are rounded to; 0: about 1/256 of the range of heights", 0, 1e6},
-       {"budget_bytes", std::int64_t{0}, "B", "choose tau, w, k and quantum for so many bytes; 0: do not", 0,
-        1e15},
+       {"budget_bytes", std::int64_t{0}, "B",
+        "choose tau, w, k and quantum for so many bytes of drills; 0: do not", 0, 1e15},
        {"max_rmse", 0.0, "m", "choose tau, w, k and quantum for so small an error; 0: do not", 0, 1e9}});
   return specs;
 }
@@ -64,7 +66,8 @@ std::span<const ParameterSpec> DrillTerrain::parameters() {
 }
 
 DrillTerrain::DrillTerrain(Drills drills, HeightGrid grid) : drills_(std::move(drills)) {
-  require_memory(drills_.pixels() * 2 * sizeof(float), "terrain from drills");
+  const std::size_t copies = drills_.interpolated ? 4 : 2;  // interpolate_untouched() works on copies
+  require_memory(drills_.pixels() * copies * sizeof(float), "terrain from drills");
   Heightfield field = regenerate(drills_);
   // Shapes that may fall can dig through the floor.
   const HeightRange range = height_range(field);
@@ -95,6 +98,12 @@ std::unique_ptr<Representation> DrillTerrain::build(const TerrainSource& source,
   budget.rmse = parameters.number("max_rmse");
   if (budget.bytes > 0 || budget.rmse > 0) {
     const DrillChoice choice = choose_parameters(field, network, budget, options, &progress);
+    if (!choice.within_budget) {
+      throw usage_error(
+          fmt::format("no drills keep the budget: the nearest are {} bytes with an error of {:.4g} m",
+                      choice.bytes, choice.rmse),
+          "drill", "allow more bytes, or a larger error");
+    }
     options = choice.options;
     quantum = choice.quantum;
   }

@@ -1,7 +1,8 @@
 // The drill representation (Stuetzle & Franklin 2012, "Representing terrain with mathematical operators"):
 // what is kept on disk are the drills (drills.h, drill_codec.h); queries are answered by the terrain that
-// they regenerate, which is held as a heightmap. So it answers as quickly, takes more memory, and is 30 to
-// 100 times smaller on disk, at an error of some 2 % of the height range.
+// they regenerate, which is held as a heightmap. So it answers as quickly and takes more memory; on disk,
+// 13,000 drills for 400² samples take a thirtieth of the heights as floats, at an error of some 2 % of their
+// range.
 #pragma once
 
 #include <memory>
@@ -16,7 +17,8 @@ class DrillTerrain final : public Representation {
  public:
   static std::span<const ParameterSpec> parameters();
   // A solid gives its topmost surface. A terrain in which no flow reaches tau has no drills and becomes a
-  // plateau. Throws usage_error for options that check_options() refuses, bad_input for heights beyond 10⁹ m.
+  // plateau. Throws usage_error for options that check_options() refuses and budgets that cannot be kept,
+  // bad_input for heights beyond 10⁹ m.
   static std::unique_ptr<Representation> build(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<Representation> load(ByteSource&);
 

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <numbers>
 
+#include "representations/column_grid.h"
 #include "representations/drill/cross_sections.h"
 #include "representations/drill/drills.h"
 #include "representations/drill/influence.h"
@@ -28,11 +29,11 @@ std::vector<HoleRun> find_holes(const Heightfield& field) {
   return holes;
 }
 
-// Lowers every channel pixel to the lowest upstream of it: channels come upstream first.
+// Lowers every channel pixel to the lowest upstream of it.
 std::vector<float> monotone_elevations(const Heightfield& field, const FlowNetwork& network,
-                                       std::span<const std::uint32_t> channel) {
+                                       std::uint32_t tau) {
   std::vector<float> elevation = field.heights;
-  for (const std::uint32_t pixel : channel) {
+  for (const std::uint32_t pixel : channel_pixels(network, tau)) {  // upstream first
     if (!network.flows(pixel)) continue;
     float& below = elevation[network.receiver(pixel)];
     below = std::min(below, elevation[pixel]);
@@ -81,6 +82,10 @@ void check_options(const DrillOptions& options, int width, int depth) {
     throw bad_option("w", options.w, "is no length of a cross-section of this terrain",
                      fmt::format("choose 1 to {} samples", most_w));
   }
+  if (!CrossSections::reaches(width, options.w)) {
+    throw bad_option("w", options.w, "is too long for a terrain so wide",
+                     "choose a shorter one, or turn the terrain so that its longer side runs south");
+  }
   if (options.k < 0 || options.k > kMost) {
     throw bad_option(
         "k", options.k, "is no influence",
@@ -92,11 +97,9 @@ Drills extract_drills(const Heightfield& field, const FlowNetwork& network, cons
                       Progress* progress) {
   check_options(options, field.width, field.depth);
   assert(network.width == field.width && network.depth == field.depth);
-  std::vector<std::uint32_t> channel = channel_pixels(network, options.tau);
   std::vector<float> lowered;
-  if (options.monotone_profiles) lowered = monotone_elevations(field, network, channel);
+  if (options.monotone_profiles) lowered = monotone_elevations(field, network, options.tau);
   const std::vector<float>& elevation = options.monotone_profiles ? lowered : field.heights;
-  std::sort(channel.begin(), channel.end());
 
   Drills drills;
   drills.width = field.width;
@@ -108,15 +111,20 @@ Drills extract_drills(const Heightfield& field, const FlowNetwork& network, cons
   drills.w = options.w;
   drills.k = options.k;
   drills.holes = find_holes(field);
-  drills.direction.resize(channel.size());
-  drills.elevation.resize(channel.size());
-  for (std::size_t i = 0; i < channel.size(); ++i) {
-    drills.direction[i] = network.direction[channel[i]];
-    drills.elevation[i] = elevation[channel[i]];
+  const auto is_channel = [&](std::uint32_t flow) { return flow >= options.tau; };
+  drills.pixel.reserve(static_cast<std::size_t>(
+      std::count_if(network.accumulation.begin(), network.accumulation.end(), is_channel)));
+  drills.direction.reserve(drills.pixel.capacity());
+  drills.elevation.reserve(drills.pixel.capacity());
+  for (std::size_t i = 0; i < network.size(); ++i) {
+    if (!is_channel(network.accumulation[i])) continue;
+    drills.pixel.push_back(static_cast<std::uint32_t>(i));
+    drills.direction.push_back(network.direction[i]);
+    drills.elevation.push_back(elevation[i]);
   }
-  drills.pixel = std::move(channel);
   drills.interpolated = options.interpolate_untouched;
   if (drills.count() == 0) return drills;
+  require_memory(CrossSections::bytes(field, options.w), "cross-sections");
   shape_drills(CrossSections(field, options.w), rises_to(options), drills, progress);
   if (options.adaptive_k) choose_influence(field, drills, progress);
   return drills;

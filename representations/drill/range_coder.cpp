@@ -8,8 +8,6 @@ namespace {
 
 constexpr std::uint32_t kTop = 1U << 24;
 constexpr int kQuick = 4, kSlow = 7;  // shifts: the estimates look back over some 16 and 128 bits
-// Bytes past the end that a decoder legitimately reads ahead.
-constexpr std::size_t kReadAhead = 4;
 
 }  // namespace
 
@@ -77,10 +75,8 @@ RangeDecoder::RangeDecoder(std::span<const std::byte> bytes, const ByteSource& s
 }
 
 void RangeDecoder::shift() {
-  if (position_ >= bytes_.size() + kReadAhead) source_.fail("the coded drills end too early");
-  const auto next = position_ < bytes_.size() ? std::to_integer<std::uint32_t>(bytes_[position_]) : 0U;
-  ++position_;
-  code_ = code_ << 8 | next;
+  if (position_ == bytes_.size()) source_.fail("the coded drills end too early");
+  code_ = code_ << 8 | std::to_integer<std::uint32_t>(bytes_[position_++]);
 }
 
 bool RangeDecoder::bit(BitModel& model) {

@@ -43,14 +43,15 @@ class RangeEncoder {
   std::vector<std::byte> bytes_;
 };
 
-// Reads what RangeEncoder wrote. Any bytes decode to something; far past the end, ByteSource::fail() is
-// thrown.
+// Reads what RangeEncoder wrote. Any bytes decode to something; past the end, ByteSource::fail() is thrown.
 class RangeDecoder {
  public:
   // `source` is only asked to fail; `bytes` must stay alive.
   RangeDecoder(std::span<const std::byte> bytes, const ByteSource& source);
   bool bit(BitModel& model);
   std::uint32_t even_bits(int count);
+  // Whether as many bytes were read as the encoder wrote for the same symbols.
+  bool at_end() const { return position_ == bytes_.size(); }
 
  private:
   void shift();

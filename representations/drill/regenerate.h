@@ -1,5 +1,5 @@
 // Terrain from drills (Stuetzle & Franklin 2012, §2.3, eq. 1): each drill lowers what stands above its shape
-// in a square window around its pixel. The least of all shapes is the same in any order, so that rows are
+// in a square window around its pixel. The least of all shapes is the same in any order, so that tiles are
 // drilled in parallel and the result is the same for any number of threads. (2k + 1)² minima a drill, in
 // SIMD.
 #pragma once

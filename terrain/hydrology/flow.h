@@ -9,8 +9,8 @@
 // strictly lower; border pixels without such a neighbour are the outlets. The result is the same on every
 // machine.
 //
-// O(n) when all heights are whole numbers in a range below 2^20 (every int16 DEM), otherwise O(n log n) with
-// heaps of few entries. Holds 4 or 8 bytes a pixel beside the result.
+// O(n) when all heights are whole numbers in a range below 2^20 (every int16 DEM), otherwise O(n log n) at
+// worst and nearly O(n) for terrain (pixel_queues.h). Holds 4 or 8 bytes a pixel beside the result.
 #pragma once
 
 #include <array>
@@ -50,12 +50,14 @@ struct FlowNetwork {
   }
 };
 
-// Throws Error(kInterrupted). The field must have fewer than 2^31 samples.
+// Throws Error(kInterrupted). The field must have fewer than 2^31 samples, with a rim of one around it fewer
+// than 2^32.
 FlowNetwork route_flow(const Heightfield& field, Progress* progress = nullptr);
 
 // Pixels with accumulation ≥ tau (τ ≥ 1), upstream before downstream, chain by chain: heads in row-major
 // order, each followed downstream until it ends or meets a channel that still lacks one of its tributaries;
-// the last tributary to arrive carries on. O(n).
+// the last tributary to arrive carries on. O(n). The paper has flows "exceed" τ, which is tau = τ + 1 here: at
+// 25 and 400² mountains 1.6 % fewer pixels and the same error.
 std::vector<std::uint32_t> channel_pixels(const FlowNetwork& network, std::uint32_t tau);
 
 // The network as rasters over the same ground, for write_geotiff(): accumulation (exact up to 2^24 pixels),

@@ -1,6 +1,7 @@
 // The two queues of the least-cost search (flow.h). Both give the pixel of the lowest key, of equal keys the
 // one that waited longest; both find the lowest of their buckets by a bit set of bit sets, in constant time,
-// because heights in pits put lower keys back behind the search.
+// because heights in pits put lower keys back behind the search; and both know which pixels come next, so
+// that their surroundings can be fetched into the cache ahead of their turn.
 #pragma once
 
 #include <algorithm>
@@ -51,9 +52,33 @@ class BucketSet {
   std::array<std::vector<std::uint64_t>, 4> levels_;
 };
 
-// One first-in-first-out bucket a key, for whole numbers. Buckets are chains of blocks from one pool, so that
-// a bucket's pixels lie together and the ones to come can be fetched into the cache ahead of their turn.
-// O(1) a pixel.
+// Blocks of entries by number, for buckets that are chains of them: a bucket's pixels then lie together, and
+// no bucket takes memory of its own.
+template <class Block>
+class BlockPool {
+ public:
+  Block& operator[](std::uint32_t block) { return blocks_[block]; }
+  const Block& operator[](std::uint32_t block) const { return blocks_[block]; }
+  std::uint32_t take() {
+    if (free_.empty()) {
+      blocks_.emplace_back();
+      return static_cast<std::uint32_t>(blocks_.size() - 1);
+    }
+    const std::uint32_t block = free_.back();
+    free_.pop_back();
+    return block;
+  }
+  void give_back(std::uint32_t block) { free_.push_back(block); }
+
+ private:
+  std::vector<Block> blocks_;
+  std::vector<std::uint32_t> free_;
+};
+
+// How many pops ahead to fetch: enough to cover a memory access, few enough to stay in the nearest cache.
+inline constexpr std::uint32_t kAhead = 8;
+
+// One first-in-first-out bucket a key, for whole numbers. O(1) a pixel.
 class BucketQueue {
  public:
   explicit BucketQueue(std::uint32_t keys) : buckets_(keys), filled_(keys) {}
@@ -81,7 +106,7 @@ class BucketQueue {
     if (slot(bucket.head) == kSlots) {
       const std::uint32_t used = block(bucket.head);
       bucket.head = pool_[used].next * kBlock;
-      free_.push_back(used);
+      pool_.give_back(used);
     }
     const Block& from = pool_[block(bucket.head)];
     const std::uint32_t at = slot(bucket.head), ahead = at + kAhead;
@@ -99,8 +124,6 @@ class BucketQueue {
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
   static constexpr std::uint32_t kBlock = 32, kSlots = kBlock - 1;  // two cache lines a block
-  // How many pops ahead to fetch: enough to cover a memory access, few enough to stay in the nearest cache.
-  static constexpr std::uint32_t kAhead = 8;
 
   struct Block {
     std::uint32_t pixels[kSlots];
@@ -115,14 +138,7 @@ class BucketQueue {
   static std::uint32_t slot(std::uint32_t position) { return position % kBlock; }
 
   void grow(std::uint32_t key, Bucket& bucket) {
-    std::uint32_t added;
-    if (free_.empty()) {
-      added = static_cast<std::uint32_t>(pool_.size());
-      pool_.emplace_back();
-    } else {
-      added = free_.back();
-      free_.pop_back();
-    }
+    const std::uint32_t added = pool_.take();
     if (bucket.tail == kNone) {
       bucket.head = added * kBlock;
       filled_.insert(key);
@@ -133,61 +149,148 @@ class BucketQueue {
   }
 
   void clear(Bucket& bucket) {
-    free_.push_back(block(bucket.tail - 1));
+    pool_.give_back(block(bucket.tail - 1));
     bucket = Bucket{};
     filled_.erase(current_);
     current_ = kNone;
   }
 
   std::vector<Bucket> buckets_;
-  std::vector<Block> pool_;
-  std::vector<std::uint32_t> free_;
+  BlockPool<Block> pool_;
   BucketSet filled_;
   std::uint32_t current_ = kNone;  // the lowest filled bucket, when known
 };
 
-// Heaps of pixels in buckets of near heights, for any numbers. O(log of the bucket's size) a pixel: nearly
-// constant when heights spread over the buckets, O(log n) at worst.
+// For any numbers: buckets of near heights (Denardo & Fox 1979), the lowest of which is sorted when its turn
+// comes and taken from end to end. What is pushed at or under it meanwhile, mostly in pits, goes to a heap
+// beside it; should the heap outgrow it, as in a basin that reaches far down, all is put back into buckets.
+// Nearly O(1) a pixel when heights spread over the buckets, O(log n) at worst.
 // `BucketOf` maps keys to buckets and never falls as keys rise.
 template <class BucketOf>
-class HeapQueue {
+class SortedBucketQueue {
  public:
-  HeapQueue(std::uint32_t buckets, BucketOf bucket_of)
-      : heaps_(buckets), filled_(buckets), bucket_of_(std::move(bucket_of)) {}
+  SortedBucketQueue(std::uint32_t buckets, BucketOf bucket_of)
+      : buckets_(buckets), filled_(buckets), bucket_of_(std::move(bucket_of)) {}
 
-  bool empty() const { return filled_.empty(); }
+  bool empty() const { return next_ == run_.size() && heap_.empty() && filled_.empty(); }
 
   void push(std::uint32_t key, std::uint32_t pixel) {
     const std::uint32_t bucket = bucket_of_(key);
-    std::vector<Entry>& heap = heaps_[bucket];
-    if (heap.empty()) filled_.insert(bucket);
-    heap.push_back({key, turn_++, pixel});
-    std::push_heap(heap.begin(), heap.end(), later);
+    if (current_ == kNone || bucket > current_) {
+      put(bucket, {key, pixel});
+    } else {
+      heap_.push_back({std::uint64_t{key} << 32 | turn_++, pixel});
+      std::push_heap(heap_.begin(), heap_.end(), later);
+    }
   }
 
+  // `fetch` is called with pixels whose turn comes soon.
   template <class Fetch>
-  std::uint32_t pop(const Fetch&) {
-    const std::uint32_t bucket = filled_.lowest();
-    std::vector<Entry>& heap = heaps_[bucket];
-    std::pop_heap(heap.begin(), heap.end(), later);
-    const std::uint32_t pixel = heap.back().pixel;
-    heap.pop_back();
-    if (heap.empty()) filled_.erase(bucket);
+  std::uint32_t pop(const Fetch& fetch) {
+    if (heap_.size() > kMostInHeap && heap_.size() > 2 * (run_.size() - next_)) put_back();
+    if (next_ == run_.size() && heap_.empty()) begin_lowest(fetch);
+    // What stands in the run has waited longer than what has the same key in the heap.
+    if (next_ < run_.size() && (heap_.empty() || run_[next_].key <= heap_.front().key >> 32)) {
+      if (next_ + kAhead < run_.size()) fetch(run_[next_ + kAhead].pixel);
+      return run_[next_++].pixel;
+    }
+    std::pop_heap(heap_.begin(), heap_.end(), later);
+    const std::uint32_t pixel = heap_.back().pixel;
+    heap_.pop_back();
     return pixel;
   }
 
  private:
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+  static constexpr std::uint32_t kSlots = 15;       // two cache lines a block
+  static constexpr std::size_t kMostInHeap = 4096;  // larger ones leave the nearest cache
+
   struct Entry {
-    std::uint32_t key, turn, pixel;
+    std::uint32_t key, pixel;
   };
-  static bool later(const Entry& a, const Entry& b) {
-    return a.key != b.key ? a.key > b.key : a.turn > b.turn;
+  struct Late {
+    std::uint64_t key;  // and under it the turn
+    std::uint32_t pixel;
+  };
+  static bool later(const Late& a, const Late& b) { return a.key > b.key; }
+
+  struct Block {
+    std::array<Entry, kSlots> entries;
+    std::uint32_t used, next;
+  };
+  struct Bucket {
+    std::uint32_t first = kNone, last = kNone;  // blocks; entries stand in the order of waiting
+  };
+
+  void put(std::uint32_t at, Entry entry) {
+    Bucket& bucket = buckets_[at];
+    if (bucket.last == kNone || pool_[bucket.last].used == kSlots) grow(at, bucket);
+    Block& block = pool_[bucket.last];
+    block.entries[block.used++] = entry;
   }
 
-  std::vector<std::vector<Entry>> heaps_;
+  void grow(std::uint32_t at, Bucket& bucket) {
+    const std::uint32_t added = pool_.take();
+    pool_[added].used = 0;
+    pool_[added].next = kNone;
+    if (bucket.last == kNone) {
+      bucket.first = added;
+      filled_.insert(at);
+    } else {
+      pool_[bucket.last].next = added;
+    }
+    bucket.last = added;
+  }
+
+  template <class Fetch>
+  void begin_lowest(const Fetch& fetch) {
+    current_ = filled_.lowest();
+    filled_.erase(current_);
+    waited_.clear();
+    order_.clear();
+    for (std::uint32_t at = buckets_[current_].first; at != kNone; at = pool_[at].next) {
+      for (std::uint32_t i = 0; i < pool_[at].used; ++i) {
+        const Entry& entry = pool_[at].entries[i];
+        order_.push_back(std::uint64_t{entry.key} << 32 | waited_.size());
+        waited_.push_back(entry);
+      }
+      pool_.give_back(at);
+    }
+    buckets_[current_] = {};
+    std::sort(order_.begin(), order_.end());
+    run_.resize(order_.size());
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      run_[i] = waited_[static_cast<std::uint32_t>(order_[i])];
+      if (i < kAhead) fetch(run_[i].pixel);
+    }
+    next_ = 0;
+  }
+
+  // The run before the heap and the heap by turns, so that equal keys stay in the order of waiting.
+  void put_back() {
+    for (; next_ < run_.size(); ++next_) put(current_, run_[next_]);
+    std::sort(heap_.begin(), heap_.end(), [](const Late& a, const Late& b) {
+      return static_cast<std::uint32_t>(a.key) < static_cast<std::uint32_t>(b.key);
+    });
+    for (const Late& entry : heap_) {
+      const auto key = static_cast<std::uint32_t>(entry.key >> 32);
+      put(bucket_of_(key), {key, entry.pixel});
+    }
+    heap_.clear();
+  }
+
+  std::vector<Bucket> buckets_;  // those at and under the current one are empty
+  BlockPool<Block> pool_;
   BucketSet filled_;
   BucketOf bucket_of_;
+  std::uint32_t current_ = kNone;
+  std::vector<Entry> run_;  // the current bucket in order, from next_ on
+  std::size_t next_ = 0;
+  std::vector<Late> heap_;
   std::uint32_t turn_ = 0;
+  // Of begin_lowest(), kept for their memory.
+  std::vector<Entry> waited_;
+  std::vector<std::uint64_t> order_;
 };
 
 }  // namespace terrabench::hydrology

@@ -8,8 +8,13 @@
 #include <vector>
 
 #include "terrain/error.h"
+#include "terrain/events/event_file.h"
+#include "terrain/files.h"
 #include "terrain/source.h"
 #include "terrain/sources/dem/dem.h"
+#include "terrain/sources/fractal/diamond_square.h"
+#include "terrain/sources/fractal/faults.h"
+#include "terrain/sources/fractal/hills.h"
 #include "terrain/sources/noise/cave_terrain.h"
 
 namespace terrabench {
@@ -71,6 +76,14 @@ TerrainSource from_dem(std::string_view name, const std::string& path) {
   return source;
 }
 
+TerrainSource from_heights(std::string_view name, Heightfield heights) {
+  TerrainSource source;
+  source.name = name;
+  source.checksum = checksum(heights);
+  source.heights = std::move(heights);
+  return source;
+}
+
 constexpr TerrainType kTerrains[] = {
     {"jacksboro", "mountains with a fault valley, 403×344 samples of 3″",
      "SRTM, in Debian's python-matplotlib-data",
@@ -80,6 +93,23 @@ constexpr TerrainType kTerrains[] = {
      [](std::uint64_t) { return from_dem("topobathy", topobathy_vrt()); }},
     {"caves", "hills with overhangs and tunnels from 3-D noise, a cube of 128 m",
      "the hybrid paper's noise graph", [](std::uint64_t seed) { return noise::cave_source({.seed = seed}); }},
+    {"diamond-square", "mountains that close on themselves, 513×513 samples of 30 m", "diamond-square method",
+     [](std::uint64_t seed) {
+       return from_heights("diamond-square", fractal::diamond_square({.seed = seed}));
+     }},
+    {"faults", "mountains of 1000 faults of 10 m, 513×513 samples of 30 m", "fault formation",
+     [](std::uint64_t seed) {
+       return from_heights("faults", fractal::fault_terrain({.seed = seed, .faults = 1000, .step = 10}));
+     }},
+    {"planet-faults", "a sphere of 100 km radius after 1000 faults, 1025×513 samples of equal angles",
+     "fault formation on the sphere",
+     [](std::uint64_t seed) {
+       return from_heights("planet-faults", fractal::planet_faults({.seed = seed}));
+     }},
+    {"hills", "400 overlapping hills, 513×513 samples of 30 m", "hill technique",
+     [](std::uint64_t seed) {
+       return from_heights("hills", fractal::hill_terrain({.seed = seed, .scale = 5e-5F}));
+     }},
 };
 
 // What can only be meant as a path: a typing slip in a name has neither.
@@ -105,7 +135,11 @@ bool names_dem_file(std::string_view text) {
 }
 
 TerrainSource open_terrain(std::string_view name_or_path, std::uint64_t seed) {
-  if (names_dem_file(name_or_path)) return from_dem(name_or_path, std::string(name_or_path));
+  if (names_dem_file(name_or_path)) {
+    const std::string path(name_or_path);
+    if (path.ends_with(events::kExtension)) return events::open_script(read_file(path, events::kMostBytes), path);
+    return from_dem(path, path);
+  }
   for (const TerrainType& type : terrains()) {
     if (type.name == name_or_path) return type.open(seed);
   }

@@ -6,6 +6,7 @@ find_library(NOISE_LIBRARY noise REQUIRED)
 pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
 terrabench_benchmark(noise_bench SOURCES noise_bench.cpp
                      LIBRARIES terrain TBB::tbb PkgConfig::HWY ${NOISE_LIBRARY})
+terrabench_benchmark(fractal_bench SOURCES fractal_bench.cpp LIBRARIES terrain TBB::tbb ${NOISE_LIBRARY})
 terrabench_benchmark(hydrology_bench SOURCES hydrology_bench.cpp LIBRARIES terrain)
 # Not a Google Benchmark: it runs a program of another package.
 add_executable(hydrology_peer hydrology_peer.cpp)

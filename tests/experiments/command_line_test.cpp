@@ -1,20 +1,12 @@
-// Starts the program as a user does and looks at exit codes, output and what is left on disk.
-#include <fcntl.h>
+#include "tests/experiments/command_line.h"
+
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
-#include <sstream>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "terrain/files.h"
 #include "terrain/image.h"
@@ -25,54 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-class CommandLine : public ::testing::Test {
- protected:
-  CommandLine() {
-    std::string name = (fs::temp_directory_path() / "terrabench_cli_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~CommandLine() override { fs::remove_all(folder_); }
-
-  struct Outcome {
-    int code = -1;
-    std::string text;  // standard output and standard error
-  };
-
-  // Starts a shell command in which $T is the program; standard input is empty.
-  pid_t start(const std::string& command) const {
-    const pid_t child = fork();
-    if (child == 0) {
-      setpgid(0, 0);
-      const int out = open((folder_ / "log").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-      const int in = open("/dev/null", O_RDONLY);
-      dup2(in, 0);
-      dup2(out, 1);
-      dup2(out, 2);
-      setenv("T", TERRABENCH_PROGRAM, 1);
-      if (chdir(folder_.c_str()) != 0) _exit(126);
-      execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-      _exit(127);
-    }
-    return child;
-  }
-  Outcome wait(pid_t child) const {
-    int status = 0;
-    waitpid(child, &status, 0);
-    std::ostringstream text;
-    text << std::ifstream(folder_ / "log").rdbuf();
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), text.str()};
-  }
-  Outcome call(const std::string& command) const { return wait(start(command)); }
-
-  std::size_t temporary_files() const {
-    const fs::recursive_directory_iterator all(folder_);
-    return std::count_if(begin(all), end(all),
-                         [](const auto& entry) { return entry.path().extension() == ".tmp"; });
-  }
-
-  fs::path folder_;
-};
 
 constexpr const char* kSmallRun = "$T run 'hybrid.noise*' --set pixels=32 --out out ";
 
@@ -145,6 +89,20 @@ TEST_F(CommandLine, ResumeSkipsWhatIsThere) {
   ASSERT_EQ(second.code, 0) << second.text;
   EXPECT_THAT(second.text, HasSubstr("6 of 11 cases were already there"));
   EXPECT_THAT(second.text, Not(HasSubstr("noise-stages F3 ")));
+}
+
+TEST_F(CommandLine, TwoProfilesInOneFolderKeepTheirPictures) {
+  const std::string run = "$T run hybrid.noise-stages --set pixels=16 --shard 1/4 --out out --profile ";
+  ASSERT_EQ(call(run + "quick").code, 0);
+  const auto pictures = [&] {
+    const fs::directory_iterator all(folder_ / "out/figures");
+    return std::distance(begin(all), end(all));
+  };
+  const auto quick = pictures();
+  ASSERT_EQ(call(run + "paper").code, 0);
+  EXPECT_EQ(pictures(), 2 * quick);
+  ASSERT_EQ(call("$T report out").code, 0);
+  EXPECT_THAT(call("ls out/report/figures").text, HasSubstr(".paper"));
 }
 
 TEST_F(CommandLine, TheSameSeedGivesTheSamePicturesOnAnyThreadCount) {

@@ -6,6 +6,7 @@
 #include "representations/drill/pits.h"
 #include "representations/drill/range_coder.h"
 #include "representations/drill/regenerate.h"
+#include "terrain/memory.h"
 #include "tests/representations/drill_ground.h"
 #include "tests/terrain/errors.h"
 
@@ -49,6 +50,7 @@ TEST(RangeCoder, GivesBackWhatItWasGiven) {
       ASSERT_EQ(read.code(decoder, 0), n);
       ASSERT_EQ(symbols_read.code(decoder, 0), static_cast<std::uint32_t>(n) & 127U);
     }
+    EXPECT_TRUE(decoder.at_end());
   }
 }
 
@@ -77,14 +79,15 @@ TEST(RangeCoder, CostsAboutTheEntropy) {
   EXPECT_NEAR(static_cast<double>(encoder.finish().size()) * 8 / 200000, 0.469, 0.469 * 0.04);
 }
 
-TEST(RangeCoder, FailsFarPastTheEnd) {
+TEST(RangeCoder, FailsPastTheEnd) {
   const std::vector<std::byte> nothing;
   const ByteSource source(nothing, "memory");
-  const Failure failure = failure_of([&] {
-    RangeDecoder decoder(nothing, source);
-    decoder.even_bits(32);
-  });
-  EXPECT_EQ(failure.code, ExitCode::kBadInput);
+  EXPECT_EQ(failure_of([&] { RangeDecoder(nothing, source); }).code, ExitCode::kBadInput);
+  const std::vector<std::byte> few(6);
+  const ByteSource other(few, "memory");
+  RangeDecoder decoder(few, other);
+  EXPECT_FALSE(decoder.at_end());
+  EXPECT_EQ(failure_of([&] { decoder.even_bits(32); }).code, ExitCode::kBadInput);
 }
 
 TEST(DrillCodec, GivesBackEveryBit) {
@@ -149,7 +152,9 @@ TEST(DrillCodec, CoarserIsSmallerAndAllAreFarSmallerThanPlainNumbers) {
   const Drills drills = drill(hills(200, 200, 5), options);
   std::size_t before = drills.count() * 4 * sizeof(float);
   for (const float quantum : {0.02F, 0.2F, 2.0F, 10.0F}) {
-    const std::size_t bytes = encoded_size(drills, quantum);
+    Drills rounded = drills;
+    quantise(rounded, quantum);
+    const std::size_t bytes = encoded(rounded).size();
     EXPECT_LT(bytes, before);
     before = bytes;
   }
@@ -210,6 +215,29 @@ TEST(DrillCodec, CutBytesAreRefusedAndAlteredOnesNeverCrash) {
     }
   }
   EXPECT_GT(refused, 1000U);
+}
+
+// A few bytes can stand for millions of drills, and whoever damages a file may claim the largest terrain.
+TEST(DrillCodec, AlteredBytesOfTheLargestTerrainTakeLittleMemory) {
+  ByteSink head;
+  for (const int size : {1 << 14, 1 << 14}) head.put(size);
+  for (const float metres : {30.0F, 30.0F, 1000.0F, 1.0F}) head.put(metres);
+  for (const int small : {10, 10, 0, 0}) head.put(static_cast<std::uint8_t>(small));
+  head.put(std::uint64_t{1} << 16);
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    std::mt19937 random(seed);
+    std::vector<std::byte> bytes(head.bytes().begin(), head.bytes().end());
+    bytes.resize(bytes.size() + (std::size_t{1} << 16));
+    // No holes, one outlet or several: leading zeros are small numbers.
+    for (std::size_t i = head.bytes().size() + 1 + seed % 3; i < bytes.size(); ++i) {
+      bytes[i] = std::byte(random());
+    }
+    ByteSource source(bytes, "memory");
+    HeapCounter::reset_peak();
+    const std::int64_t before = HeapCounter::live();
+    EXPECT_EQ(failure_of([&] { decode_drills(source); }).code, ExitCode::kBadInput) << seed;
+    EXPECT_LT(HeapCounter::peak() - before, 48 << 20) << seed;
+  }
 }
 
 TEST(DrillCodec, MeasuresThatCannotBeAreRefused) {

@@ -1,6 +1,7 @@
 // Channels, cross-sections, their union and the fit, against plain double-precision readings of §2.2.
 #include <hwy/highway.h>
 #include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <functional>
 #include <optional>
@@ -238,9 +239,10 @@ TEST(Extraction, IsTheSameForAnyThreadsAndInstructionSet) {
   options.tau = 4;
   options.adaptive_k = true;
   const Drills many = drill(field, options);
-  {
-    const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
-    EXPECT_TRUE(same_drills(drill(field, options), many));
+  for (const int threads : {1, 5}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    tbb::task_arena(threads).execute([&] { EXPECT_TRUE(same_drills(drill(field, options), many)); });
   }
   const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
   EXPECT_GT(targets.size(), 1U);
@@ -266,6 +268,10 @@ TEST(Extraction, RefusesOptionsThatMakeNoSense) {
   EXPECT_TRUE(fails([](DrillOptions& o) { o.w = 21; }));
   EXPECT_TRUE(fails([](DrillOptions& o) { o.k = -1; }));
   EXPECT_TRUE(fails([](DrillOptions& o) { o.k = 256; }));
+  DrillOptions longest;
+  longest.w = 255;
+  check_options(longest, 8000000, 2);
+  EXPECT_EQ(failure_of([&] { check_options(longest, 1 << 24, 2); }).code, ExitCode::kUsage);
   DrillOptions widest;
   widest.w = 20;
   EXPECT_GT(extract_drills(field, network, widest).count(), 0U);

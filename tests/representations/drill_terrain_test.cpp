@@ -144,7 +144,9 @@ TEST(Budget, IsKeptWhereItCanBe) {
     const DrillChoice choice = choose_parameters(field, network, budget, {});
     Drills drills = extract_drills(field, network, choice.options);
     quantise(drills, choice.quantum);
-    EXPECT_EQ(encoded_size(drills, choice.quantum), choice.bytes);
+    ByteSink bytes;
+    encode_drills(drills, bytes);
+    EXPECT_EQ(bytes.bytes().size(), choice.bytes);
     EXPECT_NEAR(rmse(regenerate(drills), field), choice.rmse, 1e-9);
     return choice;
   };
@@ -162,6 +164,27 @@ TEST(Budget, IsKeptWhereItCanBe) {
   EXPECT_LE(near.bytes, 3000U);
   EXPECT_FALSE(check({0, 1e-6}).within_budget);
   EXPECT_FALSE(check({1, 0}).within_budget);
+}
+
+TEST(Budget, ThatCannotBeKeptIsRefused) {
+  const Heightfield field = hills(48, 40, 4);
+  for (const auto& [name, value] : std::vector<std::pair<std::string_view, Value>>{
+           {"budget_bytes", std::int64_t{1}}, {"max_rmse", 1e-6}}) {
+    const Failure failure = failure_of([&] { drilled(field, {{name, value}}); });
+    EXPECT_EQ(failure.code, ExitCode::kUsage) << name;
+    EXPECT_NE(failure.what.find("the nearest are"), std::string::npos) << failure.what;
+  }
+}
+
+TEST(Budget, OfTheSmallestTerrains) {
+  for (const int size : {1, 2, 3}) {
+    Heightfield field{size, size, 10, 10, std::vector<float>(static_cast<std::size_t>(size * size), 3), {}};
+    field.heights[0] = 1;
+    const DrillChoice choice = choose_parameters(field, route_flow(field), {1000, 0}, {});
+    EXPECT_TRUE(choice.within_budget);
+    EXPECT_LE(choice.options.w, size);
+    EXPECT_EQ(choice.options.tau, 6U);  // the first looked at: no flow reaches any
+  }
 }
 
 TEST(Budget, ReachesTheRepresentation) {

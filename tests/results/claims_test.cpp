@@ -114,11 +114,59 @@ TEST(Claims, IdsBelongToTheirPaper) {
   }
 }
 
-TEST(Claims, TheLargestSizeIsMeasuredInThePaperProfileOnly) {
+constexpr const char* kDrillGrounds[] = {".jacksboro", ".noise-ridges", ".noise-hills"};
+
+bool on_further_ground(const Claim& claim) {
+  return std::any_of(std::begin(kDrillGrounds), std::end(kDrillGrounds),
+                     [&](const char* ground) { return claim.id.ends_with(ground); });
+}
+
+TEST(Claims, TheLargestSizeAndFurtherGroundsAreMeasuredInThePaperProfileOnly) {
   for (const Claim* claim : claims()) {
-    const bool large = claim->id.starts_with("hybrid.T") && claim->id.ends_with(".512");
-    EXPECT_EQ(claim->profiles.size(), large ? 1U : 2U) << claim->id;
+    const bool large = (claim->id.starts_with("hybrid.T") && claim->id.ends_with(".512")) ||
+                       claim->id == "drill.time.growth";
+    EXPECT_EQ(claim->profiles.size(), large || on_further_ground(*claim) ? 1U : 2U) << claim->id;
   }
+}
+
+TEST(Claims, EveryRowOfTheDrillPaperIsJudgedOnFourGrounds) {
+  const std::span<const Paper> all = papers();
+  const auto drill = std::find_if(all.begin(), all.end(), [](const Paper& p) { return p.id == "drill"; });
+  ASSERT_NE(drill, all.end());
+  std::set<std::string> ids;
+  for (const Claim& claim : drill->claims) ids.insert(claim.id);
+  for (const Claim& claim : drill->claims) {
+    if (on_further_ground(claim) || claim.id == "drill.time.growth") continue;  // has grounds of its own
+    for (const char* const ground : kDrillGrounds) EXPECT_TRUE(ids.contains(claim.id + ground)) << claim.id;
+  }
+}
+
+TEST(Claims, RowsAreRepeatedOnFurtherGrounds) {
+  const std::string claim(kClaim);
+  const std::string text =
+      std::string(kHead) + claim +
+      "note = \"n\"\ncheck = [{order = [1, \"e/a/m\", \"e/a/x/m\", \"e/ab/m\"]}, {figure = \"p.F\"}]\n"
+      "[[claim]]\nid = \"p.2\"\nwhere = \"w\"\nstatement = \"s\"\nclass = \"E\"\npending = \"x\"\n"
+      "[[ground]]\nname = \"b\"\nof = \"a\"\nlabel = \"hills\"\nprofiles = [\"paper\"]\n"
+      "known = [{claim = \"p.1\", verdict = \"differs\"}]\n"
+      "[[ground]]\nname = \"c\"\nof = \"a\"\nlabel = \"flats\"\n";
+  const std::vector<Claim> claims = parse_claims(text, "x").claims;
+  std::vector<std::string> ids;
+  for (const Claim& c : claims) ids.push_back(c.id);
+  ASSERT_EQ(ids, (std::vector<std::string>{"p.1", "p.1.b", "p.1.c", "p.2"}));
+  const Condition& order = claims[1].conditions[0];
+  EXPECT_EQ(order.operands[0].number, 1);
+  EXPECT_EQ(order.operands[1].case_name, "b");
+  EXPECT_EQ(order.operands[2].case_name, "b/x");
+  EXPECT_EQ(order.operands[3].case_name, "ab");  // another ground, whose name begins alike
+  EXPECT_EQ(claims[1].conditions[1].figure, "p.F.b");
+  EXPECT_EQ(claims[1].where, "w, on hills");
+  EXPECT_EQ(claims[1].profiles, std::vector<std::string>{"paper"});
+  EXPECT_EQ(claims[1].known, Verdict::kDiffers);
+  EXPECT_EQ(claims[1].note, "n");
+  EXPECT_EQ(claims[2].known, Verdict::kReproduced);
+  EXPECT_EQ(claims[2].profiles.size(), 2U);
+  EXPECT_EQ(claims[0].conditions[0].operands[1].case_name, "a");
 }
 
 TEST(Claims, ReadsEveryKindOfCheck) {
@@ -165,6 +213,11 @@ TEST(Claims, RefusesWithFileAndLine) {
   }
   expect_refused(claim + "check = [{figure = \"f\"}]\nknown = \"differs\"\n", "needs a 'note'", 4);
   expect_refused(claim + "pending = \"x\"\n" + std::string(kClaim) + "pending = \"x\"\n", "used twice", 0);
+  const std::string ground =
+      claim + "check = [{figure = \"f\"}]\n[[ground]]\nname = \"b\"\nof = \"a\"\nlabel = \"l\"\n";
+  expect_refused(ground + "known = [{claim = \"p.9\", verdict = \"differs\"}]\n", "no row 'p.9'", 14);
+  expect_refused(ground + "known = [{claim = \"p.1\", verdict = \"differs\"}]\n", "needs a 'note'", 14);
+  expect_refused(ground + "known = [{claim = \"p.1\", verdict = \"missing\"}]\n", "is no verdict", 14);
   expect_refused(
       head + "[[claim]]\nid = \"../p\"\nwhere = \"\"\nstatement = \"\"\nclass = \"E\"\npending = \"x\"\n",
       "is no id", 0);

@@ -141,6 +141,21 @@ TEST_F(ReportTest, NamesAndCaptionsFromOutsideCannotBreakThePage) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "<script>.png"));
 }
 
+TEST_F(ReportTest, PicturesOfOneIdStandSideBySide) {
+  write_fake_results(folder_, "quick");
+  Store store(folder_);
+  for (const char* const name : {"one", "two"}) {
+    Record record = fake_record(fake_provenance(), "x", name);
+    const std::string file = std::string("figures/x.") + name + ".png";
+    write_file(folder_ / file, std::string_view(name));
+    record.figures = {{"x", file, name, checksum(name)}};
+    store.append(record);
+  }
+  write_report(folder_);
+  EXPECT_EQ(read_file(folder_ / "report/figures/x.one.png"), "one");
+  EXPECT_EQ(read_file(folder_ / "report/figures/x.two.png"), "two");
+}
+
 TEST_F(ReportTest, EmptyFolderIsBadInput) {
   try {
     write_report(folder_);

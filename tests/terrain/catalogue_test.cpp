@@ -64,6 +64,21 @@ TEST(Catalogue, EveryLineIsCompleteAndUnique) {
   }
 }
 
+TEST(Catalogue, TheGeneratedGroundsAreGroundAndFollowTheSeed) {
+  for (const char* const name : {"diamond-square", "faults", "planet-faults", "hills"}) {
+    const TerrainSource source = open_terrain(name, 3);
+    ASSERT_TRUE(source.heights) << name;
+    EXPECT_EQ(source.name, name);
+    EXPECT_EQ(source.checksum, checksum(*source.heights));
+    const HeightRange range = height_range(*source.heights);
+    EXPECT_EQ(range.no_data, 0U);
+    EXPECT_GT(range.highest - range.lowest, 300) << name;
+    EXPECT_LT(range.highest - range.lowest, 9000) << name;
+    EXPECT_EQ(open_terrain(name, 3).checksum, source.checksum);
+    EXPECT_NE(open_terrain(name, 4).checksum, source.checksum);
+  }
+}
+
 TEST(Catalogue, APathIsATerrainToo) {
   const TemporaryFolder folder;
   RasterFile().write(folder / "hill.tif");

@@ -44,8 +44,9 @@ struct Dem {
 Dem read_dem(const std::string& path, const DemOptions& options = {}, Progress* progress = nullptr);
 
 // Float32, compressed without loss, with georeference and no-data value. Written whole or not at all: throws
-// environment_error with nothing left behind. O(n).
-void write_geotiff(const std::filesystem::path& path, const Heightfield& field);
+// environment_error with nothing left behind. `unit` is that of the values; empty for counts and codes. O(n).
+void write_geotiff(const std::filesystem::path& path, const Heightfield& field,
+                   const std::string& unit = "m");
 
 // Metres in one degree along the parallel and along the meridian at a latitude on an ellipsoid (WGS 84 by
 // default).

@@ -28,7 +28,7 @@ Error cannot_write(const std::filesystem::path& path, const std::string& why) {
                            "check the folder's permissions and the space left on its disk");
 }
 
-void describe(GDALDataset& dataset, const Heightfield& field) {
+void describe(GDALDataset& dataset, const Heightfield& field, const std::string& unit) {
   const Georeference& georeference = field.georeference;
   if (georeference.transform != std::array<double, 6>{}) {
     std::array<double, 6> transform = georeference.transform;
@@ -46,7 +46,7 @@ void describe(GDALDataset& dataset, const Heightfield& field) {
   GDALRasterBand& band = *dataset.GetRasterBand(1);
   // NaN in the file too: any number could be a height.
   band.SetNoDataValue(Heightfield::kNoData);
-  band.SetUnitType("m");
+  band.SetUnitType(unit.c_str());
 }
 
 void write_rows(GDALRasterBand& band, const Heightfield& field, const GdalMessages& messages,
@@ -74,7 +74,7 @@ void sync(const std::filesystem::path& path) {
 
 }  // namespace
 
-void write_geotiff(const std::filesystem::path& path, const Heightfield& field) {
+void write_geotiff(const std::filesystem::path& path, const Heightfield& field, const std::string& unit) {
   register_gdal();
   std::error_code error;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
@@ -90,7 +90,7 @@ void write_geotiff(const std::filesystem::path& path, const Heightfield& field) 
   DatasetPointer dataset(
       driver->Create(temporary.path.c_str(), field.width, field.depth, 1, GDT_Float32, options));
   if (dataset == nullptr) throw cannot_write(path, messages.first_failure());
-  describe(*dataset, field);
+  describe(*dataset, field, unit);
   write_rows(*dataset->GetRasterBand(1), field, messages, path);
   // A full disk may show itself only when the last blocks and the directory are written.
   dataset.reset();

@@ -1,0 +1,259 @@
+// Figures 3 to 6, 8 and 9 of "ght": lines, small arrays and heightmaps, from the generators' own stages.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/ght/arrays.h"
+#include "experiments/ght/heightmap_image.h"
+#include "experiments/ght/stages.h"
+#include "terrain/sources/fractal/diamond_square.h"
+#include "terrain/sources/fractal/faults.h"
+#include "terrain/sources/fractal/midpoint.h"
+
+namespace terrabench::ght {
+namespace {
+
+using drill::Sheet;
+using drill::SheetPoint;
+
+constexpr Rgb kInk{20, 20, 24}, kSet{150, 150, 155}, kUnset{215, 215, 218}, kAccent{0, 90, 170},
+    kSecond{190, 70, 20};
+constexpr double kMargin = 28, kLabel = 26;
+
+void label(Sheet& sheet, double x, double y, std::string_view words) {
+  sheet.text(x, y, words, 15, "middle");
+}
+
+std::string height_text(float metres) {
+  return fmt::format("{}{:.1f} m", metres < 0 ? "−" : "", std::abs(metres));
+}
+
+bool is_set(const Heightfield& field, int i, int j) { return !Heightfield::is_no_data(field.at(i, j)); }
+
+// Lines from a point that a step has set to the points it was taken from: the diagonal neighbours after a
+// diamond step, the straight ones after a square step. Lines that leave the array end at its border.
+void draw_origins(Sheet& sheet, const ArrayPlace& array, int i, int j, int half, bool diamond_step) {
+  static constexpr std::array<std::pair<int, int>, 4> kDiagonal{{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
+  static constexpr std::array<std::pair<int, int>, 4> kStraight{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+  for (const auto& [dx, dz] : diamond_step ? kDiagonal : kStraight) {
+    const int x = i + dx * half, z = j + dz * half;
+    if (x < 0 || z < 0 || x >= array.side || z >= array.side) continue;
+    stroke(sheet, array.at(x, z), array.at(i, j), kAccent, 1.4);
+  }
+}
+
+// The array after `steps` steps: points set by the last one black, earlier ones grey, the rest small.
+void draw_steps(Sheet& sheet, const ArrayPlace& array, const fractal::DiamondSquareOptions& options,
+                int steps) {
+  const Heightfield now = fractal::diamond_square_after(options, steps);
+  const Heightfield before = fractal::diamond_square_after(options, std::max(0, steps - 1));
+  const int half = (options.side - 1) >> ((steps + 1) / 2);
+  draw_grid(sheet, array);
+  for (int j = 0; j < options.side; ++j) {
+    for (int i = 0; i < options.side; ++i) {
+      const bool fresh = steps > 0 && is_set(now, i, j) && !is_set(before, i, j);
+      if (fresh) draw_origins(sheet, array, i, j, half, steps % 2 == 1);
+    }
+  }
+  for (int j = 0; j < options.side; ++j) {
+    for (int i = 0; i < options.side; ++i) {
+      if (!is_set(now, i, j)) {
+        draw_dot(sheet, array.at(i, j), 2.5, kUnset);
+      } else if (steps > 0 && is_set(before, i, j)) {
+        draw_dot(sheet, array.at(i, j), 6, kSet);
+      } else {
+        draw_dot(sheet, array.at(i, j), 8, kInk);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void draw_midpoints(std::uint64_t seed, Recorder& recorder) {
+  constexpr std::array kLevels{0, 1, 2, 3, 4, 9};
+  constexpr double kWidth = 300, kHeight = 150;
+  Sheet sheet(static_cast<int>(3 * kWidth + 4 * kMargin),
+              static_cast<int>(2 * (kHeight + kLabel) + 3 * kMargin));
+  float most = 0;  // of all panels, the last one has the highest and the lowest point
+  for (const float h : fractal::midpoint_displacement({.seed = seed, .levels = kLevels.back()})) {
+    most = std::max(most, std::abs(h));
+  }
+  for (std::size_t panel = 0; panel < kLevels.size(); ++panel) {
+    const int levels = kLevels[panel];
+    const double x0 = kMargin + static_cast<double>(panel % 3) * (kWidth + kMargin);
+    const double y0 = kMargin + static_cast<double>(panel / 3) * (kHeight + kLabel + kMargin);
+    const std::vector<float> heights = fractal::midpoint_displacement({.seed = seed, .levels = levels});
+    const auto place = [&](std::size_t i) {
+      return SheetPoint{x0 + kWidth * static_cast<double>(i) / static_cast<double>(heights.size() - 1),
+                        y0 + kHeight / 2 * (1 - heights[i] / most)};
+    };
+    std::vector<SheetPoint> points;
+    for (std::size_t i = 0; i < heights.size(); ++i) points.push_back(place(i));
+    stroke(sheet, {x0, y0 + kHeight / 2}, {x0 + kWidth, y0 + kHeight / 2}, kUnset, 1);
+    sheet.line(points, kInk, levels < 6 ? 2 : 1.2);
+    if (levels < 6) {
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const bool fresh = levels > 0 && i % 2 == 1;
+        draw_dot(sheet, points[i], fresh ? 4.5 : 3, fresh ? kAccent : kInk);
+      }
+    }
+    label(sheet, x0 + kWidth / 2, y0 + kHeight + 26,
+          levels == 0 ? "start" : fmt::format("{} step{}", levels, levels == 1 ? "" : "s"));
+  }
+  sheet.write(recorder.figure("ght.F3", "png",
+                              "Figure 3 of the paper: midpoint displacement of a line; the points that each "
+                              "step adds are blue, and its range is half of the one before"));
+}
+
+void draw_neighbourhoods(Recorder& recorder) {
+  constexpr double kSize = 220, kStep = kSize + 2.5 * kMargin;
+  Sheet sheet(static_cast<int>(3 * kStep + kMargin), static_cast<int>(kSize + kLabel + 3 * kMargin));
+  const auto array = [&](int panel) {
+    return ArrayPlace{1.5 * kMargin + panel * kStep, 1.5 * kMargin, kSize, 5};
+  };
+  const auto outline = [&](const ArrayPlace& at, const std::vector<std::pair<int, int>>& corners,
+                           bool closed) {
+    for (std::size_t k = 0; k + (closed ? 0 : 1) < corners.size(); ++k) {
+      const auto& [i, j] = corners[k];
+      const auto& [x, z] = corners[(k + 1) % corners.size()];
+      stroke(sheet, at.at(i, j), at.at(x, z), kAccent, 2);
+    }
+    for (const auto& [i, j] : corners) draw_dot(sheet, at.at(i, j), 7, kInk);
+  };
+  for (int panel = 0; panel < 3; ++panel) draw_grid(sheet, array(panel));
+  outline(array(0), {{1, 1}, {3, 1}, {3, 3}, {1, 3}}, true);
+  draw_ring(sheet, array(0).at(2, 2), 7, kInk, 2);
+  outline(array(1), {{2, 1}, {3, 2}, {2, 3}, {1, 2}}, true);
+  draw_ring(sheet, array(1).at(2, 2), 7, kInk, 2);
+  // The fourth corner of the diamond around (0, 2) stands one column inside the opposite border.
+  outline(array(2), {{0, 1}, {1, 2}, {0, 3}}, false);
+  outline(array(2), {{4, 1}, {3, 2}, {4, 3}}, false);
+  draw_ring(sheet, array(2).at(0, 2), 7, kInk, 2);
+  draw_ring(sheet, array(2).at(4, 2), 7, kInk, 2);
+  int panel = 0;
+  for (const char* const words : {"square", "diamond", "circular diamond"}) {
+    label(sheet, array(panel).at(2, 0).x, array(panel).at(0, 4).y + kMargin + 12, words);
+    ++panel;
+  }
+  sheet.write(
+      recorder.figure("ght.F4", "png",
+                      "Figure 4 of the paper: the four points of a square, of a diamond, and of a diamond "
+                      "that straddles the border; rings are the points that take their mean"));
+}
+
+void draw_diamond_square_steps(std::uint64_t seed, Recorder& recorder) {
+  constexpr double kSize = 200, kStepX = kSize + 2.5 * kMargin, kStepY = kSize + kLabel + 2 * kMargin;
+  constexpr std::array kWords{"a) corners", "b) diamond step", "c) square step", "d) diamond step",
+                              "e) square step"};
+  Sheet sheet(static_cast<int>(3 * kStepX + kMargin), static_cast<int>(2 * kStepY + kMargin));
+  for (int steps = 0; steps <= 4; ++steps) {
+    // Three above, two below them, centred.
+    const double x = 1.5 * kMargin + (steps < 3 ? steps : steps - 2.5) * kStepX;
+    const ArrayPlace array{x, kMargin + (steps < 3 ? 0 : kStepY), kSize, 5};
+    draw_steps(sheet, array, {.seed = seed, .side = 5}, steps);
+    label(sheet, x + kSize / 2, array.at(0, 4).y + kMargin + 8, kWords[static_cast<std::size_t>(steps)]);
+  }
+  sheet.write(
+      recorder.figure("ght.F5", "png",
+                      "Figure 5 of the paper: diamond-square on an array of 5 × 5; points that the step sets "
+                      "are black, earlier ones grey, and lines lead to the points whose mean they take"));
+}
+
+void draw_straddling_diamond(std::uint64_t seed, Recorder& recorder) {
+  constexpr double kSize = 300;
+  const fractal::DiamondSquareOptions options{.seed = seed, .side = 5};
+  const Heightfield field = fractal::diamond_square(options),
+                    before = fractal::diamond_square_after(options, 3);
+  Sheet sheet(static_cast<int>(kSize + 10 * kMargin), static_cast<int>(kSize + 3 * kMargin));
+  const ArrayPlace array{5 * kMargin, 1.5 * kMargin, kSize, 5};
+  draw_grid(sheet, array);
+  for (const auto& [border, inside] : {std::pair{0, 1}, {4, 3}}) {
+    stroke(sheet, array.at(border, 0), array.at(inside, 1), kAccent, 2);
+    stroke(sheet, array.at(inside, 1), array.at(border, 2), kAccent, 2);
+  }
+  for (int j = 0; j < 5; ++j) {
+    for (int i = 0; i < 5; ++i) {
+      if (is_set(before, i, j)) {
+        draw_dot(sheet, array.at(i, j), 8, kInk);
+      } else {
+        draw_dot(sheet, array.at(i, j), 2.5, kUnset);
+      }
+    }
+  }
+  for (const int border : {0, 4}) {
+    const SheetPoint at = array.at(border, 1);
+    draw_ring(sheet, at, 8, kInk, 2.5);
+    const bool west = border == 0;
+    sheet.text(at.x + (west ? -16 : 16), at.y + 5, height_text(field.at(border, 1)), 15,
+               west ? "end" : "start");
+  }
+  sheet.write(recorder.figure(
+      "ght.F6", "png",
+      "Figure 6 of the paper: the diamond that straddles the border of the array gives its value "
+      "to a point on either side (rings, with the height that each received)"));
+}
+
+void draw_first_fault(std::uint64_t seed, Recorder& recorder) {
+  constexpr int kSide = 13;
+  constexpr double kSize = 330;
+  const fractal::FaultOptions options{.seed = seed, .width = kSide, .depth = kSide, .faults = 1, .step = 1};
+  const fractal::FaultLine line = fractal::fault_lines(options)[0];
+  const Heightfield field = fractal::fault_terrain(options);
+  Sheet sheet(static_cast<int>(kSize + 4 * kMargin), static_cast<int>(kSize + kLabel + 4 * kMargin));
+  const ArrayPlace array{2 * kMargin, 2 * kMargin, kSize, kSide};
+  for (int j = 0; j < kSide; ++j) {
+    for (int i = 0; i < kSide; ++i) {
+      if (field.at(i, j) > 0) {
+        draw_star(sheet, array.at(i, j), 6, kAccent);
+      } else {
+        draw_cross(sheet, array.at(i, j), 5, kSecond);
+      }
+    }
+  }
+  // The line from border to border, half a cell around the array.
+  constexpr double kLow = -0.5, kHigh = kSide - 0.5;
+  std::vector<SheetPoint> ends;
+  const auto a = static_cast<double>(line.a), b = static_cast<double>(line.b),
+             c = static_cast<double>(line.c);
+  for (const double edge : {kLow, kHigh}) {
+    if (const double j = (c - a * edge) / b; b != 0 && j >= kLow && j <= kHigh)
+      ends.push_back(array.at(edge, j));
+    if (const double i = (c - b * edge) / a; a != 0 && i > kLow && i < kHigh)
+      ends.push_back(array.at(i, edge));
+  }
+  if (ends.size() >= 2) stroke(sheet, ends[0], ends[1], kInk, 2.5);
+  label(sheet, array.at((kSide - 1) / 2.0, 0).x, array.at(0, kSide - 1).y + 2 * kMargin,
+        "× height decreased,  ✱ height increased");
+  sheet.write(
+      recorder.figure("ght.F8", "png",
+                      "Figure 8 of the paper: the first fault divides the height field; points on its one "
+                      "side rise (stars), those on the other sink (crosses)"));
+}
+
+void draw_fault_maps(std::uint64_t seed, Recorder& recorder) {
+  constexpr std::array kFaults{1, 4, 16, 64, 256, 1024};
+  constexpr int kSide = 257;
+  constexpr double kSize = kSide, kStepX = kSize + kMargin, kStepY = kSize + kLabel + kMargin;
+  Sheet sheet(static_cast<int>(3 * kStepX + kMargin), static_cast<int>(2 * kStepY + kMargin));
+  for (std::size_t panel = 0; panel < kFaults.size(); ++panel) {
+    const Heightfield field =
+        fractal::fault_terrain({.seed = seed, .width = kSide, .depth = kSide, .faults = kFaults[panel]});
+    const double x = kMargin + static_cast<double>(panel % 3) * kStepX;
+    const double y = kMargin + static_cast<double>(panel / 3) * kStepY;
+    sheet.picture(x, y, kSize, kSize, heightmap_image(field));
+    label(sheet, x + kSize / 2, y + kSize + 20,
+          fmt::format("{} iteration{}", kFaults[panel], kFaults[panel] == 1 ? "" : "s"));
+  }
+  sheet.write(
+      recorder.figure("ght.F9", "png",
+                      "Figure 9 of the paper: the height map as the number of faults grows; black is each "
+                      "map's lowest point, white its highest"));
+}
+
+}  // namespace terrabench::ght

@@ -1,0 +1,242 @@
+#include "lod/clipmap/clipmap.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "terrain/frustum.h"
+
+namespace terrabench {
+namespace {
+
+constexpr float kHighestEye =
+    0.4F;  // of a window's extent: from further up it shows more than the screen needs
+constexpr float kTransition = 0.1F;  // of the window's side
+constexpr int kSmallestM = 4, kLargestM = 1024;
+
+int m_of(int window) { return std::clamp((window + 1) / 4, kSmallestM, kLargestM); }
+
+// Levels until one window covers the ground from wherever the eye is over it.
+int level_count(const HeightSource& source, int n) {
+  const std::int64_t longest = std::max(source.width(), source.depth());
+  int levels = 1;
+  while (static_cast<std::int64_t>(n / 2 - 1) << (levels - 1) < longest) ++levels;
+  return levels;
+}
+
+// Floor of eye / spacing as a whole number.
+int lattice_floor(float eye, int spacing) {
+  return static_cast<int>(std::floor(static_cast<double>(eye) / spacing));
+}
+
+}  // namespace
+
+std::unique_ptr<Lod> Clipmap::build(const Heightfield& ground, const Parameters&, Progress&) {
+  check_ground(ground);
+  return std::make_unique<Clipmap>(heights_in_memory(ground), static_cast<int>(knob().fallback));
+}
+
+Clipmap::Clipmap(std::unique_ptr<HeightSource> source, int window) : source_(std::move(source)) {
+  reset(window);
+}
+
+void Clipmap::tune(double window) {
+  if (m_of(static_cast<int>(window)) != window_.m) reset(static_cast<int>(window));
+}
+
+void Clipmap::reset(int window) {
+  window_ = clipmap::make_window(m_of(window));
+  const std::size_t blocks = window_.ring.size() + window_.middle.size() + window_.trims.size();
+  levels_.assign(static_cast<std::size_t>(level_count(*source_, window_.n)), {});
+  shown_.assign(levels_.size(), {});
+  for (std::size_t l = 0; l < levels_.size(); ++l) {
+    Level& level = levels_[l];
+    level.heights.assign(static_cast<std::size_t>(window_.side) * window_.side, 0.0F);
+    level.lowest.assign(blocks, 0.0F);
+    level.highest.assign(blocks, 0.0F);
+    shown_[l].side = window_.side;
+    shown_[l].spacing = 1 << l;
+    shown_[l].heights = level.heights;
+  }
+  batches_.reserve(levels_.size() * blocks);
+  indices_uploaded_ = false;
+}
+
+// Over the ground: from outside it, the nearest of its border.
+glm::vec2 Clipmap::eye_in_samples(const View& view) const {
+  return {std::clamp(view.eye.x / source_->cell_x(), 0.0F, static_cast<float>(source_->width() - 1)),
+          std::clamp(view.eye.z / source_->cell_z(), 0.0F, static_cast<float>(source_->depth() - 1))};
+}
+
+float Clipmap::ground_below_eye(glm::vec2 eye) {
+  float height = 0;
+  source_->read(0, static_cast<int>(eye.x), static_cast<int>(eye.y), 1, 1, &height, 1);
+  return height;
+}
+
+const Frame& Clipmap::update(const View& view) {
+  check_view(view);
+  batches_.clear();
+  uploads_.clear();
+  moved_ = 0;
+  if (!indices_uploaded_) {
+    uploads_.push_back({.target = DirtyRange::Target::kIndices,
+                        .count = static_cast<std::uint32_t>(window_.indices.size())});
+    indices_uploaded_ = true;
+  }
+  const glm::vec2 eye = eye_in_samples(view);
+  const float height = view.eye.y - ground_below_eye(eye);
+  const float cell = std::max(source_->cell_x(), source_->cell_z());
+  int finest = 0;
+  while (finest + 1 < levels() && height > kHighestEye * static_cast<float>(window_.n << finest) * cell)
+    ++finest;
+
+  for (int l = finest; l < levels(); ++l) {
+    const int spacing = 1 << l;
+    // Even, and such that the finer window lies inside by m - 1 or m samples.
+    move(l, {2 * (lattice_floor(eye.x, 2 * spacing) - window_.m + 1),
+             2 * (lattice_floor(eye.y, 2 * spacing) - window_.m + 1)});
+    ClipLevel& shown = shown_[l];
+    shown.eye = eye / static_cast<float>(spacing);
+    const auto reach = static_cast<float>(2 * window_.m - 2);  // the border is nowhere nearer
+    shown.to = l + 1 < levels() ? reach : 0;
+    shown.from = l + 1 < levels() ? reach - std::max(1.0F, kTransition * static_cast<float>(window_.n)) : 0;
+  }
+  const Frustum frustum(view);
+  for (int l = finest; l < levels(); ++l) draw(l, finest, frustum);
+  frame_ = {.grid = {},
+            .levels = shown_,
+            .last = {source_->width() - 1, source_->depth() - 1},
+            .cell_x = source_->cell_x(),
+            .cell_z = source_->cell_z(),
+            .indices = window_.indices,
+            .batches = batches_,
+            .uploads = uploads_,
+            .stats = count(batches_, uploads_, moved_)};
+  return frame_;
+}
+
+// Fills what came into the window; what was there already keeps its place in the array.
+void Clipmap::move(int l, glm::ivec2 corner) {
+  ClipLevel& shown = shown_[l];
+  const glm::ivec2 by = corner - shown.corner;
+  if (levels_[l].filled && by == glm::ivec2(0)) return;
+  shown.corner = corner;
+  ++moved_;
+  const int n = window_.n;
+  if (!levels_[l].filled || std::abs(by.x) >= n || std::abs(by.y) >= n) {
+    refill(l, corner.x, corner.y, n, n);
+    levels_[l].filled = true;
+  } else {
+    if (by.x != 0) {
+      refill(l, by.x > 0 ? corner.x + n - by.x : corner.x, corner.y, std::abs(by.x), n);
+    }
+    if (by.y != 0) {
+      // Without the corner that the columns filled.
+      const int a = by.x < 0 ? corner.x - by.x : corner.x;
+      refill(l, a, by.y > 0 ? corner.y + n - by.y : corner.y, n - std::abs(by.x), std::abs(by.y));
+    }
+  }
+  bound(l);
+}
+
+// Lattice samples [a, a + columns) × [b, b + rows), in up to four parts where the array wraps around.
+void Clipmap::refill(int l, int a, int b, int columns, int rows) {
+  const int side = window_.side, mask = side - 1;
+  for (int j = 0; j < rows;) {
+    const int z = (b + j) & mask;
+    const int height = std::min(rows - j, side - z);
+    for (int i = 0; i < columns;) {
+      const int x = (a + i) & mask;
+      const int width = std::min(columns - i, side - x);
+      source_->read(l, a + i, b + j, width, height,
+                    &levels_[l].heights[static_cast<std::size_t>(z) * side + x], side);
+      uploads_.push_back({.target = DirtyRange::Target::kClipLevel,
+                          .level = static_cast<std::uint16_t>(l),
+                          .x = static_cast<std::uint16_t>(x),
+                          .z = static_cast<std::uint16_t>(z),
+                          .width = static_cast<std::uint16_t>(width),
+                          .depth = static_cast<std::uint16_t>(height)});
+      i += width;
+    }
+    j += height;
+  }
+}
+
+void Clipmap::bound(int l) {
+  std::size_t slot = 0;
+  for (const auto* blocks : {&window_.ring, &window_.middle, &window_.trims}) {
+    for (const clipmap::Block& block : *blocks) bound(l, slot++, block);
+  }
+}
+
+// One sample more on each side: a vertex on its way to the coarser level stands between its neighbours.
+void Clipmap::bound(int l, std::size_t slot, const clipmap::Block& block) {
+  const ClipLevel& shown = shown_[l];
+  const int mask = window_.side - 1, last = window_.n - 1;
+  const int a0 = std::max(block.x0 - 1, 0), a1 = std::min(block.x1 + 1, last);
+  float lowest = INFINITY, highest = -INFINITY;
+  for (int b = std::max(block.z0 - 1, 0); b <= std::min(block.z1 + 1, last); ++b) {
+    const float* row =
+        &levels_[l].heights[static_cast<std::size_t>((shown.corner.y + b) & mask) * window_.side];
+    for (int a = a0; a <= a1;) {
+      const int x = (shown.corner.x + a) & mask;
+      const int run = std::min(a1 - a + 1, window_.side - x);
+      for (int k = 0; k < run; ++k) {
+        lowest = std::min(lowest, row[x + k]);
+        highest = std::max(highest, row[x + k]);
+      }
+      a += run;
+    }
+  }
+  levels_[l].lowest[slot] = lowest;
+  levels_[l].highest[slot] = highest;
+}
+
+void Clipmap::draw(int l, int finest, const Frustum& frustum) {
+  std::size_t slot = 0;
+  for (const clipmap::Block& block : window_.ring) draw(l, slot++, block, frustum);
+  for (const clipmap::Block& block : window_.middle) {
+    if (l == finest) draw(l, slot, block, frustum);
+    ++slot;
+  }
+  if (l == finest) return;
+  const glm::ivec2 hole = shown_[l - 1].corner / 2 - shown_[l].corner - (window_.m - 1);
+  const auto trim = static_cast<std::size_t>(2 * hole.y + hole.x);
+  draw(l, slot + trim, window_.trims[trim], frustum);
+}
+
+void Clipmap::draw(int l, std::size_t slot, const clipmap::Block& block, const Frustum& frustum) {
+  const ClipLevel& shown = shown_[l];
+  const auto along = [&](int lattice, int last) { return std::clamp(lattice * shown.spacing, 0, last); };
+  // Out to even samples: at the window's border, triangles reach those.
+  const int i0 = along(shown.corner.x + (block.x0 & ~1), source_->width() - 1);
+  const int i1 = along(shown.corner.x + ((block.x1 + 1) & ~1), source_->width() - 1);
+  const int j0 = along(shown.corner.y + (block.z0 & ~1), source_->depth() - 1);
+  const int j1 = along(shown.corner.y + ((block.z1 + 1) & ~1), source_->depth() - 1);
+  if (i0 == i1 || j0 == j1) return;  // beyond the ground
+  const Bounds box{{static_cast<float>(i0) * source_->cell_x(), levels_[l].lowest[slot],
+                    static_cast<float>(j0) * source_->cell_z()},
+                   {static_cast<float>(i1) * source_->cell_x(), levels_[l].highest[slot],
+                    static_cast<float>(j1) * source_->cell_z()}};
+  if (frustum.see(box) == Sight::kOutside) return;
+  batches_.push_back({block.first_index, block.index_count, 0, static_cast<std::uint16_t>(l)});
+}
+
+Memory Clipmap::memory() const {
+  Memory memory;
+  memory.index += heap_bytes(this) + source_->bytes();
+  memory += payload_memory(window_.indices);
+  for (const auto* blocks : {&window_.ring, &window_.middle, &window_.trims}) memory += index_memory(*blocks);
+  for (const Level& level : levels_) {
+    memory += payload_memory(level.heights);
+    memory += index_memory(level.lowest);
+    memory += index_memory(level.highest);
+  }
+  memory.index += heap_bytes(levels_.data());
+  memory += index_memory(shown_);
+  memory += index_memory(batches_);
+  memory += index_memory(uploads_);
+  return memory;
+}
+
+}  // namespace terrabench

@@ -1,0 +1,33 @@
+// The fixed triangles of a clipmap window (Losasso & Hoppe 2004, §3.1 and §3.4; Asirvatham & Hoppe 2005): n ×
+// n vertices, n = 4m - 1, cut into blocks for culling, with the hole where the finer window lies. One index
+// array serves all levels.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace terrabench::clipmap {
+
+// A run of indices over cells [x0, x1) × [z0, z1) of the window. Vertex (a, b) is b·side + a.
+struct Block {
+  std::uint32_t first_index = 0, index_count = 0;
+  int x0 = 0, z0 = 0, x1 = 0, z1 = 0;
+};
+
+// The outer border is conforming: its odd vertices are left out, so that its edges are those of the coarser
+// level and no T-junction is there to crack. (The paper hides them under triangles without area.)
+struct Window {
+  int m = 0, n = 0;  // n = 4m - 1 vertices a side
+  int side = 0;      // rows of the vertex lattice: the power of two from n + 1 on
+  std::vector<std::uint32_t> indices;
+  std::vector<Block> ring;    // twelve blocks around the middle of 2m × 2m cells
+  std::vector<Block> middle;  // the middle, for the finest level
+  // The L-shaped strip between the middle and the hole of 2m - 1 cells, which lies at m - 1 or m on either
+  // axis: trims[2·(hole_z - (m - 1)) + hole_x - (m - 1)].
+  std::vector<Block> trims;
+};
+
+// m ≥ 2. O(n²).
+Window make_window(int m);
+
+}  // namespace terrabench::clipmap

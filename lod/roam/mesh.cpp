@@ -1,0 +1,219 @@
+#include "lod/roam/mesh.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace terrabench::roam {
+
+Mesh::Mesh(const GroundGrid& grid, Progress& progress)
+    : grid_(grid), lattice_(lattice_over(grid.width, grid.depth)), wedgies_(lattice_, grid, progress) {
+  add_roots();
+}
+
+// Neighbouring squares have diagonals that mirror each other, so that their legs meet and all bintrees fit.
+void Mesh::add_roots() {
+  const int side = 1 << lattice_.side_log;
+  nodes_.resize(roots());
+  const auto square = [&](int a, int b) -> std::uint32_t {
+    if (a < 0 || b < 0 || a >= lattice_.roots_x || b >= lattice_.roots_z) return kNone;
+    return 2U * (static_cast<std::uint32_t>(b) * static_cast<std::uint32_t>(lattice_.roots_x) +
+                 static_cast<std::uint32_t>(a));
+  };
+  // The one in a square: its north-east half where the diagonal falls, its north-west half where it rises.
+  const auto half = [](std::uint32_t first, std::uint32_t which) {
+    return first == kNone ? kNone : first + which;
+  };
+  for (int b = 0; b < lattice_.roots_z; ++b) {
+    for (int a = 0; a < lattice_.roots_x; ++a) {
+      const std::uint32_t first = square(a, b);
+      Node &north = nodes_[first], &south = nodes_[first + 1];
+      const bool falling = (a + b) % 2 == 0;
+      // A falling square's neighbours are rising ones and the other way round.
+      const std::uint32_t of_north = half(square(a, b - 1), 1), of_south = half(square(a, b + 1), 0);
+      const std::uint32_t of_west = half(square(a - 1, b), falling ? 1 : 0);
+      const std::uint32_t of_east = half(square(a + 1, b), falling ? 0 : 1);
+      north.u = falling ? (a + 1) * side : a * side;
+      north.v = b * side;
+      north.heading = falling ? 3 : 1;
+      north.left = falling ? of_east : of_north;
+      north.right = falling ? of_north : of_west;
+      south.u = falling ? a * side : (a + 1) * side;
+      south.v = (b + 1) * side;
+      south.heading = falling ? 7 : 5;
+      south.left = falling ? of_west : of_south;
+      south.right = falling ? of_south : of_east;
+      north.base = first + 1;
+      south.base = first;
+      bound(north);
+      bound(south);
+    }
+  }
+  leaves_ = nodes_.size();
+}
+
+void Mesh::bound(Node& node) const {
+  if (!splittable(node)) return;
+  const Place m = middle(node);
+  node.thickness = wedgies_.thickness(m.u, m.v);
+}
+
+bool Mesh::on_edge(const Node& node) const {
+  if (lattice_.exact || node.level != lattice_.finest_level() - 1) return false;
+  const Step ahead = kSteps[node.heading];
+  return ahead.u != 0 ? lattice_.column[node.u] == lattice_.column[node.u + ahead.u]
+                      : lattice_.row[node.v] == lattice_.row[node.v + ahead.v];
+}
+
+std::uint32_t Mesh::take_pair() {
+  if (free_pair_ != kNone) {
+    const std::uint32_t pair = free_pair_;
+    free_pair_ = nodes_[pair].parent;
+    return pair;
+  }
+  const auto pair = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.resize(nodes_.size() + 2);
+  return pair;
+}
+
+void Mesh::split(std::uint32_t id) {
+  assert(nodes_[id].leaf() && conforms_split(id) && splittable(nodes_[id]));
+  const std::uint32_t base = nodes_[id].base;
+  bisect(id);
+  if (base == kNone) return;
+  bisect(base);
+  const std::uint32_t mine = nodes_[id].child, theirs = nodes_[base].child;
+  nodes_[mine].right = theirs + 1;
+  nodes_[mine + 1].left = theirs;
+  nodes_[theirs].right = mine + 1;
+  nodes_[theirs + 1].left = mine;
+}
+
+void Mesh::bisect(std::uint32_t id) {
+  const std::uint32_t pair = take_pair();
+  Node& node = nodes_[id];
+  const Place apex = middle(node);
+  Node child;
+  child.u = apex.u;
+  child.v = apex.v;
+  child.level = static_cast<std::uint8_t>(node.level + 1);
+  child.parent = id;
+  child.heading = static_cast<std::uint8_t>((node.heading + 5) % 8);
+  child.base = node.left;
+  child.left = pair + 1;
+  child.right = kNone;
+  bound(child);
+  nodes_[pair] = child;
+  child.heading = static_cast<std::uint8_t>((node.heading + 3) % 8);
+  child.base = node.right;
+  child.left = kNone;
+  child.right = pair;
+  bound(child);
+  nodes_[pair + 1] = child;
+  relink(node.left, id, pair);
+  relink(node.right, id, pair + 1);
+  node.child = pair;
+  ++leaves_;
+}
+
+void Mesh::merge(std::uint32_t id) {
+  const std::uint32_t base = nodes_[id].base;
+  join(id);
+  if (base != kNone) join(base);
+}
+
+void Mesh::join(std::uint32_t id) {
+  Node& node = nodes_[id];
+  const std::uint32_t pair = node.child;
+  assert(nodes_[pair].leaf() && nodes_[pair + 1].leaf());
+  node.left = nodes_[pair].base;
+  node.right = nodes_[pair + 1].base;
+  relink(node.left, pair, id);
+  relink(node.right, pair + 1, id);
+  node.child = kNone;
+  nodes_[pair].parent = free_pair_;
+  nodes_[pair].in_use = nodes_[pair + 1].in_use = false;
+  free_pair_ = pair;
+  --leaves_;
+}
+
+void Mesh::relink(std::uint32_t neighbour, std::uint32_t from, std::uint32_t to) {
+  if (neighbour == kNone) return;
+  Node& node = nodes_[neighbour];
+  if (node.left == from) {
+    node.left = to;
+  } else if (node.right == from) {
+    node.right = to;
+  } else {
+    assert(node.base == from);
+    node.base = to;
+  }
+}
+
+// Of the hypotenuse.
+Mesh::Place Mesh::middle(const Node& node) const {
+  const int reach = middle_steps(lattice_.side_log, node.level);
+  return {node.u + kSteps[node.heading].u * reach, node.v + kSteps[node.heading].v * reach};
+}
+
+std::array<Mesh::Place, 3> Mesh::places(const Node& node) const {
+  const int legs = leg_steps(lattice_.side_log, node.level);
+  const Step left = kSteps[(node.heading + 7U) % 8], right = kSteps[(node.heading + 1U) % 8];
+  return {{{node.u, node.v},
+           {node.u + left.u * legs, node.v + left.v * legs},
+           {node.u + right.u * legs, node.v + right.v * legs}}};
+}
+
+std::array<std::uint32_t, 3> Mesh::vertices(const Node& node) const {
+  const auto [apex, left, right] = places(node);
+  return {vertex(apex), vertex(right), vertex(left)};
+}
+
+glm::dvec3 Mesh::corner(Place p) const {
+  const int i = lattice_.column[p.u], j = lattice_.row[p.v];
+  return {static_cast<float>(i) * grid_.cell_x, grid_.heights[static_cast<std::size_t>(j) * grid_.width + i],
+          static_cast<float>(j) * grid_.cell_z};
+}
+
+Corners Mesh::corners(const Node& node) const {
+  const auto [apex, left, right] = places(node);
+  return {{corner(apex), corner(left), corner(right)}};
+}
+
+std::array<Corners, 2> Mesh::corners_of_children(const Node& node, const Corners& own) const {
+  const glm::dvec3 apex = corner(middle(node));
+  return {{{{apex, own.at[0], own.at[1]}}, {{apex, own.at[2], own.at[0]}}}};
+}
+
+void Mesh::prefetch_split(const Node& node) const {
+  const Place m = middle(node);
+  __builtin_prefetch(&grid_.heights[vertex(m)]);
+  if (node.level + 1 >= lattice_.finest_level()) return;
+  const int reach = middle_steps(lattice_.side_log, node.level + 1);
+  for (const unsigned turn : {3U, 5U}) {
+    const Step ahead = kSteps[(node.heading + turn) % 8];
+    wedgies_.prefetch(m.u + ahead.u * reach, m.v + ahead.v * reach);
+  }
+}
+
+// Each line of samples lies less than a cell off where its lattice line ideally would: descendants stay
+// within a cell of the triangle, along either axis.
+double Mesh::spill(const Node& node) const {
+  if (lattice_.exact) return 0;
+  const auto [apex, left, right] = places(node);
+  const auto share = [](int a, int b, int c) {
+    const int cells = std::max(a, std::max(b, c)) - std::min(a, std::min(b, c));
+    return cells == 0 ? 1.0 : 1.0 / cells;
+  };
+  const std::vector<std::int32_t>&column = lattice_.column, &row = lattice_.row;
+  return share(column[apex.u], column[left.u], column[right.u]) +
+         share(row[apex.v], row[left.v], row[right.v]);
+}
+
+Memory Mesh::memory() const {
+  Memory memory = wedgies_.memory();
+  memory += lattice_.memory();
+  memory += index_memory(nodes_);
+  return memory;
+}
+
+}  // namespace terrabench::roam

@@ -1,0 +1,89 @@
+// The bintrees as a mesh that always conforms (Duchaineau et al. 1997, §§4-5): triangles are split and merged
+// by diamonds, the pairs that share a hypotenuse. Nodes live in one pool, children in pairs; freed pairs are
+// used again. Splits and merges are O(1).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "lod/roam/camera.h"
+#include "lod/roam/lattice.h"
+#include "lod/roam/node.h"
+#include "lod/roam/wedgies.h"
+#include "terrain/frame.h"
+
+namespace terrabench::roam {
+
+class Mesh {
+ public:
+  Mesh(const GroundGrid&, Progress&);
+
+  std::vector<Node>& nodes() { return nodes_; }
+  const std::vector<Node>& nodes() const { return nodes_; }
+  std::uint32_t roots() const { return 2U * static_cast<std::uint32_t>(lattice_.roots_x * lattice_.roots_z); }
+  std::size_t leaves() const { return leaves_; }
+  const Lattice& lattice() const { return lattice_; }
+  const GroundGrid& grid() const { return grid_; }
+
+  bool splittable(const Node& node) const { return node.level < lattice_.finest_level(); }
+  // The triangle's hypotenuse has nothing coarser behind it: it and its base neighbour can split.
+  bool conforms_split(std::uint32_t id) const {
+    const std::uint32_t base = nodes_[id].base;
+    return base == kNone || nodes_[base].base == id;
+  }
+  // A triangle between two lattice lines over one line of samples, standing on edge: its apex lies on its
+  // hypotenuse as the map shows it. It must be split as long as it exists, or that corner would be a
+  // T-junction.
+  bool on_edge(const Node&) const;
+  // Two corners are one sample: nothing to draw.
+  bool empty(const std::array<std::uint32_t, 3>& vertices) const {
+    return vertices[0] == vertices[1] || vertices[1] == vertices[2] || vertices[0] == vertices[2];
+  }
+
+  // Splits the leaf, and the base neighbour with it. conforms_split() must hold.
+  void split(std::uint32_t id);
+  // Undoes that; all children must be leaves.
+  void merge(std::uint32_t id);
+
+  // Grid vertices, counter-clockwise from above.
+  std::array<std::uint32_t, 3> vertices(const Node&) const;
+  Corners corners(const Node&) const;
+  // Those of both children of a triangle, from its own.
+  std::array<Corners, 2> corners_of_children(const Node&, const Corners& own) const;
+  // Has the memory fetched that splitting the triangle will read.
+  void prefetch_split(const Node&) const;
+  // The share of its size by which descendants may stick out of a triangle, where lattice lines share
+  // samples.
+  double spill(const Node&) const;
+
+  Memory memory() const;
+
+ private:
+  struct Place {
+    std::int32_t u, v;
+  };
+  std::array<Place, 3> places(const Node&) const;
+  Place middle(const Node&) const;
+  glm::dvec3 corner(Place) const;
+  std::uint32_t vertex(Place p) const {
+    return static_cast<std::uint32_t>(lattice_.row[p.v]) * static_cast<std::uint32_t>(grid_.width) +
+           static_cast<std::uint32_t>(lattice_.column[p.u]);
+  }
+  void add_roots();
+  std::uint32_t take_pair();
+  void bisect(std::uint32_t id);
+  void join(std::uint32_t id);
+  void bound(Node&) const;
+  void relink(std::uint32_t neighbour, std::uint32_t from, std::uint32_t to);
+
+  GroundGrid grid_;
+  Lattice lattice_;
+  Wedgies wedgies_;
+  std::vector<Node> nodes_;
+  std::uint32_t free_pair_ = kNone;
+  std::size_t leaves_ = 0;
+};
+
+}  // namespace terrabench::roam

@@ -1,0 +1,143 @@
+// Which bucket a triangle or a diamond belongs to, and when to ask again.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "lod/roam/roam.h"
+
+namespace terrabench {
+
+using roam::Distortion;
+using roam::kNone;
+using roam::Node;
+
+namespace {
+
+// Motion after which the error can have changed by a factor.
+double slack(const Distortion& now, double factor) {
+  return std::isfinite(now.pixels) ? (1 - 1 / factor) / now.rate : 0;
+}
+
+// Where the order counts and no threshold is near, a change by a bucket's width is worth a look.
+constexpr double kBucketWidth = 1 + 1.0 / 16;
+
+}  // namespace
+
+std::uint16_t Roam::bucket_of(double ratio) {
+  static_assert(kPerOctave == 16, "four bits of the mantissa");
+  constexpr int kFirst = ((127 << 23) >> 19) - kAsked;
+  const auto value = static_cast<float>(ratio);
+  if (!(value > 0)) return 0;
+  const int bucket = static_cast<int>(std::bit_cast<std::uint32_t>(value) >> 19) - kFirst;
+  return static_cast<std::uint16_t>(std::clamp(bucket, 0, kBuckets - 1));
+}
+
+double Roam::ratio_from(int bucket) {
+  const int above = bucket - kAsked + 64 * kPerOctave;
+  return std::ldexp(1 + static_cast<double>(above % kPerOctave) / kPerOctave, above / kPerOctave - 64);
+}
+
+Distortion Roam::distortion(std::uint32_t id, const roam::Corners& corners) const {
+  const Node& node = mesh_.nodes()[id];
+  if (!node.visible() || node.thickness == 0) return {};
+  return camera_.distortion(corners, node.thickness);
+}
+
+void Roam::take_off(std::uint32_t id) {
+  (mesh_.nodes()[id].leaf() ? splits_ : merges_).remove(mesh_.nodes(), id);
+  deadlines_.remove(mesh_.nodes(), id);
+}
+
+void Roam::reconsider(std::uint32_t id) {
+  if (mesh_.nodes()[id].leaf()) {
+    rank_leaf(id, mesh_.corners(mesh_.nodes()[id]));
+  } else {
+    requeue_diamond(id);
+  }
+}
+
+void Roam::reconsider_all() {
+  for (std::uint32_t id = 0; id < mesh_.nodes().size(); ++id) {
+    if (mesh_.nodes()[id].in_use) reconsider(id);
+  }
+}
+
+// A leaf that a split would gain nothing for is in no queue.
+void Roam::rank_leaf(std::uint32_t id, const roam::Corners& corners) {
+  std::vector<Node>& nodes = mesh_.nodes();
+  deadlines_.remove(nodes, id);
+  const Distortion now = mesh_.splittable(nodes[id]) ? distortion(id, corners) : Distortion{};
+  if (now.pixels == 0) return splits_.remove(nodes, id);
+  const double ratio = now.pixels / options_.max_error;
+  if (const std::uint16_t bucket = bucket_of(ratio); bucket != nodes[id].bucket) {
+    splits_.remove(nodes, id);
+    splits_.push(nodes, id, bucket);
+  }
+  // From below the reference it must be looked at before it can have risen to it.
+  const double factor = ratio_from(reference_) / ratio;
+  deadlines_.put_off(nodes, id, slack(now, factor > 1 ? factor : kBucketWidth), now.reach);
+}
+
+// Puts a diamond, by its name, into the merge queue, by the larger error of its halves.
+void Roam::rank_diamond(std::uint32_t id) {
+  Distortion now;
+  const auto include = [&](std::uint32_t part) {
+    const Distortion other = distortion(part, mesh_.corners(mesh_.nodes()[part]));
+    if (other.pixels > now.pixels) now = other;
+  };
+  for (const std::uint32_t half : halves(id)) {
+    if (half == kNone) continue;
+    include(half);
+    // What its merge takes along: see merge().
+    for (const std::uint32_t child : {mesh_.nodes()[half].child, mesh_.nodes()[half].child + 1}) {
+      const Node& node = mesh_.nodes()[child];
+      if (!node.leaf() && node.base != kNone) include(node.base);
+    }
+  }
+  const double ratio = now.pixels / options_.max_error;
+  merges_.push(mesh_.nodes(), id, bucket_of(ratio));
+  if (now.pixels == 0) return;  // until its sight changes
+  const double factor = std::max(ratio / ratio_from(reference_), kBucketWidth);
+  deadlines_.put_off(mesh_.nodes(), id, slack(now, factor), now.reach);
+}
+
+// Most diamonds that a frame makes are split on in the same frame, so only what is left is looked at.
+void Roam::rank_pending() {
+  for (const std::uint32_t id : pending_) {
+    const Node& node = mesh_.nodes()[id];
+    if (node.in_use && !node.leaf() && node.bucket != roam::kNoList && node.due == roam::kNoList) {
+      requeue_diamond(id);
+    }
+  }
+  pending_.clear();
+}
+
+// A diamond goes by the lower number of its halves.
+std::uint32_t Roam::diamond(std::uint32_t id) const {
+  const std::uint32_t base = mesh_.nodes()[id].base;
+  return base == kNone ? id : std::min(id, base);
+}
+
+// Children that stand on edge are split as long as they exist, so they do not count as such.
+bool Roam::mergeable(std::uint32_t id) const {
+  for (const std::uint32_t half : halves(id)) {
+    if (half == kNone) continue;
+    const Node& node = mesh_.nodes()[half];
+    if (mesh_.on_edge(node)) return false;
+    for (const std::uint32_t child : {node.child, node.child + 1}) {
+      const Node& part = mesh_.nodes()[child];
+      if (!part.leaf() && !mesh_.on_edge(part)) return false;
+    }
+  }
+  return true;
+}
+
+// Puts the diamond of a triangle that is split where it belongs now: into the merge queue or out of it.
+void Roam::requeue_diamond(std::uint32_t id) {
+  if (id == kNone) return;
+  const std::uint32_t name = diamond(id);
+  take_off(name);
+  if (mergeable(name)) rank_diamond(name);
+}
+
+}  // namespace terrabench

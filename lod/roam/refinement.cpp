@@ -1,0 +1,154 @@
+// Splits and merges, and the loop that chooses among them (Duchaineau et al. 1997, §5).
+#include <algorithm>
+
+#include "lod/roam/roam.h"
+
+namespace terrabench {
+
+using roam::kNone;
+using roam::Node;
+
+void Roam::settle() {
+  const auto full = [&](std::size_t more) {
+    return options_.triangles > 0 && mesh_.leaves() + more > options_.triangles;
+  };
+  // Where lattice lines share samples, a triangle may have a slightly larger error than its parent had; then
+  // two diamonds could take turns for ever.
+  const std::size_t most_swaps = 2 * mesh_.leaves() + 1000;
+  std::size_t swaps = 0;
+  for (std::size_t step = 1;; ++step) {
+    constexpr std::size_t kStepsPerLookAtTheClock = 32;
+    if (step % kStepsPerLookAtTheClock == 0 && out_of_time()) return;
+    const int lowest = merges_.lowest(), highest = splits_.highest();
+    if (lowest >= 0 && (lowest < kAsked || full(0))) {
+      merge(merges_.first(lowest));
+    } else if (highest < kAsked) {
+      return;
+    } else if (const std::uint32_t id = splits_.first(highest); !full(cost_of_split(id))) {
+      split(id);
+    } else if (lowest >= 0 && lowest < highest && swaps++ < most_swaps) {
+      merge(merges_.first(lowest));
+    } else {
+      return;
+    }
+  }
+}
+
+// Keeps the reference where the queues meet. When they meet lower than it allowed for, priorities were put
+// off that may count by now: they are all looked at, and there is more to settle.
+bool Roam::lower_reference() {
+  constexpr int kMargin =
+      6;  // buckets; a wider one looks at more triangles a frame, a narrower one at all more often
+  const int meeting = std::max(kAsked, splits_.highest());
+  if (reference_ <= meeting) {
+    if (reference_ < meeting - 2 * kMargin) reference_ = meeting - kMargin;
+    return false;
+  }
+  reference_ = std::max(kAsked, meeting - kMargin);
+  reconsider_all();
+  return !out_of_time();
+}
+
+bool Roam::out_of_time() const {
+  if (options_.milliseconds <= 0) return false;
+  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start_;
+  return spent.count() >= options_.milliseconds;
+}
+
+// Triangles that a split adds, or more: those of its base neighbours that must be split first included.
+std::size_t Roam::cost_of_split(std::uint32_t id) const {
+  const int finest = mesh_.lattice().finest_level();
+  // A split of triangles on edge may force one more row of others, and that the same again at most.
+  std::size_t cost = !mesh_.lattice().exact && mesh_.nodes()[id].level >= finest - 2
+                         ? 8 * (static_cast<std::size_t>(finest) + 1)
+                         : 0;
+  for (;; id = mesh_.nodes()[id].base) {
+    cost += mesh_.nodes()[id].base == kNone ? 1 : 2;
+    if (mesh_.conforms_split(id)) return cost;
+  }
+}
+
+void Roam::split(std::uint32_t id) {
+  while (mesh_.nodes()[id].leaf() && !mesh_.conforms_split(id)) split(mesh_.nodes()[id].base);
+  // A neighbour that stands on edge may have taken it along.
+  if (mesh_.nodes()[id].leaf()) split_diamond(id);
+}
+
+void Roam::split_diamond(std::uint32_t id) {
+  std::vector<Node>& nodes = mesh_.nodes();
+  const std::array<std::uint32_t, 2> both = halves(id);
+  std::uint16_t bucket = 0;
+  for (const std::uint32_t half : both) {
+    if (half == kNone) continue;
+    mesh_.prefetch_split(nodes[half]);
+    if (nodes[half].bucket != roam::kNoList) bucket = std::max(bucket, nodes[half].bucket);
+    take_off(half);
+    drawn_.remove(nodes, half);
+  }
+  mesh_.split(id);
+  ++changes_;
+  quiet_.resize(nodes.size());
+  for (const std::uint32_t half : both) {
+    if (half != kNone) add_children(half);
+  }
+  const std::uint32_t name = diamond(id);
+  if (mergeable(name)) {
+    merges_.push(nodes, name, bucket);
+    pending_.push_back(name);
+  }
+  for (const std::uint32_t half : both) {
+    if (half != kNone) requeue_diamond(nodes[half].parent);
+  }
+  for (const std::uint32_t half : both) {
+    if (half == kNone) continue;
+    for (const std::uint32_t child : {nodes[half].child, nodes[half].child + 1}) {
+      if (mesh_.on_edge(nodes[child]) && nodes[child].leaf()) split(child);
+    }
+  }
+}
+
+void Roam::add_children(std::uint32_t id) {
+  const Node& parent = mesh_.nodes()[id];
+  const std::array<roam::Corners, 2> corners = mesh_.corners_of_children(parent, mesh_.corners(parent));
+  for (std::uint32_t k = 0; k < 2; ++k) {
+    const std::uint32_t child = parent.child + k;
+    see(child, parent.sight, corners[k]);
+    disturb_ancestors(child);
+    show(child);
+    rank_leaf(child, corners[k]);
+  }
+}
+
+void Roam::merge(std::uint32_t id) {
+  for (const std::uint32_t half : halves(id)) {
+    if (half == kNone) continue;
+    const std::uint32_t pair = mesh_.nodes()[half].child;
+    for (const std::uint32_t child : {pair, pair + 1}) {
+      if (!mesh_.nodes()[child].leaf()) merge_diamond(child);
+    }
+  }
+  merge_diamond(id);
+}
+
+void Roam::merge_diamond(std::uint32_t id) {
+  const std::array<std::uint32_t, 2> both = halves(id);
+  take_off(diamond(id));
+  for (const std::uint32_t half : both) {
+    if (half == kNone) continue;
+    const std::uint32_t pair = mesh_.nodes()[half].child;
+    for (const std::uint32_t child : {pair, pair + 1}) {
+      take_off(child);
+      drawn_.remove(mesh_.nodes(), child);
+    }
+  }
+  mesh_.merge(id);
+  ++changes_;
+  for (const std::uint32_t half : both) {
+    if (half == kNone) continue;
+    show(half);
+    rank_leaf(half, mesh_.corners(mesh_.nodes()[half]));
+    requeue_diamond(mesh_.nodes()[half].parent);
+  }
+}
+
+}  // namespace terrabench

@@ -1,0 +1,99 @@
+#include "lod/roam/wedgies.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace terrabench::roam {
+namespace {
+
+std::uint16_t encode_up(float bound) {
+  // Heights of ±1e38 m may leave what a float holds; no bound is then known.
+  if (!std::isfinite(bound)) bound = std::numeric_limits<float>::infinity();
+  return static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(bound) + 0xFFFFU) >> 16);
+}
+
+}  // namespace
+
+struct Wedgies::Builder {
+  const Lattice& lattice;
+  const GroundGrid& grid;
+  Wedgies& wedgies;
+
+  float height(int u, int v) const {
+    return grid.heights[static_cast<std::size_t>(lattice.row[v]) * grid.width + lattice.column[u]];
+  }
+  float below(int u, int v) const {
+    const bool inside = u >= 0 && v >= 0 && u < lattice.width() && v < lattice.depth();
+    return inside ? wedgies.thickness(u, v) : 0.0F;
+  }
+  // How far line b lies from line a to line c.
+  static float share(const std::vector<std::int32_t>& lines, int a, int b, int c) {
+    return static_cast<float>(lines[b] - lines[a]) / static_cast<float>(lines[c] - lines[a]);
+  }
+
+  // The middle of an edge of 2s steps along an axis; the triangles on either side agree on its height there.
+  void edge(int u, int v, int s, bool along_x) {
+    const float t = along_x ? share(lattice.column, u - s, u, u + s) : share(lattice.row, v - s, v, v + s);
+    const float before = along_x ? height(u - s, v) : height(u, v - s);
+    const float after = along_x ? height(u + s, v) : height(u, v + s);
+    float bound = std::abs(height(u, v) - (before + t * (after - before)));
+    if (s > 1) {
+      const int h = s / 2;
+      bound += std::max(std::max(below(u - h, v - h), below(u + h, v - h)),
+                        std::max(below(u - h, v + h), below(u + h, v + h)));
+    }
+    store(u, v, bound);
+  }
+
+  // The middle of a square of 2s steps a side, whose diagonal joins the two corners with even sums of lattice
+  // squares. The middle may lie off the diagonal, by less than a sample, where lattice lines share samples:
+  // it is held against the planes of both triangles, so that the wedgies nest all the same.
+  void centre(int u, int v, int s) {
+    const bool falling = ((u - s) / (2 * s) + (v - s) / (2 * s)) % 2 == 0;
+    const float t = share(lattice.column, u - s, u, u + s), r = share(lattice.row, v - s, v, v + s);
+    const float west_north = height(u - s, v - s), east_north = height(u + s, v - s);
+    const float west_south = height(u - s, v + s), east_south = height(u + s, v + s);
+    const float here = height(u, v);
+    float one, other;
+    if (falling) {
+      one = east_north + (1 - t) * (west_north - east_north) + r * (east_south - east_north);
+      other = west_south + t * (east_south - west_south) + (1 - r) * (west_north - west_south);
+    } else {
+      one = west_north + t * (east_north - west_north) + r * (west_south - west_north);
+      other = east_south + (1 - t) * (west_south - east_south) + (1 - r) * (east_north - east_south);
+    }
+    store(
+        u, v,
+        std::max(std::abs(here - one), std::abs(here - other)) +
+            std::max(std::max(below(u - s, v), below(u + s, v)), std::max(below(u, v - s), below(u, v + s))));
+  }
+
+  void store(int u, int v, float bound) {
+    wedgies.bounds_[static_cast<std::size_t>(v) * wedgies.width_ + u] = encode_up(bound);
+  }
+};
+
+Wedgies::Wedgies(const Lattice& lattice, const GroundGrid& grid, Progress& progress)
+    : width_(static_cast<std::size_t>(lattice.width())),
+      bounds_(width_ * static_cast<std::size_t>(lattice.depth())) {
+  Builder builder{lattice, grid, *this};
+  const int width = lattice.width(), depth = lattice.depth();
+  progress.begin("bounding the bintrees", static_cast<std::uint64_t>(lattice.side_log));
+  for (int s = 1; s < 1 << lattice.side_log; s *= 2) {
+    const int rows = (depth - 1) / s + 1;
+    tbb::parallel_for(0, rows, [&](int row) {
+      const bool along_x = row % 2 == 0;
+      for (int u = along_x ? s : 0; u < width; u += 2 * s) builder.edge(u, row * s, s, along_x);
+    });
+    tbb::parallel_for(0, rows / 2, [&](int row) {
+      for (int u = s; u < width; u += 2 * s) builder.centre(u, (2 * row + 1) * s, s);
+    });
+    progress.advance();
+  }
+  progress.end();
+}
+
+}  // namespace terrabench::roam

@@ -1,0 +1,320 @@
+#include "renderers/frame_renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <limits>
+
+#include "renderers/gl.h"
+#include "renderers/ramp.h"
+#include "renderers/target.h"
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+// As the shader lays them out.
+struct BatchRecord {
+  std::int32_t level;
+  float morph;
+  std::uint32_t first_triangle;
+  std::int32_t unused;
+};
+struct LevelRecord {
+  glm::ivec2 corner;
+  glm::vec2 eye;
+  float from, to;
+  std::int32_t spacing, unused;
+};
+struct DrawCommand {
+  std::uint32_t count, instances, first_index;
+  std::int32_t base_vertex;
+  std::uint32_t base_instance;
+};
+
+// A buffer that is written in parts and grows by replacement.
+class GrowingBuffer {
+ public:
+  GLuint id() const { return buffer_.id(); }
+  // True when it was replaced, so that what it held is gone.
+  bool reserve(std::size_t bytes) {
+    if (bytes <= capacity_) return false;
+    capacity_ = bytes + bytes / 2;
+    buffer_ = Buffer();
+    glNamedBufferStorage(buffer_.id(), static_cast<GLsizeiptr>(capacity_), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    check_gl("reserving memory for the terrain");
+    return true;
+  }
+  void write(std::size_t at, const void* data, std::size_t bytes) {
+    if (bytes > 0) {
+      glNamedBufferSubData(buffer_.id(), static_cast<GLintptr>(at), static_cast<GLsizeiptr>(bytes), data);
+    }
+  }
+  template <class T>
+  void replace(const std::vector<T>& content) {
+    reserve(content.size() * sizeof(T));
+    write(0, content.data(), content.size() * sizeof(T));
+  }
+
+ private:
+  Buffer buffer_;
+  std::size_t capacity_ = 0;
+};
+
+void check_room(std::size_t bytes) {
+  GLint64 most = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+  if (bytes > static_cast<std::size_t>(most)) {
+    throw environment_error(
+        fmt::format("heights of {} MiB do not fit into this OpenGL's {} MiB", bytes >> 20, most >> 20), "",
+        "draw a smaller terrain, or use a method that keeps only a part of it (clipmap)");
+  }
+}
+
+glm::vec3 as_shares(const Rgb& color) { return glm::vec3(color[0], color[1], color[2]) / 255.0F; }
+
+}  // namespace
+
+struct FrameRenderer::Gl {
+  Program plain = link_program(shader_file("frame.vert"), shader_file("relief.frag"));
+  Program wired =
+      link_program(shader_file("frame.vert"), shader_file("relief.frag"), &shader_file("wire.geom"));
+  Program numbers = link_program(shader_file("frame.vert"), shader_file("triangle_number.frag"));
+  Texture1d ramp;
+  VertexArray array;
+  GrowingBuffer indices, heights, batches, levels, commands, numbers_of_batches;
+  bool fresh = true;
+  std::size_t uploaded = 0;
+  std::vector<BatchRecord> batch_records;
+  std::vector<LevelRecord> level_records;
+  std::vector<DrawCommand> draw_commands;
+  std::vector<std::uint32_t> counting;
+
+  Gl();
+  void upload(const Frame&);
+  void upload_whole(const Frame&);
+  void upload(const Frame&, const DirtyRange&);
+  void describe(const Frame&);
+  void set(const Program&, const Frame&, const View&);
+  void set_style(const Program&, const View&, const FrameStyle&);
+  void draw(const Program&);
+};
+
+FrameRenderer::Gl::Gl() {
+  constexpr int kColors = 256;
+  std::vector<glm::vec3> colors(kColors);
+  for (int i = 0; i < kColors; ++i) colors[i] = ramp_color(static_cast<float>(i) / (kColors - 1));
+  glTextureStorage1D(ramp.id(), 1, GL_RGB32F, kColors);
+  glTextureSubImage1D(ramp.id(), 0, 0, kColors, GL_RGB, GL_FLOAT, colors.data());
+  glTextureParameteri(ramp.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(ramp.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  // The batch's number reaches the vertices as an attribute that steps once an instance.
+  glVertexArrayAttribIFormat(array.id(), 0, 1, GL_UNSIGNED_INT, 0);
+  glVertexArrayAttribBinding(array.id(), 0, 0);
+  glVertexArrayBindingDivisor(array.id(), 0, 1);
+  glEnableVertexArrayAttrib(array.id(), 0);
+}
+
+void FrameRenderer::Gl::upload_whole(const Frame& frame) {
+  indices.write(0, frame.indices.data(), frame.indices.size_bytes());
+  uploaded += frame.indices.size_bytes();
+  if (frame.levels.empty()) {
+    heights.write(0, frame.grid.heights.data(), frame.grid.heights.size_bytes());
+    uploaded += frame.grid.heights.size_bytes();
+  }
+  std::size_t at = 0;
+  for (const ClipLevel& level : frame.levels) {
+    heights.write(at, level.heights.data(), level.heights.size_bytes());
+    at += level.heights.size_bytes();
+    uploaded += level.heights.size_bytes();
+  }
+}
+
+void FrameRenderer::Gl::upload(const Frame& frame, const DirtyRange& range) {
+  uploaded += range.bytes();
+  constexpr std::size_t kWord = 4;
+  switch (range.target) {
+    case DirtyRange::Target::kIndices:
+      indices.write(range.first * kWord, &frame.indices[range.first], range.count * kWord);
+      break;
+    case DirtyRange::Target::kHeights:
+      heights.write(range.first * kWord, &frame.grid.heights[range.first], range.count * kWord);
+      break;
+    case DirtyRange::Target::kClipLevel:
+      const ClipLevel& level = frame.levels[range.level];
+      for (std::size_t row = range.z; row < std::size_t{range.z} + range.depth; ++row) {
+        const std::size_t at = row * level.side + range.x;
+        const std::size_t before = std::size_t{range.level} * level.heights.size();
+        heights.write((before + at) * kWord, &level.heights[at], range.width * kWord);
+      }
+  }
+}
+
+void FrameRenderer::Gl::upload(const Frame& frame) {
+  std::size_t height_bytes = frame.grid.heights.size_bytes();
+  for (const ClipLevel& level : frame.levels) height_bytes += level.heights.size_bytes();
+  check_room(height_bytes);
+  const bool indices_lost = indices.reserve(frame.indices.size_bytes());
+  const bool heights_lost = heights.reserve(height_bytes);
+  if (fresh || indices_lost || heights_lost) {
+    upload_whole(frame);
+    fresh = false;
+  } else {
+    for (const DirtyRange& range : frame.uploads) upload(frame, range);
+  }
+}
+
+void FrameRenderer::Gl::describe(const Frame& frame) {
+  batch_records.clear();
+  draw_commands.clear();
+  std::uint32_t triangle = 0;
+  for (const Batch& batch : frame.batches) {
+    const auto number = static_cast<std::uint32_t>(draw_commands.size());
+    batch_records.push_back({batch.level, batch.morph, triangle, 0});
+    draw_commands.push_back(
+        {batch.index_count, 1, batch.first_index, static_cast<std::int32_t>(batch.base_vertex), number});
+    triangle += batch.index_count / 3;
+  }
+  level_records.clear();
+  for (const ClipLevel& level : frame.levels) {
+    level_records.push_back({level.corner, level.eye, level.from, level.to, level.spacing, 0});
+  }
+  if (level_records.empty()) level_records.push_back({});
+  while (counting.size() < draw_commands.size())
+    counting.push_back(static_cast<std::uint32_t>(counting.size()));
+  batches.replace(batch_records);
+  levels.replace(level_records);
+  commands.replace(draw_commands);
+  numbers_of_batches.replace(counting);
+}
+
+void FrameRenderer::Gl::set(const Program& program, const Frame& frame, const View& view) {
+  const GLuint id = program.id();
+  const glm::mat4 to_clip = world_to_clip(view);
+  glProgramUniformMatrix4fv(id, uniform(program, "world_to_clip"), 1, GL_FALSE, glm::value_ptr(to_clip));
+  glProgramUniform2i(id, uniform(program, "samples"), frame.grid.width, frame.grid.depth);
+  glProgramUniform2f(id, uniform(program, "cell"), frame.cell_x, frame.cell_z);
+  glProgramUniform1i(id, uniform(program, "side"), frame.levels.empty() ? 0 : frame.levels.front().side);
+  glProgramUniform2i(id, uniform(program, "last"), frame.last.x, frame.last.y);
+}
+
+void FrameRenderer::Gl::set_style(const Program& program, const View& view, const FrameStyle& style) {
+  const GLuint id = program.id();
+  const auto set3 = [&](const char* name, const glm::vec3& value) {
+    glProgramUniform3fv(id, uniform(program, name), 1, glm::value_ptr(value));
+  };
+  set3("sun", glm::normalize(style.sun));
+  set3("eye", view.eye);
+  set3("fill_color", glm::vec3(1));
+  glProgramUniform2f(
+      id, uniform(program, "height_range"), style.lowest,
+      std::max(style.highest, std::nextafter(style.lowest, std::numeric_limits<float>::max())));
+  glProgramUniform1i(id, uniform(program, "ramp"), 0);
+  glProgramUniform1f(id, uniform(program, "exaggeration"), style.shading_exaggeration);
+  glProgramUniform1i(id, uniform(program, "facets"), 1);
+  glProgramUniform1i(id, uniform(program, "painted"), 0);
+  glProgramUniform1i(id, uniform(program, "flat_fill"), 0);
+  glProgramUniform1f(id, uniform(program, "wire_width"), style.wire_width);
+  glProgramUniform4f(id, uniform(program, "wire_ink"), 0.05F, 0.05F, 0.06F, style.wire_opacity);
+  if (style.wire_width > 0) {
+    glProgramUniform2f(id, uniform(program, "pixels"), static_cast<float>(view.width),
+                       static_cast<float>(view.height));
+    glProgramUniform1i(id, uniform(program, "all_edges"), 1);
+    glProgramUniform1i(id, uniform(program, "drawn"), 1);
+  }
+  glBindTextureUnit(0, ramp.id());
+}
+
+void FrameRenderer::Gl::draw(const Program& program) {
+  if (draw_commands.empty()) return;
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glUseProgram(program.id());
+  glVertexArrayElementBuffer(array.id(), indices.id());
+  glVertexArrayVertexBuffer(array.id(), 0, numbers_of_batches.id(), 0, sizeof(std::uint32_t));
+  glBindVertexArray(array.id());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, heights.id());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, batches.id());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, levels.id());
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
+  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr,
+                              static_cast<GLsizei>(draw_commands.size()), 0);
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+  glBindVertexArray(0);
+  glUseProgram(0);
+  glDisable(GL_DEPTH_TEST);
+  check_gl("drawing the terrain");
+}
+
+FrameRenderer::FrameRenderer(GlContext& context) : context_(context) {
+  context_.make_current();
+  gl_ = std::make_unique<Gl>();
+}
+
+FrameRenderer::~FrameRenderer() { context_.make_current(); }
+
+void FrameRenderer::draw(const Frame& frame, const View& view, const FrameStyle& style) {
+  context_.make_current();
+  RenderTarget& target = context_.target();
+  target.resize(view.width, view.height);
+  target.bind();
+  const glm::vec3 background = as_shares(style.background);
+  glClearColor(background.r, background.g, background.b, 1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  gl_->upload(frame);
+  gl_->describe(frame);
+  const Program& program = style.wire_width > 0 ? gl_->wired : gl_->plain;
+  gl_->set(program, frame, view);
+  gl_->set_style(program, view, style);
+  gl_->draw(program);
+}
+
+void FrameRenderer::finish() {
+  context_.make_current();
+  glFinish();
+}
+
+Image FrameRenderer::image() {
+  context_.make_current();
+  return context_.target().read();
+}
+
+std::vector<std::uint32_t> FrameRenderer::triangle_numbers(const Frame& frame, const View& view) {
+  context_.make_current();
+  const Renderbuffer color, depth;
+  const Framebuffer framebuffer;
+  glNamedRenderbufferStorage(color.id(), GL_R32UI, view.width, view.height);
+  glNamedRenderbufferStorage(depth.id(), GL_DEPTH_COMPONENT32F, view.width, view.height);
+  glNamedFramebufferRenderbuffer(framebuffer.id(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color.id());
+  glNamedFramebufferRenderbuffer(framebuffer.id(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth.id());
+  check_gl("a picture of triangle numbers");
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+  glViewport(0, 0, view.width, view.height);
+  const GLuint none = 0;
+  const GLfloat far = 1;
+  glClearNamedFramebufferuiv(framebuffer.id(), GL_COLOR, 0, &none);
+  glClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &far);
+  gl_->upload(frame);
+  gl_->describe(frame);
+  gl_->set(gl_->numbers, frame, view);
+  gl_->draw(gl_->numbers);
+
+  std::vector<std::uint32_t> numbers(static_cast<std::size_t>(view.width) * view.height);
+  glReadPixels(0, 0, view.width, view.height, GL_RED_INTEGER, GL_UNSIGNED_INT, numbers.data());
+  check_gl("reading triangle numbers");
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  // OpenGL's rows go upwards.
+  for (int top = 0, bottom = view.height - 1; top < bottom; ++top, --bottom) {
+    std::swap_ranges(numbers.begin() + static_cast<std::ptrdiff_t>(top) * view.width,
+                     numbers.begin() + static_cast<std::ptrdiff_t>(top + 1) * view.width,
+                     numbers.begin() + static_cast<std::ptrdiff_t>(bottom) * view.width);
+  }
+  return numbers;
+}
+
+std::size_t FrameRenderer::bytes_uploaded() const { return gl_->uploaded; }
+
+}  // namespace terrabench

@@ -1,0 +1,68 @@
+#version 450 core
+// Hands each fragment its distance in pixels to the three edges of its triangle, so that lines have one width
+// on the screen and lie in the surface itself: no depth is compared, and hidden lines stay hidden.
+layout(triangles) in;
+layout(triangle_strip, max_vertices = 3) out;
+
+uniform vec2 pixels;          // width and height of the picture
+uniform usamplerBuffer drawn; // a triangle's edges to draw: bit k for the edge from corner k to the next;
+                              // bit k + 3: it is an outline, and the neighbour shows no half of it
+uniform int first_triangle;   // of this draw
+uniform float wire_width;     // pixels
+
+in Vertex {
+  vec3 world;
+  vec3 normal;
+  vec3 paint;
+  float bend;
+  noperspective vec3 to_edge;
+  flat vec3 strength;
+  flat vec3 reach;
+} corner[];
+
+out Vertex {
+  vec3 world;
+  vec3 normal;
+  vec3 paint;
+  float bend;
+  noperspective vec3 to_edge;
+  flat vec3 strength;  // 0 for an edge that is not drawn
+  flat vec3 reach;     // pixels of ink from an edge into the triangle
+} vertex;
+
+// Lines closer than two widths to the next thin out, or far ground would be solid ink.
+float strength(float spacing) { return clamp(spacing / (2.0 * wire_width), 0.0, 1.0); }
+
+void main() {
+  vec2 at[3];
+  bool on_screen = true;  // a triangle that reaches behind the eye has no place on the screen, and no wires
+  for (int k = 0; k < 3; ++k) {
+    float w = gl_in[k].gl_Position.w;
+    on_screen = on_screen && w > 0.0;
+    at[k] = 0.5 * pixels * gl_in[k].gl_Position.xy / w;
+  }
+  uint mask = !on_screen ? 0u : texelFetch(drawn, gl_PrimitiveIDIn + first_triangle).r;
+  vec2 a = at[1] - at[0], b = at[2] - at[0];
+  float area = abs(a.x * b.y - a.y * b.x);
+  vec3 height = vec3(0.0), ink = vec3(0.0), reach = vec3(0.5 * wire_width);
+  for (int k = 0; k < 3; ++k) {
+    float side = length(at[(k + 1) % 3] - at[k]);
+    if ((mask >> k & 1u) == 0u || side <= 0.0) continue;
+    height[k] = area / side;
+    ink[k] = strength(height[k]);
+    if ((mask >> (k + 3) & 1u) != 0u) reach[k] = wire_width;
+  }
+  for (int k = 0; k < 3; ++k) {
+    vertex.world = corner[k].world;
+    vertex.normal = corner[k].normal;
+    vertex.paint = corner[k].paint;
+    vertex.bend = corner[k].bend;
+    vertex.to_edge = vec3(0.0);
+    vertex.to_edge[(k + 1) % 3] = height[(k + 1) % 3];  // the edge across from corner k
+    vertex.strength = ink;
+    vertex.reach = reach;
+    gl_Position = gl_in[k].gl_Position;
+    EmitVertex();
+  }
+  EndPrimitive();
+}

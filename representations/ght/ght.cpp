@@ -1,0 +1,141 @@
+#include "representations/ght/ght.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "representations/column_grid.h"
+#include "representations/heightmap/heightmap.h"
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+using namespace ght;
+
+std::vector<ParameterSpec> make_parameters() {
+  const std::span<const ParameterSpec> grid = column_parameters();
+  std::vector<ParameterSpec> specs(grid.begin(), grid.end());
+  specs.push_back({"events", true, "", "apply the terrain's events; without, its ground alone"});
+  specs.push_back({"most_cells", static_cast<std::int64_t>(Tree::kMostCells), "cells",
+                   "that the tree may hold", 1, static_cast<double>(Tree::kMostCells)});
+  return specs;
+}
+
+Lattice lattice_of(const Heightfield& field) {
+  return {field.width, field.depth, field.cell_x, field.cell_z, 0, 0};
+}
+
+std::unique_ptr<Ght> from_field(const Heightfield& field, const std::string& name,
+                                const Parameters& parameters) {
+  check_heights(field, name);
+  const auto resampled = at_resolution(field, parameters.integer("resolution"));
+  const Heightfield& ground = resampled ? *resampled : field;
+  const float cell = std::max(ground.cell_x, ground.cell_z);
+  return std::make_unique<Ght>(lattice_of(ground), ground.heights, height_range(ground).lowest - cell);
+}
+
+std::unique_ptr<Ght> from_solid(const TerrainSource& source, const Parameters& parameters,
+                                Progress& progress) {
+  const auto sampled = Heightmap::build(source, parameters, progress);
+  const auto& map = static_cast<const Heightmap&>(*sampled);
+  const HeightGrid& grid = map.grid();
+  const Lattice lattice = {
+      grid.width,    grid.depth,   static_cast<float>(grid.cell_x), static_cast<float>(grid.cell_z),
+      grid.origin_x, grid.origin_z};
+  return std::make_unique<Ght>(lattice, std::vector<float>(map.heights().begin(), map.heights().end()),
+                               grid.bounds.low.y);
+}
+
+// The solid stretches between crossings, which are sorted from the top down.
+void add_spans(std::span<const Crossing> crossings, float floor, SpanSink& out) {
+  std::array<Span, 64> found;  // from the top
+  std::size_t count = 0;
+  const auto add = [&](float bottom, float top) {
+    if (bottom >= top || count == found.size()) return;
+    if (count > 0 && found[count - 1].bottom <= top) {
+      found[count - 1].bottom = std::min(found[count - 1].bottom, bottom);
+    } else {
+      found[count++] = {bottom, top, Material::kBedrock};
+    }
+  };
+  int depth = 0;
+  float top = 0;
+  for (const Crossing& c : crossings) {
+    if (depth <= 0 && depth + c.weight > 0) top = c.y;
+    if (depth > 0 && depth + c.weight <= 0) add(c.y, top);
+    depth += c.weight;
+  }
+  if (depth > 0) add(floor, top);
+  while (count > 0) out.add(found[--count]);
+}
+
+}  // namespace
+
+std::span<const ParameterSpec> Ght::parameters() {
+  static const std::vector<ParameterSpec> specs = make_parameters();
+  return specs;
+}
+
+Ght::Ght(const Lattice& lattice, std::vector<float> heights, float floor) {
+  float highest = floor;
+  for (const float h : heights) highest = std::fmax(highest, h);
+  model_ = Model(Tree(lattice, std::move(heights)), floor, highest);
+}
+
+std::unique_ptr<Representation> Ght::build(const TerrainSource& source, const Parameters& parameters,
+                                           Progress& progress) {
+  std::unique_ptr<Ght> built = source.events    ? from_field(source.events->ground, source.name, parameters)
+                               : source.heights ? from_field(*source.heights, source.name, parameters)
+                                                : from_solid(source, parameters, progress);
+  built->limit_cells(static_cast<std::uint32_t>(parameters.integer("most_cells")));
+  if (source.events && parameters.flag("events")) {
+    progress.begin("ght", source.events->events.size());
+    for (const events::Event& event : source.events->events) {
+      built->apply(event);
+      progress.advance();
+    }
+  }
+  return built;
+}
+
+void Ght::spans(Columns where, SpanSink& out) const {
+  const Tree& tree = model_.tree;
+  const Surface& surface = model_.surface;
+  std::vector<Crossing> crossings;
+  for (std::size_t c = 0; c < where.size(); ++c) {
+    const float x = where.x[c], z = where.z[c];
+    Square s;
+    if (surface.find(x, z, s)) {
+      if (surface.simple(s)) {
+        if (!Surface::hole(tree, s)) {
+          const float top = Surface::plain_height(tree, x, z, s);
+          if (top > model_.floor) out.add({model_.floor, top, Material::kBedrock});
+        }
+      } else {
+        crossings.clear();
+        surface.crossings(tree, x, z, s, crossings);
+        std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
+          return a.y > b.y || (a.y == b.y && a.weight > b.weight);
+        });
+        add_spans(crossings, model_.floor, out);
+      }
+    }
+    out.end_column();
+  }
+}
+
+Memory Ght::memory() const {
+  Memory memory = model_.tree.memory();
+  memory += model_.surface.memory();
+  memory += model_.index.memory();
+  memory.index += heap_bytes(this);
+  return memory;
+}
+
+Bounds Ght::bounds() const {
+  const Lattice& lattice = model_.tree.lattice();
+  return {{lattice.x(0), model_.floor, lattice.z(0)},
+          {lattice.x(lattice.width - 1), model_.ceiling, lattice.z(lattice.depth - 1)}};
+}
+
+}  // namespace terrabench

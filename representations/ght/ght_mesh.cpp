@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <cmath>
+
+#include "representations/column_grid.h"
+#include "representations/ght/ght.h"
+#include "representations/heightmap/closed_mesh.h"
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+using namespace ght;
+
+// The four squares around a sample, as bits.
+enum Quadrant : unsigned { kNorthWest = 1, kNorthEast = 2, kSouthWest = 4, kSouthEast = 8 };
+
+// Plain squares and faces above, the squares again at the floor, walls where a square has no neighbour.
+// Events keep away from the border and from holes, so that walls stand under plain squares only.
+class Mesher {
+ public:
+  explicit Mesher(const Model& model) : model_(model), tree_(model.tree), lattice_(model.tree.lattice()) {}
+
+  TriangleMesh run() {
+    if (lattice_.width < 2 || lattice_.depth < 2) return {};
+    // A top and a floor vertex a sample, two triangles a square on each, and the faces.
+    require_memory(lattice_.samples() * (2 * sizeof(glm::vec3) + 12 * sizeof(std::uint32_t)) +
+                       model_.surface.faces() * (sizeof(glm::vec3) / 2 + 3 * sizeof(std::uint32_t)) +
+                       (tree_.cells() + 2 * lattice_.samples()) * sizeof(std::uint32_t),
+                   "mesh of a grounded heightmap tree");
+    vertex_of_.assign(tree_.cells(), kNone);
+    tops_.assign(lattice_.samples(), {kNone, kNone});
+    floors_.assign(lattice_.samples(), {kNone, kNone});
+    for (int j = 0; j < lattice_.depth; ++j) {
+      for (int i = 0; i < lattice_.width; ++i) place(i, j);
+    }
+    for (int j = 0; j + 1 < lattice_.depth; ++j) {
+      for (int i = 0; i + 1 < lattice_.width; ++i) {
+        if (ground(i, j)) emit({i, j});
+      }
+    }
+    model_.surface.each_face([&](FaceId f) {
+      for (const CellId c : model_.surface.face(f)) mesh_.indices.push_back(vertex(c));
+    });
+    return std::move(mesh_);
+  }
+
+ private:
+  // The vertex of a sample as the squares south and north of it use it: two where squares touch at a corner
+  // only.
+  struct Vertices {
+    std::uint32_t south, north;
+  };
+
+  bool ground(int i, int j) const {
+    return i >= 0 && j >= 0 && i + 1 < lattice_.width && j + 1 < lattice_.depth &&
+           !Surface::hole(tree_, {i, j});
+  }
+  std::uint32_t add(glm::vec3 position) {
+    if (mesh_.positions.size() == kNone) {
+      throw usage_error("has more than 2³² vertices", "mesh of a grounded heightmap tree",
+                        "ask for larger cells");
+    }
+    mesh_.positions.push_back(position);
+    return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
+  }
+  std::uint32_t vertex(CellId c) {
+    if (vertex_of_[c] == kNone) vertex_of_[c] = add(tree_.position(c));
+    return vertex_of_[c];
+  }
+
+  void place(int i, int j) {
+    const unsigned around = (ground(i - 1, j - 1) ? kNorthWest : 0U) | (ground(i, j - 1) ? kNorthEast : 0U) |
+                            (ground(i - 1, j) ? kSouthWest : 0U) | (ground(i, j) ? kSouthEast : 0U);
+    if (around == 0) return;
+    const bool doubled = around == (kNorthWest | kSouthEast) || around == (kNorthEast | kSouthWest);
+    const std::size_t at = static_cast<std::size_t>(j) * lattice_.width + i;
+    const glm::vec3 floor = {lattice_.x(i), model_.floor, lattice_.z(j)};
+    floors_[at].south = floors_[at].north = add(floor);
+    if (doubled) floors_[at].north = add(floor);
+    bool plain = false;
+    for (int k = 0; k < 4 && !plain; ++k) {
+      const Square s{i - k % 2, j - k / 2};
+      plain = ground(s.i, s.j) && !model_.surface.covered(s);
+    }
+    if (!plain) return;
+    const CellId c = tree_.at_sample(i, j);
+    tops_[at].south = tops_[at].north = vertex(c);
+    if (doubled) tops_[at].north = add(tree_.position(c));
+  }
+
+  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    mesh_.indices.insert(mesh_.indices.end(), {a, b, c});
+  }
+
+  void emit(Square s) {
+    const std::size_t north = static_cast<std::size_t>(s.j) * lattice_.width + s.i,
+                      south = north + lattice_.width;
+    const std::uint32_t nw = tops_[north].south, ne = tops_[north + 1].south;
+    const std::uint32_t sw = tops_[south].north, se = tops_[south + 1].north;
+    const std::uint32_t nw0 = floors_[north].south, ne0 = floors_[north + 1].south;
+    const std::uint32_t sw0 = floors_[south].north, se0 = floors_[south + 1].north;
+    triangle(nw0, ne0, sw0);
+    triangle(ne0, se0, sw0);
+    if (model_.surface.covered(s)) return;
+    triangle(nw, sw, ne);
+    triangle(ne, sw, se);
+    // From a to b with the ground on the left, seen from above: the wall faces right.
+    const auto wall = [&](std::uint32_t a, std::uint32_t b, std::uint32_t a0, std::uint32_t b0) {
+      triangle(a0, b0, b);
+      triangle(a0, b, a);
+    };
+    if (!ground(s.i, s.j + 1)) wall(sw, se, sw0, se0);
+    if (!ground(s.i + 1, s.j)) wall(se, ne, se0, ne0);
+    if (!ground(s.i, s.j - 1)) wall(ne, nw, ne0, nw0);
+    if (!ground(s.i - 1, s.j)) wall(nw, sw, nw0, sw0);
+  }
+
+  const Model& model_;
+  const Tree& tree_;
+  const Lattice& lattice_;
+  TriangleMesh mesh_;
+  std::vector<std::uint32_t> vertex_of_;  // a cell
+  std::vector<Vertices> tops_, floors_;   // a sample
+};
+
+// About `cell` apart, from end to end.
+std::vector<float> lines(float low, float high, float cell) {
+  const int cells = static_cast<int>(
+      std::clamp(std::round((high - low) / cell), 1.0F, static_cast<float>(ColumnGrid::kMaxColumns)));
+  std::vector<float> at;
+  for (int i = 0; i < cells; ++i)
+    at.push_back(low + (high - low) * static_cast<float>(i) / static_cast<float>(cells));
+  at.push_back(high);
+  return at;
+}
+
+}  // namespace
+
+TriangleMesh Ght::mesh(MeshDetail detail) const {
+  const Bounds box = bounds();
+  if (!(detail.cell > 0) || box.high.x <= box.low.x || box.high.z <= box.low.z) return Mesher(model_).run();
+  const std::vector<float> x = lines(box.low.x, box.high.x, detail.cell),
+                           z = lines(box.low.z, box.high.z, detail.cell);
+  require_memory(x.size() * z.size() * sizeof(float), "mesh of a grounded heightmap tree");
+  std::vector<float> tops(x.size() * z.size());
+  for (std::size_t k = 0; k < tops.size(); ++k) {
+    tops[k] = model_.surface.top(model_.tree, {x[k % x.size()], z[k / x.size()]});
+  }
+  return closed_mesh(x, z, tops, model_.floor);
+}
+
+}  // namespace terrabench

@@ -1,0 +1,226 @@
+#include "representations/ght/invariants.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace terrabench::ght {
+namespace {
+
+struct Edge {
+  CellId from, to;
+  auto operator<=>(const Edge&) const = default;
+};
+
+class Inspector {
+ public:
+  explicit Inspector(const Model& model) : model_(model), tree_(model.tree), surface_(model.surface) {}
+
+  std::vector<std::string> run() {
+    nodes();
+    counts();
+    faces();
+    links();
+    edges();
+    boundaries();
+    return std::move(problems_);
+  }
+
+ private:
+  void expect(std::size_t wrong, std::string_view what) {
+    if (wrong > 0) problems_.push_back(fmt::format("{}: {}", what, wrong));
+  }
+
+  void nodes() {
+    std::size_t wrong = 0;
+    for (NodeId n = 1; n < tree_.nodes().size(); ++n) {
+      const Node& node = tree_.nodes()[n];
+      wrong += node.parent >= n || node.depth != tree_.nodes()[node.parent].depth + 1;
+    }
+    expect(wrong, "nodes whose parent is not above them");
+  }
+
+  std::size_t borders(const Applied& event) const {
+    std::size_t n = 0;
+    for (NodeId k = event.first; k < event.first + event.nodes; ++k) {
+      n += tree_.nodes()[k].area == Area::kBorder;
+    }
+    return n;
+  }
+
+  void counts() {
+    std::size_t wrong = 0, of_events = 0;
+    for (const Applied& event : tree_.events()) {
+      of_events += event.nodes;
+      switch (event.kind) {
+        case events::Kind::kLinearErosion:
+          wrong += event.nodes != 4;
+          break;
+        case events::Kind::kRadialErosion:
+          wrong += event.nodes != 1;
+          break;
+        case events::Kind::kNormalFault:
+        case events::Kind::kInverseFault:
+          wrong += event.nodes != 3;
+          break;
+        case events::Kind::kLateralFault:
+          wrong += event.nodes != 2;
+          break;
+        case events::Kind::kTunnel:
+          wrong += borders(event) != 2 || event.nodes < 2 + 3;  // and the sides, at least three
+          break;
+        case events::Kind::kCave:
+          wrong += borders(event) != 1 || event.nodes < 2 + 3;
+          break;
+      }
+    }
+    expect(wrong, "events that added another number of heightmaps than the paper's");
+    expect(of_events + 1 != tree_.nodes().size() ? 1 : 0, "heightmaps that no event added");
+  }
+
+  template <class Visit>  // visit(Face) for all triangles of the surface, plain squares' too
+  void each_triangle(const Visit& visit) const {
+    const Lattice& lattice = tree_.lattice();
+    for (int j = 0; j + 1 < lattice.depth; ++j) {
+      for (int i = 0; i + 1 < lattice.width; ++i) {
+        if (!surface_.plain(tree_, {i, j})) continue;
+        for (const Face& face : Surface::plain_faces(Surface::corners(tree_, {i, j}))) visit(face);
+      }
+    }
+    surface_.each_face([&](FaceId f) { visit(surface_.face(f)); });
+  }
+
+  void faces() {
+    std::size_t empty = 0, elsewhere = 0, unindexed = 0;
+    used_.assign(tree_.cells(), 0);
+    each_triangle([&](const Face& face) {
+      for (const CellId c : face) {
+        empty += tree_.kind(c) != CellKind::kHeight;
+        used_[c] = 1;
+      }
+    });
+    const Lattice& lattice = tree_.lattice();
+    for (int j = 0; j + 1 < lattice.depth; ++j) {
+      for (int i = 0; i + 1 < lattice.width; ++i) {
+        if (!surface_.plain(tree_, {i, j})) continue;
+        for (int k = 0; k < 4; ++k) {
+          const glm::vec2 at = tree_.plan(tree_.at_sample(i + k % 2, j + k / 2));
+          elsewhere += at != glm::vec2(lattice.x(i + k % 2), lattice.z(j + k / 2));
+        }
+      }
+    }
+    surface_.each_face([&](FaceId f) {
+      const SquareRange r = surface_.range(tree_, surface_.face(f));
+      for (int j = r.j0; j <= r.j1; ++j) {
+        for (int i = r.i0; i <= r.i1; ++i) {
+          bool found = false;
+          surface_.over({i, j}, [&](FaceId other) { found = found || other == f; });
+          unindexed += !found;
+        }
+      }
+    });
+    expect(empty, "corners of the surface that hold no height");
+    expect(elsewhere, "plain squares' corners that stand elsewhere");
+    expect(unindexed, "faces that are not found where they are");
+  }
+
+  void links() {
+    std::size_t backwards = 0, dangling = 0;
+    for (CellId c = 0; c < tree_.cells(); ++c) {
+      if (tree_.kind(c) != CellKind::kLink) continue;
+      if (tree_.target(c) <= c) {
+        ++backwards;
+        continue;
+      }
+      const CellId end = tree_.resolve(c);
+      // Over the mouth of a carving the paper's links are null: here they end in an empty cell of the border.
+      const bool null =
+          tree_.kind(end) == CellKind::kVoid && tree_.nodes()[tree_.node_of(end)].area == Area::kBorder;
+      dangling += !null && used_[end] == 0;
+    }
+    expect(backwards, "links that do not lead to later cells");
+    expect(dangling, "links that do not lead to the surface");
+  }
+
+  void edges() {
+    std::vector<Edge> all;
+    each_triangle([&](const Face& face) {
+      for (std::size_t k = 0; k < 3; ++k) all.push_back({face[k], face[(k + 1) % 3]});
+    });
+    std::sort(all.begin(), all.end());
+    std::size_t twice = 0, open = 0;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      twice += k > 0 && all[k] == all[k - 1];
+      if (!std::binary_search(all.begin(), all.end(), Edge{all[k].to, all[k].from})) open += !at_rim(all[k]);
+    }
+    expect(twice, "edges that two faces run the same way");
+    expect(open, "edges with one face only");
+  }
+  // Between two neighbouring samples with nothing beyond: the terrain's border or a hole.
+  bool at_rim(const Edge& edge) const {
+    const Lattice& lattice = tree_.lattice();
+    const glm::vec2 a = tree_.plan(edge.from), b = tree_.plan(edge.to);
+    const SquareRange r =
+        surface_.range({std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)});
+    if (a.x == b.x && (a.x == lattice.x(0) || a.x == lattice.x(lattice.width - 1))) return true;
+    if (a.y == b.y && (a.y == lattice.z(0) || a.y == lattice.z(lattice.depth - 1))) return true;
+    for (int j = r.j0; j <= r.j1; ++j) {
+      for (int i = r.i0; i <= r.i1; ++i) {
+        if (Surface::hole(tree_, {i, j})) return true;
+      }
+    }
+    return false;
+  }
+
+  void boundaries() {
+    std::size_t one_way = 0;
+    std::vector<CellId> there, back;
+    surface_.each_face([&](FaceId f) {
+      const Face& face = surface_.face(f);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const CellId a = face[k], b = face[(k + 1) % 3];
+        if (tree_.node_of(a) == tree_.node_of(b)) continue;
+        boundary_links(model_, a, there);
+        boundary_links(model_, b, back);
+        one_way += std::find(there.begin(), there.end(), b) == there.end() ||
+                   std::find(back.begin(), back.end(), a) == back.end();
+      }
+    });
+    expect(one_way, "boundary links that run one way");
+  }
+
+  const Model& model_;
+  const Tree& tree_;
+  const Surface& surface_;
+  std::vector<char> used_;  // by the surface, a cell
+  std::vector<std::string> problems_;
+};
+
+}  // namespace
+
+Census census(const Model& model) {
+  const Tree& tree = model.tree;
+  Census all;
+  all.nodes = tree.nodes().size();
+  all.faces = model.surface.faces();
+  for (const Node& node : tree.nodes()) all.deepest = std::max(all.deepest, node.depth);
+  for (CellId c = 0; c < tree.cells(); ++c) {
+    const CellKind kind = tree.kind(c);
+    ++(kind == CellKind::kHeight ? all.heights : kind == CellKind::kLink ? all.links : all.voids);
+  }
+  std::vector<std::pair<CellId, CellId>> pairs;
+  model.surface.each_face([&](FaceId f) {
+    const Face& face = model.surface.face(f);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(face[k], face[(k + 1) % 3]);
+      if (tree.node_of(a) != tree.node_of(b)) pairs.emplace_back(a, b);
+    }
+  });
+  std::sort(pairs.begin(), pairs.end());
+  all.boundary_links = static_cast<std::size_t>(std::unique(pairs.begin(), pairs.end()) - pairs.begin());
+  return all;
+}
+
+std::vector<std::string> broken_invariants(const Model& model) { return Inspector(model).run(); }
+
+}  // namespace terrabench::ght

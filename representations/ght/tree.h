@@ -1,0 +1,169 @@
+// The Grounded Heightmap Tree (Alonso, Joan-Arinyo & Solano, "The Grounded Heightmap Tree", §3.1, figure 11):
+// nodes are arrays of cells over a ground plane, a cell holds a height, a link to a cell of another node, or
+// nothing. The paper's cells are structs with pointers (20 to 24 B); here all cells lie in one arena, 4 B a
+// cell and 2 bits that say what they are, nodes ascend with their cells, and links are cell numbers.
+//
+// Links only ever point to later cells: so nothing can link in a circle, and a node's parent is an earlier
+// one. Reading a cell is O(1); the node of a cell O(1) amortised.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <vector>
+
+#include "representations/ght/frame.h"
+#include "terrain/events/event.h"
+#include "terrain/files.h"
+#include "terrain/heightfield.h"
+#include "terrain/memory.h"
+
+namespace terrabench::ght {
+
+using CellId = std::uint32_t;
+using NodeId = std::uint32_t;
+inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+enum class CellKind : std::uint8_t { kVoid, kHeight, kLink };
+// The paper's tag. A border node leads from the ground into a carving.
+enum class Area : std::uint8_t { kOutdoor, kIndoor, kBorder };
+
+// Where the root's samples stand.
+struct Lattice {
+  int width = 0, depth = 0;
+  float cell_x = 1, cell_z = 1;
+  double origin_x = 0, origin_z = 0;  // of sample (0, 0)
+
+  float x(int i) const { return static_cast<float>(origin_x + i * static_cast<double>(cell_x)); }
+  float z(int j) const { return static_cast<float>(origin_z + j * static_cast<double>(cell_z)); }
+  // Samples from the first one, as real numbers.
+  glm::dvec2 samples_to(glm::dvec2 plan) const {
+    return {(plan.x - origin_x) / cell_x, (plan.y - origin_z) / cell_z};
+  }
+  float cell() const { return std::min(cell_x, cell_z); }
+  std::size_t samples() const { return static_cast<std::size_t>(width) * depth; }
+};
+
+struct Node {
+  Frame frame;       // of no use when aligned
+  CellId first = 0;  // cell (0, 0); rows follow one another
+  int columns = 0, rows = 0;
+  NodeId parent = kNone;
+  std::uint32_t event = kNone;  // number of the event that made it
+  std::uint32_t depth = 0;      // of nodes above it
+  Area area = Area::kOutdoor;
+  bool aligned = false;  // its cells stand on the root's samples, from (i0, j0) on
+  int i0 = 0, j0 = 0;
+
+  std::uint32_t cells() const {
+    return static_cast<std::uint32_t>(columns) * static_cast<std::uint32_t>(rows);
+  }
+  CellId cell(int i, int j) const {
+    return first + static_cast<std::uint32_t>(j) * static_cast<std::uint32_t>(columns) +
+           static_cast<std::uint32_t>(i);
+  }
+};
+
+// What an event did: nodes [first, first + nodes) attached to `host`.
+struct Applied {
+  events::Kind kind;
+  NodeId host, first, nodes;
+};
+
+class Tree {
+ public:
+  static constexpr std::uint32_t kMostCells = kNone - 1;
+
+  Tree() = default;
+  // The root alone: a cell for every sample, void where there is no data.
+  Tree(const Lattice& lattice, std::vector<float> heights);
+
+  const Lattice& lattice() const { return lattice_; }
+  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<Applied>& events() const { return events_; }
+  std::uint32_t cells() const { return static_cast<std::uint32_t>(cells_.size()); }
+  // Whether a sample of the root holds nothing; unchanged by events, which refuse such ground.
+  bool has_holes() const { return has_holes_; }
+
+  CellKind kind(CellId c) const {
+    return static_cast<CellKind>(kinds_[c / kPerWord] >> (c % kPerWord * 2) & 3U);
+  }
+  float height(CellId c) const { return std::bit_cast<float>(cells_[c]); }  // of a height
+  CellId target(CellId c) const { return cells_[c]; }                       // of a link
+  // The height that a cell's links lead to; a void is itself.
+  CellId resolve(CellId c) const {
+    while (kind(c) == CellKind::kLink) c = target(c);
+    return c;
+  }
+  NodeId node_of(CellId c) const {
+    NodeId node = pages_[c / kPage];
+    while (node + 1 < nodes_.size() && nodes_[node + 1].first <= c) ++node;
+    return node;
+  }
+  glm::vec3 position(CellId c) const { return position(nodes_[node_of(c)], c); }  // of a height
+  // x and z alone.
+  glm::vec2 plan(CellId c) const {
+    const glm::vec3 p = position(c);
+    return {p.x, p.z};
+  }
+  CellId root_cell(int i, int j) const {
+    return static_cast<std::uint32_t>(j) * static_cast<std::uint32_t>(lattice_.width) +
+           static_cast<std::uint32_t>(i);
+  }
+  // The cell that now stands at a sample of the root, if any stands there.
+  CellId at_sample(int i, int j) const { return resolve(root_cell(i, j)); }
+
+  // Appends a node of void cells; its first cell and depth are filled in. Throws environment_error when there
+  // are no more cell numbers or no memory; the tree is as before then.
+  NodeId append(Node node);
+  void append(const Applied& event) { events_.push_back(event); }
+  void set_void(CellId c) { set(c, 0, CellKind::kVoid); }
+  void set_height(CellId c, float height) { set(c, std::bit_cast<std::uint32_t>(height), CellKind::kHeight); }
+  void set_link(CellId c, CellId target) { set(c, target, CellKind::kLink); }
+  // Takes the last nodes away again.
+  void truncate(std::size_t nodes) noexcept;
+  // Refuses to hold more cells.
+  void limit_cells(std::uint32_t most) { most_cells_ = most; }
+  void reserve_event() { grow(events_, events_.size() + 1); }
+
+  Memory memory() const;
+  void save(ByteSink&) const;
+  static Tree load(ByteSource&);  // throws bad_input
+
+  // Room for `size` elements, at least doubled when there is too little.
+  template <class T>
+  static void grow(std::vector<T>& v, std::size_t size) {
+    if (size > v.capacity()) v.reserve(std::max(size, 2 * v.capacity()));
+  }
+
+ private:
+  static constexpr std::uint32_t kPerWord = 16, kPage = 64;
+
+  glm::vec3 position(const Node& node, CellId c) const {
+    const auto at = static_cast<int>(c - node.first);
+    const int i = at % node.columns, j = at / node.columns;
+    if (node.aligned) return {lattice_.x(node.i0 + i), height(c), lattice_.z(node.j0 + j)};
+    return glm::vec3(node.frame.at(i, j, height(c)));
+  }
+  void set(CellId c, std::uint32_t payload, CellKind kind) {
+    cells_[c] = payload;
+    std::uint32_t& word = kinds_[c / kPerWord];
+    const std::uint32_t shift = c % kPerWord * 2;
+    word = (word & ~(3U << shift)) | static_cast<std::uint32_t>(kind) << shift;
+  }
+  void resize_cells(std::size_t cells, NodeId node);
+
+  Lattice lattice_;
+  std::vector<std::uint32_t> cells_;  // heights' bits, links' targets
+  std::vector<std::uint32_t> kinds_;  // 2 bits a cell
+  std::vector<NodeId> pages_;         // the node of every kPage-th cell
+  std::vector<Node> nodes_;
+  std::vector<Applied> events_;
+  std::uint32_t most_cells_ = kMostCells;
+  bool has_holes_ = false;
+};
+
+}  // namespace terrabench::ght

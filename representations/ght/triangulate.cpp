@@ -1,0 +1,235 @@
+#include "representations/ght/triangulate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <queue>
+
+namespace terrabench::ght {
+namespace {
+
+// Points by square of side `cell`, in one sorted array.
+class PointHash {
+ public:
+  PointHash(std::span<const glm::dvec2> points, double cell) : per_cell_(1 / cell) {
+    entries_.reserve(points.size());
+    for (std::uint32_t i = 0; i < points.size(); ++i) entries_.push_back({key(points[i]), i});
+    std::sort(entries_.begin(), entries_.end());
+  }
+  // Calls visit(point) for those around the box, and perhaps others, until it says true; whether one did.
+  template <class Visit>
+  bool any(glm::dvec2 low, glm::dvec2 high, const Visit& visit) const {
+    const auto [row_low, column_low] = key(low);
+    const auto [row_high, column_high] = key(high);
+    // A box of more rows than there are points is searched by looking at all.
+    if (row_high - row_low > static_cast<std::int64_t>(entries_.size())) {
+      return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) { return visit(e.point); });
+    }
+    for (std::int64_t row = row_low; row <= row_high; ++row) {
+      auto at = std::lower_bound(entries_.begin(), entries_.end(), Entry{{row, column_low}, 0});
+      for (; at != entries_.end() && at->key <= std::pair(row, column_high); ++at) {
+        if (visit(at->point)) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  using Key = std::pair<std::int64_t, std::int64_t>;  // row, column
+  struct Entry {
+    Key key;
+    std::uint32_t point;
+    auto operator<=>(const Entry&) const = default;
+  };
+  Key key(glm::dvec2 p) const {
+    return {static_cast<std::int64_t>(std::floor(p.y * per_cell_)),
+            static_cast<std::int64_t>(std::floor(p.x * per_cell_))};
+  }
+
+  double per_cell_;
+  std::vector<Entry> entries_;
+};
+
+// Twice the area over the square of the longest side: 0.87 for an equilateral triangle, 0 for a line.
+double shape(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
+  const glm::dvec2 u = b - a, v = c - b, w = a - c;
+  const double longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});
+  return longest > 0 ? turn(a, b, c) / longest : 0;
+}
+
+double mean_side(std::span<const glm::dvec2> points) {
+  double length = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    length += glm::distance(points[i], points[(i + 1) % points.size()]);
+  }
+  return std::max(length / static_cast<double>(points.size()), 1e-9);
+}
+
+class EarCutter {
+ public:
+  // `polygon` lists points in order; one may come twice, where a bridge leads to and from a hole.
+  EarCutter(std::span<const glm::dvec2> points, std::vector<std::uint32_t> polygon, double cell)
+      : points_(points), polygon_(std::move(polygon)), hash_(corners(), cell) {
+    const std::size_t n = polygon_.size();
+    next_.resize(n);
+    previous_.resize(n);
+    for (std::uint32_t i = 0; i < n; ++i) {
+      next_[i] = static_cast<std::uint32_t>((i + 1) % n);
+      previous_[i] = static_cast<std::uint32_t>((i + n - 1) % n);
+    }
+    gone_.assign(n, 0);
+    version_.assign(n, 0);
+    waiting_.assign(n, kNobody);
+  }
+
+  std::optional<std::vector<Triangle>> run(const Joined& joined) {
+    std::size_t left = polygon_.size();
+    for (std::uint32_t at = 0; at < left; ++at) consider(at);
+    while (left > 3 && !candidates_.empty()) {
+      const Candidate best = candidates_.top();
+      candidates_.pop();
+      if (gone_[best.at] != 0 || best.version != version_[best.at]) continue;
+      if (const std::uint32_t blocking = blocker(best.at); blocking != kNobody) {
+        waits_.push_back({best.at, waiting_[blocking]});
+        waiting_[blocking] = static_cast<std::uint32_t>(waits_.size() - 1);
+        continue;
+      }
+      const std::uint32_t before = previous_[best.at], after = next_[best.at];
+      if (joined(polygon_[before], polygon_[after])) continue;
+      cut(best.at);
+      --left;
+      for (const std::uint32_t changed : {before, after}) {
+        ++version_[changed];
+        consider(changed);
+      }
+      for (std::uint32_t w = waiting_[best.at]; w != kNobody; w = waits_[w].next) consider(waits_[w].at);
+    }
+    const auto last = static_cast<std::uint32_t>(std::find(gone_.begin(), gone_.end(), 0) - gone_.begin());
+    if (left != 3 || turn(corner(previous_[last]), corner(last), corner(next_[last])) < 0)
+      return std::nullopt;
+    cut(last);
+    return std::move(triangles_);
+  }
+
+ private:
+  std::vector<glm::dvec2> corners() const {
+    std::vector<glm::dvec2> all;
+    all.reserve(polygon_.size());
+    for (const std::uint32_t p : polygon_) all.push_back(points_[p]);
+    return all;
+  }
+  glm::dvec2 corner(std::uint32_t at) const { return points_[polygon_[at]]; }
+
+  // A corner that could be an ear: first those that leave a short side behind and are no sliver.
+  void consider(std::uint32_t at) {
+    const std::uint32_t before = previous_[at], after = next_[at];
+    if (gone_[at] != 0 || polygon_[before] == polygon_[after]) return;  // or the bridge's far end
+    const glm::dvec2 a = corner(before), b = corner(at), c = corner(after), side = c - a;
+    const double form = shape(a, b, c);
+    if (form >= 0) candidates_.push({glm::dot(side, side) / std::max(form, 1e-12), at, version_[at]});
+  }
+
+  // A corner that lies in the ear.
+  std::uint32_t blocker(std::uint32_t at) const {
+    const std::uint32_t before = previous_[at], after = next_[at];
+    const glm::dvec2 a = corner(before), b = corner(at), c = corner(after);
+    std::uint32_t found = kNobody;
+    const auto blocks = [&](std::uint32_t other) {
+      if (gone_[other] != 0 || other == before || other == at || other == after) return false;
+      const glm::dvec2 q = corner(other);
+      if (q == a || q == b || q == c) return false;
+      if (turn(a, b, q) < 0 || turn(b, c, q) < 0 || turn(c, a, q) < 0) return false;
+      found = other;
+      return true;
+    };
+    const glm::dvec2 low = {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})};
+    const glm::dvec2 high = {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
+    hash_.any(low, high, blocks);
+    return found;
+  }
+
+  void cut(std::uint32_t at) {
+    triangles_.push_back({polygon_[previous_[at]], polygon_[at], polygon_[next_[at]]});
+    next_[previous_[at]] = next_[at];
+    previous_[next_[at]] = previous_[at];
+    gone_[at] = 1;
+  }
+
+  static constexpr std::uint32_t kNobody = 0xFFFFFFFF;
+  struct Candidate {
+    double cost;
+    std::uint32_t at, version;
+    bool operator<(const Candidate& other) const {  // the cheapest is on top
+      return cost > other.cost || (cost == other.cost && at > other.at);
+    }
+  };
+
+  std::span<const glm::dvec2> points_;
+  std::vector<std::uint32_t> polygon_, next_, previous_;
+  std::vector<std::uint32_t> version_;  // counts the changes of a corner's neighbours
+  std::vector<std::uint32_t> waiting_;  // first of the corners that could be ears but for this one
+  struct Wait {
+    std::uint32_t at, next;
+  };
+  std::vector<Wait> waits_;
+  std::vector<char> gone_;
+  std::priority_queue<Candidate> candidates_;
+  PointHash hash_;
+  std::vector<Triangle> triangles_;
+};
+
+bool cross(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
+  return turn(a, b, c) * turn(a, b, d) <= 0 && turn(c, d, a) * turn(c, d, b) <= 0;
+}
+
+// The nearest outer point that inner point 0 sees.
+std::optional<std::uint32_t> find_bridge(std::span<const glm::dvec2> points, std::size_t outer) {
+  const glm::dvec2 from = points[outer];
+  std::vector<std::uint32_t> nearest(outer);
+  std::iota(nearest.begin(), nearest.end(), 0U);
+  std::sort(nearest.begin(), nearest.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const glm::dvec2 u = points[a] - from, v = points[b] - from;
+    return std::pair(glm::dot(u, u), a) < std::pair(glm::dot(v, v), b);
+  });
+  for (const std::uint32_t to : nearest) {
+    bool blocked = false;
+    for (std::size_t i = 0; i < points.size() && !blocked; ++i) {
+      const std::size_t j = i + 1 == outer ? 0 : i + 1 == points.size() ? outer : i + 1;
+      if (i == to || j == to || i == outer || j == outer) continue;
+      blocked = cross(from, points[to], points[i], points[j]);
+    }
+    if (!blocked) return to;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::vector<Triangle>> triangulate(std::span<const glm::dvec2> points) {
+  if (points.size() < 3) return std::nullopt;
+  std::vector<std::uint32_t> polygon(points.size());
+  std::iota(polygon.begin(), polygon.end(), 0U);
+  return EarCutter(points, std::move(polygon), mean_side(points)).run([](std::uint32_t, std::uint32_t) {
+    return false;
+  });
+}
+
+std::optional<std::vector<Triangle>> triangulate_ring(std::span<const glm::dvec2> outer,
+                                                      std::span<const glm::dvec2> inner,
+                                                      const Joined& joined) {
+  if (outer.size() < 3 || inner.size() < 3) return std::nullopt;
+  std::vector<glm::dvec2> points(outer.begin(), outer.end());
+  points.insert(points.end(), inner.begin(), inner.end());
+  const std::optional<std::uint32_t> bridge = find_bridge(points, outer.size());
+  if (!bridge) return std::nullopt;
+  // Around the outer loop from the bridge, over it, around the inner loop the other way, and back.
+  const auto n = static_cast<std::uint32_t>(outer.size()), m = static_cast<std::uint32_t>(inner.size());
+  std::vector<std::uint32_t> polygon;
+  polygon.reserve(points.size() + 2);
+  for (std::uint32_t k = 0; k <= n; ++k) polygon.push_back((*bridge + k) % n);
+  for (std::uint32_t k = 0; k <= m; ++k) polygon.push_back(n + (m - k) % m);
+  return EarCutter(points, std::move(polygon), mean_side(inner)).run(joined);
+}
+
+}  // namespace terrabench::ght

@@ -1,0 +1,278 @@
+#include "terrain/events/event_file.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "terrain/error.h"
+#include "terrain/events/evaluate.h"
+
+namespace terrabench::events {
+namespace {
+
+constexpr std::size_t kMostEvents = 20000;
+constexpr int kMostSamples = 8193;  // a side
+
+std::string place(const std::string& origin, std::size_t line) { return fmt::format("{}:{}", origin, line); }
+
+[[noreturn]] void fail(const toml::node& node, const std::string& origin, std::string_view what,
+                       std::string_view advice) {
+  throw bad_input(what, place(origin, node.source().begin.line), advice);
+}
+
+// One table: every key is asked for by type, and one that nobody asked for is an error.
+class Entry {
+ public:
+  Entry(const toml::table& table, const std::string& origin) : table_(table), origin_(origin) {}
+
+  const toml::node* find(std::string_view key) {
+    known_.insert(key);
+    return table_.get(key);
+  }
+  const toml::node& get(std::string_view key) {
+    const toml::node* const node = find(key);
+    if (node == nullptr) fail(table_, origin_, fmt::format("'{}' is missing", key), "add it");
+    return *node;
+  }
+  std::string text(std::string_view key) {
+    const toml::node& node = get(key);
+    if (!node.is_string()) fail(node, origin_, fmt::format("'{}' is not text", key), "put it in quotes");
+    return node.ref<std::string>();
+  }
+  std::int64_t integer_or(std::string_view key, std::int64_t fallback, std::int64_t lowest,
+                          std::int64_t highest) {
+    const toml::node* const node = find(key);
+    if (node == nullptr) return fallback;
+    if (!node->is_integer() || node->ref<std::int64_t>() < lowest || node->ref<std::int64_t>() > highest) {
+      fail(*node, origin_, fmt::format("'{}' is no integer from {} to {}", key, lowest, highest), "give one");
+    }
+    return node->ref<std::int64_t>();
+  }
+  double number(std::string_view key) { return number_of(get(key), key); }
+  double number_or(std::string_view key, double fallback) {
+    const toml::node* const node = find(key);
+    return node == nullptr ? fallback : number_of(*node, key);
+  }
+  glm::dvec2 pair(std::string_view key) { return pair_of(get(key), key); }
+  glm::dvec3 triple(std::string_view key) {
+    const toml::array& array = list_of(get(key), key, 3);
+    return {number_of(array[0], key), number_of(array[1], key), number_of(array[2], key)};
+  }
+  std::vector<glm::dvec2> pairs(std::string_view key) {
+    std::vector<glm::dvec2> points;
+    for (const toml::node& node : list_of(get(key), key, 0)) points.push_back(pair_of(node, key));
+    return points;
+  }
+  void refuse_unknown() const {
+    for (const auto& [key, value] : table_) {
+      if (known_.contains(key.str())) continue;
+      fail(value, origin_, fmt::format("unknown key '{}'", key.str()),
+           fmt::format("the keys here are: {}", fmt::join(known_, ", ")));
+    }
+  }
+
+ private:
+  double number_of(const toml::node& node, std::string_view key) const {
+    const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!value) fail(node, origin_, fmt::format("'{}' needs numbers", key), "give one here");
+    return *value;
+  }
+  // Of any size when `size` is 0.
+  const toml::array& list_of(const toml::node& node, std::string_view key, std::size_t size) const {
+    const toml::array* const array = node.as_array();
+    if (array == nullptr || (size > 0 && array->size() != size)) {
+      fail(node, origin_,
+           fmt::format("'{}' is not a list{}", key, size > 0 ? fmt::format(" of {}", size) : ""),
+           "write numbers in square brackets");
+    }
+    return *array;
+  }
+  glm::dvec2 pair_of(const toml::node& node, std::string_view key) const {
+    const toml::array& array = list_of(node, key, 2);
+    return {number_of(array[0], key), number_of(array[1], key)};
+  }
+
+  const toml::table& table_;
+  const std::string& origin_;
+  std::set<std::string_view> known_;
+};
+
+Kind kind_of(Entry& entry, const toml::table& table, const std::string& origin) {
+  const std::string text = entry.text("kind");
+  std::vector<std::string_view> names;
+  for (int k = 0; k < kKinds; ++k) {
+    if (name(static_cast<Kind>(k)) == text) return static_cast<Kind>(k);
+    names.push_back(name(static_cast<Kind>(k)));
+  }
+  fail(*table.get("kind"), origin, fmt::format("no event is called '{}'", text),
+       fmt::format("the kinds are: {}", fmt::join(names, ", ")));
+}
+
+Event event_from(const toml::node& node, const std::string& origin) {
+  if (!node.is_table()) fail(node, origin, "an event is a table", "begin each with [[event]]");
+  const toml::table& table = *node.as_table();
+  Entry entry(table, origin);
+  const Kind kind = kind_of(entry, table, origin);
+  Event event;
+  switch (kind) {
+    case Kind::kLinearErosion:
+      event = LinearErosion{entry.pair("from"), entry.pair("to"), entry.number("depth"),
+                            entry.number_or("slope", LinearErosion{}.slope)};
+      break;
+    case Kind::kRadialErosion:
+      event = RadialErosion{entry.triple("centre"), entry.triple("radii")};
+      break;
+    case Kind::kNormalFault:
+    case Kind::kInverseFault:
+      event = DipFault{
+          kind == Kind::kInverseFault, entry.pair("from"),    entry.pair("to"),
+          entry.number("extent"),      entry.number("throw"), entry.number_or("dip", DipFault{}.dip)};
+      break;
+    case Kind::kLateralFault:
+      event =
+          LateralFault{entry.pair("from"), entry.pair("to"), entry.number("extent"), entry.number("slip")};
+      break;
+    case Kind::kTunnel:
+    case Kind::kCave:
+      event = Carving{kind == Kind::kCave,
+                      entry.triple("from"),
+                      entry.triple("to"),
+                      entry.pairs("section"),
+                      entry.number_or("scale_from", 1),
+                      entry.number_or("scale_to", 1),
+                      entry.number_or("roughness", 0),
+                      static_cast<std::uint64_t>(entry.integer_or("seed", 0, 0, INT64_MAX))};
+      break;
+  }
+  entry.refuse_unknown();
+  return event;
+}
+
+std::string text_of(glm::dvec2 p) { return fmt::format("[{}, {}]", p.x, p.y); }
+std::string text_of(const glm::dvec3& p) { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); }
+
+std::string fields_of(const LinearErosion& e) {
+  return fmt::format("from = {}\nto = {}\ndepth = {}\nslope = {}\n", text_of(e.from), text_of(e.to), e.depth,
+                     e.slope);
+}
+std::string fields_of(const RadialErosion& e) {
+  return fmt::format("centre = {}\nradii = {}\n", text_of(e.centre), text_of(e.radii));
+}
+std::string fields_of(const DipFault& e) {
+  return fmt::format("from = {}\nto = {}\nextent = {}\nthrow = {}\ndip = {}\n", text_of(e.from),
+                     text_of(e.to), e.extent, e.rise, e.dip);
+}
+std::string fields_of(const LateralFault& e) {
+  return fmt::format("from = {}\nto = {}\nextent = {}\nslip = {}\n", text_of(e.from), text_of(e.to), e.extent,
+                     e.slip);
+}
+std::string fields_of(const Carving& e) {
+  std::vector<std::string> corners;
+  for (const glm::dvec2 corner : e.section) corners.push_back(text_of(corner));
+  return fmt::format(
+      "from = {}\nto = {}\nsection = [{}]\nscale_from = {}\nscale_to = {}\nroughness = {}\nseed = {}\n",
+      text_of(e.from), text_of(e.to), fmt::join(corners, ", "), e.scale_from, e.scale_to, e.roughness,
+      e.seed);
+}
+
+// The heights under the events.
+Heightfield ground_of(const Script& script, const std::string& origin, TerrainSource& source) {
+  if (script.terrain.ends_with(kExtension)) {
+    throw bad_input(fmt::format("the ground '{}' is itself a file of events", script.terrain), origin,
+                    "name a plain ground and give all events here");
+  }
+  source = open_terrain(script.terrain, script.seed);
+  if (!source.heights) {
+    throw bad_input(fmt::format("the ground '{}' is a solid", script.terrain), origin,
+                    "name one that is a field of heights");
+  }
+  Heightfield heights = *std::exchange(source.heights, std::nullopt);
+  if (script.size > 0) heights = resample(heights, script.size, script.size);
+  return heights;
+}
+
+}  // namespace
+
+Script parse_script(std::string_view text, const std::string& origin) {
+  if (text.size() > kMostBytes) {
+    throw bad_input(fmt::format("{} bytes of events", text.size()), origin,
+                    fmt::format("keep the file under {} bytes", kMostBytes));
+  }
+  toml::table file;
+  try {
+    file = toml::parse(text, origin);
+  } catch (const toml::parse_error& error) {
+    throw bad_input(error.description(), place(origin, error.source().begin.line), "correct the file");
+  }
+  Entry entry(file, origin);
+  Script script;
+  script.terrain = entry.text("terrain");
+  script.seed = static_cast<std::uint64_t>(entry.integer_or("seed", 0, 0, INT64_MAX));
+  script.size = static_cast<int>(entry.integer_or("size", 0, 2, kMostSamples));
+  if (const toml::node* const events = entry.find("event"); events != nullptr) {
+    if (!events->is_array())
+      fail(*events, origin, "'event' is not a list", "begin each event with [[event]]");
+    const toml::array& list = *events->as_array();
+    if (list.size() > kMostEvents) {
+      fail(list, origin, fmt::format("{} events", list.size()), fmt::format("keep to {}", kMostEvents));
+    }
+    for (const toml::node& node : list) {
+      script.events.push_back(event_from(node, origin));
+      script.lines.push_back(static_cast<int>(node.source().begin.line));
+    }
+  }
+  entry.refuse_unknown();
+  return script;
+}
+
+std::string to_text(std::span<const Event> events) {
+  std::string text;
+  for (const Event& event : events) {
+    text += fmt::format("[[event]]\nkind = \"{}\"\n", name(kind(event)));
+    text += std::visit([](const auto& e) { return fields_of(e); }, event);
+  }
+  return text;
+}
+
+std::string to_text(const Script& script) {
+  std::string quoted;
+  for (const char c : script.terrain) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7F || c == '"' || c == '\\') {
+      quoted += fmt::format("\\u{:04X}", byte);
+    } else {
+      quoted += c;
+    }
+  }
+  std::string text = fmt::format("terrain = \"{}\"\nseed = {}\n", quoted, script.seed);
+  if (script.size > 0) text += fmt::format("size = {}\n", script.size);
+  return text + to_text(script.events);
+}
+
+TerrainSource open_script(std::string_view text, const std::string& origin) {
+  Script script = parse_script(text, origin);
+  TerrainSource source;
+  Heightfield ground = ground_of(script, origin, source);
+  source.name = origin;
+  source.checksum = checksum(ground);
+  if (script.events.empty()) {
+    source.heights = std::move(ground);
+    return source;
+  }
+  const auto sculpture =
+      std::make_shared<const Sculpture>(Sculpture{std::move(ground), std::move(script.events)});
+  try {
+    source.solid = evaluate(sculpture);
+  } catch (const EventError& error) {
+    throw Error(error.code(), error.what(), place(origin, script.lines[error.number() - 1]), error.advice());
+  }
+  source.checksum = source.solid->checksum;
+  source.events = sculpture;
+  return source;
+}
+
+}  // namespace terrabench::events

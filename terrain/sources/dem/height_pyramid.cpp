@@ -1,0 +1,286 @@
+#include "terrain/sources/dem/height_pyramid.h"
+
+#include <cpl_string.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "terrain/error.h"
+#include "terrain/memory.h"
+#include "terrain/sources/dem/dem.h"
+#include "terrain/sources/dem/gdal_session.h"
+
+namespace terrabench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kTile = 256;      // samples a side
+constexpr int kCoarsest = 16;   // samples along the longer side of the last level kept
+constexpr int kReduced = 1024;  // samples along the longer side of the copy that fills holes
+constexpr const char* kCellX = "TERRABENCH_CELL_X";
+constexpr const char* kCellZ = "TERRABENCH_CELL_Z";
+
+std::string level_file(const fs::path& folder, int level) {
+  return (folder / fmt::format("{}.tif", level)).string();
+}
+
+// Samples of a level along an axis with so many in the level below: every second one and the last.
+int halved(int samples) { return samples / 2 + 1; }
+
+Error cannot_write(const fs::path& path, const std::string& why) {
+  return environment_error(fmt::format("cannot write: {}", why), path.string(),
+                           "check the folder's permissions and the space left on its disk");
+}
+
+Error damaged(const fs::path& path, const std::string& why) {
+  return bad_input(why, path.string(), "the pyramid is not whole: build it again");
+}
+
+// A level being written, row after row.
+class LevelWriter {
+ public:
+  LevelWriter(const std::string& path, int width, int depth, float cell_x, float cell_z) : path_(path) {
+    CPLStringList options;
+    for (const char* option : {"TILED=YES", "BLOCKXSIZE=256", "BLOCKYSIZE=256", "COMPRESS=ZSTD",
+                               "ZSTD_LEVEL=3", "PREDICTOR=3", "BIGTIFF=IF_SAFER", "NUM_THREADS=ALL_CPUS"}) {
+      options.AddString(option);
+    }
+    GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+    dataset_.reset(driver->Create(path.c_str(), width, depth, 1, GDT_Float32, options));
+    if (dataset_ == nullptr) throw cannot_write(path_, messages_.first_failure());
+    dataset_->SetMetadataItem(kCellX, fmt::format("{}", cell_x).c_str());
+    dataset_->SetMetadataItem(kCellZ, fmt::format("{}", cell_z).c_str());
+  }
+  void write(int first_row, int rows, std::vector<float>& heights) {
+    const int width = dataset_->GetRasterXSize();
+    const CPLErr error = dataset_->GetRasterBand(1)->RasterIO(
+        GF_Write, 0, first_row, width, rows, heights.data(), width, rows, GDT_Float32, 0, 0, nullptr);
+    if (error != CE_None || messages_.failed()) throw cannot_write(path_, messages_.first_failure());
+  }
+  // A full disk may show itself only here.
+  void close() {
+    dataset_.reset();
+    if (messages_.failed()) throw cannot_write(path_, messages_.first_failure());
+  }
+
+ private:
+  fs::path path_;
+  GdalMessages messages_;
+  DatasetPointer dataset_;
+};
+
+DatasetPointer open_level(const std::string& path) {
+  const GdalMessages messages;
+  const char* const drivers[] = {"GTiff", nullptr};
+  return DatasetPointer(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers));
+}
+
+struct RasterSize {
+  int width, depth;
+};
+
+RasterSize raster_size(const std::string& dem) {
+  const GdalMessages messages;
+  const DatasetPointer dataset(GDALDataset::Open(dem.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+  if (dataset == nullptr) {
+    read_dem(dem);  // says what is wrong with it
+    throw bad_input("cannot be opened as a terrain", dem, "give a raster that gdalinfo opens");
+  }
+  return {dataset->GetRasterXSize(), dataset->GetRasterYSize()};
+}
+
+// Puts the reduced copy's height where a sample holds none.
+class HoleFiller {
+ public:
+  HoleFiller(const std::string& dem, const RasterSize& size) : dem_(dem), size_(size) {}
+
+  void fill(Heightfield& band, int first_row) {
+    for (int j = 0; j < band.depth; ++j) {
+      for (int i = 0; i < band.width; ++i) {
+        if (Heightfield::is_no_data(band.at(i, j))) band.at(i, j) = at(i, first_row + j);
+      }
+    }
+  }
+
+ private:
+  float at(int i, int j) {
+    if (reduced_.heights.empty()) {
+      const double by = std::min(1.0, static_cast<double>(kReduced) / std::max(size_.width, size_.depth));
+      DemOptions options;
+      options.fill_no_data = true;
+      options.width = std::max(1, static_cast<int>(size_.width * by));
+      options.depth = std::max(1, static_cast<int>(size_.depth * by));
+      reduced_ = read_dem(dem_, options).heights;
+    }
+    const auto scaled = [](int at, int samples, int reduced) {
+      return samples < 2
+                 ? 0.0F
+                 : static_cast<float>(at) / static_cast<float>(samples - 1) * static_cast<float>(reduced - 1);
+    };
+    return reduced_.sample(scaled(i, size_.width, reduced_.width) * reduced_.cell_x,
+                           scaled(j, size_.depth, reduced_.depth) * reduced_.cell_z);
+  }
+
+  const std::string& dem_;
+  RasterSize size_;
+  Heightfield reduced_;
+};
+
+void write_ground(const std::string& dem, const RasterSize& size, const fs::path& folder,
+                  Progress& progress) {
+  // The middle's cells: along a parallel they shrink towards the poles.
+  DemOptions middle;
+  middle.window = {0, std::max(0, size.depth / 2 - 1), size.width, std::min(2, size.depth)};
+  const Heightfield rows = read_dem(dem, middle).heights;
+  LevelWriter writer(level_file(folder, 0), size.width, size.depth, rows.cell_x, rows.cell_z);
+  HoleFiller holes(dem, size);
+  progress.begin("copying the ground into tiles", (size.depth - 1) / kTile + 1);
+  for (int y = 0; y < size.depth; y += kTile) {
+    const int count = std::min(kTile, size.depth - y);
+    DemOptions tiles;
+    tiles.window = {0, y, size.width, count};
+    Heightfield band = read_dem(dem, tiles).heights;
+    holes.fill(band, y);
+    writer.write(y, count, band.heights);
+    progress.advance();
+  }
+  writer.close();
+}
+
+// A level from the one below it.
+void write_level(const fs::path& folder, int level, Progress& progress) {
+  const DatasetPointer below = open_level(level_file(folder, level - 1));
+  if (below == nullptr) throw damaged(folder, fmt::format("level {} cannot be read back", level - 1));
+  const int width = below->GetRasterXSize(), depth = below->GetRasterYSize();
+  const float cell_x = std::stof(below->GetMetadataItem(kCellX)),
+              cell_z = std::stof(below->GetMetadataItem(kCellZ));
+  LevelWriter writer(level_file(folder, level), halved(width), halved(depth), 2 * cell_x, 2 * cell_z);
+  progress.begin(fmt::format("thinning to level {}", level), (halved(depth) - 1) / kTile + 1);
+  std::vector<float> rows, kept;
+  for (int b = 0; b < halved(depth); b += kTile) {
+    const int count = std::min(kTile, halved(depth) - b);
+    const int first = 2 * b, read = std::min(2 * count - 1, depth - first);
+    rows.resize(static_cast<std::size_t>(width) * read);
+    if (below->GetRasterBand(1)->RasterIO(GF_Read, 0, first, width, read, rows.data(), width, read,
+                                          GDT_Float32, 0, 0, nullptr) != CE_None) {
+      throw damaged(folder, fmt::format("level {} cannot be read back", level - 1));
+    }
+    kept.clear();
+    for (int j = 0; j < count; ++j) {
+      const float* const row = &rows[static_cast<std::size_t>(std::min(2 * j, read - 1)) * width];
+      for (int a = 0; a < halved(width); ++a) kept.push_back(row[std::min(2 * a, width - 1)]);
+    }
+    writer.write(b, count, kept);
+    progress.advance();
+  }
+  writer.close();
+}
+
+}  // namespace
+
+struct HeightPyramid::Levels {
+  fs::path folder;
+  std::vector<DatasetPointer> datasets;
+  float cell_x = 1, cell_z = 1;
+  std::vector<float> block;  // what a read takes from the disk, before its borders are repeated
+};
+
+void HeightPyramid::build(const std::string& dem, const fs::path& folder, Progress& progress) {
+  register_gdal();
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::exists(level_file(folder, 0), error)) {
+    throw usage_error("exists and is no pyramid", folder.string(), "choose another folder");
+  }
+  const RasterSize size = raster_size(dem);
+  const fs::path temporary = folder.string() + fmt::format(".{}.tmp", getpid());
+  struct Remove {
+    const fs::path& path;
+    ~Remove() {
+      std::error_code ignored;
+      fs::remove_all(path, ignored);
+    }
+  } remove{temporary};
+  fs::create_directories(temporary, error);
+  if (error) throw cannot_write(temporary, error.message());
+  write_ground(dem, size, temporary, progress);
+  int level = 0;
+  for (int longest = std::max(size.width, size.depth); longest > kCoarsest; longest = halved(longest)) {
+    write_level(temporary, ++level, progress);
+  }
+  progress.end();
+  fs::remove_all(folder, error);
+  fs::rename(temporary, folder, error);
+  if (error) throw cannot_write(folder, error.message());
+}
+
+std::unique_ptr<HeightPyramid> HeightPyramid::open(const fs::path& folder) {
+  register_gdal();
+  auto levels = std::make_unique<Levels>();
+  levels->folder = folder;
+  for (int level = 0;; ++level) {
+    DatasetPointer dataset = open_level(level_file(folder, level));
+    if (dataset == nullptr || dataset->GetRasterCount() != 1) {
+      throw damaged(folder, fmt::format("level {} is missing or cannot be read", level));
+    }
+    const int width = dataset->GetRasterXSize(), depth = dataset->GetRasterYSize();
+    if (level == 0) {
+      for (const auto& [name, cell] : {std::pair{kCellX, &levels->cell_x}, {kCellZ, &levels->cell_z}}) {
+        const char* const text = dataset->GetMetadataItem(name);
+        *cell = text == nullptr ? 0 : static_cast<float>(CPLAtof(text));
+        if (!(*cell > 0) || !std::isfinite(*cell))
+          throw damaged(folder, "the size of its cells is not there");
+      }
+    } else {
+      const DatasetPointer& below = levels->datasets.back();
+      if (width != halved(below->GetRasterXSize()) || depth != halved(below->GetRasterYSize())) {
+        throw damaged(folder, fmt::format("level {} does not fit the one below", level));
+      }
+    }
+    levels->datasets.push_back(std::move(dataset));
+    if (std::max(width, depth) <= kCoarsest) break;
+  }
+  return std::unique_ptr<HeightPyramid>(new HeightPyramid(std::move(levels)));
+}
+
+HeightPyramid::HeightPyramid(std::unique_ptr<Levels> levels) : levels_(std::move(levels)) {}
+HeightPyramid::~HeightPyramid() = default;
+
+int HeightPyramid::width() const { return levels_->datasets.front()->GetRasterXSize(); }
+int HeightPyramid::depth() const { return levels_->datasets.front()->GetRasterYSize(); }
+float HeightPyramid::cell_x() const { return levels_->cell_x; }
+float HeightPyramid::cell_z() const { return levels_->cell_z; }
+std::size_t HeightPyramid::bytes() const {
+  return heap_bytes(this) + heap_bytes(levels_.get()) + heap_bytes(levels_->datasets.data()) +
+         heap_bytes(levels_->block.data());
+}
+
+void HeightPyramid::read(int level, int a, int b, int columns, int rows, float* out, int stride) {
+  const int kept = std::min(level, static_cast<int>(levels_->datasets.size()) - 1);
+  const std::int64_t step = std::int64_t{1} << std::min(level - kept, 30);
+  GDALDataset& dataset = *levels_->datasets[kept];
+  // In the kept level's lattice, inside it.
+  const auto inside = [&](std::int64_t at, int samples) {
+    return static_cast<int>(std::clamp<std::int64_t>(at * step, 0, samples - 1));
+  };
+  const int width = dataset.GetRasterXSize(), depth = dataset.GetRasterYSize();
+  const int x0 = inside(a, width), x1 = inside(std::int64_t{a} + columns - 1, width);
+  const int z0 = inside(b, depth), z1 = inside(std::int64_t{b} + rows - 1, depth);
+  const int w = x1 - x0 + 1, h = z1 - z0 + 1;
+  levels_->block.resize(static_cast<std::size_t>(w) * h);
+  const GdalMessages messages;
+  if (dataset.GetRasterBand(1)->RasterIO(GF_Read, x0, z0, w, h, levels_->block.data(), w, h, GDT_Float32, 0,
+                                         0, nullptr) != CE_None) {
+    throw damaged(levels_->folder, fmt::format("level {}: {}", kept, messages.first_failure()));
+  }
+  for (int j = 0; j < rows; ++j, out += stride) {
+    const float* const row =
+        &levels_->block[static_cast<std::size_t>(inside(std::int64_t{b} + j, depth) - z0) * w];
+    for (int i = 0; i < columns; ++i) out[i] = row[inside(std::int64_t{a} + i, width) - x0];
+  }
+}
+
+}  // namespace terrabench

@@ -1,0 +1,43 @@
+// Ground on disk that never comes into memory whole: every level of detail of a DEM as a tiled, losslessly
+// compressed GeoTIFF, so that a window of any level costs the tiles it touches. Level l holds every 2ˡ-th
+// sample along x and z as it is (not averaged), and the ground's last sample at its far borders.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "terrain/progress.h"
+
+namespace terrabench {
+
+class HeightPyramid {
+ public:
+  // Converts any DEM that read_dem() takes, in rows of tiles: bounded memory at any size, a third more bytes
+  // than the ground alone on disk. Holes are filled from a reduced copy of the ground. The folder appears
+  // whole or not at all; one that exists is replaced when it is a pyramid, refused (usage_error) when it is
+  // something else.
+  static void build(const std::string& dem, const std::filesystem::path& folder, Progress&);
+
+  // Throws bad_input for a folder that is no whole pyramid.
+  static std::unique_ptr<HeightPyramid> open(const std::filesystem::path& folder);
+  ~HeightPyramid();
+
+  int width() const;  // of level 0, samples
+  int depth() const;
+  float cell_x() const;  // metres
+  float cell_z() const;
+  // Lattice samples [a, a + columns) × [b, b + rows) of the level, row by row into `out`, rows `stride`
+  // apart; beyond the ground its border's. Any level ≥ 0. GDAL keeps decoded tiles within its cache
+  // (GDAL_CACHEMAX, by default a twentieth of the memory). Throws bad_input when the disk's bytes cannot be
+  // decoded. Not thread-safe.
+  void read(int level, int a, int b, int columns, int rows, float* out, int stride);
+  std::size_t bytes() const;  // heap bytes of ours; GDAL's own are not counted
+
+ private:
+  struct Levels;
+  explicit HeightPyramid(std::unique_ptr<Levels>);
+  std::unique_ptr<Levels> levels_;
+};
+
+}  // namespace terrabench

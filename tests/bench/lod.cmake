@@ -1,0 +1,1 @@
+terrabench_benchmark(roam_bench SOURCES roam_bench.cpp LIBRARIES lod)

@@ -1,0 +1,150 @@
+// The GPU's triangles are those that triangles(Frame) gives, and dirty ranges name all that changed.
+#include "renderers/frame_renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <random>
+
+#include "lod/clipmap/clipmap.h"
+#include "lod/lod.h"
+
+namespace terrabench {
+namespace {
+
+Heightfield bumps(int width, int depth) {
+  Heightfield field;
+  field.width = width;
+  field.depth = depth;
+  field.cell_x = 2;
+  field.cell_z = 3;
+  for (int j = 0; j < depth; ++j) {
+    for (int i = 0; i < width; ++i) {
+      field.heights.push_back(20 * std::sin(0.15F * static_cast<float>(i)) *
+                              std::cos(0.11F * static_cast<float>(j)));
+    }
+  }
+  return field;
+}
+
+View walk(const Heightfield& field, float t) {
+  View view;
+  view.eye = {field.extent_x() * (0.2F + 0.5F * t), 40, field.extent_z() * 0.6F};
+  view.target = {field.extent_x() * 0.5F, 0, field.extent_z() * (0.3F * t)};
+  view.width = 160;
+  view.height = 120;
+  view.near = 1;
+  view.far = 2000;
+  return view;
+}
+
+// The triangle that a ray through the pixel's centre meets first, counted from 1. Brute force.
+std::uint32_t nearest_triangle(const std::vector<glm::vec3>& corners, const glm::mat4& to_clip, float x,
+                               float y) {
+  std::uint32_t nearest = 0;
+  float least = 2;
+  for (std::size_t k = 0; k < corners.size(); k += 3) {
+    glm::vec4 p[3];
+    bool behind = false;
+    for (int c = 0; c < 3; ++c) {
+      p[c] = to_clip * glm::vec4(corners[k + c], 1);
+      behind = behind || p[c].w <= 0;
+    }
+    if (behind) continue;
+    const glm::vec2 a = glm::vec2(p[0]) / p[0].w, b = glm::vec2(p[1]) / p[1].w, c = glm::vec2(p[2]) / p[2].w;
+    const auto cross = [](glm::vec2 u, glm::vec2 v) { return u.x * v.y - u.y * v.x; };
+    const float area = cross(b - a, c - a);
+    const glm::vec2 at(x, y);
+    const float wa = cross(b - at, c - at) / area, wb = cross(c - at, a - at) / area, wc = 1 - wa - wb;
+    if (!(wa >= 0 && wb >= 0 && wc >= 0)) continue;
+    const float depth = wa * p[0].z / p[0].w + wb * p[1].z / p[1].w + wc * p[2].z / p[2].w;
+    if (depth < least && depth >= -1) {
+      least = depth;
+      nearest = static_cast<std::uint32_t>(k / 3 + 1);
+    }
+  }
+  return nearest;
+}
+
+class FrameRendererTest : public ::testing::TestWithParam<std::string_view> {
+ protected:
+  std::unique_ptr<Lod> build() {
+    const LodType& type = lod(GetParam());
+    return type.build(field_, Parameters(type.parameters), silent_);
+  }
+  std::unique_ptr<GlContext> context_ = open_context("osmesa", 16, 16);
+  Heightfield field_ = bumps(150, 120);
+  Progress silent_;
+};
+
+TEST_P(FrameRendererTest, ShowsTheTrianglesOfTheFrame) {
+  const std::unique_ptr<Lod> lod = build();
+  FrameRenderer renderer(*context_);
+  std::mt19937 random(2);
+  for (const float t : {0.1F, 0.7F}) {
+    const View view = walk(field_, t);
+    const Frame& frame = lod->update(view);
+    std::vector<glm::vec3> corners;
+    triangles(frame, [&](std::span<const glm::vec3> some) {
+      corners.insert(corners.end(), some.begin(), some.end());
+    });
+    const std::vector<std::uint32_t> shown = renderer.triangle_numbers(frame, view);
+    const glm::mat4 to_clip = world_to_clip(view);
+    int agree = 0, asked = 0;
+    for (int k = 0; k < 300; ++k) {
+      const int x = static_cast<int>(random() % 160), y = static_cast<int>(random() % 120);
+      const std::uint32_t expected = nearest_triangle(
+          corners, to_clip, (static_cast<float>(x) + 0.5F) / 80 - 1, 1 - (static_cast<float>(y) + 0.5F) / 60);
+      ++asked;
+      agree += shown[static_cast<std::size_t>(y) * 160 + x] == expected ? 1 : 0;
+    }
+    // A pixel's centre on an edge may fall to either side.
+    EXPECT_GE(agree, asked * 98 / 100);
+  }
+}
+
+TEST_P(FrameRendererTest, DirtyRangesAreEnough) {
+  const std::unique_ptr<Lod> lod = build();
+  FrameRenderer kept(*context_);
+  FrameStyle style;
+  style.lowest = -20;
+  style.highest = 20;
+  for (int step = 0; step <= 10; ++step) {
+    const View view = walk(field_, static_cast<float>(step) / 10);
+    const Frame& frame = lod->update(view);
+    kept.draw(frame, view, style);
+    const Image incremental = kept.image();
+    FrameRenderer fresh(*context_);
+    fresh.draw(frame, view, style);
+    ASSERT_EQ(incremental.rgb, fresh.image().rgb) << step;
+  }
+}
+
+TEST_P(FrameRendererTest, DrawsWires) {
+  const std::unique_ptr<Lod> lod = build();
+  FrameRenderer renderer(*context_);
+  FrameStyle style;
+  style.lowest = -20;
+  style.highest = 20;
+  const View view = walk(field_, 0.4F);
+  const Frame& frame = lod->update(view);
+  renderer.draw(frame, view, style);
+  const Image plain = renderer.image();
+  style.wire_width = 1;
+  renderer.draw(frame, view, style);
+  EXPECT_NE(plain.rgb, renderer.image().rgb);
+}
+
+std::vector<std::string_view> names() {
+  std::vector<std::string_view> all;
+  for (const LodType& type : lods()) all.push_back(type.name);
+  return all;
+}
+INSTANTIATE_TEST_SUITE_P(EachMethod, FrameRendererTest, ::testing::ValuesIn(names()),
+                         [](const auto& info) { return std::string(info.param); });
+
+}  // namespace
+}  // namespace terrabench

@@ -1,0 +1,181 @@
+// Random sequences of events: whatever is accepted leaves a whole tree that agrees with the independent
+// evaluation, whatever is refused leaves the tree as it was.
+#include "terrain/events/event_file.h"
+#include "tests/representations/ght_oracle.h"
+#include "tests/terrain/events_ground.h"
+
+namespace terrabench::test {
+namespace {
+
+using namespace events;
+
+constexpr int kShards = 10, kSequences = 1000 / kShards;
+
+// A number in [low, high), events and ground at random. Cells are `cell` wide.
+class Dice {
+ public:
+  explicit Dice(unsigned seed) : random_(seed) {}
+  double number(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
+  bool chance(double share) { return number(0, 1) < share; }
+
+ private:
+  std::mt19937 random_;
+};
+
+struct Hill {
+  glm::dvec2 centre;
+  double height, radius;
+};
+
+struct Ground {
+  Heightfield field;
+  std::vector<Hill> hills;
+};
+
+// 33 to 49 samples a side, a few hills with slopes of up to 1 in 1, and roughness.
+Ground random_ground(Dice& dice) {
+  Ground ground;
+  Heightfield& field = ground.field;
+  field.width = dice.whole(33, 49);
+  field.depth = dice.whole(33, 49);
+  field.cell_x = static_cast<float>(dice.chance(0.3) ? dice.number(0.5, 3) : 1);
+  field.cell_z = dice.chance(0.8) ? field.cell_x : 1.25F * field.cell_x;
+  const double cell = field.cell_x, rough = dice.chance(0.5) ? 0 : dice.number(0, 0.3) * cell;
+  for (int h = dice.whole(1, 2); h > 0; --h) {
+    ground.hills.push_back(
+        {{dice.number(0.25, 0.75) * field.extent_x(), dice.number(0.25, 0.75) * field.extent_z()},
+         dice.number(8, 14) * cell,
+         dice.number(7, 10) * cell});
+  }
+  for (int j = 0; j < field.depth; ++j) {
+    for (int i = 0; i < field.width; ++i) {
+      double y = 10 * cell + rough * dice.number(-1, 1);
+      for (const Hill& hill : ground.hills) {
+        const glm::dvec2 away = glm::dvec2(i * field.cell_x, j * field.cell_z) - hill.centre;
+        y += hill.height * std::exp(-glm::dot(away, away) / (hill.radius * hill.radius));
+      }
+      field.heights.push_back(static_cast<float>(y));
+    }
+  }
+  return ground;
+}
+
+Event random_carving(Dice& dice, const Ground& ground, bool cave) {
+  const double cell = std::fmax(ground.field.cell_x, ground.field.cell_z);
+  const Hill& hill =
+      ground.hills[static_cast<std::size_t>(dice.whole(0, static_cast<int>(ground.hills.size()) - 1))];
+  const double angle = dice.number(0, 2 * std::numbers::pi);
+  const glm::dvec2 along{std::cos(angle), std::sin(angle)};
+  const glm::dvec2 from = hill.centre - dice.number(0.1, 0.35) * hill.radius * along,
+                   to = hill.centre + dice.number(0.1, 0.35) * hill.radius * along;
+  Carving carving;
+  carving.cave = cave;
+  // The floor mostly lies over the plain around the hill, so that the carving comes out.
+  const double size = dice.number(1.05, 1.4) * cell,
+               y = 10 * cell + 2.1 * size + dice.number(-0.05, 0.15) * hill.height;
+  carving.from = {from.x, y, from.y};
+  carving.to = {to.x, y + dice.number(-0.2, 0.3) * cell, to.y};
+  const int sides = dice.whole(3, 8);
+  for (int k = 0; k < sides; ++k) {
+    const double turn = 2 * std::numbers::pi * (k + 0.5) / sides - std::numbers::pi / 2;
+    carving.section.push_back(size * std::sqrt(2.0) * glm::dvec2(std::cos(turn), std::sin(turn)));
+  }
+  carving.scale_from = dice.number(1, 1.3);
+  carving.scale_to = dice.number(1, 1.3);
+  if (dice.chance(0.5)) carving.roughness = size / 24;
+  carving.seed = static_cast<std::uint64_t>(dice.whole(0, 1000));
+  return carving;
+}
+
+Event random_event(Dice& dice, const Ground& ground, Kind kind) {
+  const Heightfield& field = ground.field;
+  const double cell = std::fmax(field.cell_x, field.cell_z);
+  const glm::dvec2 size{field.extent_x(), field.extent_z()};
+  const glm::dvec2 middle{dice.number(0.2, 0.8) * size.x, dice.number(0.2, 0.8) * size.y};
+  const double angle = dice.chance(0.3) ? dice.whole(0, 3) * std::numbers::pi / 2 : dice.number(0, 7);
+  const glm::dvec2 half = dice.number(1.5, 8) * cell * glm::dvec2(std::cos(angle), std::sin(angle));
+  const glm::dvec2 from = middle - half, to = middle + half;
+  const double extent = dice.number(3, 9) * cell;
+  switch (kind) {
+    case Kind::kLinearErosion:
+      return LinearErosion{from, to, dice.number(0.3, 3) * cell, dice.number(20, 60)};
+    case Kind::kRadialErosion:
+      return RadialErosion{
+          {middle.x, field.sample(static_cast<float>(middle.x), static_cast<float>(middle.y)), middle.y},
+          {dice.number(1, 6) * cell, dice.number(0.5, 4) * cell, dice.number(1, 6) * cell}};
+    case Kind::kNormalFault:
+      return DipFault{false, from, to, extent, dice.number(0.3, 4) * cell, dice.number(40, 85)};
+    case Kind::kInverseFault:
+      return DipFault{true, from, to, extent, dice.number(0.3, 4) * cell, dice.number(40, 85)};
+    case Kind::kLateralFault:
+      return LateralFault{from, to, extent, dice.number(0.3, 4) * cell};
+    default:
+      return random_carving(dice, ground, kind == Kind::kCave);
+  }
+}
+
+struct Shares {
+  std::array<int, kKinds> tried{}, accepted{};
+  int borderline = 0;  // sequences that the evaluation refuses
+};
+
+// One sequence; what it accepted is added to the shares.
+void run(unsigned seed, Shares& shares) {
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  Dice dice(seed);
+  const Ground ground = random_ground(dice);
+  Ght ght = make_ght(ground.field);
+  std::vector<Event> done;
+  for (int left = dice.whole(1, 8); left > 0; --left) {
+    const Kind kind = static_cast<Kind>(dice.whole(0, kKinds - 1));
+    const Event event = random_event(dice, ground, kind);
+    ++shares.tried[static_cast<std::size_t>(kind)];
+    const std::vector<std::byte> before = saved(ght);
+    try {
+      ght.apply(event);
+    } catch (const Error& error) {
+      ASSERT_EQ(error.code(), ExitCode::kBadInput) << error.what();
+      ASSERT_EQ(saved(ght), before) << error.what();
+      continue;
+    }
+    ++shares.accepted[static_cast<std::size_t>(kind)];
+    done.push_back(event);
+    ASSERT_THAT(ght::broken_invariants(ght.model()), testing::IsEmpty()) << name(kind);
+  }
+  ASSERT_TRUE(check_edges(ght.mesh({})).watertight());
+  std::optional<Evaluation> truth;
+  try {
+    truth.emplace(after(ground.field, done));
+  } catch (const EventError& error) {
+    ++shares.borderline;
+    std::printf("borderline %s\n", error.what());
+    return;
+  }
+  const Disagreement found = compare(ght, *truth);
+  ASSERT_EQ(found.wrong, 0U) << "of " << found.points << ", at " << found.worst.x << " " << found.worst.y
+                             << " " << found.worst.z << "\n"
+                             << to_text(done);
+}
+
+class GhtRandomEvents : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Shard, GhtRandomEvents, testing::Range(0, kShards));
+
+TEST_P(GhtRandomEvents, KeepAllInvariantsAndAgreeWithTheEvaluation) {
+  Shares shares;
+  for (int s = 0; s < kSequences; ++s) {
+    run(static_cast<unsigned>(GetParam() * kSequences + s + 1), shares);
+  }
+  for (int k = 0; k < kKinds; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    RecordProperty(std::string(name(static_cast<Kind>(k))),
+                   std::to_string(shares.accepted[at]) + " of " + std::to_string(shares.tried[at]));
+    std::printf("%s %d of %d\n", std::string(name(static_cast<Kind>(k))).c_str(), shares.accepted[at],
+                shares.tried[at]);
+  }
+}
+
+}  // namespace
+}  // namespace terrabench::test
