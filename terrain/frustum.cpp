@@ -1,5 +1,6 @@
 #include "terrain/frustum.h"
 
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -22,16 +23,21 @@ Frustum::Frustum(const View& view) {
 }
 
 Sight Frustum::see(const Bounds& box) const {
+  unsigned planes = kAllPlanes;
+  return see(box, planes);
+}
+
+Sight Frustum::see(const Bounds& box, unsigned& planes) const {
   const glm::dvec3 centre = 0.5 * (glm::dvec3(box.low) + glm::dvec3(box.high));
   const glm::dvec3 half = glm::dvec3(box.high) - centre;
-  Sight sight = Sight::kInside;
-  for (const Plane& plane : planes_) {
+  for (unsigned left = planes; left != 0; left &= left - 1) {
+    const Plane& plane = planes_[static_cast<std::size_t>(std::countr_zero(left))];
     const double distance = glm::dot(plane.normal, centre) + plane.offset;
     const double reach = glm::dot(glm::abs(plane.normal), half);
     if (distance < -reach) return Sight::kOutside;
-    if (distance < reach) sight = Sight::kCrossing;
+    if (!(distance < reach)) planes &= ~(left & -left);
   }
-  return sight;
+  return planes == 0 ? Sight::kInside : Sight::kCrossing;
 }
 
 }  // namespace terrabench

@@ -17,6 +17,10 @@ class Frustum {
 
   // kOutside is certain; kCrossing may be said of a box just outside an edge or a corner (conservative).
   Sight see(const Bounds& box) const;
+  // For boxes inside each other: tests the planes in `planes` alone, a bit each, and takes those out that the
+  // box lies wholly inside of.
+  static constexpr unsigned kAllPlanes = 0x3F;
+  Sight see(const Bounds& box, unsigned& planes) const;
 
  private:
   // In double: floats lose centimetres where coordinates have six digits, and what is culled must not be in

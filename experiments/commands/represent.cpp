@@ -70,7 +70,7 @@ void draw(const RepresentArguments& a, const Representation& built, Bounds bound
 }
 
 // What drills came to, which a budget chooses and no other line shows.
-void print_drills(const DrillTerrain& built, const Parameters& parameters, const Fidelity& fidelity) {
+void print_drills(const DrillTerrain& built, const Parameters& parameters) {
   const Drills& drills = built.drills();
   ByteSink encoded;
   encode_drills(drills, encoded);
@@ -78,21 +78,11 @@ void print_drills(const DrillTerrain& built, const Parameters& parameters, const
   fmt::print("drills      {}, w = {}, k = {}, rounded to {} m: {} encoded\n",
              format_number(static_cast<double>(drills.count())), drills.w, drills.k, drills.quantum,
              format_quantity(static_cast<double>(bytes), "B"));
-  const std::int64_t budget = parameters.integer("budget_bytes");
-  const double largest = parameters.number("max_rmse");
   if (drills.count() == 0) {
     fmt::print(
         "warning     no channels: the flow of no pixel reaches tau = {}, so that the terrain is a "
         "plateau at {} m; choose a smaller tau\n",
         parameters.integer("tau"), drills.plateau);
-  }
-  if (budget > 0 && bytes > static_cast<std::size_t>(budget)) {
-    fmt::print("warning     over the budget of {}: no parameters that were tried take fewer\n",
-               format_quantity(static_cast<double>(budget), "B"));
-  }
-  if (largest > 0 && fidelity.from_heights && fidelity.rmse > largest) {
-    fmt::print("warning     over the budget of {} RMSE: no parameters that were tried err less\n",
-               format_quantity(largest, "m"));
   }
 }
 

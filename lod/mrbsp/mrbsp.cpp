@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "lod/mrbsp/height_points.h"
@@ -64,7 +66,7 @@ class Mrbsp::Walk {
         grid_(lod.grid_),
         eye_(view.eye),
         frustum_(frustum),
-        hide_(hide),
+        hidden_depth_(hide ? lod.visibility_.depth : 0),
         depth_(lod.tree_.depth()),
         last_(grid_.width - 1, grid_.depth - 1) {
     const double s = lod.size_ * lod.short_side_;
@@ -72,94 +74,100 @@ class Mrbsp::Walk {
   }
 
   void run() {
-    for (int pass = lod_.options_.conforming ? 0 : 1; pass < 2; ++pass) {
-      const auto roots = lod_.tree_.roots();
-      for (unsigned which = 0; which < 2; ++which) {
-        const PlanTriangle& t = roots[which];
-        const Corner apex = corner(t.apex.x, t.apex.y), left = corner(t.left.x, t.left.y);
-        const Corner right = corner(t.right.x, t.right.y);
-        if (pass == 0) {
-          mark(apex, left, right, 1, 2 + which, frustum_ != nullptr);
-        } else if (lod_.options_.conforming) {
-          draw<true>(apex, left, right, 1, 2 + which, frustum_ != nullptr);
-        } else {
-          draw<false>(apex, left, right, 1, 2 + which, frustum_ != nullptr);
-        }
-      }
+    const auto roots = lod_.tree_.roots();
+    const unsigned planes = frustum_ != nullptr ? Frustum::kAllPlanes : 0;
+    for (unsigned which = 0; which < 2; ++which) {
+      const PlanTriangle& t = roots[which];
+      descend(corner(t.apex), corner(t.left), corner(t.right), 1, 2 + which, planes);
+    }
+    // The cuts are known now: what distance left whole is drawn as they say.
+    for (const Whole& w : lod_.whole_) {
+      settle({place(w.apex), place(w.left), place(w.right)}, depth_of(w.node), w.node, w.planes);
     }
   }
 
  private:
   struct Corner {
-    int i, j;              // in the lattice, perhaps beyond the field
-    std::uint32_t vertex;  // in the grid: drawn in to the border
+    glm::ivec2 at;  // in the lattice, perhaps beyond the field
     int threshold;
   };
 
-  Corner corner(int i, int j) const {
-    const int x = std::min(i, last_.x), z = std::min(j, last_.y);
-    const std::uint32_t vertex = static_cast<std::uint32_t>(z) * static_cast<std::uint32_t>(grid_.width) +
-                                 static_cast<std::uint32_t>(x);
-    const glm::vec3 to = glm::vec3(static_cast<float>(x) * grid_.cell_x, grid_.heights[vertex],
-                                   static_cast<float>(z) * grid_.cell_z) -
-                         eye_;
+  glm::vec3 position(glm::ivec2 at) const {
+    const glm::ivec2 drawn_in = glm::min(at, last_);
+    return {static_cast<float>(drawn_in.x) * grid_.cell_x, grid_.heights[vertex(at)],
+            static_cast<float>(drawn_in.y) * grid_.cell_z};
+  }
+  std::uint32_t vertex(glm::ivec2 at) const {
+    const glm::ivec2 drawn_in = glm::min(at, last_);
+    return static_cast<std::uint32_t>(drawn_in.y) * static_cast<std::uint32_t>(grid_.width) +
+           static_cast<std::uint32_t>(drawn_in.x);
+  }
+  Corner corner(glm::ivec2 at) const {
+    const glm::vec3 to = position(at) - eye_;
     const int steps = floor_log2(glm::dot(to, to) * per_square_);
-    const int threshold = depth_ - (lod_.options_.area_consistent ? steps : steps >> 1);
-    return {i, j, vertex, threshold};
-  }
-  Corner middle(const Corner& a, const Corner& b) const { return corner((a.i + b.i) / 2, (a.j + b.j) / 2); }
-
-  // Beyond a border of the field, drawn in to a line.
-  bool is_flat(const Corner& a, const Corner& b, const Corner& c) const {
-    return std::min({a.i, b.i, c.i}) >= last_.x || std::min({a.j, b.j, c.j}) >= last_.y;
+    return {at, depth_ - (lod_.options_.area_consistent ? steps : steps >> 1)};
   }
 
-  // Is there anything to draw in the triangle? `crossing` says whether it may leave the view.
-  bool is_seen(const Corner& a, const Corner& b, const Corner& c, int depth, std::uint32_t node,
-               bool& crossing) const {
-    if (is_flat(a, b, c)) return false;
-    if (hide_ && depth <= lod_.visibility_.depth && !lod_.visible_[node]) return false;
-    if (crossing && depth <= lod_.bounds_depth_) {
-      const Range& range = lod_.bounds_[node];
-      const glm::ivec2 low(std::min({a.i, b.i, c.i}), std::min({a.j, b.j, c.j}));
-      const glm::ivec2 high =
-          glm::min(glm::ivec2(std::max({a.i, b.i, c.i}), std::max({a.j, b.j, c.j})), last_);
-      const Sight sight = frustum_->see(
-          {{static_cast<float>(low.x) * grid_.cell_x, range.lowest, static_cast<float>(low.y) * grid_.cell_z},
-           {static_cast<float>(high.x) * grid_.cell_x, range.highest,
-            static_cast<float>(high.y) * grid_.cell_z}});
-      if (sight == Sight::kOutside) return false;
-      crossing = sight == Sight::kCrossing;
+  // Is there anything to draw in the triangle? Takes the planes of the view out that it lies inside of.
+  bool is_seen(const PlanTriangle& t, int depth, std::uint32_t node, unsigned& planes) const {
+    const glm::ivec2 low = glm::min(glm::min(t.apex, t.left), t.right);
+    if (low.x >= last_.x || low.y >= last_.y) return false;  // flat: beyond the border, drawn in to a line
+    if (depth <= hidden_depth_ && !lod_.visible_[node]) return false;
+    if (planes == 0 || depth > lod_.bounds_depth_) return true;
+    const Range& range = lod_.bounds_[node];
+    const glm::ivec2 high = glm::min(glm::max(glm::max(t.apex, t.left), t.right), last_);
+    const Bounds box{
+        {static_cast<float>(low.x) * grid_.cell_x, range.lowest, static_cast<float>(low.y) * grid_.cell_z},
+        {static_cast<float>(high.x) * grid_.cell_x, range.highest,
+         static_cast<float>(high.y) * grid_.cell_z}};
+    return frustum_->see(box, planes) != Sight::kOutside;
+  }
+
+  void descend(const Corner& apex, const Corner& left, const Corner& right, int depth, std::uint32_t node,
+               unsigned planes) {
+    const PlanTriangle t{apex.at, left.at, right.at};
+    if (!is_seen(t, depth, node, planes)) return;
+    if (depth < std::min({depth_, apex.threshold, left.threshold, right.threshold})) {
+      const Corner foot = corner((left.at + right.at) / 2);
+      if (lod_.options_.conforming) cut(foot.at);
+      descend(foot, apex, left, depth + 1, 2 * node, planes);
+      descend(foot, right, apex, depth + 1, 2 * node + 1, planes);
+    } else if (depth == depth_) {
+      put(t);
+    } else if (lod_.options_.conforming) {
+      lod_.whole_.push_back({packed(t.apex), packed(t.left), packed(t.right), node, planes});
+    } else if (std::min(apex.threshold, depth_) < std::min({left.threshold, right.threshold, depth_})) {
+      // The printed rule: the right angle alone is further off than the other two, so a hole may open at the
+      // foot.
+      put(BisectionTree::child(t, 0));
+      put(BisectionTree::child(t, 1));
+    } else {
+      put(t);
     }
-    return true;
   }
 
-  bool is_too_large(const Corner& a, const Corner& b, const Corner& c, int depth) const {
-    return depth < std::min({a.threshold, b.threshold, c.threshold});
-  }
-
-  // First pass of the conforming rule: makes the cuts that distance asks for, with what each needs.
-  void mark(const Corner& apex, const Corner& left, const Corner& right, int depth, std::uint32_t node,
-            bool crossing) {
-    if (depth == depth_ || !is_too_large(apex, left, right, depth) ||
-        !is_seen(apex, left, right, depth, node, crossing)) {
+  // Draws a triangle that distance leaves whole, in the parts that its neighbours' cuts ask for.
+  void settle(const PlanTriangle& t, int depth, std::uint32_t node, unsigned planes) {
+    if (depth == depth_ || !is_cut((t.left + t.right) / 2)) {
+      put(t);
       return;
     }
-    const Corner foot = middle(left, right);
-    cut({foot.i, foot.j});
-    mark(foot, apex, left, depth + 1, 2 * node, crossing);
-    mark(foot, right, apex, depth + 1, 2 * node + 1, crossing);
+    for (unsigned which = 0; which < 2; ++which) {
+      const PlanTriangle half = BisectionTree::child(t, which);
+      unsigned left = planes;
+      if (is_seen(half, depth + 1, 2 * node + which, left)) settle(half, depth + 1, 2 * node + which, left);
+    }
   }
 
   std::size_t bit_of(glm::ivec2 at) const {
     return static_cast<std::size_t>(at.y) * (static_cast<std::size_t>(lod_.tree_.side()) + 1) +
            static_cast<std::size_t>(at.x);
   }
-  bool is_cut(const Corner& foot) const {
-    const std::size_t bit = bit_of({foot.i, foot.j});
+  bool is_cut(glm::ivec2 foot) const {
+    const std::size_t bit = bit_of(foot);
     return ((lod_.cuts_[bit / 64] >> (bit % 64)) & 1) != 0;
   }
-  // As deep as the tree at most: a cut's parents lie one level above it.
+  // With all that it needs. As deep as the tree at most: a cut's parents lie one level above it.
   void cut(glm::ivec2 at) {
     const std::size_t bit = bit_of(at);
     std::uint64_t& word = lod_.cuts_[bit / 64];
@@ -171,39 +179,22 @@ class Mrbsp::Walk {
     for (int k = 0; k < parents.count; ++k) cut(parents.at[k]);
   }
 
-  template <bool kConforming>
-  void draw(const Corner& apex, const Corner& left, const Corner& right, int depth, std::uint32_t node,
-            bool crossing) {
-    if (!is_seen(apex, left, right, depth, node, crossing)) return;
-    if (depth < depth_) {
-      const Corner foot = middle(left, right);
-      if (kConforming ? is_cut(foot) : is_too_large(apex, left, right, depth)) {
-        draw<kConforming>(foot, apex, left, depth + 1, 2 * node, crossing);
-        draw<kConforming>(foot, right, apex, depth + 1, 2 * node + 1, crossing);
-        return;
-      }
-      // The printed rule: the right angle alone is further than the other two, so a hole may open at the
-      // foot.
-      if (!kConforming &&
-          std::min(apex.threshold, depth_) < std::min({left.threshold, right.threshold, depth_})) {
-        put(foot, apex, left);
-        put(foot, right, apex);
-        return;
-      }
-    }
-    put(apex, left, right);
+  void put(const PlanTriangle& t) {
+    const glm::ivec2 low = glm::min(glm::min(t.apex, t.left), t.right);
+    if (low.x >= last_.x || low.y >= last_.y) return;
+    for (const glm::ivec2 at : {t.apex, t.left, t.right}) lod_.next_.push_back(vertex(at));
   }
 
-  void put(const Corner& a, const Corner& b, const Corner& c) {
-    if (is_flat(a, b, c)) return;
-    for (const std::uint32_t vertex : {a.vertex, b.vertex, c.vertex}) lod_.next_.push_back(vertex);
+  static std::array<std::uint16_t, 2> packed(glm::ivec2 at) {
+    return {static_cast<std::uint16_t>(at.x), static_cast<std::uint16_t>(at.y)};
   }
+  static glm::ivec2 place(std::array<std::uint16_t, 2> at) { return {at[0], at[1]}; }
 
   Mrbsp& lod_;
   const GroundGrid& grid_;
   glm::vec3 eye_;
   const Frustum* frustum_;
-  bool hide_;
+  int hidden_depth_;  // flags are looked at down to here
   int depth_;
   glm::ivec2 last_;
   float per_square_;  // 1 / (size·S)²
@@ -360,6 +351,7 @@ const Frame& Mrbsp::update(const View& view) {
   Walk(*this, view, options_.cull ? &frustum : nullptr, hide).run();
   for (const std::uint32_t word : marked_) cuts_[word] = 0;
   marked_.clear();
+  whole_.clear();
 
   uploads_.clear();
   const auto differs = std::mismatch(next_.begin(), next_.end(), indices_.begin(), indices_.end()).first;
@@ -391,9 +383,10 @@ Memory Mrbsp::memory() const {
   Memory memory = payload_memory(interpolated_.heights);
   memory.index += heap_bytes(this);
   for (const Memory& part :
-       {index_memory(bounds_), index_memory(cuts_), index_memory(marked_), payload_memory(visibility_.start),
-        index_memory(visibility_.first), payload_memory(visibility_.changes), visible_.memory(),
-        payload_memory(indices_), payload_memory(next_), index_memory(batches_), index_memory(uploads_)}) {
+       {index_memory(bounds_), index_memory(cuts_), index_memory(marked_), index_memory(whole_),
+        payload_memory(visibility_.start), index_memory(visibility_.first),
+        payload_memory(visibility_.changes), visible_.memory(), payload_memory(indices_),
+        payload_memory(next_), index_memory(batches_), index_memory(uploads_)}) {
     memory += part;
   }
   return memory;

@@ -18,6 +18,7 @@
 // left out. update() is O(triangles drawn).
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -67,6 +68,12 @@ class Mrbsp : public Lod {
   struct Range {
     float lowest, highest;
   };
+  // A triangle that distance leaves whole, until all cuts are known.
+  struct Whole {
+    std::array<std::uint16_t, 2> apex, left, right;  // lattice
+    std::uint32_t node;
+    unsigned planes;  // of the view, that it may cross
+  };
   class Walk;
 
   void find_bounds(Progress&);
@@ -82,6 +89,7 @@ class Mrbsp : public Lod {
   std::vector<Range> bounds_;          // of the triangle's whole subtree, by node number
   std::vector<std::uint64_t> cuts_;    // a bit a lattice vertex: conforming only
   std::vector<std::uint32_t> marked_;  // words of cuts_ that are not zero
+  std::vector<Whole> whole_;
   VisibilityTable visibility_;
   VisibleNodes visible_;
   std::vector<std::uint32_t> indices_, next_;
