@@ -124,7 +124,7 @@ ExitCode represent_command(const RepresentArguments& a) {
              memory.slack);
   print_fidelity(fidelity);
   if (const auto* const drills = dynamic_cast<const DrillTerrain*>(built.get())) {
-    print_drills(*drills, parameters, fidelity);
+    print_drills(*drills, parameters);
   }
   if (!a.save.empty()) {
     const std::size_t bytes = save_representation(a.save, type, *built);

@@ -200,7 +200,8 @@ TEST(Roam, TurnsOnTheSpot) {
     const Frame& frame = roam.update(view);
     if (degrees == 0) first = frame.stats.triangles;
     if (degrees % 30 == 0) expect_kept(roam, frame, field, view, 2);
-    if (degrees == 360) EXPECT_NEAR(static_cast<double>(frame.stats.triangles), first, 0.05 * first);
+    if (degrees < 360) continue;
+    EXPECT_NEAR(static_cast<double>(frame.stats.triangles), first, 0.05 * first);
   }
 }
 
