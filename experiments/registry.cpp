@@ -4,6 +4,7 @@
 #include "experiments/experiment.h"
 #include "experiments/ght/ght.h"
 #include "experiments/hybrid/hybrid.h"
+#include "experiments/mrbsp/mrbsp.h"
 #include "experiments/overview/overview.h"
 
 namespace terrabench {
@@ -36,6 +37,32 @@ const std::array kExperiments{
                drill::measure_size},
     Experiment{"drill.promises", "drill", "§2.3 and §4: order of drills, pits", drill::kGroundParameters,
                drill::ground_cases, drill::measure_promises},
+    Experiment{"mrbsp.walk", "mrbsp", "Table 2: triangles and time of LOD, visibility and both",
+               mrbsp::kWalkParameters, mrbsp::walk_cases, mrbsp::measure_walk},
+    Experiment{"mrbsp.threshold", "mrbsp", "§3: apparent size of triangles against distance",
+               mrbsp::kThresholdParameters, mrbsp::threshold_cases, mrbsp::measure_threshold},
+    Experiment{"mrbsp.holes", "mrbsp", "§3: holes that the rules leave", mrbsp::kHoleParameters,
+               mrbsp::hole_cases, mrbsp::measure_holes},
+    Experiment{"mrbsp.lod-figure",
+               "mrbsp",
+               "Figure 1: thresholds at the vertices",
+               {},
+               mrbsp::lod_figure_cases,
+               mrbsp::draw_lod_figure},
+    Experiment{"mrbsp.visibility", "mrbsp", "§4: what the stored sets miss, and their bytes",
+               mrbsp::kVisibilityParameters, mrbsp::visibility_cases, mrbsp::measure_visibility},
+    Experiment{"mrbsp.profile",
+               "mrbsp",
+               "Table 1 and figure 2: visibility of a profile",
+               {},
+               mrbsp::profile_cases,
+               mrbsp::measure_profile},
+    Experiment{"mrbsp.land", "mrbsp", "§5: LOD's gain against the size of the land", mrbsp::kLandParameters,
+               mrbsp::land_cases, mrbsp::measure_land},
+    Experiment{"mrbsp.roughness", "mrbsp", "§5: visibility's gain against roughness",
+               mrbsp::kRoughnessParameters, mrbsp::roughness_cases, mrbsp::measure_roughness},
+    Experiment{"mrbsp.drawing", "mrbsp", "§1: land from drawings", mrbsp::kDrawingParameters,
+               mrbsp::drawing_cases, mrbsp::measure_drawing},
     Experiment{"overview.relief", "overview", "Shaded relief of each terrain in each representation",
                overview_experiments::kReliefParameters, overview_experiments::relief_cases,
                overview_experiments::measure_relief},

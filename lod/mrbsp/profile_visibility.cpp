@@ -32,19 +32,19 @@ bool clear(std::span<const float> coarse, float step, glm::vec2 eye, std::size_t
 
 }  // namespace
 
-const Profile& table1_profile() {
+const ProfileScene& table1_profile() {
   // Two valleys between a ridge in the middle and higher rims. From a rim (cells a and h) the far rim shows
   // above the ridge, and from nowhere else the valley beyond.
-  static const Profile kProfile{{10.0F, 7.9F, 4.6F, 2.2F, 0.0F, 1.7F, 4.9F, 6.4F, 9.0F, 7.1F, 4.2F, 2.6F,
-                                 0.0F, 2.9F, 5.4F, 7.2F, 10.0F},
-                                4,
-                                2,
-                                8,
-                                0.0F};
+  static const ProfileScene kProfile{{10.0F, 7.9F, 4.6F, 2.2F, 0.0F, 1.7F, 4.9F, 6.4F, 9.0F, 7.1F, 4.2F, 2.6F,
+                                      0.0F, 2.9F, 5.4F, 7.2F, 10.0F},
+                                     4,
+                                     2,
+                                     8,
+                                     0.0F};
   return kProfile;
 }
 
-VisibleSets find_visible(const Profile& profile) {
+VisibleSets find_visible(const ProfileScene& profile) {
   const int segments = 1 << profile.depth;
   if (profile.depth < 1 || profile.depth > 16 || profile.coarse_depth < 1 ||
       profile.coarse_depth > profile.depth || profile.cells < 1 || segments % profile.cells != 0 ||

@@ -10,7 +10,7 @@
 
 namespace terrabench {
 
-struct Profile {
+struct ProfileScene {
   std::vector<float> heights;  // 2^depth + 1, one apart
   int depth = 4;               // of the finest segments
   int coarse_depth = 2;        // of the segments that block and are blocked
@@ -19,9 +19,9 @@ struct Profile {
 };
 
 // A profile whose changes are exactly the lines of table 1.
-const Profile& table1_profile();
+const ProfileScene& table1_profile();
 
 // The observer is tried at two places a cell. Throws usage_error when the numbers do not fit each other.
-VisibleSets find_visible(const Profile&);
+VisibleSets find_visible(const ProfileScene&);
 
 }  // namespace terrabench

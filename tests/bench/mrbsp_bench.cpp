@@ -105,7 +105,7 @@ void count_misses(const Heightfield& field, const BisectionTree& tree, const Vis
     key = key * 1664525U + 1013904223U;
     return static_cast<float>(key >> 8) / 16777216.0F;
   };
-  constexpr int kEyes = 300;
+  constexpr int kEyes = 20;
   for (int e = 0; e < kEyes; ++e) {
     glm::vec3 eye(random() * static_cast<float>(grid.width - 1), 0,
                   random() * static_cast<float>(grid.depth - 1));

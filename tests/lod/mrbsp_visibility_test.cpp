@@ -275,7 +275,7 @@ TEST(VisibleNodes, FlagsStandForTheirSubtreesWhereverTheWalkGoes) {
   EXPECT_EQ(nodes.move_to(table, nodes.cell()), 0U);
 }
 
-TEST(Profile, GivesTheLinesOfTable1) {
+TEST(ProfileScene, GivesTheLinesOfTable1) {
   const VisibilityTable table = changes_of(find_visible(table1_profile()));
   EXPECT_EQ(visibility_text(table),
             "terrabench-visibility 1\ncells 8 1\nside 2\ndepth 2\neye-height 0\nstart 00, 01, 11\n"
@@ -287,8 +287,8 @@ TEST(Profile, GivesTheLinesOfTable1) {
   EXPECT_TRUE(fine_changes(table.step(3), 2, 4).starts_with("0000, 0001, 0010, 0011, 0100"));
 }
 
-TEST(Profile, RefusesNumbersThatDoNotFit) {
-  Profile profile = table1_profile();
+TEST(ProfileScene, RefusesNumbersThatDoNotFit) {
+  ProfileScene profile = table1_profile();
   profile.cells = 3;
   EXPECT_EQ(failure_of([&] { (void)find_visible(profile); }).code, ExitCode::kUsage);
   profile = table1_profile();

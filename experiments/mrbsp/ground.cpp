@@ -1,0 +1,79 @@
+#include "experiments/mrbsp/ground.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "terrain/error.h"
+#include "terrain/sources/drawing/drawing.h"
+#include "terrain/sources/fractal/diamond_square.h"
+
+namespace terrabench::mrbsp {
+namespace {
+
+TerrainSource from_heights(std::string_view name, Heightfield heights) {
+  TerrainSource source;
+  source.name = name;
+  source.checksum = checksum(heights);
+  source.heights = std::move(heights);
+  return source;
+}
+
+}  // namespace
+
+TerrainSource open_ground(std::string_view name, std::uint64_t seed) {
+  if (name == "real-257") {
+    return from_heights(name, resample(*open_terrain("jacksboro").heights, kSide, kSide));
+  }
+  if (name == "drawing-257") {
+    DrawingOptions options;
+    options.peak = 1600;
+    return from_heights(name, land_from_drawing(example_drawing(kSide, seed), options));
+  }
+  if (name == "rough-257") {
+    return from_heights(name, fractal::diamond_square({.seed = seed, .side = kSide, .hurst = 0.5F}));
+  }
+  TerrainSource source = open_terrain(name, seed);
+  if (!source.heights) {
+    throw usage_error("level of detail needs a height field, not a solid", name, "name a terrain of heights");
+  }
+  source.heights = fill_no_data(*source.heights);
+  return source;
+}
+
+std::vector<std::string> grounds(const RunOptions& options, bool rough) {
+  if (!options.terrains.empty()) return options.terrains;
+  if (rough) return {"real-257", "drawing-257", "rough-257"};
+  return {"real-257", "drawing-257"};
+}
+
+int depth_over(const Heightfield& field) { return field.width == kSide && field.depth == kSide ? kDepth : 0; }
+
+std::vector<View> walk(const Heightfield& field, int views, float reach) {
+  std::vector<View> all;
+  const auto place = [&](double turn) {
+    // Two loops and three: crosses the middle and its own way, and comes back.
+    const double angle = 2 * std::numbers::pi * turn;
+    return glm::vec2(
+        field.extent_x() * (0.5F + 0.5F * reach * static_cast<float>(std::sin(2 * angle))),
+        field.extent_z() * (0.5F + 0.5F * reach * static_cast<float>(std::sin(3 * angle + 0.7))));
+  };
+  for (int k = 0; k < views; ++k) {
+    const glm::vec2 here = place(static_cast<double>(k) / views);
+    const glm::vec2 next = place((k + 0.25) / views);
+    View view;
+    view.eye = {here.x, field.sample(here.x, here.y) + 1.8F, here.y};
+    view.target = view.eye + glm::vec3(next.x - here.x, 0, next.y - here.y);
+    view.vertical_fov = 0.53F;
+    view.far = 2 * (field.extent_x() + field.extent_z());
+    all.push_back(view);
+  }
+  return all;
+}
+
+double mean_triangles(Mrbsp& lod, const std::vector<View>& views) {
+  double sum = 0;
+  for (const View& view : views) sum += static_cast<double>(lod.update(view).stats.triangles);
+  return sum / static_cast<double>(views.size());
+}
+
+}  // namespace terrabench::mrbsp

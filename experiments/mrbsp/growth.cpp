@@ -1,0 +1,103 @@
+// §5: level of detail gains more as the land grows outwards, visibility as it gets rougher. A gain is how
+// many times fewer triangles are drawn than without.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "experiments/drill/ground.h"
+#include "experiments/mrbsp/ground.h"
+#include "experiments/mrbsp/mrbsp.h"
+#include "terrain/sources/fractal/diamond_square.h"
+
+namespace terrabench::mrbsp {
+namespace {
+
+constexpr std::array kLandSpecs{
+    ParameterSpec{"n", std::int64_t{257}, "samples", "side of the land", 65, 8193},
+};
+constexpr std::array kRoughnessSpecs{
+    ParameterSpec{"hurst", 0.5, "", "exponent by which detail falls with its size: lower is rougher", 0, 1},
+};
+constexpr int kViews = 60, kSmallest = 129, kLargest = 2049, kSeeds = 3;
+
+}  // namespace
+
+constinit const std::span<const ParameterSpec> kLandParameters = kLandSpecs;
+constinit const std::span<const ParameterSpec> kRoughnessParameters = kRoughnessSpecs;
+
+std::vector<Case> land_cases(const RunOptions& options) {
+  std::vector<Case> cases;
+  const int largest = options.profile == Profile::kPaper ? kLargest : 1025;
+  for (int n = kSmallest; n <= largest; n = 2 * n - 1) {
+    Case& added = cases.emplace_back(Case{fmt::format("n={}", n), Parameters(kLandParameters), ""});
+    added.parameters.set("n", std::int64_t{n});
+  }
+  return cases;
+}
+
+void measure_land(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const int n = static_cast<int>(at.parameters.integer("n"));
+  // Outwards: the same middle, and more and more around it.
+  const int around = std::max(n, kLargest);
+  const Heightfield ground =
+      crop(drill::noise_hills(around, options.seed), (around - n) / 2, (around - n) / 2, n, n);
+  recorder.terrain("noise-hills", checksum(ground));
+  // The walk on the smallest land.
+  const float reach = 0.6F * (kSmallest - 1) / static_cast<float>(std::max(n, kSmallest) - 1);
+  const std::vector<View> views = walk(ground, kViews, reach);
+  MrbspOptions rule;
+  rule.conforming = false;
+  Mrbsp lod(ground, rule, progress);
+  lod.tune(kFinest);
+  const double all = mean_triangles(lod, views);
+  lod.tune(kTunedSize);
+  const double some = mean_triangles(lod, views);
+  lod.tune(1);
+  const double printed = mean_triangles(lod, views);
+  recorder.add("triangles_all", "", static_cast<double>(lod.tree().triangles()));
+  recorder.add("triangles_brute", "", all);
+  recorder.add("triangles_lod", "", some);
+  recorder.add("gain", "", all / some);
+  recorder.add("gain_as_printed", "", all / printed);
+}
+
+std::vector<Case> roughness_cases(const RunOptions&) {
+  std::vector<Case> cases;
+  for (const double hurst : {1.0, 0.9, 0.8, 0.7, 0.6}) {
+    Case& added =
+        cases.emplace_back(Case{fmt::format("hurst={}", hurst), Parameters(kRoughnessParameters), ""});
+    added.parameters.set("hurst", hurst);
+  }
+  return cases;
+}
+
+void measure_roughness(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  std::array<double, 3> sums{};  // none, sampled, conservative
+  for (int k = 0; k < kSeeds; ++k) {
+    const Heightfield ground =
+        fractal::diamond_square({.seed = options.seed + static_cast<std::uint64_t>(k),
+                                 .side = kSide,
+                                 .amplitude = 600,
+                                 .hurst = static_cast<float>(at.parameters.number("hurst"))});
+    if (k == 0) recorder.terrain("diamond-square", checksum(ground));
+    const std::vector<View> views = walk(ground, kViews);
+    for (std::size_t way = 0; way < sums.size(); ++way) {
+      MrbspOptions rule;
+      rule.depth = kDepth;
+      rule.conforming = false;
+      rule.visibility = way > 0;
+      rule.visible.conservative = way == 2;
+      Mrbsp lod(ground, rule, progress);
+      lod.tune(kFinest);
+      sums[way] += mean_triangles(lod, views) / kSeeds;
+    }
+  }
+  recorder.add("triangles_brute", "", sums[0]);
+  recorder.add("triangles_vis", "", sums[1]);
+  recorder.add("triangles_vis_conservative", "", sums[2]);
+  recorder.add("gain", "", sums[0] / sums[1]);
+  recorder.add("gain_conservative", "", sums[0] / sums[2]);
+}
+
+}  // namespace terrabench::mrbsp

@@ -1,0 +1,81 @@
+// §3: what the one-vertex rule leaves open, counted by the detector that all methods share.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "experiments/mrbsp/ground.h"
+#include "experiments/mrbsp/mrbsp.h"
+#include "lod/meters/cracks.h"
+
+namespace terrabench::mrbsp {
+namespace {
+
+constexpr std::array kSpecs{
+    ParameterSpec{"conforming", false, "", "the rule without holes, not the paper's"},
+    ParameterSpec{"area", false, "", "threshold M - 2 log2(D/S)"},
+};
+constexpr std::array kSizes{1.0, 4.0, 16.0};
+
+}  // namespace
+
+constinit const std::span<const ParameterSpec> kHoleParameters = kSpecs;
+
+std::vector<Case> hole_cases(const RunOptions& options) {
+  std::vector<Case> cases;
+  for (const std::string& ground : grounds(options, true)) {
+    for (const bool area : {false, true}) {
+      for (const bool conforming : {false, true}) {
+        Case& added = cases.emplace_back(
+            Case{fmt::format("{}/{}{}", ground, conforming ? "conforming" : "printed", area ? "-area" : ""),
+                 Parameters(kHoleParameters), ground});
+        added.parameters.set("conforming", conforming);
+        added.parameters.set("area", area);
+      }
+    }
+  }
+  return cases;
+}
+
+void measure_holes(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = open_ground(at.terrain, options.seed);
+  recorder.terrain(source);
+  const Heightfield& ground = *source.heights;
+  MrbspOptions rule;
+  rule.depth = depth_over(ground);
+  rule.conforming = at.parameters.flag("conforming");
+  rule.area_consistent = at.parameters.flag("area");
+  Mrbsp lod(ground, rule, progress);
+  const std::vector<View> views = walk(ground, options.profile == Profile::kPaper ? 240 : 40);
+  CrackReport all;
+  std::size_t torn = 0, drawn = 0;
+  progress.begin("looking for holes", kSizes.size() * views.size());
+  for (const double size : kSizes) {
+    lod.tune(size);
+    for (const View& view : views) {
+      const Frame& frame = lod.update(view);
+      const CrackReport report = find_cracks(frame, ground.width, ground.depth, view);
+      drawn += frame.stats.triangles;
+      torn += !report.tight();
+      all.t_junctions += report.t_junctions;
+      all.gaps += report.gaps;
+      all.bare_edges += report.bare_edges;
+      all.overlaps += report.overlaps;
+      all.largest_gap_m = std::max(all.largest_gap_m, report.largest_gap_m);
+      all.largest_gap_px = std::max(all.largest_gap_px, report.largest_gap_px);
+      progress.advance();
+    }
+  }
+  progress.end();
+  const auto frames = static_cast<double>(kSizes.size() * views.size());
+  recorder.add("frames", "", frames);
+  recorder.add("triangles_per_frame", "", static_cast<double>(drawn) / frames);
+  recorder.add("holes", "", static_cast<double>(all.gaps + all.bare_edges + all.overlaps));
+  recorder.add("holes_per_frame", "", static_cast<double>(all.gaps + all.bare_edges + all.overlaps) / frames);
+  recorder.add("t_junctions", "", static_cast<double>(all.t_junctions));
+  recorder.add("frames_with_holes", "", static_cast<double>(torn));
+  recorder.add("largest_gap", "m", all.largest_gap_m);
+  recorder.add("largest_gap_on_screen", "pixels", all.largest_gap_px);
+}
+
+}  // namespace terrabench::mrbsp

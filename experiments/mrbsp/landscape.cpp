@@ -1,0 +1,166 @@
+// §1: what each adjustment does to the land that a drawing becomes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "experiments/drill/sheet.h"
+#include "experiments/mrbsp/ground.h"
+#include "experiments/mrbsp/mrbsp.h"
+#include "renderers/scene.h"
+#include "terrain/sources/drawing/drawing.h"
+
+namespace terrabench::mrbsp {
+namespace {
+
+constexpr std::array kSpecs{
+    ParameterSpec{"n", std::int64_t{kSide}, "pixels", "side of the drawing", 16, 4096},
+};
+constexpr float kBeach = 25;  // metres above the sea and below
+
+// All greys from black to white.
+Heightfield ramp(const DrawingOptions& options) {
+  Image picture(256, 1, {});
+  for (int x = 0; x < 256; ++x) {
+    const auto grey = static_cast<std::uint8_t>(x);
+    picture.set(x, 0, {grey, grey, grey});
+  }
+  return land_from_drawing(picture, options);
+}
+
+template <class Test>
+double share(const Heightfield& field, const Test& test) {
+  return static_cast<double>(std::count_if(field.heights.begin(), field.heights.end(), test)) /
+         static_cast<double>(field.heights.size());
+}
+
+// How many samples break a rule that the text states for single greys.
+std::size_t broken_greys() {
+  std::size_t broken = 0;
+  for (const float peak : {500.0F, 1000.0F, 2000.0F}) {
+    for (const float bed : {0.05F, 0.3F}) {
+      for (const int shore : {0, 51, 102}) {
+        DrawingOptions options;
+        options.smoothing = 0;
+        options.peak = peak;
+        options.seabed = bed;
+        options.sea_level = static_cast<float>(shore) / 255;
+        const Heightfield field = ramp(options);
+        broken += field.at(255, 0) != peak;
+        broken += field.at(shore, 0) != 0;
+        if (shore > 0) broken += field.at(0, 0) != -bed * peak;
+        for (int x = 1; x < 256; ++x) broken += !(field.at(x, 0) > field.at(x - 1, 0));
+      }
+    }
+  }
+  return broken;
+}
+
+// Mean bend of the ground that was drawn as low land, and how many samples of mountains have moved.
+struct Smoothed {
+  double bend = 0;
+  std::size_t moved = 0, mountains = 0;
+};
+Smoothed compare(const Heightfield& field, const Heightfield& drawn, const DrawingOptions& options) {
+  Smoothed result;
+  std::size_t low = 0;
+  for (int j = 1; j + 1 < field.depth; ++j) {
+    for (int i = 1; i + 1 < field.width; ++i) {
+      if (drawn.at(i, j) >= options.mountains * options.peak) {
+        ++result.mountains;
+        result.moved += field.at(i, j) != drawn.at(i, j);
+      } else if (drawn.at(i, j) > 0 && drawn.at(i, j) < 0.5F * options.mountains * options.peak) {
+        result.bend += std::abs(4 * field.at(i, j) - field.at(i - 1, j) - field.at(i + 1, j) -
+                                field.at(i, j - 1) - field.at(i, j + 1));
+        ++low;
+      }
+    }
+  }
+  if (low > 0) result.bend /= static_cast<double>(low);
+  return result;
+}
+
+void draw(const Image& picture, const Heightfield& field, const RunOptions& options, Recorder& recorder) {
+  constexpr double kPicture = 340, kWide = 620, kMargin = 20;
+  TriangleMesh mesh;
+  for (int j = 0; j < field.depth; ++j) {
+    for (int i = 0; i < field.width; ++i) {
+      mesh.positions.emplace_back(static_cast<float>(i) * field.cell_x, field.at(i, j),
+                                  static_cast<float>(j) * field.cell_z);
+    }
+  }
+  for (int j = 0; j + 1 < field.depth; ++j) {
+    for (int i = 0; i + 1 < field.width; ++i) {
+      const auto a = static_cast<std::uint32_t>(j * field.width + i), b = a + 1;
+      const auto c = a + static_cast<std::uint32_t>(field.width), d = c + 1;
+      mesh.indices.insert(mesh.indices.end(), {a, c, b, b, c, d});
+    }
+  }
+  compute_normals(mesh);
+  const HeightRange range = height_range(field);
+  const auto context = open_context(options.renderer, 64, 64);
+  Scene scene;
+  scene.lowest = 0;
+  scene.highest = range.highest;
+  scene.meshes.emplace_back().mesh = &mesh;
+  ScenePlane& sea = scene.planes.emplace_back();
+  sea.corners = {
+      {0, 0, 0}, {0, 0, field.extent_z()}, {field.extent_x(), 0, field.extent_z()}, {field.extent_x(), 0, 0}};
+  sea.fill_opacity = 0.75F;
+  sea.line_width = 1;
+  const View view = overview(bounds_of(mesh), static_cast<int>(2 * kWide), static_cast<int>(2 * kPicture));
+  drill::Sheet sheet(kPicture + kWide + 3 * kMargin, kPicture + 2 * kMargin + 28);
+  sheet.picture(kMargin, kMargin, kPicture, kPicture, picture);
+  sheet.picture(kPicture + 2 * kMargin, kMargin, kWide, kPicture, render_scene(*context, scene, view));
+  sheet.text(kMargin + kPicture / 2, kPicture + kMargin + 24, "drawing: black is sea, white a peak", 15,
+             "middle");
+  sheet.text(kPicture + 2 * kMargin + kWide / 2, kPicture + kMargin + 24,
+             fmt::format("land, {:.0f} m high, with the sea", range.highest), 15, "middle");
+  sheet.write(
+      recorder.figure("mrbsp.landscape", "png",
+                      "A drawing of grey clouds with lightened ridges and a river and a lake in black, "
+                      "and the land that it becomes"));
+}
+
+}  // namespace
+
+constinit const std::span<const ParameterSpec> kDrawingParameters = kSpecs;
+
+std::vector<Case> drawing_cases(const RunOptions&) {
+  return {Case{"drawing", Parameters(kDrawingParameters), ""}};
+}
+
+void measure_drawing(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
+  const Image picture = example_drawing(static_cast<int>(at.parameters.integer("n")), options.seed);
+  DrawingOptions adjust;
+  const Heightfield land = land_from_drawing(picture, adjust);
+  recorder.terrain("drawing", checksum(land));
+  recorder.add("broken_greys", "", static_cast<double>(broken_greys()));
+  for (const int percent : {10, 30, 40, 50}) {
+    adjust.sea_level = static_cast<float>(percent) / 100;
+    recorder.add(fmt::format("land_share_at_sea_level_{}", percent), "",
+                 share(land_from_drawing(picture, adjust), [](float h) { return h > 0; }));
+  }
+  adjust = {};
+  for (const int percent : {60, 30, 10, 3}) {
+    adjust.seabed = static_cast<float>(percent) / 100;
+    recorder.add(fmt::format("beach_share_at_seabed_{}", percent), "",
+                 share(land_from_drawing(picture, adjust), [](float h) { return std::abs(h) < kBeach; }));
+  }
+  adjust = {};
+  adjust.smoothing = 0;
+  const Heightfield drawn = land_from_drawing(picture, adjust);
+  std::size_t moved = 0;
+  for (const int passes : {0, 2, 8, 32}) {
+    adjust.smoothing = passes;
+    const Smoothed smoothed = compare(land_from_drawing(picture, adjust), drawn, adjust);
+    recorder.add(fmt::format("hill_bend_after_{}", passes), "m", smoothed.bend);
+    moved += smoothed.moved;
+    if (passes == 0) recorder.add("mountain_samples", "", static_cast<double>(smoothed.mountains));
+  }
+  recorder.add("mountain_samples_moved", "", static_cast<double>(moved));
+  draw(picture, land, options, recorder);
+}
+
+}  // namespace terrabench::mrbsp

@@ -1,0 +1,108 @@
+// §3 says that depth M - log2(D/S) makes triangles far away look as large as those nearby. What is drawn on
+// level ground says how large they look: the short side, in pixels, against the distance of the furthest
+// corner.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "experiments/mrbsp/ground.h"
+#include "experiments/mrbsp/mrbsp.h"
+#include "results/plot.h"
+#include "terrain/files.h"
+
+namespace terrabench::mrbsp {
+namespace {
+
+constexpr std::array kSpecs{
+    ParameterSpec{"n", std::int64_t{1025}, "samples", "side of the level ground", 65, 4097},
+};
+constexpr int kFirstBin = 10, kBins = 10;  // two a doubling, from 32 short sides on
+constexpr double kSize = 16;
+// At 800 × 600 pixels and 40° across.
+const double kPixelsPerRadian = 400 / std::tan(std::numbers::pi / 9);
+
+struct Bin {
+  double log_legs = 0;
+  std::size_t triangles = 0;
+};
+
+// Geometric means of the apparent short side, by distance.
+std::vector<PlotPoint> apparent_sizes(const Heightfield& ground, bool area, Progress& progress) {
+  MrbspOptions options;
+  options.area_consistent = area;
+  options.conforming = false;
+  options.cull = false;
+  Mrbsp lod(ground, options, progress);
+  lod.tune(kSize);
+  View view;
+  view.eye = {0, 1.8F, 0};
+  view.target = {ground.extent_x(), 1.8F, ground.extent_z()};
+  view.far = 4 * ground.extent_x();
+  std::array<Bin, kBins> bins{};
+  triangles(lod.update(view), [&](std::span<const glm::vec3> corners) {
+    for (std::size_t k = 0; k < corners.size(); k += 3) {
+      double furthest = 0;
+      for (std::size_t c = 0; c < 3; ++c) {
+        furthest = std::max<double>(furthest, glm::distance(corners[k + c], view.eye));
+      }
+      const double side = std::sqrt(
+          glm::length(glm::cross(corners[k + 1] - corners[k], corners[k + 2] - corners[k])));  // √(2·area)
+      const int bin = static_cast<int>(std::floor(2 * std::log2(furthest / lod.short_side()))) - kFirstBin;
+      if (bin < 0 || bin >= kBins) continue;
+      bins[static_cast<std::size_t>(bin)].log_legs += std::log(side / furthest * kPixelsPerRadian);
+      ++bins[static_cast<std::size_t>(bin)].triangles;
+    }
+  });
+  std::vector<PlotPoint> points;
+  for (int k = 0; k < kBins; ++k) {
+    const Bin& bin = bins[static_cast<std::size_t>(k)];
+    if (bin.triangles == 0) continue;
+    const double size = std::exp(bin.log_legs / static_cast<double>(bin.triangles));
+    points.push_back({std::exp2((kFirstBin + k + 0.5) / 2), size, size, size});
+  }
+  return points;
+}
+
+}  // namespace
+
+constinit const std::span<const ParameterSpec> kThresholdParameters = kSpecs;
+
+std::vector<Case> threshold_cases(const RunOptions&) {
+  return {Case{"level", Parameters(kThresholdParameters), ""}};
+}
+
+void measure_threshold(const Case& at, const RunOptions&, Recorder& recorder, Progress& progress) {
+  Heightfield ground;
+  ground.width = ground.depth = static_cast<int>(at.parameters.integer("n"));
+  ground.cell_x = ground.cell_z = 30;
+  ground.heights.assign(static_cast<std::size_t>(ground.width) * ground.depth, 0.0F);
+  recorder.terrain("level", checksum(ground));
+  Plot plot{
+      .title = "Apparent size of triangles against distance",
+      .x = {.label = "distance of the furthest corner", .unit = "short sides of the finest", .log = true},
+      .y = {.label = "apparent short side", .unit = "pixels", .log = true},
+      .series = {}};
+  for (const bool area : {false, true}) {
+    const std::vector<PlotPoint> points = apparent_sizes(ground, area, progress);
+    const std::string name = area ? "area" : "printed";
+    const double slope = power_law(points).value_or(0);
+    recorder.add("slope_" + name, "", slope);
+    recorder.add("size_near_" + name, "pixels", points.front().y);
+    recorder.add("size_far_" + name, "pixels", points.back().y);
+    plot.series.push_back(
+        {.label =
+             fmt::format("{}, slope {:.2f}", area ? "M − 2 log₂(D/S)" : "M − log₂(D/S), as printed", slope),
+         .points = points});
+  }
+  write_file(
+      recorder.figure("mrbsp.threshold", "svg",
+                      "How large triangles look against their distance, on level ground, for the "
+                      "threshold as printed and for the one that halves areas; level is what the paper "
+                      "claims (800 × 600 pixels, 40° across)"),
+      plot_svg(plot));
+}
+
+}  // namespace terrabench::mrbsp

@@ -1,0 +1,159 @@
+// §4: whether the stored sets over-estimate what is seen, against pictures in which every pixel says which
+// triangle it shows; and what storing changes alone saves.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <random>
+#include <unordered_set>
+
+#include "experiments/mrbsp/ground.h"
+#include "experiments/mrbsp/mrbsp.h"
+#include "lod/mrbsp/coarse_squares.h"
+#include "lod/mrbsp/visibility_file.h"
+#include "renderers/frame_renderer.h"
+
+namespace terrabench::mrbsp {
+namespace {
+
+constexpr std::array kSpecs{
+    ParameterSpec{"conservative", false, "", "the sets that miss nothing, not the paper's sampling"},
+    ParameterSpec{"cells", std::int64_t{16}, "cells", "at most, along the longer side", 1, 256},
+    ParameterSpec{"coarseness", std::int64_t{6}, "levels", "from the finest triangles to those of visibility",
+                  0, 14},
+};
+constexpr int kHeadings = 4, kPixels = 512;
+
+struct Misses {
+  std::size_t seen = 0, missed = 0, pixels = 0, missed_pixels = 0, eyes = 0;
+};
+
+// Which coarse triangle a triangle of the frame lies in: by its middle.
+std::uint32_t element_of(const Frame& frame, std::uint32_t triangle, const CoarseSquares& squares) {
+  glm::vec2 middle(0);
+  for (std::uint32_t c = 0; c < 3; ++c) {
+    const std::uint32_t vertex = frame.indices[3 * triangle + c];
+    middle += glm::vec2(vertex % static_cast<std::uint32_t>(frame.grid.width),
+                        vertex / static_cast<std::uint32_t>(frame.grid.width)) /
+              3.0F;
+  }
+  const auto side = static_cast<float>(squares.side());
+  const glm::ivec2 square(middle / side);
+  const glm::vec2 in = middle - glm::vec2(square) * side;
+  const bool high = CoarseSquares::rising(square) ? in.x > in.y : in.x + in.y > side;
+  return squares.element(square, high ? 1 : 0);
+}
+
+// What an eye sees all around that its cell's set lacks.
+void look_around(const Heightfield& ground, const glm::vec3& eye, Mrbsp& full, FrameRenderer& renderer,
+                 const VisibleSets& sets, const CoarseSquares& squares, Misses& misses) {
+  const CellGrid& cells = sets.cells;
+  const int column = std::min(static_cast<int>(eye.x / ground.cell_x) / cells.side, cells.columns - 1);
+  const int row = std::min(static_cast<int>(eye.z / ground.cell_z) / cells.side, cells.rows - 1);
+  std::unordered_set<std::uint64_t> seen, missed;  // a triangle may show in two directions
+  for (int heading = 0; heading < kHeadings; ++heading) {
+    View view;
+    view.eye = eye;
+    const std::array<glm::vec3, kHeadings> ways{{{1, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}}};
+    view.target = eye + ways[static_cast<std::size_t>(heading)];
+    view.vertical_fov = 1.5708F;
+    view.width = view.height = kPixels;
+    view.far = 2 * (ground.extent_x() + ground.extent_z());
+    const Frame& frame = full.update(view);
+    for (const std::uint32_t number : renderer.triangle_numbers(frame, view)) {
+      if (number == 0) continue;
+      const std::uint32_t triangle = number - 1;
+      const std::uint32_t* const at = frame.indices.data() + std::size_t{3} * triangle;
+      const std::uint64_t key = std::uint64_t{at[0]} << 40 ^ std::uint64_t{at[1]} << 20 ^ at[2];
+      ++misses.pixels;
+      const bool known = missed.contains(key);
+      if (known || (seen.insert(key).second &&
+                    !sets.sees(row * cells.columns + column, element_of(frame, triangle, squares)))) {
+        missed.insert(key);
+        ++misses.missed_pixels;
+      }
+    }
+  }
+  misses.seen += seen.size();
+  misses.missed += missed.size();
+  ++misses.eyes;
+}
+
+}  // namespace
+
+constinit const std::span<const ParameterSpec> kVisibilityParameters = kSpecs;
+
+std::vector<Case> visibility_cases(const RunOptions& options) {
+  std::vector<Case> cases;
+  const bool paper = options.profile == Profile::kPaper;
+  for (const std::string& ground : grounds(options, paper)) {
+    for (const bool conservative : {false, true}) {
+      for (const int cells : {16, 32}) {
+        if (cells != 16 && !paper) continue;
+        Case& added = cases.emplace_back(
+            Case{fmt::format("{}/{}/cells={}", ground, conservative ? "conservative" : "sampled", cells),
+                 Parameters(kVisibilityParameters), ground});
+        added.parameters.set("conservative", conservative);
+        added.parameters.set("cells", std::int64_t{cells});
+      }
+    }
+  }
+  return cases;
+}
+
+void measure_visibility(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = open_ground(at.terrain, options.seed);
+  recorder.terrain(source);
+  const Heightfield& ground = *source.heights;
+  MrbspOptions finest;
+  finest.depth = depth_over(ground);
+  Mrbsp full(ground, finest, progress);
+  full.tune(kFinest);
+  VisibilityOptions how;
+  how.conservative = at.parameters.flag("conservative");
+  how.cells = static_cast<int>(at.parameters.integer("cells"));
+  how.coarseness = static_cast<int>(at.parameters.integer("coarseness"));
+  const auto begin = std::chrono::steady_clock::now();
+  const VisibleSets sets = find_visible(grid_of(ground), full.tree(), how, progress);
+  recorder.add("preprocessing_time", "s",
+               std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  std::size_t visible = 0;
+  for (int cell = 0; cell < sets.cells.count(); ++cell) visible += sets.count(cell);
+  recorder.add("cells", "", sets.cells.count());
+  recorder.add("coarse_triangles", "", static_cast<double>(std::uint64_t{1} << sets.depth));
+  recorder.add("visible_share", "",
+               static_cast<double>(visible) / sets.cells.count() / std::exp2(sets.depth));
+  const VisibilityBytes bytes = visibility_bytes(changes_of(sets));
+  recorder.add("bytes_changes", "B", static_cast<double>(bytes.changes));
+  recorder.add("bytes_lists", "B", static_cast<double>(bytes.lists));
+  recorder.add("bytes_bits", "B", static_cast<double>(bytes.bits));
+  recorder.add("changes_to_lists", "", static_cast<double>(bytes.changes) / static_cast<double>(bytes.lists));
+  recorder.add("changes_to_bits", "", static_cast<double>(bytes.changes) / static_cast<double>(bytes.bits));
+
+  const auto context = open_context(options.renderer, kPixels, kPixels);
+  FrameRenderer renderer(*context);
+  const CoarseSquares squares(full.tree(), sets.depth);
+  std::mt19937_64 random(options.seed);
+  const auto share = [&] { return static_cast<float>(random() >> 40) / 16777216.0F; };
+  const int eyes = options.profile == Profile::kPaper ? 100 : 20;
+  Misses misses;
+  progress.begin("looking around", static_cast<std::uint64_t>(eyes));
+  for (int e = 0; e < eyes; ++e) {
+    glm::vec3 eye(share() * ground.extent_x(), 0, share() * ground.extent_z());
+    eye.y = ground.sample(eye.x, eye.z) + how.eye_height;
+    look_around(ground, eye, full, renderer, sets, squares, misses);
+    progress.advance();
+  }
+  progress.end();
+  const auto of = [](std::size_t part, std::size_t whole) {
+    return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+  };
+  recorder.add("eyes", "", static_cast<double>(misses.eyes));
+  recorder.add("seen", "", static_cast<double>(misses.seen));
+  recorder.add("missed", "", static_cast<double>(misses.missed));
+  recorder.add("missed_share", "", of(misses.missed, misses.seen));
+  recorder.add("missed_pixel_share", "", of(misses.missed_pixels, misses.pixels));
+}
+
+}  // namespace terrabench::mrbsp

@@ -1,0 +1,165 @@
+// Table 2: how many triangles each of the four methods draws along one walk, how long a frame takes, and how
+// long the choice of triangles. All methods see the same views, in turn.
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+
+#include "experiments/mrbsp/ground.h"
+#include "experiments/mrbsp/mrbsp.h"
+#include "renderers/frame_renderer.h"
+
+namespace terrabench::mrbsp {
+namespace {
+
+constexpr std::array kSpecs{
+    ParameterSpec{
+        "size", 1.0, "short sides",
+        "distance up to which the finest triangles are drawn; 0: that at which level of detail alone "
+        "draws the paper's share",
+        0, kFinest},
+    ParameterSpec{"conservative", false, "", "visibility that misses nothing, not the paper's sampling"},
+};
+
+constexpr int kViews = 240, kDrawn = 60, kRounds = 3;
+constexpr double kPaperShare = 3008.0 / 7238;
+
+enum Method { kBrute, kLod, kVis, kBoth, kMethods };
+constexpr std::array<std::string_view, kMethods> kNames{"brute", "lod", "vis", "both"};
+
+struct Methods {
+  std::vector<Mrbsp> lods;
+
+  Methods(const Heightfield& ground, bool conservative, Progress& progress) {
+    MrbspOptions options;
+    options.depth = depth_over(ground);
+    options.conforming = false;  // as printed
+    MrbspOptions with_visibility = options;
+    with_visibility.visibility = true;
+    with_visibility.visible.conservative = conservative;
+    lods.reserve(kMethods);
+    lods.emplace_back(ground, options, progress);
+    lods.emplace_back(ground, options, progress);
+    lods.emplace_back(ground, with_visibility, progress);
+    lods.emplace_back(ground, options, lods[kVis].visibility(), progress);
+    for (Mrbsp& lod : lods) lod.tune(kFinest);
+  }
+  void tune(double size) {
+    lods[kLod].tune(size);
+    lods[kBoth].tune(size);
+  }
+};
+
+// The size at which level of detail alone draws the paper's share of brute force.
+double fitted_size(Methods& methods, const std::vector<View>& views) {
+  const double wanted = kPaperShare * mean_triangles(methods.lods[kBrute], views);
+  double low = 1.0 / 64, high = kFinest;
+  for (int step = 0; step < 24; ++step) {
+    const double middle = std::sqrt(low * high);
+    methods.tune(middle);
+    (mean_triangles(methods.lods[kLod], views) < wanted ? low : high) = middle;
+  }
+  return high;
+}
+
+void count_triangles(Methods& methods, const std::vector<View>& views, Recorder& recorder) {
+  std::array<double, kMethods> sums{};
+  std::size_t in_order = 0;
+  for (const View& view : views) {
+    std::array<std::size_t, kMethods> drawn{};
+    for (std::size_t m = 0; m < kMethods; ++m) {
+      drawn[m] = methods.lods[m].update(view).stats.triangles;
+      sums[m] += static_cast<double>(drawn[m]);
+      recorder.add(fmt::format("triangles_{}", kNames[m]), "", static_cast<double>(drawn[m]));
+    }
+    in_order += drawn[kBoth] <= std::min(drawn[kLod], drawn[kVis]) &&
+                std::max(drawn[kLod], drawn[kVis]) <= drawn[kBrute];
+  }
+  for (std::size_t m = 0; m < kMethods; ++m) {
+    recorder.add(fmt::format("mean_{}", kNames[m]), "", sums[m] / static_cast<double>(views.size()));
+    recorder.add(fmt::format("share_{}", kNames[m]), "", sums[m] / sums[kBrute]);
+  }
+  recorder.add("views", "", static_cast<double>(views.size()));
+  recorder.add("views_in_order", "", static_cast<double>(in_order));
+}
+
+template <class Work>
+double seconds(const Work& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// Methods take turns at every view, so that a busy moment of the machine meets all alike.
+void time_frames(Methods& methods, const Heightfield& ground, const std::vector<View>& views,
+                 const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const auto context = open_context(options.renderer, views[0].width, views[0].height);
+  std::vector<std::unique_ptr<FrameRenderer>> renderers;
+  for (std::size_t m = 0; m < kMethods; ++m) renderers.push_back(std::make_unique<FrameRenderer>(*context));
+  const HeightRange range = height_range(ground);
+  const FrameStyle style{.lowest = range.lowest, .highest = range.highest};
+  std::array<double, kMethods> sums{};
+  progress.begin("drawing frames", static_cast<std::uint64_t>(kRounds) * views.size());
+  for (int round = -1; round < kRounds; ++round) {
+    for (const View& view : views) {
+      for (std::size_t m = 0; m < kMethods; ++m) {
+        const double time = seconds([&] {
+          renderers[m]->draw(methods.lods[m].update(view), view, style);
+          renderers[m]->finish();
+        });
+        if (round < 0) break;  // the first frames upload heights and compile shaders
+        recorder.add(fmt::format("frame_time_{}", kNames[m]), "s", time);
+        sums[m] += time;
+      }
+      if (round < 0) break;
+      progress.advance();
+    }
+  }
+  progress.end();
+  for (std::size_t m = 0; m < kMethods; ++m) {
+    recorder.add(fmt::format("time_share_{}", kNames[m]), "", sums[m] / sums[kBrute]);
+  }
+}
+
+}  // namespace
+
+constinit const std::span<const ParameterSpec> kWalkParameters = kSpecs;
+
+std::vector<Case> walk_cases(const RunOptions& options) {
+  std::vector<Case> cases;
+  for (const std::string& ground : grounds(options, options.profile == Profile::kPaper)) {
+    const auto add = [&](std::string_view name, double size, bool conservative) {
+      Case& added =
+          cases.emplace_back(Case{fmt::format("{}/{}", ground, name), Parameters(kWalkParameters), ground});
+      added.parameters.set("size", size);
+      added.parameters.set("conservative", conservative);
+    };
+    add("printed", 1, false);
+    add("tuned", 0, false);
+    add("conservative", 0, true);
+  }
+  return cases;
+}
+
+void measure_walk(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = open_ground(at.terrain, options.seed);
+  recorder.terrain(source);
+  const Heightfield& ground = *source.heights;
+  const std::vector<View> views = walk(ground, kViews);
+  Methods methods(ground, at.parameters.flag("conservative"), progress);
+  const double asked = at.parameters.number("size");
+  const double size = asked > 0 ? asked : fitted_size(methods, views);
+  methods.tune(size);
+  recorder.add("size", "short sides", size);
+  recorder.add("triangles_all", "", static_cast<double>(methods.lods[kBrute].tree().triangles()));
+  count_triangles(methods, views, recorder);
+  for (const View& view : views) {
+    recorder.add("lod_time", "s", seconds([&] { methods.lods[kLod].update(view); }));
+    recorder.add("both_time", "s", seconds([&] { methods.lods[kBoth].update(view); }));
+  }
+  std::vector<View> drawn;
+  for (int k = 0; k < kDrawn; ++k) drawn.push_back(views[static_cast<std::size_t>(k * kViews / kDrawn)]);
+  time_frames(methods, ground, drawn, options, recorder, progress);
+}
+
+}  // namespace terrabench::mrbsp
