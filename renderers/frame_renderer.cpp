@@ -100,7 +100,7 @@ struct FrameRenderer::Gl {
   void describe(const Frame&);
   void set(const Program&, const Frame&, const View&);
   void set_style(const Program&, const View&, const FrameStyle&);
-  void draw(const Program&);
+  void draw(const Program&, GLenum nearer);
 };
 
 FrameRenderer::Gl::Gl() {
@@ -228,10 +228,10 @@ void FrameRenderer::Gl::set_style(const Program& program, const View& view, cons
   glBindTextureUnit(0, ramp.id());
 }
 
-void FrameRenderer::Gl::draw(const Program& program) {
+void FrameRenderer::Gl::draw(const Program& program, GLenum nearer) {
   if (draw_commands.empty()) return;
   glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
+  glDepthFunc(nearer);
   glUseProgram(program.id());
   glVertexArrayElementBuffer(array.id(), indices.id());
   glVertexArrayVertexBuffer(array.id(), 0, numbers_of_batches.id(), 0, sizeof(std::uint32_t));
@@ -269,7 +269,7 @@ void FrameRenderer::draw(const Frame& frame, const View& view, const FrameStyle&
   const Program& program = style.wire_width > 0 ? gl_->wired : gl_->plain;
   gl_->set(program, frame, view);
   gl_->set_style(program, view, style);
-  gl_->draw(program);
+  gl_->draw(program, GL_LEQUAL);
 }
 
 void FrameRenderer::finish() {
@@ -294,13 +294,21 @@ std::vector<std::uint32_t> FrameRenderer::triangle_numbers(const Frame& frame, c
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
   glViewport(0, 0, view.width, view.height);
   const GLuint none = 0;
-  const GLfloat far = 1;
+  // Depth is near ÷ distance, of which floats keep millionths at any distance: what lies a metre behind a
+  // ridge ten kilometres away is hidden. There is no far plane.
+  glm::mat4 clip = world_to_clip(view);
+  for (int column = 0; column < 4; ++column) clip[column][2] = column == 3 ? view.near : 0;
+  const GLfloat far = 0;
   glClearNamedFramebufferuiv(framebuffer.id(), GL_COLOR, 0, &none);
   glClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &far);
   gl_->upload(frame);
   gl_->describe(frame);
   gl_->set(gl_->numbers, frame, view);
-  gl_->draw(gl_->numbers);
+  glProgramUniformMatrix4fv(gl_->numbers.id(), uniform(gl_->numbers, "world_to_clip"), 1, GL_FALSE,
+                            &clip[0][0]);
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  gl_->draw(gl_->numbers, GL_GEQUAL);
+  glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
 
   std::vector<std::uint32_t> numbers(static_cast<std::size_t>(view.width) * view.height);
   glReadPixels(0, 0, view.width, view.height, GL_RED_INTEGER, GL_UNSIGNED_INT, numbers.data());

@@ -1,5 +1,6 @@
 #include "experiments/mrbsp/ground.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -48,6 +49,11 @@ std::vector<std::string> grounds(const RunOptions& options, bool rough) {
 
 int depth_over(const Heightfield& field) { return field.width == kSide && field.depth == kSide ? kDepth : 0; }
 
+float eye_height(const Heightfield& field, float x, float z) {
+  const BisectionTree tree = BisectionTree::over(field.width, field.depth, depth_over(field));
+  return std::max(field.sample(x, z), surface_height(tree, grid_of(field), x, z)) + 1.8F;
+}
+
 std::vector<View> walk(const Heightfield& field, int views, float reach) {
   std::vector<View> all;
   const auto place = [&](double turn) {
@@ -61,7 +67,7 @@ std::vector<View> walk(const Heightfield& field, int views, float reach) {
     const glm::vec2 here = place(static_cast<double>(k) / views);
     const glm::vec2 next = place((k + 0.25) / views);
     View view;
-    view.eye = {here.x, field.sample(here.x, here.y) + 1.8F, here.y};
+    view.eye = {here.x, eye_height(field, here.x, here.y), here.y};
     view.target = view.eye + glm::vec3(next.x - here.x, 0, next.y - here.y);
     view.vertical_fov = 0.53F;
     view.far = 2 * (field.extent_x() + field.extent_z());

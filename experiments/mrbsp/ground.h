@@ -22,7 +22,9 @@ std::vector<std::string> grounds(const RunOptions&, bool rough);
 // The paper's depth on land of its size; otherwise as deep as the samples go.
 int depth_over(const Heightfield&);
 
-// Loops around the middle of the land, 1.8 m above it, looking ahead, 800 × 600 pixels. 40° across, which
+// Height of a walker's eyes: 1.8 m above the samples and the triangles drawn of them.
+float eye_height(const Heightfield&, float x, float z);
+// Loops around the middle of the land at that height, looking ahead, 800 × 600 pixels. 40° across, which
 // sees the paper's 11 % of all triangles. `reach` is how far from the middle it goes, in shares of half the
 // land.
 std::vector<View> walk(const Heightfield&, int views, float reach = 0.6F);

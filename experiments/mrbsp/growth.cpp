@@ -17,7 +17,8 @@ constexpr std::array kLandSpecs{
     ParameterSpec{"n", std::int64_t{257}, "samples", "side of the land", 65, 8193},
 };
 constexpr std::array kRoughnessSpecs{
-    ParameterSpec{"hurst", 0.5, "", "exponent by which detail falls with its size: lower is rougher", 0, 1},
+    ParameterSpec{"relief", 600.0, "m", "most that the first level of the fractal is displaced", 0, 10000},
+    ParameterSpec{"hurst", 0.9, "", "exponent by which detail falls with its size: lower is rougher", 0, 1},
 };
 constexpr int kViews = 60, kSmallest = 129, kLargest = 2049, kSeeds = 3;
 
@@ -64,7 +65,12 @@ void measure_land(const Case& at, const RunOptions& options, Recorder& recorder,
 
 std::vector<Case> roughness_cases(const RunOptions&) {
   std::vector<Case> cases;
-  for (const double hurst : {1.0, 0.9, 0.8, 0.7, 0.6}) {
+  for (const double relief : {5.0, 20.0, 80.0, 320.0, 1280.0}) {
+    Case& added =
+        cases.emplace_back(Case{fmt::format("relief={}", relief), Parameters(kRoughnessParameters), ""});
+    added.parameters.set("relief", relief);
+  }
+  for (const double hurst : {0.9, 0.8, 0.7, 0.6}) {
     Case& added =
         cases.emplace_back(Case{fmt::format("hurst={}", hurst), Parameters(kRoughnessParameters), ""});
     added.parameters.set("hurst", hurst);
@@ -78,7 +84,7 @@ void measure_roughness(const Case& at, const RunOptions& options, Recorder& reco
     const Heightfield ground =
         fractal::diamond_square({.seed = options.seed + static_cast<std::uint64_t>(k),
                                  .side = kSide,
-                                 .amplitude = 600,
+                                 .amplitude = static_cast<float>(at.parameters.number("relief")),
                                  .hurst = static_cast<float>(at.parameters.number("hurst"))});
     if (k == 0) recorder.terrain("diamond-square", checksum(ground));
     const std::vector<View> views = walk(ground, kViews);

@@ -13,6 +13,7 @@
 #include "experiments/mrbsp/ground.h"
 #include "experiments/mrbsp/mrbsp.h"
 #include "renderers/frame_renderer.h"
+#include "renderers/scene.h"
 
 namespace terrabench::mrbsp {
 namespace {
@@ -31,13 +32,16 @@ class LodFigure {
 
   void draw(const RunOptions& options, const std::filesystem::path& file) {
     const auto context = open_context(options.renderer, view_.width, view_.height);
-    FrameRenderer renderer(*context);
+    numbers_ = FrameRenderer(*context).triangle_numbers(frame_, view_);
     const HeightRange range = height_range(ground_);
-    renderer.draw(
-        frame_, view_,
-        {.lowest = range.lowest, .highest = range.highest, .wire_width = 1.5F, .wire_opacity = 0.8F});
-    const Image image = renderer.image();
-    numbers_ = renderer.triangle_numbers(frame_, view_);
+    const TriangleMesh mesh = drawn_mesh();
+    Scene scene;
+    scene.lowest = range.lowest;
+    scene.highest = range.highest;
+    SceneMesh& land = scene.meshes.emplace_back();
+    land.mesh = &mesh;
+    land.wire_width = 2;
+    const Image image = render_scene(*context, scene, view_);
     Sheet sheet(kWidth, kHeight);
     sheet.picture(0, 0, kWidth, kHeight, with_few_colours(image));
     mark_split(sheet);
@@ -46,6 +50,12 @@ class LodFigure {
   }
 
  private:
+  TriangleMesh drawn_mesh() const {
+    TriangleMesh mesh;
+    mesh.indices.assign(frame_.indices.begin(), frame_.indices.end());
+    for (std::uint32_t v = 0; v < frame_.grid.heights.size(); ++v) mesh.positions.push_back(position(v));
+    return mesh;
+  }
   glm::vec3 position(std::uint32_t vertex) const {
     return vertex_position(frame_, frame_.batches[0], vertex);
   }
@@ -72,7 +82,7 @@ class LodFigure {
   }
   bool place(const SheetPoint& at, double half_width) {
     for (const auto& [other, half] : taken_) {
-      if (std::abs(other.x - at.x) < half + half_width + 2 && std::abs(other.y - at.y) < kLabelSize + 4) {
+      if (std::abs(other.x - at.x) < half + half_width + 12 && std::abs(other.y - at.y) < kLabelSize + 14) {
         return false;
       }
     }

@@ -59,6 +59,7 @@ void look_around(const Heightfield& ground, const glm::vec3& eye, Mrbsp& full, F
     view.target = eye + ways[static_cast<std::size_t>(heading)];
     view.vertical_fov = 1.5708F;
     view.width = view.height = kPixels;
+    view.near = 0.02F;  // a walker's eyes are no nearer to the steepest slope
     view.far = 2 * (ground.extent_x() + ground.extent_z());
     const Frame& frame = full.update(view);
     for (const std::uint32_t number : renderer.triangle_numbers(frame, view)) {
@@ -89,8 +90,8 @@ std::vector<Case> visibility_cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
   for (const std::string& ground : grounds(options, paper)) {
     for (const bool conservative : {false, true}) {
-      for (const int cells : {16, 32}) {
-        if (cells != 16 && !paper) continue;
+      for (const int cells : {16, 32, 64}) {
+        if (cells != 16 && conservative && !paper) continue;
         Case& added = cases.emplace_back(
             Case{fmt::format("{}/{}/cells={}", ground, conservative ? "conservative" : "sampled", cells),
                  Parameters(kVisibilityParameters), ground});
@@ -141,7 +142,7 @@ void measure_visibility(const Case& at, const RunOptions& options, Recorder& rec
   progress.begin("looking around", static_cast<std::uint64_t>(eyes));
   for (int e = 0; e < eyes; ++e) {
     glm::vec3 eye(share() * ground.extent_x(), 0, share() * ground.extent_z());
-    eye.y = ground.sample(eye.x, eye.z) + how.eye_height;
+    eye.y = eye_height(ground, eye.x, eye.z);
     look_around(ground, eye, full, renderer, sets, squares, misses);
     progress.advance();
   }

@@ -333,7 +333,9 @@ bool Mrbsp::on_the_ground(const glm::vec3& eye) const {
   const float south = at[grid_.width] * (1 - s) + at[grid_.width + 1] * s;
   // Within the slack that the conservative sets are computed with.
   constexpr float kSlack = 0.005F;
-  return eye.y <= north * (1 - t) + south * t + visibility_.eye_height + kSlack;
+  const float samples = north * (1 - t) + south * t;
+  const float ground = std::max(samples, surface_height(tree_, grid_, eye.x, eye.z));
+  return eye.y <= ground + visibility_.eye_height + kSlack;
 }
 
 const Frame& Mrbsp::update(const View& view) {

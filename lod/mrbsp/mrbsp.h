@@ -61,7 +61,7 @@ class Mrbsp : public Lod {
   int threshold(const glm::vec3& eye, const glm::vec3& vertex) const;
   const VisibilityTable& visibility() const { return visibility_; }
   // Does the set of visible triangles hold for this eye? Not for one outside, nor above the height that it
-  // was computed for: then everything is drawn.
+  // was computed for, over the samples or the finest triangles: then everything is drawn.
   bool on_the_ground(const glm::vec3& eye) const;
 
  private:

@@ -16,7 +16,7 @@ namespace terrabench {
 
 struct DrawingOptions {
   float cell = 30;         // metres a pixel
-  float sea_level = 0.2F;  // intensity at the shore, in [0, 1)
+  float sea_level = 0.3F;  // intensity at the shore, in [0, 1)
   float peak = 1000;       // metres of white above the sea
   float seabed = 0.1F;     // depth of black below the sea, as a share of the peak; 0 to 1
   int smoothing = 2;       // passes, 0 to 1000

@@ -14,7 +14,7 @@ namespace terrabench {
 namespace {
 
 // Distances are in shares of the picture's side.
-constexpr float kRidgeWidth = 0.055F, kRiverWidth = 0.012F, kShore = 0.02F;
+constexpr float kRidgeWidth = 0.09F, kRiverWidth = 0.012F, kShore = 0.05F;
 constexpr glm::vec2 kLake{0.70F, 0.30F};
 constexpr float kLakeRadius = 0.08F;
 
@@ -55,21 +55,23 @@ Image example_drawing(int side, std::uint64_t seed) {
     throw usage_error("the drawing's side is out of range", "side", "choose 1 to 16384 pixels");
   }
   noise::Graph graph;
-  const noise::Node clouds =
-      graph.fbm({.seed = seed, .frequency = 4.0F / static_cast<float>(side), .octaves = 6});
-  const noise::Program program(graph, clouds);
+  const auto per_pixel = [&](float cycles) { return cycles / static_cast<float>(side); };
+  const noise::Program clouds(graph, graph.fbm({.seed = seed, .frequency = per_pixel(4), .octaves = 6}));
+  const noise::Program rocks(graph, graph.fbm({.seed = seed + 1, .frequency = per_pixel(24), .octaves = 4}));
   Image picture(side, side, {});
   const auto length = static_cast<std::size_t>(side);
-  std::vector<float> x(length), y(length, 0.0F), z(length), row(length);
+  std::vector<float> x(length), y(length, 0.0F), z(length), row(length), rock(length);
   for (int i = 0; i < side; ++i) x[static_cast<std::size_t>(i)] = static_cast<float>(i);
   for (int j = 0; j < side; ++j) {
     std::fill(z.begin(), z.end(), static_cast<float>(j));
-    program.points(x, y, z, row);
+    clouds.points(x, y, z, row);
+    rocks.points(x, y, z, rock);
     for (int i = 0; i < side; ++i) {
       const float cloud = row[static_cast<std::size_t>(i)];
       const glm::vec2 at = (glm::vec2(i, j) + 0.5F) / static_cast<float>(side);
       const float ridge = stroke(distance_to_ridges(at), kRidgeWidth);
-      float grey = std::clamp(0.42F + 0.22F * cloud, 0.24F, 0.6F) + ridge * (0.5F + 0.6F * cloud);
+      const float crag = rock[static_cast<std::size_t>(i)];
+      float grey = std::clamp(0.45F + 0.3F * cloud, 0.2F, 0.65F) + ridge * (0.45F + 0.5F * crag);
       const float lake = glm::length(at - kLake) - kLakeRadius * (1 + 0.5F * cloud);
       const float water = std::min(lake, distance_to_river(at) - kRiverWidth);
       grey *= std::clamp(water / kShore, 0.0F, 1.0F);
