@@ -90,11 +90,12 @@ void measure_threshold(const Case& at, const RunOptions&, Recorder& recorder, Pr
     const std::string name = area ? "area" : "printed";
     const double slope = power_law(points).value_or(0);
     recorder.add("slope_" + name, "", slope);
+    const double shown = std::round(100 * slope) / 100 + 0.0;  // no -0.00
     recorder.add("size_near_" + name, "pixels", points.front().y);
     recorder.add("size_far_" + name, "pixels", points.back().y);
     plot.series.push_back(
         {.label =
-             fmt::format("{}, slope {:.2f}", area ? "M − 2 log₂(D/S)" : "M − log₂(D/S), as printed", slope),
+             fmt::format("{}, slope {:.2f}", area ? "M − 2 log₂(D/S)" : "M − log₂(D/S), as printed", shown),
          .points = points});
   }
   write_file(
