@@ -64,8 +64,8 @@ std::vector<View> walk(const Heightfield& field, int views, float reach) {
         field.extent_z() * (0.5F + 0.5F * reach * static_cast<float>(std::sin(3 * angle + 0.7))));
   };
   for (int k = 0; k < views; ++k) {
-    const glm::vec2 here = place(static_cast<double>(k) / views);
-    const glm::vec2 next = place((k + 0.25) / views);
+    // Off the places where the way crosses itself, so that no two eyes are the same.
+    const glm::vec2 here = place((k + 0.4) / views), next = place((k + 0.65) / views);
     View view;
     view.eye = {here.x, eye_height(field, here.x, here.y), here.y};
     view.target = view.eye + glm::vec3(next.x - here.x, 0, next.y - here.y);

@@ -129,5 +129,42 @@ TEST(BisectionTree, RefusesWhatHasNoRoom) {
   EXPECT_EQ(failure_of([] { BisectionTree::over(40000, 2); }).code, ExitCode::kUsage);
 }
 
+TEST(BisectionTree, TheSurfaceIsThatOfTheFinestTriangles) {
+  for (const int depth : {1, 6, 7, 8, 9}) {
+    const BisectionTree tree(4, depth);
+    std::vector<float> heights;
+    for (int j = 0; j < 17; ++j) {
+      for (int i = 0; i < 17; ++i) heights.push_back(static_cast<float>((i * 37 + j * 101) % 23));
+    }
+    const GroundGrid grid{17, 17, 3.0F, 2.0F, heights};
+    for (NodeNumber node = tree.triangles(); node < 2 * tree.triangles(); ++node) {
+      const PlanTriangle t = tree.triangle(node);
+      float mean = 0;
+      glm::vec2 middle(0);
+      for (const glm::ivec2 at : {t.apex, t.left, t.right}) {
+        const float height = heights[static_cast<std::size_t>(at.y) * 17 + at.x];
+        EXPECT_NEAR(surface_height(tree, grid, 3.0F * at.x, 2.0F * at.y), height, 1e-4);
+        mean += height / 3;
+        middle += glm::vec2(at) / 3.0F;
+      }
+      EXPECT_NEAR(surface_height(tree, grid, 3 * middle.x, 2 * middle.y), mean, 1e-3);
+    }
+  }
+}
+
+TEST(BisectionTree, TheSurfaceAtFarBordersIsNeverTooLow) {
+  // 10 × 7 samples in a square of 17: triangles over the border take their highest corner.
+  std::vector<float> heights;
+  for (int k = 0; k < 70; ++k) heights.push_back(static_cast<float>((k * 37) % 23));
+  const GroundGrid grid{10, 7, 1, 1, heights};
+  const BisectionTree tree(4, 9);
+  for (int j = 0; j < 7; ++j) {
+    for (int i = 0; i < 10; ++i) {
+      EXPECT_GE(surface_height(tree, grid, static_cast<float>(i), static_cast<float>(j)),
+                heights[static_cast<std::size_t>(j) * 10 + i]);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace terrabench
