@@ -51,7 +51,8 @@ TEST_P(SingleEvent, IsWhatTheEvaluationSays) {
     Ght ght = make_ght(ground);
     ght.apply(GetParam().event);
     const Evaluation truth(std::make_shared<Sculpture>(Sculpture{ground, {GetParam().event}}));
-    EXPECT_EQ(compare(ght, truth).wrong, 0U) << "roughness " << rough;
+    const Disagreement found = compare(ght, truth);
+    EXPECT_TRUE(found.wrong.empty()) << found << " roughness " << rough;
   }
 }
 
