@@ -29,8 +29,32 @@ class NearBy {
   NearBy(const events::Evaluation& truth, const ght::Lattice& lattice) : truth_(truth), lattice_(lattice) {}
 
   bool has(bool ground, glm::dvec3 p) {
-    constexpr int kSteps = 6;  // a cell
     const double cell = lattice_.cell();
+    return any_column(p, [&](const std::vector<events::Stretch>& column) {
+      double above = HUGE_VAL;  // the bottom of the stretch above
+      for (const events::Stretch& s : column) {
+        if (ground ? s.top >= p.y - cell && s.bottom <= p.y + cell
+                   : s.top < p.y + cell && above > p.y - cell) {
+          return true;
+        }
+        above = s.bottom;
+      }
+      return false;
+    });
+  }
+  // Whether surfaces that face up lie over the point and under it.
+  bool between_surfaces(glm::dvec3 p) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    return any_column(p, [&](const std::vector<events::Stretch>& column) {
+      low = std::min(low, column.back().top), high = std::max(high, column.front().top);
+      return p.y >= low && p.y <= high;
+    });
+  }
+
+ private:
+  template <class Visit>
+  bool any_column(glm::dvec3 p, const Visit& visit) {
+    constexpr int kSteps = 6;  // a cell
     for (int dz = -kSteps; dz <= kSteps; ++dz) {
       for (int dx = -kSteps; dx <= kSteps; ++dx) {
         const glm::dvec2 plan{p.x + dx * lattice_.cell_x / kSteps, p.z + dz * lattice_.cell_z / kSteps};
@@ -39,19 +63,12 @@ class NearBy {
           continue;
         }
         truth_.column(plan, stretches_);
-        double above = HUGE_VAL;  // the bottom of the stretch above
-        for (const events::Stretch& s : stretches_) {
-          if (ground ? s.top >= p.y - cell && s.bottom <= p.y + cell
-                     : s.top < p.y + cell && above > p.y - cell)
-            return true;
-          above = s.bottom;
-        }
+        if (visit(stretches_)) return true;
       }
     }
     return false;
   }
 
- private:
   const events::Evaluation& truth_;
   const ght::Lattice& lattice_;
   std::vector<events::Stretch> stretches_;
@@ -114,16 +131,32 @@ inline events::Event moved(const events::Event& event, glm::dvec2 by) {
       event);
 }
 
+// At the two ends of an inverse fault the sheet of the ground runs down from the overhang to the ground
+// beyond and back on itself: a cliff of no thickness, which is no ground in the evaluation's columns. The
+// tree's cliffs are a cell wide, and there it may have ground.
+inline bool at_end_of_overhang(const events::Event& event, glm::dvec3 at, double cell) {
+  const auto* const fault = std::get_if<events::DipFault>(&event);
+  if (fault == nullptr || !fault->inverse) return false;
+  const glm::dvec2 local = fault->line().local({at.x, at.z});
+  return std::min(std::abs(local.x), std::abs(local.x - fault->line().length)) <= cell &&
+         std::abs(local.y) <= fault->offset() / 2 + cell;
+}
+
 // A sequence need not keep two grounds within a cell of one another that are so: a fault opens its line into
 // a scarp and turns a cliff beside the line into one o = throw / tan(dip) away, for whatever structure. So a
 // point counts only if it stays wrong when the ground that a fault meets is moved by up to a cell first.
 inline Disagreement compare(const Ght& ght, const std::shared_ptr<const events::Sculpture>& sculpture,
                             int per_cell = 1) {
-  Disagreement all = compare(ght, events::Evaluation(sculpture), per_cell);
+  const events::Evaluation evaluation(sculpture);
+  Disagreement all = compare(ght, evaluation, per_cell);
   const ght::Lattice& lattice = ght.model().tree.lattice();
   const auto explained = [&](const Disagreement::Point& point) {
     constexpr int kSteps = 3;  // a cell
     for (std::size_t first = 0; first < sculpture->events.size(); ++first) {
+      if (at_end_of_overhang(sculpture->events[first], point.at, lattice.cell()) &&
+          NearBy(evaluation, lattice).between_surfaces(point.at)) {
+        return true;
+      }
       if (!std::holds_alternative<events::DipFault>(sculpture->events[first])) continue;
       for (int k = 0; k < (2 * kSteps + 1) * (2 * kSteps + 1); ++k) {
         const glm::dvec2 by{(k % (2 * kSteps + 1) - kSteps) * lattice.cell_x / kSteps,
