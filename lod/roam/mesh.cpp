@@ -82,6 +82,10 @@ std::uint32_t Mesh::take_pair() {
   if (free_pair_ == kNone) add_pairs(nodes_.size() / 2);
   const std::uint32_t pair = free_pair_;
   free_pair_ = nodes_[pair].parent;
+  if (free_pair_ != kNone) {
+    __builtin_prefetch(&nodes_[free_pair_]);
+    __builtin_prefetch(&nodes_[free_pair_ + 1]);
+  }
   return pair;
 }
 

@@ -39,7 +39,7 @@ class Mesh {
   // T-junction.
   bool on_edge(const Node&) const;
   // Two corners are one sample: nothing to draw.
-  bool empty(const std::array<std::uint32_t, 3>& vertices) const {
+  static bool empty(const std::array<std::uint32_t, 3>& vertices) {
     return vertices[0] == vertices[1] || vertices[1] == vertices[2] || vertices[0] == vertices[2];
   }
 
