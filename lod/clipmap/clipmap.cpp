@@ -14,6 +14,8 @@ constexpr float kHighestEye =
 constexpr float kTransition = 0.1F;  // of the window's side
 constexpr int kSmallestM = 4, kLargestM = 1024;
 
+constexpr float kLeast = 1e-6F;  // share of its height that a level about to go has left
+
 // At most what covers the ground from wherever the eye is over it: a larger window only has more triangles
 // beyond the border.
 int m_of(const HeightSource& source, int window) {
@@ -104,9 +106,7 @@ const Frame& Clipmap::update(const View& view) {
              2 * (lattice_floor(eye.y, 2 * spacing) - window_.m + 1)});
     ClipLevel& shown = shown_[l];
     shown.eye = eye / static_cast<float>(spacing);
-    const auto reach = static_cast<float>(2 * window_.m - 2);  // the border is nowhere nearer
-    shown.to = l + 1 < levels() ? reach : 0;
-    shown.from = l + 1 < levels() ? reach - std::max(1.0F, kTransition * static_cast<float>(window_.n)) : 0;
+    blend(l, height / (kHighestEye * static_cast<float>(window_.n << l) * cell));
   }
   const Frustum frustum(view);
   for (int l = finest; l < levels(); ++l) draw(l, finest, frustum);
@@ -120,6 +120,17 @@ const Frame& Clipmap::update(const View& view) {
             .uploads = uploads_,
             .stats = count(batches_, uploads_, moved_)};
   return frame_;
+}
+
+// `rise` is the eye's height as a share of that from which on the level is left out. Over its last half,
+// which concerns the finest level alone, the transition grows inwards until it holds the whole window, so
+// that nothing moves when the level goes.
+void Clipmap::blend(int l, float rise) {
+  ClipLevel& shown = shown_[l];
+  if (l + 1 == levels()) return;
+  shown.to = static_cast<float>(2 * window_.m - 2);  // the border is nowhere nearer
+  const float width = std::max(1.0F, kTransition * static_cast<float>(window_.n));
+  shown.from = shown.to - width / std::clamp(2 - 2 * rise, kLeast, 1.0F);
 }
 
 // Fills what came into the window; what was there already keeps its place in the array.

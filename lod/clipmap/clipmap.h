@@ -49,6 +49,7 @@ class Clipmap : public Lod {
   void reset(int window);
   glm::vec2 eye_in_samples(const View&) const;
   float ground_below_eye(glm::vec2 eye);
+  void blend(int level, float rise);
   void move(int level, glm::ivec2 corner);
   void refill(int level, int a, int b, int columns, int rows);
   void bound(int level);
