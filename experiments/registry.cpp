@@ -1,5 +1,6 @@
 #include <array>
 
+#include "experiments/cross/lod_disk.h"
 #include "experiments/drill/drill.h"
 #include "experiments/experiment.h"
 #include "experiments/ght/ght.h"
@@ -41,6 +42,8 @@ const std::array kExperiments{
     Experiment{"overview.relief", "overview", "Shaded relief of each terrain in each representation",
                overview_experiments::kReliefParameters, overview_experiments::relief_cases,
                overview_experiments::measure_relief},
+    Experiment{"cross.lod-disk", "cross", "A clipmap over ground that stays on disk",
+               cross::kLodDiskParameters, cross::lod_disk_cases, cross::measure_lod_disk},
 };
 
 }  // namespace
