@@ -9,9 +9,8 @@
 
 namespace terrabench::cross {
 
-// side × side samples, 30 m apart, in whole metres as SRTM has them: broad swells under ridged mountains down
-// to a few samples' wavelength. Returns a digest of what determines every height. O(side²), in parallel;
-// memory for one row of tiles.
+// side × side samples, 30 m apart, of diamond-square ground in whole metres, as SRTM has them. Returns a
+// digest of what determines every height. O(side²), in parallel; memory: a grid of 4097², and a row of tiles.
 std::string write_disk_ground(const std::filesystem::path&, int side, std::uint64_t seed, Progress&);
 
 }  // namespace terrabench::cross
