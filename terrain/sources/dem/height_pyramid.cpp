@@ -143,7 +143,9 @@ void write_level(const fs::path& folder, int level, Progress& progress) {
   std::vector<float> rows, kept;
   for (int b = 0; b < halved(depth); b += kGeotiffTile) {
     const int count = std::min(kGeotiffTile, halved(depth) - b);
-    const int first = 2 * b, read = std::min(2 * count - 1, depth - first);
+    // Of an even depth the last row kept is the ground's last, which the row before may have reached already.
+    const int last = depth - 1, first = std::min(2 * b, last);
+    const int read = std::min(2 * (b + count - 1), last) - first + 1;
     rows.resize(static_cast<std::size_t>(width) * read);
     if (below->GetRasterBand(1)->RasterIO(GF_Read, 0, first, width, read, rows.data(), width, read,
                                           GDT_Float32, 0, 0, nullptr) != CE_None) {
@@ -151,7 +153,7 @@ void write_level(const fs::path& folder, int level, Progress& progress) {
     }
     kept.clear();
     for (int j = 0; j < count; ++j) {
-      const float* const row = &rows[static_cast<std::size_t>(std::min(2 * j, read - 1)) * width];
+      const float* const row = &rows[static_cast<std::size_t>(std::min(2 * (b + j), last) - first) * width];
       for (int a = 0; a < halved(width); ++a) kept.push_back(row[std::min(2 * a, width - 1)]);
     }
     writer.write(kept);
