@@ -1,5 +1,6 @@
 #include <array>
 
+#include "experiments/cross/lod_disk.h"
 #include "experiments/drill/drill.h"
 #include "experiments/experiment.h"
 #include "experiments/ght/ght.h"
@@ -34,11 +35,15 @@ const std::array kExperiments{
                drill::growth_cases, drill::measure_growth},
     Experiment{"drill.size", "drill", "§4.1: values and bytes", drill::kGroundParameters, drill::ground_cases,
                drill::measure_size},
+    Experiment{"drill.extensions", "drill", "§4.1: what the paper leaves as future work",
+               drill::kExtensionParameters, drill::extension_cases, drill::measure_extension},
     Experiment{"drill.promises", "drill", "§2.3 and §4: order of drills, pits", drill::kGroundParameters,
                drill::ground_cases, drill::measure_promises},
     Experiment{"overview.relief", "overview", "Shaded relief of each terrain in each representation",
                overview_experiments::kReliefParameters, overview_experiments::relief_cases,
                overview_experiments::measure_relief},
+    Experiment{"cross.lod-disk", "cross", "A clipmap over ground that stays on disk",
+               cross::kLodDiskParameters, cross::lod_disk_cases, cross::measure_lod_disk},
 };
 
 }  // namespace
