@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "terrain/error.h"
+#include "terrain/events/evaluate.h"
 #include "terrain/sources/fractal/diamond_square.h"
 
 namespace terrabench::ght {
@@ -36,8 +37,14 @@ glm::dvec2 low_place(const Site& site) {
   return best;
 }
 
-bool takes(Ght& tree, const Event& event) {
+// Whether the tree takes it; of carvings, on whose reach the two can differ by a cell, the evaluation too.
+bool takes(Ght& tree, const Site& site, const Event& event) {
   try {
+    if (std::holds_alternative<Carving>(event)) {
+      Ght trial = tree;
+      trial.apply(event);
+      Evaluation(std::make_shared<Sculpture>(Sculpture{site.ground, {event}}));
+    }
     tree.apply(event);
     return true;
   } catch (const Error& error) {
@@ -115,7 +122,7 @@ std::optional<Event> carve(Ght& tree, const Site& site, bool cave, int sides) {
     carving.section.push_back(kRadius * site.size *
                               direction(2 * std::numbers::pi * (k + 0.5) / sides - std::numbers::pi / 2));
   }
-  carving.roughness = 0.04 * kRadius * site.size;
+  carving.roughness = 0.02 * kRadius * site.size;
   carving.seed = 1;
   int tries = 2000;  // about a second
   for (const glm::dvec2 top : high_places(site)) {
@@ -125,7 +132,7 @@ std::optional<Event> carve(Ght& tree, const Site& site, bool cave, int sides) {
         const double y = height(site, top) - drop * site.size;
         carving.from = {top.x - along.x, y, top.y - along.y};
         carving.to = {top.x + along.x, y, top.y + along.y};
-        if (takes(tree, carving)) return carving;
+        if (takes(tree, site, carving)) return carving;
         if (--tries == 0) return std::nullopt;
       }
     }
@@ -188,7 +195,7 @@ std::vector<Event> overlapping_events(const Site& site) {
   for (const Planned& p : kPlan) {
     const Event event =
         geotectonic_event(site, p.kind, site.corner + site.extent() * p.at, p.length * site.size);
-    if (takes(tree, event)) all.push_back(event);
+    if (takes(tree, site, event)) all.push_back(event);
   }
   for (const bool cave : {false, true}) {
     if (const auto carving = carve(tree, site, cave, cave ? 6 : 8)) all.push_back(*carving);
