@@ -22,12 +22,14 @@ const std::array kSpecs{
 struct Hollow {
   std::size_t overhangs = 0;  // columns with more than one interval
   std::size_t most = 0;       // intervals
+  std::size_t manifold = 0;   // columns with more than two
   double air = 0;             // metres, under the top, of all columns
 
   // Intervals from below: bottoms and tops.
   template <class Intervals>
   void column(const Intervals& intervals, std::size_t count) {
     overhangs += count > 1;
+    manifold += count > 2;
     most = std::max(most, count);
     for (std::size_t k = 1; k < count; ++k) air += intervals(k).first - intervals(k - 1).second;
   }
@@ -96,6 +98,9 @@ void measure_overhang(const Case& at, const RunOptions& options, Recorder& recor
   recorder.add("overhang_share", "", static_cast<double>(found.overhangs) / all);
   recorder.add("most_intervals", "", static_cast<double>(found.most));
   recorder.add("lost_volume", "m³", found.air * step * step);
+  recorder.add("columns_of_three", "", static_cast<double>(found.manifold));
+  recorder.add("evaluated_columns_of_three", "", static_cast<double>(truth.manifold));
+  recorder.add("evaluated_most_intervals", "", static_cast<double>(truth.most));
   recorder.add("evaluated_overhang_columns", "", static_cast<double>(truth.overhangs));
   recorder.add("evaluated_lost_volume", "m³", truth.air * step * step);
 }

@@ -15,6 +15,12 @@ namespace {
 
 using namespace events;
 
+// Whole metres, so that events are short as texts.
+template <class T>
+T rounded(const T& metres) {
+  return glm::round(metres);
+}
+
 glm::dvec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 double height(const Site& site, glm::dvec2 plan) {
@@ -99,17 +105,19 @@ Ght plain_tree(const Heightfield& ground) {
 
 // Across the lattice, so that no event has its directions.
 Event geotectonic_event(const Site& site, Kind kind, glm::dvec2 centre, double length) {
-  const glm::dvec2 half = 0.5 * length * direction(0.4), from = centre - half, to = centre + half;
+  const glm::dvec2 half = 0.5 * length * direction(0.4), from = rounded(centre - half),
+                   to = rounded(centre + half);
+  const auto share = [&](double of) { return rounded(of * length); };
   switch (kind) {
     case Kind::kLinearErosion:
-      return LinearErosion{from, to, 0.08 * length, 30};
+      return LinearErosion{from, to, share(0.08), 30};
     case Kind::kRadialErosion:
-      return RadialErosion{{centre.x, height(site, centre), centre.y},
-                           {0.5 * length, 0.12 * length, 0.5 * length}};
+      return RadialErosion{rounded(glm::dvec3(centre.x, height(site, centre), centre.y)),
+                           {share(0.5), share(0.12), share(0.5)}};
     case Kind::kLateralFault:
-      return LateralFault{from, to, 0.5 * length, 0.3 * length};
+      return LateralFault{from, to, share(0.5), share(0.3)};
     default:
-      return DipFault{kind == Kind::kInverseFault, from, to, 0.5 * length, 0.1 * length, 60};
+      return DipFault{kind == Kind::kInverseFault, from, to, share(0.5), share(0.1), 60};
   }
 }
 
@@ -119,10 +127,10 @@ std::optional<Event> carve(Ght& tree, const Site& site, bool cave, int sides) {
   Carving carving;
   carving.cave = cave;
   for (int k = 0; k < sides; ++k) {
-    carving.section.push_back(kRadius * site.size *
-                              direction(2 * std::numbers::pi * (k + 0.5) / sides - std::numbers::pi / 2));
+    const double turn = 2 * std::numbers::pi * (k + 0.5) / sides - std::numbers::pi / 2;
+    carving.section.push_back(rounded(kRadius * site.size * direction(turn)));
   }
-  carving.roughness = 0.02 * kRadius * site.size;
+  carving.roughness = rounded(0.02 * kRadius * site.size);
   carving.seed = 1;
   int tries = 2000;  // about a second
   for (const glm::dvec2 top : high_places(site)) {
@@ -130,8 +138,8 @@ std::optional<Event> carve(Ght& tree, const Site& site, bool cave, int sides) {
       for (int d = 0; d < (cave ? 2 : 1) * kDirections; ++d) {
         const glm::dvec2 along = 0.15 * site.size * direction((d + 0.3) * std::numbers::pi / kDirections);
         const double y = height(site, top) - drop * site.size;
-        carving.from = {top.x - along.x, y, top.y - along.y};
-        carving.to = {top.x + along.x, y, top.y + along.y};
+        carving.from = rounded(glm::dvec3(top.x - along.x, y, top.y - along.y));
+        carving.to = rounded(glm::dvec3(top.x + along.x, y, top.y + along.y));
         if (takes(tree, site, carving)) return carving;
         if (--tries == 0) return std::nullopt;
       }
