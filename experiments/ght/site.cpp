@@ -8,6 +8,7 @@
 
 #include "terrain/error.h"
 #include "terrain/events/evaluate.h"
+#include "terrain/events/section.h"
 #include "terrain/sources/fractal/diamond_square.h"
 
 namespace terrabench::ght {
@@ -56,6 +57,29 @@ bool takes(Ght& tree, const Site& site, const Event& event) {
   } catch (const Error& error) {
     if (error.code() != ExitCode::kBadInput) throw;
     return false;
+  }
+}
+
+// Whether the section comes out for good where it first does: beyond the end at u, outwards, ground that has
+// sunk under its roof does not rise over it again by half a cell before all of the section is out. Where it
+// does, a roof follows that the tree's walls, which end where they first come out, do not have.
+bool comes_out_once(const Site& site, const Carving& carving, double u, double outwards) {
+  constexpr int kAcross = 8;
+  const Line line = carving.line();
+  const double cell = site.ground.cell_x, radius = section_reach(carving, u).high;
+  std::array<bool, kAcross + 1> open{};
+  for (;; u += outwards * cell / 2) {
+    bool all_out = true;
+    for (int k = 0; k <= kAcross; ++k) {
+      const double a = radius * (2.0 * k / kAcross - 1);
+      const glm::dvec2 plan = line.plan({u, -a});
+      const double over = height(site, plan) - carving.height(u);
+      if (std::isnan(over)) return false;
+      if (open[k] && over > radius + cell / 2) return false;
+      open[k] = open[k] || over < radius;
+      all_out = all_out && over < -radius;
+    }
+    if (all_out) return true;
   }
 }
 
@@ -140,6 +164,8 @@ std::optional<Event> carve(Ght& tree, const Site& site, bool cave, int sides) {
         const double y = height(site, top) - drop * site.size;
         carving.from = rounded(glm::dvec3(top.x - along.x, y, top.y - along.y));
         carving.to = rounded(glm::dvec3(top.x + along.x, y, top.y + along.y));
+        if (!comes_out_once(site, carving, 0, -1)) continue;
+        if (!cave && !comes_out_once(site, carving, carving.line().length, 1)) continue;
         if (takes(tree, site, carving)) return carving;
         if (--tries == 0) return std::nullopt;
       }
