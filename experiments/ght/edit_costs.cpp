@@ -29,8 +29,8 @@ const std::array kReachSpecs{
 };
 
 // One is enough of what takes seconds.
-constexpr int kMostSamples = 5;
-constexpr double kSecondsOfSamples = 0.6;
+constexpr int kMostSamples = 15;
+constexpr double kSecondsOfSamples = 0.3;
 
 template <class Work>
 double seconds(const Work& work) {
@@ -131,7 +131,10 @@ class Peer {
       const double time = seconds([&] { strokes.edit.paint(*structure_); });
       recorder.add(fmt::format("{}_time{}", name_, suffix), "s", time);
       if (std::exchange(first, false)) {
-        recorder.add(fmt::format("{}_bytes{}", name_, suffix), "B", used(structure_->memory()) - before);
+        // Of an untouched structure only: what was taken back leaves nodes behind.
+        if (suffix.empty()) {
+          recorder.add(fmt::format("{}_bytes", name_), "B", used(structure_->memory()) - before);
+        }
         const std::vector<double> lengths = solid_lengths(*structure_, strokes);
         double differences = 0;
         for (std::size_t c = 0; c < lengths.size(); ++c)
