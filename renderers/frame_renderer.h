@@ -40,7 +40,8 @@ class FrameRenderer {
   Image image();  // of what was drawn last
 
   // The number of the triangle, in the order of triangles(Frame), that each pixel shows: row by row from the
-  // top, from 1 on; 0 where there is none. One sample a pixel, at its centre. Uploads as draw() does.
+  // top, from 1 on; 0 where there is none. One sample a pixel, at its centre, and no far plane. Uploads as
+  // draw() does.
   std::vector<std::uint32_t> triangle_numbers(const Frame&, const View&);
 
   std::size_t bytes_uploaded() const;  // heights and indices, since the beginning
