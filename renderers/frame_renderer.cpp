@@ -35,17 +35,20 @@ struct DrawCommand {
   std::uint32_t base_instance;
 };
 
-// A buffer that is written in parts and grows by replacement.
+// A buffer that is written in parts and grows by replacement, with `slack` of its size to spare.
 class GrowingBuffer {
  public:
+  explicit GrowingBuffer(double slack = 0.5) : slack_(slack) {}
   GLuint id() const { return buffer_.id(); }
   // True when it was replaced, so that what it held is gone.
   bool reserve(std::size_t bytes) {
     if (bytes <= capacity_) return false;
-    capacity_ = bytes + bytes / 2;
+    const std::size_t capacity = bytes + static_cast<std::size_t>(static_cast<double>(bytes) * slack_);
+    capacity_ = 0;
     buffer_ = Buffer();
-    glNamedBufferStorage(buffer_.id(), static_cast<GLsizeiptr>(capacity_), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    glNamedBufferStorage(buffer_.id(), static_cast<GLsizeiptr>(capacity), nullptr, GL_DYNAMIC_STORAGE_BIT);
     check_gl("reserving memory for the terrain");
+    capacity_ = capacity;
     return true;
   }
   void write(std::size_t at, const void* data, std::size_t bytes) {
@@ -61,6 +64,7 @@ class GrowingBuffer {
 
  private:
   Buffer buffer_;
+  double slack_;
   std::size_t capacity_ = 0;
 };
 
@@ -92,7 +96,8 @@ struct FrameRenderer::Gl {
   Program numbers = link_program(shader_file("frame.vert"), shader_file("triangle_number.frag"));
   Texture1d ramp;
   VertexArray array;
-  GrowingBuffer indices, heights, batches, levels, commands, numbers_of_batches;
+  GrowingBuffer indices, batches, levels, commands, numbers_of_batches;
+  GrowingBuffer heights{0};  // does not grow with a ground
   bool fresh = true;
   std::size_t uploaded = 0;
   std::vector<BatchRecord> batch_records;
@@ -102,7 +107,8 @@ struct FrameRenderer::Gl {
 
   Gl();
   void upload(const Frame&);
-  void upload_whole(const Frame&);
+  void upload_indices(const Frame&);
+  void upload_heights(const Frame&);
   void upload(const Frame&, const DirtyRange&);
   void describe(const Frame&);
   void set(const Program&, const Frame&, const View&);
@@ -125,9 +131,12 @@ FrameRenderer::Gl::Gl() {
   glEnableVertexArrayAttrib(array.id(), 0);
 }
 
-void FrameRenderer::Gl::upload_whole(const Frame& frame) {
+void FrameRenderer::Gl::upload_indices(const Frame& frame) {
   indices.write(0, frame.indices.data(), frame.indices.size_bytes());
   uploaded += frame.indices.size_bytes();
+}
+
+void FrameRenderer::Gl::upload_heights(const Frame& frame) {
   if (frame.levels.empty()) {
     heights.write(0, frame.grid.heights.data(), frame.grid.heights.size_bytes());
     uploaded += frame.grid.heights.size_bytes();
@@ -166,12 +175,14 @@ void FrameRenderer::Gl::upload(const Frame& frame) {
   check_room(height_bytes);
   const bool indices_lost = indices.reserve(frame.indices.size_bytes());
   const bool heights_lost = heights.reserve(height_bytes);
-  if (fresh || indices_lost || heights_lost) {
-    upload_whole(frame);
-    fresh = false;
-  } else {
-    for (const DirtyRange& range : frame.uploads) upload(frame, range);
+  const bool all_indices = fresh || indices_lost, all_heights = fresh || heights_lost;
+  if (all_indices) upload_indices(frame);
+  if (all_heights) upload_heights(frame);
+  for (const DirtyRange& range : frame.uploads) {
+    const bool whole = range.target == DirtyRange::Target::kIndices ? all_indices : all_heights;
+    if (!whole) upload(frame, range);
   }
+  fresh = false;
 }
 
 void FrameRenderer::Gl::describe(const Frame& frame) {

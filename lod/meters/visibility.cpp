@@ -55,12 +55,15 @@ class DepthBuffer {
 
  private:
   void draw(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c) {
-    const auto first = [](double low) { return static_cast<int>(std::ceil(std::max(low - 0.5, 0.0))); };
+    // Clamped before the conversion: beside a near plane a triangle may reach any number of pixels.
+    const auto first = [](double low, int size) {
+      return static_cast<int>(std::ceil(std::clamp<double>(low - 0.5, 0, size)));
+    };
     const auto last = [](double high, int size) {
       return static_cast<int>(std::floor(std::clamp(high - 0.5, -1.0, size - 1.0)));
     };
-    const int x0 = first(std::min({a.x, b.x, c.x})), x1 = last(std::max({a.x, b.x, c.x}), width_);
-    const int y0 = first(std::min({a.y, b.y, c.y})), y1 = last(std::max({a.y, b.y, c.y}), height_);
+    const int x0 = first(std::min({a.x, b.x, c.x}), width_), x1 = last(std::max({a.x, b.x, c.x}), width_);
+    const int y0 = first(std::min({a.y, b.y, c.y}), height_), y1 = last(std::max({a.y, b.y, c.y}), height_);
     if (x0 > x1 || y0 > y1) return;
     const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
     if (area == 0) return;

@@ -47,15 +47,14 @@ std::unique_ptr<Ght> from_solid(const TerrainSource& source, const Parameters& p
 }
 
 // The solid stretches between crossings, which are sorted from the top down.
-void add_spans(std::span<const Crossing> crossings, float floor, SpanSink& out) {
-  std::array<Span, 64> found;  // from the top
-  std::size_t count = 0;
+void add_spans(std::span<const Crossing> crossings, float floor, std::vector<Span>& found, SpanSink& out) {
+  found.clear();  // from the top
   const auto add = [&](float bottom, float top) {
-    if (bottom >= top || count == found.size()) return;
-    if (count > 0 && found[count - 1].bottom <= top) {
-      found[count - 1].bottom = std::min(found[count - 1].bottom, bottom);
+    if (bottom >= top) return;
+    if (!found.empty() && found.back().bottom <= top) {
+      found.back().bottom = std::min(found.back().bottom, bottom);
     } else {
-      found[count++] = {bottom, top, Material::kBedrock};
+      found.push_back({bottom, top, Material::kBedrock});
     }
   };
   int depth = 0;
@@ -66,7 +65,7 @@ void add_spans(std::span<const Crossing> crossings, float floor, SpanSink& out) 
     depth += c.weight;
   }
   if (depth > 0) add(floor, top);
-  while (count > 0) out.add(found[--count]);
+  for (std::size_t i = found.size(); i > 0; --i) out.add(found[i - 1]);
 }
 
 }  // namespace
@@ -102,6 +101,7 @@ void Ght::spans(Columns where, SpanSink& out) const {
   const Tree& tree = model_.tree;
   const Surface& surface = model_.surface;
   std::vector<Crossing> crossings;
+  std::vector<Span> found;
   for (std::size_t c = 0; c < where.size(); ++c) {
     const float x = where.x[c], z = where.z[c];
     Square s;
@@ -117,7 +117,7 @@ void Ght::spans(Columns where, SpanSink& out) const {
         std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
           return a.y > b.y || (a.y == b.y && a.weight > b.weight);
         });
-        add_spans(crossings, model_.floor, out);
+        add_spans(crossings, model_.floor, found, out);
       }
     }
     out.end_column();
