@@ -78,6 +78,13 @@ void check_room(std::size_t bytes) {
   }
 }
 
+// While one lives, the underside of the ground is not drawn. It could be seen only at ridges, where rounding
+// lets a sample of the slope behind through.
+struct OnlyFromAbove {
+  OnlyFromAbove() { glEnable(GL_CULL_FACE); }
+  ~OnlyFromAbove() { glDisable(GL_CULL_FACE); }
+};
+
 glm::vec3 as_shares(const Rgb& color) { return glm::vec3(color[0], color[1], color[2]) / 255.0F; }
 
 }  // namespace
@@ -275,6 +282,7 @@ void FrameRenderer::draw(const Frame& frame, const View& view, const FrameStyle&
   const glm::vec3 background = as_shares(style.background);
   glClearColor(background.r, background.g, background.b, 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  const OnlyFromAbove culling;
   gl_->upload(frame);
   gl_->describe(frame);
   const Program& program = style.wire_width > 0 ? gl_->wired : gl_->plain;

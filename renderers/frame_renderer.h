@@ -32,9 +32,9 @@ class FrameRenderer {
   FrameRenderer(const FrameRenderer&) = delete;
   FrameRenderer& operator=(const FrameRenderer&) = delete;
 
-  // Uploads and draws into the context's picture of view.width × view.height. The first frame is uploaded
-  // whole. Does not wait for the GPU: finish() does. Throws environment_error when OpenGL has no room for the
-  // heights.
+  // Uploads and draws into the context's picture of view.width × view.height; the ground has no underside.
+  // The first frame is uploaded whole. Does not wait for the GPU: finish() does. Throws environment_error
+  // when OpenGL has no room for the heights.
   void draw(const Frame&, const View&, const FrameStyle&);
   void finish();
   Image image();  // of what was drawn last

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
-#include <fstream>
 
 #include "experiments/cross/lod_disk_ground.h"
 #include "experiments/cross/own_process.h"

@@ -73,6 +73,18 @@ TEST_F(HeightPyramidTest, GivesEveryLevelsOwnSamples) {
   }
 }
 
+TEST_F(HeightPyramidTest, CountsTheTilesItDecodes) {
+  const auto pyramid = HeightPyramid::open(built(ground(600, 600)));
+  std::vector<float> out(std::size_t{600} * 600);
+  EXPECT_EQ(pyramid->tiles_read(), 0U);
+  pyramid->read(0, 250, 10, 10, 10, out.data(), 10);  // across two of 3 × 3
+  EXPECT_EQ(pyramid->tiles_read(), 2U);
+  pyramid->read(0, 200, 0, 100, 100, out.data(), 100);  // the same, which the cache holds
+  EXPECT_EQ(pyramid->tiles_read(), 2U);
+  pyramid->read(0, 0, 0, 600, 600, out.data(), 600);
+  EXPECT_EQ(pyramid->tiles_read(), 9U);
+}
+
 TEST_F(HeightPyramidTest, FillsHoles) {
   Heightfield field = ground(90, 80);
   for (int k = 0; k < 30; ++k) field.at(40 + k % 6, 30 + k / 6) = Heightfield::kNoData;
