@@ -35,9 +35,7 @@ class NodeIndex {
     for (std::uint32_t e = first_[tile(s)]; e != kNone; e = entries_[e].next) visit(entries_[e].node);
   }
   static std::size_t tiles(const SquareRange& range);
-  void prepare(std::size_t tiles) {
-    Tree::grow(entries_, entries_.size() + tiles);
-  }  // finds room and may throw
+  void prepare(std::size_t tiles) { grow(entries_, entries_.size() + tiles); }  // finds room and may throw
   void add(const SquareRange& range, NodeId node) noexcept;
   Memory memory() const;
 
