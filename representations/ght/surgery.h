@@ -67,7 +67,8 @@ struct Model {
 };
 
 // The cells of other nodes that a cell is linked to across its node's boundary: its corners' neighbours on
-// all faces that it is part of, and around it on plain squares. Links run both ways. `c` holds a height.
+// all faces that it is part of, and around it on plain squares; ascending. Links run both ways. `c` holds a
+// height.
 void boundary_links(const Model& model, CellId c, std::vector<CellId>& out);
 
 inline bool is_carving(events::Kind kind) {
