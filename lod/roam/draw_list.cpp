@@ -4,7 +4,8 @@
 
 namespace terrabench::roam {
 
-void DrawList::add(std::vector<Node>& nodes, std::uint32_t id, const std::array<std::uint32_t, 3>& vertices) {
+void DrawList::add(std::vector<Node>& nodes, std::uint32_t id, std::uint32_t a, std::uint32_t b,
+                   std::uint32_t c) {
   auto slot = static_cast<std::uint32_t>(owners_.size());
   if (free_.empty()) {
     owners_.push_back(id);
@@ -15,7 +16,10 @@ void DrawList::add(std::vector<Node>& nodes, std::uint32_t id, const std::array<
     owners_[slot] = id;
   }
   nodes[id].slot = slot;
-  std::copy(vertices.begin(), vertices.end(), indices_.begin() + 3 * static_cast<std::ptrdiff_t>(slot));
+  std::uint32_t* const vertices = indices_.data() + 3 * std::size_t{slot};
+  vertices[0] = a;
+  vertices[1] = b;
+  vertices[2] = c;
   mark(slot);
 }
 

@@ -3,7 +3,6 @@
 // ones: the bytes to upload follow the changes. O(1) a change, plus a bit a triangle for each frame.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,7 +16,7 @@ namespace terrabench::roam {
 
 class DrawList {
  public:
-  void add(std::vector<Node>& nodes, std::uint32_t id, const std::array<std::uint32_t, 3>& vertices);
+  void add(std::vector<Node>& nodes, std::uint32_t id, std::uint32_t a, std::uint32_t b, std::uint32_t c);
   void remove(std::vector<Node>& nodes, std::uint32_t id);
   // Closes the gaps and appends what changed since the last call.
   void finish(std::vector<Node>& nodes, std::vector<DirtyRange>& uploads);

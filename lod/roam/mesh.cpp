@@ -82,6 +82,10 @@ std::uint32_t Mesh::take_pair() {
   if (free_pair_ == kNone) add_pairs(nodes_.size() / 2);
   const std::uint32_t pair = free_pair_;
   free_pair_ = nodes_[pair].parent;
+  if (free_pair_ != kNone) {
+    __builtin_prefetch(&nodes_[free_pair_]);
+    __builtin_prefetch(&nodes_[free_pair_ + 1]);
+  }
   return pair;
 }
 
@@ -102,23 +106,20 @@ void Mesh::bisect(std::uint32_t id) {
   const std::uint32_t pair = take_pair();
   Node& node = nodes_[id];
   const Place apex = middle(node);
-  Node child;
-  child.u = apex.u;
-  child.v = apex.v;
-  child.level = static_cast<std::uint8_t>(node.level + 1);
-  child.parent = id;
-  child.heading = static_cast<std::uint8_t>((node.heading + 5) % 8);
-  child.base = node.left;
-  child.left = pair + 1;
-  child.right = kNone;
-  bound(child);
-  nodes_[pair] = child;
-  child.heading = static_cast<std::uint8_t>((node.heading + 3) % 8);
-  child.base = node.right;
-  child.left = kNone;
-  child.right = pair;
-  bound(child);
-  nodes_[pair + 1] = child;
+  const auto make = [&](std::uint32_t child, unsigned turn, std::uint32_t base) {
+    Node& half = nodes_[child] = {};
+    half.u = apex.u;
+    half.v = apex.v;
+    half.level = static_cast<std::uint8_t>(node.level + 1);
+    half.heading = static_cast<std::uint8_t>((node.heading + turn) % 8);
+    half.parent = id;
+    half.base = base;
+    bound(half);
+  };
+  make(pair, 5, node.left);
+  make(pair + 1, 3, node.right);
+  nodes_[pair].left = pair + 1;
+  nodes_[pair + 1].right = pair;
   relink(node.left, id, pair);
   relink(node.right, id, pair + 1);
   node.child = pair;
@@ -157,41 +158,6 @@ void Mesh::relink(std::uint32_t neighbour, std::uint32_t from, std::uint32_t to)
     assert(node.base == from);
     node.base = to;
   }
-}
-
-// Of the hypotenuse.
-Mesh::Place Mesh::middle(const Node& node) const {
-  const int reach = middle_steps(lattice_.side_log, node.level);
-  return {node.u + kSteps[node.heading].u * reach, node.v + kSteps[node.heading].v * reach};
-}
-
-std::array<Mesh::Place, 3> Mesh::places(const Node& node) const {
-  const int legs = leg_steps(lattice_.side_log, node.level);
-  const Step left = kSteps[(node.heading + 7U) % 8], right = kSteps[(node.heading + 1U) % 8];
-  return {{{node.u, node.v},
-           {node.u + left.u * legs, node.v + left.v * legs},
-           {node.u + right.u * legs, node.v + right.v * legs}}};
-}
-
-std::array<std::uint32_t, 3> Mesh::vertices(const Node& node) const {
-  const auto [apex, left, right] = places(node);
-  return {vertex(apex), vertex(right), vertex(left)};
-}
-
-glm::dvec3 Mesh::corner(Place p) const {
-  const int i = lattice_.column[p.u], j = lattice_.row[p.v];
-  return {static_cast<float>(i) * grid_.cell_x, grid_.heights[static_cast<std::size_t>(j) * grid_.width + i],
-          static_cast<float>(j) * grid_.cell_z};
-}
-
-Corners Mesh::corners(const Node& node) const {
-  const auto [apex, left, right] = places(node);
-  return {{corner(apex), corner(left), corner(right)}};
-}
-
-std::array<Corners, 2> Mesh::corners_of_children(const Node& node, const Corners& own) const {
-  const glm::dvec3 apex = corner(middle(node));
-  return {{{{apex, own.at[0], own.at[1]}}, {{apex, own.at[2], own.at[0]}}}};
 }
 
 void Mesh::prefetch_split(const Node& node) const {

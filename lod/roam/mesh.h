@@ -39,7 +39,7 @@ class Mesh {
   // T-junction.
   bool on_edge(const Node&) const;
   // Two corners are one sample: nothing to draw.
-  bool empty(const std::array<std::uint32_t, 3>& vertices) const {
+  static bool empty(const std::array<std::uint32_t, 3>& vertices) {
     return vertices[0] == vertices[1] || vertices[1] == vertices[2] || vertices[0] == vertices[2];
   }
 
@@ -49,10 +49,19 @@ class Mesh {
   void merge(std::uint32_t id);
 
   // Grid vertices, counter-clockwise from above.
-  std::array<std::uint32_t, 3> vertices(const Node&) const;
-  Corners corners(const Node&) const;
+  std::array<std::uint32_t, 3> vertices(const Node& node) const {
+    const auto [apex, left, right] = places(node);
+    return {vertex(apex), vertex(right), vertex(left)};
+  }
+  Corners corners(const Node& node) const {
+    const auto [apex, left, right] = places(node);
+    return {{corner(apex), corner(left), corner(right)}};
+  }
   // Those of both children of a triangle, from its own.
-  std::array<Corners, 2> corners_of_children(const Node&, const Corners& own) const;
+  std::array<Corners, 2> corners_of_children(const Node& node, const Corners& own) const {
+    const glm::dvec3 apex = corner(middle(node));
+    return {{{{apex, own.at[0], own.at[1]}}, {{apex, own.at[2], own.at[0]}}}};
+  }
   // Has the memory fetched that splitting the triangle will read.
   void prefetch_split(const Node&) const;
   // The share of its size by which descendants may stick out of a triangle, where lattice lines share
@@ -65,9 +74,25 @@ class Mesh {
   struct Place {
     std::int32_t u, v;
   };
-  std::array<Place, 3> places(const Node&) const;
-  Place middle(const Node&) const;
-  glm::dvec3 corner(Place) const;
+  // Apex, left, right.
+  std::array<Place, 3> places(const Node& node) const {
+    const int legs = leg_steps(lattice_.side_log, node.level);
+    const Step left = kSteps[(node.heading + 7U) % 8], right = kSteps[(node.heading + 1U) % 8];
+    return {{{node.u, node.v},
+             {node.u + left.u * legs, node.v + left.v * legs},
+             {node.u + right.u * legs, node.v + right.v * legs}}};
+  }
+  // Of the hypotenuse.
+  Place middle(const Node& node) const {
+    const int reach = middle_steps(lattice_.side_log, node.level);
+    return {node.u + kSteps[node.heading].u * reach, node.v + kSteps[node.heading].v * reach};
+  }
+  glm::dvec3 corner(Place p) const {
+    const int i = lattice_.column[p.u], j = lattice_.row[p.v];
+    return {static_cast<float>(i) * grid_.cell_x,
+            grid_.heights[static_cast<std::size_t>(j) * grid_.width + i],
+            static_cast<float>(j) * grid_.cell_z};
+  }
   std::uint32_t vertex(Place p) const {
     return static_cast<std::uint32_t>(lattice_.row[p.v]) * static_cast<std::uint32_t>(grid_.width) +
            static_cast<std::uint32_t>(lattice_.column[p.u]);

@@ -25,6 +25,7 @@ void Roam::settle() {
     } else if (highest < kAsked) {
       return;
     } else if (const std::uint32_t id = splits_.first(highest); !full(cost_of_split(id))) {
+      fetch_ahead(id);
       split(id);
     } else if (lowest >= 0 && lowest < highest && swaps++ < most_swaps) {
       merge(merges_.first(lowest));
@@ -53,6 +54,19 @@ bool Roam::out_of_time() const {
   if (options_.milliseconds <= 0) return false;
   const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start_;
   return spent.count() >= options_.milliseconds;
+}
+
+// Splits wait for memory more than for anything else: what those after this one in the queue will read is
+// asked for now, in two steps, since the second needs what the first brings.
+void Roam::fetch_ahead(std::uint32_t id) const {
+  const std::vector<Node>& nodes = mesh_.nodes();
+  const std::uint32_t next = nodes[id].queue.after;
+  if (next == kNone) return;
+  const Node& node = nodes[next];
+  for (const std::uint32_t other : {node.queue.after, node.left, node.right, node.base, node.parent}) {
+    if (other != kNone) __builtin_prefetch(&nodes[other]);
+  }
+  mesh_.prefetch_split(node);
 }
 
 // Triangles that a split adds, or more: those of its base neighbours that must be split first included.
@@ -104,12 +118,17 @@ void Roam::split_diamond(std::uint32_t id) {
     if (parent == kNone || mesh_.on_edge(nodes[half])) continue;
     if (nodes[half ^ 1U].leaf() || mesh_.on_edge(nodes[half ^ 1U])) take_off(diamond(parent));
   }
+  bool on_edge = false;
   for (const std::uint32_t half : both) {
     if (half == kNone) continue;
     for (const std::uint32_t child : {nodes[half].child, nodes[half].child + 1}) {
-      if (mesh_.on_edge(nodes[child]) && nodes[child].leaf()) split(child);
+      if (!mesh_.on_edge(nodes[child])) continue;
+      on_edge = true;
+      if (nodes[child].leaf()) split(child);
     }
   }
+  // What its merge would take along counts at once, or they would take turns.
+  if (on_edge) requeue_diamond(name);
 }
 
 void Roam::add_children(std::uint32_t id) {

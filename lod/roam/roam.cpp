@@ -155,8 +155,8 @@ void Roam::show(std::uint32_t id) {
   if (!node.visible()) {
     drawn_.remove(mesh_.nodes(), id);
   } else if (node.slot == kNone) {
-    const std::array<std::uint32_t, 3> vertices = mesh_.vertices(node);
-    if (!mesh_.empty(vertices)) drawn_.add(mesh_.nodes(), id, vertices);
+    const auto [a, b, c] = mesh_.vertices(node);
+    if (!roam::Mesh::empty({a, b, c})) drawn_.add(mesh_.nodes(), id, a, b, c);
   }
 }
 

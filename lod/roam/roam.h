@@ -76,6 +76,7 @@ class Roam : public Lod {
   void merge(std::uint32_t id);
   void merge_diamond(std::uint32_t id);
   std::size_t cost_of_split(std::uint32_t id) const;
+  void fetch_ahead(std::uint32_t id) const;
   void settle();
   bool lower_reference();
   bool out_of_time() const;
