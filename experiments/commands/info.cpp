@@ -30,19 +30,6 @@ void describe_dem(const std::filesystem::path& path) {
   for (const std::string& note : dem.notes) fmt::print("note        {}\n", note);
 }
 
-void describe_representation(const std::filesystem::path& path) {
-  const std::string file = read_file(path);
-  const Loaded loaded = load_representation(std::as_bytes(std::span(file)), path.string());
-  const Memory memory = loaded.representation->memory();
-  fmt::print("{}: {} ({})\n", path.string(), loaded.type->name, loaded.type->summary);
-  fmt::print("on disk     {}\n", format_quantity(static_cast<double>(file.size()), "B"));
-  fmt::print("memory      {} (payload {}, index {}, slack {})\n",
-             format_quantity(static_cast<double>(memory.total()), "B"), memory.payload, memory.index,
-             memory.slack);
-  print_bounds(loaded.representation->bounds());
-  print_tree(*loaded.representation);
-}
-
 // What a grounded heightmap tree consists of, and whether all is as it must be.
 void print_tree(const Representation& structure) {
   const auto* const tree = dynamic_cast<const Ght*>(&structure);
@@ -55,6 +42,19 @@ void print_tree(const Representation& structure) {
   const std::vector<std::string> broken = ght::broken_invariants(tree->model());
   if (broken.empty()) fmt::print("invariants  all hold\n");
   for (const std::string& what : broken) fmt::print("invariants  broken: {}\n", what);
+}
+
+void describe_representation(const std::filesystem::path& path) {
+  const std::string file = read_file(path);
+  const Loaded loaded = load_representation(std::as_bytes(std::span(file)), path.string());
+  const Memory memory = loaded.representation->memory();
+  fmt::print("{}: {} ({})\n", path.string(), loaded.type->name, loaded.type->summary);
+  fmt::print("on disk     {}\n", format_quantity(static_cast<double>(file.size()), "B"));
+  fmt::print("memory      {} (payload {}, index {}, slack {})\n",
+             format_quantity(static_cast<double>(memory.total()), "B"), memory.payload, memory.index,
+             memory.slack);
+  print_bounds(loaded.representation->bounds());
+  print_tree(*loaded.representation);
 }
 
 // A script of events, as the tree that it makes.
