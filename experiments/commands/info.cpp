@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
 #include "experiments/commands/commands.h"
+#include "representations/ght/ght.h"
+#include "representations/ght/invariants.h"
 #include "representations/representation.h"
 #include "results/format.h"
 #include "results/store.h"
+#include "terrain/events/event_file.h"
 #include "terrain/files.h"
 #include "terrain/sources/dem/dem.h"
 
@@ -27,6 +30,20 @@ void describe_dem(const std::filesystem::path& path) {
   for (const std::string& note : dem.notes) fmt::print("note        {}\n", note);
 }
 
+// What a grounded heightmap tree consists of, and whether all is as it must be.
+void print_tree(const Representation& structure) {
+  const auto* const tree = dynamic_cast<const Ght*>(&structure);
+  if (tree == nullptr) return;
+  const ght::Census census = ght::census(tree->model());
+  fmt::print("heightmaps  {} after {} events, the deepest {} below the root\n", census.nodes,
+             tree->model().tree.events().size(), census.deepest);
+  fmt::print("cells       {} heights, {} links, {} void\n", census.heights, census.links, census.voids);
+  fmt::print("seams       {} faces, {} boundary links\n", census.faces, census.boundary_links);
+  const std::vector<std::string> broken = ght::broken_invariants(tree->model());
+  if (broken.empty()) fmt::print("invariants  all hold\n");
+  for (const std::string& what : broken) fmt::print("invariants  broken: {}\n", what);
+}
+
 void describe_representation(const std::filesystem::path& path) {
   const std::string file = read_file(path);
   const Loaded loaded = load_representation(std::as_bytes(std::span(file)), path.string());
@@ -37,6 +54,19 @@ void describe_representation(const std::filesystem::path& path) {
              format_quantity(static_cast<double>(memory.total()), "B"), memory.payload, memory.index,
              memory.slack);
   print_bounds(loaded.representation->bounds());
+  print_tree(*loaded.representation);
+}
+
+// A script of events, as the tree that it makes.
+void describe_script(const std::filesystem::path& path) {
+  const TerrainSource source = events::open_script(read_file(path), path.string());
+  const RepresentationType& type = representation("ght");
+  Progress progress;
+  const auto built = type.build(source, Parameters(type.parameters), progress);
+  fmt::print("{}: terrain with {} events\n", path.string(), source.events ? source.events->events.size() : 0);
+  fmt::print("checksum    {}\n", source.checksum);
+  print_bounds(built->bounds());
+  print_tree(*built);
 }
 
 void describe_results(const std::filesystem::path& folder) {
@@ -59,6 +89,8 @@ ExitCode info_command(const std::filesystem::path& path) {
     describe_results(path);
   } else if (is_saved_representation(path)) {
     describe_representation(path);
+  } else if (path.extension() == events::kExtension && std::filesystem::exists(status)) {
+    describe_script(path);
   } else {
     describe_dem(path);  // says what is wrong with a path that is none of these
   }

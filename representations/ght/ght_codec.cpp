@@ -132,8 +132,10 @@ void Tree::save(ByteSink& out) const {
   for (const double v : {lattice_.origin_x, lattice_.origin_z}) out.put(v);
   out.put(static_cast<std::uint32_t>(nodes_.size()));
   for (const Node& node : nodes_) ght::save(node, out);
-  out.put_array(std::span<const std::uint32_t>(cells_));
-  out.put_array(std::span<const std::uint32_t>(kinds_));
+  for (const auto* array : {&cells_, &kinds_}) {
+    out.put_array(std::span(array->first()));
+    out.put_array(std::span(array->second()));
+  }
   out.put(static_cast<std::uint32_t>(events_.size()));
   for (const Applied& event : events_) {
     out.put(event.kind);
@@ -166,8 +168,8 @@ Tree Tree::load(ByteSource& in) {
     tree.nodes_.push_back(node);
   }
   if (nodes == 0) in.fail("there is no root");
-  tree.cells_ = in.get_array<std::uint32_t>(cells);
-  tree.kinds_ = in.get_array<std::uint32_t>((cells + kPerWord - 1) / kPerWord);
+  tree.cells_ = TwoPartArray(in.get_array<std::uint32_t>(cells));
+  tree.kinds_ = TwoPartArray(in.get_array<std::uint32_t>((cells + kPerWord - 1) / kPerWord));
   if (cells % kPerWord != 0 && tree.kinds_.back() >> cells % kPerWord * 2 != 0)
     in.fail("there are more kinds than cells");
   tree.pages_.resize((cells + kPage - 1) / kPage);

@@ -156,7 +156,8 @@ class Inspector {
     expect(dangling, "links that do not lead to the surface");
   }
 
-  // Edges by the cell that they leave: those of cell c are ends_[first_[c]] … ends_[first_[c + 1] - 1].
+  // Edges by the cell that they leave: those of cell c are ends_[first_[c]] … ends_[first_[c + 1] - 1],
+  // ascending.
   void list_edges() {
     first_.assign(tree_.cells() + std::size_t{1}, 0);
     each_triangle([&](const Face& face) {
@@ -169,6 +170,10 @@ class Inspector {
     each_triangle([&](const Face& face) {
       for (std::size_t k = 0; k < 3; ++k) ends_[next[face[k]]++] = face[(k + 1) % 3];
     });
+    for (CellId c = 0; c < tree_.cells(); ++c) {
+      std::sort(ends_.begin() + static_cast<std::ptrdiff_t>(first_[c]),
+                ends_.begin() + static_cast<std::ptrdiff_t>(first_[c + 1]));
+    }
   }
   std::span<const CellId> edges_from(CellId c) const {
     return std::span(ends_).subspan(first_[c], first_[c + 1] - first_[c]);
@@ -178,10 +183,10 @@ class Inspector {
     std::size_t twice = 0, open = 0;
     for (CellId c = 0; c < tree_.cells(); ++c) {
       const std::span<const CellId> ends = edges_from(c);
-      for (auto to = ends.begin(); to != ends.end(); ++to) {
-        twice += std::find(ends.begin(), to, *to) != to;
-        const std::span<const CellId> back = edges_from(*to);
-        if (std::find(back.begin(), back.end(), c) == back.end()) open += !at_rim({c, *to});
+      for (std::size_t k = 0; k < ends.size(); ++k) {
+        twice += k > 0 && ends[k] == ends[k - 1];
+        const std::span<const CellId> back = edges_from(ends[k]);
+        if (!std::binary_search(back.begin(), back.end(), c)) open += !at_rim({c, ends[k]});
       }
     }
     expect(twice, "edges that two faces run the same way");
@@ -218,7 +223,7 @@ class Inspector {
     std::vector<CellId> links;
     for (std::size_t k = 0; k < across.size(); ++k) {
       if (k == 0 || across[k].from != across[k - 1].from) boundary_links(model_, across[k].from, links);
-      one_way += std::find(links.begin(), links.end(), across[k].to) == links.end();
+      one_way += !std::binary_search(links.begin(), links.end(), across[k].to);
     }
     expect(one_way, "boundary links that run one way");
   }

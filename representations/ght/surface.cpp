@@ -155,9 +155,9 @@ void Surface::prepare(const Tree& tree, std::span<const Square> covered, std::sp
   }
   std::sort(tiles.begin(), tiles.end());
   tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
-  Tree::grow(tiles_, tiles_.size() + tiles.size());
-  Tree::grow(faces_, face_count_ + added.size());
-  Tree::grow(entries_, entries);
+  grow(tiles_, tiles_.size() + tiles.size());
+  grow(faces_, face_count_ + added.size());
+  grow(entries_, entries);
 }
 
 Surface::Tile& Surface::tile(Square s) noexcept {

@@ -50,8 +50,7 @@ void boundary_links(const Model& model, CellId c, std::vector<CellId>& out) {
   const auto add = [&](std::span<const CellId> corners) {
     if (std::find(corners.begin(), corners.end(), c) == corners.end()) return;
     for (const CellId other : corners) {
-      if (tree.node_of(other) != own && std::find(out.begin(), out.end(), other) == out.end())
-        out.push_back(other);
+      if (tree.node_of(other) != own) out.push_back(other);
     }
   };
   out.clear();
@@ -65,6 +64,8 @@ void boundary_links(const Model& model, CellId c, std::vector<CellId>& out) {
       model.surface.over({i, j}, [&](FaceId f) { add(model.surface.face(f)); });
     }
   }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
 }
 
 SquareRange range(const Surface& surface, const Lattice& lattice, const Node& node) {

@@ -35,9 +35,7 @@ class NodeIndex {
     for (std::uint32_t e = first_[tile(s)]; e != kNone; e = entries_[e].next) visit(entries_[e].node);
   }
   static std::size_t tiles(const SquareRange& range);
-  void prepare(std::size_t tiles) {
-    Tree::grow(entries_, entries_.size() + tiles);
-  }  // finds room and may throw
+  void prepare(std::size_t tiles) { grow(entries_, entries_.size() + tiles); }  // finds room and may throw
   void add(const SquareRange& range, NodeId node) noexcept;
   Memory memory() const;
 
@@ -69,7 +67,8 @@ struct Model {
 };
 
 // The cells of other nodes that a cell is linked to across its node's boundary: its corners' neighbours on
-// all faces that it is part of, and around it on plain squares. Links run both ways. `c` holds a height.
+// all faces that it is part of, and around it on plain squares; ascending. Links run both ways. `c` holds a
+// height.
 void boundary_links(const Model& model, CellId c, std::vector<CellId>& out);
 
 inline bool is_carving(events::Kind kind) {

@@ -26,9 +26,9 @@ Tree::Tree(const Lattice& lattice, std::vector<float> heights) : lattice_(lattic
 }
 
 void Tree::resize_cells(std::size_t cells, NodeId node) {
-  grow(cells_, cells);
-  grow(kinds_, (cells + kPerWord - 1) / kPerWord);
-  grow(pages_, (cells + kPage - 1) / kPage);
+  cells_.grow(cells);
+  kinds_.grow((cells + kPerWord - 1) / kPerWord);
+  pages_.grow((cells + kPage - 1) / kPage);
   cells_.resize(cells);
   kinds_.resize((cells + kPerWord - 1) / kPerWord);
   pages_.resize((cells + kPage - 1) / kPage, node);
@@ -61,9 +61,9 @@ void Tree::truncate(std::size_t nodes) noexcept {
 }
 
 Memory Tree::memory() const {
-  Memory memory = payload_memory(cells_);
-  memory += payload_memory(kinds_);
-  memory += index_memory(pages_);
+  Memory memory = cells_.payload();
+  memory += kinds_.payload();
+  memory += pages_.index();
   memory += index_memory(nodes_);
   memory += index_memory(events_);
   return memory;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "representations/ght/frame.h"
+#include "representations/ght/two_part_array.h"
 #include "terrain/events/event.h"
 #include "terrain/files.h"
 #include "terrain/heightfield.h"
@@ -133,12 +134,6 @@ class Tree {
   void save(ByteSink&) const;
   static Tree load(ByteSource&);  // throws bad_input
 
-  // Room for `size` elements, at least doubled when there is too little.
-  template <class T>
-  static void grow(std::vector<T>& v, std::size_t size) {
-    if (size > v.capacity()) v.reserve(std::max(size, 2 * v.capacity()));
-  }
-
  private:
   static constexpr std::uint32_t kPerWord = 16, kPage = 64;
 
@@ -157,9 +152,10 @@ class Tree {
   void resize_cells(std::size_t cells, NodeId node);
 
   Lattice lattice_;
-  std::vector<std::uint32_t> cells_;  // heights' bits, links' targets
-  std::vector<std::uint32_t> kinds_;  // 2 bits a cell
-  std::vector<NodeId> pages_;         // the node of every kPage-th cell
+  // The root first.
+  TwoPartArray<std::uint32_t> cells_;  // heights' bits, links' targets
+  TwoPartArray<std::uint32_t> kinds_;  // 2 bits a cell
+  TwoPartArray<NodeId> pages_;         // the node of every kPage-th cell
   std::vector<Node> nodes_;
   std::vector<Applied> events_;
   std::uint32_t most_cells_ = kMostCells;
