@@ -1,5 +1,6 @@
 #include <array>
 
+#include "experiments/cross/lod_disk.h"
 #include "experiments/drill/drill.h"
 #include "experiments/experiment.h"
 #include "experiments/ght/ght.h"
@@ -22,6 +23,18 @@ const std::array kExperiments{
                ght::kGeneratorParameters, ght::generator_cases, ght::measure_generator},
     Experiment{"ght.stages", "ght", "Figures 1 and 3-10: the generators, step by step", ght::kStageParameters,
                ght::stage_cases, ght::draw_stage},
+    Experiment{"ght.counts", "ght", "§3.2: heightmaps that each event adds", ght::kCountParameters,
+               ght::count_cases, ght::measure_count},
+    Experiment{"ght.continuity", "ght", "§3.2: nothing dangles, nothing is open", ght::kContinuityParameters,
+               ght::continuity_cases, ght::measure_continuity},
+    Experiment{"ght.overhang", "ght", "§1: what a heightmap cannot hold", ght::kOverhangParameters,
+               ght::overhang_cases, ght::measure_overhang},
+    Experiment{"ght.edits", "ght", "§4: an event on ever larger terrains, beside stacks and voxels",
+               ght::kEditParameters, ght::edit_cases, ght::measure_edit},
+    Experiment{"ght.reach", "ght", "§4: ever larger events, beside stacks and voxels", ght::kReachParameters,
+               ght::reach_cases, ght::measure_reach},
+    Experiment{"ght.complex", "ght", "§4.2: the sequence of events and the rain of particles",
+               ght::kComplexParameters, ght::complex_cases, ght::measure_complex},
     Experiment{"drill.channels", "drill", "§3.1: channel pixels and the largest flow",
                drill::kChannelParameters, drill::channel_cases, drill::measure_channels},
     Experiment{"drill.factorial", "drill", "§3: the factorial of 54 parameter sets",
@@ -34,11 +47,15 @@ const std::array kExperiments{
                drill::growth_cases, drill::measure_growth},
     Experiment{"drill.size", "drill", "§4.1: values and bytes", drill::kGroundParameters, drill::ground_cases,
                drill::measure_size},
+    Experiment{"drill.extensions", "drill", "§4.1: what the paper leaves as future work",
+               drill::kExtensionParameters, drill::extension_cases, drill::measure_extension},
     Experiment{"drill.promises", "drill", "§2.3 and §4: order of drills, pits", drill::kGroundParameters,
                drill::ground_cases, drill::measure_promises},
     Experiment{"overview.relief", "overview", "Shaded relief of each terrain in each representation",
                overview_experiments::kReliefParameters, overview_experiments::relief_cases,
                overview_experiments::measure_relief},
+    Experiment{"cross.lod-disk", "cross", "A clipmap over ground that stays on disk",
+               cross::kLodDiskParameters, cross::lod_disk_cases, cross::measure_lod_disk},
 };
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
 namespace terrabench::ght {
 namespace {
@@ -21,6 +23,7 @@ class Inspector {
     counts();
     faces();
     links();
+    list_edges();
     edges();
     boundaries();
     return std::move(problems_);
@@ -90,6 +93,19 @@ class Inspector {
     surface_.each_face([&](FaceId f) { visit(surface_.face(f)); });
   }
 
+  // Whether one of the squares around a sample is plain.
+  bool plain_around(int i, int j) const {
+    const Lattice& lattice = tree_.lattice();
+    for (int k = 0; k < 4; ++k) {
+      const Square s{i - k % 2, j - k / 2};
+      if (s.i >= 0 && s.j >= 0 && s.i + 1 < lattice.width && s.j + 1 < lattice.depth &&
+          surface_.plain(tree_, s)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
   void faces() {
     std::size_t empty = 0, elsewhere = 0, unindexed = 0;
     used_.assign(tree_.cells(), 0);
@@ -100,13 +116,11 @@ class Inspector {
       }
     });
     const Lattice& lattice = tree_.lattice();
-    for (int j = 0; j + 1 < lattice.depth; ++j) {
-      for (int i = 0; i + 1 < lattice.width; ++i) {
-        if (!surface_.plain(tree_, {i, j})) continue;
-        for (int k = 0; k < 4; ++k) {
-          const glm::vec2 at = tree_.plan(tree_.at_sample(i + k % 2, j + k / 2));
-          elsewhere += at != glm::vec2(lattice.x(i + k % 2), lattice.z(j + k / 2));
-        }
+    for (int j = 0; j < lattice.depth; ++j) {
+      for (int i = 0; i < lattice.width; ++i) {
+        if (!plain_around(i, j)) continue;
+        const glm::vec2 at = tree_.plan(tree_.at_sample(i, j));
+        elsewhere += at != glm::vec2(lattice.x(i), lattice.z(j));
       }
     }
     surface_.each_face([&](FaceId f) {
@@ -142,16 +156,33 @@ class Inspector {
     expect(dangling, "links that do not lead to the surface");
   }
 
-  void edges() {
-    std::vector<Edge> all;
+  // Edges by the cell that they leave: those of cell c are ends_[first_[c]] … ends_[first_[c + 1] - 1].
+  void list_edges() {
+    first_.assign(tree_.cells() + std::size_t{1}, 0);
     each_triangle([&](const Face& face) {
-      for (std::size_t k = 0; k < 3; ++k) all.push_back({face[k], face[(k + 1) % 3]});
+      for (const CellId c : face) ++first_[c];
     });
-    std::sort(all.begin(), all.end());
+    std::size_t sum = 0;
+    for (std::size_t& first : first_) sum += std::exchange(first, sum);
+    ends_.resize(sum);
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    each_triangle([&](const Face& face) {
+      for (std::size_t k = 0; k < 3; ++k) ends_[next[face[k]]++] = face[(k + 1) % 3];
+    });
+  }
+  std::span<const CellId> edges_from(CellId c) const {
+    return std::span(ends_).subspan(first_[c], first_[c + 1] - first_[c]);
+  }
+
+  void edges() {
     std::size_t twice = 0, open = 0;
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      twice += k > 0 && all[k] == all[k - 1];
-      if (!std::binary_search(all.begin(), all.end(), Edge{all[k].to, all[k].from})) open += !at_rim(all[k]);
+    for (CellId c = 0; c < tree_.cells(); ++c) {
+      const std::span<const CellId> ends = edges_from(c);
+      for (auto to = ends.begin(); to != ends.end(); ++to) {
+        twice += std::find(ends.begin(), to, *to) != to;
+        const std::span<const CellId> back = edges_from(*to);
+        if (std::find(back.begin(), back.end(), c) == back.end()) open += !at_rim({c, *to});
+      }
     }
     expect(twice, "edges that two faces run the same way");
     expect(open, "edges with one face only");
@@ -172,20 +203,23 @@ class Inspector {
     return false;
   }
 
+  // An edge of the faces between two nodes is a link at both of its ends.
   void boundaries() {
-    std::size_t one_way = 0;
-    std::vector<CellId> there, back;
+    std::vector<Edge> across;
     surface_.each_face([&](FaceId f) {
       const Face& face = surface_.face(f);
       for (std::size_t k = 0; k < 3; ++k) {
         const CellId a = face[k], b = face[(k + 1) % 3];
-        if (tree_.node_of(a) == tree_.node_of(b)) continue;
-        boundary_links(model_, a, there);
-        boundary_links(model_, b, back);
-        one_way += std::find(there.begin(), there.end(), b) == there.end() ||
-                   std::find(back.begin(), back.end(), a) == back.end();
+        if (tree_.node_of(a) != tree_.node_of(b)) across.insert(across.end(), {{a, b}, {b, a}});
       }
     });
+    std::sort(across.begin(), across.end());
+    std::size_t one_way = 0;
+    std::vector<CellId> links;
+    for (std::size_t k = 0; k < across.size(); ++k) {
+      if (k == 0 || across[k].from != across[k - 1].from) boundary_links(model_, across[k].from, links);
+      one_way += std::find(links.begin(), links.end(), across[k].to) == links.end();
+    }
     expect(one_way, "boundary links that run one way");
   }
 
@@ -193,6 +227,8 @@ class Inspector {
   const Tree& tree_;
   const Surface& surface_;
   std::vector<char> used_;  // by the surface, a cell
+  std::vector<std::size_t> first_;
+  std::vector<CellId> ends_;
   std::vector<std::string> problems_;
 };
 

@@ -1,2 +1,3 @@
 terrabench_benchmark(stack_bench SOURCES stack_bench.cpp LIBRARIES representations)
 terrabench_benchmark(drill_bench SOURCES drill_bench.cpp LIBRARIES representations)
+terrabench_benchmark(ght_bench SOURCES ght_bench.cpp LIBRARIES representations)

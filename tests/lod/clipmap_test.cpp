@@ -8,12 +8,17 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <glm/common.hpp>
 #include <map>
 #include <random>
 #include <string>
 
+#include "lod/camera/camera_path.h"
+#include "lod/meters/cracks.h"
+#include "lod/meters/screen_error.h"
 #include "terrain/error.h"
 #include "terrain/memory.h"
+#include "tests/lod/drawing.h"
 
 namespace terrabench {
 namespace {
@@ -180,6 +185,133 @@ TEST(Clipmap, UploadsTheLShapedStripsOnly) {
   EXPECT_EQ(
       lod.update(at(516, 514)).stats.bytes_uploaded,  // L: two columns, two rows; the next level: columns
       4 * (2 * n + 2 * (n - 2)) + 4 * 2 * n);
+}
+
+// Whatever the move, what is uploaded is what is new in each window, once: n² samples less those it shares
+// with where it was.
+TEST(Clipmap, UploadsEachNewSampleOnce) {
+  const Heightfield field = rough(700, 900);
+  Clipmap lod(heights_in_memory(field), 63);
+  std::mt19937 random(17);
+  std::vector<glm::ivec2> before;
+  float i = 300, j = 300;
+  for (int k = 0; k < 300; ++k) {
+    const auto step = [&](int most) { return static_cast<float>(random() % (2 * most + 1)) - most; };
+    const int most = k % 10 == 9 ? 90 : 3;
+    i = std::clamp(i + step(most), -20.0F, 720.0F);
+    j = std::clamp(j + step(most), -20.0F, 920.0F);
+    const Frame& frame = lod.update(everything(field, i * field.cell_x, j * field.cell_z, 1));
+    std::size_t expected = k == 0 ? 4 * frame.indices.size() : 0;
+    for (std::size_t l = 0; l < frame.levels.size(); ++l) {
+      const int n = lod.window();
+      const glm::ivec2 by = k == 0 ? glm::ivec2(n) : glm::abs(frame.levels[l].corner - before[l]);
+      expected += 4 * static_cast<std::size_t>(n * n - std::max(0, n - by.x) * std::max(0, n - by.y));
+    }
+    ASSERT_EQ(frame.stats.bytes_uploaded, expected) << k;
+    std::map<std::array<int, 3>, int> times;
+    for (const DirtyRange& range : frame.uploads) {
+      if (range.target != DirtyRange::Target::kClipLevel) continue;
+      for (int z = range.z; z < range.z + range.depth; ++z) {
+        for (int x = range.x; x < range.x + range.width; ++x) ++times[{range.level, x, z}];
+      }
+    }
+    for (const auto& [sample, count] : times) ASSERT_EQ(count, 1) << k;
+    before.clear();
+    for (const ClipLevel& level : frame.levels) before.push_back(level.corner);
+  }
+}
+
+TEST(Clipmap, HasNoCracksAlongThePaths) {
+  const Heightfield field = test::hilly(403, 344, 1);
+  for (const int window : {31, 127}) {
+    Clipmap lod(heights_in_memory(field), window);
+    for (const CameraPath& path : camera_paths()) {
+      const std::vector<View> all = views(path, field);
+      for (std::size_t k = 0; k < all.size(); k += 20) {
+        const Frame& frame = lod.update(all[k]);
+        const CrackReport cracks = find_cracks(frame, field.width, field.depth, all[k]);
+        ASSERT_TRUE(cracks.tight()) << path.name << ' ' << k << ": " << cracks.gaps << " gaps";
+        ASSERT_EQ(cracks.t_junctions, 0U) << path.name << ' ' << k;
+      }
+    }
+  }
+}
+
+// Over a slow flight that climbs through the levels, vertices glide: without the transition, samples jump as
+// they change level.
+TEST(Clipmap, TransitionsKeepPoppingSmall) {
+  Heightfield field = test::hilly(110, 110, 1);
+  field.cell_x = field.cell_z = 3;
+  Clipmap lod(heights_in_memory(field), 31);
+  std::vector<View> all(100);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const auto t = static_cast<float>(k);
+    all[k].eye = {80 + 0.3F * t, 30 + 0.5F * t, 120 + 0.2F * t};
+    all[k].target = all[k].eye + glm::vec3(1, -0.4F, 0.5F);
+  }
+  double blended = 0, sudden = 0;
+  std::unique_ptr<SurfaceRaster> before[2];
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Frame& frame = lod.update(all[k]);
+    std::vector<ClipLevel> levels(frame.levels.begin(), frame.levels.end());
+    for (ClipLevel& level : levels) level.from = level.to = 0;
+    Frame plain = frame;
+    plain.levels = levels;
+    const Visibility seen(field, all[k]);
+    for (int which = 0; which < 2; ++which) {
+      auto now = std::make_unique<SurfaceRaster>(which == 0 ? frame : plain, field.width, field.depth);
+      double& largest = which == 0 ? blended : sudden;
+      if (before[which] != nullptr)
+        largest = std::max(largest, popping(*before[which], *now, seen).visible.largest);
+      before[which] = std::move(now);
+    }
+  }
+  EXPECT_GT(sudden, 0);
+  EXPECT_LT(blended, 0.5 * sudden) << "of " << sudden << " px";
+}
+
+TEST(ClipmapBounds, AreThoseOfTheTilesWhereverTheWindowWent) {
+  constexpr int kWindow = 31, kSide = 32, kTile = 8;
+  std::mt19937 random(23);
+  clipmap::HeightBounds bounds(kWindow);
+  std::vector<float> heights(kSide * kSide);
+  ClipLevel level{.side = kSide, .heights = heights};
+  const auto height = [](int a, int b) { return static_cast<float>((a * 7919 + b * 104729) % 1009); };
+  const auto floor8 = [](int lattice) { return lattice & ~(kTile - 1); };
+  for (int k = 0; k < 200; ++k) {
+    const int most = k % 20 == 19 ? 100 : 4;
+    const auto step = [&] { return static_cast<int>(random() % (2 * most + 1)) - most; };
+    level.corner += glm::ivec2(step(), step());
+    const glm::ivec2 corner = level.corner, end = corner + kWindow - 1;
+    std::fill(heights.begin(), heights.end(), 1e9F);  // what lies outside the window must not count
+    for (int b = corner.y; b <= end.y; ++b) {
+      for (int a = corner.x; a <= end.x; ++a)
+        heights[static_cast<std::size_t>((b & 31) * kSide + (a & 31))] = height(a, b);
+    }
+    bounds.follow(level);
+    const auto inside = [&](int from) { return from + static_cast<int>(random() % kWindow); };
+    const glm::ivec2 p(inside(corner.x), inside(corner.y)), q(inside(corner.x), inside(corner.y));
+    const glm::ivec2 low = glm::min(p, q), high = glm::max(p, q);
+    float lowest = INFINITY, highest = -INFINITY;
+    for (int b = std::max(floor8(low.y), corner.y); b <= std::min(floor8(high.y) + kTile - 1, end.y); ++b) {
+      for (int a = std::max(floor8(low.x), corner.x); a <= std::min(floor8(high.x) + kTile - 1, end.x); ++a) {
+        lowest = std::min(lowest, height(a, b));
+        highest = std::max(highest, height(a, b));
+      }
+    }
+    const auto range = bounds.range(low, high);
+    ASSERT_EQ(range.lowest, lowest) << k;
+    ASSERT_EQ(range.highest, highest) << k;
+  }
+}
+
+TEST(Clipmap, WindowsAreNoLargerThanTheGroundAsks) {
+  const Heightfield field = rough(100, 60);
+  Clipmap lod(heights_in_memory(field), 4095);
+  EXPECT_EQ(lod.levels(), 1);
+  EXPECT_LE(lod.window(), 2 * 100 + 10);
+  expect_closed(field, lod.update(everything(field, 0, 0, 1)));
+  expect_closed(field, lod.update(everything(field, field.extent_x(), field.extent_z(), 1)));
 }
 
 TEST(Clipmap, StepsBackWhenTheEyeRises) {

@@ -157,9 +157,7 @@ void run(unsigned seed, Shares& shares) {
     return;
   }
   const Disagreement found = compare(ght, *truth);
-  ASSERT_EQ(found.wrong, 0U) << "of " << found.points << ", at " << found.worst.x << " " << found.worst.y
-                             << " " << found.worst.z << "\n"
-                             << to_text(done);
+  ASSERT_TRUE(found.wrong.empty()) << found << "\n" << to_text(done);
 }
 
 class GhtRandomEvents : public testing::TestWithParam<int> {};
@@ -190,12 +188,15 @@ TEST(GhtOracle, SeesAMissingEvent) {
     for (int attempt = 0; attempt < 60 && seen[k] == 0; ++attempt) {
       const Ground ground = random_ground(dice);
       Ght ght = make_ght(ground.field);
+      Event event = random_event(dice, ground, static_cast<Kind>(k));
+      // Two cells to either side, on slopes of about 1 in 1, is mostly within a cell.
+      if (auto* const slide = std::get_if<LateralFault>(&event)) slide->slip *= 4;
       try {
-        ght.apply(random_event(dice, ground, static_cast<Kind>(k)));
+        ght.apply(event);
       } catch (const Error&) {
         continue;
       }
-      seen[k] += compare(ght, after(ground.field, {})).wrong > 0;
+      seen[k] += !compare(ght, after(ground.field, {})).wrong.empty();
     }
     EXPECT_EQ(seen[k], 1) << name(static_cast<Kind>(k));
   }
@@ -218,7 +219,7 @@ TEST(GhtParticles, ARainOfThemIsWhatTheEvaluationSays) {
   expect_sound(ght);
   EXPECT_EQ(ght.model().tree.nodes().size(), 601U);
   const Disagreement found = compare(ght, after(field, done), 2);
-  EXPECT_EQ(found.wrong, 0U) << "of " << found.points;
+  EXPECT_TRUE(found.wrong.empty()) << found;
   const SpanSink spans = spans_of(ght, Lattice(ght.bounds(), 50, 50).columns());
   EXPECT_EQ(spans.all().size(), 2500U);  // one span each
 }

@@ -1,6 +1,5 @@
 #include "terrain/sources/dem/height_pyramid.h"
 
-#include <cpl_string.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -12,17 +11,15 @@
 #include "terrain/memory.h"
 #include "terrain/sources/dem/dem.h"
 #include "terrain/sources/dem/gdal_session.h"
+#include "terrain/sources/dem/geotiff_rows.h"
 
 namespace terrabench {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kTile = 256;      // samples a side
 constexpr int kCoarsest = 16;   // samples along the longer side of the last level kept
 constexpr int kReduced = 1024;  // samples along the longer side of the copy that fills holes
-constexpr const char* kCellX = "TERRABENCH_CELL_X";
-constexpr const char* kCellZ = "TERRABENCH_CELL_Z";
 
 std::string level_file(const fs::path& folder, int level) {
   return (folder / fmt::format("{}.tif", level)).string();
@@ -40,43 +37,27 @@ Error damaged(const fs::path& path, const std::string& why) {
   return bad_input(why, path.string(), "the pyramid is not whole: build it again");
 }
 
-// A level being written, row after row.
-class LevelWriter {
- public:
-  LevelWriter(const std::string& path, int width, int depth, float cell_x, float cell_z) : path_(path) {
-    CPLStringList options;
-    for (const char* option : {"TILED=YES", "BLOCKXSIZE=256", "BLOCKYSIZE=256", "COMPRESS=ZSTD",
-                               "ZSTD_LEVEL=3", "PREDICTOR=3", "BIGTIFF=IF_SAFER", "NUM_THREADS=ALL_CPUS"}) {
-      options.AddString(option);
-    }
-    GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
-    dataset_.reset(driver->Create(path.c_str(), width, depth, 1, GDT_Float32, options));
-    if (dataset_ == nullptr) throw cannot_write(path_, messages_.first_failure());
-    dataset_->SetMetadataItem(kCellX, fmt::format("{}", cell_x).c_str());
-    dataset_->SetMetadataItem(kCellZ, fmt::format("{}", cell_z).c_str());
-  }
-  void write(int first_row, int rows, std::vector<float>& heights) {
-    const int width = dataset_->GetRasterXSize();
-    const CPLErr error = dataset_->GetRasterBand(1)->RasterIO(
-        GF_Write, 0, first_row, width, rows, heights.data(), width, rows, GDT_Float32, 0, 0, nullptr);
-    if (error != CE_None || messages_.failed()) throw cannot_write(path_, messages_.first_failure());
-  }
-  // A full disk may show itself only here.
-  void close() {
-    dataset_.reset();
-    if (messages_.failed()) throw cannot_write(path_, messages_.first_failure());
-  }
-
- private:
-  fs::path path_;
-  GdalMessages messages_;
-  DatasetPointer dataset_;
-};
-
 DatasetPointer open_level(const std::string& path) {
   const GdalMessages messages;
   const char* const drivers[] = {"GTiff", nullptr};
   return DatasetPointer(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers));
+}
+
+// The size of a level's cells, metres; 0 where the file does not say.
+struct Cells {
+  float x = 0, z = 0;
+};
+Cells cells_of(GDALDataset& level) {
+  double transform[6];
+  if (level.GetGeoTransform(transform) != CE_None) return {};
+  return {static_cast<float>(transform[1]), static_cast<float>(-transform[5])};
+}
+
+bool is_level(GDALDataset* dataset) {
+  if (dataset == nullptr || dataset->GetRasterCount() != 1) return false;
+  int tile_x = 0, tile_z = 0;
+  dataset->GetRasterBand(1)->GetBlockSize(&tile_x, &tile_z);
+  return tile_x == kGeotiffTile && tile_z == kGeotiffTile;
 }
 
 struct RasterSize {
@@ -136,16 +117,16 @@ void write_ground(const std::string& dem, const RasterSize& size, const fs::path
   DemOptions middle;
   middle.window = {0, std::max(0, size.depth / 2 - 1), size.width, std::min(2, size.depth)};
   const Heightfield rows = read_dem(dem, middle).heights;
-  LevelWriter writer(level_file(folder, 0), size.width, size.depth, rows.cell_x, rows.cell_z);
+  GeotiffRows writer(level_file(folder, 0), size.width, size.depth, rows.cell_x, rows.cell_z);
   HoleFiller holes(dem, size);
-  progress.begin("copying the ground into tiles", (size.depth - 1) / kTile + 1);
-  for (int y = 0; y < size.depth; y += kTile) {
-    const int count = std::min(kTile, size.depth - y);
+  progress.begin("copying the ground into tiles", (size.depth - 1) / kGeotiffTile + 1);
+  for (int y = 0; y < size.depth; y += kGeotiffTile) {
+    const int count = std::min(kGeotiffTile, size.depth - y);
     DemOptions tiles;
     tiles.window = {0, y, size.width, count};
     Heightfield band = read_dem(dem, tiles).heights;
     holes.fill(band, y);
-    writer.write(y, count, band.heights);
+    writer.write(band.heights);
     progress.advance();
   }
   writer.close();
@@ -156,14 +137,15 @@ void write_level(const fs::path& folder, int level, Progress& progress) {
   const DatasetPointer below = open_level(level_file(folder, level - 1));
   if (below == nullptr) throw damaged(folder, fmt::format("level {} cannot be read back", level - 1));
   const int width = below->GetRasterXSize(), depth = below->GetRasterYSize();
-  const float cell_x = std::stof(below->GetMetadataItem(kCellX)),
-              cell_z = std::stof(below->GetMetadataItem(kCellZ));
-  LevelWriter writer(level_file(folder, level), halved(width), halved(depth), 2 * cell_x, 2 * cell_z);
-  progress.begin(fmt::format("thinning to level {}", level), (halved(depth) - 1) / kTile + 1);
+  const Cells cells = cells_of(*below);
+  GeotiffRows writer(level_file(folder, level), halved(width), halved(depth), 2 * cells.x, 2 * cells.z);
+  progress.begin(fmt::format("thinning to level {}", level), (halved(depth) - 1) / kGeotiffTile + 1);
   std::vector<float> rows, kept;
-  for (int b = 0; b < halved(depth); b += kTile) {
-    const int count = std::min(kTile, halved(depth) - b);
-    const int first = 2 * b, read = std::min(2 * count - 1, depth - first);
+  for (int b = 0; b < halved(depth); b += kGeotiffTile) {
+    const int count = std::min(kGeotiffTile, halved(depth) - b);
+    // Of an even depth the last row kept is the ground's last, which the row before may have reached already.
+    const int last = depth - 1, first = std::min(2 * b, last);
+    const int read = std::min(2 * (b + count - 1), last) - first + 1;
     rows.resize(static_cast<std::size_t>(width) * read);
     if (below->GetRasterBand(1)->RasterIO(GF_Read, 0, first, width, read, rows.data(), width, read,
                                           GDT_Float32, 0, 0, nullptr) != CE_None) {
@@ -171,13 +153,29 @@ void write_level(const fs::path& folder, int level, Progress& progress) {
     }
     kept.clear();
     for (int j = 0; j < count; ++j) {
-      const float* const row = &rows[static_cast<std::size_t>(std::min(2 * j, read - 1)) * width];
+      const float* const row = &rows[static_cast<std::size_t>(std::min(2 * (b + j), last) - first) * width];
       for (int a = 0; a < halved(width); ++a) kept.push_back(row[std::min(2 * a, width - 1)]);
     }
-    writer.write(b, count, kept);
+    writer.write(kept);
     progress.advance();
   }
   writer.close();
+}
+
+// Tiles that a read of these samples must decode, because GDAL's cache does not hold them.
+std::uint64_t tiles_missing(GDALRasterBand& band, int x0, int z0, int x1, int z1) {
+  std::uint64_t missing = 0;
+  for (int z = z0 / kGeotiffTile; z <= z1 / kGeotiffTile; ++z) {
+    for (int x = x0 / kGeotiffTile; x <= x1 / kGeotiffTile; ++x) {
+      GDALRasterBlock* const block = band.TryGetLockedBlockRef(x, z);
+      if (block == nullptr) {
+        ++missing;
+      } else {
+        block->DropLock();
+      }
+    }
+  }
+  return missing;
 }
 
 }  // namespace
@@ -187,6 +185,7 @@ struct HeightPyramid::Levels {
   std::vector<DatasetPointer> datasets;
   float cell_x = 1, cell_z = 1;
   std::vector<float> block;  // what a read takes from the disk, before its borders are repeated
+  std::uint64_t tiles_read = 0;
 };
 
 void HeightPyramid::build(const std::string& dem, const fs::path& folder, Progress& progress) {
@@ -223,17 +222,16 @@ std::unique_ptr<HeightPyramid> HeightPyramid::open(const fs::path& folder) {
   levels->folder = folder;
   for (int level = 0;; ++level) {
     DatasetPointer dataset = open_level(level_file(folder, level));
-    if (dataset == nullptr || dataset->GetRasterCount() != 1) {
+    if (!is_level(dataset.get())) {
       throw damaged(folder, fmt::format("level {} is missing or cannot be read", level));
     }
     const int width = dataset->GetRasterXSize(), depth = dataset->GetRasterYSize();
     if (level == 0) {
-      for (const auto& [name, cell] : {std::pair{kCellX, &levels->cell_x}, {kCellZ, &levels->cell_z}}) {
-        const char* const text = dataset->GetMetadataItem(name);
-        *cell = text == nullptr ? 0 : static_cast<float>(CPLAtof(text));
-        if (!(*cell > 0) || !std::isfinite(*cell))
-          throw damaged(folder, "the size of its cells is not there");
-      }
+      const Cells cells = cells_of(*dataset);
+      if (!(cells.x > 0 && cells.z > 0 && std::isfinite(cells.x) && std::isfinite(cells.z)))
+        throw damaged(folder, "the size of its cells is not there");
+      levels->cell_x = cells.x;
+      levels->cell_z = cells.z;
     } else {
       const DatasetPointer& below = levels->datasets.back();
       if (width != halved(below->GetRasterXSize()) || depth != halved(below->GetRasterYSize())) {
@@ -253,6 +251,7 @@ int HeightPyramid::width() const { return levels_->datasets.front()->GetRasterXS
 int HeightPyramid::depth() const { return levels_->datasets.front()->GetRasterYSize(); }
 float HeightPyramid::cell_x() const { return levels_->cell_x; }
 float HeightPyramid::cell_z() const { return levels_->cell_z; }
+std::uint64_t HeightPyramid::tiles_read() const { return levels_->tiles_read; }
 std::size_t HeightPyramid::bytes() const {
   return heap_bytes(this) + heap_bytes(levels_.get()) + heap_bytes(levels_->datasets.data()) +
          heap_bytes(levels_->block.data());
@@ -271,6 +270,7 @@ void HeightPyramid::read(int level, int a, int b, int columns, int rows, float* 
   const int z0 = inside(b, depth), z1 = inside(std::int64_t{b} + rows - 1, depth);
   const int w = x1 - x0 + 1, h = z1 - z0 + 1;
   levels_->block.resize(static_cast<std::size_t>(w) * h);
+  levels_->tiles_read += tiles_missing(*dataset.GetRasterBand(1), x0, z0, x1, z1);
   const GdalMessages messages;
   if (dataset.GetRasterBand(1)->RasterIO(GF_Read, x0, z0, w, h, levels_->block.data(), w, h, GDT_Float32, 0,
                                          0, nullptr) != CE_None) {

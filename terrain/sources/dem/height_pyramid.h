@@ -3,6 +3,7 @@
 // sample along x and z as it is (not averaged), and the ground's last sample at its far borders.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -29,10 +30,11 @@ class HeightPyramid {
   float cell_z() const;
   // Lattice samples [a, a + columns) × [b, b + rows) of the level, row by row into `out`, rows `stride`
   // apart; beyond the ground its border's. Any level ≥ 0. GDAL keeps decoded tiles within its cache
-  // (GDAL_CACHEMAX, by default a twentieth of the memory). Throws bad_input when the disk's bytes cannot be
+  // (64 MiB unless GDAL_CACHEMAX says otherwise). Throws bad_input when the disk's bytes cannot be
   // decoded. Not thread-safe.
   void read(int level, int a, int b, int columns, int rows, float* out, int stride);
-  std::size_t bytes() const;  // heap bytes of ours; GDAL's own are not counted
+  std::uint64_t tiles_read() const;  // decoded since open(); what was in the cache does not count
+  std::size_t bytes() const;         // heap bytes of ours; GDAL's own are not counted
 
  private:
   struct Levels;

@@ -1,0 +1,244 @@
+#include "experiments/cross/lod_disk.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+
+#include "experiments/cross/lod_disk_ground.h"
+#include "experiments/cross/own_process.h"
+#include "lod/camera/camera_path.h"
+#include "lod/clipmap/clipmap.h"
+#include "results/store.h"
+#include "terrain/error.h"
+#include "terrain/files.h"
+#include "terrain/sources/dem/dem.h"
+
+namespace terrabench::cross {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::array kSpecs{
+    ParameterSpec{"side", std::int64_t{4096}, "samples", "of the synthetic mountains", 2, 32768},
+    ParameterSpec{"window", std::int64_t{255}, "samples", "of each clipmap level", 15, 4095},
+    ParameterSpec{"steps", std::int64_t{1000}, "frames", "steps of one sample before the long walk", 1,
+                  1000000},
+};
+constexpr int kPlanSamples = 1025;  // of the copy of the ground that camera paths are laid over, at most
+constexpr float kEyeHeight = 1.8F;  // metres
+
+// Empty, in the system's temporary folder, and gone with this object: at the end, after an error, after
+// Ctrl-C.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "terrabench-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) {
+      throw environment_error(fmt::format("cannot make a folder: {}", std::strerror(errno)), name,
+                              "set TMPDIR to a folder with room for the ground");
+    }
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+std::uintmax_t bytes_of(const fs::path& folder) {
+  std::uintmax_t bytes = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) bytes += entry.file_size();
+  return bytes;
+}
+
+// What the paper's L-shaped strips hold: of each window the samples that it did not hold before.
+class StripBytes {
+ public:
+  std::size_t of(const Frame& frame, int n) {
+    std::size_t bytes = 0;
+    corners_.resize(frame.levels.size());
+    for (std::size_t l = 0; l < corners_.size(); ++l) {
+      const glm::ivec2 now = frame.levels[l].corner;
+      const int x = std::abs(now.x - corners_[l].x), z = std::abs(now.y - corners_[l].y);
+      bytes += 4 * static_cast<std::size_t>(n * n - std::max(0, n - x) * std::max(0, n - z));
+      corners_[l] = now;
+    }
+    return bytes;
+  }
+
+ private:
+  std::vector<glm::ivec2> corners_;
+};
+
+// Views of the committed path "cross" over a thinned copy of the ground, put back onto the ground itself.
+std::vector<View> walk_across(HeightPyramid& pyramid) {
+  int level = 0;
+  while (((std::max(pyramid.width(), pyramid.depth()) - 1) >> level) + 1 > kPlanSamples) ++level;
+  Heightfield plan;
+  plan.width = ((pyramid.width() - 1) >> level) + 1;
+  plan.depth = ((pyramid.depth() - 1) >> level) + 1;
+  plan.cell_x = pyramid.cell_x() * static_cast<float>(1 << level);
+  plan.cell_z = pyramid.cell_z() * static_cast<float>(1 << level);
+  plan.heights.resize(static_cast<std::size_t>(plan.width) * plan.depth);
+  pyramid.read(level, 0, 0, plan.width, plan.depth, plan.heights.data(), plan.width);
+  return views(camera_path("cross"), plan);
+}
+
+// 1.8 m above the sample that the eye is over.
+View on_the_ground(View view, HeightPyramid& pyramid) {
+  const glm::vec3 sight = view.target - view.eye;
+  float height = 0;
+  pyramid.read(0, static_cast<int>(view.eye.x / pyramid.cell_x()),
+               static_cast<int>(view.eye.z / pyramid.cell_z()), 1, 1, &height, 1);
+  view.eye.y = height + kEyeHeight;
+  view.target = view.eye + sight;
+  return view;
+}
+
+class Walk {
+ public:
+  Walk(const fs::path& folder, int window) {
+    auto pyramid = HeightPyramid::open(folder);
+    pyramid_ = pyramid.get();
+    clipmap_ = std::make_unique<Clipmap>(heights_on_disk(std::move(pyramid)), window);
+  }
+
+  void measure(int steps, Recorder& recorder, Progress& progress) {
+    const std::vector<View> across = walk_across(*pyramid_);
+    if (across.empty()) throw usage_error("ground of one point", "", "give a larger terrain");
+    begin(across.front(), recorder);
+    View view = across.front();
+    progress.begin("stepping over the ground", static_cast<std::uint64_t>(steps));
+    for (int k = 0; k < steps; ++k) {
+      view.eye.x += pyramid_->cell_x();
+      view.target.x += pyramid_->cell_x();
+      update(view, "step_time", recorder);
+      progress.advance();
+    }
+    finish("step", recorder);
+    progress.begin("walking across the ground", across.size());
+    for (const View& next : across) {
+      update(next, "walk_time", recorder);
+      progress.advance();
+    }
+    finish("walk", recorder);
+    recorder.add("clipmap_bytes", "B", static_cast<double>(clipmap_->memory().total()));
+  }
+
+ private:
+  // Fills all windows.
+  void begin(const View& view, Recorder& recorder) {
+    update(view, "first_time", recorder);
+    recorder.add("first_bytes", "B", static_cast<double>(uploaded_));
+    uploaded_ = strips_ = 0;
+  }
+  void update(const View& view, std::string_view metric, Recorder& recorder) {
+    const View at = on_the_ground(view, *pyramid_);
+    const std::uint64_t tiles = pyramid_->tiles_read();
+    const auto start = std::chrono::steady_clock::now();
+    const Frame& frame = clipmap_->update(at);
+    recorder.add(metric, "s", seconds_since(start));
+    uploaded_ += frame.stats.bytes_uploaded;
+    strips_ += expected_.of(frame, clipmap_->window());
+    tiles_ += pyramid_->tiles_read() - tiles;
+  }
+  void finish(const std::string& what, Recorder& recorder) {
+    recorder.add(what + "_bytes", "B", static_cast<double>(uploaded_));
+    recorder.add(what + "_strip_bytes", "B", static_cast<double>(strips_));
+    recorder.add(what + "_tiles", "", static_cast<double>(tiles_));
+    uploaded_ = strips_ = tiles_ = 0;
+  }
+
+  HeightPyramid* pyramid_ = nullptr;  // of the clipmap
+  std::unique_ptr<Clipmap> clipmap_;
+  StripBytes expected_;
+  std::size_t uploaded_ = 0, strips_ = 0, tiles_ = 0;
+};
+
+void walk_here(const fs::path& pyramid, const Case& at, Recorder& recorder, Progress& progress) {
+  recorder.terrain(pyramid.string(), checksum(pyramid.string()));
+  Walk(pyramid, static_cast<int>(at.parameters.integer("window")))
+      .measure(static_cast<int>(at.parameters.integer("steps")), recorder, progress);
+  recorder.add("peak_resident", "B", static_cast<double>(peak_resident_bytes()));
+}
+
+// The same experiment over the pyramid, in a process that does nothing else.
+void walk_apart(const fs::path& pyramid, const fs::path& folder, const Case& at, const RunOptions& options,
+                Recorder& recorder, Progress& progress) {
+  const fs::path results = folder / "walk";
+  progress.begin("walking, in a process of its own", 1);
+  run_own_program({"run", "cross.lod-disk", "--terrain", pyramid.string(), "--out", results.string(),
+                   "--profile", options.profile == Profile::kPaper ? "paper" : "quick", "--renderer",
+                   options.renderer, "--set", fmt::format("window={}", at.parameters.integer("window")),
+                   "--set", fmt::format("steps={}", at.parameters.integer("steps"))},
+                  folder / "walk.log", progress);
+  const Store store = Store::open(results);
+  for (const Metric& metric : store.records().front().metrics) {
+    for (const double sample : metric.samples) recorder.add(metric.name, metric.unit, sample);
+  }
+}
+
+}  // namespace
+
+constinit const std::span<const ParameterSpec> kLodDiskParameters = kSpecs;
+
+std::vector<Case> lod_disk_cases(const RunOptions& options) {
+  std::vector<Case> cases;
+  for (const std::string& terrain : options.terrains)
+    cases.push_back({terrain, Parameters(kLodDiskParameters), terrain});
+  if (!cases.empty()) return cases;
+  for (const std::int64_t side : {4096, 16384}) {
+    if (side > 4096 && options.profile == Profile::kQuick) break;
+    Case& added = cases.emplace_back(Case{fmt::format("side={}", side), Parameters(kLodDiskParameters), ""});
+    added.parameters.set("side", side);
+  }
+  return cases;
+}
+
+void measure_lod_disk(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  if (!at.terrain.empty() && fs::is_directory(at.terrain))
+    return walk_here(at.terrain, at, recorder, progress);
+  const TemporaryFolder folder;
+  const fs::path pyramid = folder.path() / "pyramid", made = folder.path() / "ground.tif";
+  std::string dem = at.terrain;
+  auto begin = std::chrono::steady_clock::now();
+  if (at.terrain.empty()) {
+    const auto side = static_cast<int>(at.parameters.integer("side"));
+    recorder.terrain(fmt::format("mountains {0} × {0}", side),
+                     write_disk_ground(made, side, options.seed, progress));
+    dem = made.string();
+  } else {
+    const TerrainSource source = open_terrain(at.terrain, options.seed);
+    recorder.terrain(source);
+    if (!source.heights) throw usage_error("a solid has no heights to walk on", at.terrain, "choose a DEM");
+    if (!names_dem_file(at.terrain)) {
+      write_geotiff(made, *source.heights);
+      dem = made.string();
+    }
+  }
+  recorder.add("ground_time", "s", seconds_since(begin));
+  begin = std::chrono::steady_clock::now();
+  HeightPyramid::build(dem, pyramid, progress);
+  recorder.add("pyramid_time", "s", seconds_since(begin));
+  recorder.add("pyramid_bytes", "B", static_cast<double>(bytes_of(pyramid)));
+  std::error_code ignored;
+  fs::remove(made, ignored);  // its room is needed no more
+  const auto tiles = HeightPyramid::open(pyramid);
+  recorder.add("ground_bytes", "B", 4.0 * tiles->width() * tiles->depth());
+  walk_apart(pyramid, folder.path(), at, options, recorder, progress);
+}
+
+}  // namespace terrabench::cross

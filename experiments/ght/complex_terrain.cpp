@@ -1,0 +1,134 @@
+// Terrains of many events (§4.2): the overlapping sequence and the rain of particles.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <ctime>
+#include <random>
+
+#include "experiments/ght/ght.h"
+#include "experiments/ght/site.h"
+#include "representations/ght/invariants.h"
+#include "terrain/events/event_file.h"
+
+namespace terrabench::ght {
+namespace {
+
+using namespace events;
+
+const std::array kSpecs{
+    ParameterSpec{"n", std::int64_t{128}, "cells", "along each side of the terrain", 128, 4096},
+    ParameterSpec{"particles", std::int64_t{10000}, "", "of the rain", 1, 20000},
+};
+
+constexpr int kSamples = 3;
+
+template <class Work>
+double seconds(const Work& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// Of this thread, so that others do not count.
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Columns at random places, asked by one thread.
+void time_columns(const Ght& tree, std::uint64_t seed, Recorder& recorder) {
+  constexpr std::size_t kColumns = 1 << 20, kBatch = 1 << 14;
+  std::mt19937 random(static_cast<std::mt19937::result_type>(seed));
+  const Bounds bounds = tree.bounds();
+  std::vector<float> x(kColumns), z(kColumns);
+  for (std::size_t c = 0; c < kColumns; ++c) {
+    x[c] = 0x1p-32F * static_cast<float>(random()) * bounds.high.x;
+    z[c] = 0x1p-32F * static_cast<float>(random()) * bounds.high.z;
+  }
+  SpanSink sink;
+  for (int sample = -1; sample < kSamples; ++sample) {  // the first one warms up
+    const double begin = processor_seconds();
+    for (std::size_t c = 0; c < kColumns; c += kBatch) {
+      sink.clear();
+      tree.spans({std::span(x).subspan(c, kBatch), std::span(z).subspan(c, kBatch)}, sink);
+    }
+    const double time = processor_seconds() - begin;
+    if (sample >= 0) recorder.add("columns_per_second", "1/s", static_cast<double>(kColumns) / time);
+  }
+}
+
+std::vector<std::byte> bytes_of(const Ght& tree) {
+  ByteSink sink;
+  tree.save(sink);
+  return {sink.bytes().begin(), sink.bytes().end()};
+}
+
+}  // namespace
+
+constinit const std::span<const ParameterSpec> kComplexParameters = kSpecs;
+
+std::vector<Case> complex_cases(const RunOptions&) {
+  std::vector<Case> cases;
+  for (const auto& [name, n] : {std::pair{"sequence", 128}, std::pair{"rain", 1024}}) {
+    Case& added = cases.emplace_back(Case{name, Parameters(kComplexParameters), ""});
+    added.parameters.set("n", std::int64_t{n});
+  }
+  return cases;
+}
+
+void measure_complex(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const auto n = static_cast<int>(at.parameters.integer("n"));
+  const Site site = make_site(n, n / kEventsAlong, options.seed);
+  recorder.terrain("diamond-square", checksum(site.ground));
+  const bool rains = at.name.starts_with("rain");
+  std::vector<Event> events;
+  if (!rains) events = overlapping_events(site);
+  // On the heap: memory() counts its own block.
+  const auto held = std::make_unique<Ght>(plain_tree(site.ground));
+  Ght& tree = *held;
+  const double fresh = static_cast<double>(tree.memory().total());
+  for (int sample = 0; sample < kSamples; ++sample) {
+    tree = plain_tree(site.ground);
+    if (rains) {
+      events.clear();
+      Rain rain(site.ground, options.seed);
+      recorder.add("time", "s", seconds([&] {
+                     for (std::int64_t k = at.parameters.integer("particles"); k > 0; --k) {
+                       events.push_back(rain.next(tree));
+                       tree.apply(events.back());
+                     }
+                   }));
+    } else {
+      recorder.add("time", "s", seconds([&] {
+                     for (const Event& event : events) tree.apply(event);
+                   }));
+    }
+  }
+  const Census all = census(tree.model());
+  const Memory memory = tree.memory();
+  recorder.add("events", "", static_cast<double>(events.size()));
+  recorder.add("heightmaps", "", static_cast<double>(all.nodes));
+  recorder.add("deepest_node", "", all.deepest);
+  recorder.add("cells", "", static_cast<double>(all.heights + all.links + all.voids));
+  recorder.add("heights", "", static_cast<double>(all.heights));
+  recorder.add("links", "", static_cast<double>(all.links));
+  recorder.add("voids", "", static_cast<double>(all.voids));
+  recorder.add("fresh_bytes", "B", fresh);
+  recorder.add("bytes", "B", static_cast<double>(memory.payload + memory.index));
+  recorder.add("slack_bytes", "B", static_cast<double>(memory.slack));
+  const std::vector<std::byte> file = bytes_of(tree);
+  recorder.add("file_bytes", "B", static_cast<double>(file.size()));
+
+  // As a text, and from the text again.
+  const std::string text = to_text(Script{"diamond-square", options.seed, n + 1, events, {}});
+  recorder.add("text_bytes", "B", static_cast<double>(text.size()));
+  const Script again = parse_script(text, "ght.complex");
+  Ght repeated = plain_tree(site.ground);
+  for (const Event& event : again.events) repeated.apply(event);
+  recorder.add("differs_from_text", "", bytes_of(repeated) == file ? 0 : 1);
+  time_columns(tree, options.seed, recorder);
+  progress.advance();
+}
+
+}  // namespace terrabench::ght

@@ -1,0 +1,237 @@
+// Whether the tree stays whole: its invariants after every event, and counted apart after every sequence.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <random>
+
+#include "experiments/ght/ght.h"
+#include "experiments/ght/site.h"
+#include "representations/ght/invariants.h"
+#include "terrain/error.h"
+
+namespace terrabench::ght {
+namespace {
+
+using namespace events;
+
+const std::array kSpecs{
+    ParameterSpec{"particles", std::int64_t{200}, "", "of the rain", 1, 100000},
+    ParameterSpec{"sequences", std::int64_t{100}, "", "random sequences of up to 12 events", 1, 100000},
+};
+
+// The random sequences' terrains are smaller, so that there are many, and their events crowd.
+constexpr int kSize = 32, kRandomSize = 16;
+
+// Plays events on one tree after another and adds up what is wrong.
+class Inspection {
+ public:
+  explicit Inspection(Recorder& recorder) : recorder_(recorder) {}
+
+  void play(const Site& site, std::span<const Event> events) {
+    Ght tree = plain_tree(site.ground);
+    for (const Event& event : events) play(tree, event);
+    finish(tree);
+  }
+  bool play(Ght& tree, const Event& event) {
+    try {
+      tree.apply(event);
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::kBadInput) throw;
+      ++refused_;
+      return false;
+    }
+    ++applied_;
+    broken_ += broken_invariants(tree.model()).size();
+    return true;
+  }
+  // What is counted here, and the closed mesh: once a sequence.
+  void finish(const Ght& tree) {
+    wrong_ += count_breaks(tree.model());
+    const EdgeReport edges = check_edges(tree.mesh({}));
+    open_ += edges.open + edges.non_manifold + edges.misoriented;
+    const Census all = census(tree.model());
+    boundary_links_ += all.boundary_links;
+    deepest_ = std::max(deepest_, all.deepest);
+  }
+  void write() const {
+    const auto add = [&](std::string_view name, double value) { recorder_.add(name, "", value); };
+    add("events", static_cast<double>(applied_));
+    add("refused_events", static_cast<double>(refused_));
+    add("boundary_links", static_cast<double>(boundary_links_));
+    add("deepest_node", deepest_);
+    add("dangling_links", static_cast<double>(wrong_.dangling));
+    add("links_one_way", static_cast<double>(wrong_.one_way));
+    add("voids_seen", static_cast<double>(wrong_.voids_seen));
+    add("open_edges", static_cast<double>(open_));
+    add("broken_invariants", static_cast<double>(broken_));
+  }
+
+ private:
+  Recorder& recorder_;
+  Breaks wrong_;
+  std::size_t applied_ = 0, refused_ = 0, broken_ = 0, open_ = 0, boundary_links_ = 0;
+  std::uint32_t deepest_ = 0;
+};
+
+// An event of any kind anywhere; carvings go through the higher ground.
+Event random_event(std::mt19937& random, const Site& site) {
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * 0x1p-32 * static_cast<double>(random());
+  };
+  // One number a statement: the order in which arguments are evaluated is the compiler's.
+  const auto point = [&] {
+    const double x = between(0.1, 0.9);
+    return site.extent() * glm::dvec2(x, between(0.1, 0.9));
+  };
+  const auto height = [&](glm::dvec2 p) {
+    return site.ground.sample(static_cast<float>(p.x), static_cast<float>(p.y));
+  };
+  const double cell = site.ground.cell_x;
+  const auto kind = static_cast<Kind>(random() % kKinds);
+  const glm::dvec2 from = point(), to = point();
+  const double first = between(0, 1), second = between(0, 1), third = between(0, 1);
+  const auto within = [](double low, double high, double share) { return low + (high - low) * share; };
+  switch (kind) {
+    case Kind::kLinearErosion:
+      return LinearErosion{from, to, within(0.5, 4, first) * cell, within(20, 50, second)};
+    case Kind::kRadialErosion:
+      return RadialErosion{{from.x, height(from), from.y},
+                           glm::dvec3(within(2, 9, first), within(1, 5, second), within(2, 9, third)) * cell};
+    case Kind::kLateralFault:
+      return LateralFault{from, to, within(3, 12, first) * cell, within(0.5, 8, second) * cell};
+    case Kind::kNormalFault:
+    case Kind::kInverseFault:
+      return DipFault{
+          kind == Kind::kInverseFault, from, to, within(4, 14, first) * cell, within(0.5, 4, second) * cell,
+          within(40, 85, third)};
+    default:
+      break;
+  }
+  glm::dvec2 top = from;
+  for (int k = 0; k < 20; ++k) {
+    const glm::dvec2 other = point();
+    if (height(other) > height(top)) top = other;
+  }
+  const double angle = 2 * std::numbers::pi * first, radius = within(1.3, 2, second) * cell,
+               y = height(top) - within(1.2, 2.5, third) * radius - cell;
+  const glm::dvec2 along = between(1, 4) * cell * glm::dvec2(std::cos(angle), std::sin(angle));
+  Carving carving;
+  carving.cave = kind == Kind::kCave;
+  carving.from = {top.x - along.x, y, top.y - along.y};
+  carving.to = {top.x + along.x, y, top.y + along.y};
+  const auto sides = 3 + static_cast<int>(random() % 8);
+  for (int k = 0; k < sides; ++k) {
+    const double turn = 2 * std::numbers::pi * (k + 0.5) / sides;
+    carving.section.push_back(1.3 * radius * glm::dvec2(std::cos(turn), std::sin(turn)));
+  }
+  carving.roughness = 0.03 * radius;
+  carving.seed = random();
+  return carving;
+}
+
+void play_random(int sequences, std::uint64_t seed, Inspection& inspection, Progress& progress) {
+  progress.begin("random sequences", static_cast<std::size_t>(sequences));
+  for (int s = 0; s < sequences; ++s) {
+    const std::uint64_t each = seed * 1000003 + static_cast<std::uint64_t>(s);
+    std::mt19937 random(static_cast<std::mt19937::result_type>(each));
+    const Site site = make_site(kEventsAlong * kRandomSize, kRandomSize, each);
+    Ght tree = plain_tree(site.ground);
+    constexpr int kEvents = 12, kAttempts = 40;
+    int done = 0;
+    for (int k = 0; k < kAttempts && done < kEvents; ++k)
+      done += inspection.play(tree, random_event(random, site));
+    inspection.finish(tree);
+    progress.advance();
+  }
+}
+
+}  // namespace
+
+Breaks& Breaks::operator+=(const Breaks& other) {
+  dangling += other.dangling;
+  one_way += other.one_way;
+  voids_seen += other.voids_seen;
+  return *this;
+}
+
+Breaks count_breaks(const Model& model) {
+  const Tree& tree = model.tree;
+  Breaks found;
+  std::vector<char> seen(tree.cells(), 0);
+  const auto see = [&](CellId c) {
+    seen[c] = 1;
+    found.voids_seen += tree.kind(c) != CellKind::kHeight;
+  };
+  for (int j = 0; j + 1 < tree.lattice().depth; ++j) {
+    for (int i = 0; i + 1 < tree.lattice().width; ++i) {
+      if (!model.surface.plain(tree, {i, j})) continue;
+      for (const CellId c : Surface::corners(tree, {i, j})) see(c);
+    }
+  }
+  std::vector<CellId> there, back;
+  model.surface.each_face([&](FaceId f) {
+    const Face& face = model.surface.face(f);
+    for (const CellId c : face) see(c);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const CellId a = face[k], b = face[(k + 1) % 3];
+      if (tree.node_of(a) == tree.node_of(b)) continue;
+      boundary_links(model, a, there);
+      boundary_links(model, b, back);
+      const auto holds = [](const std::vector<CellId>& all, CellId c) {
+        return std::find(all.begin(), all.end(), c) != all.end();
+      };
+      found.one_way += !holds(there, b) || !holds(back, a);
+    }
+  });
+  for (CellId c = 0; c < tree.cells(); ++c) {
+    if (tree.kind(c) != CellKind::kLink) continue;
+    const CellId end = tree.resolve(c);
+    // The paper's null links, over the mouth of a carving, end in an empty cell of its border.
+    const bool null =
+        tree.kind(end) == CellKind::kVoid && tree.nodes()[tree.node_of(end)].area == Area::kBorder;
+    found.dangling += !null && seen[end] == 0;
+  }
+  return found;
+}
+
+constinit const std::span<const ParameterSpec> kContinuityParameters = kSpecs;
+
+std::vector<Case> continuity_cases(const RunOptions& options) {
+  std::vector<Case> cases;
+  for (const char* const name : {"single-events", "two-tunnels", "sequence", "rain", "random"}) {
+    Case& added = cases.emplace_back(Case{name, Parameters(kContinuityParameters), ""});
+    const bool paper = options.profile == Profile::kPaper;
+    added.parameters.set("sequences", std::int64_t{paper ? 500 : 40});
+    added.parameters.set("particles", std::int64_t{paper ? 1000 : 200});
+  }
+  return cases;
+}
+
+void measure_continuity(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const std::string what = at.name.substr(0, at.name.find(' '));
+  const Site site = make_site(kEventsAlong * kSize, kSize, options.seed);
+  recorder.terrain("diamond-square", checksum(site.ground));
+  Inspection inspection(recorder);
+  if (what == "single-events") {
+    for (int k = 0; k < kKinds; ++k) {
+      const Event event = single_event(site, static_cast<Kind>(k));
+      inspection.play(site, {&event, 1});
+    }
+  } else if (what == "two-tunnels") {
+    inspection.play(site, two_tunnels(site));
+  } else if (what == "sequence") {
+    inspection.play(site, overlapping_events(site));
+  } else if (what == "rain") {
+    Ght tree = plain_tree(site.ground);
+    Rain rain(site.ground, options.seed);
+    for (std::int64_t k = at.parameters.integer("particles"); k > 0; --k)
+      inspection.play(tree, rain.next(tree));
+    inspection.finish(tree);
+  } else {
+    play_random(static_cast<int>(at.parameters.integer("sequences")), options.seed, inspection, progress);
+  }
+  inspection.write();
+}
+
+}  // namespace terrabench::ght

@@ -1,0 +1,100 @@
+// How many heightmaps each event adds: read off the tree before and after it, on the root and on another
+// node.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "experiments/ght/ght.h"
+#include "experiments/ght/site.h"
+#include "terrain/error.h"
+
+namespace terrabench::ght {
+namespace {
+
+using events::Kind;
+
+const std::array kSpecs{
+    ParameterSpec{"size", std::int64_t{32}, "cells", "length of an event; the terrain is 4 times as long", 32,
+                  512},
+};
+
+constexpr int kFewestSides = 3, kMostSides = 12;
+
+// What the last event did, as the tree tells and as its nodes do.
+void record(const Tree& tree, std::size_t nodes_before, std::string_view where, Recorder& recorder) {
+  const Applied& last = tree.events().back();
+  recorder.add(fmt::format("added_{}", where), "", static_cast<double>(tree.nodes().size() - nodes_before));
+  recorder.add(fmt::format("host_depth_{}", where), "", tree.nodes()[last.host].depth);
+}
+
+// On the root; and, beyond the paper's figures, on a block of a fault so large that all of a smaller event
+// lies in it.
+void measure_geotectonic(const Site& site, Kind kind, Recorder& recorder) {
+  Ght fresh = plain_tree(site.ground);
+  fresh.apply(single_event(site, kind));
+  record(fresh.model().tree, 1, "on_root", recorder);
+
+  Ght faulted = plain_tree(site.ground);
+  const events::Event fault = geotectonic_event(site, Kind::kNormalFault, site.middle, 1.2 * site.size);
+  faulted.apply(fault);
+  const events::Line line = std::get<events::DipFault>(fault).line();
+  const glm::dvec2 block = line.plan({0.5 * line.length, 0.3 * site.size});
+  const std::size_t before = faulted.model().tree.nodes().size();
+  faulted.apply(geotectonic_event(site, kind, block, 0.3 * site.size));
+  record(faulted.model().tree, before, "on_block", recorder);
+}
+
+// With sections of 3 to 12 sides, each in fresh ground; once more after events that left the root's heights
+// to other nodes.
+void measure_carving(const Site& site, bool cave, Recorder& recorder) {
+  for (int sides = kFewestSides; sides <= kMostSides; ++sides) {
+    Ght tree = plain_tree(site.ground);
+    if (!carve(tree, site, cave, sides)) {
+      throw environment_error(fmt::format("the mountains have no place for a carving of {} sides", sides),
+                              "ght.counts", "take another seed");
+    }
+    const auto& nodes = tree.model().tree.nodes();
+    const auto count = [&](Area area) {
+      return static_cast<double>(
+          std::count_if(nodes.begin(), nodes.end(), [&](const Node& n) { return n.area == area; }));
+    };
+    record(tree.model().tree, 1, fmt::format("sides_{}", sides), recorder);
+    recorder.add(fmt::format("borders_sides_{}", sides), "", count(Area::kBorder));
+    recorder.add(fmt::format("indoor_sides_{}", sides), "", count(Area::kIndoor));
+  }
+}
+
+}  // namespace
+
+constinit const std::span<const ParameterSpec> kCountParameters = kSpecs;
+
+std::vector<Case> count_cases(const RunOptions&) {
+  std::vector<Case> cases;
+  for (int k = 0; k < events::kKinds; ++k) {
+    cases.push_back({std::string(events::name(static_cast<Kind>(k))), Parameters(kCountParameters), ""});
+  }
+  return cases;
+}
+
+Kind kind_named(std::string_view name) {
+  for (int k = 0; k < events::kKinds; ++k) {
+    if (events::name(static_cast<Kind>(k)) == name) return static_cast<Kind>(k);
+  }
+  throw usage_error(fmt::format("there is no event '{}'", name), "ght", "name one of event files");
+}
+
+void measure_count(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
+  const auto size = static_cast<int>(at.parameters.integer("size"));
+  const Site site = make_site(kEventsAlong * size, size, options.seed);
+  recorder.terrain("diamond-square", checksum(site.ground));
+  // Of a case with changed parameters the name goes on behind a space.
+  const Kind kind = kind_named(at.name.substr(0, at.name.find(' ')));
+  if (is_carving(kind)) {
+    measure_carving(site, kind == Kind::kCave, recorder);
+  } else {
+    measure_geotectonic(site, kind, recorder);
+  }
+}
+
+}  // namespace terrabench::ght

@@ -1,0 +1,30 @@
+// Diamond-square (diamond_square.h) in bands of rows, for terrains that no memory should have to hold: the
+// same heights, bit for bit, at any row. Memory: a coarse grid, and a band and its halo a thread.
+#pragma once
+
+#include <span>
+
+#include "terrain/sources/fractal/diamond_square.h"
+
+namespace terrabench::fractal {
+
+class DiamondSquareBands {
+ public:
+  // Keeps the grid of 2^kept + 1 samples a side; kept lies in [1, n]. Throws as diamond_square() does.
+  // O(4^kept).
+  DiamondSquareBands(const DiamondSquareOptions&, int kept = 12);
+
+  int side() const { return options_.side; }
+  // Rows first … first + rows - 1 of the terrain, in [0, side], whole. Safe from many threads at once.
+  // O(rows · side), and for each of n - kept levels about three rows more.
+  void read(int first, int rows, std::span<float> out) const;
+
+ private:
+  void expand(int level, int first, int rows, float* out) const;
+
+  DiamondSquareOptions options_;
+  int kept_, levels_;
+  Heightfield coarse_;
+};
+
+}  // namespace terrabench::fractal
