@@ -19,8 +19,6 @@ constexpr double kBucketWidth = 1 + 1.0 / 16;
 }  // namespace
 
 std::uint16_t Roam::bucket_of(double ratio) {
-  static_assert(kPerOctave == 16, "four bits of the mantissa");
-  constexpr int kFirst = ((127 << 23) >> 19) - kAsked;
   const auto value = static_cast<float>(ratio);
   if (!(value > 0)) return 0;
   const int bucket = static_cast<int>(std::bit_cast<std::uint32_t>(value) >> 19) - kFirst;
@@ -28,8 +26,7 @@ std::uint16_t Roam::bucket_of(double ratio) {
 }
 
 double Roam::ratio_from(int bucket) {
-  const int above = bucket - kAsked + 64 * kPerOctave;
-  return std::ldexp(1 + static_cast<double>(above % kPerOctave) / kPerOctave, above / kPerOctave - 64);
+  return std::bit_cast<float>(static_cast<std::uint32_t>(bucket + kFirst) << 19);
 }
 
 Distortion Roam::distortion(std::uint32_t id, const roam::Corners& corners) const {
@@ -57,7 +54,8 @@ void Roam::reconsider(std::uint32_t id) {
 }
 
 void Roam::reconsider_all() {
-  for (std::uint32_t id = 0; id < mesh_.nodes().size(); ++id) {
+  const std::size_t made = first_ ? mesh_.roots() : mesh_.nodes().size();
+  for (std::uint32_t id = 0; id < made; ++id) {
     if (mesh_.nodes()[id].in_use) reconsider(id);
   }
 }

@@ -142,6 +142,7 @@ void Roam::see(std::uint32_t id, Sight parent, const roam::Corners& corners) {
 // Lets the ancestors of a new triangle know how long its sight stays.
 void Roam::disturb_ancestors(std::uint32_t id) {
   const Quiet quiet = quiet_[id];
+  if (std::isinf(quiet.moved)) return;
   for (id = mesh_.nodes()[id].parent; id != kNone; id = mesh_.nodes()[id].parent) {
     if (quiet_[id].moved <= quiet.moved && quiet_[id].turned <= quiet.turned) return;
     quiet_[id].moved = std::min(quiet_[id].moved, quiet.moved);

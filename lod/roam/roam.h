@@ -48,6 +48,9 @@ class Roam : public Lod {
   static constexpr int kPerOctave = 16;
   static constexpr int kAsked = 8 * kPerOctave + 1;
   static constexpr int kBuckets = 40 * kPerOctave;
+  // A bucket's number, from this on, is a float's exponent and four bits of its mantissa.
+  static constexpr int kFirst = (127 << 4) - kAsked;
+  static_assert(kPerOctave == 1 << 4);
   static std::uint16_t bucket_of(double ratio);
   static double ratio_from(int bucket);
 
