@@ -29,8 +29,8 @@ const std::array kReachSpecs{
 };
 
 // One is enough of what takes seconds.
-constexpr int kMostSamples = 15;
-constexpr double kSecondsOfSamples = 0.3;
+constexpr int kMostSamples = 7;
+constexpr double kSecondsOfSamples = 0.1;
 
 // Calls sample(), which returns seconds, until there are enough of them.
 template <class Sample>
