@@ -1,11 +1,10 @@
 // Terrains of many events (§4.2): the overlapping sequence and the rain of particles.
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <ctime>
 #include <random>
 
 #include "experiments/ght/ght.h"
+#include "experiments/ght/processor_time.h"
 #include "experiments/ght/site.h"
 #include "representations/ght/invariants.h"
 #include "terrain/events/event_file.h"
@@ -22,20 +21,6 @@ const std::array kSpecs{
 
 constexpr int kSamples = 3;
 
-template <class Work>
-double seconds(const Work& work) {
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-// Of this thread, so that others do not count.
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 // Columns at random places, asked by one thread.
 void time_columns(const Ght& tree, std::uint64_t seed, Recorder& recorder) {
   constexpr std::size_t kColumns = 1 << 20, kBatch = 1 << 14;
@@ -48,12 +33,12 @@ void time_columns(const Ght& tree, std::uint64_t seed, Recorder& recorder) {
   }
   SpanSink sink;
   for (int sample = -1; sample < kSamples; ++sample) {  // the first one warms up
-    const double begin = processor_seconds();
-    for (std::size_t c = 0; c < kColumns; c += kBatch) {
-      sink.clear();
-      tree.spans({std::span(x).subspan(c, kBatch), std::span(z).subspan(c, kBatch)}, sink);
-    }
-    const double time = processor_seconds() - begin;
+    const double time = processor_seconds([&] {
+      for (std::size_t c = 0; c < kColumns; c += kBatch) {
+        sink.clear();
+        tree.spans({std::span(x).subspan(c, kBatch), std::span(z).subspan(c, kBatch)}, sink);
+      }
+    });
     if (sample >= 0) recorder.add("columns_per_second", "1/s", static_cast<double>(kColumns) / time);
   }
 }
@@ -93,14 +78,14 @@ void measure_complex(const Case& at, const RunOptions& options, Recorder& record
     if (rains) {
       events.clear();
       Rain rain(site.ground, options.seed);
-      recorder.add("time", "s", seconds([&] {
+      recorder.add("time", "s", processor_seconds([&] {
                      for (std::int64_t k = at.parameters.integer("particles"); k > 0; --k) {
                        events.push_back(rain.next(tree));
                        tree.apply(events.back());
                      }
                    }));
     } else {
-      recorder.add("time", "s", seconds([&] {
+      recorder.add("time", "s", processor_seconds([&] {
                      for (const Event& event : events) tree.apply(event);
                    }));
     }

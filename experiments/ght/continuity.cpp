@@ -202,7 +202,7 @@ std::vector<Case> continuity_cases(const RunOptions& options) {
   for (const char* const name : {"single-events", "two-tunnels", "sequence", "rain", "random"}) {
     Case& added = cases.emplace_back(Case{name, Parameters(kContinuityParameters), ""});
     const bool paper = options.profile == Profile::kPaper;
-    added.parameters.set("sequences", std::int64_t{paper ? 500 : 40});
+    added.parameters.set("sequences", std::int64_t{paper ? 300 : 30});
     added.parameters.set("particles", std::int64_t{paper ? 1000 : 200});
   }
   return cases;

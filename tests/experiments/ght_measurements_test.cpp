@@ -199,7 +199,7 @@ TEST(GhtCases, NamesOfKindsAreUnderstoodAndOthersRefused) {
   EXPECT_EQ(reach_cases(options).back().name, "size=256");
   options.profile = Profile::kPaper;
   EXPECT_EQ(edit_cases(options).back().name, "n=4096/cave");
-  EXPECT_EQ(reach_cases(options).back().name, "size=512");
+  EXPECT_EQ(reach_cases(options).back().parameters.integer("n"), 2048);
 }
 
 }  // namespace

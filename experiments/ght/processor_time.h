@@ -1,0 +1,24 @@
+// Seconds of the processor that one thread spends, so that whatever else the machine does is not counted. TBB
+// is held to that thread.
+#pragma once
+
+#include <tbb/global_control.h>
+
+#include <ctime>
+
+namespace terrabench::ght {
+
+template <class Work>
+double processor_seconds(const Work& work) {
+  const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
+  const auto now = [] {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  };
+  const double begin = now();
+  work();
+  return now() - begin;
+}
+
+}  // namespace terrabench::ght
