@@ -221,14 +221,12 @@ void measure_edit(const Case& at, const RunOptions& options, Recorder& recorder,
   Comparison(site, recorder, progress).measure(kind_named(what.substr(what.find('/') + 1)), "");
 }
 
-std::vector<Case> reach_cases(const RunOptions& options) {
+std::vector<Case> reach_cases(const RunOptions&) {
   std::vector<Case> cases;
-  const std::int64_t n = options.profile == Profile::kPaper ? 2048 : 1024;
   // Of twice that size the inverse fault's end is a gap that the tree refuses to close.
   constexpr std::int64_t kLargest = 256;
   for (std::int64_t size = 32; size <= kLargest; size *= 2) {
     Case& added = cases.emplace_back(Case{fmt::format("size={}", size), Parameters(kReachParameters), ""});
-    added.parameters.set("n", n);
     added.parameters.set("size", size);
   }
   return cases;
