@@ -23,6 +23,8 @@ const std::array kExperiments{
                ght::kGeneratorParameters, ght::generator_cases, ght::measure_generator},
     Experiment{"ght.stages", "ght", "Figures 1 and 3-10: the generators, step by step", ght::kStageParameters,
                ght::stage_cases, ght::draw_stage},
+    Experiment{"ght.event-figures", "ght", "Figures 13, 15 and 17-24: events and their trees",
+               ght::kEventFigureParameters, ght::event_figure_cases, ght::draw_event_figure},
     Experiment{"ght.counts", "ght", "§3.2: heightmaps that each event adds", ght::kCountParameters,
                ght::count_cases, ght::measure_count},
     Experiment{"ght.continuity", "ght", "§3.2: nothing dangles, nothing is open", ght::kContinuityParameters,

@@ -16,7 +16,7 @@ glm::mat4 world_to_clip(const View& view) {
          glm::lookAt(view.eye, view.target, view.up);
 }
 
-View overview(const Bounds& bounds, int width, int height) {
+View overview(const Bounds& bounds, int width, int height, glm::vec3 from) {
   constexpr float kMargin = 1.04F;  // around the outline, as a share of the picture
   constexpr int kSteps = 12;  // the outline moves with the eye; each step leaves a small share of the error
   View view;
@@ -24,7 +24,7 @@ View overview(const Bounds& bounds, int width, int height) {
   view.height = height;
   view.vertical_fov = 0.5F;
   view.target = 0.5F * (bounds.low + bounds.high);
-  const glm::vec3 from = glm::normalize(glm::vec3(0.55F, 0.75F, 1.0F));
+  from = glm::normalize(from);
   const glm::vec3 right = glm::normalize(glm::cross(view.up, from));
   const glm::vec3 above = glm::cross(from, right);
   const float slope_y = std::tan(0.5F * view.vertical_fov);

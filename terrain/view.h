@@ -17,7 +17,8 @@ struct View {
 
 glm::mat4 world_to_clip(const View&);  // OpenGL clip space, z in [-1, 1]
 
-// Looks down at the whole box from the south-east, as relief maps in papers do, filling the picture.
-View overview(const Bounds&, int width, int height);
+// Looks down at the whole box from the south-east, as relief maps in papers do, filling the picture; or from
+// the direction `from`, which is not upright.
+View overview(const Bounds&, int width, int height, glm::vec3 from = {0.55F, 0.75F, 1.0F});
 
 }  // namespace terrabench

@@ -1,6 +1,6 @@
 // Experiments of "ght" (Alonso, Joan-Arinyo & Solano): the grounded heightmap tree. Here: the generators of
-// its base terrains (§2.3), what they promise, and figures 1 and 3 to 10 step by step; and what the tree's
-// events add, keep whole, hold and cost (§3.2, §4).
+// its base terrains (§2.3), what they promise, and figures 1 and 3 to 10 step by step; what the tree's
+// events add, keep whole, hold and cost (§3.2, §4), and their figures.
 #pragma once
 
 #include <span>
@@ -20,6 +20,11 @@ extern const std::span<const ParameterSpec> kStageParameters;
 std::vector<Case> stage_cases(const RunOptions&);
 // One figure of §2 each, in the paper's layout, from the generators' own stages.
 void draw_stage(const Case&, const RunOptions&, Recorder&, Progress&);
+
+extern const std::span<const ParameterSpec> kEventFigureParameters;
+std::vector<Case> event_figure_cases(const RunOptions&);
+// One figure of §3.2 or §4 each: what events make of a terrain, and the tree that holds it.
+void draw_event_figure(const Case&, const RunOptions&, Recorder&, Progress&);
 
 events::Kind kind_named(std::string_view name);  // throws usage_error
 

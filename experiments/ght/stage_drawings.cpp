@@ -246,6 +246,7 @@ void draw_fault_maps(std::uint64_t seed, Recorder& recorder) {
         fractal::fault_terrain({.seed = seed, .width = kSide, .depth = kSide, .faults = kFaults[panel]});
     const double x = kMargin + static_cast<double>(panel % 3) * kStepX;
     const double y = kMargin + static_cast<double>(panel / 3) * kStepY;
+    sheet.box(x - 1, y - 1, kSize + 2, kSize + 2, kSet);  // a frame: white is a height too
     sheet.picture(x, y, kSize, kSize, heightmap_image(field));
     label(sheet, x + kSize / 2, y + kSize + 20,
           fmt::format("{} iteration{}", kFaults[panel], kFaults[panel] == 1 ? "" : "s"));

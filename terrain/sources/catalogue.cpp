@@ -9,6 +9,7 @@
 
 #include "terrain/error.h"
 #include "terrain/events/event_file.h"
+#include "terrain/events/scripts.h"
 #include "terrain/files.h"
 #include "terrain/source.h"
 #include "terrain/sources/dem/dem.h"
@@ -110,6 +111,10 @@ constexpr TerrainType kTerrains[] = {
      [](std::uint64_t seed) {
        return from_heights("hills", fractal::hill_terrain({.seed = seed, .scale = 5e-5F}));
      }},
+    {"canyon", "hills with trenches, faults, craters and a tunnel that overlap, 129×129 samples of 120 m",
+     "events on hill technique", [](std::uint64_t) { return events::open_named_script("canyon"); }},
+    {"two-tunnels", "hills with two tunnels through a ridge, 129×129 samples of 120 m",
+     "events on hill technique", [](std::uint64_t) { return events::open_named_script("two-tunnels"); }},
 };
 
 // What can only be meant as a path: a typing slip in a name has neither.
@@ -137,7 +142,8 @@ bool names_dem_file(std::string_view text) {
 TerrainSource open_terrain(std::string_view name_or_path, std::uint64_t seed) {
   if (names_dem_file(name_or_path)) {
     const std::string path(name_or_path);
-    if (path.ends_with(events::kExtension)) return events::open_script(read_file(path, events::kMostBytes), path);
+    if (path.ends_with(events::kExtension))
+      return events::open_script(read_file(path, events::kMostBytes), path);
     return from_dem(path, path);
   }
   for (const TerrainType& type : terrains()) {

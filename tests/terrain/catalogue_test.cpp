@@ -64,6 +64,16 @@ TEST(Catalogue, EveryLineIsCompleteAndUnique) {
   }
 }
 
+TEST(Catalogue, TerrainsOfEventsHaveTheirEventsAndRepeat) {
+  for (const char* const name : {"canyon", "two-tunnels"}) {
+    const TerrainSource source = open_terrain(name);
+    ASSERT_TRUE(source.solid) << name;
+    ASSERT_TRUE(source.events) << name;
+    EXPECT_EQ(source.name, name);
+    EXPECT_EQ(open_terrain(name, 5).checksum, source.checksum) << name;
+  }
+}
+
 TEST(Catalogue, TheGeneratedGroundsAreGroundAndFollowTheSeed) {
   for (const char* const name : {"diamond-square", "faults", "planet-faults", "hills"}) {
     const TerrainSource source = open_terrain(name, 3);

@@ -1,0 +1,162 @@
+// Figure 23 of "ght": the tree of the terrain of figure 22, a box for each heightmap with its cells.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "experiments/ght/arrays.h"
+#include "experiments/ght/events.h"
+
+namespace terrabench::ght {
+namespace {
+
+using drill::Sheet;
+
+constexpr Rgb kHeight{200, 200, 200}, kLink{213, 94, 0}, kVoid{0, 114, 178}, kEdge{70, 70, 75};
+constexpr double kMargin = 24, kBox = 74, kStep = 128, kRow = 150, kRoot = 150;
+
+// A pixel a cell, or the kind of the cell in the middle of its share where there are more than fit.
+Image cells_image(const Tree& tree, const Node& node, int most) {
+  const int across = std::min(node.columns, most), down = std::min(node.rows, most);
+  Image image(across, down, {});
+  for (int y = 0; y < down; ++y) {
+    for (int x = 0; x < across; ++x) {
+      const CellKind kind = tree.kind(
+          node.cell((2 * x + 1) * node.columns / (2 * across), (2 * y + 1) * node.rows / (2 * down)));
+      image.set(x, y, kind == CellKind::kHeight ? kHeight : kind == CellKind::kLink ? kLink : kVoid);
+    }
+  }
+  return image;
+}
+
+std::string part_name(const Tree& tree, const Applied& event, NodeId n) {
+  static constexpr std::array kTrench{"left side", "right side", "end at 'from'", "end at 'to'"};
+  static constexpr std::array kFault{"raised block", "sunk block", "scarp"};
+  static constexpr std::array kSlip{"left piece", "right piece"};
+  const std::size_t k = n - event.first;
+  switch (event.kind) {
+    case events::Kind::kLinearErosion:
+      return kTrench.at(k);
+    case events::Kind::kRadialErosion:
+      return "bowl";
+    case events::Kind::kNormalFault:
+    case events::Kind::kInverseFault:
+      return kFault.at(k);
+    case events::Kind::kLateralFault:
+      return kSlip.at(k);
+    default:
+      return tree.nodes()[n].area == Area::kBorder ? "mouth" : fmt::format("wall {}", k + 1);
+  }
+}
+
+const char* area_name(Area area) {
+  return area == Area::kOutdoor ? "outdoor" : area == Area::kIndoor ? "indoor" : "border";
+}
+
+// A row for every event, further right than the heightmap it hangs from, and under it. Of the heightmaps of a
+// row the rightmost has its events first, so that no edge crosses a row.
+class TreeSheet {
+ public:
+  explicit TreeSheet(const Tree& tree) : tree_(tree), box_(tree.nodes().size()) {
+    y_ = kMargin + kRoot + 70;
+    right_ = kMargin + kRoot;
+    place_children(0, kMargin);
+  }
+  void write(const std::filesystem::path& png) {
+    Sheet sheet(std::max(right_ + kMargin, 640.0), y_);
+    for (const Applied& event : tree_.events()) edges(sheet, event);
+    box(sheet, 0, kRoot, "root");
+    for (std::size_t e = 0; e < tree_.events().size(); ++e) {
+      const Applied& event = tree_.events()[e];
+      for (NodeId n = event.first; n < event.first + event.nodes; ++n) {
+        box(sheet, n, kBox, part_name(tree_, event, n));
+      }
+      std::string words(events::name(event.kind));
+      std::replace(words.begin(), words.end(), '-', ' ');
+      const drill::SheetPoint at = box_[event.first];
+      sheet.text(at.x + kBox / 2 + 5, at.y - 20, fmt::format("{}. {}", e + 1, words), 13, "start");
+    }
+    legend(sheet, kMargin + kRoot + 60, kMargin + 40);
+    sheet.write(png);
+  }
+
+ private:
+  // At the top left of node n's box, below it what hangs from it.
+  void place_children(NodeId host, double x) {
+    if (host == 0) box_[0] = {x, kMargin};
+    for (const Applied& event : tree_.events()) {
+      if (event.host != host) continue;
+      const double y = y_;
+      y_ += kRow;
+      for (NodeId k = 0; k < event.nodes; ++k) box_[event.first + k] = {x + 40 + k * kStep, y};
+      right_ = std::max(right_, x + 40 + event.nodes * kStep);
+      for (NodeId k = event.nodes; k-- > 0;) place_children(event.first + k, x + 40 + k * kStep);
+    }
+  }
+
+  void edges(Sheet& sheet, const Applied& event) const {
+    const drill::SheetPoint host = box_[event.host];
+    const double bar = box_[event.first].y - 12;
+    double trunk = host.x + 12;
+    if (event.host == 0) {
+      stroke(sheet, {trunk, host.y + kRoot}, {trunk, bar}, kEdge, 1.5);
+    } else {  // past the words under the box
+      const Node& node = tree_.nodes()[event.host];
+      trunk = host.x - 16;
+      const double from = host.y + kBox * node.rows / std::max(node.columns, node.rows) / 2;
+      stroke(sheet, {host.x + kBox / 2, from}, {trunk, from}, kEdge, 1.5);
+      stroke(sheet, {trunk, from}, {trunk, bar}, kEdge, 1.5);
+    }
+    stroke(sheet, {trunk, bar}, {box_[event.first + event.nodes - 1].x + kBox / 2, bar}, kEdge, 1.5);
+    for (NodeId n = event.first; n < event.first + event.nodes; ++n) {
+      stroke(sheet, {box_[n].x + kBox / 2, bar}, {box_[n].x + kBox / 2, box_[n].y}, kEdge, 1.5);
+    }
+  }
+
+  // As large as fits a square of that side, in the array's own proportions.
+  void box(Sheet& sheet, NodeId n, double side, const std::string& words) const {
+    const Node& node = tree_.nodes()[n];
+    const double scale = side / std::max(node.columns, node.rows);
+    const double wide = std::max(scale * node.columns, 6.0), high = std::max(scale * node.rows, 6.0);
+    const drill::SheetPoint at = box_[n];
+    const double x = at.x + (side - wide) / 2;
+    sheet.box(x - 1, at.y - 1, wide + 2, high + 2, kEdge);
+    sheet.picture(x, at.y, wide, high, cells_image(tree_, node, static_cast<int>(2 * side)));
+    const double under = at.y + side + 13;
+    const bool root = n == 0;
+    sheet.text(root ? at.x + side + 10 : at.x + side / 2, root ? at.y + 14 : under, words, root ? 14 : 12,
+               root ? "start" : "middle");
+    sheet.text(root ? at.x + side + 10 : at.x + side / 2, root ? at.y + 32 : under + 14,
+               fmt::format("{}, {} × {}", area_name(node.area), node.columns, node.rows), root ? 13 : 11,
+               root ? "start" : "middle", {90, 90, 90});
+  }
+
+  static void legend(Sheet& sheet, double x, double y) {
+    const std::array<std::pair<Rgb, const char*>, 3> kinds{{{kHeight, "height over the ground plane"},
+                                                            {kLink, "link to a cell of another heightmap"},
+                                                            {kVoid, "void"}}};
+    for (const auto& [colour, words] : kinds) {
+      y += 26;
+      sheet.box(x - 51, y - 1, 18, 18, kEdge);
+      sheet.box(x - 50, y, 16, 16, colour);
+      sheet.text(x - 26, y + 13, words, 13);
+    }
+  }
+
+  const Tree& tree_;
+  std::vector<drill::SheetPoint> box_;
+  double y_ = 0, right_ = 0;
+};
+
+}  // namespace
+
+void draw_tree(Recorder& recorder) {
+  const Ght ght = open_tree("canyon");
+  TreeSheet(ght.model().tree)
+      .write(
+          recorder.figure("ght.F23", "png",
+                          "Figure 23 of the paper: the tree of figure 22's terrain; edges lead from each "
+                          "heightmap to those that an event attached to it, and cells show what they hold"));
+}
+
+}  // namespace terrabench::ght
