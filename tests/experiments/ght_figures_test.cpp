@@ -125,7 +125,7 @@ TEST(TreeView, SectionsShowTheGroundAndItsHollows) {
 
 TEST(TreeView, PlanesAreDrawnAroundTheirCells) {
   Ght ght = level_ground();
-  ght.apply(events::LinearErosion{{35, 40}, {45, 40}, 8, 45});
+  ght.apply(events::LinearErosion{{38, 40}, {42, 40}, 8, 60});
   const Tree& tree = ght.model().tree;
   ASSERT_EQ(tree.nodes().size(), 5U);
   EXPECT_EQ(plane_outline(tree, 0).size(), 4U);
