@@ -1,5 +1,6 @@
 #include <array>
 
+#include "experiments/cross/cross.h"
 #include "experiments/drill/drill.h"
 #include "experiments/experiment.h"
 #include "experiments/ght/ght.h"
@@ -36,6 +37,8 @@ const std::array kExperiments{
                drill::measure_size},
     Experiment{"drill.promises", "drill", "§2.3 and §4: order of drills, pits", drill::kGroundParameters,
                drill::ground_cases, drill::measure_promises},
+    Experiment{"cross.lod-equal-error", "cross", "Level-of-detail methods at the same screen-space error",
+               cross::kEqualErrorParameters, cross::equal_error_cases, cross::measure_equal_error},
     Experiment{"overview.relief", "overview", "Shaded relief of each terrain in each representation",
                overview_experiments::kReliefParameters, overview_experiments::relief_cases,
                overview_experiments::measure_relief},
