@@ -35,6 +35,8 @@ const std::array kExperiments{
                drill::growth_cases, drill::measure_growth},
     Experiment{"drill.size", "drill", "§4.1: values and bytes", drill::kGroundParameters, drill::ground_cases,
                drill::measure_size},
+    Experiment{"drill.extensions", "drill", "§4.1: what the paper leaves as future work",
+               drill::kExtensionParameters, drill::extension_cases, drill::measure_extension},
     Experiment{"drill.promises", "drill", "§2.3 and §4: order of drills, pits", drill::kGroundParameters,
                drill::ground_cases, drill::measure_promises},
     Experiment{"cross.lod-equal-error", "cross", "Level-of-detail methods at the same screen-space error",

@@ -34,6 +34,10 @@ std::vector<Case> growth_cases(const RunOptions&);
 void measure_growth(const Case&, const RunOptions&, Recorder&, Progress&);
 // Values and bytes at about 13,000 drills of 160,000 pixels, beside other ways to store the ground.
 void measure_size(const Case&, const RunOptions&, Recorder&, Progress&);
+// §4.1's future work, each beside the drills without it.
+extern const std::span<const ParameterSpec> kExtensionParameters;
+std::vector<Case> extension_cases(const RunOptions&);
+void measure_extension(const Case&, const RunOptions&, Recorder&, Progress&);
 // Order-independence and the other promises of equation 1, and pits left behind.
 void measure_promises(const Case&, const RunOptions&, Recorder&, Progress&);
 

@@ -15,19 +15,14 @@
 namespace terrabench::drill {
 namespace {
 
-struct Serial {
-  Heightfield terrain;
-  std::size_t rises = 0;  // pixels that some drill left higher than it found them
-};
-
 // Equation 1 as printed: one drill after another, in the given order.
-Serial drill_one_by_one(const Drills& drills, const std::vector<std::uint32_t>& order) {
-  Serial result;
-  result.terrain.width = drills.width;
-  result.terrain.depth = drills.depth;
-  result.terrain.heights.assign(drills.pixels(), drills.plateau);
+Heightfield drill_one_by_one(const Drills& drills, const std::vector<std::uint32_t>& order) {
+  Heightfield terrain;
+  terrain.width = drills.width;
+  terrain.depth = drills.depth;
+  terrain.heights.assign(drills.pixels(), drills.plateau);
   for (const HoleRun& hole : drills.holes) {
-    std::fill_n(result.terrain.heights.begin() + hole.first, hole.count, Heightfield::kNoData);
+    std::fill_n(terrain.heights.begin() + hole.first, hole.count, Heightfield::kNoData);
   }
   for (const std::uint32_t drill : order) {
     const int x = static_cast<int>(drills.pixel[drill]) % drills.width;
@@ -38,14 +33,12 @@ Serial drill_one_by_one(const Drills& drills, const std::vector<std::uint32_t>& 
         const auto squared = static_cast<float>((i - x) * (i - x) + (j - z) * (j - z));
         const float r = std::sqrt(squared);
         const float shape = drills.elevation[drill] + r * (drills.slope[drill] + drills.curvature[drill] * r);
-        float& height = result.terrain.at(i, j);
-        const float before = height;
+        float& height = terrain.at(i, j);
         height = shape < height ? shape : height;
-        result.rises += height > before;
       }
     }
   }
-  return result;
+  return terrain;
 }
 
 std::size_t differences(const Heightfield& a, const Heightfield& b) {
@@ -62,18 +55,38 @@ void record_orders(const Drills& drills, const Heightfield& regenerated, std::ui
   std::vector<std::uint32_t> order(drills.count());
   std::iota(order.begin(), order.end(), 0U);
   std::mt19937_64 random(seed);
-  std::size_t differing = 0, rises = 0;
+  std::size_t differing = 0;
   progress.begin("drilling in other orders", 3);
   for (int i = 0; i < 3; ++i) {
     // As listed, backwards, shuffled.
     if (i == 1) std::reverse(order.begin(), order.end());
     if (i == 2) std::shuffle(order.begin(), order.end(), random);
-    const Serial serial = drill_one_by_one(drills, order);
-    differing += differences(serial.terrain, regenerated);
-    rises += serial.rises;
+    differing += differences(drill_one_by_one(drills, order), regenerated);
     progress.advance();
   }
   recorder.add("order_differences", "", static_cast<double>(differing));
+}
+
+// The drills of the first `count` pixels alone.
+Drills first_drills(Drills drills, std::size_t count) {
+  drills.pixel.resize(count);
+  drills.direction.resize(count);
+  drills.elevation.resize(count);
+  drills.slope.resize(count);
+  drills.curvature.resize(count);
+  if (!drills.influence.empty()) drills.influence.resize(count);
+  return drills;
+}
+
+// Pixels that stand higher after more drills than after fewer.
+void record_rises(const Drills& drills, Recorder& recorder) {
+  std::size_t rises = 0;
+  Heightfield before = regenerate(first_drills(drills, 0));
+  for (int eighth = 1; eighth <= 8; ++eighth) {
+    Heightfield after = regenerate(first_drills(drills, drills.count() * eighth / 8));
+    for (std::size_t i = 0; i < after.heights.size(); ++i) rises += after.heights[i] > before.heights[i];
+    before = std::move(after);
+  }
   recorder.add("rises", "", static_cast<double>(rises));
 }
 
@@ -109,6 +122,7 @@ void measure_promises(const Case& at, const RunOptions& options, Recorder& recor
   const Drills drills = extract_drills(ground, network, extract, &progress);
   const Heightfield regenerated = regenerate(drills);
   record_orders(drills, regenerated, options.seed, recorder, progress);
+  record_rises(drills, recorder);
   record_channels(drills, ground, regenerated, recorder);
 
   std::size_t falling = 0;

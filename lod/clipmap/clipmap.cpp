@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "terrain/frustum.h"
 
@@ -13,7 +14,13 @@ constexpr float kHighestEye =
 constexpr float kTransition = 0.1F;  // of the window's side
 constexpr int kSmallestM = 4, kLargestM = 1024;
 
-int m_of(int window) { return std::clamp((window + 1) / 4, kSmallestM, kLargestM); }
+// At most what covers the ground from wherever the eye is over it: a larger window only has more triangles
+// beyond the border.
+int m_of(const HeightSource& source, int window) {
+  const int longest = std::max(source.width(), source.depth());
+  const int covering = std::clamp(longest / 2 + 2, kSmallestM, kLargestM);
+  return std::clamp((window + 1) / 4, kSmallestM, covering);
+}
 
 // Levels until one window covers the ground from wherever the eye is over it.
 int level_count(const HeightSource& source, int n) {
@@ -40,19 +47,19 @@ Clipmap::Clipmap(std::unique_ptr<HeightSource> source, int window) : source_(std
 }
 
 void Clipmap::tune(double window) {
-  if (m_of(static_cast<int>(window)) != window_.m) reset(static_cast<int>(window));
+  if (m_of(*source_, static_cast<int>(window)) != window_.m) reset(static_cast<int>(window));
 }
 
 void Clipmap::reset(int window) {
-  window_ = clipmap::make_window(m_of(window));
+  window_ = clipmap::make_window(m_of(*source_, window));
   const std::size_t blocks = window_.ring.size() + window_.middle.size() + window_.trims.size();
   levels_.assign(static_cast<std::size_t>(level_count(*source_, window_.n)), {});
   shown_.assign(levels_.size(), {});
   for (std::size_t l = 0; l < levels_.size(); ++l) {
     Level& level = levels_[l];
     level.heights.assign(static_cast<std::size_t>(window_.side) * window_.side, 0.0F);
-    level.lowest.assign(blocks, 0.0F);
-    level.highest.assign(blocks, 0.0F);
+    level.heights_of_tiles = clipmap::HeightBounds(window_.n);
+    level.ranges.assign(blocks, {});
     shown_[l].side = window_.side;
     shown_[l].spacing = 1 << l;
     shown_[l].heights = level.heights;
@@ -162,34 +169,18 @@ void Clipmap::refill(int l, int a, int b, int columns, int rows) {
   }
 }
 
+// One sample more on each side: a vertex on its way to the coarser level stands between its neighbours.
 void Clipmap::bound(int l) {
+  Level& level = levels_[l];
+  level.heights_of_tiles.follow(shown_[l]);
   std::size_t slot = 0;
   for (const auto* blocks : {&window_.ring, &window_.middle, &window_.trims}) {
-    for (const clipmap::Block& block : *blocks) bound(l, slot++, block);
-  }
-}
-
-// One sample more on each side: a vertex on its way to the coarser level stands between its neighbours.
-void Clipmap::bound(int l, std::size_t slot, const clipmap::Block& block) {
-  const ClipLevel& shown = shown_[l];
-  const int mask = window_.side - 1, last = window_.n - 1;
-  const int a0 = std::max(block.x0 - 1, 0), a1 = std::min(block.x1 + 1, last);
-  float lowest = INFINITY, highest = -INFINITY;
-  for (int b = std::max(block.z0 - 1, 0); b <= std::min(block.z1 + 1, last); ++b) {
-    const float* row =
-        &levels_[l].heights[static_cast<std::size_t>((shown.corner.y + b) & mask) * window_.side];
-    for (int a = a0; a <= a1;) {
-      const int x = (shown.corner.x + a) & mask;
-      const int run = std::min(a1 - a + 1, window_.side - x);
-      for (int k = 0; k < run; ++k) {
-        lowest = std::min(lowest, row[x + k]);
-        highest = std::max(highest, row[x + k]);
-      }
-      a += run;
+    for (const clipmap::Block& block : *blocks) {
+      const glm::ivec2 low = glm::max(glm::ivec2(block.x0, block.z0) - 1, 0);
+      const glm::ivec2 high = glm::min(glm::ivec2(block.x1, block.z1) + 1, window_.n - 1);
+      level.ranges[slot++] = level.heights_of_tiles.range(shown_[l].corner + low, shown_[l].corner + high);
     }
   }
-  levels_[l].lowest[slot] = lowest;
-  levels_[l].highest[slot] = highest;
 }
 
 void Clipmap::draw(int l, int finest, const Frustum& frustum) {
@@ -214,9 +205,9 @@ void Clipmap::draw(int l, std::size_t slot, const clipmap::Block& block, const F
   const int j0 = along(shown.corner.y + (block.z0 & ~1), source_->depth() - 1);
   const int j1 = along(shown.corner.y + ((block.z1 + 1) & ~1), source_->depth() - 1);
   if (i0 == i1 || j0 == j1) return;  // beyond the ground
-  const Bounds box{{static_cast<float>(i0) * source_->cell_x(), levels_[l].lowest[slot],
+  const Bounds box{{static_cast<float>(i0) * source_->cell_x(), levels_[l].ranges[slot].lowest,
                     static_cast<float>(j0) * source_->cell_z()},
-                   {static_cast<float>(i1) * source_->cell_x(), levels_[l].highest[slot],
+                   {static_cast<float>(i1) * source_->cell_x(), levels_[l].ranges[slot].highest,
                     static_cast<float>(j1) * source_->cell_z()}};
   if (frustum.see(box) == Sight::kOutside) return;
   batches_.push_back({block.first_index, block.index_count, 0, static_cast<std::uint16_t>(l)});
@@ -229,8 +220,8 @@ Memory Clipmap::memory() const {
   for (const auto* blocks : {&window_.ring, &window_.middle, &window_.trims}) memory += index_memory(*blocks);
   for (const Level& level : levels_) {
     memory += payload_memory(level.heights);
-    memory += index_memory(level.lowest);
-    memory += index_memory(level.highest);
+    memory += level.heights_of_tiles.memory();
+    memory += index_memory(level.ranges);
   }
   memory.index += heap_bytes(levels_.data());
   memory += index_memory(shown_);

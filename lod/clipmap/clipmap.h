@@ -7,13 +7,15 @@
 // skipped while the eye is higher than 0.4 of their window's extent over the ground (§3.2); the transition is
 // a tenth of the window wide (§3.3); blocks are culled by the heights that lie in them now.
 //
-// update(): O(strips) to move, O(n²) for the bounds of a window that moved, O(levels) to draw. Memory: 4
-// bytes a sample of each window; nothing that depends on the terrain's size but the number of levels.
+// update(): O(n) a window that moved by a step, for its strips and their bounds, and O(levels) to draw.
+// Memory: 4 bytes a sample of each window; nothing that depends on the terrain's size but the number of
+// levels.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "lod/clipmap/height_bounds.h"
 #include "lod/clipmap/height_source.h"
 #include "lod/clipmap/window.h"
 #include "lod/lod.h"
@@ -26,7 +28,7 @@ class Clipmap : public Lod {
   static std::unique_ptr<Lod> build(const Heightfield&, const Parameters&, Progress&);
   static Knob knob() { return {"window", "samples", 4095, 15, 255, true}; }
 
-  // `window` samples a side, rounded to 4m - 1, m ≥ 4.
+  // `window` samples a side, rounded to 4m - 1 ≥ 15, and no more than cover the ground.
   Clipmap(std::unique_ptr<HeightSource> source, int window);
 
   const Frame& update(const View&) override;
@@ -40,8 +42,8 @@ class Clipmap : public Lod {
   struct Level {
     std::vector<float> heights;  // side², toroidal
     bool filled = false;
-    // Lowest and highest of what each block can show: ring, middle, trims, in that order.
-    std::vector<float> lowest, highest;
+    clipmap::HeightBounds heights_of_tiles;
+    std::vector<clipmap::HeightBounds::Range> ranges;  // of what each block can show: ring, middle, trims
   };
 
   void reset(int window);
@@ -50,7 +52,6 @@ class Clipmap : public Lod {
   void move(int level, glm::ivec2 corner);
   void refill(int level, int a, int b, int columns, int rows);
   void bound(int level);
-  void bound(int level, std::size_t slot, const clipmap::Block&);
   void draw(int level, int finest, const class Frustum&);
   void draw(int level, std::size_t slot, const clipmap::Block&, const Frustum&);
 

@@ -6,24 +6,10 @@
 #include <limits>
 
 namespace terrabench::roam {
-namespace {
-
-// Square to both; an axis is put in for an "up" that is none or along `forward`.
-glm::dvec3 right_of(const glm::dvec3& forward, const glm::dvec3& up) {
-  const double length = glm::length(up);
-  if (length > 0) {
-    const glm::dvec3 right = glm::cross(forward, up / length);
-    if (glm::length(right) > 1e-9) return glm::normalize(right);
-  }
-  const bool steep = std::abs(forward.y) > 0.5;
-  return glm::normalize(glm::cross(forward, steep ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0)));
-}
-
-}  // namespace
 
 Camera::Camera(const View& view, double extent) : eye_(view.eye) {
   forward_ = glm::normalize(glm::dvec3(view.target) - eye_);
-  right_ = right_of(forward_, glm::dvec3(view.up));
+  right_ = glm::normalize(glm::cross(forward_, glm::normalize(glm::dvec3(view.up))));
   up_ = glm::cross(right_, forward_);
   const double y = std::tan(0.5 * view.vertical_fov), x = y * view.width / view.height;
   lens_ = {x, y, view.near, view.far, 0.5 * view.height / y, extent};

@@ -44,10 +44,15 @@ void Roam::take_off(std::uint32_t id) {
 }
 
 void Roam::reconsider(std::uint32_t id) {
-  if (mesh_.nodes()[id].leaf()) {
-    rank_leaf(id, mesh_.corners(mesh_.nodes()[id]));
-  } else {
-    requeue_diamond(id);
+  const Node& node = mesh_.nodes()[id];
+  if (node.leaf()) {
+    rank_leaf(id, mesh_.corners(node));
+    return;
+  }
+  requeue_diamond(id);
+  // The other half of one that stands on edge counts for whoever's merge takes it along.
+  if (node.base != kNone && mesh_.on_edge(mesh_.nodes()[node.base])) {
+    requeue_diamond(mesh_.nodes()[node.base].parent);
   }
 }
 

@@ -104,12 +104,17 @@ void Roam::split_diamond(std::uint32_t id) {
     if (parent == kNone || mesh_.on_edge(nodes[half])) continue;
     if (nodes[half ^ 1U].leaf() || mesh_.on_edge(nodes[half ^ 1U])) take_off(diamond(parent));
   }
+  bool on_edge = false;
   for (const std::uint32_t half : both) {
     if (half == kNone) continue;
     for (const std::uint32_t child : {nodes[half].child, nodes[half].child + 1}) {
-      if (mesh_.on_edge(nodes[child]) && nodes[child].leaf()) split(child);
+      if (!mesh_.on_edge(nodes[child])) continue;
+      on_edge = true;
+      if (nodes[child].leaf()) split(child);
     }
   }
+  // What its merge would take along counts at once, or they would take turns.
+  if (on_edge) requeue_diamond(name);
 }
 
 void Roam::add_children(std::uint32_t id) {

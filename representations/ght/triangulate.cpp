@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <queue>
+#include <tuple>
 
 namespace terrabench::ght {
 namespace {
@@ -126,7 +127,8 @@ class EarCutter {
     const std::uint32_t before = previous_[at], after = next_[at];
     if (gone_[at] != 0 || polygon_[before] == polygon_[after]) return;  // or the bridge's far end
     const glm::dvec2 a = corner(before), b = corner(at), c = corner(after), side = c - a;
-    // Cells over one another, on a cliff, make an upright triangle whatever it leads to: no worse than others.
+    // Cells over one another, on a cliff, make an upright triangle whatever it leads to: no worse than
+    // others.
     const double form = a == b || b == c ? 1 : shape(a, b, c);
     if (form >= 0) candidates_.push({glm::dot(side, side) / std::max(form, 1e-12), at, version_[at]});
   }
@@ -180,6 +182,123 @@ class EarCutter {
   std::vector<Triangle> triangles_;
 };
 
+// Positive when d lies inside the circle through a, b, c, which run counter-clockwise; scaled by lengths to
+// the fourth power.
+double in_circle(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
+  a -= d, b -= d, c -= d;
+  const auto area = [](glm::dvec2 p, glm::dvec2 q) { return p.x * q.y - p.y * q.x; };
+  return glm::dot(a, a) * area(b, c) + glm::dot(b, b) * area(c, a) + glm::dot(c, c) * area(a, b);
+}
+
+// Turns edges between two triangles until none has a better one across (Lawson 1977): what ears leave long
+// where a ring was shut in gets short. Half-edge 3t + k runs from corner k of triangle t to the next.
+class Flipper {
+ public:
+  Flipper(std::span<const glm::dvec2> points, std::vector<Triangle> triangles, const Joined& joined)
+      : points_(points),
+        triangles_(std::move(triangles)),
+        joined_(joined),
+        twin_(3 * triangles_.size(), kNone) {
+    struct Half {
+      std::uint32_t low, high, half;
+    };
+    std::vector<Half> halves;
+    halves.reserve(twin_.size());
+    for (std::uint32_t h = 0; h < twin_.size(); ++h) {
+      const auto [low, high] = std::minmax(from(h), from(next(h)));
+      halves.push_back({low, high, h});
+    }
+    std::sort(halves.begin(), halves.end(), [](const Half& a, const Half& b) {
+      return std::tie(a.low, a.high, a.half) < std::tie(b.low, b.high, b.half);
+    });
+    for (std::size_t k = 1; k < halves.size(); ++k) {
+      const Half &a = halves[k - 1], &b = halves[k];
+      if (a.low == b.low && a.high == b.high) twin_[a.half] = b.half, twin_[b.half] = a.half;
+    }
+  }
+
+  std::vector<Triangle> run() {
+    std::vector<std::uint32_t> waiting;
+    for (std::uint32_t h = 0; h < twin_.size(); ++h) {
+      if (h < twin_[h] && twin_[h] != kNone) waiting.push_back(h);
+    }
+    // Each turn lowers the triangles on the paraboloid over the points; a bound, as rounding may hide that.
+    for (std::size_t left = kMostTurns * triangles_.size(); !waiting.empty() && left > 0; --left) {
+      const std::uint32_t h = waiting.back();
+      waiting.pop_back();
+      if (twin_[h] == kNone || !better_across(h)) continue;
+      for (const std::uint32_t around : flip(h)) waiting.push_back(around);
+    }
+    return std::move(triangles_);
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+  static constexpr std::size_t kMostTurns = 64;  // a triangle
+
+  static std::uint32_t next(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
+  static std::uint32_t previous(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
+  std::uint32_t& from(std::uint32_t h) { return triangles_[h / 3][h % 3]; }
+  std::uint32_t from(std::uint32_t h) const { return triangles_[h / 3][h % 3]; }
+
+  bool better_across(std::uint32_t h) const {
+    const std::uint32_t t = twin_[h], p = from(previous(h)), q = from(previous(t));
+    const glm::dvec2 a = points_[from(h)], b = points_[from(t)], c = points_[p], d = points_[q];
+    if (p == q || turn(a, d, c) < 0 || turn(d, b, c) < 0) return false;
+    const glm::dvec2 old = b - a, across = d - c;
+    const double size = std::max({glm::dot(old, old), glm::dot(across, across), glm::dot(c - a, c - a)});
+    // Points on one circle, or over one another on a cliff: the shorter edge.
+    constexpr double kSlip = 1e-9;
+    const double inside = in_circle(a, b, c, d);
+    const bool better =
+        inside > kSlip * size * size ||
+        (inside > -kSlip * size * size && glm::dot(across, across) < (1 - kSlip) * glm::dot(old, old));
+    return better && !joined_(p, q) && !has_edge(previous(h), q);
+  }
+
+  // Whether an edge leads to `to` from the corner at which half-edge h starts.
+  bool has_edge(std::uint32_t h, std::uint32_t to) const {
+    std::uint32_t at = h;
+    do {  // counter-clockwise around the corner
+      if (from(next(at)) == to || from(previous(at)) == to) return true;
+      at = twin_[previous(at)];
+    } while (at != kNone && at != h);
+    // The border was met: the other way around from the start.
+    while (at == kNone && twin_[h] != kNone) {
+      h = next(twin_[h]);
+      if (from(next(h)) == to || from(previous(h)) == to) return true;
+    }
+    return false;
+  }
+
+  // Of triangles (a, b, c) and (b, a, d) on half-edge h = a → b makes (a, d, c) and (d, b, c). Returns the
+  // edges around both.
+  std::array<std::uint32_t, 4> flip(std::uint32_t h) {
+    const std::uint32_t t = twin_[h];
+    const std::uint32_t ad = twin_[next(t)], db = twin_[previous(t)], bc = twin_[next(h)],
+                        ca = twin_[previous(h)];
+    const std::uint32_t a = from(h), b = from(t), c = from(previous(h)), d = from(previous(t));
+    const std::uint32_t first = h / 3 * 3, second = t / 3 * 3;
+    triangles_[h / 3] = {a, d, c};
+    triangles_[t / 3] = {d, b, c};
+    const auto pair = [&](std::uint32_t half, std::uint32_t other) {
+      twin_[half] = other;
+      if (other != kNone) twin_[other] = half;
+    };
+    pair(first, ad);
+    pair(first + 1, second + 2);
+    pair(first + 2, ca);
+    pair(second, db);
+    pair(second + 1, bc);
+    return {first, first + 2, second, second + 1};
+  }
+
+  std::span<const glm::dvec2> points_;
+  std::vector<Triangle> triangles_;
+  const Joined& joined_;
+  std::vector<std::uint32_t> twin_;
+};
+
 bool cross(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
   return turn(a, b, c) * turn(a, b, d) <= 0 && turn(c, d, a) * turn(c, d, b) <= 0;
 }
@@ -230,7 +349,10 @@ std::optional<std::vector<Triangle>> triangulate_ring(std::span<const glm::dvec2
   polygon.reserve(points.size() + 2);
   for (std::uint32_t k = 0; k <= n; ++k) polygon.push_back((*bridge + k) % n);
   for (std::uint32_t k = 0; k <= m; ++k) polygon.push_back(n + (m - k) % m);
-  return EarCutter(points, std::move(polygon), mean_side(inner)).run(joined);
+  std::optional<std::vector<Triangle>> ears =
+      EarCutter(points, std::move(polygon), mean_side(inner)).run(joined);
+  if (!ears) return std::nullopt;
+  return Flipper(points, std::move(*ears), joined).run();
 }
 
 }  // namespace terrabench::ght

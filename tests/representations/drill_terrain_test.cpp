@@ -72,7 +72,7 @@ TEST(DrillTerrain, MeshIsWatertightEvenWhereShapesDigThroughTheFloor) {
 
 TEST(DrillTerrain, LoadsWhatItSavedAndCountsEveryByte) {
   const Heightfield field = hills(70, 60, 3, false, 1);
-  drilled(field, {})->mesh({});  // thread pools and tables are made once
+  reloaded("drill", *drilled(field, {}))->mesh({});  // thread pools and tables are made once
   const HeapScope scope;
   for (const bool all : {false, true}) {
     auto built =
