@@ -48,12 +48,11 @@ void measure_cost(const Flight& flight, const LodType& type, double knob, Record
   const HeapScope heap;
   auto begin = std::chrono::steady_clock::now();
   const std::unique_ptr<Lod> lod = type.build(flight.ground(), Parameters(type.parameters), progress);
-  recorder.add("build_time", "s", seconds_since(begin));
+  const double build_time = seconds_since(begin);
   lod->tune(knob);
   begin = std::chrono::steady_clock::now();
-  const Frame& first = lod->update(flight.views.front());
-  recorder.add("first_update_time", "s", seconds_since(begin));
-  recorder.add("first_uploaded", "B", static_cast<double>(first.stats.bytes_uploaded));
+  const std::size_t first_uploaded = lod->update(flight.views.front()).stats.bytes_uploaded;
+  const double first_update_time = seconds_since(begin);
   for (std::size_t i = 1; i < flight.views.size(); ++i) {
     begin = std::chrono::steady_clock::now();
     const Frame& frame = lod->update(flight.views[i]);
@@ -62,6 +61,9 @@ void measure_cost(const Flight& flight, const LodType& type, double knob, Record
     uploaded += static_cast<double>(frame.stats.bytes_uploaded);
   }
   const std::int64_t held = heap.held();
+  recorder.add("build_time", "s", build_time);
+  recorder.add("first_update_time", "s", first_update_time);
+  recorder.add("first_uploaded", "B", static_cast<double>(first_uploaded));
   recorder.add("bytes_held", "B", static_cast<double>(lod->memory().total()));
   recorder.add("heap_growth", "B", static_cast<double>(held));
   recorder.add("uploaded", "B", uploaded / static_cast<double>(times.size()));
@@ -106,35 +108,40 @@ Shown measure_shown(Flight& flight, const LodType& type, double knob, GlContext&
   lod->tune(knob);
   SurfaceRaster before(ground.width, ground.depth), drawn(ground.width, ground.depth);
   const std::vector<std::size_t> with_picture = pictured(flight);
+  std::optional<FrameRenderer> renderer;
   Shown shown;
-  std::size_t k = 0, picture = 0;
-  progress.begin(fmt::format("metering {} on {}", type.name, flight.route.terrain), flight.metered.size());
-  for (std::size_t i = 0; k < flight.metered.size(); ++i) {
-    const Frame* frame = &lod->update(flight.views[i]);
-    if (i + 1 != flight.metered[k]) continue;
-    const bool draws = picture < with_picture.size() && with_picture[picture] == k;
-    std::optional<FrameRenderer> renderer;
-    if (draws) draw_ground(renderer.emplace(context), flight, *frame, flight.views[i]);
-    if (i == 0 || k == 0 || flight.metered[k - 1] != i) {
-      before.draw(*frame);
-    } else {
+  std::size_t picture = 0;
+  const auto draws = [&](std::size_t k) {
+    return picture < with_picture.size() && with_picture[picture] == k;
+  };
+  const std::vector<std::size_t>& metered = flight.metered;
+  progress.begin(fmt::format("metering {} on {}", type.name, flight.route.terrain), metered.size());
+  for (std::size_t i = 0, k = 0; k < metered.size(); ++i) {
+    const View& view = flight.views[i];
+    const Frame& frame = lod->update(view);
+    const bool meters = metered[k] == i;
+    if (meters) {
+      drawn.draw(frame);
+      meter(flight, k, frame, before, drawn, shown);
+      if (draws(k)) {
+        const auto begin = std::chrono::steady_clock::now();
+        draw_ground(*renderer, flight, frame, view);
+        shown.frame_times.push_back(seconds_since(begin));
+        const Image image = renderer->image();
+        shown.psnr.push_back(psnr(image, flight.pictures[picture]));
+        shown.ssim.push_back(ssim(image, flight.pictures[picture]));
+        ++picture;
+      }
+      ++k;
+      progress.advance();
+    }
+    if (k == metered.size() || metered[k] != i + 1) continue;
+    if (meters) {
       std::swap(before, drawn);
+    } else {
+      before.draw(frame);
     }
-    const View& view = flight.views[++i];
-    frame = &lod->update(view);
-    drawn.draw(*frame);
-    meter(flight, k, *frame, before, drawn, shown);
-    if (draws) {
-      const auto begin = std::chrono::steady_clock::now();
-      draw_ground(*renderer, flight, *frame, view);
-      shown.frame_times.push_back(seconds_since(begin));
-      const Image image = renderer->image();
-      shown.psnr.push_back(psnr(image, flight.pictures[picture]));
-      shown.ssim.push_back(ssim(image, flight.pictures[picture]));
-      ++picture;
-    }
-    ++k;
-    progress.advance();
+    if (draws(k)) draw_ground(renderer.emplace(context), flight, frame, view);
   }
   progress.end();
   return shown;

@@ -15,7 +15,7 @@ class Distribution {
 
   std::uint64_t samples() const { return samples_; }
   double mean() const { return samples_ == 0 ? 0 : sum_ / static_cast<double>(samples_); }
-  double largest() const { return largest_; }
+  double largest() const { return static_cast<double>(largest_); }
   // `share` of the samples, 0 to 1, are at most this: exact or up to 0.4 % above. 0 without samples.
   double quantile(double share) const;
 

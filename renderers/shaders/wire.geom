@@ -8,6 +8,7 @@ uniform vec2 pixels;          // width and height of the picture
 uniform usamplerBuffer drawn; // a triangle's edges to draw: bit k for the edge from corner k to the next;
                               // bit k + 3: it is an outline, and the neighbour shows no half of it
 uniform int first_triangle;   // of this draw
+uniform bool all_edges;       // `drawn` is not read
 uniform float wire_width;     // pixels
 
 in Vertex {
@@ -41,7 +42,7 @@ void main() {
     on_screen = on_screen && w > 0.0;
     at[k] = 0.5 * pixels * gl_in[k].gl_Position.xy / w;
   }
-  uint mask = !on_screen ? 0u : texelFetch(drawn, gl_PrimitiveIDIn + first_triangle).r;
+  uint mask = !on_screen ? 0u : all_edges ? 7u : texelFetch(drawn, gl_PrimitiveIDIn + first_triangle).r;
   vec2 a = at[1] - at[0], b = at[2] - at[0];
   float area = abs(a.x * b.y - a.y * b.x);
   vec3 height = vec3(0.0), ink = vec3(0.0), reach = vec3(0.5 * wire_width);
