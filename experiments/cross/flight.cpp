@@ -15,6 +15,8 @@ namespace terrabench::cross {
 namespace {
 
 constexpr float kCell = 30;  // metres
+// Frames before a metered one: after the first, methods that keep a mesh are back in step.
+constexpr std::size_t kLead = 2;
 // Pictures are what takes longest where there is no GPU.
 constexpr std::size_t kMeteredToPictured = 8, kMostPictures = 6;
 
@@ -73,11 +75,7 @@ Flight::Flight(const Route& along, Progress& progress)
   const HeightRange range = height_range(ground());
   lowest = range.lowest;
   highest = range.highest;
-  views = terrabench::views(camera_path(route.path), ground());
-  if (views.size() < 2) {
-    throw usage_error("a path of one frame has nothing that moves", route.path, "choose another path");
-  }
-  metered = evenly(static_cast<std::size_t>(route.frames), views.size() - 1);
+  take_frames(terrabench::views(camera_path(route.path), ground()));
   seen.reserve(metered.size());
   progress.begin(fmt::format("finding what is seen on {}", route.terrain), metered.size());
   for (const std::size_t frame : metered) {
@@ -85,6 +83,21 @@ Flight::Flight(const Route& along, Progress& progress)
     progress.advance();
   }
   progress.end();
+}
+
+void Flight::take_frames(const std::vector<View>& path) {
+  if (path.size() < 2) {
+    throw usage_error("a path of one frame has nothing that moves", route.path, "choose another path");
+  }
+  std::size_t next = 0;  // frame of the path that none has been taken after
+  for (const std::size_t frame : evenly(static_cast<std::size_t>(route.frames), path.size() - 1)) {
+    for (std::size_t i = std::max(next, frame - std::min(frame, kLead)); i <= frame; ++i) {
+      follows.push_back(i > 0 && i == next && !views.empty());
+      views.push_back(path[i]);
+      next = i + 1;
+    }
+    metered.push_back(views.size() - 1);
+  }
 }
 
 std::vector<std::size_t> pictured(const Flight& flight) {

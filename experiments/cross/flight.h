@@ -41,12 +41,16 @@ struct Flight {
 
   Route route;
   TerrainSource source;
-  float lowest, highest;                                    // of the ground, metres
-  std::vector<View> views;                                  // all frames of the path
-  std::vector<std::size_t> metered;                         // of views, ascending; each has a frame before it
-  std::vector<Visibility> seen;                             // of the metered ones
+  float lowest, highest;  // of the ground, metres
+  // Frames of the path in their order: each metered one and the few before it.
+  std::vector<View> views;
+  std::vector<bool> follows;         // the view before is the path's frame before; false after a leap
+  std::vector<std::size_t> metered;  // of views, ascending; each follows another
+  std::vector<Visibility> seen;      // of the metered ones
   std::map<std::string, KnobSearch, std::less<>> searches;  // by method: what tuning has tried so far
   std::vector<Image> pictures;  // brute force's, of pictured(); empty until they are drawn
+ private:
+  void take_frames(const std::vector<View>& path);
 };
 
 // Which metered frames are drawn, as indices of Flight::metered.

@@ -152,7 +152,10 @@ TEST_P(EqualError, CountsAreTheSameForAnyNumberOfThreads) {
     // Another route in between, so that nothing is kept from the measurement before.
     flight_along({"peak", "fly", 17, 2, 1}, progress);
     std::vector<Metric> exact = measure(GetParam(), 33).metrics;
-    std::erase_if(exact, [](const Metric& m) { return is_timing(m.unit) || m.name == "heap_growth"; });
+    // Bytes held include what the allocator rounds up by, which depends on what was freed before.
+    std::erase_if(exact, [](const Metric& m) {
+      return is_timing(m.unit) || m.name == "heap_growth" || m.name == "bytes_held";
+    });
     return exact;
   };
   const std::vector<Metric> one = counts(1), four = counts(4);
