@@ -18,16 +18,16 @@ constexpr float kCell = 30;  // metres
 // Frames before a metered one: after the first, methods that keep a mesh are back in step.
 constexpr std::size_t kLead = 2;
 // Pictures are what takes longest where there is no GPU.
-constexpr std::size_t kMeteredToPictured = 8, kMostPictures = 6;
+constexpr std::size_t kMeteredToPictured = 12, kMostPictures = 6;
 
-// A bell of 0.08 of the extent, so high that its steepest slope is one in one: about an eighth of the ground
-// is not flat.
+// A bell of 0.06 of the extent, so high that its steepest slope is one in one: less than a third of the
+// ground is not flat.
 Heightfield peak(int size) {
   Heightfield field;
   field.width = field.depth = size;
   field.cell_x = field.cell_z = kCell;
   field.heights.reserve(static_cast<std::size_t>(size) * size);
-  const double middle = 0.5 * (size - 1), sigma = 0.08 * size;
+  const double middle = 0.5 * (size - 1), sigma = 0.06 * size;
   const double height = sigma * kCell * std::exp(0.5);
   for (int j = 0; j < size; ++j) {
     for (int i = 0; i < size; ++i) {
