@@ -139,7 +139,9 @@ TEST_P(EqualError, MeasuresWhatTheTablesShow) {
   EXPECT_EQ(value(record, "undrawn_samples"), 0);
   EXPECT_EQ(value(record, "bytes_held"), value(record, "heap_growth"));
   EXPECT_GT(value(record, "ssim"), GetParam() == "brute_force" ? 0.9999 : 0.3);
-  if (lod(GetParam()).traits.bounds_error) EXPECT_LE(value(record, "bound_taken"), 1);
+  if (lod(GetParam()).traits.bounds_error) {
+    EXPECT_LE(value(record, "bound_taken"), 1);
+  }
 }
 
 TEST_P(EqualError, CountsAreTheSameForAnyNumberOfThreads) {
