@@ -1,5 +1,6 @@
 #include <array>
 
+#include "experiments/cross/cross.h"
 #include "experiments/cross/lod_disk.h"
 #include "experiments/drill/drill.h"
 #include "experiments/experiment.h"
@@ -80,6 +81,8 @@ const std::array kExperiments{
                mrbsp::kRoughnessParameters, mrbsp::roughness_cases, mrbsp::measure_roughness},
     Experiment{"mrbsp.drawing", "mrbsp", "§1: land from drawings", mrbsp::kDrawingParameters,
                mrbsp::drawing_cases, mrbsp::measure_drawing},
+    Experiment{"cross.lod-equal-error", "cross", "Level-of-detail methods at the same screen-space error",
+               cross::kEqualErrorParameters, cross::equal_error_cases, cross::measure_equal_error},
     Experiment{"overview.relief", "overview", "Shaded relief of each terrain in each representation",
                overview_experiments::kReliefParameters, overview_experiments::relief_cases,
                overview_experiments::measure_relief},

@@ -299,7 +299,12 @@ PlotLayout::Series series_from(const toml::node& node, const std::string& origin
     const auto [x, y] = entry.pair_of(*point, "values");
     series.values.emplace_back(entry.number_of(*x, "values"), entry.number_of(*y, "values"));
   }
+  series.x_metric = entry.text_or("x_metric", "");
   for (const toml::node* const point : entry.list("cases")) {
+    if (!series.x_metric.empty()) {
+      series.cases.emplace_back(0, entry.text_of(*point, "cases"));
+      continue;
+    }
     const auto [x, case_name] = entry.pair_of(*point, "cases");
     series.cases.emplace_back(entry.number_of(*x, "cases"), entry.text_of(*case_name, "cases"));
   }

@@ -85,6 +85,7 @@ struct PlotLayout {
   };
   struct Series {
     std::string label, experiment, metric;
+    std::string x_metric;  // of the same case, in place of the x of `cases`; empty: none
     std::vector<std::pair<double, std::string>> cases;  // x, case
     std::vector<std::pair<double, double>> values;      // x, y as printed; used when cases is empty
     bool slope = false;                                 // fit a power law and say its exponent

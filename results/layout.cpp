@@ -111,10 +111,13 @@ FilledPlot fill(const PlotLayout& layout, const Store& store, const std::string&
     for (const auto& [x, case_name] : series.cases) {
       const Record* const record = store.find(series.experiment, case_name, profile);
       const Metric* const metric = record == nullptr ? nullptr : record->find(series.metric);
-      if (metric == nullptr) continue;
+      const Metric* const across =
+          record == nullptr || series.x_metric.empty() ? nullptr : record->find(series.x_metric);
+      if (metric == nullptr || (across == nullptr && !series.x_metric.empty())) continue;
       note_run(filled.runs, *record);
       const Summary s = summarise(metric->samples);
-      line.points.push_back({x, s.median, s.low, s.high});
+      line.points.push_back(
+          {across == nullptr ? x : summarise(across->samples).median, s.median, s.low, s.high});
     }
     if (!series.slope) continue;
     if (const auto slope = power_law(line.points)) line.label += fmt::format(", slope {:.2f}", *slope);

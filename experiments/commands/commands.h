@@ -13,7 +13,7 @@
 namespace terrabench {
 
 struct ListArguments {
-  std::string what;  // representations, experiments, claims, terrains; empty: all
+  std::string what;  // representations, lods, experiments, claims, terrains; empty: all
   bool json = false;
 };
 ExitCode list_command(const ListArguments&);

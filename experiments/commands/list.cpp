@@ -6,6 +6,7 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/experiment.h"
+#include "lod/lod.h"
 #include "representations/representation.h"
 #include "results/claims.h"
 #include "terrain/source.h"
@@ -35,6 +36,25 @@ Json list_representations() {
                     {"materials", type.traits.materials},
                     {"lossless", type.traits.lossless},
                     {"editable", type.traits.editable},
+                    {"parameters", parameters_json(type.parameters)}});
+  }
+  return list;
+}
+
+Json list_lods() {
+  Json list = Json::array();
+  for (const LodType& type : lods()) {
+    list.push_back({{"name", type.name},
+                    {"summary", type.summary},
+                    {"paper", type.paper},
+                    {"conforming", type.traits.conforming},
+                    {"bounds_error", type.traits.bounds_error},
+                    {"knob",
+                     {{"name", type.knob.name},
+                      {"unit", type.knob.unit},
+                      {"finest", type.knob.finest},
+                      {"coarsest", type.knob.coarsest},
+                      {"default", type.knob.fallback}}},
                     {"parameters", parameters_json(type.parameters)}});
   }
   return list;
@@ -80,6 +100,7 @@ struct Listing {
 };
 constexpr std::array kListings{
     Listing{"representations", list_representations},
+    Listing{"lods", list_lods},
     Listing{"experiments", list_experiments},
     Listing{"claims", list_claims},
     Listing{"terrains", list_terrains},

@@ -16,7 +16,7 @@ struct Row {
 };
 
 // `pixels`: room for all; left in an order of its own.
-Deviation deviation_of(const std::vector<Row>& rows, std::vector<float>& pixels) {
+Deviation deviation_of(const std::vector<Row>& rows, std::vector<float>& pixels, Distribution* pool) {
   Deviation all;
   double sum = 0;
   for (const Row& row : rows) {
@@ -27,6 +27,7 @@ Deviation deviation_of(const std::vector<Row>& rows, std::vector<float>& pixels)
     sum += row.sum;
   }
   if (all.samples == 0) return all;
+  if (pool != nullptr) pool->add(std::span(pixels).first(all.samples));
   const auto end = pixels.begin() + static_cast<std::ptrdiff_t>(all.samples);
   const auto rank = pixels.begin() + static_cast<std::ptrdiff_t>((99 * all.samples + 99) / 100 - 1);
   std::nth_element(pixels.begin(), rank, end);
@@ -38,7 +39,7 @@ Deviation deviation_of(const std::vector<Row>& rows, std::vector<float>& pixels)
 
 // from(i, j) and to(i, j) are heights, NaN where there is none.
 template <class From, class To>
-Deviation measure(const Visibility& seen, Seen least, const From& from, const To& to) {
+Deviation measure(const Visibility& seen, Seen least, const From& from, const To& to, Distribution* pool) {
   const Projector project(seen.view());
   std::vector<Row> rows(static_cast<std::size_t>(seen.depth()));
   tbb::parallel_for(0, seen.depth(), [&](int j) {
@@ -67,26 +68,30 @@ Deviation measure(const Visibility& seen, Seen least, const From& from, const To
       row.sum += distance;
     }
   });
-  return deviation_of(rows, pixels);
+  return deviation_of(rows, pixels, pool);
 }
 
 template <class From, class To>
-ScreenDeviation measure(const Visibility& seen, const From& from, const To& to) {
-  return {measure(seen, Seen::kVisible, from, to), measure(seen, Seen::kHidden, from, to)};
+ScreenDeviation measure(const Visibility& seen, const From& from, const To& to, Distribution* pool) {
+  return {measure(seen, Seen::kVisible, from, to, pool), measure(seen, Seen::kHidden, from, to, nullptr)};
 }
 
 }  // namespace
 
-ScreenDeviation screen_error(const SurfaceRaster& drawn, const Heightfield& ground, const Visibility& seen) {
+ScreenDeviation screen_error(const SurfaceRaster& drawn, const Heightfield& ground, const Visibility& seen,
+                             Distribution* pool) {
   assert(drawn.width() == seen.width() && drawn.depth() == seen.depth());
   return measure(
-      seen, [&](int i, int j) { return ground.at(i, j); }, [&](int i, int j) { return drawn.at(i, j); });
+      seen, [&](int i, int j) { return ground.at(i, j); }, [&](int i, int j) { return drawn.at(i, j); },
+      pool);
 }
 
-ScreenDeviation popping(const SurfaceRaster& before, const SurfaceRaster& after, const Visibility& seen) {
+ScreenDeviation popping(const SurfaceRaster& before, const SurfaceRaster& after, const Visibility& seen,
+                        Distribution* pool) {
   assert(before.width() == seen.width() && after.width() == seen.width());
   return measure(
-      seen, [&](int i, int j) { return before.at(i, j); }, [&](int i, int j) { return after.at(i, j); });
+      seen, [&](int i, int j) { return before.at(i, j); }, [&](int i, int j) { return after.at(i, j); },
+      pool);
 }
 
 }  // namespace terrabench

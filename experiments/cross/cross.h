@@ -1,0 +1,19 @@
+// What no paper has: methods of several papers on the same ground. Here the level-of-detail methods, each
+// tuned to the same screen-space error along the same path.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "experiments/experiment.h"
+
+namespace terrabench::cross {
+
+// Ground × method × asked error; brute force, which has no error, once a ground; and for each ground a case
+// that draws all methods.
+extern const std::span<const ParameterSpec> kEqualErrorParameters;
+std::vector<Case> equal_error_cases(const RunOptions&);
+// Bisects the method's knob, then measures everything that it costs and shows.
+void measure_equal_error(const Case&, const RunOptions&, Recorder&, Progress&);
+
+}  // namespace terrabench::cross

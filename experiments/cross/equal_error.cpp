@@ -1,0 +1,232 @@
+// Every level-of-detail method at the same screen-space error along the same path: triangles, error, cracks,
+// popping, times, bytes and pictures, all measured outside the methods.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "experiments/cross/cross.h"
+#include "experiments/cross/flight.h"
+#include "experiments/cross/pictures.h"
+#include "lod/meters/cracks.h"
+#include "lod/meters/image_error.h"
+#include "lod/meters/screen_error.h"
+#include "terrain/memory.h"
+
+namespace terrabench::cross {
+namespace {
+
+constexpr std::array kErrors{1.0, 2.0, 4.0};  // pixels
+constexpr std::string_view kAll = "all";      // in place of a method
+
+const std::array kSpecs{
+    ParameterSpec{"method", std::string("roam"), "",
+                  "a name of `terrabench list lods`, or all: their triangles side by side"},
+    ParameterSpec{"error", 1.0, "px", "99th percentile of the screen-space error that is asked for", 0.01,
+                  1000},
+    ParameterSpec{"path", std::string("fly"), "", "a committed camera path: cross, fly, turn or walk"},
+    ParameterSpec{"frames", std::int64_t{24}, "", "frames of the path that are metered", 1, 100000},
+    ParameterSpec{"size", std::int64_t{257}, "samples", "side of the grounds that are made here, 2^n + 1", 3,
+                  8193},
+};
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// All frames in their order, with nothing between two updates: what the method costs the CPU and the bus. The
+// first update, which builds what the others keep, stands apart, and those after a leap do not count.
+void measure_cost(const Flight& flight, const LodType& type, double knob, Recorder& recorder,
+                  Progress& progress) {
+  std::vector<double> times, triangles;
+  times.reserve(flight.views.size());
+  triangles.reserve(flight.views.size());
+  double uploaded = 0;
+  const HeapScope heap;
+  auto begin = std::chrono::steady_clock::now();
+  const std::unique_ptr<Lod> lod = type.build(flight.ground(), Parameters(type.parameters), progress);
+  const double build_time = seconds_since(begin);
+  lod->tune(knob);
+  begin = std::chrono::steady_clock::now();
+  const std::size_t first_uploaded = lod->update(flight.views.front()).stats.bytes_uploaded;
+  const double first_update_time = seconds_since(begin);
+  for (std::size_t i = 1; i < flight.views.size(); ++i) {
+    begin = std::chrono::steady_clock::now();
+    const Frame& frame = lod->update(flight.views[i]);
+    const double time = seconds_since(begin);
+    if (!flight.follows[i]) continue;
+    times.push_back(time);
+    triangles.push_back(static_cast<double>(frame.stats.triangles));
+    uploaded += static_cast<double>(frame.stats.bytes_uploaded);
+  }
+  const std::int64_t held = heap.held();
+  recorder.add("build_time", "s", build_time);
+  recorder.add("first_update_time", "s", first_update_time);
+  recorder.add("first_uploaded", "B", static_cast<double>(first_uploaded));
+  recorder.add("bytes_held", "B", static_cast<double>(lod->memory().total()));
+  recorder.add("heap_growth", "B", static_cast<double>(held));
+  recorder.add("uploaded", "B", uploaded / static_cast<double>(times.size()));
+  for (const double t : times) recorder.add("update_time", "s", t);
+  for (const double t : triangles) recorder.add("triangles", "", t);
+  std::sort(times.begin(), times.end());
+  recorder.add("update_time_p99", "s", times[(99 * times.size() + 99) / 100 - 1]);
+}
+
+// What is drawn, over the metered frames.
+struct Shown {
+  Distribution error, popping;  // of visible samples, pixels
+  double largest_anywhere = 0;  // error of a sample in the frustum, hidden or not
+  double largest_gap = 0;       // pixels
+  std::size_t undrawn = 0, gaps = 0, bare_edges = 0, overlaps = 0, t_junctions = 0;
+  std::vector<double> frame_times;  // seconds, with the upload
+  std::vector<double> psnr, ssim;
+};
+
+void meter(const Flight& flight, std::size_t k, const Frame& frame, const SurfaceRaster& before,
+           const SurfaceRaster& drawn, Shown& shown) {
+  const Heightfield& ground = flight.ground();
+  const Visibility& seen = flight.seen[k];
+  const ScreenDeviation error = screen_error(drawn, ground, seen, &shown.error);
+  shown.largest_anywhere = std::max(shown.largest_anywhere, error.in_frustum.largest);
+  shown.undrawn += error.visible.undrawn;
+  popping(before, drawn, seen, &shown.popping);
+  const CrackReport cracks = find_cracks(frame, ground.width, ground.depth, seen.view());
+  shown.gaps += cracks.gaps;
+  shown.bare_edges += cracks.bare_edges;
+  shown.overlaps += cracks.overlaps;
+  shown.t_junctions += cracks.t_junctions;
+  shown.largest_gap = std::max(shown.largest_gap, cracks.largest_gap_px);
+}
+
+// The frame before a metered one is drawn too: popping lies between them, and it is the frame that the
+// renderer's upload starts from.
+Shown measure_shown(Flight& flight, const LodType& type, double knob, GlContext& context,
+                    Progress& progress) {
+  const Heightfield& ground = flight.ground();
+  const std::unique_ptr<Lod> lod = type.build(ground, Parameters(type.parameters), progress);
+  lod->tune(knob);
+  SurfaceRaster before(ground.width, ground.depth), drawn(ground.width, ground.depth);
+  const std::vector<std::size_t> with_picture = pictured(flight);
+  std::optional<FrameRenderer> renderer;
+  Shown shown;
+  std::size_t picture = 0;
+  const auto draws = [&](std::size_t k) {
+    return picture < with_picture.size() && with_picture[picture] == k;
+  };
+  const std::vector<std::size_t>& metered = flight.metered;
+  progress.begin(fmt::format("metering {} on {}", type.name, flight.route.terrain), metered.size());
+  for (std::size_t i = 0, k = 0; k < metered.size(); ++i) {
+    const View& view = flight.views[i];
+    const Frame& frame = lod->update(view);
+    const bool meters = metered[k] == i;
+    if (meters) {
+      drawn.draw(frame);
+      meter(flight, k, frame, before, drawn, shown);
+      if (draws(k)) {
+        const auto begin = std::chrono::steady_clock::now();
+        draw_ground(*renderer, flight, frame, view);
+        shown.frame_times.push_back(seconds_since(begin));
+        const Image image = renderer->image();
+        shown.psnr.push_back(psnr(image, flight.pictures[picture]));
+        shown.ssim.push_back(ssim(image, flight.pictures[picture]));
+        ++picture;
+      }
+      ++k;
+      progress.advance();
+    }
+    if (k == metered.size() || metered[k] != i + 1) continue;
+    if (meters) {
+      std::swap(before, drawn);
+    } else {
+      before.draw(frame);
+    }
+    if (draws(k)) draw_ground(renderer.emplace(context), flight, frame, view);
+  }
+  progress.end();
+  return shown;
+}
+
+void record(const Shown& shown, const Flight& flight, Recorder& recorder) {
+  recorder.add("error_p99", "px", shown.error.quantile(0.99));
+  recorder.add("error_mean", "px", shown.error.mean());
+  recorder.add("error_largest", "px", shown.error.largest());
+  recorder.add("error_largest_anywhere", "px", shown.largest_anywhere);
+  recorder.add("popping_p99", "px", shown.popping.quantile(0.99));
+  recorder.add("popping_largest", "px", shown.popping.largest());
+  recorder.add("samples", "", static_cast<double>(shown.error.samples()));
+  recorder.add("undrawn_samples", "", static_cast<double>(shown.undrawn));
+  recorder.add("gaps", "", static_cast<double>(shown.gaps));
+  recorder.add("bare_edges", "", static_cast<double>(shown.bare_edges));
+  recorder.add("overlaps", "", static_cast<double>(shown.overlaps));
+  recorder.add("cracks", "", static_cast<double>(shown.gaps + shown.bare_edges + shown.overlaps));
+  recorder.add("t_junctions", "", static_cast<double>(shown.t_junctions));
+  recorder.add("largest_gap", "px", shown.largest_gap);
+  recorder.add("frames", "", static_cast<double>(flight.metered.size()));
+  for (const double t : shown.frame_times) recorder.add("frame_time", "s", t);
+  for (const double s : shown.ssim) recorder.add("ssim", "", s);
+  // Equal pictures have no ratio of signal to noise.
+  for (const double p : shown.psnr) {
+    if (std::isfinite(p)) recorder.add("psnr", "dB", p);
+  }
+}
+
+}  // namespace
+
+constinit const std::span<const ParameterSpec> kEqualErrorParameters = kSpecs;
+
+std::vector<Case> equal_error_cases(const RunOptions& options) {
+  const bool paper = options.profile == Profile::kPaper;
+  std::vector<std::string> terrains = options.terrains;
+  if (terrains.empty()) terrains = {std::string(kMainGround), "fractal", "peak"};
+  std::vector<Case> cases;
+  for (const std::string& terrain : terrains) {
+    const auto add = [&](const std::string& name, std::string_view method, double error) {
+      Case& added = cases.emplace_back(
+          Case{fmt::format("{}/{}", terrain, name), Parameters(kEqualErrorParameters), terrain});
+      added.parameters.set("method", std::string(method));
+      added.parameters.set("error", error);
+      const bool large = paper && terrain == "fractal";
+      added.parameters.set("frames", std::int64_t{paper && !large ? 120 : 24});
+      added.parameters.set("size", std::int64_t{large ? 4097 : paper ? 1025 : 257});
+    };
+    for (const LodType& type : lods()) {
+      if (!tunable(type)) {
+        add(std::string(type.name), type.name, kErrors.front());
+        continue;
+      }
+      for (const double error : kErrors) add(fmt::format("{}/{:.0f}px", type.name, error), type.name, error);
+    }
+    add("wires", kAll, kErrors[1]);
+  }
+  return cases;
+}
+
+void measure_equal_error(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const auto whole = [&](std::string_view name) { return static_cast<int>(at.parameters.integer(name)); };
+  Flight& flight = flight_along(
+      {at.terrain, at.parameters.text("path"), whole("size"), whole("frames"), options.seed}, progress);
+  recorder.terrain(flight.source);
+  const double pixels = at.parameters.number("error");
+  const std::string& method = at.parameters.text("method");
+  const auto context = open_context(options.renderer, flight.views[0].width, flight.views[0].height);
+  if (method == kAll) {
+    draw_wires(flight, pixels, *context, recorder, progress);
+    return;
+  }
+  const LodType& type = lod(method);
+  const Tuned tuned = tune_to(flight, type, pixels, progress);
+  recorder.add("knob", "", tuned.knob);
+  recorder.add("tuned_error", "px", tuned.error);
+  recorder.add("reached", "", tuned.reached ? 1 : 0);
+  measure_cost(flight, type, tuned.knob, recorder, progress);
+  draw_reference(flight, *context, progress);
+  const Shown shown = measure_shown(flight, type, tuned.knob, *context, progress);
+  record(shown, flight, recorder);
+  // Of methods that promise a bound, which is their knob: how much of it a sample in the frustum takes.
+  if (type.traits.bounds_error) recorder.add("bound_taken", "", shown.largest_anywhere / tuned.knob);
+}
+
+}  // namespace terrabench::cross

@@ -1,0 +1,189 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "experiments/cross/cross.h"
+#include "experiments/cross/flight.h"
+#include "results/claims.h"
+#include "results/statistics.h"
+
+namespace terrabench::cross {
+namespace {
+
+constexpr Knob kPixels{"error", "px", 0.1, 1000, 1}, kFineness{"size", "", 65536, 1.0 / 64, 1},
+    kSamples{"window", "samples", 4095, 15, 255, true};
+
+TEST(KnobSearch, ComesWithinSlackOfTheTargetInAFewTries) {
+  const auto error_at = [](double knob) { return 0.3 * std::pow(knob, 0.8); };
+  for (const double target : {0.3, 1.0, 2.0, 4.0, 40.0}) {
+    KnobSearch search(kPixels);
+    const Tuned tuned = search.find(target, error_at);
+    EXPECT_TRUE(tuned.reached);
+    EXPECT_LE(tuned.error, target);
+    EXPECT_GE(tuned.error, (1 - KnobSearch::kSlack) * target);
+    EXPECT_NEAR(tuned.error / error_at(tuned.knob), 1, 1e-9);
+    EXPECT_LE(search.tried(), 10U) << target;
+  }
+}
+
+TEST(KnobSearch, TurnsKnobsThatAreFineWhenTheyAreLarge) {
+  KnobSearch search(kFineness);
+  const Tuned tuned = search.find(1, [](double knob) { return 50 / knob; });
+  EXPECT_TRUE(tuned.reached);
+  EXPECT_NEAR(tuned.knob, 50, 2);
+}
+
+TEST(KnobSearch, WhatWasTriedServesTheNextTarget) {
+  KnobSearch search(kPixels);
+  const auto error_at = [](double knob) { return knob; };
+  search.find(2, error_at);
+  const std::size_t before = search.tried();
+  EXPECT_EQ(search.find(2, [](double) -> double { throw std::logic_error("known already"); }).error,
+            search.find(2, error_at).error);
+  search.find(1.99, error_at);
+  EXPECT_LE(search.tried(), before + 3);
+}
+
+TEST(KnobSearch, WholeKnobsEndAtTheNextNumber) {
+  KnobSearch search(kSamples);
+  const Tuned tuned = search.find(1, [](double knob) {
+    EXPECT_EQ(knob, std::round(knob));
+    return 20.5 / knob;
+  });
+  EXPECT_EQ(tuned.knob, 21);
+}
+
+TEST(KnobSearch, SaysWhatCannotBeReached) {
+  KnobSearch rough(kPixels);
+  const Tuned worse = rough.find(1, [](double knob) { return 3 + knob; });
+  EXPECT_FALSE(worse.reached);
+  EXPECT_EQ(worse.knob, kPixels.finest);
+  EXPECT_DOUBLE_EQ(worse.error, 3.1);
+  // Ground on which nothing can go wrong.
+  KnobSearch flat(kPixels);
+  const Tuned better = flat.find(1, [](double) { return 0.0; });
+  EXPECT_TRUE(better.reached);
+  EXPECT_EQ(better.knob, kPixels.coarsest);
+}
+
+TEST(EqualErrorCases, NameEveryMethodOnEveryGroundAndTheLedgerReadsThem) {
+  std::set<std::string> names;
+  for (const Case& at : equal_error_cases({})) EXPECT_TRUE(names.insert(at.name).second);
+  for (const char* const ground : {"jacksboro", "fractal", "peak"}) {
+    for (const LodType& type : lods()) {
+      const std::string start = std::string(ground) + "/" + std::string(type.name);
+      EXPECT_EQ(
+          std::count_if(names.begin(), names.end(), [&](const auto& n) { return n.starts_with(start); }),
+          tunable(type) ? 3 : 1);
+    }
+  }
+  std::size_t tables = 0;
+  for (const Paper& paper : papers()) {
+    for (const TableLayout& table : paper.tables) {
+      if (table.experiment != "cross.lod-equal-error") continue;
+      ++tables;
+      EXPECT_EQ(table.rows.size(), lods().size());
+      for (const TableLayout::Row& row : table.rows)
+        EXPECT_TRUE(names.contains(row.case_name)) << row.case_name;
+    }
+    for (const Claim& claim : paper.claims) {
+      for (const Condition& condition : claim.conditions) {
+        for (const Operand& operand : condition.operands) {
+          if (operand.experiment != "cross.lod-equal-error") continue;
+          EXPECT_TRUE(names.contains(operand.case_name)) << claim.id << " " << operand.case_name;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(tables, 9U);
+}
+
+class EqualError : public ::testing::TestWithParam<std::string_view> {
+ protected:
+  static Record measure(std::string_view method, std::int64_t size) {
+    Case at{"small", Parameters(kEqualErrorParameters), "peak"};
+    at.parameters.set("method", std::string(method));
+    at.parameters.set("error", 2.0);
+    at.parameters.set("frames", std::int64_t{5});
+    at.parameters.set("size", size);
+    Record record;
+    Recorder recorder(record, "unused");
+    Progress progress;
+    measure_equal_error(at, {}, recorder, progress);
+    return record;
+  }
+  static double value(const Record& record, std::string_view metric) {
+    const Metric* const found = record.find(metric);
+    EXPECT_NE(found, nullptr) << metric;
+    return found == nullptr ? -1 : summarise(found->samples).median;
+  }
+};
+
+TEST_P(EqualError, MeasuresWhatTheTablesShow) {
+  const Record record = measure(GetParam(), 65);
+  for (const char* const metric :
+       {"knob", "triangles", "error_mean", "error_largest", "popping_p99", "popping_largest", "update_time",
+        "update_time_p99", "uploaded", "frame_time", "ssim"}) {
+    EXPECT_GE(value(record, metric), 0) << metric;
+  }
+  EXPECT_EQ(value(record, "reached"), 1);
+  EXPECT_LE(value(record, "error_p99"), 2);
+  EXPECT_GT(value(record, "triangles"), 0);
+  EXPECT_GT(value(record, "samples"), 0);
+  EXPECT_EQ(value(record, "cracks"), 0);
+  EXPECT_EQ(value(record, "undrawn_samples"), 0);
+  EXPECT_EQ(value(record, "bytes_held"), value(record, "heap_growth"));
+  EXPECT_GT(value(record, "ssim"), GetParam() == "brute_force" ? 0.9999 : 0.3);
+  if (lod(GetParam()).traits.bounds_error) {
+    EXPECT_LE(value(record, "bound_taken"), 1);
+  }
+}
+
+TEST_P(EqualError, CountsAreTheSameForAnyNumberOfThreads) {
+  const auto counts = [](int threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    Progress progress;
+    // Another route in between, so that nothing is kept from the measurement before.
+    flight_along({"peak", "fly", 17, 2, 1}, progress);
+    std::vector<Metric> exact = measure(GetParam(), 33).metrics;
+    // Bytes held include what the allocator rounds up by, which depends on what was freed before.
+    std::erase_if(exact, [](const Metric& m) {
+      return is_timing(m.unit) || m.name == "heap_growth" || m.name == "bytes_held";
+    });
+    return exact;
+  };
+  const std::vector<Metric> one = counts(1), four = counts(4);
+  ASSERT_EQ(one.size(), four.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].name, four[i].name);
+    EXPECT_EQ(one[i].samples, four[i].samples) << one[i].name;
+  }
+}
+
+std::vector<std::string_view> names() {
+  std::vector<std::string_view> all;
+  for (const LodType& type : lods()) all.push_back(type.name);
+  return all;
+}
+INSTANTIATE_TEST_SUITE_P(EachMethod, EqualError, ::testing::ValuesIn(names()),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST(EqualErrorGround, ThePeakStandsOnFlatLand) {
+  const TerrainSource source = open_ground("peak", 257, 1);
+  const Heightfield& ground = *source.heights;
+  EXPECT_EQ(ground.at(0, 0), 0);
+  EXPECT_EQ(ground.at(256, 128), 0);
+  const HeightRange range = height_range(ground);
+  EXPECT_EQ(ground.at(128, 128), range.highest);
+  EXPECT_EQ(range.lowest, 0);
+  const auto flat = std::count(ground.heights.begin(), ground.heights.end(), 0.0F);
+  EXPECT_GT(static_cast<double>(flat), 0.5 * static_cast<double>(ground.heights.size()));
+}
+
+}  // namespace
+}  // namespace terrabench::cross
