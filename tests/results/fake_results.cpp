@@ -109,7 +109,10 @@ std::span<const Paper> faked_papers() {
   static const std::vector<Paper> kFaked = [] {
     std::vector<Paper> faked;
     for (const Paper& paper : papers()) {
-      if (paper.id == "hybrid" || paper.id == "cross") faked.push_back(paper);
+      if (paper.id != "hybrid" && paper.id != "cross") continue;
+      // Of the comparisons the relief alone, which no row judges.
+      Paper& added = faked.emplace_back(paper);
+      if (paper.id == "cross") std::erase_if(added.claims, [](const Claim& c) { return !c.conditions.empty(); });
     }
     return faked;
   }();
