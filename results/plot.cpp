@@ -124,7 +124,8 @@ Scale scale_for(const PlotAxis& axis, std::vector<double> values, bool own_ticks
   if (!axis.log) scale.low = std::min(scale.low, 0.0);
   double span = scale.high - scale.low;
   if (span <= 0) span = axis.log ? 1 : std::max(1e-12, std::abs(scale.high));
-  if (axis.log || scale.low < 0) scale.low -= margin * span;
+  // A marker on the axis itself would be cut in half.
+  if (axis.log || values.front() <= 0) scale.low -= margin * span;
   scale.high += margin * span;
   if (axis.log && own_ticks && values.size() <= 8) {
     scale.ticks = values;
@@ -136,6 +137,13 @@ Scale scale_for(const PlotAxis& axis, std::vector<double> values, bool own_ticks
       scale.ticks.push_back(at * step);
   }
   return scale;
+}
+
+// Without exponents, which small seconds would have.
+std::string tick_label(double tick) {
+  const double size = std::abs(tick);
+  if (size < 1e-7 || size >= 1e-4) return format_number(tick);
+  return fmt::format("{:.{}f}", tick, -static_cast<int>(std::floor(std::log10(size) + 1e-9)));
 }
 
 void set_font(vtkTextProperty* property, bool bold) {
@@ -157,7 +165,7 @@ void set_axis(vtkAxis* axis, const PlotAxis& what, const Scale& scale) {
   vtkNew<vtkStringArray> labels;
   for (const double tick : scale.ticks) {
     positions->InsertNextValue(scale.chart(tick));
-    labels->InsertNextValue(format_number(tick));
+    labels->InsertNextValue(tick_label(tick));
   }
   axis->SetCustomTickPositions(positions, labels);
   set_font(axis->GetTitleProperties(), false);
