@@ -334,8 +334,9 @@ bool Mrbsp::on_the_ground(const glm::vec3& eye) const {
   // Within the slack that the conservative sets are computed with.
   constexpr float kSlack = 0.005F;
   const float samples = north * (1 - t) + south * t;
-  const float ground = std::max(samples, surface_height(tree_, grid_, eye.x, eye.z));
-  return eye.y <= ground + visibility_.eye_height + kSlack;
+  const float surface = surface_height(tree_, grid_, eye.x, eye.z);
+  // From beneath, the ground hides nothing: a line of sight that runs under it all the way is free.
+  return eye.y >= surface && eye.y <= std::max(samples, surface) + visibility_.eye_height + kSlack;
 }
 
 const Frame& Mrbsp::update(const View& view) {

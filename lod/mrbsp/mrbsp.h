@@ -60,8 +60,9 @@ class Mrbsp : public Lod {
   // The whole depth that a vertex asks for, 1 … M, as the paper's figure 1 marks it.
   int threshold(const glm::vec3& eye, const glm::vec3& vertex) const;
   const VisibilityTable& visibility() const { return visibility_; }
-  // Does the set of visible triangles hold for this eye? Not for one outside, nor above the height that it
-  // was computed for, over the samples or the finest triangles: then everything is drawn.
+  // Does the set of visible triangles hold for this eye? Not for one outside, nor under the finest triangles,
+  // nor above the height that it was computed for, over the samples or these triangles: then everything is
+  // drawn.
   bool on_the_ground(const glm::vec3& eye) const;
 
  private:

@@ -9,7 +9,9 @@
 //   counts when it faces an eye that sees one of its corners, or when the cell stands on it: neighbours share
 //   corners, so that the paper's own table 1 cannot come from corners alone. Ground that the coarse surface
 //   lacks can be missed.
-// - conservative: never misses, for the full surface and every eye up to the eye height above it. Whole cells
+// - conservative: never misses, for the full surface and every eye on it or up to the eye height above it,
+// but
+//   not for one beneath, which the ground in between does not stop (Mrbsp::on_the_ground()). Whole cells
 //   are tested against whole blocks of ground: hidden when, on some grid line between the two, the lowest
 //   ground along all of the stretch that the lines of sight cross stands above the highest of these lines.
 //   Both are quartered where that fails. For the sight line's height only the highest eye in the cell and the

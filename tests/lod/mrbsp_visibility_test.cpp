@@ -315,6 +315,29 @@ TEST(Mrbsp, VisibilityLeavesOutTrianglesOnlyOnTheGround) {
   EXPECT_EQ(hiding.update(view).stats.triangles, plain.update(view).stats.triangles);
 }
 
+// From beneath a valley the hills' undersides are in full view, whatever the sets say of walkers above.
+TEST(Mrbsp, VisibilityHidesNothingFromAnEyeUnderTheGround) {
+  const Heightfield field = rough_ground(65, 65);
+  MrbspOptions options;
+  options.area_consistent = true;
+  Mrbsp plain(field, options, silent());
+  options.visibility = true;
+  options.visible.cells = 8;
+  options.visible.coarseness = 2;
+  Mrbsp hiding(field, options, silent());
+  for (Mrbsp* lod : {&plain, &hiding}) lod->tune(Mrbsp::knob().finest);
+  View view = walker(field, 0.45F, 0.55F, 1);
+  EXPECT_TRUE(hiding.on_the_ground(view.eye));
+  for (const float deep : {12.0F, 5.0F, 20.0F}) {
+    view.eye.y -= deep;
+    view.target.y -= deep;
+    EXPECT_FALSE(hiding.on_the_ground(view.eye)) << deep;
+    const std::size_t all = plain.update(view).stats.triangles;
+    EXPECT_GT(all, 0U);
+    EXPECT_EQ(hiding.update(view).stats.triangles, all);
+  }
+}
+
 TEST(Mrbsp, TakesATableThatFitsAndRefusesOthers) {
   const Heightfield field = rough_ground(65, 50);
   const VisibilityTable table = some_table();
