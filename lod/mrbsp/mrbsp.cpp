@@ -254,9 +254,9 @@ Mrbsp::Mrbsp(const Heightfield& ground, const MrbspOptions& options, VisibilityT
 
 void Mrbsp::find_visibility(VisibilityTable visibility) {
   const CellGrid& cells = visibility.cells;
-  const bool fits = visibility.depth <= tree_.depth() &&
-                    (grid_.width - 2) / cells.side + 1 == cells.columns &&
-                    (grid_.depth - 2) / cells.side + 1 == cells.rows;
+  const bool fits =
+      visibility.depth <= tree_.depth() && visibility.surface == surface_checksum(grid_, tree_) &&
+      (grid_.width - 2) / cells.side + 1 == cells.columns && (grid_.depth - 2) / cells.side + 1 == cells.rows;
   if (!fits) {
     throw usage_error("the visibility was computed for other ground", "visibility",
                       "compute it for this field and depth");

@@ -48,8 +48,8 @@ class Mrbsp : public Lod {
   static Knob knob() { return {"size", "short sides", 65536, 1.0 / 64, 1, false}; }
 
   Mrbsp(const Heightfield&, const MrbspOptions&, Progress&);
-  // With a visibility that was computed before, for the same field and depth: throws usage_error when it does
-  // not fit.
+  // With a visibility that was computed before, for the same heights and depth: throws usage_error for one of
+  // other ground.
   Mrbsp(const Heightfield&, const MrbspOptions&, VisibilityTable, Progress&);
   const Frame& update(const View&) override;
   void tune(double size) override { size_ = size; }

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include "terrain/error.h"
+#include "terrain/files.h"
 
 namespace terrabench {
 namespace {
@@ -59,6 +60,8 @@ VisibleSets find_visible(const ProfileScene& profile) {
 
   const int side = segments / profile.cells;
   VisibleSets sets({profile.cells, 1, side}, profile.coarse_depth, profile.eye_height);
+  const std::string name = checksum(std::as_bytes(std::span(profile.heights)));
+  std::copy_n(name.begin(), sets.surface.size(), sets.surface.begin());
   for (int cell = 0; cell < profile.cells; ++cell) {
     for (int e = 0; e < kEyes; ++e) {
       const float share = (static_cast<float>(e) + 0.5F) / static_cast<float>(kEyes);

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "lod/mrbsp/area_visibility.h"
 #include "lod/mrbsp/line_of_sight.h"
 #include "terrain/error.h"
+#include "terrain/files.h"
 
 namespace terrabench {
 namespace {
@@ -30,12 +32,25 @@ void check(const VisibilityOptions& options) {
   if (options.cells < 1 || options.cells > 1024)
     refuse("so many cells cannot be", "cells", "choose 1 to 1024");
   if (options.eyes < 1 || options.eyes > 64) refuse("so many eyes cannot be", "eyes", "choose 1 to 64");
+  if (options.coarseness < 0 || options.coarseness > BisectionTree::kDeepest) {
+    refuse("triangles of visibility cannot be so coarse", "coarseness",
+           fmt::format("choose 0 to {}", BisectionTree::kDeepest));
+  }
   if (!(options.eye_height >= 0 && options.eye_height <= 1e6F)) {
     refuse("eyes cannot be at this height", "eye_height", "choose 0 to 1e6 m");
   }
 }
 
 }  // namespace
+
+SurfaceChecksum surface_checksum(const GroundGrid& ground, const BisectionTree& tree) {
+  const std::string name = checksum(fmt::format("{} {} {:a} {:a} {} {} {}", ground.width, ground.depth,
+                                                ground.cell_x, ground.cell_z, tree.side(), tree.depth(),
+                                                checksum(std::as_bytes(ground.heights))));
+  SurfaceChecksum sum{};
+  std::copy_n(name.begin(), sum.size(), sum.begin());
+  return sum;
+}
 
 VisibleSets::VisibleSets(CellGrid cells, int depth, float eye_height)
     : cells(cells), depth(depth), words(((std::size_t{1} << depth) + 63) / 64), eye_height(eye_height) {
@@ -63,6 +78,7 @@ VisibleSets find_visible(const GroundGrid& ground, const BisectionTree& tree,
   int depth = std::clamp(tree.depth() - options.coarseness, 1, 24);
   depth -= depth % 2 == 0 ? 1 : 0;
   VisibleSets sets(cells, depth, options.eye_height);
+  sets.surface = surface_checksum(ground, tree);
   progress.begin("finding what is visible", static_cast<std::uint64_t>(cells.count()));
   const CoarseSquares squares(tree, depth);
   if (options.conservative) {
@@ -83,7 +99,7 @@ VisibleSets find_visible(const GroundGrid& ground, const BisectionTree& tree,
 }
 
 VisibilityTable changes_of(const VisibleSets& sets) {
-  VisibilityTable table{sets.cells, sets.depth, sets.eye_height, {}, {0}, {}};
+  VisibilityTable table{sets.cells, sets.depth, sets.eye_height, sets.surface, {}, {0}, {}};
   const auto each_bit = [](std::uint64_t word, std::size_t w, std::vector<std::uint32_t>& out) {
     for (; word != 0; word &= word - 1) {
       out.push_back(static_cast<std::uint32_t>(w * 64) + static_cast<std::uint32_t>(std::countr_zero(word)));
@@ -113,6 +129,7 @@ VisibilityTable changes_of(const VisibleSets& sets) {
 
 VisibleSets sets_of(const VisibilityTable& table) {
   VisibleSets sets(table.cells, table.depth, table.eye_height);
+  sets.surface = table.surface;
   for (const std::uint32_t element : table.start) sets.add(0, element);
   const auto apply = [&](int from, int to, int step) {
     const auto row = sets.bits.begin();

@@ -20,6 +20,7 @@
 // Cost: cells × blocks × lines between them, in parallel over cells.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <span>
@@ -47,12 +48,17 @@ struct CellGrid {
   bool operator==(const CellGrid&) const = default;
 };
 
+// Names what sets hold for, as 32 hex digits: the samples, their distances, and the tree over them.
+using SurfaceChecksum = std::array<char, 32>;
+SurfaceChecksum surface_checksum(const GroundGrid&, const BisectionTree&);
+
 // A bit a cell and coarse triangle: element e of depth C is node 2^C + e.
 struct VisibleSets {
   CellGrid cells;
   int depth = 1;          // C
   std::size_t words = 1;  // a cell
   float eye_height = 0;   // metres
+  SurfaceChecksum surface{};
   std::vector<std::uint64_t> bits;
 
   VisibleSets() = default;
@@ -76,6 +82,7 @@ struct VisibilityTable {
   CellGrid cells;
   int depth = 0;  // 0: no table
   float eye_height = 0;
+  SurfaceChecksum surface{};
   std::vector<std::uint32_t> start;
   std::vector<std::uint32_t> first;  // of each step between neighbours, and the end; see step()
   std::vector<std::uint32_t> changes;

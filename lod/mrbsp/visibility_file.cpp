@@ -46,6 +46,9 @@ std::string_view head_fault(const VisibilityTable& table) {
   }
   if (table.depth < 1 || table.depth > kDeepest) return "the depth cannot be";
   if (!(table.eye_height >= 0 && table.eye_height <= 1e6F)) return "the eye height cannot be";
+  for (const char c : table.surface) {
+    if (!((c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'))) return "the surface's checksum is none";
+  }
   return {};
 }
 
@@ -104,9 +107,10 @@ void each_step(const VisibilityTable& table, const Body& body) {
 }  // namespace
 
 std::string visibility_text(const VisibilityTable& table) {
-  std::string text = fmt::format("{}\ncells {} {}\nside {}\ndepth {}\neye-height {}\nstart {}\n", kFirstLine,
-                                 table.cells.columns, table.cells.rows, table.cells.side, table.depth,
-                                 table.eye_height, labels(table.start, table.depth));
+  std::string text = fmt::format(
+      "{}\ncells {} {}\nside {}\ndepth {}\neye-height {}\nsurface {}\nstart {}\n", kFirstLine,
+      table.cells.columns, table.cells.rows, table.cells.side, table.depth, table.eye_height,
+      std::string_view(table.surface.data(), table.surface.size()), labels(table.start, table.depth));
   each_step(table, [&](int step, const auto& name) {
     if (!table.step(step).empty())
       text += fmt::format("{} {}\n", name(), labels(table.step(step), table.depth));
@@ -128,6 +132,11 @@ class TextReader {
     table_.cells.side = numbers<int>("side", 1)[0];
     table_.depth = numbers<int>("depth", 1)[0];
     table_.eye_height = numbers<float>("eye-height", 1)[0];
+    const std::string_view surface = value_of("surface");
+    if (surface.size() != table_.surface.size()) {
+      fail(fmt::format("'surface' takes {} digits", table_.surface.size()));
+    }
+    std::copy(surface.begin(), surface.end(), table_.surface.begin());
     if (const std::string_view fault = head_fault(table_); !fault.empty()) fail(fault);
     table_.start = elements(value_of("start"));
     read_steps();
@@ -273,6 +282,7 @@ void save_visibility(const VisibilityTable& table, ByteSink& out) {
   file.put(static_cast<std::int32_t>(table.cells.side));
   file.put(static_cast<std::int32_t>(table.depth));
   file.put(table.eye_height);
+  file.put(table.surface);
   put_lists(table, file);
   const std::string sum = checksum(file.bytes());
   file.put_array(std::span<const char>(sum));
@@ -299,6 +309,7 @@ VisibilityTable load_visibility(std::span<const std::byte> file, const std::stri
   table.cells.side = in.get<std::int32_t>();
   table.depth = in.get<std::int32_t>();
   table.eye_height = in.get<float>();
+  table.surface = in.get<SurfaceChecksum>();
   if (const std::string_view fault = head_fault(table); !fault.empty()) in.fail(fault);
   get_list(in, table.depth, table.start);
   // A step takes a byte at least, so that a short file cannot ask for many.

@@ -7,6 +7,7 @@
 //   side 2                 samples along a cell
 //   depth 2                of the coarse triangles: digits a number
 //   eye-height 0           metres
+//   surface 0123…          what it was computed for: surface_checksum()
 //   start 00, 01, 11       what the first cell sees
 //   a-b 11                 what toggles from a to its right neighbour b
 //   d-e 00, 01, 10, 11

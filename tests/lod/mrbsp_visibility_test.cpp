@@ -230,6 +230,8 @@ TEST(Visibility, RefusesOptionsOutOfRange) {
   };
   refused([](VisibilityOptions& o) { o.cells = 0; });
   refused([](VisibilityOptions& o) { o.eyes = 0; });
+  refused([](VisibilityOptions& o) { o.coarseness = -1; });
+  refused([](VisibilityOptions& o) { o.coarseness = 1000; });
   refused([](VisibilityOptions& o) { o.eye_height = -1; });
   refused([](VisibilityOptions& o) { o.eye_height = std::numeric_limits<float>::quiet_NaN(); });
 }
@@ -277,11 +279,13 @@ TEST(VisibleNodes, FlagsStandForTheirSubtreesWhereverTheWalkGoes) {
 
 TEST(ProfileScene, GivesTheLinesOfTable1) {
   const VisibilityTable table = changes_of(find_visible(table1_profile()));
+  const std::string surface(table.surface.begin(), table.surface.end());
   EXPECT_EQ(visibility_text(table),
-            "terrabench-visibility 1\ncells 8 1\nside 2\ndepth 2\neye-height 0\nstart 00, 01, 11\n"
-            "a-b 11\n"
-            "d-e 00, 01, 10, 11\n"
-            "g-h 00\n");
+            "terrabench-visibility 1\ncells 8 1\nside 2\ndepth 2\neye-height 0\nsurface " + surface +
+                "\nstart 00, 01, 11\n"
+                "a-b 11\n"
+                "d-e 00, 01, 10, 11\n"
+                "g-h 00\n");
   EXPECT_EQ(fine_changes(table.step(0), 2, 4), "1100, 1101, 1110, 1111");
   EXPECT_EQ(fine_changes(table.step(6), 2, 4), "0000, 0001, 0010, 0011");
   EXPECT_TRUE(fine_changes(table.step(3), 2, 4).starts_with("0000, 0001, 0010, 0011, 0100"));
@@ -343,8 +347,20 @@ TEST(Mrbsp, TakesATableThatFitsAndRefusesOthers) {
   const VisibilityTable table = some_table();
   Mrbsp lod(field, {}, table, silent());
   EXPECT_EQ(lod.visibility(), table);
-  const Heightfield other = rough_ground(33, 50);
-  EXPECT_EQ(failure_of([&] { Mrbsp(other, {}, table, silent()); }).code, ExitCode::kUsage);
+  const auto refused = [&](const Heightfield& other, const MrbspOptions& options) {
+    EXPECT_EQ(failure_of([&] { Mrbsp(other, options, table, silent()); }).code, ExitCode::kUsage);
+  };
+  refused(rough_ground(33, 50), {});
+  // Of the same size, but it hides something else.
+  Heightfield other = field;
+  other.at(20, 30) += 0.001F;
+  refused(other, {});
+  other = field;
+  other.cell_z *= 2;
+  refused(other, {});
+  MrbspOptions coarser;
+  coarser.depth = table.depth;
+  refused(field, coarser);
 }
 
 }  // namespace

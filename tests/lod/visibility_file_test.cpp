@@ -61,7 +61,9 @@ TEST(VisibilityFile, CellsAreNamedByColumnAndRow) {
 }
 
 TEST(VisibilityFile, TextNamesTheLineAtFault) {
-  const std::string head = "terrabench-visibility 1\ncells 2 2\nside 2\ndepth 2\neye-height 1.8\n";
+  const std::string surface = "surface 0123456789abcdef0123456789abcdef\n";
+  const std::string front = "terrabench-visibility 1\ncells 2 2\nside 2\ndepth 2\neye-height 1.8\n";
+  const std::string head = front + surface;
   EXPECT_NO_THROW((void)parse_visibility(head + "start 01\na1-b1 11\na2-b2 11\n", "f"));
   for (const auto& [text, line] : std::vector<std::pair<std::string, std::string>>{
            {"", "line 0"},
@@ -69,21 +71,24 @@ TEST(VisibilityFile, TextNamesTheLineAtFault) {
            {"terrabench-visibility 1\ncells 2\n", "line 2"},
            {"terrabench-visibility 1\ncells 2 2 2\n", "line 2"},
            {"terrabench-visibility 1\ncells 2 99999999999\n", "line 2"},
-           {"terrabench-visibility 1\ncells 2 2\nside 3\ndepth 2\neye-height 1\nstart \n", "line 5"},
-           {"terrabench-visibility 1\ncells 9999 9999\nside 2\ndepth 2\neye-height 1\nstart \n", "line 5"},
-           {"terrabench-visibility 1\ncells 2 2\nside 2\ndepth 99\neye-height 1\nstart \n", "line 5"},
-           {"terrabench-visibility 1\ncells 2 2\nside 2\ndepth 2\neye-height nan\nstart \n", "line 5"},
-           {head + "start 1\n", "line 6"},
-           {head + "start 11, 01\n", "line 6"},
-           {head + "start 01, 01\n", "line 6"},
-           {head + "start 01,10\n", "line 6"},
-           {head + "start 01\na1-b1 11", "line 7"},
-           {head + "start 01\na1-b1\n", "line 7"},
-           {head + "start 01\na1-b1 \n", "line 7"},
-           {head + "start 01\nb1-a1 11\n", "line 7"},
-           {head + "start 01\na2-b2 11\na1-b1 11\n", "line 8"},
-           {head + "start 01\na1-b1 11\na1-b1 11\n", "line 8"},
-           {head + "start 01\na1-b1 11\n", "line 7"}}) {
+           {"terrabench-visibility 1\ncells 2 2\nside 3\ndepth 2\neye-height 1\n" + surface, "line 6"},
+           {"terrabench-visibility 1\ncells 9999 9999\nside 2\ndepth 2\neye-height 1\n" + surface, "line 6"},
+           {"terrabench-visibility 1\ncells 2 2\nside 2\ndepth 99\neye-height 1\n" + surface, "line 6"},
+           {"terrabench-visibility 1\ncells 2 2\nside 2\ndepth 2\neye-height nan\n" + surface, "line 6"},
+           {front + "start 01\n", "line 6"},
+           {front + "surface 0123\n", "line 6"},
+           {front + "surface 0123456789ABCDEF0123456789ABCDEF\n", "line 6"},
+           {head + "start 1\n", "line 7"},
+           {head + "start 11, 01\n", "line 7"},
+           {head + "start 01, 01\n", "line 7"},
+           {head + "start 01,10\n", "line 7"},
+           {head + "start 01\na1-b1 11", "line 8"},
+           {head + "start 01\na1-b1\n", "line 8"},
+           {head + "start 01\na1-b1 \n", "line 8"},
+           {head + "start 01\nb1-a1 11\n", "line 8"},
+           {head + "start 01\na2-b2 11\na1-b1 11\n", "line 9"},
+           {head + "start 01\na1-b1 11\na1-b1 11\n", "line 9"},
+           {head + "start 01\na1-b1 11\n", "line 8"}}) {
     const Failure failure = failure_of([&] { (void)parse_visibility(text, "f"); });
     EXPECT_EQ(failure.code, ExitCode::kBadInput) << text;
     EXPECT_THAT(failure.what, HasSubstr(line)) << text;
@@ -115,7 +120,8 @@ TEST(VisibilityFile, WhatCannotBeIsRefusedWhateverItsChecksum) {
   refused(20, {3});                             // side
   refused(24, {31});                            // depth
   refused(28, {0, 0, 0xC0, 0x7F});              // eye height: NaN
-  refused(32, {0xFF, 0xFF, 0xFF, 0xFF, 0xFF});  // a count
+  refused(32, {'g'});                           // no digit of a checksum
+  refused(64, {0xFF, 0xFF, 0xFF, 0xFF, 0xFF});  // a count
   std::vector<std::byte> longer = good;
   longer.insert(longer.end() - 32, std::byte{0});
   EXPECT_EQ(failure_of([&] { (void)load_visibility(sealed(longer), "f"); }).code, ExitCode::kBadInput);
@@ -124,7 +130,7 @@ TEST(VisibilityFile, WhatCannotBeIsRefusedWhateverItsChecksum) {
 TEST(VisibilityFile, BytesAreThoseOfTheSavedLists) {
   const VisibilityTable table = table_of(65, 65);
   const VisibilityBytes bytes = visibility_bytes(table);
-  EXPECT_EQ(bytes.changes, bytes_of(table).size() - 32 - 32);
+  EXPECT_EQ(bytes.changes, bytes_of(table).size() - 64 - 32);
   EXPECT_EQ(bytes.bits, (8U * 8U * (1U << table.depth)) / 8);
   EXPECT_GT(bytes.lists, 0U);
 }
