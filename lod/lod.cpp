@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -14,6 +15,25 @@ namespace {
 bool is_finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 }  // namespace
+
+double setting(const Knob& knob, double value) {
+  if (std::isnan(value)) {
+    throw usage_error("the setting is not a number", knob.name,
+                      fmt::format("choose {} to {} {}", knob.finest, knob.coarsest, knob.unit));
+  }
+  const auto [low, high] = std::minmax(knob.finest, knob.coarsest);
+  const double within = std::clamp(value, low, high);
+  return knob.whole ? std::round(within) : within;
+}
+
+void require_room(std::size_t bytes, std::string_view what) {
+  if (const std::uint64_t available = available_memory(); bytes > available) {
+    throw environment_error(
+        fmt::format("needs {:.1f} GiB of memory, {:.1f} GiB are free", static_cast<double>(bytes) / 0x1p30,
+                    static_cast<double>(available) / 0x1p30),
+        what, "choose a smaller ground, or a limit that asks for less");
+  }
+}
 
 void check_view(const View& view) {
   if (!is_finite(view.eye)) throw usage_error("the eye is not at a place", "eye", "give three finite metres");

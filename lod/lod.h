@@ -23,7 +23,8 @@ class Lod {
   // ground, outside or far away. Throws usage_error for a view that is none (NaN, no pixels, a field of view
   // outside (0, π)); see check_view().
   virtual const Frame& update(const View&) = 0;
-  // Turns the method's one knob (LodType::knob); takes effect with the next update().
+  // Turns the method's one knob (LodType::knob) to setting(), which throws for NaN; takes effect with the
+  // next update().
   virtual void tune(double knob) = 0;
   virtual Memory memory() const = 0;  // every heap byte that it holds, itself included
 };
@@ -54,6 +55,13 @@ struct LodType {
 // The table, one line a method: registry.cpp.
 std::span<const LodType> lods();
 const LodType& lod(std::string_view name);  // throws unknown_name
+
+// The knob's setting nearest to the value: from finest to coarsest, and whole where it must be. Throws
+// usage_error for NaN.
+double setting(const Knob&, double value);
+
+// Throws environment_error when so many bytes cannot be had: asked before a method reserves much.
+void require_room(std::size_t bytes, std::string_view what);
 
 // Throws usage_error, naming the field, for a view that no frame can be made for.
 void check_view(const View&);

@@ -17,7 +17,8 @@ class BruteForce : public Lod {
 
   explicit BruteForce(const Heightfield&);
   const Frame& update(const View&) override;
-  void tune(double) override {}  // it has one setting: everything
+  // It has one setting: everything.
+  void tune(double stride) override { (void)setting(knob(), stride); }
   Memory memory() const override;
 
  private:

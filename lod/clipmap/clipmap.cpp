@@ -49,7 +49,8 @@ Clipmap::Clipmap(std::unique_ptr<HeightSource> source, int window) : source_(std
 }
 
 void Clipmap::tune(double window) {
-  if (m_of(*source_, static_cast<int>(window)) != window_.m) reset(static_cast<int>(window));
+  const int samples = static_cast<int>(setting(knob(), window));
+  if (m_of(*source_, samples) != window_.m) reset(samples);
 }
 
 void Clipmap::reset(int window) {

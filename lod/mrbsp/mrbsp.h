@@ -52,7 +52,7 @@ class Mrbsp : public Lod {
   // other ground.
   Mrbsp(const Heightfield&, const MrbspOptions&, VisibilityTable, Progress&);
   const Frame& update(const View&) override;
-  void tune(double size) override { size_ = size; }
+  void tune(double size) override { size_ = setting(knob(), size); }
   Memory memory() const override;
 
   const BisectionTree& tree() const { return tree_; }

@@ -50,7 +50,7 @@ Roam::Roam(const Heightfield& ground, const RoamOptions& options, Progress& prog
       batches_(1) {}
 
 void Roam::tune(double max_error) {
-  options_.max_error = max_error;
+  options_.max_error = setting(knob(), max_error);
   retuned_ = true;
 }
 

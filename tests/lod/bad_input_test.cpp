@@ -212,6 +212,24 @@ TEST_P(BadInput, IllegalViewsAreRefusedAndForgotten) {
   }
 }
 
+TEST_P(BadInput, TheKnobTakesItsRangeAlone) {
+  const Heightfield field = hilly(150, 121, 0.4F);
+  const Knob& knob = type_.knob;
+  const std::unique_ptr<Lod> lod = build(field);
+  const auto drawn_with = [&](double value) {
+    lod->tune(value);
+    return lod->update(across(field)).stats.triangles;
+  };
+  const std::size_t finest = drawn_with(knob.finest), coarsest = drawn_with(knob.coarsest);
+  const double sign = knob.finest < knob.coarsest ? 1 : -1;
+  for (const double beyond : {1.0, 1e10, 1e300, double{kInfinity}}) {
+    EXPECT_EQ(drawn_with(knob.finest - sign * beyond), finest) << beyond;
+    EXPECT_EQ(drawn_with(knob.coarsest + sign * beyond), coarsest) << beyond;
+  }
+  EXPECT_EQ(failure_of([&] { lod->tune(kNan); }), ExitCode::kUsage);
+  EXPECT_EQ(lod->update(across(field)).stats.triangles, coarsest);
+}
+
 TEST_P(BadInput, HeightsBeyondAnyMountainStayFinite) {
   Heightfield field = hilly(60, 60);
   field.at(20, 20) = 1e30F;
