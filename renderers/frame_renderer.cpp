@@ -19,9 +19,7 @@ namespace {
 // As the shader lays them out.
 struct BatchRecord {
   std::int32_t level;
-  float morph;
   std::uint32_t first_triangle;
-  std::int32_t unused;
 };
 struct LevelRecord {
   glm::ivec2 corner;
@@ -191,7 +189,7 @@ void FrameRenderer::Gl::describe(const Frame& frame) {
   std::uint32_t triangle = 0;
   for (const Batch& batch : frame.batches) {
     const auto number = static_cast<std::uint32_t>(draw_commands.size());
-    batch_records.push_back({batch.level, batch.morph, triangle, 0});
+    batch_records.push_back({batch.level, triangle});
     draw_commands.push_back(
         {batch.index_count, 1, batch.first_index, static_cast<std::int32_t>(batch.base_vertex), number});
     triangle += batch.index_count / 3;

@@ -8,30 +8,10 @@
 namespace terrabench {
 namespace {
 
-// Mean of the two neighbours that the next coarser level joins by the edge on which (i, j) lies; `step`
-// apart. The edge of a vertex that is odd in both runs from the low x, high z corner to the other (as all
-// grid triangles split).
-template <class Height>
-float coarser_height(int i, int j, int step, Height height) {
-  const bool odd_x = (i / step) % 2 != 0, odd_z = (j / step) % 2 != 0;
-  if (!odd_x && !odd_z) return height(i, j);
-  const int di = odd_x ? step : 0, dj = odd_z ? step : 0;
-  return 0.5F * (height(i - di, j + dj) + height(i + di, j - dj));
-}
-
-glm::vec3 grid_position(const Frame& frame, const Batch& batch, std::uint32_t vertex) {
-  const GroundGrid& grid = frame.grid;
-  const int i = static_cast<int>(vertex % static_cast<std::uint32_t>(grid.width));
-  const int j = static_cast<int>(vertex / static_cast<std::uint32_t>(grid.width));
-  const auto height = [&](int at_i, int at_j) {
-    at_i = std::clamp(at_i, 0, grid.width - 1);
-    at_j = std::clamp(at_j, 0, grid.depth - 1);
-    return grid.heights[static_cast<std::size_t>(at_j) * grid.width + at_i];
-  };
-  float y = height(i, j);
-  // Not mix(), whose rounding moves the vertices that stay.
-  if (batch.morph > 0) y += batch.morph * (coarser_height(i, j, 1 << batch.level, height) - y);
-  return {static_cast<float>(i) * grid.cell_x, y, static_cast<float>(j) * grid.cell_z};
+glm::vec3 grid_position(const GroundGrid& grid, std::uint32_t vertex) {
+  const auto width = static_cast<std::uint32_t>(grid.width);
+  return {static_cast<float>(vertex % width) * grid.cell_x, grid.heights[vertex],
+          static_cast<float>(vertex / width) * grid.cell_z};
 }
 
 float clip_height(const ClipLevel& level, int a, int b) {
@@ -87,7 +67,7 @@ FrameStats count(std::span<const Batch> batches, std::span<const DirtyRange> upl
 }
 
 glm::vec3 vertex_position(const Frame& frame, const Batch& batch, std::uint32_t vertex) {
-  return frame.levels.empty() ? grid_position(frame, batch, vertex) : clip_position(frame, batch, vertex);
+  return frame.levels.empty() ? grid_position(frame.grid, vertex) : clip_position(frame, batch, vertex);
 }
 
 void triangles(const Frame& frame, const TriangleSink& sink) {

@@ -40,9 +40,6 @@ struct Batch {
   std::uint32_t first_index = 0, index_count = 0;
   std::uint32_t base_vertex = 0;
   std::uint16_t level = 0;  // 0 is the finest; names the clip level when the frame has clip levels
-  // Only over a grid: how far vertices that the next coarser level lacks have moved to the middle of the edge
-  // that they halve, 0…1 (de Boer 2000, §4).
-  float morph = 0;
 };
 
 // A part of what the frame points at that differs from the last frame: a run of indices, a run of grid

@@ -4,9 +4,7 @@ layout(location = 0) in uint batch_number;
 
 struct BatchRecord {
   int level;
-  float morph;
   uint first_triangle;
-  int unused;
 };
 struct LevelRecord {
   ivec2 corner;
@@ -35,23 +33,9 @@ out Vertex {
 } vertex;
 flat out uint first_triangle;
 
-float grid_height(ivec2 at) {
-  at = clamp(at, ivec2(0), samples - 1);
-  return heights[at.y * samples.x + at.x];
-}
-
-vec3 grid_position(BatchRecord batch) {
+vec3 grid_position() {
   ivec2 at = ivec2(gl_VertexID % samples.x, gl_VertexID / samples.x);
-  float y = grid_height(at);
-  if (batch.morph > 0.0) {
-    int across = 1 << batch.level;
-    ivec2 to = ((at >> batch.level) & 1) * across;
-    if (to != ivec2(0)) {
-      float there = 0.5 * (grid_height(at + ivec2(-to.x, to.y)) + grid_height(at + ivec2(to.x, -to.y)));
-      y = mix(y, there, batch.morph);
-    }
-  }
-  return vec3(float(at.x) * cell.x, y, float(at.y) * cell.y);
+  return vec3(float(at.x) * cell.x, heights[gl_VertexID], float(at.y) * cell.y);
 }
 
 float clip_height(int level, ivec2 at) {
@@ -88,7 +72,7 @@ vec3 clip_position(BatchRecord batch) {
 
 void main() {
   BatchRecord batch = batches[batch_number];
-  vertex.world = side == 0 ? grid_position(batch) : clip_position(batch);
+  vertex.world = side == 0 ? grid_position() : clip_position(batch);
   vertex.normal = vec3(0.0, 1.0, 0.0);
   vertex.paint = vec3(0.0);
   vertex.bend = 0.0;

@@ -101,19 +101,24 @@ TEST(Cracks, FindsGapsOnSlantedEdges) {
 }
 
 TEST(Cracks, FindsGapsBetweenTheSameVertices) {
-  Heightfield field = flat(9, 5);
-  field.at(4, 2) = 3;
-  Drawing drawing(field);
-  drawing.batch(1, 0.5F);  // in the west the odd vertices have gone half of their way
+  // Two levels of a clipmap, as fine as each other, that do not agree on one height.
+  const Heightfield low = flat(16, 16);
+  Heightfield high = low;
+  high.at(4, 2) = 1.5F;
+  Drawing drawing(low);
   for (const int j : {0, 2}) {
     for (const int i : {0, 2}) drawing.square(i, j, 2);
   }
-  drawing.batch(1, 0);
+  drawing.batch(1);
   for (const int j : {0, 2}) {
     for (const int i : {4, 6}) drawing.square(i, j, 2);
   }
-  // (4, 2) lacks in level 2: odd along z alone.
-  const CrackReport report = report_of(drawing, field);
+  const ClipLevel levels[] = {{.side = 16, .heights = low.heights}, {.side = 16, .heights = high.heights}};
+  Frame frame = drawing.frame();
+  frame.grid = {};
+  frame.levels = levels;
+  frame.last = {15, 15};
+  const CrackReport report = find_cracks(frame, low.width, low.depth, from_above(low));
   EXPECT_EQ(report.t_junctions, 0U);
   EXPECT_EQ(report.gaps, 1U);
   EXPECT_DOUBLE_EQ(report.largest_gap_m, 1.5);

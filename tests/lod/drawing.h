@@ -60,8 +60,8 @@ class Drawing {
     triangle({i, j}, {i, j + side}, {i + side, j});
     triangle({i + side, j}, {i, j + side}, {i + side, j + side});
   }
-  void batch(std::uint16_t level, float morph) {
-    batches_.push_back({static_cast<std::uint32_t>(indices_.size()), 0, 0, level, morph});
+  void batch(std::uint16_t level) {
+    batches_.push_back({static_cast<std::uint32_t>(indices_.size()), 0, 0, level});
   }
   Frame frame() const {
     return {.grid = {field_.width, field_.depth, field_.cell_x, field_.cell_z, field_.heights},
