@@ -22,6 +22,9 @@ namespace terrabench {
 // Three points a query in about constant time: points sorted into square buckets of about two.
 class NearestThree {
  public:
+  // What it holds while it is made: a copy of the point, its number, and half a bucket's two ends.
+  static constexpr std::size_t kBytesAPoint = sizeof(glm::vec3) + 2 * sizeof(std::uint32_t);
+
   // Positions in metres, y up; all finite. Throws usage_error for none, or more than 2^31.
   explicit NearestThree(std::span<const glm::vec3> points);
 

@@ -1,7 +1,12 @@
 #include "lod/roam/mesh.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
+
+#include "lod/lod.h"
+#include "terrain/error.h"
 
 namespace terrabench::roam {
 
@@ -66,9 +71,22 @@ bool Mesh::on_edge(const Node& node) const {
                       : lattice_.row[node.v] == lattice_.row[node.v + ahead.v];
 }
 
+// Every split takes a pair for each leaf that it adds.
+void Mesh::make_room(std::size_t leaves) {
+  if (free_pairs() < leaves) add_pairs(std::max(nodes_.size() / 2, leaves - free_pairs()));
+}
+
 // To be taken in the order of their numbers.
 void Mesh::add_pairs(std::size_t pairs) {
   const std::size_t first = nodes_.size();
+  // With what Roam holds a node. The old pool lives until its nodes have moved.
+  constexpr std::size_t kBytesANode = sizeof(Node) + 2 * sizeof(float);
+  require_room(2 * pairs * kBytesANode + (nodes_.capacity() < first + 2 * pairs ? first * kBytesANode : 0),
+               "triangles of roam");
+  if (first + 2 * pairs > kNone) {
+    throw environment_error(fmt::format("{} triangles have no numbers of 32 bits", first + 2 * pairs), "roam",
+                            "limit its triangles");
+  }
   nodes_.resize(first + 2 * pairs);
   for (std::size_t pair = nodes_.size(); pair > first;) {
     pair -= 2;
@@ -79,7 +97,7 @@ void Mesh::add_pairs(std::size_t pairs) {
 }
 
 std::uint32_t Mesh::take_pair() {
-  if (free_pair_ == kNone) add_pairs(nodes_.size() / 2);
+  assert(free_pair_ != kNone);
   const std::uint32_t pair = free_pair_;
   free_pair_ = nodes_[pair].parent;
   if (free_pair_ != kNone) {
@@ -92,6 +110,7 @@ std::uint32_t Mesh::take_pair() {
 void Mesh::split(std::uint32_t id) {
   assert(nodes_[id].leaf() && conforms_split(id) && splittable(nodes_[id]));
   const std::uint32_t base = nodes_[id].base;
+  make_room(base == kNone ? 1 : 2);
   bisect(id);
   if (base == kNone) return;
   bisect(base);

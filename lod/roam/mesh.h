@@ -43,6 +43,9 @@ class Mesh {
     return vertices[0] == vertices[1] || vertices[1] == vertices[2] || vertices[0] == vertices[2];
   }
 
+  // Lets so many more leaves be made without more memory. Throws environment_error, and leaves the mesh as it
+  // is, when that cannot be had.
+  void make_room(std::size_t leaves);
   // Splits the leaf, and the base neighbour with it. conforms_split() must hold.
   void split(std::uint32_t id);
   // Undoes that; all children must be leaves.
@@ -98,6 +101,7 @@ class Mesh {
            static_cast<std::uint32_t>(lattice_.column[p.u]);
   }
   void add_roots();
+  std::size_t free_pairs() const { return (nodes_.size() - roots()) / 2 - (leaves_ - roots()); }
   void add_pairs(std::size_t pairs);
   std::uint32_t take_pair();
   void bisect(std::uint32_t id);

@@ -22,9 +22,14 @@ void Roam::settle() {
     const int lowest = merges_.lowest(), highest = splits_.highest();
     if (lowest >= 0 && (lowest < kAsked || full(0))) {
       merge(merges_.first(lowest));
-    } else if (highest < kAsked) {
-      return;
-    } else if (const std::uint32_t id = splits_.first(highest); !full(cost_of_split(id))) {
+      continue;
+    }
+    if (highest < kAsked) return;
+    const std::uint32_t id = splits_.first(highest);
+    if (const std::size_t cost = cost_of_split(id); !full(cost)) {
+      // Now, since to run out of memory half way would leave half a split.
+      mesh_.make_room(cost);
+      quiet_.resize(mesh_.nodes().size());
       fetch_ahead(id);
       split(id);
     } else if (lowest >= 0 && lowest < highest && swaps++ < most_swaps) {

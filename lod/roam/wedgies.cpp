@@ -9,37 +9,40 @@
 namespace terrabench::roam {
 namespace {
 
-std::uint16_t encode_up(float bound) {
+std::uint16_t encode_up(double bound) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   // Heights of ±1e38 m may leave what a float holds; no bound is then known.
-  if (!std::isfinite(bound)) bound = std::numeric_limits<float>::infinity();
-  return static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(bound) + 0xFFFFU) >> 16);
+  float up = bound <= std::numeric_limits<float>::max() ? static_cast<float>(bound) : kInfinity;
+  if (up < bound) up = std::nextafter(up, kInfinity);
+  return static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(up) + 0xFFFFU) >> 16);
 }
 
 }  // namespace
 
+// In double: on high ground, what a float rounds off an interpolated height shows as a part of a pixel.
 struct Wedgies::Builder {
   const Lattice& lattice;
   const GroundGrid& grid;
   Wedgies& wedgies;
 
-  float height(int u, int v) const {
+  double height(int u, int v) const {
     return grid.heights[static_cast<std::size_t>(lattice.row[v]) * grid.width + lattice.column[u]];
   }
-  float below(int u, int v) const {
+  double below(int u, int v) const {
     const bool inside = u >= 0 && v >= 0 && u < lattice.width() && v < lattice.depth();
-    return inside ? wedgies.thickness(u, v) : 0.0F;
+    return inside ? wedgies.thickness(u, v) : 0.0;
   }
   // How far line b lies from line a to line c.
-  static float share(const std::vector<std::int32_t>& lines, int a, int b, int c) {
-    return static_cast<float>(lines[b] - lines[a]) / static_cast<float>(lines[c] - lines[a]);
+  static double share(const std::vector<std::int32_t>& lines, int a, int b, int c) {
+    return static_cast<double>(lines[b] - lines[a]) / static_cast<double>(lines[c] - lines[a]);
   }
 
   // The middle of an edge of 2s steps along an axis; the triangles on either side agree on its height there.
   void edge(int u, int v, int s, bool along_x) {
-    const float t = along_x ? share(lattice.column, u - s, u, u + s) : share(lattice.row, v - s, v, v + s);
-    const float before = along_x ? height(u - s, v) : height(u, v - s);
-    const float after = along_x ? height(u + s, v) : height(u, v + s);
-    float bound = std::abs(height(u, v) - (before + t * (after - before)));
+    const double t = along_x ? share(lattice.column, u - s, u, u + s) : share(lattice.row, v - s, v, v + s);
+    const double before = along_x ? height(u - s, v) : height(u, v - s);
+    const double after = along_x ? height(u + s, v) : height(u, v + s);
+    double bound = std::abs(height(u, v) - (before + t * (after - before)));
     if (s > 1) {
       const int h = s / 2;
       bound += std::max(std::max(below(u - h, v - h), below(u + h, v - h)),
@@ -53,11 +56,11 @@ struct Wedgies::Builder {
   // it is held against the planes of both triangles, so that the wedgies nest all the same.
   void centre(int u, int v, int s) {
     const bool falling = ((u - s) / (2 * s) + (v - s) / (2 * s)) % 2 == 0;
-    const float t = share(lattice.column, u - s, u, u + s), r = share(lattice.row, v - s, v, v + s);
-    const float west_north = height(u - s, v - s), east_north = height(u + s, v - s);
-    const float west_south = height(u - s, v + s), east_south = height(u + s, v + s);
-    const float here = height(u, v);
-    float one, other;
+    const double t = share(lattice.column, u - s, u, u + s), r = share(lattice.row, v - s, v, v + s);
+    const double west_north = height(u - s, v - s), east_north = height(u + s, v - s);
+    const double west_south = height(u - s, v + s), east_south = height(u + s, v + s);
+    const double here = height(u, v);
+    double one, other;
     if (falling) {
       one = east_north + (1 - t) * (west_north - east_north) + r * (east_south - east_north);
       other = west_south + t * (east_south - west_south) + (1 - r) * (west_north - west_south);
@@ -71,7 +74,7 @@ struct Wedgies::Builder {
             std::max(std::max(below(u - s, v), below(u + s, v)), std::max(below(u, v - s), below(u, v + s))));
   }
 
-  void store(int u, int v, float bound) {
+  void store(int u, int v, double bound) {
     wedgies.bounds_[static_cast<std::size_t>(v) * wedgies.width_ + u] = encode_up(bound);
   }
 };
