@@ -2,7 +2,7 @@
 // each drawn at the coarsest level whose error stays under the asked number of pixels.
 //
 // Where the paper is vague or promises less, this is chosen: the bound is strict for every sample in the
-// frustum, from any camera (lod/screen_bound.h; the paper's own rule is the parameter `rule`); neighbours
+// frustum, from any camera (lod/screen_bound.h; the paper's own rule is `level_camera`); neighbours
 // differ by one level at most, by refining the coarser; a seam is closed only where its own triangles keep
 // the bound, or else the neighbour is refined as well. All index patterns are uploaded once. The paper's
 // trilinear geomipmapping (§4) is left out: neighbours that glide by different amounts part.

@@ -68,8 +68,7 @@ void PatchTree::collect(int level, int at_x, int at_z, bool inside, const Frustu
     inside = sight == Sight::kInside;
   }
   if (level == 0) {
-    seen.push_back(
-        {cut_.slot(at_x, at_z), static_cast<std::uint16_t>(at_x), static_cast<std::uint16_t>(at_z)});
+    seen.push_back({cut_.slot(at_x, at_z), at_x, at_z});
     return;
   }
   const Level& finer = levels_[static_cast<std::size_t>(level - 1)];

@@ -1,4 +1,4 @@
-// Sight over the coarse surface, corner by corner: the sampled visibility (MRBSP paper, §4). O(squares
+// Sight over the coarse surface, corner by corner: the sampled visibility (MRBSP paper, §4; see visibility.h). O(squares
 // crossed) a line.
 #pragma once
 

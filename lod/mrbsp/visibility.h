@@ -4,18 +4,18 @@
 // that they are the halves of squares; what they hide or show, their subtrees do.
 //
 // Two ways to find the sets:
-// - sampled, as printed: from eyes in the cell to the corners of coarse triangles, with the coarse surface in
-//   the way. An eye stands above the fine ground, and above the coarse one where that is higher. A triangle
-//   counts when it faces an eye that sees one of its corners, or when the cell stands on it: neighbours share
-//   corners, so that the paper's own table 1 cannot come from corners alone. Ground that the coarse surface
-//   lacks can be missed.
-// - conservative: never misses, for the full surface and every eye on it or up to the eye height above it,
-// but
-//   not for one beneath, which the ground in between does not stop (Mrbsp::on_the_ground()). Whole cells
-//   are tested against whole blocks of ground: hidden when, on some grid line between the two, the lowest
-//   ground along all of the stretch that the lines of sight cross stands above the highest of these lines.
-//   Both are quartered where that fails. For the sight line's height only the highest eye in the cell and the
-//   highest ground in the block count: a lower one sees, or shows, no more.
+// - sampled: from eyes in the cell to the corners of coarse triangles, with the coarse surface in the way.
+//   Ground that the coarse surface lacks can be missed. To the printed rule this adds that
+//   - an eye stands above the fine ground, and above the coarse one where that is higher;
+//   - a triangle counts only when it faces the eye that sees one of its corners: neighbours share corners, so
+//     that the paper's own table 1 cannot come from corners alone;
+//   - a triangle that the cell stands on always counts.
+// - conservative: never misses, for the full surface and every eye on it or up to the eye height above, but
+//   not for one beneath, which the ground in between does not stop (Mrbsp::on_the_ground()). Whole cells are
+//   tested against whole blocks of ground: hidden when, on some grid line between the two, the lowest ground
+//   along all of the stretch that the lines of sight cross stands above the highest of these lines. Both are
+//   quartered where that fails. For the sight line's height only the highest eye in the cell and the highest
+//   ground in the block count: a lower one sees, or shows, no more.
 //
 // Cost: cells × blocks × lines between them, in parallel over cells.
 #pragma once

@@ -122,7 +122,8 @@ TEST(Visibility, ConservativeMissesNothingAndHidesSomething) {
       const Tally tally = cast_rays(field, tree, sets, 60, 60);
       EXPECT_GT(tally.seen, 100U);
       EXPECT_EQ(tally.missed, 0U);
-      EXPECT_LT(share_visible(sets), coarseness < 4 ? 0.8 : 1.1);
+      EXPECT_LT(share_visible(sets), coarseness < 4 ? 0.8 : 1.0)
+          << width << " x " << depth << ", " << coarseness;
     }
   }
 }
@@ -138,7 +139,7 @@ TEST(Visibility, SampledMissesLittleAndHidesMore) {
   const VisibleSets sampled = find_visible(grid_of(field), tree, options, silent());
   EXPECT_LT(share_visible(sampled), share_visible(safe));
   const Tally tally = cast_rays(field, tree, sampled, 60, 60);
-  EXPECT_LT(static_cast<double>(tally.missed), 0.5 * static_cast<double>(tally.seen));
+  EXPECT_LT(static_cast<double>(tally.missed), 0.04 * static_cast<double>(tally.seen)) << tally.missed;
 }
 
 TEST(Visibility, OnFlatLandEverythingIsSeen) {
