@@ -237,6 +237,9 @@ class Bore {
   }
   int last_under_ground(std::size_t side, int column, int row, int step) const {
     for (;; row += step) {
+      if (std::abs(row) * static_cast<double>(first_.back()) > kMostWallCells) {
+        refusal_.refuse("has walls of too many cells", "let its axis be less upright, or make it shorter");
+      }
       const glm::dvec3 p = point(side, column, row + step);
       const glm::dvec2 plan{p.x, p.z};
       if (!on_terrain(plan) || e_.scale((row + step) * step_) <= 0) {
