@@ -228,7 +228,7 @@ void Edit::commit(events::Kind kind, NodeId host) {
   }
   tree.append(Applied{kind, host, static_cast<NodeId>(nodes_before_),
                       static_cast<NodeId>(tree.nodes().size() - nodes_before_)});
-  model_.floor = std::min(model_.floor, lowest - tree.lattice().cell());
+  if (lowest <= model_.floor) model_.floor = lowest - tree.lattice().cell();
   model_.ceiling = std::max(model_.ceiling, highest);
   model_.carved = model_.carved || is_carving(kind);
   committed_ = true;

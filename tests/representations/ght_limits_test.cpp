@@ -74,6 +74,24 @@ TEST_P(ImpossibleEvent, IsNamedAndLeavesTheTreeAsItWas) {
   EXPECT_EQ(saved(ght), before);
 }
 
+TEST(GhtLimits, TheRootCountsToo) {
+  TerrainSource source;
+  source.name = "ground";
+  source.heights = rolling(33, 33);
+  Parameters parameters(Ght::parameters());
+  Progress progress;
+  parameters.set("most_cells", std::int64_t{33 * 33});
+  EXPECT_NO_THROW(Ght::build(source, parameters, progress));
+  parameters.set("most_cells", std::int64_t{33 * 33 - 1});
+  try {
+    Ght::build(source, parameters, progress);
+    ADD_FAILURE() << "was not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kEnvironment);
+    EXPECT_THAT(std::string(error.advice()), testing::HasSubstr("most_cells"));
+  }
+}
+
 // Bowl in bowl until there is no room: each event is whole or not there at all.
 TEST(GhtLimits, NestingEndsWithAnErrorAndAWholeTree) {
   for (const bool trenches : {false, true}) {
