@@ -158,6 +158,18 @@ TEST(GhtCarving, KeepsToItself) {
   EXPECT_TRUE(found.wrong.empty()) << found;
 }
 
+// A gully across the tunnel outside its end lets the roof out and in again before the floor comes out.
+TEST(GhtCarving, RefusesOneThatGoesUnderAgain) {
+  Heightfield ground = ridge();
+  for (int j = 0; j < ground.depth; ++j) {
+    for (int i = 46; i <= 54; ++i) {
+      ground.heights[static_cast<std::size_t>(j * ground.width + i)] = i >= 48 && i <= 50 ? 15.0F : 22.0F;
+    }
+  }
+  Ght ght = make_ght(ground);
+  EXPECT_THAT(refusal(ght, square_tunnel({20, 15, 32}, {42, 15, 32})), HasSubstr("mouth"));
+}
+
 // A cave from the high block of a fault along the crest into the air under its overhang, where what is
 // topmost is still above it: a tunnel there is refused for the overhang alone.
 TEST(GhtCarving, KeepsFromAnOverhang) {
