@@ -38,7 +38,6 @@ struct Model;
 // What must not be: counted here apart from broken_invariants().
 struct Breaks {
   std::size_t dangling = 0;    // links that end in no cell of the surface
-  std::size_t one_way = 0;     // boundary links without their counterpart
   std::size_t voids_seen = 0;  // corners of the surface that hold no height
   Breaks& operator+=(const Breaks&);
 };

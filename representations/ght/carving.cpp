@@ -217,12 +217,18 @@ class Bore {
     row1_ = *std::max_element(high_.begin(), high_.end());
   }
   // A row on from the last, all of the section is in the air: no column has gone back into the ground.
+  // Before, none goes back by more than a cell, which walls that end where each first comes out would leave
+  // standing.
   void check_out(const std::vector<int>& ends, int sign) const {
-    const int row = sign < 0 ? *std::min_element(ends.begin(), ends.end()) - 1
-                             : *std::max_element(ends.begin(), ends.end()) + 1;
+    const int last = sign < 0 ? *std::min_element(ends.begin(), ends.end()) - 1
+                              : *std::max_element(ends.begin(), ends.end()) + 1;
     for (std::size_t k = 0; k < e_.section.size(); ++k) {
       for (int i = 0; i < columns(k); ++i) {
-        if (last_under_ground(k, i, row - sign, sign) != row - sign) refuse_mouth();
+        for (int row = ends[static_cast<std::size_t>(ring(k, i))] + sign; row != last + sign; row += sign) {
+          const glm::dvec3 p = point(k, i, row);
+          const glm::dvec2 plan{p.x, p.z};
+          if (!on_terrain(plan) || p.y + (row == last ? 0 : cell_) < ground(plan)) refuse_mouth();
+        }
       }
     }
   }
@@ -237,6 +243,9 @@ class Bore {
   }
   int last_under_ground(std::size_t side, int column, int row, int step) const {
     for (;; row += step) {
+      if (std::abs(row) * static_cast<double>(first_.back()) > kMostWallCells) {
+        refusal_.refuse("has walls of too many cells", "let its axis be less upright, or make it shorter");
+      }
       const glm::dvec3 p = point(side, column, row + step);
       const glm::dvec2 plan{p.x, p.z};
       if (!on_terrain(plan) || e_.scale((row + step) * step_) <= 0) {

@@ -196,7 +196,8 @@ std::vector<Edge> border(const Model& model, const Cut& cut) {
 
 using Loops = std::vector<std::vector<CellId>>;
 
-// Follows the edges around. Cells that two loops share are put into `pinched`, and then there are no loops.
+// Follows the edges around. Cells that two loops share are put into `pinched`, and then there are no
+// loops; nor are there of edges that do not close.
 Loops loops_of(const std::vector<Edge>& edges, std::vector<CellId>& pinched) {
   for (std::size_t k = 1; k < edges.size(); ++k) {
     if (edges[k].from == edges[k - 1].from) pinched.push_back(edges[k].from);
@@ -210,8 +211,10 @@ Loops loops_of(const std::vector<Edge>& edges, std::vector<CellId>& pinched) {
     for (std::size_t at = start; used[at] == 0;) {
       used[at] = 1;
       loops.back().push_back(edges[at].from);
-      at = static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), Edge{edges[at].to, 0}) -
+      const CellId next = edges[at].to;
+      at = static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), Edge{next, 0}) -
                                     edges.begin());
+      if (at == edges.size() || edges[at].from != next) return {};
     }
   }
   return loops;

@@ -25,13 +25,25 @@ Lattice lattice_of(const Heightfield& field) {
   return {field.width, field.depth, field.cell_x, field.cell_z, 0, 0};
 }
 
-std::unique_ptr<Ght> from_field(const Heightfield& field, const std::string& name,
+void check_room(std::size_t samples, const Parameters& parameters) {
+  if (samples > static_cast<std::uint64_t>(parameters.integer("most_cells"))) {
+    throw environment_error("has more samples than cells are allowed", "grounded heightmap tree",
+                            "lower resolution, or raise most_cells");
+  }
+}
+
+std::unique_ptr<Ght> from_field(const Heightfield& field, const TerrainSource& source,
                                 const Parameters& parameters) {
-  check_heights(field, name);
+  check_heights(field, source.name);
   const auto resampled = at_resolution(field, parameters.integer("resolution"));
   const Heightfield& ground = resampled ? *resampled : field;
+  check_room(static_cast<std::size_t>(ground.width) * static_cast<std::size_t>(ground.depth), parameters);
   const float cell = std::max(ground.cell_x, ground.cell_z);
-  return std::make_unique<Ght>(lattice_of(ground), ground.heights, height_range(ground).lowest - cell);
+  // On the floor of the solid that the same events make, so that both hold the same ground.
+  const float lowest = height_range(ground).lowest;
+  const bool solid_is_deeper = source.solid && source.solid->bounds.low.y < lowest;
+  const float floor = solid_is_deeper ? source.solid->bounds.low.y : lowest - cell;
+  return std::make_unique<Ght>(lattice_of(ground), ground.heights, floor);
 }
 
 std::unique_ptr<Ght> from_solid(const TerrainSource& source, const Parameters& parameters,
@@ -39,6 +51,7 @@ std::unique_ptr<Ght> from_solid(const TerrainSource& source, const Parameters& p
   const auto sampled = Heightmap::build(source, parameters, progress);
   const auto& map = static_cast<const Heightmap&>(*sampled);
   const HeightGrid& grid = map.grid();
+  check_room(map.heights().size(), parameters);
   const Lattice lattice = {
       grid.width,    grid.depth,   static_cast<float>(grid.cell_x), static_cast<float>(grid.cell_z),
       grid.origin_x, grid.origin_z};
@@ -83,8 +96,8 @@ Ght::Ght(const Lattice& lattice, std::vector<float> heights, float floor) {
 
 std::unique_ptr<Representation> Ght::build(const TerrainSource& source, const Parameters& parameters,
                                            Progress& progress) {
-  std::unique_ptr<Ght> built = source.events    ? from_field(source.events->ground, source.name, parameters)
-                               : source.heights ? from_field(*source.heights, source.name, parameters)
+  std::unique_ptr<Ght> built = source.events    ? from_field(source.events->ground, source, parameters)
+                               : source.heights ? from_field(*source.heights, source, parameters)
                                                 : from_solid(source, parameters, progress);
   built->limit_cells(static_cast<std::uint32_t>(parameters.integer("most_cells")));
   if (source.events && parameters.flag("events")) {

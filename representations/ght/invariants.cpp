@@ -14,6 +14,18 @@ struct Edge {
   auto operator<=>(const Edge&) const = default;
 };
 
+template <class Visit>  // visit(Face) for all triangles of the surface, plain squares' too
+void each_triangle(const Model& model, const Visit& visit) {
+  const Lattice& lattice = model.tree.lattice();
+  for (int j = 0; j + 1 < lattice.depth; ++j) {
+    for (int i = 0; i + 1 < lattice.width; ++i) {
+      if (!model.surface.plain(model.tree, {i, j})) continue;
+      for (const Face& face : Surface::plain_faces(Surface::corners(model.tree, {i, j}))) visit(face);
+    }
+  }
+  model.surface.each_face([&](FaceId f) { visit(model.surface.face(f)); });
+}
+
 class Inspector {
  public:
   explicit Inspector(const Model& model) : model_(model), tree_(model.tree), surface_(model.surface) {}
@@ -25,7 +37,8 @@ class Inspector {
     links();
     list_edges();
     edges();
-    boundaries();
+    expect(unlinked_boundary_cells(model_),
+           "boundary cells of a new heightmap that no other one is linked to");
     return std::move(problems_);
   }
 
@@ -81,18 +94,6 @@ class Inspector {
     expect(of_events + 1 != tree_.nodes().size() ? 1 : 0, "heightmaps that no event added");
   }
 
-  template <class Visit>  // visit(Face) for all triangles of the surface, plain squares' too
-  void each_triangle(const Visit& visit) const {
-    const Lattice& lattice = tree_.lattice();
-    for (int j = 0; j + 1 < lattice.depth; ++j) {
-      for (int i = 0; i + 1 < lattice.width; ++i) {
-        if (!surface_.plain(tree_, {i, j})) continue;
-        for (const Face& face : Surface::plain_faces(Surface::corners(tree_, {i, j}))) visit(face);
-      }
-    }
-    surface_.each_face([&](FaceId f) { visit(surface_.face(f)); });
-  }
-
   // Whether one of the squares around a sample is plain.
   bool plain_around(int i, int j) const {
     const Lattice& lattice = tree_.lattice();
@@ -109,7 +110,7 @@ class Inspector {
   void faces() {
     std::size_t empty = 0, elsewhere = 0, unindexed = 0;
     used_.assign(tree_.cells(), 0);
-    each_triangle([&](const Face& face) {
+    each_triangle(model_, [&](const Face& face) {
       for (const CellId c : face) {
         empty += tree_.kind(c) != CellKind::kHeight;
         used_[c] = 1;
@@ -160,14 +161,14 @@ class Inspector {
   // ascending.
   void list_edges() {
     first_.assign(tree_.cells() + std::size_t{1}, 0);
-    each_triangle([&](const Face& face) {
+    each_triangle(model_, [&](const Face& face) {
       for (const CellId c : face) ++first_[c];
     });
     std::size_t sum = 0;
     for (std::size_t& first : first_) sum += std::exchange(first, sum);
     ends_.resize(sum);
     std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    each_triangle([&](const Face& face) {
+    each_triangle(model_, [&](const Face& face) {
       for (std::size_t k = 0; k < 3; ++k) ends_[next[face[k]]++] = face[(k + 1) % 3];
     });
     for (CellId c = 0; c < tree_.cells(); ++c) {
@@ -208,26 +209,6 @@ class Inspector {
     return false;
   }
 
-  // An edge of the faces between two nodes is a link at both of its ends.
-  void boundaries() {
-    std::vector<Edge> across;
-    surface_.each_face([&](FaceId f) {
-      const Face& face = surface_.face(f);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const CellId a = face[k], b = face[(k + 1) % 3];
-        if (tree_.node_of(a) != tree_.node_of(b)) across.insert(across.end(), {{a, b}, {b, a}});
-      }
-    });
-    std::sort(across.begin(), across.end());
-    std::size_t one_way = 0;
-    std::vector<CellId> links;
-    for (std::size_t k = 0; k < across.size(); ++k) {
-      if (k == 0 || across[k].from != across[k - 1].from) boundary_links(model_, across[k].from, links);
-      one_way += !std::binary_search(links.begin(), links.end(), across[k].to);
-    }
-    expect(one_way, "boundary links that run one way");
-  }
-
   const Model& model_;
   const Tree& tree_;
   const Surface& surface_;
@@ -260,6 +241,38 @@ Census census(const Model& model) {
   std::sort(pairs.begin(), pairs.end());
   all.boundary_links = static_cast<std::size_t>(std::unique(pairs.begin(), pairs.end()) - pairs.begin());
   return all;
+}
+
+std::size_t unlinked_boundary_cells(const Model& model) {
+  const Tree& tree = model.tree;
+  if (tree.events().empty()) return 0;
+  std::vector<char> seen(tree.cells(), 0), linked(tree.cells(), 0);
+  each_triangle(model, [&](const Face& face) {
+    const NodeId first = tree.node_of(face[0]);
+    const bool across = tree.node_of(face[1]) != first || tree.node_of(face[2]) != first;
+    for (const CellId c : face) {
+      seen[c] = 1;
+      if (!across) continue;
+      for (const CellId other : face) linked[c] |= tree.node_of(other) != tree.node_of(c);
+    }
+  });
+  std::size_t unlinked = 0;
+  const Applied& last = tree.events().back();
+  for (NodeId n = last.first; n < last.first + last.nodes; ++n) {
+    const Node& node = tree.nodes()[n];
+    const auto beyond = [&](int i, int j) {  // the heightmap
+      return i < 0 || j < 0 || i >= node.columns || j >= node.rows ||
+             tree.kind(node.cell(i, j)) == CellKind::kVoid;
+    };
+    for (int j = 0; j < node.rows; ++j) {
+      for (int i = 0; i < node.columns; ++i) {
+        const CellId c = node.cell(i, j);
+        if (seen[c] == 0 || linked[c] != 0) continue;
+        unlinked += beyond(i - 1, j) || beyond(i + 1, j) || beyond(i, j - 1) || beyond(i, j + 1);
+      }
+    }
+  }
+  return unlinked;
 }
 
 std::vector<std::string> broken_invariants(const Model& model) { return Inspector(model).run(); }

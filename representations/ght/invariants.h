@@ -15,10 +15,16 @@ struct Census {
 };
 Census census(const Model& model);
 
+// Cells of the surface at the rim of a heightmap that the last event added (nothing of it beyond them) that
+// no face joins to a cell of another one: the paper links each ("each cell in the boundary of a new heightmap
+// is linked to the neighbor cell in another heightmap"). The links themselves are not stored but derived from
+// the faces (boundary_links), so they run both ways.
+std::size_t unlinked_boundary_cells(const Model& model);
+
 // One line for each kind of thing that is wrong: links that dangle or do not reach the surface, heightmaps
 // that are not as many as the event adds, nodes whose parent is not an earlier one, faces with corners that
-// hold no height, squares whose corners do, edges without their counterpart, boundary links that run one way.
-// Empty when all is well.
+// hold no height, plain squares whose corners stand elsewhere, edges without their counterpart, boundary
+// cells without a link. Empty when all is well.
 std::vector<std::string> broken_invariants(const Model& model);
 
 }  // namespace terrabench::ght

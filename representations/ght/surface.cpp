@@ -33,6 +33,7 @@ int side(glm::vec3 a, glm::vec3 b, double x, double z) {
 float height_at(const std::array<glm::vec3, 3>& p, double x, double z) {
   const glm::dvec2 at{x, -z}, a = map_point(p[0]), b = map_point(p[1]), c = map_point(p[2]);
   const double area = turn(a, b, c);
+  if (area == 0) return p[0].y;
   const double y = (turn(at, b, c) * p[0].y + turn(a, at, c) * p[1].y + turn(a, b, at) * p[2].y) / area;
   const auto [low, high] = std::minmax({p[0].y, p[1].y, p[2].y});
   return static_cast<float>(std::clamp(y, static_cast<double>(low), static_cast<double>(high)));
@@ -82,7 +83,7 @@ std::array<CellId, 4> Surface::corners(const Tree& tree, Square s) {
 
 SquareRange Surface::range(glm::dvec2 low, glm::dvec2 high) const {
   const auto clip = [](double at, int squares) {
-    return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(squares - 1)));
+    return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(std::max(squares - 1, 0))));
   };
   // A step wider, as the quotients may miss by a bit.
   constexpr double kSlip = 1e-5;

@@ -145,6 +145,23 @@ void Edit::close_ring(std::span<const CellId> loop, std::span<const CellId> outl
   if (!triangles)
     refusal_.refuse("does not fit to the ground around it", "move the event, or make it smaller");
   for (const Triangle& t : *triangles) face(cell(t[0]), cell(t[1]), cell(t[2]));
+  check_linked(outline);
+}
+
+void Edit::check_linked(std::span<const CellId> outline) const {
+  std::vector<CellId> linked;
+  for (const Face& face : faces_) {
+    const std::array nodes = {model_.tree.node_of(face[0]), model_.tree.node_of(face[1]),
+                              model_.tree.node_of(face[2])};
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (nodes[k] != nodes[(k + 1) % 3] || nodes[k] != nodes[(k + 2) % 3]) linked.push_back(face[k]);
+    }
+  }
+  std::sort(linked.begin(), linked.end());
+  for (const CellId c : outline) {
+    if (!std::binary_search(linked.begin(), linked.end(), c))
+      refusal_.refuse("does not fit to the ground around it", "move the event, or make it smaller");
+  }
 }
 
 void Edit::keep_clear_of_carvings() const {
@@ -211,7 +228,7 @@ void Edit::commit(events::Kind kind, NodeId host) {
   }
   tree.append(Applied{kind, host, static_cast<NodeId>(nodes_before_),
                       static_cast<NodeId>(tree.nodes().size() - nodes_before_)});
-  model_.floor = std::min(model_.floor, lowest - tree.lattice().cell());
+  if (lowest <= model_.floor) model_.floor = lowest - tree.lattice().cell();
   model_.ceiling = std::max(model_.ceiling, highest);
   model_.carved = model_.carved || is_carving(kind);
   committed_ = true;

@@ -148,7 +148,8 @@ class Edit {
   void make_plain(Square s) { plain_.push_back(s); }
   // `old` becomes a link to `by`, which is later.
   void relink(CellId old, CellId by) { links_.push_back({old, by}); }
-  // Triangles between the loop of a cut and the outline, both counter-clockwise.
+  // Triangles between the loop of a cut and the outline, both counter-clockwise. Refuses where one of the
+  // outline's cells gets no link to another heightmap.
   void close_ring(std::span<const CellId> loop, std::span<const CellId> outline);
   // Refuses new heights within a cell of a tunnel or cave below.
   void keep_clear_of_carvings() const;
@@ -158,6 +159,7 @@ class Edit {
 
  private:
   void check_faces() const;
+  void check_linked(std::span<const CellId> outline) const;
 
   Model& model_;
   const Refusal& refusal_;

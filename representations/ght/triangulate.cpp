@@ -217,7 +217,9 @@ class Flipper {
     }
   }
 
-  std::vector<Triangle> run() {
+  // Then points from `first` on that only a triangle of such points has get an edge across, so that each is
+  // joined to what lies opposite.
+  std::vector<Triangle> run(std::uint32_t first) {
     std::vector<std::uint32_t> waiting;
     for (std::uint32_t h = 0; h < twin_.size(); ++h) {
       if (h < twin_[h] && twin_[h] != kNone) waiting.push_back(h);
@@ -228,6 +230,15 @@ class Flipper {
       waiting.pop_back();
       if (twin_[h] == kNone || !better_across(h)) continue;
       for (const std::uint32_t around : flip(h)) waiting.push_back(around);
+    }
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      const Triangle& corners = triangles_[t];
+      if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t p) { return p < first; })) continue;
+      const std::array halves = {3 * t, 3 * t + 1, 3 * t + 2};
+      const auto shared = [&](std::uint32_t h) { return twin_[h] != kNone; };
+      if (std::count_if(halves.begin(), halves.end(), shared) != 1) continue;
+      const std::uint32_t h = *std::find_if(halves.begin(), halves.end(), shared);
+      if (can_turn(h)) flip(h);
     }
     return std::move(triangles_);
   }
@@ -241,10 +252,17 @@ class Flipper {
   std::uint32_t& from(std::uint32_t h) { return triangles_[h / 3][h % 3]; }
   std::uint32_t from(std::uint32_t h) const { return triangles_[h / 3][h % 3]; }
 
-  bool better_across(std::uint32_t h) const {
+  // Whether the edge across lies within both triangles and is not there yet.
+  bool can_turn(std::uint32_t h) const {
     const std::uint32_t t = twin_[h], p = from(previous(h)), q = from(previous(t));
     const glm::dvec2 a = points_[from(h)], b = points_[from(t)], c = points_[p], d = points_[q];
-    if (p == q || turn(a, d, c) < 0 || turn(d, b, c) < 0) return false;
+    return p != q && turn(a, d, c) >= 0 && turn(d, b, c) >= 0 && !joined_(p, q) && !has_edge(previous(h), q);
+  }
+
+  bool better_across(std::uint32_t h) const {
+    const std::uint32_t t = twin_[h];
+    const glm::dvec2 a = points_[from(h)], b = points_[from(t)], c = points_[from(previous(h))],
+                     d = points_[from(previous(t))];
     const glm::dvec2 old = b - a, across = d - c;
     const double size = std::max({glm::dot(old, old), glm::dot(across, across), glm::dot(c - a, c - a)});
     // Points on one circle, or over one another on a cliff: the shorter edge.
@@ -253,7 +271,7 @@ class Flipper {
     const bool better =
         inside > kSlip * size * size ||
         (inside > -kSlip * size * size && glm::dot(across, across) < (1 - kSlip) * glm::dot(old, old));
-    return better && !joined_(p, q) && !has_edge(previous(h), q);
+    return better && can_turn(h);
   }
 
   // Whether an edge leads to `to` from the corner at which half-edge h starts.
@@ -352,7 +370,7 @@ std::optional<std::vector<Triangle>> triangulate_ring(std::span<const glm::dvec2
   std::optional<std::vector<Triangle>> ears =
       EarCutter(points, std::move(polygon), mean_side(inner)).run(joined);
   if (!ears) return std::nullopt;
-  return Flipper(points, std::move(*ears), joined).run();
+  return Flipper(points, std::move(*ears), joined).run(n);
 }
 
 }  // namespace terrabench::ght

@@ -23,6 +23,16 @@ Heightfield ground(int n) {
   return field;
 }
 
+// A ridge that a tunnel goes through.
+Heightfield ridge() {
+  constexpr int kSide = 33;
+  Heightfield field{kSide, kSide, 1, 1, {}, {}};
+  for (int k = 0; k < kSide * kSide; ++k) {
+    field.heights.push_back(20 - 2 * std::max(0.0F, std::abs(static_cast<float>(k % kSide) - 16) - 4));
+  }
+  return field;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -64,14 +74,19 @@ std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
       {DipFault{true, {6, 7}, {11, 9}, 3, 1, 50}},
       {LateralFault{{6, 7}, {11, 9}, 3, 2}, DipFault{false, {5, 8}, {11, 8}, 3, 1, 60}}};
   std::vector<std::vector<std::uint8_t>> seeds;
-  for (const std::vector<Event>& sequence : sequences) {
-    const Heightfield field = ground(18);
-    Ght tree(ght::Lattice{field.width, field.depth, 1, 1, 0, 0}, field.heights, 0);
+  const auto add = [&](const Heightfield& field, std::span<const Event> sequence) {
+    Ght tree(ght::Lattice{field.width, field.depth, 1, 1, 0, 0}, field.heights, -10);
     for (const Event& event : sequence) tree.apply(event);
     ByteSink sink;
     tree.save(sink);
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(sink.bytes().data());
     seeds.emplace_back(bytes, bytes + sink.bytes().size());
-  }
+  };
+  for (const std::vector<Event>& sequence : sequences) add(ground(18), sequence);
+  Carving tunnel;
+  tunnel.from = {11, 12, 16};
+  tunnel.to = {21, 12, 16};
+  tunnel.section = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
+  add(ridge(), std::vector<Event>{DipFault{false, {12, 25}, {20, 25}, 4, 1, 60}, tunnel});
   return seeds;
 }

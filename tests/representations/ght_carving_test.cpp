@@ -158,11 +158,29 @@ TEST(GhtCarving, KeepsToItself) {
   EXPECT_TRUE(found.wrong.empty()) << found;
 }
 
+// A gully across the tunnel outside its end lets the roof out and in again before the floor comes out.
+TEST(GhtCarving, RefusesOneThatGoesUnderAgain) {
+  Heightfield ground = ridge();
+  for (int j = 0; j < ground.depth; ++j) {
+    for (int i = 46; i <= 54; ++i) {
+      ground.heights[static_cast<std::size_t>(j * ground.width + i)] = i >= 48 && i <= 50 ? 15.0F : 22.0F;
+    }
+  }
+  Ght ght = make_ght(ground);
+  EXPECT_THAT(refusal(ght, square_tunnel({20, 15, 32}, {42, 15, 32})), HasSubstr("mouth"));
+}
+
+// A cave from the high block of a fault along the crest into the air under its overhang, where what is
+// topmost is still above it: a tunnel there is refused for the overhang alone.
 TEST(GhtCarving, KeepsFromAnOverhang) {
-  Ght ght = make_ght(ridge());
-  ght.apply(events::DipFault{true, {20, 20}, {44, 20}, 10, 5, 45});
-  EXPECT_THAT(refusal(ght, square_tunnel({20, 24, 20}, {44, 24, 20})), testing::Not(testing::IsEmpty()));
-  ght.apply(square_tunnel({20, 15, 40}, {44, 15, 40}));
+  const events::DipFault fault{true, {32, 40}, {32, 24}, 10, 5, 45};
+  Ght ght = make_ght(ridge()), without = make_ght(ridge());
+  Carving near = square_tunnel({25, 26.5, 32}, {33, 26.5, 32});
+  near.cave = true;
+  without.apply(near);
+  ght.apply(fault);
+  EXPECT_THAT(refusal(ght, near), HasSubstr("overhang"));
+  ght.apply(square_tunnel({20, 15, 50}, {44, 15, 50}));
   expect_sound(ght);
 }
 

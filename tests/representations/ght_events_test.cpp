@@ -50,8 +50,13 @@ TEST_P(SingleEvent, IsWhatTheEvaluationSays) {
     const Heightfield ground = rolling(65, 65, kCell, rough);
     Ght ght = make_ght(ground);
     ght.apply(GetParam().event);
-    const Disagreement found =
-        compare(ght, std::make_shared<Sculpture>(Sculpture{ground, {GetParam().event}}));
+    Disagreement found =
+        compare(ght, Evaluation(std::make_shared<Sculpture>(Sculpture{ground, {GetParam().event}})));
+    // The cliff at the ends of an overhang is a cell wide in the tree and has no width in the evaluation.
+    const std::size_t at_ends = std::erase_if(found.wrong, [](const Disagreement::Point& point) {
+      return at_end_of_overhang(GetParam().event, point.at, kCell);
+    });
+    EXPECT_LE(at_ends, 1U);
     EXPECT_TRUE(found.wrong.empty()) << found << " roughness " << rough;
   }
 }

@@ -39,7 +39,7 @@ std::vector<Impossible> impossible_events() {
           {"bowl of no number", "'centre'", RadialErosion{{kNan, 20, 30}, {4, 4, 4}}},
           {"trench of no end", "'to'", LinearErosion{{20, 30}, {kInfinity, 30}, 2, 30}},
           {"fault all scarp", "all of both blocks", DipFault{false, {20, 30}, {40, 30}, 2, 9, 45}},
-          {"at the border", "border", LinearErosion{{3.2, 30}, {20, 30}, 1, 30}},
+          {"at the border", "border", LinearErosion{{2.2, 30}, {20, 30}, 1, 30}},
           {"section of two points", "2 points", tunnel({{-2, 0}, {2, 0}})},
           {"section crossing itself", "crosses itself", tunnel({{-2, -2}, {2, 2}, {2, -2}, {-2, 2}})},
           {"section clockwise", "clockwise", tunnel({{-2, -2}, {-2, 2}, {2, 2}, {2, -2}})},
@@ -72,6 +72,24 @@ TEST_P(ImpossibleEvent, IsNamedAndLeavesTheTreeAsItWas) {
     EXPECT_FALSE(error.advice().empty());
   }
   EXPECT_EQ(saved(ght), before);
+}
+
+TEST(GhtLimits, TheRootCountsToo) {
+  TerrainSource source;
+  source.name = "ground";
+  source.heights = rolling(33, 33);
+  Parameters parameters(Ght::parameters());
+  Progress progress;
+  parameters.set("most_cells", std::int64_t{33 * 33});
+  EXPECT_NO_THROW(Ght::build(source, parameters, progress));
+  parameters.set("most_cells", std::int64_t{33 * 33 - 1});
+  try {
+    Ght::build(source, parameters, progress);
+    ADD_FAILURE() << "was not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kEnvironment);
+    EXPECT_THAT(std::string(error.advice()), testing::HasSubstr("most_cells"));
+  }
 }
 
 // Bowl in bowl until there is no room: each event is whole or not there at all.

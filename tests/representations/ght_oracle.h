@@ -14,6 +14,7 @@ struct Disagreement {
     bool ground;  // as the tree says
   };
   std::size_t points = 0;
+  std::size_t explained = 0;  // wrong by the strict comparison, right by the forgiving one
   std::vector<Point> wrong;
 };
 inline std::ostream& operator<<(std::ostream& out, const Disagreement& found) {
@@ -176,7 +177,7 @@ inline Disagreement compare(const Ght& ght, const std::shared_ptr<const events::
     }
     return false;
   };
-  std::erase_if(all.wrong, explained);
+  all.explained = std::erase_if(all.wrong, explained);
   return all;
 }
 

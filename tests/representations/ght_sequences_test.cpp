@@ -44,7 +44,7 @@ class EventMaker {
 };
 
 // One sequence of a dozen events, on three sizes of ground and two of cells.
-void run(unsigned seed) {
+void run(unsigned seed, Disagreement& sum) {
   SCOPED_TRACE(testing::Message() << "seed " << seed);
   const int side = 49 + static_cast<int>(seed % 3) * 16;
   const float cell = seed % 2 == 0 ? 1.0F : 7.5F;
@@ -71,6 +71,8 @@ void run(unsigned seed) {
   ASSERT_EQ(saved(*reloaded("ght", ght)), before);
   const Disagreement found = compare(ght, sculpture);
   ASSERT_TRUE(found.wrong.empty()) << found << "\n" << to_text(sculpture->events);
+  sum.points += found.points;
+  sum.explained += found.explained;
 }
 
 constexpr unsigned kSequences = 1000, kShards = 20;
@@ -80,7 +82,11 @@ INSTANTIATE_TEST_SUITE_P(Ght, Sequences, testing::Range(0U, kShards));
 
 TEST_P(Sequences, KeepTheTreeWholeAndAreWhatTheEvaluationSays) {
   constexpr unsigned kEach = kSequences / kShards;
-  for (unsigned s = 0; s < kEach && !HasFatalFailure(); ++s) run(GetParam() * kEach + s);
+  Disagreement sum;
+  for (unsigned s = 0; s < kEach && !HasFatalFailure(); ++s) run(GetParam() * kEach + s, sum);
+  // What only the forgiving comparison lets pass is an exception.
+  RecordProperty("explained", std::to_string(sum.explained) + " of " + std::to_string(sum.points));
+  EXPECT_LE(sum.explained, 1U) << sum.explained << " of " << sum.points;
 }
 
 }  // namespace

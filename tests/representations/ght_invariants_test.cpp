@@ -1,0 +1,100 @@
+// What broken_invariants() says of trees with a fault planted in them: one line each, and the right one.
+#include "tests/representations/ght_ground.h"
+
+namespace terrabench::test {
+namespace {
+
+using namespace ght;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class PlantedFault : public testing::Test {
+ protected:
+  PlantedFault() {
+    Ght ght = make_ght(rolling(49, 49));
+    ght.apply(events::DipFault{false, {16, 26}, {34, 22}, 10, 3, 60});
+    model_ = ght.model();
+    EXPECT_THAT(broken_invariants(model_), testing::IsEmpty());
+  }
+  FaceId some_face() const {
+    FaceId some = kNone;
+    model_.surface.each_face([&](FaceId f) { some = f; });
+    return some;
+  }
+  void expect_one(std::string_view what) const {
+    EXPECT_THAT(broken_invariants(model_), ElementsAre(HasSubstr(std::string(what))));
+  }
+  // A node that nothing refers to, as part of the last event or of none.
+  NodeId spare() {
+    Node node;
+    node.columns = node.rows = 2;
+    node.parent = 0;
+    node.aligned = true;
+    node.i0 = node.j0 = 5;
+    return model_.tree.append(node);
+  }
+
+  Model model_;
+};
+
+TEST_F(PlantedFault, AVoidCorner) {
+  model_.tree.set_void(model_.surface.face(some_face())[0]);
+  EXPECT_THAT(broken_invariants(model_),
+              testing::Contains(HasSubstr("corners of the surface that hold no height")));
+}
+
+TEST_F(PlantedFault, ALinkToAnUnusedCell) {
+  CellId link = 0;
+  while (model_.tree.kind(link) != CellKind::kLink) ++link;
+  model_.tree.set_link(link, model_.tree.nodes()[spare()].first);
+  EXPECT_THAT(broken_invariants(model_),
+              testing::Contains(HasSubstr("links that do not lead to the surface")));
+}
+
+TEST_F(PlantedFault, AMissingFace) {
+  // Within one heightmap, so that no link goes with it.
+  FaceId inner = kNone;
+  const Tree& tree = model_.tree;
+  model_.surface.each_face([&](FaceId f) {
+    const Face& face = model_.surface.face(f);
+    if (tree.node_of(face[0]) == tree.node_of(face[1]) && tree.node_of(face[1]) == tree.node_of(face[2]))
+      inner = f;
+  });
+  ASSERT_NE(inner, kNone);
+  model_.surface.remove(tree, inner);
+  expect_one("edges with one face only");
+}
+
+TEST_F(PlantedFault, AFaceTwice) {
+  const Face face = model_.surface.face(some_face());
+  model_.surface.prepare(model_.tree, {}, {&face, 1});
+  model_.surface.add(model_.tree, face);
+  expect_one("edges that two faces run the same way");
+}
+
+TEST_F(PlantedFault, AHeightmapTooMany) {
+  spare();
+  expect_one("heightmaps that no event added");
+}
+
+TEST_F(PlantedFault, AnEventOfTooFewHeightmaps) {
+  const NodeId n = spare();
+  model_.tree.append(Applied{events::Kind::kLateralFault, 0, n, 1});
+  expect_one("another number of heightmaps");
+}
+
+TEST_F(PlantedFault, AnUnlinkedBoundaryCell) {
+  // A sheet of its own, both sides of it: closed, but joined to nothing.
+  const NodeId n = spare();
+  const CellId c = model_.tree.nodes()[n].first;
+  for (CellId k = c; k < c + 4; ++k) model_.tree.set_height(k, 20);
+  const std::array faces = {Face{c, c + 1, c + 2}, Face{c, c + 2, c + 1}};
+  model_.surface.prepare(model_.tree, {}, faces);
+  for (const Face& face : faces) model_.surface.add(model_.tree, face);
+  model_.tree.append(Applied{events::Kind::kRadialErosion, 0, n, 1});
+  expect_one("no other one is linked to: 3");
+  EXPECT_EQ(unlinked_boundary_cells(model_), 3U);
+}
+
+}  // namespace
+}  // namespace terrabench::test
