@@ -56,8 +56,10 @@ struct Arguments {
 };
 
 void add_list(CLI::App& app, Arguments& a) {
-  auto* command = app.add_subcommand("list", "What there is: representations, lods, experiments, claims, terrains");
-  command->add_option("what", a.list.what, "representations, lods, experiments, claims or terrains (default: all)");
+  auto* command =
+      app.add_subcommand("list", "What there is: representations, lods, experiments, claims, terrains");
+  command->add_option("what", a.list.what,
+                      "representations, lods, experiments, claims or terrains (default: all)");
   command->add_flag("--json", a.list.json, "Print JSON");
 }
 

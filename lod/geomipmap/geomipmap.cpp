@@ -27,7 +27,8 @@ std::unique_ptr<Lod> GeoMipMap::build(const Heightfield& ground, const Parameter
   check_ground(ground);
   const Options options{static_cast<int>(parameters.integer("patch")), parameters.flag("level_camera")};
   if (!std::has_single_bit(static_cast<unsigned>(options.side))) {
-    throw usage_error("the side of a patch is no power of two", "patch", "choose 2, 4, 8, 16, 32, 64, 128 or 256");
+    throw usage_error("the side of a patch is no power of two", "patch",
+                      "choose 2, 4, 8, 16, 32, 64, 128 or 256");
   }
   return std::make_unique<GeoMipMap>(ground, options, progress);
 }

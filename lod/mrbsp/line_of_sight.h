@@ -1,5 +1,5 @@
-// Sight over the coarse surface, corner by corner: the sampled visibility (MRBSP paper, §4; see visibility.h). O(squares
-// crossed) a line.
+// Sight over the coarse surface, corner by corner: the sampled visibility (MRBSP paper, §4; see
+// visibility.h). O(squares crossed) a line.
 #pragma once
 
 #include <glm/vec3.hpp>

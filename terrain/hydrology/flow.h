@@ -56,8 +56,8 @@ FlowNetwork route_flow(const Heightfield& field, Progress* progress = nullptr);
 
 // Pixels with accumulation ≥ tau (τ ≥ 1), upstream before downstream, chain by chain: heads in row-major
 // order, each followed downstream until it ends or meets a channel that still lacks one of its tributaries;
-// the last tributary to arrive carries on. O(n). The paper has flows "exceed" τ, which is tau = τ + 1 here: at
-// 25 and 400² mountains 1.6 % fewer pixels and the same error.
+// the last tributary to arrive carries on. O(n). The paper has flows "exceed" τ, which is tau = τ + 1 here:
+// at 25 and 400² mountains 1.6 % fewer pixels and the same error.
 std::vector<std::uint32_t> channel_pixels(const FlowNetwork& network, std::uint32_t tau);
 
 // The network as rasters over the same ground, for write_geotiff(): accumulation (exact up to 2^24 pixels),

@@ -8,7 +8,8 @@ namespace {
 
 class Counted : public testing::TestWithParam<std::string_view> {};
 INSTANTIATE_TEST_SUITE_P(Types, Counted,
-                         testing::Values("heightmap", "layered_stack", "voxel", "dense_voxel", "drill", "ght"),
+                         testing::Values("heightmap", "layered_stack", "voxel", "dense_voxel", "drill",
+                                         "ght"),
                          [](const auto& at) { return std::string(at.param); });
 
 TEST_P(Counted, AfterBuildEditLoadAndDestruction) {

@@ -112,7 +112,8 @@ std::span<const Paper> faked_papers() {
       if (paper.id != "hybrid" && paper.id != "cross") continue;
       // Of the comparisons the relief alone, which no row judges.
       Paper& added = faked.emplace_back(paper);
-      if (paper.id == "cross") std::erase_if(added.claims, [](const Claim& c) { return !c.conditions.empty(); });
+      if (paper.id == "cross")
+        std::erase_if(added.claims, [](const Claim& c) { return !c.conditions.empty(); });
     }
     return faked;
   }();

@@ -101,7 +101,9 @@ TEST(DiamondSquare, DependsOnTheSeedAlone) {
 }
 
 // What a later machine or compiler must still give.
-TEST(DiamondSquare, HasKnownBits) { EXPECT_EQ(checksum(diamond_square({.seed = 1, .side = 129})), "2dd5145a9569e18071dd3d7f720ea8b9"); }
+TEST(DiamondSquare, HasKnownBits) {
+  EXPECT_EQ(checksum(diamond_square({.seed = 1, .side = 129})), "2dd5145a9569e18071dd3d7f720ea8b9");
+}
 
 TEST(DiamondSquare, IsTheSameInEveryInstructionSet) {
   const DiamondSquareOptions options{.seed = 5, .side = 65};

@@ -26,10 +26,10 @@ struct CompressedSize {
   double setting = 0;  // what it was made with, as below
 };
 
-// `setting`: the step in metres for zstd, the largest error in metres for both LERCs (0: none), and for JPEG 2000
-// its quality, percent of the uncompressed size (100: no loss). Throws usage_error for settings out of range
-// or so fine that 16 bits do not suffice, bad_input for fields with holes, environment_error when GDAL lacks
-// the format.
+// `setting`: the step in metres for zstd, the largest error in metres for both LERCs (0: none), and for JPEG
+// 2000 its quality, percent of the uncompressed size (100: no loss). Throws usage_error for settings out of
+// range or so fine that 16 bits do not suffice, bad_input for fields with holes, environment_error when GDAL
+// lacks the format.
 CompressedSize compressed_size(const Heightfield& field, RasterCodec codec, double setting);
 
 // The smallest found by bisection whose error is not above `rmse` metres. Some 15 times the cost.
