@@ -15,6 +15,8 @@ namespace terrabench::cross {
 namespace {
 
 constexpr float kCell = 30;  // metres
+constexpr float kHurst = 0.7F;
+constexpr double kRoughness = 5.9;  // metres, the most that fractal ground is displaced at its last level
 // Frames before a metered one: after the first, methods that keep a mesh are back in step.
 constexpr std::size_t kLead = 2;
 // Pictures are what takes longest where there is no GPU.
@@ -40,6 +42,12 @@ Heightfield peak(int size) {
   return field;
 }
 
+// As rough from sample to sample whatever the size: smaller ground is like a piece of larger. At 4097 samples
+// a side the first level moves by 2,000 m, which gives the relief of the Alps over their 123 km.
+float amplitude(int size) {
+  return static_cast<float>(kRoughness * std::pow(2.0, kHurst * fractal::levels_of_side(size)));
+}
+
 // `count` indices of 1 … last, evenly, the last among them.
 std::vector<std::size_t> evenly(std::size_t count, std::size_t last) {
   count = std::min(count, last);
@@ -53,7 +61,8 @@ std::vector<std::size_t> evenly(std::size_t count, std::size_t last) {
 TerrainSource open_ground(std::string_view name, int size, std::uint64_t seed) {
   TerrainSource source;
   if (name == "fractal") {
-    source.heights = fractal::diamond_square({.seed = seed, .side = size, .cell = kCell});
+    source.heights = fractal::diamond_square(
+        {.seed = seed, .side = size, .cell = kCell, .amplitude = amplitude(size), .hurst = kHurst});
   } else if (name == "peak") {
     source.heights = peak(size);
   } else {

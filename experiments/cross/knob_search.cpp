@@ -66,7 +66,9 @@ Tuned KnobSearch::find(double target, const std::function<double(double)>& error
   const auto coarse =
       std::find_if(errors_.begin(), errors_.end(), [&](const auto& t) { return t.second > target; });
   const auto best = coarse == errors_.begin() ? coarse : std::prev(coarse);
-  return {knob_at(best->first), best->second, best->second <= target};
+  const auto& [place, error] = *best;
+  const bool decided = coarse != errors_.end() || error >= (1 - kSlack) * target;
+  return {knob_at(place), error, error <= target && decided};
 }
 
 }  // namespace terrabench::cross

@@ -11,7 +11,9 @@ namespace terrabench::cross {
 
 struct Tuned {
   double knob = 0, error = 0;
-  bool reached = false;  // error is at most the target, and within kSlack of it unless no coarser setting is
+  // The error is at most the target, and within kSlack of it unless the next setting has more. False too
+  // where even the coarsest setting has less: such a method is not at the asked error.
+  bool reached = false;
 };
 
 class KnobSearch {
@@ -21,8 +23,8 @@ class KnobSearch {
 
   explicit KnobSearch(const Knob& knob);
 
-  // The coarsest setting found with error ≤ target; the finest there is, and not reached, when even that has
-  // more. About six calls of error_at(knob), which should rise from finest to coarsest.
+  // The coarsest setting found with error ≤ target; the finest there is when even that has more. About six
+  // calls of error_at(knob), which should rise from finest to coarsest.
   Tuned find(double target, const std::function<double(double)>& error_at);
   std::size_t tried() const { return errors_.size(); }
 

@@ -9,13 +9,23 @@
 namespace terrabench {
 namespace {
 
-constexpr int kSmallestSide = 2, kLargestSide = 256;
+constexpr int kLargestSide = 256;
+
+// Small patches follow the ground with fewer triangles, many take longer to choose: from the paper's 16 on,
+// the smallest that cuts the ground into at most 64 × 64.
+int suited_side(const Heightfield& ground) {
+  constexpr int kPaperSide = 16, kMostAcross = 64;
+  int side = kPaperSide;
+  while (side < kLargestSide && std::max(ground.width, ground.depth) - 1 > side * kMostAcross) side *= 2;
+  return side;
+}
 
 }  // namespace
 
 std::span<const ParameterSpec> GeoMipMap::parameters() {
   static const ParameterSpec kSpecs[] = {
-      {"patch", std::int64_t{64}, "cells", "cells along a patch's side, a power of two", kSmallestSide,
+      {"patch", std::int64_t{0}, "cells",
+       "cells along a patch's side, a power of two; 0: 16, or more where that makes over 64 × 64 patches", 0,
        kLargestSide},
       {"level_camera", false, "", "choose levels by the paper's rule for a level camera, which bounds less"},
   };
@@ -25,10 +35,11 @@ std::span<const ParameterSpec> GeoMipMap::parameters() {
 std::unique_ptr<Lod> GeoMipMap::build(const Heightfield& ground, const Parameters& parameters,
                                       Progress& progress) {
   check_ground(ground);
-  const Options options{static_cast<int>(parameters.integer("patch")), parameters.flag("level_camera")};
-  if (!std::has_single_bit(static_cast<unsigned>(options.side))) {
+  Options options{static_cast<int>(parameters.integer("patch")), parameters.flag("level_camera")};
+  if (options.side == 0) options.side = suited_side(ground);
+  if (options.side == 1 || !std::has_single_bit(static_cast<unsigned>(options.side))) {
     throw usage_error("the side of a patch is no power of two", "patch",
-                      "choose 2, 4, 8, 16, 32, 64, 128 or 256");
+                      "choose 2, 4, 8, 16, 32, 64, 128 or 256, or 0 for one that suits the ground");
   }
   return std::make_unique<GeoMipMap>(ground, options, progress);
 }

@@ -201,6 +201,23 @@ TEST(GeoMipMap, RefusesPatchesOfOtherSizes) {
   EXPECT_THROW(type.build(flat(1, 5), Parameters(type.parameters), silent), Error);
 }
 
+// Seen from afar each patch is two triangles, so that these count the patches.
+TEST(GeoMipMap, PatchesSuitTheGroundUnlessTheirSideIsAsked) {
+  Progress silent;
+  const LodType& type = lod("geomipmap");
+  const auto triangles = [&](int size, std::int64_t patch) {
+    const Heightfield field = flat(size, size);
+    const Bounds whole{glm::vec3(0), {field.extent_x(), 0, field.extent_z()}};
+    Parameters parameters(type.parameters);
+    parameters.set("patch", patch);
+    return type.build(field, parameters, silent)->update(overview(whole, 640, 480)).stats.triangles;
+  };
+  EXPECT_EQ(triangles(129, 0), 2U * 8 * 8);
+  EXPECT_EQ(triangles(1025, 0), 2U * 64 * 64);
+  EXPECT_EQ(triangles(1026, 0), 2U * 33 * 33);
+  EXPECT_EQ(triangles(1025, 128), 2U * 8 * 8);
+}
+
 // Whatever the seams, a pattern covers its patch once, and a pulled side has the coarser level's vertices
 // alone.
 TEST(PatchPatterns, CoverTheirPatchInEverySeamCase) {
