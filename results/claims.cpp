@@ -1,13 +1,13 @@
 #include "results/claims.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <set>
 
+#include "results/claims_entry.h"
 #include "results/embedded.h"
 #include "results/further_grounds.h"
 #include "terrain/error.h"
@@ -19,88 +19,16 @@ constexpr std::string_view kVerdicts[] = {
     "reproduced", "reproduced (shape)", "differs", "not comparable", "pending", "not run", "missing"};
 constexpr std::string_view kAllProfiles[] = {"quick", "paper"};
 
-[[noreturn]] void fail(const toml::node& node, const std::string& origin, std::string_view what) {
-  throw bad_input(what, fmt::format("{}:{}", origin, node.source().begin.line), "correct the claims file");
-}
-
-// One table of the file: every key is asked for by type, and one that nobody asked for is an error.
-class Entry {
- public:
-  Entry(const toml::node& node, const std::string& origin) : node_(node), origin_(origin) {
-    if (!node.is_table()) refuse("a table is expected here");
-  }
-
-  [[noreturn]] void refuse(std::string_view what) const { fail(node_, origin_, what); }
-
-  const toml::node* find(std::string_view key) {
-    known_.insert(std::string(key));
-    return table().get(key);
-  }
-  const toml::node& get(std::string_view key) {
-    const toml::node* const node = find(key);
-    if (node == nullptr) refuse(fmt::format("'{}' is missing", key));
-    return *node;
-  }
-  std::string text(std::string_view key) { return text_of(get(key), key); }
-  std::string text_or(std::string_view key, std::string fallback) {
-    const toml::node* const node = find(key);
-    return node == nullptr ? std::move(fallback) : text_of(*node, key);
-  }
-  bool flag(std::string_view key) {
-    const toml::node* const node = find(key);
-    if (node != nullptr && !node->is_boolean()) refuse(fmt::format("'{}' is neither true nor false", key));
-    return node != nullptr && node->ref<bool>();
-  }
-  // An empty list when the key is absent.
-  std::vector<const toml::node*> list(std::string_view key) {
-    std::vector<const toml::node*> nodes;
-    const toml::node* const node = find(key);
-    if (node == nullptr) return nodes;
-    if (!node->is_array()) refuse(fmt::format("'{}' is not a list", key));
-    for (const toml::node& element : *node->as_array()) nodes.push_back(&element);
-    return nodes;
-  }
-  std::string text_of(const toml::node& node, std::string_view what) const {
-    if (!node.is_string()) fail(node, origin_, fmt::format("'{}' is not text", what));
-    return node.ref<std::string>();
-  }
-  double number_of(const toml::node& node, std::string_view what) const {
-    const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!value || !std::isfinite(*value))
-      fail(node, origin_, fmt::format("'{}' is not a finite number", what));
-    return *value;
-  }
-  // Two elements.
-  std::pair<const toml::node*, const toml::node*> pair_of(const toml::node& node,
-                                                          std::string_view what) const {
-    const toml::array* const array = node.as_array();
-    if (array == nullptr || array->size() != 2) fail(node, origin_, fmt::format("'{}' is not a pair", what));
-    return {array->get(0), array->get(1)};
-  }
-  void refuse_unknown() const {
-    for (const auto& [key, value] : table()) {
-      if (!known_.contains(key.str())) fail(value, origin_, fmt::format("unknown key '{}'", key.str()));
-    }
-  }
-  const toml::table& table() const { return *node_.as_table(); }
-  const std::string& origin() const { return origin_; }
-
- private:
-  const toml::node& node_;
-  const std::string& origin_;
-  std::set<std::string, std::less<>> known_;
-};
-
-Operand operand_from(const Entry& entry, const toml::node& node) {
+Operand operand_from(const ClaimsNode& node) {
   Operand operand;
-  if (!node.is_string()) {
-    operand.number = entry.number_of(node, "operand");
+  if (!node.node->is_string()) {
+    operand.number = node.number("operand");
     return operand;
   }
-  const std::string path = node.ref<std::string>();
+  const std::string path = node.text("operand");
   const std::size_t first = path.find('/'), last = path.rfind('/');
   if (first == path.npos || first == last || first == 0 || last + 1 == path.size()) {
-    fail(node, entry.origin(), "an operand is a number or \"experiment/case/metric\"");
+    node.fail("an operand is a number or \"experiment/case/metric\"");
   }
   operand.experiment = path.substr(0, first);
   operand.case_name = path.substr(first + 1, last - first - 1);
@@ -108,7 +36,7 @@ Operand operand_from(const Entry& entry, const toml::node& node) {
   return operand;
 }
 
-Condition condition_from(const toml::node& node, const std::string& origin) {
+Condition condition_from(const ClaimsNode& node) {
   using Kind = Condition::Kind;
   struct Form {
     std::string_view key;
@@ -116,35 +44,35 @@ Condition condition_from(const toml::node& node, const std::string& origin) {
     std::size_t fewest, most;
     bool range;
   };
-  constexpr Form kForms[] = {{"equal", Kind::kEqual, 2, 16, false},
+  constexpr Form kForms[] = {{"equal", Kind::kEqual, 2, 64, false},
                              {"order", Kind::kOrder, 2, 16, false},
                              {"within", Kind::kWithin, 1, 1, true},
                              {"ratio", Kind::kRatio, 2, 2, true},
                              {"growth", Kind::kGrowth, 2, 2, true}};
-  Entry entry(node, origin);
+  ClaimsEntry entry(node);
   Condition condition;
-  if (entry.find("figure") != nullptr) {
+  if (entry.has("figure")) {
     condition.kind = Kind::kFigure;
     condition.figure = entry.text("figure");
     entry.refuse_unknown();
     return condition;
   }
-  const auto* const form = std::find_if(std::begin(kForms), std::end(kForms),
-                                        [&](const Form& f) { return entry.table().contains(f.key); });
+  const auto* const form =
+      std::find_if(std::begin(kForms), std::end(kForms), [&](const Form& f) { return entry.has(f.key); });
   if (form == std::end(kForms)) {
     entry.refuse("a check is one of equal, order, within, ratio, growth, figure");
   }
   condition.kind = form->kind;
-  for (const toml::node* const operand : entry.list(form->key)) {
-    condition.operands.push_back(operand_from(entry, *operand));
+  for (const ClaimsNode& operand : entry.list(form->key)) {
+    condition.operands.push_back(operand_from(operand));
   }
   if (condition.operands.size() < form->fewest || condition.operands.size() > form->most) {
     entry.refuse(fmt::format("'{}' takes {} to {} operands", form->key, form->fewest, form->most));
   }
   if (form->range) {
-    const auto [low, high] = entry.pair_of(entry.get("range"), "range");
-    condition.low = entry.number_of(*low, "range");
-    condition.high = entry.number_of(*high, "range");
+    const auto [low, high] = entry.get("range").pair("range");
+    condition.low = low.number("range");
+    condition.high = high.number("range");
     if (condition.low > condition.high) entry.refuse("the range is empty");
   }
   entry.refuse_unknown();
@@ -152,15 +80,14 @@ Condition condition_from(const toml::node& node, const std::string& origin) {
 }
 
 // All when none is named.
-std::vector<std::string> profiles_from(Entry& entry) {
+std::vector<std::string> profiles_from(ClaimsEntry& entry) {
   std::vector<std::string> profiles;
-  for (const toml::node* const profile : entry.list("profiles"))
-    profiles.push_back(entry.text_of(*profile, "profiles"));
+  for (const ClaimsNode& profile : entry.list("profiles")) profiles.push_back(profile.text("profiles"));
   if (profiles.empty()) profiles.assign(std::begin(kAllProfiles), std::end(kAllProfiles));
   return profiles;
 }
 
-Verdict known_verdict(const Entry& entry, const std::string& known, const std::string& note) {
+Verdict known_verdict(const ClaimsEntry& entry, const std::string& known, const std::string& note) {
   const auto* const at = std::find(std::begin(kVerdicts), std::end(kVerdicts), known);
   const auto verdict = static_cast<Verdict>(at - std::begin(kVerdicts));
   // The others say what a run lacks, which nobody can know beforehand.
@@ -173,8 +100,8 @@ Verdict known_verdict(const Entry& entry, const std::string& known, const std::s
   return verdict;
 }
 
-Claim claim_from(const toml::node& node, const std::string& origin) {
-  Entry entry(node, origin);
+Claim claim_from(const ClaimsNode& node) {
+  ClaimsEntry entry(node);
   Claim claim;
   claim.id = entry.text("id");
   claim.where = entry.text("where");
@@ -184,16 +111,15 @@ Claim claim_from(const toml::node& node, const std::string& origin) {
     entry.refuse("'class' is one of E, T, S, F, Q");
   }
   claim.type = type[0];
-  for (const toml::node* const value : entry.list("reported"))
-    claim.reported.push_back(entry.number_of(*value, "reported"));
+  for (const ClaimsNode& value : entry.list("reported")) claim.reported.push_back(value.number("reported"));
   claim.unit = entry.text_or("unit", "");
   claim.tolerance = entry.text_or("tolerance", "");
   claim.note = entry.text_or("note", "");
   claim.pending = entry.text_or("pending", "");
   claim.not_comparable = entry.text_or("not_comparable", "");
   claim.profiles = profiles_from(entry);
-  for (const toml::node* const condition : entry.list("check"))
-    claim.conditions.push_back(condition_from(*condition, origin));
+  for (const ClaimsNode& condition : entry.list("check"))
+    claim.conditions.push_back(condition_from(condition));
   const bool measured = claim.pending.empty() && claim.not_comparable.empty();
   if (measured == claim.conditions.empty()) {
     entry.refuse(
@@ -207,12 +133,11 @@ Claim claim_from(const toml::node& node, const std::string& origin) {
   return claim;
 }
 
-FurtherGround ground_from(const toml::node& node, const std::string& origin,
-                          const std::vector<Claim>& claims) {
-  Entry entry(node, origin);
+FurtherGround ground_from(const ClaimsNode& node, const std::vector<Claim>& claims) {
+  ClaimsEntry entry(node);
   FurtherGround ground{entry.text("name"), entry.text("of"), entry.text("label"), profiles_from(entry), {}};
-  for (const toml::node* const row : entry.list("known")) {
-    Entry known(*row, origin);
+  for (const ClaimsNode& row : entry.list("known")) {
+    ClaimsEntry known(row);
     const std::string id = known.text("claim"), verdict = known.text("verdict");
     const auto claim = std::find_if(claims.begin(), claims.end(), [&](const Claim& c) { return c.id == id; });
     if (claim == claims.end()) known.refuse(fmt::format("there is no row '{}'", id));
@@ -224,39 +149,38 @@ FurtherGround ground_from(const toml::node& node, const std::string& origin,
   return ground;
 }
 
-TableLayout::Row row_from(const toml::node& node, const std::string& origin) {
-  Entry entry(node, origin);
+TableLayout::Row row_from(const ClaimsNode& node) {
+  ClaimsEntry entry(node);
   TableLayout::Row row{entry.text("label"), entry.text("case"), {}};
-  for (const auto& [key, value] : entry.table()) {
-    if (key == "label" || key == "case") continue;
-    if (value.is_string()) {
-      row.values.emplace(key.str(), value.ref<std::string>());
+  for (const auto& [key, value] : entry.rest()) {
+    if (value.node->is_string()) {
+      row.values.emplace(key, value.text(key));
     } else {
-      row.values.emplace(key.str(), entry.number_of(value, key.str()));
+      row.values.emplace(key, value.number(key));
     }
   }
   return row;
 }
 
-TableLayout::Column column_from(const toml::node& node, const std::string& origin) {
+TableLayout::Column column_from(const ClaimsNode& node) {
   using Kind = TableLayout::Column::Kind;
   constexpr std::pair<std::string_view, Kind> kKinds[] = {
       {"reported", Kind::kReported}, {"metric", Kind::kMetric},    {"interval", Kind::kInterval},
       {"growth", Kind::kGrowth},     {"speed_up", Kind::kSpeedUp}, {"verdict", Kind::kVerdict}};
-  Entry entry(node, origin);
+  ClaimsEntry entry(node);
   TableLayout::Column column;
   column.title = entry.text("title");
   column.unit = entry.text_or("unit", "");
-  const auto* const kind = std::find_if(std::begin(kKinds), std::end(kKinds),
-                                        [&](const auto& k) { return entry.table().contains(k.first); });
+  const auto* const kind =
+      std::find_if(std::begin(kKinds), std::end(kKinds), [&](const auto& k) { return entry.has(k.first); });
   if (kind == std::end(kKinds)) {
     entry.refuse("a column is one of reported, metric, interval, growth, speed_up, verdict");
   }
   column.kind = kind->second;
   if (column.kind == Kind::kSpeedUp) {
-    const auto [key, metric] = entry.pair_of(entry.get("speed_up"), "speed_up");
-    column.key = entry.text_of(*key, "speed_up");
-    column.metric = entry.text_of(*metric, "speed_up");
+    const auto [key, metric] = entry.get("speed_up").pair("speed_up");
+    column.key = key.text("speed_up");
+    column.metric = metric.text("speed_up");
   } else {
     const bool measured =
         column.kind == Kind::kMetric || column.kind == Kind::kInterval || column.kind == Kind::kGrowth;
@@ -266,47 +190,47 @@ TableLayout::Column column_from(const toml::node& node, const std::string& origi
   return column;
 }
 
-TableLayout table_from(const toml::node& node, const std::string& origin) {
-  Entry entry(node, origin);
+TableLayout table_from(const ClaimsNode& node) {
+  ClaimsEntry entry(node);
   TableLayout table;
   table.id = entry.text("id");
   table.title = entry.text("title");
   table.caption = entry.text("caption");
   table.experiment = entry.text("experiment");
   table.rows_title = entry.text("rows_title");
-  for (const toml::node* const row : entry.list("rows")) table.rows.push_back(row_from(*row, origin));
-  for (const toml::node* const column : entry.list("columns")) {
-    table.columns.push_back(column_from(*column, origin));
+  for (const ClaimsNode& row : entry.list("rows")) table.rows.push_back(row_from(row));
+  for (const ClaimsNode& column : entry.list("columns")) {
+    table.columns.push_back(column_from(column));
   }
   if (table.rows.empty() || table.columns.empty()) entry.refuse("a table needs rows and columns");
   entry.refuse_unknown();
   return table;
 }
 
-PlotLayout::Axis axis_from(const toml::node& node, const std::string& origin) {
-  Entry entry(node, origin);
+PlotLayout::Axis axis_from(const ClaimsNode& node) {
+  ClaimsEntry entry(node);
   PlotLayout::Axis axis{entry.text("label"), entry.text_or("unit", ""), entry.flag("log")};
   entry.refuse_unknown();
   return axis;
 }
 
-PlotLayout::Series series_from(const toml::node& node, const std::string& origin) {
-  Entry entry(node, origin);
+PlotLayout::Series series_from(const ClaimsNode& node) {
+  ClaimsEntry entry(node);
   PlotLayout::Series series;
   series.label = entry.text("label");
   series.slope = entry.flag("slope");
-  for (const toml::node* const point : entry.list("values")) {
-    const auto [x, y] = entry.pair_of(*point, "values");
-    series.values.emplace_back(entry.number_of(*x, "values"), entry.number_of(*y, "values"));
+  for (const ClaimsNode& point : entry.list("values")) {
+    const auto [x, y] = point.pair("values");
+    series.values.emplace_back(x.number("values"), y.number("values"));
   }
   series.x_metric = entry.text_or("x_metric", "");
-  for (const toml::node* const point : entry.list("cases")) {
+  for (const ClaimsNode& point : entry.list("cases")) {
     if (!series.x_metric.empty()) {
-      series.cases.emplace_back(0, entry.text_of(*point, "cases"));
+      series.cases.emplace_back(0, point.text("cases"));
       continue;
     }
-    const auto [x, case_name] = entry.pair_of(*point, "cases");
-    series.cases.emplace_back(entry.number_of(*x, "cases"), entry.text_of(*case_name, "cases"));
+    const auto [x, case_name] = point.pair("cases");
+    series.cases.emplace_back(x.number("cases"), case_name.text("cases"));
   }
   if (series.values.empty() == series.cases.empty()) entry.refuse("a series has either 'values' or 'cases'");
   if (!series.cases.empty()) {
@@ -317,16 +241,15 @@ PlotLayout::Series series_from(const toml::node& node, const std::string& origin
   return series;
 }
 
-PlotLayout plot_from(const toml::node& node, const std::string& origin) {
-  Entry entry(node, origin);
+PlotLayout plot_from(const ClaimsNode& node) {
+  ClaimsEntry entry(node);
   PlotLayout plot;
   plot.id = entry.text("id");
   plot.title = entry.text("title");
   plot.caption = entry.text("caption");
-  plot.x = axis_from(entry.get("x"), origin);
-  plot.y = axis_from(entry.get("y"), origin);
-  for (const toml::node* const series : entry.list("series"))
-    plot.series.push_back(series_from(*series, origin));
+  plot.x = axis_from(entry.get("x"));
+  plot.y = axis_from(entry.get("y"));
+  for (const ClaimsNode& series : entry.list("series")) plot.series.push_back(series_from(series));
   if (plot.series.empty()) entry.refuse("a plot needs series");
   entry.refuse_unknown();
   return plot;
@@ -356,24 +279,24 @@ void check_ids(const Paper& paper, const std::string& origin) {
 std::string_view name(Verdict verdict) { return kVerdicts[static_cast<std::size_t>(verdict)]; }
 
 Paper parse_claims(std::string_view text, const std::string& origin) {
-  toml::table file;
+  toml::table table;
   try {
-    file = toml::parse(text, origin);
+    table = toml::parse(text, origin);
   } catch (const toml::parse_error& error) {
     throw bad_input(error.description(), fmt::format("{}:{}", origin, error.source().begin.line),
                     "correct the claims file");
   }
-  Entry entry(file, origin);
+  ClaimsFile file{origin, {}};
+  read_sets(table, file);
+  ClaimsEntry entry({&table, &file, {}});
+  entry.has("sets");
   Paper paper{entry.text("paper"), entry.text("title"), entry.text("source"), {}, {}, {}};
-  for (const toml::node* const claim : entry.list("claim"))
-    paper.claims.push_back(claim_from(*claim, origin));
+  for (const ClaimsNode& claim : entry.list("claim")) paper.claims.push_back(claim_from(claim));
   std::vector<FurtherGround> grounds;
-  for (const toml::node* const ground : entry.list("ground"))
-    grounds.push_back(ground_from(*ground, origin, paper.claims));
+  for (const ClaimsNode& ground : entry.list("ground")) grounds.push_back(ground_from(ground, paper.claims));
   paper.claims = on_further_grounds(paper.claims, grounds);
-  for (const toml::node* const table : entry.list("table"))
-    paper.tables.push_back(table_from(*table, origin));
-  for (const toml::node* const plot : entry.list("plot")) paper.plots.push_back(plot_from(*plot, origin));
+  for (const ClaimsNode& table : entry.list("table")) paper.tables.push_back(table_from(table));
+  for (const ClaimsNode& plot : entry.list("plot")) paper.plots.push_back(plot_from(plot));
   entry.refuse_unknown();
   check_ids(paper, origin);
   return paper;

@@ -7,6 +7,7 @@
 
 #include "results/format.h"
 #include "results/statistics.h"
+#include "results/units.h"
 
 namespace terrabench {
 namespace {
@@ -23,11 +24,13 @@ Cell number_cell(double number) { return {format_number(number), format_exact(nu
 
 Cell measured_cell(const TableLayout::Column& column, const TableLayout::Row& row, const Metric& metric) {
   const Summary s = summarise(metric.samples);
-  if (column.kind == ColumnKind::kMetric) return number_cell(s.median);
-  if (column.kind == ColumnKind::kInterval) {
+  if (column.kind == ColumnKind::kMetric || column.kind == ColumnKind::kInterval) {
+    const double factor = conversion(metric.unit, column.unit, column.metric);
+    if (column.kind == ColumnKind::kMetric) return number_cell(s.median * factor);
     if (s.count == 1) return kNothing;
-    return {fmt::format("{} … {}", format_number(s.low), format_number(s.high)),
-            fmt::format("{} … {}", format_exact(s.low), format_exact(s.high)), "", ""};
+    const double low = s.low * factor, high = s.high * factor;
+    return {fmt::format("{} … {}", format_number(low), format_number(high)),
+            fmt::format("{} … {}", format_exact(low), format_exact(high)), "", ""};
   }
   const auto reported = row.values.find(column.key);
   if (reported == row.values.end() || !std::holds_alternative<double>(reported->second)) return kNothing;
@@ -116,8 +119,11 @@ FilledPlot fill(const PlotLayout& layout, const Store& store, const std::string&
       if (metric == nullptr || (across == nullptr && !series.x_metric.empty())) continue;
       note_run(filled.runs, *record);
       const Summary s = summarise(metric->samples);
-      line.points.push_back(
-          {across == nullptr ? x : summarise(across->samples).median, s.median, s.low, s.high});
+      const double up = conversion(metric->unit, layout.y.unit, series.metric);
+      const double right = across == nullptr ? x
+                                             : summarise(across->samples).median *
+                                                   conversion(across->unit, layout.x.unit, series.x_metric);
+      line.points.push_back({right, s.median * up, s.low * up, s.high * up});
     }
     if (!series.slope) continue;
     if (const auto slope = power_law(line.points)) line.label += fmt::format(", slope {:.2f}", *slope);

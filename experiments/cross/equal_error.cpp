@@ -229,6 +229,7 @@ void measure_equal_error(const Case& at, const RunOptions& options, Recorder& re
   draw_reference(flight, *context, progress);
   const Shown shown = measure_shown(flight, type, tuned.knob, *context, progress);
   record(shown, flight, recorder);
+  recorder.add("error_of_asked", "", shown.error.quantile(0.99) / pixels);
   // Of methods that promise a bound, which is their knob: how much of it a sample in the frustum takes.
   if (type.traits.bounds_error) recorder.add("bound_taken", "", shown.largest_anywhere / tuned.knob);
 }

@@ -27,6 +27,16 @@ reported = [1, 2.5]
 profiles = ["paper"]
 check = [{equal = ["e/c/m", 3]}, {order = [1, "e/c/m"]}, {within = ["e/c/m"], range = [0.5, 1]},
   {growth = ["e/c/m", "e/d/m"], range = [-1, 2]}, {figure = "p.F1"}]
+[sets]
+px = ["1", "2"]
+on = [{name = "a", at = "b"}]
+[[claim]]
+each = ["on", "px"]
+id = "p.{on}.{px}"
+where = "{on.at}"
+statement = ""
+class = "E"
+check = [{equal = ["e/{on}/{px}", 1]}, {each = ["px"], equal = ["e/{on.at}/{px}", "e/c/m"]}]
 [[claim]]
 id = "p.2"
 where = ""

@@ -141,6 +141,59 @@ TEST(Claims, EveryRowOfTheDrillPaperIsJudgedOnFourGrounds) {
   }
 }
 
+TEST(Claims, WhatHoldsForEveryMemberOfASetIsSaidOnce) {
+  const std::string sets =
+      "[sets]\npx = [\"1\", \"2\"]\n"
+      "on = [{name = \"a\", at = \"here\"}, {name = \"b\", at = \"there\"}]\n";
+  const std::string text = std::string(kHead) + sets +
+                           "[[claim]]\neach = [\"on\"]\nid = \"p.{on}\"\nwhere = \"{on.at}, "
+                           "{on}\"\nstatement = \"s\"\nclass = \"E\"\n"
+                           "check = [{equal = [\"e/{on}/{px}px/m\", 0]}, {each = [\"px\"], within = "
+                           "[\"e/{on}/{px}/m\"], range = [0, 1]}]\n"
+                           "[[table]]\neach = [\"px\", \"on\"]\nid = \"t{px}{on}\"\ntitle = \"t\"\ncaption = "
+                           "\"c\"\nexperiment = \"e\"\n"
+                           "rows_title = \"r\"\nrows = [{label = \"all\", case = \"x\"}, {each = [\"on\"], "
+                           "label = \"{on.at}\", case = \"{on}/{px}\"}]\n"
+                           "columns = [{title = \"c\", metric = \"m\"}]\n";
+  const Paper paper = parse_claims(text, "x");
+  ASSERT_EQ(paper.claims.size(), 2U);
+  const Claim& there = paper.claims[1];
+  EXPECT_EQ(there.id, "p.b");
+  EXPECT_EQ(there.where, "there, b");
+  ASSERT_EQ(there.conditions.size(), 3U);
+  ASSERT_EQ(there.conditions[0].operands.size(), 3U);
+  EXPECT_EQ(there.conditions[0].operands[1].case_name, "b/2px");
+  EXPECT_EQ(there.conditions[2].operands[0].case_name, "b/2");
+  std::vector<std::string> tables;
+  for (const TableLayout& table : paper.tables) tables.push_back(table.id);
+  EXPECT_EQ(tables, (std::vector<std::string>{"t1a", "t1b", "t2a", "t2b"}));
+  // Of two that bind the same set, the inner one counts.
+  ASSERT_EQ(paper.tables[1].rows.size(), 3U);
+  EXPECT_EQ(paper.tables[1].rows[1].label, "here");
+  EXPECT_EQ(paper.tables[1].rows[1].case_name, "a/1");
+}
+
+TEST(Claims, RefusesSetsThatAreNone) {
+  const auto refused = [](const std::string& sets, const std::string& where, const std::string& what,
+                          int line) {
+    expect_refused(std::string(kHead) + "[sets]\n" + sets + "\n" + std::string(kClaim) + where, what, line);
+  };
+  const std::string good = "px = [\"1\", \"2\"]";
+  refused("px = []", "", "empty", 5);
+  refused("px = 3", "", "list", 5);
+  refused("px = [3]", "", "table", 5);
+  refused("px = [{at = \"x\"}]", "", "'name' is missing", 5);
+  refused(good, "note = \"{px}\"\n", "'px' is no set that 'each' names here", 11);
+  refused(good, "check = [{equal = [\"e/{py}/m\", 1]}]\n", "no set 'py'", 11);
+  refused(good, "check = [{each = [\"py\"], equal = [\"e/c/m\", 1]}]\n", "no set 'py'", 11);
+  refused(good, "check = [{each = \"px\", equal = [\"e/c/m\", 1]}]\n", "not a list", 11);
+  refused(good, "check = [{equal = [\"e/{px.at}/m\", 1]}]\n", "no 'at'", 11);
+  std::string many = "n = [";
+  for (int i = 0; i < 100; ++i) many += fmt::format("\"{}\", ", i);
+  refused(many + "]\nm = [\"{n}\"]", "", "no set 'n'", 6);
+  refused(many + "]", "check = [{equal = [\"e/{n}/m\", 1]}]\n", "2 to 64", 11);
+}
+
 TEST(Claims, RowsAreRepeatedOnFurtherGrounds) {
   const std::string claim(kClaim);
   const std::string text =
@@ -202,7 +255,7 @@ TEST(Claims, RefusesWithFileAndLine) {
   expect_refused(claim + "pending = \"x\"\ncheck = [{figure = \"f\"}]\n", "needs either", 4);
   expect_refused(claim + "check = [{figure = 3}]\n", "'figure' is not text", 9);
   expect_refused(claim + "check = [{exact = [1, 2]}]\n", "a check is one of", 9);
-  expect_refused(claim + "check = [{equal = [1]}]\n", "takes 2 to 16 operands", 9);
+  expect_refused(claim + "check = [{equal = [1]}]\n", "takes 2 to 64 operands", 9);
   expect_refused(claim + "check = [{equal = [1, \"e/m\"]}]\n", "an operand is a number or", 9);
   expect_refused(claim + "check = [{equal = [1, nan]}]\n", "not a finite number", 9);
   expect_refused(claim + "check = [{within = [\"e/c/m\"]}]\n", "'range' is missing", 9);

@@ -11,8 +11,8 @@ namespace {
 Paper with_series(const std::string& series) {
   return parse_claims(
       "paper = \"p\"\ntitle = \"t\"\nsource = \"s\"\n"
-      "[[plot]]\nid = \"p.plot\"\ntitle = \"t\"\ncaption = \"c\"\nx = {label = \"error\"}\ny = {label = "
-      "\"time\"}\n"
+      "[[plot]]\nid = \"p.plot\"\ntitle = \"t\"\ncaption = \"c\"\nx = {label = \"error\", unit = \"px\"}\n"
+      "y = {label = \"time\", unit = \"ms\"}\n"
       "series = [" +
           series + "]\n",
       "test");
@@ -38,13 +38,13 @@ TEST_F(LayoutTest, PointsStandAtAGivenXOrAtAMetricOfTheirCase) {
   ASSERT_EQ(given.size(), 2U);
   EXPECT_EQ(given[0].x, 7);
   EXPECT_EQ(given[1].x, 8);
-  EXPECT_EQ(given[1].y, 30);
+  EXPECT_EQ(given[1].y, 30'000);  // milliseconds
   // c3 has no error and c4 no record: no point.
   const auto& measured = filled.plot.series.at(1).points;
   ASSERT_EQ(measured.size(), 2U);
   EXPECT_EQ(measured[0].x, 0.5);
   EXPECT_EQ(measured[1].x, 1);
-  EXPECT_EQ(measured[1].y, 20);
+  EXPECT_EQ(measured[1].y, 20'000);
 }
 
 TEST(LayoutFile, CasesWithAMeasuredXAreNamesAlone) {
