@@ -27,7 +27,7 @@ const std::array kSpecs{
                   "a name of `terrabench list lods`, or all: their triangles side by side"},
     ParameterSpec{"error", 1.0, "px", "99th percentile of the screen-space error that is asked for", 0.01,
                   1000},
-    ParameterSpec{"path", std::string("fly"), "", "a committed camera path: cross, fly, low, turn or walk"},
+    ParameterSpec{"path", std::string("fly"), "", "camera path: cross, fly, low, turn, walk, or a TOML file of your own"},
     ParameterSpec{"frames", std::int64_t{24}, "", "frames of the path that are metered", 1, 100000},
     ParameterSpec{"size", std::int64_t{257}, "samples", "side of the grounds that are made here, 2^n + 1", 3,
                   8193},

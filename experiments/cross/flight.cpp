@@ -84,7 +84,7 @@ Flight::Flight(const Route& along, Progress& progress)
   const HeightRange range = height_range(ground());
   lowest = range.lowest;
   highest = range.highest;
-  take_frames(terrabench::views(camera_path(route.path), ground()));
+  take_frames(terrabench::views(open_camera_path(route.path), ground()));
   seen.reserve(metered.size());
   progress.begin(fmt::format("finding what is seen on {}", route.terrain), metered.size());
   for (const std::size_t frame : metered) {

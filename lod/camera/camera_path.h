@@ -60,6 +60,8 @@ CameraPath read_camera_path(const std::filesystem::path&);
 
 // Those in paths/, compiled in. camera_path() throws unknown_name.
 std::span<const CameraPath> camera_paths();
+// One of these, or the file when the name ends in ".toml".
+CameraPath open_camera_path(const std::string& name);
 const CameraPath& camera_path(std::string_view name);
 
 // One view a frame, the first keyframe's first. Eyes that leave the ground keep the height of its nearest

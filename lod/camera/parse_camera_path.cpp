@@ -183,4 +183,8 @@ const CameraPath& camera_path(std::string_view name) {
   throw unknown_name("camera path", name, known);
 }
 
+CameraPath open_camera_path(const std::string& name) {
+  return name.ends_with(".toml") ? read_camera_path(name) : camera_path(name);
+}
+
 }  // namespace terrabench

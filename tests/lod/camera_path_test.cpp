@@ -8,6 +8,7 @@
 
 #include "lod/lod.h"
 #include "terrain/error.h"
+#include "terrain/files.h"
 #include "tests/lod/drawing.h"
 
 namespace terrabench::test {
@@ -138,6 +139,17 @@ TEST(CameraPath, CommittedPathsHoldOnAnyGround) {
     }
   }
   EXPECT_THROW(camera_path("wlak"), Error);
+}
+
+TEST(CameraPath, OpensANameOrAFile) {
+  EXPECT_EQ(open_camera_path("fly").name, "fly");
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "my_path.toml";
+  write_file(file, std::string(kWalk));
+  EXPECT_EQ(open_camera_path(file.string()).name, "my_path");
+  EXPECT_EQ(open_camera_path(file.string()).keyframes.size(), 3U);
+  std::filesystem::remove(file);
+  EXPECT_THROW(open_camera_path(file.string()), Error);
+  EXPECT_THROW(open_camera_path("my_path"), Error);
 }
 
 TEST(CameraPath, RefusesGarbageByLine) {
