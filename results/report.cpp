@@ -13,6 +13,7 @@
 #include "results/check.h"
 #include "results/document.h"
 #include "results/format.h"
+#include "results/further_cases.h"
 #include "results/layout.h"
 #include "results/plot.h"
 #include "results/rasterise.h"
@@ -97,6 +98,7 @@ class Report {
     for (const Paper& paper : papers_) {
       if (has_results(paper)) add_paper(paper);
     }
+    add_further_cases();
     add_other_pictures();
     add_pending();
     add_provenance();
@@ -238,6 +240,16 @@ class Report {
     if (gallery.pictures.empty()) return;
     document_.push_back(Heading{3, "Figures, in the paper's order", paper.id + "-figures"});
     document_.push_back(std::move(gallery));
+  }
+
+  void add_further_cases() {
+    const std::vector<TableLayout> layouts = further_cases(store_, papers_, check_.profile);
+    if (layouts.empty()) return;
+    document_.push_back(Heading{2, "Further cases", "further"});
+    for (const TableLayout& layout : layouts) {
+      FilledTable filled = fill(layout, store_, check_);
+      add_table(std::move(filled.table), run_links(filled.runs));
+    }
   }
 
   void add_other_pictures() {

@@ -1,0 +1,100 @@
+#include "results/further_cases.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace terrabench {
+namespace {
+
+using Column = TableLayout::Column;
+using Shown = std::set<std::pair<std::string, std::string>>;  // experiment, case
+
+Shown shown_in(std::span<const Paper> papers) {
+  Shown shown;
+  for (const Paper& paper : papers) {
+    for (const TableLayout& table : paper.tables) {
+      for (const TableLayout::Row& row : table.rows) shown.emplace(table.experiment, row.case_name);
+    }
+    for (const PlotLayout& plot : paper.plots) {
+      for (const PlotLayout::Series& series : plot.series) {
+        for (const auto& [x, name] : series.cases) shown.emplace(series.experiment, name);
+      }
+    }
+    for (const Claim& claim : paper.claims) {
+      for (const Condition& condition : claim.conditions) {
+        for (const Operand& operand : condition.operands)
+          shown.emplace(operand.experiment, operand.case_name);
+      }
+    }
+  }
+  return shown;
+}
+
+const TableLayout* table_of(std::string_view experiment, std::span<const Paper> papers) {
+  for (const Paper& paper : papers) {
+    for (const TableLayout& table : paper.tables) {
+      if (table.experiment == experiment) return &table;
+    }
+  }
+  return nullptr;
+}
+
+bool any_has(std::span<const Record* const> records, std::string_view metric) {
+  return std::any_of(records.begin(), records.end(),
+                     [&](const Record* r) { return r->find(metric) != nullptr; });
+}
+
+std::vector<Column> columns_for(std::span<const Record* const> records, const TableLayout* like) {
+  std::vector<Column> columns;
+  if (like != nullptr) {
+    for (const Column& column : like->columns) {
+      if (column.kind == Column::Kind::kMetric && any_has(records, column.metric)) columns.push_back(column);
+    }
+  }
+  if (!columns.empty()) return columns;
+  for (const Record* const record : records) {
+    for (const Metric& metric : record->metrics) {
+      const auto has = [&](const Column& c) { return c.metric == metric.name; };
+      if (std::any_of(columns.begin(), columns.end(), has)) continue;
+      columns.push_back({Column::Kind::kMetric, metric.name, metric.unit, "", metric.name});
+    }
+  }
+  return columns;
+}
+
+}  // namespace
+
+std::vector<TableLayout> further_cases(const Store& store, std::span<const Paper> papers,
+                                       std::string_view profile) {
+  const Shown shown = shown_in(papers);
+  std::vector<std::pair<std::string, std::vector<const Record*>>> experiments;
+  for (const Record& record : store.records()) {
+    if (record.profile != profile || record.metrics.empty()) continue;
+    if (shown.contains({record.experiment, record.case_name})) continue;
+    auto at = std::find_if(experiments.begin(), experiments.end(),
+                           [&](const auto& e) { return e.first == record.experiment; });
+    if (at == experiments.end()) at = experiments.insert(at, {record.experiment, {}});
+    at->second.push_back(&record);
+  }
+  std::vector<TableLayout> tables;
+  for (const auto& [experiment, records] : experiments) {
+    TableLayout table{experiment + ".further",
+                      experiment,
+                      "Medians of what no row of the ledger is about: other ground, other parameters.",
+                      experiment,
+                      "Case",
+                      {},
+                      columns_for(records, table_of(experiment, papers))};
+    for (const Record* const record : records) {
+      const bool fits = std::any_of(table.columns.begin(), table.columns.end(),
+                                    [&](const Column& c) { return record->find(c.metric) != nullptr; });
+      if (fits) table.rows.push_back({record->case_name, record->case_name, {}});
+    }
+    tables.push_back(std::move(table));
+  }
+  return tables;
+}
+
+}  // namespace terrabench

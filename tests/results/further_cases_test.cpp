@@ -1,0 +1,71 @@
+#include "results/further_cases.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/results/fake_results.h"
+
+namespace terrabench {
+namespace {
+
+using FurtherCases = FolderTest;
+
+constexpr std::string_view kClaims = R"(paper = "p"
+title = "t"
+source = "s"
+[[claim]]
+id = "p.1"
+where = "w"
+statement = "s"
+class = "E"
+check = [{equal = ["e/judged/n", 1]}]
+[[table]]
+id = "p.t"
+title = "t"
+caption = "c"
+experiment = "e"
+rows_title = "r"
+rows = [{label = "l", case = "shown"}]
+columns = [{title = "Time", unit = "ms", metric = "time"}, {title = "Bytes", unit = "B", metric = "bytes"}]
+[[plot]]
+id = "p.p"
+title = "t"
+caption = "c"
+x = {label = "x"}
+y = {label = "y"}
+series = [{label = "l", experiment = "e", metric = "n", cases = [[1, "plotted"]]}]
+)";
+
+TEST_F(FurtherCases, AreThoseThatNothingElseShows) {
+  const Provenance run = fake_provenance();
+  Store store(folder_);
+  store.begin_run(run);
+  const auto measure = [&](const char* experiment, const char* name, const char* metric, const char* unit) {
+    Record record = fake_record(run, experiment, name);
+    record.metrics.clear();
+    add(record, metric, unit, {2});
+    store.append(record);
+  };
+  for (const char* const name : {"judged", "shown", "plotted", "mine"}) measure("e", name, "time", "s");
+  measure("e", "picture", "peaks", "");
+  measure("f", "first", "a", "px");
+  measure("f", "second", "b", "");
+  const std::vector<Paper> papers{parse_claims(kClaims, "claims.toml")};
+
+  const std::vector<TableLayout> tables = further_cases(store, papers, "quick");
+  ASSERT_EQ(tables.size(), 2U);
+  // As the ledger's own table shows them, without what none of them has.
+  ASSERT_EQ(tables[0].columns.size(), 1U);
+  EXPECT_EQ(tables[0].columns[0].title, "Time");
+  EXPECT_EQ(tables[0].columns[0].unit, "ms");
+  ASSERT_EQ(tables[0].rows.size(), 1U);
+  EXPECT_EQ(tables[0].rows[0].case_name, "mine");
+  // The ledger has no table of this experiment.
+  ASSERT_EQ(tables[1].columns.size(), 2U);
+  EXPECT_EQ(tables[1].columns[0].unit, "px");
+  EXPECT_EQ(tables[1].rows.size(), 2U);
+
+  EXPECT_TRUE(further_cases(store, papers, "paper").empty());
+}
+
+}  // namespace
+}  // namespace terrabench
