@@ -26,15 +26,6 @@ double setting(const Knob& knob, double value) {
   return knob.whole ? std::round(within) : within;
 }
 
-void require_room(std::size_t bytes, std::string_view what) {
-  if (const std::uint64_t available = available_memory(); bytes > available) {
-    throw environment_error(
-        fmt::format("needs {:.1f} GiB of memory, {:.1f} GiB are free", static_cast<double>(bytes) / 0x1p30,
-                    static_cast<double>(available) / 0x1p30),
-        what, "choose a smaller ground, or a limit that asks for less");
-  }
-}
-
 void check_view(const View& view) {
   if (!is_finite(view.eye)) throw usage_error("the eye is not at a place", "eye", "give three finite metres");
   if (!is_finite(view.target) || view.target == view.eye) {

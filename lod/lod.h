@@ -60,9 +60,6 @@ const LodType& lod(std::string_view name);  // throws unknown_name
 // usage_error for NaN.
 double setting(const Knob&, double value);
 
-// Throws environment_error when so many bytes cannot be had: asked before a method reserves much.
-void require_room(std::size_t bytes, std::string_view what);
-
 // Throws usage_error, naming the field, for a view that no frame can be made for.
 void check_view(const View&);
 // Throws usage_error for a field under 2×2 or with no-data in it.

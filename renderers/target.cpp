@@ -21,11 +21,7 @@ void check_size(int width, int height) {
   constexpr std::uint64_t kBytesPerPixel = 8 * RenderTarget::kSamples + 4;
   const std::uint64_t bytes =
       kBytesPerPixel * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  if (bytes > available_memory()) {
-    throw environment_error(
-        fmt::format("a picture of {} x {} pixels needs {} MiB of memory", width, height, bytes >> 20), "",
-        "draw a smaller one");
-  }
+  require_memory(bytes, fmt::format("a picture of {} x {} pixels", width, height), "draw a smaller one");
 }
 
 void require_complete(const Framebuffer& framebuffer) {

@@ -193,13 +193,4 @@ void check_paint(Columns where, std::span<const Span> what) {
   }
 }
 
-void require_memory(std::size_t bytes, std::string_view what) {
-  if (const std::uint64_t available = available_memory(); bytes > available) {
-    throw environment_error(
-        fmt::format("needs {:.1f} GiB of memory, {:.1f} GiB are free", static_cast<double>(bytes) / 0x1p30,
-                    static_cast<double>(available) / 0x1p30),
-        what, "choose a lower resolution or a larger step");
-  }
-}
-
 }  // namespace terrabench

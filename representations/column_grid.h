@@ -115,7 +115,5 @@ std::optional<Heightfield> at_resolution(const Heightfield&, std::int64_t resolu
 // Throws usage_error unless both lists are as long and every span is one (bottom < top; infinite ends are
 // fine).
 void check_paint(Columns where, std::span<const Span> what);
-// Throws environment_error when so many bytes cannot be had.
-void require_memory(std::size_t bytes, std::string_view what);
 
 }  // namespace terrabench

@@ -1,12 +1,16 @@
 #include "terrain/memory.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <fstream>
 #include <new>
 #include <string>
+
+#include "terrain/error.h"
 
 namespace terrabench {
 namespace {
@@ -64,13 +68,30 @@ std::uint64_t physical_memory() {
 
 std::uint64_t available_memory() {
   std::ifstream info("/proc/meminfo");
+  std::uint64_t available = physical_memory();
   for (std::string key, unit; info >> key;) {
     std::uint64_t kib = 0;
     if (!(info >> kib)) break;
     std::getline(info, unit);
-    if (key == "MemAvailable:") return kib * 1024;
+    if (key == "MemAvailable:") available = kib * 1024;
   }
-  return physical_memory();
+  // "max" where the group has no limit, no file where there is no group: neither reads as a number.
+  std::uint64_t limit = 0, used = 0;
+  if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit &&
+      std::ifstream("/sys/fs/cgroup/memory.current") >> used) {
+    available = std::min(available, limit - std::min(limit, used));
+  }
+  return available;
+}
+
+void require_memory(std::uint64_t bytes, std::string_view what, std::string_view advice) {
+  if (const std::uint64_t available = available_memory(); bytes > available) {
+    constexpr double kGiB = 0x1p30;
+    throw environment_error(
+        fmt::format("needs {:.1f} GiB of memory, {:.1f} GiB are free", static_cast<double>(bytes) / kGiB,
+                    static_cast<double>(available) / kGiB),
+        what, advice);
+  }
 }
 
 }  // namespace terrabench

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -57,7 +58,12 @@ class HeapScope {
 };
 
 // Physical memory in bytes, and how much of it could still be taken: for refusing input that would not fit.
+// The least of the machine's and, in a container, its control group's.
 std::uint64_t physical_memory();
 std::uint64_t available_memory();
+// Throws environment_error, with this advice, when so many bytes cannot be had: asked before much is
+// reserved.
+void require_memory(std::uint64_t bytes, std::string_view what,
+                    std::string_view advice = "choose a lower resolution, a larger step or less ground");
 
 }  // namespace terrabench

@@ -174,7 +174,7 @@ float NearestThree::height(float x, float z) const {
 }
 
 std::vector<glm::vec3> height_points(const Heightfield& field) {
-  require_room(field.heights.size() * (sizeof(glm::vec3) + NearestThree::kBytesAPoint), "height points");
+  require_memory(field.heights.size() * (sizeof(glm::vec3) + NearestThree::kBytesAPoint), "height points");
   std::vector<glm::vec3> points(field.heights.size());
   tbb::parallel_for(0, field.depth, [&](int j) {
     for (int i = 0; i < field.width; ++i) {
@@ -193,10 +193,8 @@ Heightfield interpolate_lattice(std::span<const glm::vec3> points, const Bisecti
     throw usage_error("the height points span no area", "", "give points that do not lie in one line");
   }
   const std::uint64_t along = static_cast<std::uint64_t>(tree.side()) + 1;
-  if (along * along * sizeof(float) + points.size() * NearestThree::kBytesAPoint > available_memory()) {
-    throw usage_error(fmt::format("a lattice of {}² heights does not fit the memory left", along), "depth",
-                      "choose a smaller depth");
-  }
+  require_memory(along * along * sizeof(float) + points.size() * NearestThree::kBytesAPoint,
+                 fmt::format("a lattice of {}² heights", along), "choose a smaller depth");
   const NearestThree nearest(points);
   Heightfield field;
   field.width = field.depth = tree.side() + 1;

@@ -131,7 +131,7 @@ TEST(Roam, AsksForMemoryBeforeItChangesAnything) {
   mesh.make_room(100);
   EXPECT_GE(mesh.nodes().size(), nodes + 200);
   EXPECT_EQ(mesh.leaves(), leaves);
-  EXPECT_EQ(failure_of([] { require_room(std::size_t{1} << 60, "a test"); }).code, ExitCode::kEnvironment);
+  EXPECT_EQ(failure_of([] { require_memory(std::size_t{1} << 60, "a test"); }).code, ExitCode::kEnvironment);
 }
 
 TEST(Roam, IsExactWhereNoErrorIsAllowed) {

@@ -23,11 +23,7 @@ void check_between(double value, double low, double high, std::string_view what,
 
 void check_memory(std::int64_t width, std::int64_t depth, std::string_view where) {
   const std::uint64_t bytes = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(depth) * 4;
-  if (const std::uint64_t available = available_memory(); bytes > available) {
-    throw environment_error(fmt::format("{} × {} samples need {} MiB, and {} MiB are free", width, depth,
-                                        bytes >> 20, available >> 20),
-                            where, "ask for fewer samples");
-  }
+  require_memory(bytes, fmt::format("{}: {} × {} samples", where, width, depth), "ask for fewer samples");
 }
 
 float level_range(float amplitude, float hurst, int level) {
