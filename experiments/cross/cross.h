@@ -3,11 +3,19 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "experiments/experiment.h"
 
 namespace terrabench::cross {
+
+// What enters: every method as it comes, and those with an option worth a comparison of its own.
+struct Entrant {
+  std::string name;  // of its cases
+  std::string method, options;
+};
+std::vector<Entrant> entrants();
 
 // Ground × method × asked error; brute force, which has no error, once a ground; and for each ground a case
 // that draws all methods.

@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "experiments/cross/cross.h"
@@ -25,9 +26,12 @@ constexpr std::string_view kAll = "all";      // in place of a method
 const std::array kSpecs{
     ParameterSpec{"method", std::string("roam"), "",
                   "a name of `terrabench list lods`, or all: their triangles side by side"},
+    ParameterSpec{"options", std::string(), "",
+                  "of the methods, such as geomipmap.patch=32,mrbsp.threshold=area"},
     ParameterSpec{"error", 1.0, "px", "99th percentile of the screen-space error that is asked for", 0.01,
                   1000},
-    ParameterSpec{"path", std::string("fly"), "", "camera path: cross, fly, low, turn, walk, or a TOML file of your own"},
+    ParameterSpec{"path", std::string("fly"), "",
+                  "camera path: cross, fly, low, turn, walk, or a TOML file of your own"},
     ParameterSpec{"frames", std::int64_t{24}, "", "frames of the path that are metered", 1, 100000},
     ParameterSpec{"size", std::int64_t{257}, "samples", "side of the grounds that are made here, 2^n + 1", 3,
                   8193},
@@ -37,9 +41,9 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// All frames in their order, with nothing between two updates: what the method costs the CPU and the bus. The
-// first update, which builds what the others keep, stands apart, and those after a leap do not count.
-void measure_cost(const Flight& flight, const LodType& type, double knob, Recorder& recorder,
+// The whole path, with nothing between two updates: what the method costs the CPU and the bus. The first
+// update, which builds what the others keep, stands apart.
+void measure_cost(const Flight& flight, const Contender& method, double knob, Recorder& recorder,
                   Progress& progress) {
   std::vector<double> times, triangles;
   times.reserve(flight.views.size());
@@ -47,7 +51,7 @@ void measure_cost(const Flight& flight, const LodType& type, double knob, Record
   double uploaded = 0;
   const HeapScope heap;
   auto begin = std::chrono::steady_clock::now();
-  const std::unique_ptr<Lod> lod = type.build(flight.ground(), Parameters(type.parameters), progress);
+  const std::unique_ptr<Lod> lod = method.build(flight.ground(), progress);
   const double build_time = seconds_since(begin);
   lod->tune(knob);
   begin = std::chrono::steady_clock::now();
@@ -56,9 +60,7 @@ void measure_cost(const Flight& flight, const LodType& type, double knob, Record
   for (std::size_t i = 1; i < flight.views.size(); ++i) {
     begin = std::chrono::steady_clock::now();
     const Frame& frame = lod->update(flight.views[i]);
-    const double time = seconds_since(begin);
-    if (!flight.follows[i]) continue;
-    times.push_back(time);
+    times.push_back(seconds_since(begin));
     triangles.push_back(static_cast<double>(frame.stats.triangles));
     uploaded += static_cast<double>(frame.stats.bytes_uploaded);
   }
@@ -82,7 +84,8 @@ struct Shown {
   double largest_gap = 0;       // pixels
   std::size_t undrawn = 0, gaps = 0, bare_edges = 0, overlaps = 0, t_junctions = 0;
   std::vector<double> frame_times;  // seconds, with the upload
-  std::vector<double> psnr, ssim;
+  std::vector<double> noise;        // of a picture, as a share of the signal's peak: mean of squares
+  std::vector<double> ssim;
 };
 
 void meter(const Flight& flight, std::size_t k, const Frame& frame, const SurfaceRaster& before,
@@ -101,49 +104,62 @@ void meter(const Flight& flight, std::size_t k, const Frame& frame, const Surfac
   shown.largest_gap = std::max(shown.largest_gap, cracks.largest_gap_px);
 }
 
-// The frame before a metered one is drawn too: popping lies between them, and it is the frame that the
-// renderer's upload starts from.
-Shown measure_shown(Flight& flight, const LodType& type, double knob, GlContext& context,
+// Of a metered frame: against the frame before it, which popping lies between, and which the renderer's
+// upload starts from. A few frames of the path lead up to these, so that methods that keep a mesh are in
+// step.
+class Metering {
+ public:
+  Metering(Flight& flight, const Contender& method, double knob, GlContext& context, Progress& progress)
+      : flight_(flight),
+        context_(context),
+        lod_(method.build(flight.ground(), progress)),
+        before_(flight.ground().width, flight.ground().depth),
+        drawn_(flight.ground().width, flight.ground().depth) {
+    lod_->tune(knob);
+  }
+
+  void measure(std::size_t k, const Image* reference, Shown& shown) {
+    const std::size_t last = flight_.metered[k];
+    for (std::size_t i = last - std::min(last, kLead); i + 1 < last; ++i) lod_->update(flight_.views[i]);
+    const Frame& former = lod_->update(flight_.views[last - 1]);
+    before_.draw(former);
+    std::optional<FrameRenderer> renderer;
+    if (reference != nullptr) {
+      draw_ground(renderer.emplace(context_), flight_, former, flight_.views[last - 1]);
+    }
+    const Frame& frame = lod_->update(flight_.views[last]);
+    drawn_.draw(frame);
+    meter(flight_, k, frame, before_, drawn_, shown);
+    if (reference == nullptr) return;
+    const auto begin = std::chrono::steady_clock::now();
+    draw_ground(*renderer, flight_, frame, flight_.views[last]);
+    shown.frame_times.push_back(seconds_since(begin));
+    const Image image = renderer->image();
+    shown.noise.push_back(std::pow(10, -psnr(image, *reference) / 10));
+    shown.ssim.push_back(ssim(image, *reference));
+  }
+
+ private:
+  static constexpr std::size_t kLead = 3;
+
+  Flight& flight_;
+  GlContext& context_;
+  std::unique_ptr<Lod> lod_;
+  SurfaceRaster before_, drawn_;
+};
+
+Shown measure_shown(Flight& flight, const Contender& method, double knob, GlContext& context,
                     Progress& progress) {
-  const Heightfield& ground = flight.ground();
-  const std::unique_ptr<Lod> lod = type.build(ground, Parameters(type.parameters), progress);
-  lod->tune(knob);
-  SurfaceRaster before(ground.width, ground.depth), drawn(ground.width, ground.depth);
-  const std::vector<std::size_t> with_picture = pictured(flight);
-  std::optional<FrameRenderer> renderer;
   Shown shown;
-  std::size_t picture = 0;
-  const auto draws = [&](std::size_t k) {
-    return picture < with_picture.size() && with_picture[picture] == k;
-  };
-  const std::vector<std::size_t>& metered = flight.metered;
-  progress.begin(fmt::format("metering {} on {}", type.name, flight.route.terrain), metered.size());
-  for (std::size_t i = 0, k = 0; k < metered.size(); ++i) {
-    const View& view = flight.views[i];
-    const Frame& frame = lod->update(view);
-    const bool meters = metered[k] == i;
-    if (meters) {
-      drawn.draw(frame);
-      meter(flight, k, frame, before, drawn, shown);
-      if (draws(k)) {
-        const auto begin = std::chrono::steady_clock::now();
-        draw_ground(*renderer, flight, frame, view);
-        shown.frame_times.push_back(seconds_since(begin));
-        const Image image = renderer->image();
-        shown.psnr.push_back(psnr(image, flight.pictures[picture]));
-        shown.ssim.push_back(ssim(image, flight.pictures[picture]));
-        ++picture;
-      }
-      ++k;
-      progress.advance();
-    }
-    if (k == metered.size() || metered[k] != i + 1) continue;
-    if (meters) {
-      std::swap(before, drawn);
-    } else {
-      before.draw(frame);
-    }
-    if (draws(k)) draw_ground(renderer.emplace(context), flight, frame, view);
+  Metering metering(flight, method, knob, context, progress);
+  const std::vector<std::size_t> with_picture = pictured(flight);
+  progress.begin(fmt::format("metering {} on {}", method.type->name, flight.route.terrain),
+                 flight.metered.size());
+  for (std::size_t k = 0; k < flight.metered.size(); ++k) {
+    const auto at = std::find(with_picture.begin(), with_picture.end(), k);
+    metering.measure(k, at == with_picture.end() ? nullptr : &flight.pictures[at - with_picture.begin()],
+                     shown);
+    progress.advance();
   }
   progress.end();
   return shown;
@@ -167,13 +183,20 @@ void record(const Shown& shown, const Flight& flight, Recorder& recorder) {
   recorder.add("frames", "", static_cast<double>(flight.metered.size()));
   for (const double t : shown.frame_times) recorder.add("frame_time", "s", t);
   for (const double s : shown.ssim) recorder.add("ssim", "", s);
-  // Equal pictures have no ratio of signal to noise.
-  for (const double p : shown.psnr) {
-    if (std::isfinite(p)) recorder.add("psnr", "dB", p);
-  }
+  // Of all pictures as one; equal pictures have no ratio of signal to noise.
+  const double noise = std::accumulate(shown.noise.begin(), shown.noise.end(), 0.0);
+  if (noise > 0)
+    recorder.add("psnr", "dB", -10 * std::log10(noise / static_cast<double>(shown.noise.size())));
 }
 
 }  // namespace
+
+std::vector<Entrant> entrants() {
+  std::vector<Entrant> all;
+  for (const LodType& type : lods()) all.push_back({std::string(type.name), std::string(type.name), ""});
+  all.push_back({"mrbsp_area", "mrbsp", "mrbsp.threshold=area"});
+  return all;
+}
 
 constinit const std::span<const ParameterSpec> kEqualErrorParameters = kSpecs;
 
@@ -183,10 +206,11 @@ std::vector<Case> equal_error_cases(const RunOptions& options) {
   if (terrains.empty()) terrains = {std::string(kMainGround), "fractal", "peak"};
   std::vector<Case> cases;
   for (const std::string& terrain : terrains) {
-    const auto add = [&](const std::string& name, std::string_view method, double error) {
+    const auto add = [&](const std::string& name, const Entrant& entrant, double error) {
       Case& added = cases.emplace_back(
           Case{fmt::format("{}/{}", terrain, name), Parameters(kEqualErrorParameters), terrain});
-      added.parameters.set("method", std::string(method));
+      added.parameters.set("method", entrant.method);
+      added.parameters.set("options", entrant.options);
       added.parameters.set("error", error);
       // The other grounds are as wide as the path `fly` suits; this one has 123 km in the paper profile, and
       // a flight as high as its width asks for would see nothing of its samples.
@@ -196,14 +220,16 @@ std::vector<Case> equal_error_cases(const RunOptions& options) {
       added.parameters.set("frames", std::int64_t{large ? 12 : paper ? 48 : 24});
       added.parameters.set("size", std::int64_t{large ? 4097 : paper ? 1025 : 257});
     };
-    for (const LodType& type : lods()) {
-      if (!tunable(type)) {
-        add(std::string(type.name), type.name, kErrors.front());
+    for (const Entrant& entrant : entrants()) {
+      if (!contender(entrant.method, entrant.options).tunable()) {
+        add(entrant.name, entrant, kErrors.front());
         continue;
       }
-      for (const double error : kErrors) add(fmt::format("{}/{:.0f}px", type.name, error), type.name, error);
+      for (const double error : kErrors) {
+        add(fmt::format("{}/{:.0f}px", entrant.name, error), entrant, error);
+      }
     }
-    add("wires", kAll, kErrors[1]);
+    add("wires", {"", std::string(kAll), ""}, kErrors[1]);
   }
   return cases;
 }
@@ -217,21 +243,22 @@ void measure_equal_error(const Case& at, const RunOptions& options, Recorder& re
   const std::string& method = at.parameters.text("method");
   const auto context = open_context(options.renderer, flight.views[0].width, flight.views[0].height);
   if (method == kAll) {
-    draw_wires(flight, pixels, *context, recorder, progress);
+    draw_wires(flight, pixels, at.parameters.text("options"), *context, recorder, progress);
     return;
   }
-  const LodType& type = lod(method);
-  const Tuned tuned = tune_to(flight, type, pixels, progress);
+  const Contender measured = contender(method, at.parameters.text("options"));
+  const Tuned tuned = tune_to(flight, measured, pixels, progress);
   recorder.add("knob", "", tuned.knob);
   recorder.add("tuned_error", "px", tuned.error);
   recorder.add("reached", "", tuned.reached ? 1 : 0);
-  measure_cost(flight, type, tuned.knob, recorder, progress);
+  measure_cost(flight, measured, tuned.knob, recorder, progress);
   draw_reference(flight, *context, progress);
-  const Shown shown = measure_shown(flight, type, tuned.knob, *context, progress);
+  const Shown shown = measure_shown(flight, measured, tuned.knob, *context, progress);
   record(shown, flight, recorder);
   recorder.add("error_of_asked", "", shown.error.quantile(0.99) / pixels);
   // Of methods that promise a bound, which is their knob: how much of it a sample in the frustum takes.
-  if (type.traits.bounds_error) recorder.add("bound_taken", "", shown.largest_anywhere / tuned.knob);
+  if (measured.type->traits.bounds_error)
+    recorder.add("bound_taken", "", shown.largest_anywhere / tuned.knob);
 }
 
 }  // namespace terrabench::cross

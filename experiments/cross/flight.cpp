@@ -17,10 +17,8 @@ namespace {
 constexpr float kCell = 30;  // metres
 constexpr float kHurst = 0.7F;
 constexpr double kRoughness = 5.9;  // metres, the most that fractal ground is displaced at its last level
-// Frames before a metered one: after the first, methods that keep a mesh are back in step.
-constexpr std::size_t kLead = 2;
 // Pictures are what takes longest where there is no GPU.
-constexpr std::size_t kMeteredToPictured = 12, kMostPictures = 6;
+constexpr std::size_t kMeteredToPictured = 4, kMostPictures = 4;
 
 // A bell of 0.06 of the extent, so high that its steepest slope is one in one: less than a third of the
 // ground is not flat.
@@ -84,7 +82,11 @@ Flight::Flight(const Route& along, Progress& progress)
   const HeightRange range = height_range(ground());
   lowest = range.lowest;
   highest = range.highest;
-  take_frames(terrabench::views(open_camera_path(route.path), ground()));
+  views = terrabench::views(open_camera_path(route.path), ground());
+  if (views.size() < 2) {
+    throw usage_error("a path of one frame has nothing that moves", route.path, "choose another path");
+  }
+  metered = evenly(static_cast<std::size_t>(route.frames), views.size() - 1);
   seen.reserve(metered.size());
   progress.begin(fmt::format("finding what is seen on {}", route.terrain), metered.size());
   for (const std::size_t frame : metered) {
@@ -92,21 +94,6 @@ Flight::Flight(const Route& along, Progress& progress)
     progress.advance();
   }
   progress.end();
-}
-
-void Flight::take_frames(const std::vector<View>& path) {
-  if (path.size() < 2) {
-    throw usage_error("a path of one frame has nothing that moves", route.path, "choose another path");
-  }
-  std::size_t next = 0;  // frame of the path that none has been taken after
-  for (const std::size_t frame : evenly(static_cast<std::size_t>(route.frames), path.size() - 1)) {
-    for (std::size_t i = std::max(next, frame - std::min(frame, kLead)); i <= frame; ++i) {
-      follows.push_back(i > 0 && i == next && !views.empty());
-      views.push_back(path[i]);
-      next = i + 1;
-    }
-    metered.push_back(views.size() - 1);
-  }
 }
 
 std::vector<std::size_t> pictured(const Flight& flight) {
@@ -126,27 +113,54 @@ Flight& flight_along(const Route& route, Progress& progress) {
   return *last;
 }
 
-Tuned tune_to(Flight& flight, const LodType& type, double pixels, Progress& progress) {
-  if (!tunable(type)) return {type.knob.fallback, 0, true};
+std::unique_ptr<Lod> Contender::build(const Heightfield& ground, Progress& progress) const {
+  return type->build(ground, options, progress);
+}
+
+Contender contender(std::string_view method, std::string_view options) {
+  const LodType& type = lod(method);
+  Contender built{&type, Parameters(type.parameters)};
+  while (!options.empty()) {
+    const std::string_view option = options.substr(0, options.find(','));
+    options.remove_prefix(std::min(option.size() + 1, options.size()));
+    const std::size_t dot = option.find('.');
+    if (dot == option.npos) {
+      throw usage_error("an option does not say whose it is", option, "write METHOD.KEY=VALUE");
+    }
+    if (&lod(option.substr(0, dot)) == &type) {
+      built.options.set_from_text(std::string(option.substr(dot + 1)));
+    }
+  }
+  return built;
+}
+
+Tuned tune_to(Flight& flight, const Contender& method, double pixels, Progress& progress) {
+  const Knob& knob = method.type->knob;
+  if (!method.tunable()) return {knob.fallback, 0, true};
+  std::string name(method.type->name);
+  for (std::size_t i = 0; i < method.options.specs().size(); ++i) {
+    name += " " + to_string(method.options.value(i));
+  }
+  const std::pair key(std::move(name), pixels);
+  if (const auto known = flight.tuned.find(key); known != flight.tuned.end()) return known->second;
   const Heightfield& ground = flight.ground();
-  std::vector<std::size_t> chosen = evenly(kTuningFrames, flight.metered.size());
-  std::unique_ptr<Lod> lod;  // built when something must be tried
+  const std::unique_ptr<Lod> lod = method.build(ground, progress);
   SurfaceRaster drawn(ground.width, ground.depth);
-  const auto error_at = [&](double knob) {
-    if (lod == nullptr) lod = type.build(ground, Parameters(type.parameters), progress);
-    lod->tune(knob);
+  const auto error_at = [&](double setting) {
+    lod->tune(setting);
     Distribution pool;
-    progress.begin(
-        fmt::format("{} on {}: trying {} = {:.4g}", type.name, flight.route.terrain, type.knob.name, knob),
-        chosen.size());
-    for (const std::size_t k : chosen) {
-      drawn.draw(lod->update(flight.views[flight.metered[k - 1]]));
-      screen_error(drawn, ground, flight.seen[k - 1], &pool);
+    progress.begin(fmt::format("{} on {}: trying {} = {:.4g}", method.type->name, flight.route.terrain,
+                               knob.name, setting),
+                   (flight.metered.size() + 1) / 2);
+    // The other half is left for judging what was found here.
+    for (std::size_t k = 0; k < flight.metered.size(); k += 2) {
+      drawn.draw(lod->update(flight.views[flight.metered[k]]));
+      screen_error(drawn, ground, flight.seen[k], &pool);
       progress.advance();
     }
     return pool.quantile(0.99);
   };
-  return flight.searches.try_emplace(std::string(type.name), type.knob).first->second.find(pixels, error_at);
+  return flight.tuned[key] = KnobSearch(knob).find(pixels, error_at);
 }
 
 }  // namespace terrabench::cross

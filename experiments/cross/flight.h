@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "experiments/cross/knob_search.h"
@@ -41,16 +43,13 @@ struct Flight {
 
   Route route;
   TerrainSource source;
-  float lowest, highest;  // of the ground, metres
-  // Frames of the path in their order: each metered one and the few before it.
-  std::vector<View> views;
-  std::vector<bool> follows;         // the view before is the path's frame before; false after a leap
-  std::vector<std::size_t> metered;  // of views, ascending; each follows another
+  float lowest, highest;             // of the ground, metres
+  std::vector<View> views;           // every frame of the path
+  std::vector<std::size_t> metered;  // of views, ascending, from 1 on
   std::vector<Visibility> seen;      // of the metered ones
-  std::map<std::string, KnobSearch, std::less<>> searches;  // by method: what tuning has tried so far
+  // What tune_to() has found: method with its options, and pixels.
+  std::map<std::pair<std::string, double>, Tuned> tuned;
   std::vector<Image> pictures;  // brute force's, of pictured(); empty until they are drawn
- private:
-  void take_frames(const std::vector<View>& path);
 };
 
 // Which metered frames are drawn, as indices of Flight::metered.
@@ -60,11 +59,21 @@ std::vector<std::size_t> pictured(const Flight&);
 // prepare than to use; what it holds depends on the route alone.
 Flight& flight_along(const Route&, Progress&);
 
+// A method with its options set: what is measured.
+struct Contender {
+  const LodType* type;
+  Parameters options;
+
+  std::unique_ptr<Lod> build(const Heightfield&, Progress&) const;
+  // Brute force has one setting, whatever the error.
+  bool tunable() const { return type->knob.finest != type->knob.coarsest; }
+};
+// `options` is a list such as "geomipmap.patch=32,mrbsp.threshold=area", of which those of the method count.
+// Throws unknown_name and usage_error.
+Contender contender(std::string_view method, std::string_view options);
+
 // The coarsest setting of the knob whose 99th percentile of screen-space error stays at or below `pixels`
-// over a share of the metered frames, taken evenly: kTuningFrames of them.
-inline constexpr std::size_t kTuningFrames = 24;
-// Brute force has one setting, whatever the error.
-inline bool tunable(const LodType& type) { return type.knob.finest != type.knob.coarsest; }
-Tuned tune_to(Flight&, const LodType&, double pixels, Progress&);
+// over every other metered frame. The same whatever was tuned before.
+Tuned tune_to(Flight&, const Contender&, double pixels, Progress&);
 
 }  // namespace terrabench::cross

@@ -57,7 +57,8 @@ void draw_reference(Flight& flight, GlContext& context, Progress& progress) {
   progress.end();
 }
 
-void draw_wires(Flight& flight, double pixels, GlContext& context, Recorder& recorder, Progress& progress) {
+void draw_wires(Flight& flight, double pixels, const std::string& options, GlContext& context,
+                Recorder& recorder, Progress& progress) {
   // Half-way, where the paths are close to the ground.
   const std::size_t last = flight.metered[flight.metered.size() / 2];
   const View& view = flight.views[last];
@@ -68,8 +69,9 @@ void draw_wires(Flight& flight, double pixels, GlContext& context, Recorder& rec
   std::vector<Panel> panels;
   int sky = view.height;
   for (const LodType& type : lods()) {
-    const Tuned tuned = tune_to(flight, type, pixels, progress);
-    const std::unique_ptr<Lod> lod = type.build(flight.ground(), Parameters(type.parameters), progress);
+    const Contender method = contender(type.name, options);
+    const Tuned tuned = tune_to(flight, method, pixels, progress);
+    const std::unique_ptr<Lod> lod = method.build(flight.ground(), progress);
     lod->tune(tuned.knob);
     for (std::size_t i = last > kWarmUp ? last - kWarmUp : 0; i < last; ++i) lod->update(flight.views[i]);
     const Frame& frame = lod->update(view);

@@ -14,6 +14,6 @@ void draw_reference(Flight&, GlContext&, Progress&);
 
 // The figure of one ground: every method's triangles in the same view, half-way along the path, each method
 // tuned to `pixels`.
-void draw_wires(Flight&, double pixels, GlContext&, Recorder&, Progress&);
+void draw_wires(Flight&, double pixels, const std::string& options, GlContext&, Recorder&, Progress&);
 
 }  // namespace terrabench::cross
