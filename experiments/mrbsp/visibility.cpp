@@ -11,7 +11,7 @@
 #include "experiments/mrbsp/ground.h"
 #include "experiments/mrbsp/mrbsp.h"
 #include "lod/mrbsp/coarse_squares.h"
-#include "lod/mrbsp/visibility_file.h"
+#include "lod/mrbsp/visibility_binary.h"
 #include "renderers/frame_renderer.h"
 
 namespace terrabench::mrbsp {

@@ -3,32 +3,20 @@
 // from the ground around is left out. Nothing but heights, bounds of the upper triangles and a bit a vertex
 // is held.
 //
-// Threshold. Printed: depth M - log2(D/S), S the short side of the smallest triangles. Bisection halves the
-// area and not the side, so that the apparent side falls with 1/√D; M - 2·log2(D/S) keeps it the same. The
-// paper's figure counts whole thresholds: ours are rounded up, so no triangle is larger than asked. The
-// `size` knob multiplies S.
-//
-// Holes. Printed: a triangle whose right angle alone has a lower threshold than its other two corners is
-// drawn as its two halves. That looks at one triangle and leaves holes where neighbours differ otherwise.
-// Conforming: a cut needs the cuts of the two triangles that made its own (BisectionTree::parents), so these
-// are made too, as few as are needed, whatever the threshold says.
-//
-// Any field: the tree's square reaches over its far borders, and vertices out there stand on the border. That
-// keeps order and orientation in x and in z, so the triangles still cover the field once; the flat ones are
-// left out. update() is O(triangles drawn).
+// lod_rule.h says at which depth a triangle is drawn, hole_rule.h how neighbours of different depths meet,
+// visible_flags.h what the ground hides, tree_walk.h puts them together. update() is O(triangles drawn).
 #pragma once
 
-#include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "lod/lod.h"
 #include "lod/mrbsp/bisection_tree.h"
+#include "lod/mrbsp/tree_walk.h"
 #include "lod/mrbsp/visibility.h"
 
 namespace terrabench {
-
-class Frustum;
 
 struct MrbspOptions {
   int depth = 0;                 // M; 0: as deep as the samples go
@@ -66,19 +54,9 @@ class Mrbsp : public Lod {
   bool on_the_ground(const glm::vec3& eye) const;
 
  private:
-  struct Range {
-    float lowest, highest;
-  };
-  // A triangle that distance leaves whole, until all cuts are known.
-  struct Whole {
-    std::array<std::uint16_t, 2> apex, left, right;  // lattice
-    std::uint32_t node;
-    unsigned planes;  // of the view, that it may cross
-  };
-  class Walk;
-
-  void find_bounds(Progress&);
-  void find_visibility(VisibilityTable);
+  LodRule rule() const { return {tree_.depth(), size_ * short_side_, options_.area_consistent}; }
+  void take_visibility(VisibilityTable);
+  void publish(std::size_t toggled);
 
   MrbspOptions options_;
   Heightfield interpolated_;  // empty when the samples are taken as they are
@@ -86,13 +64,11 @@ class Mrbsp : public Lod {
   BisectionTree tree_;
   float short_side_ = 1;
   double size_ = 1;
-  int bounds_depth_ = 1;
-  std::vector<Range> bounds_;          // of the triangle's whole subtree, by node number
-  std::vector<std::uint64_t> cuts_;    // a bit a lattice vertex: conforming only
-  std::vector<std::uint32_t> marked_;  // words of cuts_ that are not zero
-  std::vector<Whole> whole_;
+  TriangleBounds bounds_;
+  std::optional<Cuts> cuts_;  // conforming only
+  std::vector<WholeTriangle> whole_;
   VisibilityTable visibility_;
-  VisibleNodes visible_;
+  VisibleFlags flags_;
   std::vector<std::uint32_t> indices_, next_;
   std::vector<Batch> batches_;
   std::vector<DirtyRange> uploads_;

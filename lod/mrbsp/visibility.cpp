@@ -75,7 +75,7 @@ VisibleSets find_visible(const GroundGrid& ground, const BisectionTree& tree,
                          const VisibilityOptions& options, Progress& progress) {
   check(options);
   const CellGrid cells = make_cells(ground, tree, options.cells);
-  int depth = std::clamp(tree.depth() - options.coarseness, 1, 24);
+  int depth = std::clamp(tree.depth() - options.coarseness, 1, kDeepestCoarse);
   depth -= depth % 2 == 0 ? 1 : 0;
   VisibleSets sets(cells, depth, options.eye_height);
   sets.surface = surface_checksum(ground, tree);
@@ -96,86 +96,6 @@ VisibleSets find_visible(const GroundGrid& ground, const BisectionTree& tree,
   }
   progress.end();
   return sets;
-}
-
-VisibilityTable changes_of(const VisibleSets& sets) {
-  VisibilityTable table{sets.cells, sets.depth, sets.eye_height, sets.surface, {}, {0}, {}};
-  const auto each_bit = [](std::uint64_t word, std::size_t w, std::vector<std::uint32_t>& out) {
-    for (; word != 0; word &= word - 1) {
-      out.push_back(static_cast<std::uint32_t>(w * 64) + static_cast<std::uint32_t>(std::countr_zero(word)));
-    }
-  };
-  for (std::size_t w = 0; w < sets.words; ++w) each_bit(sets.bits[w], w, table.start);
-  const auto step = [&](int from, int to) {
-    for (std::size_t w = 0; w < sets.words; ++w) {
-      each_bit(sets.bits[from * sets.words + w] ^ sets.bits[to * sets.words + w], w, table.changes);
-    }
-    table.first.push_back(static_cast<std::uint32_t>(table.changes.size()));
-  };
-  table.first.reserve(static_cast<std::size_t>(table.steps()) + 1);
-  const int columns = sets.cells.columns, rows = sets.cells.rows;
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column + 1 < columns; ++column) {
-      step(row * columns + column, row * columns + column + 1);
-    }
-  }
-  for (int row = 0; row + 1 < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      step(row * columns + column, (row + 1) * columns + column);
-    }
-  }
-  return table;
-}
-
-VisibleSets sets_of(const VisibilityTable& table) {
-  VisibleSets sets(table.cells, table.depth, table.eye_height);
-  sets.surface = table.surface;
-  for (const std::uint32_t element : table.start) sets.add(0, element);
-  const auto apply = [&](int from, int to, int step) {
-    const auto row = sets.bits.begin();
-    const auto words = static_cast<std::ptrdiff_t>(sets.words);
-    std::copy(row + from * words, row + (from + 1) * words, row + to * words);
-    for (const std::uint32_t e : table.step(step)) {
-      sets.bits[to * sets.words + e / 64] ^= std::uint64_t{1} << (e % 64);
-    }
-  };
-  for (int row = 0; row < table.cells.rows; ++row) {
-    const int cell = row * table.cells.columns;
-    if (row > 0) apply(cell - table.cells.columns, cell, table.step_down(0, row - 1));
-    for (int column = 1; column < table.cells.columns; ++column) {
-      apply(cell + column - 1, cell + column, table.step_right(column - 1, row));
-    }
-  }
-  return sets;
-}
-
-VisibleNodes::VisibleNodes(const VisibilityTable& table)
-    : flags_(((std::size_t{2} << table.depth) + 63) / 64) {
-  for (const std::uint32_t element : table.start) toggle((NodeNumber{1} << table.depth) + element);
-}
-
-void VisibleNodes::toggle(NodeNumber leaf) {
-  const auto flip = [&](NodeNumber node) { flags_[node / 64] ^= std::uint64_t{1} << (node % 64); };
-  flip(leaf);
-  for (NodeNumber node = leaf / 2; node >= 1; node /= 2) {
-    const bool visible = (*this)[2 * node] || (*this)[2 * node + 1];
-    if (visible == (*this)[node]) return;
-    flip(node);
-  }
-}
-
-std::size_t VisibleNodes::move_to(const VisibilityTable& table, glm::ivec2 cell) {
-  const NodeNumber level = NodeNumber{1} << table.depth;
-  std::size_t toggled = 0;
-  const auto take = [&](int step) {
-    for (const std::uint32_t element : table.step(step)) toggle(level + element);
-    toggled += table.step(step).size();
-  };
-  for (; cell_.x < cell.x; ++cell_.x) take(table.step_right(cell_.x, cell_.y));
-  for (; cell_.x > cell.x; --cell_.x) take(table.step_right(cell_.x - 1, cell_.y));
-  for (; cell_.y < cell.y; ++cell_.y) take(table.step_down(cell_.x, cell_.y));
-  for (; cell_.y > cell.y; --cell_.y) take(table.step_down(cell_.x, cell_.y - 1));
-  return toggled;
 }
 
 }  // namespace terrabench

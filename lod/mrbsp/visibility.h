@@ -1,6 +1,7 @@
 // What can be seen from where, found once before the walk (MRBSP paper, §4). The ground is divided into
-// rectangular cells in plan; for each, the coarse triangles that an observer standing anywhere in it can see;
-// kept as the changes between neighbouring cells. Coarse triangles are those of one odd depth of the tree, so
+// rectangular cells in plan; for each, the coarse triangles that an observer standing anywhere in it can see.
+// Stored as changes between neighbouring cells (visibility_table.h), applied to flags of the nodes
+// (visible_flags.h). Coarse triangles are those of one odd depth of the tree, so
 // that they are the halves of squares; what they hide or show, their subtrees do.
 //
 // Two ways to find the sets:
@@ -22,16 +23,16 @@
 
 #include <array>
 #include <cstdint>
-#include <glm/vec2.hpp>
-#include <span>
 #include <vector>
 
 #include "lod/mrbsp/bisection_tree.h"
 #include "terrain/frame.h"
-#include "terrain/memory.h"
 #include "terrain/progress.h"
 
 namespace terrabench {
+
+// The deepest level that coarse triangles may be taken from.
+inline constexpr int kDeepestCoarse = 24;
 
 struct VisibilityOptions {
   bool conservative = true;
@@ -75,51 +76,5 @@ struct VisibleSets {
 
 // Throws usage_error for options out of range or sets beyond 512 MiB. The same for any number of threads.
 VisibleSets find_visible(const GroundGrid&, const BisectionTree&, const VisibilityOptions&, Progress&);
-
-// What is stored: the first cell's set, and what toggles from each cell to its right and to its lower
-// neighbour. Element numbers rise in every list.
-struct VisibilityTable {
-  CellGrid cells;
-  int depth = 0;  // 0: no table
-  float eye_height = 0;
-  SurfaceChecksum surface{};
-  std::vector<std::uint32_t> start;
-  std::vector<std::uint32_t> first;  // of each step between neighbours, and the end; see step()
-  std::vector<std::uint32_t> changes;
-
-  // Steps to the right come first, row by row, then steps down.
-  int steps() const { return (cells.columns - 1) * cells.rows + cells.columns * (cells.rows - 1); }
-  int step_right(int column, int row) const { return row * (cells.columns - 1) + column; }
-  int step_down(int column, int row) const {
-    return (cells.columns - 1) * cells.rows + row * cells.columns + column;
-  }
-  std::span<const std::uint32_t> step(int index) const {
-    return std::span(changes).subspan(first[index], first[index + 1] - first[index]);
-  }
-  bool operator==(const VisibilityTable&) const = default;
-};
-VisibilityTable changes_of(const VisibleSets&);
-VisibleSets sets_of(const VisibilityTable&);
-
-// The flags of the nodes at run time: a node's is up when something beneath it can be seen, so a walk down
-// the tree stops at the top of what is hidden. Moving toggles what changes on the way.
-class VisibleNodes {
- public:
-  VisibleNodes() = default;
-  explicit VisibleNodes(const VisibilityTable&);  // in the first cell
-
-  // Returns how many coarse triangles were toggled. The table must be the one it was made with.
-  std::size_t move_to(const VisibilityTable&, glm::ivec2 cell);
-  // Of a node down to the table's depth.
-  bool operator[](NodeNumber node) const { return ((flags_[node / 64] >> (node % 64)) & 1) != 0; }
-  glm::ivec2 cell() const { return cell_; }
-  Memory memory() const { return payload_memory(flags_); }
-
- private:
-  void toggle(NodeNumber leaf);
-
-  std::vector<std::uint64_t> flags_;
-  glm::ivec2 cell_{0};
-};
 
 }  // namespace terrabench

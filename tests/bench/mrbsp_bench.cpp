@@ -7,7 +7,7 @@
 #include "lod/mrbsp/height_points.h"
 #include "lod/mrbsp/line_of_sight.h"
 #include "lod/mrbsp/mrbsp.h"
-#include "lod/mrbsp/visibility_file.h"
+#include "lod/mrbsp/visibility_binary.h"
 #include "terrain/source.h"
 
 namespace {

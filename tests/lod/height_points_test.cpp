@@ -8,6 +8,8 @@
 #include <cmath>
 #include <set>
 
+#include "lod/mrbsp/nearest_three.h"
+#include "lod/mrbsp/subset_triangles.h"
 #include "tests/lod/mrbsp_ground.h"
 #include "tests/terrain/errors.h"
 
@@ -74,8 +76,7 @@ TEST(NearestThree, AFewPointsOrALineOfThemGiveWhatTheyCan) {
 
 TEST(InterpolateLattice, OnItsOwnGridTheSamplesComeBack) {
   const Heightfield field = rough_ground(33, 33);
-  Progress progress;
-  const Heightfield lattice = interpolate_lattice(height_points(field), BisectionTree(5, 11), progress);
+  const Heightfield lattice = interpolate_lattice(height_points(field), BisectionTree(5, 11), silent());
   EXPECT_EQ(lattice.width, 33);
   EXPECT_EQ(lattice.cell_x, field.cell_x);
   EXPECT_EQ(lattice.heights, field.heights);
@@ -83,19 +84,17 @@ TEST(InterpolateLattice, OnItsOwnGridTheSamplesComeBack) {
 
 TEST(InterpolateLattice, IsTheSameForAnyNumberOfThreadsAndWithinThePoints) {
   const auto points = scattered(3000);
-  Progress progress;
-  const Heightfield many = interpolate_lattice(points, BisectionTree(6, 13), progress);
+  const Heightfield many = interpolate_lattice(points, BisectionTree(6, 13), silent());
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  EXPECT_EQ(interpolate_lattice(points, BisectionTree(6, 13), progress).heights, many.heights);
+  EXPECT_EQ(interpolate_lattice(points, BisectionTree(6, 13), silent()).heights, many.heights);
   const HeightRange range = height_range(many);
   EXPECT_GE(range.lowest, 0);
   EXPECT_LE(range.highest, 50);
 }
 
 TEST(InterpolateLattice, RefusesPointsInALine) {
-  Progress progress;
   const std::vector<glm::vec3> line{{0, 0, 0}, {10, 10, 0}};
-  EXPECT_EQ(failure_of([&] { (void)interpolate_lattice(line, BisectionTree(2, 5), progress); }).code,
+  EXPECT_EQ(failure_of([&] { (void)interpolate_lattice(line, BisectionTree(2, 5), silent()); }).code,
             ExitCode::kUsage);
 }
 

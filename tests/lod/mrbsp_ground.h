@@ -6,9 +6,15 @@
 #include <glm/vec3.hpp>
 
 #include "terrain/heightfield.h"
+#include "terrain/progress.h"
 #include "terrain/view.h"
 
 namespace terrabench {
+
+inline Progress& silent() {
+  static Progress progress;
+  return progress;
+}
 
 // A deterministic number in [0, 1) for a key.
 inline float random_share(std::uint32_t key) {

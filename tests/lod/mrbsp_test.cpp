@@ -14,11 +14,6 @@
 namespace terrabench {
 namespace {
 
-Progress& silent() {
-  static Progress progress;
-  return progress;
-}
-
 double plan_area(const Frame& frame) {
   double area = 0;
   triangles(frame, [&](std::span<const glm::vec3> corners) {

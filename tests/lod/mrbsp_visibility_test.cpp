@@ -1,4 +1,4 @@
-// Visibility against rays cast at the full surface, and the changes against the sets they come from.
+// Visibility against rays cast at the full surface, and what is drawn by it.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -10,18 +10,11 @@
 #include "lod/lod.h"
 #include "lod/mrbsp/line_of_sight.h"
 #include "lod/mrbsp/mrbsp.h"
-#include "lod/mrbsp/profile_visibility.h"
-#include "lod/mrbsp/visibility_file.h"
-#include "tests/lod/mrbsp_ground.h"
+#include "tests/lod/visible_ground.h"
 #include "tests/terrain/errors.h"
 
 namespace terrabench {
 namespace {
-
-Progress& silent() {
-  static Progress progress;
-  return progress;
-}
 
 struct Facet {
   glm::vec3 a, b, c;
@@ -114,10 +107,7 @@ TEST(Visibility, ConservativeMissesNothingAndHidesSomething) {
     const Heightfield field = rough_ground(width, depth);
     const BisectionTree tree = BisectionTree::over(width, depth, levels);
     for (const int coarseness : {0, 2, 4, 6}) {
-      VisibilityOptions options;
-      options.cells = 8;
-      options.coarseness = coarseness;
-      const VisibleSets sets = find_visible(grid_of(field), tree, options, silent());
+      const VisibleSets sets = visible_over(field, tree, few_cells(8, coarseness));
       EXPECT_EQ(sets.depth % 2, 1);
       const Tally tally = cast_rays(field, tree, sets, 60, 60);
       EXPECT_GT(tally.seen, 100U);
@@ -131,12 +121,8 @@ TEST(Visibility, ConservativeMissesNothingAndHidesSomething) {
 TEST(Visibility, SampledMissesLittleAndHidesMore) {
   const Heightfield field = rough_ground(33, 33);
   const BisectionTree tree(5, 11);
-  VisibilityOptions options;
-  options.cells = 8;
-  options.coarseness = 2;
-  const VisibleSets safe = find_visible(grid_of(field), tree, options, silent());
-  options.conservative = false;
-  const VisibleSets sampled = find_visible(grid_of(field), tree, options, silent());
+  const VisibleSets safe = visible_over(field, tree, few_cells(8, 2));
+  const VisibleSets sampled = visible_over(field, tree, few_cells(8, 2, false));
   EXPECT_LT(share_visible(sampled), share_visible(safe));
   const Tally tally = cast_rays(field, tree, sampled, 60, 60);
   EXPECT_LT(static_cast<double>(tally.missed), 0.04 * static_cast<double>(tally.seen)) << tally.missed;
@@ -145,10 +131,7 @@ TEST(Visibility, SampledMissesLittleAndHidesMore) {
 TEST(Visibility, OnFlatLandEverythingIsSeen) {
   const Heightfield field = rough_ground(33, 33, 0);
   for (const bool conservative : {true, false}) {
-    VisibilityOptions options;
-    options.conservative = conservative;
-    options.cells = 4;
-    EXPECT_EQ(share_visible(find_visible(grid_of(field), BisectionTree(5, 11), options, silent())), 1.0);
+    EXPECT_EQ(share_visible(visible_over(field, BisectionTree(5, 11), few_cells(4, 6, conservative))), 1.0);
   }
 }
 
@@ -157,11 +140,7 @@ TEST(Visibility, AWallHidesWhatStandsBehindIt) {
   for (int j = 0; j < 33; ++j) field.at(16, j) = 500;
   const BisectionTree tree(5, 11);
   for (const bool conservative : {true, false}) {
-    VisibilityOptions options;
-    options.conservative = conservative;
-    options.cells = 4;
-    options.coarseness = 4;
-    const VisibleSets sets = find_visible(grid_of(field), tree, options, silent());
+    const VisibleSets sets = visible_over(field, tree, few_cells(4, 4, conservative));
     for (int row = 0; row < 4; ++row) {
       for (std::uint32_t e = 0; e < 1U << sets.depth; ++e) {
         const PlanTriangle t = tree.triangle((NodeNumber{1} << sets.depth) + e);
@@ -186,11 +165,10 @@ TEST(Visibility, IsTheSameForAnyNumberOfThreads) {
   const Heightfield field = rough_ground(65, 50);
   const BisectionTree tree = BisectionTree::over(65, 50);
   for (const bool conservative : {true, false}) {
-    VisibilityOptions options;
-    options.conservative = conservative;
-    const VisibleSets many = find_visible(grid_of(field), tree, options, silent());
+    const VisibilityOptions options = few_cells(16, 6, conservative);
+    const VisibleSets many = visible_over(field, tree, options);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    EXPECT_EQ(find_visible(grid_of(field), tree, options, silent()), many);
+    EXPECT_EQ(visible_over(field, tree, options), many);
   }
 }
 
@@ -226,8 +204,7 @@ TEST(Visibility, RefusesOptionsOutOfRange) {
   const auto refused = [&](auto change) {
     VisibilityOptions options;
     change(options);
-    EXPECT_EQ(failure_of([&] { (void)find_visible(grid_of(field), tree, options, silent()); }).code,
-              ExitCode::kUsage);
+    EXPECT_EQ(failure_of([&] { (void)visible_over(field, tree, options); }).code, ExitCode::kUsage);
   };
   refused([](VisibilityOptions& o) { o.cells = 0; });
   refused([](VisibilityOptions& o) { o.eyes = 0; });
@@ -237,78 +214,13 @@ TEST(Visibility, RefusesOptionsOutOfRange) {
   refused([](VisibilityOptions& o) { o.eye_height = std::numeric_limits<float>::quiet_NaN(); });
 }
 
-VisibilityTable some_table() {
-  const Heightfield field = rough_ground(65, 50);
-  VisibilityOptions options;
-  options.cells = 8;
-  options.coarseness = 4;
-  return changes_of(find_visible(grid_of(field), BisectionTree::over(65, 50), options, silent()));
-}
-
-TEST(VisibilityTable, ChangesLeadBackToTheSets) {
-  const Heightfield field = rough_ground(65, 50);
-  VisibilityOptions options;
-  options.cells = 8;
-  options.coarseness = 4;
-  const VisibleSets sets = find_visible(grid_of(field), BisectionTree::over(65, 50), options, silent());
-  const VisibilityTable table = changes_of(sets);
-  EXPECT_EQ(sets_of(table), sets);
-  EXPECT_EQ(table.steps(), 7 * 7 + 8 * 6);
-}
-
-TEST(VisibleNodes, FlagsStandForTheirSubtreesWhereverTheWalkGoes) {
-  const VisibilityTable table = some_table();
-  const VisibleSets sets = sets_of(table);
-  VisibleNodes nodes(table);
-  std::size_t toggled = 0;
-  for (std::uint32_t k = 0; k < 40; ++k) {
-    const glm::ivec2 cell(static_cast<int>(8 * random_share(2 * k)),
-                          static_cast<int>(7 * random_share(2 * k + 1)));
-    toggled += nodes.move_to(table, cell);
-    EXPECT_EQ(nodes.cell(), cell);
-    const NodeNumber level = NodeNumber{1} << table.depth;
-    for (NodeNumber node = 2 * level - 1; node >= 1; --node) {
-      const bool expected = node >= level
-                                ? sets.sees(cell.y * 8 + cell.x, static_cast<std::uint32_t>(node - level))
-                                : nodes[2 * node] || nodes[2 * node + 1];
-      ASSERT_EQ(nodes[node], expected);
-    }
-  }
-  EXPECT_GT(toggled, 0U);
-  EXPECT_EQ(nodes.move_to(table, nodes.cell()), 0U);
-}
-
-TEST(ProfileScene, GivesTheLinesOfTable1) {
-  const VisibilityTable table = changes_of(find_visible(table1_profile()));
-  const std::string surface(table.surface.begin(), table.surface.end());
-  EXPECT_EQ(visibility_text(table),
-            "terrabench-visibility 1\ncells 8 1\nside 2\ndepth 2\neye-height 0\nsurface " + surface +
-                "\nstart 00, 01, 11\n"
-                "a-b 11\n"
-                "d-e 00, 01, 10, 11\n"
-                "g-h 00\n");
-  EXPECT_EQ(fine_changes(table.step(0), 2, 4), "1100, 1101, 1110, 1111");
-  EXPECT_EQ(fine_changes(table.step(6), 2, 4), "0000, 0001, 0010, 0011");
-  EXPECT_TRUE(fine_changes(table.step(3), 2, 4).starts_with("0000, 0001, 0010, 0011, 0100"));
-}
-
-TEST(ProfileScene, RefusesNumbersThatDoNotFit) {
-  ProfileScene profile = table1_profile();
-  profile.cells = 3;
-  EXPECT_EQ(failure_of([&] { (void)find_visible(profile); }).code, ExitCode::kUsage);
-  profile = table1_profile();
-  profile.heights.pop_back();
-  EXPECT_EQ(failure_of([&] { (void)find_visible(profile); }).code, ExitCode::kUsage);
-}
-
 TEST(Mrbsp, VisibilityLeavesOutTrianglesOnlyOnTheGround) {
   const Heightfield field = rough_ground(65, 65);
   MrbspOptions options;
   options.area_consistent = true;
   Mrbsp plain(field, options, silent());
   options.visibility = true;
-  options.visible.cells = 8;
-  options.visible.coarseness = 2;
+  options.visible = few_cells(8, 2);
   Mrbsp hiding(field, options, silent());
   for (Mrbsp* lod : {&plain, &hiding}) lod->tune(Mrbsp::knob().finest);
   View view = walker(field, 0.45F, 0.55F, 1);
@@ -327,8 +239,7 @@ TEST(Mrbsp, VisibilityHidesNothingFromAnEyeUnderTheGround) {
   options.area_consistent = true;
   Mrbsp plain(field, options, silent());
   options.visibility = true;
-  options.visible.cells = 8;
-  options.visible.coarseness = 2;
+  options.visible = few_cells(8, 2);
   Mrbsp hiding(field, options, silent());
   for (Mrbsp* lod : {&plain, &hiding}) lod->tune(Mrbsp::knob().finest);
   View view = walker(field, 0.45F, 0.55F, 1);
@@ -345,7 +256,7 @@ TEST(Mrbsp, VisibilityHidesNothingFromAnEyeUnderTheGround) {
 
 TEST(Mrbsp, TakesATableThatFitsAndRefusesOthers) {
   const Heightfield field = rough_ground(65, 50);
-  const VisibilityTable table = some_table();
+  const VisibilityTable table = table_over(65, 50);
   Mrbsp lod(field, {}, table, silent());
   EXPECT_EQ(lod.visibility(), table);
   const auto refused = [&](const Heightfield& other, const MrbspOptions& options) {

@@ -4,9 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "lod/lod.h"
-#include "lod/mrbsp/profile_visibility.h"
-#include "tests/lod/mrbsp_ground.h"
+#include "lod/mrbsp/visibility_binary.h"
+#include "lod/mrbsp/visibility_text.h"
+#include "tests/lod/visible_ground.h"
 #include "tests/terrain/errors.h"
 #include "tests/terrain/temporary_folder.h"
 
@@ -14,15 +14,6 @@ namespace terrabench {
 namespace {
 
 using testing::HasSubstr;
-
-VisibilityTable table_of(int width, int depth) {
-  const Heightfield field = rough_ground(width, depth);
-  Progress progress;
-  VisibilityOptions options;
-  options.cells = 8;
-  options.coarseness = 4;
-  return changes_of(find_visible(grid_of(field), BisectionTree::over(width, depth), options, progress));
-}
 
 std::vector<std::byte> bytes_of(const VisibilityTable& table) {
   ByteSink sink;
@@ -39,8 +30,7 @@ std::vector<std::byte> sealed(std::vector<std::byte> file) {
 }
 
 TEST(VisibilityFile, BothFormsComeBack) {
-  for (const VisibilityTable& table :
-       {table_of(65, 50), table_of(9, 65), changes_of(find_visible(table1_profile()))}) {
+  for (const VisibilityTable& table : {table_over(65, 50), table_over(9, 65), table_over(65, 3)}) {
     EXPECT_EQ(parse_visibility(visibility_text(table), "memory"), table);
     EXPECT_EQ(load_visibility(bytes_of(table), "memory"), table);
     const TemporaryFolder folder;
@@ -49,6 +39,27 @@ TEST(VisibilityFile, BothFormsComeBack) {
       EXPECT_EQ(read_visibility(folder / name), table);
     }
   }
+}
+
+// The form of the paper's table 1, from sets written by hand.
+TEST(VisibilityFile, TextNamesStepsAndWhatTheyToggle) {
+  VisibleSets sets({8, 1, 2}, 2, 1.8F);
+  sets.surface.fill('a');
+  const auto see = [&](int first, int last, std::initializer_list<std::uint32_t> elements) {
+    for (int cell = first; cell <= last; ++cell) {
+      for (const std::uint32_t e : elements) sets.add(cell, e);
+    }
+  };
+  see(0, 3, {0b00, 0b01});
+  see(4, 7, {0b10, 0b11});
+  see(0, 0, {0b11});
+  see(7, 7, {0b00});
+  EXPECT_EQ(visibility_text(changes_of(sets)),
+            "terrabench-visibility 1\ncells 8 1\nside 2\ndepth 2\neye-height 1.8\n"
+            "surface aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa\nstart 00, 01, 11\n"
+            "a-b 11\n"
+            "d-e 00, 01, 10, 11\n"
+            "g-h 00\n");
 }
 
 TEST(VisibilityFile, CellsAreNamedByColumnAndRow) {
@@ -96,7 +107,7 @@ TEST(VisibilityFile, TextNamesTheLineAtFault) {
 }
 
 TEST(VisibilityFile, DamagedBinariesAreRefused) {
-  const std::vector<std::byte> good = bytes_of(table_of(33, 33));
+  const std::vector<std::byte> good = bytes_of(table_over(33, 33));
   for (std::size_t k = 0; k < good.size(); k += 7) {
     std::vector<std::byte> bad = good;
     bad[k] ^= std::byte{0x10};
@@ -107,7 +118,7 @@ TEST(VisibilityFile, DamagedBinariesAreRefused) {
 }
 
 TEST(VisibilityFile, WhatCannotBeIsRefusedWhateverItsChecksum) {
-  const std::vector<std::byte> good = bytes_of(table_of(33, 33));
+  const std::vector<std::byte> good = bytes_of(table_over(33, 33));
   const auto refused = [&](std::size_t at, std::initializer_list<int> bytes) {
     std::vector<std::byte> bad = good;
     for (const int b : bytes) bad[at++] = static_cast<std::byte>(b);
@@ -128,7 +139,7 @@ TEST(VisibilityFile, WhatCannotBeIsRefusedWhateverItsChecksum) {
 }
 
 TEST(VisibilityFile, BytesAreThoseOfTheSavedLists) {
-  const VisibilityTable table = table_of(65, 65);
+  const VisibilityTable table = table_over(65, 65);
   const VisibilityBytes bytes = visibility_bytes(table);
   EXPECT_EQ(bytes.changes, bytes_of(table).size() - 64 - 32);
   EXPECT_EQ(bytes.bits, (8U * 8U * (1U << table.depth)) / 8);

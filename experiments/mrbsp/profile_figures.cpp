@@ -1,0 +1,168 @@
+#include "experiments/mrbsp/profile_figures.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "experiments/drill/sheet.h"
+#include "lod/mrbsp/visibility_text.h"
+
+namespace terrabench::mrbsp {
+namespace {
+
+using drill::Sheet;
+using drill::SheetPoint;
+
+constexpr double kLeft = 90, kTop = 40, kWidth = 880, kHeight = 250;
+constexpr drill::SheetPoint kSheet{1000, 450};
+constexpr Rgb kInk{0, 0, 0}, kCoarse{165, 165, 165}, kDark{110, 110, 110}, kPale{228, 228, 228},
+    kWords{32, 32, 32};
+
+class ProfileDrawing {
+ public:
+  ProfileDrawing(std::span<const float> profile, std::span<const ProfileStep> steps)
+      : profile_(profile), steps_(steps), sheet_(kSheet.x, kSheet.y) {}
+
+  const Sheet& draw() {
+    cells();
+    // Coarse below fine, so that both show where they run close together.
+    outline(profile_.size() >> kCoarseDigits, {.colour = kCoarse, .thickness = 5}, 9);
+    outline(1, {.colour = kInk, .thickness = 2}, 5);
+    numbers(kFineDigits, kTop + kHeight + 34, 12, kInk);
+    numbers(kCoarseDigits, kTop + kHeight + 58, 14, kDark);
+    caption(kTop + kHeight + 34, "fine", kWords);
+    caption(kTop + kHeight + 58, "coarse", kDark);
+    caption(kTop + kHeight + 94, "cell (2 m)", kWords);
+    caption(kTop - 18, "height (m)", kWords);
+    for (const int height : {0, 5, 10}) {
+      caption(at(0, static_cast<float>(height)).y + 4, std::to_string(height), kWords);
+    }
+    return sheet_;
+  }
+
+ private:
+  SheetPoint at(double x, float height) const {
+    return {kLeft + kWidth * x / static_cast<double>(profile_.size() - 1),
+            kTop + kHeight * (1 - height / 10.0)};
+  }
+  void caption(double y, std::string_view words, Rgb colour) {
+    sheet_.text(kLeft - 12, y, words, 12, "end", colour);
+  }
+  void outline(std::size_t stride, const drill::Stroke& stroke, double tick) {
+    std::vector<SheetPoint> points;
+    for (std::size_t k = 0; k < profile_.size(); k += stride) {
+      points.push_back(at(static_cast<double>(k), profile_[k]));
+    }
+    sheet_.line(points, stroke);
+    for (const SheetPoint& p : points) {
+      sheet_.line(std::array{SheetPoint{p.x, p.y - tick}, SheetPoint{p.x, p.y + tick}}, stroke);
+    }
+  }
+  void numbers(int digits, double y, int size, Rgb colour) {
+    const std::uint32_t count = 1U << digits;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      sheet_.text(kLeft + kWidth * (k + 0.5) / count, y, segment_labels(std::array{k}, digits), size,
+                  "middle", colour);
+    }
+  }
+  bool changes(std::size_t step) const { return step < steps_.size() && !steps_[step].coarse.empty(); }
+  // Dark where a step to a neighbour changes what is seen.
+  void cells() {
+    const double side = kWidth / kProfileCells, y = kTop + kHeight + 74;
+    for (std::size_t c = 0; c < kProfileCells; ++c) {
+      const bool dark = changes(c) || (c > 0 && changes(c - 1));
+      const double x = kLeft + static_cast<double>(c) * side;
+      sheet_.box(x + 1, y, side - 2, 30, dark ? kDark : kPale);
+      sheet_.text(x + 0.5 * side, y + 20, cell_name({kProfileCells, 1, 1}, static_cast<int>(c), 0), 15,
+                  "middle", dark ? Rgb{255, 255, 255} : kWords);
+      if (c > 0) {
+        sheet_.line(std::array{SheetPoint{x, kTop - 10}, SheetPoint{x, kTop + kHeight + 16}},
+                    {.colour = kPale, .dashes = "4,4"});
+      }
+      if (changes(c)) {
+        sheet_.line(std::array{SheetPoint{x + side, y + 30}, SheetPoint{x + side, y + 40}}, {.colour = kInk});
+        sheet_.text(x + side, y + 56, segment_labels(steps_[c].coarse, kCoarseDigits), 13, "middle");
+      }
+    }
+    caption(y + 56, "changes", kWords);
+  }
+
+  std::span<const float> profile_;
+  std::span<const ProfileStep> steps_;
+  Sheet sheet_;
+};
+
+}  // namespace
+
+std::string segment_labels(std::span<const std::uint32_t> segments, int digits) {
+  std::string text;
+  for (const std::uint32_t segment : segments) {
+    text += (text.empty() ? "" : ", ") + label((NodeNumber{1} << digits) + segment);
+  }
+  return text;
+}
+
+std::string step_name(std::size_t step) {
+  const CellGrid cells{kProfileCells, 1, 1};
+  const int cell = static_cast<int>(step);
+  return cell_name(cells, cell, 0) + "-" + cell_name(cells, cell + 1, 0);
+}
+
+void draw_profile(std::span<const float> profile, std::span<const ProfileStep> steps,
+                  const std::filesystem::path& png) {
+  ProfileDrawing(profile, steps).draw().write(png);
+}
+
+void draw_table(std::span<const PrintedStep> printed, std::span<const ProfileStep> steps,
+                const std::filesystem::path& png) {
+  constexpr std::array kColumns{20.0, 100.0, 240.0, 380.0, 590.0};
+  constexpr double kRow = 24, kRight = 980;
+  constexpr std::size_t kALine = 8;  // fine segments
+  struct Row {
+    std::array<std::string, 5> cells;
+    std::vector<std::string> more;  // of the last column
+  };
+  std::vector<Row> rows;
+  std::size_t lines = 0;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const auto line = std::find_if(printed.begin(), printed.end(),
+                                   [&](const PrintedStep& p) { return p.name == step_name(k); });
+    const bool in_print = line != printed.end();
+    if (!in_print && steps[k].coarse.empty() && steps[k].fine.empty()) continue;
+    std::vector<std::string> fine;
+    for (std::size_t at = 0; at < steps[k].fine.size(); at += kALine) {
+      const std::span<const std::uint32_t> all(steps[k].fine);
+      const auto part = all.subspan(at, std::min(kALine, all.size() - at));
+      fine.push_back(segment_labels(part, kFineDigits) + (at + part.size() < all.size() ? "," : ""));
+    }
+    if (fine.empty()) fine.emplace_back("none");
+    rows.push_back({{step_name(k), in_print ? std::string(line->coarse) : "none",
+                     steps[k].coarse.empty() ? "none" : segment_labels(steps[k].coarse, kCoarseDigits),
+                     in_print ? std::string(line->fine) : "none", fine.front()},
+                    {fine.begin() + 1, fine.end()}});
+    lines += fine.size();
+  }
+  Sheet sheet(kRight + 20, 74 + kRow * static_cast<double>(lines) + 20);
+  const auto rule = [&](double y) {
+    sheet.line(std::array{SheetPoint{kColumns[0], y}, SheetPoint{kRight, y}}, {.colour = kDark});
+  };
+  rule(16);
+  sheet.text(kColumns[0], 48, "Change", 13);
+  sheet.text(kColumns[1], 36, "Coarse change", 13);
+  sheet.text(kColumns[3], 36, "Fine change", 13);
+  for (const std::size_t c : {1U, 3U}) {
+    sheet.text(kColumns[c], 58, "in the paper", 12, "start", kDark);
+    sheet.text(kColumns[c + 1], 58, "computed", 12, "start", kDark);
+  }
+  rule(68);
+  double y = 68;
+  for (const Row& row : rows) {
+    y += kRow;
+    for (std::size_t c = 0; c < row.cells.size(); ++c) sheet.text(kColumns[c], y - 6, row.cells[c], 13);
+    for (const std::string& words : row.more) sheet.text(kColumns.back(), (y += kRow) - 6, words, 13);
+  }
+  rule(y + 4);
+  sheet.write(png);
+}
+
+}  // namespace terrabench::mrbsp

@@ -1,0 +1,78 @@
+// One walk down the tree for one view (MRBSP paper, §3 and §4): which triangles are drawn. Left out is what
+// the view does not see and what the ground hides; lod_rule.h says how deep it goes, hole_rule.h where it
+// goes on although distance would not. O(triangles drawn).
+//
+// Any field: the tree's square reaches over its far borders, and vertices out there stand on the border. That
+// keeps order and orientation in x and in z, so the triangles still cover the field once; the flat ones are
+// left out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "lod/mrbsp/bisection_tree.h"
+#include "lod/mrbsp/hole_rule.h"
+#include "lod/mrbsp/lod_rule.h"
+#include "lod/mrbsp/triangle_bounds.h"
+#include "lod/mrbsp/visible_flags.h"
+#include "terrain/frame.h"
+#include "terrain/frustum.h"
+
+namespace terrabench {
+
+// A triangle that distance leaves whole, until all cuts are known.
+struct WholeTriangle {
+  std::array<std::uint16_t, 2> apex, left, right;  // lattice
+  std::uint32_t node;
+  unsigned planes;  // of the view, that it may cross
+};
+
+class TreeWalk {
+ public:
+  struct Ground {
+    const GroundGrid& grid;
+    const BisectionTree& tree;
+    const TriangleBounds& bounds;
+  };
+  struct Eye {
+    glm::vec3 at;
+    const Frustum* frustum;     // null: nothing is left out for the view
+    const VisibleFlags* flags;  // null: nothing is hidden
+  };
+  // What is kept from frame to frame to save allocations: empty before and after run().
+  struct Scratch {
+    Cuts* cuts;  // null: holes are kept out by the printed rule
+    std::vector<WholeTriangle>& whole;
+  };
+
+  // All must outlive it. Appends the triangles' vertices, three a triangle, to `out`.
+  TreeWalk(const Ground&, const LodRule&, const Eye&, const Scratch&, std::vector<std::uint32_t>& out);
+  void run();
+
+ private:
+  struct Corner {
+    glm::ivec2 at;  // in the lattice, perhaps beyond the field
+    int threshold;
+  };
+
+  std::uint32_t vertex(glm::ivec2 at) const;
+  Corner corner(glm::ivec2 at) const;
+  bool is_seen(const PlanTriangle& t, int depth, std::uint32_t node, unsigned& planes) const;
+  void descend(const Corner& apex, const Corner& left, const Corner& right, int depth, std::uint32_t node,
+               unsigned planes);
+  void settle(const PlanTriangle& t, int depth, std::uint32_t node, unsigned planes);
+  void put(const PlanTriangle& t);
+
+  Ground ground_;
+  LodRule rule_;
+  Eye eye_;
+  Cuts* cuts_;
+  std::vector<WholeTriangle>& whole_;
+  std::vector<std::uint32_t>& out_;
+  int hidden_depth_;  // flags are looked at down to here
+  int depth_;
+  glm::ivec2 last_;
+};
+
+}  // namespace terrabench

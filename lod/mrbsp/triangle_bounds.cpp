@@ -1,0 +1,81 @@
+#include "lod/mrbsp/triangle_bounds.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace terrabench {
+namespace {
+
+using Range = TriangleBounds::Range;
+
+// So many levels above the finest, and at most 2^21 ranges (16 MiB).
+constexpr int kLevelsUnderBounds = 4, kDeepestBounds = 20;
+
+Range join(const Range& a, const Range& b) {
+  return {std::min(a.lowest, b.lowest), std::max(a.highest, b.highest)};
+}
+
+class RangeFinder {
+ public:
+  RangeFinder(const GroundGrid& grid, const BisectionTree& tree, int depth, std::vector<Range>& ranges)
+      : grid_(grid), tree_(tree), depth_(depth), ranges_(ranges) {}
+
+  // The triangle's and those of all beneath it.
+  void find(const PlanTriangle& t, int depth, NodeNumber node) const {
+    if (depth == depth_) {
+      constexpr float kInfinity = std::numeric_limits<float>::infinity();
+      Range range{kInfinity, -kInfinity};
+      for (const glm::ivec2 at : {t.apex, t.left, t.right}) include(at, range);
+      include_feet(t, depth, range);
+      ranges_[node] = range;
+      return;
+    }
+    for (unsigned which = 0; which < 2; ++which) {
+      find(BisectionTree::child(t, which), depth + 1, 2 * node + which);
+    }
+    ranges_[node] = join(ranges_[2 * node], ranges_[2 * node + 1]);
+  }
+
+ private:
+  void include(glm::ivec2 at, Range& range) const {
+    const float h = grid_.heights[static_cast<std::size_t>(std::min(at.y, grid_.depth - 1)) * grid_.width +
+                                  std::min(at.x, grid_.width - 1)];
+    range.lowest = std::min(range.lowest, h);
+    range.highest = std::max(range.highest, h);
+  }
+  // Corners of a triangle's subtree that are not its own lie at the feet of the cuts within.
+  void include_feet(const PlanTriangle& t, int depth, Range& range) const {
+    if (depth == tree_.depth()) return;
+    include((t.left + t.right) / 2, range);
+    include_feet(BisectionTree::child(t, 0), depth + 1, range);
+    include_feet(BisectionTree::child(t, 1), depth + 1, range);
+  }
+
+  const GroundGrid& grid_;
+  const BisectionTree& tree_;
+  int depth_;
+  std::vector<Range>& ranges_;
+};
+
+}  // namespace
+
+TriangleBounds::TriangleBounds(const GroundGrid& grid, const BisectionTree& tree, Progress& progress)
+    : depth_(std::clamp(tree.depth() - kLevelsUnderBounds, 1, kDeepestBounds)) {
+  ranges_.resize(std::size_t{2} << depth_);
+  const RangeFinder finder(grid, tree, depth_, ranges_);
+  const int shared = std::min(depth_, 8);
+  const NodeNumber first = NodeNumber{1} << shared;
+  progress.begin("bounding triangles", first);
+  tbb::parallel_for(first, 2 * first, [&](NodeNumber node) {
+    finder.find(tree.triangle(node), shared, node);
+    progress.advance();
+  });
+  for (NodeNumber node = first - 1; node >= 1; --node) {
+    ranges_[node] = join(ranges_[2 * node], ranges_[2 * node + 1]);
+  }
+  progress.end();
+}
+
+}  // namespace terrabench

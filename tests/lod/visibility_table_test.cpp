@@ -1,0 +1,40 @@
+// The changes against the sets that they come from, and flags against both.
+#include <gtest/gtest.h>
+
+#include "lod/mrbsp/visible_flags.h"
+#include "tests/lod/visible_ground.h"
+
+namespace terrabench {
+namespace {
+
+TEST(VisibilityTable, ChangesLeadBackToTheSets) {
+  const VisibleSets sets = visible_over(65, 50);
+  const VisibilityTable table = changes_of(sets);
+  EXPECT_EQ(sets_of(table), sets);
+  EXPECT_EQ(table.steps(), 7 * 7 + 8 * 6);
+}
+
+TEST(VisibleFlags, FlagsStandForTheirSubtreesWhereverTheWalkGoes) {
+  const VisibilityTable table = table_over(65, 50);
+  const VisibleSets sets = sets_of(table);
+  VisibleFlags flags(table);
+  std::size_t toggled = 0;
+  for (std::uint32_t k = 0; k < 40; ++k) {
+    const glm::ivec2 cell(static_cast<int>(8 * random_share(2 * k)),
+                          static_cast<int>(7 * random_share(2 * k + 1)));
+    toggled += flags.move_to(table, cell);
+    EXPECT_EQ(flags.cell(), cell);
+    const NodeNumber level = NodeNumber{1} << table.depth;
+    for (NodeNumber node = 2 * level - 1; node >= 1; --node) {
+      const bool expected = node >= level
+                                ? sets.sees(cell.y * 8 + cell.x, static_cast<std::uint32_t>(node - level))
+                                : flags[2 * node] || flags[2 * node + 1];
+      ASSERT_EQ(flags[node], expected);
+    }
+  }
+  EXPECT_GT(toggled, 0U);
+  EXPECT_EQ(flags.move_to(table, flags.cell()), 0U);
+}
+
+}  // namespace
+}  // namespace terrabench
