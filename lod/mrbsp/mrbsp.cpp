@@ -143,8 +143,8 @@ const Frame& Mrbsp::update(const View& view) {
   }
   const Frustum frustum(view);
   next_.clear();
-  const TreeWalk::Eye eye{view.eye, options_.cull ? &frustum : nullptr, hide ? &flags_ : nullptr};
-  TreeWalk({grid_, tree_, bounds_}, rule(), eye, {cuts_ ? &*cuts_ : nullptr, whole_}, next_).run();
+  const WalkEye eye{view.eye, options_.cull ? &frustum : nullptr, hide ? &flags_ : nullptr};
+  walk_tree({grid_, tree_, bounds_}, rule(), eye, {cuts_ ? &*cuts_ : nullptr, whole_}, next_);
   publish(toggled);
   return frame_;
 }

@@ -28,51 +28,24 @@ struct WholeTriangle {
   unsigned planes;  // of the view, that it may cross
 };
 
-class TreeWalk {
- public:
-  struct Ground {
-    const GroundGrid& grid;
-    const BisectionTree& tree;
-    const TriangleBounds& bounds;
-  };
-  struct Eye {
-    glm::vec3 at;
-    const Frustum* frustum;     // null: nothing is left out for the view
-    const VisibleFlags* flags;  // null: nothing is hidden
-  };
-  // What is kept from frame to frame to save allocations: empty before and after run().
-  struct Scratch {
-    Cuts* cuts;  // null: holes are kept out by the printed rule
-    std::vector<WholeTriangle>& whole;
-  };
-
-  // All must outlive it. Appends the triangles' vertices, three a triangle, to `out`.
-  TreeWalk(const Ground&, const LodRule&, const Eye&, const Scratch&, std::vector<std::uint32_t>& out);
-  void run();
-
- private:
-  struct Corner {
-    glm::ivec2 at;  // in the lattice, perhaps beyond the field
-    int threshold;
-  };
-
-  std::uint32_t vertex(glm::ivec2 at) const;
-  Corner corner(glm::ivec2 at) const;
-  bool is_seen(const PlanTriangle& t, int depth, std::uint32_t node, unsigned& planes) const;
-  void descend(const Corner& apex, const Corner& left, const Corner& right, int depth, std::uint32_t node,
-               unsigned planes);
-  void settle(const PlanTriangle& t, int depth, std::uint32_t node, unsigned planes);
-  void put(const PlanTriangle& t);
-
-  Ground ground_;
-  LodRule rule_;
-  Eye eye_;
-  Cuts* cuts_;
-  std::vector<WholeTriangle>& whole_;
-  std::vector<std::uint32_t>& out_;
-  int hidden_depth_;  // flags are looked at down to here
-  int depth_;
-  glm::ivec2 last_;
+struct WalkGround {
+  const GroundGrid& grid;
+  const BisectionTree& tree;
+  const TriangleBounds& bounds;
 };
+struct WalkEye {
+  glm::vec3 at;
+  const Frustum* frustum;     // null: nothing is left out for the view
+  const VisibleFlags* flags;  // null: nothing is hidden
+};
+// Kept from frame to frame to save allocations: empty before and after.
+struct WalkScratch {
+  Cuts* cuts;  // null: holes are kept out by the printed rule
+  std::vector<WholeTriangle>& whole;
+};
+
+// Appends the vertices of the triangles to draw, three a triangle, to `out`.
+void walk_tree(const WalkGround&, const LodRule&, const WalkEye&, const WalkScratch&,
+               std::vector<std::uint32_t>& out);
 
 }  // namespace terrabench
