@@ -55,6 +55,8 @@ const std::array kExperiments{
                drill::kExtensionParameters, drill::extension_cases, drill::measure_extension},
     Experiment{"drill.promises", "drill", "§2.3 and §4: order of drills, pits", drill::kGroundParameters,
                drill::ground_cases, drill::measure_promises},
+    Experiment{"mrbsp.heights", "mrbsp", "§2: levels of the tree, and heights of its vertices",
+               mrbsp::kHeightParameters, mrbsp::height_cases, mrbsp::measure_heights},
     Experiment{"mrbsp.walk", "mrbsp", "Table 2: triangles and time of LOD, visibility and both",
                mrbsp::kWalkParameters, mrbsp::walk_cases, mrbsp::measure_walk},
     Experiment{"mrbsp.threshold", "mrbsp", "§3: apparent size of triangles against distance",

@@ -10,6 +10,11 @@
 
 namespace terrabench::mrbsp {
 
+// §2: whether every level is the whole land, and how the recursion as printed tears its vertices.
+extern const std::span<const ParameterSpec> kHeightParameters;
+std::vector<Case> height_cases(const RunOptions&);
+void measure_heights(const Case&, const RunOptions&, Recorder&, Progress&);
+
 // Table 2: triangles and times of level of detail, visibility, both and neither, along a walk.
 extern const std::span<const ParameterSpec> kWalkParameters;
 std::vector<Case> walk_cases(const RunOptions&);

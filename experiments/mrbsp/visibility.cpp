@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <optional>
 #include <random>
 #include <unordered_set>
 
@@ -88,17 +89,24 @@ constinit const std::span<const ParameterSpec> kVisibilityParameters = kSpecs;
 std::vector<Case> visibility_cases(const RunOptions& options) {
   std::vector<Case> cases;
   const bool paper = options.profile == Profile::kPaper;
+  const auto add = [&](const std::string& ground, bool conservative, std::int64_t cells,
+                       std::optional<std::int64_t> coarseness) {
+    const std::string_view sets = conservative ? "conservative" : "sampled";
+    std::string name = fmt::format("{}/{}/cells={}", ground, sets, cells);
+    if (coarseness) name += fmt::format("/coarseness={}", *coarseness);
+    Case& added = cases.emplace_back(Case{std::move(name), Parameters(kVisibilityParameters), ground});
+    added.parameters.set("conservative", conservative);
+    added.parameters.set("cells", cells);
+    if (coarseness) added.parameters.set("coarseness", *coarseness);
+  };
   for (const std::string& ground : grounds(options, paper)) {
     for (const bool conservative : {false, true}) {
       for (const int cells : {16, 32, 64}) {
-        if (cells != 16 && conservative && !paper) continue;
-        Case& added = cases.emplace_back(
-            Case{fmt::format("{}/{}/cells={}", ground, conservative ? "conservative" : "sampled", cells),
-                 Parameters(kVisibilityParameters), ground});
-        added.parameters.set("conservative", conservative);
-        added.parameters.set("cells", std::int64_t{cells});
+        if (cells == 16 || !conservative || paper) add(ground, conservative, cells, {});
       }
     }
+    // At the paper's depth an even number of levels gives squares one level further up.
+    for (const int coarseness : {4, 8}) add(ground, false, 16, coarseness);
   }
   return cases;
 }

@@ -26,7 +26,7 @@ constexpr std::array kSpecs{
     ParameterSpec{"conservative", false, "", "visibility that misses nothing, not the paper's sampling"},
 };
 
-constexpr int kViews = 240, kRounds = 5;
+constexpr int kViews = 240, kRounds = 9;
 constexpr double kPaperShare = 3008.0 / 7238;
 
 enum Method { kBrute, kLod, kVis, kBoth, kMethods };
@@ -93,6 +93,27 @@ double seconds(const Work& work) {
   const auto begin = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// What changing the flags of visibility takes along the walk, beside choosing triangles without them.
+void time_flags(Methods& methods, const Heightfield& ground, const std::vector<View>& views,
+                Recorder& recorder) {
+  const VisibilityTable& table = methods.lods[kVis].visibility();
+  VisibleFlags flags(table);
+  const CellGrid& cells = table.cells;
+  double flag_time = 0, lod_time = 0;
+  std::size_t toggled = 0;
+  for (const View& view : views) {
+    const glm::ivec2 cell(
+        std::min(static_cast<int>(view.eye.x / ground.cell_x) / cells.side, cells.columns - 1),
+        std::min(static_cast<int>(view.eye.z / ground.cell_z) / cells.side, cells.rows - 1));
+    flag_time += seconds([&] { toggled += flags.move_to(table, cell); });
+    lod_time += seconds([&] { methods.lods[kLod].update(view); });
+  }
+  const auto frames = static_cast<double>(views.size());
+  recorder.add("toggled_per_view", "", static_cast<double>(toggled) / frames);
+  recorder.add("toggle_time", "s", flag_time / frames);
+  recorder.add("toggle_to_lod_time", "", flag_time / lod_time);
 }
 
 // Methods take turns at every view, so that a busy moment of the machine meets all alike.
@@ -170,6 +191,7 @@ void measure_walk(const Case& at, const RunOptions& options, Recorder& recorder,
     recorder.add("lod_time", "s", seconds([&] { methods.lods[kLod].update(view); }));
     recorder.add("both_time", "s", seconds([&] { methods.lods[kBoth].update(view); }));
   }
+  time_flags(methods, ground, views, recorder);
   const auto frames = static_cast<int>(at.parameters.integer("frames"));
   if (frames == 0) return;
   std::vector<View> drawn;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "lod/mrbsp/nearest_three.h"
@@ -47,12 +48,15 @@ class SubsetBuilder {
   template <class Body>
   void hand_down(Subset subset, const Cut& cut, bool takes_cut, const Body& body) {
     const glm::vec2 from = place(cut.from), along = place(cut.to) - from;
-    const float this_side = plan_cross(along, place(cut.on_side) - from);
+    const float this_side = plan_cross(along, place(cut.on_side) - from) > 0 ? 1.0F : -1.0F;
+    // Within a thousandth of a lattice step a point is on the cut: positions in metres are rounded.
+    const float on_cut = 1e-3F * glm::length(along) * std::min(step_.x, step_.y);
     const std::size_t begin = stack_.size();
     for (std::size_t k = subset.begin; k < subset.end; ++k) {
       const std::uint32_t i = stack_[k];
       const float side = plan_cross(along, in_plan(points_[i]) - from) * this_side;
-      if (side > 0 || (side == 0 && (takes_cut || cuts_shared_))) stack_.push_back(i);
+      const bool on = std::abs(side) <= on_cut;
+      if (on ? takes_cut || cuts_shared_ : side > 0) stack_.push_back(i);
     }
     body({begin, stack_.size()});
     stack_.resize(begin);

@@ -1,0 +1,104 @@
+// §2: that every level of the tree is the whole land, and what heights its vertices get by the recursion as
+// printed, in which each half of a triangle is handed the points on its own side of the cut.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "experiments/mrbsp/ground.h"
+#include "experiments/mrbsp/mrbsp.h"
+#include "lod/mrbsp/height_points.h"
+#include "lod/mrbsp/subset_triangles.h"
+
+namespace terrabench::mrbsp {
+namespace {
+
+constexpr std::array kSpecs{
+    ParameterSpec{
+        "points", std::int64_t{kSide}, "points",
+        "along either side; vertices stand on points where the side is one more than a power of two", 2,
+        4097},
+    ParameterSpec{"depth", std::int64_t{kDepth}, "levels", "bisections", 1, 24},
+};
+
+// Is the frame 2^depth triangles of the same size in plan that cover the land?
+bool is_whole_level(const Frame& frame, const Heightfield& ground, int depth) {
+  const double land = static_cast<double>(ground.extent_x()) * ground.extent_z();
+  const double each = land / std::exp2(depth);
+  double sum = 0;
+  bool even = frame.stats.triangles == std::size_t{1} << depth;
+  triangles(frame, [&](std::span<const glm::vec3> corners) {
+    for (std::size_t k = 0; k < corners.size(); k += 3) {
+      const glm::dvec3 u = corners[k + 1] - corners[k], v = corners[k + 2] - corners[k];
+      const double area = 0.5 * (u.z * v.x - u.x * v.z);
+      even = even && std::abs(area - each) <= 1e-4 * each;
+      sum += area;
+    }
+  });
+  return even && std::abs(sum - land) <= 1e-4 * land;
+}
+
+}  // namespace
+
+constinit const std::span<const ParameterSpec> kHeightParameters = kSpecs;
+
+std::vector<Case> height_cases(const RunOptions& options) {
+  std::vector<Case> cases;
+  for (const std::string& ground : grounds(options, true)) {
+    for (const int points : {kSide, kSide - 1}) {
+      Case& added = cases.emplace_back(
+          Case{fmt::format("{}/points={}", ground, points), Parameters(kHeightParameters), ground});
+      added.parameters.set("points", std::int64_t{points});
+    }
+  }
+  return cases;
+}
+
+void measure_heights(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = open_ground(at.terrain, options.seed);
+  recorder.terrain(source);
+  const auto side = static_cast<int>(at.parameters.integer("points"));
+  const auto depth = static_cast<int>(at.parameters.integer("depth"));
+  const Heightfield ground = resample(*source.heights, side, side);
+  const BisectionTree tree(depth / 2, depth);
+  const std::vector<glm::vec3> points = height_points(ground);
+
+  const Heightfield lattice = interpolate_lattice(points, tree, progress);
+  int whole = 0;
+  View view;
+  view.eye = {0, 10 * (lattice.extent_x() + lattice.extent_z()), 0};
+  view.target = {1, 0, 1};
+  for (int level = 1; level <= depth; ++level) {
+    MrbspOptions rule;
+    rule.depth = level;
+    rule.cull = false;
+    Mrbsp lod(lattice, rule, progress);
+    lod.tune(kFinest);
+    whole += is_whole_level(lod.update(view), lattice, level);
+  }
+  recorder.add("levels", "", depth);
+  recorder.add("levels_not_whole", "", depth - whole);
+
+  double squares = 0;
+  for (const glm::vec3& p : points) {
+    const double off = surface_height(tree, grid_of(lattice), p.x, p.z) - p.y;
+    squares += off * off;
+  }
+  recorder.add("rmse", "m", std::sqrt(squares / static_cast<double>(points.size())));
+  for (const bool shared : {false, true}) {
+    const SubsetTriangles subsets = interpolate_subsets(points, tree, shared);
+    const VertexGaps gaps = vertex_gaps(subsets);
+    const std::string_view suffix = shared ? "_shared" : "";
+    const auto share = [](std::size_t part, std::size_t all) {
+      return static_cast<double>(part) / static_cast<double>(all);
+    };
+    recorder.add(fmt::format("vertices{}", suffix), "", static_cast<double>(gaps.vertices));
+    recorder.add(fmt::format("torn{}", suffix), "", static_cast<double>(gaps.torn));
+    recorder.add(fmt::format("torn_share{}", suffix), "", share(gaps.torn, gaps.vertices));
+    recorder.add(fmt::format("mean_gap{}", suffix), "m", gaps.mean);
+    recorder.add(fmt::format("largest_gap{}", suffix), "m", gaps.largest);
+    recorder.add(fmt::format("starved_share{}", suffix), "", share(subsets.starved, tree.triangles()));
+  }
+}
+
+}  // namespace terrabench::mrbsp
