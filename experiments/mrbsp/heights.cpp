@@ -67,7 +67,8 @@ void measure_heights(const Case& at, const RunOptions& options, Recorder& record
   int whole = 0;
   View view;
   view.eye = {0, 10 * (lattice.extent_x() + lattice.extent_z()), 0};
-  view.target = {1, 0, 1};
+  view.target = {0, 0, 0};
+  view.up = {0, 0, -1};
   for (int level = 1; level <= depth; ++level) {
     MrbspOptions rule;
     rule.depth = level;

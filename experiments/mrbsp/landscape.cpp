@@ -8,6 +8,7 @@
 #include "experiments/drill/sheet.h"
 #include "experiments/mrbsp/ground.h"
 #include "experiments/mrbsp/mrbsp.h"
+#include "renderers/ramp.h"
 #include "renderers/scene.h"
 #include "terrain/sources/drawing/drawing.h"
 
@@ -81,8 +82,12 @@ Smoothed compare(const Heightfield& field, const Heightfield& drawn, const Drawi
   return result;
 }
 
-void draw(const Image& picture, const Heightfield& field, const RunOptions& options, Recorder& recorder) {
-  constexpr double kPicture = 340, kWide = 620, kMargin = 20;
+Rgb ramp_rgb(double t) {
+  const glm::vec3 c = to_srgb(ramp_color(static_cast<float>(t))) * 255.0F + 0.5F;
+  return {static_cast<std::uint8_t>(c.x), static_cast<std::uint8_t>(c.y), static_cast<std::uint8_t>(c.z)};
+}
+
+TriangleMesh land_mesh(const Heightfield& field) {
   TriangleMesh mesh;
   for (int j = 0; j < field.depth; ++j) {
     for (int i = 0; i < field.width; ++i) {
@@ -98,29 +103,66 @@ void draw(const Image& picture, const Heightfield& field, const RunOptions& opti
     }
   }
   compute_normals(mesh);
+  return mesh;
+}
+
+// The cut through the ground along the border, from the land down to `bottom`.
+TriangleMesh border_walls(const Heightfield& field, float bottom) {
+  TriangleMesh mesh;
+  const auto wall = [&](glm::ivec2 from, glm::ivec2 step, int count) {
+    for (int k = 0; k < count; ++k, from += step) {
+      const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+      for (const glm::ivec2 at : {from, from + step}) {
+        const float x = static_cast<float>(at.x) * field.cell_x, z = static_cast<float>(at.y) * field.cell_z;
+        mesh.positions.emplace_back(x, field.at(at.x, at.y), z);
+        mesh.positions.emplace_back(x, bottom, z);
+      }
+      mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2, first + 2, first + 1, first + 3});
+    }
+  };
+  // Around, counter-clockwise from above, so that walls face outwards.
+  const int right = field.width - 1, south = field.depth - 1;
+  wall({0, 0}, {0, 1}, south);
+  wall({0, south}, {1, 0}, right);
+  wall({right, south}, {0, -1}, south);
+  wall({right, 0}, {-1, 0}, right);
+  return mesh;
+}
+
+void draw(const Image& picture, const Heightfield& field, const RunOptions& options, Recorder& recorder) {
+  constexpr double kPicture = 340, kWide = 620, kMargin = 20;
   const HeightRange range = height_range(field);
+  const TriangleMesh mesh = land_mesh(field), walls = border_walls(field, range.lowest);
   const auto context = open_context(options.renderer, 64, 64);
   Scene scene;
   scene.lowest = 0;
   scene.highest = range.highest;
   scene.meshes.emplace_back().mesh = &mesh;
+  SceneMesh& cut = scene.meshes.emplace_back();
+  cut.mesh = &walls;
+  cut.colors.assign(walls.positions.size(), {196, 180, 158});
   ScenePlane& sea = scene.planes.emplace_back();
   sea.corners = {
       {0, 0, 0}, {0, 0, field.extent_z()}, {field.extent_x(), 0, field.extent_z()}, {field.extent_x(), 0, 0}};
   sea.fill_opacity = 0.75F;
   sea.line_width = 1;
   const View view = overview(bounds_of(mesh), static_cast<int>(2 * kWide), static_cast<int>(2 * kPicture));
-  drill::Sheet sheet(kPicture + kWide + 3 * kMargin, kPicture + 2 * kMargin + 28);
+  drill::Sheet sheet(kPicture + kWide + 3 * kMargin, kPicture + 2 * kMargin + 40);
   sheet.picture(kMargin, kMargin, kPicture, kPicture, picture);
   sheet.picture(kPicture + 2 * kMargin, kMargin, kWide, kPicture, render_scene(*context, scene, view));
   sheet.text(kMargin + kPicture / 2, kPicture + kMargin + 24, "drawing: black is sea, white a peak", 15,
              "middle");
-  sheet.text(kPicture + 2 * kMargin + kWide / 2, kPicture + kMargin + 24,
-             fmt::format("land, {:.0f} m high, with the sea", range.highest), 15, "middle");
-  sheet.write(
-      recorder.figure("mrbsp.landscape", "png",
-                      "A drawing of grey clouds with lightened ridges and a river and a lake in black, "
-                      "and the land that it becomes"));
+  const double land = kPicture + 2 * kMargin, below = kPicture + kMargin + 24;
+  sheet.text(land + 20, below, fmt::format("land, {:.1f} km across, with the sea", field.extent_x() / 1000),
+             15);
+  sheet.text(land + kWide - 250, below, "height, m", 12);
+  const std::array<drill::Sheet::Tick, 3> ticks{
+      {{0, "0"}, {0.5, fmt::format("{:.0f}", range.highest / 2)}, {1, fmt::format("{:.0f}", range.highest)}}};
+  sheet.colour_bar(land + kWide - 180, below - 11, 160, ramp_rgb, ticks);
+  sheet.write(recorder.figure("mrbsp.landscape", "png",
+                              "The paper's section 1: a drawing of grey clouds with lightened ridges and a "
+                              "river and a lake in black, "
+                              "and the land that it becomes"));
 }
 
 }  // namespace

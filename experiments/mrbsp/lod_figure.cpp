@@ -175,9 +175,10 @@ void draw_lod_figure(const Case& at, const RunOptions& options, Recorder& record
   LodFigure(ground, lod, view)
       .draw(options,
             recorder.figure("mrbsp.F1", "png",
-                            "Figure 1 of the paper: what level of detail draws, with the threshold at each "
-                            "vertex that has room for it; T is a triangle that the one-vertex rule splits "
-                            "(dashed) because its right angle alone has a lower threshold"));
+                            "Figure 1 of the paper, on real mountains: what level of detail draws, with the "
+                            "threshold at each vertex that has room for it; T is a triangle that the "
+                            "one-vertex rule splits (dashed) because its right angle alone has a lower "
+                            "threshold"));
 }
 
 }  // namespace terrabench::mrbsp

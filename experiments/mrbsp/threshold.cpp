@@ -90,19 +90,21 @@ void measure_threshold(const Case& at, const RunOptions&, Recorder& recorder, Pr
     const std::string name = area ? "area" : "printed";
     const double slope = power_law(points).value_or(0);
     recorder.add("slope_" + name, "", slope);
-    const double shown = std::round(100 * slope) / 100 + 0.0;  // no -0.00
+    const std::string_view sign = slope < -0.005 ? "−" : "";
     recorder.add("size_near_" + name, "pixels", points.front().y);
     recorder.add("size_far_" + name, "pixels", points.back().y);
     plot.series.push_back(
-        {.label =
-             fmt::format("{}, slope {:.2f}", area ? "M − 2 log₂(D/S)" : "M − log₂(D/S), as printed", shown),
+        {.label = fmt::format("{}, slope {}{:.2f}", area ? "M − 2 log₂(D/S)" : "M − log₂(D/S), as printed",
+                              sign, std::abs(slope)),
          .points = points});
   }
   write_file(
       recorder.figure("mrbsp.threshold", "svg",
-                      "How large triangles look against their distance, on level ground, for the "
-                      "threshold as printed and for the one that halves areas; level is what the paper "
-                      "claims (800 × 600 pixels, 40° across)"),
+                      "The paper's section 3: how large triangles look against their distance, on level "
+                      "ground, by the formula as printed and by the one that reckons with halved areas. The "
+                      "paper says that the size stays the same. S is 16 times the short side of the finest "
+                      "triangles; 800 × 600 pixels, 40° across. Two distances a doubling, and whole levels: "
+                      "hence the steps"),
       plot_svg(plot));
 }
 

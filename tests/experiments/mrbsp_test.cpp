@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <set>
 
+#include "experiments/mrbsp/extruded_profile.h"
 #include "experiments/mrbsp/ground.h"
+#include "lod/mrbsp/coarse_squares.h"
 #include "terrain/error.h"
 #include "tests/terrain/temporary_folder.h"
 
@@ -51,6 +53,8 @@ TEST_F(MrbspExperiments, AWalkIsCountedAndTimedInOrder) {
   EXPECT_GT(value(record, "mean_both"), 0);
   EXPECT_LT(value(record, "mean_both"), value(record, "mean_vis"));
   EXPECT_GT(value(record, "lod_time"), 0);
+  EXPECT_GT(value(record, "toggled_per_view"), 0);
+  EXPECT_GT(value(record, "toggle_to_lod_time"), 0);
   EXPECT_GT(value(record, "frame_time_both"), 0);
 }
 
@@ -103,8 +107,76 @@ TEST_F(MrbspExperiments, TheProfileGivesTable1) {
   EXPECT_EQ(value(record, "differing_lines"), 0);
   EXPECT_EQ(value(record, "lost_in_the_file"), 0);
   EXPECT_EQ(value(record, "changes"), 6);
-  ASSERT_EQ(record.figures.size(), 1U);
+  ASSERT_EQ(record.figures.size(), 2U);
   EXPECT_EQ(record.figures[0].id, "mrbsp.F2");
+  EXPECT_EQ(record.figures[1].id, "mrbsp.T1");
+  EXPECT_GT(value(record, "alike_within_half_a_metre"), 0.5);
+}
+
+std::vector<ProfileStep> sampled_steps(std::span<const float> profile) {
+  Progress progress;
+  const Heightfield strip = extrude(profile);
+  return profile_steps(strip, find_changes(strip, false, progress), progress);
+}
+
+TEST(ExtrudedProfile, ChangesWithTheShapeOfTheLand) {
+  // All of a bowl is seen from all of it.
+  std::vector<float> bowl;
+  for (int k = -8; k <= 8; ++k) bowl.push_back(0.1F * static_cast<float>(k * k));
+  for (const ProfileStep& step : sampled_steps(bowl)) {
+    EXPECT_TRUE(step.coarse.empty());
+    EXPECT_TRUE(step.fine.empty());
+  }
+  // With rims below the ridge nobody sees over it: the step across it is the only change.
+  std::vector<float> low(table1_profile().begin(), table1_profile().end());
+  low.front() = low.back() = 8.5F;
+  const std::vector<ProfileStep> steps = sampled_steps(low);
+  ASSERT_EQ(steps.size(), 7U);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    EXPECT_EQ(steps[k].coarse.size(), k == 3 ? 4U : 0U) << k;
+    EXPECT_EQ(steps[k].fine.size(), k == 3 ? 16U : 0U) << k;
+    EXPECT_TRUE(steps[k].whole);
+  }
+}
+
+// A strip is as good as a square: there each row of cells sees as much of its own row of squares.
+TEST(ExtrudedProfile, IsTheSameOnASquare) {
+  Progress progress;
+  const Heightfield strip = extrude(table1_profile());
+  Heightfield square = strip;
+  square.depth = square.width;
+  square.heights.clear();
+  for (int row = 0; row < square.depth; ++row) {
+    square.heights.insert(square.heights.end(), table1_profile().begin(), table1_profile().end());
+  }
+  const VisibleSets narrow = sets_of(find_changes(strip, false, progress));
+  const VisibleSets wide = sets_of(find_changes(square, false, progress));
+  ASSERT_EQ(wide.cells.rows, kProfileCells);
+  ASSERT_EQ(wide.depth, narrow.depth);
+  const CoarseSquares squares(BisectionTree::over(square.width, square.depth), wide.depth);
+  const int cells_a_square = squares.side() / wide.cells.side;
+  for (int cell = 0; cell < wide.cells.count(); ++cell) {
+    const int column = cell % wide.cells.columns, row = cell / wide.cells.columns / cells_a_square;
+    for (int x = 0; x < squares.along(); ++x) {
+      for (const int half : {0, 1}) {
+        EXPECT_EQ(wide.sees(cell, squares.element({x, row}, half)),
+                  narrow.sees(column, squares.element({x, 0}, half)));
+      }
+    }
+  }
+}
+
+TEST_F(MrbspExperiments, OnlyPointsOnVerticesLeaveThePrintedHeightsWhole) {
+  for (const std::int64_t points : {33, 32}) {
+    Case at{"tiny", Parameters(kHeightParameters), std::string(kGround)};
+    at.parameters.set("points", points);
+    at.parameters.set("depth", std::int64_t{10});
+    const Record record = run(measure_heights, at);
+    EXPECT_EQ(value(record, "levels_not_whole"), 0);
+    EXPECT_GT(value(record, "torn_share"), 0.5);
+    EXPECT_EQ(value(record, "torn_shared") == 0, points == 33);
+    EXPECT_EQ(value(record, "vertices"), (33 * 33 + 1) / 2);
+  }
 }
 
 TEST_F(MrbspExperiments, LevelOfDetailGainsWithTheLand) {
@@ -151,7 +223,7 @@ TEST(MrbspGround, RefusesASolid) { EXPECT_THROW(open_ground("caves", 1), Error);
 TEST(MrbspCases, TheOptionsNameTheGround) {
   RunOptions options;
   options.terrains = {"topobathy"};
-  for (const auto cases : {walk_cases, hole_cases, visibility_cases}) {
+  for (const auto cases : {walk_cases, hole_cases, visibility_cases, height_cases}) {
     for (const Case& at : cases(options)) EXPECT_EQ(at.terrain, "topobathy");
   }
 }
