@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lod/mrbsp/surface_height.h"
 #include "terrain/error.h"
 #include "terrain/sources/drawing/drawing.h"
 #include "terrain/sources/fractal/diamond_square.h"

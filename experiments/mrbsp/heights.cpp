@@ -9,6 +9,7 @@
 #include "experiments/mrbsp/mrbsp.h"
 #include "lod/mrbsp/height_points.h"
 #include "lod/mrbsp/subset_triangles.h"
+#include "lod/mrbsp/surface_height.h"
 
 namespace terrabench::mrbsp {
 namespace {

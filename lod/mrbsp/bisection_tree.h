@@ -18,8 +18,6 @@
 #include <string>
 #include <string_view>
 
-#include "terrain/frame.h"
-
 namespace terrabench {
 
 // Corners in the lattice, counter-clockwise from above: the right angle first.
@@ -96,11 +94,6 @@ class BisectionTree {
  private:
   int side_bits_, depth_;
 };
-
-// Height of the finest triangles at a place in metres, drawn in to the field. They leave samples out at even
-// depths, so that a walker put on the samples alone may stand under them. In triangles that reach over the
-// field's far borders: of the highest corner. O(depth).
-float surface_height(const BisectionTree&, const GroundGrid&, float x, float z);
 
 inline int depth_of(NodeNumber node) { return std::bit_width(node) - 1; }
 // The paper's hierarchical number: a digit a level below the square, "" for the square itself.

@@ -5,6 +5,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "lod/mrbsp/surface_height.h"
+
 namespace terrabench {
 
 float LineOfSight::sample(int i, int j) const {
@@ -117,10 +119,7 @@ void LineOfSight::find(int cell, int eyes, VisibleSets& sets) const {
     for (int a = 0; a < eyes; ++a) {
       const glm::vec2 share = (glm::vec2(a, b) + 0.5F) / static_cast<float>(eyes);
       const glm::vec2 place = glm::vec2(low) + share * glm::vec2(high - low);
-      const glm::ivec2 c(place);  // its grid cell; bilinear there
-      const glm::vec2 f = place - glm::vec2(c);
-      const float fine = glm::mix(glm::mix(sample(c.x, c.y), sample(c.x + 1, c.y), f.x),
-                                  glm::mix(sample(c.x, c.y + 1), sample(c.x + 1, c.y + 1), f.x), f.y);
+      const float fine = sample_height(ground_, place.x, place.y);
       places.emplace_back(place.x, std::max(fine, height(place.x, place.y)) + sets.eye_height, place.y);
     }
   }

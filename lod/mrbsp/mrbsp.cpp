@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 
 #include "lod/mrbsp/height_points.h"
+#include "lod/mrbsp/surface_height.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -117,15 +118,9 @@ bool Mrbsp::on_the_ground(const glm::vec3& eye) const {
   const float u = eye.x / grid_.cell_x, v = eye.z / grid_.cell_z;
   const auto width = static_cast<float>(grid_.width - 1), depth = static_cast<float>(grid_.depth - 1);
   if (!(u >= 0 && v >= 0 && u <= width && v <= depth)) return false;
-  const int i = std::min(static_cast<int>(u), grid_.width - 2),
-            j = std::min(static_cast<int>(v), grid_.depth - 2);
-  const float* const at = grid_.heights.data() + static_cast<std::size_t>(j) * grid_.width + i;
-  const float s = u - static_cast<float>(i), t = v - static_cast<float>(j);
-  const float north = at[0] * (1 - s) + at[1] * s;
-  const float south = at[grid_.width] * (1 - s) + at[grid_.width + 1] * s;
   // Within the slack that the conservative sets are computed with.
   constexpr float kSlack = 0.005F;
-  const float samples = north * (1 - t) + south * t;
+  const float samples = sample_height(grid_, u, v);
   const float surface = surface_height(tree_, grid_, eye.x, eye.z);
   // From beneath, the ground hides nothing: a line of sight that runs under it all the way is free.
   return eye.y >= surface && eye.y <= std::max(samples, surface) + visibility_.eye_height + kSlack;

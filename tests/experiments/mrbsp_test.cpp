@@ -9,6 +9,7 @@
 #include "experiments/mrbsp/extruded_profile.h"
 #include "experiments/mrbsp/ground.h"
 #include "lod/mrbsp/coarse_squares.h"
+#include "lod/mrbsp/surface_height.h"
 #include "terrain/error.h"
 #include "tests/terrain/temporary_folder.h"
 

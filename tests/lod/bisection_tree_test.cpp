@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "lod/mrbsp/surface_height.h"
 #include "tests/terrain/errors.h"
 
 namespace terrabench {
