@@ -169,7 +169,7 @@ std::vector<Case> walk_cases(const RunOptions& options) {
     // Frames cost a hundred times as much as counting triangles.
     const bool paper = options.profile == Profile::kPaper;
     add("printed", 1, false, paper ? 12 : 0);
-    add("tuned", 0, false, paper ? 30 : ground == "drawing-257" ? 0 : 10);
+    add("tuned", 0, false, paper ? 30 : ground == "drawing-257" ? 0 : 16);
     add("conservative", 0, true, 0);
   }
   return cases;
