@@ -225,13 +225,22 @@ class Report {
     document_.push_back(std::move(notes));
   }
 
+  // Is the picture what some row is about? Rows of other classes may rest on it too.
+  bool has_own_row(const Paper& paper, std::string_view figure) const {
+    return std::any_of(check_.rows.begin(), check_.rows.end(), [&](const Row& row) {
+      return row.paper == &paper && row.claim->type == 'F' &&
+             std::any_of(row.claim->conditions.begin(), row.claim->conditions.end(),
+                         [&](const Condition& condition) { return condition.figure == figure; });
+    });
+  }
+
   void add_gallery(const Paper& paper) {
     Gallery gallery;
     for (const Row& row : check_.rows) {
-      if (row.paper != &paper || row.claim->type != 'F') continue;
+      if (row.paper != &paper) continue;
       for (const Condition& condition : row.claim->conditions) {
         const auto [record, figure] = store_.find_figure(condition.figure, check_.profile);
-        if (figure == nullptr) continue;
+        if (figure == nullptr || (row.claim->type != 'F' && has_own_row(paper, figure->id))) continue;
         claimed_.insert(figure->id);
         add_picture(gallery, *record, *figure, row.claim->where,
                     row.claim->statement + " " + figure->caption);

@@ -11,7 +11,7 @@
 #include "experiments/mrbsp/ground.h"
 #include "experiments/mrbsp/mrbsp.h"
 #include "results/plot.h"
-#include "terrain/files.h"
+#include "results/rasterise.h"
 
 namespace terrabench::mrbsp {
 namespace {
@@ -21,6 +21,7 @@ constexpr std::array kSpecs{
 };
 constexpr int kFirstBin = 10, kBins = 10;  // two a doubling, from 32 short sides on
 constexpr double kSize = 16;
+constexpr int kPictureWidth = 1760;
 // At 800 × 600 pixels and 40° across.
 const double kPixelsPerRadian = 400 / std::tan(std::numbers::pi / 9);
 
@@ -98,14 +99,15 @@ void measure_threshold(const Case& at, const RunOptions&, Recorder& recorder, Pr
                               sign, std::abs(slope)),
          .points = points});
   }
-  write_file(
-      recorder.figure("mrbsp.threshold", "svg",
+  svg_text_to_png(
+      plot_svg(plot),
+      recorder.figure("mrbsp.threshold", "png",
                       "The paper's section 3: how large triangles look against their distance, on level "
                       "ground, by the formula as printed and by the one that reckons with halved areas. The "
                       "paper says that the size stays the same. S is 16 times the short side of the finest "
                       "triangles; 800 × 600 pixels, 40° across. Two distances a doubling, and whole levels: "
                       "hence the steps"),
-      plot_svg(plot));
+      kPictureWidth);
 }
 
 }  // namespace terrabench::mrbsp
