@@ -195,6 +195,7 @@ void measure_walk(const Case& at, const RunOptions& options, Recorder& recorder,
   const auto frames = static_cast<int>(at.parameters.integer("frames"));
   if (frames == 0) return;
   std::vector<View> drawn;
+  drawn.reserve(static_cast<std::size_t>(frames));
   for (int k = 0; k < frames; ++k) drawn.push_back(views[static_cast<std::size_t>(k * kViews / frames)]);
   time_frames(methods, ground, drawn, options, recorder, progress);
 }

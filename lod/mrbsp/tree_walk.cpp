@@ -83,11 +83,9 @@ class TreeWalk {
       if (cuts_ != nullptr) cuts_->add(foot.at);
       descend(foot, apex, left, depth + 1, 2 * node, planes);
       descend(foot, right, apex, depth + 1, 2 * node + 1, planes);
-    } else if (depth == depth_) {
-      put(t);
-    } else if (cuts_ != nullptr) {
+    } else if (cuts_ != nullptr && depth < depth_) {
       whole_.push_back({packed(t.apex), packed(t.left), packed(t.right), node, planes});
-    } else if (may_open(apex.threshold, left.threshold, right.threshold, depth_)) {
+    } else if (depth < depth_ && may_open(apex.threshold, left.threshold, right.threshold, depth_)) {
       put(BisectionTree::child(t, 0));
       put(BisectionTree::child(t, 1));
     } else {
