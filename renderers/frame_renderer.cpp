@@ -20,6 +20,8 @@ namespace {
 struct BatchRecord {
   std::int32_t level;
   std::uint32_t first_triangle;
+  std::uint32_t corner;
+  PatchMorph morph;
 };
 struct LevelRecord {
   glm::ivec2 corner;
@@ -157,6 +159,8 @@ void FrameRenderer::Gl::upload(const Frame& frame, const DirtyRange& range) {
     case DirtyRange::Target::kHeights:
       heights.write(range.first * kWord, &frame.grid.heights[range.first], range.count * kWord);
       break;
+    case DirtyRange::Target::kMorphs:  // written with the batches
+      break;
     case DirtyRange::Target::kClipLevel:
       const ClipLevel& level = frame.levels[range.level];
       for (std::size_t row = range.z; row < std::size_t{range.z} + range.depth; ++row) {
@@ -177,8 +181,9 @@ void FrameRenderer::Gl::upload(const Frame& frame) {
   if (all_indices) upload_indices(frame);
   if (all_heights) upload_heights(frame);
   for (const DirtyRange& range : frame.uploads) {
-    const bool whole = range.target == DirtyRange::Target::kIndices ? all_indices : all_heights;
-    if (!whole) upload(frame, range);
+    const bool indices_alone = range.target == DirtyRange::Target::kIndices;
+    const bool done = indices_alone ? all_indices : all_heights;
+    if (range.target == DirtyRange::Target::kMorphs || !done) upload(frame, range);
   }
   fresh = false;
 }
@@ -189,7 +194,8 @@ void FrameRenderer::Gl::describe(const Frame& frame) {
   std::uint32_t triangle = 0;
   for (const Batch& batch : frame.batches) {
     const auto number = static_cast<std::uint32_t>(draw_commands.size());
-    batch_records.push_back({batch.level, triangle});
+    batch_records.push_back({batch.level, triangle, batch.base_vertex,
+                             frame.morphs.empty() ? PatchMorph{} : frame.morphs[batch.morph]});
     draw_commands.push_back(
         {batch.index_count, 1, batch.first_index, static_cast<std::int32_t>(batch.base_vertex), number});
     triangle += batch.index_count / 3;
@@ -215,6 +221,7 @@ void FrameRenderer::Gl::set(const Program& program, const Frame& frame, const Vi
   glProgramUniform2f(id, uniform(program, "cell"), frame.cell_x, frame.cell_z);
   glProgramUniform1i(id, uniform(program, "side"), frame.levels.empty() ? 0 : frame.levels.front().side);
   glProgramUniform2i(id, uniform(program, "last"), frame.last.x, frame.last.y);
+  glProgramUniform1i(id, uniform(program, "patch_side"), frame.patch_side);
 }
 
 void FrameRenderer::Gl::set_style(const Program& program, const View& view, const FrameStyle& style) {

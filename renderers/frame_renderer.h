@@ -44,7 +44,7 @@ class FrameRenderer {
   // draw() does.
   std::vector<std::uint32_t> triangle_numbers(const Frame&, const View&);
 
-  std::size_t bytes_uploaded() const;  // heights and indices, since the beginning
+  std::size_t bytes_uploaded() const;  // heights, indices and morphs, since the beginning
 
  private:
   struct Gl;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <utility>
 
 namespace terrabench {
 namespace {
@@ -12,6 +13,69 @@ glm::vec3 grid_position(const GroundGrid& grid, std::uint32_t vertex) {
   const auto width = static_cast<std::uint32_t>(grid.width);
   return {static_cast<float>(vertex % width) * grid.cell_x, grid.heights[vertex],
           static_cast<float>(vertex / width) * grid.cell_z};
+}
+
+// A part of the way from a to b, and never beyond either by rounding.
+float between(float a, float b, float share) {
+  return std::clamp(a + (b - a) * share, std::min(a, b), std::max(a, b));
+}
+
+// A patch on its way to the next coarser level.
+struct MorphingPatch {
+  const GroundGrid& grid;
+  const PatchMorph& morph;
+  int level;
+  glm::ivec2 low, high;  // corners, samples
+
+  float sample(glm::ivec2 at) const {
+    return grid.heights[static_cast<std::size_t>(at.y) * static_cast<std::size_t>(grid.width) +
+                        static_cast<std::size_t>(at.x)];
+  }
+  bool on_border(glm::ivec2 at) const {
+    return at.x == low.x || at.x == high.x || at.y == low.y || at.y == high.y;
+  }
+
+  // Depends on the samples along the side and on what the morph says of it alone, so that the patch across
+  // has the same vertices. Corners stay.
+  float on_side(glm::ivec2 at) const {
+    const int along = at.y == low.y || at.y == high.y ? 0 : 1;
+    const float said = along == 0 ? morph.sides[at.y == low.y ? 0 : 2] : morph.sides[at.x == low.x ? 3 : 1];
+    const int step = 1 << static_cast<int>(said);
+    const float share = said - std::floor(said);
+    if (share <= 0 || at[along] == high[along] || ((at[along] - low[along]) & (2 * step - 1)) == 0) {
+      return sample(at);
+    }
+    glm::ivec2 before = at, after = at;
+    before[along] -= step;
+    after[along] = std::min(after[along] + step, high[along]);
+    const float way = static_cast<float>(step) / static_cast<float>(after[along] - before[along]);
+    return between(sample(at), between(sample(before), sample(after), way), share);
+  }
+
+  float shown(glm::ivec2 at) const { return on_border(at) ? on_side(at) : sample(at); }
+
+  float height(glm::ivec2 at) const {
+    if (on_border(at)) return on_side(at);
+    const int step = 1 << level;
+    const float share = morph.inside - static_cast<float>(level);
+    const glm::ivec2 odd((at.x - low.x) & step, (at.y - low.y) & step);
+    if (share <= 0 || odd == glm::ivec2(0)) return sample(at);
+    glm::ivec2 before = at - odd, after = glm::min(at + odd, high);
+    const glm::ivec2 cell = before - low;
+    if (odd.x != 0 && odd.y != 0 && ((cell.x ^ cell.y) & (2 * step)) != 0) std::swap(before.y, after.y);
+    const int along = odd.x != 0 ? 0 : 1;
+    const float way = static_cast<float>(step) / static_cast<float>(after[along] - before[along]);
+    return between(sample(at), between(shown(before), shown(after), way), share);
+  }
+};
+
+glm::vec3 morphed_position(const Frame& frame, const Batch& batch, std::uint32_t vertex) {
+  const auto width = static_cast<std::uint32_t>(frame.grid.width);
+  const auto place = [&](std::uint32_t v) { return glm::ivec2(v % width, v / width); };
+  glm::vec3 position = grid_position(frame.grid, vertex);
+  position.y = morphed_height(frame.grid, frame.patch_side, frame.morphs[batch.morph], batch.level,
+                              place(batch.base_vertex), place(vertex));
+  return position;
 }
 
 float clip_height(const ClipLevel& level, int a, int b) {
@@ -56,7 +120,8 @@ glm::vec3 clip_position(const Frame& frame, const Batch& batch, std::uint32_t ve
 }  // namespace
 
 std::size_t DirtyRange::bytes() const {
-  return target == Target::kClipLevel ? std::size_t{4} * width * depth : std::size_t{4} * count;
+  if (target == Target::kClipLevel) return std::size_t{4} * width * depth;
+  return count * (target == Target::kMorphs ? sizeof(PatchMorph) : 4);
 }
 
 FrameStats count(std::span<const Batch> batches, std::span<const DirtyRange> uploads, std::size_t changes) {
@@ -66,8 +131,15 @@ FrameStats count(std::span<const Batch> batches, std::span<const DirtyRange> upl
   return stats;
 }
 
+float morphed_height(const GroundGrid& grid, int patch_side, const PatchMorph& morph, int level,
+                     glm::ivec2 low, glm::ivec2 at) {
+  const glm::ivec2 high = glm::min(low + patch_side, glm::ivec2(grid.width, grid.depth) - 1);
+  return MorphingPatch{grid, morph, level, low, high}.height(at);
+}
+
 glm::vec3 vertex_position(const Frame& frame, const Batch& batch, std::uint32_t vertex) {
-  return frame.levels.empty() ? grid_position(frame.grid, vertex) : clip_position(frame, batch, vertex);
+  if (!frame.levels.empty()) return clip_position(frame, batch, vertex);
+  return frame.morphs.empty() ? grid_position(frame.grid, vertex) : morphed_position(frame, batch, vertex);
 }
 
 void triangles(const Frame& frame, const TriangleSink& sink) {

@@ -4,6 +4,7 @@
 // vertex shader repeats.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -35,19 +36,30 @@ struct ClipLevel {
   float from = 0, to = 0;
 };
 
+// How far the vertices of a square patch of the grid are on their way to the next coarser level (de Boer
+// 2000, §4), as levels with fractions: at l + s the vertices that level l + 1 drops stand the share s of the
+// way from their sample to its surface, whose cells are split through their vertex of odd place. Sides are
+// north, east, south, west, and at or above `inside`; two patches say the same of the side they share.
+struct PatchMorph {
+  float inside = 0;  // from the batch's level to one more
+  std::array<float, 4> sides{};
+};
+
 // A run of indices, three a triangle, counter-clockwise from above. Vertex = base_vertex + index.
 struct Batch {
   std::uint32_t first_index = 0, index_count = 0;
   std::uint32_t base_vertex = 0;
   std::uint16_t level = 0;  // 0 is the finest; names the clip level when the frame has clip levels
+  std::uint32_t morph = 0;  // of Frame::morphs, when there are any
 };
 
 // A part of what the frame points at that differs from the last frame: a run of indices, a run of grid
-// heights, or a rectangle of a clip level in toroidal array coordinates. The first frame names everything.
+// heights, a run of morphs, or a rectangle of a clip level in toroidal array coordinates. The first frame
+// names everything.
 struct DirtyRange {
-  enum class Target : std::uint8_t { kIndices, kHeights, kClipLevel } target = Target::kIndices;
+  enum class Target : std::uint8_t { kIndices, kHeights, kMorphs, kClipLevel } target = Target::kIndices;
   std::uint16_t level = 0;                           // of kClipLevel
-  std::uint32_t first = 0, count = 0;                // elements of kIndices and kHeights
+  std::uint32_t first = 0, count = 0;                // elements, of all but kClipLevel
   std::uint16_t x = 0, z = 0, width = 0, depth = 0;  // of kClipLevel, never across the array's border
   std::size_t bytes() const;
 };
@@ -69,12 +81,20 @@ struct Frame {
   float cell_x = 1.0F, cell_z = 1.0F;  // metres between the samples of the full terrain
   std::span<const std::uint32_t> indices;
   std::span<const Batch> batches;
+  // Of patches of patch_side cells, a power of two, whose low corner is their batch's base vertex. None: all
+  // vertices of the grid stand at their samples.
+  std::span<const PatchMorph> morphs{};
+  int patch_side = 0;
   std::span<const DirtyRange> uploads;
   FrameStats stats;
 };
 
 // Sums triangles and bytes of the batches and uploads. O(batches + uploads).
 FrameStats count(std::span<const Batch>, std::span<const DirtyRange>, std::size_t changes);
+
+// The height of sample (i, j) in the patch whose low corner is sample (i0, j0). O(1).
+float morphed_height(const GroundGrid&, int patch_side, const PatchMorph&, int level, glm::ivec2 low,
+                     glm::ivec2 at);
 
 // Where the vertex stands, metres. O(1).
 glm::vec3 vertex_position(const Frame&, const Batch&, std::uint32_t vertex);

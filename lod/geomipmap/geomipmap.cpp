@@ -28,6 +28,7 @@ std::span<const ParameterSpec> GeoMipMap::parameters() {
        "cells along a patch's side, a power of two; 0: 16, or more where that makes over 64 × 64 patches", 0,
        kLargestSide},
       {"level_camera", false, "", "choose levels by the paper's rule for a level camera, which bounds less"},
+      {"morph", false, "", "glide from level to level by the distance (trilinear geomipmapping)"},
   };
   return kSpecs;
 }
@@ -35,7 +36,8 @@ std::span<const ParameterSpec> GeoMipMap::parameters() {
 std::unique_ptr<Lod> GeoMipMap::build(const Heightfield& ground, const Parameters& parameters,
                                       Progress& progress) {
   check_ground(ground);
-  Options options{static_cast<int>(parameters.integer("patch")), parameters.flag("level_camera")};
+  Options options{static_cast<int>(parameters.integer("patch")), parameters.flag("level_camera"),
+                  parameters.flag("morph")};
   if (options.side == 0) options.side = suited_side(ground);
   if (options.side == 1 || !std::has_single_bit(static_cast<unsigned>(options.side))) {
     throw usage_error("the side of a patch is no power of two", "patch",
@@ -51,18 +53,24 @@ GeoMipMap::GeoMipMap(const Heightfield& ground, const Options& options, Progress
       offsets_(cut_.offsets()),
       levels_(std::bit_width(static_cast<unsigned>(options.side))),
       pixels_(knob().fallback),
-      patterns_(cut_, levels_),
-      errors_(grid_, cut_, patterns_, levels_, progress),
+      patterns_(cut_, levels_,
+                options.morph ? PatchPatterns::Split::kThroughOdd : PatchPatterns::Split::kOneWay),
       tree_(grid_, cut_),
       level_(cut_.slots(), kUnseen),
       last_level_(cut_.slots(), kUnseen),
       queued_(cut_.slots(), 0),
       allowed_(cut_.slots()) {
+  if (options.morph) {
+    morphing_.emplace(grid_, cut_, patterns_, levels_, progress);
+    morphs_.reserve(cut_.count());
+  } else {
+    errors_.emplace(grid_, cut_, patterns_, levels_, progress);
+  }
   seen_.reserve(cut_.count());
   last_seen_.reserve(cut_.count());
   queue_.reserve(cut_.count());
   batches_.reserve(cut_.count());
-  uploads_.reserve(2);
+  uploads_.reserve(3);
 }
 
 void GeoMipMap::tune(double pixels) { pixels_ = setting(knob(), pixels); }
@@ -74,21 +82,33 @@ const Frame& GeoMipMap::update(const View& view) {
   std::swap(seen_, last_seen_);
   seen_.clear();
   tree_.collect(Frustum(view), seen_);
-  choose_levels(ScreenBound(view, pixels_));
-  fit_neighbours();
+  allow(ScreenBound(view, pixels_));
+  if (morphing_) {
+    morphing_->choose(last_seen_, seen_, allowed_);
+    for (const PatchTree::Seen& p : seen_) {
+      level_[p.slot] = static_cast<std::uint8_t>(morphing_->level(p.slot) + 1);
+    }
+  } else {
+    choose_levels();
+    fit_neighbours();
+  }
   draw();
   return frame_;
 }
 
-void GeoMipMap::choose_levels(const ScreenBound& bound) {
+void GeoMipMap::allow(const ScreenBound& bound) {
   for (const PatchTree::Seen& p : seen_) {
     const Bounds box = tree_.box(p);
-    const float allowed =
+    allowed_[p.slot] =
         options_.level_camera ? bound.allowed_level_camera(0.5F * (box.low + box.high)) : bound.allowed(box);
+  }
+}
+
+void GeoMipMap::choose_levels() {
+  for (const PatchTree::Seen& p : seen_) {
     int level = levels_ - 1;
-    while (errors_.of_level(p.slot, level) > allowed) --level;  // ends at level 0, which has no error
+    while (errors_->of_level(p.slot, level) > allowed_[p.slot]) --level;  // level 0 has no error
     level_[p.slot] = static_cast<std::uint8_t>(level + 1);
-    allowed_[p.slot] = allowed;
   }
 }
 
@@ -97,7 +117,7 @@ void GeoMipMap::choose_levels(const ScreenBound& bound) {
 void GeoMipMap::fit(std::uint32_t fine, std::uint32_t coarse, int side) {
   const int level = level_[fine];
   if (level_[coarse] <= level || level == kUnseen) return;
-  const int most = errors_.of_seam(fine, level - 1, side) <= allowed_[fine] ? level + 1 : level;
+  const int most = errors_->of_seam(fine, level - 1, side) <= allowed_[fine] ? level + 1 : level;
   if (level_[coarse] <= most) return;
   level_[coarse] = static_cast<std::uint8_t>(most);
   if (std::exchange(queued_[coarse], 1) == 0) queue_.push_back(coarse);
@@ -121,6 +141,7 @@ void GeoMipMap::fit_neighbours() {
 
 void GeoMipMap::draw() {
   batches_.clear();
+  morphs_.clear();
   std::size_t changes = 0;
   for (const PatchTree::Seen& p : seen_) {
     const std::uint8_t level = level_[p.slot];
@@ -133,14 +154,19 @@ void GeoMipMap::draw() {
     const PatchPatterns::Run& run = patterns_.run(cut_.shape(patch), level - 1, seams);
     const std::uint32_t corner =
         static_cast<std::uint32_t>(patch.j0) * static_cast<std::uint32_t>(grid_.width) + patch.i0;
-    batches_.push_back({run.first, run.count, corner, static_cast<std::uint16_t>(level - 1)});
+    batches_.push_back({run.first, run.count, corner, static_cast<std::uint16_t>(level - 1),
+                        static_cast<std::uint32_t>(morphs_.size())});
+    if (morphing_) morphs_.push_back(morphing_->morph(p.slot));
   }
   uploads_.clear();
+  const auto size = [](const auto& values) { return static_cast<std::uint32_t>(values.size()); };
   if (first_) {
-    const auto size = [](const auto& values) { return static_cast<std::uint32_t>(values.size()); };
     uploads_.push_back({.target = DirtyRange::Target::kIndices, .count = size(patterns_.indices())});
     uploads_.push_back({.target = DirtyRange::Target::kHeights, .count = size(grid_.heights)});
     first_ = false;
+  }
+  if (!morphs_.empty()) {
+    uploads_.push_back({.target = DirtyRange::Target::kMorphs, .count = size(morphs_)});
   }
   frame_ = {.grid = grid_,
             .levels = {},
@@ -148,6 +174,8 @@ void GeoMipMap::draw() {
             .cell_z = grid_.cell_z,
             .indices = patterns_.indices(),
             .batches = batches_,
+            .morphs = morphs_,
+            .patch_side = morphing_ ? cut_.side : 0,
             .uploads = uploads_,
             .stats = count(batches_, uploads_, changes)};
 }
@@ -155,13 +183,14 @@ void GeoMipMap::draw() {
 Memory GeoMipMap::memory() const {
   Memory memory = patterns_.memory();
   memory.index += heap_bytes(this);
-  memory += errors_.memory();
+  memory += morphing_ ? morphing_->memory() : errors_->memory();
   memory += tree_.memory();
   for (const auto* bytes : {&level_, &last_level_, &queued_}) memory += index_memory(*bytes);
   for (const auto* seen : {&seen_, &last_seen_}) memory += index_memory(*seen);
   memory += index_memory(allowed_);
   memory += index_memory(queue_);
   memory += index_memory(batches_);
+  memory += index_memory(morphs_);
   memory += index_memory(uploads_);
   return memory;
 }

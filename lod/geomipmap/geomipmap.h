@@ -5,14 +5,16 @@
 // frustum, from any camera (lod/screen_bound.h; the paper's own rule is `level_camera`); neighbours
 // differ by one level at most, by refining the coarser; a seam is closed only where its own triangles keep
 // the bound, or else the neighbour is refined as well. All index patterns are uploaded once. The paper's
-// trilinear geomipmapping (§4) is left out: neighbours that glide by different amounts part.
+// trilinear geomipmapping (§4), `morph`, uploads 20 bytes a patch in view each frame (morphing.h).
 //
 // update() is O(patches in view), about 30 ns each, and allocates nothing.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
+#include "lod/geomipmap/morphing.h"
 #include "lod/geomipmap/patch_errors.h"
 #include "lod/geomipmap/patch_patterns.h"
 #include "lod/geomipmap/patch_tree.h"
@@ -26,6 +28,7 @@ class GeoMipMap : public Lod {
   struct Options {
     int side = 64;              // cells along a patch's side, a power of two
     bool level_camera = false;  // the paper's rule instead of the strict one
+    bool morph = false;         // glide from level to level
   };
 
   // The field must outlive it.
@@ -41,7 +44,8 @@ class GeoMipMap : public Lod {
  private:
   static constexpr std::uint8_t kUnseen = 0;  // of the levels in level_, which count from 1
 
-  void choose_levels(const ScreenBound&);
+  void allow(const ScreenBound&);
+  void choose_levels();
   void fit_neighbours();
   void fit(std::uint32_t fine, std::uint32_t coarse, int side);
   void draw();
@@ -53,7 +57,8 @@ class GeoMipMap : public Lod {
   int levels_;
   double pixels_;
   PatchPatterns patterns_;
-  PatchErrors errors_;
+  std::optional<PatchErrors> errors_;  // either these
+  std::optional<Morphing> morphing_;   // or this
   PatchTree tree_;
 
   // By slot. One more than the level; patches that are not in seen_ count as finer than all.
@@ -62,6 +67,7 @@ class GeoMipMap : public Lod {
   std::vector<PatchTree::Seen> seen_, last_seen_;
   std::vector<std::uint32_t> queue_;  // slots
   std::vector<Batch> batches_;
+  std::vector<PatchMorph> morphs_;
   std::vector<DirtyRange> uploads_;
   Frame frame_;
   bool first_ = true;

@@ -25,8 +25,8 @@ Vertex pulled(Vertex v, int columns, int rows, int seams) {
 
 }  // namespace
 
-PatchPatterns::PatchPatterns(const PatchGrid& grid, int levels)
-    : levels_(levels), runs_(static_cast<std::size_t>(4 * levels * 16)) {
+PatchPatterns::PatchPatterns(const PatchGrid& grid, int levels, Split split)
+    : levels_(levels), split_(split), runs_(static_cast<std::size_t>(4 * levels * 16)) {
   std::array<bool, 4> known{};
   for (const int at_z : {0, grid.down() - 1}) {
     for (const int at_x : {0, grid.across() - 1}) {
@@ -61,8 +61,13 @@ PatchPatterns::Run PatchPatterns::add(const PatchGrid::Patch& shape, int stride,
   };
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
-      triangle({i, j}, {i, j + 1}, {i + 1, j});
-      triangle({i + 1, j}, {i, j + 1}, {i + 1, j + 1});
+      if (split_ == Split::kOneWay || (i + j) % 2 != 0) {
+        triangle({i, j}, {i, j + 1}, {i + 1, j});
+        triangle({i + 1, j}, {i, j + 1}, {i + 1, j + 1});
+      } else {
+        triangle({i, j}, {i, j + 1}, {i + 1, j + 1});
+        triangle({i, j}, {i + 1, j + 1}, {i + 1, j});
+      }
     }
   }
   run.count = static_cast<std::uint32_t>(indices_.size()) - run.first;

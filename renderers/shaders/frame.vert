@@ -5,6 +5,9 @@ layout(location = 0) in uint batch_number;
 struct BatchRecord {
   int level;
   uint first_triangle;
+  uint corner;
+  float inside;
+  vec4 sides;
 };
 struct LevelRecord {
   ivec2 corner;
@@ -21,6 +24,7 @@ uniform ivec2 samples;  // of the grid
 uniform vec2 cell;      // metres
 uniform int side;       // of the clip levels; 0 over a grid
 uniform ivec2 last;     // sample of the full terrain, of clip levels
+uniform int patch_side; // cells; 0 where no vertex moves
 
 out Vertex {
   vec3 world;
@@ -33,9 +37,57 @@ out Vertex {
 } vertex;
 flat out uint first_triangle;
 
-vec3 grid_position() {
+float sample_at(ivec2 at) { return heights[at.y * samples.x + at.x]; }
+
+float between(float a, float b, float share) { return clamp(a + (b - a) * share, min(a, b), max(a, b)); }
+
+// MorphingPatch of terrain/frame.cpp.
+bool on_border(ivec2 at, ivec2 low, ivec2 high) { return any(equal(at, low)) || any(equal(at, high)); }
+
+float on_side(BatchRecord batch, ivec2 at, ivec2 low, ivec2 high) {
+  bool along_x = at.y == low.y || at.y == high.y;
+  float said = along_x ? (at.y == low.y ? batch.sides[0] : batch.sides[2])
+                       : (at.x == low.x ? batch.sides[3] : batch.sides[1]);
+  int step = 1 << int(said);
+  float share = said - floor(said);
+  ivec2 along = along_x ? ivec2(1, 0) : ivec2(0, 1);
+  int place = along_x ? at.x : at.y, first = along_x ? low.x : low.y, end = along_x ? high.x : high.y;
+  if (share <= 0.0 || place == end || ((place - first) & (2 * step - 1)) == 0) return sample_at(at);
+  int ahead = min(step, end - place);
+  float way = float(step) / float(step + ahead);
+  return between(sample_at(at), between(sample_at(at - step * along), sample_at(at + ahead * along), way),
+                 share);
+}
+
+float shown(BatchRecord batch, ivec2 at, ivec2 low, ivec2 high) {
+  return on_border(at, low, high) ? on_side(batch, at, low, high) : sample_at(at);
+}
+
+float morphed_height(BatchRecord batch, ivec2 at) {
+  ivec2 low = ivec2(int(batch.corner) % samples.x, int(batch.corner) / samples.x);
+  ivec2 high = min(low + patch_side, samples - 1);
+  if (on_border(at, low, high)) return on_side(batch, at, low, high);
+  int step = 1 << batch.level;
+  float share = batch.inside - float(batch.level);
+  ivec2 odd = (at - low) & step;
+  if (share <= 0.0 || odd == ivec2(0)) return sample_at(at);
+  ivec2 before = at - odd, after = min(at + odd, high);
+  ivec2 place = before - low;
+  bool diagonal = odd.x != 0 && odd.y != 0;
+  float way = float(step) / float(odd.x != 0 ? after.x - before.x : after.y - before.y);
+  if (diagonal && ((place.x ^ place.y) & (2 * step)) != 0) {
+    int z = before.y;
+    before.y = after.y;
+    after.y = z;
+  }
+  float there = between(shown(batch, before, low, high), shown(batch, after, low, high), way);
+  return between(sample_at(at), there, share);
+}
+
+vec3 grid_position(BatchRecord batch) {
   ivec2 at = ivec2(gl_VertexID % samples.x, gl_VertexID / samples.x);
-  return vec3(float(at.x) * cell.x, heights[gl_VertexID], float(at.y) * cell.y);
+  float y = patch_side == 0 ? heights[gl_VertexID] : morphed_height(batch, at);
+  return vec3(float(at.x) * cell.x, y, float(at.y) * cell.y);
 }
 
 float clip_height(int level, ivec2 at) {
@@ -72,7 +124,7 @@ vec3 clip_position(BatchRecord batch) {
 
 void main() {
   BatchRecord batch = batches[batch_number];
-  vertex.world = side == 0 ? grid_position() : clip_position(batch);
+  vertex.world = side == 0 ? grid_position(batch) : clip_position(batch);
   vertex.normal = vec3(0.0, 1.0, 0.0);
   vertex.paint = vec3(0.0);
   vertex.bend = 0.0;

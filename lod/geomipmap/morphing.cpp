@@ -1,0 +1,199 @@
+#include "lod/geomipmap/morphing.h"
+
+#include <tbb/blocked_range2d.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace terrabench {
+namespace {
+
+// Of a height: what the few additions of a moved vertex may round by.
+constexpr float kHeightRounding = 0x1p-21F;
+// What the measured numbers and the fractions may be off by, relatively.
+constexpr float kSlack = 0x1p-18F;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// At the level, with `inside` and the sides that are in `seams` at another.
+PatchMorph morph_of(int level, float inside, int seams, float sides) {
+  PatchMorph morph{inside, {}};
+  for (int s = 0; s < 4; ++s) {
+    morph.sides[static_cast<std::size_t>(s)] = (seams >> s & 1) != 0 ? sides : static_cast<float>(level);
+  }
+  return morph;
+}
+
+// The level's vertices still in place, though all on the coarser surface.
+float nearly(int level) { return std::nextafter(static_cast<float>(level), 0.0F); }
+
+// Which sides' first two rows of cells the triangle lies in, as bits. The last row may be narrower.
+int strips_of(const PatchRuler::Triangle& corners, const PatchGrid::Patch& patch, int level) {
+  const int step = 1 << level;
+  const auto inner = [step](int cells) { return std::max(((cells - 1) / step - 1) * step, 0); };
+  int sides = 15;
+  for (const Corner& c : corners) {
+    const int x = c.x - patch.i0, z = c.z - patch.j0;
+    if (z > 2 * step) sides &= ~(1 << kNorth);
+    if (x < inner(patch.columns)) sides &= ~(1 << kEast);
+    if (z < inner(patch.rows)) sides &= ~(1 << kSouth);
+    if (x > 2 * step) sides &= ~(1 << kWest);
+  }
+  return sides;
+}
+
+float mix(float a, float b, float share) { return a + (b - a) * share; }
+
+}  // namespace
+
+Morphing::Morphing(const GroundGrid& grid, const PatchGrid& cut, const PatchPatterns& patterns, int levels,
+                   Progress& progress)
+    : offsets_(cut.offsets()),
+      levels_(levels),
+      errors_(cut.slots() * static_cast<std::size_t>(levels), 0.0F),
+      strips_(cut.slots() * static_cast<std::size_t>(levels - 1) * 4),
+      rounding_(cut.slots(), 0.0F),
+      at_(cut.slots(), kUnseen),
+      queued_(cut.slots(), 0) {
+  queue_.reserve(cut.count());
+  progress.begin("measuring patches", static_cast<std::uint64_t>(cut.count()));
+  tbb::parallel_for(tbb::blocked_range2d<int>(0, cut.down(), 0, cut.across()), [&](const auto& range) {
+    for (int z = range.rows().begin(); z < range.rows().end(); ++z) {
+      for (int x = range.cols().begin(); x < range.cols().end(); ++x) {
+        const PatchGrid::Patch patch = cut.patch(x, z);
+        PatchRuler ruler(grid, cut, patterns, patch);
+        measure(ruler, cut.slot(x, z));
+        float highest = 0;
+        for (int j = patch.j0; j <= patch.j0 + patch.rows; ++j) {
+          const float* const row = &grid.heights[static_cast<std::size_t>(j) * grid.width + patch.i0];
+          for (int i = 0; i <= patch.columns; ++i) highest = std::max(highest, std::abs(row[i]));
+        }
+        rounding_[cut.slot(x, z)] = kHeightRounding * highest;
+        progress.advance();
+      }
+    }
+  });
+  progress.end();
+}
+
+void Morphing::measure(PatchRuler& ruler, std::uint32_t slot) {
+  float* const errors = &errors_[slot * static_cast<std::size_t>(levels_)];
+  const auto whole = [&](int level, int drawn_at) {
+    const float at = level == drawn_at ? static_cast<float>(level) : nearly(level);
+    float largest = 0;
+    ruler.measure(drawn_at, 0, morph_of(drawn_at, at, 15, at),
+                  [&](const auto&, float error) { largest = std::max(largest, error); });
+    return largest;
+  };
+  for (int level = 1; level < levels_; ++level) {
+    errors[level] = std::max(errors[level - 1], whole(level, level));
+    // The finer level's triangles may not lie on this one's surface.
+    if (!ruler.is_whole()) errors[level] = std::max(errors[level], whole(level, level - 1));
+    measure_strips(ruler, level - 1,
+                   &strips_[(slot * static_cast<std::size_t>(levels_ - 1) + (level - 1)) * 4]);
+  }
+}
+
+// Triangles of a whole patch touch one side at most, so that all four are measured at once; where the patch
+// is cut, some touch two, and each is the worst over what the others may do.
+void Morphing::measure_strips(PatchRuler& ruler, int level, Strip* strips) const {
+  const auto here = static_cast<float>(level), above = static_cast<float>(level + 1);
+  const PatchGrid::Patch& patch = ruler.patch();
+  const auto take = [&](float Strip::*worst, int seams, int counting, const PatchMorph& morph) {
+    ruler.measure(level, seams, morph, [&](const PatchRuler::Triangle& corners, float error) {
+      const int sides = strips_of(corners, patch, level) & counting;
+      for (int s = 0; s < 4; ++s) {
+        if ((sides >> s & 1) != 0) strips[s].*worst = std::max(strips[s].*worst, error);
+      }
+    });
+  };
+  std::fill_n(strips, 4, Strip{});
+  take(&Strip::fine, 0, 15, morph_of(level, here, 0, here));
+  take(&Strip::coarse, 0, 15, morph_of(level, nearly(level + 1), 15, nearly(level + 1)));
+  for (int seams = ruler.is_whole() ? 15 : 1; seams < 16; ++seams) {
+    take(&Strip::side_coarse, seams, seams, morph_of(level, here, seams, above));
+    if (!ruler.is_whole()) {
+      take(&Strip::side_coarse, 0, seams, morph_of(level, here, seams, nearly(level + 1)));
+    }
+  }
+  if (ruler.is_whole() && level + 2 < levels_) {
+    take(&Strip::side_coarser, 15, 15, morph_of(level, here, 15, nearly(level + 2)));
+  } else {
+    for (int s = 0; s < 4; ++s) strips[s].side_coarser = kInfinity;
+  }
+}
+
+void Morphing::choose(std::span<const PatchTree::Seen> last_seen, std::span<const PatchTree::Seen> seen,
+                      std::span<const float> allowed) {
+  for (const PatchTree::Seen& p : last_seen) at_[p.slot] = kUnseen;
+  for (const PatchTree::Seen& p : seen) at_[p.slot] = own(p.slot, allowed[p.slot]);
+  for (const PatchTree::Seen& p : seen) fit_neighbours(p.slot, allowed[p.slot]);
+  // What sinks stays above what it was fitted to, so this ends.
+  while (!queue_.empty()) {
+    const std::uint32_t slot = queue_.back();
+    queue_.pop_back();
+    queued_[slot] = 0;
+    fit_neighbours(slot, allowed[slot]);
+  }
+}
+
+float Morphing::own(std::uint32_t slot, float allowed) const {
+  const float strictly = (1 - kSlack) * (allowed - rounding_[slot]);
+  int level = levels_ - 1;
+  while (level > 0 && error(slot, level) > strictly) --level;
+  if (level == levels_ - 1) return static_cast<float>(level);
+  const float fine = error(slot, level), coarse = error(slot, level + 1);
+  return static_cast<float>(level) + std::clamp((strictly - fine) / (coarse - fine), 0.0F, 1 - kSlack);
+}
+
+float Morphing::most(std::uint32_t slot, int side, float allowed) const {
+  const float strictly = (1 - kSlack) * (allowed - rounding_[slot]);
+  const int level = this->level(slot);
+  const auto whole = static_cast<float>(level);
+  if (level == levels_ - 1) return whole;
+  const float f = at_[slot] - whole;
+  const Strip& here = strip(slot, level, side);
+  const float at_f = mix(here.fine, here.coarse, f), rise = here.side_coarse - here.fine;
+  const float g = rise <= 0 ? 1 : f + std::max(strictly - at_f, 0.0F) / rise;
+  if (g < 1) return whole + g;
+  if (here.side_coarser == kInfinity) return whole + 1;
+  const float at_0 = mix(here.side_coarse, here.coarse, f),
+              at_1 = mix(here.side_coarser, strip(slot, level + 1, side).side_coarse, f);
+  const float beyond = at_1 <= at_0 ? 1 : std::max(strictly - at_0, 0.0F) / (at_1 - at_0);
+  // One level more at most, and not by rounding either.
+  return std::min({whole + 1 + beyond, at_[slot] + 1, whole + 2 - kSlack});
+}
+
+void Morphing::fit_neighbours(std::uint32_t slot, float allowed) {
+  for (const int side : {kNorth, kEast, kSouth, kWest}) {
+    const std::uint32_t neighbour =
+        slot + static_cast<std::uint32_t>(offsets_[static_cast<std::size_t>(side)]);
+    if (at_[neighbour] <= at_[slot]) continue;
+    const float limit = std::max(most(slot, side, allowed), at_[slot]);
+    if (at_[neighbour] <= limit) continue;
+    at_[neighbour] = limit;
+    if (std::exchange(queued_[neighbour], 1) == 0) queue_.push_back(neighbour);
+  }
+}
+
+PatchMorph Morphing::morph(std::uint32_t slot) const {
+  PatchMorph morph{at_[slot], {}};
+  for (std::size_t s = 0; s < 4; ++s) {
+    morph.sides[s] = std::max(at_[slot], at_[slot + static_cast<std::uint32_t>(offsets_[s])]);
+  }
+  return morph;
+}
+
+Memory Morphing::memory() const {
+  Memory memory = index_memory(errors_);
+  memory += index_memory(strips_);
+  memory += index_memory(rounding_);
+  memory += index_memory(at_);
+  memory += index_memory(queued_);
+  memory += index_memory(queue_);
+  return memory;
+}
+
+}  // namespace terrabench
