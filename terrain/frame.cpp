@@ -42,7 +42,7 @@ struct MorphingPatch {
     const float said = along == 0 ? morph.sides[at.y == low.y ? 0 : 2] : morph.sides[at.x == low.x ? 3 : 1];
     const int step = 1 << static_cast<int>(said);
     const float share = said - std::floor(said);
-    if (share <= 0 || at[along] == high[along] || ((at[along] - low[along]) & (2 * step - 1)) == 0) {
+    if (share <= 0 || at[along] == high[along] || ((at[along] - low[along]) & (2 * step - 1)) != step) {
       return sample(at);
     }
     glm::ivec2 before = at, after = at;

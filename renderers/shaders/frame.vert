@@ -52,7 +52,7 @@ float on_side(BatchRecord batch, ivec2 at, ivec2 low, ivec2 high) {
   float share = said - floor(said);
   ivec2 along = along_x ? ivec2(1, 0) : ivec2(0, 1);
   int place = along_x ? at.x : at.y, first = along_x ? low.x : low.y, end = along_x ? high.x : high.y;
-  if (share <= 0.0 || place == end || ((place - first) & (2 * step - 1)) == 0) return sample_at(at);
+  if (share <= 0.0 || place == end || ((place - first) & (2 * step - 1)) != step) return sample_at(at);
   int ahead = min(step, end - place);
   float way = float(step) / float(step + ahead);
   return between(sample_at(at), between(sample_at(at - step * along), sample_at(at + ahead * along), way),
