@@ -15,6 +15,9 @@ namespace {
 constexpr float kHeightRounding = 0x1p-21F;
 // What the measured numbers and the fractions may be off by, relatively.
 constexpr float kSlack = 0x1p-18F;
+// From one number to the next coarser, relatively, where less is measured: what lies closer together would be
+// run through in no time, which looks like popping. More costs triangles.
+constexpr float kLeastRise = 1.25F;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // At the level, with `inside` and the sides that are in `seams` at another.
@@ -29,17 +32,18 @@ PatchMorph morph_of(int level, float inside, int seams, float sides) {
 // The level's vertices still in place, though all on the coarser surface.
 float nearly(int level) { return std::nextafter(static_cast<float>(level), 0.0F); }
 
-// Which sides' first two rows of cells the triangle lies in, as bits. The last row may be narrower.
-int strips_of(const PatchRuler::Triangle& corners, const PatchGrid::Patch& patch, int level) {
-  const int step = 1 << level;
-  const auto inner = [step](int cells) { return std::max(((cells - 1) / step - 1) * step, 0); };
+// Which sides' first rows of cells the triangle lies in, as bits: of the first `count`. The last row may be
+// narrower.
+int strips_of(const PatchRuler::Triangle& corners, const PatchGrid::Patch& patch, int level, int count) {
+  const int step = 1 << level, outer = count * step;
+  const auto inner = [&](int cells) { return ((cells - 1) / step + 1 - count) * step; };
   int sides = 15;
   for (const Corner& c : corners) {
     const int x = c.x - patch.i0, z = c.z - patch.j0;
-    if (z > 2 * step) sides &= ~(1 << kNorth);
+    if (z > outer) sides &= ~(1 << kNorth);
     if (x < inner(patch.columns)) sides &= ~(1 << kEast);
     if (z < inner(patch.rows)) sides &= ~(1 << kSouth);
-    if (x > 2 * step) sides &= ~(1 << kWest);
+    if (x > outer) sides &= ~(1 << kWest);
   }
   return sides;
 }
@@ -101,27 +105,28 @@ void Morphing::measure(PatchRuler& ruler, std::uint32_t slot) {
 void Morphing::measure_strips(PatchRuler& ruler, int level, Strip* strips) const {
   const auto here = static_cast<float>(level), above = static_cast<float>(level + 1);
   const PatchGrid::Patch& patch = ruler.patch();
-  const auto take = [&](float Strip::*worst, int seams, int counting, const PatchMorph& morph) {
+  const auto take = [&](float Strip::*worst, int rows, int seams, int counting, const PatchMorph& morph) {
     ruler.measure(level, seams, morph, [&](const PatchRuler::Triangle& corners, float error) {
-      const int sides = strips_of(corners, patch, level) & counting;
+      const int sides = strips_of(corners, patch, level, rows) & counting;
       for (int s = 0; s < 4; ++s) {
         if ((sides >> s & 1) != 0) strips[s].*worst = std::max(strips[s].*worst, error);
       }
     });
   };
   std::fill_n(strips, 4, Strip{});
-  take(&Strip::fine, 0, 15, morph_of(level, here, 0, here));
-  take(&Strip::coarse, 0, 15, morph_of(level, nearly(level + 1), 15, nearly(level + 1)));
+  take(&Strip::fine, 1, 0, 15, morph_of(level, here, 0, here));
+  take(&Strip::coarse, 2, 0, 15, morph_of(level, nearly(level + 1), 15, nearly(level + 1)));
   for (int seams = ruler.is_whole() ? 15 : 1; seams < 16; ++seams) {
-    take(&Strip::side_coarse, seams, seams, morph_of(level, here, seams, above));
+    take(&Strip::side_coarse, 1, seams, seams, morph_of(level, here, seams, above));
     if (!ruler.is_whole()) {
-      take(&Strip::side_coarse, 0, seams, morph_of(level, here, seams, nearly(level + 1)));
+      take(&Strip::side_coarse, 1, 0, seams, morph_of(level, here, seams, nearly(level + 1)));
     }
   }
   if (ruler.is_whole() && level + 2 < levels_) {
-    take(&Strip::side_coarser, 15, 15, morph_of(level, here, 15, nearly(level + 2)));
+    take(&Strip::wide_side_coarse, 2, 15, 15, morph_of(level, here, 15, above));
+    take(&Strip::wide_side_coarser, 2, 15, 15, morph_of(level, here, 15, nearly(level + 2)));
   } else {
-    for (int s = 0; s < 4; ++s) strips[s].side_coarser = kInfinity;
+    for (int s = 0; s < 4; ++s) strips[s].wide_side_coarser = kInfinity;
   }
 }
 
@@ -142,9 +147,9 @@ void Morphing::choose(std::span<const PatchTree::Seen> last_seen, std::span<cons
 float Morphing::own(std::uint32_t slot, float allowed) const {
   const float strictly = (1 - kSlack) * (allowed - rounding_[slot]);
   int level = levels_ - 1;
-  while (level > 0 && error(slot, level) > strictly) --level;
+  while (level > 0 && std::max(error(slot, level), kLeastRise * error(slot, level - 1)) > strictly) --level;
   if (level == levels_ - 1) return static_cast<float>(level);
-  const float fine = error(slot, level), coarse = error(slot, level + 1);
+  const float fine = error(slot, level), coarse = std::max(error(slot, level + 1), kLeastRise * fine);
   return static_cast<float>(level) + std::clamp((strictly - fine) / (coarse - fine), 0.0F, 1 - kSlack);
 }
 
@@ -155,12 +160,14 @@ float Morphing::most(std::uint32_t slot, int side, float allowed) const {
   if (level == levels_ - 1) return whole;
   const float f = at_[slot] - whole;
   const Strip& here = strip(slot, level, side);
-  const float at_f = mix(here.fine, here.coarse, f), rise = here.side_coarse - here.fine;
+  const float at_f = mix(here.fine, here.coarse, f),
+              rise = std::max(here.side_coarse, kLeastRise * here.fine) - here.fine;
   const float g = rise <= 0 ? 1 : f + std::max(strictly - at_f, 0.0F) / rise;
   if (g < 1) return whole + g;
-  if (here.side_coarser == kInfinity) return whole + 1;
-  const float at_0 = mix(here.side_coarse, here.coarse, f),
-              at_1 = mix(here.side_coarser, strip(slot, level + 1, side).side_coarse, f);
+  if (here.wide_side_coarser == kInfinity) return whole + 1;
+  const float at_0 = mix(here.wide_side_coarse, here.coarse, f);
+  const float at_1 =
+      std::max(mix(here.wide_side_coarser, strip(slot, level + 1, side).side_coarse, f), kLeastRise * at_0);
   const float beyond = at_1 <= at_0 ? 1 : std::max(strictly - at_0, 0.0F) / (at_1 - at_0);
   // One level more at most, and not by rounding either.
   return std::min({whole + 1 + beyond, at_[slot] + 1, whole + 2 - kSlack});

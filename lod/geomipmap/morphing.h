@@ -50,7 +50,8 @@ class Morphing {
  private:
   static constexpr float kUnseen = -1;
   struct Strip {
-    float fine, side_coarse, coarse, side_coarser;  // metres: s0 … s3
+    float fine, side_coarse, coarse;            // metres
+    float wide_side_coarse, wide_side_coarser;  // of two rows; the last infinite where there is none
   };
 
   void measure(PatchRuler&, std::uint32_t slot);
