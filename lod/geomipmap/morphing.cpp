@@ -18,6 +18,10 @@ constexpr float kSlack = 0x1p-18F;
 // From one number to the next coarser, relatively, where less is measured: what lies closer together would be
 // run through in no time, which looks like popping. More costs triangles.
 constexpr float kLeastRise = 1.25F;
+// A cut patch has its sides no coarser than the next level (where they move by more than one level, triangles
+// of it hang on two sides), and starts from each level with none coarser, so that none jumps as it gets
+// there.
+constexpr float kCutRun = 2;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // At the level, with `inside` and the sides that are in `seams` at another.
@@ -122,11 +126,11 @@ void Morphing::measure_strips(PatchRuler& ruler, int level, Strip* strips) const
       take(&Strip::side_coarse, 1, 0, seams, morph_of(level, here, seams, nearly(level + 1)));
     }
   }
-  if (ruler.is_whole() && level + 2 < levels_) {
+  if (!ruler.is_whole()) {
+    for (int s = 0; s < 4; ++s) strips[s].wide_side_coarser = kInfinity;
+  } else if (level + 2 < levels_) {
     take(&Strip::wide_side_coarse, 2, 15, 15, morph_of(level, here, 15, above));
     take(&Strip::wide_side_coarser, 2, 15, 15, morph_of(level, here, 15, nearly(level + 2)));
-  } else {
-    for (int s = 0; s < 4; ++s) strips[s].wide_side_coarser = kInfinity;
   }
 }
 
@@ -162,9 +166,11 @@ float Morphing::most(std::uint32_t slot, int side, float allowed) const {
   const Strip& here = strip(slot, level, side);
   const float at_f = mix(here.fine, here.coarse, f),
               rise = std::max(here.side_coarse, kLeastRise * here.fine) - here.fine;
-  const float g = rise <= 0 ? 1 : f + std::max(strictly - at_f, 0.0F) / rise;
+  const bool cut = here.wide_side_coarser == kInfinity;
+  float g = rise <= 0 ? 1 : f + std::max(strictly - at_f, 0.0F) / rise;
+  if (cut) g = std::min(g, kCutRun * f);
   if (g < 1) return whole + g;
-  if (here.wide_side_coarser == kInfinity) return whole + 1;
+  if (cut || level + 2 == levels_) return whole + 1;
   const float at_0 = mix(here.wide_side_coarse, here.coarse, f);
   const float at_1 =
       std::max(mix(here.wide_side_coarser, strip(slot, level + 1, side).side_coarse, f), kLeastRise * at_0);

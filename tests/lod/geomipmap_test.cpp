@@ -53,13 +53,18 @@ double expect_promises(const Frame& frame, const Heightfield& field, const View&
   return error.in_frustum.largest;
 }
 
-TEST(GeoMipMap, KeepsItsPromisesOnAnyFieldFromAnywhere) {
+// Without and with the morph.
+class GeoMipMapBothWays : public ::testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Morph, GeoMipMapBothWays, ::testing::Bool(),
+                         [](const auto& info) { return std::string(info.param ? "on" : "off"); });
+
+TEST_P(GeoMipMapBothWays, KeepsItsPromisesOnAnyFieldFromAnywhere) {
   std::mt19937 random(7);
   double closest = 0;
   for (const auto& [width, depth] : {std::pair{2, 2}, {3, 100}, {65, 65}, {131, 70}, {403, 344}}) {
     const Heightfield field = hilly(width, depth, 0.5F, static_cast<unsigned>(width));
     for (const int side : {2, 8, 64}) {
-      GeoMipMap lod = make(field, {side, false}, 1);
+      GeoMipMap lod = make(field, {side, false, GetParam()}, 1);
       for (int k = 0; k < 18; ++k) {
         const double pixels = std::array{0.5, 2.0, 9.0}[static_cast<std::size_t>(k % 3)];
         lod.tune(pixels);
@@ -72,10 +77,10 @@ TEST(GeoMipMap, KeepsItsPromisesOnAnyFieldFromAnywhere) {
   EXPECT_GT(closest, 0.5);  // a bound that is never neared is no choice of detail
 }
 
-TEST(GeoMipMap, KeepsItsPromisesAlongThePaths) {
+TEST_P(GeoMipMapBothWays, KeepsItsPromisesAlongThePaths) {
   Heightfield field = hilly(403, 344, 1);
   field.cell_x = field.cell_z = 5;
-  GeoMipMap lod = make(field, {32, false}, 2);
+  GeoMipMap lod = make(field, {32, false, GetParam()}, 2);
   for (const CameraPath& path : camera_paths()) {
     const std::vector<View> all = views(path, field);
     for (std::size_t k = 0; k < all.size(); k += 25) expect_promises(lod.update(all[k]), field, all[k], 2);
@@ -98,10 +103,10 @@ TEST(GeoMipMap, ThePapersRuleBoundsLess) {
   EXPECT_GT(error(true), 20);
 }
 
-TEST(GeoMipMap, DrawsTheWholeFieldOnceFromAbove) {
+TEST_P(GeoMipMapBothWays, DrawsTheWholeFieldOnceFromAbove) {
   for (const auto& [width, depth] : {std::pair{2, 2}, {3, 100}, {129, 129}, {403, 344}}) {
     const Heightfield field = hilly(width, depth, 2);
-    GeoMipMap lod = make(field, {16, false}, 1);
+    GeoMipMap lod = make(field, {16, false, GetParam()}, 1);
     double area = 0;
     triangles(lod.update(from_above(field)), [&](std::span<const glm::vec3> corners) {
       for (std::size_t k = 0; k < corners.size(); k += 3) {
@@ -115,42 +120,43 @@ TEST(GeoMipMap, DrawsTheWholeFieldOnceFromAbove) {
   }
 }
 
-TEST(GeoMipMap, FlatLandIsTwoTrianglesAPatch) {
+TEST_P(GeoMipMapBothWays, FlatLandIsTwoTrianglesAPatch) {
   const Heightfield field = flat(200, 129, 700);
-  GeoMipMap lod = make(field, {64, false}, 0.05);
+  GeoMipMap lod = make(field, {64, false, GetParam()}, 0.05);
   EXPECT_EQ(lod.update(from_above(field)).stats.triangles, 2U * 4 * 2);
 }
 
-TEST(GeoMipMap, LargerErrorsTakeFewerTriangles) {
+TEST_P(GeoMipMapBothWays, LargerErrorsTakeFewerTriangles) {
   const Heightfield field = hilly(403, 344, 0.3F);
   const View view = views(camera_path("fly"), field)[60];
   std::size_t last = std::size_t{2} * 402 * 343 + 1;
   for (const double pixels : {0.5, 1.0, 2.0, 4.0, 8.0}) {
-    const std::size_t drawn = make(field, {16, false}, pixels).update(view).stats.triangles;
+    const std::size_t drawn = make(field, {16, false, GetParam()}, pixels).update(view).stats.triangles;
     EXPECT_LT(drawn, last);
     last = drawn;
   }
   EXPECT_GT(last, 0U);
 }
 
-TEST(GeoMipMap, UploadsOnceAndCountsChanges) {
+TEST_P(GeoMipMapBothWays, UploadsOnceAndCountsChanges) {
   const Heightfield field = hilly(300, 200, 1);
-  GeoMipMap lod = make(field, {32, false}, 9);
+  GeoMipMap lod = make(field, {32, false, GetParam()}, 9);
+  const auto a_frame = [&](const Frame& frame) { return GetParam() ? 20 * frame.batches.size() : 0; };
   const std::vector<View> all = views(camera_path("fly"), field);
   const Frame& first = lod.update(all[0]);
-  EXPECT_EQ(first.stats.bytes_uploaded, 4 * (first.indices.size() + field.heights.size()));
+  EXPECT_EQ(first.stats.bytes_uploaded, 4 * (first.indices.size() + field.heights.size()) + a_frame(first));
   EXPECT_EQ(first.stats.changes, first.batches.size());  // all is new
   EXPECT_EQ(lod.update(all[0]).stats.changes, 0U);
-  const FrameStats later = lod.update(all[100]).stats;
-  EXPECT_GT(later.changes, 0U);
-  EXPECT_EQ(later.bytes_uploaded, 0U);
+  const Frame& later = lod.update(all[100]);
+  EXPECT_GT(later.stats.changes, 0U);
+  EXPECT_EQ(later.stats.bytes_uploaded, a_frame(later));
 }
 
-TEST(GeoMipMap, CountsItsHeapBytesAndTakesNoneAFrame) {
+TEST_P(GeoMipMapBothWays, CountsItsHeapBytesAndTakesNoneAFrame) {
   const Heightfield field = hilly(300, 257, 1);
   Progress silent;
   const auto built = [&] {
-    return std::make_unique<GeoMipMap>(field, GeoMipMap::Options{16, false}, silent);
+    return std::make_unique<GeoMipMap>(field, GeoMipMap::Options{16, false, GetParam()}, silent);
   };
   built();  // the thread pool is made once
   const HeapScope heap;
@@ -164,9 +170,9 @@ TEST(GeoMipMap, CountsItsHeapBytesAndTakesNoneAFrame) {
   EXPECT_EQ(HeapCounter::peak(), live);
 }
 
-TEST(GeoMipMap, EveryViewIsLegal) {
+TEST_P(GeoMipMapBothWays, EveryViewIsLegal) {
   const Heightfield field = hilly(150, 90, 1);
-  GeoMipMap lod = make(field, {16, false}, 2);
+  GeoMipMap lod = make(field, {16, false, GetParam()}, 2);
   View view = from_above(field);
   view.width = view.height = 1;
   expect_promises(lod.update(view), field, view, 2);
@@ -220,11 +226,16 @@ TEST(GeoMipMap, PatchesSuitTheGroundUnlessTheirSideIsAsked) {
 
 // Whatever the seams, a pattern covers its patch once, and a pulled side has the coarser level's vertices
 // alone.
-TEST(PatchPatterns, CoverTheirPatchInEverySeamCase) {
+class PatchPatternsTest : public ::testing::TestWithParam<PatchPatterns::Split> {};
+INSTANTIATE_TEST_SUITE_P(Split, PatchPatternsTest,
+                         ::testing::Values(PatchPatterns::Split::kOneWay, PatchPatterns::Split::kThroughOdd),
+                         [](const auto& info) { return std::string(info.index == 0 ? "one_way" : "odd"); });
+
+TEST_P(PatchPatternsTest, CoverTheirPatchInEverySeamCase) {
   for (const auto& [width, depth] : {std::pair{9, 9}, {12, 11}, {4, 9}, {2, 2}}) {
     const PatchGrid cut{width, depth, 8};
     constexpr int kLevels = 4;
-    const PatchPatterns patterns(cut, kLevels);
+    const PatchPatterns patterns(cut, kLevels, GetParam());
     for (const int at_z : {0, cut.down() - 1}) {
       const PatchGrid::Patch patch = cut.patch(cut.across() - 1, at_z);
       for (int level = 0; level < kLevels; ++level) {
