@@ -96,7 +96,7 @@ void Morphing::measure(PatchRuler& ruler, std::uint32_t slot) {
     return largest;
   };
   for (int level = 1; level < levels_; ++level) {
-    errors[level] = std::max(errors[level - 1], whole(level, level));
+    errors[level] = std::max(kLeastRise * errors[level - 1], whole(level, level));
     // The finer level's triangles may not lie on this one's surface.
     if (!ruler.is_whole()) errors[level] = std::max(errors[level], whole(level, level - 1));
     measure_strips(ruler, level - 1,
@@ -126,11 +126,15 @@ void Morphing::measure_strips(PatchRuler& ruler, int level, Strip* strips) const
       take(&Strip::side_coarse, 1, 0, seams, morph_of(level, here, seams, nearly(level + 1)));
     }
   }
-  if (!ruler.is_whole()) {
-    for (int s = 0; s < 4; ++s) strips[s].wide_side_coarser = kInfinity;
-  } else if (level + 2 < levels_) {
+  if (ruler.is_whole() && level + 2 < levels_) {
     take(&Strip::wide_side_coarse, 2, 15, 15, morph_of(level, here, 15, above));
     take(&Strip::wide_side_coarser, 2, 15, 15, morph_of(level, here, 15, nearly(level + 2)));
+  }
+  for (int s = 0; s < 4; ++s) {
+    Strip& strip = strips[s];
+    strip.side_coarse = std::max(strip.side_coarse, kLeastRise * strip.fine);
+    strip.wide_side_coarse = std::max(strip.wide_side_coarse, strip.side_coarse);
+    if (!ruler.is_whole()) strip.wide_side_coarser = kInfinity;
   }
 }
 
@@ -151,9 +155,9 @@ void Morphing::choose(std::span<const PatchTree::Seen> last_seen, std::span<cons
 float Morphing::own(std::uint32_t slot, float allowed) const {
   const float strictly = (1 - kSlack) * (allowed - rounding_[slot]);
   int level = levels_ - 1;
-  while (level > 0 && std::max(error(slot, level), kLeastRise * error(slot, level - 1)) > strictly) --level;
+  while (level > 0 && error(slot, level) > strictly) --level;
   if (level == levels_ - 1) return static_cast<float>(level);
-  const float fine = error(slot, level), coarse = std::max(error(slot, level + 1), kLeastRise * fine);
+  const float fine = error(slot, level), coarse = error(slot, level + 1);
   return static_cast<float>(level) + std::clamp((strictly - fine) / (coarse - fine), 0.0F, 1 - kSlack);
 }
 
@@ -164,8 +168,7 @@ float Morphing::most(std::uint32_t slot, int side, float allowed) const {
   if (level == levels_ - 1) return whole;
   const float f = at_[slot] - whole;
   const Strip& here = strip(slot, level, side);
-  const float at_f = mix(here.fine, here.coarse, f),
-              rise = std::max(here.side_coarse, kLeastRise * here.fine) - here.fine;
+  const float at_f = mix(here.fine, here.coarse, f), rise = here.side_coarse - here.fine;
   const bool cut = here.wide_side_coarser == kInfinity;
   float g = rise <= 0 ? 1 : f + std::max(strictly - at_f, 0.0F) / rise;
   if (cut) g = std::min(g, kCutRun * f);

@@ -8,16 +8,17 @@
 // finer for it.
 //
 // A border that two patches share stands at the coarser's level with fraction, on both sides. The finer patch
-// has no more than one level less, and its error along that side must keep the bound too. Let its strip there
-// (two rows of cells) have the error s0 at level a, s1 with the side alone at a + 1, s2 with all at a + 1, s3
-// with the side alone at a + 2. Heights are affine in f and in the side's fraction g, over 0 ≤ f ≤ g ≤ 1, so
-//   error ≤ (1-g)·s0 + (g-f)·s1 + f·s2                                     with the side at a + g, and
-//   error ≤ (1-g)·[(1-f)·s1 + f·s2] + g·[(1-f)·s3 + f·s1(a+1)]             with the side at a + 1 + g,
-// from which the most that the side may have follows; the neighbour sinks to that. Everything is continuous
-// in what is allowed, so nothing pops, but in patches that the ground's border cuts (their last cells are
-// narrower, and no coarser edge passes their middles) and beside patches as they come into view.
+// has no more than one level less, and its error along that side must keep the bound too. Let its first row
+// of cells there have the error s0 at level a and s1 with the side alone at a + 1, its first two rows t1 with
+// the side alone at a + 1, t2 with the side alone at a + 2, and s2 with all at a + 1. Heights are affine in f
+// and in the side's fraction g each, so that
+//   error ≤ (1-g)·s0 + (g-f)·s1 + f·s2                            with the side at a + g, f ≤ g ≤ 1, and
+//   error ≤ (1-g)·[(1-f)·t1 + f·s2] + g·[(1-f)·t2 + f·s1(a+1)]    with the side at a + 1 + g,
+// from which the most that the side may have follows; the neighbour sinks to that. All is continuous in what
+// is allowed, so nothing pops, but beside patches that come into view and in patches that the ground's border
+// cuts: their last cells are narrower, and no coarser edge passes their middles.
 //
-// choose(): O(patches in view). 17 numbers a patch and level.
+// choose(): O(patches in view). 21 numbers a patch and level.
 #pragma once
 
 #include <cstdint>
@@ -50,8 +51,8 @@ class Morphing {
  private:
   static constexpr float kUnseen = -1;
   struct Strip {
-    float fine, side_coarse, coarse;            // metres
-    float wide_side_coarse, wide_side_coarser;  // of two rows; the last infinite where there is none
+    // Metres: s0, s1, s2, t1, t2. No side of a cut patch comes to the last, which is infinite there.
+    float fine, side_coarse, coarse, wide_side_coarse, wide_side_coarser;
   };
 
   void measure(PatchRuler&, std::uint32_t slot);
@@ -71,7 +72,7 @@ class Morphing {
   std::array<std::int32_t, 4> offsets_;
   int levels_;
   // By slot.
-  std::vector<float> errors_;    // δ, by level; never less than a finer level's
+  std::vector<float> errors_;    // δ, by level; a share more than a finer level.s at least
   std::vector<Strip> strips_;    // by level and side
   std::vector<float> rounding_;  // metres that heights are off by
   std::vector<float> at_;        // level with fraction, or kUnseen

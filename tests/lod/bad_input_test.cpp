@@ -15,6 +15,7 @@
 #include "lod/meters/cracks.h"
 #include "terrain/error.h"
 #include "tests/lod/drawing.h"
+#include "tests/lod/variants.h"
 
 namespace terrabench::test {
 namespace {
@@ -139,12 +140,10 @@ const std::vector<Change>& illegal() {
   return kChanges;
 }
 
-class BadInput : public ::testing::TestWithParam<std::string_view> {
+class BadInput : public ::testing::TestWithParam<Variant> {
  protected:
-  std::unique_ptr<Lod> build(const Heightfield& field) {
-    return type_.build(field, Parameters(type_.parameters), silent_);
-  }
-  const LodType& type_ = lod(GetParam());
+  std::unique_ptr<Lod> build(const Heightfield& field) { return test::build(GetParam(), field, silent_); }
+  const LodType& type_ = lod(GetParam().method);
   Progress silent_;
 };
 
@@ -239,13 +238,7 @@ TEST_P(BadInput, HeightsBeyondAnyMountainStayFinite) {
   EXPECT_EQ(astray(corners_of(lod->update(from_above(field))), field), 0U);
 }
 
-std::vector<std::string_view> names() {
-  std::vector<std::string_view> all;
-  for (const LodType& type : lods()) all.push_back(type.name);
-  return all;
-}
-INSTANTIATE_TEST_SUITE_P(EachMethod, BadInput, ::testing::ValuesIn(names()),
-                         [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(EachMethod, BadInput, ::testing::ValuesIn(variants()), name_of);
 
 }  // namespace
 }  // namespace terrabench::test

@@ -12,6 +12,7 @@
 #include "lod/clipmap/clipmap.h"
 #include "lod/lod.h"
 #include "lod/meters/image_error.h"
+#include "tests/lod/variants.h"
 
 namespace terrabench {
 namespace {
@@ -70,12 +71,9 @@ std::uint32_t nearest_triangle(const std::vector<glm::vec3>& corners, const glm:
   return nearest;
 }
 
-class FrameRendererTest : public ::testing::TestWithParam<std::string_view> {
+class FrameRendererTest : public ::testing::TestWithParam<test::Variant> {
  protected:
-  std::unique_ptr<Lod> build() {
-    const LodType& type = lod(GetParam());
-    return type.build(field_, Parameters(type.parameters), silent_);
-  }
+  std::unique_ptr<Lod> build() { return test::build(GetParam(), field_, silent_); }
   std::unique_ptr<GlContext> context_ = open_context("osmesa", 16, 16);
   Heightfield field_ = bumps(150, 120);
   Progress silent_;
@@ -147,7 +145,7 @@ TEST_P(FrameRendererTest, ShowsWhatFullDetailShowsWhereTheKnobIsFinest) {
   style.lowest = -20;
   style.highest = 20;
   const std::unique_ptr<Lod> finest = build();
-  finest->tune(lod(GetParam()).knob.finest);
+  finest->tune(lod(GetParam().method).knob.finest);
   const std::unique_ptr<Lod> full = lod("brute_force").build(field_, {}, silent_);
   FrameRenderer renderer(*context_), reference(*context_);
   for (const float t : {0.0F, 0.5F, 1.0F}) {
@@ -167,8 +165,7 @@ TEST_P(FrameRendererTest, NothingShinesThroughRidges) {
   Heightfield steep = field_;
   std::mt19937 random(5);
   for (float& height : steep.heights) height += static_cast<float>(random() % 400) * 0.01F;
-  const LodType& type = lod(GetParam());
-  const std::unique_ptr<Lod> lod = type.build(steep, Parameters(type.parameters), silent_);
+  const std::unique_ptr<Lod> lod = test::build(GetParam(), steep, silent_);
   FrameRenderer renderer(*context_);
   FrameStyle style;
   style.lowest = -1000;  // one colour for all heights
@@ -188,13 +185,7 @@ TEST_P(FrameRendererTest, NothingShinesThroughRidges) {
   EXPECT_EQ(grey, 0U);
 }
 
-std::vector<std::string_view> names() {
-  std::vector<std::string_view> all;
-  for (const LodType& type : lods()) all.push_back(type.name);
-  return all;
-}
-INSTANTIATE_TEST_SUITE_P(EachMethod, FrameRendererTest, ::testing::ValuesIn(names()),
-                         [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(EachMethod, FrameRendererTest, ::testing::ValuesIn(test::variants()), test::name_of);
 
 }  // namespace
 }  // namespace terrabench
