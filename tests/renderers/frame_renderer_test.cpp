@@ -185,6 +185,40 @@ TEST_P(FrameRendererTest, NothingShinesThroughRidges) {
   EXPECT_EQ(grey, 0U);
 }
 
+// The same picture as of a ground that has been moved beforehand, and another than of the ground unmoved.
+TEST(FrameRenderer, MovesVerticesAsTheyAreSaidToMove) {
+  const std::unique_ptr<GlContext> context = open_context("osmesa", 16, 16);
+  const Heightfield field = bumps(150, 120);
+  Progress silent;
+  const std::unique_ptr<Lod> lod = test::build({"geomipmap", "morph=true"}, field, silent);
+  lod->tune(20);
+  FrameStyle style;
+  style.lowest = -20;
+  style.highest = 20;
+  for (const float t : {0.0F, 0.3F, 0.8F}) {
+    const View view = walk(field, t);
+    Frame frame = lod->update(view);
+    const auto picture = [&] {
+      FrameRenderer renderer(*context);
+      renderer.draw(frame, view, style);
+      return renderer.image().rgb;
+    };
+    const auto moving = picture();
+    std::vector<float> moved = field.heights;
+    for (const Batch& batch : frame.batches) {
+      for (std::uint32_t k = 0; k < batch.index_count; ++k) {
+        const std::uint32_t vertex = batch.base_vertex + frame.indices[batch.first_index + k];
+        moved[vertex] = vertex_position(frame, batch, vertex).y;
+      }
+    }
+    frame.morphs = {};
+    frame.patch_side = 0;
+    EXPECT_NE(moving, picture());
+    frame.grid.heights = moved;
+    EXPECT_EQ(moving, picture());
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(EachMethod, FrameRendererTest, ::testing::ValuesIn(test::variants()), test::name_of);
 
 }  // namespace
