@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace terrabench {
@@ -18,20 +17,38 @@ ScreenBound::ScreenBound(const View& view, double pixels)
   secant_ = std::sqrt(1 + slope_x * slope_x + slope_y * slope_y);
 }
 
-float ScreenBound::allowed(const Bounds& box) const {
-  const glm::dvec3 low = glm::dvec3(box.low) - eye_, high = glm::dvec3(box.high) - eye_;
-  const glm::dvec3 nearest = glm::max(glm::max(low, -high), 0.0);
-  const glm::dvec3 farthest = glm::max(-low, high);
-  const glm::dvec3 ahead = glm::min(low * forward_, high * forward_);
-  const double least_depth = std::max({near_, glm::length(nearest) / secant_, ahead.x + ahead.y + ahead.z});
-  const double spread = std::min(secant_, std::hypot(farthest.x, farthest.z) / least_depth);
+// Straight-line code over arrays, which the compiler runs on several boxes at once.
+void ScreenBound::allow(const Boxes& boxes, std::size_t first, std::size_t last, float* metres) const {
+  const float *const low_x = boxes.low[0].data(), *const high_x = boxes.high[0].data(),
+                     *const low_y = boxes.low[1].data(), *const high_y = boxes.high[1].data(),
+                     *const low_z = boxes.low[2].data(), *const high_z = boxes.high[2].data();
+  const glm::dvec3 eye = eye_, forward = forward_;
+  const double near = near_, secant = secant_, focal = focal_, rise = pixels_ * std::abs(forward_.y);
   // A hair less, for the rounding of whoever checks.
-  return static_cast<float>((1 - 1e-6) * pixels_ * least_depth /
-                            (focal_ * spread + pixels_ * std::abs(forward_.y)));
+  const double pixels = (1 - 1e-6) * pixels_;
+  const auto beyond = [](double low, double high) { return std::max(std::max(low, -high), 0.0); };
+  for (std::size_t k = first; k < last; ++k) {
+    const double x0 = low_x[k] - eye.x, x1 = high_x[k] - eye.x, y0 = low_y[k] - eye.y, y1 = high_y[k] - eye.y,
+                 z0 = low_z[k] - eye.z, z1 = high_z[k] - eye.z;
+    const double x = beyond(x0, x1), y = beyond(y0, y1), z = beyond(z0, z1);
+    const double far_x = std::max(-x0, x1), far_z = std::max(-z0, z1);
+    const double ahead = std::min(x0 * forward.x, x1 * forward.x) + std::min(y0 * forward.y, y1 * forward.y) +
+                         std::min(z0 * forward.z, z1 * forward.z);
+    const double least_depth = std::max(std::max(near, std::sqrt(x * x + y * y + z * z) / secant), ahead);
+    const double spread = std::min(secant, std::sqrt(far_x * far_x + far_z * far_z) / least_depth);
+    metres[k] = static_cast<float>(pixels * least_depth / (focal * spread + rise));
+  }
 }
 
-float ScreenBound::allowed_level_camera(const glm::vec3& middle) const {
-  return static_cast<float>(pixels_ * glm::distance(glm::dvec3(middle), eye_) / focal_);
+void ScreenBound::allow_level_camera(const Boxes& boxes, std::size_t first, std::size_t last,
+                                     float* metres) const {
+  for (std::size_t k = first; k < last; ++k) {
+    glm::vec3 middle;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      middle[static_cast<int>(axis)] = 0.5F * (boxes.low[axis][k] + boxes.high[axis][k]);
+    }
+    metres[k] = static_cast<float>(pixels_ * glm::distance(glm::dvec3(middle), eye_) / focal_);
+  }
 }
 
 }  // namespace terrabench

@@ -57,17 +57,19 @@ GeoMipMap::GeoMipMap(const Heightfield& ground, const Options& options, Progress
                 options.morph ? PatchPatterns::Split::kThroughOdd : PatchPatterns::Split::kOneWay),
       tree_(grid_, cut_),
       level_(cut_.slots(), kUnseen),
-      last_level_(cut_.slots(), kUnseen),
+      last_level_(cut_.count(), kUnseen),
       queued_(cut_.slots(), 0),
-      allowed_(cut_.slots()) {
+      number_of_(cut_.slots()),
+      allowed_(cut_.count()) {
   if (options.morph) {
     morphing_.emplace(grid_, cut_, patterns_, levels_, progress);
     morphs_.reserve(cut_.count());
   } else {
-    errors_.emplace(grid_, cut_, patterns_, levels_, progress);
+    errors_.emplace(grid_, cut_, tree_, patterns_, levels_, progress);
   }
-  seen_.reserve(cut_.count());
-  last_seen_.reserve(cut_.count());
+  for (std::uint32_t k = 0; k < cut_.count(); ++k) number_of_[tree_.places()[k].slot] = k;
+  seen_.reserve(tree_.most_runs());
+  last_seen_.reserve(tree_.most_runs());
   queue_.reserve(cut_.count());
   batches_.reserve(cut_.count());
   uploads_.reserve(3);
@@ -77,16 +79,16 @@ void GeoMipMap::tune(double pixels) { pixels_ = setting(knob(), pixels); }
 
 const Frame& GeoMipMap::update(const View& view) {
   check_view(view);
-  for (const PatchTree::Seen& p : last_seen_) last_level_[p.slot] = kUnseen;
-  for (const PatchTree::Seen& p : seen_) last_level_[p.slot] = std::exchange(level_[p.slot], kUnseen);
-  std::swap(seen_, last_seen_);
-  seen_.clear();
+  forget();
   tree_.collect(Frustum(view), seen_);
   allow(ScreenBound(view, pixels_));
   if (morphing_) {
-    morphing_->choose(last_seen_, seen_, allowed_);
-    for (const PatchTree::Seen& p : seen_) {
-      level_[p.slot] = static_cast<std::uint8_t>(morphing_->level(p.slot) + 1);
+    morphing_->choose(tree_.places(), last_seen_, seen_, allowed_);
+    for (const PatchTree::Run& run : seen_) {
+      for (std::uint32_t k = run.first; k < run.last; ++k) {
+        const std::uint32_t slot = tree_.places()[k].slot;
+        level_[slot] = static_cast<std::uint8_t>(morphing_->level(slot) + 1);
+      }
     }
   } else {
     choose_levels();
@@ -96,19 +98,36 @@ const Frame& GeoMipMap::update(const View& view) {
   return frame_;
 }
 
+void GeoMipMap::forget() {
+  for (const PatchTree::Run& run : last_seen_) {
+    std::fill(last_level_.begin() + run.first, last_level_.begin() + run.last, kUnseen);
+  }
+  const std::span<const PatchTree::Place> places = tree_.places();
+  for (const PatchTree::Run& run : seen_) {
+    for (std::uint32_t k = run.first; k < run.last; ++k) {
+      last_level_[k] = std::exchange(level_[places[k].slot], kUnseen);
+    }
+  }
+  std::swap(seen_, last_seen_);
+  seen_.clear();
+}
+
 void GeoMipMap::allow(const ScreenBound& bound) {
-  for (const PatchTree::Seen& p : seen_) {
-    const Bounds box = tree_.box(p);
-    allowed_[p.slot] =
-        options_.level_camera ? bound.allowed_level_camera(0.5F * (box.low + box.high)) : bound.allowed(box);
+  for (const PatchTree::Run& run : seen_) {
+    if (options_.level_camera) {
+      bound.allow_level_camera(tree_.boxes(), run.first, run.last, allowed_.data());
+    } else {
+      bound.allow(tree_.boxes(), run.first, run.last, allowed_.data());
+    }
   }
 }
 
 void GeoMipMap::choose_levels() {
-  for (const PatchTree::Seen& p : seen_) {
-    int level = levels_ - 1;
-    while (errors_->of_level(p.slot, level) > allowed_[p.slot]) --level;  // level 0 has no error
-    level_[p.slot] = static_cast<std::uint8_t>(level + 1);
+  const std::span<const PatchTree::Place> places = tree_.places();
+  for (const PatchTree::Run& run : seen_) {
+    for (std::uint32_t k = run.first; k < run.last; ++k) {
+      level_[places[k].slot] = static_cast<std::uint8_t>(errors_->coarsest(k, allowed_[k]) + 1);
+    }
   }
 }
 
@@ -117,7 +136,7 @@ void GeoMipMap::choose_levels() {
 void GeoMipMap::fit(std::uint32_t fine, std::uint32_t coarse, int side) {
   const int level = level_[fine];
   if (level_[coarse] <= level || level == kUnseen) return;
-  const int most = errors_->of_seam(fine, level - 1, side) <= allowed_[fine] ? level + 1 : level;
+  const int most = errors_->of_seam(fine, level - 1, side) <= allowed_[number_of_[fine]] ? level + 1 : level;
   if (level_[coarse] <= most) return;
   level_[coarse] = static_cast<std::uint8_t>(most);
   if (std::exchange(queued_[coarse], 1) == 0) queue_.push_back(coarse);
@@ -125,8 +144,12 @@ void GeoMipMap::fit(std::uint32_t fine, std::uint32_t coarse, int side) {
 
 // Levels only sink, so this ends; a patch whose level sank looks at its four sides again.
 void GeoMipMap::fit_neighbours() {
-  for (const PatchTree::Seen& p : seen_) {
-    for (const int side : {kNorth, kEast, kSouth, kWest}) fit(p.slot, p.slot + offsets_[side], side);
+  const std::span<const PatchTree::Place> places = tree_.places();
+  for (const PatchTree::Run& run : seen_) {
+    for (std::uint32_t k = run.first; k < run.last; ++k) {
+      const std::uint32_t slot = places[k].slot;
+      for (const int side : {kNorth, kEast, kSouth, kWest}) fit(slot, slot + offsets_[side], side);
+    }
   }
   while (!queue_.empty()) {
     const std::uint32_t slot = queue_.back();
@@ -143,20 +166,21 @@ void GeoMipMap::draw() {
   batches_.clear();
   morphs_.clear();
   std::size_t changes = 0;
-  for (const PatchTree::Seen& p : seen_) {
-    const std::uint8_t level = level_[p.slot];
-    changes += level != last_level_[p.slot] ? 1 : 0;
-    int seams = 0;
-    for (const int side : {kNorth, kEast, kSouth, kWest}) {
-      seams |= level_[p.slot + offsets_[side]] > level ? 1 << side : 0;
+  const std::span<const PatchTree::Place> places = tree_.places();
+  for (const PatchTree::Run& run : seen_) {
+    for (std::uint32_t k = run.first; k < run.last; ++k) {
+      const PatchTree::Place& p = places[k];
+      const std::uint8_t level = level_[p.slot];
+      changes += level != last_level_[k] ? 1 : 0;
+      int seams = 0;
+      for (const int side : {kNorth, kEast, kSouth, kWest}) {
+        seams |= level_[p.slot + offsets_[side]] > level ? 1 << side : 0;
+      }
+      const PatchPatterns::Run& pattern = patterns_.run(p.shape, level - 1, seams);
+      batches_.push_back({pattern.first, pattern.count, p.corner, static_cast<std::uint16_t>(level - 1),
+                          static_cast<std::uint32_t>(morphs_.size())});
+      if (morphing_) morphs_.push_back(morphing_->morph(p.slot));
     }
-    const PatchGrid::Patch patch = cut_.patch(p.x, p.z);
-    const PatchPatterns::Run& run = patterns_.run(cut_.shape(patch), level - 1, seams);
-    const std::uint32_t corner =
-        static_cast<std::uint32_t>(patch.j0) * static_cast<std::uint32_t>(grid_.width) + patch.i0;
-    batches_.push_back({run.first, run.count, corner, static_cast<std::uint16_t>(level - 1),
-                        static_cast<std::uint32_t>(morphs_.size())});
-    if (morphing_) morphs_.push_back(morphing_->morph(p.slot));
   }
   uploads_.clear();
   const auto size = [](const auto& values) { return static_cast<std::uint32_t>(values.size()); };
@@ -187,6 +211,7 @@ Memory GeoMipMap::memory() const {
   memory += tree_.memory();
   for (const auto* bytes : {&level_, &last_level_, &queued_}) memory += index_memory(*bytes);
   for (const auto* seen : {&seen_, &last_seen_}) memory += index_memory(*seen);
+  memory += index_memory(number_of_);
   memory += index_memory(allowed_);
   memory += index_memory(queue_);
   memory += index_memory(batches_);

@@ -63,6 +63,7 @@ Morphing::Morphing(const GroundGrid& grid, const PatchGrid& cut, const PatchPatt
       errors_(cut.slots() * static_cast<std::size_t>(levels), 0.0F),
       strips_(cut.slots() * static_cast<std::size_t>(levels - 1) * 4),
       rounding_(cut.slots(), 0.0F),
+      allowed_(cut.slots(), 0.0F),
       at_(cut.slots(), kUnseen),
       queued_(cut.slots(), 0) {
   queue_.reserve(cut.count());
@@ -138,31 +139,39 @@ void Morphing::measure_strips(PatchRuler& ruler, int level, Strip* strips) const
   }
 }
 
-void Morphing::choose(std::span<const PatchTree::Seen> last_seen, std::span<const PatchTree::Seen> seen,
-                      std::span<const float> allowed) {
-  for (const PatchTree::Seen& p : last_seen) at_[p.slot] = kUnseen;
-  for (const PatchTree::Seen& p : seen) at_[p.slot] = own(p.slot, allowed[p.slot]);
-  for (const PatchTree::Seen& p : seen) fit_neighbours(p.slot, allowed[p.slot]);
+void Morphing::choose(std::span<const PatchTree::Place> places, std::span<const PatchTree::Run> last_seen,
+                      std::span<const PatchTree::Run> seen, std::span<const float> allowed) {
+  const auto for_each = [&](std::span<const PatchTree::Run> runs, const auto& use) {
+    for (const PatchTree::Run& run : runs) {
+      for (std::uint32_t k = run.first; k < run.last; ++k) use(k, places[k].slot);
+    }
+  };
+  for_each(last_seen, [&](std::uint32_t, std::uint32_t slot) { at_[slot] = kUnseen; });
+  for_each(seen, [&](std::uint32_t k, std::uint32_t slot) {
+    allowed_[slot] = (1 - kSlack) * (allowed[k] - rounding_[slot]);
+    at_[slot] = own(slot);
+  });
+  for_each(seen, [&](std::uint32_t, std::uint32_t slot) { fit_neighbours(slot); });
   // What sinks stays above what it was fitted to, so this ends.
   while (!queue_.empty()) {
     const std::uint32_t slot = queue_.back();
     queue_.pop_back();
     queued_[slot] = 0;
-    fit_neighbours(slot, allowed[slot]);
+    fit_neighbours(slot);
   }
 }
 
-float Morphing::own(std::uint32_t slot, float allowed) const {
-  const float strictly = (1 - kSlack) * (allowed - rounding_[slot]);
+float Morphing::own(std::uint32_t slot) const {
+  const float allowed = allowed_[slot];
   int level = levels_ - 1;
-  while (level > 0 && error(slot, level) > strictly) --level;
+  while (level > 0 && error(slot, level) > allowed) --level;
   if (level == levels_ - 1) return static_cast<float>(level);
   const float fine = error(slot, level), coarse = error(slot, level + 1);
-  return static_cast<float>(level) + std::clamp((strictly - fine) / (coarse - fine), 0.0F, 1 - kSlack);
+  return static_cast<float>(level) + std::clamp((allowed - fine) / (coarse - fine), 0.0F, 1 - kSlack);
 }
 
-float Morphing::most(std::uint32_t slot, int side, float allowed) const {
-  const float strictly = (1 - kSlack) * (allowed - rounding_[slot]);
+float Morphing::most(std::uint32_t slot, int side) const {
+  const float allowed = allowed_[slot];
   const int level = this->level(slot);
   const auto whole = static_cast<float>(level);
   if (level == levels_ - 1) return whole;
@@ -170,24 +179,24 @@ float Morphing::most(std::uint32_t slot, int side, float allowed) const {
   const Strip& here = strip(slot, level, side);
   const float at_f = mix(here.fine, here.coarse, f), rise = here.side_coarse - here.fine;
   const bool cut = here.wide_side_coarser == kInfinity;
-  float g = rise <= 0 ? 1 : f + std::max(strictly - at_f, 0.0F) / rise;
+  float g = rise <= 0 ? 1 : f + std::max(allowed - at_f, 0.0F) / rise;
   if (cut) g = std::min(g, kCutRun * f);
   if (g < 1) return whole + g;
   if (cut || level + 2 == levels_) return whole + 1;
   const float at_0 = mix(here.wide_side_coarse, here.coarse, f);
   const float at_1 =
       std::max(mix(here.wide_side_coarser, strip(slot, level + 1, side).side_coarse, f), kLeastRise * at_0);
-  const float beyond = at_1 <= at_0 ? 1 : std::max(strictly - at_0, 0.0F) / (at_1 - at_0);
+  const float beyond = at_1 <= at_0 ? 1 : std::max(allowed - at_0, 0.0F) / (at_1 - at_0);
   // One level more at most, and not by rounding either.
   return std::min({whole + 1 + beyond, at_[slot] + 1, whole + 2 - kSlack});
 }
 
-void Morphing::fit_neighbours(std::uint32_t slot, float allowed) {
+void Morphing::fit_neighbours(std::uint32_t slot) {
   for (const int side : {kNorth, kEast, kSouth, kWest}) {
     const std::uint32_t neighbour =
         slot + static_cast<std::uint32_t>(offsets_[static_cast<std::size_t>(side)]);
     if (at_[neighbour] <= at_[slot]) continue;
-    const float limit = std::max(most(slot, side, allowed), at_[slot]);
+    const float limit = std::max(most(slot, side), at_[slot]);
     if (at_[neighbour] <= limit) continue;
     at_[neighbour] = limit;
     if (std::exchange(queued_[neighbour], 1) == 0) queue_.push_back(neighbour);
@@ -206,6 +215,7 @@ Memory Morphing::memory() const {
   Memory memory = index_memory(errors_);
   memory += index_memory(strips_);
   memory += index_memory(rounding_);
+  memory += index_memory(allowed_);
   memory += index_memory(at_);
   memory += index_memory(queued_);
   memory += index_memory(queue_);

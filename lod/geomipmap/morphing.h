@@ -39,10 +39,10 @@ class Morphing {
   // The patterns must be split through the odd vertices. O(samples · levels) time, in parallel.
   Morphing(const GroundGrid&, const PatchGrid&, const PatchPatterns&, int levels, Progress&);
 
-  // Chooses for the patches in view, of which each may be off by allowed[slot] metres. Patches out of view
-  // count as finer than all.
-  void choose(std::span<const PatchTree::Seen> last_seen, std::span<const PatchTree::Seen> seen,
-              std::span<const float> allowed);
+  // Chooses for the patches in view, runs of places, of which patch k may be off by allowed[k] metres.
+  // Patches out of view count as finer than all; `last_seen` are forgotten.
+  void choose(std::span<const PatchTree::Place>, std::span<const PatchTree::Run> last_seen,
+              std::span<const PatchTree::Run> seen, std::span<const float> allowed);
   // Of a patch in view.
   int level(std::uint32_t slot) const { return static_cast<int>(at_[slot]); }
   PatchMorph morph(std::uint32_t slot) const;
@@ -57,9 +57,9 @@ class Morphing {
 
   void measure(PatchRuler&, std::uint32_t slot);
   void measure_strips(PatchRuler&, int level, Strip* strips) const;
-  float own(std::uint32_t slot, float allowed) const;
-  float most(std::uint32_t slot, int side, float allowed) const;
-  void fit_neighbours(std::uint32_t slot, float allowed);
+  float own(std::uint32_t slot) const;
+  float most(std::uint32_t slot, int side) const;
+  void fit_neighbours(std::uint32_t slot);
 
   float error(std::uint32_t slot, int level) const {
     return errors_[slot * static_cast<std::size_t>(levels_) + static_cast<std::size_t>(level)];
@@ -75,6 +75,7 @@ class Morphing {
   std::vector<float> errors_;    // δ, by level; a share more than a finer level.s at least
   std::vector<Strip> strips_;    // by level and side
   std::vector<float> rounding_;  // metres that heights are off by
+  std::vector<float> allowed_;   // metres, less what rounding may add
   std::vector<float> at_;        // level with fraction, or kUnseen
   std::vector<std::uint8_t> queued_;
   std::vector<std::uint32_t> queue_;  // slots

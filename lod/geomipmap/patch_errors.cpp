@@ -1,9 +1,9 @@
 #include "lod/geomipmap/patch_errors.h"
 
-#include <tbb/blocked_range2d.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "lod/geomipmap/patch_ruler.h"
 
@@ -34,33 +34,32 @@ float seam(const PatchRuler& ruler, int level, Side side) {
 
 }  // namespace
 
-PatchErrors::PatchErrors(const GroundGrid& grid, const PatchGrid& cut, const PatchPatterns& patterns,
-                         int levels, Progress& progress)
-    : count_(static_cast<std::size_t>(levels)),
-      levels_(cut.slots() * count_, 0.0F),
-      seams_(cut.slots() * (count_ - 1) * 4, 0.0F) {
+PatchErrors::PatchErrors(const GroundGrid& grid, const PatchGrid& cut, const PatchTree& tree,
+                         const PatchPatterns& patterns, int levels, Progress& progress)
+    : steps_(static_cast<std::size_t>(levels - 1)),
+      errors_(cut.count()),
+      seams_(cut.slots() * steps_ * 4, 0.0F) {
   progress.begin("measuring patches", static_cast<std::uint64_t>(cut.count()));
-  tbb::parallel_for(tbb::blocked_range2d<int>(0, cut.down(), 0, cut.across()), [&](const auto& range) {
-    for (int z = range.rows().begin(); z < range.rows().end(); ++z) {
-      for (int x = range.cols().begin(); x < range.cols().end(); ++x) {
-        const PatchRuler ruler(grid, cut, patterns, cut.patch(x, z));
-        float* const of_level = &levels_[cut.slot(x, z) * count_];
-        float* const of_seam = &seams_[cut.slot(x, z) * (count_ - 1) * 4];
-        for (int level = 1; level < levels; ++level) {
-          of_level[level] = std::max(of_level[level - 1], whole(ruler, level));
-          for (const Side side : {kNorth, kEast, kSouth, kWest}) {
-            of_seam[4 * (level - 1) + side] = seam(ruler, level - 1, side);
-          }
-        }
-        progress.advance();
+  tbb::parallel_for(std::size_t{0}, cut.count(), [&](std::size_t k) {
+    const PatchTree::Place& place = tree.places()[k];
+    const PatchRuler ruler(grid, cut, patterns, cut.patch(place.slot));
+    float* const of_seam = &seams_[place.slot * steps_ * 4];
+    errors_[k].fill(std::numeric_limits<float>::infinity());
+    float error = 0;
+    for (int level = 1; level < levels; ++level) {
+      error = std::max(error, whole(ruler, level));
+      errors_[k][static_cast<std::size_t>(level - 1)] = error;
+      for (const Side side : {kNorth, kEast, kSouth, kWest}) {
+        of_seam[4 * (level - 1) + side] = seam(ruler, level - 1, side);
       }
     }
+    progress.advance();
   });
   progress.end();
 }
 
 Memory PatchErrors::memory() const {
-  Memory memory = index_memory(levels_);
+  Memory memory = index_memory(errors_);
   memory += index_memory(seams_);
   return memory;
 }

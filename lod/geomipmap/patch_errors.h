@@ -2,12 +2,15 @@
 // §2.3), and the same for the strips of triangles that meet a coarser neighbour, which the paper leaves out.
 //
 // δ never sinks with the level (the greatest of a level and all finer ones), so that whatever a patch is
-// refined for, no bound is lost. O(samples · levels) time, in parallel; five numbers a patch and level.
+// refined for, no bound is lost. O(samples · levels) time, in parallel; four numbers a patch and level, and
+// eight a patch.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "lod/geomipmap/patch_patterns.h"
+#include "lod/geomipmap/patch_tree.h"
 #include "terrain/frame.h"
 #include "terrain/memory.h"
 #include "terrain/progress.h"
@@ -16,19 +19,30 @@ namespace terrabench {
 
 class PatchErrors {
  public:
-  PatchErrors(const GroundGrid&, const PatchGrid&, const PatchPatterns&, int levels, Progress&);
+  static constexpr std::size_t kMostLevels = 9;
 
-  // Metres, of a level; 0 at level 0. Patches by slot.
-  float of_level(std::size_t slot, int level) const { return levels_[slot * count_ + level]; }
-  // Metres, of the triangles along a side that is pulled onto a neighbour of level + 1.
+  PatchErrors(const GroundGrid&, const PatchGrid&, const PatchTree&, const PatchPatterns&, int levels,
+              Progress&);
+
+  // The coarsest level whose error is at most `allowed` metres. The patch by its number in the tree.
+  int coarsest(std::size_t patch, float allowed) const {
+    int level = 0;
+    for (const float error : errors_[patch]) level += error <= allowed ? 1 : 0;
+    return level;
+  }
+  // Metres, of the triangles along a side that is pulled onto a neighbour of level + 1. The patch by its
+  // slot.
   float of_seam(std::size_t slot, int level, int side) const {
-    return seams_[(slot * (count_ - 1) + level) * 4 + side];
+    return seams_[(slot * steps_ + level) * 4 + side];
   }
   Memory memory() const;
 
  private:
-  std::size_t count_;  // levels
-  std::vector<float> levels_, seams_;
+  using Levels = std::array<float, kMostLevels - 1>;  // from level 1 on; those that there are not, infinite
+
+  std::size_t steps_;  // from level to level
+  std::vector<Levels> errors_;
+  std::vector<float> seams_;
 };
 
 }  // namespace terrabench

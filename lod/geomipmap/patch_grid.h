@@ -33,6 +33,10 @@ struct PatchGrid {
     return static_cast<std::uint32_t>(at_z + 1) * static_cast<std::uint32_t>(across() + 2) +
            static_cast<std::uint32_t>(at_x + 1);
   }
+  Patch patch(std::uint32_t slot) const {
+    const auto stride = static_cast<std::uint32_t>(across() + 2);
+    return patch(static_cast<int>(slot % stride) - 1, static_cast<int>(slot / stride) - 1);
+  }
   std::array<std::int32_t, 4> offsets() const { return {-(across() + 2), 1, across() + 2, -1}; }
 
   // Whole, cut to the east, to the south, or both: 0 … 3.

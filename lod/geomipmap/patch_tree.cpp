@@ -15,31 +15,65 @@ PatchTree::PatchTree(const GroundGrid& grid, const PatchGrid& cut)
     if (across == 1 && down == 1) break;
   }
   nodes_.resize(nodes);
-  tbb::parallel_for(std::size_t{0}, cut.count(), [&](std::size_t p) {
-    const auto across = static_cast<std::size_t>(cut.across());
-    const PatchGrid::Patch patch = cut.patch(static_cast<int>(p % across), static_cast<int>(p / across));
-    Range range{grid.heights[static_cast<std::size_t>(patch.j0) * grid.width + patch.i0], 0};
-    range.highest = range.lowest;
-    for (int j = patch.j0; j <= patch.j0 + patch.rows; ++j) {
-      const float* const row = &grid.heights[static_cast<std::size_t>(j) * grid.width + patch.i0];
-      const auto [low, high] = std::minmax_element(row, row + patch.columns + 1);
-      range = {std::min(range.lowest, *low), std::max(range.highest, *high)};
+  places_.reserve(cut.count());
+  number(static_cast<int>(levels_.size()) - 1, 0, 0);
+  measure(grid);
+}
+
+PatchTree::Node& PatchTree::node(int level, int at_x, int at_z) {
+  const Level& here = levels_[static_cast<std::size_t>(level)];
+  return nodes_[here.first + static_cast<std::size_t>(at_z) * here.across + at_x];
+}
+
+void PatchTree::number(int level, int at_x, int at_z) {
+  const auto next = [&] { return static_cast<std::uint32_t>(places_.size()); };
+  const std::uint32_t first = next();
+  if (level == 0) {
+    const PatchGrid::Patch patch = cut_.patch(at_x, at_z);
+    const auto width = static_cast<std::uint32_t>(cut_.width);
+    places_.push_back({cut_.slot(at_x, at_z),
+                       static_cast<std::uint32_t>(patch.j0) * width + static_cast<std::uint32_t>(patch.i0),
+                       cut_.shape(patch)});
+  } else {
+    const Level& finer = levels_[static_cast<std::size_t>(level - 1)];
+    for (int z = 2 * at_z; z < std::min(2 * at_z + 2, finer.down); ++z) {
+      for (int x = 2 * at_x; x < std::min(2 * at_x + 2, finer.across); ++x) number(level - 1, x, z);
     }
-    nodes_[p] = range;
+  }
+  node(level, at_x, at_z).patches = {first, next()};
+}
+
+void PatchTree::measure(const GroundGrid& grid) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    boxes_.low[axis].resize(cut_.count());
+    boxes_.high[axis].resize(cut_.count());
+  }
+  tbb::parallel_for(0, cut_.down(), [&](int z) {
+    for (int x = 0; x < cut_.across(); ++x) {
+      const PatchGrid::Patch patch = cut_.patch(x, z);
+      Node& leaf = node(0, x, z);
+      leaf.lowest = leaf.highest = grid.heights[static_cast<std::size_t>(patch.j0) * grid.width + patch.i0];
+      for (int j = patch.j0; j <= patch.j0 + patch.rows; ++j) {
+        const float* const row = &grid.heights[static_cast<std::size_t>(j) * grid.width + patch.i0];
+        const auto [low, high] = std::minmax_element(row, row + patch.columns + 1);
+        leaf.lowest = std::min(leaf.lowest, *low);
+        leaf.highest = std::max(leaf.highest, *high);
+      }
+      const Bounds bounds = box(0, x, z);
+      for (int axis = 0; axis < 3; ++axis) {
+        boxes_.low[static_cast<std::size_t>(axis)][leaf.patches.first] = bounds.low[axis];
+        boxes_.high[static_cast<std::size_t>(axis)][leaf.patches.first] = bounds.high[axis];
+      }
+    }
   });
-  for (std::size_t level = 1; level < levels_.size(); ++level) {
-    const Level &here = levels_[level], &finer = levels_[level - 1];
+  for (int level = 1; level < static_cast<int>(levels_.size()); ++level) {
+    const Level& here = levels_[static_cast<std::size_t>(level)];
     for (int z = 0; z < here.down; ++z) {
       for (int x = 0; x < here.across; ++x) {
-        Range& range = nodes_[here.first + static_cast<std::size_t>(z) * here.across + x];
-        range = nodes_[finer.first + static_cast<std::size_t>(2 * z) * finer.across + 2 * x];
-        for (int below_z = 2 * z; below_z < std::min(2 * z + 2, finer.down); ++below_z) {
-          for (int below_x = 2 * x; below_x < std::min(2 * x + 2, finer.across); ++below_x) {
-            const Range& below =
-                nodes_[finer.first + static_cast<std::size_t>(below_z) * finer.across + below_x];
-            range = {std::min(range.lowest, below.lowest), std::max(range.highest, below.highest)};
-          }
-        }
+        Node& all = node(level, x, z);
+        const auto low = boxes_.low[1].begin(), high = boxes_.high[1].begin();
+        all.lowest = *std::min_element(low + all.patches.first, low + all.patches.last);
+        all.highest = *std::max_element(high + all.patches.first, high + all.patches.last);
       }
     }
   }
@@ -47,34 +81,36 @@ PatchTree::PatchTree(const GroundGrid& grid, const PatchGrid& cut)
 
 Bounds PatchTree::box(int level, int at_x, int at_z) const {
   const Level& here = levels_[static_cast<std::size_t>(level)];
-  const Range& range = nodes_[here.first + static_cast<std::size_t>(at_z) * here.across + at_x];
+  const Node& node = nodes_[here.first + static_cast<std::size_t>(at_z) * here.across + at_x];
   const int span = cut_.side << level;
   const int i1 = std::min((at_x + 1) * span, cut_.width - 1),
             j1 = std::min((at_z + 1) * span, cut_.depth - 1);
-  return {
-      {static_cast<float>(at_x * span) * cell_x_, range.lowest, static_cast<float>(at_z * span) * cell_z_},
-      {static_cast<float>(i1) * cell_x_, range.highest, static_cast<float>(j1) * cell_z_}};
+  return {{static_cast<float>(at_x * span) * cell_x_, node.lowest, static_cast<float>(at_z * span) * cell_z_},
+          {static_cast<float>(i1) * cell_x_, node.highest, static_cast<float>(j1) * cell_z_}};
 }
 
-void PatchTree::collect(const Frustum& frustum, std::vector<Seen>& seen) const {
-  collect(static_cast<int>(levels_.size()) - 1, 0, 0, false, frustum, seen);
+void PatchTree::collect(const Frustum& frustum, std::vector<Run>& seen) const {
+  collect(static_cast<int>(levels_.size()) - 1, 0, 0, Frustum::kAllPlanes, frustum, seen);
 }
 
-void PatchTree::collect(int level, int at_x, int at_z, bool inside, const Frustum& frustum,
-                        std::vector<Seen>& seen) const {
-  if (!inside) {
-    const Sight sight = frustum.see(box(level, at_x, at_z));
-    if (sight == Sight::kOutside) return;
-    inside = sight == Sight::kInside;
-  }
-  if (level == 0) {
-    seen.push_back({cut_.slot(at_x, at_z), at_x, at_z});
+void PatchTree::collect(int level, int at_x, int at_z, unsigned planes, const Frustum& frustum,
+                        std::vector<Run>& seen) const {
+  const Sight sight = frustum.see(box(level, at_x, at_z), planes);
+  if (sight == Sight::kOutside) return;
+  if (sight == Sight::kInside || level == 0) {
+    const Level& here = levels_[static_cast<std::size_t>(level)];
+    const Run& run = nodes_[here.first + static_cast<std::size_t>(at_z) * here.across + at_x].patches;
+    if (!seen.empty() && seen.back().last == run.first) {
+      seen.back().last = run.last;
+    } else {
+      seen.push_back(run);
+    }
     return;
   }
   const Level& finer = levels_[static_cast<std::size_t>(level - 1)];
   for (int z = 2 * at_z; z < std::min(2 * at_z + 2, finer.down); ++z) {
     for (int x = 2 * at_x; x < std::min(2 * at_x + 2, finer.across); ++x) {
-      collect(level - 1, x, z, inside, frustum, seen);
+      collect(level - 1, x, z, planes, frustum, seen);
     }
   }
 }
@@ -82,6 +118,11 @@ void PatchTree::collect(int level, int at_x, int at_z, bool inside, const Frustu
 Memory PatchTree::memory() const {
   Memory memory = index_memory(levels_);
   memory += index_memory(nodes_);
+  memory += index_memory(places_);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    memory += index_memory(boxes_.low[axis]);
+    memory += index_memory(boxes_.high[axis]);
+  }
   return memory;
 }
 
