@@ -148,7 +148,12 @@ void GeoMipMap::fit_neighbours() {
   for (const PatchTree::Run& run : seen_) {
     for (std::uint32_t k = run.first; k < run.last; ++k) {
       const std::uint32_t slot = places[k].slot;
-      for (const int side : {kNorth, kEast, kSouth, kWest}) fit(slot, slot + offsets_[side], side);
+      // Each pair once: a patch out of view asks nothing of its neighbours.
+      for (const int side : {kEast, kSouth}) {
+        const std::uint32_t neighbour = slot + offsets_[side];
+        if (level_[neighbour] > level_[slot]) fit(slot, neighbour, side);
+        if (level_[neighbour] < level_[slot]) fit(neighbour, slot, side ^ 2);
+      }
     }
   }
   while (!queue_.empty()) {
@@ -165,7 +170,7 @@ void GeoMipMap::fit_neighbours() {
 void GeoMipMap::draw() {
   batches_.clear();
   morphs_.clear();
-  std::size_t changes = 0;
+  std::size_t changes = 0, drawn = 0;
   const std::span<const PatchTree::Place> places = tree_.places();
   for (const PatchTree::Run& run : seen_) {
     for (std::uint32_t k = run.first; k < run.last; ++k) {
@@ -179,6 +184,7 @@ void GeoMipMap::draw() {
       const PatchPatterns::Run& pattern = patterns_.run(p.shape, level - 1, seams);
       batches_.push_back({pattern.first, pattern.count, p.corner, static_cast<std::uint16_t>(level - 1),
                           static_cast<std::uint32_t>(morphs_.size())});
+      drawn += pattern.count;
       if (morphing_) morphs_.push_back(morphing_->morph(p.slot));
     }
   }
@@ -201,7 +207,8 @@ void GeoMipMap::draw() {
             .morphs = morphs_,
             .patch_side = morphing_ ? cut_.side : 0,
             .uploads = uploads_,
-            .stats = count(batches_, uploads_, changes)};
+            .stats = count({}, uploads_, changes)};
+  frame_.stats.triangles = drawn / 3;
 }
 
 Memory GeoMipMap::memory() const {

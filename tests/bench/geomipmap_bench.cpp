@@ -1,4 +1,5 @@
-// Geomipmapping on 4097²: building, and update() along a committed path, by patch side and asked error.
+// Geomipmapping on 4097²: building, and update() along a committed path, by patch side, asked error and
+// morph.
 #include <benchmark/benchmark.h>
 
 #include "lod/camera/camera_path.h"
@@ -19,17 +20,17 @@ const Heightfield& ground() {
 
 void build(benchmark::State& state) {
   Progress silent;
-  const GeoMipMap::Options options{static_cast<int>(state.range(0)), false};
+  const GeoMipMap::Options options{static_cast<int>(state.range(0)), false, state.range(1) != 0};
   double bytes = 0;
   for (auto _ : state) bytes = static_cast<double>(GeoMipMap(ground(), options, silent).memory().total());
   state.counters["bytes_per_sample"] = bytes / static_cast<double>(ground().heights.size());
 }
-BENCHMARK(build)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
+BENCHMARK(build)->ArgNames({"side", "morph"})->ArgsProduct({{32, 64}, {0, 1}})->Unit(benchmark::kMillisecond);
 
-// One iteration is one frame. range: patch side, pixels.
+// One iteration is one frame. range: patch side, pixels, morph.
 void update(benchmark::State& state, const char* path) {
   Progress silent;
-  GeoMipMap lod(ground(), {static_cast<int>(state.range(0)), false}, silent);
+  GeoMipMap lod(ground(), {static_cast<int>(state.range(0)), false, state.range(2) != 0}, silent);
   lod.tune(static_cast<double>(state.range(1)));
   const std::vector<View> frames = views(camera_path(path), ground());
   lod.update(frames[0]);
@@ -45,9 +46,8 @@ void update(benchmark::State& state, const char* path) {
   state.counters["batches"] = benchmark::Counter(batches, benchmark::Counter::kAvgIterations);
 }
 void cases(benchmark::internal::Benchmark* benchmark) {
-  benchmark->ArgNames({"side", "px"})->Unit(benchmark::kMicrosecond)->MinTime(0.3);
-  for (const int side : {32, 64}) benchmark->Args({side, 2});
-  benchmark->Args({64, 1})->Args({64, 4});
+  benchmark->ArgNames({"side", "px", "morph"})->Unit(benchmark::kMicrosecond)->MinTime(0.3);
+  benchmark->Args({32, 2, 0})->Args({64, 2, 0})->Args({64, 1, 0})->Args({64, 4, 0})->Args({64, 2, 1});
 }
 BENCHMARK_CAPTURE(update, walk, "walk")->Apply(cases);
 BENCHMARK_CAPTURE(update, cross, "cross")->Apply(cases);
