@@ -106,9 +106,9 @@ void Morphing::measure(PatchRuler& ruler, std::uint32_t slot) {
 }
 
 // Triangles of a whole patch touch one side at most, so that all four are measured at once; where the patch
-// is cut, some touch two, and each is the worst over what the others may do.
+// is cut, some touch two, and each is the worst over what the other may do.
 void Morphing::measure_strips(PatchRuler& ruler, int level, Strip* strips) const {
-  const auto here = static_cast<float>(level), above = static_cast<float>(level + 1);
+  const auto here = static_cast<float>(level);
   const PatchGrid::Patch& patch = ruler.patch();
   const auto take = [&](float Strip::*worst, int rows, int seams, int counting, const PatchMorph& morph) {
     ruler.measure(level, seams, morph, [&](const PatchRuler::Triangle& corners, float error) {
@@ -121,14 +121,15 @@ void Morphing::measure_strips(PatchRuler& ruler, int level, Strip* strips) const
   std::fill_n(strips, 4, Strip{});
   take(&Strip::fine, 1, 0, 15, morph_of(level, here, 0, here));
   take(&Strip::coarse, 2, 0, 15, morph_of(level, nearly(level + 1), 15, nearly(level + 1)));
-  for (int seams = ruler.is_whole() ? 15 : 1; seams < 16; ++seams) {
-    take(&Strip::side_coarse, 1, seams, seams, morph_of(level, here, seams, above));
-    if (!ruler.is_whole()) {
-      take(&Strip::side_coarse, 1, 0, seams, morph_of(level, here, seams, nearly(level + 1)));
+  for (int moved = ruler.is_whole() ? 15 : 1; moved < 16; ++moved) {
+    // Drawn with what the moved sides drop, or still with some of it.
+    for (int pulled = moved; pulled >= 0; pulled = pulled == 0 ? -1 : (pulled - 1) & moved) {
+      take(&Strip::side_coarse, 1, pulled, moved, morph_of(level, here, moved, nearly(level + 1)));
+      if (ruler.is_whole()) break;
     }
   }
   if (ruler.is_whole() && level + 2 < levels_) {
-    take(&Strip::wide_side_coarse, 2, 15, 15, morph_of(level, here, 15, above));
+    take(&Strip::wide_side_coarse, 2, 15, 15, morph_of(level, here, 15, nearly(level + 1)));
     take(&Strip::wide_side_coarser, 2, 15, 15, morph_of(level, here, 15, nearly(level + 2)));
   }
   for (int s = 0; s < 4; ++s) {
