@@ -194,6 +194,7 @@ void record(const Shown& shown, const Flight& flight, Recorder& recorder) {
 std::vector<Entrant> entrants() {
   std::vector<Entrant> all;
   for (const LodType& type : lods()) all.push_back({std::string(type.name), std::string(type.name), ""});
+  all.push_back({"geomipmap_morph", "geomipmap", "geomipmap.morph=true"});
   all.push_back({"mrbsp_area", "mrbsp", "mrbsp.threshold=area"});
   return all;
 }
