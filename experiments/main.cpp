@@ -69,7 +69,8 @@ void add_run(CLI::App& app, Arguments& a) {
   command->add_option("--profile", a.profile, "quick: minutes; paper: the sizes as printed")
       ->check(CLI::IsMember({"quick", "paper"}))
       ->capture_default_str();
-  command->add_option("--terrain", a.run.options.terrains, "Names of `list terrains` or paths of DEMs");
+  command->add_option("--terrain", a.run.options.terrains,
+                      "Names of `list terrains`, paths of DEMs, or drawing:FILE.png");
   command->add_option("--out", a.run.folder, "Results folder")->capture_default_str();
   command->add_flag("--resume", a.run.resume, "Skip cases that the folder already holds");
   command->add_option("--shard", a.shard, "i/n: measure every n-th case only, from the i-th")
@@ -100,7 +101,9 @@ void add_results(CLI::App& app, Arguments& a) {
 void add_represent(CLI::App& app, Arguments& a) {
   auto* command =
       app.add_subcommand("represent", "Build one structure; print its bytes and error, save it, draw it");
-  command->add_option("terrain", a.represent.terrain, "A name of `list terrains` or the path of a DEM")
+  command
+      ->add_option("terrain", a.represent.terrain,
+                   "A name of `list terrains`, the path of a DEM, or drawing:FILE.png")
       ->required();
   command->add_option("--as", a.represent.as, "A name of `list representations`")->required();
   command->add_option("--set", a.represent.assignments, "Parameters of the representation, name=value");
@@ -135,8 +138,9 @@ void add_represent(CLI::App& app, Arguments& a) {
   command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
       ->check(CLI::Range(1, 4096));
   command->add_option("--seed", a.represent.seed, "Seed of procedural terrains")->capture_default_str();
-  auto* info = app.add_subcommand("info", "What is in a DEM, a saved structure or a results folder");
-  info->add_option("file", a.info, "File or folder")->required();
+  auto* info =
+      app.add_subcommand("info", "What is in a DEM, a drawing, a saved structure or a results folder");
+  info->add_option("file", a.info, "File or folder, or drawing:FILE.png")->required();
 }
 
 // Only where the work asks Progress whether to stop; elsewhere the signal ends the process at once, as usual.

@@ -40,8 +40,9 @@ std::vector<std::pair<std::string, Value>> values(const Parameters& parameters) 
 void check_terrain(const std::string& terrain) {
   std::error_code error;
   const bool virtual_file = terrain.starts_with("/vsi") || terrain.starts_with('<');
-  if (names_dem_file(terrain) && !virtual_file && !std::filesystem::exists(terrain, error)) {
-    throw bad_input("no such file", terrain, "check the path, or see `terrabench list terrains`");
+  const std::string file = terrain_file(terrain);
+  if (!file.empty() && !virtual_file && !std::filesystem::exists(file, error)) {
+    throw bad_input("no such file", file, "check the path, or see `terrabench list terrains`");
   }
 }
 

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
+#include <utility>
 
 #include "renderers/gl.h"
 #include "renderers/ramp.h"
@@ -21,7 +23,7 @@ struct BatchRecord {
   std::int32_t level;
   std::uint32_t first_triangle;
   std::uint32_t corner;
-  PatchMorph morph;
+  std::uint32_t morph;
 };
 struct LevelRecord {
   glm::ivec2 corner;
@@ -34,27 +36,32 @@ struct DrawCommand {
   std::int32_t base_vertex;
   std::uint32_t base_instance;
 };
+static_assert(sizeof(BatchRecord) + sizeof(DrawCommand) == kBytesPerBatch);
+static_assert(sizeof(LevelRecord) == kBytesPerClipLevel);
 
-// A buffer that is written in parts and grows by replacement, with `slack` of its size to spare.
+// A buffer that is written in parts, with `slack` of its size to spare when it grows. What it held the GPU
+// copies, so that nothing is sent twice.
 class GrowingBuffer {
  public:
   explicit GrowingBuffer(double slack = 0.5) : slack_(slack) {}
   GLuint id() const { return buffer_.id(); }
-  // True when it was replaced, so that what it held is gone.
-  bool reserve(std::size_t bytes) {
-    if (bytes <= capacity_) return false;
+  std::size_t written() const { return written_; }  // bytes, since the beginning
+  void reserve(std::size_t bytes) {
+    if (bytes <= capacity_) return;
     const std::size_t capacity = bytes + static_cast<std::size_t>(static_cast<double>(bytes) * slack_);
-    capacity_ = 0;
-    buffer_ = Buffer();
-    glNamedBufferStorage(buffer_.id(), static_cast<GLsizeiptr>(capacity), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    Buffer larger;
+    glNamedBufferStorage(larger.id(), static_cast<GLsizeiptr>(capacity), nullptr, GL_DYNAMIC_STORAGE_BIT);
     check_gl("reserving memory for the terrain");
+    if (capacity_ > 0) {
+      glCopyNamedBufferSubData(buffer_.id(), larger.id(), 0, 0, static_cast<GLsizeiptr>(capacity_));
+    }
+    buffer_ = std::move(larger);
     capacity_ = capacity;
-    return true;
   }
   void write(std::size_t at, const void* data, std::size_t bytes) {
-    if (bytes > 0) {
-      glNamedBufferSubData(buffer_.id(), static_cast<GLintptr>(at), static_cast<GLsizeiptr>(bytes), data);
-    }
+    if (bytes == 0) return;
+    glNamedBufferSubData(buffer_.id(), static_cast<GLintptr>(at), static_cast<GLsizeiptr>(bytes), data);
+    written_ += bytes;
   }
   template <class T>
   void replace(const std::vector<T>& content) {
@@ -65,7 +72,7 @@ class GrowingBuffer {
  private:
   Buffer buffer_;
   double slack_;
-  std::size_t capacity_ = 0;
+  std::size_t capacity_ = 0, written_ = 0;
 };
 
 void check_room(std::size_t bytes) {
@@ -96,19 +103,16 @@ struct FrameRenderer::Gl {
   Program numbers = link_program(shader_file("frame.vert"), shader_file("triangle_number.frag"));
   Texture1d ramp;
   VertexArray array;
-  GrowingBuffer indices, batches, levels, commands, numbers_of_batches;
+  GrowingBuffer indices, batches, levels, commands, morphs;
   GrowingBuffer heights{0};  // does not grow with a ground
   bool fresh = true;
-  std::size_t uploaded = 0;
   std::vector<BatchRecord> batch_records;
   std::vector<LevelRecord> level_records;
   std::vector<DrawCommand> draw_commands;
-  std::vector<std::uint32_t> counting;
 
   Gl();
   void upload(const Frame&);
-  void upload_indices(const Frame&);
-  void upload_heights(const Frame&);
+  void upload_all(const Frame&);
   void upload(const Frame&, const DirtyRange&);
   void describe(const Frame&);
   void set(const Program&, const Frame&, const View&);
@@ -124,33 +128,29 @@ FrameRenderer::Gl::Gl() {
   glTextureSubImage1D(ramp.id(), 0, 0, kColors, GL_RGB, GL_FLOAT, colors.data());
   glTextureParameteri(ramp.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTextureParameteri(ramp.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  // The batch's number reaches the vertices as an attribute that steps once an instance.
+  // The batch's number reaches the vertices as an attribute that steps once an instance: each command holds
+  // its own.
   glVertexArrayAttribIFormat(array.id(), 0, 1, GL_UNSIGNED_INT, 0);
   glVertexArrayAttribBinding(array.id(), 0, 0);
   glVertexArrayBindingDivisor(array.id(), 0, 1);
   glEnableVertexArrayAttrib(array.id(), 0);
+  // Bound for every frame, with clip levels and morphs or without.
+  levels.reserve(sizeof(LevelRecord));
+  morphs.reserve(sizeof(PatchMorph));
 }
 
-void FrameRenderer::Gl::upload_indices(const Frame& frame) {
+void FrameRenderer::Gl::upload_all(const Frame& frame) {
   indices.write(0, frame.indices.data(), frame.indices.size_bytes());
-  uploaded += frame.indices.size_bytes();
-}
-
-void FrameRenderer::Gl::upload_heights(const Frame& frame) {
-  if (frame.levels.empty()) {
-    heights.write(0, frame.grid.heights.data(), frame.grid.heights.size_bytes());
-    uploaded += frame.grid.heights.size_bytes();
-  }
+  heights.write(0, frame.grid.heights.data(), frame.grid.heights.size_bytes());
+  morphs.write(0, frame.morphs.data(), frame.morphs.size_bytes());
   std::size_t at = 0;
   for (const ClipLevel& level : frame.levels) {
     heights.write(at, level.heights.data(), level.heights.size_bytes());
     at += level.heights.size_bytes();
-    uploaded += level.heights.size_bytes();
   }
 }
 
 void FrameRenderer::Gl::upload(const Frame& frame, const DirtyRange& range) {
-  uploaded += range.bytes();
   constexpr std::size_t kWord = 4;
   switch (range.target) {
     case DirtyRange::Target::kIndices:
@@ -159,7 +159,8 @@ void FrameRenderer::Gl::upload(const Frame& frame, const DirtyRange& range) {
     case DirtyRange::Target::kHeights:
       heights.write(range.first * kWord, &frame.grid.heights[range.first], range.count * kWord);
       break;
-    case DirtyRange::Target::kMorphs:  // written with the batches
+    case DirtyRange::Target::kMorphs:
+      morphs.write(range.first * sizeof(PatchMorph), &frame.morphs[range.first], range.bytes());
       break;
     case DirtyRange::Target::kClipLevel:
       const ClipLevel& level = frame.levels[range.level];
@@ -175,17 +176,14 @@ void FrameRenderer::Gl::upload(const Frame& frame) {
   std::size_t height_bytes = frame.grid.heights.size_bytes();
   for (const ClipLevel& level : frame.levels) height_bytes += level.heights.size_bytes();
   check_room(height_bytes);
-  const bool indices_lost = indices.reserve(frame.indices.size_bytes());
-  const bool heights_lost = heights.reserve(height_bytes);
-  const bool all_indices = fresh || indices_lost, all_heights = fresh || heights_lost;
-  if (all_indices) upload_indices(frame);
-  if (all_heights) upload_heights(frame);
-  for (const DirtyRange& range : frame.uploads) {
-    const bool indices_alone = range.target == DirtyRange::Target::kIndices;
-    const bool done = indices_alone ? all_indices : all_heights;
-    if (range.target == DirtyRange::Target::kMorphs || !done) upload(frame, range);
+  indices.reserve(frame.indices.size_bytes());
+  heights.reserve(height_bytes);
+  morphs.reserve(frame.morphs.size_bytes());
+  if (std::exchange(fresh, false)) {
+    upload_all(frame);
+  } else {
+    for (const DirtyRange& range : frame.uploads) upload(frame, range);
   }
-  fresh = false;
 }
 
 void FrameRenderer::Gl::describe(const Frame& frame) {
@@ -194,8 +192,7 @@ void FrameRenderer::Gl::describe(const Frame& frame) {
   std::uint32_t triangle = 0;
   for (const Batch& batch : frame.batches) {
     const auto number = static_cast<std::uint32_t>(draw_commands.size());
-    batch_records.push_back({batch.level, triangle, batch.base_vertex,
-                             frame.morphs.empty() ? PatchMorph{} : frame.morphs[batch.morph]});
+    batch_records.push_back({batch.level, triangle, batch.base_vertex, batch.morph});
     draw_commands.push_back(
         {batch.index_count, 1, batch.first_index, static_cast<std::int32_t>(batch.base_vertex), number});
     triangle += batch.index_count / 3;
@@ -204,13 +201,9 @@ void FrameRenderer::Gl::describe(const Frame& frame) {
   for (const ClipLevel& level : frame.levels) {
     level_records.push_back({level.corner, level.eye, level.from, level.to, level.spacing, 0});
   }
-  if (level_records.empty()) level_records.push_back({});
-  while (counting.size() < draw_commands.size())
-    counting.push_back(static_cast<std::uint32_t>(counting.size()));
   batches.replace(batch_records);
   levels.replace(level_records);
   commands.replace(draw_commands);
-  numbers_of_batches.replace(counting);
 }
 
 void FrameRenderer::Gl::set(const Program& program, const Frame& frame, const View& view) {
@@ -257,11 +250,13 @@ void FrameRenderer::Gl::draw(const Program& program, GLenum nearer) {
   glDepthFunc(nearer);
   glUseProgram(program.id());
   glVertexArrayElementBuffer(array.id(), indices.id());
-  glVertexArrayVertexBuffer(array.id(), 0, numbers_of_batches.id(), 0, sizeof(std::uint32_t));
+  glVertexArrayVertexBuffer(array.id(), 0, commands.id(), offsetof(DrawCommand, base_instance),
+                            sizeof(DrawCommand));
   glBindVertexArray(array.id());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, heights.id());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, batches.id());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, levels.id());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, morphs.id());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
   glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr,
                               static_cast<GLsizei>(draw_commands.size()), 0);
@@ -347,6 +342,13 @@ std::vector<std::uint32_t> FrameRenderer::triangle_numbers(const Frame& frame, c
   return numbers;
 }
 
-std::size_t FrameRenderer::bytes_uploaded() const { return gl_->uploaded; }
+std::size_t FrameRenderer::bytes_uploaded() const {
+  std::size_t bytes = 0;
+  for (const GrowingBuffer* buffer :
+       {&gl_->indices, &gl_->heights, &gl_->morphs, &gl_->batches, &gl_->levels, &gl_->commands}) {
+    bytes += buffer->written();
+  }
+  return bytes;
+}
 
 }  // namespace terrabench

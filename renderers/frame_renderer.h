@@ -44,7 +44,9 @@ class FrameRenderer {
   // draw() does.
   std::vector<std::uint32_t> triangle_numbers(const Frame&, const View&);
 
-  std::size_t bytes_uploaded() const;  // heights, indices and morphs, since the beginning
+  // What went into the GPU's buffers since the beginning: of each frame FrameStats::bytes_sent(), of the
+  // first whatever the frame holds. A few hundred bytes of uniforms a frame are not counted.
+  std::size_t bytes_uploaded() const;
 
  private:
   struct Gl;

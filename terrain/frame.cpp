@@ -124,8 +124,10 @@ std::size_t DirtyRange::bytes() const {
   return count * (target == Target::kMorphs ? sizeof(PatchMorph) : 4);
 }
 
-FrameStats count(std::span<const Batch> batches, std::span<const DirtyRange> uploads, std::size_t changes) {
-  FrameStats stats{.changes = changes};
+FrameStats count(std::span<const Batch> batches, std::span<const DirtyRange> uploads, std::size_t changes,
+                 std::size_t clip_levels) {
+  FrameStats stats{.bytes_commands = kBytesPerBatch * batches.size() + kBytesPerClipLevel * clip_levels,
+                   .changes = changes};
   for (const Batch& batch : batches) stats.triangles += batch.index_count / 3;
   for (const DirtyRange& range : uploads) stats.bytes_uploaded += range.bytes();
   return stats;

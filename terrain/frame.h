@@ -64,11 +64,19 @@ struct DirtyRange {
   std::size_t bytes() const;
 };
 
+// What goes to the GPU with every frame, changed or not: for each batch a draw command of 20 bytes and a
+// record of 16, and the place and blending of each clip level.
+inline constexpr std::size_t kBytesPerBatch = 36;
+inline constexpr std::size_t kBytesPerClipLevel = 32;
+
 struct FrameStats {
   std::size_t triangles = 0;       // drawn
-  std::size_t bytes_uploaded = 0;  // the sum over the dirty ranges
-  std::size_t changes =
-      0;  // what the method did to get here: splits and merges, levels changed, nodes toggled
+  std::size_t bytes_uploaded = 0;  // of terrain: the sum over the dirty ranges
+  std::size_t bytes_commands = 0;  // of what says how to draw it: batches and clip levels
+  // What the method did to get here: splits and merges, levels changed, nodes toggled.
+  std::size_t changes = 0;
+
+  std::size_t bytes_sent() const { return bytes_uploaded + bytes_commands; }
 };
 
 // Points into the method that made it; valid until its next update(). Either grid or levels is set.
@@ -89,8 +97,9 @@ struct Frame {
   FrameStats stats;
 };
 
-// Sums triangles and bytes of the batches and uploads. O(batches + uploads).
-FrameStats count(std::span<const Batch>, std::span<const DirtyRange>, std::size_t changes);
+// Sums triangles and bytes of the batches, uploads and so many clip levels. O(batches + uploads).
+FrameStats count(std::span<const Batch>, std::span<const DirtyRange>, std::size_t changes,
+                 std::size_t clip_levels = 0);
 
 // The height of sample (i, j) in the patch whose low corner is sample (i0, j0). O(1).
 float morphed_height(const GroundGrid&, int patch_side, const PatchMorph&, int level, glm::ivec2 low,

@@ -7,6 +7,7 @@
 
 #include "terrain/error.h"
 #include "terrain/files.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 
@@ -99,6 +100,12 @@ Image read_png(const std::filesystem::path& path) {
   };
   if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) throw fail(png.message);
   if (std::uint64_t{png.width} * png.height > kMostPixels) throw fail("the picture has too many pixels");
+  try {
+    require_memory(std::uint64_t{3} * png.width * png.height, path.string(), "give a smaller picture");
+  } catch (const Error&) {
+    png_image_free(&png);
+    throw;
+  }
   png.format = PNG_FORMAT_RGB;
   Image image(static_cast<int>(png.width), static_cast<int>(png.height), {255, 255, 255});
   if (png_image_finish_read(&png, nullptr, image.rgb.data(), 0, nullptr) == 0) throw fail(png.message);

@@ -42,12 +42,18 @@ struct TerrainType {
 };
 std::span<const TerrainType> terrains();
 
-// True for what can only be a file (it exists, or looks like a path), false for a catalogue name. Throws
-// unknown_name, with the nearest, for anything else.
+// Before the path of a picture that is a landscape, see terrain/sources/drawing/drawing.h:
+// "drawing:coast.png", "drawing:coast.png,sea_level=0.4,peak=1500".
+inline constexpr std::string_view kDrawingPrefix = "drawing:";
+
+// The file that a terrain is read from: a drawing's picture, or what can only be a path (it exists, or looks
+// like one). Empty for a catalogue name. Throws unknown_name, with the nearest, for anything else.
+std::string terrain_file(std::string_view name_or_path);
+// Whether it is a path of the latter kind.
 bool names_dem_file(std::string_view name_or_path);
 
-// By catalogue name or, for anything else, the path of any DEM that GDAL opens. Throws unknown_name or
-// bad_input.
+// By catalogue name, as a drawing or, for anything else, the path of any DEM that GDAL opens. Throws
+// unknown_name or bad_input.
 TerrainSource open_terrain(std::string_view name_or_path, std::uint64_t seed = 0);
 
 }  // namespace terrabench

@@ -8,6 +8,7 @@
 #include "results/store.h"
 #include "terrain/events/event_file.h"
 #include "terrain/files.h"
+#include "terrain/source.h"
 #include "terrain/sources/dem/dem.h"
 
 namespace terrabench {
@@ -18,16 +19,29 @@ void print_bounds(const Bounds& b) {
              b.low.y, b.high.y, b.low.z, b.high.z);
 }
 
-void describe_dem(const std::filesystem::path& path) {
-  const Dem dem = read_dem(path.string());
-  const Heightfield& field = dem.heights;
+void print_heights(const Heightfield& field, const std::vector<std::string>& notes) {
   const HeightRange range = height_range(field);
-  fmt::print("{}: digital elevation model ({})\n", path.string(), dem.format);
   fmt::print("samples     {} × {}, cells {:.6g} m × {:.6g} m, {:.4g} km × {:.4g} km\n", field.width,
              field.depth, field.cell_x, field.cell_z, field.extent_x() / 1000, field.extent_z() / 1000);
   fmt::print("heights     {:.6g}…{:.6g} m, {} without data\n", range.lowest, range.highest, range.no_data);
   fmt::print("checksum    {}\n", checksum(field));
-  for (const std::string& note : dem.notes) fmt::print("note        {}\n", note);
+  for (const std::string& note : notes) fmt::print("note        {}\n", note);
+}
+
+void describe_dem(const std::filesystem::path& path) {
+  const Dem dem = read_dem(path.string());
+  fmt::print("{}: digital elevation model ({})\n", path.string(), dem.format);
+  print_heights(dem.heights, dem.notes);
+  if (dem.format == "PNG") {
+    fmt::print("note        its values are taken as heights; {}{} makes a landscape with a sea of it\n",
+               kDrawingPrefix, path.string());
+  }
+}
+
+void describe_drawing(const std::string& name) {
+  const TerrainSource source = open_terrain(name);
+  fmt::print("{}: land from a drawing\n", name);
+  print_heights(*source.heights, source.notes);
 }
 
 // What a grounded heightmap tree consists of, and whether all is as it must be.
@@ -85,7 +99,9 @@ void describe_results(const std::filesystem::path& folder) {
 ExitCode info_command(const std::filesystem::path& path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (std::filesystem::is_directory(status)) {
+  if (path.string().starts_with(kDrawingPrefix)) {
+    describe_drawing(path.string());
+  } else if (std::filesystem::is_directory(status)) {
     describe_results(path);
   } else if (is_saved_representation(path)) {
     describe_representation(path);

@@ -91,6 +91,11 @@ Json list_terrains() {
   for (const TerrainType& terrain : terrains()) {
     list.push_back({{"name", terrain.name}, {"summary", terrain.summary}, {"origin", terrain.origin}});
   }
+  list.push_back({{"name", fmt::format("{}FILE.png", kDrawingPrefix)},
+                  {"summary",
+                   "land from a picture of yours, black sea bed to white peaks; may be followed by "
+                   ",cell=30,sea_level=0.3,peak=1000,seabed=0.1,smoothing=2,mountains=0.6"},
+                  {"origin", "the MRBSP paper's drawings"}});
   return list;
 }
 

@@ -55,14 +55,14 @@ void measure_cost(const Flight& flight, const Contender& method, double knob, Re
   const double build_time = seconds_since(begin);
   lod->tune(knob);
   begin = std::chrono::steady_clock::now();
-  const std::size_t first_uploaded = lod->update(flight.views.front()).stats.bytes_uploaded;
+  const std::size_t first_uploaded = lod->update(flight.views.front()).stats.bytes_sent();
   const double first_update_time = seconds_since(begin);
   for (std::size_t i = 1; i < flight.views.size(); ++i) {
     begin = std::chrono::steady_clock::now();
     const Frame& frame = lod->update(flight.views[i]);
     times.push_back(seconds_since(begin));
     triangles.push_back(static_cast<double>(frame.stats.triangles));
-    uploaded += static_cast<double>(frame.stats.bytes_uploaded);
+    uploaded += static_cast<double>(frame.stats.bytes_sent());
   }
   const std::int64_t held = heap.held();
   recorder.add("build_time", "s", build_time);
@@ -99,7 +99,7 @@ void meter(const Flight& flight, std::size_t k, const Frame& frame, const Surfac
   const CrackReport cracks = find_cracks(frame, ground.width, ground.depth, seen.view());
   shown.gaps += cracks.gaps;
   shown.bare_edges += cracks.bare_edges;
-  shown.overlaps += cracks.overlaps;
+  shown.overlaps += cracks.overlaps + cracks.covered_again + cracks.flipped;
   shown.t_junctions += cracks.t_junctions;
   shown.largest_gap = std::max(shown.largest_gap, cracks.largest_gap_px);
 }

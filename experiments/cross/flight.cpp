@@ -9,6 +9,7 @@
 #include "lod/camera/camera_path.h"
 #include "lod/meters/screen_error.h"
 #include "terrain/error.h"
+#include "terrain/memory.h"
 #include "terrain/sources/fractal/diamond_square.h"
 
 namespace terrabench::cross {
@@ -87,6 +88,9 @@ Flight::Flight(const Route& along, Progress& progress)
     throw usage_error("a path of one frame has nothing that moves", route.path, "choose another path");
   }
   metered = evenly(static_cast<std::size_t>(route.frames), views.size() - 1);
+  require_memory(metered.size() * Visibility::bytes(ground().width, ground().depth),
+                 fmt::format("what {} frames see of {}", metered.size(), route.terrain),
+                 "meter fewer frames (--set frames=…) or choose less ground");
   seen.reserve(metered.size());
   progress.begin(fmt::format("finding what is seen on {}", route.terrain), metered.size());
   for (const std::size_t frame : metered) {

@@ -25,8 +25,9 @@ constexpr int kBuilds = 5;
 // For files: the name itself or, of a path, its last part and a digest, since two folders may hold equal
 // names.
 std::string file_name(const std::string& terrain) {
-  if (!names_dem_file(terrain)) return terrain;
-  std::string name = std::filesystem::path(terrain).stem().string();
+  const std::string file = terrain_file(terrain);
+  if (file.empty()) return terrain;
+  std::string name = std::filesystem::path(file).stem().string();
   for (char& c : name) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
   }

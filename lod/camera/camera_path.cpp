@@ -39,7 +39,9 @@ class Flight {
     const auto after = std::upper_bound(times_.begin() + 1, times_.end() - 1, time);
     const std::size_t k = static_cast<std::size_t>(after - times_.begin());
     const Keyframe &from = path_.keyframes[k - 1], &to = path_.keyframes[k];
-    const double share = std::clamp((time - times_[k - 1]) / (times_[k] - times_[k - 1]), 0.0, 1.0);
+    const double lasts = times_[k] - times_[k - 1];
+    // Beside a long time a short one may round to none.
+    const double share = lasts > 0 ? std::clamp((time - times_[k - 1]) / lasts, 0.0, 1.0) : 1;
     const bool turns = path_.kind == CameraPath::Kind::kTurn;
     const glm::dvec2 plan =
         turns ? place(path_.keyframes.front().at) : glm::mix(place(from.at), place(to.at), share);

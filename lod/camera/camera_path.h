@@ -1,18 +1,33 @@
-// Camera paths: one TOML file says how an eye moves over any ground; views() gives its frames.
+// Camera paths: one TOML file says how an eye moves over any ground; views() gives its frames. A test reads
+// the example below, so it is one to start from, as are those in lod/camera/paths.
 //
-//   kind = "walk"                # walk: 1.8 m above the ground; fly: at a height; turn: on the spot
-//   unit = "m"                   # of positions, heights and speeds: "m", or "extent", shares of the longer
-//   side origin = [0.5, 0.5]          # where [0, 0] lies, in shares of the ground's sides; [0, 0] when left
-//   out field_of_view = 60           # degrees, vertical screen = [800, 600]          # pixels
+// clang-format off
+//   kind = "fly"              # walk: 1.8 m above the ground; fly: at a height; turn: on the spot
+//   unit = "m"                # of positions, heights and speeds: "m", or "extent", the ground's longer side
+//   origin = [0.5, 0.5]       # where [0, 0] lies, in shares of the ground's sides; [0, 0] when left out
+//   field_of_view = 60        # degrees, vertical
+//   screen = [800, 600]       # pixels
 //   frames_per_second = 25
-//   speed = 1.4                  # units a second; of a turn, degrees a second
-//   near = 0.5                   # metres, may be left out; the far plane lies behind the whole ground
+//   speed = 20                # units a second; of a turn, degrees a second
+//   near = 0.5                # metres, may be left out; the far plane lies behind the whole ground
+//
 //   [[keyframe]]
-//   at = [0, 0]                  # x (east) and z (south) from the origin; of a turn, in the first alone
-//   height = 100                 # of a flight: above the ground here; never under 1.8 m in between
-//   speed = 2.0                  # from here on, instead of the path's
-//   heading = 90                 # degrees clockwise from north, with pitch = -10 upwards if wished, or
-//   look_at = [10, 5]            # a place on the ground; with neither, ahead
+//   at = [0, 0]               # x (east) and z (south) from the origin; of a turn, in the first alone
+//   height = 100              # of a flight: above the ground here; never under 1.8 m in between
+//   heading = 90              # degrees clockwise from north; or look_at = [10, 5], a place on the ground;
+//   pitch = -10               # degrees upwards, may be left out.  With neither, the eye looks ahead.
+//
+//   [[keyframe]]
+//   at = [300, 0]
+//   height = 50
+//   heading = 120
+//   speed = 40                # from here on, instead of the path's
+//
+//   [[keyframe]]
+//   at = [500, 200]
+//   height = 80
+//   heading = 180
+// clang-format on
 //
 // Between keyframes all goes linearly, headings as numbers (0 to 360 is once around); keyframes look all in
 // the same manner. The same path over the same ground gives the same views.

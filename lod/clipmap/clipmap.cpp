@@ -119,7 +119,7 @@ const Frame& Clipmap::update(const View& view) {
             .indices = window_.indices,
             .batches = batches_,
             .uploads = uploads_,
-            .stats = count(batches_, uploads_, moved_)};
+            .stats = count(batches_, uploads_, moved_, shown_.size())};
   return frame_;
 }
 

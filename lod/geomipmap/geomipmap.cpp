@@ -170,7 +170,7 @@ void GeoMipMap::fit_neighbours() {
 void GeoMipMap::draw() {
   batches_.clear();
   morphs_.clear();
-  std::size_t changes = 0, drawn = 0;
+  std::size_t changes = 0;
   const std::span<const PatchTree::Place> places = tree_.places();
   for (const PatchTree::Run& run : seen_) {
     for (std::uint32_t k = run.first; k < run.last; ++k) {
@@ -184,7 +184,6 @@ void GeoMipMap::draw() {
       const PatchPatterns::Run& pattern = patterns_.run(p.shape, level - 1, seams);
       batches_.push_back({pattern.first, pattern.count, p.corner, static_cast<std::uint16_t>(level - 1),
                           static_cast<std::uint32_t>(morphs_.size())});
-      drawn += pattern.count;
       if (morphing_) morphs_.push_back(morphing_->morph(p.slot));
     }
   }
@@ -207,8 +206,7 @@ void GeoMipMap::draw() {
             .morphs = morphs_,
             .patch_side = morphing_ ? cut_.side : 0,
             .uploads = uploads_,
-            .stats = count({}, uploads_, changes)};
-  frame_.stats.triangles = drawn / 3;
+            .stats = count(batches_, uploads_, changes)};
 }
 
 Memory GeoMipMap::memory() const {

@@ -4,11 +4,13 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <tuple>
 #include <vector>
 
+#include "lod/meters/coverage.h"
 #include "lod/meters/drawn_triangles.h"
 #include "lod/meters/projector.h"
 
@@ -72,6 +74,7 @@ struct Open {
   int dx, dz;
   long long offset;
   bool forward;
+  bool on_border;  // of the terrain
   Stretch stretch;
 
   bool same_line(const Open& o) const { return dx == o.dx && dz == o.dz && offset == o.offset; }
@@ -82,7 +85,13 @@ struct Open {
   }
 };
 
-Open open_from(const Edge& e) {
+// A total order, so that a sweep meets edges of the same place always in the same one.
+auto key(const Open& o) {
+  const Stretch& s = o.stretch;
+  return std::tuple(o.dx, o.dz, o.offset, o.forward, s.from, s.to, s.y_from, s.y_to);
+}
+
+Open open_from(const Edge& e, bool on_border) {
   int dx = e.high.x - e.low.x, dz = e.high.z - e.low.z;
   const int parts = std::gcd(dx, dz);
   dx /= parts;
@@ -90,7 +99,7 @@ Open open_from(const Edge& e) {
   const long long offset = static_cast<long long>(dx) * e.low.z - static_cast<long long>(dz) * e.low.x;
   const Stretch stretch =
       dx != 0 ? Stretch{e.low.x, e.high.x, e.low.y, e.high.y} : Stretch{e.low.z, e.high.z, e.low.y, e.high.y};
-  return {dx, dz, offset, e.forward, stretch};
+  return {dx, dz, offset, e.forward, on_border, stretch};
 }
 
 bool on_border(const Edge& e, int width, int depth) {
@@ -113,10 +122,20 @@ std::vector<Open> open_edges(const Frame& frame, int width, int depth, CrackRepo
       }
       report.overlaps += (std::max(runs[0], std::size_t{1}) - 1) + (std::max(runs[1], std::size_t{1}) - 1);
       const bool closed = runs[0] > 0 && runs[1] > 0;
-      if (!closed && !on_border(edges[first], width, depth)) open.push_back(open_from(edges[first]));
+      if (!closed) open.push_back(open_from(edges[first], on_border(edges[first], width, depth)));
     }
   }
   return open;
+}
+
+std::size_t flipped_triangles(const Frame& frame) {
+  std::atomic<std::size_t> flipped = 0;
+  for_drawn_triangles(frame, [&](std::span<const Corner> corners) {
+    std::size_t here = 0;
+    for (std::size_t k = 0; k < corners.size(); k += 3) here += doubled_plan_area(&corners[k]) < 0;
+    flipped.fetch_add(here, std::memory_order_relaxed);
+  });
+  return flipped;
 }
 
 // Compares the two sides of one line.
@@ -129,6 +148,7 @@ class LineSweep {
   void sweep(std::span<const Open> line) {
     line_ = &line.front();
     split(line);
+    if (line_->on_border) return;
     bool gap_before = false;
     for (std::size_t k = 0; k < stops_.size(); ++k) {
       const int here = stops_[k];
@@ -226,11 +246,10 @@ class LineSweep {
 
 CrackReport find_cracks(const Frame& frame, int width, int depth, const View& view) {
   CrackReport report;
+  report.flipped = flipped_triangles(frame);
+  report.covered_again = samples_covered_again(frame, width, depth);
   std::vector<Open> open = open_edges(frame, width, depth, report);
-  tbb::parallel_sort(open.begin(), open.end(), [](const Open& a, const Open& b) {
-    return std::tie(a.dx, a.dz, a.offset, a.forward, a.stretch.from, a.stretch.to) <
-           std::tie(b.dx, b.dz, b.offset, b.forward, b.stretch.from, b.stretch.to);
-  });
+  tbb::parallel_sort(open.begin(), open.end(), [](const Open& a, const Open& b) { return key(a) < key(b); });
   const Projector project(view);
   LineSweep lines(frame, project, report);
   for (std::size_t first = 0, end; first < open.size(); first = end) {

@@ -1,11 +1,13 @@
-// Cracks in the drawn surface: the neutral detector of T-junctions and gaps.
+// Cracks in the drawn surface: the neutral detector of T-junctions, gaps and overlaps.
 //
 // An edge is closed when another triangle runs the very same edge, plan and heights, the other way. All other
 // edges are grouped by the line that they lie on in plan, and on each line the heights of its two sides are
 // compared wherever an edge of either side ends; between those places both sides are straight, so no gap
-// between them is larger. Edges along the terrain's border, and edges out of view beside what was culled, are
-// as they should be. Triangles without plan area are left out: a gap behind a skirt is a gap.
-// O(triangles log triangles) time, in parallel; memory bounded, by several passes over large frames.
+// between them is larger. Edges along the terrain's border, and edges out of view beside what was culled,
+// have nothing beside them, as they should. Triangles without plan area are left out: a gap behind a skirt is
+// a gap. Overlaps are found by edges run twice and, where a layer lies over another so far that its rim is
+// out of view, by the samples covered twice (coverage.h). O(triangles log triangles) time, in parallel;
+// memory bounded, by several passes over large frames.
 #pragma once
 
 #include <cstddef>
@@ -25,9 +27,14 @@ struct CrackReport {
   // over others. Where a method leaves out what it proved hidden, its rim counts here; what matters then is
   // ScreenDeviation::visible.undrawn.
   std::size_t bare_edges = 0;
-  std::size_t overlaps = 0;  // edges run more than once the same way: triangles drawn over each other
+  std::size_t overlaps = 0;       // edges run more than once the same way: triangles drawn over each other
+  std::size_t covered_again = 0;  // samples of the full terrain under more than one triangle, in view or not
+  // Triangles that wind clockwise from above, where nobody sees them: holes. For the counts above they are
+  // turned.
+  std::size_t flipped = 0;
 
-  bool tight() const { return gaps == 0 && bare_edges == 0 && overlaps == 0; }
+  std::size_t faults() const { return gaps + bare_edges + overlaps + covered_again + flipped; }
+  bool tight() const { return faults() == 0; }
 };
 
 // Of a frame over terrain of width × depth samples, looked at from `view`.

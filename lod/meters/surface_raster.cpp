@@ -38,6 +38,7 @@ void SurfaceRaster::draw(const Frame& frame) {
   const Target target{width_, depth_, heights_.data()};
   for_drawn_triangles(frame, [&](std::span<const Corner> corners) {
     for (std::size_t k = 0; k < corners.size(); k += 3) {
+      if (doubled_plan_area(&corners[k]) <= 0) continue;
       for_samples_on(&corners[k], width_, depth_, [&](int x, int z, float y) { target.raise(x, z, y); });
     }
   });

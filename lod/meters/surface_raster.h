@@ -2,7 +2,8 @@
 // that a sample on a shared edge or vertex is never missed; heights along an edge are interpolated between
 // its two ends alone, so both sides of an edge without a crack give the same bits. Where triangles disagree
 // (cracks, overlaps) the highest counts, which an eye in the air sees; so the result does not depend on the
-// order of drawing nor on the number of threads. Triangles without plan area (skirts) draw nothing.
+// order of drawing nor on the number of threads. Triangles without plan area (skirts) draw nothing, and
+// neither do those that wind clockwise from above, as on the screen.
 // O(triangles + samples drawn), in parallel.
 #pragma once
 

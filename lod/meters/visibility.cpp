@@ -126,13 +126,19 @@ void draw_cells(const Heightfield& ground, int i0, int i1, int j0, int j1, Depth
 
 }  // namespace
 
+std::size_t Visibility::bytes(int width, int depth) {
+  return sizeof(std::uint64_t) * static_cast<std::size_t>((width + kSeenAWord - 1) / kSeenAWord) *
+         static_cast<std::size_t>(depth);
+}
+
 Visibility::Visibility(const Heightfield& ground, const View& view)
     : width_(ground.width),
       depth_(ground.depth),
       cell_x_(ground.cell_x),
       cell_z_(ground.cell_z),
       view_(view),
-      seen_(ground.heights.size(), Seen::kOutside) {
+      words_(static_cast<std::size_t>((ground.width + kSeenAWord - 1) / kSeenAWord)),
+      seen_(words_ * static_cast<std::size_t>(ground.depth), 0) {
   DepthBuffer buffer(view);
   const Frustum frustum(view);
   const auto blocks = [](int samples) { return (samples - 2) / kBlock + 1; };
@@ -165,11 +171,14 @@ void Visibility::find_seen(const Heightfield& ground, const std::vector<float>& 
     }
     return nearer > 0 && 1 / (at.depth * nearer) < static_cast<double>(farthest);
   };
+  static_assert(static_cast<int>(Seen::kOutside) == 0);  // what the bits are at first
   tbb::parallel_for(0, depth_, [&](int j) {
+    std::uint64_t* const row = &seen_[static_cast<std::size_t>(j) * words_];
     for (int i = 0; i < width_; ++i) {
       const ScreenPoint at = project(place(ground, i, j));
       if (!project.in_view(at)) continue;
-      seen_[static_cast<std::size_t>(j) * width_ + i] = is_hidden(at) ? Seen::kHidden : Seen::kVisible;
+      const Seen seen = is_hidden(at) ? Seen::kHidden : Seen::kVisible;
+      row[i / kSeenAWord] |= static_cast<std::uint64_t>(seen) << (2 * (i % kSeenAWord));
     }
   });
 }

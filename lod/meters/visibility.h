@@ -4,7 +4,7 @@
 // The full terrain (two triangles a cell) is drawn into a depth buffer of the view's size. A sample in the
 // frustum is hidden when it lies behind all of the 3 × 3 pixels around its own, by more than four pixels'
 // breadth at its depth: in doubt, at outlines and for detail under a pixel, it counts as visible. O(cells in
-// view + pixels), in parallel.
+// view + pixels), in parallel; two bits a sample.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,14 @@ class Visibility {
  public:
   Visibility(const Heightfield&, const View&);
 
-  Seen at(int i, int j) const { return seen_[static_cast<std::size_t>(j) * width_ + i]; }
+  // What one takes for so much ground, to be asked for before many are made.
+  static std::size_t bytes(int width, int depth);
+
+  Seen at(int i, int j) const {
+    const std::uint64_t word =
+        seen_[static_cast<std::size_t>(j) * words_ + static_cast<std::size_t>(i / kSeenAWord)];
+    return static_cast<Seen>(word >> (2 * (i % kSeenAWord)) & 3);
+  }
   int width() const { return width_; }
   int depth() const { return depth_; }
   float cell_x() const { return cell_x_; }
@@ -32,10 +39,13 @@ class Visibility {
  private:
   void find_seen(const Heightfield&, const std::vector<float>& nearness);
 
+  static constexpr int kSeenAWord = 32;
+
   int width_, depth_;
   float cell_x_, cell_z_;
   View view_;
-  std::vector<Seen> seen_;
+  std::size_t words_;  // a row; rows do not share any, so that each can be written by a thread of its own
+  std::vector<std::uint64_t> seen_;
 };
 
 }  // namespace terrabench

@@ -6,8 +6,7 @@ struct BatchRecord {
   int level;
   uint first_triangle;
   uint corner;
-  float inside;
-  vec4 sides;
+  uint morph;
 };
 struct LevelRecord {
   ivec2 corner;
@@ -18,6 +17,7 @@ struct LevelRecord {
 layout(std430, binding = 0) readonly buffer Heights { float heights[]; };
 layout(std430, binding = 1) readonly buffer Batches { BatchRecord batches[]; };
 layout(std430, binding = 2) readonly buffer Levels { LevelRecord levels[]; };
+layout(std430, binding = 3) readonly buffer Morphs { float morphs[]; };  // five a patch: inside and sides
 
 uniform mat4 world_to_clip;
 uniform ivec2 samples;  // of the grid
@@ -46,8 +46,8 @@ bool on_border(ivec2 at, ivec2 low, ivec2 high) { return any(equal(at, low)) || 
 
 float on_side(BatchRecord batch, ivec2 at, ivec2 low, ivec2 high) {
   bool along_x = at.y == low.y || at.y == high.y;
-  float said = along_x ? (at.y == low.y ? batch.sides[0] : batch.sides[2])
-                       : (at.x == low.x ? batch.sides[3] : batch.sides[1]);
+  uint side_number = along_x ? (at.y == low.y ? 0u : 2u) : (at.x == low.x ? 3u : 1u);
+  float said = morphs[5u * batch.morph + 1u + side_number];
   int step = 1 << int(said);
   float share = said - floor(said);
   ivec2 along = along_x ? ivec2(1, 0) : ivec2(0, 1);
@@ -68,7 +68,7 @@ float morphed_height(BatchRecord batch, ivec2 at) {
   ivec2 high = min(low + patch_side, samples - 1);
   if (on_border(at, low, high)) return on_side(batch, at, low, high);
   int step = 1 << batch.level;
-  float share = batch.inside - float(batch.level);
+  float share = morphs[5u * batch.morph] - float(batch.level);
   ivec2 odd = (at - low) & step;
   if (share <= 0.0 || odd == ivec2(0)) return sample_at(at);
   ivec2 before = at - odd, after = min(at + odd, high);

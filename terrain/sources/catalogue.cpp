@@ -13,6 +13,7 @@
 #include "terrain/files.h"
 #include "terrain/source.h"
 #include "terrain/sources/dem/dem.h"
+#include "terrain/sources/drawing/drawing.h"
 #include "terrain/sources/fractal/diamond_square.h"
 #include "terrain/sources/fractal/faults.h"
 #include "terrain/sources/fractal/hills.h"
@@ -85,6 +86,22 @@ TerrainSource from_heights(std::string_view name, Heightfield heights) {
   return source;
 }
 
+TerrainSource from_drawing(std::string_view name) {
+  const NamedDrawing drawing = parse_drawing(name.substr(kDrawingPrefix.size()));
+  const Image picture = read_png(drawing.file);
+  if (picture.width < 2 || picture.height < 2) {
+    throw bad_input(fmt::format("a picture of {} × {} pixels is no landscape", picture.width, picture.height),
+                    drawing.file, "draw 2 × 2 pixels at least");
+  }
+  const DrawingOptions& o = drawing.options;
+  TerrainSource source = from_heights(name, land_from_drawing(picture, o));
+  source.notes.push_back(
+      fmt::format("read as a drawing: black is {:.6g} m, intensity {:.6g} the shore, white {:.6g} m, a pixel "
+                  "{:.6g} m wide",
+                  o.sea_level > 0 ? -o.seabed * o.peak : 0, o.sea_level, o.peak, o.cell));
+  return source;
+}
+
 constexpr TerrainType kTerrains[] = {
     {"jacksboro", "mountains with a fault valley, 403×344 samples of 3″",
      "SRTM, in Debian's python-matplotlib-data",
@@ -127,19 +144,26 @@ std::string topobathy_vrt() { return vrt(kTopobathy); }
 
 std::span<const TerrainType> terrains() { return kTerrains; }
 
-bool names_dem_file(std::string_view text) {
+std::string terrain_file(std::string_view text) {
+  if (text.starts_with(kDrawingPrefix)) return parse_drawing(text.substr(kDrawingPrefix.size())).file;
   std::vector<std::string_view> known;
   for (const TerrainType& type : terrains()) {
-    if (type.name == text) return false;
+    if (type.name == text) return "";
     known.push_back(type.name);
   }
   std::error_code error;
-  if (looks_like_path(text) || std::filesystem::exists(std::filesystem::path(text), error)) return true;
+  if (looks_like_path(text) || std::filesystem::exists(std::filesystem::path(text), error))
+    return std::string(text);
   const Error unknown = unknown_name("terrain", text, known);
   throw Error(unknown.code(), unknown.what(), "", unknown.advice() + "; the path of a DEM file works too");
 }
 
+bool names_dem_file(std::string_view text) {
+  return !text.starts_with(kDrawingPrefix) && !terrain_file(text).empty();
+}
+
 TerrainSource open_terrain(std::string_view name_or_path, std::uint64_t seed) {
+  if (name_or_path.starts_with(kDrawingPrefix)) return from_drawing(name_or_path);
   if (names_dem_file(name_or_path)) {
     const std::string path(name_or_path);
     if (path.ends_with(events::kExtension))

@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "lod/roam/roam.h"
@@ -50,7 +51,9 @@ RoamOptions limited_to(std::int64_t triangles) {
 void build(benchmark::State& state) {
   Progress progress;
   ground();
-  for (auto _ : state) benchmark::DoNotOptimize(Roam(ground(), {}, progress).memory());
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(std::make_unique<Roam>(ground(), RoamOptions{}, progress)->memory());
+  }
 }
 BENCHMARK(build)->Unit(benchmark::kMillisecond)->UseRealTime();
 

@@ -12,6 +12,7 @@
 #include "terrain/image.h"
 #include "terrain/source.h"
 #include "terrain/sources/dem/dem.h"
+#include "terrain/sources/drawing/drawing.h"
 
 namespace terrabench {
 namespace {
@@ -50,11 +51,29 @@ TEST_F(CommandLine, WrongUseExits2AndSuggests) {
   EXPECT_EQ(call("$T represent caves --as layered_stack --crop 0 0 5 5").code, 2);
 }
 
+TEST_F(CommandLine, APictureIsLandWhenItIsCalledADrawing) {
+  write_png(folder_ / "my.png", example_drawing(48, 1));
+  const Outcome info = call("$T info drawing:my.png,peak=500");
+  EXPECT_EQ(info.code, 0) << info.text;
+  EXPECT_THAT(info.text, HasSubstr("black is -50 m"));
+  EXPECT_THAT(call("$T info my.png").text, HasSubstr("drawing:my.png"));
+  EXPECT_THAT(call("$T list terrains").text, HasSubstr("drawing:FILE.png"));
+  EXPECT_THAT(call("$T represent --help").text, HasSubstr("drawing:FILE.png"));
+  const Outcome built = call("$T represent drawing:my.png --as heightmap --resample 24 24");
+  EXPECT_EQ(built.code, 0) << built.text;
+  EXPECT_THAT(built.text, HasSubstr("over 576 columns"));
+  EXPECT_EQ(
+      call("$T run overview.relief --terrain drawing:my.png --set width=32 --set height=32 --out out").code,
+      0);
+  EXPECT_EQ(call("$T run overview.relief --terrain drawing:no.png --out out").code, 3);
+  EXPECT_EQ(call("$T info drawing:my.png,peek=500").code, 2);
+}
+
 TEST_F(CommandLine, BadInputExits3) {
   std::ofstream(folder_ / "text.tif") << "these are no heights";
-  for (const char* command :
-       {"$T info nowhere.tif", "$T info text.tif", "$T represent text.tif --as heightmap", "$T check nowhere",
-        "$T report nowhere", "$T compare nowhere nowhere"}) {
+  for (const char* command : {"$T info nowhere.tif", "$T info text.tif", "$T info drawing:text.tif",
+                              "$T represent text.tif --as heightmap", "$T check nowhere", "$T report nowhere",
+                              "$T compare nowhere nowhere"}) {
     const Outcome outcome = call(command);
     EXPECT_EQ(outcome.code, 3) << command << "\n" << outcome.text;
     EXPECT_THAT(outcome.text, HasSubstr("terrabench: "));

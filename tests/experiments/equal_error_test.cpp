@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <string>
 
@@ -12,12 +13,33 @@
 #include "results/claims.h"
 #include "results/statistics.h"
 #include "terrain/error.h"
+#include "terrain/files.h"
 
 namespace terrabench::cross {
 namespace {
 
 constexpr Knob kPixels{"error", "px", 0.1, 1000, 1}, kFineness{"size", "", 65536, 1.0 / 64, 1},
     kSamples{"window", "samples", 4095, 15, 255, true};
+
+// A legal path of more frames than memory holds the sight of: said so, and not begun.
+TEST(Flight, RefusesMoreFramesThanMemoryHolds) {
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "endless_path.toml";
+  write_file(path,
+             std::string_view("kind = \"turn\"\nfield_of_view = 60\nscreen = [80, 60]\n"
+                              "frames_per_second = 25\nspeed = 0.03\n"
+                              "[[keyframe]]\nat = [10, 10]\nheading = 0\n[[keyframe]]\nheading = 360\n"));
+  Progress silent;
+  const Route route{"peak", path.string(), 4097, 300000, 1};
+  try {
+    const Flight flight(route, silent);
+    ADD_FAILURE() << "1.2 TB have been found";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kEnvironment);
+    EXPECT_THAT(error.what(), testing::HasSubstr("memory"));
+    EXPECT_THAT(error.advice(), testing::HasSubstr("--set frames"));
+  }
+  std::filesystem::remove(path);
+}
 
 TEST(KnobSearch, ComesWithinSlackOfTheTargetInAFewTries) {
   const auto error_at = [](double knob) { return 0.3 * std::pow(knob, 0.8); };

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <sstream>
 
 #include "lod/lod.h"
 #include "terrain/error.h"
@@ -112,6 +113,37 @@ look_at = [50, 1]
   EXPECT_NEAR(all[80].eye.y, 60, 1e-3);
   EXPECT_LT(all[80].target.x, all[80].eye.x);  // looks back at the peak
   EXPECT_GT(all[80].target.y, all[80].eye.y);
+}
+
+TEST(CameraPath, ArrivesWhereATimeIsTooShortToCount) {
+  const std::string text = replaced(replaced(kWalk, "= 10\n", "= 0.01\n"), "speed = 2", "speed = 0.000001");
+  const CameraPath path =
+      parse(replaced(replaced(replaced(replaced(text, "speed = 4", "speed = 1e7"), "[10, 20]", "[0, 20]"),
+                              "[20, 20]", "[90, 20]"),
+                     "[20, 8]", "[90.001, 20]"));
+  const std::vector<View> all = views(path, flat(101, 41));
+  ASSERT_EQ(all.size(), 900001U);
+  EXPECT_NEAR(all[450000].eye.x, 45, 1e-3);
+  EXPECT_NEAR(all.back().eye.x, 90.001, 1e-3);
+}
+
+// What a reader copies out of the header.
+TEST(CameraPath, ReadsTheExampleOfItsHeader) {
+  const std::string header =
+      read_file(std::filesystem::path(TERRABENCH_SOURCE_DIR) / "lod/camera/camera_path.h");
+  std::string example;
+  std::istringstream lines(header);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("//   ")) example += line.substr(5) + "\n";
+  }
+  const CameraPath path = parse(example);
+  EXPECT_EQ(path.kind, CameraPath::Kind::kFly);
+  EXPECT_EQ(path.look, CameraPath::Look::kHeading);
+  ASSERT_EQ(path.keyframes.size(), 3U);
+  EXPECT_EQ(path.keyframes[0].pitch, -10);
+  EXPECT_EQ(path.keyframes[1].speed, 40);
+  EXPECT_EQ(path.screen, glm::ivec2(800, 600));
+  EXPECT_EQ(views(path, flat(1001, 1001)).size(), 552U);
 }
 
 TEST(CameraPath, ATurnStaysAndGoesAround) {

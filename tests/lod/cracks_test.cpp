@@ -170,6 +170,106 @@ TEST(Cracks, FindsATriangleOverOthers) {
   EXPECT_EQ(report.bare_edges + report.overlaps, 3U);
 }
 
+TEST(Cracks, FindsALayerOverTheWholeGround) {
+  const Heightfield field = flat(9, 9);
+  Drawing drawing(field);
+  for (int j = 0; j < 8; j += 2) {
+    for (int i = 0; i < 8; i += 2) drawing.square(i, j, 2);
+  }
+  EXPECT_TRUE(report_of(drawing, field).tight());
+  drawing.square(0, 0, 8);
+  const CrackReport report = report_of(drawing, field);
+  EXPECT_EQ(report.covered_again, 64U);
+  EXPECT_EQ(report.overlaps, 16U);  // of the small squares' edges along the border
+  EXPECT_FALSE(report.tight());
+}
+
+// Its rim is out of view, and no edge of it is an edge of the ground below.
+TEST(Cracks, FindsALayerWhoseRimIsOutOfView) {
+  const Heightfield field = flat(101, 101);
+  Drawing drawing(field);
+  drawing.square(0, 0, 100);
+  View view = from_above(field);
+  view.eye.y = 10;
+  ASSERT_TRUE(find_cracks(drawing.frame(), 101, 101, view).tight());
+  drawing.square(10, 20, 60);
+  const CrackReport report = find_cracks(drawing.frame(), 101, 101, view);
+  EXPECT_EQ(report.bare_edges + report.overlaps, 0U);
+  EXPECT_EQ(report.covered_again, 3600U);
+  EXPECT_FALSE(report.tight());
+}
+
+// Triangulations that leave no gap cover each sample once, with whatever slivers and T-junctions.
+TEST(Cracks, CountsNoSampleOfASurfaceTwice) {
+  const Heightfield field = flat(200, 41);
+  std::mt19937 random(3);
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  for (int round = 0; round < 200; ++round) {
+    Drawing drawing(field);
+    // Fans to the north and the south of a line, in strides of their own.
+    const glm::ivec2 north(below(200), 0), south(below(200), 40);
+    for (const bool up : {true, false}) {
+      for (int x = 0; x < 199;) {
+        const int next = std::min(x + 1 + below(60), 199);
+        if (up) drawing.triangle(north, {x, 20}, {next, 20});
+        if (!up) drawing.triangle(south, {next, 20}, {x, 20});
+        x = next;
+      }
+    }
+    drawing.triangle({0, 0}, {0, 20}, north);
+    drawing.triangle({199, 0}, north, {199, 20});
+    drawing.triangle({0, 40}, south, {0, 20});
+    drawing.triangle({199, 40}, {199, 20}, south);
+    const CrackReport report = report_of(drawing, field);
+    ASSERT_TRUE(report.tight()) << round << ": " << report.covered_again;
+  }
+}
+
+TEST(Cracks, FindsACellThatFacesDown) {
+  const Heightfield field = hilly(21, 21);
+  Drawing drawing(field);
+  for (int j = 0; j < 20; ++j) {
+    for (int i = 0; i < 20; ++i) {
+      if (i == 10 && j == 10) {
+        drawing.triangle({i, j}, {i + 1, j}, {i, j + 1});
+        drawing.triangle({i + 1, j}, {i + 1, j + 1}, {i, j + 1});
+      } else {
+        drawing.square(i, j, 1);
+      }
+    }
+  }
+  const CrackReport report = report_of(drawing, field);
+  EXPECT_EQ(report.flipped, 2U);
+  EXPECT_EQ(report.faults(), 2U);
+  EXPECT_FALSE(report.tight());
+}
+
+// Levels of many heights over each other: which of them is compared with the other side must not be chance,
+// and is the lowest.
+TEST(Cracks, ComparesLayersInAnOrderOfTheirOwn) {
+  constexpr int kLayers = 4000, kHigh = 5000;
+  const Heightfield field = flat(8, 8);
+  std::vector<std::vector<float>> heights;
+  std::vector<ClipLevel> levels;
+  heights.reserve(kLayers + 1);
+  Drawing drawing(field);
+  const auto layer = [&](float height) {
+    drawing.batch(static_cast<std::uint16_t>(levels.size()));
+    levels.push_back({.side = 8, .heights = heights.emplace_back(64, height)});
+  };
+  for (int k = 0; k < kLayers; ++k) {
+    layer(static_cast<float>(kLayers - k));
+    drawing.triangle({4, 0}, {1, 3}, {4, 4});
+  }
+  layer(kHigh);
+  drawing.triangle({4, 0}, {4, 4}, {7, 1});
+  Frame frame = drawing.frame();
+  frame.grid = {};
+  frame.levels = levels;
+  frame.last = {7, 7};
+  EXPECT_EQ(find_cracks(frame, 8, 8, from_above(field)).largest_gap_m, kHigh - 1);
+}
+
 TEST(Cracks, HangingSkirtsHideNothing) {
   Heightfield field = flat(9, 5);
   field.at(4, 2) = -1;

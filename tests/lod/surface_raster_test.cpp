@@ -61,8 +61,7 @@ TEST(SurfaceRaster, CoversEverySampleOfAnyTriangulation) {
     walk([](int t) { return glm::ivec2(kSide - 1 - t, 0); });
     Drawing drawing(field);
     for (std::size_t k = 0; k < rim.size(); ++k) {
-      if (round % 2 == 0) drawing.triangle(middle, rim[k], rim[(k + 1) % rim.size()]);
-      if (round % 2 == 1) drawing.triangle(middle, rim[(k + 1) % rim.size()], rim[k]);  // wound wrongly
+      drawing.triangle(middle, rim[k], rim[(k + 1) % rim.size()]);
     }
     const SurfaceRaster raster(drawing.frame(), kSide, kSide);
     for (int j = 0; j < kSide; ++j) {
@@ -84,6 +83,17 @@ TEST(SurfaceRaster, KeepsTheHighestAndLeavesOutWhatHasNoPlan) {
   EXPECT_EQ(raster.at(1, 2), 3);
   EXPECT_EQ(raster.at(3, 3), 3);
   EXPECT_FALSE(raster.is_drawn(4, 2));
+}
+
+TEST(SurfaceRaster, DrawsNothingThatFacesDown) {
+  const Heightfield field = flat(9, 9);
+  Drawing drawing(field);
+  drawing.triangle({0, 0}, {0, 8}, {8, 0});
+  drawing.triangle({8, 0}, {8, 8}, {0, 8});
+  const SurfaceRaster raster(drawing.frame(), 9, 9);
+  EXPECT_TRUE(raster.is_drawn(4, 4));
+  EXPECT_FALSE(raster.is_drawn(5, 4));
+  EXPECT_FALSE(raster.is_drawn(8, 8));
 }
 
 TEST(SurfaceRaster, IsTheSameForAnyNumberOfThreads) {

@@ -71,6 +71,16 @@ std::uint32_t nearest_triangle(const std::vector<glm::vec3>& corners, const glm:
   return nearest;
 }
 
+std::size_t bytes_named(const Frame& frame, const ClipLevel& level) {
+  std::size_t bytes = 0;
+  for (const DirtyRange& range : frame.uploads) {
+    const bool of_level =
+        range.target == DirtyRange::Target::kClipLevel && &frame.levels[range.level] == &level;
+    if (of_level) bytes += range.bytes();
+  }
+  return bytes;
+}
+
 class FrameRendererTest : public ::testing::TestWithParam<test::Variant> {
  protected:
   std::unique_ptr<Lod> build() { return test::build(GetParam(), field_, silent_); }
@@ -119,6 +129,38 @@ TEST_P(FrameRendererTest, DirtyRangesAreEnough) {
     FrameRenderer fresh(*context_);
     fresh.draw(frame, view, style);
     ASSERT_EQ(incremental.rgb, fresh.image().rgb) << step;
+  }
+}
+
+// Halfway the method is asked for more, so that buffers must grow.
+TEST_P(FrameRendererTest, SendsTheBytesThatTheFrameSays) {
+  const Knob& knob = lod(GetParam().method).knob;
+  const std::unique_ptr<Lod> lod = build();
+  lod->tune(knob.coarsest);
+  FrameRenderer renderer(*context_);
+  FrameStyle style;
+  style.lowest = -20;
+  style.highest = 20;
+  std::size_t before = 0;
+  for (int step = 0; step <= 8; ++step) {
+    if (step == 4) lod->tune(knob.finest);
+    const View view = walk(field_, static_cast<float>(step) / 10);
+    const Frame& frame = lod->update(view);
+    EXPECT_EQ(frame.stats.bytes_commands,
+              kBytesPerBatch * frame.batches.size() + kBytesPerClipLevel * frame.levels.size());
+    renderer.draw(frame, view, style);
+    // The first frame is sent whole. A clipmap's arrays are a row and a column larger than its windows, which
+    // alone it asks for.
+    std::size_t expected = frame.stats.bytes_sent();
+    for (const ClipLevel& level : frame.levels) {
+      if (step == 0) expected += level.heights.size_bytes() - bytes_named(frame, level);
+    }
+    EXPECT_EQ(renderer.bytes_uploaded() - before, expected) << step;
+    before = renderer.bytes_uploaded();
+    FrameRenderer fresh(*context_);
+    const Image kept = renderer.image();
+    fresh.draw(frame, view, style);
+    ASSERT_EQ(kept.rgb, fresh.image().rgb) << step;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "terrain/error.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 namespace {
@@ -69,6 +70,9 @@ void smooth(Heightfield& field, const std::vector<float>& soft, std::vector<floa
 
 Heightfield land_from_drawing(const Image& picture, const DrawingOptions& options) {
   check(picture, options);
+  const std::size_t fields = options.smoothing == 0 ? 1 : 3;
+  require_memory(fields * sizeof(float) * picture.width * static_cast<std::size_t>(picture.height),
+                 "land from a drawing", "give a smaller picture");
   Heightfield field;
   field.width = picture.width;
   field.depth = picture.height;

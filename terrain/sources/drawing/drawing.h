@@ -9,6 +9,9 @@
 // height at which mountains begin, and not at all from there on. O(pixels · passes), in parallel.
 #pragma once
 
+#include <string>
+#include <string_view>
+
 #include "terrain/heightfield.h"
 #include "terrain/image.h"
 
@@ -24,8 +27,16 @@ struct DrawingOptions {
 };
 
 // One sample a pixel, the sea's surface at 0. Throws usage_error for an empty picture or options out of
-// range.
+// range, and environment_error where memory would not suffice.
 Heightfield land_from_drawing(const Image&, const DrawingOptions&);
+
+// A drawing by name: FILE[,ADJUSTMENT=VALUE…], as in "coast.png,sea_level=0.4,peak=1500".
+struct NamedDrawing {
+  std::string file;
+  DrawingOptions options;
+};
+// Throws usage_error for an adjustment that does not exist or is no number.
+NamedDrawing parse_drawing(std::string_view);
 
 // A drawing as the paper describes: grey clouds for hills (seeded), a winding river and a lake masked in
 // black, and ridges as lightened lines. O(pixels · octaves).
