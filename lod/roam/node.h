@@ -19,6 +19,12 @@ struct Links {
   std::uint32_t before = kNone, after = kNone;
 };
 
+// How far the camera may move before a priority must be looked at again, infinite when that does not depend
+// on its motion, and how far from the eye the wedgie may lie now. Metres.
+struct Patience {
+  float slack, reach;
+};
+
 // Which of the view's planes a triangle's wedgie lies wholly inside of, a bit each, or that it lies outside
 // of one.
 using Sight = std::uint8_t;
@@ -34,8 +40,11 @@ struct alignas(64) Node {
   std::uint32_t child = kNone;   // the left one; the right one follows it
   std::uint32_t parent = kNone;  // or the next free pair
   Links queue;                   // among leaves to split, or among diamonds to merge
-  Links wait;                    // among those whose priority is looked at again at the same time
-  std::uint32_t slot = kNone;    // in the draw list
+  union {
+    Links wait{};       // among those whose priority is looked at again at the same time
+    Patience patience;  // of one that has just been ranked
+  };
+  std::uint32_t slot = kNone;  // in the draw list
   std::uint16_t bucket = kNoList, due = kNoList;
   std::uint8_t level = 0, heading = 0;
   Sight sight = kOutside;  // nothing is drawn of it yet

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "lod/roam/roam.h"
 
@@ -63,6 +64,7 @@ void Roam::reconsider_all() {
 // A leaf that a split would gain nothing for is in no queue.
 void Roam::rank_leaf(std::uint32_t id, const roam::Corners& corners) {
   std::vector<Node>& nodes = mesh_.nodes();
+  fresh_.push_back(id);
   deadlines_.remove(nodes, id);
   const Distortion now = mesh_.splittable(nodes[id]) ? distortion(id, corners) : Distortion{};
   if (now.pixels == 0) return splits_.remove(nodes, id);
@@ -73,22 +75,27 @@ void Roam::rank_leaf(std::uint32_t id, const roam::Corners& corners) {
   }
   // From below the reference it must be looked at before it can have risen to it.
   const double factor = ratio_from(reference_) / ratio;
-  put_off(id, now, factor > 1 ? factor : kBucketWidth);
+  put_off(nodes[id], now, factor > 1 ? factor : kBucketWidth);
 }
 
-// Until the error can have changed by a factor. Most triangles that a frame makes are split on in the same
-// frame, so only what is left at its end is made to wait.
-void Roam::put_off(std::uint32_t id, const Distortion& now, double factor) {
+// Until the error can have changed by a factor.
+void Roam::put_off(Node& node, const Distortion& now, double factor) {
   const double slack = std::isfinite(now.pixels) ? (1 - 1 / factor) / now.rate : 0;
-  fresh_.push_back({id, static_cast<float>(0.9999 * slack), static_cast<float>(1.0001 * now.reach)});
+  node.patience = {static_cast<float>(0.9999 * slack), static_cast<float>(1.0001 * now.reach)};
 }
 
-// The last word on a node counts: an earlier one is of another node in its place or of other days.
-void Roam::start_waiting() {
+// Most triangles that a frame makes are split on in the same frame, so only what is left at its end is drawn
+// and made to wait.
+void Roam::place_fresh() {
+  std::vector<Node>& nodes = mesh_.nodes();
   for (std::size_t k = fresh_.size(); k-- > 0;) {
-    const Node& node = mesh_.nodes()[fresh_[k].id];
-    if (!node.in_use || node.bucket == roam::kNoList || node.due != roam::kNoList) continue;
-    deadlines_.put_off(mesh_.nodes(), fresh_[k].id, fresh_[k].slack, fresh_[k].reach);
+    const std::uint32_t id = fresh_[k];
+    const Node& node = nodes[id];
+    if (!node.in_use) continue;
+    if (node.leaf()) show(id);
+    if (node.bucket == roam::kNoList || node.due != roam::kNoList) continue;
+    if (std::isinf(node.patience.slack)) continue;
+    deadlines_.put_off(nodes, id, node.patience.slack, node.patience.reach);
   }
   fresh_.clear();
 }
@@ -110,10 +117,11 @@ void Roam::rank_diamond(std::uint32_t id) {
     }
   }
   const double ratio = now.pixels / options_.max_error;
+  Node& node = mesh_.nodes()[id];
   merges_.push(mesh_.nodes(), id, bucket_of(ratio));
-  if (now.pixels == 0) return;  // until its sight changes
-  const double factor = std::max(ratio / ratio_from(reference_), kBucketWidth);
-  put_off(id, now, factor);
+  fresh_.push_back(id);
+  node.patience.slack = std::numeric_limits<float>::infinity();
+  if (now.pixels > 0) put_off(node, now, std::max(ratio / ratio_from(reference_), kBucketWidth));
 }
 
 // Most diamonds that a frame makes are split on in the same frame, so only what is left is looked at.

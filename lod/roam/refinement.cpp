@@ -143,7 +143,6 @@ void Roam::add_children(std::uint32_t id) {
     const std::uint32_t child = parent.child + k;
     see(child, parent.sight, corners[k]);
     disturb_ancestors(child);
-    show(child);
     rank_leaf(child, corners[k]);
   }
 }
@@ -174,7 +173,6 @@ void Roam::merge_diamond(std::uint32_t id) {
   ++changes_;
   for (const std::uint32_t half : both) {
     if (half == kNone) continue;
-    show(half);
     rank_leaf(half, mesh_.corners(mesh_.nodes()[half]));
     requeue_diamond(mesh_.nodes()[half].parent);
   }

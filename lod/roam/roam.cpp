@@ -81,7 +81,7 @@ const Frame& Roam::update(const View& view) {
     settle();
     rank_pending();
   } while (lower_reference());
-  start_waiting();
+  place_fresh();
 
   uploads_.clear();
   drawn_.finish(mesh_.nodes(), uploads_);
@@ -115,10 +115,7 @@ void Roam::look(std::uint32_t id, Sight parent, bool parent_changed) {
   if (now == before && (now == roam::kAllInside || now == roam::kOutside)) return;
   const bool turned_up = (now & roam::kOutside) != (before & roam::kOutside);
   if (turned_up) due_.push_back(id);
-  if (node.leaf()) {
-    if (turned_up) show(id);
-    return;
-  }
+  if (node.leaf()) return;
   for (const std::uint32_t child : {node.child, node.child + 1}) {
     look(child, now, parent_changed || now != before);
     quiet_[id].moved = std::min(quiet_[id].moved, quiet_[child].moved);

@@ -61,8 +61,8 @@ class Roam : public Lod {
   void rank_leaf(std::uint32_t id, const roam::Corners&);
   void rank_diamond(std::uint32_t id);
   void rank_pending();
-  void put_off(std::uint32_t id, const roam::Distortion&, double factor);
-  void start_waiting();
+  void put_off(roam::Node&, const roam::Distortion&, double factor);
+  void place_fresh();
   void take_off(std::uint32_t id);
   roam::Distortion distortion(std::uint32_t id, const roam::Corners&) const;
 
@@ -93,11 +93,7 @@ class Roam : public Lod {
   roam::DrawList drawn_;
   std::vector<std::uint32_t> due_;      // whose priority must be looked at
   std::vector<std::uint32_t> pending_;  // diamonds in the merge queue by what their halves had as leaves
-  struct Fresh {
-    std::uint32_t id;
-    float slack, reach;
-  };
-  std::vector<Fresh> fresh_;  // ranked in this frame
+  std::vector<std::uint32_t> fresh_;    // ranked in this frame
   // For each node, the journey up to which no sight in its subtree changes.
   struct Quiet {
     float moved, turned;
