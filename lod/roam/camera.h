@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include "lod/roam/node.h"
@@ -15,11 +16,19 @@ struct Corners {
   std::array<glm::dvec3, 3> at;
 };
 
-// An upper bound of the screen-space error over a triangle, and its speed limit: after motion m (see Motion)
-// it lies within a factor g of what it was as long as m ≤ (1 - 1/g) / rate.
+// A corner, and what the camera makes of it.
+struct Spot {
+  glm::dvec3 at;
+  double depth;  // along the view
+  double up;     // N² (see Camera::distortion): that of up × d, less its part along the view
+  double away;   // squared
+};
+
+// An upper bound of the screen-space error over a triangle, and how long it holds: after motion m (see
+// Motion) it lies within a factor g of what it was as long as m ≤ (1 - 1/g) · scale.
 struct Distortion {
   double pixels = 0;
-  double rate = 0;   // 1 / metres
+  double scale = 0;  // metres
   double reach = 0;  // metres from the eye to the wedgie's farthest point
 };
 
@@ -50,7 +59,12 @@ class Camera {
   // near plane. Unlike the paper's largest value at the corners this holds inside the triangle too, and it
   // bounds the distance of the drawn point from where it should be rather than the whole projected wedgie,
   // twice that.
-  Distortion distortion(const Corners&, double thickness) const;
+  Distortion distortion(const Spot& a, const Spot& b, const Spot& c, double thickness) const;
+  Spot spot(const glm::dvec3& at) const {
+    const glm::dvec3 d = at - eye_;
+    const double flat = d.x * d.x + d.z * d.z, aside = d.z * forward_.x - d.x * forward_.z;
+    return {at, glm::dot(forward_, d), flat - aside * aside, flat + d.y * d.y};
+  }
 
   // The sight of a wedgie whose parent is neither outside nor inside of all planes. `spill` is the share of
   // its size by which descendants may stick out of the triangle.

@@ -64,13 +64,6 @@ void Mesh::bound(Node& node) const {
   node.thickness = wedgies_.thickness(m.u, m.v);
 }
 
-bool Mesh::on_edge(const Node& node) const {
-  if (lattice_.exact || node.level != lattice_.finest_level() - 1) return false;
-  const Step ahead = kSteps[node.heading];
-  return ahead.u != 0 ? lattice_.column[node.u] == lattice_.column[node.u + ahead.u]
-                      : lattice_.row[node.v] == lattice_.row[node.v + ahead.v];
-}
-
 // Every split takes a pair for each leaf that it adds.
 void Mesh::make_room(std::size_t leaves) {
   if (free_pairs() < leaves) add_pairs(std::max(nodes_.size() / 2, leaves - free_pairs()));

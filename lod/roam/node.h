@@ -29,6 +29,8 @@ struct Patience {
 // of one.
 using Sight = std::uint8_t;
 inline constexpr Sight kAllInside = 0x3F, kOutside = 0x40;
+// All below a triangle that lies wholly inside or outside does so too.
+inline bool inherited(Sight parent) { return parent == kAllInside || (parent & kOutside) != 0; }
 
 // Corners: the apex at the right angle, then left and right of whoever looks from it along the heading (as
 // the map shows it, z down). Neighbours share the edges apex-left, apex-right and left-right (base). In a

@@ -11,11 +11,12 @@ namespace terrabench {
 using roam::Distortion;
 using roam::kNone;
 using roam::Node;
+using roam::Spot;
 
 namespace {
 
 // Where the order counts and no threshold is near, a change by a bucket's width is worth a look.
-constexpr double kBucketWidth = 1 + 1.0 / 16;
+constexpr double kBucketShare = 1 / (1 + 1.0 / 16);
 
 }  // namespace
 
@@ -30,10 +31,14 @@ double Roam::ratio_from(int bucket) {
   return std::bit_cast<float>(static_cast<std::uint32_t>(bucket + kFirst) << 19);
 }
 
-Distortion Roam::distortion(std::uint32_t id, const roam::Corners& corners) const {
-  const Node& node = mesh_.nodes()[id];
+Distortion Roam::distortion(const Node& node, const Spot& a, const Spot& b, const Spot& c) const {
   if (!node.visible() || node.thickness == 0) return {};
-  return camera_.distortion(corners, node.thickness);
+  return camera_.distortion(a, b, c, node.thickness);
+}
+
+Distortion Roam::distortion(std::uint32_t id, const roam::Corners& corners) const {
+  const auto [a, b, c] = corners.at;
+  return distortion(mesh_.nodes()[id], camera_.spot(a), camera_.spot(b), camera_.spot(c));
 }
 
 void Roam::take_off(std::uint32_t id) {
@@ -44,7 +49,7 @@ void Roam::take_off(std::uint32_t id) {
 void Roam::reconsider(std::uint32_t id) {
   const Node& node = mesh_.nodes()[id];
   if (node.leaf()) {
-    rank_leaf(id, mesh_.corners(node));
+    rank_leaf(id, distortion(id, mesh_.corners(node)));
     return;
   }
   requeue_diamond(id);
@@ -62,11 +67,10 @@ void Roam::reconsider_all() {
 }
 
 // A leaf that a split would gain nothing for is in no queue.
-void Roam::rank_leaf(std::uint32_t id, const roam::Corners& corners) {
+void Roam::rank_leaf(std::uint32_t id, const Distortion& now) {
   std::vector<Node>& nodes = mesh_.nodes();
   fresh_.push_back(id);
   deadlines_.remove(nodes, id);
-  const Distortion now = mesh_.splittable(nodes[id]) ? distortion(id, corners) : Distortion{};
   if (now.pixels == 0) return splits_.remove(nodes, id);
   const double ratio = now.pixels / options_.max_error;
   if (const std::uint16_t bucket = bucket_of(ratio); bucket != nodes[id].bucket) {
@@ -74,13 +78,13 @@ void Roam::rank_leaf(std::uint32_t id, const roam::Corners& corners) {
     splits_.push(nodes, id, bucket);
   }
   // From below the reference it must be looked at before it can have risen to it.
-  const double factor = ratio_from(reference_) / ratio;
-  put_off(nodes[id], now, factor > 1 ? factor : kBucketWidth);
+  const double share = ratio / ratio_from(reference_);
+  put_off(nodes[id], now, share < 1 ? share : kBucketShare);
 }
 
-// Until the error can have changed by a factor.
-void Roam::put_off(Node& node, const Distortion& now, double factor) {
-  const double slack = std::isfinite(now.pixels) ? (1 - 1 / factor) / now.rate : 0;
+// Until the error can have changed to or from a share of it.
+void Roam::put_off(Node& node, const Distortion& now, double share) {
+  const double slack = (1 - share) * now.scale;
   node.patience = {static_cast<float>(0.9999 * slack), static_cast<float>(1.0001 * now.reach)};
 }
 
@@ -121,7 +125,7 @@ void Roam::rank_diamond(std::uint32_t id) {
   merges_.push(mesh_.nodes(), id, bucket_of(ratio));
   fresh_.push_back(id);
   node.patience.slack = std::numeric_limits<float>::infinity();
-  if (now.pixels > 0) put_off(node, now, std::max(ratio / ratio_from(reference_), kBucketWidth));
+  if (now.pixels > 0) put_off(node, now, std::min(ratio_from(reference_) / ratio, kBucketShare));
 }
 
 // Most diamonds that a frame makes are split on in the same frame, so only what is left is looked at.

@@ -7,6 +7,7 @@ namespace terrabench {
 
 using roam::kNone;
 using roam::Node;
+using roam::Spot;
 
 void Roam::settle() {
   const auto full = [&](std::size_t more) {
@@ -107,8 +108,12 @@ void Roam::split_diamond(std::uint32_t id) {
   mesh_.split(id);
   ++changes_;
   quiet_.resize(nodes.size());
-  for (const std::uint32_t half : both) {
-    if (half != kNone) add_children(half);
+  const auto [at_apex, at_left, at_right] = mesh_.corners(nodes[id]).at;
+  const Spot middle = camera_.spot(mesh_.apex(nodes[nodes[id].child]));
+  const Spot left = camera_.spot(at_left), right = camera_.spot(at_right);
+  add_children(id, camera_.spot(at_apex), left, right, middle);
+  if (const std::uint32_t base = both[1]; base != kNone) {
+    add_children(base, camera_.spot(mesh_.apex(nodes[base])), right, left, middle);
   }
   const std::uint32_t name = diamond(id);
   if (mergeable(name)) {
@@ -136,15 +141,17 @@ void Roam::split_diamond(std::uint32_t id) {
   if (on_edge) requeue_diamond(name);
 }
 
-void Roam::add_children(std::uint32_t id) {
+// Corners of the parent, and the middle of its hypotenuse.
+void Roam::add_children(std::uint32_t id, const Spot& apex, const Spot& left, const Spot& right,
+                        const Spot& middle) {
   const Node& parent = mesh_.nodes()[id];
-  const std::array<roam::Corners, 2> corners = mesh_.corners_of_children(parent, mesh_.corners(parent));
-  for (std::uint32_t k = 0; k < 2; ++k) {
-    const std::uint32_t child = parent.child + k;
-    see(child, parent.sight, corners[k]);
+  const auto add = [&](std::uint32_t child, const Spot& a, const Spot& b) {
+    see(child, parent.sight, {{middle.at, a.at, b.at}});
     disturb_ancestors(child);
-    rank_leaf(child, corners[k]);
-  }
+    rank_leaf(child, distortion(mesh_.nodes()[child], middle, a, b));
+  };
+  add(parent.child, apex, left);
+  add(parent.child + 1, right, apex);
 }
 
 void Roam::merge(std::uint32_t id) {
@@ -173,7 +180,7 @@ void Roam::merge_diamond(std::uint32_t id) {
   ++changes_;
   for (const std::uint32_t half : both) {
     if (half == kNone) continue;
-    rank_leaf(half, mesh_.corners(mesh_.nodes()[half]));
+    rank_leaf(half, distortion(half, mesh_.corners(mesh_.nodes()[half])));
     requeue_diamond(mesh_.nodes()[half].parent);
   }
 }

@@ -111,8 +111,7 @@ void Roam::look(std::uint32_t id, Sight parent, bool parent_changed) {
   const Sight before = node.sight;
   see(id, parent, mesh_.corners(node));
   const Sight now = node.sight;
-  // Wholly inside or outside, all below is so too.
-  if (now == before && (now == roam::kAllInside || now == roam::kOutside)) return;
+  if (now == before && roam::inherited(now)) return;
   const bool turned_up = (now & roam::kOutside) != (before & roam::kOutside);
   if (turned_up) due_.push_back(id);
   if (node.leaf()) return;
@@ -125,7 +124,7 @@ void Roam::look(std::uint32_t id, Sight parent, bool parent_changed) {
 
 void Roam::see(std::uint32_t id, Sight parent, const roam::Corners& corners) {
   Node& node = mesh_.nodes()[id];
-  if (parent == roam::kAllInside || (parent & roam::kOutside) != 0) {
+  if (roam::inherited(parent)) {
     node.sight = parent;
     quiet_[id] = {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
     return;

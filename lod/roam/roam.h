@@ -58,12 +58,14 @@ class Roam : public Lod {
   void see(std::uint32_t id, roam::Sight parent, const roam::Corners& corners);
   void reconsider(std::uint32_t id);
   void reconsider_all();
-  void rank_leaf(std::uint32_t id, const roam::Corners&);
+  void rank_leaf(std::uint32_t id, const roam::Distortion&);
   void rank_diamond(std::uint32_t id);
   void rank_pending();
-  void put_off(roam::Node&, const roam::Distortion&, double factor);
+  void put_off(roam::Node&, const roam::Distortion&, double share);
   void place_fresh();
   void take_off(std::uint32_t id);
+  roam::Distortion distortion(const roam::Node&, const roam::Spot&, const roam::Spot&,
+                              const roam::Spot&) const;
   roam::Distortion distortion(std::uint32_t id, const roam::Corners&) const;
 
   // The two halves of a diamond, the second kNone on the border.
@@ -75,7 +77,8 @@ class Roam : public Lod {
   void show(std::uint32_t id);
   void split(std::uint32_t id);
   void split_diamond(std::uint32_t id);
-  void add_children(std::uint32_t id);
+  void add_children(std::uint32_t id, const roam::Spot& apex, const roam::Spot& left, const roam::Spot& right,
+                    const roam::Spot& middle);
   void merge(std::uint32_t id);
   void merge_diamond(std::uint32_t id);
   std::size_t cost_of_split(std::uint32_t id) const;
