@@ -25,6 +25,8 @@ class Mesh {
   const std::vector<Node>& nodes() const { return nodes_; }
   std::uint32_t roots() const { return 2U * static_cast<std::uint32_t>(lattice_.roots_x * lattice_.roots_z); }
   std::size_t leaves() const { return leaves_; }
+  // As many as the pool has room for.
+  std::size_t room() const { return leaves_ + free_pairs(); }
   const Lattice& lattice() const { return lattice_; }
   const GroundGrid& grid() const { return grid_; }
 

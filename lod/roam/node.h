@@ -19,8 +19,8 @@ struct Links {
   std::uint32_t before = kNone, after = kNone;
 };
 
-// How far the camera may move before a priority must be looked at again, infinite when that does not depend
-// on its motion, and how far from the eye the wedgie may lie now. Metres.
+// How far the camera may move before a priority must be looked at again, and how far from the eye the wedgie
+// may lie now. Metres.
 struct Patience {
   float slack, reach;
 };
@@ -44,7 +44,7 @@ struct alignas(64) Node {
   Links queue;                   // among leaves to split, or among diamonds to merge
   union {
     Links wait{};       // among those whose priority is looked at again at the same time
-    Patience patience;  // of one that has just been ranked
+    Patience patience;  // of a leaf that has just been ranked
   };
   std::uint32_t slot = kNone;  // in the draw list
   std::uint16_t bucket = kNoList, due = kNoList;

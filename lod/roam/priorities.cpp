@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include "lod/roam/roam.h"
 
@@ -11,6 +10,7 @@ namespace terrabench {
 using roam::Distortion;
 using roam::kNone;
 using roam::Node;
+using roam::Patience;
 using roam::Spot;
 
 namespace {
@@ -79,13 +79,12 @@ void Roam::rank_leaf(std::uint32_t id, const Distortion& now) {
   }
   // From below the reference it must be looked at before it can have risen to it.
   const double share = ratio / ratio_from(reference_);
-  put_off(nodes[id], now, share < 1 ? share : kBucketShare);
+  nodes[id].patience = patience(now, share < 1 ? share : kBucketShare);
 }
 
 // Until the error can have changed to or from a share of it.
-void Roam::put_off(Node& node, const Distortion& now, double share) {
-  const double slack = (1 - share) * now.scale;
-  node.patience = {static_cast<float>(0.9999 * slack), static_cast<float>(1.0001 * now.reach)};
+Patience Roam::patience(const Distortion& now, double share) {
+  return {static_cast<float>(0.9999 * (1 - share) * now.scale), static_cast<float>(1.0001 * now.reach)};
 }
 
 // Most triangles that a frame makes are split on in the same frame, so only what is left at its end is drawn
@@ -95,11 +94,10 @@ void Roam::place_fresh() {
   for (std::size_t k = fresh_.size(); k-- > 0;) {
     const std::uint32_t id = fresh_[k];
     const Node& node = nodes[id];
-    if (!node.in_use) continue;
-    if (node.leaf()) show(id);
+    if (!node.in_use || !node.leaf()) continue;
+    show(id);
     if (node.bucket == roam::kNoList || node.due != roam::kNoList) continue;
-    if (std::isinf(node.patience.slack)) continue;
-    deadlines_.put_off(nodes, id, node.patience.slack, node.patience.reach);
+    deadlines_.put_off(nodes, id, node.patience);
   }
   fresh_.clear();
 }
@@ -121,20 +119,18 @@ void Roam::rank_diamond(std::uint32_t id) {
     }
   }
   const double ratio = now.pixels / options_.max_error;
-  Node& node = mesh_.nodes()[id];
   merges_.push(mesh_.nodes(), id, bucket_of(ratio));
-  fresh_.push_back(id);
-  node.patience.slack = std::numeric_limits<float>::infinity();
-  if (now.pixels > 0) put_off(node, now, std::min(ratio_from(reference_) / ratio, kBucketShare));
+  if (now.pixels == 0) return;  // until its sight changes
+  deadlines_.put_off(mesh_.nodes(), id,
+                     patience(now, std::min(ratio_from(reference_) / ratio, kBucketShare)));
 }
 
-// Most diamonds that a frame makes are split on in the same frame, so only what is left is looked at.
+// Most diamonds that a frame makes are split on in the same frame, so they are queued when it comes to
+// merging only.
 void Roam::rank_pending() {
   for (const std::uint32_t id : pending_) {
     const Node& node = mesh_.nodes()[id];
-    if (node.in_use && !node.leaf() && node.bucket != roam::kNoList) {
-      requeue_diamond(id);
-    }
+    if (node.in_use && !node.leaf()) requeue_diamond(id);
   }
   pending_.clear();
 }

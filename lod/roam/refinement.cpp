@@ -20,6 +20,7 @@ void Roam::settle() {
   for (std::size_t step = 1;; ++step) {
     constexpr std::size_t kStepsPerLookAtTheClock = 32;
     if (step % kStepsPerLookAtTheClock == 0 && out_of_time()) return;
+    if (full(0)) rank_pending();
     const int lowest = merges_.lowest(), highest = splits_.highest();
     if (lowest >= 0 && (lowest < kAsked || full(0))) {
       merge(merges_.first(lowest));
@@ -33,6 +34,8 @@ void Roam::settle() {
       quiet_.resize(mesh_.nodes().size());
       fetch_ahead(id);
       split(id);
+    } else if (!pending_.empty()) {
+      rank_pending();
     } else if (lowest >= 0 && lowest < highest && swaps++ < most_swaps) {
       merge(merges_.first(lowest));
     } else {
@@ -97,11 +100,8 @@ void Roam::split(std::uint32_t id) {
 void Roam::split_diamond(std::uint32_t id) {
   std::vector<Node>& nodes = mesh_.nodes();
   const std::array<std::uint32_t, 2> both = halves(id);
-  std::uint16_t bucket = 0;
   for (const std::uint32_t half : both) {
     if (half == kNone) continue;
-    mesh_.prefetch_split(nodes[half]);
-    if (nodes[half].bucket != roam::kNoList) bucket = std::max(bucket, nodes[half].bucket);
     take_off(half);
     drawn_.remove(nodes, half);
   }
@@ -116,10 +116,7 @@ void Roam::split_diamond(std::uint32_t id) {
     add_children(base, camera_.spot(mesh_.apex(nodes[base])), right, left, middle);
   }
   const std::uint32_t name = diamond(id);
-  if (mergeable(name)) {
-    merges_.push(nodes, name, bucket);
-    pending_.push_back(name);
-  }
+  pending_.push_back(name);
   for (const std::uint32_t half : both) {
     if (half == kNone) continue;
     // Its parent's diamond can no longer merge, unless it is one that does not count. When its sibling has

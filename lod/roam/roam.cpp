@@ -46,8 +46,12 @@ Roam::Roam(const Heightfield& ground, const RoamOptions& options, Progress& prog
     : mesh_(grid_of(ground), options.triangles, progress),
       options_(options),
       extent_(extent_of(mesh_.grid())),
+      drawn_(mesh_.room()),
+      fresh_(2 * mesh_.room()),
       quiet_(mesh_.nodes().size()),
-      batches_(1) {}
+      batches_(1) {
+  fresh_.clear();
+}
 
 void Roam::tune(double max_error) {
   options_.max_error = setting(knob(), max_error);

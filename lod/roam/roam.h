@@ -61,7 +61,7 @@ class Roam : public Lod {
   void rank_leaf(std::uint32_t id, const roam::Distortion&);
   void rank_diamond(std::uint32_t id);
   void rank_pending();
-  void put_off(roam::Node&, const roam::Distortion&, double share);
+  static roam::Patience patience(const roam::Distortion&, double share);
   void place_fresh();
   void take_off(std::uint32_t id);
   roam::Distortion distortion(const roam::Node&, const roam::Spot&, const roam::Spot&,
@@ -95,8 +95,8 @@ class Roam : public Lod {
   roam::Deadlines deadlines_;
   roam::DrawList drawn_;
   std::vector<std::uint32_t> due_;      // whose priority must be looked at
-  std::vector<std::uint32_t> pending_;  // diamonds in the merge queue by what their halves had as leaves
-  std::vector<std::uint32_t> fresh_;    // ranked in this frame
+  std::vector<std::uint32_t> pending_;  // diamonds of this frame that are not in the merge queue yet
+  std::vector<std::uint32_t> fresh_;    // leaves ranked in this frame
   // For each node, the journey up to which no sight in its subtree changes.
   struct Quiet {
     float moved, turned;
