@@ -91,7 +91,9 @@ Patience Roam::patience(const Distortion& now, double share) {
 // and made to wait.
 void Roam::place_fresh() {
   std::vector<Node>& nodes = mesh_.nodes();
+  constexpr std::size_t kAhead = 16;
   for (std::size_t k = fresh_.size(); k-- > 0;) {
+    if (k >= kAhead) __builtin_prefetch(&nodes[fresh_[k - kAhead]]);
     const std::uint32_t id = fresh_[k];
     const Node& node = nodes[id];
     if (!node.in_use || !node.leaf()) continue;
