@@ -68,8 +68,12 @@ class Mesh {
     return {{corner(apex), corner(left), corner(right)}};
   }
   glm::dvec3 apex(const Node& node) const { return corner({node.u, node.v}); }
-  // Has the memory fetched that splitting the triangle will read.
+  // Has the memory fetched that splitting the triangle will read, but for other nodes.
   void prefetch_split(const Node&) const;
+  // ... and a node, if it is one.
+  void prefetch(std::uint32_t id) const {
+    if (id != kNone) __builtin_prefetch(&nodes_[id]);
+  }
   // The share of its size by which descendants may stick out of a triangle, where lattice lines share
   // samples.
   double spill(const Node&) const;

@@ -51,6 +51,7 @@ struct alignas(64) Node {
   std::uint8_t level = 0, heading = 0;
   Sight sight = kOutside;  // nothing is drawn of it yet
   bool in_use = true;
+  std::uint8_t split_children = 0;  // those that stand on edge do not count
 
   bool leaf() const { return child == kNone; }
   bool visible() const { return (sight & kOutside) == 0; }

@@ -18,6 +18,9 @@ namespace {
 // Where the order counts and no threshold is near, a change by a bucket's width is worth a look.
 constexpr double kBucketShare = 1 / (1 + 1.0 / 16);
 
+// As many nodes ahead a list's are fetched.
+constexpr std::size_t kAhead = 16;
+
 }  // namespace
 
 std::uint16_t Roam::bucket_of(double ratio) {
@@ -91,9 +94,8 @@ Patience Roam::patience(const Distortion& now, double share) {
 // and made to wait.
 void Roam::place_fresh() {
   std::vector<Node>& nodes = mesh_.nodes();
-  constexpr std::size_t kAhead = 16;
   for (std::size_t k = fresh_.size(); k-- > 0;) {
-    if (k >= kAhead) __builtin_prefetch(&nodes[fresh_[k - kAhead]]);
+    if (k >= kAhead) mesh_.prefetch(fresh_[k - kAhead]);
     const std::uint32_t id = fresh_[k];
     const Node& node = nodes[id];
     if (!node.in_use || !node.leaf()) continue;
@@ -130,8 +132,12 @@ void Roam::rank_diamond(std::uint32_t id) {
 // Most diamonds that a frame makes are split on in the same frame, so they are queued when it comes to
 // merging only.
 void Roam::rank_pending() {
-  for (const std::uint32_t id : pending_) {
-    const Node& node = mesh_.nodes()[id];
+  const std::vector<Node>& nodes = mesh_.nodes();
+  for (std::size_t k = 0; k < pending_.size(); ++k) {
+    if (k + 2 * kAhead < pending_.size()) mesh_.prefetch(pending_[k + 2 * kAhead]);
+    if (k + kAhead < pending_.size()) mesh_.prefetch(nodes[pending_[k + kAhead]].base);
+    const std::uint32_t id = pending_[k];
+    const Node& node = nodes[id];
     if (node.in_use && !node.leaf()) requeue_diamond(id);
   }
   pending_.clear();
@@ -143,16 +149,11 @@ std::uint32_t Roam::diamond(std::uint32_t id) const {
   return base == kNone ? id : std::min(id, base);
 }
 
-// Children that stand on edge are split as long as they exist, so they do not count as such.
 bool Roam::mergeable(std::uint32_t id) const {
   for (const std::uint32_t half : halves(id)) {
     if (half == kNone) continue;
     const Node& node = mesh_.nodes()[half];
-    if (mesh_.on_edge(node)) return false;
-    for (const std::uint32_t child : {node.child, node.child + 1}) {
-      const Node& part = mesh_.nodes()[child];
-      if (!part.leaf() && !mesh_.on_edge(part)) return false;
-    }
+    if (node.split_children > 0 || mesh_.on_edge(node)) return false;
   }
   return true;
 }

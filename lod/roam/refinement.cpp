@@ -66,16 +66,21 @@ bool Roam::out_of_time() const {
 }
 
 // Splits wait for memory more than for anything else: what those after this one in the queue will read is
-// asked for now, in two steps, since the second needs what the first brings.
+// asked for now, step by step, since each step needs what the one before brings.
 void Roam::fetch_ahead(std::uint32_t id) const {
   const std::vector<Node>& nodes = mesh_.nodes();
-  const std::uint32_t next = nodes[id].queue.after;
-  if (next == kNone) return;
-  const Node& node = nodes[next];
-  for (const std::uint32_t other : {node.queue.after, node.left, node.right, node.base, node.parent}) {
-    if (other != kNone) __builtin_prefetch(&nodes[other]);
+  const auto after = [&](std::uint32_t leaf) { return leaf == kNone ? kNone : nodes[leaf].queue.after; };
+  const std::uint32_t first = after(id), second = after(first), third = after(second);
+  mesh_.prefetch(third);
+  if (second != kNone) {
+    const Node& node = nodes[second];
+    for (const std::uint32_t other : {node.left, node.right, node.base, node.parent}) mesh_.prefetch(other);
+    mesh_.prefetch_split(node);
   }
-  mesh_.prefetch_split(node);
+  if (first != kNone && nodes[first].base != kNone) {
+    const Node& base = nodes[nodes[first].base];
+    for (const std::uint32_t other : {base.left, base.right, base.parent}) mesh_.prefetch(other);
+  }
 }
 
 // Triangles that a split adds, or more: those of its base neighbours that must be split first included.
@@ -123,7 +128,7 @@ void Roam::split_diamond(std::uint32_t id) {
     // been split the diamond could not before.
     const std::uint32_t parent = nodes[half].parent;
     if (parent == kNone || mesh_.on_edge(nodes[half])) continue;
-    if (nodes[half ^ 1U].leaf() || mesh_.on_edge(nodes[half ^ 1U])) take_off(diamond(parent));
+    if (++nodes[parent].split_children == 1) take_off(diamond(parent));
   }
   bool on_edge = false;
   for (const std::uint32_t half : both) {
@@ -177,8 +182,11 @@ void Roam::merge_diamond(std::uint32_t id) {
   ++changes_;
   for (const std::uint32_t half : both) {
     if (half == kNone) continue;
-    rank_leaf(half, distortion(half, mesh_.corners(mesh_.nodes()[half])));
-    requeue_diamond(mesh_.nodes()[half].parent);
+    const Node& node = mesh_.nodes()[half];
+    rank_leaf(half, distortion(half, mesh_.corners(node)));
+    if (node.parent == kNone) continue;
+    if (!mesh_.on_edge(node)) --mesh_.nodes()[node.parent].split_children;
+    requeue_diamond(node.parent);
   }
 }
 
