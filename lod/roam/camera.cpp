@@ -11,7 +11,8 @@ Camera::Camera(const View& view, double extent) : eye_(view.eye) {
   right_ = glm::normalize(glm::cross(forward_, glm::normalize(glm::dvec3(view.up))));
   up_ = glm::cross(right_, forward_);
   const double y = std::tan(0.5 * view.vertical_fov), x = y * view.width / view.height;
-  lens_ = {x, y, view.near, view.far, 0.5 * view.height / y, extent};
+  lens_ = {x, y, view.near, 0.5 * view.height / y, extent};
+  far_ = view.far;
   // Float matrices put a point on another side of a plane than we do when it is about this near to it.
   const double rounding = 1e-6 * (extent + glm::length(eye_));
   const auto plane = [&](const glm::dvec3& normal, double offset) {
@@ -36,7 +37,7 @@ Distortion Camera::distortion(const Spot& a, const Spot& b, const Spot& c, doubl
   if (!(depth > near())) return {std::numeric_limits<double>::infinity(), 0, reach};
   const double up = std::sqrt(std::max(std::max(a.up, 1e-12), std::max(b.up, c.up)));
   // The rate of change a metre is that of S, (1 + up_rate) / depth, or that of N / R, 1 / up + 2 / depth.
-  return {lens_[4] * thickness / depth * std::min(largest_up_, up / depth),
+  return {lens_[3] * thickness / depth * std::min(largest_up_, up / depth),
           std::min(depth / (1 + up_rate_), up * depth / (depth + 2 * up)), reach};
 }
 

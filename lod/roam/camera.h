@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -72,7 +73,10 @@ class Camera {
 
   // From another camera to this one. The lens must be the same.
   Motion since(const Camera& before) const;
+  // The far plane may differ: distortions do not depend on it, and for sights it moves as a camera does, by
+  // so many metres.
   bool same_lens(const Camera& other) const { return lens_ == other.lens_; }
+  double far_moved(const Camera& before) const { return std::abs(far_ - before.far_); }
   double near() const { return lens_[2]; }
 
  private:
@@ -81,8 +85,8 @@ class Camera {
     double offset;
   };
   glm::dvec3 eye_{0}, right_{0}, up_{0}, forward_{0};
-  std::array<double, 6>
-      lens_{};  // half width and height at depth 1, near, far, focal length in pixels, extent
+  std::array<double, 5> lens_{};  // half width and height at depth 1, near, focal length in pixels, extent
+  double far_ = 0;
   std::array<Plane, 6> planes_{};
   double largest_up_ = 0;  // S: what the view sees of "up" where on the screen it sees most of it
   double up_rate_ = 0;     // relative change of S a radian, at most

@@ -66,9 +66,10 @@ const Frame& Roam::update(const View& view) {
   camera_ = roam::Camera(view, extent_);
   const bool afresh = first_ || retuned_ || !camera_.same_lens(before);
   const roam::Motion motion = afresh ? roam::Motion{} : camera_.since(before);
+  const double far_moved = camera_.far_moved(before);
   due_.clear();
-  if (afresh || !motion.none()) {
-    journey_ = {journey_.moved + motion.moved, journey_.turned + motion.turned};
+  if (afresh || !motion.none() || far_moved > 0) {
+    journey_ = {journey_.moved + motion.moved + far_moved, journey_.turned + motion.turned};
     // Before floats cannot tell small motions apart.
     const bool anew = afresh || !(journey_.moved < 1e3 && journey_.turned < 10);
     if (anew) journey_ = {};
