@@ -174,7 +174,7 @@ void Mesh::relink(std::uint32_t neighbour, std::uint32_t from, std::uint32_t to)
 
 void Mesh::prefetch_split(const Node& node) const {
   const Place m = middle(node);
-  for (const Place p : places(node)) __builtin_prefetch(&grid_.heights[vertex(p)]);
+  prefetch_corners(node);
   __builtin_prefetch(&grid_.heights[vertex(m)]);
   if (node.level + 1 >= lattice_.finest_level()) return;
   const int reach = middle_steps(lattice_.side_log, node.level + 1);

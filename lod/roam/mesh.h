@@ -70,7 +70,11 @@ class Mesh {
   glm::dvec3 apex(const Node& node) const { return corner({node.u, node.v}); }
   // Has the memory fetched that splitting the triangle will read, but for other nodes.
   void prefetch_split(const Node&) const;
-  // ... and a node, if it is one.
+  // The heights of its corners.
+  void prefetch_corners(const Node& node) const {
+    for (const Place p : places(node)) __builtin_prefetch(&grid_.heights[vertex(p)]);
+  }
+  // A node, if it is one.
   void prefetch(std::uint32_t id) const {
     if (id != kNone) __builtin_prefetch(&nodes_[id]);
   }

@@ -62,6 +62,15 @@ void Roam::reconsider(std::uint32_t id) {
   }
 }
 
+void Roam::reconsider_due() {
+  const std::vector<Node>& nodes = mesh_.nodes();
+  for (std::size_t k = 0; k < due_.size(); ++k) {
+    if (k + 2 * kAhead < due_.size()) mesh_.prefetch(due_[k + 2 * kAhead]);
+    if (k + kAhead < due_.size()) mesh_.prefetch_corners(nodes[due_[k + kAhead]]);
+    reconsider(due_[k]);
+  }
+}
+
 void Roam::reconsider_all() {
   const std::size_t made = first_ ? mesh_.roots() : mesh_.nodes().size();
   for (std::uint32_t id = 0; id < made; ++id) {

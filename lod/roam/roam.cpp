@@ -80,7 +80,7 @@ const Frame& Roam::update(const View& view) {
     reconsider_all();
   } else {
     deadlines_.advance(mesh_.nodes(), motion, due_);
-    for (const std::uint32_t id : due_) reconsider(id);
+    reconsider_due();
   }
   do {
     settle();

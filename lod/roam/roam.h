@@ -57,6 +57,7 @@ class Roam : public Lod {
   void look(std::uint32_t id, roam::Sight parent, bool parent_changed);
   void see(std::uint32_t id, roam::Sight parent, const roam::Corners& corners);
   void reconsider(std::uint32_t id);
+  void reconsider_due();
   void reconsider_all();
   void rank_leaf(std::uint32_t id, const roam::Distortion&);
   void rank_diamond(std::uint32_t id);
