@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <limits>
 
 namespace terrabench::roam {
@@ -12,7 +11,8 @@ Camera::Camera(const View& view, double extent) : eye_(view.eye) {
   right_ = glm::normalize(glm::cross(forward_, glm::normalize(glm::dvec3(view.up))));
   up_ = glm::cross(right_, forward_);
   const double y = std::tan(0.5 * view.vertical_fov), x = y * view.width / view.height;
-  lens_ = {x, y, view.near, view.far, 0.5 * view.height / y, extent};
+  lens_ = {x, y, view.near, 0.5 * view.height / y, extent};
+  far_ = view.far;
   // Float matrices put a point on another side of a plane than we do when it is about this near to it.
   const double rounding = 1e-6 * (extent + glm::length(eye_));
   const auto plane = [&](const glm::dvec3& normal, double offset) {
@@ -30,21 +30,15 @@ Camera::Camera(const View& view, double extent) : eye_(view.eye) {
   up_rate_ = std::sqrt(1 + x * x + y * y) / largest_up_;
 }
 
-Distortion Camera::distortion(const Corners& corners, double thickness) const {
-  double nearest = std::numeric_limits<double>::infinity(), most_up = 0, farthest = 0;
-  for (const glm::dvec3& corner : corners.at) {
-    const glm::dvec3 d = corner - eye_;
-    const double flat = d.x * d.x + d.z * d.z, aside = d.z * forward_.x - d.x * forward_.z;
-    nearest = std::min(nearest, glm::dot(forward_, d));
-    most_up = std::max(most_up, flat - aside * aside);  // N²: that of up × d, less its part along the view
-    farthest = std::max(farthest, flat + d.y * d.y);
-  }
+Distortion Camera::distortion(const Spot& a, const Spot& b, const Spot& c, double thickness) const {
+  const double nearest = std::min(a.depth, std::min(b.depth, c.depth));
   const double depth = nearest - thickness * std::abs(forward_.y);
-  const double reach = std::sqrt(farthest) + thickness;
+  const double reach = std::sqrt(std::max(a.away, std::max(b.away, c.away))) + thickness;
   if (!(depth > near())) return {std::numeric_limits<double>::infinity(), 0, reach};
-  most_up = std::sqrt(std::max(most_up, 1e-12));
-  return {lens_[4] * thickness / depth * std::min(largest_up_, most_up / depth),
-          std::max((1 + up_rate_) / depth, 1 / most_up + 2 / depth), reach};
+  const double up = std::sqrt(std::max(std::max(a.up, 1e-12), std::max(b.up, c.up)));
+  // The rate of change a metre is that of S, (1 + up_rate) / depth, or that of N / R, 1 / up + 2 / depth.
+  return {lens_[3] * thickness / depth * std::min(largest_up_, up / depth),
+          std::min(depth / (1 + up_rate_), up * depth / (depth + 2 * up)), reach};
 }
 
 // A corner's distance from a plane changes by moved + ρ·turned at most, and so does a wedgie's, ρ being the

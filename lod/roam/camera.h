@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include "lod/roam/node.h"
@@ -15,11 +17,19 @@ struct Corners {
   std::array<glm::dvec3, 3> at;
 };
 
-// An upper bound of the screen-space error over a triangle, and its speed limit: after motion m (see Motion)
-// it lies within a factor g of what it was as long as m ≤ (1 - 1/g) / rate.
+// A corner, and what the camera makes of it.
+struct Spot {
+  glm::dvec3 at;
+  double depth;  // along the view
+  double up;     // N² (see Camera::distortion): that of up × d, less its part along the view
+  double away;   // squared
+};
+
+// An upper bound of the screen-space error over a triangle, and how long it holds: after motion m (see
+// Motion) it lies within a factor g of what it was as long as m ≤ (1 - 1/g) · scale.
 struct Distortion {
   double pixels = 0;
-  double rate = 0;   // 1 / metres
+  double scale = 0;  // metres
   double reach = 0;  // metres from the eye to the wedgie's farthest point
 };
 
@@ -50,7 +60,12 @@ class Camera {
   // near plane. Unlike the paper's largest value at the corners this holds inside the triangle too, and it
   // bounds the distance of the drawn point from where it should be rather than the whole projected wedgie,
   // twice that.
-  Distortion distortion(const Corners&, double thickness) const;
+  Distortion distortion(const Spot& a, const Spot& b, const Spot& c, double thickness) const;
+  Spot spot(const glm::dvec3& at) const {
+    const glm::dvec3 d = at - eye_;
+    const double flat = d.x * d.x + d.z * d.z, aside = d.z * forward_.x - d.x * forward_.z;
+    return {at, glm::dot(forward_, d), flat - aside * aside, flat + d.y * d.y};
+  }
 
   // The sight of a wedgie whose parent is neither outside nor inside of all planes. `spill` is the share of
   // its size by which descendants may stick out of the triangle.
@@ -58,7 +73,10 @@ class Camera {
 
   // From another camera to this one. The lens must be the same.
   Motion since(const Camera& before) const;
+  // The far plane may differ: distortions do not depend on it, and for sights it moves as a camera does, by
+  // so many metres.
   bool same_lens(const Camera& other) const { return lens_ == other.lens_; }
+  double far_moved(const Camera& before) const { return std::abs(far_ - before.far_); }
   double near() const { return lens_[2]; }
 
  private:
@@ -67,8 +85,8 @@ class Camera {
     double offset;
   };
   glm::dvec3 eye_{0}, right_{0}, up_{0}, forward_{0};
-  std::array<double, 6>
-      lens_{};  // half width and height at depth 1, near, far, focal length in pixels, extent
+  std::array<double, 5> lens_{};  // half width and height at depth 1, near, focal length in pixels, extent
+  double far_ = 0;
   std::array<Plane, 6> planes_{};
   double largest_up_ = 0;  // S: what the view sees of "up" where on the screen it sees most of it
   double up_rate_ = 0;     // relative change of S a radian, at most

@@ -10,9 +10,10 @@ double distance_of(int clock) { return static_cast<double>(std::uint64_t{2} << c
 
 }  // namespace
 
-void Deadlines::put_off(std::vector<Node>& nodes, std::uint32_t id, double slack, double reach) {
+void Deadlines::put_off(std::vector<Node>& nodes, std::uint32_t id, Patience patience) {
+  double slack = patience.slack;
   // The first clock whose distance is over reach · 4/3: the exponent of a double, by its bits.
-  const auto exponent = static_cast<int>(std::bit_cast<std::uint64_t>(reach * 4 / 3) >> 52) - 1023;
+  const auto exponent = static_cast<int>(std::bit_cast<std::uint64_t>(patience.reach * 4.0 / 3) >> 52) - 1023;
   int k = std::max(exponent, 0);
   if (k >= kClocks) {
     k = kClocks - 1;

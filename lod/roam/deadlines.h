@@ -18,9 +18,8 @@ class Deadlines {
  public:
   Deadlines() : waiting_(kClocks * kSlots) {}
 
-  // Puts a node off until the camera's motion exceeds `slack` metres; it must not be waiting. `reach` bounds
-  // how far the parts of it that count lie from the eye now.
-  void put_off(std::vector<Node>& nodes, std::uint32_t id, double slack, double reach);
+  // The node must not be waiting.
+  void put_off(std::vector<Node>& nodes, std::uint32_t id, Patience);
   void remove(std::vector<Node>& nodes, std::uint32_t id) { waiting_.remove(nodes, id); }
   // Takes out and appends to `due` the nodes whose slack the motion may have used up, too early if not
   // exactly.

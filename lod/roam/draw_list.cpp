@@ -4,6 +4,12 @@
 
 namespace terrabench::roam {
 
+// The pages are touched too: to have them come at the first frame takes it longer than its splits.
+DrawList::DrawList(std::size_t expected) : indices_(3 * expected), owners_(expected) {
+  indices_.clear();
+  owners_.clear();
+}
+
 void DrawList::add(std::vector<Node>& nodes, std::uint32_t id, std::uint32_t a, std::uint32_t b,
                    std::uint32_t c) {
   auto slot = static_cast<std::uint32_t>(owners_.size());

@@ -16,6 +16,8 @@ namespace terrabench::roam {
 
 class DrawList {
  public:
+  // There is room for so many triangles from the start, and for more when they come.
+  explicit DrawList(std::size_t expected);
   void add(std::vector<Node>& nodes, std::uint32_t id, std::uint32_t a, std::uint32_t b, std::uint32_t c);
   void remove(std::vector<Node>& nodes, std::uint32_t id);
   // Closes the gaps and appends what changed since the last call.

@@ -64,13 +64,6 @@ void Mesh::bound(Node& node) const {
   node.thickness = wedgies_.thickness(m.u, m.v);
 }
 
-bool Mesh::on_edge(const Node& node) const {
-  if (lattice_.exact || node.level != lattice_.finest_level() - 1) return false;
-  const Step ahead = kSteps[node.heading];
-  return ahead.u != 0 ? lattice_.column[node.u] == lattice_.column[node.u + ahead.u]
-                      : lattice_.row[node.v] == lattice_.row[node.v + ahead.v];
-}
-
 // Every split takes a pair for each leaf that it adds.
 void Mesh::make_room(std::size_t leaves) {
   if (free_pairs() < leaves) add_pairs(std::max(nodes_.size() / 2, leaves - free_pairs()));
@@ -181,6 +174,7 @@ void Mesh::relink(std::uint32_t neighbour, std::uint32_t from, std::uint32_t to)
 
 void Mesh::prefetch_split(const Node& node) const {
   const Place m = middle(node);
+  prefetch_corners(node);
   __builtin_prefetch(&grid_.heights[vertex(m)]);
   if (node.level + 1 >= lattice_.finest_level()) return;
   const int reach = middle_steps(lattice_.side_log, node.level + 1);

@@ -25,6 +25,8 @@ class Mesh {
   const std::vector<Node>& nodes() const { return nodes_; }
   std::uint32_t roots() const { return 2U * static_cast<std::uint32_t>(lattice_.roots_x * lattice_.roots_z); }
   std::size_t leaves() const { return leaves_; }
+  // As many as the pool has room for.
+  std::size_t room() const { return leaves_ + free_pairs(); }
   const Lattice& lattice() const { return lattice_; }
   const GroundGrid& grid() const { return grid_; }
 
@@ -37,7 +39,12 @@ class Mesh {
   // A triangle between two lattice lines over one line of samples, standing on edge: its apex lies on its
   // hypotenuse as the map shows it. It must be split as long as it exists, or that corner would be a
   // T-junction.
-  bool on_edge(const Node&) const;
+  bool on_edge(const Node& node) const {
+    if (lattice_.exact || node.level != lattice_.finest_level() - 1) return false;
+    const Step ahead = kSteps[node.heading];
+    return ahead.u != 0 ? lattice_.column[node.u] == lattice_.column[node.u + ahead.u]
+                        : lattice_.row[node.v] == lattice_.row[node.v + ahead.v];
+  }
   // Two corners are one sample: nothing to draw.
   static bool empty(const std::array<std::uint32_t, 3>& vertices) {
     return vertices[0] == vertices[1] || vertices[1] == vertices[2] || vertices[0] == vertices[2];
@@ -60,13 +67,17 @@ class Mesh {
     const auto [apex, left, right] = places(node);
     return {{corner(apex), corner(left), corner(right)}};
   }
-  // Those of both children of a triangle, from its own.
-  std::array<Corners, 2> corners_of_children(const Node& node, const Corners& own) const {
-    const glm::dvec3 apex = corner(middle(node));
-    return {{{{apex, own.at[0], own.at[1]}}, {{apex, own.at[2], own.at[0]}}}};
-  }
-  // Has the memory fetched that splitting the triangle will read.
+  glm::dvec3 apex(const Node& node) const { return corner({node.u, node.v}); }
+  // Has the memory fetched that splitting the triangle will read, but for other nodes.
   void prefetch_split(const Node&) const;
+  // The heights of its corners.
+  void prefetch_corners(const Node& node) const {
+    for (const Place p : places(node)) __builtin_prefetch(&grid_.heights[vertex(p)]);
+  }
+  // A node, if it is one.
+  void prefetch(std::uint32_t id) const {
+    if (id != kNone) __builtin_prefetch(&nodes_[id]);
+  }
   // The share of its size by which descendants may stick out of a triangle, where lattice lines share
   // samples.
   double spill(const Node&) const;

@@ -19,10 +19,18 @@ struct Links {
   std::uint32_t before = kNone, after = kNone;
 };
 
+// How far the camera may move before a priority must be looked at again, and how far from the eye the wedgie
+// may lie now. Metres.
+struct Patience {
+  float slack, reach;
+};
+
 // Which of the view's planes a triangle's wedgie lies wholly inside of, a bit each, or that it lies outside
 // of one.
 using Sight = std::uint8_t;
 inline constexpr Sight kAllInside = 0x3F, kOutside = 0x40;
+// All below a triangle that lies wholly inside or outside does so too.
+inline bool inherited(Sight parent) { return parent == kAllInside || (parent & kOutside) != 0; }
 
 // Corners: the apex at the right angle, then left and right of whoever looks from it along the heading (as
 // the map shows it, z down). Neighbours share the edges apex-left, apex-right and left-right (base). In a
@@ -34,12 +42,16 @@ struct alignas(64) Node {
   std::uint32_t child = kNone;   // the left one; the right one follows it
   std::uint32_t parent = kNone;  // or the next free pair
   Links queue;                   // among leaves to split, or among diamonds to merge
-  Links wait;                    // among those whose priority is looked at again at the same time
-  std::uint32_t slot = kNone;    // in the draw list
+  union {
+    Links wait{};       // among those whose priority is looked at again at the same time
+    Patience patience;  // of a leaf that has just been ranked
+  };
+  std::uint32_t slot = kNone;  // in the draw list
   std::uint16_t bucket = kNoList, due = kNoList;
   std::uint8_t level = 0, heading = 0;
   Sight sight = kOutside;  // nothing is drawn of it yet
   bool in_use = true;
+  std::uint8_t split_children = 0;  // those that stand on edge do not count
 
   bool leaf() const { return child == kNone; }
   bool visible() const { return (sight & kOutside) == 0; }

@@ -10,11 +10,16 @@ namespace terrabench {
 using roam::Distortion;
 using roam::kNone;
 using roam::Node;
+using roam::Patience;
+using roam::Spot;
 
 namespace {
 
 // Where the order counts and no threshold is near, a change by a bucket's width is worth a look.
-constexpr double kBucketWidth = 1 + 1.0 / 16;
+constexpr double kBucketShare = 1 / (1 + 1.0 / 16);
+
+// As many nodes ahead a list's are fetched.
+constexpr std::size_t kAhead = 16;
 
 }  // namespace
 
@@ -29,10 +34,14 @@ double Roam::ratio_from(int bucket) {
   return std::bit_cast<float>(static_cast<std::uint32_t>(bucket + kFirst) << 19);
 }
 
-Distortion Roam::distortion(std::uint32_t id, const roam::Corners& corners) const {
-  const Node& node = mesh_.nodes()[id];
+Distortion Roam::distortion(const Node& node, const Spot& a, const Spot& b, const Spot& c) const {
   if (!node.visible() || node.thickness == 0) return {};
-  return camera_.distortion(corners, node.thickness);
+  return camera_.distortion(a, b, c, node.thickness);
+}
+
+Distortion Roam::distortion(std::uint32_t id, const roam::Corners& corners) const {
+  const auto [a, b, c] = corners.at;
+  return distortion(mesh_.nodes()[id], camera_.spot(a), camera_.spot(b), camera_.spot(c));
 }
 
 void Roam::take_off(std::uint32_t id) {
@@ -43,13 +52,22 @@ void Roam::take_off(std::uint32_t id) {
 void Roam::reconsider(std::uint32_t id) {
   const Node& node = mesh_.nodes()[id];
   if (node.leaf()) {
-    rank_leaf(id, mesh_.corners(node));
+    rank_leaf(id, distortion(id, mesh_.corners(node)));
     return;
   }
   requeue_diamond(id);
   // The other half of one that stands on edge counts for whoever's merge takes it along.
   if (node.base != kNone && mesh_.on_edge(mesh_.nodes()[node.base])) {
     requeue_diamond(mesh_.nodes()[node.base].parent);
+  }
+}
+
+void Roam::reconsider_due() {
+  const std::vector<Node>& nodes = mesh_.nodes();
+  for (std::size_t k = 0; k < due_.size(); ++k) {
+    if (k + 2 * kAhead < due_.size()) mesh_.prefetch(due_[k + 2 * kAhead]);
+    if (k + kAhead < due_.size()) mesh_.prefetch_corners(nodes[due_[k + kAhead]]);
+    reconsider(due_[k]);
   }
 }
 
@@ -61,10 +79,10 @@ void Roam::reconsider_all() {
 }
 
 // A leaf that a split would gain nothing for is in no queue.
-void Roam::rank_leaf(std::uint32_t id, const roam::Corners& corners) {
+void Roam::rank_leaf(std::uint32_t id, const Distortion& now) {
   std::vector<Node>& nodes = mesh_.nodes();
+  fresh_.push_back(id);
   deadlines_.remove(nodes, id);
-  const Distortion now = mesh_.splittable(nodes[id]) ? distortion(id, corners) : Distortion{};
   if (now.pixels == 0) return splits_.remove(nodes, id);
   const double ratio = now.pixels / options_.max_error;
   if (const std::uint16_t bucket = bucket_of(ratio); bucket != nodes[id].bucket) {
@@ -72,23 +90,27 @@ void Roam::rank_leaf(std::uint32_t id, const roam::Corners& corners) {
     splits_.push(nodes, id, bucket);
   }
   // From below the reference it must be looked at before it can have risen to it.
-  const double factor = ratio_from(reference_) / ratio;
-  put_off(id, now, factor > 1 ? factor : kBucketWidth);
+  const double share = ratio / ratio_from(reference_);
+  nodes[id].patience = patience(now, share < 1 ? share : kBucketShare);
 }
 
-// Until the error can have changed by a factor. Most triangles that a frame makes are split on in the same
-// frame, so only what is left at its end is made to wait.
-void Roam::put_off(std::uint32_t id, const Distortion& now, double factor) {
-  const double slack = std::isfinite(now.pixels) ? (1 - 1 / factor) / now.rate : 0;
-  fresh_.push_back({id, static_cast<float>(0.9999 * slack), static_cast<float>(1.0001 * now.reach)});
+// Until the error can have changed to or from a share of it.
+Patience Roam::patience(const Distortion& now, double share) {
+  return {static_cast<float>(0.9999 * (1 - share) * now.scale), static_cast<float>(1.0001 * now.reach)};
 }
 
-// The last word on a node counts: an earlier one is of another node in its place or of other days.
-void Roam::start_waiting() {
+// Most triangles that a frame makes are split on in the same frame, so only what is left at its end is drawn
+// and made to wait.
+void Roam::place_fresh() {
+  std::vector<Node>& nodes = mesh_.nodes();
   for (std::size_t k = fresh_.size(); k-- > 0;) {
-    const Node& node = mesh_.nodes()[fresh_[k].id];
-    if (!node.in_use || node.bucket == roam::kNoList || node.due != roam::kNoList) continue;
-    deadlines_.put_off(mesh_.nodes(), fresh_[k].id, fresh_[k].slack, fresh_[k].reach);
+    if (k >= kAhead) mesh_.prefetch(fresh_[k - kAhead]);
+    const std::uint32_t id = fresh_[k];
+    const Node& node = nodes[id];
+    if (!node.in_use || !node.leaf()) continue;
+    show(id);
+    if (node.bucket == roam::kNoList || node.due != roam::kNoList) continue;
+    deadlines_.put_off(nodes, id, node.patience);
   }
   fresh_.clear();
 }
@@ -112,17 +134,20 @@ void Roam::rank_diamond(std::uint32_t id) {
   const double ratio = now.pixels / options_.max_error;
   merges_.push(mesh_.nodes(), id, bucket_of(ratio));
   if (now.pixels == 0) return;  // until its sight changes
-  const double factor = std::max(ratio / ratio_from(reference_), kBucketWidth);
-  put_off(id, now, factor);
+  deadlines_.put_off(mesh_.nodes(), id,
+                     patience(now, std::min(ratio_from(reference_) / ratio, kBucketShare)));
 }
 
-// Most diamonds that a frame makes are split on in the same frame, so only what is left is looked at.
+// Most diamonds that a frame makes are split on in the same frame, so they are queued when it comes to
+// merging only.
 void Roam::rank_pending() {
-  for (const std::uint32_t id : pending_) {
-    const Node& node = mesh_.nodes()[id];
-    if (node.in_use && !node.leaf() && node.bucket != roam::kNoList) {
-      requeue_diamond(id);
-    }
+  const std::vector<Node>& nodes = mesh_.nodes();
+  for (std::size_t k = 0; k < pending_.size(); ++k) {
+    if (k + 2 * kAhead < pending_.size()) mesh_.prefetch(pending_[k + 2 * kAhead]);
+    if (k + kAhead < pending_.size()) mesh_.prefetch(nodes[pending_[k + kAhead]].base);
+    const std::uint32_t id = pending_[k];
+    const Node& node = nodes[id];
+    if (node.in_use && !node.leaf()) requeue_diamond(id);
   }
   pending_.clear();
 }
@@ -133,16 +158,11 @@ std::uint32_t Roam::diamond(std::uint32_t id) const {
   return base == kNone ? id : std::min(id, base);
 }
 
-// Children that stand on edge are split as long as they exist, so they do not count as such.
 bool Roam::mergeable(std::uint32_t id) const {
   for (const std::uint32_t half : halves(id)) {
     if (half == kNone) continue;
     const Node& node = mesh_.nodes()[half];
-    if (mesh_.on_edge(node)) return false;
-    for (const std::uint32_t child : {node.child, node.child + 1}) {
-      const Node& part = mesh_.nodes()[child];
-      if (!part.leaf() && !mesh_.on_edge(part)) return false;
-    }
+    if (node.split_children > 0 || mesh_.on_edge(node)) return false;
   }
   return true;
 }

@@ -7,6 +7,7 @@ namespace terrabench {
 
 using roam::kNone;
 using roam::Node;
+using roam::Spot;
 
 void Roam::settle() {
   const auto full = [&](std::size_t more) {
@@ -19,6 +20,7 @@ void Roam::settle() {
   for (std::size_t step = 1;; ++step) {
     constexpr std::size_t kStepsPerLookAtTheClock = 32;
     if (step % kStepsPerLookAtTheClock == 0 && out_of_time()) return;
+    if (full(0)) rank_pending();
     const int lowest = merges_.lowest(), highest = splits_.highest();
     if (lowest >= 0 && (lowest < kAsked || full(0))) {
       merge(merges_.first(lowest));
@@ -32,6 +34,8 @@ void Roam::settle() {
       quiet_.resize(mesh_.nodes().size());
       fetch_ahead(id);
       split(id);
+    } else if (!pending_.empty()) {
+      rank_pending();
     } else if (lowest >= 0 && lowest < highest && swaps++ < most_swaps) {
       merge(merges_.first(lowest));
     } else {
@@ -62,16 +66,21 @@ bool Roam::out_of_time() const {
 }
 
 // Splits wait for memory more than for anything else: what those after this one in the queue will read is
-// asked for now, in two steps, since the second needs what the first brings.
+// asked for now, step by step, since each step needs what the one before brings.
 void Roam::fetch_ahead(std::uint32_t id) const {
   const std::vector<Node>& nodes = mesh_.nodes();
-  const std::uint32_t next = nodes[id].queue.after;
-  if (next == kNone) return;
-  const Node& node = nodes[next];
-  for (const std::uint32_t other : {node.queue.after, node.left, node.right, node.base, node.parent}) {
-    if (other != kNone) __builtin_prefetch(&nodes[other]);
+  const auto after = [&](std::uint32_t leaf) { return leaf == kNone ? kNone : nodes[leaf].queue.after; };
+  const std::uint32_t first = after(id), second = after(first), third = after(second);
+  mesh_.prefetch(third);
+  if (second != kNone) {
+    const Node& node = nodes[second];
+    for (const std::uint32_t other : {node.left, node.right, node.base, node.parent}) mesh_.prefetch(other);
+    mesh_.prefetch_split(node);
   }
-  mesh_.prefetch_split(node);
+  if (first != kNone && nodes[first].base != kNone) {
+    const Node& base = nodes[nodes[first].base];
+    for (const std::uint32_t other : {base.left, base.right, base.parent}) mesh_.prefetch(other);
+  }
 }
 
 // Triangles that a split adds, or more: those of its base neighbours that must be split first included.
@@ -96,32 +105,30 @@ void Roam::split(std::uint32_t id) {
 void Roam::split_diamond(std::uint32_t id) {
   std::vector<Node>& nodes = mesh_.nodes();
   const std::array<std::uint32_t, 2> both = halves(id);
-  std::uint16_t bucket = 0;
   for (const std::uint32_t half : both) {
     if (half == kNone) continue;
-    mesh_.prefetch_split(nodes[half]);
-    if (nodes[half].bucket != roam::kNoList) bucket = std::max(bucket, nodes[half].bucket);
     take_off(half);
     drawn_.remove(nodes, half);
   }
   mesh_.split(id);
   ++changes_;
   quiet_.resize(nodes.size());
-  for (const std::uint32_t half : both) {
-    if (half != kNone) add_children(half);
+  const auto [at_apex, at_left, at_right] = mesh_.corners(nodes[id]).at;
+  const Spot middle = camera_.spot(mesh_.apex(nodes[nodes[id].child]));
+  const Spot left = camera_.spot(at_left), right = camera_.spot(at_right);
+  add_children(id, camera_.spot(at_apex), left, right, middle);
+  if (const std::uint32_t base = both[1]; base != kNone) {
+    add_children(base, camera_.spot(mesh_.apex(nodes[base])), right, left, middle);
   }
   const std::uint32_t name = diamond(id);
-  if (mergeable(name)) {
-    merges_.push(nodes, name, bucket);
-    pending_.push_back(name);
-  }
+  pending_.push_back(name);
   for (const std::uint32_t half : both) {
     if (half == kNone) continue;
     // Its parent's diamond can no longer merge, unless it is one that does not count. When its sibling has
     // been split the diamond could not before.
     const std::uint32_t parent = nodes[half].parent;
     if (parent == kNone || mesh_.on_edge(nodes[half])) continue;
-    if (nodes[half ^ 1U].leaf() || mesh_.on_edge(nodes[half ^ 1U])) take_off(diamond(parent));
+    if (++nodes[parent].split_children == 1) take_off(diamond(parent));
   }
   bool on_edge = false;
   for (const std::uint32_t half : both) {
@@ -136,16 +143,17 @@ void Roam::split_diamond(std::uint32_t id) {
   if (on_edge) requeue_diamond(name);
 }
 
-void Roam::add_children(std::uint32_t id) {
+// Corners of the parent, and the middle of its hypotenuse.
+void Roam::add_children(std::uint32_t id, const Spot& apex, const Spot& left, const Spot& right,
+                        const Spot& middle) {
   const Node& parent = mesh_.nodes()[id];
-  const std::array<roam::Corners, 2> corners = mesh_.corners_of_children(parent, mesh_.corners(parent));
-  for (std::uint32_t k = 0; k < 2; ++k) {
-    const std::uint32_t child = parent.child + k;
-    see(child, parent.sight, corners[k]);
+  const auto add = [&](std::uint32_t child, const Spot& a, const Spot& b) {
+    see(child, parent.sight, {{middle.at, a.at, b.at}});
     disturb_ancestors(child);
-    show(child);
-    rank_leaf(child, corners[k]);
-  }
+    rank_leaf(child, distortion(mesh_.nodes()[child], middle, a, b));
+  };
+  add(parent.child, apex, left);
+  add(parent.child + 1, right, apex);
 }
 
 void Roam::merge(std::uint32_t id) {
@@ -174,9 +182,11 @@ void Roam::merge_diamond(std::uint32_t id) {
   ++changes_;
   for (const std::uint32_t half : both) {
     if (half == kNone) continue;
-    show(half);
-    rank_leaf(half, mesh_.corners(mesh_.nodes()[half]));
-    requeue_diamond(mesh_.nodes()[half].parent);
+    const Node& node = mesh_.nodes()[half];
+    rank_leaf(half, distortion(half, mesh_.corners(node)));
+    if (node.parent == kNone) continue;
+    if (!mesh_.on_edge(node)) --mesh_.nodes()[node.parent].split_children;
+    requeue_diamond(node.parent);
   }
 }
 

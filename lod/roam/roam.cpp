@@ -46,8 +46,12 @@ Roam::Roam(const Heightfield& ground, const RoamOptions& options, Progress& prog
     : mesh_(grid_of(ground), options.triangles, progress),
       options_(options),
       extent_(extent_of(mesh_.grid())),
+      drawn_(mesh_.room()),
+      fresh_(2 * mesh_.room()),
       quiet_(mesh_.nodes().size()),
-      batches_(1) {}
+      batches_(1) {
+  fresh_.clear();
+}
 
 void Roam::tune(double max_error) {
   options_.max_error = setting(knob(), max_error);
@@ -62,9 +66,10 @@ const Frame& Roam::update(const View& view) {
   camera_ = roam::Camera(view, extent_);
   const bool afresh = first_ || retuned_ || !camera_.same_lens(before);
   const roam::Motion motion = afresh ? roam::Motion{} : camera_.since(before);
+  const double far_moved = camera_.far_moved(before);
   due_.clear();
-  if (afresh || !motion.none()) {
-    journey_ = {journey_.moved + motion.moved, journey_.turned + motion.turned};
+  if (afresh || !motion.none() || far_moved > 0) {
+    journey_ = {journey_.moved + motion.moved + far_moved, journey_.turned + motion.turned};
     // Before floats cannot tell small motions apart.
     const bool anew = afresh || !(journey_.moved < 1e3 && journey_.turned < 10);
     if (anew) journey_ = {};
@@ -75,13 +80,13 @@ const Frame& Roam::update(const View& view) {
     reconsider_all();
   } else {
     deadlines_.advance(mesh_.nodes(), motion, due_);
-    for (const std::uint32_t id : due_) reconsider(id);
+    reconsider_due();
   }
   do {
     settle();
     rank_pending();
   } while (lower_reference());
-  start_waiting();
+  place_fresh();
 
   uploads_.clear();
   drawn_.finish(mesh_.nodes(), uploads_);
@@ -111,14 +116,10 @@ void Roam::look(std::uint32_t id, Sight parent, bool parent_changed) {
   const Sight before = node.sight;
   see(id, parent, mesh_.corners(node));
   const Sight now = node.sight;
-  // Wholly inside or outside, all below is so too.
-  if (now == before && (now == roam::kAllInside || now == roam::kOutside)) return;
+  if (now == before && roam::inherited(now)) return;
   const bool turned_up = (now & roam::kOutside) != (before & roam::kOutside);
   if (turned_up) due_.push_back(id);
-  if (node.leaf()) {
-    if (turned_up) show(id);
-    return;
-  }
+  if (node.leaf()) return;
   for (const std::uint32_t child : {node.child, node.child + 1}) {
     look(child, now, parent_changed || now != before);
     quiet_[id].moved = std::min(quiet_[id].moved, quiet_[child].moved);
@@ -128,7 +129,7 @@ void Roam::look(std::uint32_t id, Sight parent, bool parent_changed) {
 
 void Roam::see(std::uint32_t id, Sight parent, const roam::Corners& corners) {
   Node& node = mesh_.nodes()[id];
-  if (parent == roam::kAllInside || (parent & roam::kOutside) != 0) {
+  if (roam::inherited(parent)) {
     node.sight = parent;
     quiet_[id] = {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
     return;

@@ -57,13 +57,16 @@ class Roam : public Lod {
   void look(std::uint32_t id, roam::Sight parent, bool parent_changed);
   void see(std::uint32_t id, roam::Sight parent, const roam::Corners& corners);
   void reconsider(std::uint32_t id);
+  void reconsider_due();
   void reconsider_all();
-  void rank_leaf(std::uint32_t id, const roam::Corners&);
+  void rank_leaf(std::uint32_t id, const roam::Distortion&);
   void rank_diamond(std::uint32_t id);
   void rank_pending();
-  void put_off(std::uint32_t id, const roam::Distortion&, double factor);
-  void start_waiting();
+  static roam::Patience patience(const roam::Distortion&, double share);
+  void place_fresh();
   void take_off(std::uint32_t id);
+  roam::Distortion distortion(const roam::Node&, const roam::Spot&, const roam::Spot&,
+                              const roam::Spot&) const;
   roam::Distortion distortion(std::uint32_t id, const roam::Corners&) const;
 
   // The two halves of a diamond, the second kNone on the border.
@@ -75,7 +78,8 @@ class Roam : public Lod {
   void show(std::uint32_t id);
   void split(std::uint32_t id);
   void split_diamond(std::uint32_t id);
-  void add_children(std::uint32_t id);
+  void add_children(std::uint32_t id, const roam::Spot& apex, const roam::Spot& left, const roam::Spot& right,
+                    const roam::Spot& middle);
   void merge(std::uint32_t id);
   void merge_diamond(std::uint32_t id);
   std::size_t cost_of_split(std::uint32_t id) const;
@@ -92,12 +96,8 @@ class Roam : public Lod {
   roam::Deadlines deadlines_;
   roam::DrawList drawn_;
   std::vector<std::uint32_t> due_;      // whose priority must be looked at
-  std::vector<std::uint32_t> pending_;  // diamonds in the merge queue by what their halves had as leaves
-  struct Fresh {
-    std::uint32_t id;
-    float slack, reach;
-  };
-  std::vector<Fresh> fresh_;  // ranked in this frame
+  std::vector<std::uint32_t> pending_;  // diamonds of this frame that are not in the merge queue yet
+  std::vector<std::uint32_t> fresh_;    // leaves ranked in this frame
   // For each node, the journey up to which no sight in its subtree changes.
   struct Quiet {
     float moved, turned;

@@ -74,16 +74,17 @@ struct Wedgies::Builder {
             std::max(std::max(below(u - s, v), below(u + s, v)), std::max(below(u, v - s), below(u, v + s))));
   }
 
-  void store(int u, int v, double bound) {
-    wedgies.bounds_[static_cast<std::size_t>(v) * wedgies.width_ + u] = encode_up(bound);
-  }
+  void store(int u, int v, double bound) { wedgies.bounds_[wedgies.place(u, v)] = encode_up(bound); }
 };
 
 Wedgies::Wedgies(const Lattice& lattice, const GroundGrid& grid, Progress& progress)
-    : width_(static_cast<std::size_t>(lattice.width())),
-      bounds_(width_ * static_cast<std::size_t>(lattice.depth())) {
-  Builder builder{lattice, grid, *this};
+    : last_u_(lattice.width() - 1) {
   const int width = lattice.width(), depth = lattice.depth();
+  for (int k = 0; k < lattice.side_log; ++k) {
+    first_[k + 1] = first_[k] + 3 * squares(width - 1, k) * squares(depth - 1, k);
+  }
+  bounds_.resize(first_[lattice.side_log]);
+  Builder builder{lattice, grid, *this};
   progress.begin("bounding the bintrees", static_cast<std::uint64_t>(lattice.side_log));
   for (int s = 1; s < 1 << lattice.side_log; s *= 2) {
     const int rows = (depth - 1) / s + 1;

@@ -69,6 +69,12 @@ struct RoamAudit {
     check(node.base == roam::kNone || !nodes()[node.base].leaf(), "half {} is split alone", id);
     const bool queued = roam.diamond(id) == id && roam.mergeable(id);
     check(queued == (node.bucket != roam::kNoList), "diamond {}: mergeable {}", id, queued);
+    int split_children = 0;
+    for (const std::uint32_t child : {node.child, node.child + 1}) {
+      split_children += !nodes()[child].leaf() && !roam.mesh_.on_edge(nodes()[child]);
+    }
+    check(node.split_children == split_children, "node {} counts {} split children, not {}", id,
+          node.split_children, split_children);
     for (const std::uint32_t child : {node.child, node.child + 1}) {
       check(nodes()[child].parent == id, "child {} has another parent", child);
       check(nodes()[child].level == node.level + 1, "child {} has another level", child);

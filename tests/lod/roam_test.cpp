@@ -262,6 +262,32 @@ TEST(Roam, TurnsOnTheSpot) {
   }
 }
 
+// As when it is kept just behind the ground, alone or while the eye moves.
+TEST(Roam, FollowsAFarPlaneThatMoves) {
+  const Heightfield field = ground(150, 201);
+  for (const float step : {0.0F, 0.5F}) {
+    Roam roam(field, {.max_error = 2}, silent());
+    View view;
+    view.eye = {200, 20, 390};
+    view.target = {200, 15, 0};
+    view.far = 500;
+    const std::size_t all = roam.update(view).stats.triangles;
+    std::size_t fewest = all;
+    for (int k = 0; k < 60; ++k) {
+      SCOPED_TRACE(::testing::Message() << step << " m a frame, frame " << k);
+      view.far += k < 30 ? -14.0F : 14.0F;
+      view.eye.z -= step;
+      const Frame& frame = roam.update(view);
+      fewest = std::min(fewest, frame.stats.triangles);
+      if (k % 10 == 9) expect_kept(roam, frame, field, view, 2);
+    }
+    EXPECT_LT(fewest, all / 2);
+    if (step == 0) {
+      EXPECT_EQ(roam.update(view).stats.triangles, all);
+    }
+  }
+}
+
 TEST(Roam, TakesAnyView) {
   const Heightfield field = ground(150, 201);
   Roam roam(field, {.max_error = 2, .triangles = 20000}, silent());
