@@ -56,7 +56,7 @@ TEST_F(CommandLine, APictureIsLandWhenItIsCalledADrawing) {
   const Outcome info = call("$T info drawing:my.png,peak=500");
   EXPECT_EQ(info.code, 0) << info.text;
   EXPECT_THAT(info.text, HasSubstr("black is -50 m"));
-  EXPECT_THAT(call("$T info my.png").text, HasSubstr("drawing:my.png"));
+  EXPECT_THAT(call("$T info my.png").text, HasSubstr("drawing:"));
   EXPECT_THAT(call("$T list terrains").text, HasSubstr("drawing:FILE.png"));
   EXPECT_THAT(call("$T represent --help").text, HasSubstr("drawing:FILE.png"));
   const Outcome built = call("$T represent drawing:my.png --as heightmap --resample 24 24");

@@ -60,7 +60,7 @@ GDALRasterBand& choose_band(GDALDataset& dataset, int number, const std::string&
   }
   if (band.GetColorTable() != nullptr && band.GetColorInterpretation() == GCI_PaletteIndex) {
     throw bad_input(fmt::format("band {} holds numbers of colours, not heights", number), where,
-                    "give a raster whose values are heights");
+                    "give a raster whose values are heights, or make land of a picture: drawing:FILE.png");
   }
   if (bands > 1) notes.push_back(fmt::format("band {} of {} was read", number, bands));
   return band;
