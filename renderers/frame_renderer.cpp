@@ -38,6 +38,7 @@ struct DrawCommand {
 };
 static_assert(sizeof(BatchRecord) + sizeof(DrawCommand) == kBytesPerBatch);
 static_assert(sizeof(LevelRecord) == kBytesPerClipLevel);
+static_assert(sizeof(PatchMorph) == 5 * sizeof(float));
 
 // A buffer that is written in parts, with `slack` of its size to spare when it grows. What it held the GPU
 // copies, so that nothing is sent twice.
