@@ -1,7 +1,9 @@
 #include "lod/clipmap/window.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <glm/common.hpp>
 
 namespace terrabench::clipmap {
 namespace {
@@ -12,16 +14,18 @@ class Builder {
 
   template <class Keep>
   Block block(int x0, int z0, int x1, int z1, Keep keep) {
-    Block block{static_cast<std::uint32_t>(window_.indices.size()), 0, x0, z0, x1, z1};
+    const auto first = static_cast<std::uint32_t>(window_.indices.size());
+    const auto first_cell = static_cast<std::uint32_t>(window_.starts.size());
     for (int b = z0; b < z1; ++b) {
       for (int a = x0; a < x1; ++a) {
+        window_.starts.push_back(static_cast<std::uint32_t>(window_.indices.size()));
         if (!keep(a, b)) continue;
         triangle({a, b}, {a, b + 1}, {a + 1, b});
         triangle({a + 1, b}, {a, b + 1}, {a + 1, b + 1});
       }
     }
-    block.index_count = static_cast<std::uint32_t>(window_.indices.size()) - block.first_index;
-    return block;
+    const auto end = static_cast<std::uint32_t>(window_.indices.size());
+    return {{first, end - first}, x0, z0, x1, z1, first_cell};
   }
 
  private:
@@ -51,7 +55,74 @@ class Builder {
   Window& window_;
 };
 
+// The runs of one block, joined where one follows the other.
+class Inside {
+ public:
+  Inside(const Window& window, const Block& block, glm::ivec2 low, glm::ivec2 high, std::vector<Run>& runs)
+      : window_(window), block_(block), low_(low), high_(high), runs_(runs), begin_(runs.size()) {}
+
+  void cells(int x0, int x1, int z) {
+    if (x0 < x1) add(start(x0, z), start(x1 - 1, z, 1));
+  }
+  // At the window's border triangles reach beyond their cell.
+  void cells_one_by_one(int x0, int x1, int z) {
+    if (x0 >= x1) return;
+    for (std::uint32_t at = start(x0, z); at < start(x1 - 1, z, 1); at += 3) {
+      const glm::ivec2 p = place(at), q = place(at + 1) - p, r = place(at + 2) - p;
+      if (q.x * r.y != q.y * r.x) add(at, at + 3);
+    }
+  }
+
+ private:
+  std::uint32_t start(int x, int z, int after = 0) const {
+    const int cell = (z - block_.z0) * (block_.x1 - block_.x0) + x - block_.x0 + after;
+    return window_.starts[block_.first_cell + static_cast<std::uint32_t>(cell)];
+  }
+  glm::ivec2 place(std::uint32_t at) const {
+    const auto vertex = static_cast<int>(window_.indices[at]);
+    return glm::clamp(glm::ivec2(vertex % window_.side, vertex / window_.side), low_, high_);
+  }
+  void add(std::uint32_t from, std::uint32_t to) {
+    if (runs_.size() > begin_ && runs_.back().first_index + runs_.back().index_count == from) {
+      runs_.back().index_count += to - from;
+    } else if (from < to) {
+      runs_.push_back({from, to - from});
+    }
+  }
+
+  const Window& window_;
+  const Block& block_;
+  glm::ivec2 low_, high_;
+  std::vector<Run>& runs_;
+  std::size_t begin_;
+};
+
 }  // namespace
+
+void append_inside(const Window& window, const Block& block, glm::ivec2 low, glm::ivec2 high,
+                   std::vector<Run>& runs) {
+  low = glm::clamp(low, 0, window.n - 1);
+  high = glm::clamp(high, 0, window.n - 1);
+  const auto even_inside = [](int from, int to, int first, int last) {
+    return (from & ~1) >= first && ((to + 1) & ~1) <= last;
+  };
+  if (even_inside(block.x0, block.x1, low.x, high.x) && even_inside(block.z0, block.z1, low.y, high.y)) {
+    runs.push_back(block.indices);
+    return;
+  }
+  Inside inside(window, block, low, high, runs);
+  const int last = window.n - 2;  // cell
+  for (int z = block.z0; z < block.z1; ++z) {
+    if (z == 0 || z == last) {
+      inside.cells_one_by_one(block.x0, block.x1, z);
+      continue;
+    }
+    const int x0 = std::max(block.x0, 1), x1 = std::min(block.x1, last);
+    inside.cells_one_by_one(block.x0, x0, z);
+    if (z >= low.y && z < high.y) inside.cells(std::max(x0, low.x), std::min(x1, high.x), z);
+    inside.cells_one_by_one(x1, block.x1, z);
+  }
+}
 
 Window make_window(int m) {
   Window window;
@@ -76,6 +147,7 @@ Window make_window(int m) {
       }));
     }
   }
+  window.starts.push_back(static_cast<std::uint32_t>(window.indices.size()));
   return window;
 }
 
