@@ -15,7 +15,6 @@
 #include "lod/meters/cracks.h"
 #include "renderers/frame_renderer.h"
 #include "results/format.h"
-#include "terrain/error.h"
 #include "terrain/files.h"
 
 namespace terrabench::cross {
@@ -218,11 +217,7 @@ class Flight {
 
 constinit const std::span<const ParameterSpec> kLodEndlessParameters = kSpecs;
 
-std::vector<Case> lod_endless_cases(const RunOptions& options) {
-  if (!options.terrains.empty()) {
-    throw usage_error("endless ground is made, not read", options.terrains.front(),
-                      "leave --terrain out, or run cross.lod-disk over it");
-  }
+std::vector<Case> lod_endless_cases(const RunOptions&) {
   std::vector<Case> cases;
   for (const auto& [name, home] : {std::pair{"home", 0.0}, std::pair{"far", 5000000.0}}) {
     Case& added = cases.emplace_back(Case{name, Parameters(kLodEndlessParameters), ""});

@@ -190,6 +190,7 @@ TEST(Endless, TakesAnyEyeAndRefusesWhatIsNoGround) {
   Clipmap lod = endless(15);
   View view;
   view.far = 1e30F;
+  view.up = {0.1F, 1, 0.2F};
   for (const glm::vec3 eye :
        {glm::vec3(1e30F, 5, -1e30F), glm::vec3(-1e9F, 1e20F, 50), glm::vec3(0, -1e4F, 0)}) {
     view.eye = eye;
