@@ -110,8 +110,8 @@ std::vector<View> walk_across(HeightPyramid& pyramid) {
 View on_the_ground(View view, HeightPyramid& pyramid) {
   const glm::vec3 sight = view.target - view.eye;
   float height = 0;
-  pyramid.read(0, static_cast<int>(view.eye.x / pyramid.cell_x()),
-               static_cast<int>(view.eye.z / pyramid.cell_z()), 1, 1, &height, 1);
+  pyramid.read(0, static_cast<int>(view.eye.x / static_cast<double>(pyramid.cell_x())),
+               static_cast<int>(view.eye.z / static_cast<double>(pyramid.cell_z())), 1, 1, &height, 1);
   view.eye.y = height + kEyeHeight;
   view.target = view.eye + sight;
   return view;
@@ -124,12 +124,8 @@ class Walk {
     pyramid_ = pyramid.get();
     clipmap_ = std::make_unique<Clipmap>(heights_on_disk(std::move(pyramid)), window);
     expected_ = Strips(clipmap_->window());
-    const float cell = std::max(pyramid_->cell_x(), pyramid_->cell_z());
-    // Of finer ground than the eye is high, levels whose window is too small for it are never filled.
-    while (finest_ + 1 < clipmap_->levels() &&
-           kEyeHeight > 0.4F * static_cast<float>(clipmap_->window() << finest_) * cell) {
-      ++finest_;
-    }
+    finest_ = finest_level(kEyeHeight, clipmap_->window(), std::max(pyramid_->cell_x(), pyramid_->cell_z()),
+                           clipmap_->levels());
   }
 
   void measure(int steps, Recorder& recorder, Progress& progress) {

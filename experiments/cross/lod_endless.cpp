@@ -22,8 +22,8 @@ namespace {
 
 const std::array kSpecs{
     ParameterSpec{"window", std::int64_t{255}, "samples", "of each clipmap level", 15, 4095},
-    ParameterSpec{"distance", 200.0, "km", "of the flight, and of the way back", 1, 100000},
-    ParameterSpec{"step", 100.0, "m", "between frames", 1, 100000},
+    ParameterSpec{"distance", 200.0, "km", "of the flight, and of the way back", 1, 5000},
+    ParameterSpec{"step", 100.0, "m", "between frames", 10, 100000},
     ParameterSpec{"far", 150.0, "km", "to the far plane", 1, 10000},
     ParameterSpec{"home", 0.0, "km", "south-east of sample 0, where the flight begins", 0, 10000000},
 };
@@ -43,7 +43,7 @@ class Flight {
   Flight(const Case& at, const RunOptions& options, Recorder& recorder)
       : far_(static_cast<float>(1000 * at.parameters.number("far"))),
         step_(at.parameters.number("step")),
-        steps_(static_cast<int>(std::lround(1000 * at.parameters.number("distance") / step_))),
+        steps_(std::max(1, static_cast<int>(std::lround(1000 * at.parameters.number("distance") / step_)))),
         window_(static_cast<int>(at.parameters.integer("window"))),
         recorder_(recorder) {
     ground_.seed = options.seed;
@@ -78,10 +78,11 @@ class Flight {
       const Frame& frame = clipmap_->update(view);
       FrameRenderer shown(*context);
       shown.draw(frame, view,
-                 {.lowest = -0.5F * ground_.relief,
-                  .highest = 0.5F * ground_.relief,
+                 {.lowest = -0.33F * ground_.relief,
+                  .highest = 0.33F * ground_.relief,
                   .background = {205, 220, 235},
-                  .wire_width = wires});
+                  .wire_width = wires,
+                  .wire_opacity = 0.3F});
       shown.finish();
       sheet.text(kGap, y + kLabel - 8,
                  wires == 0 ? fmt::format("Ground to {:g} km, {} levels", far_ / 1000, clipmap_->levels())
@@ -96,7 +97,7 @@ class Flight {
         "cross.lod-endless" + suffix, "png",
         fmt::format("Endless ground under a clipmap of {} samples a window, from {:g} m above it; the hybrid "
                     "paper's endless terrain (§3.2). Colours by height from {:.0f} to {:.0f} m.",
-                    clipmap_->window(), kEyeHeight, -0.5 * ground_.relief, 0.5 * ground_.relief)));
+                    clipmap_->window(), kEyeHeight, -0.33 * ground_.relief, 0.33 * ground_.relief)));
   }
 
  private:
@@ -107,7 +108,8 @@ class Flight {
     recorder_.add("first_time", "s", seconds_since(start));
     recorder_.add("first_bytes", "B", static_cast<double>(first.stats.bytes_uploaded));
     recorder_.add("held_first", "B", static_cast<double>(clipmap_->memory().total()));
-    expected_.follow(home_, 0, clipmap_->levels());
+    finest_ = finest_level(kEyeHeight, clipmap_->window(), ground_.cell, clipmap_->levels());
+    expected_.follow(home_, finest_, clipmap_->levels());
     const int every = std::max(1, steps_ / kMetered);
     for (int k = 1; k <= steps_; ++k) {
       go_to(k);
@@ -163,11 +165,12 @@ class Flight {
     heights_->read(0, sample.x, sample.y, 1, 1, &ground, 1);
     View view;
     view.width = 1400;
-    view.height = 600;
+    view.height = 520;
+    view.vertical_fov = 0.6F;
     view.near = 10;
     view.far = far_;
     view.eye = {metres.x, ground + kEyeHeight, metres.y};
-    view.target = view.eye + glm::vec3(std::cos(kHeading), -0.06, std::sin(kHeading));
+    view.target = view.eye + glm::vec3(std::cos(kHeading), -0.13, std::sin(kHeading));
     return view;
   }
 
@@ -179,7 +182,7 @@ class Flight {
     recorder_.add("frame_bytes", "B", static_cast<double>(frame.stats.bytes_uploaded));
     recorder_.add("triangles", "", static_cast<double>(frame.stats.triangles));
     uploaded_ += frame.stats.bytes_uploaded;
-    strips_ += expected_.follow(at(k), 0, clipmap_->levels());
+    strips_ += expected_.follow(at(k), finest_, clipmap_->levels());
   }
 
   // Of the same windows, counted from a sample south-west of them all: the meter takes coordinates of 0 and
@@ -203,7 +206,7 @@ class Flight {
   EndlessGround ground_;
   float far_;
   double step_;
-  int steps_, window_;
+  int steps_, window_, finest_ = 0;
   Recorder& recorder_;
   glm::dvec2 home_{0};
   std::unique_ptr<HeightSource> heights_;

@@ -11,6 +11,14 @@
 
 namespace terrabench::cross {
 
+// The finest level shown from so far above the ground, metres: finer ones' windows are smaller than 2.5 times
+// that.
+inline int finest_level(double above, int window, double cell, int levels) {
+  int finest = 0;
+  while (finest + 1 < levels && above > 0.4 * std::ldexp(window * cell, finest)) ++finest;
+  return finest;
+}
+
 class Strips {
  public:
   explicit Strips(int window) : window_(window) {}  // samples a side

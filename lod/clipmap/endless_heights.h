@@ -13,9 +13,9 @@ namespace terrabench {
 struct EndlessGround {
   std::uint64_t seed = 0;
   float cell = 30;      // metres between samples
-  float relief = 2500;  // metres at a noise of 1; heights lie within ± this
-  int cell_bits = 10;   // the widest hills are 2^cell_bits samples wide (noise/lattice_noise.h)
-  int octaves = 9;
+  float relief = 6000;  // metres at a noise of 1; heights lie within ± this, nearly all within a third
+  int cell_bits = 9;    // the widest hills are 2^cell_bits samples wide (noise/lattice_noise.h)
+  int octaves = 8;
 };
 
 // Samples ∓ this on either axis exist: at 30 m, 16 million kilometres. Farther out the ground ends as bounded

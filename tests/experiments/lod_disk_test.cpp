@@ -10,6 +10,7 @@
 #include "results/store.h"
 #include "terrain/heightfield.h"
 #include "terrain/sources/dem/dem.h"
+#include "terrain/sources/dem/height_pyramid.h"
 #include "tests/experiments/command_line.h"
 
 namespace terrabench {
