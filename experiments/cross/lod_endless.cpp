@@ -27,10 +27,11 @@ const std::array kSpecs{
     ParameterSpec{"far", 150.0, "km", "to the far plane", 1, 10000},
     ParameterSpec{"home", 0.0, "km", "south-east of sample 0, where the flight begins", 0, 10000000},
 };
-constexpr double kEyeHeight = 400;     // metres above the ground
-constexpr double kHeading = 0.3;       // radians south of east
-constexpr double kKeepWithin = 30000;  // metres from what stands at x = z = 0, as long as no meter looks
-constexpr int kMetered = 8;            // frames on the way out
+constexpr double kEyeHeight = 400;       // metres above the ground
+constexpr double kPictureHeight = 2500;  // over the peaks around, so that the horizon is seen
+constexpr double kHeading = 0.3;         // radians south of east
+constexpr double kKeepWithin = 30000;    // metres from what stands at x = z = 0, as long as no meter looks
+constexpr int kMetered = 8;              // frames on the way out
 constexpr double kGap = 14, kPanel = 700, kLabel = 30;  // units of the sheet
 
 // Where the eye is, in samples of the ground.
@@ -70,7 +71,7 @@ class Flight {
 
   // The view from home, as it is and with its wires.
   void draw(const std::string& renderer, const std::string& suffix) {
-    const View view = from(home_);
+    const View view = seen_from(home_, kPictureHeight);
     const auto context = open_context(renderer, view.width, view.height);
     drill::Sheet sheet(kPanel + 2 * kGap, 2 * (kPanel * view.height / view.width + kLabel) + kGap);
     double y = 0;
@@ -97,7 +98,7 @@ class Flight {
         "cross.lod-endless" + suffix, "png",
         fmt::format("Endless ground under a clipmap of {} samples a window, from {:g} m above it; the hybrid "
                     "paper's endless terrain (§3.2). Colours by height from {:.0f} to {:.0f} m.",
-                    clipmap_->window(), kEyeHeight, -0.33 * ground_.relief, 0.33 * ground_.relief)));
+                    clipmap_->window(), kPictureHeight, -0.33 * ground_.relief, 0.33 * ground_.relief)));
   }
 
  private:
@@ -155,10 +156,10 @@ class Flight {
     const glm::dvec2 away = (eye - glm::dvec2(clipmap_->origin())) * static_cast<double>(ground_.cell);
     if (std::max(std::abs(away.x), std::abs(away.y)) > kKeepWithin)
       clipmap_->move_origin(glm::ivec2(glm::floor(eye)));
-    return seen_from(eye);
+    return seen_from(eye, kEyeHeight);
   }
 
-  View seen_from(glm::dvec2 eye) {
+  View seen_from(glm::dvec2 eye, double above) {
     const glm::dvec2 metres = (eye - glm::dvec2(clipmap_->origin())) * static_cast<double>(ground_.cell);
     float ground = 0;
     const glm::ivec2 sample(glm::floor(eye));
@@ -169,7 +170,7 @@ class Flight {
     view.vertical_fov = 0.6F;
     view.near = 10;
     view.far = far_;
-    view.eye = {metres.x, ground + kEyeHeight, metres.y};
+    view.eye = {metres.x, ground + above, metres.y};
     view.target = view.eye + glm::vec3(std::cos(kHeading), -0.13, std::sin(kHeading));
     return view;
   }
@@ -191,7 +192,7 @@ class Flight {
     const glm::ivec2 before = clipmap_->origin();
     const int span = clipmap_->window() << (clipmap_->levels() - 1);
     clipmap_->move_origin(glm::ivec2(glm::floor(eye)) - span);
-    const View view = seen_from(eye);
+    const View view = seen_from(eye, kEyeHeight);
     const CrackReport cracks = find_cracks(clipmap_->update(view), INT_MAX, INT_MAX, view);
     gaps_ += cracks.gaps + cracks.overlaps + cracks.t_junctions;
     edges_ += cracks.bare_edges;
