@@ -250,8 +250,8 @@ void Clipmap::draw(int l, int finest, const Frustum& frustum) {
   }
   if (l == finest) return;
   const glm::ivec2 hole = shown_[l - 1].corner / 2 - shown_[l].corner - (window_.m - 1);
-  const auto trim = static_cast<std::size_t>(2 * hole.y + hole.x);
-  draw(l, slot + trim, window_.trims[trim], frustum);
+  const auto trim = static_cast<std::size_t>(2 * (2 * hole.y + hole.x));
+  for (std::size_t k = trim; k < trim + 2; ++k) draw(l, slot + k, window_.trims[k], frustum);
 }
 
 void Clipmap::draw(int l, std::size_t slot, const clipmap::Block& block, const Frustum& frustum) {
@@ -280,7 +280,7 @@ Memory Clipmap::memory() const {
   Memory memory;
   memory.index += heap_bytes(this) + source_->bytes();
   memory += payload_memory(window_.indices);
-  memory += index_memory(window_.starts);
+  memory += index_memory(window_.rows);
   for (const auto* blocks : {&window_.ring, &window_.middle, &window_.trims}) memory += index_memory(*blocks);
   for (const Level& level : levels_) {
     memory += payload_memory(level.heights);

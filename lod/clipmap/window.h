@@ -18,7 +18,7 @@ struct Run {
 struct Block {
   Run indices;
   int x0 = 0, z0 = 0, x1 = 0, z1 = 0;
-  std::uint32_t first_cell = 0;  // of Window::starts
+  std::uint32_t first_row = 0;  // of Window::rows
 };
 
 // The outer border is conforming: its odd vertices are left out, so that its edges are those of the coarser
@@ -27,11 +27,11 @@ struct Window {
   int m = 0, n = 0;  // n = 4m - 1 vertices a side
   int side = 0;      // rows of the vertex lattice: the power of two from n + 1 on
   std::vector<std::uint32_t> indices;
-  std::vector<std::uint32_t> starts;  // the first index of each cell of each block, and of what follows it
-  std::vector<Block> ring;            // twelve blocks around the middle of 2m × 2m cells
-  std::vector<Block> middle;          // the middle, for the finest level
+  std::vector<std::uint32_t> rows;  // the first index of each row of each block, and of what follows it
+  std::vector<Block> ring;          // twelve blocks around the middle of 2m × 2m cells
+  std::vector<Block> middle;        // the middle, for the finest level
   // The L-shaped strip between the middle and the hole of 2m - 1 cells, which lies at m - 1 or m on either
-  // axis: trims[2·(hole_z - (m - 1)) + hole_x - (m - 1)].
+  // axis: its row and its column, trims[2·k] and [2·k + 1] with k = 2·(hole_z - (m - 1)) + hole_x - (m - 1).
   std::vector<Block> trims;
 };
 
