@@ -2,6 +2,7 @@
 
 #include "experiments/cross/cross.h"
 #include "experiments/cross/lod_disk.h"
+#include "experiments/cross/lod_endless.h"
 #include "experiments/drill/drill.h"
 #include "experiments/experiment.h"
 #include "experiments/ght/ght.h"
@@ -90,6 +91,8 @@ const std::array kExperiments{
                overview_experiments::measure_relief},
     Experiment{"cross.lod-disk", "cross", "A clipmap over ground that stays on disk",
                cross::kLodDiskParameters, cross::lod_disk_cases, cross::measure_lod_disk},
+    Experiment{"cross.lod-endless", "cross", "A clipmap over ground without bounds",
+               cross::kLodEndlessParameters, cross::lod_endless_cases, cross::measure_lod_endless},
 };
 
 }  // namespace

@@ -214,7 +214,9 @@ void FrameRenderer::Gl::set(const Program& program, const Frame& frame, const Vi
   glProgramUniform2i(id, uniform(program, "samples"), frame.grid.width, frame.grid.depth);
   glProgramUniform2f(id, uniform(program, "cell"), frame.cell_x, frame.cell_z);
   glProgramUniform1i(id, uniform(program, "side"), frame.levels.empty() ? 0 : frame.levels.front().side);
+  glProgramUniform2i(id, uniform(program, "first"), frame.first.x, frame.first.y);
   glProgramUniform2i(id, uniform(program, "last"), frame.last.x, frame.last.y);
+  glProgramUniform2i(id, uniform(program, "origin"), frame.origin.x, frame.origin.y);
   glProgramUniform1i(id, uniform(program, "patch_side"), frame.patch_side);
 }
 

@@ -83,37 +83,38 @@ float clip_height(const ClipLevel& level, int a, int b) {
   return level.heights[static_cast<std::size_t>(b & mask) * level.side + (a & mask)];
 }
 
-float blend(const ClipLevel& level, int a, int b) {
+// Of the window's sample (x, z).
+float blend(const ClipLevel& level, int x, int z) {
   if (level.from >= level.to) return 0;
   const float distance =
-      std::max(std::abs(static_cast<float>(a) - level.eye.x), std::abs(static_cast<float>(b) - level.eye.y));
+      std::max(std::abs(static_cast<float>(x) - level.eye.x), std::abs(static_cast<float>(z) - level.eye.y));
   return std::clamp((distance - level.from) / (level.to - level.from), 0.0F, 1.0F);
 }
 
 glm::vec3 clip_position(const Frame& frame, const Batch& batch, std::uint32_t vertex) {
   const ClipLevel& level = frame.levels[batch.level];
   const auto side = static_cast<std::uint32_t>(level.side);
-  const int a = level.corner.x + static_cast<int>(vertex % side);
-  const int b = level.corner.y + static_cast<int>(vertex / side);
+  const auto x = static_cast<int>(vertex % side), z = static_cast<int>(vertex / side);
+  const int a = level.corner.x + x, b = level.corner.y + z;
   float y = clip_height(level, a, b);
-  const float weight = blend(level, a, b);
+  const float weight = blend(level, x, z);
   if (weight > 0) {
     // The coarser level's own samples, not this level's means: the two agree to the bit where they meet.
     // Beyond the ground only the outer one, which stands at the border too.
     const ClipLevel& coarser = frame.levels[batch.level + 1];
-    const auto ends = [&](int lattice, int last) {
+    const auto ends = [&](int lattice, int first, int last) {
       const int odd = lattice & 1;
       int low = (lattice - odd) / 2, high = (lattice + odd) / 2;
       if (lattice * level.spacing >= last) low = high;
-      if (lattice * level.spacing <= 0) high = low;
+      if (lattice * level.spacing <= first) high = low;
       return glm::ivec2(low, high);
     };
-    const glm::ivec2 x = ends(a, frame.last.x), z = ends(b, frame.last.y);
-    const float there = 0.5F * (clip_height(coarser, x[0], z[1]) + clip_height(coarser, x[1], z[0]));
+    const glm::ivec2 i = ends(a, frame.first.x, frame.last.x), j = ends(b, frame.first.y, frame.last.y);
+    const float there = 0.5F * (clip_height(coarser, i[0], j[1]) + clip_height(coarser, i[1], j[0]));
     y = glm::mix(y, there, weight);
   }
-  const int i = std::clamp(a * level.spacing, 0, frame.last.x);
-  const int j = std::clamp(b * level.spacing, 0, frame.last.y);
+  const int i = std::clamp(a * level.spacing, frame.first.x, frame.last.x) - frame.origin.x;
+  const int j = std::clamp(b * level.spacing, frame.first.y, frame.last.y) - frame.origin.y;
   return {static_cast<float>(i) * frame.cell_x, y, static_cast<float>(j) * frame.cell_z};
 }
 

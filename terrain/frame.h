@@ -30,8 +30,8 @@ struct ClipLevel {
   glm::ivec2 corner{0};  // lattice coordinates of the window's low corner
   std::span<const float> heights;
   // Transition to the next coarser level (Losasso & Hoppe 2004, §3.3): the blend weight is
-  // clamp((max(|x - eye.x|, |z - eye.y|) - from) / (to - from)), in lattice samples of this level. from = to:
-  // none.
+  // clamp((max(|x - eye.x|, |z - eye.y|) - from) / (to - from)), in lattice samples of this level from the
+  // corner on: small numbers, however far from sample 0 the window lies. from = to: none.
   glm::vec2 eye{0};
   float from = 0, to = 0;
 };
@@ -83,9 +83,9 @@ struct FrameStats {
 struct Frame {
   GroundGrid grid;
   std::span<const ClipLevel> levels;
-  // The last sample of the full terrain along x and z: vertices of clip levels beyond the ground stand at its
-  // border, where their triangles have no area.
-  glm::ivec2 last{0};
+  // Of clip levels: the first and last sample of the full terrain along x and z, where vertices beyond the
+  // ground stand, and the sample that stands at x = z = 0, so that far from sample 0 metres stay small.
+  glm::ivec2 first{0}, last{0}, origin{0};
   float cell_x = 1.0F, cell_z = 1.0F;  // metres between the samples of the full terrain
   std::span<const std::uint32_t> indices;
   std::span<const Batch> batches;

@@ -7,9 +7,12 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <span>
 
 #include "experiments/cross/lod_disk_ground.h"
 #include "experiments/cross/own_process.h"
+#include "experiments/cross/strips.h"
 #include "lod/camera/camera_path.h"
 #include "lod/clipmap/clipmap.h"
 #include "results/store.h"
@@ -65,24 +68,29 @@ std::uintmax_t bytes_of(const fs::path& folder) {
   return bytes;
 }
 
-// What the paper's L-shaped strips hold: of each window the samples that it did not hold before.
-class StripBytes {
- public:
-  std::size_t of(const Frame& frame, int n) {
-    std::size_t bytes = 0;
-    corners_.resize(frame.levels.size());
-    for (std::size_t l = 0; l < corners_.size(); ++l) {
-      const glm::ivec2 now = frame.levels[l].corner;
-      const int x = std::abs(now.x - corners_[l].x), z = std::abs(now.y - corners_[l].y);
-      bytes += 4 * static_cast<std::size_t>(n * n - std::max(0, n - x) * std::max(0, n - z));
-      corners_[l] = now;
-    }
-    return bytes;
+// Of the pyramid's files, read in parts: other heights or other cells give another digest.
+std::string digest(const fs::path& pyramid) {
+  constexpr std::size_t kPart = std::size_t{1} << 20;
+  std::vector<std::byte> part(kPart);
+  std::string digests;
+  for (int level = 0;; ++level) {
+    const fs::path file = pyramid / fmt::format("{}.tif", level);
+    std::ifstream in(file, std::ios::binary);
+    if (!in) return checksum(digests);
+    do {
+      in.read(reinterpret_cast<char*>(part.data()), static_cast<std::streamsize>(kPart));
+      digests += checksum(std::span(part).first(static_cast<std::size_t>(in.gcount())));
+    } while (in);
+    if (in.bad()) throw bad_input("cannot be read to its end", file.string(), "build the pyramid again");
   }
+}
 
- private:
-  std::vector<glm::ivec2> corners_;
-};
+// Sample k of a walk to and fro between samples 0 and last, from `start` on.
+int to_and_fro(std::int64_t start, std::int64_t k, std::int64_t last) {
+  if (last == 0) return 0;
+  const std::int64_t at = (start + k) % (2 * last);
+  return static_cast<int>(at <= last ? at : 2 * last - at);
+}
 
 // Views of the committed path "cross" over a thinned copy of the ground, put back onto the ground itself.
 std::vector<View> walk_across(HeightPyramid& pyramid) {
@@ -102,8 +110,8 @@ std::vector<View> walk_across(HeightPyramid& pyramid) {
 View on_the_ground(View view, HeightPyramid& pyramid) {
   const glm::vec3 sight = view.target - view.eye;
   float height = 0;
-  pyramid.read(0, static_cast<int>(view.eye.x / pyramid.cell_x()),
-               static_cast<int>(view.eye.z / pyramid.cell_z()), 1, 1, &height, 1);
+  pyramid.read(0, static_cast<int>(view.eye.x / static_cast<double>(pyramid.cell_x())),
+               static_cast<int>(view.eye.z / static_cast<double>(pyramid.cell_z())), 1, 1, &height, 1);
   view.eye.y = height + kEyeHeight;
   view.target = view.eye + sight;
   return view;
@@ -115,6 +123,9 @@ class Walk {
     auto pyramid = HeightPyramid::open(folder);
     pyramid_ = pyramid.get();
     clipmap_ = std::make_unique<Clipmap>(heights_on_disk(std::move(pyramid)), window);
+    expected_ = Strips(clipmap_->window());
+    finest_ = finest_level(kEyeHeight, clipmap_->window(), std::max(pyramid_->cell_x(), pyramid_->cell_z()),
+                           clipmap_->levels());
   }
 
   void measure(int steps, Recorder& recorder, Progress& progress) {
@@ -122,10 +133,13 @@ class Walk {
     if (across.empty()) throw usage_error("ground of one point", "", "give a larger terrain");
     begin(across.front(), recorder);
     View view = across.front();
+    const auto start = static_cast<int>(view.eye.x / pyramid_->cell_x());
     progress.begin("stepping over the ground", static_cast<std::uint64_t>(steps));
-    for (int k = 0; k < steps; ++k) {
-      view.eye.x += pyramid_->cell_x();
-      view.target.x += pyramid_->cell_x();
+    for (int k = 1; k <= steps; ++k) {
+      // On the spot over ground of one sample; back from the border over ground shorter than the steps.
+      const float x = pyramid_->cell_x() * static_cast<float>(to_and_fro(start, k, pyramid_->width() - 1));
+      view.target.x += x - view.eye.x;
+      view.eye.x = x;
       update(view, "step_time", recorder);
       progress.advance();
     }
@@ -153,7 +167,9 @@ class Walk {
     const Frame& frame = clipmap_->update(at);
     recorder.add(metric, "s", seconds_since(start));
     uploaded_ += frame.stats.bytes_uploaded;
-    strips_ += expected_.of(frame, clipmap_->window());
+    strips_ += expected_.follow({at.eye.x / static_cast<double>(pyramid_->cell_x()),
+                                 at.eye.z / static_cast<double>(pyramid_->cell_z())},
+                                finest_, clipmap_->levels());
     tiles_ += pyramid_->tiles_read() - tiles;
   }
   void finish(const std::string& what, Recorder& recorder) {
@@ -165,12 +181,13 @@ class Walk {
 
   HeightPyramid* pyramid_ = nullptr;  // of the clipmap
   std::unique_ptr<Clipmap> clipmap_;
-  StripBytes expected_;
+  Strips expected_{0};
+  int finest_ = 0;
   std::size_t uploaded_ = 0, strips_ = 0, tiles_ = 0;
 };
 
 void walk_here(const fs::path& pyramid, const Case& at, Recorder& recorder, Progress& progress) {
-  recorder.terrain(pyramid.string(), checksum(pyramid.string()));
+  recorder.terrain(pyramid.string(), digest(pyramid));
   Walk(pyramid, static_cast<int>(at.parameters.integer("window")))
       .measure(static_cast<int>(at.parameters.integer("steps")), recorder, progress);
   recorder.add("peak_resident", "B", static_cast<double>(peak_resident_bytes()));
@@ -187,6 +204,11 @@ void walk_apart(const fs::path& pyramid, const fs::path& folder, const Case& at,
                    "--set", fmt::format("steps={}", at.parameters.integer("steps"))},
                   folder / "walk.log", progress);
   const Store store = Store::open(results);
+  if (store.records().size() != 1) {
+    throw environment_error(
+        fmt::format("the second process left {} records, not one", store.records().size()), results.string(),
+        "run the same experiment over the pyramid by itself");
+  }
   for (const Metric& metric : store.records().front().metrics) {
     for (const double sample : metric.samples) recorder.add(metric.name, metric.unit, sample);
   }

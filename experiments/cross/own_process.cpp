@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -41,16 +42,22 @@ pid_t start(const std::vector<std::string>& arguments, const std::filesystem::pa
 }
 
 int wait(pid_t child) {
-  int status = 0;
   bool told = false;
-  while (waitpid(child, &status, WNOHANG) == 0) {
+  for (;;) {
+    int status = 0;
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended == child) return status;
+    // ECHILD, where the caller has SIGCHLD ignored: how it ended is lost, so nothing of it can be trusted.
+    if (ended < 0 && errno != EINTR) {
+      throw environment_error(fmt::format("cannot wait for the second process: {}", std::strerror(errno)),
+                              kSelf, "run the program with SIGCHLD at its default");
+    }
     if (Progress::interrupted() && !told) {
       kill(child, SIGTERM);
       told = true;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  return status;
 }
 
 std::string last_line(const std::filesystem::path& log) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "terrain/error.h"
 #include "terrain/frustum.h"
 
 namespace terrabench {
@@ -16,25 +17,41 @@ constexpr int kSmallestM = 4, kLargestM = 1024;
 
 constexpr float kLeast = 1e-6F;  // share of its height that a level about to go has left
 
+// Samples from the eye that endless ground is drawn to at most, so that all sample numbers fit.
+constexpr double kFarthestSight = 1 << 26;
+
+// Samples of bounded ground along its longer side.
+int longest(const HeightSource& source) {
+  const glm::ivec2 samples = source.last() - source.first() + 1;
+  return std::max(samples.x, samples.y);
+}
+
 // At most what covers the ground from wherever the eye is over it: a larger window only has more triangles
 // beyond the border.
 int m_of(const HeightSource& source, int window) {
-  const int longest = std::max(source.width(), source.depth());
-  const int covering = std::clamp(longest / 2 + 2, kSmallestM, kLargestM);
+  const int covering =
+      source.bounded() ? std::clamp(longest(source) / 2 + 2, kSmallestM, kLargestM) : kLargestM;
   return std::clamp((window + 1) / 4, kSmallestM, covering);
 }
 
-// Levels until one window covers the ground from wherever the eye is over it.
-int level_count(const HeightSource& source, int n) {
-  const std::int64_t longest = std::max(source.width(), source.depth());
+// Levels until one window reaches so many samples from wherever the eye is in it.
+int level_count(double samples, int n) {
   int levels = 1;
-  while (static_cast<std::int64_t>(n / 2 - 1) << (levels - 1) < longest) ++levels;
+  while (std::ldexp(n / 2 - 1, levels - 1) < samples) ++levels;
   return levels;
 }
 
+// Metres to the farthest corner of the view's far plane: how far ground can be seen.
+double sight(const View& view) {
+  const double up = std::tan(0.5 * view.vertical_fov), aside = up * view.width / view.height;
+  return view.far * std::sqrt(1 + up * up + aside * aside);
+}
+
 // Floor of eye / spacing as a whole number.
-int lattice_floor(float eye, int spacing) {
-  return static_cast<int>(std::floor(static_cast<double>(eye) / spacing));
+int lattice_floor(double eye, int spacing) { return static_cast<int>(std::floor(eye / spacing)); }
+
+int ceiling(int samples, int spacing) {
+  return static_cast<int>((static_cast<std::int64_t>(samples) + spacing - 1) & -spacing) / spacing;
 }
 
 }  // namespace
@@ -55,31 +72,50 @@ void Clipmap::tune(double window) {
 
 void Clipmap::reset(int window) {
   window_ = clipmap::make_window(m_of(*source_, window));
-  const std::size_t blocks = window_.ring.size() + window_.middle.size() + window_.trims.size();
-  levels_.assign(static_cast<std::size_t>(level_count(*source_, window_.n)), {});
-  shown_.assign(levels_.size(), {});
-  for (std::size_t l = 0; l < levels_.size(); ++l) {
-    Level& level = levels_[l];
-    level.heights.assign(static_cast<std::size_t>(window_.side) * window_.side, 0.0F);
-    level.heights_of_tiles = clipmap::HeightBounds(window_.n);
-    level.ranges.assign(blocks, {});
-    shown_[l].side = window_.side;
-    shown_[l].spacing = 1 << l;
-    shown_[l].heights = level.heights;
-  }
-  batches_.reserve(levels_.size() * blocks);
+  levels_.clear();
+  shown_.clear();
+  const int levels = source_->bounded() ? level_count(longest(*source_), window_.n) : 1;
+  while (this->levels() < levels) add_level();
   indices_uploaded_ = false;
 }
 
-// Over the ground: from outside it, the nearest of its border.
-glm::vec2 Clipmap::eye_in_samples(const View& view) const {
-  return {std::clamp(view.eye.x / source_->cell_x(), 0.0F, static_cast<float>(source_->width() - 1)),
-          std::clamp(view.eye.z / source_->cell_z(), 0.0F, static_cast<float>(source_->depth() - 1))};
+void Clipmap::add_level() {
+  const std::size_t blocks = window_.ring.size() + window_.middle.size() + window_.trims.size();
+  Level& level = levels_.emplace_back();
+  level.heights.assign(static_cast<std::size_t>(window_.side) * window_.side, 0.0F);
+  level.heights_of_tiles = clipmap::HeightBounds(window_.n);
+  level.ranges.assign(blocks, {});
+  level.run_ends.assign(blocks, 0);
+  shown_.push_back({.side = window_.side, .spacing = 1 << (levels() - 1), .heights = level.heights});
+  // All that a frame has where no border cuts blocks: four parts of two strips a level, and the indices.
+  batches_.reserve(levels_.size() * blocks);
+  uploads_.reserve(levels_.size() * 8 + 1);
 }
 
-float Clipmap::ground_below_eye(glm::vec2 eye) {
+// Over endless ground, levels until the coarsest window reaches beyond all that can be seen.
+void Clipmap::reach(const View& view) {
+  if (source_->bounded()) return;
+  const double cell = std::min(source_->cell_x(), source_->cell_z());
+  const int levels = level_count(std::min(sight(view) / cell, kFarthestSight), window_.n);
+  while (this->levels() < levels) add_level();
+}
+
+void Clipmap::move_origin(glm::ivec2 sample) {
+  if (glm::clamp(sample, source_->first(), source_->last()) != sample)
+    throw usage_error("no sample of the ground to count metres from", "", "choose one of the ground's");
+  origin_ = sample;
+}
+
+// Over the ground: from outside it, the nearest of its border.
+glm::dvec2 Clipmap::eye_in_samples(const View& view) const {
+  const glm::dvec2 eye(view.eye.x / static_cast<double>(source_->cell_x()),
+                       view.eye.z / static_cast<double>(source_->cell_z()));
+  return glm::clamp(eye + glm::dvec2(origin_), glm::dvec2(source_->first()), glm::dvec2(source_->last()));
+}
+
+float Clipmap::ground_below_eye(glm::dvec2 eye) {
   float height = 0;
-  source_->read(0, static_cast<int>(eye.x), static_cast<int>(eye.y), 1, 1, &height, 1);
+  source_->read(0, lattice_floor(eye.x, 1), lattice_floor(eye.y, 1), 1, 1, &height, 1);
   return height;
 }
 
@@ -93,7 +129,8 @@ const Frame& Clipmap::update(const View& view) {
                         .count = static_cast<std::uint32_t>(window_.indices.size())});
     indices_uploaded_ = true;
   }
-  const glm::vec2 eye = eye_in_samples(view);
+  reach(view);
+  const glm::dvec2 eye = eye_in_samples(view);
   const float height = view.eye.y - ground_below_eye(eye);
   const float cell = std::max(source_->cell_x(), source_->cell_z());
   int finest = 0;
@@ -106,14 +143,16 @@ const Frame& Clipmap::update(const View& view) {
     move(l, {2 * (lattice_floor(eye.x, 2 * spacing) - window_.m + 1),
              2 * (lattice_floor(eye.y, 2 * spacing) - window_.m + 1)});
     ClipLevel& shown = shown_[l];
-    shown.eye = eye / static_cast<float>(spacing);
+    shown.eye = eye / static_cast<double>(spacing) - glm::dvec2(shown.corner);
     blend(l, height / (kHighestEye * static_cast<float>(window_.n << l) * cell));
   }
   const Frustum frustum(view);
   for (int l = finest; l < levels(); ++l) draw(l, finest, frustum);
   frame_ = {.grid = {},
             .levels = shown_,
-            .last = {source_->width() - 1, source_->depth() - 1},
+            .first = source_->first(),
+            .last = source_->last(),
+            .origin = origin_,
             .cell_x = source_->cell_x(),
             .cell_z = source_->cell_z(),
             .indices = window_.indices,
@@ -185,12 +224,19 @@ void Clipmap::refill(int l, int a, int b, int columns, int rows) {
 void Clipmap::bound(int l) {
   Level& level = levels_[l];
   level.heights_of_tiles.follow(shown_[l]);
+  const int spacing = shown_[l].spacing;
+  const glm::ivec2 corner = shown_[l].corner, first = source_->first(), last = source_->last();
+  const glm::ivec2 begin(lattice_floor(first.x, spacing), lattice_floor(first.y, spacing));
+  const glm::ivec2 end(ceiling(last.x, spacing), ceiling(last.y, spacing));
   std::size_t slot = 0;
+  level.runs.clear();
   for (const auto* blocks : {&window_.ring, &window_.middle, &window_.trims}) {
     for (const clipmap::Block& block : *blocks) {
+      append_inside(window_, block, begin - corner, end - corner, level.runs);
+      level.run_ends[slot] = static_cast<std::uint32_t>(level.runs.size());
       const glm::ivec2 low = glm::max(glm::ivec2(block.x0, block.z0) - 1, 0);
       const glm::ivec2 high = glm::min(glm::ivec2(block.x1, block.z1) + 1, window_.n - 1);
-      level.ranges[slot++] = level.heights_of_tiles.range(shown_[l].corner + low, shown_[l].corner + high);
+      level.ranges[slot++] = level.heights_of_tiles.range(corner + low, corner + high);
     }
   }
 }
@@ -204,36 +250,44 @@ void Clipmap::draw(int l, int finest, const Frustum& frustum) {
   }
   if (l == finest) return;
   const glm::ivec2 hole = shown_[l - 1].corner / 2 - shown_[l].corner - (window_.m - 1);
-  const auto trim = static_cast<std::size_t>(2 * hole.y + hole.x);
-  draw(l, slot + trim, window_.trims[trim], frustum);
+  const auto trim = static_cast<std::size_t>(2 * (2 * hole.y + hole.x));
+  for (std::size_t k = trim; k < trim + 2; ++k) draw(l, slot + k, window_.trims[k], frustum);
 }
 
 void Clipmap::draw(int l, std::size_t slot, const clipmap::Block& block, const Frustum& frustum) {
   const ClipLevel& shown = shown_[l];
-  const auto along = [&](int lattice, int last) { return std::clamp(lattice * shown.spacing, 0, last); };
+  const Level& level = levels_[l];
+  const std::uint32_t begin = slot == 0 ? 0 : level.run_ends[slot - 1], end = level.run_ends[slot];
+  if (begin == end) return;  // beyond the ground
+  const auto place = [&](int x, float y, int z) {
+    const glm::ivec2 sample =
+        glm::clamp((shown.corner + glm::ivec2(x, z)) * shown.spacing, source_->first(), source_->last()) -
+        origin_;
+    return glm::vec3(static_cast<float>(sample.x) * source_->cell_x(), y,
+                     static_cast<float>(sample.y) * source_->cell_z());
+  };
   // Out to even samples: at the window's border, triangles reach those.
-  const int i0 = along(shown.corner.x + (block.x0 & ~1), source_->width() - 1);
-  const int i1 = along(shown.corner.x + ((block.x1 + 1) & ~1), source_->width() - 1);
-  const int j0 = along(shown.corner.y + (block.z0 & ~1), source_->depth() - 1);
-  const int j1 = along(shown.corner.y + ((block.z1 + 1) & ~1), source_->depth() - 1);
-  if (i0 == i1 || j0 == j1) return;  // beyond the ground
-  const Bounds box{{static_cast<float>(i0) * source_->cell_x(), levels_[l].ranges[slot].lowest,
-                    static_cast<float>(j0) * source_->cell_z()},
-                   {static_cast<float>(i1) * source_->cell_x(), levels_[l].ranges[slot].highest,
-                    static_cast<float>(j1) * source_->cell_z()}};
+  const Bounds box{place(block.x0 & ~1, level.ranges[slot].lowest, block.z0 & ~1),
+                   place((block.x1 + 1) & ~1, level.ranges[slot].highest, (block.z1 + 1) & ~1)};
   if (frustum.see(box) == Sight::kOutside) return;
-  batches_.push_back({block.first_index, block.index_count, 0, static_cast<std::uint16_t>(l)});
+  for (std::uint32_t k = begin; k < end; ++k) {
+    batches_.push_back(
+        {level.runs[k].first_index, level.runs[k].index_count, 0, static_cast<std::uint16_t>(l)});
+  }
 }
 
 Memory Clipmap::memory() const {
   Memory memory;
   memory.index += heap_bytes(this) + source_->bytes();
   memory += payload_memory(window_.indices);
+  memory += index_memory(window_.rows);
   for (const auto* blocks : {&window_.ring, &window_.middle, &window_.trims}) memory += index_memory(*blocks);
   for (const Level& level : levels_) {
     memory += payload_memory(level.heights);
     memory += level.heights_of_tiles.memory();
     memory += index_memory(level.ranges);
+    memory += index_memory(level.run_ends);
+    memory += index_memory(level.runs);
   }
   memory.index += heap_bytes(levels_.data());
   memory += index_memory(shown_);

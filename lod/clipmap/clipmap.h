@@ -5,7 +5,13 @@
 // Where the paper leaves a choice: levels are every second sample of the one below, not filtered, so that a
 // vertex has one height in all levels; a window follows the eye in steps of two of its samples; levels are
 // skipped while the eye is higher than 0.4 of their window's extent over the ground (§3.2); the transition is
-// a tenth of the window wide (§3.3); blocks are culled by the heights that lie in them now.
+// a tenth of the window wide (§3.3); blocks are culled by the heights that lie in them now, and cut at the
+// border of bounded ground, beyond which triangles have no plan area.
+//
+// Endless ground (endless_heights.h) has as many levels as the far plane asks for (up to 2^26 samples away),
+// so that no edge comes into sight. What stands at x = z = 0 can be moved along with the eye: it costs
+// nothing, since windows are held by whole samples, and metres stay small enough for a float wherever the eye
+// goes.
 //
 // update(): O(n) a window that moved by a step, for its strips and their bounds, and O(levels) to draw.
 // Memory: 4 bytes a sample of each window; nothing that depends on the terrain's size but the number of
@@ -35,6 +41,11 @@ class Clipmap : public Lod {
   void tune(double window) override;
   Memory memory() const override;
 
+  // From the next update() on, views and frames count metres from this sample. Throws usage_error where the
+  // ground has none.
+  void move_origin(glm::ivec2 sample);
+  glm::ivec2 origin() const { return origin_; }
+
   int levels() const { return static_cast<int>(levels_.size()); }
   int window() const { return window_.n; }
 
@@ -43,12 +54,17 @@ class Clipmap : public Lod {
     std::vector<float> heights;  // side², toroidal
     bool filled = false;
     clipmap::HeightBounds heights_of_tiles;
-    std::vector<clipmap::HeightBounds::Range> ranges;  // of what each block can show: ring, middle, trims
+    // Of each block, ring, middle and trims: between which heights it lies, and what to draw of it.
+    std::vector<clipmap::HeightBounds::Range> ranges;
+    std::vector<std::uint32_t> run_ends;
+    std::vector<clipmap::Run> runs;
   };
 
   void reset(int window);
-  glm::vec2 eye_in_samples(const View&) const;
-  float ground_below_eye(glm::vec2 eye);
+  void add_level();
+  void reach(const View&);
+  glm::dvec2 eye_in_samples(const View&) const;
+  float ground_below_eye(glm::dvec2 eye);
   void blend(int level, float rise);
   void move(int level, glm::ivec2 corner);
   void refill(int level, int a, int b, int columns, int rows);
@@ -57,6 +73,7 @@ class Clipmap : public Lod {
   void draw(int level, std::size_t slot, const clipmap::Block&, const Frustum&);
 
   std::unique_ptr<HeightSource> source_;
+  glm::ivec2 origin_{0};
   clipmap::Window window_;
   std::vector<Level> levels_;
   std::vector<ClipLevel> shown_;

@@ -10,8 +10,7 @@ namespace {
 class FieldSource : public HeightSource {
  public:
   explicit FieldSource(const Heightfield& field) : field_(field) {}
-  int width() const override { return field_.width; }
-  int depth() const override { return field_.depth; }
+  glm::ivec2 last() const override { return {field_.width - 1, field_.depth - 1}; }
   float cell_x() const override { return field_.cell_x; }
   float cell_z() const override { return field_.cell_z; }
   std::size_t bytes() const override { return heap_bytes(this); }
@@ -35,8 +34,7 @@ class FieldSource : public HeightSource {
 class PyramidSource : public HeightSource {
  public:
   explicit PyramidSource(std::unique_ptr<HeightPyramid> pyramid) : pyramid_(std::move(pyramid)) {}
-  int width() const override { return pyramid_->width(); }
-  int depth() const override { return pyramid_->depth(); }
+  glm::ivec2 last() const override { return {pyramid_->width() - 1, pyramid_->depth() - 1}; }
   float cell_x() const override { return pyramid_->cell_x(); }
   float cell_z() const override { return pyramid_->cell_z(); }
   std::size_t bytes() const override { return heap_bytes(this) + pyramid_->bytes(); }

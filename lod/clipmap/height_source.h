@@ -1,9 +1,9 @@
-// Where a clipmap takes its heights from: a field in memory, or a pyramid of tiles on disk that never comes
-// into memory whole.
+// Where a clipmap takes its heights from: a field in memory, a pyramid of tiles on disk that never comes into
+// memory whole, or a function without bounds (endless_heights.h).
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <memory>
-#include <span>
 
 #include "terrain/heightfield.h"
 #include "terrain/sources/dem/height_pyramid.h"
@@ -11,14 +11,17 @@
 namespace terrabench {
 
 // The terrain's samples as levels: lattice sample (a, b) of level l is sample (a·2ˡ, b·2ˡ) of the terrain,
-// taken as it is, so that levels agree to the bit where they meet; outside the terrain it is the sample of
-// the border.
+// taken as it is, so that levels agree to the bit where they meet.
 class HeightSource {
  public:
   virtual ~HeightSource() = default;
-  virtual int width() const = 0;
-  virtual int depth() const = 0;
-  virtual float cell_x() const = 0;
+  // The ground lies between the two; from samples outside it is the sample of the border that is read. What
+  // is not bounded reaches farther than any view: as many levels are needed as the far plane asks for, not as
+  // the ground has.
+  virtual glm::ivec2 first() const { return glm::ivec2(0); }
+  virtual glm::ivec2 last() const = 0;
+  virtual bool bounded() const { return true; }
+  virtual float cell_x() const = 0;  // metres
   virtual float cell_z() const = 0;
   // Lattice samples [a, a + columns) × [b, b + rows), row by row, into `out`, whose rows are `stride` apart.
   virtual void read(int level, int a, int b, int columns, int rows, float* out, int stride) = 0;

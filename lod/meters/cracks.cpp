@@ -247,7 +247,8 @@ class LineSweep {
 CrackReport find_cracks(const Frame& frame, int width, int depth, const View& view) {
   CrackReport report;
   report.flipped = flipped_triangles(frame);
-  report.covered_again = samples_covered_again(frame, width, depth);
+  // Endless ground has too many samples to mark; there runs of edges alone tell.
+  if (frame.first == glm::ivec2(0)) report.covered_again = samples_covered_again(frame, width, depth);
   std::vector<Open> open = open_edges(frame, width, depth, report);
   tbb::parallel_sort(open.begin(), open.end(), [](const Open& a, const Open& b) { return key(a) < key(b); });
   const Projector project(view);

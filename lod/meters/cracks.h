@@ -27,8 +27,10 @@ struct CrackReport {
   // over others. Where a method leaves out what it proved hidden, its rim counts here; what matters then is
   // ScreenDeviation::visible.undrawn.
   std::size_t bare_edges = 0;
-  std::size_t overlaps = 0;       // edges run more than once the same way: triangles drawn over each other
-  std::size_t covered_again = 0;  // samples of the full terrain under more than one triangle, in view or not
+  std::size_t overlaps = 0;  // edges run more than once the same way: triangles drawn over each other
+  // Samples of the full terrain under more than one triangle, in view or not; not counted over endless
+  // ground.
+  std::size_t covered_again = 0;
   // Triangles that wind clockwise from above, where nobody sees them: holes. For the counts above they are
   // turned.
   std::size_t flipped = 0;

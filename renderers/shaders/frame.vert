@@ -23,7 +23,7 @@ uniform mat4 world_to_clip;
 uniform ivec2 samples;  // of the grid
 uniform vec2 cell;      // metres
 uniform int side;       // of the clip levels; 0 over a grid
-uniform ivec2 last;     // sample of the full terrain, of clip levels
+uniform ivec2 first, last, origin;  // samples of the full terrain, of clip levels
 uniform int patch_side; // cells; 0 where no vertex moves
 
 out Vertex {
@@ -96,29 +96,29 @@ float clip_height(int level, ivec2 at) {
 }
 
 // The two samples of the coarser level beside one of this level, along one axis.
-ivec2 ends(int at, int spacing, int end) {
+ivec2 ends(int at, int spacing, int begin, int end) {
   int odd = at & 1;
   ivec2 two = ivec2(at - odd, at + odd) / 2;
   if (at * spacing >= end) two.x = two.y;
-  if (at * spacing <= 0) two.y = two.x;
+  if (at * spacing <= begin) two.y = two.x;
   return two;
 }
 
 vec3 clip_position(BatchRecord batch) {
   LevelRecord level = levels[batch.level];
-  ivec2 at = level.corner + ivec2(gl_VertexID % side, gl_VertexID / side);
+  ivec2 inside = ivec2(gl_VertexID % side, gl_VertexID / side), at = level.corner + inside;
   float y = clip_height(batch.level, at);
   if (level.from < level.to) {
-    vec2 away = abs(vec2(at) - level.eye);
+    vec2 away = abs(vec2(inside) - level.eye);
     float weight = clamp((max(away.x, away.y) - level.from) / (level.to - level.from), 0.0, 1.0);
     if (weight > 0.0) {
-      ivec2 x = ends(at.x, level.spacing, last.x), z = ends(at.y, level.spacing, last.y);
+      ivec2 x = ends(at.x, level.spacing, first.x, last.x), z = ends(at.y, level.spacing, first.y, last.y);
       float there = 0.5 * (clip_height(batch.level + 1, ivec2(x[0], z[1])) +
                            clip_height(batch.level + 1, ivec2(x[1], z[0])));
       y = mix(y, there, weight);
     }
   }
-  ivec2 place = clamp(at * level.spacing, ivec2(0), last);
+  ivec2 place = clamp(at * level.spacing, first, last) - origin;
   return vec3(float(place.x) * cell.x, y, float(place.y) * cell.y);
 }
 

@@ -1,12 +1,13 @@
-// Clipmaps over 4097² synthetic mountains, 30 m between samples, in memory and from tiles on disk: an update
-// should cost what came into the windows, not what they hold. `bytes` is what a frame uploads, `of_refill`
-// its share of what filling all windows takes.
+// Clipmaps over 4097² synthetic mountains, 30 m between samples, in memory (from = 0) and from tiles on disk
+// (1), and over endless noise (2): an update should cost what came into the windows, not what they hold.
+// `bytes` is what a frame uploads, `of_refill` its share of what filling all windows takes.
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
 #include <filesystem>
 
 #include "lod/clipmap/clipmap.h"
+#include "lod/clipmap/endless_heights.h"
 #include "terrain/sources/dem/dem.h"
 #include "tests/bench/mountains.h"
 
@@ -43,31 +44,36 @@ const std::filesystem::path& tiles() {
   return folder.tiles;
 }
 
-std::unique_ptr<HeightSource> source(bool on_disk) {
-  return on_disk ? heights_on_disk(HeightPyramid::open(tiles())) : heights_in_memory(ground());
+std::unique_ptr<HeightSource> source(std::int64_t from) {
+  return from == 0   ? heights_in_memory(ground())
+         : from == 1 ? heights_on_disk(HeightPyramid::open(tiles()))
+                     : endless_heights({.cell = kCell});
 }
 
 // Low enough for the finest level, over sample (i, j), looking north.
-View over(double i, double j) {
+View over(double i, double j, HeightSource& heights) {
   View view;
   const auto x = static_cast<float>(i * kCell), z = static_cast<float>(j * kCell);
-  view.eye = {x, ground().sample(x, z) + 1.8F, z};
+  float height = 0;
+  heights.read(0, static_cast<int>(i), static_cast<int>(j), 1, 1, &height, 1);
+  view.eye = {x, height + 1.8F, z};
   view.target = view.eye + glm::vec3(0, 0, -1);
   view.far = 200000;
   return view;
 }
 
 // Goes by (di, dj) samples a frame, turning back before the border.
-void go(benchmark::State& state, double di, double dj, int window, bool on_disk) {
-  Clipmap clipmap(source(on_disk), window);
-  const double full = static_cast<double>(clipmap.update(over(1000, 1000)).stats.bytes_uploaded);
+void go(benchmark::State& state, double di, double dj, int window, std::int64_t from) {
+  const auto heights = source(from == 2 ? 2 : 0);  // of the same ground, to stand on
+  Clipmap clipmap(source(from), window);
+  const double full = static_cast<double>(clipmap.update(over(1000, 1000, *heights)).stats.bytes_uploaded);
   double i = 1000, j = 1000, bytes = 0, moved = 0;
   for (auto _ : state) {
     if (i + di > 3000 || i + di < 900) di = -di;
     if (j + dj > 3000 || j + dj < 900) dj = -dj;
     i += di;
     j += dj;
-    const FrameStats& stats = clipmap.update(over(i, j)).stats;
+    const FrameStats& stats = clipmap.update(over(i, j, *heights)).stats;
     bytes += static_cast<double>(stats.bytes_uploaded);
     moved += static_cast<double>(stats.changes);
   }
@@ -79,34 +85,32 @@ void go(benchmark::State& state, double di, double dj, int window, bool on_disk)
 
 // 6 km/h at 60 frames a second: most frames move no window.
 void walking(benchmark::State& state) {
-  go(state, 0.028 / kCell, 0, static_cast<int>(state.range(0)), state.range(1) != 0);
+  go(state, 0.028 / kCell, 0, static_cast<int>(state.range(0)), state.range(1));
 }
 void one_sample(benchmark::State& state) {
-  go(state, 1, 0, static_cast<int>(state.range(0)), state.range(1) != 0);
+  go(state, 1, 0, static_cast<int>(state.range(0)), state.range(1));
 }
 // Both ways at once: the whole L, and every level above each time its turn comes.
-void diagonal(benchmark::State& state) {
-  go(state, 2, 2, static_cast<int>(state.range(0)), state.range(1) != 0);
-}
+void diagonal(benchmark::State& state) { go(state, 2, 2, static_cast<int>(state.range(0)), state.range(1)); }
 // So far that no window keeps anything of its finest levels, as a jump does.
 void refill(benchmark::State& state) {
-  const bool on_disk = state.range(1) != 0;
+  const auto heights = source(state.range(1) == 2 ? 2 : 0);
   double bytes = 0;
   int frame = 0;
   for (auto _ : state) {
     state.PauseTiming();
-    Clipmap clipmap(source(on_disk), static_cast<int>(state.range(0)));
+    Clipmap clipmap(source(state.range(1)), static_cast<int>(state.range(0)));
     state.ResumeTiming();
     const int at = 1000 + 300 * (++frame % 7);
-    bytes += static_cast<double>(clipmap.update(over(at, at)).stats.bytes_uploaded);
+    bytes += static_cast<double>(clipmap.update(over(at, at, *heights)).stats.bytes_uploaded);
   }
   state.counters["bytes"] = benchmark::Counter(bytes, benchmark::Counter::kAvgIterations);
 }
 
-#define CLIPMAP_BENCHMARK(name)                \
-  BENCHMARK(name)                              \
-      ->ArgNames({"n", "disk"})                \
-      ->ArgsProduct({{127, 255, 511}, {0, 1}}) \
+#define CLIPMAP_BENCHMARK(name)                   \
+  BENCHMARK(name)                                 \
+      ->ArgNames({"n", "from"})                   \
+      ->ArgsProduct({{127, 255, 511}, {0, 1, 2}}) \
       ->Unit(benchmark::kMicrosecond)
 CLIPMAP_BENCHMARK(walking);
 CLIPMAP_BENCHMARK(one_sample);

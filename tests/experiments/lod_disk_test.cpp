@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <map>
 #include <thread>
 
 #include "results/store.h"
 #include "terrain/heightfield.h"
 #include "terrain/sources/dem/dem.h"
+#include "terrain/sources/dem/height_pyramid.h"
 #include "tests/experiments/command_line.h"
 
 namespace terrabench {
@@ -43,6 +45,49 @@ TEST_F(LodDisk, UploadsTheStripsAndLeavesNothing) {
   EXPECT_EQ(record.find("step_time")->samples.size(), 40U);
   EXPECT_EQ(only(record, "ground_bytes"), 4 * 700 * 700);
   EXPECT_GT(only(record, "peak_resident"), only(record, "clipmap_bytes"));
+  EXPECT_TRUE(fs::is_empty(temporary_));
+}
+
+// Steps that the ground is too short for turn back at its border, and go on counting.
+TEST_F(LodDisk, KeepsWalkingOverShortGround) {
+  const Outcome outcome = call(run("--set side=40 --set steps=400 --set window=15"));
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  const Store store = Store::open(folder_ / "out");
+  const double bytes = only(store.records().front(), "step_bytes");
+  // The finest window alone takes in two columns of 15 samples every other step.
+  EXPECT_GE(bytes, 150.0 * 2 * 15 * 4);
+  EXPECT_EQ(bytes, only(store.records().front(), "step_strip_bytes"));
+}
+
+TEST_F(LodDisk, APyramidIsKnownByItsContent) {
+  Heightfield field;
+  field.width = 60;
+  field.depth = 50;
+  field.heights.assign(std::size_t{60} * 50, 5);
+  Progress silent;
+  for (const char* const name : {"one", "same", "other"}) {
+    field.at(30, 20) = name == std::string_view("other") ? 6.0F : 5.0F;
+    write_geotiff(folder_ / "ground.tif", field);
+    HeightPyramid::build((folder_ / "ground.tif").string(), folder_ / name, silent);
+    const Outcome outcome = call(run(std::string("--set steps=3 --terrain ") + name));
+    ASSERT_EQ(outcome.code, 0) << outcome.text;
+  }
+  const Store store = Store::open(folder_ / "out");
+  std::map<std::string, std::string> digests;
+  for (const Record& record : store.records()) digests[record.terrain] = record.terrain_checksum;
+  ASSERT_EQ(digests.size(), 3U);
+  EXPECT_EQ(digests["one"].size(), 32U);
+  EXPECT_EQ(digests["one"], digests["same"]);
+  EXPECT_NE(digests["one"], digests["other"]);
+}
+
+// Whoever has SIGCHLD ignored never hears how a process of its own ended: that is no success.
+TEST_F(LodDisk, ALostProcessIsAnError) {
+  const Outcome outcome =
+      call("export TMPDIR=" + temporary_.string() +
+           "; exec env --ignore-signal=CHLD $T run cross.lod-disk --out out --set side=100");
+  EXPECT_EQ(outcome.code, 4) << outcome.text;
+  EXPECT_THAT(outcome.text, testing::HasSubstr("cannot wait for the second process"));
   EXPECT_TRUE(fs::is_empty(temporary_));
 }
 

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "lod/clipmap/clipmap.h"
+#include "lod/clipmap/endless_heights.h"
 #include "lod/lod.h"
 #include "lod/meters/image_error.h"
 #include "tests/lod/variants.h"
@@ -89,29 +90,52 @@ class FrameRendererTest : public ::testing::TestWithParam<test::Variant> {
   Progress silent_;
 };
 
+// At pixels taken by chance.
+void expect_shown(FrameRenderer& renderer, const Frame& frame, const View& view, std::mt19937& random) {
+  std::vector<glm::vec3> corners;
+  triangles(frame, [&](std::span<const glm::vec3> some) {
+    corners.insert(corners.end(), some.begin(), some.end());
+  });
+  const std::vector<std::uint32_t> shown = renderer.triangle_numbers(frame, view);
+  const glm::mat4 to_clip = world_to_clip(view);
+  int agree = 0, asked = 0;
+  for (int k = 0; k < 300; ++k) {
+    const int x = static_cast<int>(random() % 160), y = static_cast<int>(random() % 120);
+    const std::uint32_t expected = nearest_triangle(corners, to_clip, (static_cast<float>(x) + 0.5F) / 80 - 1,
+                                                    1 - (static_cast<float>(y) + 0.5F) / 60);
+    ++asked;
+    agree += shown[static_cast<std::size_t>(y) * 160 + x] == expected ? 1 : 0;
+  }
+  // A pixel's centre on an edge may fall to either side.
+  EXPECT_GE(agree, asked * 98 / 100);
+}
+
 TEST_P(FrameRendererTest, ShowsTheTrianglesOfTheFrame) {
   const std::unique_ptr<Lod> lod = build();
   FrameRenderer renderer(*context_);
   std::mt19937 random(2);
   for (const float t : {0.1F, 0.7F}) {
     const View view = walk(field_, t);
-    const Frame& frame = lod->update(view);
-    std::vector<glm::vec3> corners;
-    triangles(frame, [&](std::span<const glm::vec3> some) {
-      corners.insert(corners.end(), some.begin(), some.end());
-    });
-    const std::vector<std::uint32_t> shown = renderer.triangle_numbers(frame, view);
-    const glm::mat4 to_clip = world_to_clip(view);
-    int agree = 0, asked = 0;
-    for (int k = 0; k < 300; ++k) {
-      const int x = static_cast<int>(random() % 160), y = static_cast<int>(random() % 120);
-      const std::uint32_t expected = nearest_triangle(
-          corners, to_clip, (static_cast<float>(x) + 0.5F) / 80 - 1, 1 - (static_cast<float>(y) + 0.5F) / 60);
-      ++asked;
-      agree += shown[static_cast<std::size_t>(y) * 160 + x] == expected ? 1 : 0;
-    }
-    // A pixel's centre on an edge may fall to either side.
-    EXPECT_GE(agree, asked * 98 / 100);
+    expect_shown(renderer, lod->update(view), view, random);
+  }
+}
+
+// So far from sample 0 that floats of metres from there would not tell one sample from the next; and with
+// levels that come when the far plane moves away.
+TEST(EndlessFrames, ShowTheirTrianglesFarFromSample0) {
+  const std::unique_ptr<GlContext> context = open_context("osmesa", 16, 16);
+  FrameRenderer renderer(*context);
+  Clipmap lod(endless_heights({.cell = 2, .relief = 100, .cell_bits = 5, .octaves = 4}), 31);
+  lod.move_origin({1 << 28, -(1 << 27)});
+  std::mt19937 random(4);
+  for (const float t : {0.0F, 30.0F, 300.0F}) {
+    View view;
+    view.width = 160;
+    view.height = 120;
+    view.eye = {t, 60, -2 * t};
+    view.target = view.eye + glm::vec3(1, -0.4F, 0.5F);
+    view.far = 400 + 4 * t;
+    expect_shown(renderer, lod.update(view), view, random);
   }
 }
 

@@ -40,8 +40,7 @@ inline std::array<float, 3> direction(std::uint32_t h) {
   return {zero == 0 ? 0.0F : sign[0], zero == 1 ? 0.0F : sign[1], zero == 2 ? 0.0F : sign[2]};
 }
 
-inline float gradient_noise(float px, float py, float pz, std::uint32_t seed) {
-  const Axis x = split(px), y = split(py), z = split(pz);
+inline float gradient_noise(const Axis& x, const Axis& y, const Axis& z, std::uint32_t seed) {
   std::array<float, 2> n{};
   for (std::uint32_t k = 0; k < 2; ++k) {
     std::array<float, 4> a{}, b{};
@@ -55,6 +54,10 @@ inline float gradient_noise(float px, float py, float pz, std::uint32_t seed) {
     n[k] = ((a[0] + a[1]) + (a[2] + a[3])) + ((b[0] + b[1]) + (b[2] + b[3])) * y.distance[k];
   }
   return (n[0] + y.weight[1] * (n[1] - n[0])) * kNormalise;
+}
+
+inline float gradient_noise(float px, float py, float pz, std::uint32_t seed) {
+  return gradient_noise(split(px), split(py), split(pz), seed);
 }
 
 }  // namespace terrabench::noise::reference

@@ -37,6 +37,13 @@ struct Axis {
   VF f0, f1, fade;  // distance to the cell's lower and upper lattice plane, weight of the upper
 };
 
+HWY_INLINE Axis axis_at(VI cell, VF t) {
+  const F f;
+  const VF inner =
+      hn::Add(hn::Mul(hn::Sub(hn::Mul(t, hn::Set(f, 6.0F)), hn::Set(f, 15.0F)), t), hn::Set(f, 10.0F));
+  return {cell, t, hn::Sub(t, hn::Set(f, 1.0F)), hn::Mul(hn::Mul(hn::Mul(t, t), t), inner)};
+}
+
 // Splits a coordinate into cell and fraction. Truncates and corrects instead of calling Floor(), whose sign
 // of zero differs between targets.
 HWY_INLINE Axis split(VF p) {
@@ -47,15 +54,8 @@ HWY_INLINE Axis split(VF p) {
   const VF whole = hn::ConvertTo(f, truncated);
   const MF above = hn::Gt(whole, p);
   const VF one = hn::Set(f, 1.0F);
-  Axis axis;
-  axis.cell = hn::Add(truncated, hn::VecFromMask(i, hn::RebindMask(i, above)));
-  axis.f0 = hn::Sub(p, hn::Sub(whole, hn::IfThenElseZero(above, one)));
-  axis.f1 = hn::Sub(axis.f0, one);
-  const VF t = axis.f0;
-  const VF inner =
-      hn::Add(hn::Mul(hn::Sub(hn::Mul(t, hn::Set(f, 6.0F)), hn::Set(f, 15.0F)), t), hn::Set(f, 10.0F));
-  axis.fade = hn::Mul(hn::Mul(hn::Mul(t, t), t), inner);
-  return axis;
+  return axis_at(hn::Add(truncated, hn::VecFromMask(i, hn::RebindMask(i, above))),
+                 hn::Sub(p, hn::Sub(whole, hn::IfThenElseZero(above, one))));
 }
 
 HWY_INLINE VU hash_xz(VU xz) {
@@ -136,15 +136,18 @@ HWY_INLINE VF between(const Axis& y, const Plane& low, const Plane& high) {
   return hn::Mul(hn::Add(n0, hn::Mul(y.fade, hn::Sub(n1, n0))), hn::Set(f, kNormalise));
 }
 
-HWY_INLINE VF gradient_noise(VF px, VF py, VF pz, VU seed) {
+HWY_INLINE VF gradient_noise(const Axis& x, const Axis& y, const Axis& z, VU seed) {
   const U u;
-  const Axis x = split(px), y = split(py), z = split(pz);
   Line line[4];
   lines(x, z, seed, line);
   const VU y0 = hn::Mul(hn::BitCast(u, y.cell), hn::Set(u, kLatticeY));
   const Plane low = plane(line, y0);
   const Plane high = plane(line, hn::Add(y0, hn::Set(u, kLatticeY)));
   return between(y, low, high);
+}
+
+HWY_INLINE VF gradient_noise(VF px, VF py, VF pz, VU seed) {
+  return gradient_noise(split(px), split(py), split(pz), seed);
 }
 
 // Computes the planes from `base` on, and as many more as fill whole vectors, on the side to which y moves:

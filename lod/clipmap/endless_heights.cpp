@@ -1,0 +1,87 @@
+#include "lod/clipmap/endless_heights.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "terrain/error.h"
+#include "terrain/memory.h"
+#include "terrain/sources/noise/lattice_noise.h"
+
+namespace terrabench {
+namespace {
+
+constexpr int kBatch = 256;             // samples evaluated at a time
+constexpr int kBatchesOfOneThread = 8;  // up to here, starting other threads costs more than it saves
+
+class NoiseSource : public HeightSource {
+ public:
+  explicit NoiseSource(const EndlessGround& ground)
+      : ground_(ground),
+        noise_({.seed = ground.seed, .cell_bits = ground.cell_bits, .octaves = ground.octaves}) {}
+
+  glm::ivec2 first() const override { return glm::ivec2(-kEndlessReach); }
+  glm::ivec2 last() const override { return glm::ivec2(kEndlessReach); }
+  bool bounded() const override { return false; }
+  float cell_x() const override { return ground_.cell; }
+  float cell_z() const override { return ground_.cell; }
+  std::size_t bytes() const override { return heap_bytes(this) + noise_.heap_bytes(); }
+
+  // The samples in a row, however few of them a row of the rectangle has: strips are two samples wide.
+  void read(int level, int a, int b, int columns, int rows, float* out, int stride) override {
+    const int samples = columns * rows, batches = (samples + kBatch - 1) / kBatch;
+    const auto run = [&](int batch) {
+      const int begin = batch * kBatch, n = std::min(kBatch, samples - begin);
+      std::array<std::int32_t, kBatch> x, z;
+      std::array<float, kBatch> heights;
+      const int row = begin / columns, column = begin % columns;
+      const auto each = [&](auto use) {
+        for (int k = 0, j = row, i = column; k < n; ++k) {
+          use(k, j, i);
+          if (++i == columns) ++j, i = 0;
+        }
+      };
+      each([&](int k, int j, int i) {
+        x[k] = sample(a + i, level);
+        z[k] = sample(b + j, level);
+      });
+      const auto count = static_cast<std::size_t>(n);
+      noise_.points({x.data(), count}, {z.data(), count}, {heights.data(), count});
+      each([&](int k, int j, int i) {
+        out[static_cast<std::ptrdiff_t>(j) * stride + i] = ground_.relief * heights[k];
+      });
+    };
+    if (batches <= kBatchesOfOneThread) {
+      for (int batch = 0; batch < batches; ++batch) run(batch);
+    } else {
+      tbb::parallel_for(tbb::blocked_range<int>(0, batches, kBatchesOfOneThread),
+                        [&](const tbb::blocked_range<int>& part) {
+                          for (int batch = part.begin(); batch < part.end(); ++batch) run(batch);
+                        });
+    }
+  }
+
+ private:
+  static std::int32_t sample(int lattice, int level) {
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(
+        static_cast<std::int64_t>(lattice) * (1 << level), -kEndlessReach, kEndlessReach));
+  }
+
+  EndlessGround ground_;
+  noise::LatticeNoise noise_;
+};
+
+}  // namespace
+
+std::unique_ptr<HeightSource> endless_heights(const EndlessGround& ground) {
+  if (!(ground.cell > 0 && std::isfinite(ground.cell) && std::isfinite(ground.relief))) {
+    throw usage_error("endless ground needs a cell over 0 m and a finite relief", "", "give both in metres");
+  }
+  return std::make_unique<NoiseSource>(ground);
+}
+
+}  // namespace terrabench
