@@ -33,6 +33,7 @@ struct VisibilityTable {
   }
   bool operator==(const VisibilityTable&) const = default;
 };
+// Throws usage_error where the changes would take more than 1 GiB. O(bits).
 VisibilityTable changes_of(const VisibleSets&);
 VisibleSets sets_of(const VisibilityTable&);
 
