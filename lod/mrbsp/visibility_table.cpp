@@ -45,7 +45,8 @@ VisibilityTable changes_of(const VisibleSets& sets) {
     throw usage_error(fmt::format("the {} changes between cells do not fit 1 GiB", changes), "cells",
                       "choose fewer cells or coarser triangles");
   }
-  VisibilityTable table{sets.cells, sets.depth, sets.eye_height, sets.surface, {}, {0}, {}};
+  VisibilityTable table{sets.cells, sets.depth, sets.eye_height, sets.surface, sets.conservative, {},
+                        {0},        {}};
   const auto each_bit = [](std::uint64_t word, std::size_t w, std::vector<std::uint32_t>& out) {
     for (; word != 0; word &= word - 1) {
       out.push_back(static_cast<std::uint32_t>(w * 64) + static_cast<std::uint32_t>(std::countr_zero(word)));
@@ -66,6 +67,7 @@ VisibilityTable changes_of(const VisibleSets& sets) {
 VisibleSets sets_of(const VisibilityTable& table) {
   VisibleSets sets(table.cells, table.depth, table.eye_height);
   sets.surface = table.surface;
+  sets.conservative = table.conservative;
   for (const std::uint32_t element : table.start) sets.add(0, element);
   const auto apply = [&](int from, int to, int step) {
     const auto row = sets.bits.begin();
