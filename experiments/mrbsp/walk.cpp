@@ -6,7 +6,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "experiments/mrbsp/ground.h"
@@ -29,7 +28,7 @@ constexpr std::array kSpecs{
     ParameterSpec{"conservative", false, "", "visibility that misses nothing, not the paper's sampling"},
 };
 
-constexpr int kViews = 240, kRounds = 9;
+constexpr int kViews = 240, kRounds = 12;
 constexpr double kPaperShare = 3008.0 / 7238;
 
 enum Method { kBrute, kLod, kVis, kBoth, kMethods };
@@ -172,8 +171,9 @@ void time_flags(Methods& methods, const Heightfield& ground, const std::vector<V
   recorder.add("toggle_to_lod_time", "", flag_time / lod_time);
 }
 
-// Methods take turns at every view, so that a busy moment of the machine meets all alike, and take turns at
-// being first, so that none always finds the caches as the same other one left them.
+// Methods take turns at every view, so that a busy moment of the machine meets all alike, there and back, so
+// that none always finds the caches as the same other one left them. They are compared within a round, over
+// all views: a round as a whole may be slow, its ratios stay.
 void time_frames(Methods& methods, const Heightfield& ground, const std::vector<View>& views,
                  const RunOptions& options, Recorder& recorder, Progress& progress) {
   const auto context = open_context(options.renderer, views[0].width, views[0].height);
@@ -181,33 +181,32 @@ void time_frames(Methods& methods, const Heightfield& ground, const std::vector<
   for (std::size_t m = 0; m < kMethods; ++m) renderers.push_back(std::make_unique<FrameRenderer>(*context));
   const HeightRange range = height_range(ground);
   const FrameStyle style{.lowest = range.lowest, .highest = range.highest};
-  std::vector<std::array<double, kMethods>> least(views.size());  // undisturbed, if any round is
-  for (auto& times : least) times.fill(std::numeric_limits<double>::infinity());
   progress.begin("drawing frames", static_cast<std::uint64_t>(kRounds) * views.size());
   for (int round = -1; round < kRounds; ++round) {
+    std::array<double, kMethods> sums{};
     for (std::size_t v = 0; v < (round < 0 ? 1 : views.size()); ++v) {
       const View& view = views[v];
       for (std::size_t turn = 0; turn < kMethods; ++turn) {
-        const std::size_t m = (turn + static_cast<std::size_t>(round + 1)) % kMethods;
+        const std::size_t m = round % 2 == 0 ? turn : kMethods - 1 - turn;
         const double time = seconds([&] {
           renderers[m]->draw(methods.lods[m].update(view), view, style);
           renderers[m]->finish();
         });
         if (round < 0) continue;  // the first frames upload heights and compile shaders
         recorder.add(fmt::format("frame_time_{}", kNames[m]), "s", time);
-        least[v][m] = std::min(least[v][m], time);
+        sums[m] += time;
       }
       if (round >= 0) progress.advance();
     }
+    if (round < 0) continue;
+    for (std::size_t m = 0; m < kMethods; ++m) {
+      recorder.add(fmt::format("time_share_{}", kNames[m]), "", sums[m] / sums[kBrute]);
+    }
+    for (const auto& [of, to] : {std::pair{kVis, kLod}, {kBoth, kLod}, {kBoth, kVis}}) {
+      recorder.add(fmt::format("time_{}_to_{}", kNames[of], kNames[to]), "", sums[of] / sums[to]);
+    }
   }
   progress.end();
-  std::array<double, kMethods> sums{};
-  for (const auto& times : least) {
-    for (std::size_t m = 0; m < kMethods; ++m) sums[m] += times[m];
-  }
-  for (std::size_t m = 0; m < kMethods; ++m) {
-    recorder.add(fmt::format("time_share_{}", kNames[m]), "", sums[m] / sums[kBrute]);
-  }
 }
 
 }  // namespace

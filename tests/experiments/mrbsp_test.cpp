@@ -62,6 +62,9 @@ TEST_F(MrbspExperiments, AWalkIsCountedAndTimedInOrder) {
   EXPECT_GT(value(record, "toggled_per_view"), 0);
   EXPECT_GT(value(record, "toggle_to_lod_time"), 0);
   EXPECT_GT(value(record, "frame_time_both"), 0);
+  EXPECT_EQ(value(record, "time_share_brute"), 1);
+  EXPECT_NEAR(value(record, "time_both_to_vis") * value(record, "time_share_vis"),
+              value(record, "time_share_both"), 1e-9);
 }
 
 TEST_F(MrbspExperiments, ConservativeSetsLeaveNoPictureOpen) {
