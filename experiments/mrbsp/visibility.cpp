@@ -10,6 +10,7 @@
 #include <unordered_set>
 
 #include "experiments/mrbsp/ground.h"
+#include "experiments/mrbsp/lost_pixels.h"
 #include "experiments/mrbsp/mrbsp.h"
 #include "lod/mrbsp/coarse_squares.h"
 #include "lod/mrbsp/visibility_binary.h"
@@ -28,7 +29,12 @@ constexpr int kHeadings = 4, kPixels = 512;
 
 struct Misses {
   std::size_t seen = 0, missed = 0, pixels = 0, missed_pixels = 0, eyes = 0;
+  double worst_eye = 0;  // missed pixels, share of those that show ground
 };
+
+double share_of(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
 
 // Which coarse triangle a triangle of the frame lies in: by its middle.
 std::uint32_t element_of(const Frame& frame, std::uint32_t triangle, const CoarseSquares& squares) {
@@ -53,6 +59,7 @@ void look_around(const Heightfield& ground, const glm::vec3& eye, Mrbsp& full, F
   const int column = std::min(static_cast<int>(eye.x / ground.cell_x) / cells.side, cells.columns - 1);
   const int row = std::min(static_cast<int>(eye.z / ground.cell_z) / cells.side, cells.rows - 1);
   std::unordered_set<std::uint64_t> seen, missed;  // a triangle may show in two directions
+  std::size_t pixels = 0, missed_pixels = 0;
   for (int heading = 0; heading < kHeadings; ++heading) {
     View view;
     view.eye = eye;
@@ -66,19 +73,21 @@ void look_around(const Heightfield& ground, const glm::vec3& eye, Mrbsp& full, F
     for (const std::uint32_t number : renderer.triangle_numbers(frame, view)) {
       if (number == 0) continue;
       const std::uint32_t triangle = number - 1;
-      const std::uint32_t* const at = frame.indices.data() + std::size_t{3} * triangle;
-      const std::uint64_t key = std::uint64_t{at[0]} << 40 ^ std::uint64_t{at[1]} << 20 ^ at[2];
-      ++misses.pixels;
+      const std::uint64_t key = triangle_key(frame, triangle);
+      ++pixels;
       const bool known = missed.contains(key);
       if (known || (seen.insert(key).second &&
                     !sets.sees(row * cells.columns + column, element_of(frame, triangle, squares)))) {
         missed.insert(key);
-        ++misses.missed_pixels;
+        ++missed_pixels;
       }
     }
   }
   misses.seen += seen.size();
   misses.missed += missed.size();
+  misses.pixels += pixels;
+  misses.missed_pixels += missed_pixels;
+  misses.worst_eye = std::max(misses.worst_eye, share_of(missed_pixels, pixels));
   ++misses.eyes;
 }
 
@@ -155,14 +164,12 @@ void measure_visibility(const Case& at, const RunOptions& options, Recorder& rec
     progress.advance();
   }
   progress.end();
-  const auto of = [](std::size_t part, std::size_t whole) {
-    return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
-  };
   recorder.add("eyes", "", static_cast<double>(misses.eyes));
   recorder.add("seen", "", static_cast<double>(misses.seen));
   recorder.add("missed", "", static_cast<double>(misses.missed));
-  recorder.add("missed_share", "", of(misses.missed, misses.seen));
-  recorder.add("missed_pixel_share", "", of(misses.missed_pixels, misses.pixels));
+  recorder.add("missed_share", "", share_of(misses.missed, misses.seen));
+  recorder.add("missed_pixel_share", "", share_of(misses.missed_pixels, misses.pixels));
+  recorder.add("missed_pixel_share_most", "", misses.worst_eye);
 }
 
 }  // namespace terrabench::mrbsp

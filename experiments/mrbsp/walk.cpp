@@ -6,10 +6,10 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "experiments/mrbsp/ground.h"
+#include "experiments/mrbsp/lost_pixels.h"
 #include "experiments/mrbsp/mrbsp.h"
 #include "renderers/frame_renderer.h"
 
@@ -23,10 +23,12 @@ constexpr std::array kSpecs{
         "draws the paper's share",
         0, kFinest},
     ParameterSpec{"frames", std::int64_t{0}, "frames", "drawn and timed of each method", 0, 240},
+    ParameterSpec{"pictures", std::int64_t{0}, "views",
+                  "in which the pixels that visibility loses are counted", 0, 240},
     ParameterSpec{"conservative", false, "", "visibility that misses nothing, not the paper's sampling"},
 };
 
-constexpr int kViews = 240, kRounds = 9;
+constexpr int kViews = 240, kRounds = 12;
 constexpr double kPaperShare = 3008.0 / 7238;
 
 enum Method { kBrute, kLod, kVis, kBoth, kMethods };
@@ -55,6 +57,16 @@ struct Methods {
   }
 };
 
+// All that is drawn from anywhere when nothing is left out for the view.
+std::size_t triangles_unculled(const Heightfield& ground, const View& view, Progress& progress) {
+  MrbspOptions options;
+  options.depth = depth_over(ground);
+  options.cull = false;
+  Mrbsp lod(ground, options, progress);
+  lod.tune(kFinest);
+  return lod.update(view).stats.triangles;
+}
+
 // The size at which level of detail alone draws the paper's share of brute force.
 double fitted_size(Methods& methods, const std::vector<View>& views) {
   const double wanted = kPaperShare * mean_triangles(methods.lods[kBrute], views);
@@ -69,7 +81,7 @@ double fitted_size(Methods& methods, const std::vector<View>& views) {
 
 void count_triangles(Methods& methods, const std::vector<View>& views, Recorder& recorder) {
   std::array<double, kMethods> sums{};
-  std::size_t in_order = 0;
+  std::size_t brute_most = 0, both_least = 0, tied = 0;  // views; strictly; both as many as the lesser
   for (const View& view : views) {
     std::array<std::size_t, kMethods> drawn{};
     for (std::size_t m = 0; m < kMethods; ++m) {
@@ -77,15 +89,58 @@ void count_triangles(Methods& methods, const std::vector<View>& views, Recorder&
       sums[m] += static_cast<double>(drawn[m]);
       recorder.add(fmt::format("triangles_{}", kNames[m]), "", static_cast<double>(drawn[m]));
     }
-    in_order += drawn[kBoth] <= std::min(drawn[kLod], drawn[kVis]) &&
-                std::max(drawn[kLod], drawn[kVis]) <= drawn[kBrute];
+    const auto [less, more] = std::minmax(drawn[kLod], drawn[kVis]);
+    brute_most += more < drawn[kBrute];
+    both_least += drawn[kBoth] < less;
+    tied += drawn[kBoth] == less;
   }
   for (std::size_t m = 0; m < kMethods; ++m) {
     recorder.add(fmt::format("mean_{}", kNames[m]), "", sums[m] / static_cast<double>(views.size()));
     recorder.add(fmt::format("share_{}", kNames[m]), "", sums[m] / sums[kBrute]);
   }
   recorder.add("views", "", static_cast<double>(views.size()));
-  recorder.add("views_in_order", "", static_cast<double>(in_order));
+  recorder.add("views_brute_most", "", static_cast<double>(brute_most));
+  recorder.add("views_both_least", "", static_cast<double>(both_least));
+  recorder.add("views_tied", "", static_cast<double>(tied));
+}
+
+// Evenly over the walk.
+std::vector<View> some_of(const std::vector<View>& views, std::size_t count) {
+  std::vector<View> some;
+  some.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) some.push_back(views[k * views.size() / count]);
+  return some;
+}
+
+// What the pictures lack for the triangles that visibility leaves out, with level of detail and without.
+void count_lost_pixels(Methods& methods, const std::vector<View>& views, const RunOptions& options,
+                       Recorder& recorder, Progress& progress) {
+  const auto context = open_context(options.renderer, views[0].width, views[0].height);
+  for (const auto& [whole, hiding] : {std::pair{kBrute, kVis}, {kLod, kBoth}}) {
+    FrameRenderer of_all(*context), of_some(*context);
+    std::size_t lost = 0, most_lost = 0, most_open = 0, open_views = 0;
+    progress.begin("counting lost pixels", views.size());
+    for (const View& view : views) {
+      const LostPixels pixels = lost_pixels(methods.lods[whole].update(view), of_all,
+                                            methods.lods[hiding].update(view), of_some, view);
+      lost += pixels.lost;
+      most_lost = std::max(most_lost, pixels.lost);
+      most_open = std::max(most_open, pixels.open);
+      open_views += pixels.open > 0;
+      progress.advance();
+    }
+    progress.end();
+    const double a_picture = static_cast<double>(views[0].width) * views[0].height;
+    const auto add = [&](std::string_view metric, std::string_view unit, double value) {
+      recorder.add(fmt::format("{}_{}", metric, kNames[hiding]), unit, value);
+    };
+    add("lost_share", "", static_cast<double>(lost) / (a_picture * static_cast<double>(views.size())));
+    add("most_lost_share", "", static_cast<double>(most_lost) / a_picture);
+    add("most_lost", "px", static_cast<double>(most_lost));
+    add("most_open", "px", static_cast<double>(most_open));
+    add("open_views", "", static_cast<double>(open_views));
+  }
+  recorder.add("pictures", "", static_cast<double>(views.size()));
 }
 
 template <class Work>
@@ -116,7 +171,9 @@ void time_flags(Methods& methods, const Heightfield& ground, const std::vector<V
   recorder.add("toggle_to_lod_time", "", flag_time / lod_time);
 }
 
-// Methods take turns at every view, so that a busy moment of the machine meets all alike.
+// Methods take turns at every view, so that a busy moment of the machine meets all alike, there and back, so
+// that none always finds the caches as the same other one left them. They are compared within a round, over
+// all views: a round as a whole may be slow, its ratios stay.
 void time_frames(Methods& methods, const Heightfield& ground, const std::vector<View>& views,
                  const RunOptions& options, Recorder& recorder, Progress& progress) {
   const auto context = open_context(options.renderer, views[0].width, views[0].height);
@@ -124,32 +181,32 @@ void time_frames(Methods& methods, const Heightfield& ground, const std::vector<
   for (std::size_t m = 0; m < kMethods; ++m) renderers.push_back(std::make_unique<FrameRenderer>(*context));
   const HeightRange range = height_range(ground);
   const FrameStyle style{.lowest = range.lowest, .highest = range.highest};
-  std::vector<std::array<double, kMethods>> least(views.size());  // undisturbed, if any round is
-  for (auto& times : least) times.fill(std::numeric_limits<double>::infinity());
   progress.begin("drawing frames", static_cast<std::uint64_t>(kRounds) * views.size());
   for (int round = -1; round < kRounds; ++round) {
+    std::array<double, kMethods> sums{};
     for (std::size_t v = 0; v < (round < 0 ? 1 : views.size()); ++v) {
       const View& view = views[v];
-      for (std::size_t m = 0; m < kMethods; ++m) {
+      for (std::size_t turn = 0; turn < kMethods; ++turn) {
+        const std::size_t m = round % 2 == 0 ? turn : kMethods - 1 - turn;
         const double time = seconds([&] {
           renderers[m]->draw(methods.lods[m].update(view), view, style);
           renderers[m]->finish();
         });
         if (round < 0) continue;  // the first frames upload heights and compile shaders
         recorder.add(fmt::format("frame_time_{}", kNames[m]), "s", time);
-        least[v][m] = std::min(least[v][m], time);
+        sums[m] += time;
       }
       if (round >= 0) progress.advance();
     }
+    if (round < 0) continue;
+    for (std::size_t m = 0; m < kMethods; ++m) {
+      recorder.add(fmt::format("time_share_{}", kNames[m]), "", sums[m] / sums[kBrute]);
+    }
+    for (const auto& [of, to] : {std::pair{kVis, kLod}, {kBoth, kLod}, {kBoth, kVis}}) {
+      recorder.add(fmt::format("time_{}_to_{}", kNames[of], kNames[to]), "", sums[of] / sums[to]);
+    }
   }
   progress.end();
-  std::array<double, kMethods> sums{};
-  for (const auto& times : least) {
-    for (std::size_t m = 0; m < kMethods; ++m) sums[m] += times[m];
-  }
-  for (std::size_t m = 0; m < kMethods; ++m) {
-    recorder.add(fmt::format("time_share_{}", kNames[m]), "", sums[m] / sums[kBrute]);
-  }
 }
 
 }  // namespace
@@ -159,18 +216,20 @@ constinit const std::span<const ParameterSpec> kWalkParameters = kSpecs;
 std::vector<Case> walk_cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const std::string& ground : grounds(options, options.profile == Profile::kPaper)) {
-    const auto add = [&](std::string_view name, double size, bool conservative, int frames) {
+    const auto add = [&](std::string_view name, double size, bool conservative, int frames, int pictures) {
       Case& added =
           cases.emplace_back(Case{fmt::format("{}/{}", ground, name), Parameters(kWalkParameters), ground});
       added.parameters.set("size", size);
       added.parameters.set("conservative", conservative);
       added.parameters.set("frames", std::int64_t{frames});
+      added.parameters.set("pictures", std::int64_t{pictures});
     };
     // Frames cost a hundred times as much as counting triangles.
     const bool paper = options.profile == Profile::kPaper;
-    add("printed", 1, false, paper ? 12 : 0);
-    add("tuned", 0, false, paper ? 30 : ground == "drawing-257" ? 0 : 16);
-    add("conservative", 0, true, 0);
+    const int pictures = paper ? kViews : 80;
+    add("printed", 1, false, paper ? 12 : 0, 0);
+    add("tuned", 0, false, paper ? 30 : ground == "drawing-257" ? 0 : 16, pictures);
+    add("conservative", 0, true, 0, pictures);
   }
   return cases;
 }
@@ -185,19 +244,17 @@ void measure_walk(const Case& at, const RunOptions& options, Recorder& recorder,
   const double size = asked > 0 ? asked : fitted_size(methods, views);
   methods.tune(size);
   recorder.add("size", "short sides", size);
-  recorder.add("triangles_all", "", static_cast<double>(methods.lods[kBrute].tree().triangles()));
+  recorder.add("triangles_all", "", static_cast<double>(triangles_unculled(ground, views[0], progress)));
   count_triangles(methods, views, recorder);
   for (const View& view : views) {
     recorder.add("lod_time", "s", seconds([&] { methods.lods[kLod].update(view); }));
     recorder.add("both_time", "s", seconds([&] { methods.lods[kBoth].update(view); }));
   }
   time_flags(methods, ground, views, recorder);
-  const auto frames = static_cast<int>(at.parameters.integer("frames"));
-  if (frames == 0) return;
-  std::vector<View> drawn;
-  drawn.reserve(static_cast<std::size_t>(frames));
-  for (int k = 0; k < frames; ++k) drawn.push_back(views[static_cast<std::size_t>(k * kViews / frames)]);
-  time_frames(methods, ground, drawn, options, recorder, progress);
+  const auto pictures = static_cast<std::size_t>(at.parameters.integer("pictures"));
+  if (pictures > 0) count_lost_pixels(methods, some_of(views, pictures), options, recorder, progress);
+  const auto frames = static_cast<std::size_t>(at.parameters.integer("frames"));
+  if (frames > 0) time_frames(methods, ground, some_of(views, frames), options, recorder, progress);
 }
 
 }  // namespace terrabench::mrbsp

@@ -8,6 +8,7 @@
 
 #include "lod/mrbsp/height_points.h"
 #include "lod/mrbsp/surface_height.h"
+#include "lod/mrbsp/visibility_file.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -49,7 +50,13 @@ BisectionTree lattice_tree(const Heightfield& ground, int depth) {
 
 std::unique_ptr<Lod> Mrbsp::build(const Heightfield& ground, const Parameters& parameters,
                                   Progress& progress) {
-  return std::make_unique<Mrbsp>(ground, options_of(parameters), progress);
+  const MrbspOptions options = options_of(parameters);
+  const std::string& file = parameters.text("visibility_file");
+  if (!file.empty() && !options.visibility) {
+    throw usage_error("there is no visibility to keep in a file", "visibility_file",
+                      "set visibility to sampled or conservative too");
+  }
+  return std::make_unique<Mrbsp>(ground, options, progress, file);
 }
 
 std::span<const ParameterSpec> Mrbsp::parameters() {
@@ -66,15 +73,21 @@ std::span<const ParameterSpec> Mrbsp::parameters() {
       {"coarseness", std::int64_t{6}, "levels", "from the finest triangles up to those of visibility", 0,
        BisectionTree::kDeepest},
       {"eye_height", 1.8, "m", "above the ground, for visibility", 0, 1e6},
+      {"visibility_file", std::string(), "",
+       "keeps the visibility of one ground: read where it exists, which must be for the same ground, depth "
+       "and "
+       "options, else computed and written; text where it ends in .txt; empty: none"},
   };
   return kParameters;
 }
 
-Mrbsp::Mrbsp(const Heightfield& ground, const MrbspOptions& options, Progress& progress)
+Mrbsp::Mrbsp(const Heightfield& ground, const MrbspOptions& options, Progress& progress,
+             const std::filesystem::path& visibility_file)
     : Mrbsp(ground, options, {}, progress) {
-  if (options_.visibility) {
-    take_visibility(changes_of(find_visible(grid_, tree_, options_.visible, progress)));
-  }
+  if (!options_.visibility) return;
+  take_visibility(visibility_file.empty()
+                      ? changes_of(find_visible(grid_, tree_, options_.visible, progress))
+                      : kept_visibility(visibility_file, grid_, tree_, options_.visible, progress));
 }
 
 Mrbsp::Mrbsp(const Heightfield& ground, const MrbspOptions& options, VisibilityTable visibility,

@@ -7,6 +7,7 @@
 // visible_flags.h what the ground hides, tree_walk.h puts them together. update() is O(triangles drawn).
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -35,7 +36,9 @@ class Mrbsp : public Lod {
   static std::span<const ParameterSpec> parameters();
   static Knob knob() { return {"size", "short sides", 65536, 1.0 / 64, 1, false}; }
 
-  Mrbsp(const Heightfield&, const MrbspOptions&, Progress&);
+  // A file, when one is named, keeps the visibility: see kept_visibility().
+  Mrbsp(const Heightfield&, const MrbspOptions&, Progress&,
+        const std::filesystem::path& visibility_file = {});
   // With a visibility that was computed before, for the same heights and depth: throws usage_error for one of
   // other ground.
   Mrbsp(const Heightfield&, const MrbspOptions&, VisibilityTable, Progress&);

@@ -71,16 +71,23 @@ std::size_t VisibleSets::count(int cell) const {
   return count;
 }
 
-VisibleSets find_visible(const GroundGrid& ground, const BisectionTree& tree,
-                         const VisibilityOptions& options, Progress& progress) {
+VisibilityHead visibility_head(const GroundGrid& ground, const BisectionTree& tree,
+                               const VisibilityOptions& options) {
   check(options);
-  const CellGrid cells = make_cells(ground, tree, options.cells);
   int depth = std::clamp(tree.depth() - options.coarseness, 1, kDeepestCoarse);
   depth -= depth % 2 == 0 ? 1 : 0;
-  VisibleSets sets(cells, depth, options.eye_height);
+  return {make_cells(ground, tree, options.cells), depth};
+}
+
+VisibleSets find_visible(const GroundGrid& ground, const BisectionTree& tree,
+                         const VisibilityOptions& options, Progress& progress) {
+  const VisibilityHead head = visibility_head(ground, tree, options);
+  const CellGrid& cells = head.cells;
+  VisibleSets sets(cells, head.depth, options.eye_height);
   sets.surface = surface_checksum(ground, tree);
+  sets.conservative = options.conservative;
   progress.begin("finding what is visible", static_cast<std::uint64_t>(cells.count()));
-  const CoarseSquares squares(tree, depth);
+  const CoarseSquares squares(tree, head.depth);
   if (options.conservative) {
     const AreaVisibility areas(ground, tree, cells, options.eye_height);
     tbb::parallel_for(0, cells.count(), [&](int cell) {

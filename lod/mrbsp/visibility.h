@@ -60,6 +60,7 @@ struct VisibleSets {
   std::size_t words = 1;  // a cell
   float eye_height = 0;   // metres
   SurfaceChecksum surface{};
+  bool conservative = false;
   std::vector<std::uint64_t> bits;
 
   VisibleSets() = default;
@@ -73,6 +74,13 @@ struct VisibleSets {
   std::size_t count(int cell) const;
   bool operator==(const VisibleSets&) const = default;
 };
+
+// What the options make of cells and of coarse triangles' depth. Throws usage_error for options out of range.
+struct VisibilityHead {
+  CellGrid cells;
+  int depth = 1;
+};
+VisibilityHead visibility_head(const GroundGrid&, const BisectionTree&, const VisibilityOptions&);
 
 // Throws usage_error for options out of range or sets beyond 512 MiB. The same for any number of threads.
 VisibleSets find_visible(const GroundGrid&, const BisectionTree&, const VisibilityOptions&, Progress&);

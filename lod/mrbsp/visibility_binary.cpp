@@ -9,7 +9,7 @@ namespace terrabench {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'T', 'e', 'r', 'r', 'a', 'V', 'i', 's'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kChecksum = 32;
 
 // Seven bits a byte, low ones first, the eighth set when more follow.
@@ -69,6 +69,7 @@ void save_visibility(const VisibilityTable& table, ByteSink& out) {
   file.put(static_cast<std::int32_t>(table.depth));
   file.put(table.eye_height);
   file.put(table.surface);
+  file.put(static_cast<std::uint8_t>(table.conservative));
   put_lists(table, file);
   const std::string sum = checksum(file.bytes());
   file.put_array(std::span<const char>(sum));
@@ -97,6 +98,9 @@ VisibilityTable load_visibility(std::span<const std::byte> file, const std::stri
   table.eye_height = in.get<float>();
   table.surface = in.get<SurfaceChecksum>();
   if (const std::string_view fault = head_fault(table); !fault.empty()) in.fail(fault);
+  const auto conservative = in.get<std::uint8_t>();
+  if (conservative > 1) in.fail("the kind of sets cannot be");
+  table.conservative = conservative == 1;
   get_list(in, table.depth, table.start);
   // A step takes a byte at least, so that a short file cannot ask for many.
   if (static_cast<std::size_t>(table.steps()) > in.left()) in.fail("the file ends too early");

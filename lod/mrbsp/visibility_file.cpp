@@ -2,13 +2,41 @@
 
 #include "lod/mrbsp/visibility_binary.h"
 #include "lod/mrbsp/visibility_text.h"
+#include "terrain/error.h"
 #include "terrain/files.h"
 
 namespace terrabench {
+namespace {
+
+constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 30;
+
+// What the table differs in from the one asked for; empty when in nothing.
+std::string_view difference(const VisibilityTable& table, const GroundGrid& ground, const BisectionTree& tree,
+                            const VisibilityOptions& options) {
+  if (table.surface != surface_checksum(ground, tree)) {
+    return "its visibility was computed for other ground or another depth";
+  }
+  if (table.conservative != options.conservative) {
+    return table.conservative ? "its sets are conservative, not sampled"
+                              : "its sets are sampled, not conservative";
+  }
+  const VisibilityHead head = visibility_head(ground, tree, options);
+  if (table.cells != head.cells) return "its visibility has other cells";
+  if (table.depth != head.depth) return "its visibility has triangles of another coarseness";
+  if (table.eye_height != options.eye_height) return "its visibility is for another eye height";
+  return {};
+}
+
+}  // namespace
 
 void write_visibility(const std::filesystem::path& path, const VisibilityTable& table) {
   if (path.extension() == ".txt") {
-    write_file(path, visibility_text(table));
+    const std::string text = visibility_text(table);
+    if (text.size() > kLargestFile) {
+      throw usage_error("so many changes are no text of 1 GiB", path.string(),
+                        "give a name that does not end in .txt, or choose fewer cells");
+    }
+    write_file(path, text);
     return;
   }
   ByteSink file;
@@ -17,10 +45,25 @@ void write_visibility(const std::filesystem::path& path, const VisibilityTable& 
 }
 
 VisibilityTable read_visibility(const std::filesystem::path& path) {
-  constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 30;
   const std::string file = read_file(path, kLargestFile);
   if (path.extension() == ".txt") return parse_visibility(file, path.string());
   return load_visibility(std::as_bytes(std::span(file)), path.string());
+}
+
+VisibilityTable kept_visibility(const std::filesystem::path& path, const GroundGrid& ground,
+                                const BisectionTree& tree, const VisibilityOptions& options,
+                                Progress& progress) {
+  std::error_code none;
+  if (!std::filesystem::exists(path, none)) {
+    VisibilityTable table = changes_of(find_visible(ground, tree, options, progress));
+    write_visibility(path, table);
+    return table;
+  }
+  VisibilityTable table = read_visibility(path);
+  if (const std::string_view what = difference(table, ground, tree, options); !what.empty()) {
+    throw usage_error(what, path.string(), "name another file, or remove this one to have it written anew");
+  }
+  return table;
 }
 
 }  // namespace terrabench

@@ -8,9 +8,14 @@
 
 namespace terrabench {
 
-// Written whole or not at all.
+// Written whole or not at all. Throws usage_error for text beyond 1 GiB, which would not be read again.
 void write_visibility(const std::filesystem::path&, const VisibilityTable&);
 // Throws bad_input for what write_visibility() cannot have written.
 VisibilityTable read_visibility(const std::filesystem::path&);
+
+// What the file holds; where there is none, what find_visible() finds, which is then written to it. Throws
+// usage_error for a file of other ground, another depth or other options.
+VisibilityTable kept_visibility(const std::filesystem::path&, const GroundGrid&, const BisectionTree&,
+                                const VisibilityOptions&, Progress&);
 
 }  // namespace terrabench

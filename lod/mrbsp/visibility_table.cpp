@@ -1,42 +1,73 @@
 #include "lod/mrbsp/visibility_table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 
+#include "terrain/error.h"
+
 namespace terrabench {
+namespace {
+
+// Calls body(from, to) for the cells of every step, in the table's order.
+template <class Body>
+void each_step(const CellGrid& cells, const Body& body) {
+  for (int row = 0; row < cells.rows; ++row) {
+    for (int column = 0; column + 1 < cells.columns; ++column) {
+      body(row * cells.columns + column, row * cells.columns + column + 1);
+    }
+  }
+  for (int row = 0; row + 1 < cells.rows; ++row) {
+    for (int column = 0; column < cells.columns; ++column) {
+      body(row * cells.columns + column, (row + 1) * cells.columns + column);
+    }
+  }
+}
+
+std::uint64_t count_changes(const VisibleSets& sets) {
+  std::uint64_t count = 0;
+  each_step(sets.cells, [&](int from, int to) {
+    for (std::size_t w = 0; w < sets.words; ++w) {
+      count += static_cast<std::uint64_t>(
+          std::popcount(sets.bits[from * sets.words + w] ^ sets.bits[to * sets.words + w]));
+    }
+  });
+  return count;
+}
+
+}  // namespace
 
 VisibilityTable changes_of(const VisibleSets& sets) {
-  VisibilityTable table{sets.cells, sets.depth, sets.eye_height, sets.surface, {}, {0}, {}};
+  constexpr std::uint64_t kMostChanges = std::uint64_t{1} << 28;  // 1 GiB
+  const std::uint64_t changes = count_changes(sets);
+  if (changes > kMostChanges) {
+    throw usage_error(fmt::format("the {} changes between cells do not fit 1 GiB", changes), "cells",
+                      "choose fewer cells or coarser triangles");
+  }
+  VisibilityTable table{sets.cells, sets.depth, sets.eye_height, sets.surface, sets.conservative, {},
+                        {0},        {}};
   const auto each_bit = [](std::uint64_t word, std::size_t w, std::vector<std::uint32_t>& out) {
     for (; word != 0; word &= word - 1) {
       out.push_back(static_cast<std::uint32_t>(w * 64) + static_cast<std::uint32_t>(std::countr_zero(word)));
     }
   };
   for (std::size_t w = 0; w < sets.words; ++w) each_bit(sets.bits[w], w, table.start);
-  const auto step = [&](int from, int to) {
+  table.first.reserve(static_cast<std::size_t>(table.steps()) + 1);
+  table.changes.reserve(changes);
+  each_step(sets.cells, [&](int from, int to) {
     for (std::size_t w = 0; w < sets.words; ++w) {
       each_bit(sets.bits[from * sets.words + w] ^ sets.bits[to * sets.words + w], w, table.changes);
     }
     table.first.push_back(static_cast<std::uint32_t>(table.changes.size()));
-  };
-  table.first.reserve(static_cast<std::size_t>(table.steps()) + 1);
-  const int columns = sets.cells.columns, rows = sets.cells.rows;
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column + 1 < columns; ++column) {
-      step(row * columns + column, row * columns + column + 1);
-    }
-  }
-  for (int row = 0; row + 1 < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      step(row * columns + column, (row + 1) * columns + column);
-    }
-  }
+  });
   return table;
 }
 
 VisibleSets sets_of(const VisibilityTable& table) {
   VisibleSets sets(table.cells, table.depth, table.eye_height);
   sets.surface = table.surface;
+  sets.conservative = table.conservative;
   for (const std::uint32_t element : table.start) sets.add(0, element);
   const auto apply = [&](int from, int to, int step) {
     const auto row = sets.bits.begin();

@@ -18,6 +18,7 @@ struct VisibilityTable {
   int depth = 0;  // 0: no table
   float eye_height = 0;
   SurfaceChecksum surface{};
+  bool conservative = false;  // of the sets
   std::vector<std::uint32_t> start;
   std::vector<std::uint32_t> first;  // of each step between neighbours, and the end; see step()
   std::vector<std::uint32_t> changes;
@@ -33,6 +34,7 @@ struct VisibilityTable {
   }
   bool operator==(const VisibilityTable&) const = default;
 };
+// Throws usage_error where the changes would take more than 1 GiB. O(bits).
 VisibilityTable changes_of(const VisibleSets&);
 VisibleSets sets_of(const VisibilityTable&);
 

@@ -11,7 +11,8 @@
 namespace terrabench {
 namespace {
 
-constexpr std::string_view kFirstLine = "terrabench-visibility 1";
+constexpr std::string_view kFirstLine = "terrabench-visibility 2", kSampled = "sampled",
+                           kConservative = "conservative";
 
 std::string column_name(int column) {
   std::string name;
@@ -62,10 +63,11 @@ std::string cell_name(const CellGrid& cells, int column, int row) {
 }
 
 std::string visibility_text(const VisibilityTable& table) {
-  std::string text = fmt::format(
-      "{}\ncells {} {}\nside {}\ndepth {}\neye-height {}\nsurface {}\nstart {}\n", kFirstLine,
-      table.cells.columns, table.cells.rows, table.cells.side, table.depth, table.eye_height,
-      std::string_view(table.surface.data(), table.surface.size()), labels(table.start, table.depth));
+  std::string text =
+      fmt::format("{}\ncells {} {}\nside {}\ndepth {}\neye-height {}\nsurface {}\nsets {}\nstart {}\n",
+                  kFirstLine, table.cells.columns, table.cells.rows, table.cells.side, table.depth,
+                  table.eye_height, std::string_view(table.surface.data(), table.surface.size()),
+                  table.conservative ? kConservative : kSampled, labels(table.start, table.depth));
   each_step(table, [&](int step, const auto& name) {
     if (!table.step(step).empty())
       text += fmt::format("{} {}\n", name(), labels(table.step(step), table.depth));
@@ -93,6 +95,9 @@ class TextReader {
     }
     std::copy(surface.begin(), surface.end(), table_.surface.begin());
     if (const std::string_view fault = head_fault(table_); !fault.empty()) fail(fault);
+    const std::string_view sets = value_of("sets");
+    table_.conservative = sets == kConservative;
+    if (!table_.conservative && sets != kSampled) fail("'sets' are sampled or conservative");
     table_.start = elements(value_of("start"));
     read_steps();
     if (!is_consistent(table_)) fail("the changes around a corner of cells do not cancel out");

@@ -2,12 +2,13 @@
 // neighbouring cells in which something changes, with the coarse triangles' hierarchical numbers. Finer
 // changes are not stored: they are the subtrees.
 //
-//   terrabench-visibility 1
+//   terrabench-visibility 2
 //   cells 8 1              columns and rows
 //   side 2                 samples along a cell
 //   depth 2                of the coarse triangles: digits a number
 //   eye-height 0           metres
 //   surface 0123…          what it was computed for: surface_checksum()
+//   sets sampled           or conservative
 //   start 00, 01, 11       what the first cell sees
 //   a-b 11                 what toggles from a to its right neighbour b
 //   d-e 00, 01, 10, 11

@@ -8,6 +8,7 @@
 
 #include "experiments/mrbsp/extruded_profile.h"
 #include "experiments/mrbsp/ground.h"
+#include "experiments/mrbsp/lost_pixels.h"
 #include "lod/mrbsp/coarse_squares.h"
 #include "lod/mrbsp/surface_height.h"
 #include "terrain/error.h"
@@ -46,9 +47,13 @@ TEST_F(MrbspExperiments, AWalkIsCountedAndTimedInOrder) {
   Case at{"tiny", Parameters(kWalkParameters), std::string(kGround)};
   at.parameters.set("size", 0.0);
   at.parameters.set("frames", std::int64_t{1});
+  at.parameters.set("pictures", std::int64_t{8});
   const Record record = run(measure_walk, at);
+  EXPECT_EQ(value(record, "triangles_all"), 2 * 119 * 90);
   EXPECT_EQ(value(record, "views"), 240);
-  EXPECT_EQ(value(record, "views_in_order"), 240);
+  EXPECT_GT(value(record, "views_brute_most"), 200);
+  EXPECT_EQ(value(record, "views_both_least") + value(record, "views_tied"), 240);
+  EXPECT_GT(value(record, "views_both_least"), 120);
   EXPECT_NEAR(value(record, "share_lod"), 3008.0 / 7238, 0.05);
   EXPECT_EQ(value(record, "share_brute"), 1);
   EXPECT_GT(value(record, "mean_both"), 0);
@@ -57,6 +62,52 @@ TEST_F(MrbspExperiments, AWalkIsCountedAndTimedInOrder) {
   EXPECT_GT(value(record, "toggled_per_view"), 0);
   EXPECT_GT(value(record, "toggle_to_lod_time"), 0);
   EXPECT_GT(value(record, "frame_time_both"), 0);
+  EXPECT_EQ(value(record, "time_share_brute"), 1);
+  EXPECT_NEAR(value(record, "time_both_to_vis") * value(record, "time_share_vis"),
+              value(record, "time_share_both"), 1e-9);
+}
+
+TEST_F(MrbspExperiments, ConservativeSetsLeaveNoPictureOpen) {
+  for (const bool conservative : {false, true}) {
+    Case at{"tiny", Parameters(kWalkParameters), std::string(kGround)};
+    at.parameters.set("conservative", conservative);
+    at.parameters.set("pictures", std::int64_t{12});
+    const Record record = run(measure_walk, at);
+    EXPECT_EQ(value(record, "pictures"), 12);
+    for (const std::string method : {"vis", "both"}) {
+      if (conservative) {
+        for (const char* const metric : {"most_lost_", "most_open_", "open_views_", "lost_share_"}) {
+          EXPECT_EQ(value(record, metric + method), 0) << metric << method;
+        }
+      } else {
+        EXPECT_GT(value(record, "most_lost_" + method), 0);
+        EXPECT_GE(value(record, "most_lost_" + method), value(record, "most_open_" + method));
+        EXPECT_GE(value(record, "most_lost_share_" + method), value(record, "lost_share_" + method));
+      }
+    }
+  }
+}
+
+TEST(LostPixels, KeysTellTrianglesOfLargeGroundApart) {
+  Progress progress;
+  Heightfield field;
+  field.width = 1100;
+  field.depth = 1000;  // more than 2^20 samples
+  field.heights.assign(std::size_t{1100} * 1000, 0.0F);
+  MrbspOptions options;
+  options.cull = false;
+  Mrbsp lod(field, options, progress);
+  lod.tune(kFinest);
+  View view;
+  view.eye = {550, 10, 500};
+  view.target = {550, 0, 501};
+  view.far = 1e5F;
+  const Frame& frame = lod.update(view);
+  std::vector<std::uint64_t> keys;
+  for (std::uint32_t t = 0; t < frame.stats.triangles; ++t) keys.push_back(triangle_key(frame, t));
+  EXPECT_EQ(keys.size(), 2U * 1099 * 999);
+  std::sort(keys.begin(), keys.end());
+  EXPECT_EQ(std::adjacent_find(keys.begin(), keys.end()), keys.end());
 }
 
 TEST_F(MrbspExperiments, OnlyTheFormulaForAreasKeepsTheSize) {

@@ -7,7 +7,9 @@
 #include <limits>
 #include <set>
 
+#include "lod/camera/camera_path.h"
 #include "lod/meters/cracks.h"
+#include "lod/meters/screen_error.h"
 #include "tests/lod/mrbsp_ground.h"
 #include "tests/terrain/errors.h"
 
@@ -137,6 +139,33 @@ TEST(Mrbsp, ConformingHasNoCracksAndThePrintedRuleHas) {
     }
   }
   EXPECT_GT(printed_gaps, 0U);
+}
+
+// Nothing torn on any committed path, and something drawn wherever the full terrain can be seen.
+TEST(Mrbsp, ConformingIsTightAndWholeOnEveryCameraPath) {
+  const Heightfield field = rough_ground(129, 100);
+  for (const CameraPath& path : camera_paths()) {
+    const std::vector<View> all = views(path, field);
+    const std::size_t step = all.size() / 12 + 1;
+    for (const bool area : {false, true}) {
+      Mrbsp lod(field, options_of(area, true), silent());
+      lod.tune(area ? 6 : 2);
+      SurfaceRaster drawn(field.width, field.depth);
+      std::size_t measured = 0;
+      for (std::size_t f = 0; f < all.size(); f += step) {
+        const Frame& frame = lod.update(all[f]);
+        const CrackReport report = find_cracks(frame, field.width, field.depth, all[f]);
+        EXPECT_TRUE(report.tight()) << path.name << " frame " << f << ": " << report.gaps << " gaps, "
+                                    << report.bare_edges << " bare edges";
+        EXPECT_EQ(report.t_junctions, 0U) << path.name << " frame " << f;
+        drawn.draw(frame);
+        const ScreenDeviation error = screen_error(drawn, field, Visibility(field, all[f]));
+        EXPECT_EQ(error.visible.undrawn, 0U) << path.name << " frame " << f;
+        measured += error.visible.samples;
+      }
+      EXPECT_GT(measured, 100U) << path.name;
+    }
+  }
 }
 
 TEST(Mrbsp, CullsOnlyWhatTheViewDoesNotSee) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "lod/mrbsp/mrbsp.h"
 #include "lod/mrbsp/visibility_binary.h"
 #include "lod/mrbsp/visibility_text.h"
 #include "tests/lod/visible_ground.h"
@@ -55,8 +56,8 @@ TEST(VisibilityFile, TextNamesStepsAndWhatTheyToggle) {
   see(0, 0, {0b11});
   see(7, 7, {0b00});
   EXPECT_EQ(visibility_text(changes_of(sets)),
-            "terrabench-visibility 1\ncells 8 1\nside 2\ndepth 2\neye-height 1.8\n"
-            "surface aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa\nstart 00, 01, 11\n"
+            "terrabench-visibility 2\ncells 8 1\nside 2\ndepth 2\neye-height 1.8\n"
+            "surface aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa\nsets sampled\nstart 00, 01, 11\n"
             "a-b 11\n"
             "d-e 00, 01, 10, 11\n"
             "g-h 00\n");
@@ -73,33 +74,35 @@ TEST(VisibilityFile, CellsAreNamedByColumnAndRow) {
 
 TEST(VisibilityFile, TextNamesTheLineAtFault) {
   const std::string surface = "surface 0123456789abcdef0123456789abcdef\n";
-  const std::string front = "terrabench-visibility 1\ncells 2 2\nside 2\ndepth 2\neye-height 1.8\n";
-  const std::string head = front + surface;
+  const std::string front = "terrabench-visibility 2\ncells 2 2\nside 2\ndepth 2\neye-height 1.8\n";
+  const std::string head = front + surface + "sets conservative\n";
   EXPECT_NO_THROW((void)parse_visibility(head + "start 01\na1-b1 11\na2-b2 11\n", "f"));
   for (const auto& [text, line] : std::vector<std::pair<std::string, std::string>>{
            {"", "line 0"},
            {"something else\n", "line 1"},
-           {"terrabench-visibility 1\ncells 2\n", "line 2"},
-           {"terrabench-visibility 1\ncells 2 2 2\n", "line 2"},
-           {"terrabench-visibility 1\ncells 2 99999999999\n", "line 2"},
-           {"terrabench-visibility 1\ncells 2 2\nside 3\ndepth 2\neye-height 1\n" + surface, "line 6"},
-           {"terrabench-visibility 1\ncells 9999 9999\nside 2\ndepth 2\neye-height 1\n" + surface, "line 6"},
-           {"terrabench-visibility 1\ncells 2 2\nside 2\ndepth 99\neye-height 1\n" + surface, "line 6"},
-           {"terrabench-visibility 1\ncells 2 2\nside 2\ndepth 2\neye-height nan\n" + surface, "line 6"},
+           {"terrabench-visibility 2\ncells 2\n", "line 2"},
+           {"terrabench-visibility 2\ncells 2 2 2\n", "line 2"},
+           {"terrabench-visibility 2\ncells 2 99999999999\n", "line 2"},
+           {"terrabench-visibility 2\ncells 2 2\nside 3\ndepth 2\neye-height 1\n" + surface, "line 6"},
+           {"terrabench-visibility 2\ncells 9999 9999\nside 2\ndepth 2\neye-height 1\n" + surface, "line 6"},
+           {"terrabench-visibility 2\ncells 2 2\nside 2\ndepth 99\neye-height 1\n" + surface, "line 6"},
+           {"terrabench-visibility 2\ncells 2 2\nside 2\ndepth 2\neye-height nan\n" + surface, "line 6"},
            {front + "start 01\n", "line 6"},
            {front + "surface 0123\n", "line 6"},
            {front + "surface 0123456789ABCDEF0123456789ABCDEF\n", "line 6"},
-           {head + "start 1\n", "line 7"},
-           {head + "start 11, 01\n", "line 7"},
-           {head + "start 01, 01\n", "line 7"},
-           {head + "start 01,10\n", "line 7"},
-           {head + "start 01\na1-b1 11", "line 8"},
-           {head + "start 01\na1-b1\n", "line 8"},
-           {head + "start 01\na1-b1 \n", "line 8"},
-           {head + "start 01\nb1-a1 11\n", "line 8"},
-           {head + "start 01\na2-b2 11\na1-b1 11\n", "line 9"},
-           {head + "start 01\na1-b1 11\na1-b1 11\n", "line 9"},
-           {head + "start 01\na1-b1 11\n", "line 8"}}) {
+           {front + surface + "start 01\n", "line 7"},
+           {front + surface + "sets some\n", "line 7"},
+           {head + "start 1\n", "line 8"},
+           {head + "start 11, 01\n", "line 8"},
+           {head + "start 01, 01\n", "line 8"},
+           {head + "start 01,10\n", "line 8"},
+           {head + "start 01\na1-b1 11", "line 9"},
+           {head + "start 01\na1-b1\n", "line 9"},
+           {head + "start 01\na1-b1 \n", "line 9"},
+           {head + "start 01\nb1-a1 11\n", "line 9"},
+           {head + "start 01\na2-b2 11\na1-b1 11\n", "line 10"},
+           {head + "start 01\na1-b1 11\na1-b1 11\n", "line 10"},
+           {head + "start 01\na1-b1 11\n", "line 9"}}) {
     const Failure failure = failure_of([&] { (void)parse_visibility(text, "f"); });
     EXPECT_EQ(failure.code, ExitCode::kBadInput) << text;
     EXPECT_THAT(failure.what, HasSubstr(line)) << text;
@@ -132,16 +135,66 @@ TEST(VisibilityFile, WhatCannotBeIsRefusedWhateverItsChecksum) {
   refused(24, {31});                            // depth
   refused(28, {0, 0, 0xC0, 0x7F});              // eye height: NaN
   refused(32, {'g'});                           // no digit of a checksum
-  refused(64, {0xFF, 0xFF, 0xFF, 0xFF, 0xFF});  // a count
+  refused(64, {2});                             // kind of sets
+  refused(65, {0xFF, 0xFF, 0xFF, 0xFF, 0xFF});  // a count
   std::vector<std::byte> longer = good;
   longer.insert(longer.end() - 32, std::byte{0});
   EXPECT_EQ(failure_of([&] { (void)load_visibility(sealed(longer), "f"); }).code, ExitCode::kBadInput);
 }
 
+TEST(VisibilityFile, KeepsWhatWasComputedAndRefusesWhatWasForSomethingElse) {
+  const Heightfield field = rough_ground(65, 50);
+  const TemporaryFolder folder;
+  const auto build = [&](const Heightfield& ground, const std::string& file,
+                         std::initializer_list<const char*> options) {
+    Parameters parameters(Mrbsp::parameters());
+    for (const char* const text : {"visibility=conservative", "cells=8", "coarseness=4"}) {
+      parameters.set_from_text(text);
+    }
+    for (const char* const text : options) parameters.set_from_text(text);
+    parameters.set("visibility_file", file);
+    return Mrbsp::build(ground, parameters, silent());
+  };
+  const auto table = [](const std::unique_ptr<Lod>& lod) { return dynamic_cast<Mrbsp&>(*lod).visibility(); };
+  for (const char* const name : {"v.txt", "v.tbv"}) {
+    const std::string file = folder / name;
+    const VisibilityTable computed = table(build(field, "", {}));
+    EXPECT_TRUE(computed.conservative);
+    EXPECT_EQ(table(build(field, file, {})), computed);
+    EXPECT_EQ(read_visibility(file), computed);
+    // The file is what is taken: one that says that nothing can be seen anywhere is believed.
+    VisibilityTable blind = computed;
+    blind.start.clear();
+    blind.changes.clear();
+    blind.first.assign(blind.first.size(), 0);
+    write_visibility(file, blind);
+    EXPECT_EQ(table(build(field, file, {})), blind);
+    const auto refused = [&](const Heightfield& ground, std::initializer_list<const char*> options,
+                             const char* what) {
+      const Failure failure = failure_of([&] { (void)build(ground, file, options); });
+      EXPECT_EQ(failure.code, ExitCode::kUsage) << what;
+      EXPECT_THAT(failure.what, HasSubstr(what));
+      EXPECT_EQ(read_visibility(file), blind) << what;
+    };
+    Heightfield other = field;
+    other.at(20, 30) += 0.001F;
+    refused(other, {}, "other ground");
+    refused(field, {"depth=9"}, "another depth");
+    refused(field, {"heights=nearest"}, "other ground");
+    refused(field, {"visibility=sampled"}, "sampled");
+    refused(field, {"cells=4"}, "cells");
+    refused(field, {"coarseness=6"}, "coarseness");
+    refused(field, {"eye_height=2"}, "eye height");
+    refused(field, {"visibility=off"}, "no visibility");
+    write_file(file, "something else");
+    EXPECT_EQ(failure_of([&] { (void)build(field, file, {}); }).code, ExitCode::kBadInput);
+  }
+}
+
 TEST(VisibilityFile, BytesAreThoseOfTheSavedLists) {
   const VisibilityTable table = table_over(65, 65);
   const VisibilityBytes bytes = visibility_bytes(table);
-  EXPECT_EQ(bytes.changes, bytes_of(table).size() - 64 - 32);
+  EXPECT_EQ(bytes.changes, bytes_of(table).size() - 65 - 32);
   EXPECT_EQ(bytes.bits, (8U * 8U * (1U << table.depth)) / 8);
   EXPECT_GT(bytes.lists, 0U);
 }

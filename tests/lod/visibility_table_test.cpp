@@ -3,6 +3,7 @@
 
 #include "lod/mrbsp/visible_flags.h"
 #include "tests/lod/visible_ground.h"
+#include "tests/terrain/errors.h"
 
 namespace terrabench {
 namespace {
@@ -12,6 +13,16 @@ TEST(VisibilityTable, ChangesLeadBackToTheSets) {
   const VisibilityTable table = changes_of(sets);
   EXPECT_EQ(sets_of(table), sets);
   EXPECT_EQ(table.steps(), 7 * 7 + 8 * 6);
+}
+
+TEST(VisibilityTable, RefusesMoreChangesThanFit) {
+  // Each step toggles all 2^24 triangles: 17 steps are one too many.
+  VisibleSets sets({18, 1, 1}, kDeepestCoarse, 1.8F);
+  for (std::size_t cell = 0; cell < 18; cell += 2) {
+    std::fill_n(sets.bits.begin() + static_cast<std::ptrdiff_t>(cell * sets.words), sets.words,
+                ~std::uint64_t{0});
+  }
+  EXPECT_EQ(failure_of([&] { (void)changes_of(sets); }).code, ExitCode::kUsage);
 }
 
 TEST(VisibleFlags, FlagsStandForTheirSubtreesWhereverTheWalkGoes) {

@@ -1,0 +1,23 @@
+#include "experiments/mrbsp/lost_pixels.h"
+
+namespace terrabench::mrbsp {
+
+std::uint64_t triangle_key(const Frame& frame, std::uint32_t triangle) {
+  const std::uint32_t* const at = frame.indices.data() + std::size_t{3} * triangle;
+  return std::uint64_t{at[0]} << 32 | at[1];
+}
+
+LostPixels lost_pixels(const Frame& all, FrameRenderer& of_all, const Frame& some, FrameRenderer& of_some,
+                       const View& view) {
+  const std::vector<std::uint32_t> before = of_all.triangle_numbers(all, view);
+  const std::vector<std::uint32_t> after = of_some.triangle_numbers(some, view);
+  LostPixels pixels;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    if (before[k] == 0) continue;
+    pixels.open += after[k] == 0;
+    pixels.lost += after[k] == 0 || triangle_key(all, before[k] - 1) != triangle_key(some, after[k] - 1);
+  }
+  return pixels;
+}
+
+}  // namespace terrabench::mrbsp
