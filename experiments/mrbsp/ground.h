@@ -24,6 +24,8 @@ int depth_over(const Heightfield&);
 
 // Height of a walker's eyes: 1.8 m above the samples and the triangles drawn of them.
 float eye_height(const Heightfield&, float x, float z);
+// Metres. A farther near plane would cut away steep ground beside a walker's eye and show what it hides.
+inline constexpr float kWalkersNear = 0.02F;
 // Loops around the middle of the land at that height, looking ahead, 800 × 600 pixels. 40° across, which
 // sees the paper's 11 % of all triangles. `reach` is how far from the middle it goes, in shares of half the
 // land.

@@ -67,7 +67,7 @@ void look_around(const Heightfield& ground, const glm::vec3& eye, Mrbsp& full, F
     view.target = eye + ways[static_cast<std::size_t>(heading)];
     view.vertical_fov = 1.5708F;
     view.width = view.height = kPixels;
-    view.near = 0.02F;  // a walker's eyes are no nearer to the steepest slope
+    view.near = kWalkersNear;
     view.far = 2 * (ground.extent_x() + ground.extent_z());
     const Frame& frame = full.update(view);
     for (const std::uint32_t number : renderer.triangle_numbers(frame, view)) {

@@ -120,7 +120,8 @@ void count_lost_pixels(Methods& methods, const std::vector<View>& views, const R
     FrameRenderer of_all(*context), of_some(*context);
     std::size_t lost = 0, most_lost = 0, most_open = 0, open_views = 0;
     progress.begin("counting lost pixels", views.size());
-    for (const View& view : views) {
+    for (View view : views) {
+      view.near = kWalkersNear;
       const LostPixels pixels = lost_pixels(methods.lods[whole].update(view), of_all,
                                             methods.lods[hiding].update(view), of_some, view);
       lost += pixels.lost;
