@@ -3,8 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace terrabench {
+namespace {
+
+// Levels that a patch has not have an infinite error, which no bound may reach.
+float finite(double metres) {
+  return static_cast<float>(std::min(metres, double{std::numeric_limits<float>::max()}));
+}
+
+}  // namespace
 
 ScreenBound::ScreenBound(const View& view, double pixels)
     : eye_(view.eye),
@@ -36,7 +45,7 @@ void ScreenBound::allow(const Boxes& boxes, std::size_t first, std::size_t last,
                          std::min(z0 * forward.z, z1 * forward.z);
     const double least_depth = std::max(std::max(near, std::sqrt(x * x + y * y + z * z) / secant), ahead);
     const double spread = std::min(secant, std::sqrt(far_x * far_x + far_z * far_z) / least_depth);
-    metres[k] = static_cast<float>(pixels * least_depth / (focal * spread + rise));
+    metres[k] = finite(pixels * least_depth / (focal * spread + rise));
   }
 }
 
@@ -47,7 +56,7 @@ void ScreenBound::allow_level_camera(const Boxes& boxes, std::size_t first, std:
     for (std::size_t axis = 0; axis < 3; ++axis) {
       middle[static_cast<int>(axis)] = 0.5F * (boxes.low[axis][k] + boxes.high[axis][k]);
     }
-    metres[k] = static_cast<float>(pixels_ * glm::distance(glm::dvec3(middle), eye_) / focal_);
+    metres[k] = finite(pixels_ * glm::distance(glm::dvec3(middle), eye_) / focal_);
   }
 }
 

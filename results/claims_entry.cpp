@@ -37,6 +37,7 @@ const std::vector<SetMember>& set_of(const ClaimsNode& at, std::string_view name
 std::vector<ClaimsNode> for_each_member(const std::vector<ClaimsNode>& nodes, std::string_view set) {
   std::vector<ClaimsNode> all;
   for (const ClaimsNode& node : nodes) {
+    if (node.bound.contains(set)) node.fail(fmt::format("'{}' is repeated within itself", set));
     for (const SetMember& member : set_of(node, set)) {
       all.push_back(node);
       all.back().bound[std::string(set)] = &member;

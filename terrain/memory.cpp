@@ -79,6 +79,12 @@ std::uint64_t available_memory() {
   std::uint64_t limit = 0, used = 0;
   if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit &&
       std::ifstream("/sys/fs/cgroup/memory.current") >> used) {
+    // Pages of files count as used and are given up when memory is asked for.
+    std::ifstream parts("/sys/fs/cgroup/memory.stat");
+    std::uint64_t bytes = 0;
+    for (std::string key; parts >> key >> bytes;) {
+      if (key == "inactive_file" || key == "active_file") used -= std::min(used, bytes);
+    }
     available = std::min(available, limit - std::min(limit, used));
   }
   return available;

@@ -15,6 +15,7 @@
 #include "lod/meters/cracks.h"
 #include "lod/meters/image_error.h"
 #include "lod/meters/screen_error.h"
+#include "terrain/error.h"
 #include "terrain/memory.h"
 
 namespace terrabench::cross {
@@ -25,7 +26,8 @@ constexpr std::string_view kAll = "all";      // in place of a method
 
 const std::array kSpecs{
     ParameterSpec{"method", std::string("roam"), "",
-                  "a name of `terrabench list lods`, or all: their triangles side by side"},
+                  "a name of `terrabench list lods`, geomipmap_morph, mrbsp_area, or all: their triangles "
+                  "side by side"},
     ParameterSpec{"options", std::string(), "",
                   "of the methods, such as geomipmap.patch=32,mrbsp.threshold=area"},
     ParameterSpec{"error", 1.0, "px", "99th percentile of the screen-space error that is asked for", 0.01,
@@ -199,6 +201,25 @@ std::vector<Entrant> entrants() {
   return all;
 }
 
+namespace {
+
+const Entrant& entrant(std::string_view name) {
+  static const std::vector<Entrant> kAllEntrants = entrants();
+  std::vector<std::string_view> known;
+  for (const Entrant& one : kAllEntrants) {
+    if (one.name == name) return one;
+    known.push_back(one.name);
+  }
+  throw unknown_name("level-of-detail method", name, known);
+}
+
+// The user's options behind an entrant's own, so that these stay unless they are named again.
+std::string join(const std::string& own, const std::string& asked) {
+  return own.empty() || asked.empty() ? own + asked : own + "," + asked;
+}
+
+}  // namespace
+
 constinit const std::span<const ParameterSpec> kEqualErrorParameters = kSpecs;
 
 std::vector<Case> equal_error_cases(const RunOptions& options) {
@@ -210,8 +231,7 @@ std::vector<Case> equal_error_cases(const RunOptions& options) {
     const auto add = [&](const std::string& name, const Entrant& entrant, double error) {
       Case& added = cases.emplace_back(
           Case{fmt::format("{}/{}", terrain, name), Parameters(kEqualErrorParameters), terrain});
-      added.parameters.set("method", entrant.method);
-      added.parameters.set("options", entrant.options);
+      added.parameters.set("method", entrant.name);
       added.parameters.set("error", error);
       // The other grounds are as wide as the path `fly` suits; this one has 123 km in the paper profile, and
       // a flight as high as its width asks for would see nothing of its samples.
@@ -230,7 +250,7 @@ std::vector<Case> equal_error_cases(const RunOptions& options) {
         add(fmt::format("{}/{:.0f}px", entrant.name, error), entrant, error);
       }
     }
-    add("wires", {"", std::string(kAll), ""}, kErrors[1]);
+    add("wires", {std::string(kAll), "", ""}, kErrors[1]);
   }
   return cases;
 }
@@ -247,7 +267,8 @@ void measure_equal_error(const Case& at, const RunOptions& options, Recorder& re
     draw_wires(flight, pixels, at.parameters.text("options"), *context, recorder, progress);
     return;
   }
-  const Contender measured = contender(method, at.parameters.text("options"));
+  const Entrant& entered = entrant(method);
+  const Contender measured = contender(entered.method, join(entered.options, at.parameters.text("options")));
   const Tuned tuned = tune_to(flight, measured, pixels, progress);
   recorder.add("knob", "", tuned.knob);
   recorder.add("tuned_error", "px", tuned.error);

@@ -186,15 +186,17 @@ class Flight {
     strips_ += expected_.follow(at(k), finest_, clipmap_->levels());
   }
 
-  // Of the same windows, counted from a sample south-west of them all: the meter takes coordinates of 0 and
+  // Of the same windows, counted from a sample north-west of them all: the meter takes coordinates of 0 and
   // less for a border. An edge of the ground within the far plane would show as bare.
   void meter(glm::dvec2 eye) {
     const glm::ivec2 before = clipmap_->origin();
     const int span = clipmap_->window() << (clipmap_->levels() - 1);
     clipmap_->move_origin(glm::ivec2(glm::floor(eye)) - span);
     const View view = seen_from(eye, kEyeHeight);
-    const CrackReport cracks = find_cracks(clipmap_->update(view), INT_MAX, INT_MAX, view);
-    gaps_ += cracks.gaps + cracks.overlaps + cracks.t_junctions;
+    const Frame& frame = clipmap_->update(view);
+    uploaded_ += frame.stats.bytes_uploaded;  // none: another origin changes no window
+    const CrackReport cracks = find_cracks(frame, INT_MAX, INT_MAX, view);
+    gaps_ += cracks.gaps + cracks.overlaps + cracks.flipped + cracks.t_junctions;
     edges_ += cracks.bare_edges;
     ++metered_;
     clipmap_->move_origin(before);

@@ -14,6 +14,7 @@ LostPixels lost_pixels(const Frame& all, FrameRenderer& of_all, const Frame& som
   LostPixels pixels;
   for (std::size_t k = 0; k < before.size(); ++k) {
     if (before[k] == 0) continue;
+    ++pixels.ground;
     pixels.open += after[k] == 0;
     pixels.lost += after[k] == 0 || triangle_key(all, before[k] - 1) != triangle_key(some, after[k] - 1);
   }

@@ -15,8 +15,9 @@ namespace terrabench::mrbsp {
 std::uint64_t triangle_key(const Frame&, std::uint32_t triangle);
 
 struct LostPixels {
-  std::size_t lost = 0;  // show another triangle, or none
-  std::size_t open = 0;  // of these: none, where there was ground
+  std::size_t ground = 0;  // show any triangle before
+  std::size_t lost = 0;    // show another triangle, or none
+  std::size_t open = 0;    // of these: none, where there was ground
 };
 // Of two frames of one view. Each renderer draws the frames of one method. O(pixels).
 LostPixels lost_pixels(const Frame& all, FrameRenderer& of_all, const Frame& some, FrameRenderer& of_some,

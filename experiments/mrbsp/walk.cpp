@@ -118,12 +118,13 @@ void count_lost_pixels(Methods& methods, const std::vector<View>& views, const R
   const auto context = open_context(options.renderer, views[0].width, views[0].height);
   for (const auto& [whole, hiding] : {std::pair{kBrute, kVis}, {kLod, kBoth}}) {
     FrameRenderer of_all(*context), of_some(*context);
-    std::size_t lost = 0, most_lost = 0, most_open = 0, open_views = 0;
+    std::size_t ground = 0, lost = 0, most_lost = 0, most_open = 0, open_views = 0;
     progress.begin("counting lost pixels", views.size());
     for (View view : views) {
       view.near = kWalkersNear;
       const LostPixels pixels = lost_pixels(methods.lods[whole].update(view), of_all,
                                             methods.lods[hiding].update(view), of_some, view);
+      ground += pixels.ground;
       lost += pixels.lost;
       most_lost = std::max(most_lost, pixels.lost);
       most_open = std::max(most_open, pixels.open);
@@ -135,6 +136,7 @@ void count_lost_pixels(Methods& methods, const std::vector<View>& views, const R
     const auto add = [&](std::string_view metric, std::string_view unit, double value) {
       recorder.add(fmt::format("{}_{}", metric, kNames[hiding]), unit, value);
     };
+    add("ground_share", "", static_cast<double>(ground) / (a_picture * static_cast<double>(views.size())));
     add("lost_share", "", static_cast<double>(lost) / (a_picture * static_cast<double>(views.size())));
     add("most_lost_share", "", static_cast<double>(most_lost) / a_picture);
     add("most_lost", "px", static_cast<double>(most_lost));

@@ -72,7 +72,7 @@ class Morphing {
   std::array<std::int32_t, 4> offsets_;
   int levels_;
   // By slot.
-  std::vector<float> errors_;    // δ, by level; a share more than a finer level.s at least
+  std::vector<float> errors_;    // δ, by level; a share more than a finer level's at least
   std::vector<Strip> strips_;    // by level and side
   std::vector<float> rounding_;  // metres that heights are off by
   std::vector<float> allowed_;   // metres, less what rounding may add

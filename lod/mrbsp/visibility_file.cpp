@@ -53,8 +53,15 @@ VisibilityTable read_visibility(const std::filesystem::path& path) {
 VisibilityTable kept_visibility(const std::filesystem::path& path, const GroundGrid& ground,
                                 const BisectionTree& tree, const VisibilityOptions& options,
                                 Progress& progress) {
-  std::error_code none;
-  if (!std::filesystem::exists(path, none)) {
+  std::error_code error;
+  const bool there = std::filesystem::exists(path, error);
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  // Before the sets are found, which takes long.
+  if (error || (!there && !std::filesystem::is_directory(folder, error))) {
+    throw environment_error("there is no such folder, or it cannot be read", folder.string(),
+                            "name a file in a folder that there is");
+  }
+  if (!there) {
     VisibilityTable table = changes_of(find_visible(ground, tree, options, progress));
     write_visibility(path, table);
     return table;

@@ -14,7 +14,8 @@ void write_visibility(const std::filesystem::path&, const VisibilityTable&);
 VisibilityTable read_visibility(const std::filesystem::path&);
 
 // What the file holds; where there is none, what find_visible() finds, which is then written to it. Throws
-// usage_error for a file of other ground, another depth or other options.
+// usage_error for a file of other ground, another depth or other options (the number of sampled eyes aside,
+// which files do not say), environment_error, before any work, where there is no such folder.
 VisibilityTable kept_visibility(const std::filesystem::path&, const GroundGrid&, const BisectionTree&,
                                 const VisibilityOptions&, Progress&);
 

@@ -75,7 +75,7 @@ void Mesh::add_pairs(std::size_t pairs) {
   // With what Roam holds a node. The old pool lives until its nodes have moved.
   constexpr std::size_t kBytesANode = sizeof(Node) + 2 * sizeof(float);
   require_memory(2 * pairs * kBytesANode + (nodes_.capacity() < first + 2 * pairs ? first * kBytesANode : 0),
-               "triangles of roam");
+                 "triangles of roam");
   if (first + 2 * pairs > kNone) {
     throw environment_error(fmt::format("{} triangles have no numbers of 32 bits", first + 2 * pairs), "roam",
                             "limit its triangles");

@@ -30,13 +30,14 @@ check = [{equal = ["e/c/m", 3]}, {order = [1, "e/c/m"]}, {within = ["e/c/m"], ra
 [sets]
 px = ["1", "2"]
 on = [{name = "a", at = "b"}]
+of = ["x", "y"]
 [[claim]]
 each = ["on", "px"]
 id = "p.{on}.{px}"
 where = "{on.at}"
 statement = ""
 class = "E"
-check = [{equal = ["e/{on}/{px}", 1]}, {each = ["px"], equal = ["e/{on.at}/{px}", "e/c/m"]}]
+check = [{equal = ["e/{on}/{of}", 1]}, {each = ["of"], equal = ["e/{on.at}/{px}{of}", "e/c/m"]}]
 [[claim]]
 id = "p.2"
 where = ""

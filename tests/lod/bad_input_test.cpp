@@ -99,6 +99,11 @@ const std::vector<Change>& legal() {
          v.eye = {1e30F, 1e30F, -1e30F}, v.far = kLargest;
        }},
       {"where floats end", [](View& v) { v.eye = glm::vec3(-kLargest), v.target = glm::vec3(kLargest); }},
+      {"so far that a pixel's worth of metres is no float",
+       [](View& v) {
+         v.eye = {-2.5e38F, 0, 0}, v.target = {0, 0, 0}, v.far = kLargest;
+         v.width = v.height = 1;
+       }},
       {"above, looking down", [](View& v) { v.eye.y = 1e4F, v.target = v.eye - glm::vec3(0.1F, 9, 0); }},
       {"looking up", [](View& v) { v.target = v.eye + glm::vec3(0.1F, 9, 0); }},
       {"upside down",

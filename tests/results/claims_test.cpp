@@ -145,7 +145,7 @@ TEST(Claims, EveryRowOfTheDrillPaperIsJudgedOnFourGrounds) {
 TEST(Claims, WhatHoldsForEveryMemberOfASetIsSaidOnce) {
   const std::string sets =
       "[sets]\npx = [\"1\", \"2\"]\n"
-      "on = [{name = \"a\", at = \"here\"}, {name = \"b\", at = \"there\"}]\n";
+      "on = [{name = \"a\", at = \"here\"}, {name = \"b\", at = \"there\"}]\nother = [\"x\", \"y\"]\n";
   const std::string text = std::string(kHead) + sets +
                            "[[claim]]\neach = [\"on\"]\nid = \"p.{on}\"\nwhere = \"{on.at}, "
                            "{on}\"\nstatement = \"s\"\nclass = \"E\"\n"
@@ -153,8 +153,8 @@ TEST(Claims, WhatHoldsForEveryMemberOfASetIsSaidOnce) {
                            "[\"e/{on}/{px}/m\"], range = [0, 1]}]\n"
                            "[[table]]\neach = [\"px\", \"on\"]\nid = \"t{px}{on}\"\ntitle = \"t\"\ncaption = "
                            "\"c\"\nexperiment = \"e\"\n"
-                           "rows_title = \"r\"\nrows = [{label = \"all\", case = \"x\"}, {each = [\"on\"], "
-                           "label = \"{on.at}\", case = \"{on}/{px}\"}]\n"
+                           "rows_title = \"r\"\nrows = [{label = \"all\", case = \"x\"}, {each = [\"other\"], "
+                           "label = \"{on.at}\", case = \"{on}/{px}{other}\"}]\n"
                            "columns = [{title = \"c\", metric = \"m\"}]\n";
   const Paper paper = parse_claims(text, "x");
   ASSERT_EQ(paper.claims.size(), 2U);
@@ -168,10 +168,9 @@ TEST(Claims, WhatHoldsForEveryMemberOfASetIsSaidOnce) {
   std::vector<std::string> tables;
   for (const TableLayout& table : paper.tables) tables.push_back(table.id);
   EXPECT_EQ(tables, (std::vector<std::string>{"t1a", "t1b", "t2a", "t2b"}));
-  // Of two that bind the same set, the inner one counts.
   ASSERT_EQ(paper.tables[1].rows.size(), 3U);
-  EXPECT_EQ(paper.tables[1].rows[1].label, "here");
-  EXPECT_EQ(paper.tables[1].rows[1].case_name, "a/1");
+  EXPECT_EQ(paper.tables[1].rows[1].label, "there");
+  EXPECT_EQ(paper.tables[1].rows[1].case_name, "b/1x");
 }
 
 TEST(Claims, RefusesSetsThatAreNone) {
@@ -189,6 +188,7 @@ TEST(Claims, RefusesSetsThatAreNone) {
   refused(good, "check = [{each = [\"py\"], equal = [\"e/c/m\", 1]}]\n", "no set 'py'", 11);
   refused(good, "check = [{each = \"px\", equal = [\"e/c/m\", 1]}]\n", "not a list", 11);
   refused(good, "check = [{equal = [\"e/{px.at}/m\", 1]}]\n", "no 'at'", 11);
+  refused(good, "check = [{each = [\"px\", \"px\"], equal = [\"e/c/m\", 1]}]\n", "within itself", 11);
   std::string many = "n = [";
   for (int i = 0; i < 100; ++i) many += fmt::format("\"{}\", ", i);
   refused(many + "]\nm = [\"{n}\"]", "", "no set 'n'", 6);
