@@ -146,16 +146,17 @@ TEST(Claims, WhatHoldsForEveryMemberOfASetIsSaidOnce) {
   const std::string sets =
       "[sets]\npx = [\"1\", \"2\"]\n"
       "on = [{name = \"a\", at = \"here\"}, {name = \"b\", at = \"there\"}]\nother = [\"x\", \"y\"]\n";
-  const std::string text = std::string(kHead) + sets +
-                           "[[claim]]\neach = [\"on\"]\nid = \"p.{on}\"\nwhere = \"{on.at}, "
-                           "{on}\"\nstatement = \"s\"\nclass = \"E\"\n"
-                           "check = [{equal = [\"e/{on}/{px}px/m\", 0]}, {each = [\"px\"], within = "
-                           "[\"e/{on}/{px}/m\"], range = [0, 1]}]\n"
-                           "[[table]]\neach = [\"px\", \"on\"]\nid = \"t{px}{on}\"\ntitle = \"t\"\ncaption = "
-                           "\"c\"\nexperiment = \"e\"\n"
-                           "rows_title = \"r\"\nrows = [{label = \"all\", case = \"x\"}, {each = [\"other\"], "
-                           "label = \"{on.at}\", case = \"{on}/{px}{other}\"}]\n"
-                           "columns = [{title = \"c\", metric = \"m\"}]\n";
+  const std::string text =
+      std::string(kHead) + sets +
+      "[[claim]]\neach = [\"on\"]\nid = \"p.{on}\"\nwhere = \"{on.at}, "
+      "{on}\"\nstatement = \"s\"\nclass = \"E\"\n"
+      "check = [{equal = [\"e/{on}/{px}px/m\", 0]}, {each = [\"px\"], within = "
+      "[\"e/{on}/{px}/m\"], range = [0, 1]}]\n"
+      "[[table]]\neach = [\"px\", \"on\"]\nid = \"t{px}{on}\"\ntitle = \"t\"\ncaption = "
+      "\"c\"\nexperiment = \"e\"\n"
+      "rows_title = \"r\"\nrows = [{label = \"all\", case = \"x\"}, {each = [\"other\"], "
+      "label = \"{on.at}\", case = \"{on}/{px}{other}\"}]\n"
+      "columns = [{title = \"c\", metric = \"m\"}]\n";
   const Paper paper = parse_claims(text, "x");
   ASSERT_EQ(paper.claims.size(), 2U);
   const Claim& there = paper.claims[1];
