@@ -279,13 +279,7 @@ void check_ids(const Paper& paper, const std::string& origin) {
 std::string_view name(Verdict verdict) { return kVerdicts[static_cast<std::size_t>(verdict)]; }
 
 Paper parse_claims(std::string_view text, const std::string& origin) {
-  toml::table table;
-  try {
-    table = toml::parse(text, origin);
-  } catch (const toml::parse_error& error) {
-    throw bad_input(error.description(), fmt::format("{}:{}", origin, error.source().begin.line),
-                    "correct the claims file");
-  }
+  const toml::table table = parse_toml(text, origin, "correct the claims file");
   ClaimsFile file{origin, {}};
   read_sets(table, file);
   ClaimsEntry entry({&table, &file, {}});

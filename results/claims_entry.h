@@ -11,14 +11,14 @@
 // yet stands for one text a member. Numbers are not replaced.
 #pragma once
 
-#include <toml++/toml.h>
-
 #include <map>
 #include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "terrain/toml.h"
 
 namespace terrabench {
 

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "terrain/embedded.h"
 #include "terrain/error.h"
 #include "terrain/files.h"
+#include "terrain/toml.h"
 
 namespace terrabench {
 
@@ -132,13 +132,7 @@ void read_keyframes(Entry& file, CameraPath& path, double speed, const std::stri
 }  // namespace
 
 CameraPath parse_camera_path(std::string_view text, std::string name, const std::string& origin) {
-  toml::table table;
-  try {
-    table = toml::parse(text, origin);
-  } catch (const toml::parse_error& error) {
-    throw bad_input(error.description(), fmt::format("{}:{}", origin, error.source().begin.line),
-                    "correct the camera path");
-  }
+  const toml::table table = parse_toml(text, origin, "correct the camera path");
   Entry file(table, origin);
   constexpr std::string_view kKinds[] = {"walk", "fly", "turn"}, kUnits[] = {"m", "extent"};
   CameraPath path;

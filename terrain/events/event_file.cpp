@@ -1,7 +1,6 @@
 #include "terrain/events/event_file.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "terrain/error.h"
 #include "terrain/events/evaluate.h"
 #include "terrain/sources/fractal/diamond_square.h"
+#include "terrain/toml.h"
 
 namespace terrabench::events {
 namespace {
@@ -209,12 +209,7 @@ Script parse_script(std::string_view text, const std::string& origin) {
     throw bad_input(fmt::format("{} bytes of events", text.size()), origin,
                     fmt::format("keep the file under {} bytes", kMostBytes));
   }
-  toml::table file;
-  try {
-    file = toml::parse(text, origin);
-  } catch (const toml::parse_error& error) {
-    throw bad_input(error.description(), place(origin, error.source().begin.line), "correct the file");
-  }
+  const toml::table file = parse_toml(text, origin, "correct the file");
   Entry entry(file, origin);
   Script script;
   script.terrain = entry.text("terrain");

@@ -31,7 +31,10 @@ near = 0.1
       "kind = \"fly\"\nunit = \"extent\"\nkeyframe = [{at = [0, 0], height = 0.1, speed = 1, look_at = [1, "
       "1]},"
       " {at = [1, 0], height = 9, speed = 1, look_at = [2, 2]}]\n",
-      "kind = \"turn\"\nspeed = 90\nkeyframe = [{at = [0, 0], heading = 0, pitch = -10}, {heading = 180}]\n"};
+      "kind = \"turn\"\nspeed = 90\nkeyframe = [{at = [0, 0], heading = 0, pitch = -10}, {heading = 180}]\n",
+      "k\u00efnd = 1\n",
+      "kind = \u03c4\n",  // beyond ASCII: toml++ 3.3.0 alone has undefined behaviour here
+      "'kind' = \"\"\"\\\n \u00e9\"\"\" # \u03c4\n"};
   std::vector<std::vector<std::uint8_t>> seeds;
   for (const std::string_view path : kPaths) {
     std::vector<std::uint8_t> seed(kHead.begin(), kHead.end());

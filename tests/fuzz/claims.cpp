@@ -60,5 +60,11 @@ x = {label = "x", log = true}
 y = {label = "y", unit = "s"}
 series = [{label = "l", values = [[1, 2]], slope = true}, {label = "m", experiment = "e", metric = "m", cases = [[1, "c"]]}]
 )";
-  return {{kSeed.begin(), kSeed.end()}};
+  // Beyond ASCII: in bare places toml++ 3.3.0 alone has undefined behaviour.
+  constexpr std::string_view kBeyondAscii[] = {
+      "pap\u00e9r = 1\n", "paper = \u03c4\n",
+      "paper = \"\"\"\\\n \u00e9\"\"\"\ntitle = '\u03c4 \\'  # \u00b2\n"};
+  std::vector<std::vector<std::uint8_t>> seeds = {{kSeed.begin(), kSeed.end()}};
+  for (const std::string_view seed : kBeyondAscii) seeds.emplace_back(seed.begin(), seed.end());
+  return seeds;
 }

@@ -87,7 +87,10 @@ kind = "cave"
 from = [31.5, 30, 40]
 to = [32.5, 30, 41]
 section = [[-1, 0], [1, 0], [0, 1]]
-)"};
+)",
+      "\"t\u00e9\" = 1\n",  // beyond ASCII: toml++ 3.3.0 alone has undefined behaviour for some of them
+      "t\u00e9 = 1\n",     "terrain = \u03c4\n",
+      "seed = 1\u00a1\n",  "terrain = \"\"\"\\\n \u00e9\"\"\" # \u03c4\nsize = 65\n"};
   std::vector<std::vector<std::uint8_t>> seeds;
   for (const std::string_view seed : kSeeds) seeds.emplace_back(seed.begin(), seed.end());
   return seeds;

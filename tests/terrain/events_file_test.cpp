@@ -135,7 +135,7 @@ TEST(EventFile, MistakesAreNamedByLine) {
       {head + "[[event]]\nkind = \"cave\"\nfrom = [1, 2, 3]\nto = [1, 2, 4]\nsection = [[1, 2], 3]",
        "f:6: 'section' is not a list of 2"},
       {head + "seed = ", "f:2: "},
-      {std::string("\0\xff", 2), "f:1: "},
+      {std::string("\0\xff", 2), "f:1:2: "},
   };
   for (const auto& [text, what] : cases) {
     const Failure failure = failure_of([&] { (void)parse_script(text, "f"); });

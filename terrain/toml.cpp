@@ -1,0 +1,147 @@
+#define TOML_IMPLEMENTATION
+#include "terrain/toml.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
+
+struct Character {
+  char32_t code;
+  std::size_t bytes;
+};
+
+// The first character of `text`, which is not empty; nothing where it is not UTF-8 (RFC 3629).
+std::optional<Character> decode(std::string_view text) {
+  const auto lead = static_cast<unsigned char>(text[0]);
+  if (lead < 0x80) return Character{lead, 1};
+  const std::size_t bytes = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (lead < 0xC0 || lead > 0xF4 || text.size() < bytes) return std::nullopt;
+  char32_t code = lead & (0x7FU >> bytes);
+  for (std::size_t i = 1; i < bytes; ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    if ((byte & 0xC0U) != 0x80) return std::nullopt;
+    code = code << 6U | (byte & 0x3FU);
+  }
+  constexpr char32_t kLowest[] = {0, 0, 0x80, 0x800, 0x10000};
+  if (code < kLowest[bytes] || code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF)) return std::nullopt;
+  return Character{code, bytes};
+}
+
+// Rewrites a TOML text in ASCII: characters beyond it become escapes in strings (a literal string becomes a
+// basic one) and go from comments; elsewhere they are refused. Lines stay where they are. toml++ thus never
+// sees such a character, whatever it takes a malformed text for.
+class AsciiToml {
+ public:
+  AsciiToml(std::string_view text, const std::string& file) : rest_(text), file_(file) {}
+
+  std::string run() {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+    while (!rest_.empty()) {
+      const char next = rest_[0];
+      if (next == '#') {
+        comment();
+      } else if (next == '"' || next == '\'') {
+        string(next);
+      } else {
+        copy("outside a string or a comment", "put the key or the text in double quotes");
+      }
+    }
+    return std::move(out_);
+  }
+
+ private:
+  [[noreturn]] void fail(std::string_view what, std::string_view advice) const {
+    throw bad_input(what, fmt::format("{}:{}:{}", file_, line_, column_), advice);
+  }
+
+  Character take() {
+    const std::optional<Character> next = decode(rest_);
+    if (!next) {
+      fail(fmt::format("byte 0x{:02X} is not valid UTF-8", static_cast<unsigned char>(rest_[0])),
+           "save the file as UTF-8");
+    }
+    rest_.remove_prefix(next->bytes);
+    ++column_;
+    if (next->code == '\n') {
+      ++line_;
+      column_ = 1;
+    }
+    return *next;
+  }
+
+  // One character that must be ASCII.
+  void copy(std::string_view where, std::string_view advice) {
+    if (const std::optional<Character> next = decode(rest_); next && next->bytes > 1) {
+      fail(fmt::format("'{}' (U+{:04X}) {}", rest_.substr(0, next->bytes),
+                       static_cast<std::uint32_t>(next->code), where),
+           advice);
+    }
+    out_ += static_cast<char>(take().code);
+  }
+
+  void comment() {
+    while (!rest_.empty() && rest_[0] != '\n') {
+      if (const Character next = take(); next.bytes == 1) out_ += static_cast<char>(next.code);
+    }
+  }
+
+  // A line break ends a string of one line too: that is an error which toml++ reports.
+  void string(char quote) {
+    const std::size_t opening = rest_.starts_with(std::string(3, quote)) ? 3 : 1;
+    for (std::size_t i = 0; i < opening; ++i) take();
+    out_.append(opening, '"');
+    while (!rest_.empty() && (opening == 3 || rest_[0] != '\n')) {
+      if (rest_[0] == quote) {
+        // Up to two quotes before the closing three belong to the string.
+        std::size_t quotes = 0;
+        for (; quotes < (opening == 3 ? 5 : 1) && rest_.starts_with(quote); ++quotes) take();
+        const std::size_t closing = quotes >= opening ? opening : 0;
+        out_.append(quotes - closing, quote);
+        out_.append(closing, '"');
+        if (closing > 0) {
+          out_ += ' ';  // a quote that follows is refused instead of joining these
+          return;
+        }
+      } else if (rest_[0] == '\\' && quote == '"') {
+        out_ += static_cast<char>(take().code);
+        if (!rest_.empty()) copy("after a backslash", "escape the backslash: \\\\");
+      } else {
+        const Character next = take();
+        if (next.bytes > 1) {
+          out_ += fmt::format("\\U{:08X}", static_cast<std::uint32_t>(next.code));
+        } else {
+          if (quote == '\'' && (next.code == '\\' || next.code == '"')) out_ += '\\';
+          out_ += static_cast<char>(next.code);
+        }
+      }
+    }
+  }
+
+  std::string_view rest_;
+  const std::string& file_;
+  std::string out_;
+  std::size_t line_ = 1, column_ = 1;
+};
+
+}  // namespace
+
+toml::table parse_toml(std::string_view text, const std::string& file, std::string_view advice) {
+  std::string ascii;
+  if (!std::all_of(text.begin(), text.end(), is_ascii)) text = ascii = AsciiToml(text, file).run();
+  try {
+    return toml::parse(text, file);
+  } catch (const toml::parse_error& error) {
+    throw bad_input(error.description(), fmt::format("{}:{}", file, error.source().begin.line), advice);
+  }
+}
+
+}  // namespace terrabench
