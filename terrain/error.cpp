@@ -29,6 +29,16 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+// "; did you mean 'jacksboro'?", or nothing.
+std::string suggestion(std::string_view name, std::span<const std::string_view> known) {
+  if (known.empty()) return {};
+  const auto nearest = *std::min_element(known.begin(), known.end(), [&](auto a, auto b) {
+    return edit_distance(name, a) < edit_distance(name, b);
+  });
+  const bool close = edit_distance(name, nearest) <= std::max<std::size_t>(2, nearest.size() / 3);
+  return close ? fmt::format("; did you mean '{}'?", nearest) : "";
+}
+
 }  // namespace
 
 Error::Error(ExitCode code, std::string_view what, std::string_view where, std::string_view advice)
@@ -47,16 +57,19 @@ Error environment_error(std::string_view what, std::string_view where, std::stri
 }
 
 Error unknown_name(std::string_view kind, std::string_view name, std::span<const std::string_view> known) {
-  std::string what = fmt::format("unknown {} '{}'", kind, name);
-  if (!known.empty()) {
-    const auto nearest = *std::min_element(known.begin(), known.end(), [&](auto a, auto b) {
-      return edit_distance(name, a) < edit_distance(name, b);
-    });
-    if (edit_distance(name, nearest) <= std::max<std::size_t>(2, nearest.size() / 3)) {
-      what += fmt::format("; did you mean '{}'?", nearest);
-    }
-  }
-  return usage_error(what, "", fmt::format("known: {}", fmt::join(known, ", ")));
+  return usage_error(fmt::format("unknown {} '{}'{}", kind, name, suggestion(name, known)), "",
+                     fmt::format("known: {}", fmt::join(known, ", ")));
+}
+
+std::string invalid_value(std::string_view name, std::string_view value,
+                          std::span<const std::string_view> allowed) {
+  return fmt::format("invalid value '{}' for '{}': expected {}{}", value, name, alternatives(allowed),
+                     suggestion(value, allowed));
+}
+
+std::string alternatives(std::span<const std::string_view> words) {
+  if (words.size() < 2) return fmt::format("{}", fmt::join(words, ""));
+  return fmt::format("{} or {}", fmt::join(words.first(words.size() - 1), ", "), words.back());
 }
 
 }  // namespace terrabench

@@ -41,4 +41,10 @@ Error environment_error(std::string_view what, std::string_view where, std::stri
 // the name at the least edit distance, given only when it is close enough to be a typing slip.
 Error unknown_name(std::string_view kind, std::string_view name, std::span<const std::string_view> known);
 
+// "invalid value 'sample' for 'visibility': expected off, sampled or conservative; did you mean 'sampled'?",
+// the suggestion as above. `allowed` is not empty.
+std::string invalid_value(std::string_view name, std::string_view value,
+                          std::span<const std::string_view> allowed);
+std::string alternatives(std::span<const std::string_view> words);  // "off, sampled or conservative"
+
 }  // namespace terrabench

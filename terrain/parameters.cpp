@@ -17,38 +17,65 @@ bool parse(std::string_view text, Number& out) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-std::string_view type_name(const Value& value) {
-  constexpr std::string_view kNames[] = {"true or false", "a whole number", "a number", "text"};
-  return kNames[value.index()];
+// "between 1 and 512 samples", "at least 0 m", or nothing where any number will do.
+std::string range_text(const ParameterSpec& spec) {
+  std::string text;
+  if (std::isfinite(spec.lowest) && std::isfinite(spec.highest)) {
+    text = fmt::format("between {} and {}", spec.lowest, spec.highest);
+  } else if (std::isfinite(spec.lowest)) {
+    text = fmt::format("at least {}", spec.lowest);
+  } else if (std::isfinite(spec.highest)) {
+    text = fmt::format("at most {}", spec.highest);
+  }
+  return text.empty() || spec.unit.empty() ? text : fmt::format("{} {}", text, spec.unit);
 }
 
-Error wrong_value(const ParameterSpec& spec, std::string_view given) {
-  std::string advice = fmt::format("'{}' takes {}", spec.name, type_name(spec.fallback));
-  if (std::isfinite(spec.lowest) || std::isfinite(spec.highest)) {
-    advice += fmt::format(" in [{}, {}]", spec.lowest, spec.highest);
-  }
-  if (!spec.unit.empty()) advice += fmt::format(" ({})", spec.unit);
-  return usage_error(fmt::format("'{}' is not a value for it", given),
-                     fmt::format("parameter '{}'", spec.name), fmt::format("{}: {}", advice, spec.help));
+Error wrong_value(const ParameterSpec& spec, std::string_view expected, std::string_view given) {
+  return usage_error(fmt::format("{} must be {}, got {}", spec.name, expected, given), "",
+                     fmt::format("{}: {}", spec.name, spec.help));
 }
 
-void check_range(const ParameterSpec& spec, const Value& value) {
-  double number = 0;
-  if (const auto* integer = std::get_if<std::int64_t>(&value)) {
-    number = static_cast<double>(*integer);
-  } else if (const auto* real = std::get_if<double>(&value)) {
-    number = *real;
-  } else {
-    return;
+Error wrong_type(const ParameterSpec& spec, std::string_view given) {
+  return wrong_value(spec, accepted_values(spec), fmt::format("'{}'", given));
+}
+
+void check(const ParameterSpec& spec, const Value& value) {
+  const auto in_range = [&](double number) {  // false for NaN
+    return number >= spec.lowest && number <= spec.highest;
+  };
+  const auto* const integer = std::get_if<std::int64_t>(&value);
+  const auto* const real = std::get_if<double>(&value);
+  if ((integer != nullptr && !in_range(static_cast<double>(*integer))) ||
+      (real != nullptr && !in_range(*real))) {
+    const std::string range = range_text(spec);
+    throw wrong_value(spec, range.empty() ? "a number" : range, to_string(value));
   }
-  // Written so that NaN fails too.
-  if (!(number >= spec.lowest && number <= spec.highest)) throw wrong_value(spec, to_string(value));
+  if (const auto* const text = std::get_if<std::string>(&value);
+      text != nullptr && !spec.allowed.empty() &&
+      std::find(spec.allowed.begin(), spec.allowed.end(), *text) == spec.allowed.end()) {
+    throw usage_error(invalid_value(spec.name, *text, spec.allowed), "",
+                      fmt::format("{}: {}", spec.name, spec.help));
+  }
 }
 
 }  // namespace
 
 std::string to_string(const Value& value) {
   return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+}
+
+ParameterSpec choice(std::string_view name, std::span<const std::string_view> allowed,
+                     std::string_view help) {
+  return {.name = name, .fallback = std::string(allowed[0]), .unit = "", .help = help, .allowed = allowed};
+}
+
+std::string accepted_values(const ParameterSpec& spec) {
+  constexpr std::string_view kTypes[] = {"true or false", "a whole number", "a number", "text"};
+  if (!spec.allowed.empty()) return alternatives(spec.allowed);
+  const std::string range = range_text(spec);
+  const std::string_view type = kTypes[spec.fallback.index()];
+  if (!range.empty()) return fmt::format("{} {}", type, range);
+  return spec.unit.empty() ? std::string(type) : fmt::format("{} in {}", type, spec.unit);
 }
 
 Parameters::Parameters(std::span<const ParameterSpec> specs) : specs_(specs) {
@@ -75,15 +102,16 @@ void Parameters::set(std::string_view name, const Value& value) {
   if (std::holds_alternative<double>(spec.fallback) && std::holds_alternative<std::int64_t>(value)) {
     typed = static_cast<double>(std::get<std::int64_t>(value));
   }
-  if (typed.index() != spec.fallback.index()) throw wrong_value(spec, to_string(value));
-  check_range(spec, typed);
+  if (typed.index() != spec.fallback.index()) throw wrong_type(spec, to_string(value));
+  check(spec, typed);
   values_[at] = std::move(typed);
 }
 
 void Parameters::set_from_text(std::string_view assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos || equals == 0) {
-    throw usage_error(fmt::format("'{}' is no assignment", assignment), "--set", "write name=value");
+    throw usage_error(fmt::format("invalid assignment '{}': expected name=value", assignment), "--set",
+                      "such as --set size=128");
   }
   const std::string_view name = assignment.substr(0, equals), text = assignment.substr(equals + 1);
   const ParameterSpec& spec = specs_[find(name)];
@@ -91,13 +119,13 @@ void Parameters::set_from_text(std::string_view assignment) {
   std::int64_t integer = 0;
   double number = 0;
   if (std::holds_alternative<bool>(spec.fallback)) {
-    if (text != "true" && text != "false") throw wrong_value(spec, text);
+    if (text != "true" && text != "false") throw wrong_type(spec, text);
     value = text == "true";
   } else if (std::holds_alternative<std::int64_t>(spec.fallback)) {
-    if (!parse(text, integer)) throw wrong_value(spec, text);
+    if (!parse(text, integer)) throw wrong_type(spec, text);
     value = integer;
   } else if (std::holds_alternative<double>(spec.fallback)) {
-    if (!parse(text, number)) throw wrong_value(spec, text);
+    if (!parse(text, number)) throw wrong_type(spec, text);
     value = number;
   } else {
     value = std::string(text);
@@ -112,6 +140,10 @@ std::int64_t Parameters::integer(std::string_view name) const {
 double Parameters::number(std::string_view name) const { return std::get<double>(values_[find(name)]); }
 const std::string& Parameters::text(std::string_view name) const {
   return std::get<std::string>(values_[find(name)]);
+}
+std::size_t Parameters::choice(std::string_view name) const {
+  const std::span<const std::string_view> allowed = specs_[find(name)].allowed;
+  return static_cast<std::size_t>(std::find(allowed.begin(), allowed.end(), text(name)) - allowed.begin());
 }
 
 }  // namespace terrabench

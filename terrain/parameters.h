@@ -15,7 +15,8 @@ namespace terrabench {
 using Value = std::variant<bool, std::int64_t, double, std::string>;
 std::string to_string(const Value&);
 
-// One parameter that a method takes. The type is the type of `fallback`; numbers lie in [lowest, highest].
+// One parameter that a method takes. The type is the type of `fallback`; numbers lie in [lowest, highest], a
+// text is one of `allowed` unless that is empty.
 struct ParameterSpec {
   std::string_view name;
   Value fallback;
@@ -23,7 +24,15 @@ struct ParameterSpec {
   std::string_view help;
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
+  std::span<const std::string_view> allowed = {};
 };
+
+// A text parameter that takes one of `allowed`, which must outlive the spec; the first is the fallback.
+ParameterSpec choice(std::string_view name, std::span<const std::string_view> allowed, std::string_view help);
+
+// What a parameter takes, for help texts: "true or false", "a whole number between 1 and 512 samples",
+// "a number in m", "off, sampled or conservative", "text".
+std::string accepted_values(const ParameterSpec&);
 
 // Values for a list of specs; whatever is not set has its fallback. Specs must outlive the set (they are
 // static tables).
@@ -32,7 +41,8 @@ class Parameters {
   Parameters() = default;
   explicit Parameters(std::span<const ParameterSpec> specs);
 
-  // Throws usage_error for an unknown name (with the nearest), a value of another type, or one out of range.
+  // Throws usage_error for an unknown name (with the nearest), a value of another type, one out of range or
+  // one that is not allowed (with the nearest); the value set before stays.
   void set(std::string_view name, const Value& value);
   // "key=value", as --set gives it.
   void set_from_text(std::string_view assignment);
@@ -41,6 +51,7 @@ class Parameters {
   std::int64_t integer(std::string_view name) const;
   double number(std::string_view name) const;
   const std::string& text(std::string_view name) const;
+  std::size_t choice(std::string_view name) const;  // the text's place in its spec's `allowed`
 
   bool has(std::string_view name) const;
   std::span<const ParameterSpec> specs() const { return specs_; }

@@ -53,7 +53,7 @@ class Entry {
     for (std::size_t w = 0; w < words.size(); ++w) {
       if (node.is_string() && text == words[w]) return w;
     }
-    fail(node, origin_, fmt::format("'{}' is none of {}", key, fmt::join(words, ", ")));
+    fail(node, origin_, invalid_value(key, text.value_or("not a text"), words));
   }
   const toml::array& list(std::string_view key) {
     const toml::node& node = get(key);

@@ -14,25 +14,18 @@
 namespace terrabench {
 namespace {
 
-// Which of the words a text parameter has.
-std::size_t choice(const Parameters& parameters, std::string_view name,
-                   std::initializer_list<std::string_view> words) {
-  const auto at = std::find(words.begin(), words.end(), parameters.text(name));
-  if (at == words.end()) {
-    throw usage_error(fmt::format("'{}' is none of its values", parameters.text(name)), name,
-                      fmt::format("choose {}", fmt::join(words, ", ")));
-  }
-  return static_cast<std::size_t>(at - words.begin());
-}
+constexpr std::string_view kThresholds[] = {"printed", "area"}, kHoles[] = {"conforming", "printed"},
+                           kHeights[] = {"samples", "nearest"},
+                           kVisibility[] = {"off", "sampled", "conservative"};
 
 MrbspOptions options_of(const Parameters& parameters) {
   MrbspOptions options;
   options.depth = static_cast<int>(parameters.integer("depth"));
-  options.area_consistent = choice(parameters, "threshold", {"printed", "area"}) == 1;
-  options.conforming = choice(parameters, "holes", {"printed", "conforming"}) == 1;
-  options.three_nearest = choice(parameters, "heights", {"samples", "nearest"}) == 1;
+  options.area_consistent = parameters.choice("threshold") == 1;
+  options.conforming = parameters.choice("holes") == 0;
+  options.three_nearest = parameters.choice("heights") == 1;
   options.cull = parameters.flag("cull");
-  const std::size_t visibility = choice(parameters, "visibility", {"off", "sampled", "conservative"});
+  const std::size_t visibility = parameters.choice("visibility");
   options.visibility = visibility > 0;
   options.visible.conservative = visibility == 2;
   options.visible.cells = static_cast<int>(parameters.integer("cells"));
@@ -63,12 +56,12 @@ std::span<const ParameterSpec> Mrbsp::parameters() {
   static const ParameterSpec kParameters[] = {
       {"depth", std::int64_t{0}, "levels", "bisections down to the finest triangles; 0: down to every sample",
        0, BisectionTree::kDeepest},
-      {"threshold", std::string("printed"), "",
-       "depth by distance: printed M - log2(D/S), area M - 2 log2(D/S)"},
-      {"holes", std::string("conforming"), "", "printed: the paper's one-vertex rule; conforming: none left"},
-      {"heights", std::string("samples"), "", "of vertices: samples, or nearest (interpolated from three)"},
+      choice("threshold", kThresholds, "depth by distance: printed M - log2(D/S), area M - 2 log2(D/S)"),
+      choice("holes", kHoles, "printed: the paper's one-vertex rule; conforming: none left"),
+      choice("heights", kHeights,
+             "of vertices: samples of the ground, or interpolated from the nearest three"),
       {"cull", true, "", "leave out what lies outside the view"},
-      {"visibility", std::string("off"), "", "leave out what the ground hides: off, sampled, conservative"},
+      choice("visibility", kVisibility, "leave out what the ground hides"),
       {"cells", std::int64_t{16}, "cells", "of visibility, at most, along the longer side", 1, 1024},
       {"coarseness", std::int64_t{6}, "levels", "from the finest triangles up to those of visibility", 0,
        BisectionTree::kDeepest},
