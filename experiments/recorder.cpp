@@ -21,9 +21,7 @@ std::filesystem::path Recorder::figure(std::string_view id, std::string_view ext
                                        std::string_view caption) {
   // Another profile, or a case with changed parameters, draws another picture under the same ledger id: it
   // must not replace that one.
-  const std::size_t override = record_.case_name.find(" (");
-  const std::string variant =
-      override == std::string::npos ? "" : "-" + checksum(record_.case_name).substr(0, 8);
+  const std::string variant = record_.overrides.empty() ? "" : "-" + checksum(record_.case_name).substr(0, 8);
   Figure figure{std::string(id), fmt::format("figures/{}.{}{}.{}", id, record_.profile, variant, extension),
                 std::string(caption)};
   const std::filesystem::path path = folder_ / figure.file;

@@ -53,7 +53,8 @@ void apply(const std::vector<std::string>& assignments, std::vector<PlannedCase>
     for (PlannedCase& planned : cases) {
       if (!planned.at.parameters.has(name)) continue;
       planned.at.parameters.set_from_text(assignment);
-      planned.at.name += fmt::format(" ({})", assignment);  // no longer the case that the ledger means
+      planned.at.name += fmt::format(" ({})", assignment);
+      planned.at.overrides.push_back(assignment);
       used = true;
     }
     if (used) continue;
@@ -117,6 +118,7 @@ void run(const RunPlan& plan) {
     Record record;
     record.experiment = planned.experiment->id;
     record.case_name = planned.at.name;
+    record.overrides = planned.at.overrides;
     record.profile = plan.options.profile == Profile::kPaper ? "paper" : "quick";
     record.run = provenance.id;
     record.seed = plan.options.seed;

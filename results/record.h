@@ -46,7 +46,8 @@ bool comparable(const Provenance&, const Provenance&);
 // One case of one experiment, measured.
 struct Record {
   std::string experiment, case_name, profile;
-  std::string run;  // Provenance::id
+  std::vector<std::string> overrides = {};  // the "name=value" of --set: not the case that the ledger means
+  std::string run;                          // Provenance::id
   std::uint64_t seed = 0;
   std::string terrain, terrain_checksum;  // what was measured on
   std::vector<std::pair<std::string, Value>> parameters;
@@ -54,8 +55,6 @@ struct Record {
   std::vector<Figure> figures;
 
   const Metric* find(std::string_view metric) const;  // null when absent
-  // Measured with `--set`, which says so behind the name: not the case that the ledger means.
-  bool overridden() const { return case_name.find(" (") != case_name.npos; }
 };
 
 }  // namespace terrabench

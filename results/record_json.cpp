@@ -105,6 +105,7 @@ class Fields {
     require(value.is_boolean(), fmt::format("'{}' is neither true nor false", name));
     return value.get<bool>();
   }
+  bool has(const char* name) const { return json_.contains(name); }
   const Json& array(const char* name) {
     const Json& value = get(name);
     require(value.is_array(), fmt::format("'{}' is not a list", name));
@@ -170,6 +171,12 @@ Record record_from(Fields& fields, std::string& warning) {
   record.terrain_checksum = fields.text("terrain_checksum");
   for (const auto& [name, value] : fields.object("parameters").items()) {
     record.parameters.emplace_back(name, value_from(value, name));
+  }
+  if (fields.has("overrides")) {
+    for (const Json& assignment : fields.array("overrides")) {
+      require(assignment.is_string(), "an override is not text");
+      record.overrides.push_back(assignment.get<std::string>());
+    }
   }
   for (const Json& metric : fields.array("metrics")) record.metrics.push_back(metric_from(metric, warning));
   for (const Json& figure : fields.array("figures")) record.figures.push_back(figure_from(figure, warning));
@@ -237,17 +244,19 @@ std::string to_line(const Record& record) {
                        {"caption", figure.caption},
                        {"checksum", figure.checksum}});
   }
-  return sealed({{"kind", "record"},
-                 {"experiment", record.experiment},
-                 {"case", record.case_name},
-                 {"profile", record.profile},
-                 {"run", record.run},
-                 {"seed", record.seed},
-                 {"terrain", record.terrain},
-                 {"terrain_checksum", record.terrain_checksum},
-                 {"parameters", parameters},
-                 {"metrics", metrics},
-                 {"figures", figures}});
+  Json line({{"kind", "record"},
+             {"experiment", record.experiment},
+             {"case", record.case_name},
+             {"profile", record.profile},
+             {"run", record.run},
+             {"seed", record.seed},
+             {"terrain", record.terrain},
+             {"terrain_checksum", record.terrain_checksum},
+             {"parameters", parameters},
+             {"metrics", metrics},
+             {"figures", figures}});
+  if (!record.overrides.empty()) line["overrides"] = record.overrides;
+  return sealed(std::move(line));
 }
 
 std::string to_line(const Provenance& provenance) { return sealed(to_json(provenance)); }

@@ -224,7 +224,7 @@ std::pair<const Record*, const Figure*> Store::find_figure(std::string_view id,
                                                            std::string_view profile) const {
   std::pair<const Record*, const Figure*> found{nullptr, nullptr};
   for (const Record& record : records_) {
-    if (record.profile != profile || record.overridden()) continue;
+    if (record.profile != profile || !record.overrides.empty()) continue;
     if (found.first != nullptr && ages_[index(record)] < ages_[index(*found.first)]) continue;
     for (const Figure& figure : record.figures) {
       if (figure.id == id) found = {&record, &figure};

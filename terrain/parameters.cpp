@@ -78,8 +78,11 @@ std::string accepted_values(const ParameterSpec& spec) {
   return spec.unit.empty() ? std::string(type) : fmt::format("{} in {}", type, spec.unit);
 }
 
-Parameters::Parameters(std::span<const ParameterSpec> specs) : specs_(specs) {
+Parameters::Parameters(std::span<const ParameterSpec> specs,
+                       std::initializer_list<std::pair<std::string_view, Value>> given)
+    : specs_(specs) {
   for (const ParameterSpec& spec : specs) values_.push_back(spec.fallback);
+  for (const auto& [name, value] : given) set(name, value);
 }
 
 std::size_t Parameters::find(std::string_view name) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <span>
 #include <string>
@@ -39,7 +40,9 @@ std::string accepted_values(const ParameterSpec&);
 class Parameters {
  public:
   Parameters() = default;
-  explicit Parameters(std::span<const ParameterSpec> specs);
+  // The fallbacks but for those given.
+  Parameters(std::span<const ParameterSpec> specs,
+             std::initializer_list<std::pair<std::string_view, Value>> given = {});
 
   // Throws usage_error for an unknown name (with the nearest), a value of another type, one out of range or
   // one that is not allowed (with the nearest); the value set before stays.

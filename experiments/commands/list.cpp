@@ -65,7 +65,7 @@ Json list_experiments() {
   for (const Experiment& experiment : experiments()) {
     list.push_back({{"name", experiment.id},
                     {"summary", experiment.title},
-                    {"paper", experiment.paper},
+                    {"paper", experiment.paper()},
                     {"parameters", parameters_json(experiment.parameters)}});
   }
   return list;

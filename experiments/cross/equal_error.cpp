@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
-#include "experiments/cross/cross.h"
 #include "experiments/cross/flight.h"
 #include "experiments/cross/pictures.h"
+#include "experiments/experiment.h"
+#include "experiments/stopwatch.h"
 #include "lod/meters/cracks.h"
 #include "lod/meters/image_error.h"
 #include "lod/meters/screen_error.h"
@@ -39,10 +39,6 @@ const std::array kSpecs{
                   8193},
 };
 
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
 // The whole path, with nothing between two updates: what the method costs the CPU and the bus. The first
 // update, which builds what the others keep, stands apart.
 void measure_cost(const Flight& flight, const Contender& method, double knob, Recorder& recorder,
@@ -52,17 +48,17 @@ void measure_cost(const Flight& flight, const Contender& method, double knob, Re
   triangles.reserve(flight.views.size());
   double uploaded = 0;
   const HeapScope heap;
-  auto begin = std::chrono::steady_clock::now();
+  Stopwatch watch;
   const std::unique_ptr<Lod> lod = method.build(flight.ground(), progress);
-  const double build_time = seconds_since(begin);
+  const double build_time = watch.seconds();
   lod->tune(knob);
-  begin = std::chrono::steady_clock::now();
+  watch = {};
   const std::size_t first_uploaded = lod->update(flight.views.front()).stats.bytes_sent();
-  const double first_update_time = seconds_since(begin);
+  const double first_update_time = watch.seconds();
   for (std::size_t i = 1; i < flight.views.size(); ++i) {
-    begin = std::chrono::steady_clock::now();
+    watch = {};
     const Frame& frame = lod->update(flight.views[i]);
-    times.push_back(seconds_since(begin));
+    times.push_back(watch.seconds());
     triangles.push_back(static_cast<double>(frame.stats.triangles));
     uploaded += static_cast<double>(frame.stats.bytes_sent());
   }
@@ -133,9 +129,9 @@ class Metering {
     drawn_.draw(frame);
     meter(flight_, k, frame, before_, drawn_, shown);
     if (reference == nullptr) return;
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     draw_ground(*renderer, flight_, frame, flight_.views[last]);
-    shown.frame_times.push_back(seconds_since(begin));
+    shown.frame_times.push_back(watch.seconds());
     const Image image = renderer->image();
     shown.noise.push_back(std::pow(10, -psnr(image, *reference) / 10));
     shown.ssim.push_back(ssim(image, *reference));
@@ -218,21 +214,16 @@ std::string join(const std::string& own, const std::string& asked) {
   return own.empty() || asked.empty() ? own + asked : own + "," + asked;
 }
 
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kEqualErrorParameters = kSpecs;
-
-std::vector<Case> equal_error_cases(const RunOptions& options) {
+std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
   std::vector<std::string> terrains = options.terrains;
   if (terrains.empty()) terrains = {std::string(kMainGround), "fractal", "peak"};
   std::vector<Case> cases;
   for (const std::string& terrain : terrains) {
     const auto add = [&](const std::string& name, const Entrant& entrant, double error) {
-      Case& added = cases.emplace_back(
-          Case{fmt::format("{}/{}", terrain, name), Parameters(kEqualErrorParameters), terrain});
-      added.parameters.set("method", entrant.name);
-      added.parameters.set("error", error);
+      cases.push_back({fmt::format("{}/{}", terrain, name),
+                       {kSpecs, {{"method", entrant.name}, {"error", error}}},
+                       terrain});
       // The other grounds are as wide as the path `fly` suits; this one has 123 km in the paper profile, and
       // a flight as high as its width asks for would see nothing of its samples.
       if (terrain == "fractal") added.parameters.set("path", std::string("low"));
@@ -255,7 +246,7 @@ std::vector<Case> equal_error_cases(const RunOptions& options) {
   return cases;
 }
 
-void measure_equal_error(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const auto whole = [&](std::string_view name) { return static_cast<int>(at.parameters.integer(name)); };
   Flight& flight = flight_along(
       {at.terrain, at.parameters.text("path"), whole("size"), whole("frames"), options.seed}, progress);
@@ -282,5 +273,11 @@ void measure_equal_error(const Case& at, const RunOptions& options, Recorder& re
   if (measured.type->traits.bounds_error)
     recorder.add("bound_taken", "", shown.largest_anywhere / tuned.knob);
 }
+
+}  // namespace
+
+extern const Experiment kLodEqualError{"cross.lod-equal-error",
+                                       "Level-of-detail methods at the same screen-space error", kSpecs,
+                                       cases, measure};
 
 }  // namespace terrabench::cross

@@ -1,10 +1,7 @@
-#include "experiments/cross/lod_disk.h"
-
 #include <fmt/format.h>
 
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -13,6 +10,8 @@
 #include "experiments/cross/lod_disk_ground.h"
 #include "experiments/cross/own_process.h"
 #include "experiments/cross/strips.h"
+#include "experiments/experiment.h"
+#include "experiments/stopwatch.h"
 #include "lod/camera/camera_path.h"
 #include "lod/clipmap/clipmap.h"
 #include "results/store.h"
@@ -57,10 +56,6 @@ class TemporaryFolder {
  private:
   fs::path path_;
 };
-
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 std::uintmax_t bytes_of(const fs::path& folder) {
   std::uintmax_t bytes = 0;
@@ -163,9 +158,9 @@ class Walk {
   void update(const View& view, std::string_view metric, Recorder& recorder) {
     const View at = on_the_ground(view, *pyramid_);
     const std::uint64_t tiles = pyramid_->tiles_read();
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const Frame& frame = clipmap_->update(at);
-    recorder.add(metric, "s", seconds_since(start));
+    recorder.add(metric, "s", watch.seconds());
     uploaded_ += frame.stats.bytes_uploaded;
     strips_ += expected_.follow({at.eye.x / static_cast<double>(pyramid_->cell_x()),
                                  at.eye.z / static_cast<double>(pyramid_->cell_z())},
@@ -214,30 +209,24 @@ void walk_apart(const fs::path& pyramid, const fs::path& folder, const Case& at,
   }
 }
 
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kLodDiskParameters = kSpecs;
-
-std::vector<Case> lod_disk_cases(const RunOptions& options) {
+std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
-  for (const std::string& terrain : options.terrains)
-    cases.push_back({terrain, Parameters(kLodDiskParameters), terrain});
+  for (const std::string& terrain : options.terrains) cases.push_back({terrain, Parameters(kSpecs), terrain});
   if (!cases.empty()) return cases;
   for (const std::int64_t side : {4096, 16384}) {
     if (side > 4096 && options.profile == Profile::kQuick) break;
-    Case& added = cases.emplace_back(Case{fmt::format("side={}", side), Parameters(kLodDiskParameters), ""});
-    added.parameters.set("side", side);
+    cases.push_back({fmt::format("side={}", side), {kSpecs, {{"side", side}}}, ""});
   }
   return cases;
 }
 
-void measure_lod_disk(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   if (!at.terrain.empty() && fs::is_directory(at.terrain))
     return walk_here(at.terrain, at, recorder, progress);
   const TemporaryFolder folder;
   const fs::path pyramid = folder.path() / "pyramid", made = folder.path() / "ground.tif";
   std::string dem = at.terrain;
-  auto begin = std::chrono::steady_clock::now();
+  Stopwatch watch;
   if (at.terrain.empty()) {
     const auto side = static_cast<int>(at.parameters.integer("side"));
     recorder.terrain(fmt::format("mountains {0} × {0}", side),
@@ -252,10 +241,10 @@ void measure_lod_disk(const Case& at, const RunOptions& options, Recorder& recor
       dem = made.string();
     }
   }
-  recorder.add("ground_time", "s", seconds_since(begin));
-  begin = std::chrono::steady_clock::now();
+  recorder.add("ground_time", "s", watch.seconds());
+  watch = {};
   HeightPyramid::build(dem, pyramid, progress);
-  recorder.add("pyramid_time", "s", seconds_since(begin));
+  recorder.add("pyramid_time", "s", watch.seconds());
   recorder.add("pyramid_bytes", "B", static_cast<double>(bytes_of(pyramid)));
   std::error_code ignored;
   fs::remove(made, ignored);  // its room is needed no more
@@ -263,5 +252,10 @@ void measure_lod_disk(const Case& at, const RunOptions& options, Recorder& recor
   recorder.add("ground_bytes", "B", 4.0 * tiles->width() * tiles->depth());
   walk_apart(pyramid, folder.path(), at, options, recorder, progress);
 }
+
+}  // namespace
+
+extern const Experiment kLodDisk{"cross.lod-disk", "A clipmap over ground that stays on disk", kSpecs, cases,
+                                 measure};
 
 }  // namespace terrabench::cross

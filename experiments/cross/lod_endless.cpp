@@ -1,15 +1,14 @@
-#include "experiments/cross/lod_endless.h"
-
 #include <fmt/format.h>
 
 #include <array>
-#include <chrono>
 #include <climits>
 #include <cmath>
 #include <memory>
 
 #include "experiments/cross/strips.h"
-#include "experiments/drill/sheet.h"
+#include "experiments/experiment.h"
+#include "experiments/figures/sheet.h"
+#include "experiments/stopwatch.h"
 #include "lod/clipmap/clipmap.h"
 #include "lod/clipmap/endless_heights.h"
 #include "lod/meters/cracks.h"
@@ -73,7 +72,7 @@ class Flight {
   void draw(const std::string& renderer, const std::string& suffix) {
     const View view = seen_from(home_, kPictureHeight);
     const auto context = open_context(renderer, view.width, view.height);
-    drill::Sheet sheet(kPanel + 2 * kGap, 2 * (kPanel * view.height / view.width + kLabel) + kGap);
+    figures::Sheet sheet(kPanel + 2 * kGap, 2 * (kPanel * view.height / view.width + kLabel) + kGap);
     double y = 0;
     for (const float wires : {0.0F, 1.0F}) {
       const Frame& frame = clipmap_->update(view);
@@ -104,9 +103,9 @@ class Flight {
  private:
   void fly_out(Progress& progress) {
     progress.begin("flying over endless ground", static_cast<std::uint64_t>(steps_));
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const Frame& first = clipmap_->update(from(home_));
-    recorder_.add("first_time", "s", seconds_since(start));
+    recorder_.add("first_time", "s", watch.seconds());
     recorder_.add("first_bytes", "B", static_cast<double>(first.stats.bytes_uploaded));
     recorder_.add("held_first", "B", static_cast<double>(clipmap_->memory().total()));
     finest_ = finest_level(kEyeHeight, clipmap_->window(), ground_.cell, clipmap_->levels());
@@ -177,9 +176,9 @@ class Flight {
 
   void go_to(int k) {
     const View view = from(at(k));
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const Frame& frame = clipmap_->update(view);
-    recorder_.add("update_time", "s", seconds_since(start));
+    recorder_.add("update_time", "s", watch.seconds());
     recorder_.add("frame_bytes", "B", static_cast<double>(frame.stats.bytes_uploaded));
     recorder_.add("triangles", "", static_cast<double>(frame.stats.triangles));
     uploaded_ += frame.stats.bytes_uploaded;
@@ -202,10 +201,6 @@ class Flight {
     clipmap_->move_origin(before);
   }
 
-  static double seconds_since(std::chrono::steady_clock::time_point begin) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  }
-
   EndlessGround ground_;
   float far_;
   double step_;
@@ -219,24 +214,24 @@ class Flight {
   std::size_t gaps_ = 0, edges_ = 0, metered_ = 0;
 };
 
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kLodEndlessParameters = kSpecs;
-
-std::vector<Case> lod_endless_cases(const RunOptions&) {
+std::vector<Case> cases(const RunOptions&) {
   std::vector<Case> cases;
   for (const auto& [name, home] : {std::pair{"home", 0.0}, std::pair{"far", 5000000.0}}) {
-    Case& added = cases.emplace_back(Case{name, Parameters(kLodEndlessParameters), ""});
-    added.parameters.set("home", home);
+    cases.push_back({name, {kSpecs, {{"home", home}}}, ""});
   }
   return cases;
 }
 
-void measure_lod_endless(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   Flight flight(at, options, recorder);
   recorder.terrain("endless noise", checksum(flight.describe()));
   flight.measure(progress);
   flight.draw(options.renderer, at.parameters.number("home") == 0 ? "" : ".far");
 }
+
+}  // namespace
+
+extern const Experiment kLodEndless{"cross.lod-endless", "A clipmap over ground without bounds", kSpecs,
+                                    cases, measure};
 
 }  // namespace terrabench::cross

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "experiments/drill/ground.h"
-#include "experiments/drill/sheet.h"
+#include "experiments/figures/figure_id.h"
+#include "experiments/figures/sheet.h"
 #include "lod/brute_force/brute_force.h"
 #include "results/format.h"
 
@@ -85,15 +85,14 @@ void draw_wires(Flight& flight, double pixels, const std::string& options, GlCon
   }
   const double height = kPanel * (view.height - sky) / view.width, row = kLabel + height + kGap;
   const auto rows = static_cast<double>((panels.size() + kColumns - 1) / kColumns);
-  drill::Sheet sheet(kColumns * (kPanel + kGap) + kGap, rows * row + kGap);
+  figures::Sheet sheet(kColumns * (kPanel + kGap) + kGap, rows * row + kGap);
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const double x = kGap + static_cast<double>(i % kColumns) * (kPanel + kGap);
     const double y = static_cast<double>(i / kColumns) * row;
     sheet.text(x, y + kLabel - 8, panels[i].words, 16);
     sheet.picture(x, y + kLabel, kPanel, height, without_rows(panels[i].image, sky));
   }
-  const std::string suffix =
-      flight.route.terrain == kMainGround ? "" : drill::figure_suffix(flight.route.terrain);
+  const std::string suffix = figures::ground_suffix(flight.route.terrain, kMainGround);
   sheet.write(recorder.figure(
       "cross.lod-wires" + suffix, "png",
       fmt::format(

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "experiments/drill/drill.h"
 #include "experiments/drill/ground.h"
+#include "experiments/experiment.h"
 #include "terrain/hydrology/flow.h"
 
 namespace terrabench::drill {
@@ -15,23 +15,17 @@ constexpr std::array kSpecs{
     ParameterSpec{"tau", std::int64_t{25}, "pixels", "least flow of a channel", 1, 1e9},
 };
 
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kChannelParameters = kSpecs;
-
-std::vector<Case> channel_cases(const RunOptions& options) {
+std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const std::string& ground : grounds(options)) {
     for (const std::int64_t tau : {25, 50, 100, 200, 400}) {
-      Case& added = cases.emplace_back(
-          Case{fmt::format("{}/tau={}", ground, tau), Parameters(kChannelParameters), ground});
-      added.parameters.set("tau", tau);
+      cases.push_back({fmt::format("{}/tau={}", ground, tau), {kSpecs, {{"tau", tau}}}, ground});
     }
   }
   return cases;
 }
 
-void measure_channels(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = open_ground(at.terrain, options.seed);
   recorder.terrain(source);
   const FlowNetwork network = route_flow(*source.heights, &progress);
@@ -45,5 +39,10 @@ void measure_channels(const Case& at, const RunOptions& options, Recorder& recor
   recorder.add("largest_flow", "", largest);
   recorder.add("largest_flow_share", "", largest / pixels);
 }
+
+}  // namespace
+
+extern const Experiment kChannels{"drill.channels", "§3.1: channel pixels and the largest flow", kSpecs,
+                                  cases, measure};
 
 }  // namespace terrabench::drill

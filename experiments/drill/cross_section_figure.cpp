@@ -8,9 +8,9 @@
 #include <numbers>
 #include <vector>
 
-#include "experiments/drill/colours.h"
 #include "experiments/drill/figures.h"
-#include "experiments/drill/sheet.h"
+#include "experiments/figures/colours.h"
+#include "experiments/figures/sheet.h"
 #include "representations/drill/cross_sections.h"
 #include "representations/drill/profile_fit.h"
 
@@ -44,7 +44,7 @@ std::uint32_t example_pixel(const Study& study, const CrossSections& sections) {
 }
 
 // The ground around the pixel from above, with the rays upon it.
-void draw_rays(Sheet& sheet, const Heightfield& ground, int i, int j) {
+void draw_rays(figures::Sheet& sheet, const Heightfield& ground, int i, int j) {
   constexpr int kAround = kW + 4;
   const int i0 = std::clamp(i - kAround, 0, std::max(0, ground.width - 2 * kAround - 1));
   const int j0 = std::clamp(j - kAround, 0, std::max(0, ground.depth - 2 * kAround - 1));
@@ -54,30 +54,30 @@ void draw_rays(Sheet& sheet, const Heightfield& ground, int i, int j) {
   // A square a sample, since distances count in samples; pale, so that the rays stand out.
   const float span = std::max(range.highest - range.lowest, 1e-6F);
   const auto pale = [&](double t) {
-    Rgb colour = elevation_colour(t);
+    Rgb colour = figures::elevation_colour(t);
     for (std::uint8_t& c : colour) c = static_cast<std::uint8_t>((c + 255) / 2);
     return colour;
   };
-  const Light light(around);
+  const figures::Light light(around);
   Image image(around.width, around.depth, {255, 255, 255});
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const float h = around.at(x, y);
       if (Heightfield::is_no_data(h)) continue;
-      image.set(x, y, lit(pale((h - range.lowest) / span), 0.4 + 0.5 * light.at(x, y)));
+      image.set(x, y, figures::lit(pale((h - range.lowest) / span), 0.4 + 0.5 * light.at(x, y)));
     }
   }
   const double scale = kSide / around.width;
   sheet.picture(kLeft, kTop, kSide, scale * around.depth, image);
-  const SheetPoint centre{kLeft + (i - i0 + 0.5) * scale, kTop + (j - j0 + 0.5) * scale};
+  const figures::SheetPoint centre{kLeft + (i - i0 + 0.5) * scale, kTop + (j - j0 + 0.5) * scale};
   for (int m = 0; m < CrossSections::kRays; ++m) {
     const double turn = static_cast<double>(m) / CrossSections::kRays, angle = 2 * std::numbers::pi * turn;
-    sheet.line(std::array{centre, SheetPoint{centre.x + kW * scale * std::cos(angle),
-                                             centre.y + kW * scale * std::sin(angle)}},
-               {.colour = direction_colour(turn), .thickness = 1.2});
+    sheet.line(std::array{centre, figures::SheetPoint{centre.x + kW * scale * std::cos(angle),
+                                                      centre.y + kW * scale * std::sin(angle)}},
+               {.colour = figures::direction_colour(turn), .thickness = 1.2});
   }
-  const Sheet::Tick ticks[] = {{0, fmt::format("{:.0f}", range.lowest)},
-                               {1, fmt::format("{:.0f}", range.highest)}};
+  const figures::Sheet::Tick ticks[] = {{0, fmt::format("{:.0f}", range.lowest)},
+                                        {1, fmt::format("{:.0f}", range.highest)}};
   const double below = kTop + scale * around.depth + 14;
   sheet.text(kLeft, below + 11, "elevation, m", 12);
   sheet.colour_bar(kLeft + 110, below, 180, pale, ticks);
@@ -92,7 +92,7 @@ double round_step(double span) {
 // The right half: height against distance.
 class ProfileChart {
  public:
-  ProfileChart(Sheet& sheet, double low, double high) : sheet_(sheet) {
+  ProfileChart(figures::Sheet& sheet, double low, double high) : sheet_(sheet) {
     const double step = round_step(std::max(high - low, 1.0));
     low_ = step * std::floor(low / step);
     high_ = step * std::ceil(high / step);
@@ -101,20 +101,20 @@ class ProfileChart {
       sheet.text(kX - 6, at(0, level).y + 4, fmt::format("{:g}", level), 12, "end");
     }
     for (int distance = 0; distance <= kW; distance += 5) {
-      const SheetPoint foot = at(distance, low_);
-      sheet.line(std::array{foot, SheetPoint{foot.x, foot.y + 4}}, {.colour = kInk});
+      const figures::SheetPoint foot = at(distance, low_);
+      sheet.line(std::array{foot, figures::SheetPoint{foot.x, foot.y + 4}}, {.colour = kInk});
       sheet.text(foot.x, foot.y + 18, fmt::format("{}", distance), 12, "middle");
     }
     sheet.line(std::array{at(0, high_), at(0, low_), at(kW, low_)}, {.colour = kInk});
     sheet.text(kX + kWidth / 2, kTop + kHeight + 38, "distance from the pixel, samples", 13, "middle");
     sheet.text(kX - 40, kTop - 12, "(b) elevation, m", 13);
   }
-  SheetPoint at(double distance, double level) const {
+  figures::SheetPoint at(double distance, double level) const {
     return {kX + kWidth * distance / kW, kTop + kHeight * (high_ - level) / (high_ - low_)};
   }
   template <class LevelOf>
-  void curve(const LevelOf& level, const Stroke& stroke) {
-    std::vector<SheetPoint> points;
+  void curve(const LevelOf& level, const figures::Stroke& stroke) {
+    std::vector<figures::SheetPoint> points;
     for (int i = 0; i <= kW; ++i) {
       if (level(i) > high_) {  // a fitted curve may leave the chart: it ends at the upper border
         if (i > 0) points.push_back(at(i - (level(i) - high_) / (level(i) - level(i - 1)), high_));
@@ -125,16 +125,16 @@ class ProfileChart {
     sheet_.line(points, stroke);
   }
   // Below the chart, in a row with the left panel's legend.
-  void key(double x, std::string_view words, const Stroke& stroke) {
+  void key(double x, std::string_view words, const figures::Stroke& stroke) {
     const double y = kTop + kHeight + 62;
-    sheet_.line(std::array{SheetPoint{kX + x, y}, SheetPoint{kX + x + 34, y}}, stroke);
+    sheet_.line(std::array{figures::SheetPoint{kX + x, y}, figures::SheetPoint{kX + x + 34, y}}, stroke);
     sheet_.text(kX + x + 40, y + 4, words, 12);
   }
 
  private:
   static constexpr double kX = 520, kWidth = 440, kHeight = 392;
 
-  Sheet& sheet_;
+  figures::Sheet& sheet_;
   double low_ = 0, high_ = 1;
 };
 
@@ -149,7 +149,7 @@ void draw_cross_sections(const Study& study, Recorder& recorder) {
   sections.rays(pixel, rays);
   sections.join(pixel, joined);
 
-  Sheet sheet(984, 522);
+  figures::Sheet sheet(984, 522);
   sheet.text(kLeft, kTop - 12,
              fmt::format("(a) {} cross-sections from above, w = {}, north up", CrossSections::kRays, kW), 13);
   draw_rays(sheet, ground, static_cast<int>(pixel) % ground.width, static_cast<int>(pixel) / ground.width);
@@ -166,12 +166,12 @@ void draw_cross_sections(const Study& study, Recorder& recorder) {
     const float* const ray = rays.data() + static_cast<std::ptrdiff_t>(m) * kW;
     const double turn = static_cast<double>(m) / CrossSections::kRays;
     chart.curve([&](int r) { return r == 0 ? floor : ray[r - 1]; },
-                {.colour = direction_colour(turn), .thickness = 0.8, .opacity = 0.85});
+                {.colour = figures::direction_colour(turn), .thickness = 0.8, .opacity = 0.85});
   }
   const Profile fit = fit_profile(joined, floor, kRisesEverywhere);
   const auto fitted = [&](int r) { return floor + fit.slope * r + fit.curvature * r * r; };
-  const Stroke single{.colour = direction_colour(0), .thickness = 1.2}, joint{.colour = kInk, .thickness = 4},
-      dashed{.colour = kFit, .thickness = 2.5, .dashes = "9,5"};
+  const figures::Stroke single{.colour = figures::direction_colour(0), .thickness = 1.2},
+      joint{.colour = kInk, .thickness = 4}, dashed{.colour = kFit, .thickness = 2.5, .dashes = "9,5"};
   chart.curve([&](int r) { return r == 0 ? floor : joined[static_cast<std::size_t>(r) - 1]; }, joint);
   chart.curve(fitted, dashed);
   chart.key(-30, "a cross-section", single);

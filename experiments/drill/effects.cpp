@@ -5,9 +5,10 @@
 #include <iterator>
 #include <limits>
 
-#include "experiments/drill/drill.h"
 #include "experiments/drill/figures.h"
 #include "experiments/drill/ground.h"
+#include "experiments/experiment.h"
+#include "experiments/figures/figure_id.h"
 
 namespace terrabench::drill {
 namespace {
@@ -59,17 +60,7 @@ void record_measure(const std::vector<Outcome>& outcomes, const Measure& measure
   }
 }
 
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kGroundParameters{};
-
-std::vector<Case> ground_cases(const RunOptions& options) {
-  std::vector<Case> cases;
-  for (const std::string& ground : grounds(options)) cases.push_back({ground, Parameters(), ground});
-  return cases;
-}
-
-void measure_effects(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = open_ground(at.terrain, options.seed);
   recorder.terrain(source);
   const FlowNetwork network = route_flow(*source.heights, &progress);
@@ -88,11 +79,16 @@ void measure_effects(const Case& at, const RunOptions& options, Recorder& record
     recorder.add("rmse_at_w10_k20_to_least", "", at_paper_best / best);
   }
 
-  const Study study{*source.heights, network, source.name, figure_suffix(at.terrain)};
+  const Study study{*source.heights, network, source.name, figures::ground_suffix(at.terrain, kMainGround)};
   draw_channels(study, recorder);
   draw_cross_sections(study, recorder);
   draw_best(study, least(outcomes, kMeasures[0]), least(outcomes, kMeasures[1]), recorder);
   draw_matrices(study, outcomes, recorder);
 }
+
+}  // namespace
+
+extern const Experiment kEffects{
+    "drill.effects", "§3.1: best sets, main effects, figures 1-4", {}, ground_cases, measure};
 
 }  // namespace terrabench::drill

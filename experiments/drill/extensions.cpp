@@ -5,9 +5,9 @@
 
 #include <limits>
 
-#include "experiments/drill/drill.h"
 #include "experiments/drill/factorial.h"
 #include "experiments/drill/ground.h"
+#include "experiments/experiment.h"
 #include "representations/drill/choose_parameters.h"
 #include "representations/drill/drill_codec.h"
 #include "representations/drill/pits.h"
@@ -94,18 +94,13 @@ void record_choice(const Heightfield& ground, const FlowNetwork& network, std::u
   recorder.add("rmse_unchosen", "m", printed.error.rmse);
 }
 
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kExtensionParameters = kSpecs;
-
-std::vector<Case> extension_cases(const RunOptions& options) {
+std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const std::string& ground : grounds(options)) {
     for (const std::uint32_t tau : kTaus) {
       const auto add = [&](std::string_view name) -> Parameters& {
-        Case& added = cases.emplace_back(
-            Case{fmt::format("{}/tau={}/{}", ground, tau, name), Parameters(kExtensionParameters), ground});
-        added.parameters.set("tau", std::int64_t{tau});
+        cases.push_back(
+            {fmt::format("{}/tau={}/{}", ground, tau, name), {kSpecs, {{"tau", std::int64_t{tau}}}}, ground});
         return added.parameters;
       };
       for (const Variant& variant : kVariants) {
@@ -120,7 +115,7 @@ std::vector<Case> extension_cases(const RunOptions& options) {
   return cases;
 }
 
-void measure_extension(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = open_ground(at.terrain, options.seed);
   recorder.terrain(source);
   const FlowNetwork network = route_flow(*source.heights, &progress);
@@ -133,5 +128,10 @@ void measure_extension(const Case& at, const RunOptions& options, Recorder& reco
   extract.monotone_profiles = at.parameters.flag("monotone_profiles");
   record(extended(*source.heights, network, extract), recorder);
 }
+
+}  // namespace
+
+extern const Experiment kExtensions{"drill.extensions", "§4.1: what the paper leaves as future work", kSpecs,
+                                    cases, measure};
 
 }  // namespace terrabench::drill

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "experiments/drill/drill.h"
 #include "experiments/drill/ground.h"
+#include "experiments/experiment.h"
 #include "representations/drill/pits.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/metrics/elevation_error.h"
@@ -73,19 +73,18 @@ std::vector<Outcome> factorial(const Heightfield& ground, const FlowNetwork& net
   return outcomes;
 }
 
-constinit const std::span<const ParameterSpec> kFactorialParameters = kSpecs;
+namespace {
 
-std::vector<Case> factorial_cases(const RunOptions& options) {
+std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const std::string& ground : grounds(options)) {
     for (const std::uint32_t tau : kTaus) {
       for (const int w : kWidths) {
         for (const int k : kInfluences) {
-          Case& added = cases.emplace_back(Case{fmt::format("{}/{}", ground, name({tau, w, k})),
-                                                Parameters(kFactorialParameters), ground});
-          added.parameters.set("tau", std::int64_t{tau});
-          added.parameters.set("w", std::int64_t{w});
-          added.parameters.set("k", std::int64_t{k});
+          cases.push_back(
+              {fmt::format("{}/{}", ground, name({tau, w, k})),
+               {kSpecs, {{"tau", std::int64_t{tau}}, {"w", std::int64_t{w}}, {"k", std::int64_t{k}}}},
+               ground});
         }
       }
     }
@@ -93,7 +92,7 @@ std::vector<Case> factorial_cases(const RunOptions& options) {
   return cases;
 }
 
-void measure_factorial(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = open_ground(at.terrain, options.seed);
   recorder.terrain(source);
   const Heightfield& ground = *source.heights;
@@ -122,5 +121,10 @@ void measure_factorial(const Case& at, const RunOptions& options, Recorder& reco
                    static_cast<double>(regenerated.heights.size()));
   recorder.add("pits", "", static_cast<double>(count_pits(regenerated).count));
 }
+
+}  // namespace
+
+extern const Experiment kFactorial{"drill.factorial", "§3: the factorial of 54 parameter sets", kSpecs, cases,
+                                   measure};
 
 }  // namespace terrabench::drill

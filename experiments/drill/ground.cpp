@@ -1,14 +1,7 @@
 #include "experiments/drill/ground.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
-#include <algorithm>
-#include <cctype>
-#include <cmath>
-
+#include "experiments/noise_ground.h"
 #include "terrain/error.h"
-#include "terrain/sources/noise/program.h"
 
 namespace terrabench::drill {
 namespace {
@@ -23,50 +16,7 @@ TerrainSource from_heights(std::string_view name, Heightfield heights) {
   return source;
 }
 
-// 30 m samples; rows side by side.
-Heightfield from_noise(const noise::Graph& graph, noise::Node root, int size, float lift, float relief) {
-  Heightfield field;
-  field.width = field.depth = size;
-  field.cell_x = field.cell_z = 30;
-  const auto length = static_cast<std::size_t>(size);
-  field.heights.resize(length * length);
-  const noise::Program program(graph, root);
-  std::vector<float> x(length);
-  for (int i = 0; i < size; ++i) x[i] = static_cast<float>(i) * field.cell_x;
-  tbb::parallel_for(tbb::blocked_range<int>(0, size), [&](const tbb::blocked_range<int>& rows) {
-    const std::vector<float> y(length, 0.0F);
-    std::vector<float> z(length);
-    for (int j = rows.begin(); j < rows.end(); ++j) {
-      std::fill(z.begin(), z.end(), static_cast<float>(j) * field.cell_z);
-      const std::span row(field.heights.data() + static_cast<std::size_t>(j) * length, length);
-      program.points(x, y, z, row);
-      for (float& h : row) h = lift + relief * h;
-    }
-  });
-  return field;
-}
-
-// The largest features are about a third of the paper's ground wide.
-constexpr float kFrequency = 1.0F / 4000;
-
-Heightfield noise_ridges(int size, std::uint64_t seed) {
-  noise::Graph graph;
-  const noise::Node root = graph.ridged_multifractal({.seed = seed, .frequency = kFrequency, .octaves = 8});
-  return from_noise(graph, root, size, 200, 1600);
-}
-
 }  // namespace
-
-Heightfield noise_hills(int size, std::uint64_t seed) {
-  noise::Graph graph;
-  const noise::Node root = graph.fbm({.seed = seed, .frequency = kFrequency, .octaves = 8});
-  return from_noise(graph, root, size, 800, 800);
-}
-
-Heightfield whole_metres(Heightfield field) {
-  for (float& h : field.heights) h = std::round(h);
-  return field;
-}
 
 TerrainSource open_ground(std::string_view name, std::uint64_t seed) {
   if (name == "noise-ridges") return from_heights(name, whole_metres(noise_ridges(kPaperSize, seed)));
@@ -90,13 +40,10 @@ std::vector<std::string> grounds(const RunOptions& options) {
   return names;
 }
 
-std::string figure_suffix(std::string_view ground) {
-  if (ground == kMainGround) return "";
-  std::string name(ground.substr(ground.find_last_of('/') + 1));
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
-  }
-  return "." + name;
+std::vector<Case> ground_cases(const RunOptions& options) {
+  std::vector<Case> cases;
+  for (const std::string& ground : grounds(options)) cases.push_back({ground, {}, ground});
+  return cases;
 }
 
 }  // namespace terrabench::drill

@@ -19,15 +19,10 @@ inline constexpr std::string_view kMainGround = "jacksboro-400";
 // 400 whole metres from noise. Any other name is opened as a terrain.
 TerrainSource open_ground(std::string_view name, std::uint64_t seed);
 
-// The ground of noise-hills from its north-western corner on, as large as wanted: size × size samples, not
-// rounded. O(samples), parallel.
-Heightfield noise_hills(int size, std::uint64_t seed);
-Heightfield whole_metres(Heightfield);  // rounded, as elevation models have it
-
 // Those that the options name; otherwise the main ground, and in the paper profile the other three too.
 std::vector<std::string> grounds(const RunOptions& options);
 
-// What goes behind the ids of a ground's figures: nothing for the main one, whose figures are the paper's.
-std::string figure_suffix(std::string_view ground);
+// One case without parameters for each of these.
+std::vector<Case> ground_cases(const RunOptions& options);
 
 }  // namespace terrabench::drill

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 
-#include "experiments/drill/drill.h"
 #include "experiments/drill/ground.h"
+#include "experiments/experiment.h"
+#include "experiments/stopwatch.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/files.h"
 #include "terrain/hydrology/flow.h"
@@ -24,28 +24,16 @@ const std::array kSpecs{
 constexpr double kSampledPixels = 1 << 25;
 constexpr int kMostSamples = 9;
 
-template <class Work>
-double seconds(const Work& work) {
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kGrowthParameters = kSpecs;
-
-std::vector<Case> growth_cases(const RunOptions& options) {
+std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   const std::int64_t largest = options.profile == Profile::kPaper ? 8192 : 1024;
   for (std::int64_t n = 256; n <= largest; n *= 2) {
-    Case& added = cases.emplace_back(Case{fmt::format("n={}", n), Parameters(kGrowthParameters), ""});
-    added.parameters.set("n", n);
+    cases.push_back({fmt::format("n={}", n), {kSpecs, {{"n", n}}}, ""});
   }
   return cases;
 }
 
-void measure_growth(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const auto n = static_cast<int>(at.parameters.integer("n"));
   const double pixels = static_cast<double>(n) * n;
   const Heightfield fine = noise_hills(n, options.seed), whole = whole_metres(fine);
@@ -83,5 +71,10 @@ void measure_growth(const Case& at, const RunOptions& options, Recorder& recorde
   }
   recorder.add("drills", "", static_cast<double>(drilled));
 }
+
+}  // namespace
+
+extern const Experiment kGrowth{"drill.growth", "§3.1: time against the size of the ground", kSpecs, cases,
+                                measure};
 
 }  // namespace terrabench::drill

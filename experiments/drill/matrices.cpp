@@ -6,9 +6,9 @@
 #include <cmath>
 #include <string>
 
-#include "experiments/drill/colours.h"
 #include "experiments/drill/figures.h"
-#include "experiments/drill/sheet.h"
+#include "experiments/figures/colours.h"
+#include "experiments/figures/sheet.h"
 
 namespace terrabench::drill {
 namespace {
@@ -35,17 +35,17 @@ double place(const std::array<T, N>& levels, T level) {
 }
 
 template <class ErrorOf>
-void add_matrix(Sheet& sheet, double x0, double y0, int w, const std::vector<Outcome>& outcomes,
+void add_matrix(figures::Sheet& sheet, double x0, double y0, int w, const std::vector<Outcome>& outcomes,
                 const ErrorOf& error, const Scale& scale, const Figures& figures) {
   sheet.text(x0, y0 - 8, fmt::format("w = {}", w), 14);
   for (const Outcome& o : outcomes) {
     if (o.setting.w != w) continue;
     const double x = x0 + place(kInfluences, o.setting.k) * kCellWidth,
                  y = y0 + place(kTaus, o.setting.tau) * kCellHeight;
-    const Rgb colour = error_colour(scale.at(error(o)));
+    const Rgb colour = figures::error_colour(scale.at(error(o)));
     sheet.box(x, y, kCellWidth - 1, kCellHeight - 1, colour);
     sheet.text(x + kCellWidth / 2, y + kCellHeight / 2 + 5, figures.of(error(o)), 13, "middle",
-               ink_on(colour));
+               figures::ink_on(colour));
   }
   for (std::size_t t = 0; t < kTaus.size(); ++t) {
     sheet.text(x0 - 6, y0 + (static_cast<double>(t) + 0.62) * kCellHeight, fmt::format("τ = {}", kTaus[t]),
@@ -58,8 +58,8 @@ void add_matrix(Sheet& sheet, double x0, double y0, int w, const std::vector<Out
 }
 
 template <class ErrorOf>
-void add_column(Sheet& sheet, int column, std::string_view title, const std::vector<Outcome>& outcomes,
-                const ErrorOf& error, const Figures& figures) {
+void add_column(figures::Sheet& sheet, int column, std::string_view title,
+                const std::vector<Outcome>& outcomes, const ErrorOf& error, const Figures& figures) {
   const double x = kLeft + column * (kLeft + kMatrixWidth + kGap);
   const auto [least, most] =
       std::minmax_element(outcomes.begin(), outcomes.end(),
@@ -71,16 +71,17 @@ void add_column(Sheet& sheet, int column, std::string_view title, const std::vec
     add_matrix(sheet, x, y, w, outcomes, error, scale, figures);
     y += kMatrixHeight + kBelow;
   }
-  const Sheet::Tick ticks[] = {{0, figures.of(scale.low)},
-                               {0.5, figures.of(std::sqrt(scale.low * scale.high))},
-                               {1, figures.of(scale.high)}};
-  sheet.colour_bar(x, y - 24, kMatrixWidth - 1, error_colour, ticks);
+  const figures::Sheet::Tick ticks[] = {{0, figures.of(scale.low)},
+                                        {0.5, figures.of(std::sqrt(scale.low * scale.high))},
+                                        {1, figures.of(scale.high)}};
+  sheet.colour_bar(x, y - 24, kMatrixWidth - 1, figures::error_colour, ticks);
 }
 
 }  // namespace
 
 void draw_matrices(const Study& study, const std::vector<Outcome>& outcomes, Recorder& recorder) {
-  Sheet sheet(2 * (kLeft + kMatrixWidth + kGap), kTop + kWidths.size() * (kMatrixHeight + kBelow) + 18);
+  figures::Sheet sheet(2 * (kLeft + kMatrixWidth + kGap),
+                       kTop + kWidths.size() * (kMatrixHeight + kBelow) + 18);
   add_column(sheet, 0, "RMSE ÷ range of elevations", outcomes, [](const Outcome& o) { return o.rmse; },
              {1, 4});
   add_column(sheet, 1, "1000 × AHD along the map ÷ diagonal", outcomes,

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <random>
 
-#include "experiments/drill/drill.h"
 #include "experiments/drill/ground.h"
+#include "experiments/experiment.h"
 #include "representations/drill/pits.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/hydrology/flow.h"
@@ -110,9 +110,7 @@ void record_pits(std::string_view of, const Heightfield& terrain, Recorder& reco
   recorder.add(std::string("pit_pixels_") + std::string(of), "", static_cast<double>(pits.pixels));
 }
 
-}  // namespace
-
-void measure_promises(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = open_ground(at.terrain, options.seed);
   recorder.terrain(source);
   const Heightfield& ground = *source.heights;
@@ -137,5 +135,10 @@ void measure_promises(const Case& at, const RunOptions& options, Recorder& recor
   recorder.add("rmse_normalised", "", elevation_error(ground, regenerated).normalised());
   recorder.add("rmse_monotone_profiles", "", elevation_error(ground, legal).normalised());
 }
+
+}  // namespace
+
+extern const Experiment kPromises{
+    "drill.promises", "§2.3 and §4: order of drills, pits", {}, ground_cases, measure};
 
 }  // namespace terrabench::drill

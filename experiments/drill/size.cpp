@@ -9,9 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "experiments/drill/drill.h"
 #include "experiments/drill/factorial.h"
 #include "experiments/drill/ground.h"
+#include "experiments/experiment.h"
+#include "experiments/figures/figure_id.h"
 #include "representations/drill/drill_codec.h"
 #include "representations/drill/regenerate.h"
 #include "results/plot.h"
@@ -124,9 +125,7 @@ void draw_rate_distortion(const TerrainSource& source, const FlowNetwork& networ
       1200);
 }
 
-}  // namespace
-
-void measure_size(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = open_ground(at.terrain, options.seed);
   recorder.terrain(source);
   const Heightfield& ground = *source.heights;
@@ -155,7 +154,11 @@ void measure_size(const Case& at, const RunOptions& options, Recorder& recorder,
   add("jpeg2000", compressed_size_at(filled, RasterCodec::kJpeg2000, rmse));
   add("lerc", compressed_size_at(filled, RasterCodec::kLerc, rmse));
   add("lerc_deflate", compressed_size_at(filled, RasterCodec::kLercDeflate, rmse));
-  draw_rate_distortion(source, network, figure_suffix(at.terrain), recorder, progress);
+  draw_rate_distortion(source, network, figures::ground_suffix(at.terrain, kMainGround), recorder, progress);
 }
+
+}  // namespace
+
+extern const Experiment kSize{"drill.size", "§4.1: values and bytes", {}, ground_cases, measure};
 
 }  // namespace terrabench::drill

@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <chrono>
 #include <vector>
 
-#include "experiments/drill/drill.h"
 #include "experiments/drill/ground.h"
+#include "experiments/experiment.h"
+#include "experiments/stopwatch.h"
 #include "representations/drill/regenerate.h"
 #include "results/statistics.h"
 #include "terrain/hydrology/flow.h"
@@ -16,13 +16,6 @@ namespace {
 
 constexpr int kSamples = 9;
 constexpr std::array<std::uint32_t, 8> kTimedTaus{10, 15, 25, 50, 100, 200, 400, 800};
-
-template <class Work>
-double seconds(const Work& work) {
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 // Least squares of y = intercept + slope · x.
 struct Line {
@@ -45,9 +38,7 @@ Line fit_line(const std::vector<double>& x, const std::vector<double>& y) {
   return {xy / xx, my - xy / xx * mx, xy * xy / (xx * yy)};
 }
 
-}  // namespace
-
-void measure_time(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = open_ground(at.terrain, options.seed);
   recorder.terrain(source);
   const Heightfield& ground = *source.heights;
@@ -88,5 +79,9 @@ void measure_time(const Case& at, const RunOptions& options, Recorder& recorder,
   recorder.add("r_squared", "", line.r_squared);
   recorder.add("extraction_to_regeneration", "", at_25 / summarise(regeneration).median);
 }
+
+}  // namespace
+
+extern const Experiment kTime{"drill.time", "§3.1: time against channel pixels", {}, ground_cases, measure};
 
 }  // namespace terrabench::drill

@@ -8,8 +8,8 @@
 namespace terrabench::ght {
 namespace {
 
-using drill::Sheet;
-using drill::SheetPoint;
+using figures::Sheet;
+using figures::SheetPoint;
 
 void circle(Sheet& sheet, SheetPoint centre, double radius, Rgb colour, double thickness) {
   constexpr int kCorners = 32;

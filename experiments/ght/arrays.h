@@ -1,7 +1,7 @@
 // Small arrays of points as §2.3 of "ght" draws them: dots where points are set, rings, crosses and stars.
 #pragma once
 
-#include "experiments/drill/sheet.h"
+#include "experiments/figures/sheet.h"
 
 namespace terrabench::ght {
 
@@ -9,17 +9,17 @@ namespace terrabench::ght {
 struct ArrayPlace {
   double x, y, size;  // of the corner point, and of the whole array
   int side;
-  drill::SheetPoint at(double i, double j) const {
+  figures::SheetPoint at(double i, double j) const {
     return {x + size * i / (side - 1), y + size * j / (side - 1)};
   }
 };
 
-void stroke(drill::Sheet&, drill::SheetPoint from, drill::SheetPoint to, Rgb colour, double thickness);
-void draw_grid(drill::Sheet&, const ArrayPlace&);  // thin lines between the points
-void draw_dot(drill::Sheet&, drill::SheetPoint, double radius, Rgb colour);
-void draw_ring(drill::Sheet&, drill::SheetPoint, double radius, Rgb colour,
+void stroke(figures::Sheet&, figures::SheetPoint from, figures::SheetPoint to, Rgb colour, double thickness);
+void draw_grid(figures::Sheet&, const ArrayPlace&);  // thin lines between the points
+void draw_dot(figures::Sheet&, figures::SheetPoint, double radius, Rgb colour);
+void draw_ring(figures::Sheet&, figures::SheetPoint, double radius, Rgb colour,
                double thickness);  // white inside
-void draw_cross(drill::Sheet&, drill::SheetPoint, double radius, Rgb colour);
-void draw_star(drill::Sheet&, drill::SheetPoint, double radius, Rgb colour);
+void draw_cross(figures::Sheet&, figures::SheetPoint, double radius, Rgb colour);
+void draw_star(figures::Sheet&, figures::SheetPoint, double radius, Rgb colour);
 
 }  // namespace terrabench::ght

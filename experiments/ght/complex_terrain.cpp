@@ -3,7 +3,7 @@
 #include <array>
 #include <random>
 
-#include "experiments/ght/ght.h"
+#include "experiments/experiment.h"
 #include "experiments/ght/processor_time.h"
 #include "experiments/ght/site.h"
 #include "representations/ght/invariants.h"
@@ -49,20 +49,15 @@ std::vector<std::byte> bytes_of(const Ght& tree) {
   return {sink.bytes().begin(), sink.bytes().end()};
 }
 
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kComplexParameters = kSpecs;
-
-std::vector<Case> complex_cases(const RunOptions&) {
+std::vector<Case> cases(const RunOptions&) {
   std::vector<Case> cases;
   for (const auto& [name, n] : {std::pair{"sequence", 128}, std::pair{"rain", 1024}}) {
-    Case& added = cases.emplace_back(Case{name, Parameters(kComplexParameters), ""});
-    added.parameters.set("n", std::int64_t{n});
+    cases.push_back({name, {kSpecs, {{"n", std::int64_t{n}}}}, ""});
   }
   return cases;
 }
 
-void measure_complex(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const auto n = static_cast<int>(at.parameters.integer("n"));
   const Site site = make_site(n, n / kEventsAlong, options.seed);
   recorder.terrain("diamond-square", checksum(site.ground));
@@ -115,5 +110,10 @@ void measure_complex(const Case& at, const RunOptions& options, Recorder& record
   time_columns(tree, options.seed, recorder);
   progress.advance();
 }
+
+}  // namespace
+
+extern const Experiment kComplex{"ght.complex", "§4.2: the sequence of events and the rain of particles",
+                                 kSpecs, cases, measure};
 
 }  // namespace terrabench::ght

@@ -5,7 +5,7 @@
 #include <array>
 #include <random>
 
-#include "experiments/ght/ght.h"
+#include "experiments/experiment.h"
 #include "experiments/ght/site.h"
 #include "representations/ght/invariants.h"
 #include "terrain/error.h"
@@ -183,12 +183,12 @@ Breaks count_breaks(const Model& model) {
   return found;
 }
 
-constinit const std::span<const ParameterSpec> kContinuityParameters = kSpecs;
+namespace {
 
-std::vector<Case> continuity_cases(const RunOptions& options) {
+std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const char* const name : {"single-events", "two-tunnels", "sequence", "rain", "random"}) {
-    Case& added = cases.emplace_back(Case{name, Parameters(kContinuityParameters), ""});
+    Case& added = cases.emplace_back(Case{name, Parameters(kSpecs), ""});
     const bool paper = options.profile == Profile::kPaper;
     added.parameters.set("sequences", std::int64_t{paper ? 300 : 30});
     added.parameters.set("particles", std::int64_t{paper ? 1000 : 200});
@@ -196,7 +196,7 @@ std::vector<Case> continuity_cases(const RunOptions& options) {
   return cases;
 }
 
-void measure_continuity(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const std::string what = at.name.substr(0, at.name.find(' '));
   const Site site = make_site(kEventsAlong * kSize, kSize, options.seed);
   recorder.terrain("diamond-square", checksum(site.ground));
@@ -221,5 +221,10 @@ void measure_continuity(const Case& at, const RunOptions& options, Recorder& rec
   }
   inspection.write();
 }
+
+}  // namespace
+
+extern const Experiment kContinuity{"ght.continuity", "§3.2: nothing dangles, nothing is open", kSpecs, cases,
+                                    measure};
 
 }  // namespace terrabench::ght

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "experiments/ght/ght.h"
+#include "experiments/experiment.h"
 #include "experiments/ght/site.h"
 #include "terrain/error.h"
 
@@ -67,16 +67,6 @@ void measure_carving(const Site& site, bool cave, Recorder& recorder) {
 
 }  // namespace
 
-constinit const std::span<const ParameterSpec> kCountParameters = kSpecs;
-
-std::vector<Case> count_cases(const RunOptions&) {
-  std::vector<Case> cases;
-  for (int k = 0; k < events::kKinds; ++k) {
-    cases.push_back({std::string(events::name(static_cast<Kind>(k))), Parameters(kCountParameters), ""});
-  }
-  return cases;
-}
-
 Kind kind_named(std::string_view name) {
   for (int k = 0; k < events::kKinds; ++k) {
     if (events::name(static_cast<Kind>(k)) == name) return static_cast<Kind>(k);
@@ -84,7 +74,17 @@ Kind kind_named(std::string_view name) {
   throw usage_error(fmt::format("there is no event '{}'", name), "ght", "name one of event files");
 }
 
-void measure_count(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
+namespace {
+
+std::vector<Case> cases(const RunOptions&) {
+  std::vector<Case> cases;
+  for (int k = 0; k < events::kKinds; ++k) {
+    cases.push_back({std::string(events::name(static_cast<Kind>(k))), Parameters(kSpecs), ""});
+  }
+  return cases;
+}
+
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   const auto size = static_cast<int>(at.parameters.integer("size"));
   const Site site = make_site(kEventsAlong * size, size, options.seed);
   recorder.terrain("diamond-square", checksum(site.ground));
@@ -96,5 +96,10 @@ void measure_count(const Case& at, const RunOptions& options, Recorder& recorder
     measure_geotectonic(site, kind, recorder);
   }
 }
+
+}  // namespace
+
+extern const Experiment kCounts{"ght.counts", "§3.2: heightmaps that each event adds", kSpecs, cases,
+                                measure};
 
 }  // namespace terrabench::ght

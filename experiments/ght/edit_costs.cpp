@@ -9,7 +9,7 @@
 #include <array>
 #include <cmath>
 
-#include "experiments/ght/ght.h"
+#include "experiments/experiment.h"
 #include "experiments/ght/processor_time.h"
 #include "experiments/ght/site.h"
 #include "terrain/events/evaluate.h"
@@ -196,19 +196,12 @@ class Comparison {
   std::vector<Peer> peers_;
 };
 
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kEditParameters = kEditSpecs;
-constinit const std::span<const ParameterSpec> kReachParameters = kReachSpecs;
-
 std::vector<Case> edit_cases(const RunOptions& options) {
   std::vector<Case> cases;
   const std::int64_t largest = options.profile == Profile::kPaper ? 4096 : 1024;
   for (std::int64_t n = 128; n <= largest; n *= 2) {
     for (int k = 0; k < kKinds; ++k) {
-      Case& added = cases.emplace_back(
-          Case{fmt::format("n={}/{}", n, name(static_cast<Kind>(k))), Parameters(kEditParameters), ""});
-      added.parameters.set("n", n);
+      cases.push_back({fmt::format("n={}/{}", n, name(static_cast<Kind>(k))), {kEditSpecs, {{"n", n}}}, ""});
     }
   }
   return cases;
@@ -226,8 +219,7 @@ std::vector<Case> reach_cases(const RunOptions&) {
   // Of twice that size the inverse fault's end is a gap that the tree refuses to close.
   constexpr std::int64_t kLargest = 256;
   for (std::int64_t size = 32; size <= kLargest; size *= 2) {
-    Case& added = cases.emplace_back(Case{fmt::format("size={}", size), Parameters(kReachParameters), ""});
-    added.parameters.set("size", size);
+    cases.push_back({fmt::format("size={}", size), {kReachSpecs, {{"size", size}}}, ""});
   }
   return cases;
 }
@@ -246,5 +238,12 @@ void measure_reach(const Case& at, const RunOptions& options, Recorder& recorder
     comparison.measure(static_cast<Kind>(k), suffix);
   }
 }
+
+}  // namespace
+
+extern const Experiment kEdits{"ght.edits", "§4: an event on ever larger terrains, beside stacks and voxels",
+                               kEditSpecs, edit_cases, measure_edit};
+extern const Experiment kReach{"ght.reach", "§4: ever larger events, beside stacks and voxels", kReachSpecs,
+                               reach_cases, measure_reach};
 
 }  // namespace terrabench::ght

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "experiments/experiment.h"
 #include "experiments/ght/events.h"
-#include "experiments/ght/ght.h"
 #include "terrain/error.h"
 #include "terrain/events/event.h"
 #include "terrain/events/scripts.h"
@@ -69,24 +69,24 @@ void write_panels(const std::vector<std::vector<Panel>>& rows, const std::filesy
   double width = 0, height = kMargin;
   for (const std::vector<Panel>& row : rows) {
     double across = kMargin;
-    for (const Panel& panel : row) across += panel.image.width / drill::Sheet::kPixels + kMargin;
+    for (const Panel& panel : row) across += panel.image.width / figures::Sheet::kPixels + kMargin;
     width = std::max(width, across);
-    height += row[0].image.height / drill::Sheet::kPixels + kLabel + kMargin;
+    height += row[0].image.height / figures::Sheet::kPixels + kLabel + kMargin;
   }
-  drill::Sheet sheet(width, height);
+  figures::Sheet sheet(width, height);
   double y = kMargin;
   for (const std::vector<Panel>& row : rows) {
     double across = kMargin;
-    for (const Panel& panel : row) across += panel.image.width / drill::Sheet::kPixels + kMargin;
+    for (const Panel& panel : row) across += panel.image.width / figures::Sheet::kPixels + kMargin;
     double x = kMargin + (width - across) / 2;
     for (const Panel& panel : row) {
-      const double wide = static_cast<double>(panel.image.width) / drill::Sheet::kPixels;
-      const double high = static_cast<double>(panel.image.height) / drill::Sheet::kPixels;
+      const double wide = static_cast<double>(panel.image.width) / figures::Sheet::kPixels;
+      const double high = static_cast<double>(panel.image.height) / figures::Sheet::kPixels;
       sheet.picture(x, y, wide, high, panel.image);
       sheet.text(x + wide / 2, y + high + 17, panel.words, 14, "middle");
       x += wide + kMargin;
     }
-    y += row[0].image.height / drill::Sheet::kPixels + kLabel + kMargin;
+    y += row[0].image.height / figures::Sheet::kPixels + kLabel + kMargin;
   }
   sheet.write(png);
 }
@@ -155,19 +155,17 @@ void draw_sequence(GlContext& context, Recorder& recorder) {
                                "the ground planes of the tree after it"));
 }
 
-constinit const std::span<const ParameterSpec> kEventFigureParameters = kSpecs;
+namespace {
 
-std::vector<Case> event_figure_cases(const RunOptions&) {
+std::vector<Case> cases(const RunOptions&) {
   std::vector<Case> cases;
   for (const std::int64_t figure : kFigures) {
-    Case& added =
-        cases.emplace_back(Case{fmt::format("F{}", figure), Parameters(kEventFigureParameters), ""});
-    added.parameters.set("figure", figure);
+    cases.push_back({fmt::format("F{}", figure), {kSpecs, {{"figure", figure}}}, ""});
   }
   return cases;
 }
 
-void draw_event_figure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
+void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   const std::int64_t figure = at.parameters.integer("figure");
   if (std::find(kFigures.begin(), kFigures.end(), figure) == kFigures.end()) {
     throw usage_error(fmt::format("figure {} is a listing of code", figure), "figure",
@@ -198,5 +196,10 @@ void draw_event_figure(const Case& at, const RunOptions& options, Recorder& reco
       return draw_rain(*context(), options.seed, recorder);
   }
 }
+
+}  // namespace
+
+extern const Experiment kEventFigures{"ght.event-figures", "Figures 13, 15 and 17-24: events and their trees",
+                                      kSpecs, cases, draw};
 
 }  // namespace terrabench::ght

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/drill/sheet.h"
+#include "experiments/figures/sheet.h"
 #include "experiments/ght/event_views.h"
 #include "experiments/recorder.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "experiments/ght/ght.h"
+#include "experiments/experiment.h"
 #include "terrain/error.h"
 #include "terrain/sources/fractal/diamond_square.h"
 #include "terrain/sources/fractal/faults.h"
@@ -175,20 +175,16 @@ void measure_hills(int side, int steps, std::uint64_t seed, Recorder& recorder) 
       seed, recorder);
 }
 
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kGeneratorParameters = kSpecs;
-
-std::vector<Case> generator_cases(const RunOptions& options) {
+std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const char* const name : {"diamond-square", "fault-formation", "hill"}) {
-    Case& added = cases.emplace_back(Case{name, Parameters(kGeneratorParameters), ""});
-    added.parameters.set("side", std::int64_t{options.profile == Profile::kPaper ? 513 : 129});
+    cases.push_back(
+        {name, {kSpecs, {{"side", std::int64_t{options.profile == Profile::kPaper ? 513 : 129}}}}, ""});
   }
   return cases;
 }
 
-void measure_generator(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   const int side = static_cast<int>(at.parameters.integer("side"));
   const int steps = static_cast<int>(at.parameters.integer("steps"));
   // Of a case with changed parameters the name goes on behind a space.
@@ -201,5 +197,10 @@ void measure_generator(const Case& at, const RunOptions& options, Recorder& reco
     measure_hills(side, steps, options.seed, recorder);
   }
 }
+
+}  // namespace
+
+extern const Experiment kGenerators{"ght.generators", "§2.3: what the generators of base terrain promise",
+                                    kSpecs, cases, measure};
 
 }  // namespace terrabench::ght

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "experiments/ght/ght.h"
+#include "experiments/experiment.h"
 #include "experiments/ght/site.h"
 #include "terrain/events/evaluate.h"
 
@@ -35,21 +35,17 @@ struct Hollow {
   }
 };
 
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kOverhangParameters = kSpecs;
-
-std::vector<Case> overhang_cases(const RunOptions& options) {
+std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const char* const name :
        {"no-event", "normal-fault", "inverse-fault", "tunnel", "cave", "two-tunnels", "sequence"}) {
-    Case& added = cases.emplace_back(Case{name, Parameters(kOverhangParameters), ""});
-    added.parameters.set("columns_a_cell", std::int64_t{options.profile == Profile::kPaper ? 8 : 4});
+    cases.push_back(
+        {name, {kSpecs, {{"columns_a_cell", std::int64_t{options.profile == Profile::kPaper ? 8 : 4}}}}, ""});
   }
   return cases;
 }
 
-void measure_overhang(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   const std::string what = at.name.substr(0, at.name.find(' '));
   const auto size = static_cast<int>(at.parameters.integer("size"));
   const auto per_cell = static_cast<int>(at.parameters.integer("columns_a_cell"));
@@ -104,5 +100,9 @@ void measure_overhang(const Case& at, const RunOptions& options, Recorder& recor
   recorder.add("evaluated_overhang_columns", "", static_cast<double>(truth.overhangs));
   recorder.add("evaluated_lost_volume", "m³", truth.air * step * step);
 }
+
+}  // namespace
+
+extern const Experiment kOverhang{"ght.overhang", "§1: what a heightmap cannot hold", kSpecs, cases, measure};
 
 }  // namespace terrabench::ght

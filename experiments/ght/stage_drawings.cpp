@@ -18,8 +18,8 @@
 namespace terrabench::ght {
 namespace {
 
-using drill::Sheet;
-using drill::SheetPoint;
+using figures::Sheet;
+using figures::SheetPoint;
 
 constexpr Rgb kInk{20, 20, 24}, kSet{150, 150, 155}, kUnset{215, 215, 218}, kAccent{0, 90, 170},
     kSecond{190, 70, 20};

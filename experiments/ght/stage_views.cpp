@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "experiments/drill/sheet.h"
-#include "experiments/ght/ght.h"
+#include "experiments/experiment.h"
+#include "experiments/figures/sheet.h"
 #include "experiments/ght/heightmap_image.h"
 #include "experiments/ght/stages.h"
 #include "renderers/scene.h"
@@ -18,7 +18,7 @@
 namespace terrabench::ght {
 namespace {
 
-using drill::Sheet;
+using figures::Sheet;
 
 constexpr double kMargin = 20, kLabel = 28;
 constexpr int kPixels = 2;  // of a picture, for each unit of the sheet
@@ -123,18 +123,17 @@ void draw_hills_one_and_many(GlContext& context, std::uint64_t seed, Recorder& r
       "(r² − d²) / 20"));
 }
 
-constinit const std::span<const ParameterSpec> kStageParameters = kSpecs;
+namespace {
 
-std::vector<Case> stage_cases(const RunOptions&) {
+std::vector<Case> cases(const RunOptions&) {
   std::vector<Case> cases;
   for (const std::int64_t figure : kFigures) {
-    Case& added = cases.emplace_back(Case{fmt::format("F{}", figure), Parameters(kStageParameters), ""});
-    added.parameters.set("figure", figure);
+    cases.push_back({fmt::format("F{}", figure), {kSpecs, {{"figure", figure}}}, ""});
   }
   return cases;
 }
 
-void draw_stage(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
+void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   const std::int64_t figure = at.parameters.integer("figure");
   if (figure == 2) {
     throw usage_error("figure 2 shows a triangulated network, which nothing here makes", "figure",
@@ -163,5 +162,10 @@ void draw_stage(const Case& at, const RunOptions& options, Recorder& recorder, P
       return draw_hills_one_and_many(*context(), options.seed, recorder);
   }
 }
+
+}  // namespace
+
+extern const Experiment kStages{"ght.stages", "Figures 1 and 3-10: the generators, step by step", kSpecs,
+                                cases, draw};
 
 }  // namespace terrabench::ght

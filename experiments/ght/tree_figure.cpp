@@ -10,7 +10,7 @@
 namespace terrabench::ght {
 namespace {
 
-using drill::Sheet;
+using figures::Sheet;
 
 constexpr Rgb kHeight{200, 200, 200}, kLink{213, 94, 0}, kVoid{0, 114, 178}, kEdge{70, 70, 75};
 constexpr double kMargin = 24, kBox = 74, kStep = 128, kRow = 150, kRoot = 150;
@@ -73,7 +73,7 @@ class TreeSheet {
       }
       std::string words(events::name(event.kind));
       std::replace(words.begin(), words.end(), '-', ' ');
-      const drill::SheetPoint at = box_[event.first];
+      const figures::SheetPoint at = box_[event.first];
       sheet.text(at.x + kBox / 2 + 5, at.y - 20, fmt::format("{}. {}", e + 1, words), 13, "start");
     }
     legend(sheet, kMargin + kRoot + 60, kMargin + 40);
@@ -95,7 +95,7 @@ class TreeSheet {
   }
 
   void edges(Sheet& sheet, const Applied& event) const {
-    const drill::SheetPoint host = box_[event.host];
+    const figures::SheetPoint host = box_[event.host];
     const double bar = box_[event.first].y - 12;
     double trunk = host.x + 12;
     if (event.host == 0) {
@@ -118,7 +118,7 @@ class TreeSheet {
     const Node& node = tree_.nodes()[n];
     const double scale = side / std::max(node.columns, node.rows);
     const double wide = std::max(scale * node.columns, 6.0), high = std::max(scale * node.rows, 6.0);
-    const drill::SheetPoint at = box_[n];
+    const figures::SheetPoint at = box_[n];
     const double x = at.x + (side - wide) / 2;
     sheet.box(x - 1, at.y - 1, wide + 2, high + 2, kEdge);
     sheet.picture(x, at.y, wide, high, cells_image(tree_, node, static_cast<int>(2 * side)));
@@ -144,7 +144,7 @@ class TreeSheet {
   }
 
   const Tree& tree_;
-  std::vector<drill::SheetPoint> box_;
+  std::vector<figures::SheetPoint> box_;
   double y_ = 0, right_ = 0;
 };
 

@@ -2,7 +2,7 @@
 #include <array>
 
 #include "experiments/build_at.h"
-#include "experiments/hybrid/hybrid.h"
+#include "experiments/experiment.h"
 #include "representations/layered_stack/components.h"
 #include "terrain/sources/noise/cave_terrain.h"
 
@@ -18,11 +18,7 @@ constexpr std::array kSpecs{
                   "multiply the two cave maps as printed: a cave where either says so"},
 };
 
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kCaveParameters = kSpecs;
-
-std::vector<Case> cave_cases(const RunOptions& options) {
+std::vector<Case> cases(const RunOptions& options) {
   struct Variant {
     const char* name;
     bool perturb_x, caves, attenuation, printed_product;
@@ -37,17 +33,19 @@ std::vector<Case> cave_cases(const RunOptions& options) {
   };
   std::vector<Case> cases;
   for (const Variant& variant : kVariants) {
-    Case& added = cases.emplace_back(Case{variant.name, Parameters(kCaveParameters), ""});
-    added.parameters.set("n", std::int64_t{options.profile == Profile::kPaper ? 256 : 128});
-    added.parameters.set("perturb_x", variant.perturb_x);
-    added.parameters.set("caves", variant.caves);
-    added.parameters.set("attenuation", variant.attenuation);
-    added.parameters.set("printed_product", variant.printed_product);
+    cases.push_back({variant.name,
+                     {kSpecs,
+                      {{"n", std::int64_t{options.profile == Profile::kPaper ? 256 : 128}},
+                       {"perturb_x", variant.perturb_x},
+                       {"caves", variant.caves},
+                       {"attenuation", variant.attenuation},
+                       {"printed_product", variant.printed_product}}},
+                     ""});
   }
   return cases;
 }
 
-void measure_caves(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   noise::CaveOptions terrain;
   terrain.seed = options.seed;
   terrain.perturb_x = at.parameters.flag("perturb_x");
@@ -67,5 +65,10 @@ void measure_caves(const Case& at, const RunOptions& options, Recorder& recorder
   const glm::vec3 size = source.bounds().size();
   recorder.add("solid_share", "", found.solid_volume / (static_cast<double>(size.x) * size.y * size.z));
 }
+
+}  // namespace
+
+extern const Experiment kCaves{"hybrid.caves", "§3.1.3: overhangs, caves and floating islands", kSpecs, cases,
+                               measure};
 
 }  // namespace terrabench::hybrid

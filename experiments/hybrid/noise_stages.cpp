@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "experiments/hybrid/hybrid.h"
+#include "experiments/experiment.h"
 #include "terrain/error.h"
 #include "terrain/files.h"
 #include "terrain/image.h"
@@ -30,21 +30,16 @@ const noise::StageInfo& stage_of_figure(std::int64_t figure) {
                     "figures 3 to 13 are noise stages");
 }
 
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kStageParameters = kSpecs;
-
-std::vector<Case> stage_cases(const RunOptions&) {
+std::vector<Case> cases(const RunOptions&) {
   std::vector<Case> cases;
   for (int i = 0; i < noise::kStages; ++i) {
     const int figure = noise::info(static_cast<noise::Stage>(i)).figure;
-    Case& added = cases.emplace_back(Case{fmt::format("F{}", figure), Parameters(kStageParameters), ""});
-    added.parameters.set("figure", std::int64_t{figure});
+    cases.push_back({fmt::format("F{}", figure), {kSpecs, {{"figure", std::int64_t{figure}}}}, ""});
   }
   return cases;
 }
 
-void measure_stage(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const noise::StageInfo& stage = stage_of_figure(at.parameters.integer("figure"));
   const int side = static_cast<int>(at.parameters.integer("pixels"));
   noise::CaveOptions terrain;
@@ -85,5 +80,10 @@ void measure_stage(const Case& at, const RunOptions& options, Recorder& recorder
                             stage.figure, stage.name, terrain.extent, terrain.extent, stage.low, stage.high)),
             image);
 }
+
+}  // namespace
+
+extern const Experiment kNoiseStages{"hybrid.noise-stages", "Figures 3-13: the noise pipeline, step by step",
+                                     kSpecs, cases, measure};
 
 }  // namespace terrabench::hybrid

@@ -2,13 +2,13 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <chrono>
 #include <memory>
 #include <random>
 #include <vector>
 
 #include "experiments/build_at.h"
-#include "experiments/hybrid/hybrid.h"
+#include "experiments/experiment.h"
+#include "experiments/stopwatch.h"
 #include "representations/layered_stack/layered_stack.h"
 #include "terrain/memory.h"
 #include "terrain/sources/noise/cave_terrain.h"
@@ -23,8 +23,7 @@ constexpr std::array kSizeSpecs{
 std::vector<Case> size_cases(std::initializer_list<std::int64_t> sizes) {
   std::vector<Case> cases;
   for (const std::int64_t n : sizes) {
-    Case& added = cases.emplace_back(Case{fmt::format("n={}", n), Parameters(kSizeParameters), ""});
-    added.parameters.set("n", n);
+    cases.push_back({fmt::format("n={}", n), {kSizeSpecs, {{"n", n}}}, ""});
   }
   return cases;
 }
@@ -90,22 +89,13 @@ void measure_queries(const Representation& structure, const Bounds& bounds, Reco
   const std::vector<float> z = positions(bounds.low.z, bounds.high.z);
   std::vector<Material> materials(kQueries);
   SpanSink sink;
-  const auto rate = [&](const auto& query) {
-    const auto begin = std::chrono::steady_clock::now();
-    query();
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    return static_cast<double>(kQueries) / seconds.count();
-  };
+  const auto rate = [&](const auto& query) { return static_cast<double>(kQueries) / seconds(query); };
   for (int i = 0; i < kSamples; ++i) {
     recorder.add("point_queries_per_second", "1/s", rate([&] { structure.materials({x, y, z}, materials); }));
     sink.clear();
     recorder.add("column_queries_per_second", "1/s", rate([&] { structure.spans({x, z}, sink); }));
   }
 }
-
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kSizeParameters = kSizeSpecs;
 
 std::vector<Case> table1_cases(const RunOptions& options) {
   return options.profile == Profile::kPaper ? size_cases({128, 256, 512}) : size_cases({64, 128, 256});
@@ -147,12 +137,19 @@ void measure_table2(const Case& at, const RunOptions& options, Recorder& recorde
                       progress);  // warm caches, pool and clock
   const int samples = n >= 512 ? 7 : 11;
   for (int i = 0; i < samples; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const auto stack = build_at_resolution("layered_stack", source, n, progress);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    recorder.add("generation_time", "s", seconds.count());
-    recorder.add("samples_per_second", "1/s", static_cast<double>(n * n * n) / seconds.count());
+    const double seconds = watch.seconds();
+    recorder.add("generation_time", "s", seconds);
+    recorder.add("samples_per_second", "1/s", static_cast<double>(n * n * n) / seconds);
   }
 }
+
+}  // namespace
+
+extern const Experiment kTable1{"hybrid.table1", "Table 1: memory of the discrete data structure", kSizeSpecs,
+                                table1_cases, measure_table1};
+extern const Experiment kTable2{"hybrid.table2", "Table 2: terrain generation times", kSizeSpecs,
+                                table2_cases, measure_table2};
 
 }  // namespace terrabench::hybrid

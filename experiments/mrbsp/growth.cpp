@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 
-#include "experiments/drill/ground.h"
+#include "experiments/experiment.h"
 #include "experiments/mrbsp/ground.h"
-#include "experiments/mrbsp/mrbsp.h"
+#include "experiments/noise_ground.h"
 #include "terrain/sources/fractal/diamond_square.h"
 
 namespace terrabench::mrbsp {
@@ -22,17 +22,11 @@ constexpr std::array kRoughnessSpecs{
 };
 constexpr int kViews = 60, kSmallest = 129, kLargest = 2049, kSeeds = 3;
 
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kLandParameters = kLandSpecs;
-constinit const std::span<const ParameterSpec> kRoughnessParameters = kRoughnessSpecs;
-
 std::vector<Case> land_cases(const RunOptions& options) {
   std::vector<Case> cases;
   const int largest = options.profile == Profile::kPaper ? kLargest : 1025;
   for (int n = kSmallest; n <= largest; n = 2 * n - 1) {
-    Case& added = cases.emplace_back(Case{fmt::format("n={}", n), Parameters(kLandParameters), ""});
-    added.parameters.set("n", std::int64_t{n});
+    cases.push_back({fmt::format("n={}", n), {kLandSpecs, {{"n", std::int64_t{n}}}}, ""});
   }
   return cases;
 }
@@ -42,7 +36,7 @@ void measure_land(const Case& at, const RunOptions& options, Recorder& recorder,
   // Outwards: the same middle, and more and more around it.
   const int around = std::max(n, kLargest);
   const Heightfield ground =
-      crop(drill::noise_hills(around, options.seed), (around - n) / 2, (around - n) / 2, n, n);
+      crop(noise_hills(around, options.seed), (around - n) / 2, (around - n) / 2, n, n);
   recorder.terrain("noise-hills", checksum(ground));
   // The walk on the smallest land.
   const float reach = 0.6F * (kSmallest - 1) / static_cast<float>(std::max(n, kSmallest) - 1);
@@ -66,14 +60,10 @@ void measure_land(const Case& at, const RunOptions& options, Recorder& recorder,
 std::vector<Case> roughness_cases(const RunOptions&) {
   std::vector<Case> cases;
   for (const double relief : {5.0, 20.0, 80.0, 320.0, 1280.0}) {
-    Case& added =
-        cases.emplace_back(Case{fmt::format("relief={}", relief), Parameters(kRoughnessParameters), ""});
-    added.parameters.set("relief", relief);
+    cases.push_back({fmt::format("relief={}", relief), {kRoughnessSpecs, {{"relief", relief}}}, ""});
   }
   for (const double hurst : {0.9, 0.8, 0.7, 0.6}) {
-    Case& added =
-        cases.emplace_back(Case{fmt::format("hurst={}", hurst), Parameters(kRoughnessParameters), ""});
-    added.parameters.set("hurst", hurst);
+    cases.push_back({fmt::format("hurst={}", hurst), {kRoughnessSpecs, {{"hurst", hurst}}}, ""});
   }
   return cases;
 }
@@ -105,5 +95,12 @@ void measure_roughness(const Case& at, const RunOptions& options, Recorder& reco
   recorder.add("gain", "", sums[0] / sums[1]);
   recorder.add("gain_conservative", "", sums[0] / sums[2]);
 }
+
+}  // namespace
+
+extern const Experiment kLand{"mrbsp.land", "§5: LOD's gain against the size of the land", kLandSpecs,
+                              land_cases, measure_land};
+extern const Experiment kRoughness{"mrbsp.roughness", "§5: visibility's gain against roughness",
+                                   kRoughnessSpecs, roughness_cases, measure_roughness};
 
 }  // namespace terrabench::mrbsp

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "experiments/experiment.h"
 #include "experiments/mrbsp/ground.h"
-#include "experiments/mrbsp/mrbsp.h"
 #include "lod/mrbsp/height_points.h"
 #include "lod/mrbsp/subset_triangles.h"
 #include "lod/mrbsp/surface_height.h"
@@ -39,23 +39,19 @@ bool is_whole_level(const Frame& frame, const Heightfield& ground, int depth) {
   return even && std::abs(sum - land) <= 1e-4 * land;
 }
 
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kHeightParameters = kSpecs;
-
-std::vector<Case> height_cases(const RunOptions& options) {
+std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const std::string& ground : grounds(options, true)) {
     for (const int points : {kSide, kSide - 1}) {
-      Case& added = cases.emplace_back(
-          Case{fmt::format("{}/points={}", ground, points), Parameters(kHeightParameters), ground});
-      added.parameters.set("points", std::int64_t{points});
+      cases.push_back({fmt::format("{}/points={}", ground, points),
+                       {kSpecs, {{"points", std::int64_t{points}}}},
+                       ground});
     }
   }
   return cases;
 }
 
-void measure_heights(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = open_ground(at.terrain, options.seed);
   recorder.terrain(source);
   const auto side = static_cast<int>(at.parameters.integer("points"));
@@ -102,5 +98,10 @@ void measure_heights(const Case& at, const RunOptions& options, Recorder& record
     recorder.add(fmt::format("starved_share{}", suffix), "", share(subsets.starved, tree.triangles()));
   }
 }
+
+}  // namespace
+
+extern const Experiment kHeights{"mrbsp.heights", "§2: levels of the tree, and heights of its vertices",
+                                 kSpecs, cases, measure};
 
 }  // namespace terrabench::mrbsp

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "experiments/experiment.h"
 #include "experiments/mrbsp/ground.h"
-#include "experiments/mrbsp/mrbsp.h"
 #include "lod/meters/cracks.h"
 
 namespace terrabench::mrbsp {
@@ -17,27 +17,22 @@ constexpr std::array kSpecs{
 };
 constexpr std::array kSizes{1.0, 4.0, 16.0};
 
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kHoleParameters = kSpecs;
-
-std::vector<Case> hole_cases(const RunOptions& options) {
+std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const std::string& ground : grounds(options, true)) {
     for (const bool area : {false, true}) {
       for (const bool conforming : {false, true}) {
-        Case& added = cases.emplace_back(
-            Case{fmt::format("{}/{}{}", ground, conforming ? "conforming" : "printed", area ? "-area" : ""),
-                 Parameters(kHoleParameters), ground});
-        added.parameters.set("conforming", conforming);
-        added.parameters.set("area", area);
+        cases.push_back(
+            {fmt::format("{}/{}{}", ground, conforming ? "conforming" : "printed", area ? "-area" : ""),
+             {kSpecs, {{"conforming", conforming}, {"area", area}}},
+             ground});
       }
     }
   }
   return cases;
 }
 
-void measure_holes(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = open_ground(at.terrain, options.seed);
   recorder.terrain(source);
   const Heightfield& ground = *source.heights;
@@ -77,5 +72,9 @@ void measure_holes(const Case& at, const RunOptions& options, Recorder& recorder
   recorder.add("largest_gap", "m", all.largest_gap_m);
   recorder.add("largest_gap_on_screen", "pixels", all.largest_gap_px);
 }
+
+}  // namespace
+
+extern const Experiment kHoles{"mrbsp.holes", "§3: holes that the rules leave", kSpecs, cases, measure};
 
 }  // namespace terrabench::mrbsp

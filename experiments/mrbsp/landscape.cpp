@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "experiments/drill/sheet.h"
+#include "experiments/experiment.h"
+#include "experiments/figures/sheet.h"
 #include "experiments/mrbsp/ground.h"
-#include "experiments/mrbsp/mrbsp.h"
 #include "renderers/ramp.h"
 #include "renderers/scene.h"
 #include "terrain/sources/drawing/drawing.h"
@@ -147,7 +147,7 @@ void draw(const Image& picture, const Heightfield& field, const RunOptions& opti
   sea.fill_opacity = 0.75F;
   sea.line_width = 1;
   const View view = overview(bounds_of(mesh), static_cast<int>(2 * kWide), static_cast<int>(2 * kPicture));
-  drill::Sheet sheet(kPicture + kWide + 3 * kMargin, kPicture + 2 * kMargin + 40);
+  figures::Sheet sheet(kPicture + kWide + 3 * kMargin, kPicture + 2 * kMargin + 40);
   sheet.picture(kMargin, kMargin, kPicture, kPicture, picture);
   sheet.picture(kPicture + 2 * kMargin, kMargin, kWide, kPicture, render_scene(*context, scene, view));
   sheet.text(kMargin + kPicture / 2, kPicture + kMargin + 24, "drawing: black is sea, white a peak", 15,
@@ -156,7 +156,7 @@ void draw(const Image& picture, const Heightfield& field, const RunOptions& opti
   sheet.text(land + 20, below, fmt::format("land, {:.1f} km across, with the sea", field.extent_x() / 1000),
              15);
   sheet.text(land + kWide - 250, below, "height, m", 12);
-  const std::array<drill::Sheet::Tick, 3> ticks{
+  const std::array<figures::Sheet::Tick, 3> ticks{
       {{0, "0"}, {0.5, fmt::format("{:.0f}", range.highest / 2)}, {1, fmt::format("{:.0f}", range.highest)}}};
   sheet.colour_bar(land + kWide - 180, below - 11, 160, ramp_rgb, ticks);
   sheet.write(recorder.figure("mrbsp.landscape", "png",
@@ -165,15 +165,9 @@ void draw(const Image& picture, const Heightfield& field, const RunOptions& opti
                               "and the land that it becomes"));
 }
 
-}  // namespace
+std::vector<Case> cases(const RunOptions&) { return {Case{"drawing", Parameters(kSpecs), ""}}; }
 
-constinit const std::span<const ParameterSpec> kDrawingParameters = kSpecs;
-
-std::vector<Case> drawing_cases(const RunOptions&) {
-  return {Case{"drawing", Parameters(kDrawingParameters), ""}};
-}
-
-void measure_drawing(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   const Image picture = example_drawing(static_cast<int>(at.parameters.integer("n")), options.seed);
   DrawingOptions adjust;
   const Heightfield land = land_from_drawing(picture, adjust);
@@ -204,5 +198,9 @@ void measure_drawing(const Case& at, const RunOptions& options, Recorder& record
   recorder.add("mountain_samples_moved", "", static_cast<double>(moved));
   draw(picture, land, options, recorder);
 }
+
+}  // namespace
+
+extern const Experiment kDrawing{"mrbsp.drawing", "§1: land from drawings", kSpecs, cases, measure};
 
 }  // namespace terrabench::mrbsp

@@ -9,17 +9,17 @@
 #include <unordered_map>
 #include <vector>
 
-#include "experiments/drill/sheet.h"
+#include "experiments/experiment.h"
+#include "experiments/figures/sheet.h"
 #include "experiments/mrbsp/ground.h"
-#include "experiments/mrbsp/mrbsp.h"
 #include "renderers/frame_renderer.h"
 #include "renderers/scene.h"
 
 namespace terrabench::mrbsp {
 namespace {
 
-using drill::Sheet;
-using drill::SheetPoint;
+using figures::Sheet;
+using figures::SheetPoint;
 
 constexpr int kWidth = 960, kHeight = 540;  // units of the sheet
 constexpr int kLabelSize = 12;
@@ -151,11 +151,9 @@ class LodFigure {
   std::vector<std::pair<SheetPoint, double>> taken_;
 };
 
-}  // namespace
+std::vector<Case> cases(const RunOptions&) { return {Case{"real-257", Parameters(), "real-257"}}; }
 
-std::vector<Case> lod_figure_cases(const RunOptions&) { return {Case{"real-257", Parameters(), "real-257"}}; }
-
-void draw_lod_figure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = open_ground(at.terrain, options.seed);
   recorder.terrain(source);
   const Heightfield& ground = *source.heights;
@@ -180,5 +178,10 @@ void draw_lod_figure(const Case& at, const RunOptions& options, Recorder& record
                             "one-vertex rule splits (dashed) because its right angle alone has a lower "
                             "threshold"));
 }
+
+}  // namespace
+
+extern const Experiment kLodFigure{
+    "mrbsp.lod-figure", "Figure 1: thresholds at the vertices", {}, cases, draw};
 
 }  // namespace terrabench::mrbsp

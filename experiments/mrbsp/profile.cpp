@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/experiment.h"
 #include "experiments/mrbsp/extruded_profile.h"
-#include "experiments/mrbsp/mrbsp.h"
 #include "experiments/mrbsp/profile_figures.h"
 #include "lod/mrbsp/visibility_text.h"
 
@@ -49,11 +49,9 @@ double share_alike(float metres, std::uint64_t seed, Progress& progress) {
   return static_cast<double>(alike) / kProfiles;
 }
 
-}  // namespace
+std::vector<Case> cases(const RunOptions&) { return {Case{"profile", Parameters(), ""}}; }
 
-std::vector<Case> profile_cases(const RunOptions&) { return {Case{"profile", Parameters(), ""}}; }
-
-void measure_profile(const Case&, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case&, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const Heightfield strip = extrude(table1_profile());
   recorder.terrain("profile", checksum(strip));
   const VisibilityTable table = find_changes(strip, false, progress);
@@ -79,5 +77,10 @@ void measure_profile(const Case&, const RunOptions& options, Recorder& recorder,
                              "sampled visibility of a landscape finds on figure 2's profile drawn out "
                              "sideways: coarse changes as stored, fine ones as drawn"));
 }
+
+}  // namespace
+
+extern const Experiment kProfile{
+    "mrbsp.profile", "Table 1 and figure 2: visibility of a profile", {}, cases, measure};
 
 }  // namespace terrabench::mrbsp

@@ -4,17 +4,17 @@
 #include <array>
 #include <vector>
 
-#include "experiments/drill/sheet.h"
+#include "experiments/figures/sheet.h"
 #include "lod/mrbsp/visibility_text.h"
 
 namespace terrabench::mrbsp {
 namespace {
 
-using drill::Sheet;
-using drill::SheetPoint;
+using figures::Sheet;
+using figures::SheetPoint;
 
 constexpr double kLeft = 90, kTop = 40, kWidth = 880, kHeight = 250;
-constexpr drill::SheetPoint kSheet{1000, 450};
+constexpr figures::SheetPoint kSheet{1000, 450};
 constexpr Rgb kInk{0, 0, 0}, kCoarse{165, 165, 165}, kDark{110, 110, 110}, kPale{228, 228, 228},
     kWords{32, 32, 32};
 
@@ -48,7 +48,7 @@ class ProfileDrawing {
   void caption(double y, std::string_view words, Rgb colour) {
     sheet_.text(kLeft - 12, y, words, 12, "end", colour);
   }
-  void outline(std::size_t stride, const drill::Stroke& stroke, double tick) {
+  void outline(std::size_t stride, const figures::Stroke& stroke, double tick) {
     std::vector<SheetPoint> points;
     for (std::size_t k = 0; k < profile_.size(); k += stride) {
       points.push_back(at(static_cast<double>(k), profile_[k]));

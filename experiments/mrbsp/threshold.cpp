@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "experiments/experiment.h"
 #include "experiments/mrbsp/ground.h"
-#include "experiments/mrbsp/mrbsp.h"
 #include "results/plot.h"
 #include "results/rasterise.h"
 
@@ -67,15 +67,9 @@ std::vector<PlotPoint> apparent_sizes(const Heightfield& ground, bool area, Prog
   return points;
 }
 
-}  // namespace
+std::vector<Case> cases(const RunOptions&) { return {Case{"level", Parameters(kSpecs), ""}}; }
 
-constinit const std::span<const ParameterSpec> kThresholdParameters = kSpecs;
-
-std::vector<Case> threshold_cases(const RunOptions&) {
-  return {Case{"level", Parameters(kThresholdParameters), ""}};
-}
-
-void measure_threshold(const Case& at, const RunOptions&, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress& progress) {
   Heightfield ground;
   ground.width = ground.depth = static_cast<int>(at.parameters.integer("n"));
   ground.cell_x = ground.cell_z = 30;
@@ -109,5 +103,10 @@ void measure_threshold(const Case& at, const RunOptions&, Recorder& recorder, Pr
                       "hence the steps"),
       kPictureWidth);
 }
+
+}  // namespace
+
+extern const Experiment kThreshold{"mrbsp.threshold", "§3: apparent size of triangles against distance",
+                                   kSpecs, cases, measure};
 
 }  // namespace terrabench::mrbsp

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <optional>
 #include <random>
 #include <unordered_set>
 
+#include "experiments/experiment.h"
 #include "experiments/mrbsp/ground.h"
 #include "experiments/mrbsp/lost_pixels.h"
-#include "experiments/mrbsp/mrbsp.h"
+#include "experiments/stopwatch.h"
 #include "lod/mrbsp/coarse_squares.h"
 #include "lod/mrbsp/visibility_binary.h"
 #include "renderers/frame_renderer.h"
@@ -91,11 +91,7 @@ void look_around(const Heightfield& ground, const glm::vec3& eye, Mrbsp& full, F
   ++misses.eyes;
 }
 
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kVisibilityParameters = kSpecs;
-
-std::vector<Case> visibility_cases(const RunOptions& options) {
+std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   const bool paper = options.profile == Profile::kPaper;
   const auto add = [&](const std::string& ground, bool conservative, std::int64_t cells,
@@ -103,9 +99,7 @@ std::vector<Case> visibility_cases(const RunOptions& options) {
     const std::string_view sets = conservative ? "conservative" : "sampled";
     std::string name = fmt::format("{}/{}/cells={}", ground, sets, cells);
     if (coarseness) name += fmt::format("/coarseness={}", *coarseness);
-    Case& added = cases.emplace_back(Case{std::move(name), Parameters(kVisibilityParameters), ground});
-    added.parameters.set("conservative", conservative);
-    added.parameters.set("cells", cells);
+    cases.push_back({std::move(name), {kSpecs, {{"conservative", conservative}, {"cells", cells}}}, ground});
     if (coarseness) added.parameters.set("coarseness", *coarseness);
   };
   for (const std::string& ground : grounds(options, paper)) {
@@ -120,7 +114,7 @@ std::vector<Case> visibility_cases(const RunOptions& options) {
   return cases;
 }
 
-void measure_visibility(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = open_ground(at.terrain, options.seed);
   recorder.terrain(source);
   const Heightfield& ground = *source.heights;
@@ -132,10 +126,9 @@ void measure_visibility(const Case& at, const RunOptions& options, Recorder& rec
   how.conservative = at.parameters.flag("conservative");
   how.cells = static_cast<int>(at.parameters.integer("cells"));
   how.coarseness = static_cast<int>(at.parameters.integer("coarseness"));
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const VisibleSets sets = find_visible(grid_of(ground), full.tree(), how, progress);
-  recorder.add("preprocessing_time", "s",
-               std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  recorder.add("preprocessing_time", "s", watch.seconds());
   std::size_t visible = 0;
   for (int cell = 0; cell < sets.cells.count(); ++cell) visible += sets.count(cell);
   recorder.add("cells", "", sets.cells.count());
@@ -171,5 +164,10 @@ void measure_visibility(const Case& at, const RunOptions& options, Recorder& rec
   recorder.add("missed_pixel_share", "", share_of(misses.missed_pixels, misses.pixels));
   recorder.add("missed_pixel_share_most", "", misses.worst_eye);
 }
+
+}  // namespace
+
+extern const Experiment kVisibility{"mrbsp.visibility", "§4: what the stored sets miss, and their bytes",
+                                    kSpecs, cases, measure};
 
 }  // namespace terrabench::mrbsp

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
+#include "experiments/experiment.h"
 #include "experiments/mrbsp/ground.h"
 #include "experiments/mrbsp/lost_pixels.h"
-#include "experiments/mrbsp/mrbsp.h"
+#include "experiments/stopwatch.h"
 #include "renderers/frame_renderer.h"
 
 namespace terrabench::mrbsp {
@@ -146,13 +146,6 @@ void count_lost_pixels(Methods& methods, const std::vector<View>& views, const R
   recorder.add("pictures", "", static_cast<double>(views.size()));
 }
 
-template <class Work>
-double seconds(const Work& work) {
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
 // What changing the flags of visibility takes along the walk, beside choosing triangles without them.
 void time_flags(Methods& methods, const Heightfield& ground, const std::vector<View>& views,
                 Recorder& recorder) {
@@ -212,20 +205,17 @@ void time_frames(Methods& methods, const Heightfield& ground, const std::vector<
   progress.end();
 }
 
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kWalkParameters = kSpecs;
-
-std::vector<Case> walk_cases(const RunOptions& options) {
+std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const std::string& ground : grounds(options, options.profile == Profile::kPaper)) {
     const auto add = [&](std::string_view name, double size, bool conservative, int frames, int pictures) {
-      Case& added =
-          cases.emplace_back(Case{fmt::format("{}/{}", ground, name), Parameters(kWalkParameters), ground});
-      added.parameters.set("size", size);
-      added.parameters.set("conservative", conservative);
-      added.parameters.set("frames", std::int64_t{frames});
-      added.parameters.set("pictures", std::int64_t{pictures});
+      cases.push_back({fmt::format("{}/{}", ground, name),
+                       {kSpecs,
+                        {{"size", size},
+                         {"conservative", conservative},
+                         {"frames", std::int64_t{frames}},
+                         {"pictures", std::int64_t{pictures}}}},
+                       ground});
     };
     // Frames cost a hundred times as much as counting triangles.
     const bool paper = options.profile == Profile::kPaper;
@@ -237,7 +227,7 @@ std::vector<Case> walk_cases(const RunOptions& options) {
   return cases;
 }
 
-void measure_walk(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = open_ground(at.terrain, options.seed);
   recorder.terrain(source);
   const Heightfield& ground = *source.heights;
@@ -259,5 +249,10 @@ void measure_walk(const Case& at, const RunOptions& options, Recorder& recorder,
   const auto frames = static_cast<std::size_t>(at.parameters.integer("frames"));
   if (frames > 0) time_frames(methods, ground, some_of(views, frames), options, recorder, progress);
 }
+
+}  // namespace
+
+extern const Experiment kWalk{"mrbsp.walk", "Table 2: triangles and time of LOD, visibility and both", kSpecs,
+                              cases, measure};
 
 }  // namespace terrabench::mrbsp

@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <chrono>
 
+#include "experiments/experiment.h"
 #include "experiments/fidelity.h"
-#include "experiments/overview/overview.h"
+#include "experiments/stopwatch.h"
 #include "representations/representation.h"
 #include "terrain/files.h"
 #include "terrain/view.h"
 
-namespace terrabench::overview_experiments {
+namespace terrabench::overview {
 namespace {
 
 const std::array kSpecs{
@@ -34,35 +34,31 @@ std::string file_name(const std::string& terrain) {
   return fmt::format("{}-{}", name, checksum(terrain).substr(0, 8));
 }
 
-}  // namespace
-
-constinit const std::span<const ParameterSpec> kReliefParameters = kSpecs;
-
-std::vector<Case> relief_cases(const RunOptions& options) {
+std::vector<Case> cases(const RunOptions& options) {
   std::vector<std::string> terrains = options.terrains;
   if (terrains.empty()) terrains = {"jacksboro", "caves"};
   std::vector<Case> cases;
   for (const std::string& terrain : terrains) {
     for (const RepresentationType& type : representations()) {
-      Case& added = cases.emplace_back(
-          Case{fmt::format("{}/{}", terrain, type.name), Parameters(kReliefParameters), terrain});
-      added.parameters.set("representation", std::string(type.name));
+      cases.push_back({fmt::format("{}/{}", terrain, type.name),
+                       {kSpecs, {{"representation", std::string(type.name)}}},
+                       terrain});
     }
   }
   return cases;
 }
 
-void measure_relief(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = open_terrain(at.terrain, options.seed);
   recorder.terrain(source);
   const RepresentationType& type = representation(at.parameters.text("representation"));
   std::unique_ptr<Representation> built;
   for (int i = 0; i < kBuilds; ++i) {
     built.reset();
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     built = type.build(source, Parameters(type.parameters), progress);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    recorder.add("build_time", "s", seconds.count());
+    const double seconds = watch.seconds();
+    recorder.add("build_time", "s", seconds);
   }
   recorder.add("bytes", "B", static_cast<double>(built->memory().total()));
   const Fidelity fidelity = measure_fidelity(*built, source, progress);
@@ -90,4 +86,9 @@ void measure_relief(const Case& at, const RunOptions& options, Recorder& recorde
             with_few_colours(image));
 }
 
-}  // namespace terrabench::overview_experiments
+}  // namespace
+
+extern const Experiment kRelief{"overview.relief", "Shaded relief of each terrain in each representation",
+                                kSpecs, cases, measure};
+
+}  // namespace terrabench::overview

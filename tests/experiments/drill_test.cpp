@@ -1,13 +1,12 @@
-#include "experiments/drill/drill.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/drill/colours.h"
 #include "experiments/drill/factorial.h"
 #include "experiments/drill/ground.h"
+#include "experiments/figures/colours.h"
 
 namespace terrabench::drill {
 namespace {
@@ -121,7 +120,8 @@ double luminance(const Rgb& colour, Eyes eyes) {
 TEST(DrillColours, ChannelsStandOutOnEveryElevationForAllEyes) {
   for (const Eyes eyes : {Eyes::kAll, Eyes::kProtan, Eyes::kDeutan}) {
     for (double t = 0; t <= 1; t += 0.05) {
-      const double ground = luminance(elevation_colour(t), eyes), water = luminance(kChannel, eyes);
+      const double ground = luminance(figures::elevation_colour(t), eyes),
+                   water = luminance(figures::kChannel, eyes);
       EXPECT_GE((ground + 0.05) / (water + 0.05), 2.5) << t;  // thin lines in full light
     }
   }
@@ -129,29 +129,29 @@ TEST(DrillColours, ChannelsStandOutOnEveryElevationForAllEyes) {
 
 TEST(DrillColours, ErrorsGrowDarkerOrRedderAndInkIsLegible) {
   for (double t = 0; t <= 1; t += 0.02) {
-    const Rgb colour = error_colour(t);
-    const double paper = luminance(colour, Eyes::kAll), ink = luminance(ink_on(colour), Eyes::kAll);
+    const Rgb colour = figures::error_colour(t);
+    const double paper = luminance(colour, Eyes::kAll), ink = luminance(figures::ink_on(colour), Eyes::kAll);
     EXPECT_GE((std::max(paper, ink) + 0.05) / (std::min(paper, ink) + 0.05), 4.5) << t;
   }
-  EXPECT_EQ(difference_colour(0.5), (Rgb{250, 250, 250}));
-  EXPECT_EQ(direction_colour(0), direction_colour(1));
+  EXPECT_EQ(figures::difference_colour(0.5), (Rgb{250, 250, 250}));
+  EXPECT_EQ(figures::direction_colour(0), figures::direction_colour(1));
 }
 
 TEST(DrillColours, LightIsEvenOnFlatGroundAndComesFromTheNorthWest) {
   Heightfield field;
   field.width = field.depth = 5;
   field.heights.assign(25, 7.0F);
-  const Light flat(field);
+  const figures::Light flat(field);
   for (int j = 0; j < 5; ++j) {
     for (int i = 0; i < 5; ++i) EXPECT_NEAR(flat.at(i, j), std::sqrt(0.5), 1e-3);
   }
   for (int j = 0; j < 5; ++j) {
     for (int i = 0; i < 5; ++i) field.at(i, j) = static_cast<float>(i + j);  // faces north-west
   }
-  const Light slope(field);
+  const figures::Light slope(field);
   EXPECT_GT(slope.at(2, 2), std::sqrt(0.5) + 0.1);
   for (float& h : field.heights) h = -h;
-  EXPECT_LT(Light(field).at(2, 2), std::sqrt(0.5) - 0.1);
+  EXPECT_LT(figures::Light(field).at(2, 2), std::sqrt(0.5) - 0.1);
 }
 
 }  // namespace

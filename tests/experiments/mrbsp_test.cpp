@@ -1,5 +1,4 @@
 // The experiments of the MRBSP paper on little ground: what they say must hold on any.
-#include "experiments/mrbsp/mrbsp.h"
 
 #include <gtest/gtest.h>
 

@@ -8,10 +8,12 @@ namespace terrabench {
 namespace {
 
 // Where a case draws the picture of one ledger row.
-std::filesystem::path picture(const std::string& profile, const std::string& case_name) {
+std::filesystem::path picture(const std::string& profile, const std::string& case_name,
+                              std::vector<std::string> overrides = {}) {
   Record record;
   record.profile = profile;
   record.case_name = case_name;
+  record.overrides = std::move(overrides);
   const std::filesystem::path path = Recorder(record, "out").figure("drill.F1", "png", "channels");
   EXPECT_EQ(record.figures.size(), 1U);
   EXPECT_EQ(std::filesystem::path("out") / record.figures.front().file, path);
@@ -21,8 +23,8 @@ std::filesystem::path picture(const std::string& profile, const std::string& cas
 
 TEST(Recorder, ProfilesAndChangedParametersDrawPicturesOfTheirOwn) {
   const std::set<std::filesystem::path> paths{picture("quick", "jacksboro"), picture("paper", "jacksboro"),
-                                              picture("paper", "jacksboro (w=3)"),
-                                              picture("paper", "jacksboro (w=4)")};
+                                              picture("paper", "jacksboro (w=3)", {"w=3"}),
+                                              picture("paper", "jacksboro (w=4)", {"w=4"})};
   EXPECT_EQ(paths.size(), 4U);
   for (const std::filesystem::path& path : paths) {
     EXPECT_EQ(path.parent_path(), "out/figures");

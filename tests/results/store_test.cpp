@@ -341,6 +341,7 @@ TEST_F(StoreTest, FigureIsTheNewestWithoutOverriddenParameters) {
   store.begin_run(run);
   const auto draw = [&](const std::string& name, const std::string& profile, const std::string& caption) {
     Record record = fake_record(run, "e", name, profile);
+    if (caption == "overridden") record.overrides = {"n=3"};
     record.figures = {{"p.F1", "figures/p.F1.png", caption, "0123"}};
     store.append(record);
   };

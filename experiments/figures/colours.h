@@ -5,7 +5,7 @@
 #include "terrain/heightfield.h"
 #include "terrain/image.h"
 
-namespace terrabench::drill {
+namespace terrabench::figures {
 
 // Over the colours of elevations.
 inline constexpr Rgb kChannel{0, 56, 168}, kUntouched{120, 120, 128};
@@ -45,4 +45,4 @@ Rgb lit(const Rgb& colour, double light);
 // Black or white, whichever can be read on this colour.
 Rgb ink_on(const Rgb& colour);
 
-}  // namespace terrabench::drill
+}  // namespace terrabench::figures

@@ -1,10 +1,10 @@
-#include "experiments/drill/colours.h"
+#include "experiments/figures/colours.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace terrabench::drill {
+namespace terrabench::figures {
 namespace {
 
 Rgb blend(const Rgb& a, const Rgb& b, double t) {
@@ -100,4 +100,4 @@ Rgb ink_on(const Rgb& colour) {
   return luminance > 0.18 ? Rgb{0, 0, 0} : Rgb{255, 255, 255};
 }
 
-}  // namespace terrabench::drill
+}  // namespace terrabench::figures

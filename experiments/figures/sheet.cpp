@@ -1,4 +1,4 @@
-#include "experiments/drill/sheet.h"
+#include "experiments/figures/sheet.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include "results/rasterise.h"
 #include "terrain/files.h"
 
-namespace terrabench::drill {
+namespace terrabench::figures {
 namespace {
 
 std::string css(const Rgb& c) { return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]); }
@@ -114,4 +114,4 @@ void Sheet::write(const std::filesystem::path& png) const {
                   png, kPixels * width_);
 }
 
-}  // namespace terrabench::drill
+}  // namespace terrabench::figures

@@ -10,7 +10,7 @@
 
 #include "terrain/image.h"
 
-namespace terrabench::drill {
+namespace terrabench::figures {
 
 struct SheetPoint {
   double x, y;
@@ -50,4 +50,4 @@ class Sheet {
   std::string body_;
 };
 
-}  // namespace terrabench::drill
+}  // namespace terrabench::figures

@@ -1,0 +1,59 @@
+#include "experiments/noise_ground.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "terrain/sources/noise/program.h"
+
+namespace terrabench {
+namespace {
+
+// 30 m samples; rows side by side.
+Heightfield from_noise(const noise::Graph& graph, noise::Node root, int size, float lift, float relief) {
+  Heightfield field;
+  field.width = field.depth = size;
+  field.cell_x = field.cell_z = 30;
+  const auto length = static_cast<std::size_t>(size);
+  field.heights.resize(length * length);
+  const noise::Program program(graph, root);
+  std::vector<float> x(length);
+  for (int i = 0; i < size; ++i) x[i] = static_cast<float>(i) * field.cell_x;
+  tbb::parallel_for(tbb::blocked_range<int>(0, size), [&](const tbb::blocked_range<int>& rows) {
+    const std::vector<float> y(length, 0.0F);
+    std::vector<float> z(length);
+    for (int j = rows.begin(); j < rows.end(); ++j) {
+      std::fill(z.begin(), z.end(), static_cast<float>(j) * field.cell_z);
+      const std::span row(field.heights.data() + static_cast<std::size_t>(j) * length, length);
+      program.points(x, y, z, row);
+      for (float& h : row) h = lift + relief * h;
+    }
+  });
+  return field;
+}
+
+// The largest features are about a third of the paper's ground wide.
+constexpr float kFrequency = 1.0F / 4000;
+
+}  // namespace
+
+Heightfield noise_ridges(int size, std::uint64_t seed) {
+  noise::Graph graph;
+  const noise::Node root = graph.ridged_multifractal({.seed = seed, .frequency = kFrequency, .octaves = 8});
+  return from_noise(graph, root, size, 200, 1600);
+}
+
+Heightfield noise_hills(int size, std::uint64_t seed) {
+  noise::Graph graph;
+  const noise::Node root = graph.fbm({.seed = seed, .frequency = kFrequency, .octaves = 8});
+  return from_noise(graph, root, size, 800, 800);
+}
+
+Heightfield whole_metres(Heightfield field) {
+  for (float& h : field.heights) h = std::round(h);
+  return field;
+}
+
+}  // namespace terrabench
