@@ -1,7 +1,12 @@
-# One static library per module.
+# One static library per module: libterrabench_<module>.a, which others link as terrabench::<module>. Headers are
+# included by their path from the project's root.
 function(terrabench_module name)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
   add_library(${name} STATIC ${ARGN})
-  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  add_library(terrabench::${name} ALIAS ${name})
+  target_sources(${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  set_target_properties(${name} PROPERTIES OUTPUT_NAME terrabench_${name})
 endfunction()
 
 # One GoogleTest program per module: all sources of tests/<module>/ become <module>_tests, linked with the module and the
