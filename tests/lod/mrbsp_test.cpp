@@ -159,7 +159,7 @@ TEST(Mrbsp, ConformingIsTightAndWholeOnEveryCameraPath) {
                                     << report.bare_edges << " bare edges";
         EXPECT_EQ(report.t_junctions, 0U) << path.name << " frame " << f;
         drawn.draw(frame);
-        const ScreenDeviation error = screen_error(drawn, field, Visibility(field, all[f]));
+        const ScreenDeviation error = screen_error(drawn, field, SeenSamples(field, all[f]));
         EXPECT_EQ(error.visible.undrawn, 0U) << path.name << " frame " << f;
         measured += error.visible.samples;
       }
