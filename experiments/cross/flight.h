@@ -14,7 +14,7 @@
 #include "experiments/cross/knob_search.h"
 #include "experiments/experiment.h"
 #include "lod/lod.h"
-#include "lod/meters/visibility.h"
+#include "lod/meters/seen_samples.h"
 #include "terrain/image.h"
 #include "terrain/source.h"
 
@@ -46,7 +46,7 @@ struct Flight {
   float lowest, highest;             // of the ground, metres
   std::vector<View> views;           // every frame of the path
   std::vector<std::size_t> metered;  // of views, ascending, from 1 on
-  std::vector<Visibility> seen;      // of the metered ones
+  std::vector<SeenSamples> seen;     // of the metered ones
   // What tune_to() has found: method with its options, and pixels.
   std::map<std::pair<std::string, double>, Tuned> tuned;
   std::vector<Image> pictures;  // brute force's, of pictured(); empty until they are drawn

@@ -56,17 +56,17 @@ Heightfield extrude(std::span<const float> profile) {
   return strip;
 }
 
-VisibilityTable find_changes(const Heightfield& strip, bool conservative, Progress& progress) {
-  VisibilityOptions options;
-  options.conservative = conservative;
+visibility::ChangeTable find_changes(const Heightfield& strip, bool conservative, Progress& progress) {
+  visibility::Options options;
+  options.mode = conservative ? visibility::Mode::kConservative : visibility::Mode::kSampled;
   options.cells = kProfileCells;
   options.coarseness = kStripDepth - kStripCoarseDepth;
   options.eye_height = 0;
   const BisectionTree tree = BisectionTree::over(strip.width, strip.depth, kStripDepth);
-  return changes_of(find_visible(grid_of(strip), tree, options, progress));
+  return changes_of(find_sets(grid_of(strip), tree, options, progress));
 }
 
-std::vector<ProfileStep> profile_steps(const Heightfield& strip, const VisibilityTable& table,
+std::vector<ProfileStep> profile_steps(const Heightfield& strip, const visibility::ChangeTable& table,
                                        Progress& progress) {
   MrbspOptions options;
   options.depth = kStripDepth;

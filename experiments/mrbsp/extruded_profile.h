@@ -1,5 +1,5 @@
 // The two-dimensional scene of the paper's figure 2 and table 1 as land, so that the code that finds what a
-// landscape shows (lod/mrbsp/visibility.h) finds it here too: a profile drawn out sideways into a strip one
+// landscape shows (lod/mrbsp/visibility/) finds it here too: a profile drawn out sideways into a strip one
 // cell across. Every line of sight over it rises and falls as one in the profile does.
 //
 // The figure is not printed in numbers. Read off the table and its text: sixteen fine segments (numbers of
@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "lod/mrbsp/visibility_table.h"
+#include "lod/mrbsp/visibility/change_table.h"
 #include "terrain/heightfield.h"
 #include "terrain/progress.h"
 
@@ -28,7 +28,7 @@ std::span<const float> table1_profile();
 Heightfield extrude(std::span<const float> profile);
 
 // Eyes on the ground; triangles of visibility as long as the coarse segments.
-VisibilityTable find_changes(const Heightfield& strip, bool conservative, Progress&);
+visibility::ChangeTable find_changes(const Heightfield& strip, bool conservative, Progress&);
 
 // What changes from one cell to the next: segments, rising.
 struct ProfileStep {
@@ -36,6 +36,6 @@ struct ProfileStep {
   std::vector<std::uint32_t> fine;    // as drawn: by Mrbsp at its finest, from the middles of both cells
   bool whole = true;                  // both triangles of every coarse segment
 };
-std::vector<ProfileStep> profile_steps(const Heightfield& strip, const VisibilityTable&, Progress&);
+std::vector<ProfileStep> profile_steps(const Heightfield& strip, const visibility::ChangeTable&, Progress&);
 
 }  // namespace terrabench::mrbsp

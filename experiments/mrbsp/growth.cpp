@@ -83,7 +83,7 @@ void measure_roughness(const Case& at, const RunOptions& options, Recorder& reco
       rule.depth = kDepth;
       rule.conforming = false;
       rule.visibility = way > 0;
-      rule.visible.conservative = way == 2;
+      rule.visible.mode = way == 2 ? visibility::Mode::kConservative : visibility::Mode::kSampled;
       Mrbsp lod(ground, rule, progress);
       lod.tune(kFinest);
       sums[way] += mean_triangles(lod, views) / kSeeds;

@@ -12,8 +12,8 @@
 #include "experiments/mrbsp/ground.h"
 #include "experiments/mrbsp/lost_pixels.h"
 #include "experiments/stopwatch.h"
-#include "lod/mrbsp/coarse_squares.h"
-#include "lod/mrbsp/visibility_binary.h"
+#include "lod/mrbsp/visibility/coarse_squares.h"
+#include "lod/mrbsp/visibility/codec.h"
 #include "renderers/frame_renderer.h"
 
 namespace terrabench::mrbsp {
@@ -37,7 +37,8 @@ double share_of(std::size_t part, std::size_t whole) {
 }
 
 // Which coarse triangle a triangle of the frame lies in: by its middle.
-std::uint32_t element_of(const Frame& frame, std::uint32_t triangle, const CoarseSquares& squares) {
+std::uint32_t element_of(const Frame& frame, std::uint32_t triangle,
+                         const visibility::CoarseSquares& squares) {
   glm::vec2 middle(0);
   for (std::uint32_t c = 0; c < 3; ++c) {
     const std::uint32_t vertex = frame.indices[3 * triangle + c];
@@ -48,14 +49,14 @@ std::uint32_t element_of(const Frame& frame, std::uint32_t triangle, const Coars
   const auto side = static_cast<float>(squares.side());
   const glm::ivec2 square(middle / side);
   const glm::vec2 in = middle - glm::vec2(square) * side;
-  const bool high = CoarseSquares::rising(square) ? in.x > in.y : in.x + in.y > side;
+  const bool high = visibility::CoarseSquares::rising(square) ? in.x > in.y : in.x + in.y > side;
   return squares.element(square, high ? 1 : 0);
 }
 
 // What an eye sees all around that its cell's set lacks.
 void look_around(const Heightfield& ground, const glm::vec3& eye, Mrbsp& full, FrameRenderer& renderer,
-                 const VisibleSets& sets, const CoarseSquares& squares, Misses& misses) {
-  const CellGrid& cells = sets.cells;
+                 const visibility::Sets& sets, const visibility::CoarseSquares& squares, Misses& misses) {
+  const visibility::CellGrid& cells = sets.cells;
   const int column = std::min(static_cast<int>(eye.x / ground.cell_x) / cells.side, cells.columns - 1);
   const int row = std::min(static_cast<int>(eye.z / ground.cell_z) / cells.side, cells.rows - 1);
   std::unordered_set<std::uint64_t> seen, missed;  // a triangle may show in two directions
@@ -122,12 +123,13 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   finest.depth = depth_over(ground);
   Mrbsp full(ground, finest, progress);
   full.tune(kFinest);
-  VisibilityOptions how;
-  how.conservative = at.parameters.flag("conservative");
+  visibility::Options how;
+  how.mode =
+      at.parameters.flag("conservative") ? visibility::Mode::kConservative : visibility::Mode::kSampled;
   how.cells = static_cast<int>(at.parameters.integer("cells"));
   how.coarseness = static_cast<int>(at.parameters.integer("coarseness"));
   const Stopwatch watch;
-  const VisibleSets sets = find_visible(grid_of(ground), full.tree(), how, progress);
+  const visibility::Sets sets = find_sets(grid_of(ground), full.tree(), how, progress);
   recorder.add("preprocessing_time", "s", watch.seconds());
   std::size_t visible = 0;
   for (int cell = 0; cell < sets.cells.count(); ++cell) visible += sets.count(cell);
@@ -135,7 +137,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("coarse_triangles", "", static_cast<double>(std::uint64_t{1} << sets.depth));
   recorder.add("visible_share", "",
                static_cast<double>(visible) / sets.cells.count() / std::exp2(sets.depth));
-  const VisibilityBytes bytes = visibility_bytes(changes_of(sets));
+  const visibility::EncodedSizes bytes = encoded_sizes(changes_of(sets));
   recorder.add("bytes_changes", "B", static_cast<double>(bytes.changes));
   recorder.add("bytes_lists", "B", static_cast<double>(bytes.lists));
   recorder.add("bytes_bits", "B", static_cast<double>(bytes.bits));
@@ -144,7 +146,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
   const auto context = open_context(options.renderer, kPixels, kPixels);
   FrameRenderer renderer(*context);
-  const CoarseSquares squares(full.tree(), sets.depth);
+  const visibility::CoarseSquares squares(full.tree(), sets.depth);
   std::mt19937_64 random(options.seed);
   const auto share = [&] { return static_cast<float>(random() >> 40) / 16777216.0F; };
   const int eyes = options.profile == Profile::kPaper ? 100 : 20;

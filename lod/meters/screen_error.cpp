@@ -39,7 +39,7 @@ Deviation deviation_of(const std::vector<Row>& rows, std::vector<float>& pixels,
 
 // from(i, j) and to(i, j) are heights, NaN where there is none.
 template <class From, class To>
-Deviation measure(const Visibility& seen, Seen least, const From& from, const To& to, Distribution* pool) {
+Deviation measure(const SeenSamples& seen, Seen least, const From& from, const To& to, Distribution* pool) {
   const Projector project(seen.view());
   std::vector<Row> rows(static_cast<std::size_t>(seen.depth()));
   tbb::parallel_for(0, seen.depth(), [&](int j) {
@@ -72,13 +72,13 @@ Deviation measure(const Visibility& seen, Seen least, const From& from, const To
 }
 
 template <class From, class To>
-ScreenDeviation measure(const Visibility& seen, const From& from, const To& to, Distribution* pool) {
+ScreenDeviation measure(const SeenSamples& seen, const From& from, const To& to, Distribution* pool) {
   return {measure(seen, Seen::kVisible, from, to, pool), measure(seen, Seen::kHidden, from, to, nullptr)};
 }
 
 }  // namespace
 
-ScreenDeviation screen_error(const SurfaceRaster& drawn, const Heightfield& ground, const Visibility& seen,
+ScreenDeviation screen_error(const SurfaceRaster& drawn, const Heightfield& ground, const SeenSamples& seen,
                              Distribution* pool) {
   assert(drawn.width() == seen.width() && drawn.depth() == seen.depth());
   return measure(
@@ -86,7 +86,7 @@ ScreenDeviation screen_error(const SurfaceRaster& drawn, const Heightfield& grou
       pool);
 }
 
-ScreenDeviation popping(const SurfaceRaster& before, const SurfaceRaster& after, const Visibility& seen,
+ScreenDeviation popping(const SurfaceRaster& before, const SurfaceRaster& after, const SeenSamples& seen,
                         Distribution* pool) {
   assert(before.width() == seen.width() && after.width() == seen.width());
   return measure(

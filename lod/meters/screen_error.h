@@ -6,8 +6,8 @@
 #include <cstddef>
 
 #include "lod/meters/distribution.h"
+#include "lod/meters/seen_samples.h"
 #include "lod/meters/surface_raster.h"
-#include "lod/meters/visibility.h"
 
 namespace terrabench {
 
@@ -26,12 +26,12 @@ struct ScreenDeviation {
 
 // Between the drawn surface and the full terrain. The ground is the one that `seen` was made of. The visible
 // samples' pixels go into `pool` too, when there is one, for percentiles over many frames.
-ScreenDeviation screen_error(const SurfaceRaster& drawn, const Heightfield& ground, const Visibility& seen,
+ScreenDeviation screen_error(const SurfaceRaster& drawn, const Heightfield& ground, const SeenSamples& seen,
                              Distribution* pool = nullptr);
 
 // Between two consecutive frames' surfaces, both looked at from the later view, so that the camera's own
 // motion does not count: what suddenly moves.
-ScreenDeviation popping(const SurfaceRaster& before, const SurfaceRaster& after, const Visibility& seen,
+ScreenDeviation popping(const SurfaceRaster& before, const SurfaceRaster& after, const SeenSamples& seen,
                         Distribution* pool = nullptr);
 
 }  // namespace terrabench

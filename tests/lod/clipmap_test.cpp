@@ -259,7 +259,7 @@ TEST(Clipmap, TransitionsKeepPoppingSmall) {
     for (ClipLevel& level : levels) level.from = level.to = 0;
     Frame plain = frame;
     plain.levels = levels;
-    const Visibility seen(field, all[k]);
+    const SeenSamples seen(field, all[k]);
     for (int which = 0; which < 2; ++which) {
       auto now = std::make_unique<SurfaceRaster>(which == 0 ? frame : plain, field.width, field.depth);
       double& largest = which == 0 ? blended : sudden;

@@ -47,7 +47,7 @@ double expect_promises(const Frame& frame, const Heightfield& field, const View&
                               << cracks.overlaps;
   EXPECT_EQ(cracks.t_junctions, 0U);
   const ScreenDeviation error =
-      screen_error(SurfaceRaster(frame, field.width, field.depth), field, Visibility(field, view));
+      screen_error(SurfaceRaster(frame, field.width, field.depth), field, SeenSamples(field, view));
   EXPECT_LE(error.in_frustum.largest, pixels);
   EXPECT_EQ(error.in_frustum.undrawn, 0U);
   return error.in_frustum.largest;
@@ -96,7 +96,7 @@ TEST(GeoMipMap, ThePapersRuleBoundsLess) {
   view.target = {12, 0, 12};
   const auto error = [&](bool level_camera) {
     GeoMipMap lod = make(field, {64, level_camera}, 20);
-    return screen_error(SurfaceRaster(lod.update(view), 65, 65), field, Visibility(field, view))
+    return screen_error(SurfaceRaster(lod.update(view), 65, 65), field, SeenSamples(field, view))
         .in_frustum.largest;
   };
   EXPECT_LE(error(false), 20);

@@ -78,7 +78,7 @@ Flown fly(const Heightfield& field, const std::vector<View>& path, std::size_t s
     const Frame& frame = lod.update(path[k]);
     after.draw(frame);
     flown.changes += frame.stats.changes;
-    const Visibility seen(field, path[k]);
+    const SeenSamples seen(field, path[k]);
     flown.popping = std::max(flown.popping, popping(before, after, seen).in_frustum.largest);
     EXPECT_LE(screen_error(after, field, seen, &errors).in_frustum.largest, pixels);
     const CrackReport cracks = find_cracks(frame, field.width, field.depth, path[k]);

@@ -62,7 +62,7 @@ double expect_kept(const Roam& roam, const Frame& frame, const Heightfield& fiel
   EXPECT_TRUE(cracks.tight()) << cracks.gaps << " gaps, " << cracks.bare_edges << " bare edges, "
                               << cracks.overlaps << " overlaps";
   EXPECT_EQ(cracks.t_junctions, 0U);
-  const Visibility seen(field, view);
+  const SeenSamples seen(field, view);
   const ScreenDeviation error = screen_error(SurfaceRaster(frame, field.width, field.depth), field, seen);
   EXPECT_LE(error.in_frustum.largest, max_error * (1 + 1e-5) + 1e-4);
   EXPECT_EQ(error.in_frustum.undrawn, 0U);

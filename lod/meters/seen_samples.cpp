@@ -1,4 +1,4 @@
-#include "lod/meters/visibility.h"
+#include "lod/meters/seen_samples.h"
 
 #include <tbb/blocked_range2d.h>
 #include <tbb/parallel_for.h>
@@ -126,12 +126,12 @@ void draw_cells(const Heightfield& ground, int i0, int i1, int j0, int j1, Depth
 
 }  // namespace
 
-std::size_t Visibility::bytes(int width, int depth) {
+std::size_t SeenSamples::bytes(int width, int depth) {
   return sizeof(std::uint64_t) * static_cast<std::size_t>((width + kSeenAWord - 1) / kSeenAWord) *
          static_cast<std::size_t>(depth);
 }
 
-Visibility::Visibility(const Heightfield& ground, const View& view)
+SeenSamples::SeenSamples(const Heightfield& ground, const View& view)
     : width_(ground.width),
       depth_(ground.depth),
       cell_x_(ground.cell_x),
@@ -155,7 +155,7 @@ Visibility::Visibility(const Heightfield& ground, const View& view)
   find_seen(ground, buffer.take());
 }
 
-void Visibility::find_seen(const Heightfield& ground, const std::vector<float>& nearness) {
+void SeenSamples::find_seen(const Heightfield& ground, const std::vector<float>& nearness) {
   // As deep as it takes four pixels side by side: what differs in depth within a pixel does not hide.
   constexpr double kSlackPixels = 4;
   const Projector project(view_);

@@ -1,4 +1,4 @@
-// Visibility against rays cast at the full surface, and what is drawn by it.
+// Visible sets against rays cast at the full surface, and what Mrbsp draws with them.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -8,12 +8,12 @@
 #include <limits>
 
 #include "lod/lod.h"
-#include "lod/mrbsp/line_of_sight.h"
 #include "lod/mrbsp/mrbsp.h"
+#include "lod/mrbsp/visibility/line_of_sight.h"
 #include "tests/lod/visible_ground.h"
 #include "tests/terrain/errors.h"
 
-namespace terrabench {
+namespace terrabench::mrbsp::visibility {
 namespace {
 
 struct Facet {
@@ -21,7 +21,7 @@ struct Facet {
   NodeNumber node;
 };
 
-// All triangles of the greatest depth, drawn in to the field's border, without the flat ones.
+// All triangles of the greatest depth, clamped to the field, without those that have no plan area.
 std::vector<Facet> facets(const Heightfield& field, const BisectionTree& tree) {
   std::vector<Facet> facets;
   const auto place = [&](glm::ivec2 at) {
@@ -38,7 +38,7 @@ std::vector<Facet> facets(const Heightfield& field, const BisectionTree& tree) {
   return facets;
 }
 
-// Möller and Trumbore's test, in double; the ends of the way do not count.
+// The ray-triangle test of Möller and Trumbore (1997), in double; the ends of the segment do not count.
 bool blocks(const Facet& f, const glm::dvec3& from, const glm::dvec3& to) {
   const glm::dvec3 along = to - from, u = glm::dvec3(f.b) - glm::dvec3(f.a),
                    v = glm::dvec3(f.c) - glm::dvec3(f.a);
@@ -64,7 +64,7 @@ struct Tally {
 };
 
 // Rays from random eyes in random cells to the middle and near the corners of random facets.
-Tally cast_rays(const Heightfield& field, const BisectionTree& tree, const VisibleSets& sets, int eyes,
+Tally cast_rays(const Heightfield& field, const BisectionTree& tree, const Sets& sets, int eyes,
                 int targets) {
   const auto ground = facets(field, tree);
   Tally tally;
@@ -72,7 +72,7 @@ Tally cast_rays(const Heightfield& field, const BisectionTree& tree, const Visib
   const auto random = [&] { return random_share(key++ * 2654435761U); };
   for (int e = 0; e < eyes; ++e) {
     const float x = random() * field.extent_x(), z = random() * field.extent_z();
-    // Now and then lower than the eye height: that must be covered too.
+    // Every fourth eye is lower than the eye height: the sets must cover these too.
     const glm::dvec3 eye(x, field.sample(x, z) + sets.eye_height * (e % 4 == 0 ? 0.5 : 1.0), z);
     const int column = std::min(static_cast<int>(x / field.cell_x) / sets.cells.side, sets.cells.columns - 1);
     const int row = std::min(static_cast<int>(z / field.cell_z) / sets.cells.side, sets.cells.rows - 1);
@@ -81,7 +81,8 @@ Tally cast_rays(const Heightfield& field, const BisectionTree& tree, const Visib
           ground.size() - 1, static_cast<std::size_t>(random() * static_cast<float>(ground.size())))];
       const float s = random(), u = random() * (1 - s);
       const glm::dvec3 target(f.a * (1 - s - u) + f.b * s + f.c * u);
-      // From above: an eye of half the height may stand under the triangles, though not under the samples.
+      // Only targets seen from above: an eye of half the height may be below the triangles, though above the
+      // samples.
       const glm::dvec3 normal =
           glm::cross(glm::dvec3(f.b) - glm::dvec3(f.a), glm::dvec3(f.c) - glm::dvec3(f.a));
       if (glm::dot(normal, eye - target) <= 0 || !is_free(ground, eye, target)) continue;
@@ -94,20 +95,20 @@ Tally cast_rays(const Heightfield& field, const BisectionTree& tree, const Visib
   return tally;
 }
 
-double share_visible(const VisibleSets& sets) {
+double share_visible(const Sets& sets) {
   double sum = 0;
   for (int cell = 0; cell < sets.cells.count(); ++cell) sum += static_cast<double>(sets.count(cell));
   return sum / sets.cells.count() / std::pow(2.0, sets.depth);
 }
 
-TEST(Visibility, ConservativeMissesNothingAndHidesSomething) {
-  // A power of two and one, another size, and one where the finest triangles are cut at the border.
+TEST(VisibleSets, ConservativeMissesNothingAndHidesSomething) {
+  // A side of 2^k + 1 samples, other sizes, and one whose finest triangles extend beyond the field.
   for (const auto& [width, depth, levels] :
        {std::tuple{33, 33, 11}, {41, 29, 13}, {33, 27, 10}, {38, 33, 11}}) {
     const Heightfield field = rough_ground(width, depth);
     const BisectionTree tree = BisectionTree::over(width, depth, levels);
     for (const int coarseness : {0, 2, 4, 6}) {
-      const VisibleSets sets = visible_over(field, tree, few_cells(8, coarseness));
+      const Sets sets = visible_over(field, tree, few_cells(8, coarseness));
       EXPECT_EQ(sets.depth % 2, 1);
       const Tally tally = cast_rays(field, tree, sets, 60, 60);
       EXPECT_GT(tally.seen, 100U);
@@ -118,42 +119,43 @@ TEST(Visibility, ConservativeMissesNothingAndHidesSomething) {
   }
 }
 
-TEST(Visibility, SampledMissesLittleAndHidesMore) {
+TEST(VisibleSets, SampledMissesLittleAndHidesMore) {
   const Heightfield field = rough_ground(33, 33);
   const BisectionTree tree(5, 11);
-  const VisibleSets safe = visible_over(field, tree, few_cells(8, 2));
-  const VisibleSets sampled = visible_over(field, tree, few_cells(8, 2, false));
+  const Sets safe = visible_over(field, tree, few_cells(8, 2));
+  const Sets sampled = visible_over(field, tree, few_cells(8, 2, Mode::kSampled));
   EXPECT_LT(share_visible(sampled), share_visible(safe));
   const Tally tally = cast_rays(field, tree, sampled, 60, 60);
   EXPECT_LT(static_cast<double>(tally.missed), 0.04 * static_cast<double>(tally.seen)) << tally.missed;
 }
 
-TEST(Visibility, OnFlatLandEverythingIsSeen) {
+TEST(VisibleSets, OnFlatLandEverythingIsSeen) {
   const Heightfield field = rough_ground(33, 33, 0);
-  for (const bool conservative : {true, false}) {
-    EXPECT_EQ(share_visible(visible_over(field, BisectionTree(5, 11), few_cells(4, 6, conservative))), 1.0);
+  for (const Mode mode : {Mode::kConservative, Mode::kSampled}) {
+    EXPECT_EQ(share_visible(visible_over(field, BisectionTree(5, 11), few_cells(4, 6, mode))), 1.0);
   }
 }
 
-TEST(Visibility, AWallHidesWhatStandsBehindIt) {
+TEST(VisibleSets, AWallHidesWhatStandsBehindIt) {
   Heightfield field = rough_ground(33, 33, 0);
   for (int j = 0; j < 33; ++j) field.at(16, j) = 500;
   const BisectionTree tree(5, 11);
-  for (const bool conservative : {true, false}) {
-    const VisibleSets sets = visible_over(field, tree, few_cells(4, 4, conservative));
+  for (const Mode mode : {Mode::kConservative, Mode::kSampled}) {
+    const Sets sets = visible_over(field, tree, few_cells(4, 4, mode));
     for (int row = 0; row < 4; ++row) {
       for (std::uint32_t e = 0; e < 1U << sets.depth; ++e) {
         const PlanTriangle t = tree.triangle((NodeNumber{1} << sets.depth) + e);
         const auto [low, high] = std::minmax({t.apex.x, t.left.x, t.right.x});
-        // What touches the wall is as high as the wall, so the conservative sets may have its back.
+        // A triangle that touches the wall is as high as the wall, so conservative sets may contain those
+        // behind it.
         if (high <= 16) {
           EXPECT_TRUE(sets.sees(row * 4, e));
-        } else if (low > 16 || !conservative) {
+        } else if (low > 16 || mode == Mode::kSampled) {
           EXPECT_FALSE(sets.sees(row * 4, e));
         }
         if (low >= 16) {
           EXPECT_TRUE(sets.sees(row * 4 + 3, e));
-        } else if (high < 16 || !conservative) {
+        } else if (high < 16 || mode == Mode::kSampled) {
           EXPECT_FALSE(sets.sees(row * 4 + 3, e));
         }
       }
@@ -161,18 +163,18 @@ TEST(Visibility, AWallHidesWhatStandsBehindIt) {
   }
 }
 
-TEST(Visibility, IsTheSameForAnyNumberOfThreads) {
+TEST(VisibleSets, IsTheSameForAnyNumberOfThreads) {
   const Heightfield field = rough_ground(65, 50);
   const BisectionTree tree = BisectionTree::over(65, 50);
-  for (const bool conservative : {true, false}) {
-    const VisibilityOptions options = few_cells(16, 6, conservative);
-    const VisibleSets many = visible_over(field, tree, options);
+  for (const Mode mode : {Mode::kConservative, Mode::kSampled}) {
+    const Options options = few_cells(16, 6, mode);
+    const Sets many = visible_over(field, tree, options);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     EXPECT_EQ(visible_over(field, tree, options), many);
   }
 }
 
-// The line of sight over the coarse surface against rays at its facets.
+// Lines of sight over the coarse surface against rays cast at its facets.
 TEST(LineOfSight, IsBlockedByTheSurfaceAlone) {
   const Heightfield field = rough_ground(30, 33);
   const BisectionTree tree(5, 11);
@@ -198,20 +200,20 @@ TEST(LineOfSight, IsBlockedByTheSurfaceAlone) {
   EXPECT_EQ(differ, 0);
 }
 
-TEST(Visibility, RefusesOptionsOutOfRange) {
+TEST(VisibleSets, RefusesOptionsOutOfRange) {
   const Heightfield field = rough_ground(33, 33);
   const BisectionTree tree(5, 11);
   const auto refused = [&](auto change) {
-    VisibilityOptions options;
+    Options options;
     change(options);
     EXPECT_EQ(failure_of([&] { (void)visible_over(field, tree, options); }).code, ExitCode::kUsage);
   };
-  refused([](VisibilityOptions& o) { o.cells = 0; });
-  refused([](VisibilityOptions& o) { o.eyes = 0; });
-  refused([](VisibilityOptions& o) { o.coarseness = -1; });
-  refused([](VisibilityOptions& o) { o.coarseness = 1000; });
-  refused([](VisibilityOptions& o) { o.eye_height = -1; });
-  refused([](VisibilityOptions& o) { o.eye_height = std::numeric_limits<float>::quiet_NaN(); });
+  refused([](Options& o) { o.cells = 0; });
+  refused([](Options& o) { o.eyes = 0; });
+  refused([](Options& o) { o.coarseness = -1; });
+  refused([](Options& o) { o.coarseness = 1000; });
+  refused([](Options& o) { o.eye_height = -1; });
+  refused([](Options& o) { o.eye_height = std::numeric_limits<float>::quiet_NaN(); });
 }
 
 TEST(Mrbsp, VisibilityLeavesOutTrianglesOnlyOnTheGround) {
@@ -232,7 +234,7 @@ TEST(Mrbsp, VisibilityLeavesOutTrianglesOnlyOnTheGround) {
   EXPECT_EQ(hiding.update(view).stats.triangles, plain.update(view).stats.triangles);
 }
 
-// From beneath a valley the hills' undersides are in full view, whatever the sets say of walkers above.
+// An eye below a valley sees the undersides of the hills, so the sets for observers above must not be used.
 TEST(Mrbsp, VisibilityHidesNothingFromAnEyeUnderTheGround) {
   const Heightfield field = rough_ground(65, 65);
   MrbspOptions options;
@@ -256,14 +258,14 @@ TEST(Mrbsp, VisibilityHidesNothingFromAnEyeUnderTheGround) {
 
 TEST(Mrbsp, TakesATableThatFitsAndRefusesOthers) {
   const Heightfield field = rough_ground(65, 50);
-  const VisibilityTable table = table_over(65, 50);
+  const ChangeTable table = table_over(65, 50);
   Mrbsp lod(field, {}, table, silent());
   EXPECT_EQ(lod.visibility(), table);
   const auto refused = [&](const Heightfield& other, const MrbspOptions& options) {
     EXPECT_EQ(failure_of([&] { Mrbsp(other, options, table, silent()); }).code, ExitCode::kUsage);
   };
   refused(rough_ground(33, 50), {});
-  // Of the same size, but it hides something else.
+  // The same size with one other height.
   Heightfield other = field;
   other.at(20, 30) += 0.001F;
   refused(other, {});
@@ -276,4 +278,4 @@ TEST(Mrbsp, TakesATableThatFitsAndRefusesOthers) {
 }
 
 }  // namespace
-}  // namespace terrabench
+}  // namespace terrabench::mrbsp::visibility

@@ -1,27 +1,26 @@
-#include "lod/mrbsp/visible_flags.h"
+#include "lod/mrbsp/visibility/flags.h"
 
-namespace terrabench {
+namespace terrabench::mrbsp::visibility {
 
-VisibleFlags::VisibleFlags(const VisibilityTable& table)
+Flags::Flags(const ChangeTable& table)
     : depth_(table.depth), flags_(((std::size_t{2} << table.depth) + 63) / 64) {
-  for (const std::uint32_t element : table.start) toggle((NodeNumber{1} << table.depth) + element);
+  for (const std::uint32_t element : table.start) toggle(first_node(table.depth) + element);
 }
 
-void VisibleFlags::toggle(NodeNumber leaf) {
+void Flags::toggle(NodeNumber coarse_triangle) {
   const auto flip = [&](NodeNumber node) { flags_[node / 64] ^= std::uint64_t{1} << (node % 64); };
-  flip(leaf);
-  for (NodeNumber node = leaf / 2; node >= 1; node /= 2) {
+  flip(coarse_triangle);
+  for (NodeNumber node = coarse_triangle / 2; node >= 1; node /= 2) {
     const bool visible = (*this)[2 * node] || (*this)[2 * node + 1];
     if (visible == (*this)[node]) return;
     flip(node);
   }
 }
 
-std::size_t VisibleFlags::move_to(const VisibilityTable& table, glm::ivec2 cell) {
-  const NodeNumber level = NodeNumber{1} << table.depth;
+std::size_t Flags::move_to(const ChangeTable& table, glm::ivec2 cell) {
   std::size_t toggled = 0;
   const auto take = [&](int step) {
-    for (const std::uint32_t element : table.step(step)) toggle(level + element);
+    for (const std::uint32_t element : table.step(step)) toggle(first_node(table.depth) + element);
     toggled += table.step(step).size();
   };
   for (; cell_.x < cell.x; ++cell_.x) take(table.step_right(cell_.x, cell_.y));
@@ -31,4 +30,4 @@ std::size_t VisibleFlags::move_to(const VisibilityTable& table, glm::ivec2 cell)
   return toggled;
 }
 
-}  // namespace terrabench
+}  // namespace terrabench::mrbsp::visibility

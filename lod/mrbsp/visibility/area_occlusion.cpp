@@ -1,4 +1,4 @@
-#include "lod/mrbsp/area_visibility.h"
+#include "lod/mrbsp/visibility/area_occlusion.h"
 
 #include <tbb/parallel_for.h>
 
@@ -6,23 +6,23 @@
 #include <cmath>
 #include <limits>
 
-namespace terrabench {
+namespace terrabench::mrbsp::visibility {
 namespace {
 
-// More blocks along a side make the bounds tighter and the tables, of this number squared, larger.
+// Finest blocks along the longer side: more give tighter bounds, the tables grow with the square.
 constexpr int kMostBlocks = 256;
-// A cell is not divided into smaller parts than this many a side: each halving sees a bit less for four times
-// the work.
+// A cell is divided into at most kParts × kParts parts: each halving hides a little more for four times the
+// work.
 constexpr int kParts = 4;
-// Added to eyes (metres): for rounding in where an observer stands.
+// Added to the eye height, metres, against rounding of the observer's position.
 constexpr float kEyeSlack = 0.01F;
 
 }  // namespace
 
-AreaVisibility::AreaVisibility(const GroundGrid& ground, const BisectionTree& tree, const CellGrid& cells,
-                               float eye_height)
+AreaOcclusion::AreaOcclusion(const GroundGrid& ground, const BisectionTree& tree, const CellGrid& cells,
+                             float eye_height)
     : ground_(ground), side_(tree.square_at(tree.depth())), eye_height_(eye_height + kEyeSlack) {
-  // A cell must be a block, so its side bounds theirs.
+  // A cell must be a block of some level, so the finest blocks are no larger than a cell.
   const int longest = std::max(ground.width, ground.depth) - 1;
   while (2 * side_ <= cells.side && (longest - 1) / side_ + 1 > kMostBlocks) side_ *= 2;
   cell_level_ = std::countr_zero(static_cast<unsigned>(cells.side / side_));
@@ -31,12 +31,12 @@ AreaVisibility::AreaVisibility(const GroundGrid& ground, const BisectionTree& tr
   make_lines(1);
 }
 
-int AreaVisibility::blocks_along(int axis, int level) const {
+int AreaOcclusion::blocks_along(int axis, int level) const {
   const int cells = (axis == 0 ? ground_.width : ground_.depth) - 1;
   return (cells - 1) / (side_ << level) + 1;
 }
 
-void AreaVisibility::make_tops() {
+void AreaOcclusion::make_tops() {
   const int columns = blocks_along(0, 0), rows = blocks_along(1, 0);
   tops_.emplace_back(static_cast<std::size_t>(columns) * rows);
   tbb::parallel_for(0, rows, [&](int z) {
@@ -65,8 +65,8 @@ void AreaVisibility::make_tops() {
   }
 }
 
-void AreaVisibility::make_lines(int axis) {
-  Lines& lines = lines_[axis];
+void AreaOcclusion::make_lines(int axis) {
+  GridLines& lines = lines_[axis];
   const int length = axis == 0 ? ground_.width : ground_.depth,
             other = axis == 0 ? ground_.depth : ground_.width;
   lines.count = (length - 1) / side_ + 1;
@@ -94,30 +94,30 @@ void AreaVisibility::make_lines(int axis) {
   }
 }
 
-float AreaVisibility::Lines::over(int line, int from, int to) const {
+float AreaOcclusion::GridLines::over(int line, int from, int to) const {
   const int k = std::bit_width(static_cast<unsigned>(to - from + 1)) - 1;
   const float* const row = lowest[k].data() + static_cast<std::size_t>(line) * stretches;
   return std::min(row[from], row[to + 1 - (1 << k)]);
 }
 
-float AreaVisibility::top(const Block& b) const {
+float AreaOcclusion::top(const Block& b) const {
   return tops_[b.level][static_cast<std::size_t>(b.z) * blocks_along(0, b.level) + b.x];
 }
 
-AreaVisibility::Interval AreaVisibility::span(const Block& b, int axis) const {
+AreaOcclusion::Interval AreaOcclusion::span(const Block& b, int axis) const {
   const int side = side_ << b.level, at = (axis == 0 ? b.x : b.z) * side;
   const int end = (axis == 0 ? ground_.width : ground_.depth) - 1;
   return {static_cast<float>(at), static_cast<float>(std::min(at + side, end))};
 }
 
-bool AreaVisibility::hidden_across(int axis, Interval k, Interval t, Interval k_side, Interval t_side,
-                                   float eye, float top) const {
+bool AreaOcclusion::hidden_across(int axis, Interval k, Interval t, Interval k_side, Interval t_side,
+                                  float eye, float top) const {
   const bool forward = t.low >= k.high;
   if (!forward && t.high > k.low) return false;  // side by side
   const float k_near = forward ? k.high : k.low, k_far = forward ? k.low : k.high;
   const float t_near = forward ? t.low : t.high, t_far = forward ? t.high : t.low;
   const float side = static_cast<float>(side_);
-  const Lines& lines = lines_[axis];
+  const GridLines& lines = lines_[axis];
   const int first = static_cast<int>(std::ceil(std::min(k_near, t_near) / side));
   const int last = std::min(static_cast<int>(std::max(k_near, t_near) / side), lines.count - 1);
   for (int line = first; line <= last; ++line) {
@@ -128,7 +128,7 @@ bool AreaVisibility::hidden_across(int axis, Interval k, Interval t, Interval k_
         std::min(k_side.low + s0 * (t_side.low - k_side.low), k_side.low + s1 * (t_side.low - k_side.low));
     const float high = std::max(k_side.high + s0 * (t_side.high - k_side.high),
                                 k_side.high + s1 * (t_side.high - k_side.high));
-    // Rounding moves neither a stretch's end nor a height by more than this.
+    // Bounds the rounding error of both ends of the stretch, in block sides, and of heights.
     constexpr float kSlack = 1e-4F;
     const int from = std::max(static_cast<int>((low - kSlack * side) / side), 0);
     const int to = std::min(static_cast<int>((high + kSlack * side) / side), lines.stretches - 1);
@@ -138,14 +138,14 @@ bool AreaVisibility::hidden_across(int axis, Interval k, Interval t, Interval k_
   return false;
 }
 
-bool AreaVisibility::hidden(const Block& cell, float eye, const Block& block) const {
+bool AreaOcclusion::hidden(const Block& cell, float eye, const Block& block) const {
   const Interval kx = span(cell, 0), kz = span(cell, 1), tx = span(block, 0), tz = span(block, 1);
   const float height = top(block);
   return hidden_across(0, kx, tx, kz, tz, eye, height) || hidden_across(1, kz, tz, kx, tx, eye, height);
 }
 
-// The cell as a whole sees the block: do its parts?
-bool AreaVisibility::seen_from_part(const Block& cell, const Block& block) const {
+// Whether any part of the cell sees a block that the cell as a whole sees.
+bool AreaOcclusion::seen_from_part(const Block& cell, const Block& block) const {
   if (cell.level == 0 || (kParts << cell.level) <= (1 << cell_level_)) return true;
   for (int which = 0; which < 4; ++which) {
     const Block part = cell.child(which);
@@ -155,8 +155,8 @@ bool AreaVisibility::seen_from_part(const Block& cell, const Block& block) const
   return false;
 }
 
-void AreaVisibility::find(const CoarseSquares& squares, const Block& cell, float eye, const Block& block,
-                          int index, VisibleSets& sets) const {
+void AreaOcclusion::find(const CoarseSquares& squares, const Block& cell, float eye, const Block& block,
+                         int index, Sets& sets) const {
   if (block.x >= blocks_along(0, block.level) || block.z >= blocks_along(1, block.level)) return;
   if (hidden(cell, eye, block)) return;
   const int side = side_ << block.level, square_side = squares.side();
@@ -164,15 +164,15 @@ void AreaVisibility::find(const CoarseSquares& squares, const Block& cell, float
     for (int which = 0; which < 4; ++which) find(squares, cell, eye, block.child(which), index, sets);
     return;
   }
-  // At most half a square's side, so that it lies on one side of the diagonal or is cut by it in the middle;
-  // or a finest block, which may hold many squares.
+  // The block's side is at most half a square's, so the block lies on one side of the diagonal or has it as
+  // its own diagonal; or the block is a finest one, which may contain several squares.
   const glm::ivec2 low(block.x * side, block.z * side);
-  bool pending = false, seen = false;
+  bool missing = false;
   const auto each_half = [&](const auto& body) {
     for (int z = low.y / square_side; z * square_side < std::min(low.y + side, ground_.depth - 1); ++z) {
       for (int x = low.x / square_side; x * square_side < std::min(low.x + side, ground_.width - 1); ++x) {
         const glm::ivec2 in = low - glm::ivec2(x, z) * square_side;
-        int beyond = 0;  // of the diagonal: half 1; 0: both
+        int beyond = 0;  // below 0: in half 0; above: in half 1; 0: in both
         if (side < square_side) {
           beyond = CoarseSquares::rising({x, z}) ? in.x - in.y : in.x + in.y + side - square_side;
         }
@@ -181,15 +181,16 @@ void AreaVisibility::find(const CoarseSquares& squares, const Block& cell, float
       }
     }
   };
-  each_half([&](std::uint32_t element) { pending = pending || !sets.sees(index, element); });
-  if (pending) seen = seen_from_part(cell, block);
-  if (seen) each_half([&](std::uint32_t element) { sets.add(index, element); });
+  each_half([&](std::uint32_t element) { missing = missing || !sets.sees(index, element); });
+  if (missing && seen_from_part(cell, block)) {
+    each_half([&](std::uint32_t element) { sets.add(index, element); });
+  }
 }
 
-void AreaVisibility::find(const CoarseSquares& squares, int index, VisibleSets& sets) const {
+void AreaOcclusion::find(const CoarseSquares& squares, int index, Sets& sets) const {
   const Block cell{cell_level_, index % sets.cells.columns, index / sets.cells.columns};
   const int top_level = static_cast<int>(tops_.size()) - 1;
   find(squares, cell, top(cell) + eye_height_, {top_level, 0, 0}, index, sets);
 }
 
-}  // namespace terrabench
+}  // namespace terrabench::mrbsp::visibility

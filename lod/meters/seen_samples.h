@@ -18,9 +18,9 @@ namespace terrabench {
 
 enum class Seen : std::uint8_t { kOutside, kHidden, kVisible };
 
-class Visibility {
+class SeenSamples {
  public:
-  Visibility(const Heightfield&, const View&);
+  SeenSamples(const Heightfield&, const View&);
 
   // What one takes for so much ground, to be asked for before many are made.
   static std::size_t bytes(int width, int depth);
