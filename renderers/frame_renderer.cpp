@@ -145,7 +145,7 @@ void FrameRenderer::Gl::upload_all(const Frame& frame) {
   heights.write(0, frame.grid.heights.data(), frame.grid.heights.size_bytes());
   morphs.write(0, frame.morphs.data(), frame.morphs.size_bytes());
   std::size_t at = 0;
-  for (const ClipLevel& level : frame.levels) {
+  for (const ClipLevel& level : frame.clip_levels) {
     heights.write(at, level.heights.data(), level.heights.size_bytes());
     at += level.heights.size_bytes();
   }
@@ -164,7 +164,7 @@ void FrameRenderer::Gl::upload(const Frame& frame, const DirtyRange& range) {
       morphs.write(range.first * sizeof(PatchMorph), &frame.morphs[range.first], range.bytes());
       break;
     case DirtyRange::Target::kClipLevel:
-      const ClipLevel& level = frame.levels[range.level];
+      const ClipLevel& level = frame.clip_levels[range.level];
       for (std::size_t row = range.z; row < std::size_t{range.z} + range.depth; ++row) {
         const std::size_t at = row * level.side + range.x;
         const std::size_t before = std::size_t{range.level} * level.heights.size();
@@ -175,7 +175,7 @@ void FrameRenderer::Gl::upload(const Frame& frame, const DirtyRange& range) {
 
 void FrameRenderer::Gl::upload(const Frame& frame) {
   std::size_t height_bytes = frame.grid.heights.size_bytes();
-  for (const ClipLevel& level : frame.levels) height_bytes += level.heights.size_bytes();
+  for (const ClipLevel& level : frame.clip_levels) height_bytes += level.heights.size_bytes();
   check_room(height_bytes);
   indices.reserve(frame.indices.size_bytes());
   heights.reserve(height_bytes);
@@ -199,7 +199,7 @@ void FrameRenderer::Gl::describe(const Frame& frame) {
     triangle += batch.index_count / 3;
   }
   level_records.clear();
-  for (const ClipLevel& level : frame.levels) {
+  for (const ClipLevel& level : frame.clip_levels) {
     level_records.push_back({level.corner, level.eye, level.from, level.to, level.spacing, 0});
   }
   batches.replace(batch_records);
@@ -213,7 +213,8 @@ void FrameRenderer::Gl::set(const Program& program, const Frame& frame, const Vi
   glProgramUniformMatrix4fv(id, uniform(program, "world_to_clip"), 1, GL_FALSE, glm::value_ptr(to_clip));
   glProgramUniform2i(id, uniform(program, "samples"), frame.grid.width, frame.grid.depth);
   glProgramUniform2f(id, uniform(program, "cell"), frame.cell_x, frame.cell_z);
-  glProgramUniform1i(id, uniform(program, "side"), frame.levels.empty() ? 0 : frame.levels.front().side);
+  glProgramUniform1i(id, uniform(program, "side"),
+                     frame.clip_levels.empty() ? 0 : frame.clip_levels.front().side);
   glProgramUniform2i(id, uniform(program, "first"), frame.first.x, frame.first.y);
   glProgramUniform2i(id, uniform(program, "last"), frame.last.x, frame.last.y);
   glProgramUniform2i(id, uniform(program, "origin"), frame.origin.x, frame.origin.y);

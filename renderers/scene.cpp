@@ -62,7 +62,7 @@ void add_attribute(MeshBuffers& mesh, GLuint location, GLint components, GLenum 
 MeshBuffers upload(const SceneMesh& item) {
   MeshBuffers gl;
   add_attribute(gl, 0, 3, GL_FLOAT, item.mesh->positions);
-  if (item.surface == Surface::kLit) {
+  if (item.shading == Shading::kLit) {
     if (!item.mesh->normals.empty()) {
       add_attribute(gl, 1, 3, GL_FLOAT, item.mesh->normals);
       add_attribute(gl, 2, 1, GL_FLOAT, curvature_shading(*item.mesh));
@@ -129,7 +129,7 @@ void set_scene(const Program& program, const Scene& scene, const View& view, con
 }
 
 void set_surface(const Program& program, const SceneMesh& item) {
-  const bool lit = item.surface == Surface::kLit;
+  const bool lit = item.shading == Shading::kLit;
   const float exaggeration = item.shading_exaggeration > 0 ? item.shading_exaggeration
                              : lit                         ? choose_exaggeration(*item.mesh)
                                                            : 1.0F;

@@ -14,14 +14,14 @@
 
 namespace terrabench {
 
-enum class Surface : std::uint8_t {
+enum class Shading : std::uint8_t {
   kLit,   // sun and sky, coloured by height or by vertex
   kFlat,  // all of `fill`: under wires, it hides the lines behind
 };
 
 struct SceneMesh {
   const TriangleMesh* mesh = nullptr;  // outlives the drawing; without normals its facets show
-  Surface surface = Surface::kLit;
+  Shading shading = Shading::kLit;
   Rgb fill{255, 255, 255};
   std::vector<Rgb> colors{};  // one a vertex, for kLit; empty: by height, and backs of triangles grey
   // How much steeper the light takes slopes to be than they are; shape and outline stay true. 0 chooses by

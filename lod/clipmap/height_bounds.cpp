@@ -7,11 +7,11 @@
 namespace terrabench::clipmap {
 namespace {
 
-constexpr int kTileBits = 3;  // 8 × 8 samples: as long to renew as to query at the usual 255
+constexpr int kTileBits = 3;  // 8 × 8 samples: at the usual n = 255, updates and queries cost the same
 
 int tile_of(int lattice) { return lattice >> kTileBits; }
 
-// The samples from `low` to before `high` that the tile and the window share.
+// The samples [low, high) that the tile and the window share, along one axis.
 struct Part {
   int low, high;
   bool operator==(const Part&) const = default;
@@ -40,7 +40,7 @@ HeightBounds::HeightBounds(int window)
       mask_(static_cast<int>(std::bit_ceil(static_cast<unsigned>(tile_of(window) + 2))) - 1),
       tiles_(static_cast<std::size_t>(mask_ + 1) * (mask_ + 1)) {}
 
-void HeightBounds::follow(const ClipLevel& level) {
+void HeightBounds::update(const ClipLevel& level) {
   const glm::ivec2 to = level.corner, last = to + window_ - 1;
   for (int z = tile_of(to.y); z <= tile_of(last.y); ++z) {
     const Part rows = part(z, to.y, window_);

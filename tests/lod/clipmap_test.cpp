@@ -104,11 +104,11 @@ void expect_closed(const Heightfield& field, const Frame& frame) {
 
 TEST(ClipmapWindow, CoversItsCellsOnceWithoutOddVerticesAtTheBorder) {
   for (const int m : {2, 3, 4, 7, 16}) {
-    const clipmap::Window window = clipmap::make_window(m);
+    const clipmap::WindowPattern window = clipmap::make_window_pattern(m);
     const auto twice_area = [&](const clipmap::Block& block) {
       int sum = 0;
-      const clipmap::Run run = block.indices;
-      for (std::uint32_t k = run.first_index; k < run.first_index + run.index_count; k += 3) {
+      const IndexRange range = block.indices;
+      for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; k += 3) {
         std::array<int, 3> a, b;
         for (int c = 0; c < 3; ++c) {
           a[c] = static_cast<int>(window.indices[k + c]) % window.side;
@@ -159,7 +159,7 @@ TEST(Clipmap, HoldsTheGroundsHeightsAfterAnyWalk) {
     z += step();
     const Frame& frame = lod.update(everything(field, x, z, 1));
     for (int l = 0; l < lod.levels(); ++l) {
-      const ClipLevel& level = frame.levels[l];
+      const ClipLevel& level = frame.clip_levels[l];
       for (int b = level.corner.y; b < level.corner.y + lod.window(); ++b) {
         for (int a = level.corner.x; a < level.corner.x + lod.window(); ++a) {
           const int i = std::clamp(a * level.spacing, 0, field.width - 1);
@@ -204,9 +204,9 @@ TEST(Clipmap, UploadsEachNewSampleOnce) {
     j = std::clamp(j + step(most), -20.0F, 920.0F);
     const Frame& frame = lod.update(everything(field, i * field.cell_x, j * field.cell_z, 1));
     std::size_t expected = k == 0 ? 4 * frame.indices.size() : 0;
-    for (std::size_t l = 0; l < frame.levels.size(); ++l) {
+    for (std::size_t l = 0; l < frame.clip_levels.size(); ++l) {
       const int n = lod.window();
-      const glm::ivec2 by = k == 0 ? glm::ivec2(n) : glm::abs(frame.levels[l].corner - before[l]);
+      const glm::ivec2 by = k == 0 ? glm::ivec2(n) : glm::abs(frame.clip_levels[l].corner - before[l]);
       expected += 4 * static_cast<std::size_t>(n * n - std::max(0, n - by.x) * std::max(0, n - by.y));
     }
     ASSERT_EQ(frame.stats.bytes_uploaded, expected) << k;
@@ -219,7 +219,7 @@ TEST(Clipmap, UploadsEachNewSampleOnce) {
     }
     for (const auto& [sample, count] : times) ASSERT_EQ(count, 1) << k;
     before.clear();
-    for (const ClipLevel& level : frame.levels) before.push_back(level.corner);
+    for (const ClipLevel& level : frame.clip_levels) before.push_back(level.corner);
   }
 }
 
@@ -255,10 +255,10 @@ TEST(Clipmap, TransitionsKeepPoppingSmall) {
   std::unique_ptr<SurfaceRaster> before[2];
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Frame& frame = lod.update(all[k]);
-    std::vector<ClipLevel> levels(frame.levels.begin(), frame.levels.end());
+    std::vector<ClipLevel> levels(frame.clip_levels.begin(), frame.clip_levels.end());
     for (ClipLevel& level : levels) level.from = level.to = 0;
     Frame plain = frame;
-    plain.levels = levels;
+    plain.clip_levels = levels;
     const Visibility seen(field, all[k]);
     for (int which = 0; which < 2; ++which) {
       auto now = std::make_unique<SurfaceRaster>(which == 0 ? frame : plain, field.width, field.depth);
@@ -290,7 +290,7 @@ TEST(ClipmapBounds, AreThoseOfTheTilesWhereverTheWindowWent) {
       for (int a = corner.x; a <= end.x; ++a)
         heights[static_cast<std::size_t>((b & 31) * kSide + (a & 31))] = height(a, b);
     }
-    bounds.follow(level);
+    bounds.update(level);
     const auto inside = [&](int from) { return from + static_cast<int>(random() % kWindow); };
     const glm::ivec2 p(inside(corner.x), inside(corner.y)), q(inside(corner.x), inside(corner.y));
     const glm::ivec2 low = glm::min(p, q), high = glm::max(p, q);

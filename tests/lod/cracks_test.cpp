@@ -116,7 +116,7 @@ TEST(Cracks, FindsGapsBetweenTheSameVertices) {
   const ClipLevel levels[] = {{.side = 16, .heights = low.heights}, {.side = 16, .heights = high.heights}};
   Frame frame = drawing.frame();
   frame.grid = {};
-  frame.levels = levels;
+  frame.clip_levels = levels;
   frame.last = {15, 15};
   const CrackReport report = find_cracks(frame, low.width, low.depth, from_above(low));
   EXPECT_EQ(report.t_junctions, 0U);
@@ -265,7 +265,7 @@ TEST(Cracks, ComparesLayersInAnOrderOfTheirOwn) {
   drawing.triangle({4, 0}, {4, 4}, {7, 1});
   Frame frame = drawing.frame();
   frame.grid = {};
-  frame.levels = levels;
+  frame.clip_levels = levels;
   frame.last = {7, 7};
   EXPECT_EQ(find_cracks(frame, 8, 8, from_above(field)).largest_gap_m, kHigh - 1);
 }

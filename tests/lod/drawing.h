@@ -65,7 +65,6 @@ class Drawing {
   }
   Frame frame() const {
     return {.grid = {field_.width, field_.depth, field_.cell_x, field_.cell_z, field_.heights},
-            .levels = {},
             .cell_x = field_.cell_x,
             .cell_z = field_.cell_z,
             .indices = indices_,

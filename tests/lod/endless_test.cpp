@@ -41,7 +41,7 @@ View over(int i, int j, glm::ivec2 origin = glm::ivec2(0), float far = 20000) {
 // Heights of all windows, by lattice.
 std::vector<float> held(const Frame& frame, int n) {
   std::vector<float> heights;
-  for (const ClipLevel& level : frame.levels) {
+  for (const ClipLevel& level : frame.clip_levels) {
     const int mask = level.side - 1;
     for (int b = level.corner.y; b < level.corner.y + n; ++b) {
       for (int a = level.corner.x; a < level.corner.x + n; ++a)
@@ -79,7 +79,7 @@ TEST(Endless, WindowsHoldTheNoiseOfTheirSamples) {
     Clipmap lod = endless(31);
     lod.move_origin({far, -far});
     const Frame& frame = lod.update(over(far + 17, 5 - far, lod.origin()));
-    for (const ClipLevel& level : frame.levels) {
+    for (const ClipLevel& level : frame.clip_levels) {
       const int mask = level.side - 1;
       for (int b = level.corner.y; b < level.corner.y + lod.window(); b += 3) {
         for (int a = level.corner.x; a < level.corner.x + lod.window(); a += 3) {
@@ -179,7 +179,7 @@ TEST(Endless, LevelsFollowTheFarPlane) {
   Clipmap lod = endless(63);
   for (const float far : {1000.0F, 100000.0F, 1e7F}) {
     const Frame& frame = lod.update(over(0, 0, glm::ivec2(0), far));
-    const ClipLevel& coarsest = frame.levels.back();
+    const ClipLevel& coarsest = frame.clip_levels.back();
     EXPECT_GE((lod.window() / 2 - 1) * coarsest.spacing * kGround.cell, far);
   }
   const int levels = lod.levels();

@@ -240,7 +240,7 @@ TEST_P(PatchPatternsTest, CoverTheirPatchInEverySeamCase) {
       const PatchGrid::Patch patch = cut.patch(cut.across() - 1, at_z);
       for (int level = 0; level < kLevels; ++level) {
         for (int seams = 0; seams < (level + 1 < kLevels ? 16 : 1); ++seams) {
-          const auto indices = patterns.indices(patterns.run(cut.shape(patch), level, seams));
+          const auto indices = patterns.indices(patterns.pattern(cut.shape(patch), level, seams));
           long long area = 0;
           std::set<int> north;
           for (std::size_t k = 0; k < indices.size(); k += 3) {

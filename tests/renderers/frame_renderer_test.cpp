@@ -76,7 +76,7 @@ std::size_t bytes_named(const Frame& frame, const ClipLevel& level) {
   std::size_t bytes = 0;
   for (const DirtyRange& range : frame.uploads) {
     const bool of_level =
-        range.target == DirtyRange::Target::kClipLevel && &frame.levels[range.level] == &level;
+        range.target == DirtyRange::Target::kClipLevel && &frame.clip_levels[range.level] == &level;
     if (of_level) bytes += range.bytes();
   }
   return bytes;
@@ -171,12 +171,12 @@ TEST_P(FrameRendererTest, SendsTheBytesThatTheFrameSays) {
     const View view = walk(field_, static_cast<float>(step) / 10);
     const Frame& frame = lod->update(view);
     EXPECT_EQ(frame.stats.bytes_commands,
-              kBytesPerBatch * frame.batches.size() + kBytesPerClipLevel * frame.levels.size());
+              kBytesPerBatch * frame.batches.size() + kBytesPerClipLevel * frame.clip_levels.size());
     renderer.draw(frame, view, style);
     // The first frame is sent whole. A clipmap's arrays are a row and a column larger than its windows, which
     // alone it asks for.
     std::size_t expected = frame.stats.bytes_sent();
-    for (const ClipLevel& level : frame.levels) {
+    for (const ClipLevel& level : frame.clip_levels) {
       if (step == 0) expected += level.heights.size_bytes() - bytes_named(frame, level);
     }
     EXPECT_EQ(renderer.bytes_uploaded() - before, expected) << step;
@@ -256,7 +256,7 @@ TEST(FrameRenderer, MovesVerticesAsTheyAreSaidToMove) {
   const std::unique_ptr<GlContext> context = open_context("osmesa", 16, 16);
   const Heightfield field = bumps(150, 120);
   Progress silent;
-  const std::unique_ptr<Lod> lod = test::build({"geomipmap", "morph=true"}, field, silent);
+  const std::unique_ptr<Lod> lod = test::build({"geomipmap", "morph", true}, field, silent);
   lod->tune(20);
   FrameStyle style;
   style.lowest = -20;

@@ -43,7 +43,7 @@ class SceneTest : public ::testing::Test {
   static SceneMesh wired(const TriangleMesh& mesh, float width = 2) {
     SceneMesh item;
     item.mesh = &mesh;
-    item.surface = Surface::kFlat;
+    item.shading = Shading::kFlat;
     item.wire_width = width;
     return item;
   }
