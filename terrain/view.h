@@ -17,8 +17,8 @@ struct View {
 
 glm::mat4 world_to_clip(const View&);  // OpenGL clip space, z in [-1, 1]
 
-// A view of the whole box that fills the picture, from the south-east and above, as papers show relief; or from
-// the direction `from`, which must not be vertical.
+// A view of the whole box that fills the picture, from the south-east and above, as papers show relief; or
+// from the direction `from`, which must not be vertical.
 View overview(const Bounds&, int width, int height, glm::vec3 from = {0.55F, 0.75F, 1.0F});
 
 }  // namespace terrabench

@@ -47,7 +47,7 @@ class Clipmap : public Lod {
   void move_origin(glm::ivec2 sample);
   glm::ivec2 origin() const { return origin_; }
 
-  int levels() const { return static_cast<int>(clip_levels_.size()); }
+  int levels() const { return static_cast<int>(storage_.size()); }
   int window() const { return pattern_.n; }
 
  private:

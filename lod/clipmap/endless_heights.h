@@ -1,6 +1,5 @@
 // Ground without bounds, computed where a clipmap reads it (the endless terrain of the hybrid paper, §3.2):
-// fractal noise at whole samples. It is a pure function of seed and sample, so heights are identical on
-// return.
+// fractal noise at whole samples, a pure function of seed and sample, so heights are identical on return.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +11,9 @@ namespace terrabench {
 
 struct EndlessGround {
   std::uint64_t seed = 0;
-  float cell = 30;  // metres between samples
-  float relief =
-      6000;  // metres per unit of noise: heights lie within ±relief, nearly all within a third of it
-  int cell_bits = 9;  // the widest hills are 2^cell_bits samples wide (noise/lattice_noise.h)
+  float cell = 30;      // metres between samples
+  float relief = 6000;  // metres per unit of noise; heights lie within ±relief, nearly all within a third
+  int cell_bits = 9;    // the widest hills are 2^cell_bits samples wide (noise/lattice_noise.h)
   int octaves = 8;
 };
 

@@ -48,7 +48,7 @@ void HeightBounds::update(const ClipLevel& level) {
     for (int x = tile_of(to.x); x <= tile_of(last.x); ++x) {
       const Part columns = part(x, to.x, window_);
       if (rows_stay && columns == part(x, corner_.x, window_)) continue;
-      tile(x, z) = range_of(level, columns, rows);
+      tiles_[index(x, z)] = range_of(level, columns, rows);
     }
   }
   corner_ = to;
@@ -59,8 +59,9 @@ HeightBounds::Range HeightBounds::range(glm::ivec2 low, glm::ivec2 high) const {
   Range range{INFINITY, -INFINITY};
   for (int z = tile_of(low.y); z <= tile_of(high.y); ++z) {
     for (int x = tile_of(low.x); x <= tile_of(high.x); ++x) {
-      range.lowest = std::min(range.lowest, tile(x, z).lowest);
-      range.highest = std::max(range.highest, tile(x, z).highest);
+      const Range& tile = tiles_[index(x, z)];
+      range.lowest = std::min(range.lowest, tile.lowest);
+      range.highest = std::max(range.highest, tile.highest);
     }
   }
   return range;

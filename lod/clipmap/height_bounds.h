@@ -1,7 +1,6 @@
 // The lowest and highest sample of parts of a clipmap window, for culling. Stored per tile of the level's
 // lattice, so that a move updates only the tiles along the window's border. The result depends on the
-// window's place only, not on earlier moves. O(n) per move, O(n²) the first time, O(n²/64) to query the whole
-// window.
+// window's place only, not on earlier moves. O(n) per move, O(n²) at first, O(n²/64) to query all tiles.
 #pragma once
 
 #include <vector>
@@ -28,11 +27,8 @@ class HeightBounds {
   Memory memory() const { return index_memory(tiles_); }
 
  private:
-  Range& tile(int x, int z) {
-    return tiles_[static_cast<std::size_t>(z & mask_) * (mask_ + 1) + (x & mask_)];
-  }
-  const Range& tile(int x, int z) const {
-    return tiles_[static_cast<std::size_t>(z & mask_) * (mask_ + 1) + (x & mask_)];
+  std::size_t index(int x, int z) const {
+    return static_cast<std::size_t>(z & mask_) * (mask_ + 1) + (x & mask_);
   }
 
   int window_ = 0, mask_ = 0;

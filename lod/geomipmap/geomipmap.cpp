@@ -87,12 +87,10 @@ const Frame& GeoMipMap::update(const View& view) {
   allow(ScreenBound(view, pixels_));
   if (morphing_) {
     morphing_->choose(tree_.places(), last_seen_, seen_, allowed_);
-    for (const PatchTree::PatchRange& patches : seen_) {
-      for (std::uint32_t k = patches.first; k < patches.last; ++k) {
-        const std::uint32_t slot = tree_.places()[k].slot;
-        level_[slot] = static_cast<std::uint8_t>(morphing_->level(slot) + 1);
-      }
-    }
+    for_each_patch(seen_, [&](std::uint32_t k) {
+      const std::uint32_t slot = tree_.places()[k].slot;
+      level_[slot] = static_cast<std::uint8_t>(morphing_->level(slot) + 1);
+    });
   } else {
     choose_levels();
     fit_neighbours();
@@ -107,11 +105,8 @@ void GeoMipMap::begin_frame() {
     std::fill(last_level_.begin() + patches.first, last_level_.begin() + patches.last, kUnseen);
   }
   const std::span<const PatchTree::Place> places = tree_.places();
-  for (const PatchTree::PatchRange& patches : seen_) {
-    for (std::uint32_t k = patches.first; k < patches.last; ++k) {
-      last_level_[k] = std::exchange(level_[places[k].slot], kUnseen);
-    }
-  }
+  for_each_patch(seen_,
+                 [&](std::uint32_t k) { last_level_[k] = std::exchange(level_[places[k].slot], kUnseen); });
   std::swap(seen_, last_seen_);
   seen_.clear();
 }
@@ -128,11 +123,9 @@ void GeoMipMap::allow(const ScreenBound& bound) {
 
 void GeoMipMap::choose_levels() {
   const std::span<const PatchTree::Place> places = tree_.places();
-  for (const PatchTree::PatchRange& patches : seen_) {
-    for (std::uint32_t k = patches.first; k < patches.last; ++k) {
-      level_[places[k].slot] = static_cast<std::uint8_t>(errors_->coarsest(k, allowed_[k]) + 1);
-    }
-  }
+  for_each_patch(seen_, [&](std::uint32_t k) {
+    level_[places[k].slot] = static_cast<std::uint8_t>(errors_->coarsest(k, allowed_[k]) + 1);
+  });
 }
 
 // Refines the coarser of two neighbours until they differ by at most one level and the seam keeps the bound.
@@ -149,17 +142,15 @@ void GeoMipMap::fit(std::uint32_t fine, std::uint32_t coarse, int side) {
 // Terminates because levels only decrease; a patch whose level decreased checks its four sides again.
 void GeoMipMap::fit_neighbours() {
   const std::span<const PatchTree::Place> places = tree_.places();
-  for (const PatchTree::PatchRange& patches : seen_) {
-    for (std::uint32_t k = patches.first; k < patches.last; ++k) {
-      const std::uint32_t slot = places[k].slot;
-      // Each pair once. Patches out of view do not constrain their neighbours.
-      for (const int side : {kEast, kSouth}) {
-        const std::uint32_t neighbour = slot + offsets_[side];
-        if (level_[neighbour] > level_[slot]) fit(slot, neighbour, side);
-        if (level_[neighbour] < level_[slot]) fit(neighbour, slot, side ^ 2);
-      }
+  for_each_patch(seen_, [&](std::uint32_t k) {
+    const std::uint32_t slot = places[k].slot;
+    // Each pair once. Patches out of view do not constrain their neighbours.
+    for (const int side : {kEast, kSouth}) {
+      const std::uint32_t neighbour = slot + offsets_[side];
+      if (level_[neighbour] > level_[slot]) fit(slot, neighbour, side);
+      if (level_[neighbour] < level_[slot]) fit(neighbour, slot, side ^ 2);
     }
-  }
+  });
   while (!queue_.empty()) {
     const std::uint32_t slot = queue_.back();
     queue_.pop_back();
@@ -176,21 +167,19 @@ void GeoMipMap::make_frame() {
   morphs_.clear();
   std::size_t changes = 0;
   const std::span<const PatchTree::Place> places = tree_.places();
-  for (const PatchTree::PatchRange& patches : seen_) {
-    for (std::uint32_t k = patches.first; k < patches.last; ++k) {
-      const PatchTree::Place& p = places[k];
-      const std::uint8_t level = level_[p.slot];
-      changes += level != last_level_[k] ? 1 : 0;
-      int seams = 0;
-      for (const int side : {kNorth, kEast, kSouth, kWest}) {
-        seams |= level_[p.slot + offsets_[side]] > level ? 1 << side : 0;
-      }
-      const IndexRange& pattern = patterns_.pattern(p.shape, level - 1, seams);
-      batches_.push_back({pattern.first_index, pattern.index_count, p.corner,
-                          static_cast<std::uint16_t>(level - 1), static_cast<std::uint32_t>(morphs_.size())});
-      if (morphing_) morphs_.push_back(morphing_->morph(p.slot));
+  for_each_patch(seen_, [&](std::uint32_t k) {
+    const PatchTree::Place& p = places[k];
+    const std::uint8_t level = level_[p.slot];
+    changes += level != last_level_[k] ? 1 : 0;
+    int seams = 0;
+    for (const int side : {kNorth, kEast, kSouth, kWest}) {
+      seams |= level_[p.slot + offsets_[side]] > level ? 1 << side : 0;
     }
-  }
+    const IndexRange& pattern = patterns_.pattern(p.shape, level - 1, seams);
+    batches_.push_back({pattern.first_index, pattern.index_count, p.corner,
+                        static_cast<std::uint16_t>(level - 1), static_cast<std::uint32_t>(morphs_.size())});
+    if (morphing_) morphs_.push_back(morphing_->morph(p.slot));
+  });
   uploads_.clear();
   const auto size = [](const auto& values) { return static_cast<std::uint32_t>(values.size()); };
   if (first_) {

@@ -143,17 +143,13 @@ void Morphing::measure_strips(PatchRuler& ruler, int level, Strip* strips) const
 void Morphing::choose(std::span<const PatchTree::Place> places,
                       std::span<const PatchTree::PatchRange> last_seen,
                       std::span<const PatchTree::PatchRange> seen, std::span<const float> allowed) {
-  const auto for_each = [&](std::span<const PatchTree::PatchRange> runs, const auto& use) {
-    for (const PatchTree::PatchRange& patches : runs) {
-      for (std::uint32_t k = patches.first; k < patches.last; ++k) use(k, places[k].slot);
-    }
-  };
-  for_each(last_seen, [&](std::uint32_t, std::uint32_t slot) { level_[slot] = kUnseen; });
-  for_each(seen, [&](std::uint32_t k, std::uint32_t slot) {
+  for_each_patch(last_seen, [&](std::uint32_t k) { level_[places[k].slot] = kUnseen; });
+  for_each_patch(seen, [&](std::uint32_t k) {
+    const std::uint32_t slot = places[k].slot;
     allowed_[slot] = (1 - kSlack) * (allowed[k] - rounding_[slot]);
     level_[slot] = own_level(slot);
   });
-  for_each(seen, [&](std::uint32_t, std::uint32_t slot) { fit_neighbours(slot); });
+  for_each_patch(seen, [&](std::uint32_t k) { fit_neighbours(places[k].slot); });
   // Terminates because levels only decrease, and never below those of the neighbours that lowered them.
   while (!queue_.empty()) {
     const std::uint32_t slot = queue_.back();

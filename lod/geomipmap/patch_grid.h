@@ -26,8 +26,7 @@ struct PatchGrid {
     return {i0, j0, std::min(side, width - 1 - i0), std::min(side, depth - 1 - j0)};
   }
 
-  // Arrays by slot have a rim of one slot, so that every patch has four neighbours: at slot +
-  // offsets()[side].
+  // Arrays by slot have a rim of one slot, so that each patch has four neighbours, at slot + offsets()[side].
   std::size_t slots() const { return static_cast<std::size_t>(across() + 2) * (down() + 2); }
   std::uint32_t slot(int at_x, int at_z) const {
     return static_cast<std::uint32_t>(at_z + 1) * static_cast<std::uint32_t>(across() + 2) +

@@ -61,4 +61,12 @@ class PatchTree {
   Boxes boxes_;
 };
 
+// Calls use(number) for every patch in the ranges, in order.
+template <class Use>
+void for_each_patch(std::span<const PatchTree::PatchRange> ranges, const Use& use) {
+  for (const PatchTree::PatchRange& range : ranges) {
+    for (std::uint32_t k = range.first; k < range.last; ++k) use(k);
+  }
+}
+
 }  // namespace terrabench

@@ -5,21 +5,18 @@
 // The screen-space error of every visible sample stays at or below the knob, unless the limit on triangles or
 // on time stops refinement first; then the remaining error is even over the mesh, to a bucket (1/16 octave).
 // The mesh never has cracks. The same views give the same triangles, unless time is limited. A frame costs
-// O(changes · log samples), plus the triangles on the view's border and those whose priority may have
-// changed.
+// O(changes · log samples), plus the triangles on the view's border and those with expired priorities.
 //
-// Glossary; a split is told in refinement.cpp, from refine() on.
-//   wedgie      prism around a triangle that holds all samples over it and its descendants' wedgies
-//   (wedgies.h) diamond     two triangles that share their hypotenuse, or one at the border; identified by
-//   its lower node priority    bound on the screen-space error of a wedgie, of a diamond the larger of its
-//   two; kept as a
-//               bucket of its ratio to max_error
-//   bisect/join one diamond of the mesh, without the queues (mesh.h)
-//   split/merge a diamond and update queues, culling labels and draw list; force_split() first splits the
-//               coarser neighbours that conformity requires, force_merge() first merges degenerate children
-//   degenerate  of a triangle: collinear in plan; always split (Mesh::degenerate)
-//   deferred    a node whose priority is computed again only once the camera has moved enough for it to have
-//               changed by more than a bucket, or to have reached exact_from_ (deferral_lists.h)
+// Glossary (refinement.cpp tells a split and a merge, from refine() on):
+//   wedgie       the prism around a triangle that contains its samples and its descendants' wedgies
+//   diamond      two triangles with a common hypotenuse, or one at the border; named by its lower node
+//   priority     bound of a wedgie's screen-space error, of a diamond's larger one; kept as a bucket
+//   bisect, join what Mesh does to the two triangles of a diamond, without regard to the queues
+//   split, merge what Roam does to a diamond: the mesh, the queues, the culling labels, the draw list
+//   force_split  splits coarser neighbours first, until the triangle is half of a diamond
+//   force_merge  merges degenerate children first
+//   degenerate   of a triangle: its corners are collinear in plan, so it must always be split
+//   deferred     not ranked again before the camera has moved so far that the rank may matter
 #pragma once
 
 #include <array>

@@ -55,13 +55,13 @@ class WedgieView {
   WedgieView(const View&, double extent);
 
   // A visible sample at depth r that is drawn d metres off is displaced by f·d·N / (r·r') pixels, where f is
-  // the focal length in pixels, r' the depth of the drawn point, and N the length of the component of
-  // up × (sample - eye) across the line of sight. N is convex over the ground, and N/r is at most S on the
-  // screen. Hence f·e / R · min(S, max N / R), the maximum over the corners, bounds the displacement of all
-  // samples on the screen in a wedgie of thickness e whose nearest corner has depth R. The bound is infinite
-  // when the wedgie reaches in front of the near plane.
-  // Unlike the paper's maximum over the corners, this holds inside the triangle as well; and it bounds the
-  // displacement of the drawn point, which is half the projected length of the wedgie.
+  // the focal length in pixels, r' the depth of the drawn point, and N the length of the component of up ×
+  // (sample - eye) across the line of sight. N is convex over the ground, and N/r is at most S on the screen.
+  // Hence f·e / R · min(S, max N / R), the maximum over the corners, bounds the displacement of all samples
+  // on the screen in a wedgie of thickness e whose nearest corner has depth R. The bound is infinite when the
+  // wedgie reaches in front of the near plane. Unlike the paper's maximum over the corners, this holds inside
+  // the triangle as well; and it bounds the displacement of the drawn point, which is half the projected
+  // length of the wedgie.
   Distortion distortion(const ViewedCorner& a, const ViewedCorner& b, const ViewedCorner& c,
                         double thickness) const;
   ViewedCorner corner(const glm::dvec3& at) const {

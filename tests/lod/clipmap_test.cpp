@@ -1,5 +1,5 @@
-// The windows hold what the ground holds wherever the eye went, cover the ground once, and meet without a
-// gap.
+// The windows hold the ground's heights after any motion of the eye, cover the ground once, and meet without
+// gaps.
 #include "lod/clipmap/clipmap.h"
 
 #include <fmt/format.h>
@@ -35,7 +35,8 @@ Heightfield rough(int width, int depth) {
   return field;
 }
 
-// An eye low enough for every level, and a view that holds everything because it is nearly flat and far off.
+// An eye low enough to draw the finest level, with a field of view of nearly 180°, so that everything is in
+// view.
 View everything(const Heightfield& field, float x, float z, float above) {
   View view;
   view.eye = {x, 10 + above, z};
@@ -51,7 +52,7 @@ View everything(const Heightfield& field, float x, float z, float above) {
 struct Soup {
   double area = 0;
   std::size_t flipped = 0;
-  // Directed edges by the bits of their ends; what is left after opposite ones cancel.
+  // Directed edges by the bits of their ends, without pairs of opposite edges.
   std::map<std::array<std::array<std::uint32_t, 3>, 2>, int> open;
 };
 
@@ -66,7 +67,7 @@ Soup collect(const Frame& frame) {
     for (std::size_t k = 0; k < corners.size(); k += 3) {
       const glm::dvec3 p = corners[k], q = corners[k + 1], r = corners[k + 2];
       const double area = 0.5 * ((q.z - p.z) * (r.x - p.x) - (q.x - p.x) * (r.z - p.z));
-      soup.flipped += area <= 0;  // nothing is drawn that lies beyond the border
+      soup.flipped += area <= 0;  // triangles beyond the border are not drawn
       soup.area += area;
       for (int e = 0; e < 3; ++e) {
         const auto a = bits(corners[k + e]), b = bits(corners[k + (e + 1) % 3]);
@@ -182,15 +183,15 @@ TEST(Clipmap, UploadsTheLShapedStripsOnly) {
   const std::size_t all = lod.update(at(512, 512)).stats.bytes_uploaded;
   EXPECT_GT(all, 4 * n * n * static_cast<std::size_t>(lod.levels()));
   EXPECT_EQ(lod.update(at(512, 512)).stats.bytes_uploaded, 0U);
-  EXPECT_EQ(lod.update(at(513, 513)).stats.bytes_uploaded, 0U);         // windows go in steps of two samples
-  EXPECT_EQ(lod.update(at(514, 512)).stats.bytes_uploaded, 4 * 2 * n);  // the finest level alone
+  EXPECT_EQ(lod.update(at(513, 513)).stats.bytes_uploaded, 0U);  // windows move in steps of two samples
+  EXPECT_EQ(lod.update(at(514, 512)).stats.bytes_uploaded, 4 * 2 * n);  // only the finest level
   EXPECT_EQ(
       lod.update(at(516, 514)).stats.bytes_uploaded,  // L: two columns, two rows; the next level: columns
       4 * (2 * n + 2 * (n - 2)) + 4 * 2 * n);
 }
 
-// Whatever the move, what is uploaded is what is new in each window, once: n² samples less those it shares
-// with where it was.
+// For any move, uploads are exactly the samples that are new in each window: n² less those shared with its
+// former place.
 TEST(Clipmap, UploadsEachNewSampleOnce) {
   const Heightfield field = rough(700, 900);
   Clipmap lod(heights_in_memory(field), 63);
@@ -239,8 +240,8 @@ TEST(Clipmap, HasNoCracksAlongThePaths) {
   }
 }
 
-// Over a slow flight that climbs through the levels, vertices glide: without the transition, samples jump as
-// they change level.
+// On a slow flight that climbs through the levels, vertices move gradually; without the transition, they jump
+// when they change level.
 TEST(Clipmap, TransitionsKeepPoppingSmall) {
   Heightfield field = test::hilly(110, 110, 1);
   field.cell_x = field.cell_z = 3;
@@ -285,7 +286,7 @@ TEST(ClipmapBounds, AreThoseOfTheTilesWhereverTheWindowWent) {
     const auto step = [&] { return static_cast<int>(random() % (2 * most + 1)) - most; };
     level.corner += glm::ivec2(step(), step());
     const glm::ivec2 corner = level.corner, end = corner + kWindow - 1;
-    std::fill(heights.begin(), heights.end(), 1e9F);  // what lies outside the window must not count
+    std::fill(heights.begin(), heights.end(), 1e9F);  // samples outside the window must not count
     for (int b = corner.y; b <= end.y; ++b) {
       for (int a = corner.x; a <= end.x; ++a)
         heights[static_cast<std::size_t>((b & 31) * kSide + (a & 31))] = height(a, b);
