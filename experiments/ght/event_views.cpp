@@ -36,7 +36,7 @@ Bounds surface_bounds(const Ght& ght, const TriangleMesh& mesh) {
 SceneMesh wired(const TriangleMesh& mesh, Rgb colour, float width, std::vector<std::uint8_t> wires) {
   SceneMesh item;
   item.mesh = &mesh;
-  item.surface = terrabench::Surface::kFlat;
+  item.shading = Shading::kFlat;
   item.wire_width = width;
   item.wire_color = colour;
   item.wires = std::move(wires);

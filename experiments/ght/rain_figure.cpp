@@ -86,7 +86,7 @@ Image window_view(GlContext& context, const Ght& ght, const Look& look) {
   Scene scene;
   SceneMesh& ground = scene.meshes.emplace_back();
   ground.mesh = &mesh;
-  ground.surface = terrabench::Surface::kFlat;
+  ground.shading = Shading::kFlat;
   ground.wire_width = 0.9F;
   ground.wires = quad_wires(mesh);
   return render_scene(context, scene, overview(bounds_of(mesh), look.width, look.height, look.from));
@@ -106,7 +106,7 @@ Image particles_view(GlContext& context, const Ght& ght, const TriangleMesh& par
   if (particles.triangles() > 0) {
     SceneMesh& rain = scene.meshes.emplace_back();
     rain.mesh = &particles;
-    rain.surface = terrabench::Surface::kFlat;
+    rain.shading = Shading::kFlat;
     rain.fill = kYellow;
     rain.wire_width = 0.8F;
     rain.wires.assign(particles.triangles(), 0);  // outlines alone

@@ -10,12 +10,12 @@ namespace terrabench {
 namespace {
 
 struct Row {
-  std::size_t first = 0;  // of its pixels
+  std::size_t first = 0;  // in `pixels`
   std::size_t samples = 0, undrawn = 0;
   double sum = 0;
 };
 
-// `pixels`: room for all; left in an order of its own.
+// `pixels` has room for all samples; its order is unspecified afterwards.
 Deviation deviation_of(const std::vector<Row>& rows, std::vector<float>& pixels, Distribution* pool) {
   Deviation all;
   double sum = 0;
@@ -37,7 +37,7 @@ Deviation deviation_of(const std::vector<Row>& rows, std::vector<float>& pixels,
   return all;
 }
 
-// from(i, j) and to(i, j) are heights, NaN where there is none.
+// from(i, j) and to(i, j) are heights; NaN where nothing is drawn.
 template <class From, class To>
 Deviation measure(const SeenSamples& seen, Seen least, const From& from, const To& to, Distribution* pool) {
   const Projector project(seen.view());

@@ -167,7 +167,6 @@ void Mrbsp::publish(std::size_t toggled) {
   batches_.clear();
   if (count_of > 0) batches_.push_back({.first_index = 0, .index_count = count_of});
   frame_ = {.grid = grid_,
-            .levels = {},
             .cell_x = grid_.cell_x,
             .cell_z = grid_.cell_z,
             .indices = indices_,

@@ -1,4 +1,4 @@
-// What it costs to measure one frame of brute force, which draws all that is in view of 4097².
+// The cost of measuring one frame of brute force, which draws everything in view of 4097².
 #include <benchmark/benchmark.h>
 
 #include "lod/brute_force/brute_force.h"

@@ -1,4 +1,4 @@
-// Errors and popping in pixels against the pinhole formula, and which samples count.
+// Errors and popping in pixels against the pinhole formula, and the choice of samples.
 #include "lod/meters/screen_error.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace terrabench::test {
 namespace {
 
-// Level, from 40 m south of the field and 3 m up.
+// A level view from 40 m south of the field and 3 m up.
 View level_view(const Heightfield& field) {
   View view;
   view.eye = {0.5F * field.extent_x(), 3, field.extent_z() + 40};
@@ -42,7 +42,7 @@ TEST(Projector, CutsAtTheNearPlane) {
   view.near = 2;
   const Projector project(view);
   EXPECT_EQ(project.pixels_between({0, 0, -1}, {0, 1, 4}), 0);
-  // Half of the way is before the plane.
+  // Half of the segment is in front of the near plane.
   EXPECT_NEAR(project.pixels_between({0, 0, -3}, {0, 2, -1}), project.pixels_between({0, 0, -3}, {0, 1, -2}),
               1e-9);
 }
@@ -138,8 +138,8 @@ float height_on_triangles(const Heightfield& field, float x, float z) {
   return field.at(i + 1, j + 1) * (u + v - 1) + east * (1 - v) + south * (1 - u);
 }
 
-// Against rays: a sample whose ray rises well clear of the ground is visible, and one whose ray runs deep
-// under ground is hidden.
+// Compared with rays: a sample whose ray stays well above the ground is visible, and one whose ray runs deep
+// underground is hidden.
 TEST(SeenSamples, AgreesWithRaysOverTheGround) {
   const Heightfield field = hilly(120, 120, 1);
   View view;

@@ -1,4 +1,4 @@
-#include "lod/clipmap/window.h"
+#include "lod/clipmap/window_pattern.h"
 
 #include <algorithm>
 #include <array>
@@ -10,19 +10,19 @@ namespace {
 
 class Builder {
  public:
-  explicit Builder(Window& window) : window_(window) {}
+  explicit Builder(WindowPattern& pattern) : pattern_(pattern) {}
 
   Block block(int x0, int z0, int x1, int z1) {
-    const auto first = static_cast<std::uint32_t>(window_.indices.size());
-    const auto first_row = static_cast<std::uint32_t>(window_.rows.size());
+    const auto first = static_cast<std::uint32_t>(pattern_.indices.size());
+    const auto first_row = static_cast<std::uint32_t>(pattern_.rows.size());
     for (int b = z0; b < z1; ++b) {
-      window_.rows.push_back(static_cast<std::uint32_t>(window_.indices.size()));
+      pattern_.rows.push_back(static_cast<std::uint32_t>(pattern_.indices.size()));
       for (int a = x0; a < x1; ++a) {
         triangle({a, b}, {a, b + 1}, {a + 1, b});
         triangle({a + 1, b}, {a, b + 1}, {a + 1, b + 1});
       }
     }
-    const auto end = static_cast<std::uint32_t>(window_.indices.size());
+    const auto end = static_cast<std::uint32_t>(pattern_.indices.size());
     return {{first, end - first}, x0, z0, x1, z1, first_row};
   }
 
@@ -32,11 +32,11 @@ class Builder {
     bool operator==(const Vertex&) const = default;
   };
 
-  // Odd vertices of the border fall onto an even neighbour; the triangles around turn into a fan. Along the
-  // far z border it is the other neighbour: two falling towards one corner would leave a triangle without
-  // area.
+  // Moves an odd vertex of the border to its lower even neighbour, so that the triangles around it become a
+  // fan. Along the far z border it is the upper neighbour: otherwise two vertices would move towards one
+  // corner and leave a triangle without area.
   Vertex snap(Vertex v) const {
-    const int last = window_.n - 1;
+    const int last = pattern_.n - 1;
     if (v.b == 0) v.a &= ~1;
     if (v.b == last) v.a = (v.a + 1) & ~1;
     if (v.a == 0 || v.a == last) v.b &= ~1;
@@ -47,27 +47,27 @@ class Builder {
     const std::array<Vertex, 3> corners = {snap(p), snap(q), snap(r)};
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;
     for (const Vertex& v : corners)
-      window_.indices.push_back(static_cast<std::uint32_t>(v.b * window_.side + v.a));
+      pattern_.indices.push_back(static_cast<std::uint32_t>(v.b * pattern_.side + v.a));
   }
 
-  Window& window_;
+  WindowPattern& pattern_;
 };
 
-// The runs of one block, joined where one follows the other.
+// Collects the index ranges of one block; joins adjacent ones.
 class Inside {
  public:
-  Inside(const Window& window, glm::ivec2 low, glm::ivec2 high, std::vector<Run>& runs)
-      : window_(window), low_(low), high_(high), runs_(runs), begin_(runs.size()) {}
+  Inside(const WindowPattern& pattern, glm::ivec2 low, glm::ivec2 high, std::vector<IndexRange>& ranges)
+      : pattern_(pattern), low_(low), high_(high), ranges_(ranges), begin_(ranges.size()) {}
 
   void add(std::uint32_t from, std::uint32_t to) {
     if (from >= to) return;
-    if (runs_.size() > begin_ && runs_.back().first_index + runs_.back().index_count == from) {
-      runs_.back().index_count += to - from;
+    if (ranges_.size() > begin_ && ranges_.back().first_index + ranges_.back().index_count == from) {
+      ranges_.back().index_count += to - from;
     } else {
-      runs_.push_back({from, to - from});
+      ranges_.push_back({from, to - from});
     }
   }
-  // At the window's border triangles reach beyond their cell.
+  // Tests triangles one by one, for cells at the window's border, whose triangles extend beyond their cell.
   void add_one_by_one(std::uint32_t from, std::uint32_t to) {
     for (std::uint32_t at = from; at < to; at += 3) {
       const glm::ivec2 p = place(at), q = place(at + 1) - p, r = place(at + 2) - p;
@@ -77,41 +77,42 @@ class Inside {
 
  private:
   glm::ivec2 place(std::uint32_t at) const {
-    const auto vertex = static_cast<int>(window_.indices[at]);
-    return glm::clamp(glm::ivec2(vertex % window_.side, vertex / window_.side), low_, high_);
+    const auto vertex = static_cast<int>(pattern_.indices[at]);
+    return glm::clamp(glm::ivec2(vertex % pattern_.side, vertex / pattern_.side), low_, high_);
   }
 
-  const Window& window_;
+  const WindowPattern& pattern_;
   glm::ivec2 low_, high_;
-  std::vector<Run>& runs_;
+  std::vector<IndexRange>& ranges_;
   std::size_t begin_;
 };
 
 }  // namespace
 
-void append_inside(const Window& window, const Block& block, glm::ivec2 low, glm::ivec2 high,
-                   std::vector<Run>& runs) {
-  constexpr int kOfCell = 6;  // indices, away from the window's border
-  low = glm::clamp(low, 0, window.n - 1);
-  high = glm::clamp(high, 0, window.n - 1);
+void append_inside(const WindowPattern& pattern, const Block& block, glm::ivec2 low, glm::ivec2 high,
+                   std::vector<IndexRange>& ranges) {
+  constexpr int kOfCell = 6;  // indices per cell away from the window's border
+  low = glm::clamp(low, 0, pattern.n - 1);
+  high = glm::clamp(high, 0, pattern.n - 1);
   const auto even_inside = [](int from, int to, int first, int last) {
     return (from & ~1) >= first && ((to + 1) & ~1) <= last;
   };
   if (even_inside(block.x0, block.x1, low.x, high.x) && even_inside(block.z0, block.z1, low.y, high.y)) {
-    runs.push_back(block.indices);
+    ranges.push_back(block.indices);
     return;
   }
-  Inside inside(window, low, high, runs);
-  const int last = window.n - 2;  // cell
+  Inside inside(pattern, low, high, ranges);
+  const int last = pattern.n - 2;  // cell
   const int x0 = std::max(block.x0, 1), x1 = std::min(block.x1, last);
   const int from = std::clamp(low.x, x0, x1), to = std::clamp(high.x, x0, x1);
   for (int z = block.z0; z < block.z1; ++z) {
-    const std::uint32_t* const row = &window.rows[block.first_row + static_cast<std::uint32_t>(z - block.z0)];
+    const std::uint32_t* const row =
+        &pattern.rows[block.first_row + static_cast<std::uint32_t>(z - block.z0)];
     if (z == 0 || z == last) {
       inside.add_one_by_one(row[0], row[1]);
       continue;
     }
-    // No block has cells of both the left and the right border.
+    // A block has cells at the left or the right border, not both.
     const auto regular = static_cast<std::uint32_t>(kOfCell * (x1 - x0));
     const std::uint32_t begin = block.x0 < x0 ? row[1] - regular : row[0];
     inside.add_one_by_one(row[0], begin);
@@ -123,17 +124,17 @@ void append_inside(const Window& window, const Block& block, glm::ivec2 low, glm
   }
 }
 
-Window make_window(int m) {
-  Window window;
-  window.m = m;
-  window.n = 4 * m - 1;
-  window.side = static_cast<int>(std::bit_ceil(static_cast<unsigned>(window.n + 1)));
+WindowPattern make_window_pattern(int m) {
+  WindowPattern pattern;
+  pattern.m = m;
+  pattern.n = 4 * m - 1;
+  pattern.side = static_cast<int>(std::bit_ceil(static_cast<unsigned>(pattern.n + 1)));
   const std::array cuts = {0, m - 1, 2 * m, 3 * m - 1, 4 * m - 2};
-  Builder build(window);
+  Builder build(pattern);
   for (int bz = 0; bz < 4; ++bz) {
     for (int bx = 0; bx < 4; ++bx) {
       const bool inner = (bx == 1 || bx == 2) && (bz == 1 || bz == 2);
-      (inner ? window.middle : window.ring)
+      (inner ? pattern.middle : pattern.ring)
           .push_back(build.block(cuts[bx], cuts[bz], cuts[bx + 1], cuts[bz + 1]));
     }
   }
@@ -141,12 +142,12 @@ Window make_window(int m) {
   for (int z = m - 1; z <= m; ++z) {
     for (int x = m - 1; x <= m; ++x) {
       const int row = z == m ? m - 1 : 3 * m - 2, column = x == m ? m - 1 : 3 * m - 2;
-      window.trims.push_back(build.block(m - 1, row, 3 * m - 1, row + 1));
-      window.trims.push_back(build.block(column, z, column + 1, z + hole));
+      pattern.trims.push_back(build.block(m - 1, row, 3 * m - 1, row + 1));
+      pattern.trims.push_back(build.block(column, z, column + 1, z + hole));
     }
   }
-  window.rows.push_back(static_cast<std::uint32_t>(window.indices.size()));
-  return window;
+  pattern.rows.push_back(static_cast<std::uint32_t>(pattern.indices.size()));
+  return pattern;
 }
 
 }  // namespace terrabench::clipmap
