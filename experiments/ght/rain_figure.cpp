@@ -28,10 +28,10 @@ class Dice {
 // Where a particle hits the ground it leaves half an ellipsoid, a third as deep as it is wide from the
 // middle.
 events::RadialErosion crash(const Ght& ght, Dice& dice) {
-  const Lattice& lattice = ght.model().tree.lattice();
-  const double radius = dice.between(1.2, 3) * lattice.cell();
-  const double x = dice.between(radius, lattice.x(lattice.width - 1) - radius);
-  const double z = dice.between(radius, lattice.z(lattice.depth - 1) - radius);
+  const SampleGrid& grid = ght.model().tree.grid();
+  const double radius = dice.between(1.2, 3) * grid.spacing();
+  const double x = dice.between(radius, grid.x(grid.width - 1) - radius);
+  const double z = dice.between(radius, grid.z(grid.depth - 1) - radius);
   return {{x, ght.model().surface.top(ght.model().tree, {x, z}), z}, {radius, radius / 3, radius}};
 }
 
@@ -61,9 +61,9 @@ TriangleMesh falling(const Ght& ght, Dice& dice) {
 
 // A window of the ground's samples, with what happened to it.
 TriangleMesh window(const Ght& ght, int first, int last) {
-  const Lattice& lattice = ght.model().tree.lattice();
+  const SampleGrid& grid = ght.model().tree.grid();
   TriangleMesh mesh = tree_surface(ght.model()).mesh;
-  const glm::vec2 low(lattice.x(first), lattice.z(first)), high(lattice.x(last), lattice.z(last));
+  const glm::vec2 low(grid.x(first), grid.z(first)), high(grid.x(last), grid.z(last));
   cut_away(mesh, {low, {-1, 0}});
   cut_away(mesh, {low, {0, -1}});
   cut_away(mesh, {high, {1, 0}});

@@ -1,10 +1,10 @@
-// Which triangles the surface of a tree consists of, and where they are in plan. The paper leaves this to the
-// boundary links of neighbouring cells; here a square of the root is either `plain`, two triangles between
-// the cells that stand at its samples, or it is covered by `faces`, triangles between any cells, which are
-// also what tunnel walls and overhanging scarps are made of. Faces are found by square through an index that
-// exists only in tiles with faces.
+// The surface composed of a tree's heightmaps: its triangles, and where they are in plan. In the paper they
+// follow from the boundary links of neighbouring cells (§3.2). Here a square between four samples of the root
+// is either `plain`, two triangles between the cells at its samples, or covered by `faces`, triangles between
+// any cells. Tunnel walls and overhanging scarps consist of faces too. An index, present only in tiles with
+// faces, finds them by square.
 //
-// A vertical line is answered in O(faces over its square), a plain square in O(1).
+// A vertical line costs O(faces over its square), and O(1) on a plain square.
 #pragma once
 
 #include <array>
@@ -32,33 +32,40 @@ struct SquareRange {
   std::size_t count() const {
     return static_cast<std::size_t>(i1 - i0 + 1) * static_cast<std::size_t>(j1 - j0 + 1);
   }
+  // The tiles of side × side squares that hold them.
+  SquareRange tiles(int side) const { return {i0 / side, j0 / side, i1 / side, j1 / side}; }
+  template <class Visit>  // visit(Square), row by row
+  void each(const Visit& visit) const {
+    for (int j = j0; j <= j1; ++j) {
+      for (int i = i0; i <= i1; ++i) visit(Square{i, j});
+    }
+  }
 };
 
-// Where a vertical line meets the surface: weight +1 from the air down into the ground, -1 out of it.
+// Where a vertical line, followed from above, meets the surface: weight +1 into the ground, -1 out of it.
 struct Crossing {
   float y;
   int weight;
 };
 
-// In plan seen from above, for orientation: x east, y north.
+// A point in plan as on a map, x east and y north, for the orientation of triangles.
 inline glm::dvec2 map_point(glm::vec3 p) { return {p.x, -static_cast<double>(p.z)}; }
 
-class Surface {
+class ComposedSurface {
  public:
-  // The most squares that a face may lie over, so that a saved tree cannot ask for more memory than its bytes
-  // warrant.
+  // The most squares that a face may lie over, so that a small saved tree cannot demand much memory.
   static constexpr std::size_t kMostSquares = 256;
 
-  Surface() = default;
-  explicit Surface(const Lattice& lattice);
+  ComposedSurface() = default;
+  explicit ComposedSurface(const SampleGrid& grid);
 
   // The square that holds a point of the terrain; false outside.
   bool find(float x, float z, Square& at) const;
-  bool covered(Square s) const {  // by faces; else plain, or a hole
+  bool covered(Square s) const {  // by faces; otherwise plain or a hole
     const std::uint32_t tile = tile_of_[tile_index(s)];
     return tile != kNone && (tiles_[tile].covered[slot(s) / 64] >> slot(s) % 64 & 1U) != 0;
   }
-  // Whether no face is over a square.
+  // Whether no face lies over a square.
   bool simple(Square s) const {
     const std::uint32_t tile = tile_of_[tile_index(s)];
     return tile == kNone || tiles_[tile].first[slot(s)] == kNone;
@@ -74,7 +81,7 @@ class Surface {
 
   const Face& face(FaceId f) const { return faces_[f]; }
   std::size_t faces() const { return face_count_; }
-  // Calls visit(FaceId) for the faces over (or touching) a square.
+  // Calls visit(FaceId) for the faces over or touching a square.
   template <class Visit>
   void over(Square s, const Visit& visit) const {
     const std::uint32_t tile = tile_of_[tile_index(s)];
@@ -93,14 +100,15 @@ class Surface {
   SquareRange range(const Tree& tree, const Face& face) const;
   SquareRange range(glm::dvec2 low, glm::dvec2 high) const;  // (x, z)
 
-  // Crossings of the vertical line at (x, z) of square s, unordered. Neighbouring faces share no line.
+  // Appends the crossings of the vertical line at (x, z) in square s, unordered. A line through the common
+  // edge of two faces crosses one of them.
   void crossings(const Tree& tree, float x, float z, Square s, std::vector<Crossing>& out) const;
-  // Height of the topmost surface at a point of the terrain; NaN over a hole.
+  // Height of the topmost surface at a point of the terrain; kNoData over a hole.
   float top(const Tree& tree, glm::dvec2 plan) const;
   // Height of the plain square at a point in it.
   static float plain_height(const Tree& tree, float x, float z, Square s);
 
-  // Changes, in two steps: prepare() finds room and may throw; what follows cannot.
+  // Changes take two steps: prepare() allocates and may throw, the others cannot.
   void prepare(const Tree& tree, std::span<const Square> covered, std::span<const Face> added);
   void set_covered(Square s, bool covered) noexcept;
   FaceId add(const Tree& tree, const Face& face) noexcept;
@@ -108,7 +116,7 @@ class Surface {
 
   Memory memory() const;
   void save(ByteSink&) const;
-  static Surface load(ByteSource&, const Tree& tree);  // throws bad_input
+  static ComposedSurface load(ByteSource&, const Tree& tree);  // throws bad_input
 
  private:
   static constexpr int kSide = 16;  // squares along a tile
@@ -131,12 +139,12 @@ class Surface {
   }
   Tile& tile(Square s) noexcept;
 
-  Lattice lattice_;
-  double per_x_ = 1, per_z_ = 1;  // 1 / cell
+  SampleGrid grid_;
+  double per_x_ = 1, per_z_ = 1;  // 1 / spacing
   std::size_t tiles_x_ = 0;
-  std::vector<std::uint32_t> tile_of_;  // kNone where all squares are plain and nothing is over them
+  std::vector<std::uint32_t> tile_of_;  // kNone where no square is covered or has a face
   std::vector<Tile> tiles_;
-  std::vector<Face> faces_;  // free ones: {kNone, next free, -}
+  std::vector<Face> faces_;  // unused ones: {kNone, next unused, -}
   std::vector<Entry> entries_;
   FaceId free_face_ = kNone;
   std::uint32_t free_entry_ = kNone;

@@ -1,4 +1,4 @@
-#include "representations/ght/surface.h"
+#include "representations/ght/composed_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 namespace terrabench::ght {
 namespace {
 
-// Positions are floats: one that misses a sample by the last bits is on it.
+// The share of the way from low to high. Positions are floats: one within rounding of a sample is on it.
 double share(float position, float low, float high) {
   const float slip = position * 0x1p-22F;
   if (position - low <= slip) return 0;
@@ -17,8 +17,9 @@ double share(float position, float low, float high) {
 }
 
 // On which side of the edge a → b the point lies: +1 left, -1 right, 0 only for an edge without length in
-// plan. A point on the edge counts as moved by an infinitely small step east and a smaller one south, so that
-// of the faces around an edge or corner exactly one has it. Both faces at an edge compute the same.
+// plan. A point on the edge is taken as moved east by an infinitely small step and south by a smaller one, so
+// that exactly one of the faces around an edge or corner contains it. Both faces at an edge get the same
+// side.
 int side(glm::vec3 a, glm::vec3 b, double x, double z) {
   const bool swap = a.x > b.x || (a.x == b.x && a.z > b.z);
   if (swap) std::swap(a, b);
@@ -29,7 +30,7 @@ int side(glm::vec3 a, glm::vec3 b, double x, double z) {
   return swap ? -sign : sign;
 }
 
-// Height of the triangle's plane at a point in it, for thin ones kept between its corners.
+// Height of the triangle's plane at a point in it, limited to the heights of its corners for thin triangles.
 float height_at(const std::array<glm::vec3, 3>& p, double x, double z) {
   const glm::dvec2 at{x, -z}, a = map_point(p[0]), b = map_point(p[1]), c = map_point(p[2]);
   const double area = turn(a, b, c);
@@ -41,34 +42,33 @@ float height_at(const std::array<glm::vec3, 3>& p, double x, double z) {
 
 }  // namespace
 
-Surface::Surface(const Lattice& lattice)
-    : lattice_(lattice),
-      per_x_(1.0 / lattice.cell_x),
-      per_z_(1.0 / lattice.cell_z),
-      tiles_x_((static_cast<std::size_t>(std::max(lattice.width - 1, 1)) + kSide - 1) / kSide) {
-  const std::size_t tiles_z = (static_cast<std::size_t>(std::max(lattice.depth - 1, 1)) + kSide - 1) / kSide;
+ComposedSurface::ComposedSurface(const SampleGrid& grid)
+    : grid_(grid),
+      per_x_(1.0 / grid.spacing_x),
+      per_z_(1.0 / grid.spacing_z),
+      tiles_x_((static_cast<std::size_t>(std::max(grid.width - 1, 1)) + kSide - 1) / kSide) {
+  const std::size_t tiles_z = (static_cast<std::size_t>(std::max(grid.depth - 1, 1)) + kSide - 1) / kSide;
   tile_of_.assign(tiles_x_ * tiles_z, kNone);
 }
 
-bool Surface::find(float x, float z, Square& at) const {
-  const int last_i = lattice_.width - 2, last_j = lattice_.depth - 2;
+bool ComposedSurface::find(float x, float z, Square& at) const {
+  const int last_i = grid_.width - 2, last_j = grid_.depth - 2;
   if (last_i < 0 || last_j < 0 ||
-      !(x >= lattice_.x(0) && z >= lattice_.z(0) && x <= lattice_.x(last_i + 1) &&
-        z <= lattice_.z(last_j + 1))) {
+      !(x >= grid_.x(0) && z >= grid_.z(0) && x <= grid_.x(last_i + 1) && z <= grid_.z(last_j + 1))) {
     return false;
   }
-  int i = std::min(static_cast<int>((x - lattice_.origin_x) * per_x_), last_i),
-      j = std::min(static_cast<int>((z - lattice_.origin_z) * per_z_), last_j);
-  // To the last bit as the samples stand, which the quotient may miss.
-  if (i > 0 && x < lattice_.x(i)) --i;
-  if (i < last_i && x >= lattice_.x(i + 1)) ++i;
-  if (j > 0 && z < lattice_.z(j)) --j;
-  if (j < last_j && z >= lattice_.z(j + 1)) ++j;
+  int i = std::min(static_cast<int>((x - grid_.origin_x) * per_x_), last_i),
+      j = std::min(static_cast<int>((z - grid_.origin_z) * per_z_), last_j);
+  // The quotient may be off by rounding: compare with the exact samples.
+  if (i > 0 && x < grid_.x(i)) --i;
+  if (i < last_i && x >= grid_.x(i + 1)) ++i;
+  if (j > 0 && z < grid_.z(j)) --j;
+  if (j < last_j && z >= grid_.z(j + 1)) ++j;
   at = {i, j};
   return true;
 }
 
-bool Surface::hole(const Tree& tree, Square s) {
+bool ComposedSurface::hole(const Tree& tree, Square s) {
   if (!tree.has_holes()) return false;
   for (int k = 0; k < 4; ++k) {
     if (tree.kind(tree.root_cell(s.i + k % 2, s.j + k / 2)) == CellKind::kVoid) return true;
@@ -76,23 +76,23 @@ bool Surface::hole(const Tree& tree, Square s) {
   return false;
 }
 
-std::array<CellId, 4> Surface::corners(const Tree& tree, Square s) {
+std::array<CellId, 4> ComposedSurface::corners(const Tree& tree, Square s) {
   return {tree.at_sample(s.i, s.j), tree.at_sample(s.i, s.j + 1), tree.at_sample(s.i + 1, s.j + 1),
           tree.at_sample(s.i + 1, s.j)};
 }
 
-SquareRange Surface::range(glm::dvec2 low, glm::dvec2 high) const {
+SquareRange ComposedSurface::range(glm::dvec2 low, glm::dvec2 high) const {
   const auto clip = [](double at, int squares) {
     return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(std::max(squares - 1, 0))));
   };
-  // A step wider, as the quotients may miss by a bit.
+  // Slightly wider, because the quotients are rounded.
   constexpr double kSlip = 1e-5;
-  const glm::dvec2 first = lattice_.samples_to(low), last = lattice_.samples_to(high);
-  return {clip(first.x - kSlip, lattice_.width - 1), clip(first.y - kSlip, lattice_.depth - 1),
-          clip(last.x + kSlip, lattice_.width - 1), clip(last.y + kSlip, lattice_.depth - 1)};
+  const glm::dvec2 first = grid_.samples_to(low), last = grid_.samples_to(high);
+  return {clip(first.x - kSlip, grid_.width - 1), clip(first.y - kSlip, grid_.depth - 1),
+          clip(last.x + kSlip, grid_.width - 1), clip(last.y + kSlip, grid_.depth - 1)};
 }
 
-SquareRange Surface::range(const Tree& tree, const Face& face) const {
+SquareRange ComposedSurface::range(const Tree& tree, const Face& face) const {
   glm::dvec2 low(HUGE_VAL), high(-HUGE_VAL);
   for (const CellId c : face) {
     const glm::dvec2 p = tree.plan(c);
@@ -102,10 +102,9 @@ SquareRange Surface::range(const Tree& tree, const Face& face) const {
   return range(low, high);
 }
 
-float Surface::plain_height(const Tree& tree, float x, float z, Square s) {
-  const Lattice& lattice = tree.lattice();
-  const double u = share(x, lattice.x(s.i), lattice.x(s.i + 1)),
-               v = share(z, lattice.z(s.j), lattice.z(s.j + 1));
+float ComposedSurface::plain_height(const Tree& tree, float x, float z, Square s) {
+  const SampleGrid& grid = tree.grid();
+  const double u = share(x, grid.x(s.i), grid.x(s.i + 1)), v = share(z, grid.z(s.j), grid.z(s.j + 1));
   const auto height = [&](int i, int j) -> double { return tree.height(tree.at_sample(i, j)); };
   const double ne = height(s.i + 1, s.j), sw = height(s.i, s.j + 1);
   return static_cast<float>(u + v <= 1
@@ -113,7 +112,8 @@ float Surface::plain_height(const Tree& tree, float x, float z, Square s) {
                                 : (u + v - 1) * height(s.i + 1, s.j + 1) + (1 - v) * ne + (1 - u) * sw);
 }
 
-void Surface::crossings(const Tree& tree, float x, float z, Square s, std::vector<Crossing>& out) const {
+void ComposedSurface::crossings(const Tree& tree, float x, float z, Square s,
+                                std::vector<Crossing>& out) const {
   if (plain(tree, s)) out.push_back({plain_height(tree, x, z, s), 1});
   over(s, [&](FaceId f) {
     std::array<glm::vec3, 3> p;
@@ -124,7 +124,7 @@ void Surface::crossings(const Tree& tree, float x, float z, Square s, std::vecto
   });
 }
 
-float Surface::top(const Tree& tree, glm::dvec2 plan) const {
+float ComposedSurface::top(const Tree& tree, glm::dvec2 plan) const {
   Square s;
   const auto x = static_cast<float>(plan.x), z = static_cast<float>(plan.y);
   if (!find(x, z, s)) return Heightfield::kNoData;
@@ -137,16 +137,15 @@ float Surface::top(const Tree& tree, glm::dvec2 plan) const {
   return top;
 }
 
-void Surface::prepare(const Tree& tree, std::span<const Square> covered, std::span<const Face> added) {
+void ComposedSurface::prepare(const Tree& tree, std::span<const Square> covered,
+                              std::span<const Face> added) {
   std::size_t entries = entry_count_;
   std::vector<std::size_t> tiles;
   const auto touch = [&](const SquareRange& r) {
-    for (int j = r.j0 / kSide; j <= r.j1 / kSide; ++j) {
-      for (int i = r.i0 / kSide; i <= r.i1 / kSide; ++i) {
-        const std::size_t t = static_cast<std::size_t>(j) * tiles_x_ + static_cast<std::size_t>(i);
-        if (tile_of_[t] == kNone && (tiles.empty() || tiles.back() != t)) tiles.push_back(t);
-      }
-    }
+    r.tiles(kSide).each([&](Square at) {
+      const std::size_t t = static_cast<std::size_t>(at.j) * tiles_x_ + static_cast<std::size_t>(at.i);
+      if (tile_of_[t] == kNone && (tiles.empty() || tiles.back() != t)) tiles.push_back(t);
+    });
   };
   for (const Square s : covered) touch({s.i, s.j, s.i, s.j});
   for (const Face& face : added) {
@@ -161,7 +160,7 @@ void Surface::prepare(const Tree& tree, std::span<const Square> covered, std::sp
   grow(entries_, entries);
 }
 
-Surface::Tile& Surface::tile(Square s) noexcept {
+ComposedSurface::Tile& ComposedSurface::tile(Square s) noexcept {
   std::uint32_t& tile = tile_of_[tile_index(s)];
   if (tile == kNone) {
     tile = static_cast<std::uint32_t>(tiles_.size());
@@ -170,14 +169,14 @@ Surface::Tile& Surface::tile(Square s) noexcept {
   return tiles_[tile];
 }
 
-void Surface::set_covered(Square s, bool covered) noexcept {
+void ComposedSurface::set_covered(Square s, bool covered) noexcept {
   if (!covered && tile_of_[tile_index(s)] == kNone) return;
   std::uint64_t& word = tile(s).covered[slot(s) / 64];
   const std::uint64_t bit = std::uint64_t{1} << slot(s) % 64;
   word = covered ? word | bit : word & ~bit;
 }
 
-FaceId Surface::add(const Tree& tree, const Face& face) noexcept {
+FaceId ComposedSurface::add(const Tree& tree, const Face& face) noexcept {
   FaceId f = free_face_;
   if (f == kNone) {
     f = static_cast<FaceId>(faces_.size());
@@ -187,44 +186,38 @@ FaceId Surface::add(const Tree& tree, const Face& face) noexcept {
     faces_[f] = face;
   }
   ++face_count_;
-  const SquareRange r = range(tree, face);
-  for (int j = r.j0; j <= r.j1; ++j) {
-    for (int i = r.i0; i <= r.i1; ++i) {
-      std::uint32_t e = free_entry_;
-      if (e == kNone) {
-        e = static_cast<std::uint32_t>(entries_.size());
-        entries_.push_back({});
-      } else {
-        free_entry_ = entries_[e].next;
-      }
-      std::uint32_t& first = tile({i, j}).first[slot({i, j})];
-      entries_[e] = {f, first};
-      first = e;
-      ++entry_count_;
+  range(tree, face).each([&](Square s) {
+    std::uint32_t e = free_entry_;
+    if (e == kNone) {
+      e = static_cast<std::uint32_t>(entries_.size());
+      entries_.push_back({});
+    } else {
+      free_entry_ = entries_[e].next;
     }
-  }
+    std::uint32_t& first = tile(s).first[slot(s)];
+    entries_[e] = {f, first};
+    first = e;
+    ++entry_count_;
+  });
   return f;
 }
 
-void Surface::remove(const Tree& tree, FaceId f) noexcept {
-  const SquareRange r = range(tree, faces_[f]);
-  for (int j = r.j0; j <= r.j1; ++j) {
-    for (int i = r.i0; i <= r.i1; ++i) {
-      std::uint32_t* link = &tile({i, j}).first[slot({i, j})];
-      while (entries_[*link].face != f) link = &entries_[*link].next;
-      const std::uint32_t e = *link;
-      *link = entries_[e].next;
-      entries_[e].next = free_entry_;
-      free_entry_ = e;
-      --entry_count_;
-    }
-  }
+void ComposedSurface::remove(const Tree& tree, FaceId f) noexcept {
+  range(tree, faces_[f]).each([&](Square s) {
+    std::uint32_t* link = &tile(s).first[slot(s)];
+    while (entries_[*link].face != f) link = &entries_[*link].next;
+    const std::uint32_t e = *link;
+    *link = entries_[e].next;
+    entries_[e].next = free_entry_;
+    free_entry_ = e;
+    --entry_count_;
+  });
   faces_[f] = {kNone, free_face_, kNone};
   free_face_ = f;
   --face_count_;
 }
 
-Memory Surface::memory() const {
+Memory ComposedSurface::memory() const {
   Memory memory = index_memory(tile_of_);
   memory += index_memory(tiles_);
   memory += payload_memory(faces_);
