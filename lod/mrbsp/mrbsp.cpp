@@ -1,7 +1,5 @@
 #include "lod/mrbsp/mrbsp.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
