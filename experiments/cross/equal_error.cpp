@@ -187,18 +187,6 @@ void record(const Shown& shown, const Flight& flight, Recorder& recorder) {
     recorder.add("psnr", "dB", -10 * std::log10(noise / static_cast<double>(shown.noise.size())));
 }
 
-}  // namespace
-
-std::vector<Entrant> entrants() {
-  std::vector<Entrant> all;
-  for (const LodType& type : lods()) all.push_back({std::string(type.name), std::string(type.name), ""});
-  all.push_back({"geomipmap_morph", "geomipmap", "geomipmap.morph=true"});
-  all.push_back({"mrbsp_area", "mrbsp", "mrbsp.threshold=area"});
-  return all;
-}
-
-namespace {
-
 const Entrant& entrant(std::string_view name) {
   static const std::vector<Entrant> kAllEntrants = entrants();
   std::vector<std::string_view> known;
@@ -226,11 +214,11 @@ std::vector<Case> cases(const RunOptions& options) {
                        terrain});
       // The other grounds are as wide as the path `fly` suits; this one has 123 km in the paper profile, and
       // a flight as high as its width asks for would see nothing of its samples.
-      if (terrain == "fractal") added.parameters.set("path", std::string("low"));
+      if (terrain == "fractal") cases.back().parameters.set("path", std::string("low"));
       const bool large = paper && terrain == "fractal";
       // A frame over the largest ground takes brute force ten seconds and more.
-      added.parameters.set("frames", std::int64_t{large ? 12 : paper ? 48 : 24});
-      added.parameters.set("size", std::int64_t{large ? 4097 : paper ? 1025 : 257});
+      cases.back().parameters.set("frames", std::int64_t{large ? 12 : paper ? 48 : 24});
+      cases.back().parameters.set("size", std::int64_t{large ? 4097 : paper ? 1025 : 257});
     };
     for (const Entrant& entrant : entrants()) {
       if (!contender(entrant.method, entrant.options).tunable()) {

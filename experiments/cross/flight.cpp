@@ -138,6 +138,14 @@ Contender contender(std::string_view method, std::string_view options) {
   return built;
 }
 
+std::vector<Entrant> entrants() {
+  std::vector<Entrant> all;
+  for (const LodType& type : lods()) all.push_back({std::string(type.name), std::string(type.name), ""});
+  all.push_back({"geomipmap_morph", "geomipmap", "geomipmap.morph=true"});
+  all.push_back({"mrbsp_area", "mrbsp", "mrbsp.threshold=area"});
+  return all;
+}
+
 Tuned tune_to(Flight& flight, const Contender& method, double pixels, Progress& progress) {
   const Knob& knob = method.type->knob;
   if (!method.tunable()) return {knob.fallback, 0, true};

@@ -72,6 +72,14 @@ struct Contender {
 // Throws unknown_name and usage_error.
 Contender contender(std::string_view method, std::string_view options);
 
+// What enters the comparison: every method as it comes, and those with an option worth a comparison of its
+// own.
+struct Entrant {
+  std::string name;  // of its cases
+  std::string method, options;
+};
+std::vector<Entrant> entrants();
+
 // The coarsest setting of the knob whose 99th percentile of screen-space error stays at or below `pixels`
 // over every other metered frame. The same whatever was tuned before.
 Tuned tune_to(Flight&, const Contender&, double pixels, Progress&);

@@ -101,7 +101,7 @@ std::vector<Case> cases(const RunOptions& options) {
       const auto add = [&](std::string_view name) -> Parameters& {
         cases.push_back(
             {fmt::format("{}/tau={}/{}", ground, tau, name), {kSpecs, {{"tau", std::int64_t{tau}}}}, ground});
-        return added.parameters;
+        return cases.back().parameters;
       };
       for (const Variant& variant : kVariants) {
         Parameters& parameters = add(variant.name);

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "experiments/drill/ground.h"
 #include "experiments/experiment.h"
+#include "experiments/noise_ground.h"
 #include "experiments/stopwatch.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/files.h"

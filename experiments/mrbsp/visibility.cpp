@@ -100,7 +100,7 @@ std::vector<Case> cases(const RunOptions& options) {
     std::string name = fmt::format("{}/{}/cells={}", ground, sets, cells);
     if (coarseness) name += fmt::format("/coarseness={}", *coarseness);
     cases.push_back({std::move(name), {kSpecs, {{"conservative", conservative}, {"cells", cells}}}, ground});
-    if (coarseness) added.parameters.set("coarseness", *coarseness);
+    if (coarseness) cases.back().parameters.set("coarseness", *coarseness);
   };
   for (const std::string& ground : grounds(options, paper)) {
     for (const bool conservative : {false, true}) {

@@ -11,7 +11,7 @@
 #include "terrain/files.h"
 #include "terrain/view.h"
 
-namespace terrabench::overview {
+namespace terrabench::relief {
 namespace {
 
 const std::array kSpecs{
@@ -91,4 +91,4 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 extern const Experiment kRelief{"overview.relief", "Shaded relief of each terrain in each representation",
                                 kSpecs, cases, measure};
 
-}  // namespace terrabench::overview
+}  // namespace terrabench::relief

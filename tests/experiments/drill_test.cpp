@@ -7,6 +7,7 @@
 #include "experiments/drill/factorial.h"
 #include "experiments/drill/ground.h"
 #include "experiments/figures/colours.h"
+#include "experiments/noise_ground.h"
 
 namespace terrabench::drill {
 namespace {
@@ -88,10 +89,11 @@ TEST(DrillGround, LargerHillsContinueSmallerOnes) {
 }
 
 TEST(DrillGrowth, DoublesTheSideUpToTheProfilesLargest) {
+  const Experiment& growth = experiment("drill.growth");
   RunOptions options;
-  EXPECT_EQ(growth_cases(options).back().name, "n=1024");
+  EXPECT_EQ(growth.cases(options).back().name, "n=1024");
   options.profile = Profile::kPaper;
-  const std::vector<Case> cases = growth_cases(options);
+  const std::vector<Case> cases = growth.cases(options);
   EXPECT_EQ(cases.size(), 6U);
   EXPECT_EQ(cases.back().parameters.integer("n"), 8192);
 }

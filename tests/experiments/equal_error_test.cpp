@@ -8,7 +8,6 @@
 #include <set>
 #include <string>
 
-#include "experiments/cross/cross.h"
 #include "experiments/cross/flight.h"
 #include "results/claims.h"
 #include "results/statistics.h"
@@ -118,7 +117,8 @@ TEST(TuneTo, GivesTheSameWhateverWasTunedBefore) {
 
 TEST(EqualErrorCases, NameEveryMethodOnEveryGroundAndTheLedgerReadsThem) {
   std::set<std::string> names;
-  for (const Case& at : equal_error_cases({})) EXPECT_TRUE(names.insert(at.name).second);
+  for (const Case& at : experiment("cross.lod-equal-error").cases({}))
+    EXPECT_TRUE(names.insert(at.name).second);
   for (const char* const ground : {"jacksboro", "fractal", "peak"}) {
     for (const Entrant& entrant : entrants()) {
       const std::string start =
@@ -152,15 +152,16 @@ TEST(EqualErrorCases, NameEveryMethodOnEveryGroundAndTheLedgerReadsThem) {
 class EqualError : public ::testing::TestWithParam<std::string_view> {
  protected:
   static Record measure(std::string_view method, std::int64_t size) {
-    Case at{"small", Parameters(kEqualErrorParameters), "peak"};
-    at.parameters.set("method", std::string(method));
-    at.parameters.set("error", 2.0);
-    at.parameters.set("frames", std::int64_t{5});
-    at.parameters.set("size", size);
+    const Experiment& compared = experiment("cross.lod-equal-error");
+    const Case at{
+        "small",
+        {compared.parameters,
+         {{"method", std::string(method)}, {"error", 2.0}, {"frames", std::int64_t{5}}, {"size", size}}},
+        "peak"};
     Record record;
     Recorder recorder(record, "unused");
     Progress progress;
-    measure_equal_error(at, {}, recorder, progress);
+    compared.measure(at, {}, recorder, progress);
     return record;
   }
   static double value(const Record& record, std::string_view metric) {
