@@ -65,9 +65,9 @@ void measure_cost(const Flight& flight, const Contender& method, double knob, Re
   const std::int64_t held = heap.held();
   recorder.add("build_time", "s", build_time);
   recorder.add("first_update_time", "s", first_update_time);
-  recorder.add("first_uploaded", "B", static_cast<double>(first_uploaded));
-  recorder.add("bytes_held", "B", static_cast<double>(lod->memory().total()));
-  recorder.add("heap_growth", "B", static_cast<double>(held));
+  recorder.add("first_uploaded", "B", first_uploaded);
+  recorder.add("bytes_held", "B", lod->memory().total());
+  recorder.add("heap_growth", "B", held);
   recorder.add("uploaded", "B", uploaded / static_cast<double>(times.size()));
   for (const double t : times) recorder.add("update_time", "s", t);
   for (const double t : triangles) recorder.add("triangles", "", t);
@@ -170,15 +170,15 @@ void record(const Shown& shown, const Flight& flight, Recorder& recorder) {
   recorder.add("error_largest_anywhere", "px", shown.largest_anywhere);
   recorder.add("popping_p99", "px", shown.popping.quantile(0.99));
   recorder.add("popping_largest", "px", shown.popping.largest());
-  recorder.add("samples", "", static_cast<double>(shown.error.samples()));
-  recorder.add("undrawn_samples", "", static_cast<double>(shown.undrawn));
-  recorder.add("gaps", "", static_cast<double>(shown.gaps));
-  recorder.add("bare_edges", "", static_cast<double>(shown.bare_edges));
-  recorder.add("overlaps", "", static_cast<double>(shown.overlaps));
-  recorder.add("cracks", "", static_cast<double>(shown.gaps + shown.bare_edges + shown.overlaps));
-  recorder.add("t_junctions", "", static_cast<double>(shown.t_junctions));
+  recorder.add("samples", "", shown.error.samples());
+  recorder.add("undrawn_samples", "", shown.undrawn);
+  recorder.add("gaps", "", shown.gaps);
+  recorder.add("bare_edges", "", shown.bare_edges);
+  recorder.add("overlaps", "", shown.overlaps);
+  recorder.add("cracks", "", shown.gaps + shown.bare_edges + shown.overlaps);
+  recorder.add("t_junctions", "", shown.t_junctions);
   recorder.add("largest_gap", "px", shown.largest_gap);
-  recorder.add("frames", "", static_cast<double>(flight.metered.size()));
+  recorder.add("frames", "", flight.metered.size());
   for (const double t : shown.frame_times) recorder.add("frame_time", "s", t);
   for (const double s : shown.ssim) recorder.add("ssim", "", s);
   // Of all pictures as one; equal pictures have no ratio of signal to noise.

@@ -145,14 +145,14 @@ class Walk {
       progress.advance();
     }
     finish("walk", recorder);
-    recorder.add("clipmap_bytes", "B", static_cast<double>(clipmap_->memory().total()));
+    recorder.add("clipmap_bytes", "B", clipmap_->memory().total());
   }
 
  private:
   // Fills all windows.
   void begin(const View& view, Recorder& recorder) {
     update(view, "first_time", recorder);
-    recorder.add("first_bytes", "B", static_cast<double>(uploaded_));
+    recorder.add("first_bytes", "B", uploaded_);
     uploaded_ = strips_ = 0;
   }
   void update(const View& view, std::string_view metric, Recorder& recorder) {
@@ -168,9 +168,9 @@ class Walk {
     tiles_ += pyramid_->tiles_read() - tiles;
   }
   void finish(const std::string& what, Recorder& recorder) {
-    recorder.add(what + "_bytes", "B", static_cast<double>(uploaded_));
-    recorder.add(what + "_strip_bytes", "B", static_cast<double>(strips_));
-    recorder.add(what + "_tiles", "", static_cast<double>(tiles_));
+    recorder.add(what + "_bytes", "B", uploaded_);
+    recorder.add(what + "_strip_bytes", "B", strips_);
+    recorder.add(what + "_tiles", "", tiles_);
     uploaded_ = strips_ = tiles_ = 0;
   }
 
@@ -185,7 +185,7 @@ void walk_here(const fs::path& pyramid, const Case& at, Recorder& recorder, Prog
   recorder.terrain(pyramid.string(), digest(pyramid));
   Walk(pyramid, static_cast<int>(at.parameters.integer("window")))
       .measure(static_cast<int>(at.parameters.integer("steps")), recorder, progress);
-  recorder.add("peak_resident", "B", static_cast<double>(peak_resident_bytes()));
+  recorder.add("peak_resident", "B", peak_resident_bytes());
 }
 
 // The same experiment over the pyramid, in a process that does nothing else.
@@ -245,7 +245,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   watch = {};
   HeightPyramid::build(dem, pyramid, progress);
   recorder.add("pyramid_time", "s", watch.seconds());
-  recorder.add("pyramid_bytes", "B", static_cast<double>(bytes_of(pyramid)));
+  recorder.add("pyramid_bytes", "B", bytes_of(pyramid));
   std::error_code ignored;
   fs::remove(made, ignored);  // its room is needed no more
   const auto tiles = HeightPyramid::open(pyramid);

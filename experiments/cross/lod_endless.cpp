@@ -60,11 +60,11 @@ class Flight {
 
   void measure(Progress& progress) {
     fly_out(progress);
-    recorder_.add("held_far", "B", static_cast<double>(clipmap_->memory().total()));
+    recorder_.add("held_far", "B", clipmap_->memory().total());
     come_home(progress);
-    recorder_.add("held_home", "B", static_cast<double>(clipmap_->memory().total()));
-    recorder_.add("flight_bytes", "B", static_cast<double>(uploaded_));
-    recorder_.add("flight_strip_bytes", "B", static_cast<double>(strips_));
+    recorder_.add("held_home", "B", clipmap_->memory().total());
+    recorder_.add("flight_bytes", "B", uploaded_);
+    recorder_.add("flight_strip_bytes", "B", strips_);
     recorder_.add("levels", "", clipmap_->levels());
   }
 
@@ -106,8 +106,8 @@ class Flight {
     const Stopwatch watch;
     const Frame& first = clipmap_->update(from(home_));
     recorder_.add("first_time", "s", watch.seconds());
-    recorder_.add("first_bytes", "B", static_cast<double>(first.stats.bytes_uploaded));
-    recorder_.add("held_first", "B", static_cast<double>(clipmap_->memory().total()));
+    recorder_.add("first_bytes", "B", first.stats.bytes_uploaded);
+    recorder_.add("held_first", "B", clipmap_->memory().total());
     finest_ = finest_level(kEyeHeight, clipmap_->window(), ground_.cell, clipmap_->levels());
     expected_.follow(home_, finest_, clipmap_->levels());
     const int every = std::max(1, steps_ / kMetered);
@@ -116,9 +116,9 @@ class Flight {
       if (k % every == 0) meter(at(k));
       progress.advance();
     }
-    recorder_.add("gaps", "", static_cast<double>(gaps_));
-    recorder_.add("edges_in_view", "", static_cast<double>(edges_));
-    recorder_.add("metered_frames", "", static_cast<double>(metered_));
+    recorder_.add("gaps", "", gaps_);
+    recorder_.add("edges_in_view", "", edges_);
+    recorder_.add("metered_frames", "", metered_);
   }
 
   // Home again, the windows are held against ones that never left: as many heights as differ.
@@ -144,8 +144,8 @@ class Flight {
         }
       }
     }
-    recorder_.add("heights_compared", "", static_cast<double>(compared));
-    recorder_.add("heights_differing", "", static_cast<double>(different));
+    recorder_.add("heights_compared", "", compared);
+    recorder_.add("heights_differing", "", different);
   }
 
   glm::dvec2 at(int k) const { return along(home_, k * step_, ground_.cell); }
@@ -179,8 +179,8 @@ class Flight {
     const Stopwatch watch;
     const Frame& frame = clipmap_->update(view);
     recorder_.add("update_time", "s", watch.seconds());
-    recorder_.add("frame_bytes", "B", static_cast<double>(frame.stats.bytes_uploaded));
-    recorder_.add("triangles", "", static_cast<double>(frame.stats.triangles));
+    recorder_.add("frame_bytes", "B", frame.stats.bytes_uploaded);
+    recorder_.add("triangles", "", frame.stats.triangles);
     uploaded_ += frame.stats.bytes_uploaded;
     strips_ += expected_.follow(at(k), finest_, clipmap_->levels());
   }

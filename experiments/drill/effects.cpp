@@ -61,12 +61,11 @@ void record_measure(const std::vector<Outcome>& outcomes, const Measure& measure
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const FlowNetwork network = route_flow(*source.heights, &progress);
   const std::vector<Outcome> outcomes = factorial(*source.heights, network, progress);
 
-  recorder.add("runs", "", static_cast<double>(outcomes.size()));
+  recorder.add("runs", "", outcomes.size());
   for (const Measure& measure : kMeasures) record_measure(outcomes, measure, recorder);
   // The paper's best set: τ is not named, and the densest network is.
   double at_paper_best = std::numeric_limits<double>::infinity();

@@ -70,11 +70,11 @@ Extended extended(const Heightfield& ground, const FlowNetwork& network, DrillOp
 
 void record(const Extended& result, Recorder& recorder) {
   recorder.add("k", "samples", result.k);
-  recorder.add("drill_bytes", "B", static_cast<double>(result.bytes));
+  recorder.add("drill_bytes", "B", result.bytes);
   recorder.add("rmse", "m", result.error.rmse);
   recorder.add("rmse_normalised", "", result.error.normalised());
-  recorder.add("untouched", "pixels", static_cast<double>(result.untouched));
-  recorder.add("pits", "", static_cast<double>(result.pits));
+  recorder.add("untouched", "pixels", result.untouched);
+  recorder.add("pits", "", result.pits);
 }
 
 // The setting that the paper prints, and what a choice makes of as many bytes.
@@ -85,8 +85,8 @@ void record_choice(const Heightfield& ground, const FlowNetwork& network, std::u
   const Extended printed = extended(ground, network, options);
   const DrillChoice choice =
       choose_parameters(ground, network, {.bytes = printed.bytes, .rmse = 0}, {}, &progress);
-  recorder.add("budget", "B", static_cast<double>(printed.bytes));
-  recorder.add("drill_bytes", "B", static_cast<double>(choice.bytes));
+  recorder.add("budget", "B", printed.bytes);
+  recorder.add("drill_bytes", "B", choice.bytes);
   recorder.add("chosen_tau", "pixels", choice.options.tau);
   recorder.add("chosen_w", "samples", choice.options.w);
   recorder.add("k", "samples", choice.options.k);
@@ -116,8 +116,7 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const FlowNetwork network = route_flow(*source.heights, &progress);
   const auto tau = static_cast<std::uint32_t>(at.parameters.integer("tau"));
   if (at.parameters.flag("choose")) return record_choice(*source.heights, network, tau, recorder, progress);

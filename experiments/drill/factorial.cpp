@@ -93,8 +93,7 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   const Setting setting{static_cast<std::uint32_t>(at.parameters.integer("tau")),
                         static_cast<int>(at.parameters.integer("w")),
@@ -104,7 +103,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const Heightfield regenerated = regenerate(drills);
   const Outcome outcome = compare(ground, network, regenerated, setting);
 
-  recorder.add("drills", "", static_cast<double>(drills.count()));
+  recorder.add("drills", "", drills.count());
   recorder.add("rmse", "m", outcome.rmse_metres);
   recorder.add("rmse_normalised", "", outcome.rmse);
   for (std::size_t r = 0; r < kReadings.size(); ++r) {
@@ -119,7 +118,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("untouched_share", "",
                static_cast<double>(count_untouched(drills, regenerated.heights)) /
                    static_cast<double>(regenerated.heights.size()));
-  recorder.add("pits", "", static_cast<double>(count_pits(regenerated).count));
+  recorder.add("pits", "", count_pits(regenerated).count);
 }
 
 }  // namespace

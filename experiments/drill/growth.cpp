@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "experiments/experiment.h"
-#include "experiments/noise_ground.h"
+#include "experiments/ground.h"
 #include "experiments/stopwatch.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/files.h"
@@ -69,7 +69,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     recorder.add("routed_pixels_per_second_unrounded", "1/s", pixels / routing_fine);
     recorder.add("drills_per_second", "1/s", static_cast<double>(drills.count()) / extraction);
   }
-  recorder.add("drills", "", static_cast<double>(drilled));
+  recorder.add("drills", "", drilled);
 }
 
 }  // namespace

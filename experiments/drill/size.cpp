@@ -126,8 +126,7 @@ void draw_rate_distortion(const TerrainSource& source, const FlowNetwork& networ
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   const FlowNetwork network = route_flow(ground, &progress);
   const auto samples = static_cast<double>(ground.heights.size());
@@ -135,14 +134,14 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
       ground, network, threshold_for(network, static_cast<std::size_t>(std::lround(kPaperShare * samples))));
   recorder.add("tau", "pixels", stored.tau);
   recorder.add("k", "samples", stored.k);
-  recorder.add("drills", "", static_cast<double>(stored.drills));
+  recorder.add("drills", "", stored.drills);
   recorder.add("drills_per_160000", "", static_cast<double>(stored.drills) * 160000 / samples);
   recorder.add("values_to_samples", "", 4 * static_cast<double>(stored.drills) / samples);
   recorder.add("rmse", "m", stored.error.rmse);
   recorder.add("rmse_normalised", "", stored.error.normalised());
-  recorder.add("drill_bytes", "B", static_cast<double>(stored.bytes));
+  recorder.add("drill_bytes", "B", stored.bytes);
   const auto add = [&](std::string_view metric, const CompressedSize& size) {
-    recorder.add(fmt::format("{}_bytes", metric), "B", static_cast<double>(size.bytes));
+    recorder.add(fmt::format("{}_bytes", metric), "B", size.bytes);
     recorder.add(fmt::format("{}_rmse", metric), "m", size.rmse);
   };
   // Other compressors know no holes.

@@ -39,8 +39,7 @@ Line fit_line(const std::vector<double>& x, const std::vector<double>& y) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   FlowNetwork network = route_flow(ground);
   std::vector<std::vector<double>> extraction(kTimedTaus.size());

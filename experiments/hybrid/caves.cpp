@@ -58,9 +58,9 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const auto& stack = dynamic_cast<const LayeredStack&>(*built);
   const Components found = find_components(stack);
 
-  recorder.add("overhang_columns", "", static_cast<double>(found.overhang_columns));
-  recorder.add("solid_components", "", static_cast<double>(found.total));
-  recorder.add("floating_components", "", static_cast<double>(found.floating));
+  recorder.add("overhang_columns", "", found.overhang_columns);
+  recorder.add("solid_components", "", found.total);
+  recorder.add("floating_components", "", found.floating);
   recorder.add("floating_volume", "m³", found.floating_volume);
   const glm::vec3 size = source.bounds().size();
   recorder.add("solid_share", "", found.solid_volume / (static_cast<double>(size.x) * size.y * size.z));

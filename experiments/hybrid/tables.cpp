@@ -114,15 +114,15 @@ void measure_table1(const Case& at, const RunOptions& options, Recorder& recorde
 
   const auto paper_bytes = static_cast<double>(paper.columns.payload);
   recorder.add("paper_stack_bytes", "B", paper_bytes);
-  recorder.add("paper_layout_heap_bytes", "B", static_cast<double>(paper.heap));
-  recorder.add("dense_voxel_bytes", "B", static_cast<double>(dense.memory.payload));
+  recorder.add("paper_layout_heap_bytes", "B", paper.heap);
+  recorder.add("dense_voxel_bytes", "B", dense.memory.payload);
   recorder.add("voxel_to_stack_ratio", "", static_cast<double>(dense.memory.payload) / paper_bytes);
-  recorder.add("stack_bytes", "B", static_cast<double>(stack.memory.total()));
-  recorder.add("stack_heap_bytes", "B", static_cast<double>(stack.heap));
+  recorder.add("stack_bytes", "B", stack.memory.total());
+  recorder.add("stack_heap_bytes", "B", stack.heap);
   recorder.add("stack_bytes_per_column", "B", static_cast<double>(stack.heap) / columns);
-  recorder.add("dense_heap_bytes", "B", static_cast<double>(dense.heap));
-  recorder.add("openvdb_bytes", "B", static_cast<double>(openvdb.memory.total()));
-  recorder.add("openvdb_heap_bytes", "B", static_cast<double>(openvdb.heap));
+  recorder.add("dense_heap_bytes", "B", dense.heap);
+  recorder.add("openvdb_bytes", "B", openvdb.memory.total());
+  recorder.add("openvdb_heap_bytes", "B", openvdb.heap);
 }
 
 std::vector<Case> table2_cases(const RunOptions& options) {

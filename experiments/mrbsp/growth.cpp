@@ -7,7 +7,7 @@
 
 #include "experiments/experiment.h"
 #include "experiments/mrbsp/ground.h"
-#include "experiments/noise_ground.h"
+#include "experiments/ground.h"
 #include "terrain/sources/fractal/diamond_square.h"
 
 namespace terrabench::mrbsp {
@@ -50,7 +50,7 @@ void measure_land(const Case& at, const RunOptions& options, Recorder& recorder,
   const double some = mean_triangles(lod, views);
   lod.tune(1);
   const double printed = mean_triangles(lod, views);
-  recorder.add("triangles_all", "", static_cast<double>(lod.tree().triangles()));
+  recorder.add("triangles_all", "", lod.tree().triangles());
   recorder.add("triangles_brute", "", all);
   recorder.add("triangles_lod", "", some);
   recorder.add("gain", "", all / some);

@@ -52,8 +52,7 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const auto side = static_cast<int>(at.parameters.integer("points"));
   const auto depth = static_cast<int>(at.parameters.integer("depth"));
   const Heightfield ground = resample(*source.heights, side, side);
@@ -90,8 +89,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     const auto share = [](std::size_t part, std::size_t all) {
       return static_cast<double>(part) / static_cast<double>(all);
     };
-    recorder.add(fmt::format("vertices{}", suffix), "", static_cast<double>(gaps.vertices));
-    recorder.add(fmt::format("torn{}", suffix), "", static_cast<double>(gaps.torn));
+    recorder.add(fmt::format("vertices{}", suffix), "", gaps.vertices);
+    recorder.add(fmt::format("torn{}", suffix), "", gaps.torn);
     recorder.add(fmt::format("torn_share{}", suffix), "", share(gaps.torn, gaps.vertices));
     recorder.add(fmt::format("mean_gap{}", suffix), "m", gaps.mean);
     recorder.add(fmt::format("largest_gap{}", suffix), "m", gaps.largest);

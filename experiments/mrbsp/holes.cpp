@@ -33,8 +33,7 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   MrbspOptions rule;
   rule.depth = depth_over(ground);
@@ -65,10 +64,10 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const auto frames = static_cast<double>(kSizes.size() * views.size());
   recorder.add("frames", "", frames);
   recorder.add("triangles_per_frame", "", static_cast<double>(drawn) / frames);
-  recorder.add("holes", "", static_cast<double>(all.gaps + all.bare_edges + all.overlaps));
+  recorder.add("holes", "", all.gaps + all.bare_edges + all.overlaps);
   recorder.add("holes_per_frame", "", static_cast<double>(all.gaps + all.bare_edges + all.overlaps) / frames);
-  recorder.add("t_junctions", "", static_cast<double>(all.t_junctions));
-  recorder.add("frames_with_holes", "", static_cast<double>(torn));
+  recorder.add("t_junctions", "", all.t_junctions);
+  recorder.add("frames_with_holes", "", torn);
   recorder.add("largest_gap", "m", all.largest_gap_m);
   recorder.add("largest_gap_on_screen", "pixels", all.largest_gap_px);
 }

@@ -172,7 +172,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   DrawingOptions adjust;
   const Heightfield land = land_from_drawing(picture, adjust);
   recorder.terrain("drawing", checksum(land));
-  recorder.add("broken_greys", "", static_cast<double>(broken_greys()));
+  recorder.add("broken_greys", "", broken_greys());
   for (const int percent : {10, 30, 40, 50}) {
     adjust.sea_level = static_cast<float>(percent) / 100;
     recorder.add(fmt::format("land_share_at_sea_level_{}", percent), "",
@@ -193,9 +193,9 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     const Smoothed smoothed = compare(land_from_drawing(picture, adjust), drawn, adjust);
     recorder.add(fmt::format("hill_bend_after_{}", passes), "m", smoothed.bend);
     moved += smoothed.moved;
-    if (passes == 0) recorder.add("mountain_samples", "", static_cast<double>(smoothed.mountains));
+    if (passes == 0) recorder.add("mountain_samples", "", smoothed.mountains);
   }
-  recorder.add("mountain_samples_moved", "", static_cast<double>(moved));
+  recorder.add("mountain_samples_moved", "", moved);
   draw(picture, land, options, recorder);
 }
 

@@ -154,8 +154,7 @@ class LodFigure {
 std::vector<Case> cases(const RunOptions&) { return {Case{"real-257", Parameters(), "real-257"}}; }
 
 void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   MrbspOptions rule;
   rule.depth = depth_over(ground);
@@ -169,7 +168,7 @@ void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progres
   view.eye = {x, ground.sample(x, z) + 5 * lod.short_side(), z};
   view.target = view.eye + glm::vec3(0.75F, -0.32F, -0.66F);
   view.far = 2 * (ground.extent_x() + ground.extent_z());
-  recorder.add("triangles", "", static_cast<double>(lod.update(view).stats.triangles));
+  recorder.add("triangles", "", lod.update(view).stats.triangles);
   LodFigure(ground, lod, view)
       .draw(options,
             recorder.figure("mrbsp.F1", "png",

@@ -59,7 +59,7 @@ void measure(const Case&, const RunOptions& options, Recorder& recorder, Progres
   recorder.add("differing_lines", "", differing_steps(steps));
   std::size_t changes = 0;
   for (const ProfileStep& step : steps) changes += step.coarse.size();
-  recorder.add("changes", "", static_cast<double>(changes));
+  recorder.add("changes", "", changes);
   // And through the file and back.
   const VisibilityTable again = parse_visibility(visibility_text(table), "table 1");
   recorder.add("lost_in_the_file", "", again == table ? 0 : 1);

@@ -115,8 +115,7 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   MrbspOptions finest;
   finest.depth = depth_over(ground);
@@ -132,13 +131,13 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   std::size_t visible = 0;
   for (int cell = 0; cell < sets.cells.count(); ++cell) visible += sets.count(cell);
   recorder.add("cells", "", sets.cells.count());
-  recorder.add("coarse_triangles", "", static_cast<double>(std::uint64_t{1} << sets.depth));
+  recorder.add("coarse_triangles", "", std::uint64_t{1} << sets.depth);
   recorder.add("visible_share", "",
                static_cast<double>(visible) / sets.cells.count() / std::exp2(sets.depth));
   const VisibilityBytes bytes = visibility_bytes(changes_of(sets));
-  recorder.add("bytes_changes", "B", static_cast<double>(bytes.changes));
-  recorder.add("bytes_lists", "B", static_cast<double>(bytes.lists));
-  recorder.add("bytes_bits", "B", static_cast<double>(bytes.bits));
+  recorder.add("bytes_changes", "B", bytes.changes);
+  recorder.add("bytes_lists", "B", bytes.lists);
+  recorder.add("bytes_bits", "B", bytes.bits);
   recorder.add("changes_to_lists", "", static_cast<double>(bytes.changes) / static_cast<double>(bytes.lists));
   recorder.add("changes_to_bits", "", static_cast<double>(bytes.changes) / static_cast<double>(bytes.bits));
 
@@ -157,9 +156,9 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     progress.advance();
   }
   progress.end();
-  recorder.add("eyes", "", static_cast<double>(misses.eyes));
-  recorder.add("seen", "", static_cast<double>(misses.seen));
-  recorder.add("missed", "", static_cast<double>(misses.missed));
+  recorder.add("eyes", "", misses.eyes);
+  recorder.add("seen", "", misses.seen);
+  recorder.add("missed", "", misses.missed);
   recorder.add("missed_share", "", share_of(misses.missed, misses.seen));
   recorder.add("missed_pixel_share", "", share_of(misses.missed_pixels, misses.pixels));
   recorder.add("missed_pixel_share_most", "", misses.worst_eye);

@@ -87,7 +87,7 @@ void count_triangles(Methods& methods, const std::vector<View>& views, Recorder&
     for (std::size_t m = 0; m < kMethods; ++m) {
       drawn[m] = methods.lods[m].update(view).stats.triangles;
       sums[m] += static_cast<double>(drawn[m]);
-      recorder.add(fmt::format("triangles_{}", kNames[m]), "", static_cast<double>(drawn[m]));
+      recorder.add(fmt::format("triangles_{}", kNames[m]), "", drawn[m]);
     }
     const auto [less, more] = std::minmax(drawn[kLod], drawn[kVis]);
     brute_most += more < drawn[kBrute];
@@ -98,10 +98,10 @@ void count_triangles(Methods& methods, const std::vector<View>& views, Recorder&
     recorder.add(fmt::format("mean_{}", kNames[m]), "", sums[m] / static_cast<double>(views.size()));
     recorder.add(fmt::format("share_{}", kNames[m]), "", sums[m] / sums[kBrute]);
   }
-  recorder.add("views", "", static_cast<double>(views.size()));
-  recorder.add("views_brute_most", "", static_cast<double>(brute_most));
-  recorder.add("views_both_least", "", static_cast<double>(both_least));
-  recorder.add("views_tied", "", static_cast<double>(tied));
+  recorder.add("views", "", views.size());
+  recorder.add("views_brute_most", "", brute_most);
+  recorder.add("views_both_least", "", both_least);
+  recorder.add("views_tied", "", tied);
 }
 
 // Evenly over the walk.
@@ -139,11 +139,11 @@ void count_lost_pixels(Methods& methods, const std::vector<View>& views, const R
     add("ground_share", "", static_cast<double>(ground) / (a_picture * static_cast<double>(views.size())));
     add("lost_share", "", static_cast<double>(lost) / (a_picture * static_cast<double>(views.size())));
     add("most_lost_share", "", static_cast<double>(most_lost) / a_picture);
-    add("most_lost", "px", static_cast<double>(most_lost));
-    add("most_open", "px", static_cast<double>(most_open));
-    add("open_views", "", static_cast<double>(open_views));
+    add("most_lost", "px", most_lost);
+    add("most_open", "px", most_open);
+    add("open_views", "", open_views);
   }
-  recorder.add("pictures", "", static_cast<double>(views.size()));
+  recorder.add("pictures", "", views.size());
 }
 
 // What changing the flags of visibility takes along the walk, beside choosing triangles without them.
@@ -228,8 +228,7 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   const std::vector<View> views = walk(ground, kViews);
   Methods methods(ground, at.parameters.flag("conservative"), progress);
@@ -237,7 +236,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const double size = asked > 0 ? asked : fitted_size(methods, views);
   methods.tune(size);
   recorder.add("size", "short sides", size);
-  recorder.add("triangles_all", "", static_cast<double>(triangles_unculled(ground, views[0], progress)));
+  recorder.add("triangles_all", "", triangles_unculled(ground, views[0], progress));
   count_triangles(methods, views, recorder);
   for (const View& view : views) {
     recorder.add("lod_time", "s", seconds([&] { methods.lods[kLod].update(view); }));

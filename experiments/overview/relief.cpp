@@ -60,18 +60,18 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     const double seconds = watch.seconds();
     recorder.add("build_time", "s", seconds);
   }
-  recorder.add("bytes", "B", static_cast<double>(built->memory().total()));
+  recorder.add("bytes", "B", built->memory().total());
   const Fidelity fidelity = measure_fidelity(*built, source, progress);
   if (fidelity.from_heights) {
     recorder.add("rmse", "m", fidelity.rmse);
     recorder.add("largest_error", "m", fidelity.largest_error);
-    recorder.add("lost_columns", "", static_cast<double>(fidelity.lost));
+    recorder.add("lost_columns", "", fidelity.lost);
   } else {
     recorder.add("volume_iou", "", fidelity.volume_iou);
   }
 
   const TriangleMesh mesh = built->mesh({});
-  recorder.add("triangles", "", static_cast<double>(mesh.triangles()));
+  recorder.add("triangles", "", mesh.triangles());
   const View view = overview(bounds_of(mesh), static_cast<int>(at.parameters.integer("width")),
                              static_cast<int>(at.parameters.integer("height")));
   const auto context = open_context(options.renderer, view.width, view.height);

@@ -7,7 +7,6 @@
 #include "experiments/drill/factorial.h"
 #include "experiments/drill/ground.h"
 #include "experiments/figures/colours.h"
-#include "experiments/noise_ground.h"
 
 namespace terrabench::drill {
 namespace {
