@@ -22,8 +22,8 @@ constexpr double kRoughness = 5.9;  // metres, largest displacement at the last 
 // Without a GPU the pictures take most of the time.
 constexpr std::size_t kMeteredToPictured = 4, kMostPictures = 4;
 
-// A Gaussian bell whose standard deviation is 0.06 of the extent and whose steepest slope is 45°. More than two
-// thirds of the ground are flat.
+// A Gaussian bell whose standard deviation is 0.06 of the extent and whose steepest slope is 45°. More than
+// two thirds of the ground are flat.
 Heightfield peak(int size) {
   Heightfield field;
   field.width = field.depth = size;
@@ -42,9 +42,9 @@ Heightfield peak(int size) {
   return field;
 }
 
-// The same roughness from sample to sample at any size, so that smaller ground resembles a piece of larger. At
-// 4097 samples per side the first level is displaced by up to 2,000 m, which gives the relief of the Alps over
-// 123 km.
+// The same roughness from sample to sample at any size, so that smaller ground resembles a piece of larger.
+// At 4097 samples per side the first level is displaced by up to 2,000 m, which gives the relief of the Alps
+// over 123 km.
 float amplitude(int size) {
   return static_cast<float>(kRoughness * std::pow(2.0, kHurst * fractal::levels_of_side(size)));
 }

@@ -1,5 +1,4 @@
-// Channel networks of the drill paper's §2.1 and §3.1: how many pixels a threshold gives, and the largest
-// flow.
+// Channel networks of the drill paper's §2.1 and §3.1: channel pixels per threshold, and the largest flow.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What the drill paper's text promises of regeneration: equation 1 never raises anything, gives the same in
-// any order, and drills keep no promise about pits.
+// The drill paper's statements about regeneration: equation 1 never raises a pixel and does not depend on the
+// order of drills; pits are counted.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -67,7 +67,7 @@ void record_orders(const Drills& drills, const Heightfield& regenerated, std::ui
   recorder.add("order_differences", "", differing);
 }
 
-// The drills of the first `count` pixels alone.
+// The first `count` drills.
 Drills first_drills(Drills drills, std::size_t count) {
   drills.pixel.resize(count);
   drills.direction.resize(count);
@@ -78,7 +78,7 @@ Drills first_drills(Drills drills, std::size_t count) {
   return drills;
 }
 
-// Pixels that stand higher after more drills than after fewer.
+// Pixels that are higher after more drills than after fewer.
 void record_rises(const Drills& drills, Recorder& recorder) {
   std::size_t rises = 0;
   Heightfield before = regenerate(first_drills(drills, 0));
@@ -114,8 +114,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   const FlowNetwork network = route_flow(ground, &progress);
-  DrillOptions extract;
-  extract.k = 20;
+  DrillOptions extract{.k = 20};
   const Drills drills = extract_drills(ground, network, extract, &progress);
   const Heightfield regenerated = regenerate(drills);
   record_orders(drills, regenerated, options.seed, recorder, progress);

@@ -1,4 +1,4 @@
-// What extraction and regeneration cost, against the number of drills (the drill paper's §3.1).
+// Time of extraction and regeneration against the number of drills (the drill paper's §3.1).
 #include <fmt/format.h>
 
 #include <array>
@@ -46,14 +46,12 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   std::vector<double> regeneration;
   std::vector<Drills> drills(kTimedTaus.size());
   progress.begin("timing extraction", kSamples);
-  // All thresholds in turn, so that a busy moment of the machine meets all alike; the first round warms up.
+  // Thresholds alternate, so that a slow period of the machine affects all alike. The first round warms up.
   for (int sample = -1; sample < kSamples; ++sample) {
     const double routing = seconds([&] { network = route_flow(ground); });
     if (sample >= 0) recorder.add("routing_time", "s", routing);
     for (std::size_t t = 0; t < kTimedTaus.size(); ++t) {
-      DrillOptions extract;
-      extract.tau = kTimedTaus[t];
-      extract.k = 20;
+      const DrillOptions extract{.tau = kTimedTaus[t], .k = 20};
       const double time = seconds([&] { drills[t] = extract_drills(ground, network, extract); });
       if (sample < 0) continue;
       extraction[t].push_back(time);

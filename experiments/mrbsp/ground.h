@@ -9,8 +9,8 @@ namespace terrabench::mrbsp {
 
 inline constexpr int kSide = 257, kDepth = 16;  // samples; bisections
 
-// real-257, mountains resampled; drawing-257, made from a drawing as the paper's is; rough-257, a fractal. Any
-// other name is opened as a terrain of heights, and its holes are filled.
+// real-257, mountains resampled; drawing-257, made from a drawing as the paper's is; rough-257, a fractal.
+// Any other name is opened as a terrain of heights, and its holes are filled.
 TerrainSource open_ground(std::string_view name, std::uint64_t seed);
 // Those that the options name; otherwise real-257 and drawing-257, and rough-257 where asked for.
 std::vector<std::string> grounds(const RunOptions&, bool rough);
@@ -22,8 +22,8 @@ float eye_height(const Heightfield&, float x, float z);
 // Metres. A more distant near plane would clip steep ground beside a walker's eye and show what it hides.
 inline constexpr float kWalkersNear = 0.02F;
 // A closed walk around the middle of the ground at that height, looking ahead, 800 × 600 pixels. The view is
-// 40° wide, which shows the paper's 11 % of all triangles. `reach` is the largest distance from the middle, as
-// a share of half the extent.
+// 40° wide, which shows the paper's 11 % of all triangles. `reach` is the largest distance from the middle,
+// as a share of half the extent.
 std::vector<View> walk(const Heightfield&, int views, float reach = 0.6F);
 
 // Sizes for Mrbsp::tune(). This one draws the finest triangles at any distance.

@@ -1,4 +1,4 @@
-// What a picture lacks when triangles are left out of it, by the triangle that each pixel shows.
+// Pixels that change when triangles are left out of a picture, judged by the triangle that each pixel shows.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@
 
 namespace terrabench::mrbsp {
 
-// The same for the same triangle in every frame over one grid, and for no other: in a surface no two
-// triangles run the same edge the same way.
+// Identifies a triangle in all frames over one grid: no two triangles of a surface have the same directed
+// edge.
 std::uint64_t triangle_key(const Frame&, std::uint32_t triangle);
 
 struct LostPixels {
-  std::size_t ground = 0;  // show any triangle before
-  std::size_t lost = 0;    // show another triangle, or none
-  std::size_t open = 0;    // of these: none, where there was ground
+  std::size_t ground = 0;  // show a triangle in the complete frame
+  std::size_t lost = 0;    // of these: show another triangle, or none
+  std::size_t open = 0;    // of these: show none
 };
-// Of two frames of one view. Each renderer draws the frames of one method. O(pixels).
+// Compares two frames of one view. Each renderer draws the frames of one method. O(pixels).
 LostPixels lost_pixels(const Frame& all, FrameRenderer& of_all, const Frame& some, FrameRenderer& of_some,
                        const View&);
 

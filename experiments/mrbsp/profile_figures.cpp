@@ -25,7 +25,7 @@ class ProfileDrawing {
 
   const Sheet& draw() {
     cells();
-    // Coarse below fine, so that both show where they run close together.
+    // Coarse under fine, so that both show where they nearly coincide.
     outline(profile_.size() >> kCoarseDigits, {.colour = kCoarse, .thickness = 5}, 9);
     outline(1, {.colour = kInk, .thickness = 2}, 5);
     numbers(kFineDigits, kTop + kHeight + 34, 12, kInk);
@@ -66,7 +66,7 @@ class ProfileDrawing {
     }
   }
   bool changes(std::size_t step) const { return step < steps_.size() && !steps_[step].coarse.empty(); }
-  // Dark where a step to a neighbour changes what is seen.
+  // Dark where a step to a neighbouring cell changes visibility.
   void cells() {
     const double side = kWidth / kProfileCells, y = kTop + kHeight + 74;
     for (std::size_t c = 0; c < kProfileCells; ++c) {

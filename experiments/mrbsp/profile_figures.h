@@ -17,11 +17,11 @@ std::string step_name(std::size_t step);
 void draw_profile(std::span<const float> profile, std::span<const ProfileStep>,
                   const std::filesystem::path& png);
 
-// A line of table 1 as the paper prints it.
+// A row of table 1 as printed.
 struct PrintedStep {
   std::string_view name, coarse, fine;
 };
-// What is printed beside what is computed, for all steps in either.
+// Printed and computed rows side by side, for all steps in either.
 void draw_table(std::span<const PrintedStep>, std::span<const ProfileStep>, const std::filesystem::path& png);
 
 }  // namespace terrabench::mrbsp

@@ -1,5 +1,5 @@
-// §4: whether the stored sets over-estimate what is seen, against pictures in which every pixel says which
-// triangle it shows; and what storing changes alone saves.
+// §4: whether the stored sets over-estimate visibility, checked against pictures whose pixels hold the number
+// of the triangle they show; and the bytes saved by storing only changes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,23 +20,23 @@ namespace terrabench::mrbsp {
 namespace {
 
 constexpr std::array kSpecs{
-    ParameterSpec{"conservative", false, "", "the sets that miss nothing, not the paper's sampling"},
-    ParameterSpec{"cells", std::int64_t{16}, "cells", "at most, along the longer side", 1, 256},
-    ParameterSpec{"coarseness", std::int64_t{6}, "levels", "from the finest triangles to those of visibility",
-                  0, 14},
+    ParameterSpec{"conservative", false, "", "sets that miss nothing instead of the paper's sampling"},
+    ParameterSpec{"cells", std::int64_t{16}, "cells", "largest number along the longer side", 1, 256},
+    ParameterSpec{"coarseness", std::int64_t{6}, "levels",
+                  "between the finest triangles and those of visibility", 0, 14},
 };
 constexpr int kHeadings = 4, kPixels = 512;
 
 struct Misses {
   std::size_t seen = 0, missed = 0, pixels = 0, missed_pixels = 0, eyes = 0;
-  double worst_eye = 0;  // missed pixels, share of those that show ground
+  double worst_eye = 0;  // largest share of missed pixels of one eye
 };
 
 double share_of(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-// Which coarse triangle a triangle of the frame lies in: by its middle.
+// The coarse triangle that contains the middle of a triangle of the frame.
 std::uint32_t element_of(const Frame& frame, std::uint32_t triangle, const CoarseSquares& squares) {
   glm::vec2 middle(0);
   for (std::uint32_t c = 0; c < 3; ++c) {
@@ -52,13 +52,13 @@ std::uint32_t element_of(const Frame& frame, std::uint32_t triangle, const Coars
   return squares.element(square, high ? 1 : 0);
 }
 
-// What an eye sees all around that its cell's set lacks.
+// Adds the triangles that an eye sees in all directions but its cell's set lacks.
 void look_around(const Heightfield& ground, const glm::vec3& eye, Mrbsp& full, FrameRenderer& renderer,
                  const VisibleSets& sets, const CoarseSquares& squares, Misses& misses) {
   const CellGrid& cells = sets.cells;
   const int column = std::min(static_cast<int>(eye.x / ground.cell_x) / cells.side, cells.columns - 1);
   const int row = std::min(static_cast<int>(eye.z / ground.cell_z) / cells.side, cells.rows - 1);
-  std::unordered_set<std::uint64_t> seen, missed;  // a triangle may show in two directions
+  std::unordered_set<std::uint64_t> seen, missed;  // a triangle may show in two pictures
   std::size_t pixels = 0, missed_pixels = 0;
   for (int heading = 0; heading < kHeadings; ++heading) {
     View view;
@@ -108,7 +108,7 @@ std::vector<Case> cases(const RunOptions& options) {
         if (cells == 16 || !conservative || paper) add(ground, conservative, cells, {});
       }
     }
-    // At the paper's depth an even number of levels gives squares one level further up.
+    // At the paper's depth an even coarseness gives squares one level coarser.
     for (const int coarseness : {4, 8}) add(ground, false, 16, coarseness);
   }
   return cases;
@@ -117,14 +117,11 @@ std::vector<Case> cases(const RunOptions& options) {
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
-  MrbspOptions finest;
-  finest.depth = depth_over(ground);
-  Mrbsp full(ground, finest, progress);
+  Mrbsp full(ground, {.depth = depth_over(ground)}, progress);
   full.tune(kFinest);
-  VisibilityOptions how;
-  how.conservative = at.parameters.flag("conservative");
-  how.cells = static_cast<int>(at.parameters.integer("cells"));
-  how.coarseness = static_cast<int>(at.parameters.integer("coarseness"));
+  const VisibilityOptions how{.conservative = at.parameters.flag("conservative"),
+                              .cells = static_cast<int>(at.parameters.integer("cells")),
+                              .coarseness = static_cast<int>(at.parameters.integer("coarseness"))};
   const Stopwatch watch;
   const VisibleSets sets = find_visible(grid_of(ground), full.tree(), how, progress);
   recorder.add("preprocessing_time", "s", watch.seconds());
