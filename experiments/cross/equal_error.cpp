@@ -10,7 +10,7 @@
 
 #include "experiments/cross/flight.h"
 #include "experiments/cross/pictures.h"
-#include "experiments/experiment.h"
+#include "experiments/ground.h"
 #include "experiments/stopwatch.h"
 #include "lod/meters/cracks.h"
 #include "lod/meters/image_error.h"
@@ -26,21 +26,18 @@ constexpr std::string_view kAll = "all";      // in place of a method
 
 const std::array kSpecs{
     ParameterSpec{"method", std::string("roam"), "",
-                  "a name of `terrabench list lods`, geomipmap_morph, mrbsp_area, or all: their triangles "
-                  "side by side"},
+                  "a name of `terrabench list lods`, geomipmap_morph, mrbsp_area, or all for a picture of "
+                  "their triangles side by side"},
     ParameterSpec{"options", std::string(), "",
-                  "of the methods, such as geomipmap.patch=32,mrbsp.threshold=area"},
-    ParameterSpec{"error", 1.0, "px", "99th percentile of the screen-space error that is asked for", 0.01,
-                  1000},
-    ParameterSpec{"path", std::string("fly"), "",
-                  "camera path: cross, fly, low, turn, walk, or a TOML file of your own"},
+                  "options of methods, such as geomipmap.patch=32,mrbsp.threshold=area"},
+    ParameterSpec{"error", 1.0, "px", "wanted 99th percentile of the screen-space error", 0.01, 1000},
+    ParameterSpec{"path", std::string("fly"), "", "camera path: cross, fly, low, turn, walk, or a TOML file"},
     ParameterSpec{"frames", std::int64_t{24}, "", "frames of the path that are metered", 1, 100000},
-    ParameterSpec{"size", std::int64_t{257}, "samples", "side of the grounds that are made here, 2^n + 1", 3,
-                  8193},
+    ParameterSpec{"size", std::int64_t{257}, "samples", "side of the generated grounds, 2^n + 1", 3, 8193},
 };
 
-// The whole path, with nothing between two updates: what the method costs the CPU and the bus. The first
-// update, which builds what the others keep, stands apart.
+// Time and uploaded bytes over the whole path, with nothing between two updates. The first update, which
+// builds what later ones keep, is reported separately.
 void measure_cost(const Flight& flight, const Contender& method, double knob, Recorder& recorder,
                   Progress& progress) {
   std::vector<double> times, triangles;
@@ -75,14 +72,14 @@ void measure_cost(const Flight& flight, const Contender& method, double knob, Re
   recorder.add("update_time_p99", "s", times[(99 * times.size() + 99) / 100 - 1]);
 }
 
-// What is drawn, over the metered frames.
+// Results over the metered frames.
 struct Shown {
   Distribution error, popping;  // of visible samples, pixels
-  double largest_anywhere = 0;  // error of a sample in the frustum, hidden or not
+  double largest_anywhere = 0;  // error of any sample in the frustum, hidden ones included; pixels
   double largest_gap = 0;       // pixels
   std::size_t undrawn = 0, gaps = 0, bare_edges = 0, overlaps = 0, t_junctions = 0;
   std::vector<double> frame_times;  // seconds, with the upload
-  std::vector<double> noise;        // of a picture, as a share of the signal's peak: mean of squares
+  std::vector<double> noise;        // per picture: mean squared error, as a share of the squared peak
   std::vector<double> ssim;
 };
 
@@ -102,9 +99,8 @@ void meter(const Flight& flight, std::size_t k, const Frame& frame, const Surfac
   shown.largest_gap = std::max(shown.largest_gap, cracks.largest_gap_px);
 }
 
-// Of a metered frame: against the frame before it, which popping lies between, and which the renderer's
-// upload starts from. A few frames of the path lead up to these, so that methods that keep a mesh are in
-// step.
+// Measures metered frames. Popping compares a frame with the one before, and its upload starts from there. A
+// few frames lead up to both, so that methods that keep a mesh between frames are in their usual state.
 class Metering {
  public:
   Metering(Flight& flight, const Contender& method, double knob, GlContext& context, Progress& progress)
@@ -181,7 +177,7 @@ void record(const Shown& shown, const Flight& flight, Recorder& recorder) {
   recorder.add("frames", "", flight.metered.size());
   for (const double t : shown.frame_times) recorder.add("frame_time", "s", t);
   for (const double s : shown.ssim) recorder.add("ssim", "", s);
-  // Of all pictures as one; equal pictures have no ratio of signal to noise.
+  // Over all pictures together; identical pictures have no signal-to-noise ratio.
   const double noise = std::accumulate(shown.noise.begin(), shown.noise.end(), 0.0);
   if (noise > 0)
     recorder.add("psnr", "dB", -10 * std::log10(noise / static_cast<double>(shown.noise.size())));
@@ -197,28 +193,29 @@ const Entrant& entrant(std::string_view name) {
   throw unknown_name("level-of-detail method", name, known);
 }
 
-// The user's options behind an entrant's own, so that these stay unless they are named again.
+// The user's options follow the entrant's own, and so override them.
 std::string join(const std::string& own, const std::string& asked) {
   return own.empty() || asked.empty() ? own + asked : own + "," + asked;
 }
 
 std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
-  std::vector<std::string> terrains = options.terrains;
-  if (terrains.empty()) terrains = {std::string(kMainGround), "fractal", "peak"};
   std::vector<Case> cases;
-  for (const std::string& terrain : terrains) {
+  for (const std::string& terrain : grounds(options, {std::string(kMainGround), "fractal", "peak"})) {
+    // The path `fly` suits the width of the other grounds. This one is 123 km wide in the paper profile; a
+    // flight as high as that width implies would not resolve its samples, and brute force takes ten seconds
+    // and more per frame.
+    const bool fractal = terrain == "fractal", large = paper && fractal;
+    const std::int64_t frames = large ? 12 : paper ? 48 : 24, size = large ? 4097 : paper ? 1025 : 257;
     const auto add = [&](const std::string& name, const Entrant& entrant, double error) {
       cases.push_back({fmt::format("{}/{}", terrain, name),
-                       {kSpecs, {{"method", entrant.name}, {"error", error}}},
+                       {kSpecs,
+                        {{"method", entrant.name},
+                         {"error", error},
+                         {"path", std::string(fractal ? "low" : "fly")},
+                         {"frames", frames},
+                         {"size", size}}},
                        terrain});
-      // The other grounds are as wide as the path `fly` suits; this one has 123 km in the paper profile, and
-      // a flight as high as its width asks for would see nothing of its samples.
-      if (terrain == "fractal") cases.back().parameters.set("path", std::string("low"));
-      const bool large = paper && terrain == "fractal";
-      // A frame over the largest ground takes brute force ten seconds and more.
-      cases.back().parameters.set("frames", std::int64_t{large ? 12 : paper ? 48 : 24});
-      cases.back().parameters.set("size", std::int64_t{large ? 4097 : paper ? 1025 : 257});
     };
     for (const Entrant& entrant : entrants()) {
       if (!contender(entrant.method, entrant.options).tunable()) {
@@ -257,7 +254,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const Shown shown = measure_shown(flight, measured, tuned.knob, *context, progress);
   record(shown, flight, recorder);
   recorder.add("error_of_asked", "", shown.error.quantile(0.99) / pixels);
-  // Of methods that promise a bound, which is their knob: how much of it a sample in the frustum takes.
+  // For methods whose knob bounds the error: the largest error of a sample in the frustum, relative to the
+  // bound.
   if (measured.type->traits.bounds_error)
     recorder.add("bound_taken", "", shown.largest_anywhere / tuned.knob);
 }

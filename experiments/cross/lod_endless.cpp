@@ -1,4 +1,5 @@
-// A clipmap over endless ground of noise, out and back: bytes uploaded, cracks, and identical heights on return.
+// A clipmap over endless ground of noise, out and back: bytes uploaded, cracks, and identical heights on
+// return.
 #include <fmt/format.h>
 
 #include <array>
@@ -100,9 +101,10 @@ class Flight {
     }
     sheet.write(recorder_.figure(
         "cross.lod-endless" + suffix, "png",
-        fmt::format("Endless ground under a clipmap of {} samples per window, from {:g} m above it; the hybrid "
-                    "paper's endless terrain (§3.2). Colours by height from {:.0f} to {:.0f} m.",
-                    clipmap_->window(), kPictureHeight, -0.33 * ground_.relief, 0.33 * ground_.relief)));
+        fmt::format(
+            "Endless ground under a clipmap of {} samples per window, from {:g} m above it; the hybrid "
+            "paper's endless terrain (§3.2). Colours by height from {:.0f} to {:.0f} m.",
+            clipmap_->window(), kPictureHeight, -0.33 * ground_.relief, 0.33 * ground_.relief)));
   }
 
  private:
@@ -190,8 +192,8 @@ class Flight {
     strips_ += expected_.follow(at(k), finest_, clipmap_->levels());
   }
 
-  // Looks for cracks with the origin moved north-west of all windows: find_cracks() takes coordinates ≤ 0 for a
-  // border of the ground. An edge of the ground nearer than the far plane would count as a bare edge.
+  // Looks for cracks with the origin moved north-west of all windows: find_cracks() takes coordinates ≤ 0 for
+  // a border of the ground. An edge of the ground nearer than the far plane would count as a bare edge.
   void meter(glm::dvec2 eye) {
     const glm::ivec2 before = clipmap_->origin();
     const int span = clipmap_->window() << (clipmap_->levels() - 1);

@@ -30,18 +30,15 @@ struct Scale {
   double at(double error) const { return high > low ? std::log(error / low) / std::log(high / low) : 0; }
 };
 
-template <std::size_t N, class T>
-double place(const std::array<T, N>& levels, T level) {
-  return static_cast<double>(std::find(levels.begin(), levels.end(), level) - levels.begin());
-}
-
 void add_matrix(figures::Sheet& sheet, double x0, double y0, int w, const std::vector<Outcome>& outcomes,
                 ErrorOf error, const Scale& scale, const Figures& figures) {
   sheet.text(x0, y0 - 8, fmt::format("w = {}", w), 14);
   for (const Outcome& o : outcomes) {
     if (o.setting.w != w) continue;
-    const double x = x0 + place(kInfluences, o.setting.k) * kCellWidth,
-                 y = y0 + place(kTaus, o.setting.tau) * kCellHeight;
+    const auto column = std::find(kInfluences.begin(), kInfluences.end(), o.setting.k) - kInfluences.begin();
+    const auto row = std::find(kTaus.begin(), kTaus.end(), o.setting.tau) - kTaus.begin();
+    const double x = x0 + static_cast<double>(column) * kCellWidth,
+                 y = y0 + static_cast<double>(row) * kCellHeight;
     const Rgb colour = figures::error_colour(scale.at(error(o)));
     sheet.box(x, y, kCellWidth - 1, kCellHeight - 1, colour);
     sheet.text(x + kCellWidth / 2, y + kCellHeight / 2 + 5, figures.of(error(o)), 13, "middle",

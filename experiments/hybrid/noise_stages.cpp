@@ -42,13 +42,12 @@ std::vector<Case> cases(const RunOptions&) {
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const noise::StageInfo& stage = stage_of_figure(at.parameters.integer("figure"));
   const int side = static_cast<int>(at.parameters.integer("pixels"));
-  noise::CaveOptions terrain;
-  terrain.seed = options.seed;
+  const noise::CaveOptions terrain{.seed = options.seed};
   const noise::CaveGraph graph = noise::graph_for(stage.stage, terrain);
   recorder.terrain(fmt::format("caves ({})", stage.name), checksum(graph.graph.describe()));
   const noise::Program program(graph.graph, graph.root);
 
-  // Rows bottom up in the slice, top down in the picture; samples at pixel centres.
+  // Rows run upwards in the slice and downwards in the picture; samples are at pixel centres.
   const float step = terrain.extent / static_cast<float>(side);
   std::vector<float> values(static_cast<std::size_t>(side) * side);
   progress.begin(stage.name, side);

@@ -30,6 +30,11 @@ std::vector<std::string> grounds(const RunOptions& options, bool rough) {
 
 int depth_over(const Heightfield& field) { return field.width == kSide && field.depth == kSide ? kDepth : 0; }
 
+glm::ivec2 cell_below(const CellGrid& cells, const Heightfield& field, const glm::vec3& eye) {
+  return {std::min(static_cast<int>(eye.x / field.cell_x) / cells.side, cells.columns - 1),
+          std::min(static_cast<int>(eye.z / field.cell_z) / cells.side, cells.rows - 1)};
+}
+
 float eye_height(const Heightfield& field, float x, float z) {
   const BisectionTree tree = BisectionTree::over(field.width, field.depth, depth_over(field));
   return std::max(field.sample(x, z), surface_height(tree, grid_of(field), x, z)) + 1.8F;
@@ -55,6 +60,10 @@ std::vector<View> walk(const Heightfield& field, int views, float reach) {
     all.push_back(view);
   }
   return all;
+}
+
+double share(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
 double mean_triangles(Mrbsp& lod, const std::vector<View>& views) {

@@ -14,6 +14,8 @@ inline constexpr int kSide = 257, kDepth = 16;  // samples; bisections
 TerrainSource open_ground(std::string_view name, std::uint64_t seed);
 // Those that the options name; otherwise real-257 and drawing-257, and rough-257 where asked for.
 std::vector<std::string> grounds(const RunOptions&, bool rough);
+// The cell below an eye.
+glm::ivec2 cell_below(const CellGrid&, const Heightfield&, const glm::vec3& eye);
 // The tree's depth: the paper's on ground of its size; otherwise 0, as deep as the samples go.
 int depth_over(const Heightfield&);
 
@@ -31,6 +33,9 @@ inline constexpr double kFinest = 65536;
 // In short sides of the finest triangles: with the printed formula, level of detail alone draws about as many
 // triangles as the paper's.
 inline constexpr double kTunedSize = 16;
+
+// The share of `part` in `whole`, 0 where there is nothing to share.
+double share(std::size_t part, std::size_t whole);
 
 double mean_triangles(Mrbsp&, const std::vector<View>&);
 

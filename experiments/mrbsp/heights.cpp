@@ -81,9 +81,6 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     const SubsetTriangles subsets = interpolate_subsets(points, tree, shared);
     const VertexGaps gaps = vertex_gaps(subsets);
     const std::string_view suffix = shared ? "_shared" : "";
-    const auto share = [](std::size_t part, std::size_t all) {
-      return static_cast<double>(part) / static_cast<double>(all);
-    };
     recorder.add(fmt::format("vertices{}", suffix), "", gaps.vertices);
     recorder.add(fmt::format("torn{}", suffix), "", gaps.torn);
     recorder.add(fmt::format("torn_share{}", suffix), "", share(gaps.torn, gaps.vertices));

@@ -31,7 +31,7 @@ Heightfield ramp(const DrawingOptions& options) {
 }
 
 template <class Test>
-double share(const Heightfield& field, const Test& test) {
+double share_where(const Heightfield& field, const Test& test) {
   return static_cast<double>(std::count_if(field.heights.begin(), field.heights.end(), test)) /
          static_cast<double>(field.heights.size());
 }
@@ -167,13 +167,14 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   for (const int percent : {10, 30, 40, 50}) {
     adjust.sea_level = static_cast<float>(percent) / 100;
     recorder.add(fmt::format("land_share_at_sea_level_{}", percent), "",
-                 share(land_from_drawing(picture, adjust), [](float h) { return h > 0; }));
+                 share_where(land_from_drawing(picture, adjust), [](float h) { return h > 0; }));
   }
   adjust = {};
   for (const int percent : {60, 30, 10, 3}) {
     adjust.seabed = static_cast<float>(percent) / 100;
-    recorder.add(fmt::format("beach_share_at_seabed_{}", percent), "",
-                 share(land_from_drawing(picture, adjust), [](float h) { return std::abs(h) < kBeach; }));
+    recorder.add(
+        fmt::format("beach_share_at_seabed_{}", percent), "",
+        share_where(land_from_drawing(picture, adjust), [](float h) { return std::abs(h) < kBeach; }));
   }
   adjust = {};
   adjust.smoothing = 0;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <random>
 #include <unordered_set>
 
@@ -19,22 +18,19 @@
 namespace terrabench::mrbsp {
 namespace {
 
+constexpr std::int64_t kCoarseness = 6;  // of most cases
 constexpr std::array kSpecs{
     ParameterSpec{"conservative", false, "", "sets that miss nothing instead of the paper's sampling"},
     ParameterSpec{"cells", std::int64_t{16}, "cells", "largest number along the longer side", 1, 256},
-    ParameterSpec{"coarseness", std::int64_t{6}, "levels",
-                  "between the finest triangles and those of visibility", 0, 14},
+    ParameterSpec{"coarseness", kCoarseness, "levels", "between the finest triangles and those of visibility",
+                  0, 14},
 };
-constexpr int kHeadings = 4, kPixels = 512;
+constexpr int kPixels = 512;
 
 struct Misses {
   std::size_t seen = 0, missed = 0, pixels = 0, missed_pixels = 0, eyes = 0;
   double worst_eye = 0;  // largest share of missed pixels of one eye
 };
-
-double share_of(std::size_t part, std::size_t whole) {
-  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
-}
 
 // The coarse triangle that contains the middle of a triangle of the frame.
 std::uint32_t element_of(const Frame& frame, std::uint32_t triangle, const CoarseSquares& squares) {
@@ -55,20 +51,18 @@ std::uint32_t element_of(const Frame& frame, std::uint32_t triangle, const Coars
 // Adds the triangles that an eye sees in all directions but its cell's set lacks.
 void look_around(const Heightfield& ground, const glm::vec3& eye, Mrbsp& full, FrameRenderer& renderer,
                  const VisibleSets& sets, const CoarseSquares& squares, Misses& misses) {
-  const CellGrid& cells = sets.cells;
-  const int column = std::min(static_cast<int>(eye.x / ground.cell_x) / cells.side, cells.columns - 1);
-  const int row = std::min(static_cast<int>(eye.z / ground.cell_z) / cells.side, cells.rows - 1);
+  const glm::ivec2 cell = cell_below(sets.cells, ground, eye);
+  const int cell_number = cell.y * sets.cells.columns + cell.x;
   std::unordered_set<std::uint64_t> seen, missed;  // a triangle may show in two pictures
   std::size_t pixels = 0, missed_pixels = 0;
-  for (int heading = 0; heading < kHeadings; ++heading) {
-    View view;
-    view.eye = eye;
-    const std::array<glm::vec3, kHeadings> ways{{{1, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}}};
-    view.target = eye + ways[static_cast<std::size_t>(heading)];
-    view.vertical_fov = 1.5708F;
-    view.width = view.height = kPixels;
-    view.near = kWalkersNear;
-    view.far = 2 * (ground.extent_x() + ground.extent_z());
+  for (const glm::vec3 heading : {glm::vec3(1, 0, 0), {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}}) {
+    const View view{.eye = eye,
+                    .target = eye + heading,
+                    .vertical_fov = 1.5708F,
+                    .width = kPixels,
+                    .height = kPixels,
+                    .near = kWalkersNear,
+                    .far = 2 * (ground.extent_x() + ground.extent_z())};
     const Frame& frame = full.update(view);
     for (const std::uint32_t number : renderer.triangle_numbers(frame, view)) {
       if (number == 0) continue;
@@ -76,8 +70,8 @@ void look_around(const Heightfield& ground, const glm::vec3& eye, Mrbsp& full, F
       const std::uint64_t key = triangle_key(frame, triangle);
       ++pixels;
       const bool known = missed.contains(key);
-      if (known || (seen.insert(key).second &&
-                    !sets.sees(row * cells.columns + column, element_of(frame, triangle, squares)))) {
+      if (known ||
+          (seen.insert(key).second && !sets.sees(cell_number, element_of(frame, triangle, squares)))) {
         missed.insert(key);
         ++missed_pixels;
       }
@@ -87,7 +81,7 @@ void look_around(const Heightfield& ground, const glm::vec3& eye, Mrbsp& full, F
   misses.missed += missed.size();
   misses.pixels += pixels;
   misses.missed_pixels += missed_pixels;
-  misses.worst_eye = std::max(misses.worst_eye, share_of(missed_pixels, pixels));
+  misses.worst_eye = std::max(misses.worst_eye, share(missed_pixels, pixels));
   ++misses.eyes;
 }
 
@@ -95,17 +89,18 @@ std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   const bool paper = options.profile == Profile::kPaper;
   const auto add = [&](const std::string& ground, bool conservative, std::int64_t cells,
-                       std::optional<std::int64_t> coarseness) {
+                       std::int64_t coarseness) {
     const std::string_view sets = conservative ? "conservative" : "sampled";
     std::string name = fmt::format("{}/{}/cells={}", ground, sets, cells);
-    if (coarseness) name += fmt::format("/coarseness={}", *coarseness);
-    cases.push_back({std::move(name), {kSpecs, {{"conservative", conservative}, {"cells", cells}}}, ground});
-    if (coarseness) cases.back().parameters.set("coarseness", *coarseness);
+    if (coarseness != kCoarseness) name += fmt::format("/coarseness={}", coarseness);
+    cases.push_back({std::move(name),
+                     {kSpecs, {{"conservative", conservative}, {"cells", cells}, {"coarseness", coarseness}}},
+                     ground});
   };
   for (const std::string& ground : grounds(options, paper)) {
     for (const bool conservative : {false, true}) {
       for (const int cells : {16, 32, 64}) {
-        if (cells == 16 || !conservative || paper) add(ground, conservative, cells, {});
+        if (cells == 16 || !conservative || paper) add(ground, conservative, cells, kCoarseness);
       }
     }
     // At the paper's depth an even coarseness gives squares one level coarser.
@@ -142,12 +137,12 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   FrameRenderer renderer(*context);
   const CoarseSquares squares(full.tree(), sets.depth);
   std::mt19937_64 random(options.seed);
-  const auto share = [&] { return static_cast<float>(random() >> 40) / 16777216.0F; };
+  const auto random_share = [&] { return static_cast<float>(random() >> 40) / 16777216.0F; };
   const int eyes = options.profile == Profile::kPaper ? 100 : 20;
   Misses misses;
   progress.begin("looking around", static_cast<std::uint64_t>(eyes));
   for (int e = 0; e < eyes; ++e) {
-    glm::vec3 eye(share() * ground.extent_x(), 0, share() * ground.extent_z());
+    glm::vec3 eye(random_share() * ground.extent_x(), 0, random_share() * ground.extent_z());
     eye.y = eye_height(ground, eye.x, eye.z);
     look_around(ground, eye, full, renderer, sets, squares, misses);
     progress.advance();
@@ -156,8 +151,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("eyes", "", misses.eyes);
   recorder.add("seen", "", misses.seen);
   recorder.add("missed", "", misses.missed);
-  recorder.add("missed_share", "", share_of(misses.missed, misses.seen));
-  recorder.add("missed_pixel_share", "", share_of(misses.missed_pixels, misses.pixels));
+  recorder.add("missed_share", "", share(misses.missed, misses.seen));
+  recorder.add("missed_pixel_share", "", share(misses.missed_pixels, misses.pixels));
   recorder.add("missed_pixel_share_most", "", misses.worst_eye);
 }
 

@@ -149,13 +149,10 @@ void time_flags(Methods& methods, const Heightfield& ground, const std::vector<V
                 Recorder& recorder) {
   const VisibilityTable& table = methods.lods[kVis].visibility();
   VisibleFlags flags(table);
-  const CellGrid& cells = table.cells;
   double flag_time = 0, lod_time = 0;
   std::size_t toggled = 0;
   for (const View& view : views) {
-    const glm::ivec2 cell(
-        std::min(static_cast<int>(view.eye.x / ground.cell_x) / cells.side, cells.columns - 1),
-        std::min(static_cast<int>(view.eye.z / ground.cell_z) / cells.side, cells.rows - 1));
+    const glm::ivec2 cell = cell_below(table.cells, ground, view.eye);
     flag_time += seconds([&] { toggled += flags.move_to(table, cell); });
     lod_time += seconds([&] { methods.lods[kLod].update(view); });
   }

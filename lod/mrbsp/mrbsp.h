@@ -26,7 +26,7 @@ struct MrbspOptions {
   bool cull = true;              // leave out what the view does not see
   bool three_nearest = false;    // heights by the paper's interpolation; false: the samples themselves
   bool visibility = false;       // leave out what the ground hides
-  VisibilityOptions visible;     // how it is found
+  VisibilityOptions visible{};   // how it is found
 };
 
 class Mrbsp : public Lod {
