@@ -99,60 +99,39 @@ void meter(const Flight& flight, std::size_t k, const Frame& frame, const Surfac
   shown.largest_gap = std::max(shown.largest_gap, cracks.largest_gap_px);
 }
 
-// Measures metered frames. Popping compares a frame with the one before, and its upload starts from there. A
-// few frames lead up to both, so that methods that keep a mesh between frames are in their usual state.
-class Metering {
- public:
-  Metering(Flight& flight, const Contender& method, double knob, GlContext& context, Progress& progress)
-      : flight_(flight),
-        context_(context),
-        lod_(method.build(flight.ground(), progress)),
-        before_(flight.ground().width, flight.ground().depth),
-        drawn_(flight.ground().width, flight.ground().depth) {
-    lod_->tune(knob);
-  }
-
-  void measure(std::size_t k, const Image* reference, Shown& shown) {
-    const std::size_t last = flight_.metered[k];
-    for (std::size_t i = last - std::min(last, kLead); i + 1 < last; ++i) lod_->update(flight_.views[i]);
-    const Frame& former = lod_->update(flight_.views[last - 1]);
-    before_.draw(former);
-    std::optional<FrameRenderer> renderer;
-    if (reference != nullptr) {
-      draw_ground(renderer.emplace(context_), flight_, former, flight_.views[last - 1]);
-    }
-    const Frame& frame = lod_->update(flight_.views[last]);
-    drawn_.draw(frame);
-    meter(flight_, k, frame, before_, drawn_, shown);
-    if (reference == nullptr) return;
-    const Stopwatch watch;
-    draw_ground(*renderer, flight_, frame, flight_.views[last]);
-    shown.frame_times.push_back(watch.seconds());
-    const Image image = renderer->image();
-    shown.noise.push_back(std::pow(10, -psnr(image, *reference) / 10));
-    shown.ssim.push_back(ssim(image, *reference));
-  }
-
- private:
-  static constexpr std::size_t kLead = 3;
-
-  Flight& flight_;
-  GlContext& context_;
-  std::unique_ptr<Lod> lod_;
-  SurfaceRaster before_, drawn_;
-};
-
+// Popping compares a frame with the one before, and its upload starts from there. A few frames of the path
+// lead up to both, so that methods that keep a mesh between frames are in their usual state.
 Shown measure_shown(Flight& flight, const Contender& method, double knob, GlContext& context,
                     Progress& progress) {
+  constexpr std::size_t kLead = 3;
   Shown shown;
-  Metering metering(flight, method, knob, context, progress);
+  const std::unique_ptr<Lod> lod = method.build(flight.ground(), progress);
+  lod->tune(knob);
+  SurfaceRaster before(flight.ground().width, flight.ground().depth), drawn = before;
   const std::vector<std::size_t> with_picture = pictured(flight);
   progress.begin(fmt::format("metering {} on {}", method.type->name, flight.route.terrain),
                  flight.metered.size());
   for (std::size_t k = 0; k < flight.metered.size(); ++k) {
-    const auto at = std::find(with_picture.begin(), with_picture.end(), k);
-    metering.measure(k, at == with_picture.end() ? nullptr : &flight.pictures[at - with_picture.begin()],
-                     shown);
+    const std::size_t last = flight.metered[k];
+    for (std::size_t i = last - std::min(last, kLead); i + 1 < last; ++i) lod->update(flight.views[i]);
+    const Frame& former = lod->update(flight.views[last - 1]);
+    before.draw(former);
+    const auto picture = std::find(with_picture.begin(), with_picture.end(), k);
+    std::optional<FrameRenderer> renderer;
+    if (picture != with_picture.end()) {
+      draw_ground(renderer.emplace(context), flight, former, flight.views[last - 1]);
+    }
+    const Frame& frame = lod->update(flight.views[last]);
+    drawn.draw(frame);
+    meter(flight, k, frame, before, drawn, shown);
+    if (renderer) {
+      const Stopwatch watch;
+      draw_ground(*renderer, flight, frame, flight.views[last]);
+      shown.frame_times.push_back(watch.seconds());
+      const Image image = renderer->image(), &reference = flight.pictures[picture - with_picture.begin()];
+      shown.noise.push_back(std::pow(10, -psnr(image, reference) / 10));
+      shown.ssim.push_back(ssim(image, reference));
+    }
     progress.advance();
   }
   progress.end();

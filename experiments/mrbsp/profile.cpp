@@ -7,7 +7,6 @@
 
 #include "experiments/experiment.h"
 #include "experiments/mrbsp/extruded_profile.h"
-#include "experiments/mrbsp/profile_figures.h"
 #include "lod/mrbsp/visibility_text.h"
 
 namespace terrabench::mrbsp {

@@ -1,10 +1,9 @@
-#include "experiments/mrbsp/profile_figures.h"
-
 #include <algorithm>
 #include <array>
 #include <vector>
 
 #include "experiments/figures/sheet.h"
+#include "experiments/mrbsp/extruded_profile.h"
 #include "lod/mrbsp/visibility_text.h"
 
 namespace terrabench::mrbsp {
