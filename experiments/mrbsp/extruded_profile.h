@@ -3,9 +3,9 @@
 // Lines of sight along the strip are those of the profile.
 //
 // The paper prints no heights. From the table and its text: sixteen fine segments (four-digit numbers), four
-// coarse ones (two-digit numbers), cells a to h, an observer at height zero; only 00 and 01 are seen from a
-// to d, and only 10 and 11 from e to h, so a ridge separates d from e; a sees 11 over it, and h sees 00, so
-// the rims are higher. Our choice: cells of two fine segments each, and all heights.
+// coarse ones (two-digit numbers), cells a to h, an observer at height zero. Cells up to d see only 00 and
+// 01, those from e on only 10 and 11, so a ridge separates d from e; but a also sees 11 over it, and h sees
+// 00, so the rims are higher. Our choice: cells of two fine segments each, and all heights.
 //
 // A segment is a square of the strip: the two triangles of a coarse segment, which must change together, or
 // the finest triangles in it.

@@ -20,7 +20,7 @@ namespace {
 constexpr Knob kPixels{"error", "px", 0.1, 1000, 1}, kFineness{"size", "", 65536, 1.0 / 64, 1},
     kSamples{"window", "samples", 4095, 15, 255, true};
 
-// A legal path of more frames than memory holds the sight of: said so, and not begun.
+// Visibility of so many frames exceeds memory: an error before any work.
 TEST(Flight, RefusesMoreFramesThanMemoryHolds) {
   const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "endless_path.toml";
   write_file(path,
@@ -31,7 +31,7 @@ TEST(Flight, RefusesMoreFramesThanMemoryHolds) {
   const Route route{"peak", path.string(), 4097, 300000, 1};
   try {
     const Flight flight(route, silent);
-    ADD_FAILURE() << "1.2 TB have been found";
+    ADD_FAILURE() << "1.2 TB were allocated";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kEnvironment);
     EXPECT_THAT(error.what(), testing::HasSubstr("memory"));
@@ -183,10 +183,10 @@ TEST_P(EqualError, CountsAreTheSameForAnyNumberOfThreads) {
   const auto counts = [](int threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     Progress progress;
-    // Another route in between, so that nothing is kept from the measurement before.
+    // Another route in between, so that the flight of the previous measurement is not reused.
     flight_along({"peak", "fly", 17, 2, 1}, progress);
     std::vector<Metric> exact = measure(GetParam(), 33).metrics;
-    // Bytes held include what the allocator rounds up by, which depends on what was freed before.
+    // Bytes held include the allocator's rounding, which depends on what was freed before.
     std::erase_if(exact, [](const Metric& m) {
       return is_timing(m.unit) || m.name == "heap_growth" || m.name == "bytes_held";
     });

@@ -1,4 +1,4 @@
-// The experiments of the MRBSP paper on little ground: what they say must hold on any.
+// The experiments of the MRBSP paper on small ground, whose results must hold on any ground.
 
 #include <gtest/gtest.h>
 
@@ -16,11 +16,11 @@
 namespace terrabench::mrbsp {
 namespace {
 
-constexpr std::string_view kGround = "topobathy";  // 120 × 91 samples: no power of two
+constexpr std::string_view kGround = "topobathy";  // 120 × 91 samples: not powers of two
 
 class MrbspExperiments : public testing::Test {
  protected:
-  // One case of the experiment with the parameters' fallbacks but for those given.
+  // Measures one case: the given parameters, fallbacks for the others.
   Record run(std::string_view id, std::string_view terrain,
              std::initializer_list<std::pair<std::string_view, Value>> given = {}) {
     const Experiment& measured = experiment(id);
@@ -162,14 +162,14 @@ std::vector<ProfileStep> sampled_steps(std::span<const float> profile) {
 }
 
 TEST(ExtrudedProfile, ChangesWithTheShapeOfTheLand) {
-  // All of a bowl is seen from all of it.
+  // Every point of a bowl sees the whole bowl.
   std::vector<float> bowl;
   for (int k = -8; k <= 8; ++k) bowl.push_back(0.1F * static_cast<float>(k * k));
   for (const ProfileStep& step : sampled_steps(bowl)) {
     EXPECT_TRUE(step.coarse.empty());
     EXPECT_TRUE(step.fine.empty());
   }
-  // With rims below the ridge nobody sees over it: the step across it is the only change.
+  // With rims below the ridge no cell sees over it: the step across it is the only change.
   std::vector<float> low(table1_profile().begin(), table1_profile().end());
   low.front() = low.back() = 8.5F;
   const std::vector<ProfileStep> steps = sampled_steps(low);
@@ -181,7 +181,7 @@ TEST(ExtrudedProfile, ChangesWithTheShapeOfTheLand) {
   }
 }
 
-// A strip is as good as a square: there each row of cells sees as much of its own row of squares.
+// On a square of equal profiles each row of cells sees of its own row of squares what the strip's cells see.
 TEST(ExtrudedProfile, IsTheSameOnASquare) {
   Progress progress;
   const Heightfield strip = extrude(table1_profile());
