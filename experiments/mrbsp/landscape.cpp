@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "experiments/experiment.h"
+#include "experiments/figures/ground.h"
 #include "experiments/figures/maps.h"
 #include "experiments/mrbsp/ground.h"
 #include "renderers/ramp.h"
@@ -83,25 +84,6 @@ Rgb ramp_rgb(double t) {
   return {static_cast<std::uint8_t>(c.x), static_cast<std::uint8_t>(c.y), static_cast<std::uint8_t>(c.z)};
 }
 
-TriangleMesh land_mesh(const Heightfield& field) {
-  TriangleMesh mesh;
-  for (int j = 0; j < field.depth; ++j) {
-    for (int i = 0; i < field.width; ++i) {
-      mesh.positions.emplace_back(static_cast<float>(i) * field.cell_x, field.at(i, j),
-                                  static_cast<float>(j) * field.cell_z);
-    }
-  }
-  for (int j = 0; j + 1 < field.depth; ++j) {
-    for (int i = 0; i + 1 < field.width; ++i) {
-      const auto a = static_cast<std::uint32_t>(j * field.width + i), b = a + 1;
-      const auto c = a + static_cast<std::uint32_t>(field.width), d = c + 1;
-      mesh.indices.insert(mesh.indices.end(), {a, c, b, b, c, d});
-    }
-  }
-  compute_normals(mesh);
-  return mesh;
-}
-
 // The sides of the block of ground, from the surface down to `bottom`.
 TriangleMesh border_walls(const Heightfield& field, float bottom) {
   TriangleMesh mesh;
@@ -128,7 +110,9 @@ TriangleMesh border_walls(const Heightfield& field, float bottom) {
 void draw(const Image& picture, const Heightfield& field, const RunOptions& options, Recorder& recorder) {
   constexpr double kPicture = 340, kWide = 620, kMargin = 20;
   const HeightRange range = height_range(field);
-  const TriangleMesh mesh = land_mesh(field), walls = border_walls(field, range.lowest);
+  const TriangleMesh walls = border_walls(field, range.lowest);
+  TriangleMesh mesh = figures::ground_mesh(field);
+  compute_normals(mesh);
   const auto context = open_context(options.renderer, 64, 64);
   Scene scene;
   scene.lowest = 0;
