@@ -10,4 +10,5 @@ add_custom_command(
   COMMENT "Generating the OpenGL 4.5 loader"
   VERBATIM)
 add_library(glad STATIC ${glad_dir}/src/gl.c ${glad_dir}/include/glad/gl.h)
-target_include_directories(glad SYSTEM PUBLIC ${glad_dir}/include)
+target_include_directories(glad SYSTEM PUBLIC $<BUILD_INTERFACE:${glad_dir}/include>)
+set_target_properties(glad PROPERTIES OUTPUT_NAME terrabench_glad)

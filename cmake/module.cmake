@@ -1,11 +1,22 @@
-# One static library a module.
+# One static library per module: libterrabench_<module>.a, which others link as terrabench::<module>: all sources of
+# its folder but a program's main.cpp, and those named (generated ones). A new file is picked up by the next build.
+# Headers are included by their path from the project's root.
 function(terrabench_module name)
-  add_library(${name} STATIC ${ARGN})
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  add_library(${name} STATIC ${sources} ${ARGN})
+  add_library(terrabench::${name} ALIAS ${name})
+  target_sources(${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  set_target_properties(${name} PROPERTIES OUTPUT_NAME terrabench_${name})
 endfunction()
 
-# One GoogleTest program a module: tests/<module>/*_test.cpp become <module>_tests.
+# One GoogleTest program per module: all sources of tests/<module>/ become <module>_tests, linked with the module and the
+# libraries named. A new file is picked up by the next build.
 function(terrabench_tests module)
-  add_executable(${module}_tests ${ARGN})
-  target_link_libraries(${module}_tests PRIVATE ${module} GTest::gtest_main GTest::gmock)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  add_executable(${module}_tests ${sources})
+  target_link_libraries(${module}_tests PRIVATE ${module} GTest::gtest_main GTest::gmock ${ARGN})
   gtest_discover_tests(${module}_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
 endfunction()

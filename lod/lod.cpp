@@ -18,7 +18,7 @@ bool is_finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(
 
 double setting(const Knob& knob, double value) {
   if (std::isnan(value)) {
-    throw usage_error("the setting is not a number", knob.name,
+    throw usage_error(fmt::format("{} must be a number, got NaN", knob.name), knob.name,
                       fmt::format("choose {} to {} {}", knob.finest, knob.coarsest, knob.unit));
   }
   const auto [low, high] = std::minmax(knob.finest, knob.coarsest);
@@ -27,35 +27,40 @@ double setting(const Knob& knob, double value) {
 }
 
 void check_view(const View& view) {
-  if (!is_finite(view.eye)) throw usage_error("the eye is not at a place", "eye", "give three finite metres");
+  if (!is_finite(view.eye))
+    throw usage_error("eye must be finite", "eye", "give three finite coordinates in metres");
   if (!is_finite(view.target) || view.target == view.eye) {
-    throw usage_error("the view looks nowhere", "target", "give a finite point other than the eye");
+    throw usage_error("target must be finite and differ from eye", "target", "choose another point");
   }
   const glm::dvec3 sight = glm::normalize(glm::dvec3(view.target) - glm::dvec3(view.eye));
   if (!is_finite(view.up) || !(glm::length(glm::cross(sight, glm::normalize(glm::dvec3(view.up)))) > 1e-6)) {
-    throw usage_error("the view has no upward", "up", "give a direction across the line of sight");
+    throw usage_error("up must be finite and not parallel to the line of sight", "up",
+                      "choose another direction");
   }
   if (!(view.vertical_fov > 0 && view.vertical_fov < std::numbers::pi_v<float>)) {
-    throw usage_error(fmt::format("a field of view of {} rad shows nothing", view.vertical_fov),
-                      "vertical_fov", "choose more than 0 and less than π");
+    throw usage_error(fmt::format("vertical_fov must be in (0, π), got {}", view.vertical_fov),
+                      "vertical_fov", "give it in radians");
   }
   if (view.width < 1 || view.height < 1) {
-    throw usage_error(fmt::format("a screen of {} × {} has no pixels", view.width, view.height),
-                      "width, height", "choose at least 1 × 1");
+    throw usage_error(
+        fmt::format("width and height must be at least 1, got {} × {}", view.width, view.height),
+        "width, height", "give them in pixels");
   }
   if (!(view.near > 0 && view.far > view.near && std::isfinite(view.far))) {
-    throw usage_error(fmt::format("depths from {} to {} m show nothing", view.near, view.far), "near, far",
-                      "choose 0 < near < far");
+    throw usage_error(fmt::format("near and far must satisfy 0 < near < far < infinity, got {} and {}",
+                                  view.near, view.far),
+                      "near, far", "give both in metres");
   }
 }
 
 void check_ground(const Heightfield& ground) {
   if (ground.width < 2 || ground.depth < 2) {
-    throw usage_error(fmt::format("ground of {} × {} samples has no triangles", ground.width, ground.depth),
-                      "", "level of detail needs at least 2 × 2 samples");
+    throw usage_error(
+        fmt::format("ground must have at least 2 × 2 samples, got {} × {}", ground.width, ground.depth), "",
+        "choose a larger field");
   }
   if (height_range(ground).no_data > 0) {
-    throw usage_error("the ground has holes", "", "fill them first (fill_no_data)");
+    throw usage_error("ground must not have no-data samples", "", "fill them first (fill_no_data)");
   }
 }
 

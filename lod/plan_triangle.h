@@ -1,5 +1,5 @@
-// Triangles over the lattice of the full terrain's samples, and the samples that lie on them. Plan positions
-// are whole numbers, so which samples lie on a triangle is decided exactly.
+// Triangles whose corners are samples of the full terrain, and the samples that lie on them. Plan positions
+// are integers, so the decision which samples lie on a triangle is exact.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ struct Corner {
   bool operator==(const Corner&) const = default;
 };
 
-// Twice the area of the triangle's plan, in samples², positive for the winding that Batch asks for.
+// Twice the triangle's area in plan, in samples²; positive when counter-clockwise from above, as in a Batch.
 inline long long doubled_plan_area(const Corner* triangle) {
   const Corner &a = triangle[0], &b = triangle[1], &c = triangle[2];
   return static_cast<long long>(b.z - a.z) * (c.x - a.x) - static_cast<long long>(b.x - a.x) * (c.z - a.z);
@@ -26,8 +26,8 @@ inline long long floor_divide(long long a, long long b) {  // b > 0
   return a / b - (a % b < 0 ? 1 : 0);
 }
 
-// The samples on the edge, its first end left out (the next edge visits it). Taken from the lesser end on,
-// whichever way the triangle runs it.
+// Visits the samples on the edge from `from` up to but not including `to`, which the next edge visits.
+// Interpolates from the lesser end, independent of the edge's direction.
 template <class Use>
 void visit_edge(const Corner& from, const Corner& to, const Use& use) {
   use(to.x, to.z, to.y);
@@ -42,7 +42,7 @@ void visit_edge(const Corner& from, const Corner& to, const Use& use) {
   }
 }
 
-// The samples strictly inside, row by row; the corners wind so that the area is positive.
+// Visits the samples strictly inside, row by row; the area must be positive.
 template <class Use>
 void visit_inside(const Corner* corners, long long area, int width, int depth, const Use& use) {
   const Corner &a = corners[0], &b = corners[1], &c = corners[2];
@@ -69,9 +69,10 @@ void visit_inside(const Corner* corners, long long area, int width, int depth, c
 
 }  // namespace plan_triangle
 
-// use(x, z, height) for every sample on the triangle, its edges and corners with it; nothing for one without
-// plan area. Heights along an edge depend on its two ends alone, so both triangles beside it give the same
-// bits. Inside, samples beyond width × depth are left out; on edges they are not. O(samples).
+// Calls use(x, z, height) for every sample on the triangle, edges and corners included; not at all for a
+// triangle without plan area. Heights along an edge depend only on its two ends, so both triangles beside it
+// give the same bits. Samples outside width × depth are omitted inside the triangle, but not on its edges.
+// O(samples).
 template <class Use>
 void for_samples_on(const Corner* corners, int width, int depth, const Use& use) {
   const long long area = doubled_plan_area(corners);

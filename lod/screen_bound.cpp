@@ -8,7 +8,7 @@
 namespace terrabench {
 namespace {
 
-// Levels that a patch has not have an infinite error, which no bound may reach.
+// Levels that a patch does not have are given an infinite error, so no bound may be infinite.
 float finite(double metres) {
   return static_cast<float>(std::min(metres, double{std::numeric_limits<float>::max()}));
 }
@@ -26,14 +26,14 @@ ScreenBound::ScreenBound(const View& view, double pixels)
   secant_ = std::sqrt(1 + slope_x * slope_x + slope_y * slope_y);
 }
 
-// Straight-line code over arrays, which the compiler runs on several boxes at once.
+// Without branches, so that the compiler vectorises the loop.
 void ScreenBound::allow(const Boxes& boxes, std::size_t first, std::size_t last, float* metres) const {
   const float *const low_x = boxes.low[0].data(), *const high_x = boxes.high[0].data(),
                      *const low_y = boxes.low[1].data(), *const high_y = boxes.high[1].data(),
                      *const low_z = boxes.low[2].data(), *const high_z = boxes.high[2].data();
   const glm::dvec3 eye = eye_, forward = forward_;
   const double near = near_, secant = secant_, focal = focal_, rise = pixels_ * std::abs(forward_.y);
-  // A hair less, for the rounding of whoever checks.
+  // Slightly less, so that a check of the bound may round differently.
   const double pixels = (1 - 1e-6) * pixels_;
   const auto beyond = [](double low, double high) { return std::max(std::max(low, -high), 0.0); };
   for (std::size_t k = first; k < last; ++k) {

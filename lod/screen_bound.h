@@ -1,11 +1,11 @@
-// How large a vertical error may be without showing as more than so many pixels: what methods with a bound
-// choose their detail by.
+// The largest vertical error in a box that stays within a given number of pixels: methods with an error bound
+// choose their detail by it.
 //
-// A point at depth w along the line of sight and at horizontal distance ρ from the eye that is off by e
-// vertically moves by f·e·ρ / (w·w') pixels on the screen, f the focal length in pixels and w' the depth of
-// the moved point, w' ≥ w - e·|sin pitch|. The bound is that, with the least w and the greatest ρ of what a
-// box shows in the frustum: strict for any camera, where de Boer (2000, §2.3.1) takes the camera to look
-// level and the distance to be the patch's middle's. O(1) a box, a few of them at a time.
+// Consider a point at depth w along the line of sight and horizontal distance ρ from the eye. A vertical
+// error e moves it by f·e·ρ / (w·w') pixels, where f is the focal length in pixels and w' ≥ w - e·|sin pitch|
+// the depth of the moved point. The bound uses the least w and the greatest ρ in the part of a box inside the
+// frustum, so it is strict for any camera; de Boer (2000, §2.3.1) assumes a level camera and uses the
+// distance to the patch's middle. O(1) per box, vectorised.
 #pragma once
 
 #include <array>
@@ -17,20 +17,19 @@
 
 namespace terrabench {
 
-// Many boxes, each coordinate in an array of its own.
+// Many boxes, one array per coordinate.
 struct Boxes {
   std::array<std::vector<float>, 3> low, high;  // x, y, z; metres
 };
 
 class ScreenBound {
  public:
-  // For errors of at most `pixels`, over 0.
+  // `pixels`: the allowed screen-space error, > 0.
   ScreenBound(const View&, double pixels);
 
-  // Metres that anything in each of the boxes first … last - 1 may be off, up or down; into the same places
-  // of `metres`.
+  // Writes the allowed vertical error in boxes first … last - 1 to metres[first … last - 1].
   void allow(const Boxes&, std::size_t first, std::size_t last, float* metres) const;
-  // De Boer's: metres for patches around the boxes' middles.
+  // Likewise by de Boer's rule, for the middles of the boxes.
   void allow_level_camera(const Boxes&, std::size_t first, std::size_t last, float* metres) const;
 
  private:

@@ -19,7 +19,7 @@ struct ContextType {
   std::unique_ptr<GlContext> (*open)(int width, int height);
 };
 
-// One line a context.
+// One entry per context.
 constexpr ContextType kContexts[] = {
     {"osmesa", [](int width, int height) { return open_osmesa(width, height); }},
 };

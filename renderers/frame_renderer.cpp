@@ -11,14 +11,13 @@
 #include <utility>
 
 #include "renderers/gl.h"
-#include "renderers/ramp.h"
 #include "renderers/target.h"
 #include "terrain/error.h"
 
 namespace terrabench {
 namespace {
 
-// As the shader lays them out.
+// Laid out as in shaders/frame.vert.
 struct BatchRecord {
   std::int32_t level;
   std::uint32_t first_triangle;
@@ -40,13 +39,13 @@ static_assert(sizeof(BatchRecord) + sizeof(DrawCommand) == kBytesPerBatch);
 static_assert(sizeof(LevelRecord) == kBytesPerClipLevel);
 static_assert(sizeof(PatchMorph) == 5 * sizeof(float));
 
-// A buffer that is written in parts, with `slack` of its size to spare when it grows. What it held the GPU
-// copies, so that nothing is sent twice.
+// A buffer that is written in parts and grows to (1 + slack) times the needed size. On growth the GPU copies
+// the contents, so that nothing is sent twice.
 class GrowingBuffer {
  public:
   explicit GrowingBuffer(double slack = 0.5) : slack_(slack) {}
   GLuint id() const { return buffer_.id(); }
-  std::size_t written() const { return written_; }  // bytes, since the beginning
+  std::size_t written() const { return written_; }  // bytes in total
   void reserve(std::size_t bytes) {
     if (bytes <= capacity_) return;
     const std::size_t capacity = bytes + static_cast<std::size_t>(static_cast<double>(bytes) * slack_);
@@ -81,16 +80,17 @@ void check_room(std::size_t bytes) {
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
   if (bytes > static_cast<std::size_t>(most)) {
     throw environment_error(
-        fmt::format("heights of {} MiB do not fit into this OpenGL's {} MiB", bytes >> 20, most >> 20), "",
-        "draw a smaller terrain, or use a method that keeps only a part of it (clipmap)");
+        fmt::format("heights need {} MiB, but this OpenGL's storage blocks hold at most {} MiB", bytes >> 20,
+                    most >> 20),
+        "", "draw a smaller terrain, or use a method that stores only a part of it (clipmap)");
   }
 }
 
-// While one lives, the underside of the ground is not drawn. It could be seen only at ridges, where rounding
-// lets a sample of the slope behind through.
-struct OnlyFromAbove {
-  OnlyFromAbove() { glEnable(GL_CULL_FACE); }
-  ~OnlyFromAbove() { glDisable(GL_CULL_FACE); }
+// During its life, triangles seen from below are culled. They would be visible only at ridges, where rounding
+// can let the slope behind win a depth test.
+struct CullUndersides {
+  CullUndersides() { glEnable(GL_CULL_FACE); }
+  ~CullUndersides() { glDisable(GL_CULL_FACE); }
 };
 
 glm::vec3 as_shares(const Rgb& color) { return glm::vec3(color[0], color[1], color[2]) / 255.0F; }
@@ -102,10 +102,10 @@ struct FrameRenderer::Gl {
   Program wired =
       link_program(shader_file("frame.vert"), shader_file("relief.frag"), &shader_file("wire.geom"));
   Program numbers = link_program(shader_file("frame.vert"), shader_file("triangle_number.frag"));
-  Texture1d ramp;
+  Texture1d ramp = make_ramp_texture();
   VertexArray array;
   GrowingBuffer indices, batches, levels, commands, morphs;
-  GrowingBuffer heights{0};  // does not grow with a ground
+  GrowingBuffer heights{0};  // grows only when a clipmap adds levels
   bool fresh = true;
   std::vector<BatchRecord> batch_records;
   std::vector<LevelRecord> level_records;
@@ -122,20 +122,13 @@ struct FrameRenderer::Gl {
 };
 
 FrameRenderer::Gl::Gl() {
-  constexpr int kColors = 256;
-  std::vector<glm::vec3> colors(kColors);
-  for (int i = 0; i < kColors; ++i) colors[i] = ramp_color(static_cast<float>(i) / (kColors - 1));
-  glTextureStorage1D(ramp.id(), 1, GL_RGB32F, kColors);
-  glTextureSubImage1D(ramp.id(), 0, 0, kColors, GL_RGB, GL_FLOAT, colors.data());
-  glTextureParameteri(ramp.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTextureParameteri(ramp.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  // The batch's number reaches the vertices as an attribute that steps once an instance: each command holds
-  // its own.
+  // The batch's number reaches the vertices as a per-instance attribute, read from base_instance of the
+  // command.
   glVertexArrayAttribIFormat(array.id(), 0, 1, GL_UNSIGNED_INT, 0);
   glVertexArrayAttribBinding(array.id(), 0, 0);
   glVertexArrayBindingDivisor(array.id(), 0, 1);
   glEnableVertexArrayAttrib(array.id(), 0);
-  // Bound for every frame, with clip levels and morphs or without.
+  // Bound in every frame, even without clip levels or morphs, so it must not be empty.
   levels.reserve(sizeof(LevelRecord));
   morphs.reserve(sizeof(PatchMorph));
 }
@@ -145,7 +138,7 @@ void FrameRenderer::Gl::upload_all(const Frame& frame) {
   heights.write(0, frame.grid.heights.data(), frame.grid.heights.size_bytes());
   morphs.write(0, frame.morphs.data(), frame.morphs.size_bytes());
   std::size_t at = 0;
-  for (const ClipLevel& level : frame.levels) {
+  for (const ClipLevel& level : frame.clip_levels) {
     heights.write(at, level.heights.data(), level.heights.size_bytes());
     at += level.heights.size_bytes();
   }
@@ -164,7 +157,7 @@ void FrameRenderer::Gl::upload(const Frame& frame, const DirtyRange& range) {
       morphs.write(range.first * sizeof(PatchMorph), &frame.morphs[range.first], range.bytes());
       break;
     case DirtyRange::Target::kClipLevel:
-      const ClipLevel& level = frame.levels[range.level];
+      const ClipLevel& level = frame.clip_levels[range.level];
       for (std::size_t row = range.z; row < std::size_t{range.z} + range.depth; ++row) {
         const std::size_t at = row * level.side + range.x;
         const std::size_t before = std::size_t{range.level} * level.heights.size();
@@ -175,7 +168,7 @@ void FrameRenderer::Gl::upload(const Frame& frame, const DirtyRange& range) {
 
 void FrameRenderer::Gl::upload(const Frame& frame) {
   std::size_t height_bytes = frame.grid.heights.size_bytes();
-  for (const ClipLevel& level : frame.levels) height_bytes += level.heights.size_bytes();
+  for (const ClipLevel& level : frame.clip_levels) height_bytes += level.heights.size_bytes();
   check_room(height_bytes);
   indices.reserve(frame.indices.size_bytes());
   heights.reserve(height_bytes);
@@ -199,7 +192,7 @@ void FrameRenderer::Gl::describe(const Frame& frame) {
     triangle += batch.index_count / 3;
   }
   level_records.clear();
-  for (const ClipLevel& level : frame.levels) {
+  for (const ClipLevel& level : frame.clip_levels) {
     level_records.push_back({level.corner, level.eye, level.from, level.to, level.spacing, 0});
   }
   batches.replace(batch_records);
@@ -213,7 +206,8 @@ void FrameRenderer::Gl::set(const Program& program, const Frame& frame, const Vi
   glProgramUniformMatrix4fv(id, uniform(program, "world_to_clip"), 1, GL_FALSE, glm::value_ptr(to_clip));
   glProgramUniform2i(id, uniform(program, "samples"), frame.grid.width, frame.grid.depth);
   glProgramUniform2f(id, uniform(program, "cell"), frame.cell_x, frame.cell_z);
-  glProgramUniform1i(id, uniform(program, "side"), frame.levels.empty() ? 0 : frame.levels.front().side);
+  glProgramUniform1i(id, uniform(program, "side"),
+                     frame.clip_levels.empty() ? 0 : frame.clip_levels.front().side);
   glProgramUniform2i(id, uniform(program, "first"), frame.first.x, frame.first.y);
   glProgramUniform2i(id, uniform(program, "last"), frame.last.x, frame.last.y);
   glProgramUniform2i(id, uniform(program, "origin"), frame.origin.x, frame.origin.y);
@@ -285,7 +279,7 @@ void FrameRenderer::draw(const Frame& frame, const View& view, const FrameStyle&
   const glm::vec3 background = as_shares(style.background);
   glClearColor(background.r, background.g, background.b, 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  const OnlyFromAbove culling;
+  const CullUndersides culling;
   gl_->upload(frame);
   gl_->describe(frame);
   const Program& program = style.wire_width > 0 ? gl_->wired : gl_->plain;
@@ -312,12 +306,12 @@ std::vector<std::uint32_t> FrameRenderer::triangle_numbers(const Frame& frame, c
   glNamedRenderbufferStorage(depth.id(), GL_DEPTH_COMPONENT32F, view.width, view.height);
   glNamedFramebufferRenderbuffer(framebuffer.id(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color.id());
   glNamedFramebufferRenderbuffer(framebuffer.id(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth.id());
-  check_gl("a picture of triangle numbers");
+  check_gl("making a picture of triangle numbers");
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
   glViewport(0, 0, view.width, view.height);
   const GLuint none = 0;
-  // Depth is near ÷ distance, of which floats keep millionths at any distance: what lies a metre behind a
-  // ridge ten kilometres away is hidden. There is no far plane.
+  // Depth is near ÷ distance, whose relative precision in floats is the same at any distance: a metre behind
+  // a ridge ten kilometres away is hidden. There is no far plane.
   glm::mat4 clip = world_to_clip(view);
   for (int column = 0; column < 4; ++column) clip[column][2] = column == 3 ? view.near : 0;
   const GLfloat far = 0;
@@ -336,7 +330,7 @@ std::vector<std::uint32_t> FrameRenderer::triangle_numbers(const Frame& frame, c
   glReadPixels(0, 0, view.width, view.height, GL_RED_INTEGER, GL_UNSIGNED_INT, numbers.data());
   check_gl("reading triangle numbers");
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  // OpenGL's rows go upwards.
+  // OpenGL's rows are ordered from the bottom up.
   for (int top = 0, bottom = view.height - 1; top < bottom; ++top, --bottom) {
     std::swap_ranges(numbers.begin() + static_cast<std::ptrdiff_t>(top) * view.width,
                      numbers.begin() + static_cast<std::ptrdiff_t>(top + 1) * view.width,

@@ -1,6 +1,6 @@
-// Draws what level-of-detail methods make (terrain/frame.h): keeps heights and indices on the GPU, uploads
-// what a frame says has changed, and draws all batches with one call. The vertices stand where
-// vertex_position() says.
+// Draws the frames of level-of-detail methods (terrain/frame.h): keeps heights and indices on the GPU,
+// uploads the frame's dirty ranges, and draws all batches with one call. Vertices have the positions of
+// vertex_position().
 #pragma once
 
 #include <cstdint>
@@ -18,13 +18,13 @@ struct FrameStyle {
   float lowest = 0, highest = 1;      // metres at the two ends of the colour ramp
   glm::vec3 sun{-0.5F, 0.7F, -0.5F};  // towards the light
   Rgb background{255, 255, 255};
-  float shading_exaggeration = 1;  // of slopes, for the light only
+  float shading_exaggeration = 1;  // factor by which slopes are steepened for the light only
   float wire_width = 0;            // pixels; 0 draws no wires
   float wire_opacity = 0.55F;
 };
 
-// For the frames of one method, each given once and in order. Facets are lit flat, so that a picture shows
-// the triangles and nothing else. The context must outlive it.
+// For the frames of one method, each drawn once and in order. Facets are lit flat, so that the triangles are
+// visible. The context must outlive it.
 class FrameRenderer {
  public:
   explicit FrameRenderer(GlContext&);
@@ -32,20 +32,20 @@ class FrameRenderer {
   FrameRenderer(const FrameRenderer&) = delete;
   FrameRenderer& operator=(const FrameRenderer&) = delete;
 
-  // Uploads and draws into the context's picture of view.width × view.height; the ground has no underside.
-  // The first frame is uploaded whole. Does not wait for the GPU: finish() does. Throws environment_error
-  // when OpenGL has no room for the heights.
+  // Uploads and draws into the context's picture, resized to view.width × view.height. Triangles seen from
+  // below are not drawn. The first frame is uploaded whole. Does not wait for the GPU. Throws
+  // environment_error when the heights do not fit into OpenGL's buffers.
   void draw(const Frame&, const View&, const FrameStyle&);
-  void finish();
-  Image image();  // of what was drawn last
+  void finish();  // waits for the GPU
+  Image image();  // the last picture drawn
 
-  // The number of the triangle, in the order of triangles(Frame), that each pixel shows: row by row from the
-  // top, from 1 on; 0 where there is none. One sample a pixel, at its centre, and no far plane. Uploads as
-  // draw() does.
+  // For each pixel, row by row from the top: the number of its visible triangle in the order of
+  // triangles(Frame), counted from 1; 0 for none. One sample per pixel, at its centre, and no far plane.
+  // Uploads like draw().
   std::vector<std::uint32_t> triangle_numbers(const Frame&, const View&);
 
-  // What went into the GPU's buffers since the beginning: of each frame FrameStats::bytes_sent(), of the
-  // first whatever the frame holds. A few hundred bytes of uniforms a frame are not counted.
+  // All bytes written to the GPU's buffers: the whole first frame, and FrameStats::bytes_sent() of the
+  // others. A few hundred bytes of uniforms per frame are not counted.
   std::size_t bytes_uploaded() const;
 
  private:

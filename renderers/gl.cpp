@@ -3,17 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <mutex>
 #include <optional>
 #include <string>
 
+#include "renderers/ramp.h"
 #include "terrain/error.h"
 
 namespace terrabench {
 namespace {
 
-// Owned until the program is linked; OpenGL keeps what an attached shader still needs.
+// Owns a shader until the program is linked.
 class Shader {
  public:
   Shader(GLenum stage, const ShaderFile& file) : id_(glCreateShader(stage)) {
@@ -30,7 +32,7 @@ class Shader {
     log.resize(static_cast<std::size_t>(log_size));
     glDeleteShader(id_);
     throw environment_error(fmt::format("the shader does not compile: {}", log), file.name,
-                            "report it with the OpenGL renderer that the results' provenance names");
+                            "report it with the OpenGL renderer from the results' provenance");
   }
   ~Shader() { glDeleteShader(id_); }
   Shader(const Shader&) = delete;
@@ -49,9 +51,9 @@ std::string_view error_text(GLenum error) {
     case GL_INVALID_VALUE:
     case GL_INVALID_OPERATION:
     case GL_INVALID_FRAMEBUFFER_OPERATION:
-      return "OpenGL refused a call";
+      return "OpenGL rejected a call";
     default:
-      return "OpenGL met an error";
+      return "OpenGL reported an error";
   }
 }
 
@@ -65,8 +67,8 @@ void load_gl(GLADloadfunc get_function, std::string_view library) {
   loaded = nullptr;
   const int version = gladLoadGL(get_function);
   if (version < GLAD_MAKE_VERSION(4, 5)) {
-    throw environment_error(fmt::format("OpenGL 4.5 is needed, and this is {}.{}",
-                                        GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version)),
+    throw environment_error(fmt::format("OpenGL 4.5 is required, found {}.{}", GLAD_VERSION_MAJOR(version),
+                                        GLAD_VERSION_MINOR(version)),
                             library, "install Mesa 22 or newer (Debian 12 has it)");
   }
   loaded = get_function;
@@ -79,42 +81,6 @@ void check_gl(std::string_view where) {
   }
   throw environment_error(fmt::format("{} (0x{:04x})", error_text(error), error), where,
                           "try a smaller picture or a coarser mesh");
-}
-
-GLuint BufferKind::create() {
-  GLuint id = 0;
-  glCreateBuffers(1, &id);
-  return id;
-}
-
-GLuint VertexArrayKind::create() {
-  GLuint id = 0;
-  glCreateVertexArrays(1, &id);
-  return id;
-}
-
-GLuint RenderbufferKind::create() {
-  GLuint id = 0;
-  glCreateRenderbuffers(1, &id);
-  return id;
-}
-
-GLuint FramebufferKind::create() {
-  GLuint id = 0;
-  glCreateFramebuffers(1, &id);
-  return id;
-}
-
-GLuint Texture1dKind::create() {
-  GLuint id = 0;
-  glCreateTextures(GL_TEXTURE_1D, 1, &id);
-  return id;
-}
-
-GLuint BufferTextureKind::create() {
-  GLuint id = 0;
-  glCreateTextures(GL_TEXTURE_BUFFER, 1, &id);
-  return id;
 }
 
 const ShaderFile& shader_file(std::string_view name) {
@@ -143,7 +109,7 @@ Program link_program(const ShaderFile& vertex, const ShaderFile& fragment, const
     log.resize(static_cast<std::size_t>(log_size));
     throw environment_error(fmt::format("the shaders do not link: {}", log),
                             fmt::format("{} and {}", vertex.name, fragment.name),
-                            "report it with the OpenGL renderer that the results' provenance names");
+                            "report it with the OpenGL renderer from the results' provenance");
   }
   glDetachShader(program.id(), first.id());
   if (between) glDetachShader(program.id(), between->id());
@@ -155,6 +121,18 @@ GLint uniform(const Program& program, const char* name) {
   const GLint location = glGetUniformLocation(program.id(), name);
   assert(location >= 0);
   return location;
+}
+
+Texture1d make_ramp_texture() {
+  constexpr int kColors = 256;
+  std::array<glm::vec3, kColors> colors;
+  for (int i = 0; i < kColors; ++i) colors[i] = ramp_color(static_cast<float>(i) / (kColors - 1));
+  Texture1d ramp;
+  glTextureStorage1D(ramp.id(), 1, GL_RGB32F, kColors);
+  glTextureSubImage1D(ramp.id(), 0, 0, kColors, GL_RGB, GL_FLOAT, colors.data());
+  glTextureParameteri(ramp.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(ramp.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  return ramp;
 }
 
 }  // namespace terrabench

@@ -1,6 +1,6 @@
-// OpenGL 4.5 with owners for its objects: what is created is deleted, and a shader that does not compile
-// throws with the compiler's log. For renderers' sources only; others see context.h and relief.h. A context
-// must be current wherever an object is created or deleted.
+// OpenGL 4.5 with owning types for its objects; shader errors throw with the compiler's log. Only for the
+// sources in renderers/; others use context.h, scene.h and relief.h. A context must be current wherever an
+// object is created or deleted.
 #pragma once
 
 #include <glad/gl.h>
@@ -11,14 +11,15 @@
 
 namespace terrabench {
 
-// Points the gl* functions at the current context's. One table serves the process: contexts of different
-// libraries may take turns, but not draw at the same time in two threads. Throws environment_error below 4.5.
+// Loads the gl* functions of the current context. The process has one function table, so contexts of
+// different libraries must not draw in two threads at the same time. Throws environment_error for OpenGL
+// below 4.5.
 void load_gl(GLADloadfunc get_function, std::string_view library);
 
-// Throws environment_error when OpenGL has met an error since the last call, such as running out of memory.
+// Throws environment_error if OpenGL reported an error since the last call, such as running out of memory.
 void check_gl(std::string_view where);
 
-// Owns one object; Kind says how it is made and deleted.
+// Owns one OpenGL object, which Kind creates and destroys.
 template <class Kind>
 class GlObject {
  public:
@@ -37,28 +38,32 @@ class GlObject {
   GLuint id_;
 };
 
+template <class Create, class... Target>
+GLuint create_one(Create create, Target... target) {
+  GLuint id = 0;
+  create(target..., 1, &id);
+  return id;
+}
+
 struct BufferKind {
-  static GLuint create();
+  static GLuint create() { return create_one(glCreateBuffers); }
   static void destroy(GLuint id) { glDeleteBuffers(1, &id); }
 };
 struct VertexArrayKind {
-  static GLuint create();
+  static GLuint create() { return create_one(glCreateVertexArrays); }
   static void destroy(GLuint id) { glDeleteVertexArrays(1, &id); }
 };
 struct RenderbufferKind {
-  static GLuint create();
+  static GLuint create() { return create_one(glCreateRenderbuffers); }
   static void destroy(GLuint id) { glDeleteRenderbuffers(1, &id); }
 };
 struct FramebufferKind {
-  static GLuint create();
+  static GLuint create() { return create_one(glCreateFramebuffers); }
   static void destroy(GLuint id) { glDeleteFramebuffers(1, &id); }
 };
-struct Texture1dKind {
-  static GLuint create();
-  static void destroy(GLuint id) { glDeleteTextures(1, &id); }
-};
-struct BufferTextureKind {
-  static GLuint create();
+template <GLenum kTarget>
+struct TextureKind {
+  static GLuint create() { return create_one(glCreateTextures, kTarget); }
   static void destroy(GLuint id) { glDeleteTextures(1, &id); }
 };
 struct ProgramKind {
@@ -70,11 +75,11 @@ using Buffer = GlObject<BufferKind>;
 using VertexArray = GlObject<VertexArrayKind>;
 using Renderbuffer = GlObject<RenderbufferKind>;
 using Framebuffer = GlObject<FramebufferKind>;
-using Texture1d = GlObject<Texture1dKind>;
-using BufferTexture = GlObject<BufferTextureKind>;
+using Texture1d = GlObject<TextureKind<GL_TEXTURE_1D>>;
+using BufferTexture = GlObject<TextureKind<GL_TEXTURE_BUFFER>>;
 using Program = GlObject<ProgramKind>;
 
-// A buffer that is written once.
+// An immutable buffer with this content.
 template <class T>
 Buffer make_buffer(std::span<const T> content) {
   Buffer buffer;
@@ -94,7 +99,10 @@ const ShaderFile& shader_file(std::string_view name);  // the name must exist
 Program link_program(const ShaderFile& vertex, const ShaderFile& fragment,
                      const ShaderFile* geometry = nullptr);
 
-// Where a uniform lives; it must be in use.
+// The location of a uniform, which the program must use.
 GLint uniform(const Program&, const char* name);
+
+// The colour ramp of heights (ramp.h) as a texture.
+Texture1d make_ramp_texture();
 
 }  // namespace terrabench

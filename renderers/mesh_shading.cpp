@@ -43,8 +43,8 @@ std::vector<float> curvature_shading(const TriangleMesh& mesh) {
     }
   }
 
-  // In units of the mesh's own typical bend, so that fine and coarse meshes of one ground look alike; below a
-  // hundredth of a radian an edge counts as straight.
+  // Relative to the mesh's typical bend, so that fine and coarse meshes of one ground look alike; a bend
+  // below kStraight radians counts as none.
   constexpr float kStrength = 0.17F, kStraight = 0.01F;
   double squares = 0;
   for (const float b : bend) squares += static_cast<double>(b) * b;
@@ -54,7 +54,7 @@ std::vector<float> curvature_shading(const TriangleMesh& mesh) {
 }
 
 float choose_exaggeration(const TriangleMesh& mesh) {
-  constexpr float kLivelySlope = 0.45F, kMost = 8.0F;
+  constexpr float kMeanSlope = 0.45F, kMost = 8.0F;
   double rise = 0, area = 0;
   for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
     const glm::vec3& a = mesh.positions[mesh.indices[t]];
@@ -66,7 +66,7 @@ float choose_exaggeration(const TriangleMesh& mesh) {
     area += normal.y;
   }
   const auto slope = static_cast<float>(rise / area);  // not a number when nothing faces up
-  return slope > 0 ? std::clamp(kLivelySlope / slope, 1.0F, kMost) : 1.0F;
+  return slope > 0 ? std::clamp(kMeanSlope / slope, 1.0F, kMost) : 1.0F;
 }
 
 }  // namespace terrabench

@@ -14,16 +14,17 @@
 namespace terrabench {
 namespace {
 
-// As shaders/overlay.vert takes it.
+// Laid out as in shaders/overlay.vert.
 struct Vertex {
   glm::vec4 clip, ink;
   glm::vec2 profile;
 };
 
-// Distance before the near plane in clip space: points with less than 0 are cut off.
+// Distance from the near plane in clip space; points with a negative one are clipped.
 float depth_in_front(const glm::vec4& clip) { return clip.z + clip.w; }
 
-// Overlays win against a surface they lie in: a hundred-thousandth of the depth range in their favour.
+// Moves overlays nearer by a hundred-thousandth of the depth range, so that they win against coplanar
+// surfaces.
 constexpr float kDepthBias = 2e-5F;
 
 class Triangles {
@@ -35,7 +36,7 @@ class Triangles {
     assert(plane.corners.size() >= 3);
     const glm::vec4 fill = ink(plane.color, plane.fill_opacity);
     const std::vector<glm::vec3> seen = in_front(plane.corners);
-    const glm::vec2 inside(0, 1e6F);  // no border of its own: the outline covers it
+    const glm::vec2 inside(0, 1e6F);  // without a soft border, which the outline covers
     for (std::size_t i = 2; i < seen.size(); ++i) {
       for (const std::size_t corner : {std::size_t{0}, i - 1, i}) {
         vertices_.push_back({glm::vec4(seen[corner], 1), fill, inside});
@@ -71,7 +72,7 @@ class Triangles {
     return glm::mix(a, b, depth_in_front(a) / (depth_in_front(a) - depth_in_front(b)));
   }
 
-  // The part of the polygon before the near plane, in device coordinates.
+  // The part of the polygon beyond the near plane, in device coordinates.
   std::vector<glm::vec3> in_front(const std::vector<glm::vec3>& corners) const {
     std::vector<glm::vec3> kept;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -83,7 +84,7 @@ class Triangles {
     return kept;
   }
 
-  // A rectangle on the screen around the segment, a pixel wider on all sides for its soft border.
+  // A rectangle on the screen around the segment, with a margin of one pixel for its soft border.
   void add_segment(const glm::vec3& from, const glm::vec3& to, const glm::vec4& colour, float width) {
     glm::vec4 a = to_clip_ * glm::vec4(from, 1), b = to_clip_ * glm::vec4(to, 1);
     if (depth_in_front(a) < 0 && depth_in_front(b) < 0) return;
@@ -96,7 +97,7 @@ class Triangles {
     const glm::vec2 forward = along / length, side(-forward.y, forward.x);
     const float half = 0.5F * width, reach = half + 1;
     const auto corner = [&](int end, float across) {
-      // Half a width beyond its ends, so that the segments of a line join.
+      // Extended by half a width at both ends, so that the segments of a line join.
       const glm::vec2 shift = 2.0F * (side * across + forward * (end == 0 ? -half : half)) / pixels_;
       return Vertex{glm::vec4(glm::vec2(ends[end]) + shift, ends[end].z, 1), colour, {across, half}};
     };
@@ -111,7 +112,7 @@ class Triangles {
   std::vector<Vertex> vertices_;
 };
 
-// From the farthest from the eye to the nearest, by their middles.
+// The planes' numbers, from the farthest to the nearest by their middles.
 std::vector<std::size_t> back_to_front(const std::vector<ScenePlane>& planes, const glm::vec3& eye) {
   std::vector<float> distance;
   for (const ScenePlane& plane : planes) {
@@ -150,7 +151,7 @@ void draw_overlay(const Scene& scene, const View& view, const glm::mat4& world_t
   glBindVertexArray(array.id());
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  glDepthMask(GL_FALSE);  // translucent: what comes later is seen through it
+  glDepthMask(GL_FALSE);  // planes are translucent and must not hide later ones
   glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(triangles.vertices().size()));
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);

@@ -7,8 +7,8 @@
 
 namespace terrabench {
 
-// The farthest plane first, so that nearer ones are seen over it. What lies before the near plane is cut off.
-// Depth testing is on. O(corners + planes log planes).
+// Draws planes from back to front, for blending, then lines. Clips at the near plane. Depth testing must be
+// on. O(corners + planes log planes).
 void draw_overlay(const Scene&, const View&, const glm::mat4& world_to_clip);
 
 }  // namespace terrabench

@@ -8,8 +8,8 @@
 namespace terrabench {
 namespace {
 
-// Lightness L, and the axes a (green-red) and b (blue-yellow) of Oklab (Ottosson 2020), where equal steps
-// look equally large. Lightness steps are equal; the colours were chosen by eye on printed relief.
+// Lightness L and the axes a (green-red) and b (blue-yellow) of Oklab (Ottosson 2020), a perceptually uniform
+// space. Steps in lightness are equal; hues were chosen by eye on printed relief.
 constexpr glm::vec3 kStops[] = {
     {0.49F, -0.045F, -0.035F}, {0.58F, -0.052F, 0.008F}, {0.67F, -0.042F, 0.048F},
     {0.76F, -0.012F, 0.068F},  {0.85F, 0.012F, 0.062F},  {0.94F, 0.006F, 0.030F},

@@ -1,7 +1,6 @@
 #include "renderers/scene.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cstddef>
 #include <glm/common.hpp>
@@ -13,14 +12,13 @@
 #include "renderers/gl.h"
 #include "renderers/mesh_shading.h"
 #include "renderers/overlay.h"
-#include "renderers/ramp.h"
 #include "renderers/target.h"
 #include "renderers/wires.h"
 
 namespace terrabench {
 namespace {
 
-// The view with its depth range drawn close around the scene, so that depth is as precise as it can be.
+// The view with its depth range fitted to the scene, for the best depth precision.
 View fit_depth(View view, const Bounds& bounds) {
   const glm::vec3 forward = glm::normalize(view.target - view.eye);
   float nearest = std::numeric_limits<float>::infinity(), farthest = 0;
@@ -32,8 +30,8 @@ View fit_depth(View view, const Bounds& bounds) {
     nearest = std::min(nearest, depth);
     farthest = std::max(farthest, depth);
   }
-  // The margin keeps the outermost vertices from being clipped by rounding. From inside the terrain, a
-  // ten-thousandth of the range in front of the eye is not seen.
+  // The margin keeps rounding from clipping the outermost vertices. From inside the terrain, kLeastShare of
+  // the depth range in front of the eye is clipped.
   constexpr float kMargin = 0.01F, kLeastShare = 1e-4F;
   const float margin = std::max(kMargin * (farthest - nearest), 1e-5F * farthest);
   view.far = std::max(farthest + margin, 1e-3F);
@@ -41,7 +39,7 @@ View fit_depth(View view, const Bounds& bounds) {
   return view;
 }
 
-constexpr GLuint kRampUnit = 0, kWiresUnit = 1;  // of textures
+constexpr GLuint kRampUnit = 0, kWiresUnit = 1;  // texture units
 
 struct MeshBuffers {
   VertexArray array;
@@ -53,7 +51,7 @@ void add_attribute(MeshBuffers& mesh, GLuint location, GLint components, GLenum 
                    const std::vector<T>& values) {
   const Buffer& buffer = mesh.buffers.emplace_back(make_buffer(std::span<const T>(values)));
   glVertexArrayVertexBuffer(mesh.array.id(), location, buffer.id(), 0, sizeof(T));
-  // Whole numbers are shares of their largest value.
+  // Integers are normalised to [0, 1].
   glVertexArrayAttribFormat(mesh.array.id(), location, components, type, GL_TRUE, 0);
   glVertexArrayAttribBinding(mesh.array.id(), location, location);
   glEnableVertexArrayAttrib(mesh.array.id(), location);
@@ -62,7 +60,7 @@ void add_attribute(MeshBuffers& mesh, GLuint location, GLint components, GLenum 
 MeshBuffers upload(const SceneMesh& item) {
   MeshBuffers gl;
   add_attribute(gl, 0, 3, GL_FLOAT, item.mesh->positions);
-  if (item.surface == Surface::kLit) {
+  if (item.shading == Shading::kLit) {
     if (!item.mesh->normals.empty()) {
       add_attribute(gl, 1, 3, GL_FLOAT, item.mesh->normals);
       add_attribute(gl, 2, 1, GL_FLOAT, curvature_shading(*item.mesh));
@@ -76,26 +74,14 @@ MeshBuffers upload(const SceneMesh& item) {
   return gl;
 }
 
-Texture1d upload_ramp() {
-  constexpr int kColors = 256;
-  std::array<glm::vec3, kColors> colors;
-  for (int i = 0; i < kColors; ++i) colors[i] = ramp_color(static_cast<float>(i) / (kColors - 1));
-  Texture1d ramp;
-  glTextureStorage1D(ramp.id(), 1, GL_RGB32F, kColors);
-  glTextureSubImage1D(ramp.id(), 0, 0, kColors, GL_RGB, GL_FLOAT, colors.data());
-  glTextureParameteri(ramp.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTextureParameteri(ramp.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  return ramp;
-}
-
-// `before` is called with the first triangle of each draw.
+// Calls `before` with the number of the first triangle of each draw call.
 template <class Before>
 void draw_triangles(const TriangleMesh& mesh, const Before& before) {
-  // The count of a draw is a signed 32-bit number.
+  // OpenGL's count is a signed 32-bit number.
   constexpr std::size_t kMostIndices = 3U << 28;
   for (std::size_t first = 0; first < mesh.indices.size(); first += kMostIndices) {
     const auto count = static_cast<GLsizei>(std::min(kMostIndices, mesh.indices.size() - first));
-    // OpenGL takes the offset in the form of a pointer.
+    // OpenGL takes the offset as a pointer.
     const auto* const offset =
         reinterpret_cast<const void*>(first * sizeof(std::uint32_t));  // NOLINT(performance-no-int-to-ptr)
     before(static_cast<GLint>(first / 3));
@@ -115,21 +101,21 @@ void set(const Program& program, const char* name, bool value) {
   glProgramUniform1i(program.id(), uniform(program, name), value ? 1 : 0);
 }
 
-// What all meshes of a picture have in common.
+// Sets the uniforms that all meshes of a picture share.
 void set_scene(const Program& program, const Scene& scene, const View& view, const glm::mat4& to_clip) {
   const GLuint id = program.id();
   glProgramUniformMatrix4fv(id, uniform(program, "world_to_clip"), 1, GL_FALSE, glm::value_ptr(to_clip));
   set(program, "sun", glm::normalize(scene.sun));
   set(program, "eye", view.eye);
-  // A ramp of no extent is all its lowest colour, not a division by zero.
+  // An empty height range gives the lowest colour, not a division by zero.
   glProgramUniform2f(
       id, uniform(program, "height_range"), scene.lowest,
       std::max(scene.highest, std::nextafter(scene.lowest, std::numeric_limits<float>::max())));
   glProgramUniform1i(id, uniform(program, "ramp"), kRampUnit);
 }
 
-void set_surface(const Program& program, const SceneMesh& item) {
-  const bool lit = item.surface == Surface::kLit;
+void set_shading(const Program& program, const SceneMesh& item) {
+  const bool lit = item.shading == Shading::kLit;
   const float exaggeration = item.shading_exaggeration > 0 ? item.shading_exaggeration
                              : lit                         ? choose_exaggeration(*item.mesh)
                                                            : 1.0F;
@@ -142,7 +128,7 @@ void set_surface(const Program& program, const SceneMesh& item) {
   glProgramUniform4fv(program.id(), uniform(program, "wire_ink"), 1, glm::value_ptr(ink));
 }
 
-// The two programs that draw meshes: wires need a geometry shader, which costs time without them.
+// The two programs that draw meshes. Only the one for wires has the geometry shader, which costs time.
 class MeshPainter {
  public:
   MeshPainter(const Scene& scene, const View& view, const glm::mat4& to_clip)
@@ -156,7 +142,7 @@ class MeshPainter {
       paint_with_wires(item);
     } else {
       const Program& program = linked(plain_, nullptr);
-      set_surface(program, item);
+      set_shading(program, item);
       glUseProgram(program.id());
       draw_triangles(*item.mesh, [](GLint) {});
     }
@@ -176,7 +162,7 @@ class MeshPainter {
   void paint_with_wires(const SceneMesh& item) {
     const Program& program = linked(wired_, &shader_file("wire.geom"));
     const GLuint id = program.id();
-    set_surface(program, item);
+    set_shading(program, item);
     glProgramUniform2f(id, uniform(program, "pixels"), static_cast<float>(view_.width),
                        static_cast<float>(view_.height));
     set(program, "wire_width", item.wire_width);
@@ -195,7 +181,7 @@ class MeshPainter {
   const View& view_;
   glm::mat4 to_clip_;
   std::optional<Program> plain_, wired_;
-  Texture1d ramp_ = upload_ramp();
+  Texture1d ramp_ = make_ramp_texture();
 };
 
 void draw(const Scene& scene, const View& view) {

@@ -1,5 +1,5 @@
-// Pictures as papers draw structures: meshes lit, as wireframes with their hidden lines removed, or both,
-// with planes and lines beside them. relief.h is the short way to one lit mesh.
+// Renders meshes the way papers draw structures: lit, as wireframes with hidden lines removed, or both,
+// together with planes and lines. For a single lit mesh, relief.h is shorter.
 #pragma once
 
 #include <cstdint>
@@ -14,30 +14,30 @@
 
 namespace terrabench {
 
-enum class Surface : std::uint8_t {
-  kLit,   // sun and sky, coloured by height or by vertex
-  kFlat,  // all of `fill`: under wires, it hides the lines behind
+enum class Shading : std::uint8_t {
+  kLit,   // by sun and sky, coloured by height or per vertex
+  kFlat,  // the colour `fill` everywhere; with wires: a hidden-line drawing
 };
 
 struct SceneMesh {
-  const TriangleMesh* mesh = nullptr;  // outlives the drawing; without normals its facets show
-  Surface surface = Surface::kLit;
+  const TriangleMesh* mesh = nullptr;  // must outlive the call; without normals, facets are lit flat
+  Shading shading = Shading::kLit;
   Rgb fill{255, 255, 255};
-  std::vector<Rgb> colors{};  // one a vertex, for kLit; empty: by height, and backs of triangles grey
-  // How much steeper the light takes slopes to be than they are; shape and outline stay true. 0 chooses by
-  // the mesh: 1 for steep ground, more for gentle, whose relief would not show.
+  std::vector<Rgb> colors{};  // per vertex, for kLit; empty: by height, with grey backs of triangles
+  // Factor by which slopes are steepened for the light only. 0: chosen by choose_exaggeration(), 1 for steep
+  // ground and more for gentle ground, whose relief would not be visible.
   float shading_exaggeration = 0;
 
   float wire_width = 0;  // pixels; 0 draws no wires
   Rgb wire_color{13, 13, 15};
   float wire_opacity = 1;
-  // Which edges are wires, one byte a triangle: bit k for the edge from its corner k to the next. Empty: all.
-  // quad_wires() leaves out diagonals. Where the surface turns away from the eye its outline is drawn too.
+  // Which edges are wires, one byte per triangle: bit k for the edge from corner k to the next. Empty: all.
+  // See quad_wires(). Silhouette edges, where the surface turns away from the eye, are always drawn.
   std::vector<std::uint8_t> wires{};
 };
 
-// A convex plane, such as the ground plane of a heightmap: a fill to see through and an outline, both hidden
-// where a mesh stands before them.
+// A convex polygon, such as the ground plane of a heightmap: a translucent fill and an outline, both hidden
+// behind meshes.
 struct ScenePlane {
   std::vector<glm::vec3> corners;  // three or more, in order
   Rgb color{40, 90, 180};
@@ -56,22 +56,21 @@ struct Scene {
   std::vector<ScenePlane> planes{};
   std::vector<SceneLine> lines{};
   float lowest = 0, highest = 1;      // metres at the two ends of the colour ramp
-  glm::vec3 sun{-0.5F, 0.7F, -0.5F};  // towards the light: from the north-west, the cartographers' convention
+  glm::vec3 sun{-0.5F, 0.7F, -0.5F};  // towards the light; by cartographers' convention from the north-west
   Rgb background{255, 255, 255};
 };
 
-// The box around everything in the scene; overview() makes a view of it. O(vertices).
+// The bounding box of the scene, for overview(). O(vertices).
 Bounds bounds_of(const Scene&);
 
-// Draws with 4x multisampling into view.width × view.height, which the context's picture takes as its size;
-// the context is current afterwards. The depth range is the scene's, not the view's. The same scene and view
-// give the same bytes whatever the number of threads. O(triangles + pixels), with wires O(triangles log
-// triangles).
+// Draws with 4x multisampling and resizes the context's picture to view.width × view.height; the context is
+// current afterwards. Replaces the view's depth range by that of the scene. The same scene and view give the
+// same bytes for any number of threads. O(triangles + pixels), with wires O(triangles log triangles).
 Image render_scene(GlContext&, const Scene&, const View&);
 
-// For SceneMesh::wires: all edges but the diagonals of four-sided cells, that is, those that are the longest
-// edge of both triangles beside them, seen from above (upright triangles: from the side). O(triangles log
-// triangles).
+// For SceneMesh::wires: all edges except the diagonals of quadrilateral cells. An edge is taken for a
+// diagonal if it is the longest edge of both its triangles in plan (of vertical triangles: in side view).
+// O(triangles log triangles).
 std::vector<std::uint8_t> quad_wires(const TriangleMesh&);
 
 }  // namespace terrabench

@@ -14,10 +14,11 @@ namespace {
 void check_size(int width, int height) {
   constexpr int kLargest = RenderTarget::kLargestSide;
   if (width < 1 || height < 1 || width > kLargest || height > kLargest) {
-    throw usage_error(fmt::format("a picture of {} x {} pixels cannot be drawn", width, height), "",
-                      fmt::format("each side must lie in 1 ... {}", kLargest));
+    throw usage_error(
+        fmt::format("picture sides must be 1 to {} pixels, got {} × {}", kLargest, width, height), "",
+        "choose another size");
   }
-  // Colour and depth of four bytes for each sample, and the averaged colour.
+  // Colour and depth of four bytes per sample, and the averaged colour.
   constexpr std::uint64_t kBytesPerPixel = 8 * RenderTarget::kSamples + 4;
   const std::uint64_t bytes =
       kBytesPerPixel * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
@@ -39,7 +40,7 @@ RenderTarget::RenderTarget(int width, int height)
   glNamedRenderbufferStorageMultisample(depth_.id(), kSamples, GL_DEPTH_COMPONENT32F, width, height);
   glNamedFramebufferRenderbuffer(drawn_.id(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color_.id());
   glNamedFramebufferRenderbuffer(drawn_.id(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
-  require_complete(drawn_);  // before more is taken: this is where a driver's own limits show
+  require_complete(drawn_);  // before allocating more: drivers report their limits here
   glNamedRenderbufferStorage(averaged_color_.id(), GL_RGBA8, width, height);
   glNamedFramebufferRenderbuffer(averaged_.id(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, averaged_color_.id());
   require_complete(averaged_);
@@ -63,7 +64,7 @@ Image RenderTarget::read() const {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
   check_gl("reading the picture");
-  // OpenGL's rows go up, ours down.
+  // OpenGL's rows are ordered from the bottom up, those of Image from the top down.
   const std::size_t row = static_cast<std::size_t>(width_) * 3;
   auto* top = image.rgb.data();
   auto* bottom = top + row * static_cast<std::size_t>(height_ - 1);

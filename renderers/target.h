@@ -1,5 +1,5 @@
 // The picture that a context draws into: 4x multisampled colour and depth in a framebuffer object, so that
-// every context (off-screen or window) draws through the same pixels.
+// all contexts, off-screen or window, give the same pixels.
 #pragma once
 
 #include "renderers/gl.h"
@@ -12,12 +12,13 @@ class RenderTarget {
   static constexpr int kSamples = 4;
   static constexpr int kLargestSide = 16384;
 
-  // Throws usage_error for a side outside 1…16384, environment_error when the memory for it is not there.
+  // Throws usage_error for a side outside 1…16384, environment_error when there is not enough memory.
   RenderTarget(int width, int height);
 
-  // Costs nothing when the size stays. The old picture is lost, and after a throw the old size is kept.
+  // Free when the size stays the same. Otherwise the old picture is lost; if it throws, picture and size are
+  // kept.
   void resize(int width, int height);
-  // Draws go here from now on, over the whole picture.
+  // Makes it the target of draw calls, with the viewport over the whole picture.
   void bind() const;
   // Averages the samples and reads the picture back.
   Image read() const;

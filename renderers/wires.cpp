@@ -8,8 +8,9 @@
 namespace terrabench {
 namespace {
 
-// The edge of a triangle that is its longest, seen along the vertical or, of upright triangles, along the
-// axis that they face most.
+constexpr std::uint8_t kAllEdges = 7;
+
+// The triangle's longest edge in plan, or, for vertical triangles, seen along the axis that they face most.
 int longest_edge(const std::array<glm::vec3, 3>& corner) {
   constexpr float kUpright = 1e-3F;
   const glm::vec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
@@ -49,8 +50,9 @@ void sort(std::vector<Side>& sides) {
   });
 }
 
-// The surface turns away from the eye at the edge of the two sides: one triangle faces the eye, and the
-// other, which does not, lies behind its plane. (Where it lies before it, the fold is hollow and no outline.)
+// Whether the edge of the two sides is a silhouette: one triangle faces the eye, and the other does not and
+// lies behind the first one's plane. (If it lies in front of the plane, the fold is concave and not an
+// outline.)
 bool is_outline(const TriangleMesh& mesh, const Side& first, const Side& second, const glm::vec3& eye) {
   const auto corner = [&](const Side& side, int k) -> const glm::vec3& {
     return mesh
@@ -69,8 +71,7 @@ bool is_outline(const TriangleMesh& mesh, const Side& first, const Side& second,
 }  // namespace
 
 std::vector<std::uint8_t> quad_wires(const TriangleMesh& mesh) {
-  constexpr std::uint8_t kAll = 7;
-  std::vector<std::uint8_t> wires(mesh.triangles(), kAll);
+  std::vector<std::uint8_t> wires(mesh.triangles(), kAllEdges);
   std::vector<Side> longest(mesh.triangles());
   for (std::size_t t = 0; t < mesh.triangles(); ++t) {
     const std::uint32_t* const v = mesh.indices.data() + 3 * t;
@@ -89,8 +90,7 @@ std::vector<std::uint8_t> quad_wires(const TriangleMesh& mesh) {
 
 std::vector<std::uint8_t> with_outlines(const TriangleMesh& mesh, std::vector<std::uint8_t> wires,
                                         const glm::vec3& eye) {
-  constexpr std::uint8_t kAll = 7;
-  if (wires.empty()) wires.assign(mesh.triangles(), kAll);
+  if (wires.empty()) wires.assign(mesh.triangles(), kAllEdges);
   std::vector<Side> sides;
   sides.reserve(3 * mesh.triangles());
   for (std::size_t t = 0; t < mesh.triangles(); ++t) {

@@ -15,12 +15,12 @@ glm::vec3 grid_position(const GroundGrid& grid, std::uint32_t vertex) {
           static_cast<float>(vertex / width) * grid.cell_z};
 }
 
-// A part of the way from a to b, and never beyond either by rounding.
+// Interpolates from a to b; rounding never leads beyond either.
 float between(float a, float b, float share) {
   return std::clamp(a + (b - a) * share, std::min(a, b), std::max(a, b));
 }
 
-// A patch on its way to the next coarser level.
+// A patch that morphs to the next coarser level.
 struct MorphingPatch {
   const GroundGrid& grid;
   const PatchMorph& morph;
@@ -35,13 +35,13 @@ struct MorphingPatch {
     return at.x == low.x || at.x == high.x || at.y == low.y || at.y == high.y;
   }
 
-  // Depends on the samples along the side and on what the morph says of it alone, so that the patch across
-  // has the same vertices. Corners stay.
+  // The height of a vertex on a side. It depends only on the samples along the side and on the side's value
+  // in the morph, so the neighbouring patch has the same vertices. Corners do not move.
   float on_side(glm::ivec2 at) const {
     const int along = at.y == low.y || at.y == high.y ? 0 : 1;
-    const float said = along == 0 ? morph.sides[at.y == low.y ? 0 : 2] : morph.sides[at.x == low.x ? 3 : 1];
-    const int step = 1 << static_cast<int>(said);
-    const float share = said - std::floor(said);
+    const float target = along == 0 ? morph.sides[at.y == low.y ? 0 : 2] : morph.sides[at.x == low.x ? 3 : 1];
+    const int step = 1 << static_cast<int>(target);
+    const float share = target - std::floor(target);
     if (share <= 0 || at[along] == high[along] || ((at[along] - low[along]) & (2 * step - 1)) != step) {
       return sample(at);
     }
@@ -83,8 +83,8 @@ float clip_height(const ClipLevel& level, int a, int b) {
   return level.heights[static_cast<std::size_t>(b & mask) * level.side + (a & mask)];
 }
 
-// Of the window's sample (x, z).
-float blend(const ClipLevel& level, int x, int z) {
+// The blend weight of the window's sample (x, z).
+float blend_weight(const ClipLevel& level, int x, int z) {
   if (level.from >= level.to) return 0;
   const float distance =
       std::max(std::abs(static_cast<float>(x) - level.eye.x), std::abs(static_cast<float>(z) - level.eye.y));
@@ -92,16 +92,16 @@ float blend(const ClipLevel& level, int x, int z) {
 }
 
 glm::vec3 clip_position(const Frame& frame, const Batch& batch, std::uint32_t vertex) {
-  const ClipLevel& level = frame.levels[batch.level];
+  const ClipLevel& level = frame.clip_levels[batch.level];
   const auto side = static_cast<std::uint32_t>(level.side);
   const auto x = static_cast<int>(vertex % side), z = static_cast<int>(vertex / side);
   const int a = level.corner.x + x, b = level.corner.y + z;
   float y = clip_height(level, a, b);
-  const float weight = blend(level, x, z);
+  const float weight = blend_weight(level, x, z);
   if (weight > 0) {
-    // The coarser level's own samples, not this level's means: the two agree to the bit where they meet.
-    // Beyond the ground only the outer one, which stands at the border too.
-    const ClipLevel& coarser = frame.levels[batch.level + 1];
+    // The coarser level's own samples, not means of this level's, so that the two surfaces agree to the bit
+    // where they meet. Beyond the ground only the outer sample, which is clamped to the border as well.
+    const ClipLevel& coarser = frame.clip_levels[batch.level + 1];
     const auto ends = [&](int lattice, int first, int last) {
       const int odd = lattice & 1;
       int low = (lattice - odd) / 2, high = (lattice + odd) / 2;
@@ -141,7 +141,7 @@ float morphed_height(const GroundGrid& grid, int patch_side, const PatchMorph& m
 }
 
 glm::vec3 vertex_position(const Frame& frame, const Batch& batch, std::uint32_t vertex) {
-  if (!frame.levels.empty()) return clip_position(frame, batch, vertex);
+  if (!frame.clip_levels.empty()) return clip_position(frame, batch, vertex);
   return frame.morphs.empty() ? grid_position(frame.grid, vertex) : morphed_position(frame, batch, vertex);
 }
 

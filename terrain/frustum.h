@@ -1,4 +1,4 @@
-// The part of space that a view sees, as six planes: what level-of-detail methods cull against.
+// The view frustum as six planes, for culling. O(1) per box.
 #pragma once
 
 #include <array>
@@ -15,19 +15,18 @@ class Frustum {
  public:
   explicit Frustum(const View&);
 
-  // kOutside is certain; kCrossing may be said of a box just outside an edge or a corner (conservative).
+  // Conservative: kOutside and kInside are certain; a box just outside an edge or a corner may get kCrossing.
   Sight see(const Bounds& box) const;
-  // For boxes inside each other: tests the planes in `planes` alone, a bit each, and takes those out that the
-  // box lies wholly inside of.
+  // For nested boxes: tests only the planes whose bits are set in `planes`, and clears the bits of those that
+  // the box lies wholly inside of.
   static constexpr unsigned kAllPlanes = 0x3F;
   Sight see(const Bounds& box, unsigned& planes) const;
 
  private:
-  // In double: floats lose centimetres where coordinates have six digits, and what is culled must not be in
-  // view.
+  // In double: with coordinates of six digits, floats lose centimetres, and could cull what is in view.
   struct Plane {
     glm::dvec3 normal;
-    double offset;  // dot(normal, p) + offset ≥ 0 inside
+    double offset;  // inside: dot(normal, p) + offset ≥ 0
   };
   std::array<Plane, 6> planes_;
 };

@@ -18,7 +18,7 @@ glm::mat4 world_to_clip(const View& view) {
 
 View overview(const Bounds& bounds, int width, int height, glm::vec3 from) {
   constexpr float kMargin = 1.04F;  // around the outline, as a share of the picture
-  constexpr int kSteps = 12;  // the outline moves with the eye; each step leaves a small share of the error
+  constexpr int kSteps = 12;        // fixed-point iterations; each leaves a small share of the error
   View view;
   view.width = width;
   view.height = height;

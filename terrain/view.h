@@ -1,4 +1,4 @@
-// A camera: what a level-of-detail method adapts to and a renderer looks through.
+// A camera: the view that level-of-detail methods adapt to and renderers draw.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -17,8 +17,8 @@ struct View {
 
 glm::mat4 world_to_clip(const View&);  // OpenGL clip space, z in [-1, 1]
 
-// Looks down at the whole box from the south-east, as relief maps in papers do, filling the picture; or from
-// the direction `from`, which is not upright.
+// A view of the whole box that fills the picture, from the south-east and above, as papers show relief; or
+// from the direction `from`, which must not be vertical.
 View overview(const Bounds&, int width, int height, glm::vec3 from = {0.55F, 0.75F, 1.0F});
 
 }  // namespace terrabench

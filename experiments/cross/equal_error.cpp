@@ -86,7 +86,7 @@ struct Shown {
 void meter(const Flight& flight, std::size_t k, const Frame& frame, const SurfaceRaster& before,
            const SurfaceRaster& drawn, Shown& shown) {
   const Heightfield& ground = flight.ground();
-  const Visibility& seen = flight.seen[k];
+  const SeenSamples& seen = flight.seen[k];
   const ScreenDeviation error = screen_error(drawn, ground, seen, &shown.error);
   shown.largest_anywhere = std::max(shown.largest_anywhere, error.in_frustum.largest);
   shown.undrawn += error.visible.undrawn;

@@ -77,7 +77,7 @@ Flight::Flight(const Route& along, Progress& progress)
     throw usage_error("a path of one frame has no motion to measure", route.path, "choose another path");
   }
   metered = evenly(static_cast<std::size_t>(route.frames), views.size() - 1);
-  require_memory(metered.size() * Visibility::bytes(ground().width, ground().depth),
+  require_memory(metered.size() * SeenSamples::bytes(ground().width, ground().depth),
                  fmt::format("what {} frames see of {}", metered.size(), route.terrain),
                  "meter fewer frames (--set frames=…) or choose less ground");
   seen.reserve(metered.size());

@@ -14,7 +14,7 @@
 #include "experiments/cross/knob_search.h"
 #include "experiments/experiment.h"
 #include "lod/lod.h"
-#include "lod/meters/visibility.h"
+#include "lod/meters/seen_samples.h"
 #include "terrain/image.h"
 #include "terrain/source.h"
 
@@ -45,7 +45,7 @@ struct Flight {
   float lowest, highest;             // of the ground, metres
   std::vector<View> views;           // every frame of the path
   std::vector<std::size_t> metered;  // indices of views, ascending, from 1
-  std::vector<Visibility> seen;      // per metered view
+  std::vector<SeenSamples> seen;     // per metered view
   // Results of tune_to() by method with its options, and pixels.
   std::map<std::pair<std::string, double>, Tuned> tuned;
   std::vector<Image> pictures;  // of the full terrain, in the frames pictured(); see draw_reference()

@@ -140,8 +140,8 @@ class Flight {
     fresh.move_origin(clipmap_->origin());
     const Frame& never_left = fresh.update(from(home_));
     std::size_t different = 0, compared = 0;
-    for (std::size_t l = 0; l < back.levels.size(); ++l) {
-      const ClipLevel &a = back.levels[l], &b = never_left.levels[l];
+    for (std::size_t l = 0; l < back.clip_levels.size(); ++l) {
+      const ClipLevel &a = back.clip_levels[l], &b = never_left.clip_levels[l];
       different += a.corner != b.corner ? 1 : 0;
       const int mask = a.side - 1, n = clipmap_->window();
       for (int z = a.corner.y; z < a.corner.y + n; ++z) {

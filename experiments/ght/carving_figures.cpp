@@ -47,11 +47,11 @@ std::vector<Panel> four_views(GlContext& context, const Ght& ght, const Carving&
 
 // The ridge with the carvings and the valleys on both its sides, out of the whole terrain.
 std::vector<CutPlane> around_the_ridge(const Ght& ght) {
-  const Lattice& lattice = ght.model().tree.lattice();
-  return {{{lattice.x(49), 0}, {-1, 0}},
-          {{lattice.x(111), 0}, {1, 0}},
-          {{0, lattice.z(28)}, {0, -1}},
-          {{0, lattice.z(73)}, {0, 1}}};
+  const SampleGrid& grid = ght.model().tree.grid();
+  return {{{grid.x(49), 0}, {-1, 0}},
+          {{grid.x(111), 0}, {1, 0}},
+          {{0, grid.z(28)}, {0, -1}},
+          {{0, grid.z(73)}, {0, 1}}};
 }
 
 // Two by two.

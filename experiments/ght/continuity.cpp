@@ -163,10 +163,10 @@ Breaks count_breaks(const Model& model) {
     seen[c] = 1;
     found.voids_seen += tree.kind(c) != CellKind::kHeight;
   };
-  for (int j = 0; j + 1 < tree.lattice().depth; ++j) {
-    for (int i = 0; i + 1 < tree.lattice().width; ++i) {
+  for (int j = 0; j + 1 < tree.grid().depth; ++j) {
+    for (int i = 0; i + 1 < tree.grid().width; ++i) {
       if (!model.surface.plain(tree, {i, j})) continue;
-      for (const CellId c : Surface::corners(tree, {i, j})) see(c);
+      for (const CellId c : ComposedSurface::corners(tree, {i, j})) see(c);
     }
   }
   model.surface.each_face([&](FaceId f) {

@@ -56,8 +56,8 @@ void measure_carving(const Site& site, bool cave, Recorder& recorder) {
     }
     const auto& nodes = tree.model().tree.nodes();
     const auto count = [&](Area area) {
-      return static_cast<double>(
-          std::count_if(nodes.begin(), nodes.end(), [&](const Node& n) { return n.area == area; }));
+      return static_cast<double>(std::count_if(nodes.begin(), nodes.end(),
+                                               [&](const GroundedHeightmap& n) { return n.area == area; }));
     };
     record(tree.model().tree, 1, fmt::format("sides_{}", sides), recorder);
     recorder.add(fmt::format("borders_sides_{}", sides), "", count(Area::kBorder));

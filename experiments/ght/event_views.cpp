@@ -36,7 +36,7 @@ Bounds surface_bounds(const Ght& ght, const TriangleMesh& mesh) {
 SceneMesh wired(const TriangleMesh& mesh, Rgb colour, float width, std::vector<std::uint8_t> wires) {
   SceneMesh item;
   item.mesh = &mesh;
-  item.surface = terrabench::Surface::kFlat;
+  item.shading = Shading::kFlat;
   item.wire_width = width;
   item.wire_color = colour;
   item.wires = std::move(wires);
@@ -47,10 +47,10 @@ SceneMesh wired(const TriangleMesh& mesh, Rgb colour, float width, std::vector<s
 
 Image planes_view(GlContext& context, const Ght& ght, const Look& look) {
   const Tree& tree = ght.model().tree;
-  const Lattice& lattice = tree.lattice();
+  const SampleGrid& grid = tree.grid();
   Scene scene;
   scene.planes.push_back({plane_outline(tree, 0), kRoot, 0.06F, 2});
-  const float x1 = lattice.x(lattice.width - 1), z1 = lattice.z(lattice.depth - 1);
+  const float x1 = grid.x(grid.width - 1), z1 = grid.z(grid.depth - 1);
   for (int k = 1; k < kPlaneGrid; ++k) {
     const float share = static_cast<float>(k) / kPlaneGrid;
     scene.lines.push_back({{{share * x1, 0, 0}, {share * x1, 0, z1}}, {200, 200, 204}, 1});

@@ -28,10 +28,10 @@ class Dice {
 // Where a particle hits the ground it leaves half an ellipsoid, a third as deep as it is wide from the
 // middle.
 events::RadialErosion crash(const Ght& ght, Dice& dice) {
-  const Lattice& lattice = ght.model().tree.lattice();
-  const double radius = dice.between(1.2, 3) * lattice.cell();
-  const double x = dice.between(radius, lattice.x(lattice.width - 1) - radius);
-  const double z = dice.between(radius, lattice.z(lattice.depth - 1) - radius);
+  const SampleGrid& grid = ght.model().tree.grid();
+  const double radius = dice.between(1.2, 3) * grid.spacing();
+  const double x = dice.between(radius, grid.x(grid.width - 1) - radius);
+  const double z = dice.between(radius, grid.z(grid.depth - 1) - radius);
   return {{x, ght.model().surface.top(ght.model().tree, {x, z}), z}, {radius, radius / 3, radius}};
 }
 
@@ -61,9 +61,9 @@ TriangleMesh falling(const Ght& ght, Dice& dice) {
 
 // A window of the ground's samples, with what happened to it.
 TriangleMesh window(const Ght& ght, int first, int last) {
-  const Lattice& lattice = ght.model().tree.lattice();
+  const SampleGrid& grid = ght.model().tree.grid();
   TriangleMesh mesh = tree_surface(ght.model()).mesh;
-  const glm::vec2 low(lattice.x(first), lattice.z(first)), high(lattice.x(last), lattice.z(last));
+  const glm::vec2 low(grid.x(first), grid.z(first)), high(grid.x(last), grid.z(last));
   cut_away(mesh, {low, {-1, 0}});
   cut_away(mesh, {low, {0, -1}});
   cut_away(mesh, {high, {1, 0}});
@@ -86,7 +86,7 @@ Image window_view(GlContext& context, const Ght& ght, const Look& look) {
   Scene scene;
   SceneMesh& ground = scene.meshes.emplace_back();
   ground.mesh = &mesh;
-  ground.surface = terrabench::Surface::kFlat;
+  ground.shading = Shading::kFlat;
   ground.wire_width = 0.9F;
   ground.wires = quad_wires(mesh);
   return render_scene(context, scene, overview(bounds_of(mesh), look.width, look.height, look.from));
@@ -106,7 +106,7 @@ Image particles_view(GlContext& context, const Ght& ght, const TriangleMesh& par
   if (particles.triangles() > 0) {
     SceneMesh& rain = scene.meshes.emplace_back();
     rain.mesh = &particles;
-    rain.surface = terrabench::Surface::kFlat;
+    rain.shading = Shading::kFlat;
     rain.fill = kYellow;
     rain.wire_width = 0.8F;
     rain.wires.assign(particles.triangles(), 0);  // outlines alone

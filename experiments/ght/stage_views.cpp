@@ -53,7 +53,7 @@ Image wire_view(GlContext& context, const Heightfield& field, double width, doub
   Scene scene;
   SceneMesh& ground = scene.meshes.emplace_back();
   ground.mesh = &mesh;
-  ground.surface = Surface::kFlat;
+  ground.shading = Shading::kFlat;
   ground.wire_width = wire_width;
   ground.wires = quad_wires(mesh);
   return render_scene(

@@ -16,7 +16,7 @@ constexpr Rgb kHeight{200, 200, 200}, kLink{213, 94, 0}, kVoid{0, 114, 178}, kEd
 constexpr double kMargin = 24, kBox = 74, kStep = 128, kRow = 150, kRoot = 150;
 
 // A pixel a cell, or the kind of the cell in the middle of its share where there are more than fit.
-Image cells_image(const Tree& tree, const Node& node, int most) {
+Image cells_image(const Tree& tree, const GroundedHeightmap& node, int most) {
   const int across = std::min(node.columns, most), down = std::min(node.rows, most);
   Image image(across, down, {});
   for (int y = 0; y < down; ++y) {
@@ -101,7 +101,7 @@ class TreeSheet {
     if (event.host == 0) {
       stroke(sheet, {trunk, host.y + kRoot}, {trunk, bar}, kEdge, 1.5);
     } else {  // past the words under the box
-      const Node& node = tree_.nodes()[event.host];
+      const GroundedHeightmap& node = tree_.nodes()[event.host];
       trunk = host.x - 16;
       const double from = host.y + kBox * node.rows / std::max(node.columns, node.rows) / 2;
       stroke(sheet, {host.x + kBox / 2, from}, {trunk, from}, kEdge, 1.5);
@@ -115,7 +115,7 @@ class TreeSheet {
 
   // As large as fits a square of that side, in the array's own proportions.
   void box(Sheet& sheet, NodeId n, double side, const std::string& words) const {
-    const Node& node = tree_.nodes()[n];
+    const GroundedHeightmap& node = tree_.nodes()[n];
     const double scale = side / std::max(node.columns, node.rows);
     const double wide = std::max(scale * node.columns, 6.0), high = std::max(scale * node.rows, 6.0);
     const figures::SheetPoint at = box_[n];

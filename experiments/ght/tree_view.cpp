@@ -67,11 +67,12 @@ std::vector<glm::ivec2> convex_hull(const std::vector<glm::ivec2>& points) {
 
 TreeSurface tree_surface(const Model& model) {
   SurfaceBuilder builder(model.tree);
-  const Lattice& lattice = model.tree.lattice();
-  for (int j = 0; j + 1 < lattice.depth; ++j) {
-    for (int i = 0; i + 1 < lattice.width; ++i) {
+  const SampleGrid& grid = model.tree.grid();
+  for (int j = 0; j + 1 < grid.depth; ++j) {
+    for (int i = 0; i + 1 < grid.width; ++i) {
       if (!model.surface.plain(model.tree, {i, j})) continue;
-      for (const Face& face : Surface::plain_faces(Surface::corners(model.tree, {i, j}))) builder.add(face);
+      for (const Face& face : ComposedSurface::plain_faces(ComposedSurface::corners(model.tree, {i, j})))
+        builder.add(face);
     }
   }
   model.surface.each_face([&](FaceId f) { builder.add(model.surface.face(f)); });
@@ -135,8 +136,8 @@ TriangleMesh section_face(const Ght& ght, const CutPlane& plane, float step) {
 
 TriangleMesh block_sides(const Ght& ght) {
   const Tree& tree = ght.model().tree;
-  const Lattice& lattice = tree.lattice();
-  const int last_i = lattice.width - 1, last_j = lattice.depth - 1;
+  const SampleGrid& grid = tree.grid();
+  const int last_i = grid.width - 1, last_j = grid.depth - 1;
   TriangleMesh mesh;
   // From a to b with the ground on the left, seen from above.
   const auto side = [&](Square a, Square b) {
@@ -157,7 +158,7 @@ TriangleMesh block_sides(const Ght& ght) {
 }
 
 std::vector<glm::vec3> plane_outline(const Tree& tree, NodeId n) {
-  const Node& node = tree.nodes()[n];
+  const GroundedHeightmap& node = tree.nodes()[n];
   std::vector<glm::ivec2> cells;
   for (int i = 0; i < node.columns; ++i) {
     int first = node.rows, last = -1;
@@ -173,9 +174,8 @@ std::vector<glm::vec3> plane_outline(const Tree& tree, NodeId n) {
   std::vector<glm::vec3> corners;
   if (cells.size() < 3) return corners;
   for (const glm::ivec2 c : convex_hull(cells)) {
-    corners.push_back(node.aligned
-                          ? glm::vec3(tree.lattice().x(node.i0 + c.x), 0, tree.lattice().z(node.j0 + c.y))
-                          : glm::vec3(node.frame.at(c.x, c.y, 0)));
+    corners.push_back(node.aligned ? glm::vec3(tree.grid().x(node.i0 + c.x), 0, tree.grid().z(node.j0 + c.y))
+                                   : glm::vec3(node.plane.at(c.x, c.y, 0)));
   }
   return corners;
 }

@@ -56,16 +56,17 @@ Heightfield extrude(std::span<const float> profile) {
   return strip;
 }
 
-VisibilityTable find_changes(const Heightfield& strip, bool conservative, Progress& progress) {
-  const VisibilityOptions options{.conservative = conservative,
-                                  .cells = kProfileCells,
-                                  .coarseness = kStripDepth - kStripCoarseDepth,
-                                  .eye_height = 0};
+visibility::ChangeTable find_changes(const Heightfield& strip, bool conservative, Progress& progress) {
+  const visibility::Options options{
+      .mode = conservative ? visibility::Mode::kConservative : visibility::Mode::kSampled,
+      .cells = kProfileCells,
+      .coarseness = kStripDepth - kStripCoarseDepth,
+      .eye_height = 0};
   const BisectionTree tree = BisectionTree::over(strip.width, strip.depth, kStripDepth);
-  return changes_of(find_visible(grid_of(strip), tree, options, progress));
+  return changes_of(find_sets(grid_of(strip), tree, options, progress));
 }
 
-std::vector<ProfileStep> profile_steps(const Heightfield& strip, const VisibilityTable& table,
+std::vector<ProfileStep> profile_steps(const Heightfield& strip, const visibility::ChangeTable& table,
                                        Progress& progress) {
   Mrbsp lod(strip, {.depth = kStripDepth, .cull = false}, table, progress);
   lod.tune(kFinest);

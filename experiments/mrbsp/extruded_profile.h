@@ -1,5 +1,5 @@
 // The two-dimensional scene of the paper's figure 2 and table 1, extruded into a strip of ground one cell
-// wide, so that the code that finds the visibility of a landscape (lod/mrbsp/visibility.h) applies to it.
+// wide, so that the code that finds the visibility of a landscape (lod/mrbsp/visibility/) applies to it.
 // Lines of sight along the strip are those of the profile.
 //
 // The paper prints no heights. From the table and its text: sixteen fine segments (four-digit numbers), four
@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lod/mrbsp/visibility_table.h"
+#include "lod/mrbsp/visibility/change_table.h"
 #include "terrain/heightfield.h"
 #include "terrain/progress.h"
 
@@ -31,7 +31,7 @@ std::span<const float> table1_profile();
 Heightfield extrude(std::span<const float> profile);
 
 // Changes in visibility for eyes on the ground, by triangles as long as the coarse segments.
-VisibilityTable find_changes(const Heightfield& strip, bool conservative, Progress&);
+visibility::ChangeTable find_changes(const Heightfield& strip, bool conservative, Progress&);
 
 // The segments whose visibility changes from one cell to the next, ascending.
 struct ProfileStep {
@@ -39,7 +39,7 @@ struct ProfileStep {
   std::vector<std::uint32_t> fine;    // in what Mrbsp draws at its finest from the middles of both cells
   bool whole = true;                  // both triangles of every coarse segment change
 };
-std::vector<ProfileStep> profile_steps(const Heightfield& strip, const VisibilityTable&, Progress&);
+std::vector<ProfileStep> profile_steps(const Heightfield& strip, const visibility::ChangeTable&, Progress&);
 
 // profile_figures.cpp: figure 2 and table 1 as pictures.
 

@@ -30,7 +30,7 @@ std::vector<std::string> grounds(const RunOptions& options, bool rough) {
 
 int depth_over(const Heightfield& field) { return field.width == kSide && field.depth == kSide ? kDepth : 0; }
 
-glm::ivec2 cell_below(const CellGrid& cells, const Heightfield& field, const glm::vec3& eye) {
+glm::ivec2 cell_below(const visibility::CellGrid& cells, const Heightfield& field, const glm::vec3& eye) {
   return {std::min(static_cast<int>(eye.x / field.cell_x) / cells.side, cells.columns - 1),
           std::min(static_cast<int>(eye.z / field.cell_z) / cells.side, cells.rows - 1)};
 }

@@ -15,7 +15,7 @@ TerrainSource open_ground(std::string_view name, std::uint64_t seed);
 // Those that the options name; otherwise real-257 and drawing-257, and rough-257 where asked for.
 std::vector<std::string> grounds(const RunOptions&, bool rough);
 // The cell below an eye.
-glm::ivec2 cell_below(const CellGrid&, const Heightfield&, const glm::vec3& eye);
+glm::ivec2 cell_below(const visibility::CellGrid&, const Heightfield&, const glm::vec3& eye);
 // The tree's depth: the paper's on ground of its size; otherwise 0, as deep as the samples go.
 int depth_over(const Heightfield&);
 

@@ -77,12 +77,13 @@ void measure_roughness(const Case& at, const RunOptions& options, Recorder& reco
     if (k == 0) recorder.terrain("diamond-square", checksum(ground));
     const std::vector<View> views = walk(ground, kViews);
     for (std::size_t way = 0; way < sums.size(); ++way) {
-      Mrbsp lod(ground,
-                {.depth = kDepth,
-                 .conforming = false,
-                 .visibility = way > 0,
-                 .visible = {.conservative = way == 2}},
-                progress);
+      Mrbsp lod(
+          ground,
+          {.depth = kDepth,
+           .conforming = false,
+           .visibility = way > 0,
+           .visible = {.mode = way == 2 ? visibility::Mode::kConservative : visibility::Mode::kSampled}},
+          progress);
       lod.tune(kFinest);
       sums[way] += mean_triangles(lod, views) / kSeeds;
     }

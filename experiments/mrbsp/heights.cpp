@@ -57,7 +57,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const BisectionTree tree(depth / 2, depth);
   const std::vector<glm::vec3> points = height_points(ground);
 
-  const Heightfield lattice = interpolate_lattice(points, tree, progress);
+  const Heightfield lattice = interpolate_heights(points, tree, progress);
   int whole = 0;
   View view;
   view.eye = {0, 10 * (lattice.extent_x() + lattice.extent_z()), 0};

@@ -7,7 +7,7 @@
 
 #include "experiments/experiment.h"
 #include "experiments/mrbsp/extruded_profile.h"
-#include "lod/mrbsp/visibility_text.h"
+#include "lod/mrbsp/visibility/codec.h"
 
 namespace terrabench::mrbsp {
 namespace {
@@ -53,16 +53,16 @@ std::vector<Case> cases(const RunOptions&) { return {Case{"profile", Parameters(
 void measure(const Case&, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const Heightfield strip = extrude(table1_profile());
   recorder.terrain("profile", checksum(strip));
-  const VisibilityTable table = find_changes(strip, false, progress);
+  const visibility::ChangeTable table = find_changes(strip, false, progress);
   const std::vector<ProfileStep> steps = profile_steps(strip, table, progress);
   recorder.add("differing_lines", "", differing_steps(steps));
   std::size_t changes = 0;
   for (const ProfileStep& step : steps) changes += step.coarse.size();
   recorder.add("changes", "", changes);
   // Saved and loaded again.
-  const VisibilityTable again = parse_visibility(visibility_text(table), "table 1");
+  const visibility::ChangeTable again = visibility::decode_text(encode_text(table), "table 1");
   recorder.add("lost_in_the_file", "", again == table ? 0 : 1);
-  const VisibilityTable safe = find_changes(strip, true, progress);
+  const visibility::ChangeTable safe = find_changes(strip, true, progress);
   recorder.add("differing_lines_conservative", "", differing_steps(profile_steps(strip, safe, progress)));
   recorder.add("alike_within_half_a_metre", "", share_alike(0.5F, options.seed, progress));
   draw_profile(table1_profile(), steps,

@@ -4,7 +4,7 @@
 
 #include "experiments/figures/sheet.h"
 #include "experiments/mrbsp/extruded_profile.h"
-#include "lod/mrbsp/visibility_text.h"
+#include "lod/mrbsp/visibility/codec.h"
 
 namespace terrabench::mrbsp {
 namespace {
@@ -72,8 +72,9 @@ class ProfileDrawing {
       const bool dark = changes(c) || (c > 0 && changes(c - 1));
       const double x = kLeft + static_cast<double>(c) * side;
       sheet_.box(x + 1, y, side - 2, 30, dark ? kDark : kPale);
-      sheet_.text(x + 0.5 * side, y + 20, cell_name({kProfileCells, 1, 1}, static_cast<int>(c), 0), 15,
-                  "middle", dark ? Rgb{255, 255, 255} : kWords);
+      sheet_.text(x + 0.5 * side, y + 20,
+                  visibility::cell_name({kProfileCells, 1, 1}, {static_cast<int>(c), 0}), 15, "middle",
+                  dark ? Rgb{255, 255, 255} : kWords);
       if (c > 0) {
         sheet_.line(std::array{SheetPoint{x, kTop - 10}, SheetPoint{x, kTop + kHeight + 16}},
                     {.colour = kPale, .dashes = "4,4"});
@@ -102,9 +103,9 @@ std::string segment_labels(std::span<const std::uint32_t> segments, int digits) 
 }
 
 std::string step_name(std::size_t step) {
-  const CellGrid cells{kProfileCells, 1, 1};
+  const visibility::CellGrid cells{kProfileCells, 1, 1};
   const int cell = static_cast<int>(step);
-  return cell_name(cells, cell, 0) + "-" + cell_name(cells, cell + 1, 0);
+  return cell_name(cells, {cell, 0}) + "-" + cell_name(cells, {cell + 1, 0});
 }
 
 void draw_profile(std::span<const float> profile, std::span<const ProfileStep> steps,

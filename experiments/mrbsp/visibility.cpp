@@ -11,8 +11,8 @@
 #include "experiments/mrbsp/ground.h"
 #include "experiments/mrbsp/lost_pixels.h"
 #include "experiments/stopwatch.h"
-#include "lod/mrbsp/coarse_squares.h"
-#include "lod/mrbsp/visibility_binary.h"
+#include "lod/mrbsp/visibility/coarse_squares.h"
+#include "lod/mrbsp/visibility/codec.h"
 #include "renderers/frame_renderer.h"
 
 namespace terrabench::mrbsp {
@@ -33,7 +33,8 @@ struct Misses {
 };
 
 // The coarse triangle that contains the middle of a triangle of the frame.
-std::uint32_t element_of(const Frame& frame, std::uint32_t triangle, const CoarseSquares& squares) {
+std::uint32_t element_of(const Frame& frame, std::uint32_t triangle,
+                         const visibility::CoarseSquares& squares) {
   glm::vec2 middle(0);
   for (std::uint32_t c = 0; c < 3; ++c) {
     const std::uint32_t vertex = frame.indices[3 * triangle + c];
@@ -44,13 +45,13 @@ std::uint32_t element_of(const Frame& frame, std::uint32_t triangle, const Coars
   const auto side = static_cast<float>(squares.side());
   const glm::ivec2 square(middle / side);
   const glm::vec2 in = middle - glm::vec2(square) * side;
-  const bool high = CoarseSquares::rising(square) ? in.x > in.y : in.x + in.y > side;
+  const bool high = visibility::CoarseSquares::rising(square) ? in.x > in.y : in.x + in.y > side;
   return squares.element(square, high ? 1 : 0);
 }
 
 // Adds the triangles that an eye sees in all directions but its cell's set lacks.
 void look_around(const Heightfield& ground, const glm::vec3& eye, Mrbsp& full, FrameRenderer& renderer,
-                 const VisibleSets& sets, const CoarseSquares& squares, Misses& misses) {
+                 const visibility::Sets& sets, const visibility::CoarseSquares& squares, Misses& misses) {
   const glm::ivec2 cell = cell_below(sets.cells, ground, eye);
   const int cell_number = cell.y * sets.cells.columns + cell.x;
   std::unordered_set<std::uint64_t> seen, missed;  // a triangle may show in two pictures
@@ -114,11 +115,12 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const Heightfield& ground = *source.heights;
   Mrbsp full(ground, {.depth = depth_over(ground)}, progress);
   full.tune(kFinest);
-  const VisibilityOptions how{.conservative = at.parameters.flag("conservative"),
-                              .cells = static_cast<int>(at.parameters.integer("cells")),
-                              .coarseness = static_cast<int>(at.parameters.integer("coarseness"))};
+  const visibility::Options how{.mode = at.parameters.flag("conservative") ? visibility::Mode::kConservative
+                                                                           : visibility::Mode::kSampled,
+                                .cells = static_cast<int>(at.parameters.integer("cells")),
+                                .coarseness = static_cast<int>(at.parameters.integer("coarseness"))};
   const Stopwatch watch;
-  const VisibleSets sets = find_visible(grid_of(ground), full.tree(), how, progress);
+  const visibility::Sets sets = find_sets(grid_of(ground), full.tree(), how, progress);
   recorder.add("preprocessing_time", "s", watch.seconds());
   std::size_t visible = 0;
   for (int cell = 0; cell < sets.cells.count(); ++cell) visible += sets.count(cell);
@@ -126,7 +128,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("coarse_triangles", "", std::uint64_t{1} << sets.depth);
   recorder.add("visible_share", "",
                static_cast<double>(visible) / sets.cells.count() / std::exp2(sets.depth));
-  const VisibilityBytes bytes = visibility_bytes(changes_of(sets));
+  const visibility::EncodedSizes bytes = encoded_sizes(changes_of(sets));
   recorder.add("bytes_changes", "B", bytes.changes);
   recorder.add("bytes_lists", "B", bytes.lists);
   recorder.add("bytes_bits", "B", bytes.bits);
@@ -135,7 +137,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
   const auto context = open_context(options.renderer, kPixels, kPixels);
   FrameRenderer renderer(*context);
-  const CoarseSquares squares(full.tree(), sets.depth);
+  const visibility::CoarseSquares squares(full.tree(), sets.depth);
   std::mt19937_64 random(options.seed);
   const auto random_share = [&] { return static_cast<float>(random() >> 40) / 16777216.0F; };
   const int eyes = options.profile == Profile::kPaper ? 100 : 20;

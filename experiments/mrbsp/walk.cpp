@@ -42,7 +42,8 @@ struct Methods {
     const MrbspOptions options{.depth = depth_over(ground), .conforming = false};  // as printed
     MrbspOptions with_visibility = options;
     with_visibility.visibility = true;
-    with_visibility.visible.conservative = conservative;
+    with_visibility.visible.mode =
+        conservative ? visibility::Mode::kConservative : visibility::Mode::kSampled;
     lods.reserve(kMethods);
     lods.emplace_back(ground, options, progress);
     lods.emplace_back(ground, options, progress);
@@ -147,8 +148,8 @@ void count_lost_pixels(Methods& methods, const std::vector<View>& views, const R
 // Time to update the flags of visibility along the walk, relative to choosing triangles without them.
 void time_flags(Methods& methods, const Heightfield& ground, const std::vector<View>& views,
                 Recorder& recorder) {
-  const VisibilityTable& table = methods.lods[kVis].visibility();
-  VisibleFlags flags(table);
+  const visibility::ChangeTable& table = methods.lods[kVis].visibility();
+  visibility::Flags flags(table);
   double flag_time = 0, lod_time = 0;
   std::size_t toggled = 0;
   for (const View& view : views) {

@@ -76,7 +76,6 @@ const Frame& BruteForce::update(const View& view) {
     first_ = false;
   }
   frame_ = {.grid = grid_,
-            .levels = {},
             .cell_x = grid_.cell_x,
             .cell_z = grid_.cell_z,
             .indices = indices_,

@@ -1,6 +1,6 @@
-// The full terrain at every sample, culled by the view alone: the yardstick of the other methods ("brute" in
-// Table 2 of the MRBSP paper). Blocks of 32 × 32 cells share one index pattern. update() is O(blocks), 1/1024
-// of the cells.
+// The full terrain at every sample, culled by the frustum only: the reference for the other methods ("brute"
+// in Table 2 of the MRBSP paper). Blocks of 32 × 32 cells share one index pattern. update() is O(blocks),
+// that is, cells / 1024.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ class BruteForce : public Lod {
 
   explicit BruteForce(const Heightfield&);
   const Frame& update(const View&) override;
-  // It has one setting: everything.
+  // Has only one setting.
   void tune(double stride) override { (void)setting(knob(), stride); }
   Memory memory() const override;
 
@@ -25,10 +25,10 @@ class BruteForce : public Lod {
   static constexpr int kBlock = 32;  // cells along a block's side
   struct Block {
     std::uint32_t corner;  // vertex
-    std::uint16_t shape;   // which index pattern: full, or cut by the field's border
+    std::uint16_t shape;   // index pattern: whole, or cut by the field's border
     float lowest, highest;
   };
-  // Where the indices of a block of `columns` × `rows` cells lie.
+  // The indices of a block of `columns` × `rows` cells.
   struct Shape {
     int columns, rows;
     std::uint32_t first_index, index_count;
@@ -37,7 +37,7 @@ class BruteForce : public Lod {
   void add_block(const Heightfield&, int i0, int j0);
 
   GroundGrid grid_;
-  std::vector<Shape> shapes_;  // four at most
+  std::vector<Shape> shapes_;  // at most four
   std::vector<Block> blocks_;
   std::vector<std::uint32_t> indices_;
   std::vector<Batch> batches_;

@@ -17,7 +17,7 @@ namespace {
 constexpr double kEyeHeight = 1.8;  // metres
 constexpr double kMostFrames = 1e6;
 
-// A path laid over ground: everything in metres.
+// A path over a particular ground, in metres.
 class Flight {
  public:
   Flight(const CameraPath& path, const Heightfield& ground)
@@ -40,7 +40,7 @@ class Flight {
     const std::size_t k = static_cast<std::size_t>(after - times_.begin());
     const Keyframe &from = path_.keyframes[k - 1], &to = path_.keyframes[k];
     const double lasts = times_[k] - times_[k - 1];
-    // Beside a long time a short one may round to none.
+    // A short time may round to 0 when it is added to a long one.
     const double share = lasts > 0 ? std::clamp((time - times_[k - 1]) / lasts, 0.0, 1.0) : 1;
     const bool turns = path_.kind == CameraPath::Kind::kTurn;
     const glm::dvec2 plan =
@@ -50,7 +50,7 @@ class Flight {
   }
 
  private:
-  // Of what is covered between two keyframes: units, or degrees.
+  // What the speed covers between two keyframes: units or degrees.
   double distance(const Keyframe& a, const Keyframe& b) const {
     return path_.kind == CameraPath::Kind::kTurn ? std::abs(b.heading - a.heading)
                                                  : glm::distance(a.at, b.at);
@@ -80,7 +80,7 @@ class Flight {
     if (path_.look == CameraPath::Look::kPlace) {
       const glm::dvec2 plan = glm::mix(place(from.look_at), place(to.look_at), share);
       const glm::dvec3 way = glm::dvec3(plan.x, ground_at(plan), plan.y) - eye;
-      // Straight down has no upward: then ahead is as good as any.
+      // Looking straight down leaves the up vector undefined; look along the path instead.
       if (std::hypot(way.x, way.z) > 1e-3 * std::abs(way.y)) return glm::normalize(way);
     }
     const glm::dvec2 ahead = glm::normalize(to.at - from.at);
@@ -90,7 +90,7 @@ class Flight {
   View look(const glm::dvec3& eye, const glm::dvec3& direction) const {
     View view;
     view.eye = eye;
-    // Far enough that a float's rounding of eye and target does not turn the view.
+    // So far away that float rounding of eye and target does not rotate the view.
     view.target = eye + direction * std::max(1.0, 0.1 * glm::length(extent_));
     view.vertical_fov = static_cast<float>(glm::radians(path_.field_of_view));
     view.width = path_.screen.x;
@@ -118,7 +118,7 @@ std::vector<View> views(const CameraPath& path, const Heightfield& ground) {
   const double frames = std::floor(flight.seconds() * path.frames_per_second + 1e-9) + 1;
   if (!(frames <= kMostFrames)) {
     throw usage_error(fmt::format("the path has {:.3g} frames", frames), path.name,
-                      "give a higher speed or fewer frames a second, a million frames at most");
+                      "give a higher speed or fewer frames per second, for at most a million frames");
   }
   std::vector<View> all(static_cast<std::size_t>(frames));
   for (std::size_t k = 0; k < all.size(); ++k) {

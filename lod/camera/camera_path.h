@@ -1,21 +1,21 @@
-// Camera paths: one TOML file says how an eye moves over any ground; views() gives its frames. A test reads
-// the example below, so it is one to start from, as are those in lod/camera/paths.
+// Camera paths: a TOML file describes how an eye moves over any ground, and views() gives a view per frame.
+// Start from the example below, which a test parses, or from a file in lod/camera/paths.
 //
 // clang-format off
 //   kind = "fly"              # walk: 1.8 m above the ground; fly: at a height; turn: on the spot
-//   unit = "m"                # of positions, heights and speeds: "m", or "extent", the ground's longer side
-//   origin = [0.5, 0.5]       # where [0, 0] lies, in shares of the ground's sides; [0, 0] when left out
+//   unit = "m"                # of positions, heights and speeds: "m" or "extent" (the ground's longer side)
+//   origin = [0.5, 0.5]       # place of [0, 0], in shares of the ground's sides; [0, 0] by default
 //   field_of_view = 60        # degrees, vertical
 //   screen = [800, 600]       # pixels
 //   frames_per_second = 25
-//   speed = 20                # units a second; of a turn, degrees a second
-//   near = 0.5                # metres, may be left out; the far plane lies behind the whole ground
+//   speed = 20                # units per second; for a turn, degrees per second
+//   near = 0.5                # metres, optional; the far plane always lies beyond the whole ground
 //
 //   [[keyframe]]
-//   at = [0, 0]               # x (east) and z (south) from the origin; of a turn, in the first alone
-//   height = 100              # of a flight: above the ground here; never under 1.8 m in between
+//   at = [0, 0]               # x (east) and z (south) from the origin; for a turn, in the first keyframe only
+//   height = 100              # for a flight: above the ground here; in between at least 1.8 m
 //   heading = 90              # degrees clockwise from north; or look_at = [10, 5], a place on the ground;
-//   pitch = -10               # degrees upwards, may be left out.  With neither, the eye looks ahead.
+//   pitch = -10               # degrees upwards, optional.  Without either, the eye looks along the path.
 //
 //   [[keyframe]]
 //   at = [300, 0]
@@ -29,8 +29,8 @@
 //   heading = 180
 // clang-format on
 //
-// Between keyframes all goes linearly, headings as numbers (0 to 360 is once around); keyframes look all in
-// the same manner. The same path over the same ground gives the same views.
+// Everything is interpolated linearly between keyframes, headings as numbers (0 to 360 is a full turn). All
+// keyframes of a path use the same way to look. The same path over the same ground gives the same views.
 #pragma once
 
 #include <filesystem>
@@ -66,21 +66,22 @@ struct CameraPath {
   glm::ivec2 screen{800, 600};
   double frames_per_second = 25;
   double near = 0.5;                // metres
-  std::vector<Keyframe> keyframes;  // two at least, no two neighbours at the same place or heading
+  std::vector<Keyframe> keyframes;  // at least two; neighbours differ in place, or heading for a turn
 };
 
-// Throws bad_input, naming origin and line, for anything but a path as above.
+// Throws bad_input, with `origin` and the line, for anything but a path as above.
 CameraPath parse_camera_path(std::string_view text, std::string name, const std::string& origin);
 CameraPath read_camera_path(const std::filesystem::path&);
 
-// Those in paths/, compiled in. camera_path() throws unknown_name.
+// The paths in paths/, compiled in.
 std::span<const CameraPath> camera_paths();
-// One of these, or the file when the name ends in ".toml".
+// A compiled-in path, or the file if the name ends in ".toml".
 CameraPath open_camera_path(const std::string& name);
-const CameraPath& camera_path(std::string_view name);
+const CameraPath& camera_path(std::string_view name);  // throws unknown_name
 
-// One view a frame, the first keyframe's first. Eyes that leave the ground keep the height of its nearest
-// border. Throws usage_error for ground that check_ground() refuses, or more than a million frames.
+// One view per frame, from the first keyframe on. An eye beyond the ground takes the ground's height at the
+// nearest point of its border. Throws usage_error for ground that fails check_ground(), or for more than a
+// million frames.
 std::vector<View> views(const CameraPath&, const Heightfield& ground);
 
 }  // namespace terrabench

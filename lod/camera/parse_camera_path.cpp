@@ -24,11 +24,11 @@ constexpr double kLongest = 1e7;  // units: a quarter of the way around the Eart
   throw bad_input(what, fmt::format("{}:{}", origin, node.source().begin.line), "correct the camera path");
 }
 
-// One table of the file: a key that nobody asked for is an error.
+// One table of the file; refuse_unknown() reports keys that were never read.
 class Entry {
  public:
   Entry(const toml::node& node, const std::string& origin) : node_(node), origin_(origin) {
-    if (!node.is_table()) refuse("a table is expected here");
+    if (!node.is_table()) refuse("expected a table");
   }
 
   [[noreturn]] void refuse(std::string_view what) const { fail(node_, origin_, what); }
@@ -43,10 +43,11 @@ class Entry {
   glm::dvec2 pair(std::string_view key, double lowest, double highest) {
     const toml::node& node = get(key);
     const toml::array* const array = node.as_array();
-    if (array == nullptr || array->size() != 2) fail(node, origin_, fmt::format("'{}' is not a pair", key));
+    if (array == nullptr || array->size() != 2)
+      fail(node, origin_, fmt::format("'{}' must be a pair of numbers", key));
     return {number_of(*array->get(0), key, lowest, highest), number_of(*array->get(1), key, lowest, highest)};
   }
-  // Which of the words it is.
+  // The value's index in `words`.
   std::size_t word(std::string_view key, std::span<const std::string_view> words) {
     const toml::node& node = get(key);
     const std::optional<std::string_view> text = node.value<std::string_view>();
@@ -57,13 +58,12 @@ class Entry {
   }
   const toml::array& list(std::string_view key) {
     const toml::node& node = get(key);
-    if (!node.is_array()) fail(node, origin_, fmt::format("'{}' is not a list", key));
+    if (!node.is_array()) fail(node, origin_, fmt::format("'{}' must be a list", key));
     return *node.as_array();
   }
   void refuse_unknown() const {
     for (const auto& [key, value] : *node_.as_table()) {
-      if (!known_.contains(key.str()))
-        fail(value, origin_, fmt::format("'{}' means nothing here", key.str()));
+      if (!known_.contains(key.str())) fail(value, origin_, fmt::format("unknown key '{}'", key.str()));
     }
   }
 
@@ -77,7 +77,7 @@ class Entry {
   double number_of(const toml::node& node, std::string_view key, double lowest, double highest) const {
     const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
     if (!value || !(*value >= lowest && *value <= highest)) {
-      fail(node, origin_, fmt::format("'{}' is not a number from {} to {}", key, lowest, highest));
+      fail(node, origin_, fmt::format("'{}' must be a number from {} to {}", key, lowest, highest));
     }
     return *value;
   }
@@ -106,24 +106,24 @@ Keyframe keyframe_from(Entry& entry, const CameraPath& path, double speed) {
     key.pitch = entry.number_or("pitch", -89, 89, 0);
   }
   entry.refuse_unknown();
-  if (key.speed == 0) entry.refuse("'speed' is missing, here and of the whole path");
+  if (key.speed == 0) entry.refuse("'speed' is missing, in the keyframe and in the path");
   if (path.keyframes.empty()) return key;
   const Keyframe& last = path.keyframes.back();
   if (turns ? last.heading == key.heading : last.at == key.at)
-    entry.refuse("nothing moves since the last keyframe");
+    entry.refuse("the keyframe must differ from the previous one");
   return key;
 }
 
 void read_keyframes(Entry& file, CameraPath& path, double speed, const std::string& origin) {
   const toml::array& list = file.list("keyframe");
-  if (list.size() < 2) file.refuse("a path has two keyframes at least");
+  if (list.size() < 2) file.refuse("a path needs at least two keyframes");
   for (const toml::node& node : list) {
     Entry entry(node, origin);
     const CameraPath::Look look = look_of(entry);
     if (path.keyframes.empty()) path.look = look;
-    if (look != path.look) entry.refuse("all keyframes look by heading, or at a place, or ahead");
+    if (look != path.look) entry.refuse("all keyframes must have 'heading', or all 'look_at', or neither");
     if (path.kind == CameraPath::Kind::kTurn && look != CameraPath::Look::kHeading) {
-      entry.refuse("a turn goes from heading to heading");
+      entry.refuse("the keyframes of a turn need 'heading'");
     }
     path.keyframes.push_back(keyframe_from(entry, path, speed));
   }
@@ -143,7 +143,7 @@ CameraPath parse_camera_path(std::string_view text, std::string name, const std:
   path.field_of_view = file.number("field_of_view", 0.1, 170);
   const glm::dvec2 screen = file.pair("screen", 1, 16384);
   path.screen = glm::ivec2(screen);
-  if (glm::dvec2(path.screen) != screen) file.refuse("'screen' is not in whole pixels");
+  if (glm::dvec2(path.screen) != screen) file.refuse("'screen' must be in whole pixels");
   path.frames_per_second = file.number("frames_per_second", 0.01, 1000);
   path.near = file.number_or("near", 1e-3, 1e6, path.near);
   const double speed = file.number_or("speed", kSlowest, kLongest, 0);

@@ -1,21 +1,22 @@
-// Geometry clipmaps (Losasso & Hoppe 2004): nested windows of n × n samples around the eye, each twice as
-// coarse as the one inside it, held toroidally so that a move of the eye refills only the strips that came
-// into view.
+// Geometry clipmaps (Losasso & Hoppe 2004, whose sections are cited below; the hybrid paper uses them, §3.2):
+// nested windows of n × n samples around the eye, each twice as coarse as the one inside it. Windows are
+// stored toroidally, so that a move of the eye reads only the strips that entered a window.
 //
-// Where the paper leaves a choice: levels are every second sample of the one below, not filtered, so that a
-// vertex has one height in all levels; a window follows the eye in steps of two of its samples; levels are
-// skipped while the eye is higher than 0.4 of their window's extent over the ground (§3.2); the transition is
-// a tenth of the window wide (§3.3); blocks are culled by the heights that lie in them now, and cut at the
-// border of bounded ground, beyond which triangles have no plan area.
+// One update(): find the finest level by the eye's height; move each window, read its new strips and update
+// its blocks' height ranges; set the transitions; append a batch for each block that is not culled.
 //
-// Endless ground (endless_heights.h) has as many levels as the far plane asks for (up to 2^26 samples away),
-// so that no edge comes into sight. What stands at x = z = 0 can be moved along with the eye: it costs
-// nothing, since windows are held by whole samples, and metres stay small enough for a float wherever the eye
-// goes.
+// Where the paper leaves a choice: a level is every second sample of the finer one, not filtered, so that a
+// vertex has one height in all levels. A window follows the eye in steps of two of its samples. A level is
+// left out while the eye's height over the ground exceeds 0.4 of its window's extent (§3.2). The transition
+// is a tenth of the window wide (§3.3). Blocks are culled by their present heights. Over bounded ground,
+// blocks are cut at the border, beyond which triangles have no plan area.
 //
-// update(): O(n) a window that moved by a step, for its strips and their bounds, and O(levels) to draw.
-// Memory: 4 bytes a sample of each window; nothing that depends on the terrain's size but the number of
-// levels.
+// Endless ground (endless_heights.h) gets as many levels as reach the far plane (at most 2^26 samples away),
+// so that no edge comes into view. Its origin can be moved along with the eye, so that coordinates stay small
+// enough for a float everywhere; this is free, since windows are placed by whole samples.
+//
+// update(): O(n) per window that moved by a step, and O(levels) to cull and draw. Memory: 4 bytes per sample
+// of each window; the terrain's size affects only the number of levels.
 #pragma once
 
 #include <memory>
@@ -23,7 +24,7 @@
 
 #include "lod/clipmap/height_bounds.h"
 #include "lod/clipmap/height_source.h"
-#include "lod/clipmap/window.h"
+#include "lod/clipmap/window_pattern.h"
 #include "lod/lod.h"
 
 namespace terrabench {
@@ -34,53 +35,54 @@ class Clipmap : public Lod {
   static std::unique_ptr<Lod> build(const Heightfield&, const Parameters&, Progress&);
   static Knob knob() { return {"window", "samples", 4095, 15, 255, true}; }
 
-  // `window` samples a side, rounded to 4m - 1 ≥ 15, and no more than cover the ground.
+  // `window`: samples per side, rounded to 4m - 1 ≥ 15 and limited to what covers the ground.
   Clipmap(std::unique_ptr<HeightSource> source, int window);
 
   const Frame& update(const View&) override;
   void tune(double window) override;
   Memory memory() const override;
 
-  // From the next update() on, views and frames count metres from this sample. Throws usage_error where the
-  // ground has none.
+  // From the next update() on, views and frames count metres from this sample. Throws usage_error when the
+  // sample is not on the ground.
   void move_origin(glm::ivec2 sample);
   glm::ivec2 origin() const { return origin_; }
 
-  int levels() const { return static_cast<int>(levels_.size()); }
-  int window() const { return window_.n; }
+  int levels() const { return static_cast<int>(storage_.size()); }
+  int window() const { return pattern_.n; }
 
  private:
-  struct Level {
+  // What a level stores: the samples that its ClipLevel points to, and for each block (ring, middle and
+  // trims, in this order) its height range and the index ranges to draw.
+  struct LevelStorage {
     std::vector<float> heights;  // side², toroidal
     bool filled = false;
-    clipmap::HeightBounds heights_of_tiles;
-    // Of each block, ring, middle and trims: between which heights it lies, and what to draw of it.
-    std::vector<clipmap::HeightBounds::Range> ranges;
-    std::vector<std::uint32_t> run_ends;
-    std::vector<clipmap::Run> runs;
+    clipmap::HeightBounds tile_bounds;
+    std::vector<clipmap::HeightBounds::Range> block_heights;
+    std::vector<std::uint32_t> block_ends;  // in `ranges`
+    std::vector<IndexRange> ranges;
   };
 
   void reset(int window);
   void add_level();
-  void reach(const View&);
+  void add_levels_in_sight(const View&);
   glm::dvec2 eye_in_samples(const View&) const;
   float ground_below_eye(glm::dvec2 eye);
-  void blend(int level, float rise);
-  void move(int level, glm::ivec2 corner);
-  void refill(int level, int a, int b, int columns, int rows);
-  void bound(int level);
-  void draw(int level, int finest, const class Frustum&);
-  void draw(int level, std::size_t slot, const clipmap::Block&, const Frustum&);
+  void set_transition(int level, float rise);
+  void move_window(int level, glm::ivec2 corner);
+  void read_strip(int level, int a, int b, int columns, int rows);
+  void update_blocks(int level);
+  void draw_level(int level, int finest, const class Frustum&);
+  void draw_block(int level, std::size_t number, const clipmap::Block&, const Frustum&);
 
   std::unique_ptr<HeightSource> source_;
   glm::ivec2 origin_{0};
-  clipmap::Window window_;
-  std::vector<Level> levels_;
-  std::vector<ClipLevel> shown_;
+  clipmap::WindowPattern pattern_;
+  std::vector<ClipLevel> clip_levels_;  // per level, finest first: as the frame describes them
+  std::vector<LevelStorage> storage_;   // per level
   std::vector<Batch> batches_;
   std::vector<DirtyRange> uploads_;
   bool indices_uploaded_ = false;
-  std::size_t moved_ = 0;
+  std::size_t moved_ = 0;  // windows, in this update
   Frame frame_;
 };
 

@@ -1,5 +1,6 @@
 #include "lod/clipmap/endless_heights.h"
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -15,8 +16,8 @@
 namespace terrabench {
 namespace {
 
-constexpr int kBatch = 256;             // samples evaluated at a time
-constexpr int kBatchesOfOneThread = 8;  // up to here, starting other threads costs more than it saves
+constexpr int kBatch = 256;             // samples evaluated at once
+constexpr int kBatchesOfOneThread = 8;  // fewer are not worth another thread
 
 class NoiseSource : public HeightSource {
  public:
@@ -31,7 +32,7 @@ class NoiseSource : public HeightSource {
   float cell_z() const override { return ground_.cell; }
   std::size_t bytes() const override { return heap_bytes(this) + noise_.heap_bytes(); }
 
-  // The samples in a row, however few of them a row of the rectangle has: strips are two samples wide.
+  // Batches run across the rectangle's rows, because strips may be only two samples wide.
   void read(int level, int a, int b, int columns, int rows, float* out, int stride) override {
     const int samples = columns * rows, batches = (samples + kBatch - 1) / kBatch;
     const auto run = [&](int batch) {
@@ -79,7 +80,9 @@ class NoiseSource : public HeightSource {
 
 std::unique_ptr<HeightSource> endless_heights(const EndlessGround& ground) {
   if (!(ground.cell > 0 && std::isfinite(ground.cell) && std::isfinite(ground.relief))) {
-    throw usage_error("endless ground needs a cell over 0 m and a finite relief", "", "give both in metres");
+    throw usage_error(
+        fmt::format("cell must be positive and relief finite, got {} and {}", ground.cell, ground.relief),
+        "endless ground", "give both in metres");
   }
   return std::make_unique<NoiseSource>(ground);
 }

@@ -7,11 +7,11 @@
 namespace terrabench::clipmap {
 namespace {
 
-constexpr int kTileBits = 3;  // 8 × 8 samples: as long to renew as to query at the usual 255
+constexpr int kTileBits = 3;  // 8 × 8 samples: at the usual n = 255, updates and queries cost the same
 
 int tile_of(int lattice) { return lattice >> kTileBits; }
 
-// The samples from `low` to before `high` that the tile and the window share.
+// The samples [low, high) that the tile and the window share, along one axis.
 struct Part {
   int low, high;
   bool operator==(const Part&) const = default;
@@ -40,7 +40,7 @@ HeightBounds::HeightBounds(int window)
       mask_(static_cast<int>(std::bit_ceil(static_cast<unsigned>(tile_of(window) + 2))) - 1),
       tiles_(static_cast<std::size_t>(mask_ + 1) * (mask_ + 1)) {}
 
-void HeightBounds::follow(const ClipLevel& level) {
+void HeightBounds::update(const ClipLevel& level) {
   const glm::ivec2 to = level.corner, last = to + window_ - 1;
   for (int z = tile_of(to.y); z <= tile_of(last.y); ++z) {
     const Part rows = part(z, to.y, window_);
@@ -48,7 +48,7 @@ void HeightBounds::follow(const ClipLevel& level) {
     for (int x = tile_of(to.x); x <= tile_of(last.x); ++x) {
       const Part columns = part(x, to.x, window_);
       if (rows_stay && columns == part(x, corner_.x, window_)) continue;
-      tile(x, z) = range_of(level, columns, rows);
+      tiles_[index(x, z)] = range_of(level, columns, rows);
     }
   }
   corner_ = to;
@@ -59,8 +59,9 @@ HeightBounds::Range HeightBounds::range(glm::ivec2 low, glm::ivec2 high) const {
   Range range{INFINITY, -INFINITY};
   for (int z = tile_of(low.y); z <= tile_of(high.y); ++z) {
     for (int x = tile_of(low.x); x <= tile_of(high.x); ++x) {
-      range.lowest = std::min(range.lowest, tile(x, z).lowest);
-      range.highest = std::max(range.highest, tile(x, z).highest);
+      const Range& tile = tiles_[index(x, z)];
+      range.lowest = std::min(range.lowest, tile.lowest);
+      range.highest = std::max(range.highest, tile.highest);
     }
   }
   return range;

@@ -1,6 +1,6 @@
-// Between which heights the parts of a clipmap window lie, for culling: kept by tiles of the level's lattice,
-// so that a move renews only the tiles along the window's border and not the whole window. The same for any
-// way to a place. O(n) a move, O(n²/64) the first time and for a query of the whole window.
+// The lowest and highest sample of parts of a clipmap window, for culling. Stored per tile of the level's
+// lattice, so that a move updates only the tiles along the window's border. The result depends on the
+// window's place only, not on earlier moves. O(n) per move, O(n²) at first, O(n²/64) to query all tiles.
 #pragma once
 
 #include <vector>
@@ -13,25 +13,22 @@ namespace terrabench::clipmap {
 class HeightBounds {
  public:
   HeightBounds() = default;
-  explicit HeightBounds(int window);  // samples a side
+  explicit HeightBounds(int window);  // samples per side
 
-  // After the window's heights were renewed. Looks at samples corner … corner + window - 1 of the level.
-  void follow(const ClipLevel&);
+  // To be called after new samples were read. Reads samples corner … corner + window - 1 of the level.
+  void update(const ClipLevel&);
 
   struct Range {
     float lowest, highest;
   };
-  // Of the tiles that samples low … high touch: lattice coordinates, both inside the window.
+  // The height range of all tiles that samples low … high touch. Lattice coordinates, both inside the window.
   Range range(glm::ivec2 low, glm::ivec2 high) const;
 
   Memory memory() const { return index_memory(tiles_); }
 
  private:
-  Range& tile(int x, int z) {
-    return tiles_[static_cast<std::size_t>(z & mask_) * (mask_ + 1) + (x & mask_)];
-  }
-  const Range& tile(int x, int z) const {
-    return tiles_[static_cast<std::size_t>(z & mask_) * (mask_ + 1) + (x & mask_)];
+  std::size_t index(int x, int z) const {
+    return static_cast<std::size_t>(z & mask_) * (mask_ + 1) + (x & mask_);
   }
 
   int window_ = 0, mask_ = 0;

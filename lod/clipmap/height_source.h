@@ -1,5 +1,5 @@
-// Where a clipmap takes its heights from: a field in memory, a pyramid of tiles on disk that never comes into
-// memory whole, or a function without bounds (endless_heights.h).
+// Where a clipmap reads its heights: a field in memory, a pyramid of tiles on disk that is never loaded
+// whole, or a function without bounds (endless_heights.h).
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -11,13 +11,13 @@
 namespace terrabench {
 
 // The terrain's samples as levels: lattice sample (a, b) of level l is sample (a·2ˡ, b·2ˡ) of the terrain,
-// taken as it is, so that levels agree to the bit where they meet.
+// not filtered, so that levels agree to the bit where they meet.
 class HeightSource {
  public:
   virtual ~HeightSource() = default;
-  // The ground lies between the two; from samples outside it is the sample of the border that is read. What
-  // is not bounded reaches farther than any view: as many levels are needed as the far plane asks for, not as
-  // the ground has.
+  // The first and last sample of the ground; outside, read() returns the nearest sample of the border. Ground
+  // that is not bounded() reaches farther than any view, so the far plane and not the ground's size
+  // determines the number of levels.
   virtual glm::ivec2 first() const { return glm::ivec2(0); }
   virtual glm::ivec2 last() const = 0;
   virtual bool bounded() const { return true; }
@@ -25,7 +25,7 @@ class HeightSource {
   virtual float cell_z() const = 0;
   // Lattice samples [a, a + columns) × [b, b + rows), row by row, into `out`, whose rows are `stride` apart.
   virtual void read(int level, int a, int b, int columns, int rows, float* out, int stride) = 0;
-  virtual std::size_t bytes() const = 0;  // heap bytes held, itself included
+  virtual std::size_t bytes() const = 0;  // heap bytes, itself included
 };
 
 // The field must outlive it.

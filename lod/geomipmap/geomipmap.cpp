@@ -1,5 +1,7 @@
 #include "lod/geomipmap/geomipmap.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <utility>
@@ -11,9 +13,9 @@ namespace {
 
 constexpr int kLargestSide = 256;
 
-// Small patches follow the ground with fewer triangles, many take longer to choose: from the paper's 16 on,
-// the smallest that cuts the ground into at most 64 × 64.
-int suited_side(const Heightfield& ground) {
+// Smaller patches need fewer triangles, but more patches cost more time. From the paper's 16 up, the smallest
+// side that cuts the ground into at most 64 × 64 patches.
+int default_side(const Heightfield& ground) {
   constexpr int kPaperSide = 16, kMostAcross = 64;
   int side = kPaperSide;
   while (side < kLargestSide && std::max(ground.width, ground.depth) - 1 > side * kMostAcross) side *= 2;
@@ -25,10 +27,11 @@ int suited_side(const Heightfield& ground) {
 std::span<const ParameterSpec> GeoMipMap::parameters() {
   static const ParameterSpec kSpecs[] = {
       {"patch", std::int64_t{0}, "cells",
-       "cells along a patch's side, a power of two; 0: 16, or more where that makes over 64 × 64 patches", 0,
+       "side of a patch, a power of two; 0: 16, or the least that makes at most 64 × 64 patches", 0,
        kLargestSide},
-      {"level_camera", false, "", "choose levels by the paper's rule for a level camera, which bounds less"},
-      {"morph", false, "", "glide from level to level by the distance (trilinear geomipmapping)"},
+      {"level_camera", false, "",
+       "choose levels by the paper's rule for a level camera, which is not a strict bound"},
+      {"morph", false, "", "morph between levels by distance (trilinear geomipmapping)"},
   };
   return kSpecs;
 }
@@ -38,10 +41,10 @@ std::unique_ptr<Lod> GeoMipMap::build(const Heightfield& ground, const Parameter
   check_ground(ground);
   Options options{static_cast<int>(parameters.integer("patch")), parameters.flag("level_camera"),
                   parameters.flag("morph")};
-  if (options.side == 0) options.side = suited_side(ground);
+  if (options.side == 0) options.side = default_side(ground);
   if (options.side == 1 || !std::has_single_bit(static_cast<unsigned>(options.side))) {
-    throw usage_error("the side of a patch is no power of two", "patch",
-                      "choose 2, 4, 8, 16, 32, 64, 128 or 256, or 0 for one that suits the ground");
+    throw usage_error(fmt::format("patch must be a power of two, got {}", options.side), "patch",
+                      "choose 2, 4, 8, 16, 32, 64, 128 or 256, or 0 for the default");
   }
   return std::make_unique<GeoMipMap>(ground, options, progress);
 }
@@ -68,8 +71,8 @@ GeoMipMap::GeoMipMap(const Heightfield& ground, const Options& options, Progress
     errors_.emplace(grid_, cut_, tree_, patterns_, levels_, progress);
   }
   for (std::uint32_t k = 0; k < cut_.count(); ++k) number_of_[tree_.places()[k].slot] = k;
-  seen_.reserve(tree_.most_runs());
-  last_seen_.reserve(tree_.most_runs());
+  seen_.reserve(tree_.most_ranges());
+  last_seen_.reserve(tree_.most_ranges());
   queue_.reserve(cut_.count());
   batches_.reserve(cut_.count());
   uploads_.reserve(3);
@@ -79,60 +82,54 @@ void GeoMipMap::tune(double pixels) { pixels_ = setting(knob(), pixels); }
 
 const Frame& GeoMipMap::update(const View& view) {
   check_view(view);
-  forget();
+  begin_frame();
   tree_.collect(Frustum(view), seen_);
   allow(ScreenBound(view, pixels_));
   if (morphing_) {
     morphing_->choose(tree_.places(), last_seen_, seen_, allowed_);
-    for (const PatchTree::Run& run : seen_) {
-      for (std::uint32_t k = run.first; k < run.last; ++k) {
-        const std::uint32_t slot = tree_.places()[k].slot;
-        level_[slot] = static_cast<std::uint8_t>(morphing_->level(slot) + 1);
-      }
-    }
+    for_each_patch(seen_, [&](std::uint32_t k) {
+      const std::uint32_t slot = tree_.places()[k].slot;
+      level_[slot] = static_cast<std::uint8_t>(morphing_->level(slot) + 1);
+    });
   } else {
     choose_levels();
     fit_neighbours();
   }
-  draw();
+  make_frame();
   return frame_;
 }
 
-void GeoMipMap::forget() {
-  for (const PatchTree::Run& run : last_seen_) {
-    std::fill(last_level_.begin() + run.first, last_level_.begin() + run.last, kUnseen);
+// Moves the levels and patches of the last frame to last_level_ and last_seen_.
+void GeoMipMap::begin_frame() {
+  for (const PatchTree::PatchRange& patches : last_seen_) {
+    std::fill(last_level_.begin() + patches.first, last_level_.begin() + patches.last, kUnseen);
   }
   const std::span<const PatchTree::Place> places = tree_.places();
-  for (const PatchTree::Run& run : seen_) {
-    for (std::uint32_t k = run.first; k < run.last; ++k) {
-      last_level_[k] = std::exchange(level_[places[k].slot], kUnseen);
-    }
-  }
+  for_each_patch(seen_,
+                 [&](std::uint32_t k) { last_level_[k] = std::exchange(level_[places[k].slot], kUnseen); });
   std::swap(seen_, last_seen_);
   seen_.clear();
 }
 
 void GeoMipMap::allow(const ScreenBound& bound) {
-  for (const PatchTree::Run& run : seen_) {
+  for (const PatchTree::PatchRange& patches : seen_) {
     if (options_.level_camera) {
-      bound.allow_level_camera(tree_.boxes(), run.first, run.last, allowed_.data());
+      bound.allow_level_camera(tree_.boxes(), patches.first, patches.last, allowed_.data());
     } else {
-      bound.allow(tree_.boxes(), run.first, run.last, allowed_.data());
+      bound.allow(tree_.boxes(), patches.first, patches.last, allowed_.data());
     }
   }
 }
 
 void GeoMipMap::choose_levels() {
   const std::span<const PatchTree::Place> places = tree_.places();
-  for (const PatchTree::Run& run : seen_) {
-    for (std::uint32_t k = run.first; k < run.last; ++k) {
-      level_[places[k].slot] = static_cast<std::uint8_t>(errors_->coarsest(k, allowed_[k]) + 1);
-    }
-  }
+  for_each_patch(seen_, [&](std::uint32_t k) {
+    level_[places[k].slot] = static_cast<std::uint8_t>(errors_->coarsest(k, allowed_[k]) + 1);
+  });
 }
 
-// Refines the coarser of two neighbours until it differs by one level at most and the seam keeps the bound.
-// `side` is the finer one's.
+// Refines the coarser of two neighbours until they differ by at most one level and the seam keeps the bound.
+// `side`: of the finer patch.
 void GeoMipMap::fit(std::uint32_t fine, std::uint32_t coarse, int side) {
   const int level = level_[fine];
   if (level_[coarse] <= level || level == kUnseen) return;
@@ -142,20 +139,18 @@ void GeoMipMap::fit(std::uint32_t fine, std::uint32_t coarse, int side) {
   if (std::exchange(queued_[coarse], 1) == 0) queue_.push_back(coarse);
 }
 
-// Levels only sink, so this ends; a patch whose level sank looks at its four sides again.
+// Terminates because levels only decrease; a patch whose level decreased checks its four sides again.
 void GeoMipMap::fit_neighbours() {
   const std::span<const PatchTree::Place> places = tree_.places();
-  for (const PatchTree::Run& run : seen_) {
-    for (std::uint32_t k = run.first; k < run.last; ++k) {
-      const std::uint32_t slot = places[k].slot;
-      // Each pair once: a patch out of view asks nothing of its neighbours.
-      for (const int side : {kEast, kSouth}) {
-        const std::uint32_t neighbour = slot + offsets_[side];
-        if (level_[neighbour] > level_[slot]) fit(slot, neighbour, side);
-        if (level_[neighbour] < level_[slot]) fit(neighbour, slot, side ^ 2);
-      }
+  for_each_patch(seen_, [&](std::uint32_t k) {
+    const std::uint32_t slot = places[k].slot;
+    // Each pair once. Patches out of view do not constrain their neighbours.
+    for (const int side : {kEast, kSouth}) {
+      const std::uint32_t neighbour = slot + offsets_[side];
+      if (level_[neighbour] > level_[slot]) fit(slot, neighbour, side);
+      if (level_[neighbour] < level_[slot]) fit(neighbour, slot, side ^ 2);
     }
-  }
+  });
   while (!queue_.empty()) {
     const std::uint32_t slot = queue_.back();
     queue_.pop_back();
@@ -167,26 +162,24 @@ void GeoMipMap::fit_neighbours() {
   }
 }
 
-void GeoMipMap::draw() {
+void GeoMipMap::make_frame() {
   batches_.clear();
   morphs_.clear();
   std::size_t changes = 0;
   const std::span<const PatchTree::Place> places = tree_.places();
-  for (const PatchTree::Run& run : seen_) {
-    for (std::uint32_t k = run.first; k < run.last; ++k) {
-      const PatchTree::Place& p = places[k];
-      const std::uint8_t level = level_[p.slot];
-      changes += level != last_level_[k] ? 1 : 0;
-      int seams = 0;
-      for (const int side : {kNorth, kEast, kSouth, kWest}) {
-        seams |= level_[p.slot + offsets_[side]] > level ? 1 << side : 0;
-      }
-      const PatchPatterns::Run& pattern = patterns_.run(p.shape, level - 1, seams);
-      batches_.push_back({pattern.first, pattern.count, p.corner, static_cast<std::uint16_t>(level - 1),
-                          static_cast<std::uint32_t>(morphs_.size())});
-      if (morphing_) morphs_.push_back(morphing_->morph(p.slot));
+  for_each_patch(seen_, [&](std::uint32_t k) {
+    const PatchTree::Place& p = places[k];
+    const std::uint8_t level = level_[p.slot];
+    changes += level != last_level_[k] ? 1 : 0;
+    int seams = 0;
+    for (const int side : {kNorth, kEast, kSouth, kWest}) {
+      seams |= level_[p.slot + offsets_[side]] > level ? 1 << side : 0;
     }
-  }
+    const IndexRange& pattern = patterns_.pattern(p.shape, level - 1, seams);
+    batches_.push_back({pattern.first_index, pattern.index_count, p.corner,
+                        static_cast<std::uint16_t>(level - 1), static_cast<std::uint32_t>(morphs_.size())});
+    if (morphing_) morphs_.push_back(morphing_->morph(p.slot));
+  });
   uploads_.clear();
   const auto size = [](const auto& values) { return static_cast<std::uint32_t>(values.size()); };
   if (first_) {
@@ -198,7 +191,6 @@ void GeoMipMap::draw() {
     uploads_.push_back({.target = DirtyRange::Target::kMorphs, .count = size(morphs_)});
   }
   frame_ = {.grid = grid_,
-            .levels = {},
             .cell_x = grid_.cell_x,
             .cell_z = grid_.cell_z,
             .indices = patterns_.indices(),

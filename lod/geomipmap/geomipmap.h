@@ -1,13 +1,13 @@
 // Geomipmapping (de Boer, "Fast terrain rendering using geometrical mipmapping", 2000): patches of the grid,
-// each drawn at the coarsest level whose error stays under the asked number of pixels.
+// each drawn at the coarsest level whose error stays below the knob, in pixels.
 //
-// Where the paper is vague or promises less, this is chosen: the bound is strict for every sample in the
-// frustum, from any camera (lod/screen_bound.h; the paper's own rule is `level_camera`); neighbours
-// differ by one level at most, by refining the coarser; a seam is closed only where its own triangles keep
-// the bound, or else the neighbour is refined as well. All index patterns are uploaded once. The paper's
-// trilinear geomipmapping (§4), `morph`, uploads 20 bytes a patch in view each frame (morphing.h).
+// Where the paper is vague or weaker, this was chosen. The bound is strict for every sample in the frustum,
+// from any camera (lod/screen_bound.h); `level_camera` selects the paper's own rule. Neighbours differ by at
+// most one level; otherwise the coarser one is refined. It is also refined where the triangles of the seam
+// would exceed the bound. All index patterns are uploaded once. `morph`, the paper's trilinear geomipmapping
+// (§4), uploads 20 bytes per patch in view and frame (morphing.h).
 //
-// update() is O(patches in view), about 20 ns each, twice that with the morph, and allocates nothing.
+// update() is O(patches in view), about 20 ns per patch, twice that with `morph`, and allocates nothing.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ class GeoMipMap : public Lod {
   struct Options {
     int side = 64;              // cells along a patch's side, a power of two
     bool level_camera = false;  // the paper's rule instead of the strict one
-    bool morph = false;         // glide from level to level
+    bool morph = false;         // trilinear
   };
 
   // The field must outlive it.
@@ -42,14 +42,14 @@ class GeoMipMap : public Lod {
   Memory memory() const override;
 
  private:
-  static constexpr std::uint8_t kUnseen = 0;  // of the levels in level_, which count from 1
+  static constexpr std::uint8_t kUnseen = 0;  // in level_, whose levels count from 1
 
-  void forget();
+  void begin_frame();
   void allow(const ScreenBound&);
   void choose_levels();
   void fit_neighbours();
   void fit(std::uint32_t fine, std::uint32_t coarse, int side);
-  void draw();
+  void make_frame();
 
   GroundGrid grid_;
   Options options_;
@@ -59,17 +59,16 @@ class GeoMipMap : public Lod {
   double pixels_;
   PatchPatterns patterns_;
   PatchTree tree_;
-  std::optional<PatchErrors> errors_;  // either these
-  std::optional<Morphing> morphing_;   // or this
+  std::optional<PatchErrors> errors_;  // without `morph`
+  std::optional<Morphing> morphing_;   // with `morph`
 
-  // One more than the level; patches that are not in seen_ count as finer than all.
-  std::vector<std::uint8_t> level_;       // by slot
+  std::vector<std::uint8_t> level_;       // by slot: level + 1, or kUnseen, which is finer than any level
   std::vector<std::uint8_t> last_level_;  // by number
-  std::vector<std::uint8_t> queued_;      // by slot
+  std::vector<std::uint8_t> queued_;      // by slot: whether in queue_
   std::vector<std::uint32_t> number_of_;  // by slot
   std::vector<float> allowed_;            // by number; metres
-  std::vector<PatchTree::Run> seen_, last_seen_;
-  std::vector<std::uint32_t> queue_;  // slots
+  std::vector<PatchTree::PatchRange> seen_, last_seen_;
+  std::vector<std::uint32_t> queue_;  // slots whose level decreased
   std::vector<Batch> batches_;
   std::vector<PatchMorph> morphs_;
   std::vector<DirtyRange> uploads_;

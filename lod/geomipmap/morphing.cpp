@@ -11,20 +11,20 @@
 namespace terrabench {
 namespace {
 
-// Of a height: what the few additions of a moved vertex may round by.
+// Rounding of a moved vertex, relative to its height.
 constexpr float kHeightRounding = 0x1p-21F;
-// What the measured numbers and the fractions may be off by, relatively.
+// Relative rounding of the measured errors and of the fractions.
 constexpr float kSlack = 0x1p-18F;
-// From one number to the next coarser, relatively, where less is measured: what lies closer together would be
-// run through in no time, which looks like popping. More costs triangles.
+// Least ratio of one level's error to the next finer level's. A smaller ratio would make the morph so fast
+// that it looks like popping; a larger one costs triangles.
 constexpr float kLeastRise = 1.25F;
-// A cut patch has its sides no coarser than the next level (where they move by more than one level, triangles
-// of it hang on two sides), and starts from each level with none coarser, so that none jumps as it gets
-// there.
-constexpr float kCutRun = 2;
+// In a cut patch at level a + f, a side is at most at a + kCutSideRate · f and at a + 1: at coarser sides,
+// some triangles would touch two sides. The limit starts at a, so that no side jumps when the patch reaches a
+// level.
+constexpr float kCutSideRate = 2;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// At the level, with `inside` and the sides that are in `seams` at another.
+// A morph of a patch at `level`: sides in `seams` at `sides`, the others at `level`.
 PatchMorph morph_of(int level, float inside, int seams, float sides) {
   PatchMorph morph{inside, {}};
   for (int s = 0; s < 4; ++s) {
@@ -33,10 +33,10 @@ PatchMorph morph_of(int level, float inside, int seams, float sides) {
   return morph;
 }
 
-// The level's vertices still in place, though all on the coarser surface.
+// Just below `level`: the finer triangles, with all their vertices on the surface of `level`.
 float nearly(int level) { return std::nextafter(static_cast<float>(level), 0.0F); }
 
-// Which sides' first rows of cells the triangle lies in, as bits: of the first `count`. The last row may be
+// The sides, as bits, within whose first `count` rows of cells the triangle lies. The last row may be
 // narrower.
 int strips_of(const PatchRuler::Triangle& corners, const PatchGrid::Patch& patch, int level, int count) {
   const int step = 1 << level, outer = count * step;
@@ -64,7 +64,7 @@ Morphing::Morphing(const GroundGrid& grid, const PatchGrid& cut, const PatchPatt
       strips_(cut.slots() * static_cast<std::size_t>(levels - 1) * 4),
       rounding_(cut.slots(), 0.0F),
       allowed_(cut.slots(), 0.0F),
-      at_(cut.slots(), kUnseen),
+      level_(cut.slots(), kUnseen),
       queued_(cut.slots(), 0) {
   queue_.reserve(cut.count());
   progress.begin("measuring patches", static_cast<std::uint64_t>(cut.count()));
@@ -98,15 +98,15 @@ void Morphing::measure(PatchRuler& ruler, std::uint32_t slot) {
   };
   for (int level = 1; level < levels_; ++level) {
     errors[level] = std::max(kLeastRise * errors[level - 1], whole(level, level));
-    // The finer level's triangles may not lie on this one's surface.
+    // In a cut patch, the morphed triangles of the finer level need not lie on this level's surface.
     if (!ruler.is_whole()) errors[level] = std::max(errors[level], whole(level, level - 1));
     measure_strips(ruler, level - 1,
                    &strips_[(slot * static_cast<std::size_t>(levels_ - 1) + (level - 1)) * 4]);
   }
 }
 
-// Triangles of a whole patch touch one side at most, so that all four are measured at once; where the patch
-// is cut, some touch two, and each is the worst over what the other may do.
+// Triangles of a whole patch touch at most one side, so all four sides are measured at once. In a cut patch
+// some touch two; each side's error is then the largest over all states of the others.
 void Morphing::measure_strips(PatchRuler& ruler, int level, Strip* strips) const {
   const auto here = static_cast<float>(level);
   const PatchGrid::Patch& patch = ruler.patch();
@@ -122,9 +122,9 @@ void Morphing::measure_strips(PatchRuler& ruler, int level, Strip* strips) const
   take(&Strip::fine, 1, 0, 15, morph_of(level, here, 0, here));
   take(&Strip::coarse, 2, 0, 15, morph_of(level, nearly(level + 1), 15, nearly(level + 1)));
   for (int moved = ruler.is_whole() ? 15 : 1; moved < 16; ++moved) {
-    // Drawn with what the moved sides drop, or still with some of it.
-    for (int pulled = moved; pulled >= 0; pulled = pulled == 0 ? -1 : (pulled - 1) & moved) {
-      take(&Strip::side_coarse, 1, pulled, moved, morph_of(level, here, moved, nearly(level + 1)));
+    // Drawn with any subset of the moved sides already reduced to the coarser level's vertices.
+    for (int seams = moved; seams >= 0; seams = seams == 0 ? -1 : (seams - 1) & moved) {
+      take(&Strip::side_coarse, 1, seams, moved, morph_of(level, here, moved, nearly(level + 1)));
       if (ruler.is_whole()) break;
     }
   }
@@ -140,20 +140,17 @@ void Morphing::measure_strips(PatchRuler& ruler, int level, Strip* strips) const
   }
 }
 
-void Morphing::choose(std::span<const PatchTree::Place> places, std::span<const PatchTree::Run> last_seen,
-                      std::span<const PatchTree::Run> seen, std::span<const float> allowed) {
-  const auto for_each = [&](std::span<const PatchTree::Run> runs, const auto& use) {
-    for (const PatchTree::Run& run : runs) {
-      for (std::uint32_t k = run.first; k < run.last; ++k) use(k, places[k].slot);
-    }
-  };
-  for_each(last_seen, [&](std::uint32_t, std::uint32_t slot) { at_[slot] = kUnseen; });
-  for_each(seen, [&](std::uint32_t k, std::uint32_t slot) {
+void Morphing::choose(std::span<const PatchTree::Place> places,
+                      std::span<const PatchTree::PatchRange> last_seen,
+                      std::span<const PatchTree::PatchRange> seen, std::span<const float> allowed) {
+  for_each_patch(last_seen, [&](std::uint32_t k) { level_[places[k].slot] = kUnseen; });
+  for_each_patch(seen, [&](std::uint32_t k) {
+    const std::uint32_t slot = places[k].slot;
     allowed_[slot] = (1 - kSlack) * (allowed[k] - rounding_[slot]);
-    at_[slot] = own(slot);
+    level_[slot] = own_level(slot);
   });
-  for_each(seen, [&](std::uint32_t, std::uint32_t slot) { fit_neighbours(slot); });
-  // What sinks stays above what it was fitted to, so this ends.
+  for_each_patch(seen, [&](std::uint32_t k) { fit_neighbours(places[k].slot); });
+  // Terminates because levels only decrease, and never below those of the neighbours that lowered them.
   while (!queue_.empty()) {
     const std::uint32_t slot = queue_.back();
     queue_.pop_back();
@@ -162,7 +159,7 @@ void Morphing::choose(std::span<const PatchTree::Place> places, std::span<const 
   }
 }
 
-float Morphing::own(std::uint32_t slot) const {
+float Morphing::own_level(std::uint32_t slot) const {
   const float allowed = allowed_[slot];
   int level = levels_ - 1;
   while (level > 0 && error(slot, level) > allowed) --level;
@@ -171,43 +168,43 @@ float Morphing::own(std::uint32_t slot) const {
   return static_cast<float>(level) + std::clamp((allowed - fine) / (coarse - fine), 0.0F, 1 - kSlack);
 }
 
-float Morphing::most(std::uint32_t slot, int side) const {
+float Morphing::coarsest_side(std::uint32_t slot, int side) const {
   const float allowed = allowed_[slot];
   const int level = this->level(slot);
   const auto whole = static_cast<float>(level);
   if (level == levels_ - 1) return whole;
-  const float f = at_[slot] - whole;
+  const float f = level_[slot] - whole;
   const Strip& here = strip(slot, level, side);
   const float at_f = mix(here.fine, here.coarse, f), rise = here.side_coarse - here.fine;
   const bool cut = here.wide_side_coarser == kInfinity;
   float g = rise <= 0 ? 1 : f + std::max(allowed - at_f, 0.0F) / rise;
-  if (cut) g = std::min(g, kCutRun * f);
+  if (cut) g = std::min(g, kCutSideRate * f);
   if (g < 1) return whole + g;
   if (cut || level + 2 == levels_) return whole + 1;
   const float at_0 = mix(here.wide_side_coarse, here.coarse, f);
   const float at_1 =
       std::max(mix(here.wide_side_coarser, strip(slot, level + 1, side).side_coarse, f), kLeastRise * at_0);
   const float beyond = at_1 <= at_0 ? 1 : std::max(allowed - at_0, 0.0F) / (at_1 - at_0);
-  // One level more at most, and not by rounding either.
-  return std::min({whole + 1 + beyond, at_[slot] + 1, whole + 2 - kSlack});
+  // At most one level coarser, rounding included.
+  return std::min({whole + 1 + beyond, level_[slot] + 1, whole + 2 - kSlack});
 }
 
 void Morphing::fit_neighbours(std::uint32_t slot) {
   for (const int side : {kNorth, kEast, kSouth, kWest}) {
     const std::uint32_t neighbour =
         slot + static_cast<std::uint32_t>(offsets_[static_cast<std::size_t>(side)]);
-    if (at_[neighbour] <= at_[slot]) continue;
-    const float limit = std::max(most(slot, side), at_[slot]);
-    if (at_[neighbour] <= limit) continue;
-    at_[neighbour] = limit;
+    if (level_[neighbour] <= level_[slot]) continue;
+    const float limit = std::max(coarsest_side(slot, side), level_[slot]);
+    if (level_[neighbour] <= limit) continue;
+    level_[neighbour] = limit;
     if (std::exchange(queued_[neighbour], 1) == 0) queue_.push_back(neighbour);
   }
 }
 
 PatchMorph Morphing::morph(std::uint32_t slot) const {
-  PatchMorph morph{at_[slot], {}};
+  PatchMorph morph{level_[slot], {}};
   for (std::size_t s = 0; s < 4; ++s) {
-    morph.sides[s] = std::max(at_[slot], at_[slot + static_cast<std::uint32_t>(offsets_[s])]);
+    morph.sides[s] = std::max(level_[slot], level_[slot + static_cast<std::uint32_t>(offsets_[s])]);
   }
   return morph;
 }
@@ -217,7 +214,7 @@ Memory Morphing::memory() const {
   memory += index_memory(strips_);
   memory += index_memory(rounding_);
   memory += index_memory(allowed_);
-  memory += index_memory(at_);
+  memory += index_memory(level_);
   memory += index_memory(queued_);
   memory += index_memory(queue_);
   return memory;

@@ -14,13 +14,13 @@ float whole(const PatchRuler& ruler, int level) {
   return ruler.largest(level, 0, [](const Corner&) { return true; });
 }
 
-// Of the outermost ring of cells at a side, the last of which may be narrower than the others.
+// The error of the row of cells at a side, which may be narrower than the others.
 float seam(const PatchRuler& ruler, int level, Side side) {
   const PatchGrid::Patch& patch = ruler.patch();
   const int step = 1 << level;
   const bool across = side == kEast || side == kWest;
   const int cells = across ? patch.columns : patch.rows, low = across ? patch.i0 : patch.j0;
-  if (cells <= step) {  // both sides pull at the same triangles
+  if (cells <= step) {  // a seam across changes the same triangles
     const int alone = 1 << side, both = alone | 1 << (side ^ 2);
     return std::max(ruler.largest(level, alone, [](const Corner&) { return true; }),
                     ruler.largest(level, both, [](const Corner&) { return true; }));

@@ -1,9 +1,8 @@
-// How far each patch at each level is from the full terrain, measured at every sample: δ of de Boer (2000,
-// §2.3), and the same for the strips of triangles that meet a coarser neighbour, which the paper leaves out.
+// The largest vertical error of each patch at each level, measured at every sample: δ of de Boer (2000,
+// §2.3), and the same for the strips of triangles that meet a coarser neighbour, which the paper omits.
 //
-// δ never sinks with the level (the greatest of a level and all finer ones), so that whatever a patch is
-// refined for, no bound is lost. O(samples · levels) time, in parallel; four numbers a patch and level, and
-// eight a patch.
+// δ of a level is the largest error of that level and all finer ones, so refining a patch never violates a
+// bound. O(samples · levels) time, in parallel; four numbers per patch and level, and eight per patch.
 #pragma once
 
 #include <array>
@@ -24,23 +23,22 @@ class PatchErrors {
   PatchErrors(const GroundGrid&, const PatchGrid&, const PatchTree&, const PatchPatterns&, int levels,
               Progress&);
 
-  // The coarsest level whose error is at most `allowed` metres. The patch by its number in the tree.
+  // The coarsest level whose error is at most `allowed` metres. `patch`: its number in the tree.
   int coarsest(std::size_t patch, float allowed) const {
     int level = 0;
     for (const float error : errors_[patch]) level += error <= allowed ? 1 : 0;
     return level;
   }
-  // Metres, of the triangles along a side that is pulled onto a neighbour of level + 1. The patch by its
-  // slot.
+  // The error of the triangles along a side that meets a neighbour of level + 1, metres.
   float of_seam(std::size_t slot, int level, int side) const {
     return seams_[(slot * steps_ + level) * 4 + side];
   }
   Memory memory() const;
 
  private:
-  using Levels = std::array<float, kMostLevels - 1>;  // from level 1 on; those that there are not, infinite
+  using Levels = std::array<float, kMostLevels - 1>;  // from level 1 on; infinite beyond the coarsest
 
-  std::size_t steps_;  // from level to level
+  std::size_t steps_;  // levels - 1
   std::vector<Levels> errors_;
   std::vector<float> seams_;
 };

@@ -1,5 +1,5 @@
-// How a field of any size is cut into patches: squares of `side` cells that share their border vertices, the
-// last ones to the east and south cut to what is left.
+// The division of a field of any size into patches: squares of side × side cells that share their border
+// vertices. The last patches to the east and south are cut at the field's border.
 #pragma once
 
 #include <algorithm>
@@ -26,8 +26,7 @@ struct PatchGrid {
     return {i0, j0, std::min(side, width - 1 - i0), std::min(side, depth - 1 - j0)};
   }
 
-  // What is kept by patch has a rim of one, so that every patch has four neighbours: the place of a patch
-  // there, from which its neighbours are `offsets` away, by side.
+  // Arrays by slot have a rim of one slot, so that each patch has four neighbours, at slot + offsets()[side].
   std::size_t slots() const { return static_cast<std::size_t>(across() + 2) * (down() + 2); }
   std::uint32_t slot(int at_x, int at_z) const {
     return static_cast<std::uint32_t>(at_z + 1) * static_cast<std::uint32_t>(across() + 2) +
@@ -39,11 +38,11 @@ struct PatchGrid {
   }
   std::array<std::int32_t, 4> offsets() const { return {-(across() + 2), 1, across() + 2, -1}; }
 
-  // Whole, cut to the east, to the south, or both: 0 … 3.
+  // 0: whole; 1: cut to the east; 2: to the south; 3: both.
   int shape(const Patch& patch) const { return (patch.columns < side ? 1 : 0) + (patch.rows < side ? 2 : 0); }
 };
 
-// Sides of a patch, as bits of a seam case. The opposite of side s is s ^ 2.
+// Sides of a patch; side s is bit s of a set of seams. The opposite of side s is s ^ 2.
 enum Side : int { kNorth = 0, kEast = 1, kSouth = 2, kWest = 3 };
 
 }  // namespace terrabench

@@ -11,9 +11,9 @@ struct Vertex {
   bool operator==(const Vertex&) const = default;
 };
 
-// Where the vertex is drawn. North and west pull down, south and east up, so that each pair of fine edges
-// becomes one around the inner vertex between its ends.
-Vertex pulled(Vertex v, int columns, int rows, int seams) {
+// The vertex that is drawn in place of v. Seams to the north and west move odd vertices down, to the south
+// and east up, so that each pair of fine edges becomes one edge around the inner vertex between its ends.
+Vertex moved(Vertex v, int columns, int rows, int seams) {
   const bool odd_i = v.i % 2 != 0 && v.i < columns, odd_j = v.j % 2 != 0 && v.j < rows;
   const auto seam = [&](Side side) { return (seams >> side & 1) != 0; };
   if (odd_i && v.j == 0 && seam(kNorth)) return {v.i - 1, v.j};
@@ -26,7 +26,7 @@ Vertex pulled(Vertex v, int columns, int rows, int seams) {
 }  // namespace
 
 PatchPatterns::PatchPatterns(const PatchGrid& grid, int levels, Split split)
-    : levels_(levels), split_(split), runs_(static_cast<std::size_t>(4 * levels * 16)) {
+    : levels_(levels), split_(split), patterns_(static_cast<std::size_t>(4 * levels * 16)) {
   std::array<bool, 4> known{};
   for (const int at_z : {0, grid.down() - 1}) {
     for (const int at_x : {0, grid.across() - 1}) {
@@ -35,7 +35,7 @@ PatchPatterns::PatchPatterns(const PatchGrid& grid, int levels, Split split)
       if (std::exchange(known[static_cast<std::size_t>(shape)], true)) continue;
       for (int level = 0; level < levels; ++level) {
         for (int seams = 0; seams < (level + 1 < levels ? 16 : 1); ++seams) {
-          runs_[static_cast<std::size_t>((shape * levels + level) * 16 + seams)] =
+          patterns_[static_cast<std::size_t>((shape * levels + level) * 16 + seams)] =
               add(patch, grid.width, level, seams);
         }
       }
@@ -44,18 +44,18 @@ PatchPatterns::PatchPatterns(const PatchGrid& grid, int levels, Split split)
   indices_.shrink_to_fit();
 }
 
-PatchPatterns::Run PatchPatterns::add(const PatchGrid::Patch& shape, int stride, int level, int seams) {
+IndexRange PatchPatterns::add(const PatchGrid::Patch& shape, int stride, int level, int seams) {
   const int step = 1 << level;
   const int columns = (shape.columns - 1) / step + 1, rows = (shape.rows - 1) / step + 1;
   const auto index_of = [&](Vertex v) {
     return static_cast<std::uint32_t>(std::min(v.j * step, shape.rows) * stride +
                                       std::min(v.i * step, shape.columns));
   };
-  Run run{static_cast<std::uint32_t>(indices_.size()), 0};
+  IndexRange range{static_cast<std::uint32_t>(indices_.size()), 0};
   const auto triangle = [&](Vertex a, Vertex b, Vertex c) {
-    a = pulled(a, columns, rows, seams);
-    b = pulled(b, columns, rows, seams);
-    c = pulled(c, columns, rows, seams);
+    a = moved(a, columns, rows, seams);
+    b = moved(b, columns, rows, seams);
+    c = moved(c, columns, rows, seams);
     if (a == b || b == c || c == a) return;
     for (const Vertex& v : {a, b, c}) indices_.push_back(index_of(v));
   };
@@ -70,12 +70,12 @@ PatchPatterns::Run PatchPatterns::add(const PatchGrid::Patch& shape, int stride,
       }
     }
   }
-  run.count = static_cast<std::uint32_t>(indices_.size()) - run.first;
-  return run;
+  range.index_count = static_cast<std::uint32_t>(indices_.size()) - range.first_index;
+  return range;
 }
 
 Memory PatchPatterns::memory() const {
-  Memory memory = index_memory(runs_);
+  Memory memory = index_memory(patterns_);
   memory += payload_memory(indices_);
   return memory;
 }

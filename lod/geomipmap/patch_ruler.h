@@ -1,4 +1,4 @@
-// Measures how far the triangles of one patch's patterns are from the full terrain, at every sample on them.
+// Measures the vertical distance between a patch's triangles and the full terrain, at every sample on them.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,8 @@ class PatchRuler {
   const PatchGrid::Patch& patch() const { return patch_; }
   bool is_whole() const { return shape_ == 0; }
 
-  // Metres: the largest error over the pattern's triangles whose corners all count, at their samples.
+  // The largest error at the samples of those triangles of the pattern whose corners all satisfy `counts`,
+  // metres.
   template <class Counts>
   float largest(int level, int seams, const Counts& counts) const {
     float largest = 0;
@@ -33,7 +34,7 @@ class PatchRuler {
     return largest;
   }
 
-  // use(triangle, metres) for all of the pattern's triangles, where the morph moves them.
+  // Calls use(triangle, error in metres) for all triangles of the pattern, morphed.
   template <class Use>
   void measure(int level, int seams, const PatchMorph& morph, const Use& use) {
     const int step = 1 << level, across = patch_.columns + 1;
@@ -56,7 +57,7 @@ class PatchRuler {
  private:
   template <class Use>
   void for_triangles(int level, int seams, const Use& use) const {
-    const std::span<const std::uint32_t> indices = patterns_.indices(patterns_.run(shape_, level, seams));
+    const std::span<const std::uint32_t> indices = patterns_.indices(patterns_.pattern(shape_, level, seams));
     for (std::size_t k = 0; k < indices.size(); k += 3) {
       use(Triangle{corner(indices[k]), corner(indices[k + 1]), corner(indices[k + 2])});
     }

@@ -8,39 +8,39 @@ namespace terrabench {
 
 PatchTree::PatchTree(const GroundGrid& grid, const PatchGrid& cut)
     : cut_(cut), cell_x_(grid.cell_x), cell_z_(grid.cell_z) {
-  std::size_t nodes = 0;
+  std::size_t quads = 0;
   for (int across = cut.across(), down = cut.down();; across = (across + 1) / 2, down = (down + 1) / 2) {
-    levels_.push_back({across, down, nodes});
-    nodes += static_cast<std::size_t>(across) * down;
+    layers_.push_back({across, down, quads});
+    quads += static_cast<std::size_t>(across) * down;
     if (across == 1 && down == 1) break;
   }
-  nodes_.resize(nodes);
+  quads_.resize(quads);
   places_.reserve(cut.count());
-  number(static_cast<int>(levels_.size()) - 1, 0, 0);
+  number(static_cast<int>(layers_.size()) - 1, 0, 0);
   measure(grid);
 }
 
-PatchTree::Node& PatchTree::node(int level, int at_x, int at_z) {
-  const Level& here = levels_[static_cast<std::size_t>(level)];
-  return nodes_[here.first + static_cast<std::size_t>(at_z) * here.across + at_x];
+PatchTree::Quad& PatchTree::quad(int layer, int at_x, int at_z) {
+  const Layer& here = layers_[static_cast<std::size_t>(layer)];
+  return quads_[here.first + static_cast<std::size_t>(at_z) * here.across + at_x];
 }
 
-void PatchTree::number(int level, int at_x, int at_z) {
+void PatchTree::number(int layer, int at_x, int at_z) {
   const auto next = [&] { return static_cast<std::uint32_t>(places_.size()); };
   const std::uint32_t first = next();
-  if (level == 0) {
+  if (layer == 0) {
     const PatchGrid::Patch patch = cut_.patch(at_x, at_z);
     const auto width = static_cast<std::uint32_t>(cut_.width);
     places_.push_back({cut_.slot(at_x, at_z),
                        static_cast<std::uint32_t>(patch.j0) * width + static_cast<std::uint32_t>(patch.i0),
                        cut_.shape(patch)});
   } else {
-    const Level& finer = levels_[static_cast<std::size_t>(level - 1)];
+    const Layer& finer = layers_[static_cast<std::size_t>(layer - 1)];
     for (int z = 2 * at_z; z < std::min(2 * at_z + 2, finer.down); ++z) {
-      for (int x = 2 * at_x; x < std::min(2 * at_x + 2, finer.across); ++x) number(level - 1, x, z);
+      for (int x = 2 * at_x; x < std::min(2 * at_x + 2, finer.across); ++x) number(layer - 1, x, z);
     }
   }
-  node(level, at_x, at_z).patches = {first, next()};
+  quad(layer, at_x, at_z).patches = {first, next()};
 }
 
 void PatchTree::measure(const GroundGrid& grid) {
@@ -51,7 +51,7 @@ void PatchTree::measure(const GroundGrid& grid) {
   tbb::parallel_for(0, cut_.down(), [&](int z) {
     for (int x = 0; x < cut_.across(); ++x) {
       const PatchGrid::Patch patch = cut_.patch(x, z);
-      Node& leaf = node(0, x, z);
+      Quad& leaf = quad(0, x, z);
       leaf.lowest = leaf.highest = grid.heights[static_cast<std::size_t>(patch.j0) * grid.width + patch.i0];
       for (int j = patch.j0; j <= patch.j0 + patch.rows; ++j) {
         const float* const row = &grid.heights[static_cast<std::size_t>(j) * grid.width + patch.i0];
@@ -66,11 +66,11 @@ void PatchTree::measure(const GroundGrid& grid) {
       }
     }
   });
-  for (int level = 1; level < static_cast<int>(levels_.size()); ++level) {
-    const Level& here = levels_[static_cast<std::size_t>(level)];
+  for (int layer = 1; layer < static_cast<int>(layers_.size()); ++layer) {
+    const Layer& here = layers_[static_cast<std::size_t>(layer)];
     for (int z = 0; z < here.down; ++z) {
       for (int x = 0; x < here.across; ++x) {
-        Node& all = node(level, x, z);
+        Quad& all = quad(layer, x, z);
         const auto low = boxes_.low[1].begin(), high = boxes_.high[1].begin();
         all.lowest = *std::min_element(low + all.patches.first, low + all.patches.last);
         all.highest = *std::max_element(high + all.patches.first, high + all.patches.last);
@@ -79,45 +79,46 @@ void PatchTree::measure(const GroundGrid& grid) {
   }
 }
 
-Bounds PatchTree::box(int level, int at_x, int at_z) const {
-  const Level& here = levels_[static_cast<std::size_t>(level)];
-  const Node& node = nodes_[here.first + static_cast<std::size_t>(at_z) * here.across + at_x];
-  const int span = cut_.side << level;
+Bounds PatchTree::box(int layer, int at_x, int at_z) const {
+  const Layer& here = layers_[static_cast<std::size_t>(layer)];
+  const Quad& quad = quads_[here.first + static_cast<std::size_t>(at_z) * here.across + at_x];
+  const int span = cut_.side << layer;
   const int i1 = std::min((at_x + 1) * span, cut_.width - 1),
             j1 = std::min((at_z + 1) * span, cut_.depth - 1);
-  return {{static_cast<float>(at_x * span) * cell_x_, node.lowest, static_cast<float>(at_z * span) * cell_z_},
-          {static_cast<float>(i1) * cell_x_, node.highest, static_cast<float>(j1) * cell_z_}};
+  return {{static_cast<float>(at_x * span) * cell_x_, quad.lowest, static_cast<float>(at_z * span) * cell_z_},
+          {static_cast<float>(i1) * cell_x_, quad.highest, static_cast<float>(j1) * cell_z_}};
 }
 
-void PatchTree::collect(const Frustum& frustum, std::vector<Run>& seen) const {
-  collect(static_cast<int>(levels_.size()) - 1, 0, 0, Frustum::kAllPlanes, frustum, seen);
+void PatchTree::collect(const Frustum& frustum, std::vector<PatchRange>& seen) const {
+  collect(static_cast<int>(layers_.size()) - 1, 0, 0, Frustum::kAllPlanes, frustum, seen);
 }
 
-void PatchTree::collect(int level, int at_x, int at_z, unsigned planes, const Frustum& frustum,
-                        std::vector<Run>& seen) const {
-  const Sight sight = frustum.see(box(level, at_x, at_z), planes);
+void PatchTree::collect(int layer, int at_x, int at_z, unsigned planes, const Frustum& frustum,
+                        std::vector<PatchRange>& seen) const {
+  const Sight sight = frustum.see(box(layer, at_x, at_z), planes);
   if (sight == Sight::kOutside) return;
-  if (sight == Sight::kInside || level == 0) {
-    const Level& here = levels_[static_cast<std::size_t>(level)];
-    const Run& run = nodes_[here.first + static_cast<std::size_t>(at_z) * here.across + at_x].patches;
-    if (!seen.empty() && seen.back().last == run.first) {
-      seen.back().last = run.last;
+  if (sight == Sight::kInside || layer == 0) {
+    const Layer& here = layers_[static_cast<std::size_t>(layer)];
+    const PatchRange& patches =
+        quads_[here.first + static_cast<std::size_t>(at_z) * here.across + at_x].patches;
+    if (!seen.empty() && seen.back().last == patches.first) {
+      seen.back().last = patches.last;
     } else {
-      seen.push_back(run);
+      seen.push_back(patches);
     }
     return;
   }
-  const Level& finer = levels_[static_cast<std::size_t>(level - 1)];
+  const Layer& finer = layers_[static_cast<std::size_t>(layer - 1)];
   for (int z = 2 * at_z; z < std::min(2 * at_z + 2, finer.down); ++z) {
     for (int x = 2 * at_x; x < std::min(2 * at_x + 2, finer.across); ++x) {
-      collect(level - 1, x, z, planes, frustum, seen);
+      collect(layer - 1, x, z, planes, frustum, seen);
     }
   }
 }
 
 Memory PatchTree::memory() const {
-  Memory memory = index_memory(levels_);
-  memory += index_memory(nodes_);
+  Memory memory = index_memory(layers_);
+  memory += index_memory(quads_);
   memory += index_memory(places_);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     memory += index_memory(boxes_.low[axis]);

@@ -1,7 +1,7 @@
-// The quadtree over the patches that culls them (de Boer 2000, §2.2): a pyramid of flat arrays with the
-// lowest and highest ground of each node. Patches are numbered so that those of any node follow each other:
-// what is in view is a few runs of numbers, and what is kept by number is gone through in order. O(patches)
-// to build; visiting costs the nodes that cross the frustum's border.
+// The quadtree over the patches, for culling (de Boer 2000, §2.2): a pyramid of flat arrays with the lowest
+// and highest ground of each quad. Patches are numbered so that those of any quad are consecutive: the
+// patches in view are a few ranges of numbers, and arrays by number are read in order. O(patches) to build;
+// collect() is O(quads that cross the frustum's border).
 #pragma once
 
 #include <span>
@@ -21,43 +21,52 @@ class PatchTree {
   PatchTree(const GroundGrid&, const PatchGrid&);
 
   struct Place {
-    std::uint32_t slot;
-    std::uint32_t corner;  // vertex
-    std::int32_t shape;
+    std::uint32_t slot;    // PatchGrid::slot()
+    std::uint32_t corner;  // vertex at the low corner
+    std::int32_t shape;    // PatchGrid::shape()
   };
   std::span<const Place> places() const { return places_; }  // by number
   const Boxes& boxes() const { return boxes_; }              // by number
 
-  struct Run {
-    std::uint32_t first, last;  // one past the last
+  struct PatchRange {
+    std::uint32_t first, last;  // numbers; `last` is one past the end
   };
-  // Appends the patches that the frustum may see, in the order of their numbers.
-  void collect(const Frustum&, std::vector<Run>& seen) const;
-  // No frustum sees more runs.
-  std::size_t most_runs() const { return (places_.size() + 1) / 2; }
+  // Appends the patches that the frustum may see, in ascending order.
+  void collect(const Frustum&, std::vector<PatchRange>& seen) const;
+  // Upper bound of the ranges that collect() appends.
+  std::size_t most_ranges() const { return (places_.size() + 1) / 2; }
   Memory memory() const;
 
  private:
-  struct Node {
-    float lowest, highest;
-    Run patches;
+  struct Quad {
+    float lowest, highest;  // metres
+    PatchRange patches;
   };
-  struct Level {
+  struct Layer {  // of the pyramid
     int across, down;
-    std::size_t first;  // of its nodes
+    std::size_t first;  // quad
   };
-  Node& node(int level, int at_x, int at_z);
-  void number(int level, int at_x, int at_z);
+  Quad& quad(int layer, int at_x, int at_z);
+  void number(int layer, int at_x, int at_z);
   void measure(const GroundGrid&);
-  Bounds box(int level, int at_x, int at_z) const;
-  void collect(int level, int at_x, int at_z, unsigned planes, const Frustum&, std::vector<Run>&) const;
+  Bounds box(int layer, int at_x, int at_z) const;
+  void collect(int layer, int at_x, int at_z, unsigned planes, const Frustum&,
+               std::vector<PatchRange>&) const;
 
   PatchGrid cut_;
   float cell_x_, cell_z_;
-  std::vector<Level> levels_;  // the patches first, one node last
-  std::vector<Node> nodes_;
+  std::vector<Layer> layers_;  // patches first, the root last
+  std::vector<Quad> quads_;
   std::vector<Place> places_;
   Boxes boxes_;
 };
+
+// Calls use(number) for every patch in the ranges, in order.
+template <class Use>
+void for_each_patch(std::span<const PatchTree::PatchRange> ranges, const Use& use) {
+  for (const PatchTree::PatchRange& range : ranges) {
+    for (std::uint32_t k = range.first; k < range.last; ++k) use(k);
+  }
+}
 
 }  // namespace terrabench

@@ -11,7 +11,7 @@
 namespace terrabench {
 namespace {
 
-constexpr int kBits = 64;  // samples a word
+constexpr int kBits = 64;  // samples per word
 
 class Coverage {
  public:
@@ -27,7 +27,8 @@ class Coverage {
     const Corner triangle[] = {corners[0], corners[turned ? 2 : 1], corners[turned ? 1 : 2]};
     const auto [first, last] = std::minmax({triangle[0].z, triangle[1].z, triangle[2].z});
     std::size_t again = 0;
-    // The rule: a sample is a hair's breadth east, and a hair of that south, of where it is.
+    // The rule: a sample counts as displaced infinitesimally to the east and, by a smaller order, to the
+    // south.
     for (int z = std::max(first, 0); z < std::min(last, depth_); ++z) {
       long long low = 0, high = width_ - 1;
       for (int e = 0; e < 3; ++e) {
@@ -36,7 +37,8 @@ class Coverage {
         const long long slope = q.z - p.z, limit = static_cast<long long>(q.x - p.x) * (z - p.z);
         if (slope > 0) low = std::max(low, p.x - plan_triangle::floor_divide(-limit, slope));
         if (slope < 0) high = std::min(high, p.x - plan_triangle::floor_divide(limit, -slope) - 1);
-        // North of an edge that runs east, south of one that runs west.
+        // Inside lies north of an edge that runs east, without its row, or south of one that runs west, with
+        // its row.
         if (slope == 0 && (limit > 0 || (limit == 0 && q.x > p.x))) high = -1;
       }
       if (low <= high) again += cover_row(z, static_cast<int>(low), static_cast<int>(high));
@@ -59,7 +61,7 @@ class Coverage {
   }
 
   int width_, depth_;
-  std::size_t words_;  // a row
+  std::size_t words_;  // per row
   std::vector<std::uint64_t> bits_;
 };
 

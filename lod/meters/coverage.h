@@ -1,9 +1,9 @@
-// What is drawn over itself: the samples of the full terrain that more than one triangle covers in plan.
+// Overlaps: the samples of the full terrain that more than one triangle covers in plan.
 //
-// A sample on an edge belongs to the triangle on one side of it alone, a sample at a corner to one of those
-// around it, by one rule for all; so a surface without overlaps covers no sample twice, whatever its
-// triangles, T-junctions included. Exact. Triangles without plan area (skirts) cover nothing, and those that
-// wind the wrong way cover as others do. O(triangles + rows that they cross), in parallel; one bit a sample.
+// By one rule for all triangles, a sample on an edge belongs to one side of it, and a sample at a corner to
+// one of the triangles around it. So a surface without overlaps covers no sample twice, even with
+// T-junctions. Exact. Triangles without plan area (skirts) cover nothing; clockwise ones cover like others.
+// O(triangles + rows that they cross), in parallel; one bit per sample.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,8 @@
 
 namespace terrabench {
 
-// Of a frame over terrain of width × depth samples: how often a sample was covered before.
+// The number of repeated coverings in a frame over terrain of width × depth samples: a sample covered n times
+// counts n - 1.
 std::size_t samples_covered_again(const Frame&, int width, int depth);
 
 }  // namespace terrabench

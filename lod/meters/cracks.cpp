@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kEdgesAtOnce = std::size_t{1} << 23;
 
-// One side of a triangle, the lesser end first; `forward` when the triangle runs it so.
+// One side of a triangle, the lesser end first; `forward` when the triangle has it in this direction.
 struct Edge {
   Corner low, high;
   bool forward;
@@ -36,7 +36,7 @@ std::size_t pass_of(const Edge& e, std::size_t passes) {
   return static_cast<std::size_t>((h >> 32) % passes);
 }
 
-// Every edge whose turn is `pass`, sorted. Triangles that wind the wrong way are turned first.
+// The edges of one pass, sorted. Clockwise triangles are turned first.
 std::vector<Edge> edges_of(const Frame& frame, std::size_t pass, std::size_t passes) {
   tbb::enumerable_thread_specific<std::vector<Edge>> found;
   for_drawn_triangles(frame, [&](std::span<const Corner> corners) {
@@ -68,8 +68,8 @@ struct Stretch {
   double size() const { return std::max(std::abs(y_from), std::abs(y_to)); }
 };
 
-// The line of an open edge: all points with dx·z - dz·x = offset. Positions along it are x, or z where all x
-// are equal.
+// An edge that is not closed, and its line: all points with dx·z - dz·x = offset. Positions along it are x,
+// or z where all x are equal.
 struct Open {
   int dx, dz;
   long long offset;
@@ -85,7 +85,7 @@ struct Open {
   }
 };
 
-// A total order, so that a sweep meets edges of the same place always in the same one.
+// A total order, so that a sweep visits edges at the same place in a fixed order.
 auto key(const Open& o) {
   const Stretch& s = o.stretch;
   return std::tuple(o.dx, o.dz, o.offset, o.forward, s.from, s.to, s.y_from, s.y_to);
@@ -107,7 +107,7 @@ bool on_border(const Edge& e, int width, int depth) {
          (e.low.x >= width - 1 && e.high.x >= width - 1) || (e.low.z >= depth - 1 && e.high.z >= depth - 1);
 }
 
-// The edges that no other closes; an edge run twice the same way is kept once and counted.
+// The edges that are not closed, each direction once; repeated edges are counted as overlaps.
 std::vector<Open> open_edges(const Frame& frame, int width, int depth, CrackReport& report) {
   std::size_t triangles = 0;
   for (const Batch& batch : frame.batches) triangles += batch.index_count / 3;
@@ -116,12 +116,12 @@ std::vector<Open> open_edges(const Frame& frame, int width, int depth, CrackRepo
   for (std::size_t pass = 0; pass < passes; ++pass) {
     const std::vector<Edge> edges = edges_of(frame, pass, passes);
     for (std::size_t first = 0, end; first < edges.size(); first = end) {
-      std::size_t runs[2] = {0, 0};
+      std::size_t count[2] = {0, 0};
       for (end = first; end < edges.size() && same_place(edges[first], edges[end]); ++end) {
-        ++runs[edges[end].forward ? 1 : 0];
+        ++count[edges[end].forward ? 1 : 0];
       }
-      report.overlaps += (std::max(runs[0], std::size_t{1}) - 1) + (std::max(runs[1], std::size_t{1}) - 1);
-      const bool closed = runs[0] > 0 && runs[1] > 0;
+      report.overlaps += (std::max(count[0], std::size_t{1}) - 1) + (std::max(count[1], std::size_t{1}) - 1);
+      const bool closed = count[0] > 0 && count[1] > 0;
       if (!closed) open.push_back(open_from(edges[first], on_border(edges[first], width, depth)));
     }
   }
@@ -144,7 +144,7 @@ class LineSweep {
   LineSweep(const Frame& frame, const Projector& project, CrackReport& report)
       : frame_(frame), project_(project), report_(report) {}
 
-  // Edges of one line, sorted by side and position.
+  // `line`: edges of one line, sorted by side and position.
   void sweep(std::span<const Open> line) {
     line_ = &line.front();
     split(line);
@@ -165,8 +165,8 @@ class LineSweep {
  private:
   struct Side {
     std::vector<Stretch> stretches;
-    std::size_t next = 0;  // the first that starts after the sweep's position
-    Stretch now;           // of those before it, the one that reaches farthest
+    std::size_t next = 0;  // the first that starts after the present position
+    Stretch now;           // of those before `next`, the one that reaches farthest
   };
   struct Gaps {
     bool at_from = false, at_to = false;
@@ -198,14 +198,14 @@ class LineSweep {
     }
   }
 
-  // Whether an edge of `ends` ends at t strictly inside an edge of the other side.
+  // Whether an edge of `ends` starts or ends at t strictly inside an edge of `across`.
   static bool inside(const Side& ends, const Side& across, int t) {
-    if (!(across.now.from < t && across.now.to > t)) return false;  // not yet advanced to t
+    if (!(across.now.from < t && across.now.to > t)) return false;  // sides are not yet advanced to t
     const bool starts = ends.next < ends.stretches.size() && ends.stretches[ends.next].from == t;
     return starts || (ends.next > 0 && ends.now.to == t);
   }
 
-  // Between two stops, where neither side bends.
+  // Compares the sides between two stops, where both are straight.
   Gaps compare(int from, int to) {
     for (Side& side : sides_) advance(side, from);
     const Stretch &a = sides_[0].now, &b = sides_[1].now;
@@ -247,7 +247,7 @@ class LineSweep {
 CrackReport find_cracks(const Frame& frame, int width, int depth, const View& view) {
   CrackReport report;
   report.flipped = flipped_triangles(frame);
-  // Endless ground has too many samples to mark; there runs of edges alone tell.
+  // Endless ground has too many samples to mark.
   if (frame.first == glm::ivec2(0)) report.covered_again = samples_covered_again(frame, width, depth);
   std::vector<Open> open = open_edges(frame, width, depth, report);
   tbb::parallel_sort(open.begin(), open.end(), [](const Open& a, const Open& b) { return key(a) < key(b); });

@@ -21,7 +21,7 @@ double Distribution::quantile(double share) const {
   std::uint64_t below = 0;
   std::uint32_t bin = 0;
   while ((below += counts_[bin]) < std::max<std::uint64_t>(rank, 1)) ++bin;
-  // The top of the bin, but for zero, which has one of its own as good as.
+  // The top of the bin; 0 for the first bin, which holds practically only zeros.
   const float top = bin == 0 ? 0 : std::bit_cast<float>(((bin + 1) << kShift) - 1);
   return static_cast<double>(std::min(top, largest_));
 }

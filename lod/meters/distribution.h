@@ -1,6 +1,6 @@
-// How many pixels samples deviate by, over any number of frames: what a percentile over a whole path is read
-// from. Counts in bins 1/256 octave wide, so that a path of any length takes half a megabyte. The order of
-// adding does not matter. O(1) a sample.
+// A histogram of the samples' deviations in pixels over any number of frames, for percentiles over a whole
+// path. Bins are 1/256 octave wide; memory is half a megabyte for any path. The order of adding does not
+// matter. O(1) per sample.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@ namespace terrabench {
 
 class Distribution {
  public:
-  void add(std::span<const float> pixels);  // none negative
+  void add(std::span<const float> pixels);  // ≥ 0
 
   std::uint64_t samples() const { return samples_; }
   double mean() const { return samples_ == 0 ? 0 : sum_ / static_cast<double>(samples_); }
   double largest() const { return static_cast<double>(largest_); }
-  // `share` of the samples, 0 to 1, are at most this: exact or up to 0.4 % above. 0 without samples.
+  // `share` of the samples, 0 to 1, are at most this value; exact or up to 0.4 % too high. 0 without samples.
   double quantile(double share) const;
 
  private:

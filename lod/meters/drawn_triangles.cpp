@@ -10,38 +10,40 @@
 namespace terrabench {
 namespace {
 
-constexpr std::uint32_t kBlock = 3 * 1024;  // corners
+constexpr std::uint32_t kPart = 3 * 1024;  // indices
 
-struct Run {
+// Indices that one task draws.
+struct Part {
   std::size_t batch;
-  std::uint32_t first, count;  // indices
+  IndexRange indices;
 };
 
-std::vector<Run> runs_of(const Frame& frame) {
-  std::vector<Run> runs;
+std::vector<Part> parts_of(const Frame& frame) {
+  std::vector<Part> parts;
   for (std::size_t b = 0; b < frame.batches.size(); ++b) {
     const Batch& batch = frame.batches[b];
-    for (std::uint32_t done = 0; done < batch.index_count; done += kBlock) {
-      runs.push_back({b, batch.first_index + done, std::min(kBlock, batch.index_count - done)});
+    for (std::uint32_t done = 0; done < batch.index_count; done += kPart) {
+      parts.push_back({b, {batch.first_index + done, std::min(kPart, batch.index_count - done)}});
     }
   }
-  return runs;
+  return parts;
 }
 
 }  // namespace
 
 void for_drawn_triangles(const Frame& frame, const std::function<void(std::span<const Corner>)>& use) {
-  const std::vector<Run> runs = runs_of(frame);
-  tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t r) {
-    const Run& run = runs[r];
-    const Batch& batch = frame.batches[run.batch];
-    std::array<Corner, kBlock> corners;
-    for (std::uint32_t k = 0; k < run.count; ++k) {
-      const glm::vec3 at = vertex_position(frame, batch, batch.base_vertex + frame.indices[run.first + k]);
+  const std::vector<Part> parts = parts_of(frame);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
+    const auto& [batch_number, range] = parts[p];
+    const Batch& batch = frame.batches[batch_number];
+    std::array<Corner, kPart> corners;
+    for (std::uint32_t k = 0; k < range.index_count; ++k) {
+      const glm::vec3 at =
+          vertex_position(frame, batch, batch.base_vertex + frame.indices[range.first_index + k]);
       corners[k] = {static_cast<int>(std::lround(at.x / frame.cell_x)),
                     static_cast<int>(std::lround(at.z / frame.cell_z)), at.y};
     }
-    use({corners.data(), run.count});
+    use({corners.data(), range.index_count});
   });
 }
 

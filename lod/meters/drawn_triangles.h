@@ -1,6 +1,6 @@
-// The triangles that a frame draws, on the lattice of the full terrain's samples: what the meters read. A
-// vertex of every method stands over a sample (terrain/frame.h), so its plan position is two whole numbers
-// and all plan geometry is exact. O(triangles), in parallel.
+// The triangles that a frame draws, with corners by sample of the full terrain, for the meters. Every
+// method's vertices lie over samples (terrain/frame.h), so plan positions are integers and all plan geometry
+// is exact. O(triangles), in parallel.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace terrabench {
 
-// Hands over corners, three a triangle, in blocks, from many threads at once and in any order.
+// Calls use() with blocks of corners, three per triangle, from many threads at once and in any order.
 void for_drawn_triangles(const Frame&, const std::function<void(std::span<const Corner>)>& use);
 
 }  // namespace terrabench

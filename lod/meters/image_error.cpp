@@ -15,9 +15,9 @@ constexpr double kSigma = 1.5;
 
 void require_same_size(const Image& a, const Image& b) {
   if (a.width == b.width && a.height == b.height && a.width > 0 && a.height > 0) return;
-  throw usage_error(fmt::format("pictures of {} × {} and {} × {} pixels cannot be compared", a.width,
+  throw usage_error(fmt::format("images must have the same size, got {} × {} and {} × {} pixels", a.width,
                                 a.height, b.width, b.height),
-                    "", "render both at one size");
+                    "", "render both at the same size");
 }
 
 std::vector<double> luma_of(const Image& image) {
@@ -28,7 +28,7 @@ std::vector<double> luma_of(const Image& image) {
   return luma;
 }
 
-// Weights of a window of n pixels, summing to 1: Gaussian, or even for a picture with less than a window.
+// Weights of a window of n pixels, with sum 1: Gaussian, or equal when n is less than a whole window.
 std::vector<double> window_of(int n) {
   std::vector<double> weights(static_cast<std::size_t>(n), 1.0 / n);
   if (n < kWindow) return weights;
@@ -41,7 +41,7 @@ std::vector<double> window_of(int n) {
   return weights;
 }
 
-// Weighted means of value(k) over every window, the columns first and then the rows.
+// Weighted means of value(k) over every window; separable, columns first.
 template <class Value>
 std::vector<double> windowed(int width, int height, const Value& value) {
   const std::vector<double> across = window_of(std::min(width, kWindow));

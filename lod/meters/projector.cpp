@@ -41,8 +41,8 @@ double Projector::pixels_between(const glm::dvec3& p, const glm::dvec3& q) const
 }
 
 bool Projector::sees_segment(const glm::dvec3& p, const glm::dvec3& q) const {
-  // Liang and Barsky's clipping against the six planes, each drawn in by a hair.
-  constexpr double kHair = 1e-6;
+  // Liang and Barsky's clipping against the six planes, each moved inwards by a small margin.
+  constexpr double kMargin = 1e-6;
   double from = 0, to = 1;
   const auto clip = [&](double at_p, double at_q) {
     if (at_p < 0 && at_q < 0) return false;
@@ -52,11 +52,12 @@ bool Projector::sees_segment(const glm::dvec3& p, const glm::dvec3& q) const {
   };
   const glm::dvec3 a = p - eye_, b = q - eye_;
   const double depth_a = glm::dot(a, forward_), depth_b = glm::dot(b, forward_);
-  const double reach_x = 0.5 * width_ / focal_ * (1 - kHair), reach_y = 0.5 * height_ / focal_ * (1 - kHair);
+  const double reach_x = 0.5 * width_ / focal_ * (1 - kMargin),
+               reach_y = 0.5 * height_ / focal_ * (1 - kMargin);
   const double x_a = glm::dot(a, right_), x_b = glm::dot(b, right_);
   const double y_a = glm::dot(a, above_), y_b = glm::dot(b, above_);
-  return clip(depth_a - near_ * (1 + kHair), depth_b - near_ * (1 + kHair)) &&
-         clip(far_ * (1 - kHair) - depth_a, far_ * (1 - kHair) - depth_b) &&
+  return clip(depth_a - near_ * (1 + kMargin), depth_b - near_ * (1 + kMargin)) &&
+         clip(far_ * (1 - kMargin) - depth_a, far_ * (1 - kMargin) - depth_b) &&
          clip(reach_x * depth_a - x_a, reach_x * depth_b - x_b) &&
          clip(reach_x * depth_a + x_a, reach_x * depth_b + x_b) &&
          clip(reach_y * depth_a - y_a, reach_y * depth_b - y_b) &&

@@ -10,12 +10,12 @@ namespace terrabench {
 namespace {
 
 struct Row {
-  std::size_t first = 0;  // of its pixels
+  std::size_t first = 0;  // in `pixels`
   std::size_t samples = 0, undrawn = 0;
   double sum = 0;
 };
 
-// `pixels`: room for all; left in an order of its own.
+// `pixels` has room for all samples; its order is unspecified afterwards.
 Deviation deviation_of(const std::vector<Row>& rows, std::vector<float>& pixels, Distribution* pool) {
   Deviation all;
   double sum = 0;
@@ -37,9 +37,9 @@ Deviation deviation_of(const std::vector<Row>& rows, std::vector<float>& pixels,
   return all;
 }
 
-// from(i, j) and to(i, j) are heights, NaN where there is none.
+// from(i, j) and to(i, j) are heights; NaN where nothing is drawn.
 template <class From, class To>
-Deviation measure(const Visibility& seen, Seen least, const From& from, const To& to, Distribution* pool) {
+Deviation measure(const SeenSamples& seen, Seen least, const From& from, const To& to, Distribution* pool) {
   const Projector project(seen.view());
   std::vector<Row> rows(static_cast<std::size_t>(seen.depth()));
   tbb::parallel_for(0, seen.depth(), [&](int j) {
@@ -72,13 +72,13 @@ Deviation measure(const Visibility& seen, Seen least, const From& from, const To
 }
 
 template <class From, class To>
-ScreenDeviation measure(const Visibility& seen, const From& from, const To& to, Distribution* pool) {
+ScreenDeviation measure(const SeenSamples& seen, const From& from, const To& to, Distribution* pool) {
   return {measure(seen, Seen::kVisible, from, to, pool), measure(seen, Seen::kHidden, from, to, nullptr)};
 }
 
 }  // namespace
 
-ScreenDeviation screen_error(const SurfaceRaster& drawn, const Heightfield& ground, const Visibility& seen,
+ScreenDeviation screen_error(const SurfaceRaster& drawn, const Heightfield& ground, const SeenSamples& seen,
                              Distribution* pool) {
   assert(drawn.width() == seen.width() && drawn.depth() == seen.depth());
   return measure(
@@ -86,7 +86,7 @@ ScreenDeviation screen_error(const SurfaceRaster& drawn, const Heightfield& grou
       pool);
 }
 
-ScreenDeviation popping(const SurfaceRaster& before, const SurfaceRaster& after, const Visibility& seen,
+ScreenDeviation popping(const SurfaceRaster& before, const SurfaceRaster& after, const SeenSamples& seen,
                         Distribution* pool) {
   assert(before.width() == seen.width() && after.width() == seen.width());
   return measure(

@@ -1,37 +1,37 @@
-// How far the drawn surface stands from where it should, in pixels of a view: the neutral error and popping
-// meters. Distances are between the projections of two points of the same vertical line, at the samples that
-// the view sees of the full terrain. O(samples), in parallel; the same for any number of threads.
+// Screen-space error and popping of the drawn surface, in pixels of a view, for any method. At each sample of
+// the full terrain in view, measures the distance between the projections of two points on its vertical line.
+// O(samples), in parallel; the result does not depend on the number of threads.
 #pragma once
 
 #include <cstddef>
 
 #include "lod/meters/distribution.h"
+#include "lod/meters/seen_samples.h"
 #include "lod/meters/surface_raster.h"
-#include "lod/meters/visibility.h"
 
 namespace terrabench {
 
-// Over the samples where something is drawn; pixels.
+// Over the samples where something is drawn, pixels.
 struct Deviation {
   double largest = 0, mean = 0;
-  double p99 = 0;           // 99 % of the samples deviate by no more
+  double p99 = 0;           // 99 % of the samples deviate by at most this
   std::size_t samples = 0;  // measured
-  std::size_t undrawn = 0;  // not measured: nothing is drawn there
+  std::size_t undrawn = 0;  // not measured, because nothing is drawn there
 };
 
 struct ScreenDeviation {
-  Deviation visible;     // the samples that nothing hides
-  Deviation in_frustum;  // those and the hidden ones, for what is promised whatever is hidden
+  Deviation visible;     // samples that are not hidden
+  Deviation in_frustum;  // all samples in the frustum, for bounds that ignore occlusion
 };
 
-// Between the drawn surface and the full terrain. The ground is the one that `seen` was made of. The visible
-// samples' pixels go into `pool` too, when there is one, for percentiles over many frames.
-ScreenDeviation screen_error(const SurfaceRaster& drawn, const Heightfield& ground, const Visibility& seen,
+// Between the drawn surface and the full terrain. `ground` must be the one that `seen` was made of. `pool`,
+// if not null, also receives the visible samples' deviations, for percentiles over many frames.
+ScreenDeviation screen_error(const SurfaceRaster& drawn, const Heightfield& ground, const SeenSamples& seen,
                              Distribution* pool = nullptr);
 
-// Between two consecutive frames' surfaces, both looked at from the later view, so that the camera's own
-// motion does not count: what suddenly moves.
-ScreenDeviation popping(const SurfaceRaster& before, const SurfaceRaster& after, const Visibility& seen,
+// Between the surfaces of two consecutive frames, both in the later view, so that only changes of the surface
+// count and not the camera's motion.
+ScreenDeviation popping(const SurfaceRaster& before, const SurfaceRaster& after, const SeenSamples& seen,
                         Distribution* pool = nullptr);
 
 }  // namespace terrabench

@@ -1,10 +1,9 @@
-// The drawn surface seen in plan: its height at every sample of the full terrain. Triangles are closed, so
-// that a sample on a shared edge or vertex is never missed; heights along an edge are interpolated between
-// its two ends alone, so both sides of an edge without a crack give the same bits. Where triangles disagree
-// (cracks, overlaps) the highest counts, which an eye in the air sees; so the result does not depend on the
-// order of drawing nor on the number of threads. Triangles without plan area (skirts) draw nothing, and
-// neither do those that wind clockwise from above, as on the screen.
-// O(triangles + samples drawn), in parallel.
+// The height of the drawn surface at every sample of the full terrain. Triangles include their edges, so a
+// sample on a shared edge or vertex is never missed. Heights along an edge are interpolated from its two ends
+// only, so both sides of an edge without a crack give the same bits. Where triangles disagree (cracks,
+// overlaps), the highest one counts, which is visible from above; the result does not depend on the order of
+// drawing or the number of threads. Triangles without plan area (skirts) draw nothing, nor do triangles that
+// are clockwise from above. O(triangles + samples drawn), in parallel.
 #pragma once
 
 #include <vector>
@@ -15,11 +14,11 @@ namespace terrabench {
 
 class SurfaceRaster {
  public:
-  // For terrain of width × depth samples; what lies outside is left out.
+  // For terrain of width × depth samples; samples outside are ignored.
   SurfaceRaster(int width, int depth);
   SurfaceRaster(const Frame&, int width, int depth);
 
-  // Replaces what was drawn before, in the same memory.
+  // Replaces the surface; allocates nothing.
   void draw(const Frame&);
 
   int width() const { return width_; }

@@ -11,12 +11,14 @@ namespace terrabench {
 
 BisectionTree::BisectionTree(int side_bits, int depth) : side_bits_(side_bits), depth_(depth) {
   if (side_bits < 0 || 2 * side_bits + 1 > kDeepest) {
-    throw usage_error(fmt::format("a bisection tree over a side of 2^{} has no room", side_bits), "",
-                      fmt::format("choose a side of at most 2^{}", (kDeepest - 1) / 2));
+    throw usage_error(fmt::format("the side of the tree's square must be from 2^0 to 2^{}, got 2^{}",
+                                  (kDeepest - 1) / 2, side_bits),
+                      "", "use terrain with fewer samples");
   }
   if (depth < 1 || depth > 2 * side_bits + 1) {
-    throw usage_error(fmt::format("a bisection tree over a side of 2^{} has no depth {}", side_bits, depth),
-                      "depth", fmt::format("choose 1 to {}", 2 * side_bits + 1));
+    throw usage_error(fmt::format("depth must be from 1 to {} for a square of side 2^{}, got {}",
+                                  2 * side_bits + 1, side_bits, depth),
+                      "", "choose a smaller depth, or 0 for the greatest");
   }
 }
 
@@ -53,7 +55,7 @@ PlanTriangle BisectionTree::triangle(NodeNumber node) const {
 int BisectionTree::split_depth(glm::ivec2 vertex) const {
   const int bit = std::countr_zero(static_cast<unsigned>(vertex.x | vertex.y));
   if (bit >= side_bits_) return 0;
-  const int halvings = side_bits_ - bit - 1;  // the square around it has side 2^(k - halvings)
+  const int halvings = side_bits_ - bit - 1;  // it lies in a square of side 2^(k - halvings)
   const bool both = (((vertex.x & vertex.y) >> bit) & 1) != 0;
   return (both ? 1 : 2) + 2 * halvings;
 }

@@ -1,13 +1,14 @@
-// The tree of the MRBSP paper (§2) without a node in memory: a square, cut along a diagonal into two
-// right-angled triangles, each of which is cut from its right angle to the middle of its hypotenuse, and so
-// on. Depth d holds 2^d triangles; they cover the square. A node's number says where it lies.
+// The tree of the MRBSP paper (§2), implicit: no node is stored, a node's number determines its triangle. A
+// square is split along a diagonal into two right-angled triangles; each is split along the line from its
+// right angle to the centre of its hypotenuse, and so on. The 2^d triangles at depth d cover the square.
 //
-// Lattice: the square has side 2^k, and vertices have whole coordinates (i, j) in [0, 2^k]². At odd depth
-// 2m + 1 the triangles are the halves of 2^m × 2^m squares, legs along the axes, and their corners are a full
-// grid of (2^m + 1)² vertices. At even depth 2m each of 2^(m-1) × 2^(m-1) squares is cut by both diagonals,
-// hypotenuses along the axes, and the corners are every second vertex of a (2^m + 1)² grid (i + j even). So
-// the paper's 65,536 triangles (depth 16) stand on 33,025 of the 257² grid points: 128² squares of four
-// triangles. Depth 17 takes all of 257². The deepest that a lattice carries is 2k + 1.
+// Vertices have integer coordinates (i, j) in [0, 2^k]², where 2^k is the side of the square.
+// - Odd depth 2m + 1: the triangles are the halves of 2^m × 2^m squares, legs along the axes; their corners
+//   are all points of a grid of (2^m + 1)².
+// - Even depth 2m: each of 2^(m-1) × 2^(m-1) squares is split by both diagonals, hypotenuses along the axes;
+//   the corners are every second point (i + j even) of a grid of (2^m + 1)².
+// So the paper's 65,536 triangles (depth 16) use 33,025 of 257² grid points: 128² squares of four triangles.
+// Depth 17 uses all 257². The greatest depth is 2k + 1.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +21,7 @@
 
 namespace terrabench {
 
-// Corners in the lattice, counter-clockwise from above: the right angle first.
+// Corners counter-clockwise from above, the right angle first.
 struct PlanTriangle {
   glm::ivec2 apex, left, right;
   bool operator==(const PlanTriangle&) const = default;
@@ -28,44 +29,45 @@ struct PlanTriangle {
 
 // 1 is the square; the children of node n are 2n and 2n + 1. At depth d: 2^d ≤ n < 2^(d+1).
 using NodeNumber = std::uint64_t;
+inline NodeNumber first_node(int depth) { return NodeNumber{1} << depth; }
+inline int depth_of(NodeNumber node) { return std::bit_width(node) - 1; }
 
 class BisectionTree {
  public:
-  static constexpr int kDeepest = 31;  // so that numbers fit 32 bits
+  static constexpr int kDeepest = 31;  // so that node numbers fit 32 bits
 
   // Throws usage_error unless 0 ≤ side_bits ≤ 15 and 1 ≤ depth ≤ 2·side_bits + 1.
   BisectionTree(int side_bits, int depth);
-  // The smallest square over so many samples; depth 0 takes the deepest. Throws usage_error when that is
-  // beyond kDeepest or the depth too deep.
+  // Over the smallest square that covers width × samples_deep samples; depth 0: the greatest depth. Throws
+  // usage_error for a square or a depth that is too large.
   static BisectionTree over(int width, int samples_deep, int depth = 0);
 
   int side_bits() const { return side_bits_; }
   int side() const { return 1 << side_bits_; }
   int depth() const { return depth_; }
+  // At the greatest depth: the number of triangles, and of their distinct corners.
   std::uint64_t triangles() const { return std::uint64_t{1} << depth_; }
-  // How many different corners the triangles of the greatest depth have.
   std::uint64_t vertices() const;
-  // Between neighbouring vertices along a grid line, over all lines.
+  // Distance between neighbouring grid lines that vertices lie on.
   int spacing() const { return side() >> (depth_ / 2); }
-  // Side of the squares whose borders are edges of triangles at that depth: full lines of edges run there.
+  // Side of the squares whose borders consist of edges of triangles at that depth.
   int square_at(int depth) const { return side() >> ((depth - 1) / 2); }
-  // Is it a corner of a triangle at the greatest depth?
+  // Whether a triangle at the greatest depth has this corner.
   bool has_vertex(glm::ivec2 at) const;
 
   // The two halves of the square.
   std::array<PlanTriangle, 2> roots() const;
-  // O(1), and O(depth) from a number.
-  static PlanTriangle child(const PlanTriangle& t, unsigned which) {
-    const glm::ivec2 middle = (t.left + t.right) / 2;
-    return which == 0 ? PlanTriangle{middle, t.apex, t.left} : PlanTriangle{middle, t.right, t.apex};
+  static PlanTriangle child(const PlanTriangle& t, unsigned which) {  // O(1)
+    const glm::ivec2 centre = (t.left + t.right) / 2;
+    return which == 0 ? PlanTriangle{centre, t.apex, t.left} : PlanTriangle{centre, t.right, t.apex};
   }
-  PlanTriangle triangle(NodeNumber node) const;
+  PlanTriangle triangle(NodeNumber node) const;  // O(depth)
 
-  // Depth of the triangles (two, or one at the border) that a vertex cuts in half: those whose hypotenuse it
-  // halves. 0 for the corners of the square, which cut nothing. O(1).
+  // A vertex splits the triangles (two, or one at the border) whose hypotenuse it is the centre of. Returns
+  // their depth; 0 for the corners of the square, which split nothing. O(1).
   int split_depth(glm::ivec2 vertex) const;
-  // The one or two vertices that must be there before this one can cut without leaving a hole: the right
-  // angles of the triangles that it cuts. None for the first cut's. O(1).
+  // The vertices (one or two) that must split before this one may, or a hole opens: the right angles of the
+  // triangles that it splits. None for the centre and the corners of the square. O(1).
   struct Parents {
     std::array<glm::ivec2, 2> at;
     int count = 0;
@@ -76,8 +78,8 @@ class BisectionTree {
     if (step == 0 || step * 2 > side()) return parents;
     const bool odd_x = (vertex.x & step) != 0, odd_y = (vertex.y & step) != 0;
     if (odd_x && odd_y) {
-      // The middle of a square of side 2·step: its right angles stand where the coordinates, in such sides,
-      // add up to an odd number.
+      // The centre of a square of side 2·step. The right angles are at the corners whose coordinates, in
+      // units of that side, have an odd sum.
       if (step * 2 == side()) return parents;
       const bool rising = (((vertex.x - step) + (vertex.y - step)) & (2 * step)) != 0;
       const glm::ivec2 towards(step, rising ? step : -step);
@@ -95,10 +97,9 @@ class BisectionTree {
   int side_bits_, depth_;
 };
 
-inline int depth_of(NodeNumber node) { return std::bit_width(node) - 1; }
-// The paper's hierarchical number: a digit a level below the square, "" for the square itself.
+// The paper's hierarchical number: one digit per level below the square, "" for the square itself.
 std::string label(NodeNumber node);
-// Throws nothing: false for anything but 1 to kDeepest digits 0 and 1.
+// False for anything but 1 to kDeepest digits 0 or 1.
 bool parse_label(std::string_view text, NodeNumber& node);
 
 }  // namespace terrabench

@@ -1,5 +1,5 @@
-// Heights of the tree's vertices from height points, each from its own three nearest of all of them
-// (nearest_three.h), so that a vertex has one height however many triangles meet there.
+// Heights of the tree's vertices from height points (MRBSP paper, §2). Each vertex takes its height from the
+// three nearest of all points (nearest_three.h), so all triangles that meet at a vertex agree on its height.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -12,10 +12,10 @@
 
 namespace terrabench {
 
-// The lattice of (side + 1)² heights over the points. The field covers the rectangle that they span.
-// O(points + vertices), in parallel; the same for any number of threads.
-Heightfield interpolate_lattice(std::span<const glm::vec3> points, const BisectionTree&, Progress&);
-// The grid's samples as height points.
+// (side + 1)² heights over the rectangle that the points span. O(points + vertices), in parallel; the result
+// does not depend on the number of threads. Throws usage_error for points in one line.
+Heightfield interpolate_heights(std::span<const glm::vec3> points, const BisectionTree&, Progress&);
+// The field's samples as height points.
 std::vector<glm::vec3> height_points(const Heightfield&);
 
 }  // namespace terrabench

@@ -1,9 +1,10 @@
-// How level of detail keeps holes out of the ground where levels meet (MRBSP paper, §3).
+// How holes are avoided where triangles of different depth meet (MRBSP paper, §3).
 //
-// Printed: a triangle whose right angle alone has a lower threshold than its other two corners is drawn as
-// its two halves. That looks at one triangle and leaves holes where neighbours differ otherwise. Conforming:
-// a cut needs the cuts of the two triangles that made its own (BisectionTree::parents), so these are made
-// too, as few as are needed, whatever the thresholds say.
+// Printed: a triangle is drawn as its two halves if its right angle alone has a lower threshold than the
+// other two corners. The rule looks at one triangle only, so it leaves holes where neighbours differ in
+// another way.
+// Conforming: a vertex splits triangles only together with its parents (BisectionTree::parents()), so these
+// split too, whatever their thresholds. This adds the fewest splits that leave no hole.
 #pragma once
 
 #include <algorithm>
@@ -15,34 +16,45 @@
 
 namespace terrabench {
 
-// The printed rule: may a hole open in the middle of the hypotenuse? By the corners' thresholds.
+// The printed rule: whether a hole may open at the centre of the hypotenuse, given the corners' thresholds.
 inline bool may_open(int apex, int left, int right, int deepest) {
   return std::min(apex, deepest) < std::min({left, right, deepest});
 }
 
-// The conforming rule: where triangles are cut, by the middle of their hypotenuse. A bit a lattice vertex.
-class Cuts {
+// The conforming rule: the vertices at which triangles are split. One bit per vertex.
+class SplitVertices {
  public:
-  explicit Cuts(const BisectionTree& tree);
+  explicit SplitVertices(const BisectionTree& tree) : tree_(tree) {
+    const std::size_t along = static_cast<std::size_t>(tree.side()) + 1;
+    bits_.resize((along * along + 63) / 64);
+  }
 
-  bool has(glm::ivec2 foot) const {
-    const std::size_t bit = bit_of(foot);
+  bool has(glm::ivec2 vertex) const {
+    const std::size_t bit = bit_of(vertex);
     return ((bits_[bit / 64] >> (bit % 64)) & 1) != 0;
   }
-  // With all that it needs. As deep as the tree at most: a cut's parents lie one level above it.
-  void add(glm::ivec2 foot) {
-    const std::size_t bit = bit_of(foot);
+  // Adds the vertex and its ancestors. The recursion is at most as deep as the tree: parents lie one level
+  // above.
+  void add(glm::ivec2 vertex) {
+    const std::size_t bit = bit_of(vertex);
     std::uint64_t& word = bits_[bit / 64];
     const std::uint64_t mask = std::uint64_t{1} << (bit % 64);
     if ((word & mask) != 0) return;
     if (word == 0) marked_.push_back(static_cast<std::uint32_t>(bit / 64));
     word |= mask;
-    const BisectionTree::Parents parents = tree_.parents(foot);
+    const BisectionTree::Parents parents = tree_.parents(vertex);
     for (int k = 0; k < parents.count; ++k) add(parents.at[k]);
   }
-  // O(cuts).
-  void clear();
-  Memory memory() const;
+  // O(vertices added).
+  void clear() {
+    for (const std::uint32_t word : marked_) bits_[word] = 0;
+    marked_.clear();
+  }
+  Memory memory() const {
+    Memory memory = index_memory(bits_);
+    memory += index_memory(marked_);
+    return memory;
+  }
 
  private:
   std::size_t bit_of(glm::ivec2 at) const {
@@ -52,7 +64,7 @@ class Cuts {
 
   BisectionTree tree_;
   std::vector<std::uint64_t> bits_;
-  std::vector<std::uint32_t> marked_;  // words of bits_ that are not zero
+  std::vector<std::uint32_t> marked_;  // non-zero words of bits_
 };
 
 }  // namespace terrabench

@@ -8,15 +8,18 @@
 
 #include "lod/mrbsp/height_points.h"
 #include "lod/mrbsp/surface_height.h"
-#include "lod/mrbsp/visibility_file.h"
+#include "lod/mrbsp/visibility/codec.h"
 #include "terrain/error.h"
 
 namespace terrabench {
+
+using mrbsp::visibility::ChangeTable, mrbsp::visibility::ground_checksum, mrbsp::visibility::kModeNames;
+
 namespace {
 
 constexpr std::string_view kThresholds[] = {"printed", "area"}, kHoles[] = {"conforming", "printed"},
                            kHeights[] = {"samples", "nearest"},
-                           kVisibility[] = {"off", "sampled", "conservative"};
+                           kVisibility[] = {"off", kModeNames[0], kModeNames[1]};
 
 MrbspOptions options_of(const Parameters& parameters) {
   MrbspOptions options;
@@ -27,15 +30,16 @@ MrbspOptions options_of(const Parameters& parameters) {
   options.cull = parameters.flag("cull");
   const std::size_t visibility = parameters.choice("visibility");
   options.visibility = visibility > 0;
-  options.visible.conservative = visibility == 2;
+  if (options.visibility) options.visible.mode = static_cast<mrbsp::visibility::Mode>(visibility - 1);
   options.visible.cells = static_cast<int>(parameters.integer("cells"));
   options.visible.coarseness = static_cast<int>(parameters.integer("coarseness"));
   options.visible.eye_height = static_cast<float>(parameters.number("eye_height"));
   return options;
 }
 
-// A lattice of its own for interpolated heights, no finer than its depth needs.
-BisectionTree lattice_tree(const Heightfield& ground, int depth) {
+// The tree for interpolated heights: its vertices need not be samples, so its square is as small as the depth
+// allows.
+BisectionTree tree_for_interpolation(const Heightfield& ground, int depth) {
   return depth == 0 ? BisectionTree::over(ground.width, ground.depth) : BisectionTree(depth / 2, depth);
 }
 
@@ -46,30 +50,28 @@ std::unique_ptr<Lod> Mrbsp::build(const Heightfield& ground, const Parameters& p
   const MrbspOptions options = options_of(parameters);
   const std::string& file = parameters.text("visibility_file");
   if (!file.empty() && !options.visibility) {
-    throw usage_error("there is no visibility to keep in a file", "visibility_file",
-                      "set visibility to sampled or conservative too");
+    throw usage_error("a file needs visibility=sampled or visibility=conservative", "visibility_file",
+                      "set visibility, or leave the file out");
   }
   return std::make_unique<Mrbsp>(ground, options, progress, file);
 }
 
 std::span<const ParameterSpec> Mrbsp::parameters() {
   static const ParameterSpec kParameters[] = {
-      {"depth", std::int64_t{0}, "levels", "bisections down to the finest triangles; 0: down to every sample",
-       0, BisectionTree::kDeepest},
-      choice("threshold", kThresholds, "depth by distance: printed M - log2(D/S), area M - 2 log2(D/S)"),
-      choice("holes", kHoles, "printed: the paper's one-vertex rule; conforming: none left"),
-      choice("heights", kHeights,
-             "of vertices: samples of the ground, or interpolated from the nearest three"),
-      {"cull", true, "", "leave out what lies outside the view"},
-      choice("visibility", kVisibility, "leave out what the ground hides"),
-      {"cells", std::int64_t{16}, "cells", "of visibility, at most, along the longer side", 1, 1024},
-      {"coarseness", std::int64_t{6}, "levels", "from the finest triangles up to those of visibility", 0,
+      {"depth", std::int64_t{0}, "levels", "depth of the finest triangles; 0: down to every sample", 0,
        BisectionTree::kDeepest},
-      {"eye_height", 1.8, "m", "above the ground, for visibility", 0, 1e6},
+      choice("threshold", kThresholds, "LOD threshold: printed M - log2(D/S), area M - 2 log2(D/S)"),
+      choice("holes", kHoles, "printed: the paper's one-vertex rule; conforming: no holes"),
+      choice("heights", kHeights, "samples, or interpolated from the three nearest samples"),
+      {"cull", true, "", "skip triangles outside the view frustum"},
+      choice("visibility", kVisibility, "skip triangles that the ground hides"),
+      {"cells", std::int64_t{16}, "cells", "upper limit of visibility cells along the longer side", 1, 1024},
+      {"coarseness", std::int64_t{6}, "levels",
+       "from the finest triangles up to the coarse ones of visibility", 0, BisectionTree::kDeepest},
+      {"eye_height", 1.8, "m", "eye height above the ground, for visibility", 0, 1e6},
       {"visibility_file", std::string(), "",
-       "keeps the visibility of one ground: read where it exists, which must be for the same ground, depth "
-       "and "
-       "options, else computed and written; text where it ends in .txt; empty: none"},
+       "file of visibility changes: loaded if it exists (it must fit the ground, depth and options), else "
+       "computed and saved; text if the name ends in .txt; empty: no file"},
   };
   return kParameters;
 }
@@ -78,18 +80,18 @@ Mrbsp::Mrbsp(const Heightfield& ground, const MrbspOptions& options, Progress& p
              const std::filesystem::path& visibility_file)
     : Mrbsp(ground, options, {}, progress) {
   if (!options_.visibility) return;
-  take_visibility(visibility_file.empty()
-                      ? changes_of(find_visible(grid_, tree_, options_.visible, progress))
-                      : kept_visibility(visibility_file, grid_, tree_, options_.visible, progress));
+  use_visibility(visibility_file.empty()
+                     ? changes_of(find_sets(grid_, tree_, options_.visible, progress))
+                     : load_or_find(visibility_file, grid_, tree_, options_.visible, progress));
 }
 
-Mrbsp::Mrbsp(const Heightfield& ground, const MrbspOptions& options, VisibilityTable visibility,
+Mrbsp::Mrbsp(const Heightfield& ground, const MrbspOptions& options, ChangeTable visibility,
              Progress& progress)
     : options_(options), tree_(BisectionTree::over(2, 2)) {
   check_ground(ground);
   if (options.three_nearest) {
-    tree_ = lattice_tree(ground, options.depth);
-    interpolated_ = interpolate_lattice(height_points(ground), tree_, progress);
+    tree_ = tree_for_interpolation(ground, options.depth);
+    interpolated_ = interpolate_heights(height_points(ground), tree_, progress);
     grid_ = grid_of(interpolated_);
   } else {
     tree_ = BisectionTree::over(ground.width, ground.depth, options.depth);
@@ -98,22 +100,22 @@ Mrbsp::Mrbsp(const Heightfield& ground, const MrbspOptions& options, VisibilityT
   const double area = static_cast<double>(grid_.cell_x) * grid_.cell_z * tree_.side() * tree_.side();
   short_side_ = static_cast<float>(std::sqrt(2 * area / static_cast<double>(tree_.triangles())));
   bounds_ = TriangleBounds(grid_, tree_, progress);
-  if (options_.conforming) cuts_.emplace(tree_);
-  if (visibility.depth > 0) take_visibility(std::move(visibility));
+  if (options_.conforming) splits_.emplace(tree_);
+  if (visibility.depth > 0) use_visibility(std::move(visibility));
 }
 
-void Mrbsp::take_visibility(VisibilityTable visibility) {
-  const CellGrid& cells = visibility.cells;
-  const bool fits =
-      visibility.depth <= tree_.depth() && visibility.surface == surface_checksum(grid_, tree_) &&
-      (grid_.width - 2) / cells.side + 1 == cells.columns && (grid_.depth - 2) / cells.side + 1 == cells.rows;
+void Mrbsp::use_visibility(ChangeTable visibility) {
+  const mrbsp::visibility::CellGrid& cells = visibility.cells;
+  const bool fits = visibility.depth <= tree_.depth() && visibility.ground == ground_checksum(grid_, tree_) &&
+                    (grid_.width - 2) / cells.side + 1 == cells.columns &&
+                    (grid_.depth - 2) / cells.side + 1 == cells.rows;
   if (!fits) {
-    throw usage_error("the visibility was computed for other ground", "visibility",
+    throw usage_error("the change table is for other ground or another depth", "visibility",
                       "compute it for this field and depth");
   }
   options_.visibility = true;
   visibility_ = std::move(visibility);
-  flags_ = VisibleFlags(visibility_);
+  flags_ = mrbsp::visibility::Flags(visibility_);
 }
 
 int Mrbsp::threshold(const glm::vec3& eye, const glm::vec3& vertex) const {
@@ -124,11 +126,11 @@ bool Mrbsp::on_the_ground(const glm::vec3& eye) const {
   const float u = eye.x / grid_.cell_x, v = eye.z / grid_.cell_z;
   const auto width = static_cast<float>(grid_.width - 1), depth = static_cast<float>(grid_.depth - 1);
   if (!(u >= 0 && v >= 0 && u <= width && v <= depth)) return false;
-  // Within the slack that the conservative sets are computed with.
+  // Less than the slack of the conservative sets.
   constexpr float kSlack = 0.005F;
   const float samples = sample_height(grid_, u, v);
   const float surface = surface_height(tree_, grid_, eye.x, eye.z);
-  // From beneath, the ground hides nothing: a line of sight that runs under it all the way is free.
+  // The ground does not block lines of sight that stay below it, so an eye below it sees hidden triangles.
   return eye.y >= surface && eye.y <= std::max(samples, surface) + visibility_.eye_height + kSlack;
 }
 
@@ -137,15 +139,13 @@ const Frame& Mrbsp::update(const View& view) {
   std::size_t toggled = 0;
   const bool hide = options_.visibility && on_the_ground(view.eye);
   if (hide) {
-    const CellGrid& cells = visibility_.cells;
-    const glm::ivec2 at(static_cast<int>(view.eye.x / grid_.cell_x) / cells.side,
-                        static_cast<int>(view.eye.z / grid_.cell_z) / cells.side);
-    toggled = flags_.move_to(visibility_, glm::min(at, glm::ivec2(cells.columns - 1, cells.rows - 1)));
+    const glm::vec2 at(view.eye.x / grid_.cell_x, view.eye.z / grid_.cell_z);
+    toggled = flags_.move_to(visibility_, visibility_.cells.cell_at(at.x, at.y));
   }
   const Frustum frustum(view);
   next_.clear();
   const WalkEye eye{view.eye, options_.cull ? &frustum : nullptr, hide ? &flags_ : nullptr};
-  walk_tree({grid_, tree_, bounds_}, rule(), eye, {cuts_ ? &*cuts_ : nullptr, whole_}, next_);
+  walk_tree({grid_, tree_, bounds_}, rule(), eye, {splits_ ? &*splits_ : nullptr, pending_}, next_);
   publish(toggled);
   return frame_;
 }
@@ -167,7 +167,6 @@ void Mrbsp::publish(std::size_t toggled) {
   batches_.clear();
   if (count_of > 0) batches_.push_back({.first_index = 0, .index_count = count_of});
   frame_ = {.grid = grid_,
-            .levels = {},
             .cell_x = grid_.cell_x,
             .cell_z = grid_.cell_z,
             .indices = indices_,
@@ -179,7 +178,7 @@ void Mrbsp::publish(std::size_t toggled) {
 Memory Mrbsp::memory() const {
   Memory memory = payload_memory(interpolated_.heights);
   memory.index += heap_bytes(this);
-  for (const Memory& part : {bounds_.memory(), cuts_ ? cuts_->memory() : Memory{}, index_memory(whole_),
+  for (const Memory& part : {bounds_.memory(), splits_ ? splits_->memory() : Memory{}, index_memory(pending_),
                              payload_memory(visibility_.start), index_memory(visibility_.first),
                              payload_memory(visibility_.changes), flags_.memory(), payload_memory(indices_),
                              payload_memory(next_), index_memory(batches_), index_memory(uploads_)}) {

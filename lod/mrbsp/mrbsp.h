@@ -1,10 +1,13 @@
-// Level of detail by a bisection tree (MRBSP paper, §3 and §4): the tree is walked from its square, a
-// triangle is drawn at the depth that the distance D of its furthest corner asks for, and what cannot be seen
-// from the ground around is left out. Nothing but heights, bounds of the upper triangles and a bit a vertex
-// is held.
+// Level of detail by a bisection tree (MRBSP paper, §3 and §4). The tree is traversed from its square; a
+// triangle is drawn at the depth given by the distance D of its furthest corner, and triangles that the
+// ground hides from the observer's cell are skipped. Memory: heights, bounds of the upper triangles and one
+// bit per vertex.
 //
-// lod_rule.h says at which depth a triangle is drawn, hole_rule.h how neighbours of different depths meet,
-// visible_flags.h what the ground hides, tree_walk.h puts them together. update() is O(triangles drawn).
+// bisection_tree.h   §2  the tree, without stored nodes; heights from height points: height_points.h
+// lod_rule.h         §3  the depth at which a triangle is drawn
+// hole_rule.h        §3  how triangles of different depth meet
+// visibility/sets.h  §4  which triangles the ground hides
+// tree_walk.h            the traversal that applies them; update() is O(triangles drawn)
 #pragma once
 
 #include <filesystem>
@@ -15,18 +18,17 @@
 #include "lod/lod.h"
 #include "lod/mrbsp/bisection_tree.h"
 #include "lod/mrbsp/tree_walk.h"
-#include "lod/mrbsp/visibility.h"
 
 namespace terrabench {
 
 struct MrbspOptions {
-  int depth = 0;                 // M; 0: as deep as the samples go
-  bool area_consistent = false;  // threshold M - 2·log2(D/S)
-  bool conforming = true;        // no holes at all
-  bool cull = true;              // leave out what the view does not see
+  int depth = 0;                 // M; 0: down to every sample
+  bool area_consistent = false;  // threshold M - 2·log2(D/S); false: the printed one
+  bool conforming = true;        // no holes; false: the printed rule
+  bool cull = true;              // skip triangles outside the view frustum
   bool three_nearest = false;    // heights by the paper's interpolation; false: the samples themselves
-  bool visibility = false;       // leave out what the ground hides
-  VisibilityOptions visible{};   // how it is found
+  bool visibility = false;       // skip triangles that the ground hides
+  mrbsp::visibility::Options visible{};  // how the visible sets are computed
 };
 
 class Mrbsp : public Lod {
@@ -36,42 +38,40 @@ class Mrbsp : public Lod {
   static std::span<const ParameterSpec> parameters();
   static Knob knob() { return {"size", "short sides", 65536, 1.0 / 64, 1, false}; }
 
-  // A file, when one is named, keeps the visibility: see kept_visibility().
+  // With options.visibility: `visibility_file` stores the change table, see load_or_find(); empty: no file.
   Mrbsp(const Heightfield&, const MrbspOptions&, Progress&,
         const std::filesystem::path& visibility_file = {});
-  // With a visibility that was computed before, for the same heights and depth: throws usage_error for one of
-  // other ground.
-  Mrbsp(const Heightfield&, const MrbspOptions&, VisibilityTable, Progress&);
+  // Uses a change table computed before. Throws usage_error if it is for other ground or another depth.
+  Mrbsp(const Heightfield&, const MrbspOptions&, mrbsp::visibility::ChangeTable, Progress&);
   const Frame& update(const View&) override;
   void tune(double size) override { size_ = setting(knob(), size); }
   Memory memory() const override;
 
   const BisectionTree& tree() const { return tree_; }
   float short_side() const { return short_side_; }  // S, metres
-  // The whole depth that a vertex asks for, 1 … M, as the paper's figure 1 marks it.
+  // The vertex's LOD threshold as in the paper's figure 1, clamped to 1 … M.
   int threshold(const glm::vec3& eye, const glm::vec3& vertex) const;
-  const VisibilityTable& visibility() const { return visibility_; }
-  // Does the set of visible triangles hold for this eye? Not for one outside, nor under the finest triangles,
-  // nor above the height that it was computed for, over the samples or these triangles: then everything is
-  // drawn.
+  const mrbsp::visibility::ChangeTable& visibility() const { return visibility_; }
+  // Whether the visible sets hold for this eye: inside the field, not below the finest triangles, and at most
+  // the eye height above the samples or these triangles. For other eyes, update() skips no hidden triangles.
   bool on_the_ground(const glm::vec3& eye) const;
 
  private:
   LodRule rule() const { return {tree_.depth(), size_ * short_side_, options_.area_consistent}; }
-  void take_visibility(VisibilityTable);
+  void use_visibility(mrbsp::visibility::ChangeTable);
   void publish(std::size_t toggled);
 
   MrbspOptions options_;
-  Heightfield interpolated_;  // empty when the samples are taken as they are
+  Heightfield interpolated_;  // empty if the heights are the samples
   GroundGrid grid_;
   BisectionTree tree_;
   float short_side_ = 1;
   double size_ = 1;
   TriangleBounds bounds_;
-  std::optional<Cuts> cuts_;  // conforming only
-  std::vector<WholeTriangle> whole_;
-  VisibilityTable visibility_;
-  VisibleFlags flags_;
+  std::optional<SplitVertices> splits_;  // conforming only
+  std::vector<PendingTriangle> pending_;
+  mrbsp::visibility::ChangeTable visibility_;
+  mrbsp::visibility::Flags flags_;
   std::vector<std::uint32_t> indices_, next_;
   std::vector<Batch> batches_;
   std::vector<DirtyRange> uploads_;

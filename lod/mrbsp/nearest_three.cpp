@@ -1,5 +1,7 @@
 #include "lod/mrbsp/nearest_three.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -11,7 +13,7 @@
 namespace terrabench {
 namespace {
 
-// The point of segment ab nearest to `at`: its height, and how far off it is.
+// The point of segment ab nearest to `at` in plan: its height and squared distance.
 struct Nearest {
   float height, distance;
 };
@@ -48,8 +50,9 @@ float ThreePoints::height(glm::vec2 at) const {
 
 PlanExtent plan_extent(std::span<const glm::vec3> points) {
   if (points.empty() || points.size() > std::size_t{1} << 31) {
-    throw usage_error("heights cannot be interpolated from so few or so many points", "",
-                      "give at least one and at most 2^31");
+    throw usage_error(
+        fmt::format("the number of height points must be from 1 to 2^31, got {}", points.size()), "",
+        "give more points, or fewer");
   }
   constexpr float kFar = std::numeric_limits<float>::infinity();
   PlanExtent extent{glm::vec2(kFar), glm::vec2(-kFar)};
@@ -64,11 +67,11 @@ NearestThree::NearestThree(std::span<const glm::vec3> points) {
   const PlanExtent extent = plan_extent(points);
   low_ = extent.low;
   const glm::vec2 size = extent.high - extent.low;
-  // Points in one line or place make the buckets of a line or one bucket.
-  constexpr float kPointsABucket = 2, kMostAlong = 1 << 14;
+  // For points in one line or at one position, the buckets form a line or there is only one.
+  constexpr float kPointsPerBucket = 2, kMostAlong = 1 << 14;
   const float count = static_cast<float>(points.size());
   const float longest = std::max(size.x, size.y);
-  side_ = std::max(std::sqrt(size.x * size.y * kPointsABucket / count), longest * kPointsABucket / count);
+  side_ = std::max(std::sqrt(size.x * size.y * kPointsPerBucket / count), longest * kPointsPerBucket / count);
   side_ = std::max(side_, longest / kMostAlong);
   if (!(side_ > 0)) side_ = 1;
   columns_ = static_cast<int>(size.x / side_) + 1;
@@ -114,15 +117,15 @@ float NearestThree::height(float x, float z) const {
   search(bx - 1, bx + 1, bz - 1);
   search(bx - 1, bx + 1, bz);
   search(bx - 1, bx + 1, bz + 1);
-  // What is beyond ring r of buckets is at least this far, for a place inside the ring's middle bucket; a
-  // place outside all buckets is farther still from all of them.
+  // Points beyond ring r of buckets are at least r·side + margin away. A position outside all buckets is
+  // farther still from them.
   const glm::vec2 in_bucket((x - low_.x) - static_cast<float>(bx) * side_,
                             (z - low_.y) - static_cast<float>(bz) * side_);
   const float margin =
       std::max(0.0F, std::min({in_bucket.x, in_bucket.y, side_ - in_bucket.x, side_ - in_bucket.y}));
   const int last = std::max(columns_, rows_);
   for (int r = 1; r < last; ++r) {
-    // A hair less, so that rounding cannot hide a point that is as near as the third.
+    // Slightly less, so that rounding cannot skip a point as near as the third.
     const float reach = (static_cast<float>(r) * side_ + margin) * 0.9999F;
     if (near.count == 3 && near.distance[2] < reach * reach) break;
     const int ring = r + 1;

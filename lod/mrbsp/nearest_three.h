@@ -1,10 +1,11 @@
-// Heights from scattered points (MRBSP paper, §2): of the three that lie nearest to a corner in plan,
-// interpolated.
+// The height at a position from scattered points (MRBSP paper, §2): interpolated between the three points
+// that are nearest in plan.
 //
-// The paper leaves open what happens when the corner lies outside the three, or the three in one line, as
-// they often do on a grid. Here the height is that of the triangle's point nearest to the corner in plan, so
-// three in a line need no case of their own, and no height leaves the range of its three points. Equally near
-// points are taken in the order given. A corner on a point has that point's height exactly.
+// The paper does not say what happens if the position lies outside the triangle of the three points, or if
+// they lie in one line, as they often do on a grid. Here the height is taken at the place of the triangle
+// nearest to the position in plan. So three points in a line need no special case, and no height leaves the
+// range of its three points. Equally near points are taken in the order given. At a point the height is
+// exactly that of the point.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@
 
 namespace terrabench {
 
-// The three nearest so far, nearest first: of equally near points the first given wins.
+// The three nearest points offered so far, nearest first; of equally near points the lower number first.
 struct ThreePoints {
   std::array<float, 3> distance{};  // squared
   std::array<std::uint32_t, 3> order{};
@@ -39,35 +40,35 @@ struct ThreePoints {
     return d < distance[at] || (d == distance[at] && which < order[at]);
   }
 
-  // The points interpolated at a place in plan; there must be one at least.
+  // The height interpolated at a position in plan. At least one point must have been offered.
   float height(glm::vec2 at) const;
 };
 
-// Three points a query in about constant time: points sorted into square buckets of about two.
+// Finds the three nearest points in about constant time per query: points lie in square buckets of about two.
 class NearestThree {
  public:
-  // What it holds while it is made: a copy of the point, its number, and half a bucket's two ends.
-  static constexpr std::size_t kBytesAPoint = sizeof(glm::vec3) + 2 * sizeof(std::uint32_t);
+  // Peak during construction: a copy of the point, its number, and its half of a bucket's begin and end.
+  static constexpr std::size_t kBytesPerPoint = sizeof(glm::vec3) + 2 * sizeof(std::uint32_t);
 
-  // Positions in metres, y up; all finite. Throws usage_error for none, or more than 2^31.
+  // Positions in metres, y up, finite. Throws usage_error for no points or more than 2^31.
   explicit NearestThree(std::span<const glm::vec3> points);
 
-  // Fewer than three points give what they can: a segment, or one height for all.
+  // With two points, interpolates along their segment; with one, returns its height everywhere.
   float height(float x, float z) const;
 
  private:
   int bucket_x(float x) const;
   int bucket_z(float z) const;
 
-  std::vector<glm::vec3> points_;     // in the order of the buckets
-  std::vector<std::uint32_t> order_;  // which point it was: ties go to the first
-  std::vector<std::uint32_t> first_;  // of each bucket, and the end
+  std::vector<glm::vec3> points_;     // sorted by bucket
+  std::vector<std::uint32_t> order_;  // number of each point as given, for ties
+  std::vector<std::uint32_t> first_;  // first point of each bucket, and the end
   glm::vec2 low_{0};
   float side_ = 1;
   int columns_ = 1, rows_ = 1;
 };
 
-// The rectangle in plan that points span. Throws usage_error for none, or more than 2^31.
+// The bounding rectangle of points in plan. plan_extent() throws usage_error for no points or more than 2^31.
 struct PlanExtent {
   glm::vec2 low, high;
 };

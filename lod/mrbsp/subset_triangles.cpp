@@ -10,11 +10,11 @@
 namespace terrabench {
 namespace {
 
-// The printed recursion. The subsets of the triangles on the way down lie behind each other in one array.
+// The printed recursion. The subsets of a triangle and its ancestors lie one after another in stack_.
 class SubsetBuilder {
  public:
-  SubsetBuilder(std::span<const glm::vec3> points, const BisectionTree& tree, bool cuts_shared)
-      : points_(points), tree_(tree), cuts_shared_(cuts_shared), extent_(plan_extent(points)) {
+  SubsetBuilder(std::span<const glm::vec3> points, const BisectionTree& tree, bool shared)
+      : points_(points), tree_(tree), shared_(shared), extent_(plan_extent(points)) {
     step_ = (extent_.high - extent_.low) / static_cast<float>(tree.side());
   }
 
@@ -25,8 +25,8 @@ class SubsetBuilder {
     const auto roots = tree_.roots();
     for (int which = 0; which < 2; ++which) {
       const PlanTriangle& t = roots[which];
-      // The square lies at sea level: what a half without points falls back to.
-      hand_down({0, points_.size()}, {t.left, t.right, t.apex}, which == 0, [&](Subset half) {
+      // The square lies at sea level, so a half without points does too.
+      with_half({0, points_.size()}, {t.left, t.right, t.apex}, which == 0, [&](Subset half) {
         descend(t, 1, half, {0, 0, 0});
       });
     }
@@ -38,25 +38,26 @@ class SubsetBuilder {
   struct Subset {
     std::size_t begin, end;
   };
-  struct Cut {
+  // The vertical partitioning plane through two vertices, and a vertex on the side of the wanted half.
+  struct Divider {
     glm::ivec2 from, to, on_side;
   };
 
   glm::vec2 place(glm::ivec2 at) const { return extent_.low + glm::vec2(at) * step_; }
 
-  // Calls `body` with the part of a subset on one side of a cut.
+  // Calls `body` with the part of a subset on one side of a divider.
   template <class Body>
-  void hand_down(Subset subset, const Cut& cut, bool takes_cut, const Body& body) {
-    const glm::vec2 from = place(cut.from), along = place(cut.to) - from;
-    const float this_side = plan_cross(along, place(cut.on_side) - from) > 0 ? 1.0F : -1.0F;
-    // Within a thousandth of a lattice step a point is on the cut: positions in metres are rounded.
-    const float on_cut = 1e-3F * glm::length(along) * std::min(step_.x, step_.y);
+  void with_half(Subset subset, const Divider& divider, bool takes_divider, const Body& body) {
+    const glm::vec2 from = place(divider.from), along = place(divider.to) - from;
+    const float this_side = plan_cross(along, place(divider.on_side) - from) > 0 ? 1.0F : -1.0F;
+    // Points within a thousandth of a grid step count as on the divider: positions in metres are rounded.
+    const float on_divider = 1e-3F * glm::length(along) * std::min(step_.x, step_.y);
     const std::size_t begin = stack_.size();
     for (std::size_t k = subset.begin; k < subset.end; ++k) {
       const std::uint32_t i = stack_[k];
       const float side = plan_cross(along, in_plan(points_[i]) - from) * this_side;
-      const bool on = std::abs(side) <= on_cut;
-      if (on ? takes_cut || cuts_shared_ : side > 0) stack_.push_back(i);
+      const bool on = std::abs(side) <= on_divider;
+      if (on ? takes_divider || shared_ : side > 0) stack_.push_back(i);
     }
     body({begin, stack_.size()});
     stack_.resize(begin);
@@ -90,19 +91,19 @@ class SubsetBuilder {
       }
       return;
     }
-    const glm::ivec2 foot = (t.left + t.right) / 2;
+    const glm::ivec2 centre = (t.left + t.right) / 2;
     const float middle = 0.5F * (heights[1] + heights[2]);
-    hand_down(subset, {t.apex, foot, t.left}, true, [&](Subset half) {
+    with_half(subset, {t.apex, centre, t.left}, true, [&](Subset half) {
       descend(BisectionTree::child(t, 0), depth + 1, half, {middle, heights[0], heights[1]});
     });
-    hand_down(subset, {t.apex, foot, t.right}, false, [&](Subset half) {
+    with_half(subset, {t.apex, centre, t.right}, false, [&](Subset half) {
       descend(BisectionTree::child(t, 1), depth + 1, half, {middle, heights[2], heights[0]});
     });
   }
 
   std::span<const glm::vec3> points_;
   const BisectionTree& tree_;
-  bool cuts_shared_;
+  bool shared_;
   PlanExtent extent_;
   glm::vec2 step_{1};
   std::vector<std::uint32_t> stack_;
@@ -112,8 +113,8 @@ class SubsetBuilder {
 }  // namespace
 
 SubsetTriangles interpolate_subsets(std::span<const glm::vec3> points, const BisectionTree& tree,
-                                    bool cuts_shared) {
-  return SubsetBuilder(points, tree, cuts_shared).build();
+                                    bool shared) {
+  return SubsetBuilder(points, tree, shared).build();
 }
 
 VertexGaps vertex_gaps(const SubsetTriangles& triangles) {

@@ -1,6 +1,7 @@
-// The tree's heights by the recursion as printed (MRBSP paper, §2): each half of a triangle is handed the
-// points on its side of the cut, and its corners take the three nearest of those (nearest_three.h). A vertex
-// then has as many heights as triangles meet there; height_points.h does not tear it. O(points × levels).
+// Heights by the recursion as printed (MRBSP paper, §2): each half of a triangle gets the points on its side
+// of the divider, and each of its corners takes its height from the three nearest of these (nearest_three.h).
+// Triangles that meet at a vertex then disagree on its height; with height_points.h they agree.
+// O(points × levels).
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -11,19 +12,19 @@
 
 namespace terrabench {
 
-// What the paper does not say: a point on the cut goes to the side of the left corner, or to both
-// (`cuts_shared`); a triangle with fewer than three points uses those, and one with none its parent's plane.
+// The paper does not say what happens to a point on the divider or to a triangle with few points. Here a
+// point on the divider belongs to the half with the left corner, or to both halves if `shared` is set. A
+// triangle with one or two points uses these; a triangle without points lies in its parent's plane.
 struct SubsetTriangles {
-  std::vector<glm::vec3> corners;  // three a triangle of the greatest depth, counter-clockwise from above
-  std::size_t starved = 0;         // triangles that were handed fewer than three points
+  std::vector<glm::vec3> corners;  // three per triangle of the greatest depth, counter-clockwise from above
+  std::size_t starved = 0;         // triangles of the greatest depth with fewer than three points
 };
-SubsetTriangles interpolate_subsets(std::span<const glm::vec3> points, const BisectionTree&,
-                                    bool cuts_shared);
+SubsetTriangles interpolate_subsets(std::span<const glm::vec3> points, const BisectionTree&, bool shared);
 
-// How far apart the heights of one place lie in such triangles.
+// How far the heights of each vertex differ between its triangles.
 struct VertexGaps {
   std::size_t vertices = 0, torn = 0;  // torn: with more than one height
-  double mean = 0, largest = 0;        // metres between the lowest and highest, mean over all vertices
+  double mean = 0, largest = 0;        // metres from the lowest to the highest; mean over all vertices
 };
 VertexGaps vertex_gaps(const SubsetTriangles&);
 

@@ -1,4 +1,4 @@
-// How high the ground lies under a place: what eyes are put on.
+// Ground height at a position, for eyes that stand on the ground.
 #pragma once
 
 #include "lod/mrbsp/bisection_tree.h"
@@ -6,12 +6,12 @@
 
 namespace terrabench {
 
-// Between the four samples around a place, bilinear: x and z in samples, inside the field. O(1).
+// Bilinear interpolation of the four samples around (x, z), which are in samples and inside the field. O(1).
 float sample_height(const GroundGrid&, float x, float z);
 
-// Height of the finest triangles at a place in metres, drawn in to the field. They leave samples out at even
-// depths, so that a walker put on the samples alone may stand under them. In triangles that reach over the
-// field's far borders: of the highest corner. O(depth).
+// Height of the tree's finest triangles at (x, z) in metres, clamped to the field. The triangles do not use
+// all samples at even depths, so an eye placed by the samples alone may be below them. In a triangle that
+// extends beyond the field, the height of its highest corner. O(depth).
 float surface_height(const BisectionTree&, const GroundGrid&, float x, float z);
 
 }  // namespace terrabench

@@ -6,7 +6,7 @@
 namespace terrabench {
 namespace {
 
-// Functions stand in the class, which makes them inline: out of it a walk takes a third longer.
+// All functions are defined in the class, so they are inlined; otherwise a walk takes a third longer.
 class TreeWalk {
  public:
   TreeWalk(const WalkGround& ground, const LodRule& rule, const WalkEye& eye, const WalkScratch& scratch,
@@ -18,8 +18,8 @@ class TreeWalk {
         eye_(eye.at),
         frustum_(eye.frustum),
         flags_(eye.flags),
-        cuts_(scratch.cuts),
-        whole_(scratch.whole),
+        splits_(scratch.splits),
+        pending_(scratch.pending),
         out_(out),
         hidden_depth_(eye.flags != nullptr ? eye.flags->depth() : 0),
         depth_(ground.tree.depth()),
@@ -32,37 +32,38 @@ class TreeWalk {
       const PlanTriangle& t = roots[which];
       descend(corner(t.apex), corner(t.left), corner(t.right), 1, 2 + which, planes);
     }
-    if (cuts_ == nullptr) return;
-    // The cuts are known now: what distance left whole is drawn as they say.
-    for (const WholeTriangle& w : whole_) {
-      settle({unpacked(w.apex), unpacked(w.left), unpacked(w.right)}, depth_of(w.node), w.node, w.planes);
+    if (splits_ == nullptr) return;
+    // All split vertices are known now.
+    for (const PendingTriangle& w : pending_) {
+      draw_pending({unpacked(w.apex), unpacked(w.left), unpacked(w.right)}, depth_of(w.node), w.node,
+                   w.planes);
     }
-    whole_.clear();
-    cuts_->clear();
+    pending_.clear();
+    splits_->clear();
   }
 
  private:
   struct Corner {
-    glm::ivec2 at;  // in the lattice, perhaps beyond the field
+    glm::ivec2 at;  // may lie beyond the field
     int threshold;
   };
 
   std::uint32_t vertex(glm::ivec2 at) const {
-    const glm::ivec2 drawn_in = glm::min(at, last_);
-    return static_cast<std::uint32_t>(drawn_in.y) * static_cast<std::uint32_t>(grid_.width) +
-           static_cast<std::uint32_t>(drawn_in.x);
+    const glm::ivec2 clamped = glm::min(at, last_);
+    return static_cast<std::uint32_t>(clamped.y) * static_cast<std::uint32_t>(grid_.width) +
+           static_cast<std::uint32_t>(clamped.x);
   }
   Corner corner(glm::ivec2 at) const {
-    const glm::ivec2 drawn_in = glm::min(at, last_);
-    const glm::vec3 position(static_cast<float>(drawn_in.x) * grid_.cell_x, grid_.heights[vertex(at)],
-                             static_cast<float>(drawn_in.y) * grid_.cell_z);
+    const glm::ivec2 clamped = glm::min(at, last_);
+    const glm::vec3 position(static_cast<float>(clamped.x) * grid_.cell_x, grid_.heights[vertex(at)],
+                             static_cast<float>(clamped.y) * grid_.cell_z);
     return {at, rule_.threshold(eye_, position)};
   }
 
-  // Is there anything to draw in the triangle? Takes the planes of the view out that it lies inside of.
+  // Whether anything in the triangle may be drawn. Removes the planes that the triangle lies inside of.
   bool is_seen(const PlanTriangle& t, int depth, std::uint32_t node, unsigned& planes) const {
     const glm::ivec2 low = glm::min(glm::min(t.apex, t.left), t.right);
-    if (low.x >= last_.x || low.y >= last_.y) return false;  // flat: beyond the border, drawn in to a line
+    if (low.x >= last_.x || low.y >= last_.y) return false;  // beyond the field: no plan area
     if (depth <= hidden_depth_ && !(*flags_)[node]) return false;
     if (planes == 0 || depth > bounds_.depth()) return true;
     const TriangleBounds::Range& range = bounds_[node];
@@ -79,12 +80,12 @@ class TreeWalk {
     const PlanTriangle t{apex.at, left.at, right.at};
     if (!is_seen(t, depth, node, planes)) return;
     if (depth < std::min({depth_, apex.threshold, left.threshold, right.threshold})) {
-      const Corner foot = corner((left.at + right.at) / 2);
-      if (cuts_ != nullptr) cuts_->add(foot.at);
-      descend(foot, apex, left, depth + 1, 2 * node, planes);
-      descend(foot, right, apex, depth + 1, 2 * node + 1, planes);
-    } else if (cuts_ != nullptr && depth < depth_) {
-      whole_.push_back({packed(t.apex), packed(t.left), packed(t.right), node, planes});
+      const Corner centre = corner((left.at + right.at) / 2);
+      if (splits_ != nullptr) splits_->add(centre.at);
+      descend(centre, apex, left, depth + 1, 2 * node, planes);
+      descend(centre, right, apex, depth + 1, 2 * node + 1, planes);
+    } else if (splits_ != nullptr && depth < depth_) {
+      pending_.push_back({packed(t.apex), packed(t.left), packed(t.right), node, planes});
     } else if (depth < depth_ && may_open(apex.threshold, left.threshold, right.threshold, depth_)) {
       put(BisectionTree::child(t, 0));
       put(BisectionTree::child(t, 1));
@@ -93,16 +94,17 @@ class TreeWalk {
     }
   }
 
-  // Draws a triangle that distance leaves whole, in the parts that its neighbours' cuts ask for.
-  void settle(const PlanTriangle& t, int depth, std::uint32_t node, unsigned planes) {
-    if (depth == depth_ || !cuts_->has((t.left + t.right) / 2)) {
+  // Draws a triangle that the LOD rule does not split, in the parts that the split vertices require.
+  void draw_pending(const PlanTriangle& t, int depth, std::uint32_t node, unsigned planes) {
+    if (depth == depth_ || !splits_->has((t.left + t.right) / 2)) {
       put(t);
       return;
     }
     for (unsigned which = 0; which < 2; ++which) {
       const PlanTriangle half = BisectionTree::child(t, which);
       unsigned left = planes;
-      if (is_seen(half, depth + 1, 2 * node + which, left)) settle(half, depth + 1, 2 * node + which, left);
+      if (is_seen(half, depth + 1, 2 * node + which, left))
+        draw_pending(half, depth + 1, 2 * node + which, left);
     }
   }
 
@@ -123,11 +125,11 @@ class TreeWalk {
   LodRule rule_;
   glm::vec3 eye_;
   const Frustum* frustum_;
-  const VisibleFlags* flags_;
-  Cuts* cuts_;
-  std::vector<WholeTriangle>& whole_;
+  const mrbsp::visibility::Flags* flags_;
+  SplitVertices* splits_;
+  std::vector<PendingTriangle>& pending_;
   std::vector<std::uint32_t>& out_;
-  int hidden_depth_;  // flags are looked at down to here
+  int hidden_depth_;  // the flags end at this depth
   int depth_;
   glm::ivec2 last_;
 };

@@ -1,10 +1,10 @@
-// One walk down the tree for one view (MRBSP paper, §3 and §4): which triangles are drawn. Left out is what
-// the view does not see and what the ground hides; lod_rule.h says how deep it goes, hole_rule.h where it
-// goes on although distance would not. O(triangles drawn).
+// One traversal of the tree for one view (MRBSP paper, §3 and §4) chooses the triangles to draw. It skips
+// nodes outside the view frustum and hidden nodes (visibility/flags.h). lod_rule.h says how deep it descends,
+// hole_rule.h where it splits a triangle further to avoid a hole. O(triangles drawn).
 //
-// Any field: the tree's square reaches over its far borders, and vertices out there stand on the border. That
-// keeps order and orientation in x and in z, so the triangles still cover the field once; the flat ones are
-// left out.
+// For a field that is not a square of 2^k + 1 samples, the tree's square extends beyond the field, and
+// vertices outside are clamped to the field's border. Clamping keeps the order in x and in z, so the
+// triangles still cover the field once; triangles without plan area are left out.
 #pragma once
 
 #include <array>
@@ -15,17 +15,17 @@
 #include "lod/mrbsp/hole_rule.h"
 #include "lod/mrbsp/lod_rule.h"
 #include "lod/mrbsp/triangle_bounds.h"
-#include "lod/mrbsp/visible_flags.h"
+#include "lod/mrbsp/visibility/flags.h"
 #include "terrain/frame.h"
 #include "terrain/frustum.h"
 
 namespace terrabench {
 
-// A triangle that distance leaves whole, until all cuts are known.
-struct WholeTriangle {
-  std::array<std::uint16_t, 2> apex, left, right;  // lattice
+// A triangle that the LOD rule does not split, kept until all split vertices are known.
+struct PendingTriangle {
+  std::array<std::uint16_t, 2> apex, left, right;  // vertex coordinates
   std::uint32_t node;
-  unsigned planes;  // of the view, that it may cross
+  unsigned planes;  // of the frustum, that the triangle may cross
 };
 
 struct WalkGround {
@@ -35,16 +35,16 @@ struct WalkGround {
 };
 struct WalkEye {
   glm::vec3 at;
-  const Frustum* frustum;     // null: nothing is left out for the view
-  const VisibleFlags* flags;  // null: nothing is hidden
+  const Frustum* frustum;                 // null: nothing is culled by the view
+  const mrbsp::visibility::Flags* flags;  // null: nothing is hidden
 };
-// Kept from frame to frame to save allocations: empty before and after.
+// Buffers reused between frames; empty before and after a walk.
 struct WalkScratch {
-  Cuts* cuts;  // null: holes are kept out by the printed rule
-  std::vector<WholeTriangle>& whole;
+  SplitVertices* splits;  // null: the printed hole rule
+  std::vector<PendingTriangle>& pending;
 };
 
-// Appends the vertices of the triangles to draw, three a triangle, to `out`.
+// Appends the vertices of the triangles to draw, three per triangle, to `out`.
 void walk_tree(const WalkGround&, const LodRule&, const WalkEye&, const WalkScratch&,
                std::vector<std::uint32_t>& out);
 

@@ -10,7 +10,7 @@ namespace {
 
 using Range = TriangleBounds::Range;
 
-// So many levels above the finest, and at most 2^21 ranges (16 MiB).
+// Bounds end this many levels above the finest triangles, at most at depth 20 (2^21 ranges, 16 MiB).
 constexpr int kLevelsUnderBounds = 4, kDeepestBounds = 20;
 
 Range join(const Range& a, const Range& b) {
@@ -22,13 +22,13 @@ class RangeFinder {
   RangeFinder(const GroundGrid& grid, const BisectionTree& tree, int depth, std::vector<Range>& ranges)
       : grid_(grid), tree_(tree), depth_(depth), ranges_(ranges) {}
 
-  // The triangle's and those of all beneath it.
+  // Sets the ranges of the triangle and of its subtree.
   void find(const PlanTriangle& t, int depth, NodeNumber node) const {
     if (depth == depth_) {
       constexpr float kInfinity = std::numeric_limits<float>::infinity();
       Range range{kInfinity, -kInfinity};
       for (const glm::ivec2 at : {t.apex, t.left, t.right}) include(at, range);
-      include_feet(t, depth, range);
+      include_centres(t, depth, range);
       ranges_[node] = range;
       return;
     }
@@ -45,12 +45,12 @@ class RangeFinder {
     range.lowest = std::min(range.lowest, h);
     range.highest = std::max(range.highest, h);
   }
-  // Corners of a triangle's subtree that are not its own lie at the feet of the cuts within.
-  void include_feet(const PlanTriangle& t, int depth, Range& range) const {
+  // The corners in a triangle's subtree are its own and the centres of all hypotenuses in the subtree.
+  void include_centres(const PlanTriangle& t, int depth, Range& range) const {
     if (depth == tree_.depth()) return;
     include((t.left + t.right) / 2, range);
-    include_feet(BisectionTree::child(t, 0), depth + 1, range);
-    include_feet(BisectionTree::child(t, 1), depth + 1, range);
+    include_centres(BisectionTree::child(t, 0), depth + 1, range);
+    include_centres(BisectionTree::child(t, 1), depth + 1, range);
   }
 
   const GroundGrid& grid_;
@@ -66,7 +66,7 @@ TriangleBounds::TriangleBounds(const GroundGrid& grid, const BisectionTree& tree
   ranges_.resize(std::size_t{2} << depth_);
   const RangeFinder finder(grid, tree, depth_, ranges_);
   const int shared = std::min(depth_, 8);
-  const NodeNumber first = NodeNumber{1} << shared;
+  const NodeNumber first = first_node(shared);
   progress.begin("bounding triangles", first);
   tbb::parallel_for(first, 2 * first, [&](NodeNumber node) {
     finder.find(tree.triangle(node), shared, node);

@@ -1,5 +1,5 @@
-// How low and how high the ground lies under the upper triangles of a bisection tree, for culling by the
-// view. Built in O(triangles), in parallel.
+// Lowest and highest ground in the upper triangles of a bisection tree, for culling by the view frustum.
+// Built in O(triangles), in parallel.
 #pragma once
 
 #include <vector>
@@ -20,9 +20,9 @@ class TriangleBounds {
   TriangleBounds() = default;
   TriangleBounds(const GroundGrid&, const BisectionTree&, Progress&);
 
-  // Bounds are kept down to here: what is smaller is culled with the triangle above it.
+  // Bounds are stored down to this depth; deeper triangles are culled with their ancestor.
   int depth() const { return depth_; }
-  // Of the triangle's whole subtree.
+  // The range over the triangle's whole subtree.
   const Range& operator[](NodeNumber node) const { return ranges_[node]; }
   Memory memory() const { return index_memory(ranges_); }
 

@@ -4,7 +4,7 @@
 
 namespace terrabench::roam {
 
-// The pages are touched too: to have them come at the first frame takes it longer than its splits.
+// Zeroes the memory to touch its pages now: page faults would cost the first frame more than its splits.
 DrawList::DrawList(std::size_t expected) : indices_(3 * expected), owners_(expected) {
   indices_.clear();
   owners_.clear();

@@ -1,6 +1,7 @@
-// The drawn triangles as one run of indices without gaps, in which a triangle keeps its place as long as it
-// is drawn. Freed places go to the next triangles, and what is left of them at the end of a frame to the last
-// ones: the bytes to upload follow the changes. O(1) a change, plus a bit a triangle for each frame.
+// The indices of the drawn triangles as one array without gaps. A triangle keeps its slot while it is drawn.
+// New triangles take freed slots; at the end of a frame the last triangles fill those still free. So the
+// bytes to upload are proportional to the changes. O(1) per change, plus a scan of one bit per triangle and
+// frame.
 #pragma once
 
 #include <cstddef>
@@ -16,11 +17,11 @@ namespace terrabench::roam {
 
 class DrawList {
  public:
-  // There is room for so many triangles from the start, and for more when they come.
+  // `expected`: room for triangles at first; it grows when needed.
   explicit DrawList(std::size_t expected);
   void add(std::vector<Node>& nodes, std::uint32_t id, std::uint32_t a, std::uint32_t b, std::uint32_t c);
   void remove(std::vector<Node>& nodes, std::uint32_t id);
-  // Closes the gaps and appends what changed since the last call.
+  // Fills the free slots and appends the index ranges that changed since the last call.
   void finish(std::vector<Node>& nodes, std::vector<DirtyRange>& uploads);
 
   std::span<const std::uint32_t> indices() const { return indices_; }
@@ -31,10 +32,10 @@ class DrawList {
  private:
   void mark(std::uint32_t slot);
 
-  std::vector<std::uint32_t> indices_;  // three a slot
-  std::vector<std::uint32_t> owners_;   // node of a slot; kNone when free
+  std::vector<std::uint32_t> indices_;  // three per slot
+  std::vector<std::uint32_t> owners_;   // node per slot; kNone when free
   std::vector<std::uint32_t> free_;
-  std::vector<std::uint64_t> dirty_;  // a bit a slot
+  std::vector<std::uint64_t> dirty_;  // one bit per slot
 };
 
 }  // namespace terrabench::roam

@@ -17,7 +17,7 @@ Mesh::Mesh(const GroundGrid& grid, std::size_t expected_leaves, Progress& progre
   add_pairs(std::max(std::min(expected_leaves, all), leaves_) - leaves_);
 }
 
-// Neighbouring squares have diagonals that mirror each other, so that their legs meet and all bintrees fit.
+// The diagonals of neighbouring squares mirror each other, so that legs meet legs across every square's edge.
 void Mesh::add_roots() {
   const int side = 1 << lattice_.side_log;
   nodes_.resize(roots());
@@ -26,7 +26,7 @@ void Mesh::add_roots() {
     return 2U * (static_cast<std::uint32_t>(b) * static_cast<std::uint32_t>(lattice_.roots_x) +
                  static_cast<std::uint32_t>(a));
   };
-  // The one in a square: its north-east half where the diagonal falls, its north-west half where it rises.
+  // Root 0 of a square is its north-east half where the diagonal falls, its north-west half where it rises.
   const auto half = [](std::uint32_t first, std::uint32_t which) {
     return first == kNone ? kNone : first + which;
   };
@@ -35,7 +35,7 @@ void Mesh::add_roots() {
       const std::uint32_t first = square(a, b);
       Node &north = nodes_[first], &south = nodes_[first + 1];
       const bool falling = (a + b) % 2 == 0;
-      // A falling square's neighbours are rising ones and the other way round.
+      // A falling square has rising neighbours, and vice versa.
       const std::uint32_t of_north = half(square(a, b - 1), 1), of_south = half(square(a, b + 1), 0);
       const std::uint32_t of_west = half(square(a - 1, b), falling ? 1 : 0);
       const std::uint32_t of_east = half(square(a + 1, b), falling ? 0 : 1);
@@ -51,34 +51,35 @@ void Mesh::add_roots() {
       south.right = falling ? of_south : of_east;
       north.base = first + 1;
       south.base = first;
-      bound(north);
-      bound(south);
+      set_thickness(north);
+      set_thickness(south);
     }
   }
   leaves_ = nodes_.size();
 }
 
-void Mesh::bound(Node& node) const {
+void Mesh::set_thickness(Node& node) const {
   if (!splittable(node)) return;
   const Place m = middle(node);
   node.thickness = wedgies_.thickness(m.u, m.v);
 }
 
-// Every split takes a pair for each leaf that it adds.
+// Each new leaf takes one pair of nodes.
 void Mesh::make_room(std::size_t leaves) {
   if (free_pairs() < leaves) add_pairs(std::max(nodes_.size() / 2, leaves - free_pairs()));
 }
 
-// To be taken in the order of their numbers.
+// The unused pairs form a list in ascending order.
 void Mesh::add_pairs(std::size_t pairs) {
   const std::size_t first = nodes_.size();
-  // With what Roam holds a node. The old pool lives until its nodes have moved.
-  constexpr std::size_t kBytesANode = sizeof(Node) + 2 * sizeof(float);
-  require_memory(2 * pairs * kBytesANode + (nodes_.capacity() < first + 2 * pairs ? first * kBytesANode : 0),
-                 "triangles of roam");
+  // Includes what Roam holds per node. While the pool grows, the old one exists as well.
+  constexpr std::size_t kBytesPerNode = sizeof(Node) + 2 * sizeof(float);
+  require_memory(
+      2 * pairs * kBytesPerNode + (nodes_.capacity() < first + 2 * pairs ? first * kBytesPerNode : 0),
+      "triangles of roam");
   if (first + 2 * pairs > kNone) {
-    throw environment_error(fmt::format("{} triangles have no numbers of 32 bits", first + 2 * pairs), "roam",
-                            "limit its triangles");
+    throw environment_error(fmt::format("{} triangles exceed 32-bit numbers", first + 2 * pairs), "roam",
+                            "set a smaller limit on its triangles");
   }
   nodes_.resize(first + 2 * pairs);
   for (std::size_t pair = nodes_.size(); pair > first;) {
@@ -100,18 +101,18 @@ std::uint32_t Mesh::take_pair() {
   return pair;
 }
 
-void Mesh::split(std::uint32_t id) {
-  assert(nodes_[id].leaf() && conforms_split(id) && splittable(nodes_[id]));
+void Mesh::bisect_diamond(std::uint32_t id) {
+  assert(nodes_[id].leaf() && forms_diamond(id) && splittable(nodes_[id]));
   const std::uint32_t base = nodes_[id].base;
   make_room(base == kNone ? 1 : 2);
   bisect(id);
   if (base == kNone) return;
   bisect(base);
-  const std::uint32_t mine = nodes_[id].child, theirs = nodes_[base].child;
-  nodes_[mine].right = theirs + 1;
-  nodes_[mine + 1].left = theirs;
-  nodes_[theirs].right = mine + 1;
-  nodes_[theirs + 1].left = mine;
+  const std::uint32_t here = nodes_[id].child, across = nodes_[base].child;  // the left ones
+  nodes_[here].right = across + 1;
+  nodes_[here + 1].left = across;
+  nodes_[across].right = here + 1;
+  nodes_[across + 1].left = here;
 }
 
 void Mesh::bisect(std::uint32_t id) {
@@ -126,7 +127,7 @@ void Mesh::bisect(std::uint32_t id) {
     half.heading = static_cast<std::uint8_t>((node.heading + turn) % 8);
     half.parent = id;
     half.base = base;
-    bound(half);
+    set_thickness(half);
   };
   make(pair, 5, node.left);
   make(pair + 1, 3, node.right);
@@ -138,7 +139,7 @@ void Mesh::bisect(std::uint32_t id) {
   ++leaves_;
 }
 
-void Mesh::merge(std::uint32_t id) {
+void Mesh::join_diamond(std::uint32_t id) {
   const std::uint32_t base = nodes_[id].base;
   join(id);
   if (base != kNone) join(base);
@@ -172,7 +173,7 @@ void Mesh::relink(std::uint32_t neighbour, std::uint32_t from, std::uint32_t to)
   }
 }
 
-void Mesh::prefetch_split(const Node& node) const {
+void Mesh::prefetch_bisection(const Node& node) const {
   const Place m = middle(node);
   prefetch_corners(node);
   __builtin_prefetch(&grid_.heights[vertex(m)]);
@@ -184,8 +185,8 @@ void Mesh::prefetch_split(const Node& node) const {
   }
 }
 
-// Each line of samples lies less than a cell off where its lattice line ideally would: descendants stay
-// within a cell of the triangle, along either axis.
+// Each lattice line is rounded down to a line of samples, by less than a cell. So descendants extend beyond
+// the triangle by less than a cell along either axis.
 double Mesh::spill(const Node& node) const {
   if (lattice_.exact) return 0;
   const auto [apex, left, right] = places(node);

@@ -1,6 +1,7 @@
-// The bintrees as a mesh that always conforms (Duchaineau et al. 1997, §§4-5): triangles are split and merged
-// by diamonds, the pairs that share a hypotenuse. Nodes live in one pool, children in pairs; freed pairs are
-// used again. Splits and merges are O(1).
+// The triangles of the binary triangle trees (Duchaineau et al. 1997, §§4-5): their topology and geometry,
+// without queues. Triangles are bisected and joined by diamonds, two triangles that share a hypotenuse (one
+// triangle at the border), so the mesh of leaves always conforms. Nodes live in one pool, children in pairs;
+// unused pairs are recycled. Bisecting and joining are O(1).
 #pragma once
 
 #include <array>
@@ -8,9 +9,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "lod/roam/camera.h"
 #include "lod/roam/lattice.h"
 #include "lod/roam/node.h"
+#include "lod/roam/wedgie_view.h"
 #include "lod/roam/wedgies.h"
 #include "terrain/frame.h"
 
@@ -18,45 +19,45 @@ namespace terrabench::roam {
 
 class Mesh {
  public:
-  // The pool has room for so many leaves from the start, and grows when more are asked for.
+  // `expected_leaves`: room in the pool at first; it grows when more are made.
   Mesh(const GroundGrid&, std::size_t expected_leaves, Progress&);
 
   std::vector<Node>& nodes() { return nodes_; }
   const std::vector<Node>& nodes() const { return nodes_; }
   std::uint32_t roots() const { return 2U * static_cast<std::uint32_t>(lattice_.roots_x * lattice_.roots_z); }
   std::size_t leaves() const { return leaves_; }
-  // As many as the pool has room for.
-  std::size_t room() const { return leaves_ + free_pairs(); }
+  // Leaves that the pool has room for.
+  std::size_t capacity() const { return leaves_ + free_pairs(); }
   const Lattice& lattice() const { return lattice_; }
   const GroundGrid& grid() const { return grid_; }
 
   bool splittable(const Node& node) const { return node.level < lattice_.finest_level(); }
-  // The triangle's hypotenuse has nothing coarser behind it: it and its base neighbour can split.
-  bool conforms_split(std::uint32_t id) const {
+  // Whether the triangle and its base neighbour, if any, form a diamond: they can be bisected together. If
+  // not, the base neighbour is one level coarser.
+  bool forms_diamond(std::uint32_t id) const {
     const std::uint32_t base = nodes_[id].base;
     return base == kNone || nodes_[base].base == id;
   }
-  // A triangle between two lattice lines over one line of samples, standing on edge: its apex lies on its
-  // hypotenuse as the map shows it. It must be split as long as it exists, or that corner would be a
-  // T-junction.
-  bool on_edge(const Node& node) const {
+  // A triangle whose corners are collinear in plan, because two lattice lines lie over one line of samples:
+  // its apex lies on its hypotenuse. It must always be split; as a leaf, its apex would be a T-junction.
+  bool degenerate(const Node& node) const {
     if (lattice_.exact || node.level != lattice_.finest_level() - 1) return false;
     const Step ahead = kSteps[node.heading];
     return ahead.u != 0 ? lattice_.column[node.u] == lattice_.column[node.u + ahead.u]
                         : lattice_.row[node.v] == lattice_.row[node.v + ahead.v];
   }
-  // Two corners are one sample: nothing to draw.
+  // Whether two corners are the same sample, so that there is nothing to draw.
   static bool empty(const std::array<std::uint32_t, 3>& vertices) {
     return vertices[0] == vertices[1] || vertices[1] == vertices[2] || vertices[0] == vertices[2];
   }
 
-  // Lets so many more leaves be made without more memory. Throws environment_error, and leaves the mesh as it
-  // is, when that cannot be had.
+  // Allocates nodes for this many more leaves. Throws environment_error, with the mesh unchanged, when there
+  // is not enough memory.
   void make_room(std::size_t leaves);
-  // Splits the leaf, and the base neighbour with it. conforms_split() must hold.
-  void split(std::uint32_t id);
-  // Undoes that; all children must be leaves.
-  void merge(std::uint32_t id);
+  // Bisects the leaf and its base neighbour. forms_diamond() must hold.
+  void bisect_diamond(std::uint32_t id);
+  // Undoes bisect_diamond(); all children must be leaves.
+  void join_diamond(std::uint32_t id);
 
   // Grid vertices, counter-clockwise from above.
   std::array<std::uint32_t, 3> vertices(const Node& node) const {
@@ -68,18 +69,18 @@ class Mesh {
     return {{corner(apex), corner(left), corner(right)}};
   }
   glm::dvec3 apex(const Node& node) const { return corner({node.u, node.v}); }
-  // Has the memory fetched that splitting the triangle will read, but for other nodes.
-  void prefetch_split(const Node&) const;
-  // The heights of its corners.
+  // Prefetches what bisecting the triangle reads, except nodes.
+  void prefetch_bisection(const Node&) const;
+  // Prefetches the heights of its corners.
   void prefetch_corners(const Node& node) const {
     for (const Place p : places(node)) __builtin_prefetch(&grid_.heights[vertex(p)]);
   }
-  // A node, if it is one.
+  // Prefetches a node; nothing for kNone.
   void prefetch(std::uint32_t id) const {
     if (id != kNone) __builtin_prefetch(&nodes_[id]);
   }
-  // The share of its size by which descendants may stick out of a triangle, where lattice lines share
-  // samples.
+  // The share of the triangle's size by which its descendants may extend beyond it in plan: 0 unless lattice
+  // lines share samples.
   double spill(const Node&) const;
 
   Memory memory() const;
@@ -96,7 +97,7 @@ class Mesh {
              {node.u + left.u * legs, node.v + left.v * legs},
              {node.u + right.u * legs, node.v + right.v * legs}}};
   }
-  // Of the hypotenuse.
+  // The middle of the hypotenuse.
   Place middle(const Node& node) const {
     const int reach = middle_steps(lattice_.side_log, node.level);
     return {node.u + kSteps[node.heading].u * reach, node.v + kSteps[node.heading].v * reach};
@@ -117,7 +118,7 @@ class Mesh {
   std::uint32_t take_pair();
   void bisect(std::uint32_t id);
   void join(std::uint32_t id);
-  void bound(Node&) const;
+  void set_thickness(Node&) const;
   void relink(std::uint32_t neighbour, std::uint32_t from, std::uint32_t to);
 
   GroundGrid grid_;

@@ -1,5 +1,5 @@
-// A triangle of the bintrees, one cache line, and the lists that triangles are members of. Geometry is
-// implicit: apex, heading and level give the three corners.
+// A triangle of the binary triangle trees, in one cache line, and the lists that triangles belong to.
+// Geometry is implicit: apex, heading and level determine the three corners.
 #pragma once
 
 #include <bit>
@@ -14,52 +14,52 @@ namespace terrabench::roam {
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 inline constexpr std::uint16_t kNoList = 0xFFFFU;
 
-// A place in a doubly linked list.
+// Neighbours in a doubly linked list.
 struct Links {
   std::uint32_t before = kNone, after = kNone;
 };
 
-// How far the camera may move before a priority must be looked at again, and how far from the eye the wedgie
-// may lie now. Metres.
-struct Patience {
-  float slack, reach;
+// How long a priority stays valid: until the camera's moved + ρ·turned (see Motion) exceeds `motion`, where ρ
+// is `reach`, the present distance from the eye to the farthest point of the wedgie. Metres.
+struct Validity {
+  float motion, reach;
 };
 
-// Which of the view's planes a triangle's wedgie lies wholly inside of, a bit each, or that it lies outside
-// of one.
-using Sight = std::uint8_t;
-inline constexpr Sight kAllInside = 0x3F, kOutside = 0x40;
-// All below a triangle that lies wholly inside or outside does so too.
-inline bool inherited(Sight parent) { return parent == kAllInside || (parent & kOutside) != 0; }
+// Culling label (§6.2): bit i is set when the wedgie lies wholly inside plane i of the view, kOutside when it
+// lies wholly outside of one plane.
+using CullLabel = std::uint8_t;
+inline constexpr CullLabel kAllInside = 0x3F, kOutside = 0x40;
+// Whether all descendants of a triangle with this label have it too.
+inline bool inherited(CullLabel parent) { return parent == kAllInside || (parent & kOutside) != 0; }
 
-// Corners: the apex at the right angle, then left and right of whoever looks from it along the heading (as
-// the map shows it, z down). Neighbours share the edges apex-left, apex-right and left-right (base). In a
-// triangle that is split only the base neighbour is kept up to date: the other half of its diamond.
+// Corners: the apex at the right angle; left and right as seen from the apex along the heading, on a map with
+// z pointing down. Neighbours share the edges apex-left, apex-right and left-right (base). In a split
+// triangle only the base neighbour, the other half of its diamond, is kept up to date.
 struct alignas(64) Node {
   std::int32_t u = 0, v = 0;  // lattice point of the apex
   float thickness = 0;        // of the wedgie, metres
   std::uint32_t left = kNone, right = kNone, base = kNone;
-  std::uint32_t child = kNone;   // the left one; the right one follows it
-  std::uint32_t parent = kNone;  // or the next free pair
-  Links queue;                   // among leaves to split, or among diamonds to merge
+  std::uint32_t child = kNone;   // the left one; the right one is child + 1
+  std::uint32_t parent = kNone;  // in an unused pair: the next unused pair
+  Links queue;                   // in the split queue (leaves) or the merge queue (diamonds)
   union {
-    Links wait{};       // among those whose priority is looked at again at the same time
-    Patience patience;  // of a leaf that has just been ranked
+    Links deferral{};   // in the deferral list
+    Validity validity;  // between the ranking of a leaf and the end of the frame
   };
   std::uint32_t slot = kNone;  // in the draw list
-  std::uint16_t bucket = kNoList, due = kNoList;
+  std::uint16_t bucket = kNoList, deferral_list = kNoList;
   std::uint8_t level = 0, heading = 0;
-  Sight sight = kOutside;  // nothing is drawn of it yet
+  CullLabel label = kOutside;  // until the first update
   bool in_use = true;
-  std::uint8_t split_children = 0;  // those that stand on edge do not count
+  std::uint8_t split_children = 0;  // without degenerate ones
 
   bool leaf() const { return child == kNone; }
-  bool visible() const { return (sight & kOutside) == 0; }
+  bool visible() const { return (label & kOutside) == 0; }
 };
 static_assert(sizeof(Node) == 64);
 
-// A table of lists over nodes, each node in one list at most. All operations are O(1); highest() and lowest()
-// look at one bit a list, 64 at a time.
+// A table of lists of nodes; each node is in one list at most. All operations are O(1), except that highest()
+// and lowest() scan one bit per list, 64 at a time, and drain() visits the list's members.
 template <Links Node::*kLinks, std::uint16_t Node::*kList>
 class NodeLists {
  public:
@@ -90,8 +90,8 @@ class NodeLists {
     node.*kList = kNoList;
   }
 
-  // Empties a list and appends what was in it.
-  void clear(std::vector<Node>& nodes, std::uint16_t list, std::vector<std::uint32_t>& members) {
+  // Empties a list and appends its members to `members`.
+  void drain(std::vector<Node>& nodes, std::uint16_t list, std::vector<std::uint32_t>& members) {
     for (std::uint32_t id = heads_[list]; id != kNone; id = (nodes[id].*kLinks).after) {
       nodes[id].*kList = kNoList;
       members.push_back(id);
@@ -102,7 +102,7 @@ class NodeLists {
 
   std::uint32_t first(int list) const { return heads_[static_cast<std::size_t>(list)]; }
 
-  // Of the lists that hold something; -1 when none does.
+  // Number of the highest or lowest list that is not empty; -1 when all are empty.
   int highest() const {
     for (std::size_t word = used_.size(); word-- > 0;) {
       if (used_[word] != 0) return static_cast<int>(word * 64) + 63 - std::countl_zero(used_[word]);
@@ -128,6 +128,6 @@ class NodeLists {
 };
 
 using PriorityQueue = NodeLists<&Node::queue, &Node::bucket>;
-using WaitingLists = NodeLists<&Node::wait, &Node::due>;
+using DeferralTable = NodeLists<&Node::deferral, &Node::deferral_list>;
 
 }  // namespace terrabench::roam

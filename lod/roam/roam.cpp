@@ -7,14 +7,14 @@
 
 namespace terrabench {
 
+using roam::CullLabel;
 using roam::kNone;
 using roam::Node;
-using roam::Sight;
 
 namespace {
 
 double extent_of(const GroundGrid& grid) {
-  // Of positive floats the larger has the larger bits: integers, so that many are compared at once.
+  // Positive floats compare like their bits; integer comparisons are vectorised.
   std::uint32_t highest = 0;
   for (const float height : grid.heights) {
     highest = std::max(highest, std::bit_cast<std::uint32_t>(height) & 0x7FFFFFFFU);
@@ -27,9 +27,11 @@ double extent_of(const GroundGrid& grid) {
 
 std::span<const ParameterSpec> Roam::parameters() {
   static const ParameterSpec specs[] = {
-      {"max_error", 1.0, "px", "largest screen-space error of a sample that shows", 1e-3, 1e5},
-      {"triangles", std::int64_t{0}, "", "largest mesh, what lies outside the view included; 0: any", 0, 4e9},
-      {"milliseconds", 0.0, "ms", "longest update, after which the mesh stays as it is; 0: any", 0, 1e6}};
+      {"max_error", 1.0, "px", "largest screen-space error of a visible sample", 1e-3, 1e5},
+      {"triangles", std::int64_t{0}, "",
+       "most triangles in the mesh, those outside the view included; 0: no limit", 0, 4e9},
+      {"milliseconds", 0.0, "ms", "time limit per update, after which refinement stops; 0: no limit", 0,
+       1e6}};
   return specs;
 }
 
@@ -46,11 +48,11 @@ Roam::Roam(const Heightfield& ground, const RoamOptions& options, Progress& prog
     : mesh_(grid_of(ground), options.triangles, progress),
       options_(options),
       extent_(extent_of(mesh_.grid())),
-      drawn_(mesh_.room()),
-      fresh_(2 * mesh_.room()),
-      quiet_(mesh_.nodes().size()),
+      drawn_(mesh_.capacity()),
+      ranked_leaves_(2 * mesh_.capacity()),
+      labels_valid_until_(mesh_.nodes().size()),
       batches_(1) {
-  fresh_.clear();
+  ranked_leaves_.clear();
 }
 
 void Roam::tune(double max_error) {
@@ -62,31 +64,31 @@ const Frame& Roam::update(const View& view) {
   check_view(view);
   start_ = std::chrono::steady_clock::now();
   changes_ = 0;
-  const roam::Camera before = camera_;
-  camera_ = roam::Camera(view, extent_);
-  const bool afresh = first_ || retuned_ || !camera_.same_lens(before);
-  const roam::Motion motion = afresh ? roam::Motion{} : camera_.since(before);
-  const double far_moved = camera_.far_moved(before);
-  due_.clear();
-  if (afresh || !motion.none() || far_moved > 0) {
-    journey_ = {journey_.moved + motion.moved + far_moved, journey_.turned + motion.turned};
-    // Before floats cannot tell small motions apart.
-    const bool anew = afresh || !(journey_.moved < 1e3 && journey_.turned < 10);
-    if (anew) journey_ = {};
-    for (std::uint32_t id = 0; id < mesh_.roots(); ++id) look(id, 0, anew);
+  const roam::WedgieView before = view_;
+  view_ = roam::WedgieView(view, extent_);
+  const bool all_changed = first_ || retuned_ || !view_.same_lens(before);
+  const roam::Motion motion = all_changed ? roam::Motion{} : view_.since(before);
+  const double far_moved = view_.far_moved(before);
+  expired_.clear();
+  if (all_changed || !motion.none() || far_moved > 0) {
+    total_motion_ = {total_motion_.moved + motion.moved + far_moved, total_motion_.turned + motion.turned};
+    // Start again from zero before the floats of LabelValidity cannot resolve small motions.
+    const bool all_labels = all_changed || !(total_motion_.moved < 1e3 && total_motion_.turned < 10);
+    if (all_labels) total_motion_ = {};
+    for (std::uint32_t id = 0; id < mesh_.roots(); ++id) update_labels(id, 0, all_labels);
   }
-  if (afresh) {
-    reference_ = kAsked;
-    reconsider_all();
+  if (all_changed) {
+    exact_from_ = kMaxErrorBucket;
+    rerank_all();
   } else {
-    deadlines_.advance(mesh_.nodes(), motion, due_);
-    reconsider_due();
+    deferred_.advance(mesh_.nodes(), motion, expired_);
+    rerank_expired();
   }
   do {
-    settle();
-    rank_pending();
-  } while (lower_reference());
-  place_fresh();
+    refine();
+    queue_split_diamonds();
+  } while (lower_exact_bucket());
+  finish_ranked_leaves();
 
   uploads_.clear();
   drawn_.finish(mesh_.nodes(), uploads_);
@@ -98,7 +100,6 @@ const Frame& Roam::update(const View& view) {
   first_ = retuned_ = false;
   batches_[0] = {.index_count = static_cast<std::uint32_t>(drawn_.indices().size())};
   frame_ = {.grid = grid,
-            .levels = {},
             .cell_x = grid.cell_x,
             .cell_z = grid.cell_z,
             .indices = drawn_.indices(),
@@ -108,51 +109,54 @@ const Frame& Roam::update(const View& view) {
   return frame_;
 }
 
-// Culling labels, from the root down, but not into where neither the labels above nor the motion can have
-// changed any.
-void Roam::look(std::uint32_t id, Sight parent, bool parent_changed) {
-  if (!parent_changed && journey_.moved <= quiet_[id].moved && journey_.turned <= quiet_[id].turned) return;
+// Computes culling labels from the root down. Skips subtrees in which neither the labels above nor the motion
+// can have changed any label.
+void Roam::update_labels(std::uint32_t id, CullLabel parent, bool parent_changed) {
+  LabelValidity& until = labels_valid_until_[id];
+  if (!parent_changed && total_motion_.moved <= until.moved && total_motion_.turned <= until.turned) return;
   const Node& node = mesh_.nodes()[id];
-  const Sight before = node.sight;
-  see(id, parent, mesh_.corners(node));
-  const Sight now = node.sight;
+  const CullLabel before = node.label;
+  set_label(id, parent, mesh_.corners(node));
+  const CullLabel now = node.label;
   if (now == before && roam::inherited(now)) return;
-  const bool turned_up = (now & roam::kOutside) != (before & roam::kOutside);
-  if (turned_up) due_.push_back(id);
+  const bool visibility_changed = (now & roam::kOutside) != (before & roam::kOutside);
+  if (visibility_changed) expired_.push_back(id);
   if (node.leaf()) return;
   for (const std::uint32_t child : {node.child, node.child + 1}) {
-    look(child, now, parent_changed || now != before);
-    quiet_[id].moved = std::min(quiet_[id].moved, quiet_[child].moved);
-    quiet_[id].turned = std::min(quiet_[id].turned, quiet_[child].turned);
+    update_labels(child, now, parent_changed || now != before);
+    until.moved = std::min(until.moved, labels_valid_until_[child].moved);
+    until.turned = std::min(until.turned, labels_valid_until_[child].turned);
   }
 }
 
-void Roam::see(std::uint32_t id, Sight parent, const roam::Corners& corners) {
+void Roam::set_label(std::uint32_t id, CullLabel parent, const roam::Corners& corners) {
   Node& node = mesh_.nodes()[id];
   if (roam::inherited(parent)) {
-    node.sight = parent;
-    quiet_[id] = {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
+    node.label = parent;
+    labels_valid_until_[id] = {std::numeric_limits<float>::infinity(),
+                               std::numeric_limits<float>::infinity()};
     return;
   }
-  const roam::Seeing seeing = camera_.sight(corners, node.thickness, mesh_.spill(node), parent);
-  node.sight = seeing.sight;
-  quiet_[id] = {static_cast<float>(journey_.moved + seeing.slack.moved),
-                static_cast<float>(journey_.turned + seeing.slack.turned)};
+  const roam::Culling culling = view_.cull(corners, node.thickness, mesh_.spill(node), parent);
+  node.label = culling.label;
+  labels_valid_until_[id] = {static_cast<float>(total_motion_.moved + culling.valid_for.moved),
+                             static_cast<float>(total_motion_.turned + culling.valid_for.turned)};
 }
 
-// Lets the ancestors of a new triangle know how long its sight stays.
-void Roam::disturb_ancestors(std::uint32_t id) {
-  const Quiet quiet = quiet_[id];
-  if (std::isinf(quiet.moved)) return;
+// Limits the ancestors' validity to that of a new triangle's label.
+void Roam::limit_ancestors(std::uint32_t id) {
+  const LabelValidity own = labels_valid_until_[id];
+  if (std::isinf(own.moved)) return;
   for (id = mesh_.nodes()[id].parent; id != kNone; id = mesh_.nodes()[id].parent) {
-    if (quiet_[id].moved <= quiet.moved && quiet_[id].turned <= quiet.turned) return;
-    quiet_[id].moved = std::min(quiet_[id].moved, quiet.moved);
-    quiet_[id].turned = std::min(quiet_[id].turned, quiet.turned);
+    LabelValidity& until = labels_valid_until_[id];
+    if (until.moved <= own.moved && until.turned <= own.turned) return;
+    until.moved = std::min(until.moved, own.moved);
+    until.turned = std::min(until.turned, own.turned);
   }
 }
 
-// Puts a leaf on or off the draw list, as its sight has it.
-void Roam::show(std::uint32_t id) {
+// Adds a leaf to the draw list or removes it, by its culling label.
+void Roam::update_drawn(std::uint32_t id) {
   const Node& node = mesh_.nodes()[id];
   if (!node.visible()) {
     drawn_.remove(mesh_.nodes(), id);
@@ -167,12 +171,12 @@ Memory Roam::memory() const {
   memory.index += heap_bytes(this);
   memory += splits_.memory();
   memory += merges_.memory();
-  memory += deadlines_.memory();
+  memory += deferred_.memory();
   memory += drawn_.memory();
-  memory += index_memory(due_);
-  memory += index_memory(pending_);
-  memory += index_memory(fresh_);
-  memory += index_memory(quiet_);
+  memory += index_memory(expired_);
+  memory += index_memory(split_diamonds_);
+  memory += index_memory(ranked_leaves_);
+  memory += index_memory(labels_valid_until_);
   memory += index_memory(batches_);
   memory += index_memory(uploads_);
   return memory;

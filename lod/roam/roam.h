@@ -1,11 +1,22 @@
 // Real-time optimally adapting meshes (Duchaineau, Wolinsky, Sigeti, Miller, Aldrich and Mineev-Weinstein
 // 1997): binary triangle trees under two priority queues, one of triangles to split and one of diamonds to
-// merge, that carry the last frame's mesh over to the next.
+// merge, so that each frame starts from the mesh of the last.
 //
-// The screen-space error of every sample that shows stays at or below the knob, unless the limit on triangles
-// or on time stops refinement first; then what is left is spread evenly, to a bucket (1/16 octave). The mesh
-// never has cracks. Same views, same triangles, unless time is limited. A frame costs O(changes log samples),
-// besides the triangles on the view's border and those whose priority the motion may have changed.
+// The screen-space error of every visible sample stays at or below the knob, unless the limit on triangles or
+// on time stops refinement first; then the remaining error is even over the mesh, to a bucket (1/16 octave).
+// The mesh never has cracks. The same views give the same triangles, unless time is limited. A frame costs
+// O(changes · log samples), plus the triangles on the view's border and those with expired priorities.
+//
+// Glossary (refinement.cpp tells a split and a merge, from refine() on):
+//   wedgie       the prism around a triangle that contains its samples and its descendants' wedgies
+//   diamond      two triangles with a common hypotenuse, or one at the border; named by its lower node
+//   priority     bound of a wedgie's screen-space error, of a diamond's larger one; kept as a bucket
+//   bisect, join what Mesh does to the two triangles of a diamond, without regard to the queues
+//   split, merge what Roam does to a diamond: the mesh, the queues, the culling labels, the draw list
+//   force_split  splits coarser neighbours first, until the triangle is half of a diamond
+//   force_merge  merges degenerate children first
+//   degenerate   of a triangle: its corners are collinear in plan, so it must always be split
+//   deferred     not ranked again before the camera has moved so far that the rank may matter
 #pragma once
 
 #include <array>
@@ -14,18 +25,18 @@
 #include <vector>
 
 #include "lod/lod.h"
-#include "lod/roam/camera.h"
-#include "lod/roam/deadlines.h"
+#include "lod/roam/deferral_lists.h"
 #include "lod/roam/draw_list.h"
 #include "lod/roam/mesh.h"
 #include "lod/roam/node.h"
+#include "lod/roam/wedgie_view.h"
 
 namespace terrabench {
 
 struct RoamOptions {
   double max_error = 1;       // pixels, > 0
-  std::size_t triangles = 0;  // in the whole mesh, those outside the view included; 0 for no limit
-  double milliseconds = 0;    // an update; 0 for no limit
+  std::size_t triangles = 0;  // largest mesh, triangles outside the view included; 0 for no limit
+  double milliseconds = 0;    // per update; 0 for no limit
 };
 
 class Roam : public Lod {
@@ -41,74 +52,80 @@ class Roam : public Lod {
   Memory memory() const override;
 
  private:
-  friend struct RoamAudit;  // tests look inside
+  friend struct RoamAudit;  // tests inspect the state
 
-  // Buckets of priorities, 16 an octave, from 2^-8 of the asked error up. The asked error begins a bucket, so
-  // that none is split or kept for a bucket's width.
+  // Priority buckets: 16 per octave, from 2^-8 of max_error up. One bucket starts exactly at max_error, so
+  // that no triangle within a bucket's width of it is split or kept by mistake.
   static constexpr int kPerOctave = 16;
-  static constexpr int kAsked = 8 * kPerOctave + 1;
+  static constexpr int kMaxErrorBucket = 8 * kPerOctave + 1;
   static constexpr int kBuckets = 40 * kPerOctave;
-  // A bucket's number, from this on, is a float's exponent and four bits of its mantissa.
-  static constexpr int kFirst = (127 << 4) - kAsked;
+  // A bucket's number plus this is a float's exponent and four bits of its mantissa.
+  static constexpr int kFirstBucket = (127 << 4) - kMaxErrorBucket;
   static_assert(kPerOctave == 1 << 4);
   static std::uint16_t bucket_of(double ratio);
-  static double ratio_from(int bucket);
+  static double lowest_ratio(int bucket);
 
-  void look(std::uint32_t id, roam::Sight parent, bool parent_changed);
-  void see(std::uint32_t id, roam::Sight parent, const roam::Corners& corners);
-  void reconsider(std::uint32_t id);
-  void reconsider_due();
-  void reconsider_all();
-  void rank_leaf(std::uint32_t id, const roam::Distortion&);
-  void rank_diamond(std::uint32_t id);
-  void rank_pending();
-  static roam::Patience patience(const roam::Distortion&, double share);
-  void place_fresh();
-  void take_off(std::uint32_t id);
-  roam::Distortion distortion(const roam::Node&, const roam::Spot&, const roam::Spot&,
-                              const roam::Spot&) const;
-  roam::Distortion distortion(std::uint32_t id, const roam::Corners&) const;
+  // Culling and drawing: roam.cpp.
+  void update_labels(std::uint32_t id, roam::CullLabel parent, bool parent_changed);
+  void set_label(std::uint32_t id, roam::CullLabel parent, const roam::Corners& corners);
+  void limit_ancestors(std::uint32_t id);
+  void update_drawn(std::uint32_t id);
 
-  // The two halves of a diamond, the second kNone on the border.
-  std::array<std::uint32_t, 2> halves(std::uint32_t id) const { return {id, mesh_.nodes()[id].base}; }
-  std::uint32_t diamond(std::uint32_t id) const;
-  bool mergeable(std::uint32_t id) const;
-  void requeue_diamond(std::uint32_t id);
-  void disturb_ancestors(std::uint32_t id);
-  void show(std::uint32_t id);
-  void split(std::uint32_t id);
+  // Refinement: refinement.cpp.
+  void refine();
+  void force_split(std::uint32_t id);
   void split_diamond(std::uint32_t id);
-  void add_children(std::uint32_t id, const roam::Spot& apex, const roam::Spot& left, const roam::Spot& right,
-                    const roam::Spot& middle);
-  void merge(std::uint32_t id);
+  void add_children(std::uint32_t id, const roam::ViewedCorner& apex, const roam::ViewedCorner& left,
+                    const roam::ViewedCorner& right, const roam::ViewedCorner& middle);
+  void force_merge(std::uint32_t id);
   void merge_diamond(std::uint32_t id);
   std::size_t cost_of_split(std::uint32_t id) const;
-  void fetch_ahead(std::uint32_t id) const;
-  void settle();
-  bool lower_reference();
+  void prefetch_next_splits(std::uint32_t id) const;
+  bool lower_exact_bucket();
   bool out_of_time() const;
+
+  // Diamonds and their queue. The second half is kNone at the border.
+  std::array<std::uint32_t, 2> halves(std::uint32_t id) const { return {id, mesh_.nodes()[id].base}; }
+  std::uint32_t diamond_of(std::uint32_t id) const;
+  bool mergeable(std::uint32_t id) const;
+  void requeue_diamond(std::uint32_t id);
+  void unqueue(std::uint32_t id);
+
+  // Priorities and their deferral.
+  roam::Distortion distortion(const roam::Node&, const roam::ViewedCorner&, const roam::ViewedCorner&,
+                              const roam::ViewedCorner&) const;
+  roam::Distortion distortion(std::uint32_t id, const roam::Corners&) const;
+  static roam::Validity validity(const roam::Distortion&, double share);
+  void rank_leaf(std::uint32_t id, const roam::Distortion&);
+  void rank_diamond(std::uint32_t id);
+  void rerank(std::uint32_t id);
+  void rerank_expired();
+  void rerank_all();
+  void queue_split_diamonds();
+  void finish_ranked_leaves();
 
   roam::Mesh mesh_;
   RoamOptions options_;
   double extent_;  // of the ground, metres
-  roam::Camera camera_;
+  roam::WedgieView view_;
   roam::PriorityQueue splits_{kBuckets}, merges_{kBuckets};
-  roam::Deadlines deadlines_;
+  roam::DeferralLists deferred_;
   roam::DrawList drawn_;
-  std::vector<std::uint32_t> due_;      // whose priority must be looked at
-  std::vector<std::uint32_t> pending_;  // diamonds of this frame that are not in the merge queue yet
-  std::vector<std::uint32_t> fresh_;    // leaves ranked in this frame
-  // For each node, the journey up to which no sight in its subtree changes.
-  struct Quiet {
+  std::vector<std::uint32_t> expired_;         // nodes to rank again in this frame
+  std::vector<std::uint32_t> split_diamonds_;  // split in this frame, not yet in the merge queue
+  std::vector<std::uint32_t> ranked_leaves_;   // ranked in this frame, not yet drawn or deferred
+  // Per node, the total motion up to which no culling label in its subtree can change.
+  struct LabelValidity {
     float moved, turned;
   };
-  std::vector<Quiet> quiet_;
-  roam::Motion journey_;  // all motion since quiet_ was made anew
+  std::vector<LabelValidity> labels_valid_until_;
+  roam::Motion total_motion_;  // since all labels were last computed
   std::vector<Batch> batches_;
   std::vector<DirtyRange> uploads_;
   Frame frame_;
-  // No leaf whose priority is put off has risen to this bucket: above it the order of the queue is right.
-  int reference_ = kAsked;
+  // From this bucket up, the order of the split queue is exact; below it, priorities may be out of date, but
+  // none has risen to this bucket.
+  int exact_from_ = kMaxErrorBucket;
   std::size_t changes_ = 0;
   std::chrono::steady_clock::time_point start_;
   bool first_ = true, retuned_ = false;

@@ -11,7 +11,7 @@ namespace {
 
 std::uint16_t encode_up(double bound) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  // Heights of ±1e38 m may leave what a float holds; no bound is then known.
+  // With heights of ±1e38 m the bound may exceed the range of float; infinity is then used.
   float up = bound <= std::numeric_limits<float>::max() ? static_cast<float>(bound) : kInfinity;
   if (up < bound) up = std::nextafter(up, kInfinity);
   return static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(up) + 0xFFFFU) >> 16);
@@ -19,7 +19,7 @@ std::uint16_t encode_up(double bound) {
 
 }  // namespace
 
-// In double: on high ground, what a float rounds off an interpolated height shows as a part of a pixel.
+// In double: on high ground, the float rounding of an interpolated height is a visible fraction of a pixel.
 struct Wedgies::Builder {
   const Lattice& lattice;
   const GroundGrid& grid;
@@ -32,12 +32,12 @@ struct Wedgies::Builder {
     const bool inside = u >= 0 && v >= 0 && u < lattice.width() && v < lattice.depth();
     return inside ? wedgies.thickness(u, v) : 0.0;
   }
-  // How far line b lies from line a to line c.
+  // The position of line b as a share of the way from line a to line c.
   static double share(const std::vector<std::int32_t>& lines, int a, int b, int c) {
     return static_cast<double>(lines[b] - lines[a]) / static_cast<double>(lines[c] - lines[a]);
   }
 
-  // The middle of an edge of 2s steps along an axis; the triangles on either side agree on its height there.
+  // The middle of an edge of 2s steps along an axis, where the triangles on both sides have the same height.
   void edge(int u, int v, int s, bool along_x) {
     const double t = along_x ? share(lattice.column, u - s, u, u + s) : share(lattice.row, v - s, v, v + s);
     const double before = along_x ? height(u - s, v) : height(u, v - s);
@@ -51,9 +51,9 @@ struct Wedgies::Builder {
     store(u, v, bound);
   }
 
-  // The middle of a square of 2s steps a side, whose diagonal joins the two corners with even sums of lattice
-  // squares. The middle may lie off the diagonal, by less than a sample, where lattice lines share samples:
-  // it is held against the planes of both triangles, so that the wedgies nest all the same.
+  // The middle of a square of 2s × 2s steps, which lies on the square's diagonal, or off it by less than a
+  // sample where lattice lines share samples. It is compared with the planes of both triangles, so that the
+  // wedgies nest in that case too.
   void centre(int u, int v, int s) {
     const bool falling = ((u - s) / (2 * s) + (v - s) / (2 * s)) % 2 == 0;
     const double t = share(lattice.column, u - s, u, u + s), r = share(lattice.row, v - s, v, v + s);
@@ -85,7 +85,7 @@ Wedgies::Wedgies(const Lattice& lattice, const GroundGrid& grid, Progress& progr
   }
   bounds_.resize(first_[lattice.side_log]);
   Builder builder{lattice, grid, *this};
-  progress.begin("bounding the bintrees", static_cast<std::uint64_t>(lattice.side_log));
+  progress.begin("bounding the triangle trees", static_cast<std::uint64_t>(lattice.side_log));
   for (int s = 1; s < 1 << lattice.side_log; s *= 2) {
     const int rows = (depth - 1) / s + 1;
     tbb::parallel_for(0, rows, [&](int row) {

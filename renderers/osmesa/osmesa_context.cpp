@@ -14,8 +14,8 @@ namespace {
 
 constexpr const char* kAdvice = "install Debian's package libosmesa6, version 22 or newer";
 
-// The four functions of GL/osmesa.h that we call, found at run time: a program linked to libOSMesa would take
-// all gl* functions from it, and other contexts in the process would get the wrong ones.
+// The four functions of GL/osmesa.h that are used, loaded at run time: a program linked to libOSMesa would
+// take all gl* functions from it, which are wrong for other contexts in the process.
 struct Library {
   using Handle = struct OsmesaContext*;
   Handle (*create)(const int* attributes, Handle share);
@@ -27,10 +27,11 @@ struct Library {
 template <class Function>
 void find(void* library, const char* path, const char* name, Function& function) {
   function = reinterpret_cast<Function>(dlsym(library, name));
-  if (function == nullptr) throw environment_error("this is no usable OSMesa library", path, kAdvice);
+  if (function == nullptr)
+    throw environment_error("the OSMesa library lacks a required function", path, kAdvice);
 }
 
-// Stays open for the life of the process: Mesa keeps threads and exit handlers that unloading would cut.
+// Never unloaded: Mesa keeps threads and exit handlers in the library.
 Library load_library(const char* path) {
   void* const library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) throw environment_error("the software renderer is not installed", path, kAdvice);
@@ -46,7 +47,7 @@ class OsmesaContext final : public GlContext {
  public:
   OsmesaContext(const Library& library, int width, int height) : library_(library), handle_(create(library)) {
     try {
-      activate();
+      OsmesaContext::make_current();
       target_ = std::make_unique<RenderTarget>(width, height);
     } catch (...) {
       close();
@@ -59,25 +60,23 @@ class OsmesaContext final : public GlContext {
     close();
   }
 
-  void make_current() override { activate(); }
+  void make_current() override {
+    if (library_.make_current(handle_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) == 0) {
+      throw environment_error("the OpenGL context cannot be made current", "OSMesa", kAdvice);
+    }
+    load_gl(library_.get_function, "OSMesa");
+  }
 
  private:
   static Library::Handle create(const Library& library) {
-    // Names and values of GL/osmesa.h. Our own framebuffer has the depth.
+    // Names and values of GL/osmesa.h. No depth bits: RenderTarget has its own.
     constexpr int kFormat = 0x22, kDepthBits = 0x30, kProfile = 0x33, kCoreProfile = 0x34, kMajor = 0x36,
                   kMinor = 0x37;
     const int attributes[] = {kFormat, GL_RGBA, kDepthBits, 0, kProfile, kCoreProfile,
                               kMajor,  4,       kMinor,     5, 0};
     const Library::Handle handle = library.create(attributes, nullptr);
-    if (handle == nullptr) throw environment_error("this Mesa has no OpenGL 4.5", "OSMesa", kAdvice);
+    if (handle == nullptr) throw environment_error("Mesa does not provide OpenGL 4.5", "OSMesa", kAdvice);
     return handle;
-  }
-
-  void activate() {
-    if (library_.make_current(handle_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) == 0) {
-      throw environment_error("the OpenGL context cannot be made current", "OSMesa", kAdvice);
-    }
-    load_gl(library_.get_function, "OSMesa");
   }
 
   void close() {
@@ -87,7 +86,7 @@ class OsmesaContext final : public GlContext {
 
   Library library_;
   Library::Handle handle_;
-  // OSMesa wants memory of its own to draw into, which our framebuffer makes needless.
+  // OSMesa requires memory to draw into; it is not used, because RenderTarget has its own.
   std::array<std::uint8_t, 4> pixel_{};
 };
 
@@ -100,8 +99,8 @@ std::unique_ptr<GlContext> open_osmesa(int width, int height, const char* librar
 }  // namespace terrabench
 
 #ifdef __SANITIZE_ADDRESS__
-// Mesa 22.3 forgets 160 bytes with each context that closes. That is not ours to mend, and must not hide
-// leaks that are: only blocks that libOSMesa took itself are left out.
+// Mesa 22.3 leaks 160 bytes per closed context. Only blocks that libOSMesa itself allocated are suppressed,
+// so that leaks of this program are still reported.
 extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier)
 extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa.so"; }
 #endif

@@ -1,5 +1,5 @@
 #version 450 core
-// Where a vertex of a level-of-detail frame stands: vertex_position() of terrain/frame.cpp, step for step.
+// The position of a vertex of a level-of-detail frame: repeats vertex_position() of terrain/frame.cpp step by step.
 layout(location = 0) in uint batch_number;
 
 struct BatchRecord {
@@ -17,14 +17,14 @@ struct LevelRecord {
 layout(std430, binding = 0) readonly buffer Heights { float heights[]; };
 layout(std430, binding = 1) readonly buffer Batches { BatchRecord batches[]; };
 layout(std430, binding = 2) readonly buffer Levels { LevelRecord levels[]; };
-layout(std430, binding = 3) readonly buffer Morphs { float morphs[]; };  // five a patch: inside and sides
+layout(std430, binding = 3) readonly buffer Morphs { float morphs[]; };  // five per patch: inside and sides
 
 uniform mat4 world_to_clip;
 uniform ivec2 samples;  // of the grid
 uniform vec2 cell;      // metres
-uniform int side;       // of the clip levels; 0 over a grid
-uniform ivec2 first, last, origin;  // samples of the full terrain, of clip levels
-uniform int patch_side; // cells; 0 where no vertex moves
+uniform int side;       // of the clip levels; 0 for a grid
+uniform ivec2 first, last, origin;  // of Frame, for clip levels
+uniform int patch_side; // cells; 0 without morphs
 
 out Vertex {
   vec3 world;
@@ -47,9 +47,9 @@ bool on_border(ivec2 at, ivec2 low, ivec2 high) { return any(equal(at, low)) || 
 float on_side(BatchRecord batch, ivec2 at, ivec2 low, ivec2 high) {
   bool along_x = at.y == low.y || at.y == high.y;
   uint side_number = along_x ? (at.y == low.y ? 0u : 2u) : (at.x == low.x ? 3u : 1u);
-  float said = morphs[5u * batch.morph + 1u + side_number];
-  int step = 1 << int(said);
-  float share = said - floor(said);
+  float target = morphs[5u * batch.morph + 1u + side_number];
+  int step = 1 << int(target);
+  float share = target - floor(target);
   ivec2 along = along_x ? ivec2(1, 0) : ivec2(0, 1);
   int place = along_x ? at.x : at.y, first = along_x ? low.x : low.y, end = along_x ? high.x : high.y;
   if (share <= 0.0 || place == end || ((place - first) & (2 * step - 1)) != step) return sample_at(at);

@@ -23,9 +23,9 @@ uniform vec4 wire_ink;         // sRGB and opacity
 out vec4 color;
 
 const float kAmbient = 0.30;
-const float kFill = 0.3;                       // from the viewer, on steep ground: walls and caves in shade keep form
-const vec3 kSky = vec3(0.86, 0.93, 1.0);       // what shadows are tinted with
-const vec3 kBack = vec3(0.30, 0.29, 0.28);     // the inside of a mesh, seen where it is open
+const float kFill = 0.3;                       // from the viewer, on steep ground: gives walls and caves in shade form
+const vec3 kSky = vec3(0.86, 0.93, 1.0);       // tint of shadows
+const vec3 kBack = vec3(0.30, 0.29, 0.28);     // backs of triangles, visible where a mesh is open
 
 vec3 to_srgb(vec3 linear) {
   return mix(12.92 * linear, 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, greaterThan(linear, vec3(0.0031308)));
@@ -36,13 +36,13 @@ vec3 to_linear(vec3 srgb) {
 }
 
 vec3 ramp_color() {
-  // Texel centres stand at the ends of the range.
+  // The ends of the range are at texel centres.
   float size = float(textureSize(ramp, 0));
   float t = clamp((vertex.world.y - height_range.x) / (height_range.y - height_range.x), 0.0, 1.0);
   return texture(ramp, (t * (size - 1.0) + 0.5) / size).rgb;
 }
 
-// Which way the surface faces, on the side that is seen.
+// The normal on the visible side.
 vec3 surface_normal() {
   vec3 n;
   if (facets) {
@@ -57,19 +57,19 @@ vec3 surface_normal() {
 vec3 lit_color() {
   vec3 albedo = painted ? to_linear(vertex.paint) : gl_FrontFacing ? ramp_color() : kBack;
 
-  // Sun and sky, in units of what level ground receives.
+  // Light of sun and sky, relative to level ground.
   vec3 n = surface_normal();
   float sky = kAmbient * (0.5 + 0.5 * n.y);
   float direct = (1.0 - kAmbient) * max(dot(n, sun), 0.0) / max(sun.y, 0.3);
   float fill = kFill * (1.0 - abs(n.y)) * max(dot(n, normalize(eye - vertex.world)), 0.0);
   float light = (sky + direct + fill) * (1.0 + vertex.bend);
   vec3 tint = mix(kSky, vec3(1.0), min(light, 1.0));
-  // Slopes towards the sun near white without being cut off there, and dark colours keep their hue.
+  // Slopes towards the sun approach white without clipping, and dark colours keep their hue.
   vec3 lit = light <= 1.0 ? albedo * light * tint : 1.0 - pow(1.0 - albedo, vec3(light));
   return to_srgb(clamp(lit, 0.0, 1.0));
 }
 
-// How much of the pixel the nearest wire covers.
+// The share of the pixel that the nearest wire covers.
 float wire_cover() {
   vec3 cover = vertex.strength * clamp(vertex.reach + 0.5 - vertex.to_edge, 0.0, 1.0);
   return max(cover.x, max(cover.y, cover.z));

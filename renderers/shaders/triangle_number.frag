@@ -1,5 +1,5 @@
 #version 450 core
-// Which triangle of the frame covers the pixel, counted from 1; 0 is the background.
+// The number of the triangle at the pixel, counted from 1; 0 is the background.
 flat in uint first_triangle;
 layout(location = 0) out uint number;
 

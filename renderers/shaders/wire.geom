@@ -1,14 +1,14 @@
 #version 450 core
-// Hands each fragment its distance in pixels to the three edges of its triangle, so that lines have one width
-// on the screen and lie in the surface itself: no depth is compared, and hidden lines stay hidden.
+// Gives each fragment its distance in pixels to the three edges of its triangle. Lines so have a constant width on
+// the screen and lie in the surface itself, and hidden lines are hidden without a depth comparison of their own.
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
 
 uniform vec2 pixels;          // width and height of the picture
-uniform usamplerBuffer drawn; // a triangle's edges to draw: bit k for the edge from corner k to the next;
-                              // bit k + 3: it is an outline, and the neighbour shows no half of it
-uniform int first_triangle;   // of this draw
-uniform bool all_edges;       // `drawn` is not read
+uniform usamplerBuffer drawn; // edges to draw, per triangle: bit k for the edge from corner k to the next;
+                              // bit k + 3: it is an outline, of which the neighbour does not draw a half
+uniform int first_triangle;   // of this draw call
+uniform bool all_edges;       // ignore `drawn`
 uniform float wire_width;     // pixels
 
 in Vertex {
@@ -31,12 +31,12 @@ out Vertex {
   flat vec3 reach;     // pixels of ink from an edge into the triangle
 } vertex;
 
-// Lines closer than two widths to the next thin out, or far ground would be solid ink.
+// Lines closer together than two widths fade, so that far ground does not become solid ink.
 float strength(float spacing) { return clamp(spacing / (2.0 * wire_width), 0.0, 1.0); }
 
 void main() {
   vec2 at[3];
-  bool on_screen = true;  // a triangle that reaches behind the eye has no place on the screen, and no wires
+  bool on_screen = true;  // a triangle that extends behind the eye has no screen position and gets no wires
   for (int k = 0; k < 3; ++k) {
     float w = gl_in[k].gl_Position.w;
     on_screen = on_screen && w > 0.0;

@@ -15,19 +15,15 @@ using namespace ght;
 std::vector<ParameterSpec> make_parameters() {
   const std::span<const ParameterSpec> grid = column_parameters();
   std::vector<ParameterSpec> specs(grid.begin(), grid.end());
-  specs.push_back({"events", true, "", "apply the terrain's events; without, its ground alone"});
-  specs.push_back({"most_cells", static_cast<std::int64_t>(Tree::kMostCells), "cells",
-                   "that the tree may hold", 1, static_cast<double>(Tree::kMostCells)});
+  specs.push_back({"events", true, "", "apply the terrain's events; if false, build its ground only"});
+  specs.push_back({"most_cells", static_cast<std::int64_t>(Tree::kMostCells), "cells", "at most in the tree",
+                   1, static_cast<double>(Tree::kMostCells)});
   return specs;
-}
-
-Lattice lattice_of(const Heightfield& field) {
-  return {field.width, field.depth, field.cell_x, field.cell_z, 0, 0};
 }
 
 void check_room(std::size_t samples, const Parameters& parameters) {
   if (samples > static_cast<std::uint64_t>(parameters.integer("most_cells"))) {
-    throw environment_error("has more samples than cells are allowed", "grounded heightmap tree",
+    throw environment_error("the ground has more samples than most_cells", "grounded heightmap tree",
                             "lower resolution, or raise most_cells");
   }
 }
@@ -39,27 +35,27 @@ std::unique_ptr<Ght> from_field(const Heightfield& field, const TerrainSource& s
   const Heightfield& ground = resampled ? *resampled : field;
   check_room(static_cast<std::size_t>(ground.width) * static_cast<std::size_t>(ground.depth), parameters);
   const float cell = std::max(ground.cell_x, ground.cell_z);
-  // On the floor of the solid that the same events make, so that both hold the same ground.
+  // The floor of the solid that the same events make, so that both contain the same ground.
   const float lowest = height_range(ground).lowest;
   const bool solid_is_deeper = source.solid && source.solid->bounds.low.y < lowest;
   const float floor = solid_is_deeper ? source.solid->bounds.low.y : lowest - cell;
-  return std::make_unique<Ght>(lattice_of(ground), ground.heights, floor);
+  const SampleGrid grid = {ground.width, ground.depth, ground.cell_x, ground.cell_z, 0, 0};
+  return std::make_unique<Ght>(grid, ground.heights, floor);
 }
 
 std::unique_ptr<Ght> from_solid(const TerrainSource& source, const Parameters& parameters,
                                 Progress& progress) {
   const auto sampled = Heightmap::build(source, parameters, progress);
   const auto& map = static_cast<const Heightmap&>(*sampled);
-  const HeightGrid& grid = map.grid();
+  const HeightGrid& from = map.grid();
   check_room(map.heights().size(), parameters);
-  const Lattice lattice = {
-      grid.width,    grid.depth,   static_cast<float>(grid.cell_x), static_cast<float>(grid.cell_z),
-      grid.origin_x, grid.origin_z};
-  return std::make_unique<Ght>(lattice, std::vector<float>(map.heights().begin(), map.heights().end()),
-                               grid.bounds.low.y);
+  const glm::vec2 spacing(from.cell_x, from.cell_z);
+  const SampleGrid grid = {from.width, from.depth, spacing.x, spacing.y, from.origin_x, from.origin_z};
+  return std::make_unique<Ght>(grid, std::vector<float>(map.heights().begin(), map.heights().end()),
+                               from.bounds.low.y);
 }
 
-// The solid stretches between crossings, which are sorted from the top down.
+// Adds the solid spans between crossings, which are sorted from the top down.
 void add_spans(std::span<const Crossing> crossings, float floor, std::vector<Span>& found, SpanSink& out) {
   found.clear();  // from the top
   const auto add = [&](float bottom, float top) {
@@ -88,10 +84,10 @@ std::span<const ParameterSpec> Ght::parameters() {
   return specs;
 }
 
-Ght::Ght(const Lattice& lattice, std::vector<float> heights, float floor) {
+Ght::Ght(const SampleGrid& grid, std::vector<float> heights, float floor) {
   float highest = floor;
   for (const float h : heights) highest = std::fmax(highest, h);
-  model_ = Model(Tree(lattice, std::move(heights)), floor, highest);
+  model_ = Model(Tree(grid, std::move(heights)), floor, highest);
 }
 
 std::unique_ptr<Representation> Ght::build(const TerrainSource& source, const Parameters& parameters,
@@ -112,7 +108,7 @@ std::unique_ptr<Representation> Ght::build(const TerrainSource& source, const Pa
 
 void Ght::spans(Columns where, SpanSink& out) const {
   const Tree& tree = model_.tree;
-  const Surface& surface = model_.surface;
+  const ComposedSurface& surface = model_.surface;
   std::vector<Crossing> crossings;
   std::vector<Span> found;
   for (std::size_t c = 0; c < where.size(); ++c) {
@@ -120,8 +116,8 @@ void Ght::spans(Columns where, SpanSink& out) const {
     Square s;
     if (surface.find(x, z, s)) {
       if (surface.simple(s)) {
-        if (!Surface::hole(tree, s)) {
-          const float top = Surface::plain_height(tree, x, z, s);
+        if (!ComposedSurface::hole(tree, s)) {
+          const float top = ComposedSurface::plain_height(tree, x, z, s);
           if (top > model_.floor) out.add({model_.floor, top, Material::kBedrock});
         }
       } else {
@@ -146,9 +142,9 @@ Memory Ght::memory() const {
 }
 
 Bounds Ght::bounds() const {
-  const Lattice& lattice = model_.tree.lattice();
-  return {{lattice.x(0), model_.floor, lattice.z(0)},
-          {lattice.x(lattice.width - 1), model_.ceiling, lattice.z(lattice.depth - 1)}};
+  const SampleGrid& grid = model_.tree.grid();
+  return {{grid.x(0), model_.floor, grid.z(0)},
+          {grid.x(grid.width - 1), model_.ceiling, grid.z(grid.depth - 1)}};
 }
 
 }  // namespace terrabench

@@ -1,14 +1,24 @@
 // The Grounded Heightmap Tree as a representation (Alonso, Joan-Arinyo & Solano, "The Grounded Heightmap
 // Tree. A New Data Structure for Terrain Representation"): a heightmap, and for every event on it further
-// heightmaps on planes of their own, so that overhangs and tunnels are held where they are and nowhere else.
+// heightmaps on planes of their own, so that overhangs and tunnels take memory only where they are.
 //
-// Building is O(samples), an event O(region it touches). A column costs as in a heightmap plus one link where
-// the surface is plain, else O(faces over its square).
+// Building is O(samples), an event O(region it touches). A column costs as much as in a heightmap plus one
+// link where the surface is plain, otherwise O(faces over its square).
+//
+//   event                            in the paper            its new heightmaps are made in
+//   LinearErosion                    §3.2, figures 13, 17    linear_erosion.cpp
+//   RadialErosion                    §3.2, figures 13, 17    radial_erosion.cpp
+//   DipFault (normal and inverse)    §3.2, figures 13, 18    dip_fault.cpp
+//   LateralFault                     §3.2, figure 13         lateral_fault.cpp
+//   Carving (tunnel and cave)        §3.2, figures 15, 16    carving.cpp, carving_walls.cpp
+//
+// To follow one event read terrain/events/event.h (its formula), apply_event.h, edit.h (the four steps of
+// every event) and the event's file. tree.h and composed_surface.h are what it changes.
 #pragma once
 
 #include <memory>
 
-#include "representations/ght/dispatch.h"
+#include "representations/ght/apply_event.h"
 #include "representations/representation.h"
 
 namespace terrabench {
@@ -16,21 +26,21 @@ namespace terrabench {
 class Ght final : public Representation {
  public:
   static std::span<const ParameterSpec> parameters();
-  // A sculpture's ground and then its events; heights alone; of other solids the topmost surface. Events
-  // throw as ght::dispatch() does.
+  // From a sculpture its ground and then its events; from a heightfield its heights; from any other solid its
+  // topmost surface. Throws as ght::apply_event() does.
   static std::unique_ptr<Representation> build(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<Representation> load(ByteSource&);
-  // The root alone, from heights as check_heights() allows; the floor lies `floor` high.
-  Ght(const ght::Lattice& lattice, std::vector<float> heights, float floor);
+  // The root only, from heights that check_heights() accepts. `floor` is the lowest height of the solid.
+  Ght(const ght::SampleGrid& grid, std::vector<float> heights, float floor);
 
   // Strong guarantee.
-  void apply(const events::Event& event) { dispatch(model_, event, model_.tree.events().size() + 1); }
+  void apply(const events::Event& event) { apply_event(model_, event, model_.tree.events().size() + 1); }
   void limit_cells(std::uint32_t most) { model_.tree.limit_cells(most); }
   const ght::Model& model() const { return model_; }
 
   void spans(Columns where, SpanSink& out) const override;
-  // Closed over all links. A detail other than the tree's own gives the topmost surface alone, as heights
-  // that far apart: heightmaps that lean have no common coarser lattice.
+  // A closed mesh of all heightmaps. Any detail other than the tree's own gives only the topmost surface, as
+  // heights that far apart: inclined heightmaps have no common coarser grid.
   TriangleMesh mesh(MeshDetail) const override;
   Memory memory() const override;
   void save(ByteSink&) const override;

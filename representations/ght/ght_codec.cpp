@@ -1,5 +1,5 @@
-// The tree's own form: lattice, nodes, cells and their kinds, events, faces, and which squares they cover.
-// The indices are made again on loading. What is read is checked to be a tree that every query can walk.
+// The tree's own file form: grid, nodes, cells and their kinds, events, faces, and the squares that they
+// cover. Loading builds the indices again, and checks that every query can safely read the tree.
 #include <algorithm>
 #include <cmath>
 
@@ -10,50 +10,53 @@ namespace terrabench {
 namespace ght {
 namespace {
 
-constexpr float kFarthest = 1e12F;  // metres; sums of a few such lengths are still numbers
+constexpr float kFarthest = 1e12F;  // metres; sums of a few such lengths stay finite
 
 bool sane(float v) { return std::abs(v) <= kFarthest; }
 
-void save(const Node& node, ByteSink& out) {
-  out.put(node.frame);
-  for (const int v : {node.columns, node.rows, node.i0, node.j0}) out.put(v);
-  out.put(node.parent);
-  out.put(node.event);
-  out.put(node.area);
-  out.put(static_cast<std::uint8_t>(node.aligned));
+template <class... Values>
+void put(ByteSink& out, const Values&... values) {
+  (out.put(values), ...);
+}
+template <class... Values>
+void get(ByteSource& in, Values&... values) {
+  ((values = in.get<Values>()), ...);
 }
 
-Node load_node(ByteSource& in) {
-  Node node;
-  node.frame = in.get<Frame>();
+void save(const GroundedHeightmap& node, ByteSink& out) {
+  put(out, node.plane, node.columns, node.rows, node.i0, node.j0, node.parent, node.event, node.area,
+      static_cast<std::uint8_t>(node.aligned));
+}
+
+GroundedHeightmap load_node(ByteSource& in) {
+  GroundedHeightmap node;
+  std::uint8_t area = 0, aligned = 0;
+  get(in, node.plane);
   for (const glm::vec3& v :
-       {node.frame.origin, node.frame.u, node.frame.v, node.frame.taper, node.frame.height}) {
-    if (!sane(v.x) || !sane(v.y) || !sane(v.z)) in.fail("a node's plane is nowhere");
+       {node.plane.origin, node.plane.u, node.plane.v, node.plane.taper, node.plane.height}) {
+    if (!sane(v.x) || !sane(v.y) || !sane(v.z)) in.fail("a node's plane is not finite or too far away");
   }
-  for (int* v : {&node.columns, &node.rows, &node.i0, &node.j0}) *v = in.get<int>();
-  node.parent = in.get<NodeId>();
-  node.event = in.get<std::uint32_t>();
-  const auto area = in.get<std::uint8_t>(), aligned = in.get<std::uint8_t>();
-  if (area > static_cast<std::uint8_t>(Area::kBorder) || aligned > 1) in.fail("a node's type cannot be");
+  get(in, node.columns, node.rows, node.i0, node.j0, node.parent, node.event, area, aligned);
+  if (area > static_cast<std::uint8_t>(Area::kBorder) || aligned > 1) in.fail("invalid type of a node");
   node.area = static_cast<Area>(area);
   node.aligned = aligned != 0;
   return node;
 }
 
-void check_node(const Node& node, NodeId id, const Lattice& lattice, ByteSource& in) {
+void check_node(const GroundedHeightmap& node, NodeId id, const SampleGrid& grid, ByteSource& in) {
   const bool root = id == 0;
   if (node.columns < 1 || node.rows < 1 || node.columns > ColumnGrid::kMaxColumns * 4 ||
       node.rows > ColumnGrid::kMaxColumns * 4) {
-    in.fail("a node's size cannot be");
+    in.fail("invalid size of a node");
   }
-  if (node.aligned && !(node.i0 >= 0 && node.j0 >= 0 && node.i0 <= lattice.width - node.columns &&
-                        node.j0 <= lattice.depth - node.rows)) {
+  if (node.aligned && !(node.i0 >= 0 && node.j0 >= 0 && node.i0 <= grid.width - node.columns &&
+                        node.j0 <= grid.depth - node.rows)) {
     in.fail("a node lies outside the root");
   }
-  if (root ? !(node.aligned && node.columns == lattice.width && node.rows == lattice.depth &&
+  if (root ? !(node.aligned && node.columns == grid.width && node.rows == grid.depth &&
                node.parent == kNone && node.event == kNone && node.area == Area::kOutdoor)
            : node.parent >= id) {
-    in.fail("a node's place in the tree cannot be");
+    in.fail("invalid place of a node in the tree");
   }
 }
 
@@ -61,13 +64,13 @@ void check_cells(const Tree& tree, ByteSource& in) {
   for (CellId c = 0; c < tree.cells(); ++c) {
     switch (tree.kind(c)) {
       case CellKind::kVoid:
-        if (tree.target(c) != 0) in.fail("an empty cell is not empty");
+        if (tree.target(c) != 0) in.fail("a void cell has a value");
         break;
       case CellKind::kHeight:
-        if (!sane(tree.height(c))) in.fail("a height is no number of metres");
+        if (!sane(tree.height(c))) in.fail("a height is not finite or too large");
         break;
       case CellKind::kLink:
-        // Later cells only, so that links end: in a height, or over the mouth of a carving in nothing.
+        // To later cells only, so that links end: in a height, or over the mouth of a carving in a void cell.
         if (tree.target(c) <= c || tree.target(c) >= tree.cells() ||
             (tree.kind(tree.target(c)) == CellKind::kVoid &&
              tree.nodes()[tree.node_of(tree.target(c))].area != Area::kBorder)) {
@@ -75,7 +78,7 @@ void check_cells(const Tree& tree, ByteSource& in) {
         }
         break;
       default:
-        in.fail("a cell is neither height nor link nor empty");
+        in.fail("invalid kind of a cell");
     }
   }
 }
@@ -86,38 +89,38 @@ void check_events(const Tree& tree, ByteSource& in) {
     const Applied& event = tree.events()[e];
     if (static_cast<int>(event.kind) >= events::kKinds || event.first != next || event.nodes < 1 ||
         event.host >= event.first || next + event.nodes > tree.nodes().size()) {
-      in.fail("an event cannot be");
+      in.fail("invalid event");
     }
     for (std::uint32_t n = event.first; n < event.first + event.nodes; ++n) {
       if (tree.nodes()[n].event != e || tree.nodes()[n].parent != event.host)
-        in.fail("a node is of another event");
+        in.fail("a node belongs to another event");
     }
     next += event.nodes;
   }
-  if (next != tree.nodes().size()) in.fail("a node is of no event");
+  if (next != tree.nodes().size()) in.fail("a node belongs to no event");
 }
 
-// The cells at the corners of plain squares stand there.
+// The cells at the corners of plain squares must be there.
 void check_plain(const Model& model, ByteSource& in) {
   const Tree& tree = model.tree;
-  const Lattice& lattice = tree.lattice();
+  const SampleGrid& grid = tree.grid();
   const CellId root = tree.nodes()[0].cells();
-  for (int j = 0; j + 1 < lattice.depth; ++j) {
-    for (int i = 0; i + 1 < lattice.width; ++i) {
+  for (int j = 0; j + 1 < grid.depth; ++j) {
+    for (int i = 0; i + 1 < grid.width; ++i) {
       const Square s{i, j};
       if (!model.surface.plain(tree, s)) continue;
       for (int k = 0; k < 4; ++k) {
         const int a = i + k % 2, b = j + k / 2;
         const CellId c = tree.at_sample(a, b);
-        if (tree.kind(c) != CellKind::kHeight) in.fail("a plain square has no such corner");
+        if (tree.kind(c) != CellKind::kHeight) in.fail("a corner of a plain square has no height");
         if (c < root) {
-          if (c != tree.root_cell(a, b)) in.fail("a sample links to another one");
+          if (c != tree.root_cell(a, b)) in.fail("a sample links to another sample");
           continue;
         }
-        const Node& node = tree.nodes()[tree.node_of(c)];
+        const GroundedHeightmap& node = tree.nodes()[tree.node_of(c)];
         if (!node.aligned || node.i0 > a || node.j0 > b || node.i0 + node.columns <= a ||
             node.j0 + node.rows <= b || node.cell(a - node.i0, b - node.j0) != c) {
-          in.fail("a plain square's corner stands elsewhere");
+          in.fail("a corner of a plain square is elsewhere");
         }
       }
     }
@@ -127,51 +130,44 @@ void check_plain(const Model& model, ByteSource& in) {
 }  // namespace
 
 void Tree::save(ByteSink& out) const {
-  for (const int v : {lattice_.width, lattice_.depth}) out.put(v);
-  for (const float v : {lattice_.cell_x, lattice_.cell_z}) out.put(v);
-  for (const double v : {lattice_.origin_x, lattice_.origin_z}) out.put(v);
-  out.put(static_cast<std::uint32_t>(nodes_.size()));
-  for (const Node& node : nodes_) ght::save(node, out);
+  put(out, grid_.width, grid_.depth, grid_.spacing_x, grid_.spacing_z, grid_.origin_x, grid_.origin_z,
+      static_cast<std::uint32_t>(nodes_.size()));
+  for (const GroundedHeightmap& node : nodes_) ght::save(node, out);
   for (const auto* array : {&cells_, &kinds_}) {
     out.put_array(std::span(array->first()));
     out.put_array(std::span(array->second()));
   }
   out.put(static_cast<std::uint32_t>(events_.size()));
-  for (const Applied& event : events_) {
-    out.put(event.kind);
-    for (const NodeId n : {event.host, event.first, event.nodes}) out.put(n);
-  }
+  for (const Applied& event : events_) put(out, event.kind, event.host, event.first, event.nodes);
 }
 
 Tree Tree::load(ByteSource& in) {
   Tree tree;
-  Lattice& lattice = tree.lattice_;
-  for (int* v : {&lattice.width, &lattice.depth}) *v = in.get<int>();
-  for (float* v : {&lattice.cell_x, &lattice.cell_z}) *v = in.get<float>();
-  for (double* v : {&lattice.origin_x, &lattice.origin_z}) *v = in.get<double>();
-  if (lattice.width < 1 || lattice.depth < 1 || lattice.width > ColumnGrid::kMaxColumns ||
-      lattice.depth > ColumnGrid::kMaxColumns || !(lattice.cell_x > 0 && lattice.cell_z > 0) ||
-      !sane(lattice.x(lattice.width - 1)) || !sane(lattice.z(lattice.depth - 1)) || !sane(lattice.x(0)) ||
-      !sane(lattice.z(0)) || lattice.x(1) <= lattice.x(0) || lattice.z(1) <= lattice.z(0)) {
-    in.fail("the lattice cannot be");
+  SampleGrid& grid = tree.grid_;
+  get(in, grid.width, grid.depth, grid.spacing_x, grid.spacing_z, grid.origin_x, grid.origin_z);
+  if (grid.width < 1 || grid.depth < 1 || grid.width > ColumnGrid::kMaxColumns ||
+      grid.depth > ColumnGrid::kMaxColumns || !(grid.spacing_x > 0 && grid.spacing_z > 0) ||
+      !sane(grid.x(grid.width - 1)) || !sane(grid.z(grid.depth - 1)) || !sane(grid.x(0)) ||
+      !sane(grid.z(0)) || grid.x(1) <= grid.x(0) || grid.z(1) <= grid.z(0)) {
+    in.fail("invalid grid");
   }
   const auto nodes = in.get<std::uint32_t>();
   std::uint64_t cells = 0;
   for (NodeId n = 0; n < nodes; ++n) {
-    Node node = load_node(in);
-    check_node(node, n, lattice, in);
+    GroundedHeightmap node = load_node(in);
+    check_node(node, n, grid, in);
     node.first = static_cast<CellId>(cells);
     node.depth = n == 0 ? 0 : tree.nodes_[node.parent].depth + 1;
     cells += static_cast<std::uint64_t>(node.columns) * static_cast<std::uint64_t>(node.rows);
     if (cells > kMostCells || cells > in.left() / sizeof(std::uint32_t))
-      in.fail("there are fewer cells than the nodes have");
+      in.fail("fewer cells than the nodes need");
     tree.nodes_.push_back(node);
   }
-  if (nodes == 0) in.fail("there is no root");
+  if (nodes == 0) in.fail("no root");
   tree.cells_ = TwoPartArray(in.get_array<std::uint32_t>(cells));
   tree.kinds_ = TwoPartArray(in.get_array<std::uint32_t>((cells + kPerWord - 1) / kPerWord));
   if (cells % kPerWord != 0 && tree.kinds_.back() >> cells % kPerWord * 2 != 0)
-    in.fail("there are more kinds than cells");
+    in.fail("more kinds than cells");
   tree.pages_.resize((cells + kPage - 1) / kPage);
   NodeId at = 0;
   for (std::size_t p = 0; p < tree.pages_.size(); ++p) {
@@ -181,8 +177,7 @@ Tree Tree::load(ByteSource& in) {
   const auto events = in.get<std::uint32_t>();
   for (std::uint32_t e = 0; e < events; ++e) {
     Applied event{};
-    event.kind = in.get<events::Kind>();
-    for (NodeId* n : {&event.host, &event.first, &event.nodes}) *n = in.get<NodeId>();
+    get(in, event.kind, event.host, event.first, event.nodes);
     tree.events_.push_back(event);
   }
   check_cells(tree, in);
@@ -192,7 +187,7 @@ Tree Tree::load(ByteSource& in) {
   return tree;
 }
 
-void Surface::save(ByteSink& out) const {
+void ComposedSurface::save(ByteSink& out) const {
   out.put(static_cast<std::uint32_t>(face_count_));
   each_face([&](FaceId f) { out.put(faces_[f]); });
   std::vector<std::uint32_t> covering;
@@ -210,22 +205,21 @@ void Surface::save(ByteSink& out) const {
   }
 }
 
-Surface Surface::load(ByteSource& in, const Tree& tree) {
-  const Lattice& lattice = tree.lattice();
-  Surface surface(lattice);
+ComposedSurface ComposedSurface::load(ByteSource& in, const Tree& tree) {
+  const SampleGrid& grid = tree.grid();
+  ComposedSurface surface(grid);
   const auto faces = in.get_array<Face>(in.get<std::uint32_t>());
   for (const Face& face : faces) {
     for (const CellId c : face) {
-      if (c >= tree.cells() || tree.kind(c) != CellKind::kHeight) in.fail("a face has no such corner");
+      if (c >= tree.cells() || tree.kind(c) != CellKind::kHeight) in.fail("a corner of a face has no height");
       const glm::vec3 p = tree.position(c);
-      if (!sane(p.x) || !sane(p.y) || !sane(p.z)) in.fail("a face is nowhere");
+      if (!sane(p.x) || !sane(p.y) || !sane(p.z)) in.fail("a corner of a face is not finite or too far away");
     }
     if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0])
-      in.fail("a face has fewer than three corners");
+      in.fail("a face has two equal corners");
     if (surface.range(tree, face).count() > kMostSquares) in.fail("a face is too large");
   }
-  if (!faces.empty() && (lattice.width < 2 || lattice.depth < 2))
-    in.fail("there are faces where there is no square");
+  if (!faces.empty() && (grid.width < 2 || grid.depth < 2)) in.fail("faces without squares");
   std::vector<Square> covered;
   for (auto tiles = in.get<std::uint32_t>(); tiles > 0; --tiles) {
     const auto t = in.get<std::uint32_t>();
@@ -235,7 +229,7 @@ Surface Surface::load(ByteSource& in, const Tree& tree) {
       if ((bits[k / 64] >> k % 64 & 1U) == 0) continue;
       const Square s{static_cast<int>(t % surface.tiles_x_ * kSide + k % kSide),
                      static_cast<int>(t / surface.tiles_x_ * kSide + k / kSide)};
-      if (s.i < 1 || s.j < 1 || s.i + 2 >= lattice.width || s.j + 2 >= lattice.depth)
+      if (s.i < 1 || s.j < 1 || s.i + 2 >= grid.width || s.j + 2 >= grid.depth)
         in.fail("a face covers the border");
       for (int b = 0; b < 9; ++b) {
         if (hole(tree, {s.i - 1 + b % 3, s.j - 1 + b / 3})) in.fail("a face covers a hole");
@@ -259,24 +253,21 @@ using namespace ght;
 void Ght::save(ByteSink& out) const {
   model_.tree.save(out);
   model_.surface.save(out);
-  out.put(model_.floor);
-  out.put(model_.ceiling);
+  put(out, model_.floor, model_.ceiling);
 }
 
 std::unique_ptr<Representation> Ght::load(ByteSource& in) {
   std::unique_ptr<Ght> loaded(new Ght);
   Model& model = loaded->model_ = Model(Tree::load(in), 0, 0);
-  model.surface = Surface::load(in, model.tree);
-  model.floor = in.get<float>();
-  model.ceiling = in.get<float>();
-  if (!sane(model.floor) || !sane(model.ceiling) || model.floor > model.ceiling)
-    in.fail("the bounds cannot be");
+  model.surface = ComposedSurface::load(in, model.tree);
+  get(in, model.floor, model.ceiling);
+  if (!sane(model.floor) || !sane(model.ceiling) || model.floor > model.ceiling) in.fail("invalid bounds");
   check_plain(model, in);
   for (NodeId n = 1; n < model.tree.nodes().size(); ++n) {
-    const Node& node = model.tree.nodes()[n];
+    const GroundedHeightmap& node = model.tree.nodes()[n];
     model.carved = model.carved || is_carving(model.tree.events()[node.event].kind);
-    const SquareRange r = range(model.surface, model.tree.lattice(), node);
-    constexpr int kSlack = 4;  // cells are no larger than squares
+    const SquareRange r = model.range(node);
+    constexpr int kSlack = 4;  // cells are at most one sample spacing apart
     if (std::max(r.i1 - r.i0, r.j1 - r.j0) > node.columns + node.rows + kSlack)
       in.fail("a node is too wide for its cells");
     if (node.area == Area::kOutdoor) model.index_node(n);

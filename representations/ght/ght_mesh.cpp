@@ -14,27 +14,27 @@ using namespace ght;
 // The four squares around a sample, as bits.
 enum Quadrant : unsigned { kNorthWest = 1, kNorthEast = 2, kSouthWest = 4, kSouthEast = 8 };
 
-// Plain squares and faces above, the squares again at the floor, walls where a square has no neighbour.
-// Events keep away from the border and from holes, so that walls stand under plain squares only.
+// The closed mesh: plain squares and faces on top, all squares at the floor, and walls where a square has no
+// neighbour. Events refuse the border and holes, so walls are needed under plain squares only.
 class Mesher {
  public:
-  explicit Mesher(const Model& model) : model_(model), tree_(model.tree), lattice_(model.tree.lattice()) {}
+  explicit Mesher(const Model& model) : model_(model), tree_(model.tree), grid_(model.tree.grid()) {}
 
   TriangleMesh run() {
-    if (lattice_.width < 2 || lattice_.depth < 2) return {};
-    // A top and a floor vertex a sample, two triangles a square on each, and the faces.
-    require_memory(lattice_.samples() * (2 * sizeof(glm::vec3) + 12 * sizeof(std::uint32_t)) +
+    if (grid_.width < 2 || grid_.depth < 2) return {};
+    // Per sample a top and a floor vertex and two triangles on each, and the faces.
+    require_memory(grid_.samples() * (2 * sizeof(glm::vec3) + 12 * sizeof(std::uint32_t)) +
                        model_.surface.faces() * (sizeof(glm::vec3) / 2 + 3 * sizeof(std::uint32_t)) +
-                       (tree_.cells() + 2 * lattice_.samples()) * sizeof(std::uint32_t),
+                       (tree_.cells() + 2 * grid_.samples()) * sizeof(std::uint32_t),
                    "mesh of a grounded heightmap tree");
     vertex_of_.assign(tree_.cells(), kNone);
-    tops_.assign(lattice_.samples(), {kNone, kNone});
-    floors_.assign(lattice_.samples(), {kNone, kNone});
-    for (int j = 0; j < lattice_.depth; ++j) {
-      for (int i = 0; i < lattice_.width; ++i) place(i, j);
+    tops_.assign(grid_.samples(), {kNone, kNone});
+    floors_.assign(grid_.samples(), {kNone, kNone});
+    for (int j = 0; j < grid_.depth; ++j) {
+      for (int i = 0; i < grid_.width; ++i) place(i, j);
     }
-    for (int j = 0; j + 1 < lattice_.depth; ++j) {
-      for (int i = 0; i + 1 < lattice_.width; ++i) {
+    for (int j = 0; j + 1 < grid_.depth; ++j) {
+      for (int i = 0; i + 1 < grid_.width; ++i) {
         if (ground(i, j)) emit({i, j});
       }
     }
@@ -45,20 +45,20 @@ class Mesher {
   }
 
  private:
-  // The vertex of a sample as the squares south and north of it use it: two where squares touch at a corner
-  // only.
+  // The vertices of a sample for the squares south and north of it: two different ones where only two squares
+  // meet, at a corner.
   struct Vertices {
     std::uint32_t south, north;
   };
 
   bool ground(int i, int j) const {
-    return i >= 0 && j >= 0 && i + 1 < lattice_.width && j + 1 < lattice_.depth &&
-           !Surface::hole(tree_, {i, j});
+    return i >= 0 && j >= 0 && i + 1 < grid_.width && j + 1 < grid_.depth &&
+           !ComposedSurface::hole(tree_, {i, j});
   }
   std::uint32_t add(glm::vec3 position) {
     if (mesh_.positions.size() == kNone) {
-      throw usage_error("has more than 2³² vertices", "mesh of a grounded heightmap tree",
-                        "ask for larger cells");
+      throw usage_error("more than 2³² vertices", "mesh of a grounded heightmap tree",
+                        "ask for a coarser mesh");
     }
     mesh_.positions.push_back(position);
     return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
@@ -73,8 +73,8 @@ class Mesher {
                             (ground(i - 1, j) ? kSouthWest : 0U) | (ground(i, j) ? kSouthEast : 0U);
     if (around == 0) return;
     const bool doubled = around == (kNorthWest | kSouthEast) || around == (kNorthEast | kSouthWest);
-    const std::size_t at = static_cast<std::size_t>(j) * lattice_.width + i;
-    const glm::vec3 floor = {lattice_.x(i), model_.floor, lattice_.z(j)};
+    const std::size_t at = static_cast<std::size_t>(j) * grid_.width + i;
+    const glm::vec3 floor = {grid_.x(i), model_.floor, grid_.z(j)};
     floors_[at].south = floors_[at].north = add(floor);
     if (doubled) floors_[at].north = add(floor);
     bool plain = false;
@@ -93,8 +93,7 @@ class Mesher {
   }
 
   void emit(Square s) {
-    const std::size_t north = static_cast<std::size_t>(s.j) * lattice_.width + s.i,
-                      south = north + lattice_.width;
+    const std::size_t north = static_cast<std::size_t>(s.j) * grid_.width + s.i, south = north + grid_.width;
     const std::uint32_t nw = tops_[north].south, ne = tops_[north + 1].south;
     const std::uint32_t sw = tops_[south].north, se = tops_[south + 1].north;
     const std::uint32_t nw0 = floors_[north].south, ne0 = floors_[north + 1].south;
@@ -104,7 +103,7 @@ class Mesher {
     if (model_.surface.covered(s)) return;
     triangle(nw, sw, ne);
     triangle(ne, sw, se);
-    // From a to b with the ground on the left, seen from above: the wall faces right.
+    // From a to b, seen from above, the ground is on the left and the wall faces right.
     const auto wall = [&](std::uint32_t a, std::uint32_t b, std::uint32_t a0, std::uint32_t b0) {
       triangle(a0, b0, b);
       triangle(a0, b, a);
@@ -117,19 +116,19 @@ class Mesher {
 
   const Model& model_;
   const Tree& tree_;
-  const Lattice& lattice_;
+  const SampleGrid& grid_;
   TriangleMesh mesh_;
-  std::vector<std::uint32_t> vertex_of_;  // a cell
-  std::vector<Vertices> tops_, floors_;   // a sample
+  std::vector<std::uint32_t> vertex_of_;  // of each cell
+  std::vector<Vertices> tops_, floors_;   // of each sample
 };
 
-// About `cell` apart, from end to end.
-std::vector<float> lines(float low, float high, float cell) {
-  const int cells = static_cast<int>(
-      std::clamp(std::round((high - low) / cell), 1.0F, static_cast<float>(ColumnGrid::kMaxColumns)));
+// Coordinates from low to high, about `spacing` apart.
+std::vector<float> lines(float low, float high, float spacing) {
+  const int steps = static_cast<int>(
+      std::clamp(std::round((high - low) / spacing), 1.0F, static_cast<float>(ColumnGrid::kMaxColumns)));
   std::vector<float> at;
-  for (int i = 0; i < cells; ++i)
-    at.push_back(low + (high - low) * static_cast<float>(i) / static_cast<float>(cells));
+  for (int i = 0; i < steps; ++i)
+    at.push_back(low + (high - low) * static_cast<float>(i) / static_cast<float>(steps));
   at.push_back(high);
   return at;
 }

@@ -9,18 +9,14 @@
 namespace terrabench::ght {
 namespace {
 
-struct Edge {
-  CellId from, to;
-  auto operator<=>(const Edge&) const = default;
-};
-
-template <class Visit>  // visit(Face) for all triangles of the surface, plain squares' too
+template <class Visit>  // visit(Face) for all triangles of the surface, also of plain squares
 void each_triangle(const Model& model, const Visit& visit) {
-  const Lattice& lattice = model.tree.lattice();
-  for (int j = 0; j + 1 < lattice.depth; ++j) {
-    for (int i = 0; i + 1 < lattice.width; ++i) {
+  const SampleGrid& grid = model.tree.grid();
+  for (int j = 0; j + 1 < grid.depth; ++j) {
+    for (int i = 0; i + 1 < grid.width; ++i) {
       if (!model.surface.plain(model.tree, {i, j})) continue;
-      for (const Face& face : Surface::plain_faces(Surface::corners(model.tree, {i, j}))) visit(face);
+      for (const Face& face : ComposedSurface::plain_faces(ComposedSurface::corners(model.tree, {i, j})))
+        visit(face);
     }
   }
   model.surface.each_face([&](FaceId f) { visit(model.surface.face(f)); });
@@ -38,7 +34,7 @@ class Inspector {
     list_edges();
     edges();
     expect(unlinked_boundary_cells(model_),
-           "boundary cells of a new heightmap that no other one is linked to");
+           "boundary cells of a new heightmap without a link to another one");
     return std::move(problems_);
   }
 
@@ -50,10 +46,10 @@ class Inspector {
   void nodes() {
     std::size_t wrong = 0;
     for (NodeId n = 1; n < tree_.nodes().size(); ++n) {
-      const Node& node = tree_.nodes()[n];
+      const GroundedHeightmap& node = tree_.nodes()[n];
       wrong += node.parent >= n || node.depth != tree_.nodes()[node.parent].depth + 1;
     }
-    expect(wrong, "nodes whose parent is not above them");
+    expect(wrong, "nodes whose parent is not an earlier one");
   }
 
   std::size_t borders(const Applied& event) const {
@@ -64,43 +60,29 @@ class Inspector {
     return n;
   }
 
+  // Whether the event added as many heightmaps as in the paper; a section has at least three sides.
+  bool has_papers_count(const Applied& event) const {
+    constexpr std::array<std::uint32_t, 5> kGeotectonic = {4, 1, 3, 3, 2};  // in the order of events::Kind
+    if (!is_carving(event.kind)) return event.nodes == kGeotectonic[static_cast<std::size_t>(event.kind)];
+    return borders(event) == (event.kind == events::Kind::kTunnel ? 2U : 1U) && event.nodes >= 2 + 3;
+  }
+
   void counts() {
     std::size_t wrong = 0, of_events = 0;
     for (const Applied& event : tree_.events()) {
       of_events += event.nodes;
-      switch (event.kind) {
-        case events::Kind::kLinearErosion:
-          wrong += event.nodes != 4;
-          break;
-        case events::Kind::kRadialErosion:
-          wrong += event.nodes != 1;
-          break;
-        case events::Kind::kNormalFault:
-        case events::Kind::kInverseFault:
-          wrong += event.nodes != 3;
-          break;
-        case events::Kind::kLateralFault:
-          wrong += event.nodes != 2;
-          break;
-        case events::Kind::kTunnel:
-          wrong += borders(event) != 2 || event.nodes < 2 + 3;  // and the sides, at least three
-          break;
-        case events::Kind::kCave:
-          wrong += borders(event) != 1 || event.nodes < 2 + 3;
-          break;
-      }
+      wrong += !has_papers_count(event);
     }
-    expect(wrong, "events that added another number of heightmaps than the paper's");
+    expect(wrong, "events that did not add the paper's number of heightmaps");
     expect(of_events + 1 != tree_.nodes().size() ? 1 : 0, "heightmaps that no event added");
   }
 
-  // Whether one of the squares around a sample is plain.
+  // Whether any of the squares around a sample is plain.
   bool plain_around(int i, int j) const {
-    const Lattice& lattice = tree_.lattice();
+    const SampleGrid& grid = tree_.grid();
     for (int k = 0; k < 4; ++k) {
       const Square s{i - k % 2, j - k / 2};
-      if (s.i >= 0 && s.j >= 0 && s.i + 1 < lattice.width && s.j + 1 < lattice.depth &&
-          surface_.plain(tree_, s)) {
+      if (s.i >= 0 && s.j >= 0 && s.i + 1 < grid.width && s.j + 1 < grid.depth && surface_.plain(tree_, s)) {
         return true;
       }
     }
@@ -116,27 +98,24 @@ class Inspector {
         used_[c] = 1;
       }
     });
-    const Lattice& lattice = tree_.lattice();
-    for (int j = 0; j < lattice.depth; ++j) {
-      for (int i = 0; i < lattice.width; ++i) {
+    const SampleGrid& grid = tree_.grid();
+    for (int j = 0; j < grid.depth; ++j) {
+      for (int i = 0; i < grid.width; ++i) {
         if (!plain_around(i, j)) continue;
         const glm::vec2 at = tree_.plan(tree_.at_sample(i, j));
-        elsewhere += at != glm::vec2(lattice.x(i), lattice.z(j));
+        elsewhere += at != glm::vec2(grid.x(i), grid.z(j));
       }
     }
     surface_.each_face([&](FaceId f) {
-      const SquareRange r = surface_.range(tree_, surface_.face(f));
-      for (int j = r.j0; j <= r.j1; ++j) {
-        for (int i = r.i0; i <= r.i1; ++i) {
-          bool found = false;
-          surface_.over({i, j}, [&](FaceId other) { found = found || other == f; });
-          unindexed += !found;
-        }
-      }
+      surface_.range(tree_, surface_.face(f)).each([&](Square s) {
+        bool found = false;
+        surface_.over(s, [&](FaceId other) { found = found || other == f; });
+        unindexed += !found;
+      });
     });
-    expect(empty, "corners of the surface that hold no height");
-    expect(elsewhere, "plain squares' corners that stand elsewhere");
-    expect(unindexed, "faces that are not found where they are");
+    expect(empty, "corners of the surface without a height");
+    expect(elsewhere, "corners of plain squares that are elsewhere");
+    expect(unindexed, "faces that are not in the index of a square");
   }
 
   void links() {
@@ -148,7 +127,7 @@ class Inspector {
         continue;
       }
       const CellId end = tree_.resolve(c);
-      // Over the mouth of a carving the paper's links are null: here they end in an empty cell of the border.
+      // Over the mouth of a carving the paper's links are null; here they end in a void cell of the border.
       const bool null =
           tree_.kind(end) == CellKind::kVoid && tree_.nodes()[tree_.node_of(end)].area == Area::kBorder;
       dangling += !null && used_[end] == 0;
@@ -157,8 +136,7 @@ class Inspector {
     expect(dangling, "links that do not lead to the surface");
   }
 
-  // Edges by the cell that they leave: those of cell c are ends_[first_[c]] … ends_[first_[c + 1] - 1],
-  // ascending.
+  // The ends of the edges from cell c are ends_[first_[c]] … ends_[first_[c + 1] - 1], ascending.
   void list_edges() {
     first_.assign(tree_.cells() + std::size_t{1}, 0);
     each_triangle(model_, [&](const Face& face) {
@@ -187,32 +165,29 @@ class Inspector {
       for (std::size_t k = 0; k < ends.size(); ++k) {
         twice += k > 0 && ends[k] == ends[k - 1];
         const std::span<const CellId> back = edges_from(ends[k]);
-        if (!std::binary_search(back.begin(), back.end(), c)) open += !at_rim({c, ends[k]});
+        if (!std::binary_search(back.begin(), back.end(), c)) open += !at_rim(c, ends[k]);
       }
     }
-    expect(twice, "edges that two faces run the same way");
+    expect(twice, "edges that two faces have in the same direction");
     expect(open, "edges with one face only");
   }
-  // Between two neighbouring samples with nothing beyond: the terrain's border or a hole.
-  bool at_rim(const Edge& edge) const {
-    const Lattice& lattice = tree_.lattice();
-    const glm::vec2 a = tree_.plan(edge.from), b = tree_.plan(edge.to);
+  // Whether an edge lies at the terrain's border or at a hole.
+  bool at_rim(CellId from, CellId to) const {
+    const SampleGrid& grid = tree_.grid();
+    const glm::vec2 a = tree_.plan(from), b = tree_.plan(to);
     const SquareRange r =
         surface_.range({std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)});
-    if (a.x == b.x && (a.x == lattice.x(0) || a.x == lattice.x(lattice.width - 1))) return true;
-    if (a.y == b.y && (a.y == lattice.z(0) || a.y == lattice.z(lattice.depth - 1))) return true;
-    for (int j = r.j0; j <= r.j1; ++j) {
-      for (int i = r.i0; i <= r.i1; ++i) {
-        if (Surface::hole(tree_, {i, j})) return true;
-      }
-    }
-    return false;
+    if (a.x == b.x && (a.x == grid.x(0) || a.x == grid.x(grid.width - 1))) return true;
+    if (a.y == b.y && (a.y == grid.z(0) || a.y == grid.z(grid.depth - 1))) return true;
+    bool at_hole = false;
+    r.each([&](Square s) { at_hole = at_hole || ComposedSurface::hole(tree_, s); });
+    return at_hole;
   }
 
   const Model& model_;
   const Tree& tree_;
-  const Surface& surface_;
-  std::vector<char> used_;  // by the surface, a cell
+  const ComposedSurface& surface_;
+  std::vector<char> used_;  // of each cell: whether the surface uses it
   std::vector<std::size_t> first_;
   std::vector<CellId> ends_;
   std::vector<std::string> problems_;
@@ -225,7 +200,7 @@ Census census(const Model& model) {
   Census all;
   all.nodes = tree.nodes().size();
   all.faces = model.surface.faces();
-  for (const Node& node : tree.nodes()) all.deepest = std::max(all.deepest, node.depth);
+  for (const GroundedHeightmap& node : tree.nodes()) all.deepest = std::max(all.deepest, node.depth);
   for (CellId c = 0; c < tree.cells(); ++c) {
     const CellKind kind = tree.kind(c);
     ++(kind == CellKind::kHeight ? all.heights : kind == CellKind::kLink ? all.links : all.voids);
@@ -259,7 +234,7 @@ std::size_t unlinked_boundary_cells(const Model& model) {
   std::size_t unlinked = 0;
   const Applied& last = tree.events().back();
   for (NodeId n = last.first; n < last.first + last.nodes; ++n) {
-    const Node& node = tree.nodes()[n];
+    const GroundedHeightmap& node = tree.nodes()[n];
     const auto beyond = [&](int i, int j) {  // the heightmap
       return i < 0 || j < 0 || i >= node.columns || j >= node.rows ||
              tree.kind(node.cell(i, j)) == CellKind::kVoid;

@@ -8,12 +8,12 @@
 
 namespace terrabench::ght {
 
-Tree::Tree(const Lattice& lattice, std::vector<float> heights) : lattice_(lattice) {
-  Node root;
-  root.columns = lattice.width;
-  root.rows = lattice.depth;
-  root.frame.u.x = lattice.cell_x;
-  root.frame.v.z = lattice.cell_z;
+Tree::Tree(const SampleGrid& grid, std::vector<float> heights) : grid_(grid) {
+  GroundedHeightmap root;
+  root.columns = grid.width;
+  root.rows = grid.depth;
+  root.plane.u.x = grid.spacing_x;
+  root.plane.v.z = grid.spacing_z;
   root.aligned = true;
   append(root);
   for (CellId c = 0; c < cells(); ++c) {
@@ -34,11 +34,11 @@ void Tree::resize_cells(std::size_t cells, NodeId node) {
   pages_.resize((cells + kPage - 1) / kPage, node);
 }
 
-NodeId Tree::append(Node node) {
+NodeId Tree::append(GroundedHeightmap node) {
   const std::uint64_t before = cells(), cells = before + static_cast<std::uint64_t>(node.columns) *
                                                              static_cast<std::uint64_t>(node.rows);
   if (cells > most_cells_) {
-    throw environment_error("has no cell numbers left", "grounded heightmap tree",
+    throw environment_error("has reached its largest number of cells", "grounded heightmap tree",
                             "apply fewer or smaller events, or raise most_cells");
   }
   node.first = static_cast<CellId>(before);
@@ -56,7 +56,7 @@ void Tree::truncate(std::size_t nodes) noexcept {
   cells_.resize(cells);
   kinds_.resize((cells + kPerWord - 1) / kPerWord);
   pages_.resize((cells + kPage - 1) / kPage);
-  // The last word may hold kinds of cells that are gone.
+  // The last word may hold kinds of removed cells.
   if (cells % kPerWord != 0) kinds_.back() &= (1U << cells % kPerWord * 2) - 1;
 }
 

@@ -1,10 +1,11 @@
-// The Grounded Heightmap Tree (Alonso, Joan-Arinyo & Solano, "The Grounded Heightmap Tree", §3.1, figure 11):
-// nodes are arrays of cells over a ground plane, a cell holds a height, a link to a cell of another node, or
-// nothing. The paper's cells are structs with pointers (20 to 24 B); here all cells lie in one arena, 4 B a
-// cell and 2 bits that say what they are, nodes ascend with their cells, and links are cell numbers.
+// The Grounded Heightmap Tree (Alonso, Joan-Arinyo & Solano, §3.1, figure 11): its nodes are grounded
+// heightmaps, arrays of cells over a ground plane, and a cell holds a height, a link to a cell of another
+// heightmap, or nothing. The paper's cells are structs with pointers (20 to 24 bytes). Here all cells lie in
+// one array, at 4 bytes per cell and 2 bits for its kind, in the order of their nodes; a link is the number
+// of a cell.
 //
-// Links only ever point to later cells: so nothing can link in a circle, and a node's parent is an earlier
-// one. Reading a cell is O(1); the node of a cell O(1) amortised.
+// Links lead to later cells only, so there are no cycles. A node's parent is an earlier node. Reading a cell
+// is O(1), finding the node of a cell amortised O(1).
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 #include <limits>
 #include <vector>
 
-#include "representations/ght/frame.h"
+#include "representations/ght/ground_plane.h"
 #include "representations/ght/two_part_array.h"
 #include "terrain/events/event.h"
 #include "terrain/files.h"
@@ -24,39 +25,39 @@
 
 namespace terrabench::ght {
 
-using CellId = std::uint32_t;
+using CellId = std::uint32_t;  // the number of a cell in the tree
 using NodeId = std::uint32_t;
 inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 enum class CellKind : std::uint8_t { kVoid, kHeight, kLink };
-// The paper's tag. A border node leads from the ground into a carving.
+// The paper's TerrainType. A border leads from the ground into a carving.
 enum class Area : std::uint8_t { kOutdoor, kIndoor, kBorder };
 
-// Where the root's samples stand.
-struct Lattice {
+// Where the root's samples are in plan.
+struct SampleGrid {
   int width = 0, depth = 0;
-  float cell_x = 1, cell_z = 1;
-  double origin_x = 0, origin_z = 0;  // of sample (0, 0)
+  float spacing_x = 1, spacing_z = 1;  // metres
+  double origin_x = 0, origin_z = 0;   // of sample (0, 0)
 
-  float x(int i) const { return static_cast<float>(origin_x + i * static_cast<double>(cell_x)); }
-  float z(int j) const { return static_cast<float>(origin_z + j * static_cast<double>(cell_z)); }
-  // Samples from the first one, as real numbers.
+  float x(int i) const { return static_cast<float>(origin_x + i * static_cast<double>(spacing_x)); }
+  float z(int j) const { return static_cast<float>(origin_z + j * static_cast<double>(spacing_z)); }
+  // The distance from the first sample, in samples.
   glm::dvec2 samples_to(glm::dvec2 plan) const {
-    return {(plan.x - origin_x) / cell_x, (plan.y - origin_z) / cell_z};
+    return {(plan.x - origin_x) / spacing_x, (plan.y - origin_z) / spacing_z};
   }
-  float cell() const { return std::min(cell_x, cell_z); }
+  float spacing() const { return std::min(spacing_x, spacing_z); }  // the smaller one
   std::size_t samples() const { return static_cast<std::size_t>(width) * depth; }
 };
 
-struct Node {
-  Frame frame;       // of no use when aligned
-  CellId first = 0;  // cell (0, 0); rows follow one another
+struct GroundedHeightmap {
+  GroundPlane plane{};  // unused when aligned
+  CellId first = 0;     // cell (0, 0); rows follow one another
   int columns = 0, rows = 0;
   NodeId parent = kNone;
   std::uint32_t event = kNone;  // number of the event that made it
-  std::uint32_t depth = 0;      // of nodes above it
+  std::uint32_t depth = 0;      // the number of nodes above it
   Area area = Area::kOutdoor;
-  bool aligned = false;  // its cells stand on the root's samples, from (i0, j0) on
+  bool aligned = false;  // its cells are at the root's samples, from (i0, j0) on
   int i0 = 0, j0 = 0;
 
   std::uint32_t cells() const {
@@ -68,7 +69,7 @@ struct Node {
   }
 };
 
-// What an event did: nodes [first, first + nodes) attached to `host`.
+// An applied event: it attached the nodes [first, first + nodes) to `host`.
 struct Applied {
   events::Kind kind;
   NodeId host, first, nodes;
@@ -79,14 +80,14 @@ class Tree {
   static constexpr std::uint32_t kMostCells = kNone - 1;
 
   Tree() = default;
-  // The root alone: a cell for every sample, void where there is no data.
-  Tree(const Lattice& lattice, std::vector<float> heights);
+  // The root only, with one cell per sample, void where there is no data.
+  Tree(const SampleGrid& grid, std::vector<float> heights);
 
-  const Lattice& lattice() const { return lattice_; }
-  const std::vector<Node>& nodes() const { return nodes_; }
+  const SampleGrid& grid() const { return grid_; }
+  const std::vector<GroundedHeightmap>& nodes() const { return nodes_; }
   const std::vector<Applied>& events() const { return events_; }
   std::uint32_t cells() const { return static_cast<std::uint32_t>(cells_.size()); }
-  // Whether a sample of the root holds nothing; unchanged by events, which refuse such ground.
+  // Whether the root has samples without data; events never change that, because they refuse such ground.
   bool has_holes() const { return has_holes_; }
 
   CellKind kind(CellId c) const {
@@ -94,7 +95,7 @@ class Tree {
   }
   float height(CellId c) const { return std::bit_cast<float>(cells_[c]); }  // of a height
   CellId target(CellId c) const { return cells_[c]; }                       // of a link
-  // The height that a cell's links lead to; a void is itself.
+  // The last cell that links lead to from c; c itself when it is no link.
   CellId resolve(CellId c) const {
     while (kind(c) == CellKind::kLink) c = target(c);
     return c;
@@ -105,28 +106,28 @@ class Tree {
     return node;
   }
   glm::vec3 position(CellId c) const { return position(nodes_[node_of(c)], c); }  // of a height
-  // x and z alone.
+  // x and z of position().
   glm::vec2 plan(CellId c) const {
     const glm::vec3 p = position(c);
     return {p.x, p.z};
   }
   CellId root_cell(int i, int j) const {
-    return static_cast<std::uint32_t>(j) * static_cast<std::uint32_t>(lattice_.width) +
+    return static_cast<std::uint32_t>(j) * static_cast<std::uint32_t>(grid_.width) +
            static_cast<std::uint32_t>(i);
   }
-  // The cell that now stands at a sample of the root, if any stands there.
+  // The cell that now holds the ground of a sample of the root, if any.
   CellId at_sample(int i, int j) const { return resolve(root_cell(i, j)); }
 
-  // Appends a node of void cells; its first cell and depth are filled in. Throws environment_error when there
-  // are no more cell numbers or no memory; the tree is as before then.
-  NodeId append(Node node);
+  // Appends a node of void cells and fills in its first cell and depth. Throws environment_error when cell
+  // numbers or memory run out; the tree is then as before.
+  NodeId append(GroundedHeightmap node);
   void append(const Applied& event) { events_.push_back(event); }
   void set_void(CellId c) { set(c, 0, CellKind::kVoid); }
   void set_height(CellId c, float height) { set(c, std::bit_cast<std::uint32_t>(height), CellKind::kHeight); }
   void set_link(CellId c, CellId target) { set(c, target, CellKind::kLink); }
-  // Takes the last nodes away again.
+  // Removes all nodes after the first `nodes`.
   void truncate(std::size_t nodes) noexcept;
-  // Refuses to hold more cells.
+  // append() refuses to go beyond this number of cells.
   void limit_cells(std::uint32_t most) { most_cells_ = most; }
   void reserve_event() { grow(events_, events_.size() + 1); }
 
@@ -137,11 +138,11 @@ class Tree {
  private:
   static constexpr std::uint32_t kPerWord = 16, kPage = 64;
 
-  glm::vec3 position(const Node& node, CellId c) const {
+  glm::vec3 position(const GroundedHeightmap& node, CellId c) const {
     const auto at = static_cast<int>(c - node.first);
     const int i = at % node.columns, j = at / node.columns;
-    if (node.aligned) return {lattice_.x(node.i0 + i), height(c), lattice_.z(node.j0 + j)};
-    return glm::vec3(node.frame.at(i, j, height(c)));
+    if (node.aligned) return {grid_.x(node.i0 + i), height(c), grid_.z(node.j0 + j)};
+    return glm::vec3(node.plane.at(i, j, height(c)));
   }
   void set(CellId c, std::uint32_t payload, CellKind kind) {
     cells_[c] = payload;
@@ -151,12 +152,11 @@ class Tree {
   }
   void resize_cells(std::size_t cells, NodeId node);
 
-  Lattice lattice_;
-  // The root first.
-  TwoPartArray<std::uint32_t> cells_;  // heights' bits, links' targets
-  TwoPartArray<std::uint32_t> kinds_;  // 2 bits a cell
+  SampleGrid grid_;
+  TwoPartArray<std::uint32_t> cells_;  // the bits of a height, or the target of a link
+  TwoPartArray<std::uint32_t> kinds_;  // 2 bits per cell
   TwoPartArray<NodeId> pages_;         // the node of every kPage-th cell
-  std::vector<Node> nodes_;
+  std::vector<GroundedHeightmap> nodes_;
   std::vector<Applied> events_;
   std::uint32_t most_cells_ = kMostCells;
   bool has_holes_ = false;

@@ -10,20 +10,20 @@
 namespace terrabench::ght {
 namespace {
 
-// Points by square of side `cell`, in one sorted array.
+// Points by the square that holds them, in one sorted array.
 class PointHash {
  public:
-  PointHash(std::span<const glm::dvec2> points, double cell) : per_cell_(1 / cell) {
+  PointHash(std::span<const glm::dvec2> points, double side) : per_side_(1 / side) {
     entries_.reserve(points.size());
     for (std::uint32_t i = 0; i < points.size(); ++i) entries_.push_back({key(points[i]), i});
     std::sort(entries_.begin(), entries_.end());
   }
-  // Calls visit(point) for those around the box, and perhaps others, until it says true; whether one did.
+  // Calls visit(point) for the points in the box, and perhaps others, until it returns true; whether one did.
   template <class Visit>
   bool any(glm::dvec2 low, glm::dvec2 high, const Visit& visit) const {
     const auto [row_low, column_low] = key(low);
     const auto [row_high, column_high] = key(high);
-    // A box of more rows than there are points is searched by looking at all.
+    // For a box with more rows than there are points, all points are visited.
     if (row_high - row_low > static_cast<std::int64_t>(entries_.size())) {
       return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) { return visit(e.point); });
     }
@@ -44,11 +44,11 @@ class PointHash {
     auto operator<=>(const Entry&) const = default;
   };
   Key key(glm::dvec2 p) const {
-    return {static_cast<std::int64_t>(std::floor(p.y * per_cell_)),
-            static_cast<std::int64_t>(std::floor(p.x * per_cell_))};
+    return {static_cast<std::int64_t>(std::floor(p.y * per_side_)),
+            static_cast<std::int64_t>(std::floor(p.x * per_side_))};
   }
 
-  double per_cell_;
+  double per_side_;
   std::vector<Entry> entries_;
 };
 
@@ -69,9 +69,10 @@ double mean_side(std::span<const glm::dvec2> points) {
 
 class EarCutter {
  public:
-  // `polygon` lists points in order; one may come twice, where a bridge leads to and from a hole.
-  EarCutter(std::span<const glm::dvec2> points, std::vector<std::uint32_t> polygon, double cell)
-      : points_(points), polygon_(std::move(polygon)), hash_(corners(), cell) {
+  // `polygon` lists points in order; a point may come twice, where a bridge leads to and from a hole. `side`
+  // is the side of the hash's squares.
+  EarCutter(std::span<const glm::dvec2> points, std::vector<std::uint32_t> polygon, double side)
+      : points_(points), polygon_(std::move(polygon)), hash_(corners(), side) {
     const std::size_t n = polygon_.size();
     next_.resize(n);
     previous_.resize(n);
@@ -122,18 +123,17 @@ class EarCutter {
   }
   glm::dvec2 corner(std::uint32_t at) const { return points_[polygon_[at]]; }
 
-  // A corner that could be an ear: first those that leave a short side behind and are no sliver.
+  // Makes the corner a candidate if it could be an ear. The cheapest leave a short side and are no slivers.
   void consider(std::uint32_t at) {
     const std::uint32_t before = previous_[at], after = next_[at];
     if (gone_[at] != 0 || polygon_[before] == polygon_[after]) return;  // or the bridge's far end
     const glm::dvec2 a = corner(before), b = corner(at), c = corner(after), side = c - a;
-    // Cells over one another, on a cliff, make an upright triangle whatever it leads to: no worse than
-    // others.
+    // Points over one another, on a cliff, make a vertical triangle in any case: no worse than others.
     const double form = a == b || b == c ? 1 : shape(a, b, c);
     if (form >= 0) candidates_.push({glm::dot(side, side) / std::max(form, 1e-12), at, version_[at]});
   }
 
-  // A corner that lies in the ear.
+  // A corner that lies inside the ear, or kNobody.
   std::uint32_t blocker(std::uint32_t at) const {
     const std::uint32_t before = previous_[at], after = next_[at];
     const glm::dvec2 a = corner(before), b = corner(at), c = corner(after);
@@ -171,7 +171,7 @@ class EarCutter {
   std::span<const glm::dvec2> points_;
   std::vector<std::uint32_t> polygon_, next_, previous_;
   std::vector<std::uint32_t> version_;  // counts the changes of a corner's neighbours
-  std::vector<std::uint32_t> waiting_;  // first of the corners that could be ears but for this one
+  std::vector<std::uint32_t> waiting_;  // first in the list of corners that this one blocks
   struct Wait {
     std::uint32_t at, next;
   };
@@ -182,16 +182,17 @@ class EarCutter {
   std::vector<Triangle> triangles_;
 };
 
-// Positive when d lies inside the circle through a, b, c, which run counter-clockwise; scaled by lengths to
-// the fourth power.
+// Positive when d lies inside the circle through the counter-clockwise a, b, c. Unit: length to the fourth
+// power.
 double in_circle(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
   a -= d, b -= d, c -= d;
   const auto area = [](glm::dvec2 p, glm::dvec2 q) { return p.x * q.y - p.y * q.x; };
   return glm::dot(a, a) * area(b, c) + glm::dot(b, b) * area(c, a) + glm::dot(c, c) * area(a, b);
 }
 
-// Turns edges between two triangles until none has a better one across (Lawson 1977): what ears leave long
-// where a ring was shut in gets short. Half-edge 3t + k runs from corner k of triangle t to the next.
+// Flips edges between two triangles until none has a better diagonal (Lawson 1977), which shortens the long
+// edges that ear cutting leaves in narrow places. Half-edge 3t + k runs from corner k of triangle t to the
+// next.
 class Flipper {
  public:
   Flipper(std::span<const glm::dvec2> points, std::vector<Triangle> triangles, const Joined& joined)
@@ -217,15 +218,16 @@ class Flipper {
     }
   }
 
-  // Then points from `first` on that only a triangle of such points has get an edge across, so that each is
-  // joined to what lies opposite.
+  // Afterwards flips an edge of each triangle that has only points from `first` on and only one neighbour, so
+  // that each such point is joined to the other loop.
   std::vector<Triangle> run(std::uint32_t first) {
     std::vector<std::uint32_t> waiting;
     for (std::uint32_t h = 0; h < twin_.size(); ++h) {
       if (h < twin_[h] && twin_[h] != kNone) waiting.push_back(h);
     }
-    // Each turn lowers the triangles on the paraboloid over the points; a bound, as rounding may hide that.
-    for (std::size_t left = kMostTurns * triangles_.size(); !waiting.empty() && left > 0; --left) {
+    // Each flip lowers the triangles on the paraboloid over the points. Rounding may hide that, so the number
+    // of flips is limited.
+    for (std::size_t left = kMostFlips * triangles_.size(); !waiting.empty() && left > 0; --left) {
       const std::uint32_t h = waiting.back();
       waiting.pop_back();
       if (twin_[h] == kNone || !better_across(h)) continue;
@@ -238,40 +240,41 @@ class Flipper {
       const auto shared = [&](std::uint32_t h) { return twin_[h] != kNone; };
       if (std::count_if(halves.begin(), halves.end(), shared) != 1) continue;
       const std::uint32_t h = *std::find_if(halves.begin(), halves.end(), shared);
-      if (can_turn(h)) flip(h);
+      if (can_flip(h)) flip(h);
     }
     return std::move(triangles_);
   }
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
-  static constexpr std::size_t kMostTurns = 64;  // a triangle
+  static constexpr std::size_t kMostFlips = 64;  // per triangle
 
   static std::uint32_t next(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
   static std::uint32_t previous(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
   std::uint32_t& from(std::uint32_t h) { return triangles_[h / 3][h % 3]; }
   std::uint32_t from(std::uint32_t h) const { return triangles_[h / 3][h % 3]; }
 
-  // Whether the edge across lies within both triangles and is not there yet.
-  bool can_turn(std::uint32_t h) const {
+  // Whether the other diagonal lies within both triangles and does not exist yet.
+  bool can_flip(std::uint32_t h) const {
     const std::uint32_t t = twin_[h], p = from(previous(h)), q = from(previous(t));
     const glm::dvec2 a = points_[from(h)], b = points_[from(t)], c = points_[p], d = points_[q];
     return p != q && turn(a, d, c) >= 0 && turn(d, b, c) >= 0 && !joined_(p, q) && !has_edge(previous(h), q);
   }
 
+  // Whether the other diagonal is better and possible.
   bool better_across(std::uint32_t h) const {
     const std::uint32_t t = twin_[h];
     const glm::dvec2 a = points_[from(h)], b = points_[from(t)], c = points_[from(previous(h))],
                      d = points_[from(previous(t))];
     const glm::dvec2 old = b - a, across = d - c;
     const double size = std::max({glm::dot(old, old), glm::dot(across, across), glm::dot(c - a, c - a)});
-    // Points on one circle, or over one another on a cliff: the shorter edge.
+    // For points on one circle, or over one another on a cliff, the shorter edge.
     constexpr double kSlip = 1e-9;
     const double inside = in_circle(a, b, c, d);
     const bool better =
         inside > kSlip * size * size ||
         (inside > -kSlip * size * size && glm::dot(across, across) < (1 - kSlip) * glm::dot(old, old));
-    return better && can_turn(h);
+    return better && can_flip(h);
   }
 
   // Whether an edge leads to `to` from the corner at which half-edge h starts.
@@ -281,7 +284,7 @@ class Flipper {
       if (from(next(at)) == to || from(previous(at)) == to) return true;
       at = twin_[previous(at)];
     } while (at != kNone && at != h);
-    // The border was met: the other way around from the start.
+    // At the border: continue the other way around from the start.
     while (at == kNone && twin_[h] != kNone) {
       h = next(twin_[h]);
       if (from(next(h)) == to || from(previous(h)) == to) return true;
@@ -289,8 +292,8 @@ class Flipper {
     return false;
   }
 
-  // Of triangles (a, b, c) and (b, a, d) on half-edge h = a → b makes (a, d, c) and (d, b, c). Returns the
-  // edges around both.
+  // Replaces the triangles (a, b, c) and (b, a, d) on half-edge h = a → b by (a, d, c) and (d, b, c). Returns
+  // the half-edges around both.
   std::array<std::uint32_t, 4> flip(std::uint32_t h) {
     const std::uint32_t t = twin_[h];
     const std::uint32_t ad = twin_[next(t)], db = twin_[previous(t)], bc = twin_[next(h)],
@@ -321,7 +324,7 @@ bool cross(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
   return turn(a, b, c) * turn(a, b, d) <= 0 && turn(c, d, a) * turn(c, d, b) <= 0;
 }
 
-// The nearest outer point that inner point 0 sees.
+// The nearest outer point that is visible from inner point 0.
 std::optional<std::uint32_t> find_bridge(std::span<const glm::dvec2> points, std::size_t outer) {
   const glm::dvec2 from = points[outer];
   std::vector<std::uint32_t> nearest(outer);
@@ -361,7 +364,7 @@ std::optional<std::vector<Triangle>> triangulate_ring(std::span<const glm::dvec2
   points.insert(points.end(), inner.begin(), inner.end());
   const std::optional<std::uint32_t> bridge = find_bridge(points, outer.size());
   if (!bridge) return std::nullopt;
-  // Around the outer loop from the bridge, over it, around the inner loop the other way, and back.
+  // Around the outer loop from the bridge, across it, around the inner loop the other way, and back.
   const auto n = static_cast<std::uint32_t>(outer.size()), m = static_cast<std::uint32_t>(inner.size());
   std::vector<std::uint32_t> polygon;
   polygon.reserve(points.size() + 2);

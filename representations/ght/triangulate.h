@@ -1,7 +1,7 @@
-// Triangles between given points by cutting off ears (Meisters 1975), none added: for the ring between a hole
-// in the surface and what is set into it. The ear that leaves the shortest side goes
-// first, slivers last, so that the triangles of a thin ring stay short. A spatial hash keeps each test local:
-// O(n log n) for rings of even spacing.
+// Triangulation by cutting off ears (Meisters 1975), without new points: for the ring between a hole in the
+// surface and the new heightmaps in it. The ear that leaves the shortest side is cut first, slivers last, so
+// that the triangles of a thin ring stay short. A spatial hash keeps each test local: O(n log n) for rings of
+// even spacing.
 #pragma once
 
 #include <array>
@@ -16,14 +16,15 @@ namespace terrabench::ght {
 
 using Triangle = std::array<std::uint32_t, 3>;  // counter-clockwise
 
-// A simple polygon, counter-clockwise. Indices into `points`. Nothing when it is not simple.
+// Triangulates a simple polygon, counter-clockwise, into indices of `points`. Nothing when it is not simple.
 std::optional<std::vector<Triangle>> triangulate(std::span<const glm::dvec2> points);
 
-// Whether two points may not be joined, since they are so elsewhere.
+// Whether two points are already joined elsewhere and so must not be joined again.
 using Joined = std::function<bool(std::uint32_t, std::uint32_t)>;
 
-// Between two loops, both counter-clockwise, `inner` inside `outer`. Indices count the outer points, then the
-// inner ones. Nothing when the loops meet or are not simple, or all ways are barred.
+// Triangulates the ring between two loops, both counter-clockwise, `inner` inside `outer`. Indices count the
+// outer points, then the inner ones. Nothing when the loops meet or are not simple, or `joined` leaves no
+// way.
 std::optional<std::vector<Triangle>> triangulate_ring(
     std::span<const glm::dvec2> outer, std::span<const glm::dvec2> inner,
     const Joined& joined = [](std::uint32_t, std::uint32_t) { return false; });

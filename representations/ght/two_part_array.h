@@ -1,6 +1,6 @@
-// An array that keeps the elements that it began with in a block of their own: what is appended later, and
-// taken away again, never moves them. So an event on a tree of any size costs nothing for the root. Access is
-// O(1), growth amortised O(1) by what was appended.
+// An array whose first elements have a block of their own: appending and removing later elements never moves
+// them. So the cost of an event does not depend on the size of the root. Access is O(1), growth amortised
+// O(1) per appended element.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace terrabench::ght {
 
-// Room for `size` elements, at least doubled when there is too little.
+// Reserves room for `size` elements, at least doubling the capacity when that is too small.
 template <class T>
 void grow(std::vector<T>& v, std::size_t size) {
   if (size > v.capacity()) v.reserve(std::max(size, 2 * v.capacity()));
@@ -31,7 +31,7 @@ class TwoPartArray {
   T& operator[](std::size_t i) { return i < first_.size() ? first_[i] : second_[i - first_.size()]; }
   T& back() { return second_.empty() ? first_.back() : second_.back(); }
 
-  // What an empty array is first resized to is its first part, which nothing shortens.
+  // The first resize of an empty array makes its first part, which never becomes shorter.
   void resize(std::size_t size, const T& value = {}) {
     if (first_.empty()) return first_.assign(size, value);
     second_.resize(std::max(size, first_.size()) - first_.size(), value);

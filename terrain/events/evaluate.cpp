@@ -6,14 +6,13 @@
 #include <limits>
 
 #include "terrain/events/event_file.h"
-#include "terrain/events/section.h"
 #include "terrain/files.h"
 
 namespace terrabench::events {
 namespace {
 
-constexpr int kBins = 32;  // a side
-// A column under n of them asks 3ⁿ columns of the first ground.
+constexpr int kBins = 32;  // per side
+// A column under n inverse faults reads 3ⁿ columns of the first ground.
 constexpr int kMostInverseFaults = 8;
 
 // The bins that a box on the terrain touches.
@@ -35,12 +34,13 @@ struct BinRange {
   }
 };
 
-// What an event does to one column whose ground comes from one place: up by `lift`, then cut at `ceiling`.
+// What an event does to a column whose ground comes from one place: raises it by `lift`, then cuts it at
+// `ceiling`.
 struct Step {
   double lift, ceiling;
 };
 
-// The most by which the event can raise and lower ground, and the level to which it can cut it.
+// The most by which an event can raise and lower the ground, and the level down to which it can cut it.
 struct Reach {
   double up = 0, down = 0, cut = HUGE_VAL;
 };
@@ -51,7 +51,7 @@ Reach reach_of(const Event& event) {
   return {};
 }
 
-// A whole column's crossings, from the top: where the count of those above is positive.
+// Appends the parts of a column where the weights of the crossings above add up to more than 0.
 template <class Crossings>
 void solid_stretches(Crossings& crossings, std::vector<Stretch>& out) {
   std::sort(crossings.begin(), crossings.end(), [](const auto& a, const auto& b) { return a.y > b.y; });
@@ -60,7 +60,7 @@ void solid_stretches(Crossings& crossings, std::vector<Stretch>& out) {
     const bool was_solid = count > 0;
     count += crossing.weight;
     if (!was_solid && count > 0) {
-      // Sheets that touch leave no air.
+      // Solid parts that touch become one.
       if (!out.empty() && out.back().bottom == crossing.y) continue;
       out.push_back({-HUGE_VAL, crossing.y});
     } else if (was_solid && count <= 0) {
@@ -71,26 +71,6 @@ void solid_stretches(Crossings& crossings, std::vector<Stretch>& out) {
   if (!out.empty() && count > 0) out.back().bottom = -HUGE_VAL;
 }
 
-// Takes [low, high] out of the stretches, which run from the top down.
-void take_out(double low, double high, std::vector<Stretch>& stretches) {
-  for (std::size_t i = 0; i < stretches.size(); ++i) {
-    const Stretch old = stretches[i];
-    if (high <= old.bottom || low >= old.top) continue;
-    if (high < old.top && low > old.bottom) {
-      stretches[i].bottom = high;
-      stretches.insert(stretches.begin() + static_cast<std::ptrdiff_t>(i) + 1, {old.bottom, low});
-      return;
-    }
-    if (high < old.top) {
-      stretches[i].bottom = high;
-    } else if (low > old.bottom) {
-      stretches[i].top = low;
-    } else {
-      stretches.erase(stretches.begin() + static_cast<std::ptrdiff_t>(i--));
-    }
-  }
-}
-
 }  // namespace
 
 Evaluation::Evaluation(std::shared_ptr<const Sculpture> sculpture)
@@ -99,8 +79,9 @@ Evaluation::Evaluation(std::shared_ptr<const Sculpture> sculpture)
       extent_(sculpture_->ground.extent_x(), sculpture_->ground.extent_z()) {
   const Heightfield& ground = sculpture_->ground;
   if (ground.width < 2 || ground.depth < 2) {
-    throw bad_input(fmt::format("a ground of {}×{} samples", ground.width, ground.depth), "events",
-                    "take one of at least 2×2");
+    throw bad_input(
+        fmt::format("the ground must have at least 2×2 samples, got {}×{}", ground.width, ground.depth),
+        "events", "take a larger ground");
   }
   if (const std::size_t holes = height_range(ground).no_data; holes > 0) {
     throw bad_input(fmt::format("the ground has {} samples without a height", holes), "events",
@@ -117,10 +98,10 @@ Evaluation::Evaluation(std::shared_ptr<const Sculpture> sculpture)
   find_bounds();
 }
 
-// Carvings do not move the ground: they are not in the index.
+// Lists the events that reach each bin. Carvings are left out: they do not move the ground.
 void Evaluation::index_events() {
   bin_first_.assign(kBins * kBins + 1, 0);
-  std::vector<int> inverse(kBins * kBins, 0);  // how many over one another, at most
+  std::vector<int> inverse(kBins * kBins, 0);  // the most over one another
   const auto& events = sculpture_->events;
   const auto moves_ground = [&](std::size_t e) { return !std::holds_alternative<Carving>(events[e]); };
   for (std::size_t e = 0; e < events.size(); ++e) {
@@ -133,7 +114,7 @@ void Evaluation::index_events() {
     if (most > kMostInverseFaults) {
       throw EventError(events[e], e + 1,
                        fmt::format("more than {} inverse faults over one another", kMostInverseFaults),
-                       "leave some out or move them apart");
+                       "remove some, or move them apart");
     }
     bins.each([&](std::size_t b) { inverse[b] = std::max(inverse[b], most); });
   }
@@ -164,22 +145,22 @@ void Evaluation::ground(glm::dvec2 plan, std::size_t before, Crossings& out) con
   for (;;) {
     const std::optional<std::size_t> event = last_event_at(plan, before);
     if (!event) {
-      // Rounding may carry a point past the edge by a hair.
+      // Rounding may move a point slightly beyond the edge.
       const glm::dvec2 at = glm::clamp(plan, glm::dvec2(0), extent_);
       out.push_back({sculpture_->ground.sample(static_cast<float>(at.x), static_cast<float>(at.y)), 1});
       break;
     }
     before = *event;
     const Event& e = sculpture_->events[before];
-    if (const auto* const trench = std::get_if<LinearErosion>(&e)) {
-      steps.push_back({-trench->drop(trench->line().local(plan)), HUGE_VAL});
-    } else if (const auto* const bowl = std::get_if<RadialErosion>(&e)) {
-      steps.push_back({0, bowl->bottom(plan)});
-    } else if (const auto* const slide = std::get_if<LateralFault>(&e)) {
-      const Line line = slide->line();
+    if (const auto* const linear = std::get_if<LinearErosion>(&e)) {
+      steps.push_back({-linear->drop(linear->line().local(plan)), HUGE_VAL});
+    } else if (const auto* const radial = std::get_if<RadialErosion>(&e)) {
+      steps.push_back({0, radial->bottom(plan)});
+    } else if (const auto* const lateral = std::get_if<LateralFault>(&e)) {
+      const Line line = lateral->line();
       const glm::dvec2 local = line.local(plan);
-      if (local.x >= 0 && local.x <= line.length && std::abs(local.y) <= slide->extent) {
-        plan = line.plan(slide->before(local));
+      if (local.x >= 0 && local.x <= line.length && std::abs(local.y) <= lateral->extent) {
+        plan = line.plan(lateral->before(local));
       }
     } else {
       const auto& fault = std::get<DipFault>(e);
@@ -220,8 +201,8 @@ void Evaluation::ground(glm::dvec2 plan, std::size_t before, Crossings& out) con
   }
 }
 
-// Where the left block of an inverse fault lies over the right one: both, and the scarp between, which faces
-// down.
+// Appends the crossings where the left block of an inverse fault lies over the right one: those of both, and
+// of the scarp between, which faces down.
 void Evaluation::hang_over(const DipFault& fault, glm::dvec2 local, std::size_t event, Crossings& out) const {
   const Line line = fault.line();
   const double half = fault.offset() / 2;
@@ -249,90 +230,7 @@ void Evaluation::stretches(glm::dvec2 plan, std::size_t before, std::vector<Stre
   solid_stretches(crossings, out);
 }
 
-void Evaluation::column(glm::dvec2 plan, std::vector<Stretch>& out) const {
-  stretches(plan, sculpture_->events.size(), out);
-  std::vector<Run> runs;
-  for (const Prism& prism : prisms_) {
-    if (!prism.box.contains(plan)) continue;
-    const glm::dvec2 local = prism.line.local(plan);
-    if (local.x < prism.low || local.x > prism.high) continue;
-    section_runs(*prism.carving, local.x, -local.y, runs);
-    const double axis = prism.carving->height(local.x);
-    for (const Run& run : runs) take_out(axis + run.low, axis + run.high, out);
-  }
-}
-
-// How the section at u lies to the ground after the first `before` events.
-Evaluation::Cover Evaluation::cover(const Carving& carving, const Line& line, double u,
-                                    std::size_t before) const {
-  const Run reach = section_reach(carving, u);
-  const int columns = 8 + static_cast<int>(2 * (reach.high - reach.low) / cell_);
-  std::vector<Run> runs;
-  std::vector<Stretch> solid;
-  bool in_ground = false, in_air = false;
-  for (int c = 0; c < columns && !(in_ground && in_air); ++c) {
-    const double a = std::lerp(reach.low, reach.high, (c + 0.5) / columns);
-    section_runs(carving, u, a, runs);
-    stretches(line.plan({u, -a}), before, solid);
-    for (Run run : runs) {
-      run = {run.low + carving.height(u), run.high + carving.height(u)};
-      bool inside = false, meets = false;
-      for (const Stretch& stretch : solid) {
-        inside |= run.low >= stretch.bottom && run.high <= stretch.top;
-        meets |= run.high > stretch.bottom && run.low < stretch.top;
-      }
-      in_ground |= meets;
-      in_air |= !inside;
-    }
-  }
-  return in_ground && in_air ? Cover::kBoth : in_ground ? Cover::kGround : Cover::kAir;
-}
-
-// Goes on from `from` by `step` until all of the section is in the air.
-double Evaluation::mouth(const Carving& carving, std::size_t event, double from, double step) const {
-  const Line line = carving.line();
-  for (double u = from + step;; u += step) {
-    const Run reach = section_reach(carving, u);
-    for (const double a : {reach.low, reach.high}) {
-      const glm::dvec2 plan = line.plan({u, -a});
-      const bool outside = plan.x < 0 || plan.y < 0 || plan.x > extent_.x || plan.y > extent_.y;
-      if (outside || carving.scale(u) <= 0) {
-        throw EventError(sculpture_->events[event], event + 1,
-                         fmt::format("does not come out of the ground beyond '{}'", step < 0 ? "from" : "to"),
-                         "let the axis rise to the surface, and more steeply than the ground");
-      }
-    }
-    if (cover(carving, line, u, event) == Cover::kAir) return u;
-  }
-}
-
-void Evaluation::carve(const Carving& carving, std::size_t event) {
-  const Line line = carving.line();
-  const auto require = [&](double u, std::string_view what) {
-    if (cover(carving, line, u, event) == Cover::kGround) return;
-    throw EventError(sculpture_->events[event], event + 1, what,
-                     "move 'from' and 'to' deeper into the ground, or take a smaller section");
-  };
-  require(0, "starts in the air: not all of the section at 'from' is underground");
-  require(line.length, "ends in the air: not all of the section at 'to' is underground");
-  const int steps = 1 + static_cast<int>(2 * line.length / cell_);
-  for (int s = 1; s < steps; ++s) {
-    const double u = line.length * s / steps;
-    require(u, fmt::format("leaves the ground {:.6g} m from 'from'", u));
-  }
-  Prism prism{&carving, line, mouth(carving, event, 0, -cell_ / 2), line.length, {}};
-  if (!carving.cave) prism.high = mouth(carving, event, line.length, cell_ / 2);
-  for (const double u : {prism.low, prism.high}) {
-    const Run reach = section_reach(carving, u);
-    for (const double a : {reach.low, reach.high}) {
-      prism.box.low = glm::min(prism.box.low, line.plan({u, -a}));
-      prism.box.high = glm::max(prism.box.high, line.plan({u, -a}));
-    }
-  }
-  prisms_.push_back(prism);
-}
-
-// Per bin, event by event: what a bin's ground can have become.
+// Tracks, event by event, how low and high the ground of each bin can be.
 void Evaluation::find_bounds() {
   const Heightfield& ground = sculpture_->ground;
   std::vector<Stretch> range(kBins * kBins, {HUGE_VAL, -HUGE_VAL});
@@ -363,11 +261,11 @@ void Evaluation::find_bounds() {
     lowest = std::min(lowest, bin.bottom);
     highest = std::max(highest, bin.top);
   }
-  for (const Prism& prism : prisms_) {
-    for (const double u : {prism.low, prism.high}) {
-      for (const glm::dvec2 corner : prism.carving->section) {
-        lowest = std::min(
-            lowest, prism.carving->height(u) + corner.y * prism.carving->scale(u) - prism.carving->roughness);
+  for (const Protovolume& volume : protovolumes_) {
+    for (const double u : {volume.low, volume.high}) {
+      for (const glm::dvec2 corner : volume.carving->section) {
+        lowest = std::min(lowest, volume.carving->height(u) + corner.y * volume.carving->scale(u) -
+                                      volume.carving->roughness);
       }
     }
   }
@@ -382,7 +280,7 @@ Solid evaluate(std::shared_ptr<const Sculpture> sculpture) {
           [evaluation](const ColumnSamples& at, std::span<Material> out) {
             thread_local std::vector<Stretch> solid;
             evaluation->column({at.x, at.z}, solid);
-            // Stretches run down, samples up.
+            // Stretches run from the top down, samples from the bottom up.
             auto stretch = solid.rbegin();
             for (std::size_t i = 0; i < out.size(); ++i) {
               const double y = static_cast<double>(at.y0) + static_cast<double>(i) * at.dy;

@@ -1,10 +1,10 @@
-// What a ground is after its events, column by column, from the definitions in event.h alone: a column asks
-// where its ground was before the last event that reaches it, and so on down to the heights (bilinear). No
-// structure takes part, so this is the measure for those that repeat the events, and the source for those
-// that cannot.
+// The ground after its events, column by column, from the definitions in event.h alone: a column asks where
+// its ground was before the last event that reaches it, and so on down to the first heights (bilinear). It
+// uses no terrain structure, so it is the reference for structures that repeat the events, and the source for
+// those that cannot.
 //
-// Building: O(samples + events). A column: O(events that reach it); each inverse fault that hangs over it
-// asks three columns of the ground before.
+// Building is O(samples + events). A column is O(events that reach it); each inverse fault that hangs over it
+// needs three columns of the ground before.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace terrabench::events {
 
-// Solid part of a vertical line; `bottom` is -infinity in the lowest.
+// A solid part of a vertical line; `bottom` is -infinity for the lowest.
 struct Stretch {
   double bottom, top;
   bool operator==(const Stretch&) const = default;
@@ -26,27 +26,27 @@ struct Stretch {
 
 class Evaluation {
  public:
-  // Throws bad_input when the ground has a hole (no-data) or an event cannot happen to it, whatever
-  // validate() refuses included: a carving that starts in the air, leaves the ground on its way or does not
-  // come out where it must; or too many inverse faults over one another.
+  // Throws bad_input when the ground has a hole (no-data), when validate() refuses an event, when a carving
+  // starts in the air, leaves the ground on its way or does not come out where it must, and when too many
+  // inverse faults lie over one another.
   explicit Evaluation(std::shared_ptr<const Sculpture> sculpture);
 
   // Solid stretches at a point of the terrain, from the top down. `out` is overwritten. Thread-safe.
   void column(glm::dvec2 plan, std::vector<Stretch>& out) const;
 
-  // Holds all ground; its floor lies at least a cell under the lowest.
+  // Contain all ground; the floor lies at least one cell below the lowest.
   const Bounds& bounds() const { return bounds_; }
 
  private:
-  // The ground is a sheet, perhaps folded: a vertical line crosses it downwards (+1) or, under an overhang,
-  // upwards (-1). Solid is where the crossings above add up to more than 0.
+  // The ground is a surface that may fold: from above, a vertical line crosses it into the ground (+1) or,
+  // under an overhang, out of it (-1). It is solid where the weights above add up to more than 0.
   struct Crossing {
     double y;
     int weight;
   };
   using Crossings = std::vector<Crossing>;
-  // A carving as it was cut: it runs from `low` to `high` along its axis.
-  struct Prism {
+  // The volume that a carving takes out, from `low` to `high` along its axis (the paper's protovolume).
+  struct Protovolume {
     const Carving* carving;
     Line line;
     double low, high;
@@ -68,16 +68,16 @@ class Evaluation {
   void carve(const Carving& carving, std::size_t event);
 
   std::shared_ptr<const Sculpture> sculpture_;
-  double cell_;  // the smaller side of one
+  double cell_;  // metres, the smaller side of a cell of the ground
   glm::dvec2 extent_;
-  std::vector<PlanBox> boxes_;  // one an event
-  // For each of kBins² squares of the terrain the events that reach it, ascending.
+  std::vector<PlanBox> boxes_;  // one per event
+  // For each of kBins² squares of the terrain, the events that reach it, ascending.
   std::vector<std::uint32_t> bin_first_, bin_events_;
-  std::vector<Prism> prisms_;
+  std::vector<Protovolume> protovolumes_;
   Bounds bounds_;
 };
 
-// As a source for any structure. Throws as Evaluation does.
+// The evaluation as a source for any structure. Throws as Evaluation does.
 Solid evaluate(std::shared_ptr<const Sculpture> sculpture);
 
 }  // namespace terrabench::events

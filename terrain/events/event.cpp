@@ -7,19 +7,12 @@
 namespace terrabench::events {
 namespace {
 
-// Beyond this, products of lengths lose the metre.
+// Metres. With longer lengths, products lose the precision of a metre.
 constexpr double kFarthest = 1e9;
-// Walls bulge by at most this share of the shortest side, which keeps neighbouring walls apart.
+// Walls bulge by at most this share of the section's shortest side, so that neighbouring walls do not meet.
 constexpr double kRoughestShare = 1.0 / 16;
-// A bulge is this many times as wide as high.
+// The width of a bulge over its height.
 constexpr double kBulgeWidth = 8;
-
-template <class... Cases>
-struct Overloaded : Cases... {
-  using Cases::operator()...;
-};
-template <class... Cases>
-Overloaded(Cases...) -> Overloaded<Cases...>;
 
 class Checks {
  public:
@@ -30,7 +23,8 @@ class Checks {
   }
   void finite(double value, std::string_view field) const {
     if (!(std::abs(value) <= kFarthest)) {
-      refuse(fmt::format("'{}' is no length in metres", field), "give a finite number of at most 1e9");
+      refuse(fmt::format("'{}' must be at most 1e9 m, got {}", field, value),
+             "give a finite number of metres");
     }
   }
   void finite(glm::dvec2 point, std::string_view field) const {
@@ -38,11 +32,12 @@ class Checks {
   }
   void positive(double value, std::string_view field) const {
     finite(value, field);
-    if (!(value > 0)) refuse(fmt::format("'{}' is {}", field, value), "give a number above 0");
+    if (!(value > 0))
+      refuse(fmt::format("'{}' must be above 0, got {}", field, value), "give a larger number");
   }
   void angle(double value, std::string_view field) const {
     if (!(value >= 1 && value <= 89)) {
-      refuse(fmt::format("'{}' is {}", field, value), "give an angle from 1 to 89 degrees");
+      refuse(fmt::format("'{}' must be from 1 to 89 degrees, got {}", field, value), "give another angle");
     }
   }
   void line(glm::dvec2 from, glm::dvec2 to) const {
@@ -80,17 +75,17 @@ double shortest_side(const std::vector<glm::dvec2>& section) {
 
 void check_section(const Checks& checks, const std::vector<glm::dvec2>& section) {
   const std::size_t n = section.size();
-  if (n < 3) checks.refuse(fmt::format("'section' has {} points", n), "give at least three");
-  if (n > kMostCorners) {
-    checks.refuse(fmt::format("'section' has {} points", n), fmt::format("give at most {}", kMostCorners));
+  if (n < 3 || n > kMostCorners) {
+    checks.refuse(fmt::format("'section' must have 3 to {} points, got {}", kMostCorners, n),
+                  "give another polygon");
   }
   for (const glm::dvec2 corner : section) checks.finite(corner, "section");
   if (!(shortest_side(section) > 1e-6)) {
-    checks.refuse("'section' has two equal points in a row", "leave one of them out");
+    checks.refuse("'section' has two equal points in a row", "remove one of them");
   }
   for (std::size_t i = 0; i < n; ++i) {
     const glm::dvec2 a = section[i], b = section[(i + 1) % n], c = section[(i + 2) % n];
-    // Neighbours share a corner; they may not fold back on one another.
+    // Neighbouring sides share a corner, but must not fold back on each other.
     bool crosses = turn(a, b, c) == 0 && glm::dot(a - b, c - b) > 0;
     for (std::size_t k = i + 2; k < n && !crosses; ++k) {
       if ((k + 1) % n != i) crosses = segments_meet(a, b, section[k], section[(k + 1) % n]);
@@ -100,7 +95,8 @@ void check_section(const Checks& checks, const std::vector<glm::dvec2>& section)
   double area = 0;
   for (std::size_t i = 0; i < n; ++i) area += cross(section[i], section[(i + 1) % n]);
   if (!(area > 0)) {
-    checks.refuse("'section' runs clockwise", "give its corners counter-clockwise as seen walking in");
+    checks.refuse("'section' is clockwise",
+                  "give its corners counter-clockwise, seen in the direction of the axis");
   }
 }
 
@@ -123,7 +119,7 @@ void check_values(const Checks& checks, const DipFault& e) {
   checks.positive(e.rise, "throw");
   checks.angle(e.dip, "dip");
   if (!(e.offset() / 2 < e.extent)) {
-    checks.refuse(fmt::format("the scarp is {:.6g} m wide, all of both blocks", e.offset()),
+    checks.refuse(fmt::format("the scarp is {:.6g} m wide, which leaves no ground of the blocks", e.offset()),
                   "give a smaller 'throw', a steeper 'dip' or a larger 'extent'");
   }
 }
@@ -142,8 +138,8 @@ void check_values(const Checks& checks, const Carving& e) {
   checks.positive(e.scale_to, "scale_to");
   const double most = kRoughestShare * shortest_side(e.section) * std::min(e.scale_from, e.scale_to);
   if (!(e.roughness >= 0 && e.roughness <= most)) {
-    checks.refuse(fmt::format("'roughness' is {}", e.roughness),
-                  fmt::format("give 0 to {:.6g}, a sixteenth of the section's shortest side", most));
+    checks.refuse(fmt::format("'roughness' must be from 0 to {:.6g} m, got {}", most, e.roughness),
+                  "give at most a sixteenth of the section's shortest side");
   }
 }
 
@@ -162,12 +158,8 @@ std::array<glm::dvec2, 4> outline_of(const RadialErosion& e) {
   return rectangle(east, -e.radii.x, e.radii.x, -e.radii.z, e.radii.z);
 }
 
-std::array<glm::dvec2, 4> outline_of(const DipFault& e) {
-  const Line line = e.line();
-  return rectangle(line, 0, line.length, -e.extent, e.extent);
-}
-
-std::array<glm::dvec2, 4> outline_of(const LateralFault& e) {
+template <class Fault>
+std::array<glm::dvec2, 4> outline_of(const Fault& e) {
   const Line line = e.line();
   return rectangle(line, 0, line.length, -e.extent, e.extent);
 }
@@ -184,7 +176,7 @@ std::array<glm::dvec2, 4> outline_of(const Carving& e) {
   return rectangle(line, 0, line.length, -right - e.roughness, -left + e.roughness);
 }
 
-// A number in [-1, 1] for each lattice point.
+// A random number in [-1, 1] per lattice point.
 double lattice_value(std::uint64_t seed, std::size_t side, std::int64_t i, std::int64_t j) {
   std::uint64_t hash = seed + 0x9E3779B97F4A7C15U * (side + 1);
   for (const std::int64_t step : {i, j}) {
@@ -223,13 +215,12 @@ glm::dvec2 Carving::wall(std::size_t side, double u, double across) const {
 }
 
 Kind kind(const Event& event) {
-  return std::visit(
-      Overloaded{[](const LinearErosion&) { return Kind::kLinearErosion; },
-                 [](const RadialErosion&) { return Kind::kRadialErosion; },
-                 [](const DipFault& e) { return e.inverse ? Kind::kInverseFault : Kind::kNormalFault; },
-                 [](const LateralFault&) { return Kind::kLateralFault; },
-                 [](const Carving& e) { return e.cave ? Kind::kCave : Kind::kTunnel; }},
-      event);
+  if (const auto* const e = std::get_if<DipFault>(&event)) {
+    return e->inverse ? Kind::kInverseFault : Kind::kNormalFault;
+  }
+  if (const auto* const e = std::get_if<Carving>(&event)) return e->cave ? Kind::kCave : Kind::kTunnel;
+  if (std::holds_alternative<LateralFault>(event)) return Kind::kLateralFault;
+  return std::holds_alternative<LinearErosion>(event) ? Kind::kLinearErosion : Kind::kRadialErosion;
 }
 
 std::string_view name(Kind kind) {

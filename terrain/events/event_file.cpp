@@ -16,7 +16,7 @@ namespace terrabench::events {
 namespace {
 
 constexpr std::size_t kMostEvents = 20000;
-constexpr int kMostSamples = 8193;  // a side
+constexpr int kMostSamples = 8193;  // per side
 
 std::string place(const std::string& origin, std::size_t line) { return fmt::format("{}:{}", origin, line); }
 
@@ -25,7 +25,7 @@ std::string place(const std::string& origin, std::size_t line) { return fmt::for
   throw bad_input(what, place(origin, node.source().begin.line), advice);
 }
 
-// One table: every key is asked for by type, and one that nobody asked for is an error.
+// Reads the keys of one table by type; a key that was not read is an error.
 class Entry {
  public:
   Entry(const toml::table& table, const std::string& origin) : table_(table), origin_(origin) {}
@@ -41,7 +41,7 @@ class Entry {
   }
   std::string text(std::string_view key) {
     const toml::node& node = get(key);
-    if (!node.is_string()) fail(node, origin_, fmt::format("'{}' is not text", key), "put it in quotes");
+    if (!node.is_string()) fail(node, origin_, fmt::format("'{}' must be text", key), "put it in quotes");
     return node.ref<std::string>();
   }
   std::int64_t integer_or(std::string_view key, std::int64_t fallback, std::int64_t lowest,
@@ -49,37 +49,35 @@ class Entry {
     const toml::node* const node = find(key);
     if (node == nullptr) return fallback;
     if (!node->is_integer() || node->ref<std::int64_t>() < lowest || node->ref<std::int64_t>() > highest) {
-      fail(*node, origin_, fmt::format("'{}' is no integer from {} to {}", key, lowest, highest), "give one");
+      fail(*node, origin_, fmt::format("'{}' must be an integer from {} to {}", key, lowest, highest),
+           "correct the value");
     }
     return node->ref<std::int64_t>();
   }
-  double number(std::string_view key) { return number_of(get(key), key); }
-  double number_or(std::string_view key, double fallback) {
-    const toml::node* const node = find(key);
-    return node == nullptr ? fallback : number_of(*node, key);
+  void read(std::string_view key, double& value) { value = number_of(get(key), key); }
+  void read(std::string_view key, std::uint64_t& value) {
+    value = static_cast<std::uint64_t>(integer_or(key, 0, 0, INT64_MAX));
   }
-  glm::dvec2 pair(std::string_view key) { return pair_of(get(key), key); }
-  glm::dvec3 triple(std::string_view key) {
+  void read(std::string_view key, glm::dvec2& point) { point = pair_of(get(key), key); }
+  void read(std::string_view key, glm::dvec3& point) {
     const toml::array& array = list_of(get(key), key, 3);
-    return {number_of(array[0], key), number_of(array[1], key), number_of(array[2], key)};
+    point = {number_of(array[0], key), number_of(array[1], key), number_of(array[2], key)};
   }
-  std::vector<glm::dvec2> pairs(std::string_view key) {
-    std::vector<glm::dvec2> points;
+  void read(std::string_view key, std::vector<glm::dvec2>& points) {
     for (const toml::node& node : list_of(get(key), key, 0)) points.push_back(pair_of(node, key));
-    return points;
   }
   void refuse_unknown() const {
     for (const auto& [key, value] : table_) {
       if (known_.contains(key.str())) continue;
       fail(value, origin_, fmt::format("unknown key '{}'", key.str()),
-           fmt::format("the keys here are: {}", fmt::join(known_, ", ")));
+           fmt::format("known: {}", fmt::join(known_, ", ")));
     }
   }
 
  private:
   double number_of(const toml::node& node, std::string_view key) const {
     const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!value) fail(node, origin_, fmt::format("'{}' needs numbers", key), "give one here");
+    if (!value) fail(node, origin_, fmt::format("expected a number in '{}'", key), "write a number here");
     return *value;
   }
   // Of any size when `size` is 0.
@@ -87,7 +85,8 @@ class Entry {
     const toml::array* const array = node.as_array();
     if (array == nullptr || (size > 0 && array->size() != size)) {
       fail(node, origin_,
-           fmt::format("'{}' is not a list{}", key, size > 0 ? fmt::format(" of {}", size) : ""),
+           fmt::format("expected a list of {} in '{}'", size > 0 ? fmt::format("{} numbers", size) : "points",
+                       key),
            "write numbers in square brackets");
     }
     return *array;
@@ -109,84 +108,70 @@ Kind kind_of(Entry& entry, const toml::table& table, const std::string& origin) 
     if (name(static_cast<Kind>(k)) == text) return static_cast<Kind>(k);
     names.push_back(name(static_cast<Kind>(k)));
   }
-  fail(*table.get("kind"), origin, fmt::format("no event is called '{}'", text),
-       fmt::format("the kinds are: {}", fmt::join(names, ", ")));
+  fail(*table.get("kind"), origin, fmt::format("unknown kind of event '{}'", text),
+       fmt::format("known: {}", fmt::join(names, ", ")));
+}
+
+constexpr bool kOptional = true;
+
+// Calls visit(key, field) or visit(key, field, kOptional) for the fields of an event, in the order of a file.
+template <class E, class Visit>
+void each_field(E& e, const Visit& visit) {
+  if constexpr (requires { e.centre; }) visit("centre", e.centre), visit("radii", e.radii);
+  if constexpr (requires { e.from; }) visit("from", e.from), visit("to", e.to);
+  if constexpr (requires { e.slope; }) visit("depth", e.depth), visit("slope", e.slope, kOptional);
+  if constexpr (requires { e.extent; }) visit("extent", e.extent);
+  if constexpr (requires { e.dip; }) visit("throw", e.rise), visit("dip", e.dip, kOptional);
+  if constexpr (requires { e.slip; }) visit("slip", e.slip);
+  if constexpr (requires { e.section; }) {
+    visit("section", e.section);
+    visit("scale_from", e.scale_from, kOptional);
+    visit("scale_to", e.scale_to, kOptional);
+    visit("roughness", e.roughness, kOptional);
+    visit("seed", e.seed, kOptional);
+  }
+}
+
+// An event of a kind, with the default values of its fields.
+Event default_event(Kind kind) {
+  const Event events[kKinds] = {LinearErosion{},           RadialErosion{}, DipFault{},
+                                DipFault{.inverse = true}, LateralFault{},  Carving{},
+                                Carving{.cave = true}};
+  return events[static_cast<std::size_t>(kind)];
 }
 
 Event event_from(const toml::node& node, const std::string& origin) {
-  if (!node.is_table()) fail(node, origin, "an event is a table", "begin each with [[event]]");
+  if (!node.is_table()) fail(node, origin, "an event must be a table", "begin each with [[event]]");
   const toml::table& table = *node.as_table();
   Entry entry(table, origin);
-  const Kind kind = kind_of(entry, table, origin);
-  Event event;
-  switch (kind) {
-    case Kind::kLinearErosion:
-      event = LinearErosion{entry.pair("from"), entry.pair("to"), entry.number("depth"),
-                            entry.number_or("slope", LinearErosion{}.slope)};
-      break;
-    case Kind::kRadialErosion:
-      event = RadialErosion{entry.triple("centre"), entry.triple("radii")};
-      break;
-    case Kind::kNormalFault:
-    case Kind::kInverseFault:
-      event = DipFault{
-          kind == Kind::kInverseFault, entry.pair("from"),    entry.pair("to"),
-          entry.number("extent"),      entry.number("throw"), entry.number_or("dip", DipFault{}.dip)};
-      break;
-    case Kind::kLateralFault:
-      event =
-          LateralFault{entry.pair("from"), entry.pair("to"), entry.number("extent"), entry.number("slip")};
-      break;
-    case Kind::kTunnel:
-    case Kind::kCave:
-      event = Carving{kind == Kind::kCave,
-                      entry.triple("from"),
-                      entry.triple("to"),
-                      entry.pairs("section"),
-                      entry.number_or("scale_from", 1),
-                      entry.number_or("scale_to", 1),
-                      entry.number_or("roughness", 0),
-                      static_cast<std::uint64_t>(entry.integer_or("seed", 0, 0, INT64_MAX))};
-      break;
-  }
+  Event event = default_event(kind_of(entry, table, origin));
+  const auto read = [&](std::string_view key, auto& field, bool optional = false) {
+    if (!optional || entry.find(key) != nullptr) entry.read(key, field);
+  };
+  std::visit([&](auto& e) { each_field(e, read); }, event);
   entry.refuse_unknown();
   return event;
 }
 
+template <class Number>
+std::string text_of(Number value) {
+  return fmt::format("{}", value);
+}
 std::string text_of(glm::dvec2 p) { return fmt::format("[{}, {}]", p.x, p.y); }
 std::string text_of(const glm::dvec3& p) { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); }
-
-std::string fields_of(const LinearErosion& e) {
-  return fmt::format("from = {}\nto = {}\ndepth = {}\nslope = {}\n", text_of(e.from), text_of(e.to), e.depth,
-                     e.slope);
-}
-std::string fields_of(const RadialErosion& e) {
-  return fmt::format("centre = {}\nradii = {}\n", text_of(e.centre), text_of(e.radii));
-}
-std::string fields_of(const DipFault& e) {
-  return fmt::format("from = {}\nto = {}\nextent = {}\nthrow = {}\ndip = {}\n", text_of(e.from),
-                     text_of(e.to), e.extent, e.rise, e.dip);
-}
-std::string fields_of(const LateralFault& e) {
-  return fmt::format("from = {}\nto = {}\nextent = {}\nslip = {}\n", text_of(e.from), text_of(e.to), e.extent,
-                     e.slip);
-}
-std::string fields_of(const Carving& e) {
-  std::vector<std::string> corners;
-  for (const glm::dvec2 corner : e.section) corners.push_back(text_of(corner));
-  return fmt::format(
-      "from = {}\nto = {}\nsection = [{}]\nscale_from = {}\nscale_to = {}\nroughness = {}\nseed = {}\n",
-      text_of(e.from), text_of(e.to), fmt::join(corners, ", "), e.scale_from, e.scale_to, e.roughness,
-      e.seed);
+std::string text_of(const std::vector<glm::dvec2>& points) {
+  std::vector<std::string> texts;
+  for (const glm::dvec2 p : points) texts.push_back(text_of(p));
+  return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
-// The heights under the events.
+// The heights before the events.
 Heightfield ground_of(const Script& script, const std::string& origin, TerrainSource& source) {
   if (script.terrain.ends_with(kExtension)) {
     throw bad_input(fmt::format("the ground '{}' is itself a file of events", script.terrain), origin,
-                    "name a plain ground and give all events here");
+                    "name a ground without events and give all events here");
   }
-  if (script.terrain == "diamond-square" && script.size > 0) {  // the same mountains, in other steps
+  if (script.terrain == "diamond-square" && script.size > 0) {  // the same mountains at another spacing
     fractal::DiamondSquareOptions options{.seed = script.seed, .side = script.size};
     options.cell *=
         static_cast<float>(fractal::DiamondSquareOptions{}.side - 1) / static_cast<float>(script.size - 1);
@@ -194,8 +179,7 @@ Heightfield ground_of(const Script& script, const std::string& origin, TerrainSo
   }
   source = open_terrain(script.terrain, script.seed);
   if (!source.heights) {
-    throw bad_input(fmt::format("the ground '{}' is a solid", script.terrain), origin,
-                    "name one that is a field of heights");
+    throw bad_input(fmt::format("the ground '{}' is a solid", script.terrain), origin, "name a heightfield");
   }
   Heightfield heights = *std::exchange(source.heights, std::nullopt);
   if (script.size > 0) heights = resample(heights, script.size, script.size);
@@ -206,8 +190,8 @@ Heightfield ground_of(const Script& script, const std::string& origin, TerrainSo
 
 Script parse_script(std::string_view text, const std::string& origin) {
   if (text.size() > kMostBytes) {
-    throw bad_input(fmt::format("{} bytes of events", text.size()), origin,
-                    fmt::format("keep the file under {} bytes", kMostBytes));
+    throw bad_input(fmt::format("the file must have at most {} bytes, got {}", kMostBytes, text.size()),
+                    origin, "split it, or remove events");
   }
   const toml::table file = parse_toml(text, origin, "correct the file");
   Entry entry(file, origin);
@@ -217,10 +201,11 @@ Script parse_script(std::string_view text, const std::string& origin) {
   script.size = static_cast<int>(entry.integer_or("size", 0, 2, kMostSamples));
   if (const toml::node* const events = entry.find("event"); events != nullptr) {
     if (!events->is_array())
-      fail(*events, origin, "'event' is not a list", "begin each event with [[event]]");
+      fail(*events, origin, "'event' must be a list of tables", "begin each event with [[event]]");
     const toml::array& list = *events->as_array();
     if (list.size() > kMostEvents) {
-      fail(list, origin, fmt::format("{} events", list.size()), fmt::format("keep to {}", kMostEvents));
+      fail(list, origin, fmt::format("there must be at most {} events, got {}", kMostEvents, list.size()),
+           "remove some");
     }
     for (const toml::node& node : list) {
       script.events.push_back(event_from(node, origin));
@@ -235,7 +220,10 @@ std::string to_text(std::span<const Event> events) {
   std::string text;
   for (const Event& event : events) {
     text += fmt::format("[[event]]\nkind = \"{}\"\n", name(kind(event)));
-    text += std::visit([](const auto& e) { return fields_of(e); }, event);
+    const auto write = [&](std::string_view key, const auto& field, bool = false) {
+      text += fmt::format("{} = {}\n", key, text_of(field));
+    };
+    std::visit([&](const auto& e) { each_field(e, write); }, event);
   }
   return text;
 }

@@ -1,11 +1,11 @@
-// A terrain as a small text: the name of a ground, a seed and what happened to it (TOML). A complex terrain
-// is a few hundred bytes, and repeats exactly.
+// A terrain as a small TOML file: the name of a ground, a seed and the events on it. A complex terrain takes
+// a few hundred bytes, and is the same each time.
 //
 //   terrain = "diamond-square"   # a name in the catalogue, or a DEM file
 //   seed = 7
-//   size = 129                   # samples a side of the same ground; left out, as it comes
+//   size = 129                   # samples per side of the ground; optional: its own size
 //   [[event]]
-//   kind = "tunnel"              # the other keys are the event's fields in event.h
+//   kind = "tunnel"              # the other keys are the fields of the event in event.h
 //   from = [20, 30, 40]
 //   …
 #pragma once
@@ -27,21 +27,22 @@ inline constexpr std::size_t kMostBytes = std::size_t{1} << 23;  // of a file
 struct Script {
   std::string terrain;
   std::uint64_t seed = 0;
-  int size = 0;  // 0: as the ground comes
+  int size = 0;  // 0: the ground's own size
   std::vector<Event> events;
-  std::vector<int> lines;  // where each event stands in the file
+  std::vector<int> lines;  // of each event in the file
 };
 
-// Throws bad_input with the line for anything that is not such a file: syntax, unknown keys and kinds, values
-// of another type. What the values mean is validate()'s business.
+// Throws bad_input with the line when the file is not of this form: syntax, unknown keys and kinds, values of
+// the wrong type. Does not check the values themselves; validate() does.
 Script parse_script(std::string_view text, const std::string& origin);
 
-// The text that parse_script() reads back to the bit. The second gives the events alone.
+// The text of a script, which parse_script() reads back to the bit; the second overload writes only the
+// events.
 std::string to_text(const Script&);
 std::string to_text(std::span<const Event>);
 
-// The terrain that the script describes: its ground when it has no events, else the solid after them, with
-// the events. Throws bad_input, with the line, for events that cannot happen to the ground.
+// The terrain that the script describes: its ground when it has no events, otherwise the solid after them and
+// the events. Throws bad_input, with the line, for events that are invalid or that the ground does not allow.
 TerrainSource open_script(std::string_view text, const std::string& origin);
 
 }  // namespace terrabench::events

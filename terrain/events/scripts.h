@@ -1,4 +1,4 @@
-// Terrains of events that come with the program: the files terrain/events/scripts/*.toml.
+// The terrains of events that are built into the program: the files terrain/events/scripts/*.toml.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace terrabench::events {
 
-// The text of the file of that name (without its ending). Throws unknown_name.
+// The text of the file with that name, without its extension. Throws unknown_name.
 std::string_view script_text(std::string_view name);
-// That terrain; its seed is the file's own.
+// That terrain, with the seed in the file.
 TerrainSource open_named_script(std::string_view name);
 
 }  // namespace terrabench::events

@@ -5,13 +5,13 @@
 namespace terrabench::events {
 namespace {
 
-// A bulge is at least eight times as wide as high and at most as wide as half a side, so sixteen chords a
-// side stay within a hundredth of a bulge's width.
+// A bulge is at least eight times as wide as high and at most half as wide as a side, so sixteen chords per
+// side stay within a hundredth of its width.
 constexpr int kChords = 16;
 
 }  // namespace
 
-void section_runs(const Carving& carving, double u, double a, std::vector<Run>& out) {
+void section_ranges(const Carving& carving, double u, double a, std::vector<SectionRange>& out) {
   out.clear();
   std::array<double, kMostCorners * kChords> crossings;
   std::size_t n = 0;
@@ -28,8 +28,8 @@ void section_runs(const Carving& carving, double u, double a, std::vector<Run>& 
   for (std::size_t i = 0; i + 1 < n; i += 2) out.push_back({crossings[i], crossings[i + 1]});
 }
 
-Run section_reach(const Carving& carving, double u) {
-  Run reach{HUGE_VAL, -HUGE_VAL};
+SectionRange section_reach(const Carving& carving, double u) {
+  SectionRange reach{HUGE_VAL, -HUGE_VAL};
   for (const glm::dvec2 corner : carving.section) {
     reach.low = std::min(reach.low, corner.x * carving.scale(u) - carving.roughness);
     reach.high = std::max(reach.high, corner.x * carving.scale(u) + carving.roughness);

@@ -7,15 +7,15 @@
 
 namespace terrabench::events {
 
-struct Run {
-  double low, high;  // heights over the axis, metres
+struct SectionRange {
+  double low, high;  // metres
 };
 
-// Where the upright line at `a` metres right of the axis, u along it, lies within the section, walls with
-// their bulges: ascending. `out` is overwritten. O(sides).
-void section_runs(const Carving& carving, double u, double a, std::vector<Run>& out);
+// The heights over the axis at which the vertical line `a` metres right of the axis lies inside the section
+// at u, with the bulges of its walls: ascending. `out` is overwritten. O(sides).
+void section_ranges(const Carving& carving, double u, double a, std::vector<SectionRange>& out);
 
-// How far the section reaches right of the axis at u: from low to high, bulges included.
-Run section_reach(const Carving& carving, double u);
+// How far the section at u extends to the left (low) and right (high) of the axis, bulges included.
+SectionRange section_reach(const Carving& carving, double u);
 
 }  // namespace terrabench::events

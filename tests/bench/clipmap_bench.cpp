@@ -1,6 +1,6 @@
 // Clipmaps over 4097² synthetic mountains, 30 m between samples, in memory (from = 0) and from tiles on disk
-// (1), and over endless noise (2): an update should cost what came into the windows, not what they hold.
-// `bytes` is what a frame uploads, `of_refill` its share of what filling all windows takes.
+// (1), and over endless noise (2). The cost of an update should be proportional to the samples that entered
+// the windows. `bytes`: uploads per frame; `of_refill`: their share of the uploads that fill all windows.
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
@@ -62,9 +62,9 @@ View over(double i, double j, HeightSource& heights) {
   return view;
 }
 
-// Goes by (di, dj) samples a frame, turning back before the border.
+// Moves by (di, dj) samples per frame and turns back before the border.
 void go(benchmark::State& state, double di, double dj, int window, std::int64_t from) {
-  const auto heights = source(from == 2 ? 2 : 0);  // of the same ground, to stand on
+  const auto heights = source(from == 2 ? 2 : 0);  // for the height of the eye over the same ground
   Clipmap clipmap(source(from), window);
   const double full = static_cast<double>(clipmap.update(over(1000, 1000, *heights)).stats.bytes_uploaded);
   double i = 1000, j = 1000, bytes = 0, moved = 0;
@@ -83,16 +83,16 @@ void go(benchmark::State& state, double di, double dj, int window, std::int64_t 
   state.counters["of_refill"] = benchmark::Counter(bytes / full, average);
 }
 
-// 6 km/h at 60 frames a second: most frames move no window.
+// 6 km/h at 60 frames per second: most frames move no window.
 void walking(benchmark::State& state) {
   go(state, 0.028 / kCell, 0, static_cast<int>(state.range(0)), state.range(1));
 }
 void one_sample(benchmark::State& state) {
   go(state, 1, 0, static_cast<int>(state.range(0)), state.range(1));
 }
-// Both ways at once: the whole L, and every level above each time its turn comes.
+// Along both axes: the whole L of the finest level in each frame, and of each coarser level half as often.
 void diagonal(benchmark::State& state) { go(state, 2, 2, static_cast<int>(state.range(0)), state.range(1)); }
-// So far that no window keeps anything of its finest levels, as a jump does.
+// Jumps so far that the finest levels keep no sample.
 void refill(benchmark::State& state) {
   const auto heights = source(state.range(1) == 2 ? 2 : 0);
   double bytes = 0;

@@ -1,4 +1,4 @@
-// Geomipmapping on 4097²: building, and update() along a committed path, by patch side, asked error and
+// Geomipmapping on 4097²: building, and update() along a committed path, by patch side, error bound and
 // morph.
 #include <benchmark/benchmark.h>
 
@@ -25,8 +25,8 @@ void build(benchmark::State& state) {
   const GeoMipMap::Options options{static_cast<int>(state.range(0)), false, state.range(1) != 0};
   double bytes = 0;
   for (auto _ : state) {
-    const auto lod =
-        std::make_unique<GeoMipMap>(ground(), options, silent);  // memory() asks for its own block
+    const auto lod = std::make_unique<GeoMipMap>(
+        ground(), options, silent);  // on the heap, because memory() measures the object's own block
     bytes = static_cast<double>(lod->memory().total());
   }
   state.counters["bytes_per_sample"] = bytes / static_cast<double>(ground().heights.size());

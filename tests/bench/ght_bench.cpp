@@ -1,6 +1,6 @@
-// The Grounded Heightmap Tree: events by the size of the terrain and of what they touch, the rain of
+// The Grounded Heightmap Tree: events by the size of the terrain and of the region they touch, the rain of
 // particles and the sequence of the paper's §4.2, and one edit beside layered stacks and OpenVDB (`voxel`).
-// All on one thread. `cells` are those that an event adds, the measure of what it touches.
+// All on one thread. `cells` is the number of cells that an event adds, a measure of its region.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -19,14 +19,14 @@ namespace {
 
 using namespace terrabench;
 
-// Seconds that this thread has worked, whatever else the machine does.
-double worked() {
+// Processor time of this thread, in seconds.
+double thread_seconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Samples a metre apart: hills 60 m wide and some 10 m high, roughened.
+// Samples 1 m apart: hills 60 m wide and some 10 m high, roughened.
 Heightfield rolling(int n) {
   Heightfield field{n, n, 1, 1, {}, {}};
   field.heights.reserve(static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
@@ -41,9 +41,9 @@ Heightfield rolling(int n) {
   return field;
 }
 
-// On the heap, as memory() counts the object itself.
+// On the heap, because memory() counts the object itself.
 std::unique_ptr<Ght> make_tree(const Heightfield& field) {
-  return std::make_unique<Ght>(ght::Lattice{field.width, field.depth, field.cell_x, field.cell_z, 0, 0},
+  return std::make_unique<Ght>(ght::SampleGrid{field.width, field.depth, field.cell_x, field.cell_z, 0, 0},
                                field.heights, 0.0F);
 }
 
@@ -56,7 +56,7 @@ std::vector<NamedEvent> events_of(const Heightfield& field, double reach) {
   const double middle = field.extent_x() / 2;
   const auto at = [&](double x, double z) { return glm::dvec2(middle + x * reach, middle + z * reach); };
   const double ground = field.sample(static_cast<float>(middle), static_cast<float>(middle));
-  const double low = std::fmin(reach / 4, 4);  // metres that ground goes up or down
+  const double low = std::fmin(reach / 4, 4);  // metres by which the ground moves up or down
   return {{"linear erosion", events::LinearErosion{at(-0.4, -0.3), at(0.4, 0.3), reach / 2, 45}},
           {"radial erosion", events::RadialErosion{{middle, ground, middle}, {reach, low, reach}}},
           {"normal fault", events::DipFault{false, at(-0.6, -0.5), at(0.6, 0.5), 0.6 * reach, low, 60}},
@@ -65,7 +65,7 @@ std::vector<NamedEvent> events_of(const Heightfield& field, double reach) {
 }
 constexpr int kOutdoorKinds = 5;
 
-// Time of the event alone; the tree that it meets is made anew, off the clock.
+// Times the event only; the tree is built again outside the measured time.
 void time_event(benchmark::State& state, int n, double reach) {
   const Heightfield field = rolling(n);
   const NamedEvent one = events_of(field, reach)[static_cast<std::size_t>(state.range(0))];
@@ -73,9 +73,9 @@ void time_event(benchmark::State& state, int n, double reach) {
   for (auto _ : state) {
     const auto tree = make_tree(field);
     const std::size_t before = tree->model().tree.cells();
-    const double start = worked();
+    const double start = thread_seconds();
     tree->apply(one.event);
-    state.SetIterationTime(worked() - start);
+    state.SetIterationTime(thread_seconds() - start);
     cells = tree->model().tree.cells() - before;
   }
   state.counters["cells"] = static_cast<double>(cells);
@@ -89,7 +89,7 @@ void event_by_region(benchmark::State& state) {
   time_event(state, 1024, static_cast<double>(state.range(1)));
 }
 
-// Particles that each crash into the ground as it is then.
+// Particles that each crash into the current ground.
 class Rain {
  public:
   Rain(const Heightfield& field, unsigned seed) : extent_(field.extent_x()), random_(seed) {}
@@ -113,10 +113,10 @@ void rain(benchmark::State& state) {
   double bytes = 0, per_cell = 0;
   for (auto _ : state) {
     const auto tree = make_tree(field);
-    const double start = worked();
+    const double start = thread_seconds();
     Rain rain(field, 1);
     for (std::int64_t p = 0; p < particles; ++p) tree->apply(rain.next(*tree));
-    state.SetIterationTime(worked() - start);
+    state.SetIterationTime(thread_seconds() - start);
     bytes = static_cast<double>(tree->memory().total());
     per_cell = bytes / static_cast<double>(tree->model().tree.cells());
   }
@@ -125,7 +125,7 @@ void rain(benchmark::State& state) {
   state.counters["bytes/sample"] = bytes / static_cast<double>(field.heights.size());
 }
 
-// The overlapping sequence of §4.2: every kind of event, and then a rain.
+// The overlapping sequence of §4.2: every geotectonic kind of event, and then a rain.
 std::unique_ptr<Ght> sequence(int n, int particles) {
   const Heightfield field = rolling(n);
   auto tree = make_tree(field);
@@ -174,15 +174,15 @@ void columns_after_sequence(benchmark::State& state) {
   state.counters["payload/cell"] = static_cast<double>(tree->memory().payload) / static_cast<double>(cells);
 }
 
-// One bowl into each structure: the tree takes it as an event, the others as air painted column by column, at
-// a column a sample.
+// One radial erosion of each structure: an event for the tree, for the others an edit of air column by
+// column, with one column per sample.
 void same_edit(benchmark::State& state) {
   constexpr std::array<std::string_view, 3> kNames = {"ght", "layered_stack", "voxel"};
   const std::string_view name = kNames[static_cast<std::size_t>(state.range(0))];
   TerrainSource source;
   source.name = "rolling";
   source.heights = rolling(static_cast<int>(state.range(1)));
-  const auto bowl = std::get<events::RadialErosion>(events_of(*source.heights, 16)[1].event);
+  const auto erosion = std::get<events::RadialErosion>(events_of(*source.heights, 16)[1].event);
   const RepresentationType& type = representation(name);
   Parameters parameters(type.parameters);
   Progress progress;
@@ -190,7 +190,7 @@ void same_edit(benchmark::State& state) {
   std::vector<Span> air;
   for (int j = 0; j < source.heights->depth; ++j) {
     for (int i = 0; i < source.heights->width; ++i) {
-      const double bottom = bowl.bottom({i, j});
+      const double bottom = erosion.bottom({i, j});
       if (bottom == HUGE_VAL) continue;
       x.push_back(static_cast<float>(i)), z.push_back(static_cast<float>(j));
       air.push_back({static_cast<float>(bottom), 1e4F, Material::kAir});
@@ -200,13 +200,13 @@ void same_edit(benchmark::State& state) {
   for (auto _ : state) {
     const auto structure = type.build(source, parameters, progress);
     before = static_cast<double>(structure->memory().total());
-    const double start = worked();
+    const double start = thread_seconds();
     if (auto* const tree = dynamic_cast<Ght*>(structure.get())) {
-      tree->apply(bowl);
+      tree->apply(erosion);
     } else {
       structure->paint({x, z}, air);
     }
-    state.SetIterationTime(worked() - start);
+    state.SetIterationTime(thread_seconds() - start);
     after = static_cast<double>(structure->memory().total());
   }
   state.counters["columns"] = static_cast<double>(x.size());

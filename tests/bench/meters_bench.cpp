@@ -1,4 +1,4 @@
-// What it costs to measure one frame of brute force, which draws all that is in view of 4097².
+// The cost of measuring one frame of brute force, which draws everything in view of 4097².
 #include <benchmark/benchmark.h>
 
 #include "lod/brute_force/brute_force.h"
@@ -35,12 +35,12 @@ void raster(benchmark::State& state) {
 }
 void visibility(benchmark::State& state) {
   Scene& s = scene();
-  for (auto _ : state) benchmark::DoNotOptimize(Visibility(s.ground, s.view).at(0, 0));
+  for (auto _ : state) benchmark::DoNotOptimize(SeenSamples(s.ground, s.view).at(0, 0));
   rate(state, s.triangles, "triangles/s");
 }
 void error(benchmark::State& state) {
   Scene& s = scene();
-  const Visibility seen(s.ground, s.view);
+  const SeenSamples seen(s.ground, s.view);
   const SurfaceRaster drawn(s.frame, s.ground.width, s.ground.depth);
   double samples = 0;
   for (auto _ : state) samples = static_cast<double>(screen_error(drawn, s.ground, seen).in_frustum.samples);

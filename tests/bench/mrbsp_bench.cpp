@@ -1,30 +1,31 @@
-// The MRBSP paper's figures: building the tree of 65,536 triangles and of 16 million, choosing a frame's
-// triangles (the paper: 1/320 s), and what visibility takes to compute, in bytes, and misses.
+// MRBSP: time to build a tree of 65,536 and of 16 million triangles, to choose the triangles of a frame (the
+// paper: 1/320 s) and to compute visibility, with the bytes and the misses of the visible sets.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 #include <memory>
 
 #include "lod/mrbsp/height_points.h"
-#include "lod/mrbsp/line_of_sight.h"
 #include "lod/mrbsp/mrbsp.h"
-#include "lod/mrbsp/visibility_binary.h"
+#include "lod/mrbsp/visibility/codec.h"
+#include "lod/mrbsp/visibility/line_of_sight.h"
 #include "terrain/source.h"
 
 namespace {
 
 using namespace terrabench;
+namespace visibility = mrbsp::visibility;
 
 Progress& silent() {
   static Progress progress;
   return progress;
 }
 
-// The packaged mountains with so many samples a side.
+// The packaged mountain terrain resampled to side × side samples.
 Heightfield mountains(int side) { return resample(*open_terrain("jacksboro").heights, side, side); }
 
-// A walk around the middle: 200 eyes at 1.8 m, looking ahead, 40° wide as the paper's share of triangles in
-// view suggests.
+// A circular walk: 200 eyes at 1.8 m, looking ahead. The field of view is 40° wide, as the paper's share of
+// triangles in view suggests.
 std::vector<View> walk(const Heightfield& field) {
   std::vector<View> views;
   for (int k = 0; k < 200; ++k) {
@@ -93,13 +94,13 @@ BENCHMARK(choose_triangles)
     ->Args({25, 1, 1, 64})
     ->Unit(benchmark::kMicrosecond);
 
-// Counts fine triangles whose middle an eye in a cell sees, over the full surface, and which of them its set
-// lacks.
-void count_misses(const Heightfield& field, const BisectionTree& tree, const VisibleSets& sets,
+// Counts the fine triangles whose centre an eye sees over the full surface, and those of them that the set of
+// the eye's cell lacks.
+void count_misses(const Heightfield& field, const BisectionTree& tree, const visibility::Sets& sets,
                   benchmark::State& state) {
-  const CoarseSquares squares(tree, tree.depth());
+  const visibility::CoarseSquares squares(tree, tree.depth());
   const GroundGrid grid = grid_of(field);
-  const LineOfSight lines(grid, squares);
+  const visibility::LineOfSight lines(grid, squares);
   std::size_t seen = 0, missed = 0;
   std::uint32_t key = 1;
   const auto random = [&] {
@@ -111,8 +112,7 @@ void count_misses(const Heightfield& field, const BisectionTree& tree, const Vis
     glm::vec3 eye(random() * static_cast<float>(grid.width - 1), 0,
                   random() * static_cast<float>(grid.depth - 1));
     eye.y = lines.height(eye.x, eye.z) + sets.eye_height;
-    const int column = std::min(static_cast<int>(eye.x) / sets.cells.side, sets.cells.columns - 1);
-    const int row = std::min(static_cast<int>(eye.z) / sets.cells.side, sets.cells.rows - 1);
+    const glm::ivec2 cell = sets.cells.cell_at(eye.x, eye.z);
     for (int z = 0; z < squares.along(); ++z) {
       for (int x = 0; x < squares.along(); ++x) {
         for (int half = 0; half < 2; ++half) {
@@ -122,7 +122,7 @@ void count_misses(const Heightfield& field, const BisectionTree& tree, const Vis
           const glm::vec3 target(middle.x, lines.height(middle.x, middle.y), middle.y);
           if (!lines.clear(eye, target)) continue;
           ++seen;
-          missed += !sets.sees(row * sets.cells.columns + column, fine >> (tree.depth() - sets.depth));
+          missed += !sets.sees(cell.y * sets.cells.columns + cell.x, fine >> (tree.depth() - sets.depth));
         }
       }
     }
@@ -135,13 +135,13 @@ void find_visibility(benchmark::State& state) {
   const int side = static_cast<int>(state.range(0));
   const Heightfield field = mountains(side);
   const BisectionTree tree = BisectionTree::over(side, side);
-  VisibilityOptions options;
-  options.conservative = state.range(1) != 0;
+  visibility::Options options;
+  options.mode = state.range(1) != 0 ? visibility::Mode::kConservative : visibility::Mode::kSampled;
   options.cells = static_cast<int>(state.range(2));
   options.coarseness = static_cast<int>(state.range(3));
-  VisibleSets sets;
-  for (auto _ : state) sets = find_visible(grid_of(field), tree, options, silent());
-  const VisibilityBytes bytes = visibility_bytes(changes_of(sets));
+  visibility::Sets sets;
+  for (auto _ : state) sets = find_sets(grid_of(field), tree, options, silent());
+  const visibility::EncodedSizes bytes = encoded_sizes(changes_of(sets));
   double share = 0;
   for (int cell = 0; cell < sets.cells.count(); ++cell) share += static_cast<double>(sets.count(cell));
   state.counters["visible_%"] = 100 * share / sets.cells.count() / std::pow(2.0, sets.depth);

@@ -1,5 +1,6 @@
-// ROAM on 4097² synthetic mountains, 30 m between samples: building its bounds, refining from nothing, and
-// walking with a limit on triangles. A frame of the walk should cost what it changes, not what it draws.
+// ROAM on 4097² synthetic mountains, 30 m between samples: building the wedgies, refining from scratch, and
+// walking with a limit on triangles. The cost of a frame should be proportional to its changes, not to its
+// triangles.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -92,8 +93,8 @@ void frames(benchmark::State& state, const RoamOptions& options, Path path) {
   state.counters["drawn"] = benchmark::Counter(triangles, average);
 }
 
-// The path at 28 mm a frame is 6 km/h at 60 frames a second. With ten times the speed come ten times the
-// changes, and the cost goes with them; at rest it is that of noticing so.
+// 28 mm per frame is 6 km/h at 60 frames per second. Ten times the speed gives ten times the changes and the
+// cost; at rest a frame costs only the check for motion.
 void walking(benchmark::State& state) {
   const double step = 1e-3 * static_cast<double>(state.range(1));
   frames(state, limited_to(state.range(0)), [&](int frame) { return walk(step * frame); });
@@ -106,7 +107,7 @@ void speeds(benchmark::internal::Benchmark* benchmark) {
 }
 BENCHMARK(walking)->Apply(speeds);
 
-// 100 m/s at 60 frames a second.
+// 100 m/s at 60 frames per second.
 void flying(benchmark::State& state) {
   frames(state, limited_to(state.range(0)), [](int frame) {
     View view = walk(1.67 * frame);
@@ -117,13 +118,13 @@ void flying(benchmark::State& state) {
 }
 BENCHMARK(flying)->Arg(20000)->Arg(80000)->Arg(320000)->Unit(benchmark::kMicrosecond)->Iterations(1000);
 
-// A degree a frame, on the spot.
+// One degree per frame, on the spot.
 void turning(benchmark::State& state) {
   frames(state, limited_to(state.range(0)), [](int frame) { return turn(0.0175 * frame); });
 }
 BENCHMARK(turning)->Arg(20000)->Arg(80000)->Arg(320000)->Unit(benchmark::kMicrosecond)->Iterations(360);
 
-// Pixels, with no limit on triangles.
+// By max_error in pixels, without a limit on triangles.
 void walking_at_error(benchmark::State& state) {
   frames(state, {.max_error = static_cast<double>(state.range(0))},
          [](int frame) { return walk(0.028 * frame); });

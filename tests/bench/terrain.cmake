@@ -1,9 +1,7 @@
-find_package(GDAL CONFIG REQUIRED)
 terrabench_benchmark(dem_bench SOURCES dem_bench.cpp LIBRARIES terrain GDAL::GDAL)
 
 # libnoise is the packaged peer of the noise graph.
 find_library(NOISE_LIBRARY noise REQUIRED)
-pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
 terrabench_benchmark(noise_bench SOURCES noise_bench.cpp
                      LIBRARIES terrain TBB::tbb PkgConfig::HWY ${NOISE_LIBRARY})
 terrabench_benchmark(fractal_bench SOURCES fractal_bench.cpp LIBRARIES terrain TBB::tbb ${NOISE_LIBRARY})

@@ -80,7 +80,7 @@ TEST(Scripts, MakeSoundTrees) {
 TEST(Scripts, TheCanyonHasHeightmapsOnHeightmaps) {
   const Ght ght = open_tree("canyon");
   std::uint32_t deepest = 0;
-  for (const Node& node : ght.model().tree.nodes()) deepest = std::max(deepest, node.depth);
+  for (const GroundedHeightmap& node : ght.model().tree.nodes()) deepest = std::max(deepest, node.depth);
   EXPECT_GE(deepest, 2U);
 }
 

@@ -114,7 +114,7 @@ TEST(GhtBreaks, AreSeen) {
   Model dangling = whole;
   CellId link = 0;
   while (dangling.tree.kind(link) != CellKind::kLink) ++link;
-  Node spare;
+  GroundedHeightmap spare;
   spare.columns = spare.rows = 2;
   spare.parent = 0;
   const CellId nowhere = dangling.tree.nodes()[dangling.tree.append(spare)].cell(0, 0);

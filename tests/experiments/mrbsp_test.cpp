@@ -8,8 +8,8 @@
 #include "experiments/mrbsp/extruded_profile.h"
 #include "experiments/mrbsp/ground.h"
 #include "experiments/mrbsp/lost_pixels.h"
-#include "lod/mrbsp/coarse_squares.h"
 #include "lod/mrbsp/surface_height.h"
+#include "lod/mrbsp/visibility/coarse_squares.h"
 #include "terrain/error.h"
 #include "tests/terrain/temporary_folder.h"
 
@@ -191,11 +191,11 @@ TEST(ExtrudedProfile, IsTheSameOnASquare) {
   for (int row = 0; row < square.depth; ++row) {
     square.heights.insert(square.heights.end(), table1_profile().begin(), table1_profile().end());
   }
-  const VisibleSets narrow = sets_of(find_changes(strip, false, progress));
-  const VisibleSets wide = sets_of(find_changes(square, false, progress));
+  const visibility::Sets narrow = sets_of(find_changes(strip, false, progress));
+  const visibility::Sets wide = sets_of(find_changes(square, false, progress));
   ASSERT_EQ(wide.cells.rows, kProfileCells);
   ASSERT_EQ(wide.depth, narrow.depth);
-  const CoarseSquares squares(BisectionTree::over(square.width, square.depth), wide.depth);
+  const visibility::CoarseSquares squares(BisectionTree::over(square.width, square.depth), wide.depth);
   const int cells_a_square = squares.side() / wide.cells.side;
   for (int cell = 0; cell < wide.cells.count(); ++cell) {
     const int column = cell % wide.cells.columns, row = cell / wide.cells.columns / cells_a_square;

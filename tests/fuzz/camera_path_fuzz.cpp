@@ -1,4 +1,4 @@
-// Camera paths: any text is refused with an Error, or is a path whose views are views.
+// Camera paths: any text either throws Error or gives a path whose views pass check_view().
 #include <string_view>
 
 #include "lod/camera/camera_path.h"

@@ -1,5 +1,5 @@
-// Saved grounded heightmap trees without the container's checksum: any bytes are refused, or load to a tree
-// that answers, can be inspected and meshed, and saves to bytes that load to the same.
+// Loads saved grounded heightmap trees without the container's checksum: any bytes are refused, or load to a
+// tree that can be queried, inspected and meshed, and that saves to bytes that load to the same tree.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -23,7 +23,7 @@ Heightfield ground(int n) {
   return field;
 }
 
-// A ridge that a tunnel goes through.
+// A ridge for a tunnel.
 Heightfield ridge() {
   constexpr int kSide = 33;
   Heightfield field{kSide, kSide, 1, 1, {}, {}};
@@ -45,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   const auto& tree = dynamic_cast<const Ght&>(*loaded);
-  (void)ght::broken_invariants(tree.model());  // of what a file holds any may be broken
+  (void)ght::broken_invariants(tree.model());  // a file may break any of them
   if (ght::census(tree.model()).nodes == 0 || tree.memory().total() == 0) std::abort();
   const Bounds bounds = tree.bounds();
   std::vector<float> x, z;
@@ -75,7 +75,7 @@ std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
       {LateralFault{{6, 7}, {11, 9}, 3, 2}, DipFault{false, {5, 8}, {11, 8}, 3, 1, 60}}};
   std::vector<std::vector<std::uint8_t>> seeds;
   const auto add = [&](const Heightfield& field, std::span<const Event> sequence) {
-    Ght tree(ght::Lattice{field.width, field.depth, 1, 1, 0, 0}, field.heights, -10);
+    Ght tree(ght::SampleGrid{field.width, field.depth, 1, 1, 0, 0}, field.heights, -10);
     for (const Event& event : sequence) tree.apply(event);
     ByteSink sink;
     tree.save(sink);

@@ -1,5 +1,5 @@
-// Ground, views and knobs that nobody would choose: every method in the registry refuses what shows nothing,
-// draws all else as it should, and goes on afterwards as if nothing had been.
+// Unusual and invalid ground, views and knobs: every method in the registry refuses what is invalid, draws
+// everything else correctly, and is unchanged after a refusal.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -41,8 +41,8 @@ double plan_area(const std::vector<glm::vec3>& corners) {
   return area;
 }
 
-// Corners that do not stand over the ground, between its lowest and its highest point.
-std::size_t astray(const std::vector<glm::vec3>& corners, const Heightfield& field) {
+// The number of corners outside the ground's extent or its range of heights.
+std::size_t outside(const std::vector<glm::vec3>& corners, const Heightfield& field) {
   const HeightRange range = height_range(field);
   return static_cast<std::size_t>(std::count_if(corners.begin(), corners.end(), [&](const glm::vec3& p) {
     return !(p.x >= 0 && p.x <= field.extent_x() && p.z >= 0 && p.z <= field.extent_z() &&
@@ -60,7 +60,7 @@ ExitCode failure_of(const std::function<void()>& work) {
   return ExitCode::kGood;
 }
 
-// A plain look across the ground, to which the tests do something.
+// An ordinary view across the ground, which the tests modify.
 View across(const Heightfield& field) {
   View view;
   view.eye = {0.4F * field.extent_x(), 30, 0.7F * field.extent_z()};
@@ -180,7 +180,7 @@ TEST_P(BadInput, GroundOfAnySizeIsDrawnOnce) {
     field.cell_x = 2;
     field.cell_z = 3;
     const std::vector<glm::vec3> corners = corners_of(build(field)->update(from_above(field)));
-    EXPECT_EQ(astray(corners, field), 0U) << width << " × " << depth;
+    EXPECT_EQ(outside(corners, field), 0U) << width << " × " << depth;
     EXPECT_DOUBLE_EQ(plan_area(corners), static_cast<double>(field.extent_x()) * field.extent_z())
         << width << " × " << depth;
   }
@@ -196,7 +196,7 @@ TEST_P(BadInput, LegalViewsOfAnyKindAreDrawnWithoutCracks) {
       View view = across(field);
       change.apply(view);
       const Frame& frame = lod->update(view);
-      EXPECT_EQ(astray(corners_of(frame), field), 0U);
+      EXPECT_EQ(outside(corners_of(frame), field), 0U);
       EXPECT_TRUE(!type_.traits.conforming || find_cracks(frame, field.width, field.depth, view).tight());
     }
   }
@@ -239,8 +239,8 @@ TEST_P(BadInput, HeightsBeyondAnyMountainStayFinite) {
   field.at(20, 20) = 1e30F;
   field.at(21, 20) = -1e30F;
   const std::unique_ptr<Lod> lod = build(field);
-  EXPECT_EQ(astray(corners_of(lod->update(across(field))), field), 0U);
-  EXPECT_EQ(astray(corners_of(lod->update(from_above(field))), field), 0U);
+  EXPECT_EQ(outside(corners_of(lod->update(across(field))), field), 0U);
+  EXPECT_EQ(outside(corners_of(lod->update(from_above(field))), field), 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(EachMethod, BadInput, ::testing::ValuesIn(variants()), name_of);

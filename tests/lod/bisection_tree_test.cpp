@@ -1,4 +1,4 @@
-// The implicit tree against triangles bisected one by one.
+// The implicit tree against triangles split one by one.
 #include "lod/mrbsp/bisection_tree.h"
 
 #include <gtest/gtest.h>
@@ -23,16 +23,16 @@ long long doubled_area(const PlanTriangle& t) {
   return static_cast<long long>(u.y) * v.x - static_cast<long long>(u.x) * v.y;
 }
 
-// All triangles of a depth, cut as the paper says, in the order of their numbers.
+// All triangles of a depth, split as the paper says, in the order of their numbers.
 std::vector<PlanTriangle> bisect(const BisectionTree& tree, int depth) {
   const auto roots = tree.roots();
   std::vector<PlanTriangle> level(roots.begin(), roots.end());
   for (int d = 1; d < depth; ++d) {
     std::vector<PlanTriangle> next;
     for (const PlanTriangle& t : level) {
-      const glm::ivec2 foot = (t.left + t.right) / 2;
-      next.push_back({foot, t.apex, t.left});
-      next.push_back({foot, t.right, t.apex});
+      const glm::ivec2 centre = (t.left + t.right) / 2;
+      next.push_back({centre, t.apex, t.left});
+      next.push_back({centre, t.right, t.apex});
     }
     level = next;
   }
@@ -57,7 +57,7 @@ TEST(BisectionTree, NumbersLeadToTheBisectedTriangles) {
     const auto level = bisect(tree, depth);
     ASSERT_EQ(level.size(), std::size_t{1} << depth);
     for (std::size_t k = 0; k < level.size(); ++k) {
-      const NodeNumber node = (NodeNumber{1} << depth) + k;
+      const NodeNumber node = first_node(depth) + k;
       EXPECT_EQ(tree.triangle(node), level[k]);
       EXPECT_EQ(depth_of(node), depth);
     }
@@ -86,19 +86,19 @@ TEST(BisectionTree, EveryDepthIsRightAngledEqualAndCounterClockwise) {
   }
 }
 
-// A cut's depth and parents, against all triangles that it halves.
-TEST(BisectionTree, ParentsAreTheRightAnglesOfTheTrianglesCut) {
+// A vertex's depth and parents, against all triangles that it splits.
+TEST(BisectionTree, ParentsAreTheRightAnglesOfTheTrianglesSplit) {
   const BisectionTree tree(4, 9);
-  std::map<Place, std::pair<int, std::set<Place>>> cuts;
+  std::map<Place, std::pair<int, std::set<Place>>> splits;
   for (int depth = 1; depth < 9; ++depth) {
     for (const PlanTriangle& t : bisect(tree, depth)) {
-      auto& [cut_depth, parents] = cuts[key((t.left + t.right) / 2)];
-      cut_depth = depth;
+      auto& [split_depth, parents] = splits[key((t.left + t.right) / 2)];
+      split_depth = depth;
       if (depth > 1) parents.insert(key(t.apex));
     }
   }
-  EXPECT_EQ(cuts.size(), 17U * 17 - 4);
-  for (const auto& [at, expected] : cuts) {
+  EXPECT_EQ(splits.size(), 17U * 17 - 4);
+  for (const auto& [at, expected] : splits) {
     const glm::ivec2 vertex(at.first, at.second);
     EXPECT_EQ(tree.split_depth(vertex), expected.first);
     const auto parents = tree.parents(vertex);
@@ -154,7 +154,8 @@ TEST(BisectionTree, TheSurfaceIsThatOfTheFinestTriangles) {
 }
 
 TEST(BisectionTree, TheSurfaceAtFarBordersIsNeverTooLow) {
-  // 10 × 7 samples in a square of 17: triangles over the border take their highest corner.
+  // 10 × 7 samples in a square of 17 × 17: triangles that extend beyond the field have the height of their
+  // highest corner.
   std::vector<float> heights;
   for (int k = 0; k < 70; ++k) heights.push_back(static_cast<float>((k * 37) % 23));
   const GroundGrid grid{10, 7, 1, 1, heights};

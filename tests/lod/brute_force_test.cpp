@@ -1,4 +1,4 @@
-// The yardstick draws every triangle that a view can see, once.
+// The reference method draws every triangle in view once.
 #include "lod/brute_force/brute_force.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ Heightfield hills(int width, int depth) {
   return field;
 }
 
-// From high above the middle, the whole field.
+// From high above the middle; the whole field is in view.
 View from_above(const Heightfield& field) {
   View view;
   view.target = {0.5F * field.extent_x(), 0, 0.5F * field.extent_z()};
@@ -84,7 +84,7 @@ TEST(BruteForce, CountsItsHeapBytes) {
   EXPECT_EQ(heap.held(), static_cast<std::int64_t>(lod->memory().total()));
 }
 
-TEST(CheckView, RefusesWhatShowsNothing) {
+TEST(CheckView, RefusesInvalidViews) {
   const auto refused = [](auto change) {
     View view;
     change(view);
@@ -94,7 +94,7 @@ TEST(CheckView, RefusesWhatShowsNothing) {
   refused([](View& v) { v.eye.x = kNan; });
   refused([](View& v) { v.eye.y = std::numeric_limits<float>::infinity(); });
   refused([](View& v) { v.target = v.eye; });
-  refused([](View& v) { v.target = v.eye + glm::vec3(0, -5, 0); });  // no way is up
+  refused([](View& v) { v.target = v.eye + glm::vec3(0, -5, 0); });  // parallel to up
   refused([](View& v) { v.vertical_fov = 0; });
   refused([](View& v) { v.vertical_fov = 4; });
   refused([](View& v) { v.width = 0; });

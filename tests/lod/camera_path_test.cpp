@@ -1,4 +1,4 @@
-// Paths give the views that they say, over any ground, and garbage is refused by line.
+// Paths give the views that they describe, over any ground; errors name the line.
 #include "lod/camera/camera_path.h"
 
 #include <gmock/gmock.h>
@@ -41,7 +41,7 @@ std::string replaced(std::string_view text, std::string_view from, std::string_v
 void expect_refused(const std::string& text, int line, const std::string& what) {
   try {
     parse(text);
-    ADD_FAILURE() << "taken: " << text;
+    ADD_FAILURE() << "accepted: " << text;
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kBadInput);
     EXPECT_THAT(error.what(), testing::HasSubstr("test.toml:" + std::to_string(line))) << text;
@@ -52,7 +52,7 @@ void expect_refused(const std::string& text, int line, const std::string& what) 
 TEST(CameraPath, AWalkKeepsPaceAndEyeHeight) {
   const Heightfield ground = hilly(60, 60);
   const std::vector<View> all = views(parse(kWalk), ground);
-  ASSERT_EQ(all.size(), 81U);  // 10 m at 2 m/s and 12 m at 4 m/s, ten frames a second
+  ASSERT_EQ(all.size(), 81U);  // 10 m at 2 m/s and 12 m at 4 m/s, ten frames per second
   for (std::size_t k = 0; k < all.size(); ++k) {
     EXPECT_NEAR(all[k].eye.y - ground.sample(all[k].eye.x, all[k].eye.z), 1.8, 1e-4);
     EXPECT_EQ(all[k].width, 640);
@@ -127,7 +127,7 @@ TEST(CameraPath, ArrivesWhereATimeIsTooShortToCount) {
   EXPECT_NEAR(all.back().eye.x, 90.001, 1e-3);
 }
 
-// What a reader copies out of the header.
+// Users start from this example.
 TEST(CameraPath, ReadsTheExampleOfItsHeader) {
   const std::string header =
       read_file(std::filesystem::path(TERRABENCH_SOURCE_DIR) / "lod/camera/camera_path.h");
@@ -192,11 +192,11 @@ TEST(CameraPath, RefusesGarbageByLine) {
   refused("[10, 20]", "[10, inf]", 7, "'at'");
   refused("[10, 20]", "[10]", 7, "pair");
   refused("[10, 20]", "[10, \"x\"]", 7, "'at'");
-  refused("[10, 20]", "[20, 20]", 8, "nothing moves");
+  refused("[10, 20]", "[20, 20]", 8, "must differ");
   refused("speed = 4", "speed = 0", 10, "'speed'");
   refused("speed = 4", "spede = 4", 10, "'spede'");
   refused("speed = 4", "speed = ", 10, "");
-  refused("speed = 4", "heading = 4", 8, "all keyframes look");
+  refused("speed = 4", "heading = 4", 8, "all keyframes must");
   refused("speed = 4", "height = 4", 10, "'height'");
   refused("\"walk\"", "\"swim\"", 1, "walk, fly, turn");
   refused("\"walk\"", "7", 1, "'kind'");
@@ -209,7 +209,7 @@ TEST(CameraPath, RefusesGarbageByLine) {
   expect_refused("", 1, "'kind'");
   expect_refused(std::string(kWalk.substr(0, kWalk.find("[[keyframe]]"))), 1, "'keyframe'");
   expect_refused("keyframe = 3\n" + std::string(kWalk.substr(0, kWalk.find("[[keyframe]]"))), 1,
-                 "not a list");
+                 "must be a list");
 }
 
 TEST(CameraPath, RefusesPathsWithoutEnd) {

@@ -1,5 +1,5 @@
-// The windows hold what the ground holds wherever the eye went, cover the ground once, and meet without a
-// gap.
+// The windows hold the ground's heights after any motion of the eye, cover the ground once, and meet without
+// gaps.
 #include "lod/clipmap/clipmap.h"
 
 #include <fmt/format.h>
@@ -35,7 +35,8 @@ Heightfield rough(int width, int depth) {
   return field;
 }
 
-// An eye low enough for every level, and a view that holds everything because it is nearly flat and far off.
+// An eye low enough to draw the finest level, with a field of view of nearly 180°, so that everything is in
+// view.
 View everything(const Heightfield& field, float x, float z, float above) {
   View view;
   view.eye = {x, 10 + above, z};
@@ -51,7 +52,7 @@ View everything(const Heightfield& field, float x, float z, float above) {
 struct Soup {
   double area = 0;
   std::size_t flipped = 0;
-  // Directed edges by the bits of their ends; what is left after opposite ones cancel.
+  // Directed edges by the bits of their ends, without pairs of opposite edges.
   std::map<std::array<std::array<std::uint32_t, 3>, 2>, int> open;
 };
 
@@ -66,7 +67,7 @@ Soup collect(const Frame& frame) {
     for (std::size_t k = 0; k < corners.size(); k += 3) {
       const glm::dvec3 p = corners[k], q = corners[k + 1], r = corners[k + 2];
       const double area = 0.5 * ((q.z - p.z) * (r.x - p.x) - (q.x - p.x) * (r.z - p.z));
-      soup.flipped += area <= 0;  // nothing is drawn that lies beyond the border
+      soup.flipped += area <= 0;  // triangles beyond the border are not drawn
       soup.area += area;
       for (int e = 0; e < 3; ++e) {
         const auto a = bits(corners[k + e]), b = bits(corners[k + (e + 1) % 3]);
@@ -104,11 +105,11 @@ void expect_closed(const Heightfield& field, const Frame& frame) {
 
 TEST(ClipmapWindow, CoversItsCellsOnceWithoutOddVerticesAtTheBorder) {
   for (const int m : {2, 3, 4, 7, 16}) {
-    const clipmap::Window window = clipmap::make_window(m);
+    const clipmap::WindowPattern window = clipmap::make_window_pattern(m);
     const auto twice_area = [&](const clipmap::Block& block) {
       int sum = 0;
-      const clipmap::Run run = block.indices;
-      for (std::uint32_t k = run.first_index; k < run.first_index + run.index_count; k += 3) {
+      const IndexRange range = block.indices;
+      for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; k += 3) {
         std::array<int, 3> a, b;
         for (int c = 0; c < 3; ++c) {
           a[c] = static_cast<int>(window.indices[k + c]) % window.side;
@@ -159,7 +160,7 @@ TEST(Clipmap, HoldsTheGroundsHeightsAfterAnyWalk) {
     z += step();
     const Frame& frame = lod.update(everything(field, x, z, 1));
     for (int l = 0; l < lod.levels(); ++l) {
-      const ClipLevel& level = frame.levels[l];
+      const ClipLevel& level = frame.clip_levels[l];
       for (int b = level.corner.y; b < level.corner.y + lod.window(); ++b) {
         for (int a = level.corner.x; a < level.corner.x + lod.window(); ++a) {
           const int i = std::clamp(a * level.spacing, 0, field.width - 1);
@@ -182,15 +183,15 @@ TEST(Clipmap, UploadsTheLShapedStripsOnly) {
   const std::size_t all = lod.update(at(512, 512)).stats.bytes_uploaded;
   EXPECT_GT(all, 4 * n * n * static_cast<std::size_t>(lod.levels()));
   EXPECT_EQ(lod.update(at(512, 512)).stats.bytes_uploaded, 0U);
-  EXPECT_EQ(lod.update(at(513, 513)).stats.bytes_uploaded, 0U);         // windows go in steps of two samples
-  EXPECT_EQ(lod.update(at(514, 512)).stats.bytes_uploaded, 4 * 2 * n);  // the finest level alone
+  EXPECT_EQ(lod.update(at(513, 513)).stats.bytes_uploaded, 0U);  // windows move in steps of two samples
+  EXPECT_EQ(lod.update(at(514, 512)).stats.bytes_uploaded, 4 * 2 * n);  // only the finest level
   EXPECT_EQ(
       lod.update(at(516, 514)).stats.bytes_uploaded,  // L: two columns, two rows; the next level: columns
       4 * (2 * n + 2 * (n - 2)) + 4 * 2 * n);
 }
 
-// Whatever the move, what is uploaded is what is new in each window, once: n² samples less those it shares
-// with where it was.
+// For any move, uploads are exactly the samples that are new in each window: n² less those shared with its
+// former place.
 TEST(Clipmap, UploadsEachNewSampleOnce) {
   const Heightfield field = rough(700, 900);
   Clipmap lod(heights_in_memory(field), 63);
@@ -204,9 +205,9 @@ TEST(Clipmap, UploadsEachNewSampleOnce) {
     j = std::clamp(j + step(most), -20.0F, 920.0F);
     const Frame& frame = lod.update(everything(field, i * field.cell_x, j * field.cell_z, 1));
     std::size_t expected = k == 0 ? 4 * frame.indices.size() : 0;
-    for (std::size_t l = 0; l < frame.levels.size(); ++l) {
+    for (std::size_t l = 0; l < frame.clip_levels.size(); ++l) {
       const int n = lod.window();
-      const glm::ivec2 by = k == 0 ? glm::ivec2(n) : glm::abs(frame.levels[l].corner - before[l]);
+      const glm::ivec2 by = k == 0 ? glm::ivec2(n) : glm::abs(frame.clip_levels[l].corner - before[l]);
       expected += 4 * static_cast<std::size_t>(n * n - std::max(0, n - by.x) * std::max(0, n - by.y));
     }
     ASSERT_EQ(frame.stats.bytes_uploaded, expected) << k;
@@ -219,7 +220,7 @@ TEST(Clipmap, UploadsEachNewSampleOnce) {
     }
     for (const auto& [sample, count] : times) ASSERT_EQ(count, 1) << k;
     before.clear();
-    for (const ClipLevel& level : frame.levels) before.push_back(level.corner);
+    for (const ClipLevel& level : frame.clip_levels) before.push_back(level.corner);
   }
 }
 
@@ -239,8 +240,8 @@ TEST(Clipmap, HasNoCracksAlongThePaths) {
   }
 }
 
-// Over a slow flight that climbs through the levels, vertices glide: without the transition, samples jump as
-// they change level.
+// On a slow flight that climbs through the levels, vertices move gradually; without the transition, they jump
+// when they change level.
 TEST(Clipmap, TransitionsKeepPoppingSmall) {
   Heightfield field = test::hilly(110, 110, 1);
   field.cell_x = field.cell_z = 3;
@@ -255,11 +256,11 @@ TEST(Clipmap, TransitionsKeepPoppingSmall) {
   std::unique_ptr<SurfaceRaster> before[2];
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Frame& frame = lod.update(all[k]);
-    std::vector<ClipLevel> levels(frame.levels.begin(), frame.levels.end());
+    std::vector<ClipLevel> levels(frame.clip_levels.begin(), frame.clip_levels.end());
     for (ClipLevel& level : levels) level.from = level.to = 0;
     Frame plain = frame;
-    plain.levels = levels;
-    const Visibility seen(field, all[k]);
+    plain.clip_levels = levels;
+    const SeenSamples seen(field, all[k]);
     for (int which = 0; which < 2; ++which) {
       auto now = std::make_unique<SurfaceRaster>(which == 0 ? frame : plain, field.width, field.depth);
       double& largest = which == 0 ? blended : sudden;
@@ -285,12 +286,12 @@ TEST(ClipmapBounds, AreThoseOfTheTilesWhereverTheWindowWent) {
     const auto step = [&] { return static_cast<int>(random() % (2 * most + 1)) - most; };
     level.corner += glm::ivec2(step(), step());
     const glm::ivec2 corner = level.corner, end = corner + kWindow - 1;
-    std::fill(heights.begin(), heights.end(), 1e9F);  // what lies outside the window must not count
+    std::fill(heights.begin(), heights.end(), 1e9F);  // samples outside the window must not count
     for (int b = corner.y; b <= end.y; ++b) {
       for (int a = corner.x; a <= end.x; ++a)
         heights[static_cast<std::size_t>((b & 31) * kSide + (a & 31))] = height(a, b);
     }
-    bounds.follow(level);
+    bounds.update(level);
     const auto inside = [&](int from) { return from + static_cast<int>(random() % kWindow); };
     const glm::ivec2 p(inside(corner.x), inside(corner.y)), q(inside(corner.x), inside(corner.y));
     const glm::ivec2 low = glm::min(p, q), high = glm::max(p, q);

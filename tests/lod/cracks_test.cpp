@@ -1,4 +1,4 @@
-// The detector finds planted cracks of every kind, and none where there are none.
+// The detector finds planted cracks of every kind, and none in closed surfaces.
 #include "lod/meters/cracks.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ CrackReport report_of(const Drawing& drawing, const Heightfield& field) {
   return find_cracks(drawing.frame(), field.width, field.depth, from_above(field));
 }
 
-// Looks along the ground from the south, so that height shows.
+// Looks along the ground from the south, so that height differences are visible.
 View from_south(const Heightfield& field) {
   View view;
   view.eye = {0.5F * field.extent_x(), 1, field.extent_z() + 20};
@@ -57,7 +57,7 @@ TEST(Cracks, LevelTJunctionIsNoGap) {
   Heightfield field = flat(9, 5, 7.1F);
   field.at(4, 0) = 3.3F;
   field.at(4, 4) = 12.7F;
-  field.at(4, 2) = 0.5F * (3.3F + 12.7F);  // to a float's rounding
+  field.at(4, 2) = 0.5F * (3.3F + 12.7F);  // the mean of the edge's ends, within a float's rounding
   const CrackReport report = report_of(coarse_beside_fine(field), field);
   EXPECT_EQ(report.t_junctions, 1U);
   EXPECT_EQ(report.open_t_junctions, 0U);
@@ -86,7 +86,7 @@ TEST(Cracks, FindsTheGapOfATJunction) {
 
 TEST(Cracks, FindsGapsOnSlantedEdges) {
   Heightfield field = flat(7, 7);
-  field.at(2, 2) = 1;  // on the slant from (0, 4) to (4, 0)
+  field.at(2, 2) = 1;  // on the diagonal from (0, 4) to (4, 0)
   Drawing drawing(field);
   drawing.triangle({0, 0}, {0, 4}, {4, 0});
   drawing.triangle({2, 2}, {0, 4}, {6, 6});
@@ -101,7 +101,7 @@ TEST(Cracks, FindsGapsOnSlantedEdges) {
 }
 
 TEST(Cracks, FindsGapsBetweenTheSameVertices) {
-  // Two levels of a clipmap, as fine as each other, that do not agree on one height.
+  // Two clip levels of the same spacing that differ in one height.
   const Heightfield low = flat(16, 16);
   Heightfield high = low;
   high.at(4, 2) = 1.5F;
@@ -116,7 +116,7 @@ TEST(Cracks, FindsGapsBetweenTheSameVertices) {
   const ClipLevel levels[] = {{.side = 16, .heights = low.heights}, {.side = 16, .heights = high.heights}};
   Frame frame = drawing.frame();
   frame.grid = {};
-  frame.levels = levels;
+  frame.clip_levels = levels;
   frame.last = {15, 15};
   const CrackReport report = find_cracks(frame, low.width, low.depth, from_above(low));
   EXPECT_EQ(report.t_junctions, 0U);
@@ -184,7 +184,7 @@ TEST(Cracks, FindsALayerOverTheWholeGround) {
   EXPECT_FALSE(report.tight());
 }
 
-// Its rim is out of view, and no edge of it is an edge of the ground below.
+// The layer's rim is out of view, and it shares no edge with the ground below.
 TEST(Cracks, FindsALayerWhoseRimIsOutOfView) {
   const Heightfield field = flat(101, 101);
   Drawing drawing(field);
@@ -199,14 +199,14 @@ TEST(Cracks, FindsALayerWhoseRimIsOutOfView) {
   EXPECT_FALSE(report.tight());
 }
 
-// Triangulations that leave no gap cover each sample once, with whatever slivers and T-junctions.
+// Triangulations without gaps cover each sample once, even with slivers and T-junctions.
 TEST(Cracks, CountsNoSampleOfASurfaceTwice) {
   const Heightfield field = flat(200, 41);
   std::mt19937 random(3);
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   for (int round = 0; round < 200; ++round) {
     Drawing drawing(field);
-    // Fans to the north and the south of a line, in strides of their own.
+    // Fans to the north and the south of a line, with different strides.
     const glm::ivec2 north(below(200), 0), south(below(200), 40);
     for (const bool up : {true, false}) {
       for (int x = 0; x < 199;) {
@@ -244,8 +244,8 @@ TEST(Cracks, FindsACellThatFacesDown) {
   EXPECT_FALSE(report.tight());
 }
 
-// Levels of many heights over each other: which of them is compared with the other side must not be chance,
-// and is the lowest.
+// Layers of different heights over each other: the one that is compared with the other side must not depend
+// on chance; it is the lowest.
 TEST(Cracks, ComparesLayersInAnOrderOfTheirOwn) {
   constexpr int kLayers = 4000, kHigh = 5000;
   const Heightfield field = flat(8, 8);
@@ -265,7 +265,7 @@ TEST(Cracks, ComparesLayersInAnOrderOfTheirOwn) {
   drawing.triangle({4, 0}, {4, 4}, {7, 1});
   Frame frame = drawing.frame();
   frame.grid = {};
-  frame.levels = levels;
+  frame.clip_levels = levels;
   frame.last = {7, 7};
   EXPECT_EQ(find_cracks(frame, 8, 8, from_above(field)).largest_gap_m, kHigh - 1);
 }

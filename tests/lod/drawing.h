@@ -1,4 +1,4 @@
-// Ground and hand-made frames to hold meters and methods against.
+// Grounds, and frames made by hand, for the tests of meters and methods.
 #pragma once
 
 #include <cmath>
@@ -44,7 +44,7 @@ inline View from_above(const Heightfield& field) {
   return view;
 }
 
-// A frame over a field, made triangle by triangle.
+// Builds a frame over a field triangle by triangle.
 class Drawing {
  public:
   explicit Drawing(const Heightfield& field) : field_(field) { batches_.emplace_back(); }
@@ -65,7 +65,6 @@ class Drawing {
   }
   Frame frame() const {
     return {.grid = {field_.width, field_.depth, field_.cell_x, field_.cell_z, field_.heights},
-            .levels = {},
             .cell_x = field_.cell_x,
             .cell_z = field_.cell_z,
             .indices = indices_,

@@ -1,5 +1,5 @@
-// Endless ground under a clipmap: what is seen depends on where the eye is, never on how it came there or
-// how far from sample 0 that is, and it has no edge.
+// Endless ground under a clipmap: a frame depends only on the eye's place, not on its path or its distance
+// from sample 0, and no edge is visible.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -38,10 +38,10 @@ View over(int i, int j, glm::ivec2 origin = glm::ivec2(0), float far = 20000) {
   return view;
 }
 
-// Heights of all windows, by lattice.
+// The heights in all windows, in lattice order.
 std::vector<float> held(const Frame& frame, int n) {
   std::vector<float> heights;
-  for (const ClipLevel& level : frame.levels) {
+  for (const ClipLevel& level : frame.clip_levels) {
     const int mask = level.side - 1;
     for (int b = level.corner.y; b < level.corner.y + n; ++b) {
       for (int a = level.corner.x; a < level.corner.x + n; ++a)
@@ -70,7 +70,7 @@ TEST(Endless, AWalkOf120KilometresAndBackFindsTheSameGround) {
       ASSERT_EQ(back, held(fresh.update(over(kBy * k, -7 * k)), fresh.window())) << k;
     }
   }
-  // Draw lists alone may grow, with what is in view.
+  // Only the draw lists may grow, with the blocks in view.
   EXPECT_LE(memory(), at_first + at_first / 100);
 }
 
@@ -79,7 +79,7 @@ TEST(Endless, WindowsHoldTheNoiseOfTheirSamples) {
     Clipmap lod = endless(31);
     lod.move_origin({far, -far});
     const Frame& frame = lod.update(over(far + 17, 5 - far, lod.origin()));
-    for (const ClipLevel& level : frame.levels) {
+    for (const ClipLevel& level : frame.clip_levels) {
       const int mask = level.side - 1;
       for (int b = level.corner.y; b < level.corner.y + lod.window(); b += 3) {
         for (int a = level.corner.x; a < level.corner.x + lod.window(); a += 3) {
@@ -91,8 +91,8 @@ TEST(Endless, WindowsHoldTheNoiseOfTheirSamples) {
   }
 }
 
-// From the eye's samples alone: a window stands on every second sample, so level l moves when the eye passes
-// a multiple of 2^(l+1).
+// The expected bytes follow from the eye's samples: windows begin at even samples, so level l moves when the
+// eye crosses a multiple of 2^(l+1).
 TEST(Endless, UploadsTheStripsThatTheEyesPathAsksFor) {
   Clipmap lod = endless(63);
   const auto floor_to = [](int value, int step) {
@@ -117,13 +117,13 @@ TEST(Endless, UploadsTheStripsThatTheEyesPathAsksFor) {
   EXPECT_GT(most, 0U);
 }
 
-// The coarsest window ends beyond the far plane: the crack meter would see its rim as bare edges.
+// The coarsest window ends beyond the far plane; otherwise its rim would count as bare edges.
 TEST(Endless, HasNeitherCracksNorAnEdgeInView) {
   for (const float far : {3000.0F, 60000.0F}) {
     for (const glm::ivec2 place :
          {glm::ivec2(0), glm::ivec2(5000, -777), glm::ivec2(1 << 27, -(1 << 28) + 1)}) {
       Clipmap lod = endless(31);
-      // All that is drawn has positive coordinates: the meter takes 0 for the ground's border.
+      // Makes all coordinates positive, because find_cracks() takes 0 for the ground's border.
       lod.move_origin(place - (1 << 14));
       View view = over(place.x, place.y, lod.origin(), far);
       for (int turn = 0; turn < 6; ++turn) {
@@ -135,13 +135,13 @@ TEST(Endless, HasNeitherCracksNorAnEdgeInView) {
         EXPECT_EQ(cracks.t_junctions, 0U);
         View farther = view;
         farther.far = 8 * far;
-        EXPECT_GT(find_cracks(frame, INT_MAX, INT_MAX, farther).bare_edges, 0U) << "no rim to be seen";
+        EXPECT_GT(find_cracks(frame, INT_MAX, INT_MAX, farther).bare_edges, 0U) << "the rim is not found";
       }
     }
   }
 }
 
-TEST(Endless, TheOriginMovesForNothing) {
+TEST(Endless, MovingTheOriginUploadsNothing) {
   Clipmap lod = endless(63);
   constexpr int kFar = (1 << 28) + 11;
   lod.move_origin({kFar, 3});
@@ -179,15 +179,15 @@ TEST(Endless, LevelsFollowTheFarPlane) {
   Clipmap lod = endless(63);
   for (const float far : {1000.0F, 100000.0F, 1e7F}) {
     const Frame& frame = lod.update(over(0, 0, glm::ivec2(0), far));
-    const ClipLevel& coarsest = frame.levels.back();
+    const ClipLevel& coarsest = frame.clip_levels.back();
     EXPECT_GE((lod.window() / 2 - 1) * coarsest.spacing * kGround.cell, far);
   }
   const int levels = lod.levels();
   lod.update(over(0, 0));
-  EXPECT_EQ(lod.levels(), levels) << "what is there stays";
+  EXPECT_EQ(lod.levels(), levels) << "levels are kept";
 }
 
-TEST(Endless, TakesAnyEyeAndRefusesWhatIsNoGround) {
+TEST(Endless, TakesAnyEyeAndRefusesInvalidGround) {
   Clipmap lod = endless(15);
   View view;
   view.far = 1e30F;

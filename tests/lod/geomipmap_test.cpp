@@ -1,4 +1,4 @@
-// No crack, no error above the bound, on any field and from anywhere; and what a frame may cost.
+// No cracks and no error above the bound, on any field and from any eye; and the cost of a frame.
 #include "lod/geomipmap/geomipmap.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ GeoMipMap make(const Heightfield& field, const GeoMipMap::Options& options, doub
   return lod;
 }
 
-// Near the ground, high above it, below it, and outside, in any direction.
+// An eye near the ground, high above it, below it or outside, looking in any direction.
 View random_view(const Heightfield& field, std::mt19937& random) {
   std::uniform_real_distribution<float> unit(0, 1);
   const float size = std::max(field.extent_x(), field.extent_z());
@@ -40,14 +40,15 @@ View random_view(const Heightfield& field, std::mt19937& random) {
   return view;
 }
 
-// Cracks none, error under the bound, nothing in view left out. Returns the largest error.
+// Checks that there are no cracks, no error above the bound, and no undrawn samples. Returns the largest
+// error.
 double expect_promises(const Frame& frame, const Heightfield& field, const View& view, double pixels) {
   const CrackReport cracks = find_cracks(frame, field.width, field.depth, view);
   EXPECT_TRUE(cracks.tight()) << cracks.gaps << " gaps, " << cracks.bare_edges << " bare, "
                               << cracks.overlaps;
   EXPECT_EQ(cracks.t_junctions, 0U);
   const ScreenDeviation error =
-      screen_error(SurfaceRaster(frame, field.width, field.depth), field, Visibility(field, view));
+      screen_error(SurfaceRaster(frame, field.width, field.depth), field, SeenSamples(field, view));
   EXPECT_LE(error.in_frustum.largest, pixels);
   EXPECT_EQ(error.in_frustum.undrawn, 0U);
   return error.in_frustum.largest;
@@ -74,7 +75,7 @@ TEST_P(GeoMipMapBothWays, KeepsItsPromisesOnAnyFieldFromAnywhere) {
       }
     }
   }
-  EXPECT_GT(closest, 0.5);  // a bound that is never neared is no choice of detail
+  EXPECT_GT(closest, 0.5);  // the bound is not met by drawing more than necessary
 }
 
 TEST_P(GeoMipMapBothWays, KeepsItsPromisesAlongThePaths) {
@@ -87,7 +88,7 @@ TEST_P(GeoMipMapBothWays, KeepsItsPromisesAlongThePaths) {
   }
 }
 
-// Looking steeply down on a spike from close by, the paper's distance is the patch's middle's.
+// Looking steeply down on a near spike, while the paper's rule uses the distance to the patch's middle.
 TEST(GeoMipMap, ThePapersRuleBoundsLess) {
   Heightfield field = flat(65, 65);
   field.at(8, 8) = 1;
@@ -96,7 +97,7 @@ TEST(GeoMipMap, ThePapersRuleBoundsLess) {
   view.target = {12, 0, 12};
   const auto error = [&](bool level_camera) {
     GeoMipMap lod = make(field, {64, level_camera}, 20);
-    return screen_error(SurfaceRaster(lod.update(view), 65, 65), field, Visibility(field, view))
+    return screen_error(SurfaceRaster(lod.update(view), 65, 65), field, SeenSamples(field, view))
         .in_frustum.largest;
   };
   EXPECT_LE(error(false), 20);
@@ -145,7 +146,7 @@ TEST_P(GeoMipMapBothWays, UploadsOnceAndCountsChanges) {
   const std::vector<View> all = views(camera_path("fly"), field);
   const Frame& first = lod.update(all[0]);
   EXPECT_EQ(first.stats.bytes_uploaded, 4 * (first.indices.size() + field.heights.size()) + a_frame(first));
-  EXPECT_EQ(first.stats.changes, first.batches.size());  // all is new
+  EXPECT_EQ(first.stats.changes, first.batches.size());  // every patch is new
   EXPECT_EQ(lod.update(all[0]).stats.changes, 0U);
   const Frame& later = lod.update(all[100]);
   EXPECT_GT(later.stats.changes, 0U);
@@ -158,7 +159,7 @@ TEST_P(GeoMipMapBothWays, CountsItsHeapBytesAndTakesNoneAFrame) {
   const auto built = [&] {
     return std::make_unique<GeoMipMap>(field, GeoMipMap::Options{16, false, GetParam()}, silent);
   };
-  built();  // the thread pool is made once
+  built();  // creates the thread pool, which stays
   const HeapScope heap;
   auto lod = built();
   EXPECT_EQ(heap.held(), static_cast<std::int64_t>(lod->memory().total()));
@@ -177,7 +178,7 @@ TEST_P(GeoMipMapBothWays, EveryViewIsLegal) {
   view.width = view.height = 1;
   expect_promises(lod.update(view), field, view, 2);
   view = from_above(field);
-  view.eye.y = 1e6F;  // seen as a point
+  view.eye.y = 1e6F;  // the field covers less than a pixel
   view.far = 1e7F;
   EXPECT_EQ(lod.update(view).stats.triangles, 2U * 10 * 6);
   view.eye = {1e30F, 1e30F, -1e30F};
@@ -207,8 +208,8 @@ TEST(GeoMipMap, RefusesPatchesOfOtherSizes) {
   EXPECT_THROW(type.build(flat(1, 5), Parameters(type.parameters), silent), Error);
 }
 
-// Seen from afar each patch is two triangles, so that these count the patches.
-TEST(GeoMipMap, PatchesSuitTheGroundUnlessTheirSideIsAsked) {
+// From far away each patch has two triangles, so the count gives the number of patches.
+TEST(GeoMipMap, PatchesFitTheGroundUnlessTheirSideIsGiven) {
   Progress silent;
   const LodType& type = lod("geomipmap");
   const auto triangles = [&](int size, std::int64_t patch) {
@@ -224,8 +225,8 @@ TEST(GeoMipMap, PatchesSuitTheGroundUnlessTheirSideIsAsked) {
   EXPECT_EQ(triangles(1025, 128), 2U * 8 * 8);
 }
 
-// Whatever the seams, a pattern covers its patch once, and a pulled side has the coarser level's vertices
-// alone.
+// With any seams, a pattern covers its patch once, and a side with a seam has only the coarser level's
+// vertices.
 class PatchPatternsTest : public ::testing::TestWithParam<PatchPatterns::Split> {};
 INSTANTIATE_TEST_SUITE_P(Split, PatchPatternsTest,
                          ::testing::Values(PatchPatterns::Split::kOneWay, PatchPatterns::Split::kThroughOdd),
@@ -240,7 +241,7 @@ TEST_P(PatchPatternsTest, CoverTheirPatchInEverySeamCase) {
       const PatchGrid::Patch patch = cut.patch(cut.across() - 1, at_z);
       for (int level = 0; level < kLevels; ++level) {
         for (int seams = 0; seams < (level + 1 < kLevels ? 16 : 1); ++seams) {
-          const auto indices = patterns.indices(patterns.run(cut.shape(patch), level, seams));
+          const auto indices = patterns.indices(patterns.pattern(cut.shape(patch), level, seams));
           long long area = 0;
           std::set<int> north;
           for (std::size_t k = 0; k < indices.size(); k += 3) {

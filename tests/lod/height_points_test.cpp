@@ -1,4 +1,4 @@
-// Heights from the three nearest points, against a search through all of them.
+// Heights from the three nearest points, against a search of all points.
 #include "lod/mrbsp/height_points.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ std::vector<glm::vec3> scattered(int count) {
   return points;
 }
 
-// The three nearest by sorting, and the nearest place of their triangle by trying many.
+// The three nearest points by sorting, and the nearest place of their triangle by trying many places.
 float by_search(std::vector<glm::vec3> points, float x, float z) {
   std::stable_sort(points.begin(), points.end(), [&](const glm::vec3& a, const glm::vec3& b) {
     return std::hypot(a.x - x, a.z - z) < std::hypot(b.x - x, b.z - z);
@@ -50,7 +50,7 @@ TEST(NearestThree, IsTheNearestPlaceOfTheThreeNearestPoints) {
   const auto points = scattered(150);
   const NearestThree nearest(points);
   for (std::uint32_t k = 0; k < 60; ++k) {
-    // Places outside the points' rectangle too.
+    // Includes positions outside the points' rectangle.
     const float x = 160 * random_share(9000 + 2 * k) - 30, z = 140 * random_share(9001 + 2 * k) - 30;
     EXPECT_NEAR(nearest.height(x, z), by_search(points, x, z), 0.5F) << x << ", " << z;
   }
@@ -74,41 +74,41 @@ TEST(NearestThree, AFewPointsOrALineOfThemGiveWhatTheyCan) {
   EXPECT_EQ(failure_of([] { NearestThree(std::vector<glm::vec3>{}); }).code, ExitCode::kUsage);
 }
 
-TEST(InterpolateLattice, OnItsOwnGridTheSamplesComeBack) {
+TEST(InterpolateHeights, OnItsOwnGridTheSamplesComeBack) {
   const Heightfield field = rough_ground(33, 33);
-  const Heightfield lattice = interpolate_lattice(height_points(field), BisectionTree(5, 11), silent());
-  EXPECT_EQ(lattice.width, 33);
-  EXPECT_EQ(lattice.cell_x, field.cell_x);
-  EXPECT_EQ(lattice.heights, field.heights);
+  const Heightfield heights = interpolate_heights(height_points(field), BisectionTree(5, 11), silent());
+  EXPECT_EQ(heights.width, 33);
+  EXPECT_EQ(heights.cell_x, field.cell_x);
+  EXPECT_EQ(heights.heights, field.heights);
 }
 
-TEST(InterpolateLattice, IsTheSameForAnyNumberOfThreadsAndWithinThePoints) {
+TEST(InterpolateHeights, IsTheSameForAnyNumberOfThreadsAndWithinThePoints) {
   const auto points = scattered(3000);
-  const Heightfield many = interpolate_lattice(points, BisectionTree(6, 13), silent());
+  const Heightfield many = interpolate_heights(points, BisectionTree(6, 13), silent());
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  EXPECT_EQ(interpolate_lattice(points, BisectionTree(6, 13), silent()).heights, many.heights);
+  EXPECT_EQ(interpolate_heights(points, BisectionTree(6, 13), silent()).heights, many.heights);
   const HeightRange range = height_range(many);
   EXPECT_GE(range.lowest, 0);
   EXPECT_LE(range.highest, 50);
 }
 
-TEST(InterpolateLattice, RefusesPointsInALine) {
+TEST(InterpolateHeights, RefusesPointsInALine) {
   const std::vector<glm::vec3> line{{0, 0, 0}, {10, 10, 0}};
-  EXPECT_EQ(failure_of([&] { (void)interpolate_lattice(line, BisectionTree(2, 5), silent()); }).code,
+  EXPECT_EQ(failure_of([&] { (void)interpolate_heights(line, BisectionTree(2, 5), silent()); }).code,
             ExitCode::kUsage);
 }
 
 TEST(InterpolateSubsets, TearsVerticesWhereAllPointsWouldNot) {
   const Heightfield field = rough_ground(33, 33);
   const auto points = height_points(field);
-  const BisectionTree tree(5, 9);  // 512 triangles with some two points each, on every other sample
+  const BisectionTree tree(5, 9);  // 512 triangles with about two points each, corners on every other sample
   const SubsetTriangles torn = interpolate_subsets(points, tree, false);
   ASSERT_EQ(torn.corners.size(), 3 * tree.triangles());
   const VertexGaps gaps = vertex_gaps(torn);
   EXPECT_EQ(gaps.vertices, tree.vertices());
   EXPECT_GT(gaps.torn, gaps.vertices / 2);
   EXPECT_GT(gaps.largest, 5);
-  // Points that stand on vertices close all of them once both sides of a cut have them.
+  // If points on a divider belong to both halves, points on vertices leave no vertex torn.
   const VertexGaps shared = vertex_gaps(interpolate_subsets(points, tree, true));
   EXPECT_EQ(shared.vertices, tree.vertices());
   EXPECT_EQ(shared.torn, 0U);
@@ -116,8 +116,8 @@ TEST(InterpolateSubsets, TearsVerticesWhereAllPointsWouldNot) {
 }
 
 TEST(InterpolateSubsets, StarvedTrianglesFallBackToTheirParents) {
-  // One point in one corner: everything but its own half of the square lies at sea level, and within that
-  // half all is as high as it.
+  // Two points at sea level on the diagonal and a higher one in the first half of the square: triangles
+  // without points take their parent's plane.
   const std::vector<glm::vec3> points{{0, 0, 0}, {8, 0, 8}, {7, 6, 1}};
   const SubsetTriangles triangles = interpolate_subsets(points, BisectionTree(2, 3), true);
   EXPECT_GT(triangles.starved, 0U);

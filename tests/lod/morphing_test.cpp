@@ -1,4 +1,4 @@
-// Patches that glide between levels: what they stand at, that nothing jumps, and that popping sinks.
+// Patches that morph between levels: their heights, and less popping.
 #include "lod/geomipmap/morphing.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ TEST(MorphedHeight, GoesFromTheSampleToTheCoarserEdge) {
   struct Case {
     glm::ivec2 at, a, b;
   };
-  // Along x, along z, along both diagonals, and on the sides; each between the two ends of its coarser edge.
+  // Along x, along z, along both diagonals, and on the sides; a and b are the ends of the coarser edge.
   for (const auto& [at, a, b] : {Case{{3, 2}, {2, 2}, {4, 2}},
                                  {{2, 5}, {2, 4}, {2, 6}},
                                  {{1, 1}, {0, 0}, {2, 2}},
@@ -47,7 +47,7 @@ TEST(MorphedHeight, GoesFromTheSampleToTheCoarserEdge) {
   }
 }
 
-// Where a side is ahead, what leads to it follows.
+// A vertex next to a side with a coarser level moves towards the side's height.
 TEST(MorphedHeight, SidesGoTheirOwnWay) {
   const Heightfield field = hilly(9, 9, 1);
   const PatchMorph ahead{0.5F, {1.25F, 0.5F, 0.5F, 0.5F}};
@@ -64,7 +64,7 @@ struct Flown {
   std::size_t changes = 0;  // of levels
 };
 
-// Down a path, each frame beside the one before it: no cracks, the bound kept.
+// Compares frames along a path with their predecessors, and checks cracks and the bound.
 Flown fly(const Heightfield& field, const std::vector<View>& path, std::size_t stride, bool morph,
           double pixels) {
   Progress silent;
@@ -78,7 +78,7 @@ Flown fly(const Heightfield& field, const std::vector<View>& path, std::size_t s
     const Frame& frame = lod.update(path[k]);
     after.draw(frame);
     flown.changes += frame.stats.changes;
-    const Visibility seen(field, path[k]);
+    const SeenSamples seen(field, path[k]);
     flown.popping = std::max(flown.popping, popping(before, after, seen).in_frustum.largest);
     EXPECT_LE(screen_error(after, field, seen, &errors).in_frustum.largest, pixels);
     const CrackReport cracks = find_cracks(frame, field.width, field.depth, path[k]);
@@ -89,7 +89,7 @@ Flown fly(const Heightfield& field, const std::vector<View>& path, std::size_t s
   return flown;
 }
 
-// All in view, no patch cut, and small steps: levels change, and nothing jumps.
+// With everything in view, no cut patches and small steps, levels change without popping.
 TEST(Morphing, NothingJumps) {
   const Heightfield field = hilly(129, 129, 0.5F);
   std::vector<View> path(200);
@@ -103,7 +103,7 @@ TEST(Morphing, NothingJumps) {
   EXPECT_GT(without.popping, 1);
 }
 
-// With the knob set so that the morph's error is no larger, and patches coming into view and cut.
+// The knobs give the morph no larger error; patches come into view, and some are cut.
 TEST(Morphing, LowersTheLargestPoppingAlongThePathsAtEqualError) {
   Heightfield field = hilly(403, 344, 1);
   field.cell_x = field.cell_z = 5;

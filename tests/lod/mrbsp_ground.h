@@ -1,4 +1,4 @@
-// Ground for the tests of the bisection tree.
+// Ground and views for the tests of the bisection tree.
 #pragma once
 
 #include <cmath>
@@ -23,7 +23,7 @@ inline float random_share(std::uint32_t key) {
   return static_cast<float>((key ^ (key >> 16)) >> 8) / 16777216.0F;
 }
 
-// Hills with noise on top: nowhere flat, with valleys that cannot be seen from afar.
+// Hills with noise: nowhere flat, with valleys that are hidden from far away.
 inline Heightfield rough_ground(int width, int depth, float relief = 40.0F) {
   Heightfield field;
   field.width = width;
@@ -40,7 +40,7 @@ inline Heightfield rough_ground(int width, int depth, float relief = 40.0F) {
   return field;
 }
 
-// A walker's view from a place given in shares of the ground, 1.8 m above it.
+// The view of an observer 1.8 m above the ground; the position is a fraction of the ground's extent.
 inline View walker(const Heightfield& field, float share_x, float share_z, float heading) {
   View view;
   const float x = share_x * field.extent_x(), z = share_z * field.extent_z();

@@ -1,4 +1,4 @@
-// Level of detail by bisection: what is drawn, at which depth, and without holes.
+// Level of detail by bisection: which triangles are drawn, at which depth, and without holes.
 #include "lod/mrbsp/mrbsp.h"
 
 #include <gtest/gtest.h>
@@ -77,9 +77,9 @@ TEST(Mrbsp, TakesTheDepthThatTheFormulaSays) {
   }
 }
 
-// Each triangle drawn lies at the depth of its furthest corner, and never at one that is too coarse. One that
-// lies deeper is half of a triangle that had to be cut: because all its corners ask for more, though the foot
-// of the cut lies further off, or by the printed rule, as its right angle alone asks for less than they do.
+// Each triangle is drawn at the depth given by its furthest corner, never at a coarser one. A deeper triangle
+// is half of a triangle that had to be split: either all corners of that one exceed its depth, though the
+// centre of its hypotenuse is further away, or the printed hole rule applies.
 TEST(Mrbsp, DrawsEachTriangleAtTheDepthOfItsFurthestCorner) {
   const Heightfield field = rough_ground(65, 65);
   Mrbsp lod(field, options_of(false, false), silent());
@@ -87,8 +87,8 @@ TEST(Mrbsp, DrawsEachTriangleAtTheDepthOfItsFurthestCorner) {
   const View view = walker(field, 0.3F, 0.4F, 0.7F);
   std::set<int> depths;
   std::size_t deeper = 0, count = 0;
-  // Either end of the hypotenuse may be the right angle of the triangle that it is half of.
-  const auto had_to_be_cut = [&](std::span<const glm::vec3> half, int depth) {
+  // Either end of the half's hypotenuse may be the right angle of the whole triangle.
+  const auto had_to_be_split = [&](std::span<const glm::vec3> half, int depth) {
     for (const auto& [apex, end] : {std::pair{half[1], half[2]}, {half[2], half[1]}}) {
       const float x = 2 * half[0].x - end.x, z = 2 * half[0].z - end.z;
       if (x < 0 || z < 0 || x > field.extent_x() || z > field.extent_z()) continue;
@@ -109,7 +109,7 @@ TEST(Mrbsp, DrawsEachTriangleAtTheDepthOfItsFurthestCorner) {
       EXPECT_GE(depth, threshold);
       if (depth > threshold) {
         ++deeper;
-        EXPECT_TRUE(had_to_be_cut(corners.subspan(k, 3), depth));
+        EXPECT_TRUE(had_to_be_split(corners.subspan(k, 3), depth));
       }
       ++count;
       depths.insert(depth);
@@ -141,7 +141,7 @@ TEST(Mrbsp, ConformingHasNoCracksAndThePrintedRuleHas) {
   EXPECT_GT(printed_gaps, 0U);
 }
 
-// Nothing torn on any committed path, and something drawn wherever the full terrain can be seen.
+// No cracks on any committed path, and something is drawn wherever the full terrain is visible.
 TEST(Mrbsp, ConformingIsTightAndWholeOnEveryCameraPath) {
   const Heightfield field = rough_ground(129, 100);
   for (const CameraPath& path : camera_paths()) {
@@ -159,7 +159,7 @@ TEST(Mrbsp, ConformingIsTightAndWholeOnEveryCameraPath) {
                                     << report.bare_edges << " bare edges";
         EXPECT_EQ(report.t_junctions, 0U) << path.name << " frame " << f;
         drawn.draw(frame);
-        const ScreenDeviation error = screen_error(drawn, field, Visibility(field, all[f]));
+        const ScreenDeviation error = screen_error(drawn, field, SeenSamples(field, all[f]));
         EXPECT_EQ(error.visible.undrawn, 0U) << path.name << " frame " << f;
         measured += error.visible.samples;
       }
@@ -181,7 +181,7 @@ TEST(Mrbsp, CullsOnlyWhatTheViewDoesNotSee) {
   EXPECT_GT(some, 0U);
   EXPECT_LT(some, 2 * all / 3);
   EXPECT_NEAR(plan_area(whole.update(view)), static_cast<double>(field.extent_x()) * field.extent_z(), 1);
-  // What is left out projects off the picture, near or far.
+  // Every triangle left out projects outside the picture or the depth range.
   std::set<std::array<float, 9>> drawn;
   const auto each = [](const Frame& frame, const auto& body) {
     triangles(frame, [&](std::span<const glm::vec3> c) {
@@ -191,7 +191,7 @@ TEST(Mrbsp, CullsOnlyWhatTheViewDoesNotSee) {
       }
     });
   };
-  // Fully refined, so that both draw the same triangles.
+  // At the finest level both draw the same triangles.
   culled.tune(Mrbsp::knob().finest);
   whole.tune(Mrbsp::knob().finest);
   each(culled.update(view), [&](const auto& t) { drawn.insert(t); });

@@ -1,4 +1,4 @@
-// Looks inside ROAM: everything that must hold between two updates.
+// Inspects the state of a Roam: every invariant that must hold between two updates.
 #pragma once
 
 #include <fmt/format.h>
@@ -18,10 +18,10 @@ struct RoamAudit {
   std::vector<std::string> problems{};
 
   static std::size_t leaves(const Roam& roam) { return roam.mesh_.leaves(); }
-  static int reference(const Roam& roam) { return roam.reference_; }
-  static int asked() { return Roam::kAsked; }
+  static int exact_from(const Roam& roam) { return roam.exact_from_; }
+  static int max_error_bucket() { return Roam::kMaxErrorBucket; }
 
-  // What is wrong, the first of it; empty when nothing is.
+  // The first broken invariant; empty when all hold.
   static std::string first_problem(const Roam& roam) {
     RoamAudit audit{roam};
     audit.trees();
@@ -49,36 +49,36 @@ struct RoamAudit {
     check(used == reached, "{} nodes in use, {} reached", used, reached);
   }
 
-  void tree(std::uint32_t id, roam::Sight parent, std::size_t& leaves, std::size_t& reached) {
+  void tree(std::uint32_t id, roam::CullLabel parent, std::size_t& leaves, std::size_t& reached) {
     const Node& node = nodes()[id];
     ++reached;
     check(node.in_use, "node {} is free", id);
     const bool inherited = parent == roam::kAllInside || (parent & roam::kOutside) != 0;
-    const roam::Sight sight =
+    const roam::CullLabel label =
         inherited
             ? parent
-            : roam.camera_.sight(roam.mesh_.corners(node), node.thickness, roam.mesh_.spill(node), parent)
-                  .sight;
-    check(node.sight == sight, "node {} has sight {:x}, not {:x}", id, node.sight, sight);
+            : roam.view_.cull(roam.mesh_.corners(node), node.thickness, roam.mesh_.spill(node), parent).label;
+    check(node.label == label, "node {} has label {:x}, not {:x}", id, node.label, label);
     if (node.leaf()) {
       ++leaves;
       leaf(id);
       return;
     }
-    check(node.base == roam::kNone || nodes()[node.base].base == id, "half {} has lost the other", id);
+    check(node.base == roam::kNone || nodes()[node.base].base == id,
+          "half {} is not the base of its base neighbour", id);
     check(node.base == roam::kNone || !nodes()[node.base].leaf(), "half {} is split alone", id);
-    const bool queued = roam.diamond(id) == id && roam.mergeable(id);
+    const bool queued = roam.diamond_of(id) == id && roam.mergeable(id);
     check(queued == (node.bucket != roam::kNoList), "diamond {}: mergeable {}", id, queued);
     int split_children = 0;
     for (const std::uint32_t child : {node.child, node.child + 1}) {
-      split_children += !nodes()[child].leaf() && !roam.mesh_.on_edge(nodes()[child]);
+      split_children += !nodes()[child].leaf() && !roam.mesh_.degenerate(nodes()[child]);
     }
     check(node.split_children == split_children, "node {} counts {} split children, not {}", id,
           node.split_children, split_children);
     for (const std::uint32_t child : {node.child, node.child + 1}) {
-      check(nodes()[child].parent == id, "child {} has another parent", child);
-      check(nodes()[child].level == node.level + 1, "child {} has another level", child);
-      tree(child, node.sight, leaves, reached);
+      check(nodes()[child].parent == id, "child {} has a wrong parent", child);
+      check(nodes()[child].level == node.level + 1, "child {} has a wrong level", child);
+      tree(child, node.label, leaves, reached);
     }
   }
 
@@ -88,7 +88,7 @@ struct RoamAudit {
     across(id, node.left, apex, left);
     across(id, node.right, apex, right);
     across(id, node.base, left, right);
-    check(!roam.mesh_.on_edge(node), "leaf {} stands on edge", id);
+    check(!roam.mesh_.degenerate(node), "leaf {} is degenerate", id);
     const bool empty = roam.mesh_.empty({apex, right, left});
     check((node.slot != roam::kNone) == (node.visible() && !empty), "leaf {}: drawn {}", id,
           node.slot != roam::kNone);
@@ -97,12 +97,13 @@ struct RoamAudit {
     check((now.pixels > 0) == (node.bucket != roam::kNoList), "leaf {} of {} px in bucket {}", id, now.pixels,
           node.bucket);
     if (now.pixels == 0) return;
-    check(node.due != roam::kNoList, "leaf {} waits for nothing", id);
+    check(node.deferral_list != roam::kNoList, "leaf {} is not deferred", id);
     const double ratio = now.pixels / roam.options_.max_error;
-    if (node.bucket < roam.reference_) {
-      check(ratio < Roam::ratio_from(roam.reference_) * (1 + 1e-6), "leaf {} has risen to {}", id, ratio);
+    if (node.bucket < roam.exact_from_) {
+      check(ratio < Roam::lowest_ratio(roam.exact_from_) * (1 + 1e-6), "leaf {} has risen to a ratio of {}",
+            id, ratio);
     } else {
-      check(std::abs(Roam::bucket_of(ratio) - node.bucket) <= 1, "leaf {} of bucket {} in {}", id,
+      check(std::abs(Roam::bucket_of(ratio) - node.bucket) <= 1, "leaf {} of bucket {} is in bucket {}", id,
             Roam::bucket_of(ratio), node.bucket);
     }
   }
@@ -118,9 +119,9 @@ struct RoamAudit {
       return;
     }
     const Node& node = nodes()[other];
-    check(node.leaf() && node.in_use, "neighbour {} of leaf {} is none", other, id);
-    check((node.left == id) + (node.right == id) + (node.base == id) == 1, "neighbour {} knows not {}", other,
-          id);
+    check(node.leaf() && node.in_use, "neighbour {} of leaf {} is not a leaf", other, id);
+    check((node.left == id) + (node.right == id) + (node.base == id) == 1,
+          "neighbour {} does not refer to {}", other, id);
     const auto vertices = roam.mesh_.vertices(node);
     const std::set<std::uint32_t> theirs(vertices.begin(), vertices.end());
     check(theirs.contains(a) && theirs.contains(b), "leaves {} and {} share no edge", id, other);
@@ -132,35 +133,38 @@ struct RoamAudit {
     for (int list = 0; list < Roam::kBuckets; ++list) {
       std::uint32_t before = roam::kNone;
       for (std::uint32_t id = queue.first(list); id != roam::kNone; id = nodes()[id].queue.after) {
-        check(nodes()[id].bucket == list && nodes()[id].leaf() == of_leaves, "node {} in a wrong list", id);
-        check(nodes()[id].queue.before == before, "list {} is torn at {}", list, id);
+        check(nodes()[id].bucket == list && nodes()[id].leaf() == of_leaves, "node {} is in a wrong list",
+              id);
+        check(nodes()[id].queue.before == before, "list {} is broken at {}", list, id);
         if (lowest < 0) lowest = list;
         highest = list;
         before = id;
-        if (++held > nodes().size()) return check(false, "list {} is a ring", list);
+        if (++held > nodes().size()) return check(false, "list {} is cyclic", list);
       }
     }
-    check(queue.highest() == highest && queue.lowest() == lowest, "ends {} and {}, not {} and {}",
-          queue.lowest(), queue.highest(), lowest, highest);
+    check(queue.highest() == highest && queue.lowest() == lowest,
+          "lowest and highest lists {} and {}, not {} and {}", queue.lowest(), queue.highest(), lowest,
+          highest);
     std::size_t members = 0;
     for (const Node& node : nodes()) {
       members += node.in_use && node.leaf() == of_leaves && node.bucket != roam::kNoList ? 1 : 0;
     }
-    check(held == members, "{} in the queue, {} think so", held, members);
+    check(held == members, "{} nodes in the queue, {} with a bucket", held, members);
   }
 
   void drawn() {
     const std::span<const std::uint32_t> indices = roam.drawn_.indices();
     for (std::size_t slot = 0; slot < roam.drawn_.triangles(); ++slot) {
       const std::uint32_t id = roam.drawn_.owner(slot);
-      check(id != roam::kNone && nodes()[id].slot == slot, "place {} has no owner", slot);
+      check(id != roam::kNone && nodes()[id].slot == slot, "slot {} has no owner", slot);
       if (id == roam::kNone) return;
       const auto vertices = roam.mesh_.vertices(nodes()[id]);
       check(std::equal(vertices.begin(), vertices.end(),
                        indices.begin() + static_cast<std::ptrdiff_t>(3 * slot)),
-            "place {} shows another triangle", slot);
+            "slot {} holds another triangle", slot);
     }
-    check(indices.size() == 3 * roam.drawn_.triangles(), "{} indices", indices.size());
+    check(indices.size() == 3 * roam.drawn_.triangles(), "{} indices are not three per triangle",
+          indices.size());
   }
 };
 

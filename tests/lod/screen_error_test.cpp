@@ -1,4 +1,4 @@
-// Errors and popping in pixels against the pinhole formula, and which samples count.
+// Errors and popping in pixels against the pinhole formula, and the choice of samples.
 #include "lod/meters/screen_error.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace terrabench::test {
 namespace {
 
-// Level, from 40 m south of the field and 3 m up.
+// A level view from 40 m south of the field and 3 m up.
 View level_view(const Heightfield& field) {
   View view;
   view.eye = {0.5F * field.extent_x(), 3, field.extent_z() + 40};
@@ -42,7 +42,7 @@ TEST(Projector, CutsAtTheNearPlane) {
   view.near = 2;
   const Projector project(view);
   EXPECT_EQ(project.pixels_between({0, 0, -1}, {0, 1, 4}), 0);
-  // Half of the way is before the plane.
+  // Half of the segment is in front of the near plane.
   EXPECT_NEAR(project.pixels_between({0, 0, -3}, {0, 2, -1}), project.pixels_between({0, 0, -3}, {0, 1, -2}),
               1e-9);
 }
@@ -64,7 +64,7 @@ TEST(ScreenError, IsTheProjectedHeightOfWhatIsMissing) {
   Drawing drawing(field);
   drawing.square(0, 0, 16);
   const View view = level_view(field);
-  const Visibility seen(field, view);
+  const SeenSamples seen(field, view);
   const ScreenDeviation error = screen_error(SurfaceRaster(drawing.frame(), 17, 17), field, seen);
   const double expected = focal(view) * 2 / (40 + 12);
   EXPECT_NEAR(error.visible.largest, expected, 1e-4);
@@ -88,7 +88,7 @@ TEST(ScreenError, NinetyNinePercentDeviateByNoMoreThanP99) {
   View view;
   view.eye = {99.5F, 30, 400};
   view.target = {99.5F, 30, 0};
-  const Visibility seen(ground, view);
+  const SeenSamples seen(ground, view);
   const Deviation all = screen_error(SurfaceRaster(drawing.frame(), 200, 2), ground, seen).in_frustum;
   ASSERT_EQ(all.samples, 400U);
   // 200 zeros in the second row, errors 0…99 twice in the first: rank 396 is the third error from the top.
@@ -103,26 +103,26 @@ TEST(ScreenError, CountsWhatIsNotDrawn) {
   drawing.square(0, 0, 16);
   const View view = from_above(field);
   const ScreenDeviation error =
-      screen_error(SurfaceRaster(drawing.frame(), 33, 33), field, Visibility(field, view));
+      screen_error(SurfaceRaster(drawing.frame(), 33, 33), field, SeenSamples(field, view));
   EXPECT_EQ(error.visible.samples, 17U * 17);
   EXPECT_EQ(error.visible.undrawn, 33U * 33 - 17 * 17);
 }
 
-TEST(Visibility, AWallHidesWhatLiesBehindIt) {
+TEST(SeenSamples, AWallHidesWhatLiesBehindIt) {
   Heightfield field = flat(41, 61);
   for (int i = 0; i < 41; ++i) field.at(i, 40) = 20;
   View view = level_view(field);
-  const Visibility seen(field, view);
+  const SeenSamples seen(field, view);
   EXPECT_EQ(seen.at(20, 50), Seen::kVisible);
   EXPECT_EQ(seen.at(20, 40), Seen::kVisible);  // its top
   for (int j = 0; j < 39; ++j) EXPECT_EQ(seen.at(20, j), Seen::kHidden) << j;
   view.target.z = view.eye.z + 1;
-  EXPECT_EQ(Visibility(field, view).at(20, 50), Seen::kOutside);
+  EXPECT_EQ(SeenSamples(field, view).at(20, 50), Seen::kOutside);
 }
 
-TEST(Visibility, NothingIsHiddenFromAbove) {
+TEST(SeenSamples, NothingIsHiddenFromAbove) {
   const Heightfield field = hilly(150, 120, 1);
-  const Visibility seen(field, from_above(field));
+  const SeenSamples seen(field, from_above(field));
   for (int j = 0; j < 120; ++j) {
     for (int i = 0; i < 150; ++i) ASSERT_EQ(seen.at(i, j), Seen::kVisible) << i << ' ' << j;
   }
@@ -138,14 +138,14 @@ float height_on_triangles(const Heightfield& field, float x, float z) {
   return field.at(i + 1, j + 1) * (u + v - 1) + east * (1 - v) + south * (1 - u);
 }
 
-// Against rays: a sample whose ray rises well clear of the ground is visible, and one whose ray runs deep
-// under ground is hidden.
-TEST(Visibility, AgreesWithRaysOverTheGround) {
+// Compared with rays: a sample whose ray stays well above the ground is visible, and one whose ray runs deep
+// underground is hidden.
+TEST(SeenSamples, AgreesWithRaysOverTheGround) {
   const Heightfield field = hilly(120, 120, 1);
   View view;
   view.eye = {60, field.at(60, 100) + 4, 100};
   view.target = {60, 0, 0};
-  const Visibility seen(field, view);
+  const SeenSamples seen(field, view);
   std::size_t hidden = 0, visible = 0;
   for (int j = 0; j < 120; ++j) {
     for (int i = 0; i < 120; ++i) {
@@ -182,7 +182,7 @@ TEST(Popping, IsTheMotionSeenFromTheLaterView) {
   }
   const SurfaceRaster before(coarse.frame(), 17, 17), after(fine.frame(), 17, 17);
   const View view = level_view(field);
-  const Visibility seen(field, view);
+  const SeenSamples seen(field, view);
   EXPECT_EQ(popping(before, before, seen).in_frustum.largest, 0);
   const Deviation pop = popping(before, after, seen).in_frustum;
   EXPECT_GE(pop.largest, focal(view) * 2 / (40 + 8) - 1e-4);
@@ -199,7 +199,7 @@ TEST(ScreenError, IsTheSameForAnyNumberOfThreads) {
   View view = level_view(field);
   view.eye.y = view.target.y = 30;
   const auto measured = [&] {
-    return screen_error(SurfaceRaster(drawing.frame(), 300, 200), field, Visibility(field, view));
+    return screen_error(SurfaceRaster(drawing.frame(), 300, 200), field, SeenSamples(field, view));
   };
   const ScreenDeviation many = measured();
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
@@ -217,7 +217,7 @@ TEST(ScreenError, HoldsOnAScreenOfOnePixelAndFarAway) {
   view.width = view.height = 1;
   BruteForce lod(field);
   const auto error = [&] {
-    return screen_error(SurfaceRaster(lod.update(view), 40, 40), field, Visibility(field, view));
+    return screen_error(SurfaceRaster(lod.update(view), 40, 40), field, SeenSamples(field, view));
   };
   EXPECT_EQ(error().visible.largest, 0);
   EXPECT_GT(error().visible.samples, 0U);

@@ -1,4 +1,4 @@
-// The raster misses no sample, invents none, and interpolates as a plane does.
+// The raster misses no sample, adds none, and interpolates linearly.
 #include "lod/meters/surface_raster.h"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ TEST(SurfaceRaster, InterpolatesInsideAndOnEdges) {
   }
 }
 
-// Fans around a random sample, to all samples of the rim in uneven strides: slivers of every slope.
+// Fans from a random sample to samples of the rim in uneven strides, which give slivers of every slope.
 TEST(SurfaceRaster, CoversEverySampleOfAnyTriangulation) {
   constexpr int kSide = 41;
   std::mt19937 random(5);

@@ -1,7 +1,9 @@
-// Every method of the registry, and those ways of setting one that draw differently: what tests of all
-// methods run over.
+// Every method of the registry with its default parameters, and once more per boolean parameter with that
+// parameter inverted: the tests of all methods run over these, and so find a new method or switch by
+// themselves.
 #pragma once
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -16,29 +18,36 @@ namespace terrabench::test {
 
 struct Variant {
   std::string_view method;
-  std::string_view setting{};  // "key=value"
-  std::string_view suffix{};   // of the tests' names
+  std::string parameter{};  // empty for the defaults
+  bool value = false;       // of the parameter
 };
 
 inline std::ostream& operator<<(std::ostream& out, const Variant& variant) {
-  return out << variant.method << ' ' << variant.setting;
+  return out << variant.method << ' ' << variant.parameter;
 }
 
 inline std::vector<Variant> variants() {
   std::vector<Variant> all;
-  for (const LodType& type : lods()) all.push_back({type.name});
-  all.push_back({"geomipmap", "morph=true", "_morph"});
+  for (const LodType& type : lods()) {
+    all.push_back({type.name});
+    for (const ParameterSpec& spec : type.parameters) {
+      const bool* const fallback = std::get_if<bool>(&spec.fallback);
+      if (fallback != nullptr) all.push_back({type.name, std::string(spec.name), !*fallback});
+    }
+  }
   return all;
 }
 
 inline std::string name_of(const ::testing::TestParamInfo<Variant>& info) {
-  return std::string(info.param.method) + std::string(info.param.suffix);
+  const Variant& variant = info.param;
+  if (variant.parameter.empty()) return std::string(variant.method);
+  return fmt::format("{}_{}{}", variant.method, variant.value ? "" : "no_", variant.parameter);
 }
 
 inline std::unique_ptr<Lod> build(const Variant& variant, const Heightfield& field, Progress& progress) {
   const LodType& type = lod(variant.method);
   Parameters parameters(type.parameters);
-  if (!variant.setting.empty()) parameters.set_from_text(variant.setting);
+  if (!variant.parameter.empty()) parameters.set(variant.parameter, variant.value);
   return type.build(field, parameters, progress);
 }
 

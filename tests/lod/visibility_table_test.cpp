@@ -1,23 +1,23 @@
-// The changes against the sets that they come from, and flags against both.
+// Change tables against the sets that they come from, and flags against both.
 #include <gtest/gtest.h>
 
-#include "lod/mrbsp/visible_flags.h"
+#include "lod/mrbsp/visibility/flags.h"
 #include "tests/lod/visible_ground.h"
 #include "tests/terrain/errors.h"
 
-namespace terrabench {
+namespace terrabench::mrbsp::visibility {
 namespace {
 
 TEST(VisibilityTable, ChangesLeadBackToTheSets) {
-  const VisibleSets sets = visible_over(65, 50);
-  const VisibilityTable table = changes_of(sets);
+  const Sets sets = visible_over(65, 50);
+  const ChangeTable table = changes_of(sets);
   EXPECT_EQ(sets_of(table), sets);
   EXPECT_EQ(table.steps(), 7 * 7 + 8 * 6);
 }
 
 TEST(VisibilityTable, RefusesMoreChangesThanFit) {
   // Each step toggles all 2^24 triangles: 17 steps are one too many.
-  VisibleSets sets({18, 1, 1}, kDeepestCoarse, 1.8F);
+  Sets sets({18, 1, 1}, kDeepestCoarse, 1.8F);
   for (std::size_t cell = 0; cell < 18; cell += 2) {
     std::fill_n(sets.bits.begin() + static_cast<std::ptrdiff_t>(cell * sets.words), sets.words,
                 ~std::uint64_t{0});
@@ -25,17 +25,17 @@ TEST(VisibilityTable, RefusesMoreChangesThanFit) {
   EXPECT_EQ(failure_of([&] { (void)changes_of(sets); }).code, ExitCode::kUsage);
 }
 
-TEST(VisibleFlags, FlagsStandForTheirSubtreesWhereverTheWalkGoes) {
-  const VisibilityTable table = table_over(65, 50);
-  const VisibleSets sets = sets_of(table);
-  VisibleFlags flags(table);
+TEST(VisibilityFlags, FlagsStandForTheirSubtreesWhereverTheWalkGoes) {
+  const ChangeTable table = table_over(65, 50);
+  const Sets sets = sets_of(table);
+  Flags flags(table);
   std::size_t toggled = 0;
   for (std::uint32_t k = 0; k < 40; ++k) {
     const glm::ivec2 cell(static_cast<int>(8 * random_share(2 * k)),
                           static_cast<int>(7 * random_share(2 * k + 1)));
     toggled += flags.move_to(table, cell);
     EXPECT_EQ(flags.cell(), cell);
-    const NodeNumber level = NodeNumber{1} << table.depth;
+    const NodeNumber level = first_node(table.depth);
     for (NodeNumber node = 2 * level - 1; node >= 1; --node) {
       const bool expected = node >= level
                                 ? sets.sees(cell.y * 8 + cell.x, static_cast<std::uint32_t>(node - level))
@@ -48,4 +48,4 @@ TEST(VisibleFlags, FlagsStandForTheirSubtreesWhereverTheWalkGoes) {
 }
 
 }  // namespace
-}  // namespace terrabench
+}  // namespace terrabench::mrbsp::visibility

@@ -87,7 +87,7 @@ TEST(Context, RefusesSizesThatCannotBeDrawn) {
 
 TEST(Context, RefusesPicturesBeyondTheMemory) {
   const auto context = open_context("osmesa", 8, 8);
-  // 9 GiB of samples: more than llvmpipe gives to one picture on any machine.
+  // 9 GiB of samples: more than llvmpipe allocates for one picture on any machine.
   const Error error = error_of([&] { context->target().resize(16384, 16384); });
   EXPECT_EQ(error.code(), ExitCode::kEnvironment);
   EXPECT_THAT(error.advice(), HasSubstr("smaller"));
@@ -103,7 +103,7 @@ TEST(Context, SaysWhichPackageIsMissing) {
   EXPECT_THAT(other.advice(), HasSubstr("libosmesa6"));
 }
 
-// The driver is chosen once a process, so this asks another one. Softpipe stops at OpenGL 3.3.
+// The driver is chosen once per process, so this runs another process. Softpipe has only OpenGL 3.3.
 TEST(ContextDeathTest, SaysThatTheDriverIsTooOld) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   ASSERT_EQ(setenv("GALLIUM_DRIVER", "softpipe", 1), 0);
@@ -166,7 +166,7 @@ TEST(Context, ClosesWithoutLeaving) {
   const auto threads_before = threads();
   open_many(30);
   EXPECT_EQ(threads(), threads_before);
-  // One picture is 9 MiB: if they stayed, 270 MiB would have come.
+  // One picture takes 9 MiB; leaking all of them would take 270 MiB.
   EXPECT_LT(resident_kib(), before + 40 * 1024);
 }
 
@@ -205,7 +205,7 @@ TEST(Target, ShowsATriangleWhereItIs) {
       }
     }
   }
-  // The diagonal cuts its pixels in half, which multisampling shows as a mixture.
+  // The diagonal halves its pixels, so multisampling gives a mixture.
   const Rgb edge = image.pixel(50, 49);
   EXPECT_GT(edge[0], 60);
   EXPECT_LT(edge[0], 195);

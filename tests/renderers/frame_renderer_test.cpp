@@ -1,4 +1,4 @@
-// The GPU's triangles are those that triangles(Frame) gives, and dirty ranges name all that changed.
+// The GPU draws the triangles of triangles(Frame), and dirty ranges contain every change.
 #include "renderers/frame_renderer.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ View walk(const Heightfield& field, float t) {
   return view;
 }
 
-// The triangle that a ray through the pixel's centre meets first, counted from 1. Brute force.
+// The first triangle on the ray through the point (x, y) of the screen, counted from 1. Brute force.
 std::uint32_t nearest_triangle(const std::vector<glm::vec3>& corners, const glm::mat4& to_clip, float x,
                                float y) {
   std::uint32_t nearest = 0;
@@ -76,7 +76,7 @@ std::size_t bytes_named(const Frame& frame, const ClipLevel& level) {
   std::size_t bytes = 0;
   for (const DirtyRange& range : frame.uploads) {
     const bool of_level =
-        range.target == DirtyRange::Target::kClipLevel && &frame.levels[range.level] == &level;
+        range.target == DirtyRange::Target::kClipLevel && &frame.clip_levels[range.level] == &level;
     if (of_level) bytes += range.bytes();
   }
   return bytes;
@@ -90,7 +90,7 @@ class FrameRendererTest : public ::testing::TestWithParam<test::Variant> {
   Progress silent_;
 };
 
-// At pixels taken by chance.
+// Compares random pixels.
 void expect_shown(FrameRenderer& renderer, const Frame& frame, const View& view, std::mt19937& random) {
   std::vector<glm::vec3> corners;
   triangles(frame, [&](std::span<const glm::vec3> some) {
@@ -106,7 +106,7 @@ void expect_shown(FrameRenderer& renderer, const Frame& frame, const View& view,
     ++asked;
     agree += shown[static_cast<std::size_t>(y) * 160 + x] == expected ? 1 : 0;
   }
-  // A pixel's centre on an edge may fall to either side.
+  // A pixel centre on an edge may belong to either side.
   EXPECT_GE(agree, asked * 98 / 100);
 }
 
@@ -120,8 +120,8 @@ TEST_P(FrameRendererTest, ShowsTheTrianglesOfTheFrame) {
   }
 }
 
-// So far from sample 0 that floats of metres from there would not tell one sample from the next; and with
-// levels that come when the far plane moves away.
+// So far from sample 0 that metres from there in a float could not distinguish samples; and with levels that
+// are added when the far plane moves away.
 TEST(EndlessFrames, ShowTheirTrianglesFarFromSample0) {
   const std::unique_ptr<GlContext> context = open_context("osmesa", 16, 16);
   FrameRenderer renderer(*context);
@@ -156,7 +156,7 @@ TEST_P(FrameRendererTest, DirtyRangesAreEnough) {
   }
 }
 
-// Halfway the method is asked for more, so that buffers must grow.
+// Halfway the knob is set to the finest value, so that buffers must grow.
 TEST_P(FrameRendererTest, SendsTheBytesThatTheFrameSays) {
   const Knob& knob = lod(GetParam().method).knob;
   const std::unique_ptr<Lod> lod = build();
@@ -171,12 +171,12 @@ TEST_P(FrameRendererTest, SendsTheBytesThatTheFrameSays) {
     const View view = walk(field_, static_cast<float>(step) / 10);
     const Frame& frame = lod->update(view);
     EXPECT_EQ(frame.stats.bytes_commands,
-              kBytesPerBatch * frame.batches.size() + kBytesPerClipLevel * frame.levels.size());
+              kBytesPerBatch * frame.batches.size() + kBytesPerClipLevel * frame.clip_levels.size());
     renderer.draw(frame, view, style);
-    // The first frame is sent whole. A clipmap's arrays are a row and a column larger than its windows, which
-    // alone it asks for.
+    // The first frame is sent whole; a clipmap's arrays are one row and one column larger than the windows,
+    // the only part that its dirty ranges contain.
     std::size_t expected = frame.stats.bytes_sent();
-    for (const ClipLevel& level : frame.levels) {
+    for (const ClipLevel& level : frame.clip_levels) {
       if (step == 0) expected += level.heights.size_bytes() - bytes_named(frame, level);
     }
     EXPECT_EQ(renderer.bytes_uploaded() - before, expected) << step;
@@ -226,8 +226,8 @@ TEST_P(FrameRendererTest, ShowsWhatFullDetailShowsWhereTheKnobIsFinest) {
   }
 }
 
-// Along ridges, where the slope behind lies at the same depth: no dots of another colour than the ground's.
-TEST_P(FrameRendererTest, NothingShinesThroughRidges) {
+// Along ridges, where the slope behind has the same depth, no pixel has the colour of the underside.
+TEST_P(FrameRendererTest, RidgesHideTheSlopeBehind) {
   Heightfield steep = field_;
   std::mt19937 random(5);
   for (float& height : steep.heights) height += static_cast<float>(random() % 400) * 0.01F;
@@ -251,12 +251,13 @@ TEST_P(FrameRendererTest, NothingShinesThroughRidges) {
   EXPECT_EQ(grey, 0U);
 }
 
-// The same picture as of a ground that has been moved beforehand, and another than of the ground unmoved.
-TEST(FrameRenderer, MovesVerticesAsTheyAreSaidToMove) {
+// The picture equals that of a ground whose heights were morphed beforehand, and differs from that of the
+// ground itself.
+TEST(FrameRenderer, MorphsVertices) {
   const std::unique_ptr<GlContext> context = open_context("osmesa", 16, 16);
   const Heightfield field = bumps(150, 120);
   Progress silent;
-  const std::unique_ptr<Lod> lod = test::build({"geomipmap", "morph=true"}, field, silent);
+  const std::unique_ptr<Lod> lod = test::build({"geomipmap", "morph", true}, field, silent);
   lod->tune(20);
   FrameStyle style;
   style.lowest = -20;

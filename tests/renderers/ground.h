@@ -30,7 +30,7 @@ inline TriangleMesh ground(int n, float size, const std::function<float(float, f
   return mesh;
 }
 
-// Hills upon hills: octaves of turned waves, 0 … about 1000 m for size 10 km.
+// Octaves of rotated waves, from 0 to about 1000 m for size 10 km.
 inline float hills(float x, float z) {
   float height = 0, amplitude = 260, frequency = 6.0e-4F;
   for (int octave = 0; octave < 7; ++octave) {

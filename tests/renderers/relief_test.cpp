@@ -37,7 +37,7 @@ void expect_close(const Rgb& got, const Rgb& wanted, int tolerance) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(got[i], wanted[i], tolerance) << "channel " << i;
 }
 
-// Straight down on [0, size]², north up; the ground fills the picture and more.
+// Looks straight down on [0, size]², north up; the ground extends beyond the picture.
 View from_above(float size, float height, int pixels = 64) {
   View view;
   view.width = view.height = pixels;
@@ -141,7 +141,7 @@ TEST_F(Relief, ShowsTheBacksOfTrianglesInGrey) {
 }
 
 TEST_F(Relief, LetsTheNearerGroundHideTheFarther) {
-  // Two levels a metre apart, seen from 30 km with a view whose own depth range would cut both.
+  // Two levels one metre apart, seen from 30 km in a view whose own depth range would clip both.
   const auto level = [](float height) { return ground(2, 10000, [&](float, float) { return height; }); };
   const auto join = [](TriangleMesh a, const TriangleMesh& b) {
     const auto shift = static_cast<std::uint32_t>(a.positions.size());
@@ -183,7 +183,7 @@ TEST_F(Relief, DrawsEdgesWhereTheyAre) {
   EXPECT_LT(luminance(wired.pixel(31, 10)), luminance(plain.pixel(31, 10)) - 30);
   EXPECT_LT(luminance(wired.pixel(50, 31)), luminance(plain.pixel(50, 31)) - 30);
   EXPECT_EQ(wired.pixel(10, 8), plain.pixel(10, 8));
-  // The next picture is drawn as before.
+  // Wires do not affect the next picture.
   EXPECT_EQ(draw(mesh, view, {.lowest = 0, .highest = 20}).rgb, plain.rgb);
 }
 
@@ -194,7 +194,7 @@ TEST_F(Relief, OfAMeshWithoutNormalsShowsFacets) {
   const Image smooth = draw(mesh, view, style);
   mesh.normals.clear();
   EXPECT_NE(draw(mesh, view, style).rgb, smooth.rgb);
-  // A facet that lies level has the ramp's colour from both kinds.
+  // A level facet has the ramp's colour with both kinds of shading.
   TriangleMesh flat = ground(4, 100, [](float, float) { return 10.0F; });
   flat.normals.clear();
   const Image image = draw(flat, from_above(100, 300), {.lowest = 0, .highest = 20});
@@ -223,7 +223,7 @@ TEST_F(Relief, OfATriangleWithoutExtentDrawsNothing) {
   EXPECT_EQ(image.pixel(8, 8), (Rgb{255, 255, 255}));
 }
 
-// Mesa reads the number of threads once a process, so others are asked.
+// Mesa reads the number of threads once per process, so this runs other processes.
 TEST(ReliefDeathTest, IsTheSameForAnyNumberOfThreads) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const std::string expected = checksum_of(draw_hills());

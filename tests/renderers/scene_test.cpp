@@ -18,7 +18,7 @@ using testing::hills;
 
 constexpr Rgb kWhite{255, 255, 255};
 
-// Straight down on [0, 100]², north up, one metre a pixel: (x, z) is pixel (x, z).
+// Looks straight down on [0, 100]², north up, one metre per pixel: (x, z) is pixel (x, z).
 View map_view() {
   View view;
   view.width = view.height = 100;
@@ -43,7 +43,7 @@ class SceneTest : public ::testing::Test {
   static SceneMesh wired(const TriangleMesh& mesh, float width = 2) {
     SceneMesh item;
     item.mesh = &mesh;
-    item.surface = Surface::kFlat;
+    item.shading = Shading::kFlat;
     item.wire_width = width;
     return item;
   }
@@ -101,7 +101,7 @@ TEST_F(SceneTest, OutlinesHaveTheWidthOfOtherWires) {
 }
 
 TEST_F(SceneTest, OutlinesAreDrawnWhereNoWireRuns) {
-  // A roof of two triangles that meet in the only edge that is not asked for; seen from the side, it is the
+  // A roof of two triangles; the ridge is the only edge that is not a wire. Seen from the side, it is the
   // outline against the sky.
   TriangleMesh roof;
   roof.positions = {{0, 0, 0}, {50, 40, 0}, {50, 40, 100}, {100, 0, 0}};
@@ -122,14 +122,14 @@ TEST_F(SceneTest, OutlinesAreDrawnWhereNoWireRuns) {
     return count;
   };
   EXPECT_GT(ink(), 150);
-  view.eye = {50, 10000, 50};  // from above both triangles face the eye, and the ridge is no outline
+  view.eye = {50, 10000, 50};  // from above both triangles face the eye, so the ridge is not an outline
   view.target = {50, 0, 50};
   view.up = {0, 0, -1};
   EXPECT_EQ(ink(), 0);
 }
 
 TEST_F(SceneTest, FarWiresThinOutInsteadOfBlackening) {
-  const TriangleMesh mesh = level(0, 400);  // four cells a pixel
+  const TriangleMesh mesh = level(0, 400);  // four cells per pixel
   Scene scene;
   scene.meshes = {wired(mesh, 1)};
   const Image image = draw(scene);
@@ -247,7 +247,7 @@ TEST(QuadWires, LeaveOutTheDiagonalsOfLevelSteepAndUprightCells) {
   TriangleMesh wall = level(0, 8);
   for (glm::vec3& at : wall.positions) at = {at.x, at.z, 3};
   EXPECT_EQ(count(quad_wires(wall)), all - diagonals);
-  // A triangle by itself has no cell.
+  // A single triangle has no diagonal.
   TriangleMesh single;
   single.positions = {{0, 0, 0}, {1, 0, 1}, {1, 0, 0}};
   single.indices = {0, 1, 2};

@@ -1,4 +1,4 @@
-// Tunnels and caves in the grounded heightmap tree: what they cut out, of how many heightmaps, and what is
+// Tunnels and caves in the grounded heightmap tree: what they take out, their heightmaps, and what is
 // refused.
 #include "tests/representations/ght_ground.h"
 #include "tests/representations/ght_oracle.h"
@@ -35,8 +35,8 @@ std::vector<Span> column(const Ght& ght, float x, float z) {
 
 std::size_t nodes_of(const Ght& ght, ght::Area area) {
   const auto& nodes = ght.model().tree.nodes();
-  return static_cast<std::size_t>(
-      std::count_if(nodes.begin(), nodes.end(), [&](const ght::Node& n) { return n.area == area; }));
+  return static_cast<std::size_t>(std::count_if(
+      nodes.begin(), nodes.end(), [&](const ght::GroundedHeightmap& n) { return n.area == area; }));
 }
 
 TEST(GhtCarving, ATunnelGoesThrough) {
@@ -55,7 +55,7 @@ TEST(GhtCarving, ATunnelGoesThrough) {
   EXPECT_NEAR(mouth[0].top, 13, 1e-5);
 }
 
-// Carvings of every make through a ridge, which agree with the evaluation.
+// Carvings of many forms through a ridge agree with the evaluation.
 TEST(GhtCarving, AgreesWithTheEvaluation) {
   const std::vector<glm::dvec2> octagon = {{-1, -2}, {1, -2}, {2, -1}, {2, 1},
                                            {1, 2},   {-1, 2}, {-2, 1}, {-2, -1}};
@@ -116,13 +116,13 @@ TEST(GhtCarving, ImpossibleOnesAreRefused) {
   EXPECT_THAT(refusal(ght, square_tunnel({20, 15, 3}, {44, 15, 3})), HasSubstr("border"));
   Carving thin = square_tunnel({20, 15, 32}, {44, 15, 32});
   thin.scale_to = 0.45;
-  EXPECT_THAT(refusal(ght, thin), HasSubstr("less than two cells"));
+  EXPECT_THAT(refusal(ght, thin), HasSubstr("less than two sample spacings"));
   Carving crossed = square_tunnel({20, 15, 32}, {44, 15, 32});
   std::swap(crossed.section[1], crossed.section[2]);
   EXPECT_THAT(refusal(ght, crossed), HasSubstr("crosses itself"));
-  // Far down: more cells than any terrain has room for.
+  // Far below the ground: more cells than any terrain has room for.
   EXPECT_THAT(refusal(ght, square_tunnel({20, -1e9, 32}, {44, 15, 32})), HasSubstr("too many cells"));
-  // A section that narrows to nothing before it is out.
+  // A section that narrows to nothing before it comes out.
   Carving cone = square_tunnel({31, 15, 32}, {33, 15, 32});
   cone.scale_to = 1.4;
   EXPECT_THAT(refusal(ght, cone), HasSubstr("does not come out"));
@@ -144,7 +144,7 @@ TEST(GhtCarving, KeepsToItself) {
   EXPECT_THAT(refusal(ght, events::LinearErosion{{18, 26}, {18, 38}, 2, 45}), HasSubstr("mouth"));
   EXPECT_THAT(refusal(ght, events::RadialErosion{{32, 30, 32}, {5, 12.5, 5}}), HasSubstr("breaks into"));
   EXPECT_THAT(refusal(ght, events::LinearErosion{{30, 32}, {34, 32}, 14, 70}), HasSubstr("breaks into"));
-  // Room is left over it, under it, and beside it.
+  // Events with enough distance above and beside it.
   ght.apply(square_tunnel({20, 15, 40}, {44, 15, 40}));
   ght.apply(events::LinearErosion{{30, 32}, {34, 32}, 6, 60});
   ght.apply(events::RadialErosion{{32, 30, 24}, {5, 6, 5}});
@@ -158,7 +158,8 @@ TEST(GhtCarving, KeepsToItself) {
   EXPECT_TRUE(found.wrong.empty()) << found;
 }
 
-// A gully across the tunnel outside its end lets the roof out and in again before the floor comes out.
+// At a gully across the tunnel, outside its end, the roof comes out and goes in again before the floor comes
+// out.
 TEST(GhtCarving, RefusesOneThatGoesUnderAgain) {
   Heightfield ground = ridge();
   for (int j = 0; j < ground.depth; ++j) {
@@ -170,8 +171,8 @@ TEST(GhtCarving, RefusesOneThatGoesUnderAgain) {
   EXPECT_THAT(refusal(ght, square_tunnel({20, 15, 32}, {42, 15, 32})), HasSubstr("mouth"));
 }
 
-// A cave from the high block of a fault along the crest into the air under its overhang, where what is
-// topmost is still above it: a tunnel there is refused for the overhang alone.
+// A cave from the high block of a fault along the crest into the air under its overhang. The topmost ground
+// is still above it, so only the overhang is a reason to refuse it.
 TEST(GhtCarving, KeepsFromAnOverhang) {
   const events::DipFault fault{true, {32, 40}, {32, 24}, 10, 5, 45};
   Ght ght = make_ght(ridge()), without = make_ght(ridge());
@@ -184,8 +185,8 @@ TEST(GhtCarving, KeepsFromAnOverhang) {
   expect_sound(ght);
 }
 
-// Each node is what the paper says it is: walls with smooth noise along the axis, borders on the root's
-// samples with nothing where the section is, all hung from the root.
+// Each heightmap is as in the paper: walls with smooth noise along the axis, borders on the root's samples
+// and void where the section is, all children of the root.
 TEST(GhtCarving, NodesAreThePapers) {
   Ght ght = make_ght(ridge());
   Carving cave = square_tunnel({20, 15, 32}, {33, 15, 32});
@@ -195,7 +196,7 @@ TEST(GhtCarving, NodesAreThePapers) {
   const ght::Tree& tree = ght.model().tree;
   ASSERT_THAT(tree.nodes(), SizeIs(1 + 4 + 2));
   for (std::size_t n = 1; n < tree.nodes().size(); ++n) {
-    const ght::Node& node = tree.nodes()[n];
+    const ght::GroundedHeightmap& node = tree.nodes()[n];
     EXPECT_EQ(node.parent, 0U);
     EXPECT_EQ(node.depth, 1U);
     double most = 0;

@@ -1,4 +1,4 @@
-// Single events on the grounded heightmap tree: what they add, and that the tree stays whole.
+// Single events on the grounded heightmap tree: the heightmaps they add, and that the tree stays valid.
 #include "tests/representations/ght_oracle.h"
 
 namespace terrabench::test {
@@ -14,13 +14,13 @@ struct NamedEvent {
   std::size_t nodes;
 };
 
-// On 65 × 65 samples of 2 m, along the axes and across.
+// For 65 × 65 samples 2 m apart, along the axes and across them.
 std::vector<NamedEvent> single_events() {
-  return {{"trench east", LinearErosion{{40, 60}, {90, 60}, 8, 30}, 4},
-          {"trench askew", LinearErosion{{40, 50}, {85, 83}, 7, 40}, 4},
-          {"trench short", LinearErosion{{60, 60}, {61, 62}, 10, 45}, 4},
-          {"trench shallow", LinearErosion{{30, 90}, {80, 30}, 0.5, 20}, 4},
-          {"bowl", RadialErosion{{64, 42, 64}, {20, 12, 14}}, 1},
+  return {{"linear erosion east", LinearErosion{{40, 60}, {90, 60}, 8, 30}, 4},
+          {"linear erosion askew", LinearErosion{{40, 50}, {85, 83}, 7, 40}, 4},
+          {"linear erosion short", LinearErosion{{60, 60}, {61, 62}, 10, 45}, 4},
+          {"linear erosion shallow", LinearErosion{{30, 90}, {80, 30}, 0.5, 20}, 4},
+          {"radial erosion", RadialErosion{{64, 42, 64}, {20, 12, 14}}, 1},
           {"normal fault", DipFault{false, {40, 70}, {100, 60}, 30, 8, 60}, 3},
           {"normal fault flat", DipFault{false, {60, 100}, {60, 30}, 25, 10, 20}, 3},
           {"inverse fault", DipFault{true, {40, 70}, {100, 60}, 30, 8, 60}, 3},
@@ -52,7 +52,8 @@ TEST_P(SingleEvent, IsWhatTheEvaluationSays) {
     ght.apply(GetParam().event);
     Disagreement found =
         compare(ght, Evaluation(std::make_shared<Sculpture>(Sculpture{ground, {GetParam().event}})));
-    // The cliff at the ends of an overhang is a cell wide in the tree and has no width in the evaluation.
+    // The cliff at the ends of an overhang is one sample spacing wide in the tree and has no width in the
+    // evaluation.
     const std::size_t at_ends = std::erase_if(found.wrong, [](const Disagreement::Point& point) {
       return at_end_of_overhang(GetParam().event, point.at, kCell);
     });

@@ -14,7 +14,7 @@
 
 namespace terrabench::test {
 
-// Hills some 25 cells wide and a fifth as high, roughened by `rough` metres a sample.
+// Hills some 25 cells wide and a fifth as high, roughened by `rough` cells per sample.
 inline Heightfield rolling(int width, int depth, float cell = 1, float rough = 0.3F, unsigned seed = 1) {
   Heightfield field{width, depth, cell, cell, {}, {}};
   std::mt19937 random(seed);

@@ -1,4 +1,4 @@
-// What broken_invariants() says of trees with a fault planted in them: one line each, and the right one.
+// broken_invariants() of trees with a planted error: one line each, and the right one.
 #include "tests/representations/ght_ground.h"
 
 namespace terrabench::test {
@@ -24,9 +24,9 @@ class PlantedFault : public testing::Test {
   void expect_one(std::string_view what) const {
     EXPECT_THAT(broken_invariants(model_), ElementsAre(HasSubstr(std::string(what))));
   }
-  // A node that nothing refers to, as part of the last event or of none.
+  // A node that nothing refers to, part of no event.
   NodeId spare() {
-    Node node;
+    GroundedHeightmap node;
     node.columns = node.rows = 2;
     node.parent = 0;
     node.aligned = true;
@@ -40,7 +40,7 @@ class PlantedFault : public testing::Test {
 TEST_F(PlantedFault, AVoidCorner) {
   model_.tree.set_void(model_.surface.face(some_face())[0]);
   EXPECT_THAT(broken_invariants(model_),
-              testing::Contains(HasSubstr("corners of the surface that hold no height")));
+              testing::Contains(HasSubstr("corners of the surface without a height")));
 }
 
 TEST_F(PlantedFault, ALinkToAnUnusedCell) {
@@ -69,7 +69,7 @@ TEST_F(PlantedFault, AFaceTwice) {
   const Face face = model_.surface.face(some_face());
   model_.surface.prepare(model_.tree, {}, {&face, 1});
   model_.surface.add(model_.tree, face);
-  expect_one("edges that two faces run the same way");
+  expect_one("edges that two faces have in the same direction");
 }
 
 TEST_F(PlantedFault, AHeightmapTooMany) {
@@ -80,11 +80,11 @@ TEST_F(PlantedFault, AHeightmapTooMany) {
 TEST_F(PlantedFault, AnEventOfTooFewHeightmaps) {
   const NodeId n = spare();
   model_.tree.append(Applied{events::Kind::kLateralFault, 0, n, 1});
-  expect_one("another number of heightmaps");
+  expect_one("the paper's number of heightmaps");
 }
 
 TEST_F(PlantedFault, AnUnlinkedBoundaryCell) {
-  // A sheet of its own, both sides of it: closed, but joined to nothing.
+  // A separate two-sided surface: closed, but joined to nothing.
   const NodeId n = spare();
   const CellId c = model_.tree.nodes()[n].first;
   for (CellId k = c; k < c + 4; ++k) model_.tree.set_height(k, 20);
@@ -92,7 +92,7 @@ TEST_F(PlantedFault, AnUnlinkedBoundaryCell) {
   model_.surface.prepare(model_.tree, {}, faces);
   for (const Face& face : faces) model_.surface.add(model_.tree, face);
   model_.tree.append(Applied{events::Kind::kRadialErosion, 0, n, 1});
-  expect_one("no other one is linked to: 3");
+  expect_one("without a link to another one: 3");
   EXPECT_EQ(unlinked_boundary_cells(model_), 3U);
 }
 

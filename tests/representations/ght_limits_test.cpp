@@ -1,4 +1,4 @@
-// Events that cannot be: a clear error that says what to do, and the tree as it was to the bit.
+// Invalid events: each gives an error that says what to do, and leaves the tree as it was, to the bit.
 #include <limits>
 
 #include "tests/representations/ght_ground.h"
@@ -24,29 +24,35 @@ Carving tunnel(std::vector<glm::dvec2> section, glm::dvec3 from = {20, 19, 32},
 
 std::vector<Impossible> impossible_events() {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinity = HUGE_VAL;
-  return {{"trench outside", "outside the terrain", LinearErosion{{-5, 30}, {20, 30}, 2, 30}},
-          {"bowl outside", "outside the terrain", RadialErosion{{64, 20, 64}, {4, 4, 4}}},
-          {"fault far outside", "outside the terrain", DipFault{false, {500, 500}, {520, 500}, 10, 2, 60}},
-          {"slip from outside", "outside the terrain", LateralFault{{4, 30}, {40, 30}, 5, 20}},
-          {"trench without length", "one point", LinearErosion{{30, 30}, {30, 30}, 2, 30}},
-          {"fault without length", "one point", DipFault{true, {30, 30}, {30, 30}, 5, 2, 60}},
-          {"slip without length", "one point", LateralFault{{30, 30}, {30, 30}, 5, 2}},
-          {"trench without depth", "'depth' is 0", LinearErosion{{20, 30}, {40, 30}, 0, 30}},
-          {"trench upright", "'slope' is 90", LinearErosion{{20, 30}, {40, 30}, 2, 90}},
-          {"bowl without radius", "'radii' is 0", RadialErosion{{30, 20, 30}, {4, 0, 4}}},
-          {"bowl of negative radius", "'radii' is -4", RadialErosion{{30, 20, 30}, {-4, 4, 4}}},
-          {"bowl in the air", "does not reach the ground", RadialErosion{{30, 60, 30}, {4, 4, 4}}},
-          {"bowl of no number", "'centre'", RadialErosion{{kNan, 20, 30}, {4, 4, 4}}},
-          {"trench of no end", "'to'", LinearErosion{{20, 30}, {kInfinity, 30}, 2, 30}},
-          {"fault all scarp", "all of both blocks", DipFault{false, {20, 30}, {40, 30}, 2, 9, 45}},
-          {"at the border", "border", LinearErosion{{2.2, 30}, {20, 30}, 1, 30}},
-          {"section of two points", "2 points", tunnel({{-2, 0}, {2, 0}})},
-          {"section crossing itself", "crosses itself", tunnel({{-2, -2}, {2, 2}, {2, -2}, {-2, 2}})},
-          {"section clockwise", "clockwise", tunnel({{-2, -2}, {-2, 2}, {2, 2}, {2, -2}})},
-          {"tunnel in the air", "in the air",
-           tunnel({{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}, {20, 50, 32}, {44, 50, 32})},
-          {"tunnel that stays below", "does not come out",
-           tunnel({{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}, {20, 8, 32}, {44, 8, 32})}};
+  return {
+      {"linear erosion outside", "outside the terrain", LinearErosion{{-5, 30}, {20, 30}, 2, 30}},
+      {"radial erosion outside", "outside the terrain", RadialErosion{{64, 20, 64}, {4, 4, 4}}},
+      {"dip fault far outside", "outside the terrain", DipFault{false, {500, 500}, {520, 500}, 10, 2, 60}},
+      {"lateral fault from outside", "outside the terrain", LateralFault{{4, 30}, {40, 30}, 5, 20}},
+      {"linear erosion without length", "one point", LinearErosion{{30, 30}, {30, 30}, 2, 30}},
+      {"dip fault without length", "one point", DipFault{true, {30, 30}, {30, 30}, 5, 2, 60}},
+      {"lateral fault without length", "one point", LateralFault{{30, 30}, {30, 30}, 5, 2}},
+      {"linear erosion without depth", "'depth' must be above 0, got 0",
+       LinearErosion{{20, 30}, {40, 30}, 0, 30}},
+      {"linear erosion upright", "'slope' must be from 1 to 89 degrees, got 90",
+       LinearErosion{{20, 30}, {40, 30}, 2, 90}},
+      {"radial erosion without radius", "'radii' must be above 0, got 0",
+       RadialErosion{{30, 20, 30}, {4, 0, 4}}},
+      {"radial erosion of negative radius", "'radii' must be above 0, got -4",
+       RadialErosion{{30, 20, 30}, {-4, 4, 4}}},
+      {"radial erosion in the air", "does not reach the ground", RadialErosion{{30, 60, 30}, {4, 4, 4}}},
+      {"radial erosion of no number", "'centre'", RadialErosion{{kNan, 20, 30}, {4, 4, 4}}},
+      {"linear erosion of no end", "'to'", LinearErosion{{20, 30}, {kInfinity, 30}, 2, 30}},
+      {"dip fault all scarp", "leaves no ground of the blocks",
+       DipFault{false, {20, 30}, {40, 30}, 2, 9, 45}},
+      {"at the border", "border", LinearErosion{{2.2, 30}, {20, 30}, 1, 30}},
+      {"section of two points", "got 2", tunnel({{-2, 0}, {2, 0}})},
+      {"section crossing itself", "crosses itself", tunnel({{-2, -2}, {2, 2}, {2, -2}, {-2, 2}})},
+      {"section clockwise", "clockwise", tunnel({{-2, -2}, {-2, 2}, {2, 2}, {2, -2}})},
+      {"tunnel in the air", "in the air",
+       tunnel({{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}, {20, 50, 32}, {44, 50, 32})},
+      {"tunnel that stays below", "does not come out",
+       tunnel({{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}, {20, 8, 32}, {44, 8, 32})}};
 }
 
 class ImpossibleEvent : public testing::TestWithParam<Impossible> {};
@@ -56,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Ght, ImpossibleEvent, testing::ValuesIn(impossible_even
   return name;
 });
 
-// On a tree that has been through something.
+// On a tree with events.
 TEST_P(ImpossibleEvent, IsNamedAndLeavesTheTreeAsItWas) {
   Ght ght = make_ght(rolling(65, 65));
   ght.apply(LinearErosion{{20, 20}, {40, 40}, 3, 35});
@@ -92,17 +98,17 @@ TEST(GhtLimits, TheRootCountsToo) {
   }
 }
 
-// Bowl in bowl until there is no room: each event is whole or not there at all.
+// Erosion inside erosion until no cells are left: each event is applied completely or not at all.
 TEST(GhtLimits, NestingEndsWithAnErrorAndAWholeTree) {
-  for (const bool trenches : {false, true}) {
+  for (const bool linear : {false, true}) {
     Ght ght = make_ght(rolling(33, 33));
     ght.limit_cells(6000);
     bool full = false;
     for (int depth = 0; depth < 1000 && !full; ++depth) {
       const std::vector<std::byte> before = saved(ght);
       const double y = 18 - 0.01 * depth;
-      const Event event = trenches ? Event(LinearErosion{{14, 16}, {18, 16}, 2, 30})
-                                   : Event(RadialErosion{{16, y, 16}, {6, 3, 6}});
+      const Event event = linear ? Event(LinearErosion{{14, 16}, {18, 16}, 2, 30})
+                                 : Event(RadialErosion{{16, y, 16}, {6, 3, 6}});
       try {
         ght.apply(event);
       } catch (const Error& error) {

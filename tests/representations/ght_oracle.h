@@ -23,14 +23,14 @@ inline std::ostream& operator<<(std::ostream& out, const Disagreement& found) {
   return out;
 }
 
-// Whether the evaluation has ground (or air, as asked) in [y - cell, y + cell] on one of the columns within a
-// cell of (x, z) to all sides.
+// Whether the evaluation has ground (or air) within one sample spacing above or below a point, in any column
+// within one spacing of it.
 class NearBy {
  public:
-  NearBy(const events::Evaluation& truth, const ght::Lattice& lattice) : truth_(truth), lattice_(lattice) {}
+  NearBy(const events::Evaluation& truth, const ght::SampleGrid& grid) : truth_(truth), grid_(grid) {}
 
   bool has(bool ground, glm::dvec3 p) {
-    const double cell = lattice_.cell();
+    const double cell = grid_.spacing();
     return any_column(p, [&](const std::vector<events::Stretch>& column) {
       double above = HUGE_VAL;  // the bottom of the stretch above
       for (const events::Stretch& s : column) {
@@ -43,7 +43,7 @@ class NearBy {
       return false;
     });
   }
-  // Whether surfaces that face up lie over the point and under it.
+  // Whether surfaces that face up lie above the point and below it.
   bool between_surfaces(glm::dvec3 p) {
     double low = HUGE_VAL, high = -HUGE_VAL;
     return any_column(p, [&](const std::vector<events::Stretch>& column) {
@@ -55,12 +55,12 @@ class NearBy {
  private:
   template <class Visit>
   bool any_column(glm::dvec3 p, const Visit& visit) {
-    constexpr int kSteps = 6;  // a cell
+    constexpr int kSteps = 6;  // per sample spacing
     for (int dz = -kSteps; dz <= kSteps; ++dz) {
       for (int dx = -kSteps; dx <= kSteps; ++dx) {
-        const glm::dvec2 plan{p.x + dx * lattice_.cell_x / kSteps, p.z + dz * lattice_.cell_z / kSteps};
-        if (plan.x < 0 || plan.y < 0 || plan.x > lattice_.x(lattice_.width - 1) ||
-            plan.y > lattice_.z(lattice_.depth - 1)) {
+        const glm::dvec2 plan{p.x + dx * grid_.spacing_x / kSteps, p.z + dz * grid_.spacing_z / kSteps};
+        if (plan.x < 0 || plan.y < 0 || plan.x > grid_.x(grid_.width - 1) ||
+            plan.y > grid_.z(grid_.depth - 1)) {
           continue;
         }
         truth_.column(plan, stretches_);
@@ -71,27 +71,28 @@ class NearBy {
   }
 
   const events::Evaluation& truth_;
-  const ght::Lattice& lattice_;
+  const ght::SampleGrid& grid_;
   std::vector<events::Stretch> stretches_;
 };
 
-// Points where tree and evaluation differ although the evaluation has only one answer within a cell of the
-// point: the tree claims to be true to one cell. `per_cell` columns along a cell are asked; along each, every
-// stretch on which the two differ is asked at both of its ends, which are furthest from what is right.
+// Points where tree and evaluation differ although the evaluation has only one answer within one sample
+// spacing of the point: the tree claims to be exact to one spacing. `per_cell` columns per spacing are
+// compared; in each, every stretch on which the two differ is tested at both of its ends, where the
+// difference is largest.
 inline Disagreement compare(const Ght& ght, const events::Evaluation& truth, int per_cell = 1) {
-  const ght::Lattice& lattice = ght.model().tree.lattice();
-  const double slip = 1e-3 * lattice.cell();
-  NearBy near_by(truth, lattice);
+  const ght::SampleGrid& grid = ght.model().tree.grid();
+  const double slip = 1e-3 * grid.spacing();
+  NearBy near_by(truth, grid);
   Disagreement all;
   std::vector<events::Stretch> stretches;
   std::vector<double> ends;
   SpanSink sink;
   const auto columns = [&](int samples) { return (samples - 1) * per_cell; };
-  for (int j = 0; j < columns(lattice.depth); ++j) {
-    for (int i = 0; i < columns(lattice.width); ++i) {
+  for (int j = 0; j < columns(grid.depth); ++j) {
+    for (int i = 0; i < columns(grid.width); ++i) {
       // Off the samples, so that no column runs along an edge.
-      const auto x = static_cast<float>((i + 0.37) / per_cell * lattice.cell_x),
-                 z = static_cast<float>((j + 0.61) / per_cell * lattice.cell_z);
+      const auto x = static_cast<float>((i + 0.37) / per_cell * grid.spacing_x),
+                 z = static_cast<float>((j + 0.61) / per_cell * grid.spacing_z);
       sink.clear();
       ght.spans({std::span(&x, 1), std::span(&z, 1)}, sink);
       truth.column({x, z}, stretches);
@@ -132,9 +133,9 @@ inline events::Event moved(const events::Event& event, glm::dvec2 by) {
       event);
 }
 
-// At the two ends of an inverse fault the sheet of the ground runs down from the overhang to the ground
-// beyond and back on itself: a cliff of no thickness, which is no ground in the evaluation's columns. The
-// tree's cliffs are a cell wide, and there it may have ground.
+// At the two ends of an inverse fault the surface runs down from the overhang to the ground beyond and back
+// on itself: a cliff of no thickness, which is no ground in the evaluation's columns. The tree's cliffs are
+// one sample spacing wide, and may contain ground.
 inline bool at_end_of_overhang(const events::Event& event, glm::dvec3 at, double cell) {
   const auto* const fault = std::get_if<events::DipFault>(&event);
   if (fault == nullptr || !fault->inverse) return false;
@@ -143,33 +144,33 @@ inline bool at_end_of_overhang(const events::Event& event, glm::dvec3 at, double
          std::abs(local.y) <= fault->offset() / 2 + cell;
 }
 
-// A sequence need not keep two grounds within a cell of one another that are so: a fault opens its line into
-// a scarp and turns a cliff beside the line into one o = throw / tan(dip) away, for whatever structure. So a
-// point counts only if it stays wrong when the ground that a fault meets is moved by up to a cell first.
+// In a sequence, a difference of less than one spacing can grow: a fault opens its line into a scarp and
+// moves a cliff beside the line by o = throw / tan(dip), in any structure. So a point counts only if it stays
+// wrong when the ground before the fault is moved by up to one spacing.
 inline Disagreement compare(const Ght& ght, const std::shared_ptr<const events::Sculpture>& sculpture,
                             int per_cell = 1) {
   const events::Evaluation evaluation(sculpture);
   Disagreement all = compare(ght, evaluation, per_cell);
-  const ght::Lattice& lattice = ght.model().tree.lattice();
+  const ght::SampleGrid& grid = ght.model().tree.grid();
   const auto explained = [&](const Disagreement::Point& point) {
-    constexpr int kSteps = 3;  // a cell
+    constexpr int kSteps = 3;  // per sample spacing
     for (std::size_t first = 0; first < sculpture->events.size(); ++first) {
-      if (at_end_of_overhang(sculpture->events[first], point.at, lattice.cell()) &&
-          NearBy(evaluation, lattice).between_surfaces(point.at)) {
+      if (at_end_of_overhang(sculpture->events[first], point.at, grid.spacing()) &&
+          NearBy(evaluation, grid).between_surfaces(point.at)) {
         return true;
       }
       if (!std::holds_alternative<events::DipFault>(sculpture->events[first])) continue;
       for (int k = 0; k < (2 * kSteps + 1) * (2 * kSteps + 1); ++k) {
-        const glm::dvec2 by{(k % (2 * kSteps + 1) - kSteps) * lattice.cell_x / kSteps,
-                            (k / (2 * kSteps + 1) - kSteps) * lattice.cell_z / kSteps};
-        // The fault and what follows go the other way instead, and so does the point.
+        const glm::dvec2 by{(k % (2 * kSteps + 1) - kSteps) * grid.spacing_x / kSteps,
+                            (k / (2 * kSteps + 1) - kSteps) * grid.spacing_z / kSteps};
+        // Instead of the ground, the fault, the later events and the point are moved the other way.
         auto other = std::make_shared<events::Sculpture>(*sculpture);
         for (std::size_t e = first; e < other->events.size(); ++e) {
           other->events[e] = moved(other->events[e], -by);
         }
         try {
           const events::Evaluation truth(other);
-          if (NearBy(truth, lattice).has(point.ground, point.at - glm::dvec3(by.x, 0, by.y))) return true;
+          if (NearBy(truth, grid).has(point.ground, point.at - glm::dvec3(by.x, 0, by.y))) return true;
         } catch (const events::EventError&) {
           continue;  // now leaves the terrain
         }

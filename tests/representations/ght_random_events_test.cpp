@@ -1,5 +1,5 @@
-// Random sequences of events: whatever is accepted leaves a whole tree that agrees with the independent
-// evaluation, whatever is refused leaves the tree as it was.
+// Random sequences of events: an accepted event leaves a valid tree that agrees with the independent
+// evaluation, a refused one leaves the tree as it was.
 #include <optional>
 
 #include "terrain/events/event_file.h"
@@ -13,7 +13,7 @@ using namespace events;
 
 constexpr int kShards = 10, kSequences = 1000 / kShards;
 
-// A number in [low, high), events and ground at random. Cells are `cell` wide.
+// Random numbers in [low, high).
 class Dice {
  public:
   explicit Dice(unsigned seed) : random_(seed) {}
@@ -37,7 +37,7 @@ struct Ground {
   std::vector<Hill> hills;
 };
 
-// 33 to 49 samples a side, a few hills with slopes of up to 1 in 1, and roughness.
+// 33 to 49 samples per side, a few hills with slopes of up to 1 in 1, and roughness.
 Ground random_ground(Dice& dice) {
   Ground ground;
   Heightfield& field = ground.field;
@@ -75,7 +75,7 @@ Event random_carving(Dice& dice, const Ground& ground, bool cave) {
                    to = hill.centre + dice.number(0.1, 0.35) * hill.radius * along;
   Carving carving;
   carving.cave = cave;
-  // The floor mostly lies over the plain around the hill, so that the carving comes out.
+  // The floor is mostly above the plain around the hill, so that the carving comes out.
   const double size = dice.number(1.05, 1.4) * cell,
                y = 10 * cell + 2.1 * size + dice.number(-0.05, 0.15) * hill.height;
   carving.from = {from.x, y, from.y};
@@ -121,10 +121,10 @@ Event random_event(Dice& dice, const Ground& ground, Kind kind) {
 
 struct Shares {
   std::array<int, kKinds> tried{}, accepted{};
-  int borderline = 0;  // sequences with a carving that the evaluation, which takes other samples, refuses
+  int borderline = 0;  // sequences with a carving that only the evaluation, at other samples, refuses
 };
 
-// One sequence; what it accepted is added to the shares.
+// One sequence; adds its tried and accepted events to the shares.
 void run(unsigned seed, Shares& shares) {
   SCOPED_TRACE(testing::Message() << "seed " << seed);
   Dice dice(seed);
@@ -163,13 +163,13 @@ void run(unsigned seed, Shares& shares) {
 class GhtRandomEvents : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Shard, GhtRandomEvents, testing::Range(0, kShards));
 
-// Of 100 sequences each; a thousand in all.
+// 100 sequences per shard, a thousand in all.
 TEST_P(GhtRandomEvents, KeepAllInvariantsAndAgreeWithTheEvaluation) {
   Shares shares;
   for (int s = 0; s < kSequences && !HasFatalFailure(); ++s) {
     run(static_cast<unsigned>(GetParam() * kSequences + s + 1), shares);
   }
-  // The least that must be accepted, so that refusing all does not pass.
+  // The least share that must be accepted, so that refusing everything fails.
   constexpr std::array<double, kKinds> kLeast = {0.5, 0.6, 0.4, 0.4, 0.4, 0.15, 0.25};
   for (std::size_t k = 0; k < kKinds; ++k) {
     const std::string kind(name(static_cast<Kind>(k)));
@@ -180,7 +180,7 @@ TEST_P(GhtRandomEvents, KeepAllInvariantsAndAgreeWithTheEvaluation) {
   EXPECT_LE(shares.borderline, 2);
 }
 
-// The comparison can fail: of every kind of event, one too few is seen.
+// The comparison can fail: it sees a missing event of every kind.
 TEST(GhtOracle, SeesAMissingEvent) {
   std::array<int, kKinds> seen{};
   Dice dice(1);
@@ -189,8 +189,8 @@ TEST(GhtOracle, SeesAMissingEvent) {
       const Ground ground = random_ground(dice);
       Ght ght = make_ght(ground.field);
       Event event = random_event(dice, ground, static_cast<Kind>(k));
-      // Two cells to either side, on slopes of about 1 in 1, is mostly within a cell.
-      if (auto* const slide = std::get_if<LateralFault>(&event)) slide->slip *= 4;
+      // A slip of two cells to either side, on slopes of about 1 in 1, is mostly within the tolerance.
+      if (auto* const fault = std::get_if<LateralFault>(&event)) fault->slip *= 4;
       try {
         ght.apply(event);
       } catch (const Error&) {
@@ -203,7 +203,7 @@ TEST(GhtOracle, SeesAMissingEvent) {
   }
 }
 
-// Nor does the forgiving comparison explain one away that is missing among faults, which it moves about.
+// The forgiving comparison, which moves faults about, sees a missing event among faults as well.
 TEST(GhtOracle, SeesAMissingEventOfASequence) {
   const Heightfield ground = rolling(65, 65, 1, 0.3F, 7);
   const std::vector<Event> all = {
@@ -221,7 +221,7 @@ TEST(GhtOracle, SeesAMissingEventOfASequence) {
   }
 }
 
-// §4.2, figure 24: particles that each crash into the ground as it is then, with a bowl of their size.
+// §4.2, figure 24: each particle crashes into the current ground, as a radial erosion of its size.
 TEST(GhtParticles, ARainOfThemIsWhatTheEvaluationSays) {
   const Heightfield field = rolling(97, 81, 2, 0.2F, 4);
   Ght ght = make_ght(field);

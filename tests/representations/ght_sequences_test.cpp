@@ -1,5 +1,5 @@
-// Events over, in and across one another: the tree stays whole after each, an event that cannot be leaves it
-// as it was to the bit, and what comes out is what the evaluation says.
+// Events over, in and across one another: the tree stays valid after each, a refused event leaves it as it
+// was, to the bit, and the result agrees with the evaluation.
 #include "terrain/events/event_file.h"
 #include "tests/representations/ght_oracle.h"
 
@@ -8,7 +8,7 @@ namespace {
 
 using namespace events;
 
-// Geotectonic events all over a terrain of `size` metres with cells of `cell`.
+// Random geotectonic events on a terrain of `size` metres with cells of `cell` metres.
 class EventMaker {
  public:
   EventMaker(double size, double cell, unsigned seed) : size_(size), cell_(cell), random_(seed) {}
@@ -84,7 +84,7 @@ TEST_P(Sequences, KeepTheTreeWholeAndAreWhatTheEvaluationSays) {
   constexpr unsigned kEach = kSequences / kShards;
   Disagreement sum;
   for (unsigned s = 0; s < kEach && !HasFatalFailure(); ++s) run(GetParam() * kEach + s, sum);
-  // What only the forgiving comparison lets pass is an exception.
+  // Points that pass only the forgiving comparison must be rare.
   RecordProperty("explained", std::to_string(sum.explained) + " of " + std::to_string(sum.points));
   EXPECT_LE(sum.explained, 1U) << sum.explained << " of " << sum.points;
 }

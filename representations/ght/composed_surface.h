@@ -1,0 +1,154 @@
+// The surface composed of a tree's heightmaps: its triangles, and where they are in plan. In the paper they
+// follow from the boundary links of neighbouring cells (§3.2). Here a square between four samples of the root
+// is either `plain`, two triangles between the cells at its samples, or covered by `faces`, triangles between
+// any cells. Tunnel walls and overhanging scarps consist of faces too. An index, present only in tiles with
+// faces, finds them by square.
+//
+// A vertical line costs O(faces over its square), and O(1) on a plain square.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "representations/ght/tree.h"
+
+namespace terrabench::ght {
+
+using FaceId = std::uint32_t;
+using Face = std::array<CellId, 3>;  // heights, counter-clockwise seen from the air
+
+struct Square {
+  int i, j;
+  auto operator<=>(const Square&) const = default;
+};
+
+// Squares [i0, i1] × [j0, j1].
+struct SquareRange {
+  int i0, j0, i1, j1;
+  std::size_t count() const {
+    return static_cast<std::size_t>(i1 - i0 + 1) * static_cast<std::size_t>(j1 - j0 + 1);
+  }
+  // The tiles of side × side squares that hold them.
+  SquareRange tiles(int side) const { return {i0 / side, j0 / side, i1 / side, j1 / side}; }
+  template <class Visit>  // visit(Square), row by row
+  void each(const Visit& visit) const {
+    for (int j = j0; j <= j1; ++j) {
+      for (int i = i0; i <= i1; ++i) visit(Square{i, j});
+    }
+  }
+};
+
+// Where a vertical line, followed from above, meets the surface: weight +1 into the ground, -1 out of it.
+struct Crossing {
+  float y;
+  int weight;
+};
+
+// A point in plan as on a map, x east and y north, for the orientation of triangles.
+inline glm::dvec2 map_point(glm::vec3 p) { return {p.x, -static_cast<double>(p.z)}; }
+
+class ComposedSurface {
+ public:
+  // The most squares that a face may lie over, so that a small saved tree cannot demand much memory.
+  static constexpr std::size_t kMostSquares = 256;
+
+  ComposedSurface() = default;
+  explicit ComposedSurface(const SampleGrid& grid);
+
+  // The square that holds a point of the terrain; false outside.
+  bool find(float x, float z, Square& at) const;
+  bool covered(Square s) const {  // by faces; otherwise plain or a hole
+    const std::uint32_t tile = tile_of_[tile_index(s)];
+    return tile != kNone && (tiles_[tile].covered[slot(s) / 64] >> slot(s) % 64 & 1U) != 0;
+  }
+  // Whether no face lies over a square.
+  bool simple(Square s) const {
+    const std::uint32_t tile = tile_of_[tile_index(s)];
+    return tile == kNone || tiles_[tile].first[slot(s)] == kNone;
+  }
+  bool plain(const Tree& tree, Square s) const { return !covered(s) && !hole(tree, s); }
+  static bool hole(const Tree& tree, Square s);
+  // The cells at the corners of a plain square: north-west, south-west, south-east, north-east.
+  static std::array<CellId, 4> corners(const Tree& tree, Square s);
+  // The two triangles of a plain square.
+  static std::array<Face, 2> plain_faces(const std::array<CellId, 4>& corners) {
+    return {Face{corners[0], corners[1], corners[3]}, Face{corners[3], corners[1], corners[2]}};
+  }
+
+  const Face& face(FaceId f) const { return faces_[f]; }
+  std::size_t faces() const { return face_count_; }
+  // Calls visit(FaceId) for the faces over or touching a square.
+  template <class Visit>
+  void over(Square s, const Visit& visit) const {
+    const std::uint32_t tile = tile_of_[tile_index(s)];
+    if (tile == kNone) return;
+    for (std::uint32_t e = tiles_[tile].first[slot(s)]; e != kNone; e = entries_[e].next)
+      visit(entries_[e].face);
+  }
+  // Calls visit(FaceId) for every face.
+  template <class Visit>
+  void each_face(const Visit& visit) const {
+    for (FaceId f = 0; f < faces_.size(); ++f) {
+      if (faces_[f][0] != kNone) visit(f);
+    }
+  }
+  // The squares that a face lies over or touches, clipped to the terrain.
+  SquareRange range(const Tree& tree, const Face& face) const;
+  SquareRange range(glm::dvec2 low, glm::dvec2 high) const;  // (x, z)
+
+  // Appends the crossings of the vertical line at (x, z) in square s, unordered. A line through the common
+  // edge of two faces crosses one of them.
+  void crossings(const Tree& tree, float x, float z, Square s, std::vector<Crossing>& out) const;
+  // Height of the topmost surface at a point of the terrain; kNoData over a hole.
+  float top(const Tree& tree, glm::dvec2 plan) const;
+  // Height of the plain square at a point in it.
+  static float plain_height(const Tree& tree, float x, float z, Square s);
+
+  // Changes take two steps: prepare() allocates and may throw, the others cannot.
+  void prepare(const Tree& tree, std::span<const Square> covered, std::span<const Face> added);
+  void set_covered(Square s, bool covered) noexcept;
+  FaceId add(const Tree& tree, const Face& face) noexcept;
+  void remove(const Tree& tree, FaceId face) noexcept;
+
+  Memory memory() const;
+  void save(ByteSink&) const;
+  static ComposedSurface load(ByteSource&, const Tree& tree);  // throws bad_input
+
+ private:
+  static constexpr int kSide = 16;  // squares along a tile
+  static constexpr std::uint32_t kSquares = kSide * kSide;
+  struct Tile {
+    std::array<std::uint64_t, kSquares / 64> covered{};
+    std::array<std::uint32_t, kSquares> first;
+    Tile() { first.fill(kNone); }
+  };
+  struct Entry {
+    FaceId face;
+    std::uint32_t next;
+  };
+
+  std::size_t tile_index(Square s) const {
+    return static_cast<std::size_t>(s.j / kSide) * tiles_x_ + static_cast<std::size_t>(s.i / kSide);
+  }
+  static std::uint32_t slot(Square s) {
+    return static_cast<std::uint32_t>(s.j % kSide * kSide + s.i % kSide);
+  }
+  Tile& tile(Square s) noexcept;
+
+  SampleGrid grid_;
+  double per_x_ = 1, per_z_ = 1;  // 1 / spacing
+  std::size_t tiles_x_ = 0;
+  std::vector<std::uint32_t> tile_of_;  // kNone where no square is covered or has a face
+  std::vector<Tile> tiles_;
+  std::vector<Face> faces_;  // unused ones: {kNone, next unused, -}
+  std::vector<Entry> entries_;
+  FaceId free_face_ = kNone;
+  std::uint32_t free_entry_ = kNone;
+  std::size_t face_count_ = 0, entry_count_ = 0;
+};
+
+}  // namespace terrabench::ght

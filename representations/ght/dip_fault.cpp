@@ -1,0 +1,146 @@
+// Normal and inverse faults (Alonso, Joan-Arinyo & Solano, §3.2, figure 13): three heightmaps, two blocks
+// that tilt and the scarp between their lips (the edges along the line). A cell of a block holds the height
+// of the ground that the block was made of; a cell of the scarp that of the ground on the line.
+#include <algorithm>
+#include <cmath>
+
+#include "representations/ght/along_line.h"
+#include "representations/ght/apply_event.h"
+
+namespace terrabench::ght {
+namespace {
+
+struct DipFaultMaps {
+  events::Line line;
+  double extent, rise;            // of the event, metres
+  double lip;                     // d of the left block's lip; the right one's is the opposite
+  int columns, rows, scarp_rows;  // steps along the line, outwards in a block, and from lip to lip
+  int folded = 0;                 // rows of the right block under the overhang of an inverse fault
+  GroundedHeightmap left{}, right{}, scarp{};
+
+  bool at_end(int column) const { return column == 0 || column == columns; }
+  double u(int column) const { return line.length * column / columns; }
+};
+
+GroundedHeightmap append_block(Edit& edit, const DipFaultMaps& maps, int sign) {
+  const int rows = maps.rows;
+  return append_along(edit, maps.line, maps.columns, rows,
+                      {.origin = {0, sign * maps.lip, sign * maps.rise / 2},
+                       .column = {maps.line.length / maps.columns, 0, 0},
+                       .row = {0, sign * (maps.extent - maps.lip) / rows, -sign * maps.rise / 2 / rows}});
+}
+
+// Rows run from the right block's lip to the left one's.
+GroundedHeightmap append_scarp(Edit& edit, const DipFaultMaps& maps, Area area) {
+  const int rows = maps.scarp_rows;
+  return append_along(edit, maps.line, maps.columns, rows,
+                      {.origin = {0, -maps.lip, -maps.rise / 2},
+                       .column = {maps.line.length / maps.columns, 0, 0},
+                       .row = {0, 2 * maps.lip / rows, maps.rise / rows}},
+                      area);
+}
+
+int rows_under_overhang(const Edit& edit, const DipFaultMaps& maps) {
+  const double tolerance = 1e-3 * edit.grid().spacing(), step = (maps.extent - maps.lip) / maps.rows;
+  const int rows = static_cast<int>(std::floor((-2 * maps.lip + tolerance) / step)) + 1;
+  if (rows > maps.rows) {
+    edit.refuse("hangs over all of the sunk block", "give a larger 'extent' or a smaller 'throw'");
+  }
+  return rows;
+}
+
+DipFaultMaps append_maps(Edit& edit, const events::DipFault& e) {
+  const SampleGrid& grid = edit.grid();
+  const events::Line line = e.line();
+  const double lip = (e.inverse ? -0.5 : 0.5) * e.offset();
+  DipFaultMaps maps{line,
+                    e.extent,
+                    e.rise,
+                    lip,
+                    std::max(2, steps(line.length, grid)),
+                    steps(std::hypot(std::max(e.extent, e.extent - lip), e.rise / 2), grid),
+                    steps(std::hypot(e.offset(), e.rise), grid)};
+  if (e.inverse) maps.folded = rows_under_overhang(edit, maps);
+  maps.left = append_block(edit, maps, 1);
+  maps.right = append_block(edit, maps, -1);
+  maps.scarp = append_scarp(edit, maps, e.inverse ? Area::kIndoor : Area::kOutdoor);
+  return maps;
+}
+
+// The height that puts a cell on the ground before the event: at both ends the blocks meet it there.
+float height_on_ground(const Edit& edit, const events::Line& line, const GroundedHeightmap& map, int column,
+                       int row) {
+  const glm::dvec3 p = map.plane.at(column, row, 0);
+  return edit.ground(line.plan(line.local({p.x, p.z}))) - static_cast<float>(p.y);
+}
+
+// Links lead to later cells: the scarp holds both lips, and its last row holds the folded ends of the right
+// block.
+void fill_block(Edit& edit, const DipFaultMaps& maps, int sign) {
+  const GroundedHeightmap& block = sign > 0 ? maps.left : maps.right;
+  for (int i = 0; i <= maps.columns; ++i) {
+    for (int j = 0; j <= maps.rows; ++j) {
+      const CellId c = block.cell(i, j);
+      if (maps.at_end(i) && sign < 0 && j < maps.folded) {
+        edit.set_link(c, maps.scarp.cell(i, maps.scarp_rows));
+      } else if (j == 0) {
+        edit.set_link(c, maps.scarp.cell(i, sign < 0 ? 0 : maps.scarp_rows));
+      } else if (maps.at_end(i)) {
+        edit.set_height(c, height_on_ground(edit, maps.line, block, i, j));
+      } else {
+        edit.set_height(c, edit.ground(maps.line.plan({maps.u(i), sign * maps.extent * j / maps.rows})));
+      }
+    }
+  }
+}
+
+void fill_scarp(Edit& edit, const DipFaultMaps& maps) {
+  for (int i = 0; i <= maps.columns; ++i) {
+    for (int j = 0; j <= maps.scarp_rows; ++j) {
+      const CellId c = maps.scarp.cell(i, j);
+      if (maps.at_end(i) && maps.folded > 0 && j < maps.scarp_rows) {
+        edit.set_link(c, maps.scarp.cell(i, maps.scarp_rows));
+      } else {
+        edit.set_height(c, maps.at_end(i) ? height_on_ground(edit, maps.line, maps.scarp, i, j)
+                                          : edit.ground(maps.line.plan({maps.u(i), 0})));
+      }
+    }
+  }
+}
+
+// Appends the cells across the fault at one of its ends, from right to left.
+void add_profile(const DipFaultMaps& maps, int column, std::vector<CellId>& cells) {
+  for (int j = maps.rows; j >= 0; --j) cells.push_back(maps.right.cell(column, j));
+  for (int j = 0; j <= maps.scarp_rows; ++j) cells.push_back(maps.scarp.cell(column, j));
+  for (int j = 0; j <= maps.rows; ++j) cells.push_back(maps.left.cell(column, j));
+}
+
+std::vector<CellId> outline(const DipFaultMaps& maps) {
+  std::vector<CellId> cells, back;
+  for (int i = 0; i <= maps.columns; ++i) cells.push_back(maps.right.cell(i, maps.rows));
+  add_profile(maps, maps.columns, cells);
+  for (int i = maps.columns; i >= 0; --i) cells.push_back(maps.left.cell(i, maps.rows));
+  add_profile(maps, 0, back);
+  cells.insert(cells.end(), back.rbegin(), back.rend());
+  return cells;
+}
+
+}  // namespace
+
+void record(Edit& edit, const events::DipFault& e) {
+  const events::Line line = e.line();
+  const RemovedPart old = cut_out_with_margin(edit, {line, 0, line.length, -e.extent, e.extent});
+  const DipFaultMaps maps = append_maps(edit, e);
+  for (const int sign : {1, -1}) fill_block(edit, maps, sign);
+  fill_scarp(edit, maps);
+  edit.quads(maps.left, false);
+  edit.quads(maps.right, true);
+  edit.quads(maps.scarp, false);
+  link(edit, line, old, outline(maps), [&](glm::dvec2 p) {
+    return (p.y >= 0 ? maps.left : maps.right)
+        .cell(nearest_step(p.x / line.length, maps.columns),
+              nearest_step(std::abs(p.y) / e.extent, maps.rows));
+  });
+}
+
+}  // namespace terrabench::ght

@@ -1,0 +1,97 @@
+// One event's change to a grounded heightmap tree, all of it or nothing. Every event is a function that
+// records the same four steps in an Edit:
+//   1. cut out: the part of the surface that the event touches is removed, up to a simple loop of cells;
+//   2. new heightmaps are appended to the tree and their quadrilaterals become faces;
+//   3. the outline of the new heightmaps lists their boundary cells;
+//   4. links: triangles close the ring between loop and outline, and superseded cells link to new ones.
+// The ring's triangles are the paper's boundary links (Alonso, Joan-Arinyo & Solano, §3.2: "each cell in the
+// boundary of a new heightmap is linked to the neighbor cell in another heightmap"). They join cells that
+// exist on both sides, so the surface is closed whatever was there before.
+//
+// Until commit() only new nodes are in the tree, and the destructor removes them again: an Edit that is not
+// committed leaves the tree as it was, to the bit. commit() allocates all that it needs and then changes the
+// tree by steps that cannot fail. All costs are of the region touched.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "representations/ght/model.h"
+
+namespace terrabench::ght {
+
+inline constexpr std::string_view kNoData = "touches ground without data";
+inline constexpr std::string_view kFillNoData = "fill the samples without data, or move the event";
+inline constexpr std::string_view kMove = "move the event, or make it smaller";
+
+class Edit {
+ public:
+  // New nodes become children of `host`. `where` names the event in errors.
+  Edit(Model& model, NodeId host, std::string where)
+      : model_(model), host_(host), where_(std::move(where)), nodes_before_(model.tree.nodes().size()) {}
+  ~Edit() {
+    if (!committed_) model_.tree.truncate(nodes_before_);
+  }
+  Edit(const Edit&) = delete;
+  Edit& operator=(const Edit&) = delete;
+
+  const Model& model() const { return model_; }
+  const Tree& tree() const { return model_.tree; }
+  const SampleGrid& grid() const { return model_.tree.grid(); }
+  // Throws bad_input that names the event.
+  [[noreturn]] void refuse(std::string_view what, std::string_view advice) const;
+  // Height of the ground before the event; refuses ground without data.
+  float ground(glm::dvec2 plan) const;
+
+  // Step 1.
+  void remove(std::span<const Square> squares, std::span<const FaceId> faces);
+
+  // Step 2. Appends a heightmap of void cells as a child of the host.
+  GroundedHeightmap append(GroundedHeightmap heightmap);
+  // Of cells of new heightmaps only.
+  void set_height(CellId c, float height) { model_.tree.set_height(c, height); }
+  void set_link(CellId c, CellId target) { model_.tree.set_link(c, target); }
+  void face(CellId a, CellId b, CellId c) { faces_.push_back({a, b, c}); }
+  // A quadrilateral, counter-clockwise seen from the air; void and repeated cells reduce it to a triangle or
+  // to nothing. Cells may be links.
+  void quad(std::array<CellId, 4> corners);
+  // All quadrilaterals of a heightmap. `mirrored` when columns and rows run clockwise seen from the air.
+  void quads(const GroundedHeightmap& heightmap, bool mirrored);
+  std::span<const Face> faces() const { return faces_; }
+  void drop_faces(std::size_t from) { faces_.resize(from); }
+  void make_plain(Square s) { plain_.push_back(s); }
+
+  // Step 4. `old` becomes a link to `by`, which is a later cell.
+  void relink(CellId old, CellId by) { links_.push_back({old, by}); }
+  // Adds the triangles between a loop and an outline, both counter-clockwise. Refuses when a cell of the
+  // outline gets no link to another heightmap.
+  void close_ring(std::span<const CellId> loop, std::span<const CellId> outline);
+  // Refuses new heights less than one sample spacing above a tunnel or cave.
+  void keep_clear_of_carvings() const;
+
+  // Throws and changes nothing, or does all of it.
+  void commit(events::Kind kind);
+
+ private:
+  void check_faces() const;
+  void check_linked(std::span<const CellId> outline) const;
+  std::vector<std::pair<CellId, CellId>> joined_cells(std::span<const CellId> loop) const;
+
+  struct Link {
+    CellId from, to;
+  };
+
+  Model& model_;
+  NodeId host_;
+  std::string where_;
+  std::size_t nodes_before_;
+  bool committed_ = false;
+  std::vector<Square> covered_, plain_;
+  std::vector<FaceId> removed_;
+  std::vector<Face> faces_;
+  std::vector<Link> links_;
+};
+
+}  // namespace terrabench::ght

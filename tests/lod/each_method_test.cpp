@@ -1,0 +1,135 @@
+// What holds for every method in the registry, and the promises in LodTraits for those that make them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+#include "lod/camera/camera_path.h"
+#include "lod/meters/cracks.h"
+#include "lod/meters/screen_error.h"
+#include "terrain/memory.h"
+#include "tests/lod/drawing.h"
+#include "tests/lod/variants.h"
+
+namespace terrabench::test {
+namespace {
+
+Heightfield ground() {
+  Heightfield field = hilly(202, 173, 0.7F);
+  field.cell_x = field.cell_z = 5;
+  return field;
+}
+
+// Every 20th frame of every committed path: near and far ground, small steps and jumps.
+std::vector<View> path_over(const Heightfield& field) {
+  std::vector<View> some;
+  for (const CameraPath& path : camera_paths()) {
+    const std::vector<View> all = views(path, field);
+    for (std::size_t k = 0; k < all.size(); k += 20) some.push_back(all[k]);
+  }
+  return some;
+}
+
+std::vector<glm::vec3> corners_of(const Frame& frame) {
+  std::vector<glm::vec3> corners;
+  triangles(frame, [&](std::span<const glm::vec3> some) {
+    corners.insert(corners.end(), some.begin(), some.end());
+  });
+  return corners;
+}
+
+class EachMethod : public ::testing::TestWithParam<Variant> {
+ protected:
+  std::unique_ptr<Lod> build() { return test::build(GetParam(), field_, silent_); }
+  const LodType& type_ = lod(GetParam().method);
+  const Heightfield field_ = ground();
+  const std::vector<View> path_ = path_over(field_);
+  Progress silent_;
+};
+
+TEST_P(EachMethod, CountsItsHeapBytes) {
+  build();  // creates the thread pool, which stays
+  const HeapScope heap;
+  const std::unique_ptr<Lod> lod = build();
+  EXPECT_EQ(heap.held(), static_cast<std::int64_t>(lod->memory().total()));
+  for (const View& view : path_) lod->update(view);
+  EXPECT_EQ(heap.held(), static_cast<std::int64_t>(lod->memory().total()));
+}
+
+TEST_P(EachMethod, DrawsTheSameForTheSameViews) {
+  const std::unique_ptr<Lod> one = build(), other = build();
+  for (const View& view : path_) {
+    const Frame& frame = one->update(view);
+    ASSERT_EQ(corners_of(frame), corners_of(other->update(view)));
+    EXPECT_EQ(frame.stats.triangles, corners_of(frame).size() / 3);
+  }
+}
+
+TEST_P(EachMethod, UploadsEverythingAtFirstAndNoHeightsTwiceAtRest) {
+  const std::unique_ptr<Lod> lod = build();
+  EXPECT_GT(lod->update(path_.front()).stats.bytes_uploaded, 0U);
+  for (const DirtyRange& range : lod->update(path_.front()).uploads) {
+    EXPECT_EQ(range.target, DirtyRange::Target::kMorphs);
+  }
+}
+
+TEST_P(EachMethod, DrawsNoMoreTrianglesWithACoarserKnob) {
+  const Knob& knob = type_.knob;
+  const std::unique_ptr<Lod> lod = build();
+  const auto drawn_with = [&](double value) {
+    lod->tune(value);
+    return lod->update(path_.front()).stats.triangles;
+  };
+  const std::size_t finest = drawn_with(knob.finest), fallback = drawn_with(knob.fallback);
+  EXPECT_GE(finest, fallback);
+  EXPECT_GE(fallback, drawn_with(knob.coarsest));
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EachMethod, ::testing::ValuesIn(variants()), name_of);
+
+// The methods, with default parameters, whose trait is set.
+std::vector<Variant> with_trait(bool LodTraits::*trait) {
+  std::vector<Variant> all;
+  for (const LodType& type : lods()) {
+    if (type.traits.*trait) all.push_back({type.name});
+  }
+  return all;
+}
+
+class ConformingMethod : public EachMethod {};
+
+TEST_P(ConformingMethod, HasNoCracks) {
+  const std::unique_ptr<Lod> lod = build();
+  for (const View& view : path_) {
+    const CrackReport cracks = find_cracks(lod->update(view), field_.width, field_.depth, view);
+    ASSERT_TRUE(cracks.tight()) << cracks.gaps << " gaps, " << cracks.bare_edges << " bare edges";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, ConformingMethod, ::testing::ValuesIn(with_trait(&LodTraits::conforming)),
+                         name_of);
+
+class BoundingMethod : public EachMethod {};
+
+TEST_P(BoundingMethod, KeepsItsScreenSpaceError) {
+  const std::unique_ptr<Lod> lod = build();
+  double closest = 0;
+  for (const double pixels : {1.0, 4.0}) {
+    lod->tune(pixels);
+    for (const View& view : path_) {
+      const SurfaceRaster drawn(lod->update(view), field_.width, field_.depth);
+      const Deviation error = screen_error(drawn, field_, SeenSamples(field_, view)).in_frustum;
+      ASSERT_LE(error.largest, pixels * (1 + 1e-5) + 1e-4);
+      ASSERT_EQ(error.undrawn, 0U);
+      closest = std::max(closest, error.largest / pixels);
+    }
+  }
+  EXPECT_GT(closest, 0.5);  // the bound is not met by drawing everything
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, BoundingMethod, ::testing::ValuesIn(with_trait(&LodTraits::bounds_error)),
+                         name_of);
+
+}  // namespace
+}  // namespace terrabench::test
