@@ -1,4 +1,4 @@
-// Structures of a given size, as the papers' tables ask for them.
+// Representations at a given resolution, as in the papers' tables.
 #pragma once
 
 #include <memory>

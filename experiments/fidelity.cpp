@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace terrabench {
@@ -57,18 +58,14 @@ Fidelity against_heights(const Representation& built, const Heightfield& field, 
   return result;
 }
 
-struct Overlap {
-  std::size_t both = 0, either = 0;
-};
-
 Fidelity against_solid(const Representation& built, const Solid& solid, Progress& progress) {
   const glm::vec3 size = solid.bounds.size();
   const float step = std::max({size.x, size.y, size.z}) / static_cast<float>(kFidelitySamples);
   const int nx = std::max(1, static_cast<int>(std::lround(size.x / step))),
             nz = std::max(1, static_cast<int>(std::lround(size.z / step)));
   const int ny = std::max(1, static_cast<int>(std::lround(size.y / step)));
-  std::vector<Overlap> rows(nz);
-  progress.begin("comparing with the solid", rows.size());
+  std::vector<std::size_t> both(nz), either(nz);  // solid samples per row
+  progress.begin("comparing with the solid", both.size());
   tbb::parallel_for(0, nz, [&](int k) {
     std::vector<Material> expected(ny), got(ny);
     std::vector<float> x(ny), y(ny), z(ny, solid.bounds.low.z + (static_cast<float>(k) + 0.5F) * step);
@@ -78,23 +75,18 @@ Fidelity against_solid(const Representation& built, const Solid& solid, Progress
       solid.column({x[0], z[0], y[0], step}, expected);
       built.materials({x, y, z}, got);
       for (int j = 0; j < ny; ++j) {
-        rows[k].both += expected[j] != Material::kAir && got[j] != Material::kAir;
-        rows[k].either += expected[j] != Material::kAir || got[j] != Material::kAir;
+        both[k] += expected[j] != Material::kAir && got[j] != Material::kAir;
+        either[k] += expected[j] != Material::kAir || got[j] != Material::kAir;
       }
     }
     progress.advance();
   });
-  Overlap total;
-  for (const Overlap& row : rows) {
-    total.both += row.both;
-    total.either += row.either;
-  }
-  Fidelity result;
-  result.from_heights = false;
-  result.samples = static_cast<std::size_t>(nx) * ny * nz;
-  result.volume_iou =
-      total.either == 0 ? 1 : static_cast<double>(total.both) / static_cast<double>(total.either);
-  return result;
+  const auto sum = [](const std::vector<std::size_t>& counts) {
+    return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
+  };
+  return {.volume_iou = sum(either) == 0 ? 1 : sum(both) / sum(either),
+          .samples = static_cast<std::size_t>(nx) * ny * nz,
+          .from_heights = false};
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ void Recorder::add(std::string_view metric, std::string_view unit, double sample
 
 std::filesystem::path Recorder::figure(std::string_view id, std::string_view extension,
                                        std::string_view caption) {
-  // Another profile, or a case with changed parameters, draws another picture under the same ledger id: it
-  // must not replace that one.
+  // Another profile, or a case with overridden parameters, draws a different picture under the same ledger
+  // id: it must not overwrite the first.
   const std::string variant = record_.overrides.empty() ? "" : "-" + checksum(record_.case_name).substr(0, 8);
   Figure figure{std::string(id), fmt::format("figures/{}.{}{}.{}", id, record_.profile, variant, extension),
                 std::string(caption)};
@@ -28,8 +28,6 @@ std::filesystem::path Recorder::figure(std::string_view id, std::string_view ext
   record_.figures.push_back(std::move(figure));
   return path;
 }
-
-void Recorder::terrain(const TerrainSource& source) { terrain(source.name, source.checksum); }
 
 void Recorder::terrain(std::string_view name, std::string_view checksum) {
   record_.terrain = name;

@@ -1,4 +1,4 @@
-// What an experiment writes its measurements into.
+// Takes what an experiment measures.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +18,12 @@ class Recorder {
   void add(std::string_view metric, std::string_view unit, double sample);
   // Declares a picture of a ledger row; returns the path to write it to. `extension` without the dot.
   std::filesystem::path figure(std::string_view id, std::string_view extension, std::string_view caption);
-  // Notes which ground was measured.
-  void terrain(const TerrainSource& source);
+  // Notes which ground was measured; a temporary one is passed on.
+  void terrain(const TerrainSource& source) { terrain(source.name, source.checksum); }
+  TerrainSource terrain(TerrainSource&& source) {
+    terrain(source.name, source.checksum);
+    return std::move(source);
+  }
   void terrain(std::string_view name, std::string_view checksum);
 
  private:

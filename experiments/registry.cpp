@@ -38,7 +38,7 @@
   ENTRY(mrbsp, kRoughness)            \
   ENTRY(mrbsp, kDrawing)              \
   ENTRY(cross, kLodEqualError)        \
-  ENTRY(overview, kRelief)            \
+  ENTRY(relief, kRelief)              \
   ENTRY(cross, kLodDisk)              \
   ENTRY(cross, kLodEndless)
 

@@ -1,4 +1,4 @@
-// Wall-clock seconds of a piece of work.
+// Wall-clock time of a piece of work.
 #pragma once
 
 #include <chrono>

@@ -10,7 +10,7 @@
 
 #include "experiments/cross/flight.h"
 #include "experiments/cross/pictures.h"
-#include "experiments/experiment.h"
+#include "experiments/ground.h"
 #include "experiments/stopwatch.h"
 #include "lod/meters/cracks.h"
 #include "lod/meters/image_error.h"
@@ -26,21 +26,18 @@ constexpr std::string_view kAll = "all";      // in place of a method
 
 const std::array kSpecs{
     ParameterSpec{"method", std::string("roam"), "",
-                  "a name of `terrabench list lods`, geomipmap_morph, mrbsp_area, or all: their triangles "
-                  "side by side"},
+                  "a name of `terrabench list lods`, geomipmap_morph, mrbsp_area, or all for a picture of "
+                  "their triangles side by side"},
     ParameterSpec{"options", std::string(), "",
-                  "of the methods, such as geomipmap.patch=32,mrbsp.threshold=area"},
-    ParameterSpec{"error", 1.0, "px", "99th percentile of the screen-space error that is asked for", 0.01,
-                  1000},
-    ParameterSpec{"path", std::string("fly"), "",
-                  "camera path: cross, fly, low, turn, walk, or a TOML file of your own"},
+                  "options of methods, such as geomipmap.patch=32,mrbsp.threshold=area"},
+    ParameterSpec{"error", 1.0, "px", "wanted 99th percentile of the screen-space error", 0.01, 1000},
+    ParameterSpec{"path", std::string("fly"), "", "camera path: cross, fly, low, turn, walk, or a TOML file"},
     ParameterSpec{"frames", std::int64_t{24}, "", "frames of the path that are metered", 1, 100000},
-    ParameterSpec{"size", std::int64_t{257}, "samples", "side of the grounds that are made here, 2^n + 1", 3,
-                  8193},
+    ParameterSpec{"size", std::int64_t{257}, "samples", "side of the generated grounds, 2^n + 1", 3, 8193},
 };
 
-// The whole path, with nothing between two updates: what the method costs the CPU and the bus. The first
-// update, which builds what the others keep, stands apart.
+// Time and uploaded bytes over the whole path, with nothing between two updates. The first update, which
+// builds what later ones keep, is reported separately.
 void measure_cost(const Flight& flight, const Contender& method, double knob, Recorder& recorder,
                   Progress& progress) {
   std::vector<double> times, triangles;
@@ -65,9 +62,9 @@ void measure_cost(const Flight& flight, const Contender& method, double knob, Re
   const std::int64_t held = heap.held();
   recorder.add("build_time", "s", build_time);
   recorder.add("first_update_time", "s", first_update_time);
-  recorder.add("first_uploaded", "B", static_cast<double>(first_uploaded));
-  recorder.add("bytes_held", "B", static_cast<double>(lod->memory().total()));
-  recorder.add("heap_growth", "B", static_cast<double>(held));
+  recorder.add("first_uploaded", "B", first_uploaded);
+  recorder.add("bytes_held", "B", lod->memory().total());
+  recorder.add("heap_growth", "B", held);
   recorder.add("uploaded", "B", uploaded / static_cast<double>(times.size()));
   for (const double t : times) recorder.add("update_time", "s", t);
   for (const double t : triangles) recorder.add("triangles", "", t);
@@ -75,14 +72,14 @@ void measure_cost(const Flight& flight, const Contender& method, double knob, Re
   recorder.add("update_time_p99", "s", times[(99 * times.size() + 99) / 100 - 1]);
 }
 
-// What is drawn, over the metered frames.
+// Results over the metered frames.
 struct Shown {
   Distribution error, popping;  // of visible samples, pixels
-  double largest_anywhere = 0;  // error of a sample in the frustum, hidden or not
+  double largest_anywhere = 0;  // error of any sample in the frustum, hidden ones included; pixels
   double largest_gap = 0;       // pixels
   std::size_t undrawn = 0, gaps = 0, bare_edges = 0, overlaps = 0, t_junctions = 0;
   std::vector<double> frame_times;  // seconds, with the upload
-  std::vector<double> noise;        // of a picture, as a share of the signal's peak: mean of squares
+  std::vector<double> noise;        // per picture: mean squared error, as a share of the squared peak
   std::vector<double> ssim;
 };
 
@@ -102,61 +99,39 @@ void meter(const Flight& flight, std::size_t k, const Frame& frame, const Surfac
   shown.largest_gap = std::max(shown.largest_gap, cracks.largest_gap_px);
 }
 
-// Of a metered frame: against the frame before it, which popping lies between, and which the renderer's
-// upload starts from. A few frames of the path lead up to these, so that methods that keep a mesh are in
-// step.
-class Metering {
- public:
-  Metering(Flight& flight, const Contender& method, double knob, GlContext& context, Progress& progress)
-      : flight_(flight),
-        context_(context),
-        lod_(method.build(flight.ground(), progress)),
-        before_(flight.ground().width, flight.ground().depth),
-        drawn_(flight.ground().width, flight.ground().depth) {
-    lod_->tune(knob);
-  }
-
-  void measure(std::size_t k, const Image* reference, Shown& shown) {
-    const std::size_t last = flight_.metered[k];
-    for (std::size_t i = last - std::min(last, kLead); i + 1 < last; ++i) lod_->update(flight_.views[i]);
-    const Frame& former = lod_->update(flight_.views[last - 1]);
-    before_.draw(former);
-    std::optional<FrameRenderer> renderer;
-    if (reference != nullptr) {
-      draw_ground(renderer.emplace(context_), flight_, former, flight_.views[last - 1]);
-    }
-    const Frame& frame = lod_->update(flight_.views[last]);
-    drawn_.draw(frame);
-    meter(flight_, k, frame, before_, drawn_, shown);
-    if (reference == nullptr) return;
-    const Stopwatch watch;
-    draw_ground(*renderer, flight_, frame, flight_.views[last]);
-    shown.frame_times.push_back(watch.seconds());
-    const Image image = renderer->image();
-    shown.noise.push_back(std::pow(10, -psnr(image, *reference) / 10));
-    shown.ssim.push_back(ssim(image, *reference));
-  }
-
- private:
-  static constexpr std::size_t kLead = 3;
-
-  Flight& flight_;
-  GlContext& context_;
-  std::unique_ptr<Lod> lod_;
-  SurfaceRaster before_, drawn_;
-};
-
+// Popping compares a frame with the one before, and its upload starts from there. A few frames of the path
+// lead up to both, so that methods that keep a mesh between frames are in their usual state.
 Shown measure_shown(Flight& flight, const Contender& method, double knob, GlContext& context,
                     Progress& progress) {
+  constexpr std::size_t kLead = 3;
   Shown shown;
-  Metering metering(flight, method, knob, context, progress);
+  const std::unique_ptr<Lod> lod = method.build(flight.ground(), progress);
+  lod->tune(knob);
+  SurfaceRaster before(flight.ground().width, flight.ground().depth), drawn = before;
   const std::vector<std::size_t> with_picture = pictured(flight);
   progress.begin(fmt::format("metering {} on {}", method.type->name, flight.route.terrain),
                  flight.metered.size());
   for (std::size_t k = 0; k < flight.metered.size(); ++k) {
-    const auto at = std::find(with_picture.begin(), with_picture.end(), k);
-    metering.measure(k, at == with_picture.end() ? nullptr : &flight.pictures[at - with_picture.begin()],
-                     shown);
+    const std::size_t last = flight.metered[k];
+    for (std::size_t i = last - std::min(last, kLead); i + 1 < last; ++i) lod->update(flight.views[i]);
+    const Frame& former = lod->update(flight.views[last - 1]);
+    before.draw(former);
+    const auto picture = std::find(with_picture.begin(), with_picture.end(), k);
+    std::optional<FrameRenderer> renderer;
+    if (picture != with_picture.end()) {
+      draw_ground(renderer.emplace(context), flight, former, flight.views[last - 1]);
+    }
+    const Frame& frame = lod->update(flight.views[last]);
+    drawn.draw(frame);
+    meter(flight, k, frame, before, drawn, shown);
+    if (renderer) {
+      const Stopwatch watch;
+      draw_ground(*renderer, flight, frame, flight.views[last]);
+      shown.frame_times.push_back(watch.seconds());
+      const Image image = renderer->image(), &reference = flight.pictures[picture - with_picture.begin()];
+      shown.noise.push_back(std::pow(10, -psnr(image, reference) / 10));
+      shown.ssim.push_back(ssim(image, reference));
+    }
     progress.advance();
   }
   progress.end();
@@ -170,34 +145,22 @@ void record(const Shown& shown, const Flight& flight, Recorder& recorder) {
   recorder.add("error_largest_anywhere", "px", shown.largest_anywhere);
   recorder.add("popping_p99", "px", shown.popping.quantile(0.99));
   recorder.add("popping_largest", "px", shown.popping.largest());
-  recorder.add("samples", "", static_cast<double>(shown.error.samples()));
-  recorder.add("undrawn_samples", "", static_cast<double>(shown.undrawn));
-  recorder.add("gaps", "", static_cast<double>(shown.gaps));
-  recorder.add("bare_edges", "", static_cast<double>(shown.bare_edges));
-  recorder.add("overlaps", "", static_cast<double>(shown.overlaps));
-  recorder.add("cracks", "", static_cast<double>(shown.gaps + shown.bare_edges + shown.overlaps));
-  recorder.add("t_junctions", "", static_cast<double>(shown.t_junctions));
+  recorder.add("samples", "", shown.error.samples());
+  recorder.add("undrawn_samples", "", shown.undrawn);
+  recorder.add("gaps", "", shown.gaps);
+  recorder.add("bare_edges", "", shown.bare_edges);
+  recorder.add("overlaps", "", shown.overlaps);
+  recorder.add("cracks", "", shown.gaps + shown.bare_edges + shown.overlaps);
+  recorder.add("t_junctions", "", shown.t_junctions);
   recorder.add("largest_gap", "px", shown.largest_gap);
-  recorder.add("frames", "", static_cast<double>(flight.metered.size()));
+  recorder.add("frames", "", flight.metered.size());
   for (const double t : shown.frame_times) recorder.add("frame_time", "s", t);
   for (const double s : shown.ssim) recorder.add("ssim", "", s);
-  // Of all pictures as one; equal pictures have no ratio of signal to noise.
+  // Over all pictures together; identical pictures have no signal-to-noise ratio.
   const double noise = std::accumulate(shown.noise.begin(), shown.noise.end(), 0.0);
   if (noise > 0)
     recorder.add("psnr", "dB", -10 * std::log10(noise / static_cast<double>(shown.noise.size())));
 }
-
-}  // namespace
-
-std::vector<Entrant> entrants() {
-  std::vector<Entrant> all;
-  for (const LodType& type : lods()) all.push_back({std::string(type.name), std::string(type.name), ""});
-  all.push_back({"geomipmap_morph", "geomipmap", "geomipmap.morph=true"});
-  all.push_back({"mrbsp_area", "mrbsp", "mrbsp.threshold=area"});
-  return all;
-}
-
-namespace {
 
 const Entrant& entrant(std::string_view name) {
   static const std::vector<Entrant> kAllEntrants = entrants();
@@ -209,28 +172,29 @@ const Entrant& entrant(std::string_view name) {
   throw unknown_name("level-of-detail method", name, known);
 }
 
-// The user's options behind an entrant's own, so that these stay unless they are named again.
+// The user's options follow the entrant's own, and so override them.
 std::string join(const std::string& own, const std::string& asked) {
   return own.empty() || asked.empty() ? own + asked : own + "," + asked;
 }
 
 std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
-  std::vector<std::string> terrains = options.terrains;
-  if (terrains.empty()) terrains = {std::string(kMainGround), "fractal", "peak"};
   std::vector<Case> cases;
-  for (const std::string& terrain : terrains) {
+  for (const std::string& terrain : grounds(options, {std::string(kMainGround), "fractal", "peak"})) {
+    // The path `fly` suits the width of the other grounds. This one is 123 km wide in the paper profile; a
+    // flight as high as that width implies would not resolve its samples, and brute force takes ten seconds
+    // and more per frame.
+    const bool fractal = terrain == "fractal", large = paper && fractal;
+    const std::int64_t frames = large ? 12 : paper ? 48 : 24, size = large ? 4097 : paper ? 1025 : 257;
     const auto add = [&](const std::string& name, const Entrant& entrant, double error) {
       cases.push_back({fmt::format("{}/{}", terrain, name),
-                       {kSpecs, {{"method", entrant.name}, {"error", error}}},
+                       {kSpecs,
+                        {{"method", entrant.name},
+                         {"error", error},
+                         {"path", std::string(fractal ? "low" : "fly")},
+                         {"frames", frames},
+                         {"size", size}}},
                        terrain});
-      // The other grounds are as wide as the path `fly` suits; this one has 123 km in the paper profile, and
-      // a flight as high as its width asks for would see nothing of its samples.
-      if (terrain == "fractal") added.parameters.set("path", std::string("low"));
-      const bool large = paper && terrain == "fractal";
-      // A frame over the largest ground takes brute force ten seconds and more.
-      added.parameters.set("frames", std::int64_t{large ? 12 : paper ? 48 : 24});
-      added.parameters.set("size", std::int64_t{large ? 4097 : paper ? 1025 : 257});
     };
     for (const Entrant& entrant : entrants()) {
       if (!contender(entrant.method, entrant.options).tunable()) {
@@ -269,7 +233,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const Shown shown = measure_shown(flight, measured, tuned.knob, *context, progress);
   record(shown, flight, recorder);
   recorder.add("error_of_asked", "", shown.error.quantile(0.99) / pixels);
-  // Of methods that promise a bound, which is their knob: how much of it a sample in the frustum takes.
+  // For methods whose knob bounds the error: the largest error of a sample in the frustum, relative to the
+  // bound.
   if (measured.type->traits.bounds_error)
     recorder.add("bound_taken", "", shown.largest_anywhere / tuned.knob);
 }

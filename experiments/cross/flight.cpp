@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "experiments/ground.h"
 #include "lod/camera/camera_path.h"
 #include "lod/meters/screen_error.h"
 #include "terrain/error.h"
@@ -17,12 +18,12 @@ namespace {
 
 constexpr float kCell = 30;  // metres
 constexpr float kHurst = 0.7F;
-constexpr double kRoughness = 5.9;  // metres, the most that fractal ground is displaced at its last level
-// Pictures are what takes longest where there is no GPU.
+constexpr double kRoughness = 5.9;  // metres, largest displacement at the last level of fractal ground
+// Without a GPU the pictures take most of the time.
 constexpr std::size_t kMeteredToPictured = 4, kMostPictures = 4;
 
-// A bell of 0.06 of the extent, so high that its steepest slope is one in one: less than a third of the
-// ground is not flat.
+// A Gaussian bell whose standard deviation is 0.06 of the extent and whose steepest slope is 45°. More than
+// two thirds of the ground are flat.
 Heightfield peak(int size) {
   Heightfield field;
   field.width = field.depth = size;
@@ -33,7 +34,7 @@ Heightfield peak(int size) {
   for (int j = 0; j < size; ++j) {
     for (int i = 0; i < size; ++i) {
       const double r = std::hypot(i - middle, j - middle) / sigma;
-      // Flat to the bit where the bell is lower than a millimetre.
+      // Exactly 0 where the bell is lower than a millimetre.
       const double h = height * std::exp(-0.5 * r * r);
       field.heights.push_back(h < 1e-3 ? 0.0F : static_cast<float>(h));
     }
@@ -41,13 +42,14 @@ Heightfield peak(int size) {
   return field;
 }
 
-// As rough from sample to sample whatever the size: smaller ground is like a piece of larger. At 4097 samples
-// a side the first level moves by 2,000 m, which gives the relief of the Alps over their 123 km.
+// The same roughness from sample to sample at any size, so that smaller ground resembles a piece of larger.
+// At 4097 samples per side the first level is displaced by up to 2,000 m, which gives the relief of the Alps
+// over 123 km.
 float amplitude(int size) {
   return static_cast<float>(kRoughness * std::pow(2.0, kHurst * fractal::levels_of_side(size)));
 }
 
-// `count` indices of 1 … last, evenly, the last among them.
+// `count` indices evenly spaced in 1 … last, which is the last of them.
 std::vector<std::size_t> evenly(std::size_t count, std::size_t last) {
   count = std::min(count, last);
   std::vector<std::size_t> chosen(count);
@@ -58,24 +60,11 @@ std::vector<std::size_t> evenly(std::size_t count, std::size_t last) {
 }  // namespace
 
 TerrainSource open_ground(std::string_view name, int size, std::uint64_t seed) {
-  TerrainSource source;
-  if (name == "fractal") {
-    source.heights = fractal::diamond_square(
-        {.seed = seed, .side = size, .cell = kCell, .amplitude = amplitude(size), .hurst = kHurst});
-  } else if (name == "peak") {
-    source.heights = peak(size);
-  } else {
-    source = open_terrain(name, seed);
-    if (!source.heights) {
-      throw usage_error("level of detail needs a height field, not a solid", name,
-                        "name a terrain of heights");
-    }
-    source.heights = fill_no_data(*source.heights);
-    return source;
-  }
-  source.name = name;
-  source.checksum = checksum(*source.heights);
-  return source;
+  if (name == "peak") return from_heights(name, peak(size));
+  if (name != "fractal") return open_filled_heights(name, seed);
+  return from_heights(
+      name, fractal::diamond_square(
+                {.seed = seed, .side = size, .cell = kCell, .amplitude = amplitude(size), .hurst = kHurst}));
 }
 
 Flight::Flight(const Route& along, Progress& progress)
@@ -85,7 +74,7 @@ Flight::Flight(const Route& along, Progress& progress)
   highest = range.highest;
   views = terrabench::views(open_camera_path(route.path), ground());
   if (views.size() < 2) {
-    throw usage_error("a path of one frame has nothing that moves", route.path, "choose another path");
+    throw usage_error("a path of one frame has no motion to measure", route.path, "choose another path");
   }
   metered = evenly(static_cast<std::size_t>(route.frames), views.size() - 1);
   require_memory(metered.size() * SeenSamples::bytes(ground().width, ground().depth),
@@ -111,7 +100,7 @@ std::vector<std::size_t> pictured(const Flight& flight) {
 Flight& flight_along(const Route& route, Progress& progress) {
   static std::unique_ptr<Flight> last;
   if (last == nullptr || last->route != route) {
-    last.reset();  // first: two may not fit
+    last.reset();  // first: memory may not hold two
     last = std::make_unique<Flight>(route, progress);
   }
   return *last;
@@ -129,13 +118,21 @@ Contender contender(std::string_view method, std::string_view options) {
     options.remove_prefix(std::min(option.size() + 1, options.size()));
     const std::size_t dot = option.find('.');
     if (dot == option.npos) {
-      throw usage_error("an option does not say whose it is", option, "write METHOD.KEY=VALUE");
+      throw usage_error("an option does not name its method", option, "write METHOD.KEY=VALUE");
     }
     if (&lod(option.substr(0, dot)) == &type) {
       built.options.set_from_text(std::string(option.substr(dot + 1)));
     }
   }
   return built;
+}
+
+std::vector<Entrant> entrants() {
+  std::vector<Entrant> all;
+  for (const LodType& type : lods()) all.push_back({std::string(type.name), std::string(type.name), ""});
+  all.push_back({"geomipmap_morph", "geomipmap", "geomipmap.morph=true"});
+  all.push_back({"mrbsp_area", "mrbsp", "mrbsp.threshold=area"});
+  return all;
 }
 
 Tuned tune_to(Flight& flight, const Contender& method, double pixels, Progress& progress) {
@@ -156,7 +153,7 @@ Tuned tune_to(Flight& flight, const Contender& method, double pixels, Progress& 
     progress.begin(fmt::format("{} on {}: trying {} = {:.4g}", method.type->name, flight.route.terrain,
                                knob.name, setting),
                    (flight.metered.size() + 1) / 2);
-    // The other half is left for judging what was found here.
+    // The other frames judge the setting found here.
     for (std::size_t k = 0; k < flight.metered.size(); k += 2) {
       drawn.draw(lod->update(flight.views[flight.metered[k]]));
       screen_error(drawn, ground, flight.seen[k], &pool);
@@ -164,7 +161,7 @@ Tuned tune_to(Flight& flight, const Contender& method, double pixels, Progress& 
     }
     return pool.quantile(0.99);
   };
-  return flight.tuned[key] = KnobSearch(knob).find(pixels, error_at);
+  return flight.tuned[key] = search_knob(knob, pixels, error_at);
 }
 
 }  // namespace terrabench::cross

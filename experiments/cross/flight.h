@@ -1,4 +1,4 @@
-// A camera's way over one ground, with all that is the same for every method there: which samples are seen,
+// A camera path over one ground, with everything that is the same for all methods: which samples are visible,
 // and the pictures of the full terrain.
 #pragma once
 
@@ -20,17 +20,16 @@
 
 namespace terrabench::cross {
 
-// "fractal" and "peak" are made here, size × size samples: diamond-square mountains, and a smooth peak on
-// flat land. Any other name is opened as a terrain. Holes are filled. Throws usage_error for what is no
-// height field.
+// "fractal" and "peak" are generated, size × size samples: diamond-square mountains, and a smooth peak on
+// flat land. Any other name is opened as a terrain, and its holes are filled. Throws usage_error for a solid.
 TerrainSource open_ground(std::string_view name, int size, std::uint64_t seed);
 
-// The ground whose figures need no suffix.
+// The ground whose figures have no suffix.
 inline constexpr std::string_view kMainGround = "jacksboro";
 
 struct Route {
   std::string terrain, path;
-  int size = 0;    // samples a side of made ground
+  int size = 0;    // samples per side of generated ground
   int frames = 0;  // metered
   std::uint64_t seed = 0;
   bool operator==(const Route&) const = default;
@@ -45,35 +44,42 @@ struct Flight {
   TerrainSource source;
   float lowest, highest;             // of the ground, metres
   std::vector<View> views;           // every frame of the path
-  std::vector<std::size_t> metered;  // of views, ascending, from 1 on
-  std::vector<SeenSamples> seen;     // of the metered ones
-  // What tune_to() has found: method with its options, and pixels.
+  std::vector<std::size_t> metered;  // indices of views, ascending, from 1
+  std::vector<SeenSamples> seen;     // per metered view
+  // Results of tune_to() by method with its options, and pixels.
   std::map<std::pair<std::string, double>, Tuned> tuned;
-  std::vector<Image> pictures;  // brute force's, of pictured(); empty until they are drawn
+  std::vector<Image> pictures;  // of the full terrain, in the frames pictured(); see draw_reference()
 };
 
-// Which metered frames are drawn, as indices of Flight::metered.
+// The metered frames that are drawn, as indices of Flight::metered.
 std::vector<std::size_t> pictured(const Flight&);
 
-// The flight along a route. The last one is kept, since neighbouring cases share it and it takes longer to
-// prepare than to use; what it holds depends on the route alone.
+// The flight along a route. The last one is kept: consecutive cases share it, and preparing it takes longer
+// than using it. Its content depends on the route alone.
 Flight& flight_along(const Route&, Progress&);
 
-// A method with its options set: what is measured.
+// A method with its options set.
 struct Contender {
   const LodType* type;
   Parameters options;
 
   std::unique_ptr<Lod> build(const Heightfield&, Progress&) const;
-  // Brute force has one setting, whatever the error.
+  // Brute force has a single setting.
   bool tunable() const { return type->knob.finest != type->knob.coarsest; }
 };
-// `options` is a list such as "geomipmap.patch=32,mrbsp.threshold=area", of which those of the method count.
+// `options` is a list such as "geomipmap.patch=32,mrbsp.threshold=area"; those of other methods are ignored.
 // Throws unknown_name and usage_error.
 Contender contender(std::string_view method, std::string_view options);
 
+// What is compared: every method with its defaults, and some also with another value of one option.
+struct Entrant {
+  std::string name;  // in case names
+  std::string method, options;
+};
+std::vector<Entrant> entrants();
+
 // The coarsest setting of the knob whose 99th percentile of screen-space error stays at or below `pixels`
-// over every other metered frame. The same whatever was tuned before.
+// over every other metered frame. Does not depend on what was tuned before.
 Tuned tune_to(Flight&, const Contender&, double pixels, Progress&);
 
 }  // namespace terrabench::cross

@@ -3,72 +3,75 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <optional>
 
 namespace terrabench::cross {
 namespace {
 
-constexpr double kNothing = -1;
-constexpr double kLongestStride = 4;      // octaves, while the target is not bracketed yet
+constexpr double kLongestStride = 4;      // octaves, before the target is bracketed
 constexpr double kNarrowest = 1.0 / 128;  // octaves: a bracket not worth dividing
 
-// Errors of nothing at all lie this far below any target.
+using Tried = std::map<double, double>;  // errors by place on the knob: 0 finest … 1 coarsest
+
+double knob_at(const Knob& knob, double place) {
+  const double value = knob.finest * std::pow(knob.coarsest / knob.finest, place);
+  return knob.whole ? std::round(value) : value;
+}
+
+double place_of(const Knob& knob, double value) {
+  if (std::abs(std::log2(knob.coarsest / knob.finest)) == 0) return 0;
+  return std::log(value / knob.finest) / std::log(knob.coarsest / knob.finest);
+}
+
+// An error of zero counts as far below any target.
 double octaves_of(double error, double target) { return std::log2(std::max(error, target * 1e-6) / target); }
 
-}  // namespace
-
-KnobSearch::KnobSearch(const Knob& knob)
-    : knob_(knob), octaves_(std::abs(std::log2(knob.coarsest / knob.finest))) {}
-
-double KnobSearch::knob_at(double place) const {
-  const double value = knob_.finest * std::pow(knob_.coarsest / knob_.finest, place);
-  return knob_.whole ? std::round(value) : value;
+Tried::const_iterator first_too_coarse(const Tried& tried, double target) {
+  return std::find_if(tried.begin(), tried.end(), [&](const auto& t) { return t.second > target; });
 }
 
-double KnobSearch::place_of(double knob) const {
-  return octaves_ == 0 ? 0 : std::log(knob / knob_.finest) / std::log(knob_.coarsest / knob_.finest);
-}
-
-double KnobSearch::next_place(double target) const {
-  if (errors_.empty()) return place_of(knob_.fallback);
-  // The first that is too coarse, and the one before it.
-  const auto coarse =
-      std::find_if(errors_.begin(), errors_.end(), [&](const auto& t) { return t.second > target; });
-  if (coarse == errors_.end()) {
-    const auto& [place, error] = *errors_.rbegin();
-    if (place >= 1 || error >= (1 - kSlack) * target) return kNothing;
-    // As if the error went with the knob, and a little further, so that the target comes between.
+// The next place to try; nothing once the search is done.
+std::optional<double> next_place(const Knob& knob, const Tried& tried, double target) {
+  if (tried.empty()) return place_of(knob, knob.fallback);
+  const double octaves = std::abs(std::log2(knob.coarsest / knob.finest));
+  const auto coarse = first_too_coarse(tried, target);
+  if (coarse == tried.end()) {
+    const auto& [place, error] = *tried.rbegin();
+    if (place >= 1 || error >= (1 - kKnobSlack) * target) return std::nullopt;
+    // As if the error were proportional to the knob, and a little further, to bracket the target.
     const double stride = std::clamp(0.25 - 1.2 * octaves_of(error, target), 0.25, kLongestStride);
-    return std::min(1.0, place + stride / octaves_);
+    return std::min(1.0, place + stride / octaves);
   }
-  if (coarse == errors_.begin()) {
+  if (coarse == tried.begin()) {
     const auto& [place, error] = *coarse;
-    if (place <= 0) return kNothing;
+    if (place <= 0) return std::nullopt;
     const double stride = std::clamp(0.25 + 1.2 * octaves_of(error, target), 0.25, kLongestStride);
-    return std::max(0.0, place - stride / octaves_);
+    return std::max(0.0, place - stride / octaves);
   }
   const auto& [fine_place, fine_error] = *std::prev(coarse);
   const auto& [coarse_place, coarse_error] = *coarse;
   const double width = coarse_place - fine_place;
-  if (fine_error >= (1 - kSlack) * target || width * octaves_ <= kNarrowest) return kNothing;
-  // Aims a little under the target, where an answer may lie.
-  const double aim = std::log2(1 - kSlack / 2);
+  if (fine_error >= (1 - kKnobSlack) * target || width * octaves <= kNarrowest) return std::nullopt;
+  // Aims slightly below the target, inside the accepted range.
+  const double aim = std::log2(1 - kKnobSlack / 2);
   const double low = octaves_of(fine_error, target), high = octaves_of(coarse_error, target);
   return fine_place + width * std::clamp((aim - low) / (high - low), 0.1, 0.9);
 }
 
-Tuned KnobSearch::find(double target, const std::function<double(double)>& error_at) {
-  for (double place = next_place(target); place >= 0; place = next_place(target)) {
-    const double knob = knob_at(place), real = place_of(knob);
-    // Whole numbers run out before places do.
-    if (errors_.contains(real)) break;
-    errors_.emplace(real, error_at(knob));
+}  // namespace
+
+Tuned search_knob(const Knob& knob, double target, const std::function<double(double)>& error_at) {
+  Tried tried;
+  while (const auto place = next_place(knob, tried, target)) {
+    const double value = knob_at(knob, *place), real = place_of(knob, value);
+    if (tried.contains(real)) break;  // several places round to one whole number
+    tried.emplace(real, error_at(value));
   }
-  const auto coarse =
-      std::find_if(errors_.begin(), errors_.end(), [&](const auto& t) { return t.second > target; });
-  const auto best = coarse == errors_.begin() ? coarse : std::prev(coarse);
-  const auto& [place, error] = *best;
-  const bool decided = coarse != errors_.end() || error >= (1 - kSlack) * target;
-  return {knob_at(place), error, error <= target && decided};
+  const auto coarse = first_too_coarse(tried, target);
+  const auto& [place, error] = coarse == tried.begin() ? *coarse : *std::prev(coarse);
+  const bool decided = coarse != tried.end() || error >= (1 - kKnobSlack) * target;
+  return {knob_at(knob, place), error, error <= target && decided};
 }
 
 }  // namespace terrabench::cross

@@ -1,13 +1,19 @@
+// A clipmap over ground that stays on disk: steps of one sample, then a walk across, in a process of its own.
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <span>
+#include <vector>
 
-#include "experiments/cross/lod_disk_ground.h"
 #include "experiments/cross/own_process.h"
 #include "experiments/cross/strips.h"
 #include "experiments/experiment.h"
@@ -18,6 +24,8 @@
 #include "terrain/error.h"
 #include "terrain/files.h"
 #include "terrain/sources/dem/dem.h"
+#include "terrain/sources/dem/geotiff_rows.h"
+#include "terrain/sources/fractal/diamond_square_bands.h"
 
 namespace terrabench::cross {
 namespace {
@@ -25,16 +33,15 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::array kSpecs{
-    ParameterSpec{"side", std::int64_t{4096}, "samples", "of the synthetic mountains", 2, 32768},
-    ParameterSpec{"window", std::int64_t{255}, "samples", "of each clipmap level", 15, 4095},
+    ParameterSpec{"side", std::int64_t{4096}, "samples", "side of the synthetic mountains", 2, 32768},
+    ParameterSpec{"window", std::int64_t{255}, "samples", "side of each clipmap level", 15, 4095},
     ParameterSpec{"steps", std::int64_t{1000}, "frames", "steps of one sample before the long walk", 1,
                   1000000},
 };
-constexpr int kPlanSamples = 1025;  // of the copy of the ground that camera paths are laid over, at most
+constexpr int kPlanSamples = 1025;  // largest side of the thinned copy of the ground that camera paths use
 constexpr float kEyeHeight = 1.8F;  // metres
 
-// Empty, in the system's temporary folder, and gone with this object: at the end, after an error, after
-// Ctrl-C.
+// An empty folder in the system's temporary folder, deleted with this object, also after an error or Ctrl-C.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -57,13 +64,50 @@ class TemporaryFolder {
   fs::path path_;
 };
 
+// Writes side × side samples, 30 m apart, of diamond-square ground in whole metres, as SRTM has them. Returns
+// a digest of what determines every height. O(side²), in parallel; memory: a grid of 4097², and a row of
+// tiles.
+std::string write_mountains(const fs::path& path, int side, std::uint64_t seed, Progress& progress) {
+  constexpr int kRows = 32;  // per task
+  fractal::DiamondSquareOptions options;
+  options.seed = seed;
+  options.side = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(2, side - 1)))) + 1;
+  options.amplitude = 2000;
+  const fractal::DiamondSquareBands whole(options);
+  GeotiffRows file(path, side, side, options.cell, options.cell);
+  std::vector<float> band;
+  progress.begin("making mountains on disk", static_cast<std::uint64_t>((side - 1) / kGeotiffTile + 1));
+  for (int first = 0; first < side; first += kGeotiffTile) {
+    const int rows = std::min(kGeotiffTile, side - first);
+    band.resize(static_cast<std::size_t>(rows) * side);
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, rows, kRows),
+        [&](const tbb::blocked_range<int>& part) {
+          const auto width = static_cast<std::size_t>(whole.side());
+          std::vector<float> read((part.end() - part.begin()) * width);
+          whole.read(first + part.begin(), part.end() - part.begin(), read);
+          for (int row = part.begin(); row < part.end(); ++row) {
+            const float* const from = &read[(row - part.begin()) * width];
+            std::transform(from, from + side, &band[static_cast<std::size_t>(row) * side],
+                           [](float height) { return std::nearbyint(height); });
+          }
+        },
+        tbb::simple_partitioner());
+    file.write(band);
+    progress.advance();
+  }
+  file.close();
+  return checksum(fmt::format("diamond-square {} {} {} {} {} {} whole metres", seed, side, options.side,
+                              options.cell, options.amplitude, options.hurst));
+}
+
 std::uintmax_t bytes_of(const fs::path& folder) {
   std::uintmax_t bytes = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) bytes += entry.file_size();
   return bytes;
 }
 
-// Of the pyramid's files, read in parts: other heights or other cells give another digest.
+// Digest of the pyramid's files, read in parts.
 std::string digest(const fs::path& pyramid) {
   constexpr std::size_t kPart = std::size_t{1} << 20;
   std::vector<std::byte> part(kPart);
@@ -80,14 +124,14 @@ std::string digest(const fs::path& pyramid) {
   }
 }
 
-// Sample k of a walk to and fro between samples 0 and last, from `start` on.
+// Position after k steps of a walk back and forth between samples 0 and last, from `start`.
 int to_and_fro(std::int64_t start, std::int64_t k, std::int64_t last) {
   if (last == 0) return 0;
   const std::int64_t at = (start + k) % (2 * last);
   return static_cast<int>(at <= last ? at : 2 * last - at);
 }
 
-// Views of the committed path "cross" over a thinned copy of the ground, put back onto the ground itself.
+// Views along the built-in path "cross", laid over a thinned copy of the ground.
 std::vector<View> walk_across(HeightPyramid& pyramid) {
   int level = 0;
   while (((std::max(pyramid.width(), pyramid.depth()) - 1) >> level) + 1 > kPlanSamples) ++level;
@@ -101,7 +145,7 @@ std::vector<View> walk_across(HeightPyramid& pyramid) {
   return views(camera_path("cross"), plan);
 }
 
-// 1.8 m above the sample that the eye is over.
+// The view from 1.8 m above the sample below the eye.
 View on_the_ground(View view, HeightPyramid& pyramid) {
   const glm::vec3 sight = view.target - view.eye;
   float height = 0;
@@ -125,13 +169,13 @@ class Walk {
 
   void measure(int steps, Recorder& recorder, Progress& progress) {
     const std::vector<View> across = walk_across(*pyramid_);
-    if (across.empty()) throw usage_error("ground of one point", "", "give a larger terrain");
+    if (across.empty()) throw usage_error("the ground has a single sample", "", "choose a larger terrain");
     begin(across.front(), recorder);
     View view = across.front();
     const auto start = static_cast<int>(view.eye.x / pyramid_->cell_x());
     progress.begin("stepping over the ground", static_cast<std::uint64_t>(steps));
     for (int k = 1; k <= steps; ++k) {
-      // On the spot over ground of one sample; back from the border over ground shorter than the steps.
+      // Stays on ground one sample wide; turns back at the border of ground shorter than the steps.
       const float x = pyramid_->cell_x() * static_cast<float>(to_and_fro(start, k, pyramid_->width() - 1));
       view.target.x += x - view.eye.x;
       view.eye.x = x;
@@ -145,14 +189,14 @@ class Walk {
       progress.advance();
     }
     finish("walk", recorder);
-    recorder.add("clipmap_bytes", "B", static_cast<double>(clipmap_->memory().total()));
+    recorder.add("clipmap_bytes", "B", clipmap_->memory().total());
   }
 
  private:
   // Fills all windows.
   void begin(const View& view, Recorder& recorder) {
     update(view, "first_time", recorder);
-    recorder.add("first_bytes", "B", static_cast<double>(uploaded_));
+    recorder.add("first_bytes", "B", uploaded_);
     uploaded_ = strips_ = 0;
   }
   void update(const View& view, std::string_view metric, Recorder& recorder) {
@@ -168,9 +212,9 @@ class Walk {
     tiles_ += pyramid_->tiles_read() - tiles;
   }
   void finish(const std::string& what, Recorder& recorder) {
-    recorder.add(what + "_bytes", "B", static_cast<double>(uploaded_));
-    recorder.add(what + "_strip_bytes", "B", static_cast<double>(strips_));
-    recorder.add(what + "_tiles", "", static_cast<double>(tiles_));
+    recorder.add(what + "_bytes", "B", uploaded_);
+    recorder.add(what + "_strip_bytes", "B", strips_);
+    recorder.add(what + "_tiles", "", tiles_);
     uploaded_ = strips_ = tiles_ = 0;
   }
 
@@ -185,10 +229,10 @@ void walk_here(const fs::path& pyramid, const Case& at, Recorder& recorder, Prog
   recorder.terrain(pyramid.string(), digest(pyramid));
   Walk(pyramid, static_cast<int>(at.parameters.integer("window")))
       .measure(static_cast<int>(at.parameters.integer("steps")), recorder, progress);
-  recorder.add("peak_resident", "B", static_cast<double>(peak_resident_bytes()));
+  recorder.add("peak_resident", "B", peak_resident_bytes());
 }
 
-// The same experiment over the pyramid, in a process that does nothing else.
+// The same experiment over the pyramid in a second process, whose peak memory is then that of the walk.
 void walk_apart(const fs::path& pyramid, const fs::path& folder, const Case& at, const RunOptions& options,
                 Recorder& recorder, Progress& progress) {
   const fs::path results = folder / "walk";
@@ -230,7 +274,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   if (at.terrain.empty()) {
     const auto side = static_cast<int>(at.parameters.integer("side"));
     recorder.terrain(fmt::format("mountains {0} × {0}", side),
-                     write_disk_ground(made, side, options.seed, progress));
+                     write_mountains(made, side, options.seed, progress));
     dem = made.string();
   } else {
     const TerrainSource source = open_terrain(at.terrain, options.seed);
@@ -245,9 +289,9 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   watch = {};
   HeightPyramid::build(dem, pyramid, progress);
   recorder.add("pyramid_time", "s", watch.seconds());
-  recorder.add("pyramid_bytes", "B", static_cast<double>(bytes_of(pyramid)));
+  recorder.add("pyramid_bytes", "B", bytes_of(pyramid));
   std::error_code ignored;
-  fs::remove(made, ignored);  // its room is needed no more
+  fs::remove(made, ignored);  // frees disk space
   const auto tiles = HeightPyramid::open(pyramid);
   recorder.add("ground_bytes", "B", 4.0 * tiles->width() * tiles->depth());
   walk_apart(pyramid, folder.path(), at, options, recorder, progress);

@@ -1,3 +1,5 @@
+// A clipmap over endless ground of noise, out and back: bytes uploaded, cracks, and identical heights on
+// return.
 #include <fmt/format.h>
 
 #include <array>
@@ -7,7 +9,7 @@
 
 #include "experiments/cross/strips.h"
 #include "experiments/experiment.h"
-#include "experiments/figures/sheet.h"
+#include "experiments/figures/maps.h"
 #include "experiments/stopwatch.h"
 #include "lod/clipmap/clipmap.h"
 #include "lod/clipmap/endless_heights.h"
@@ -20,20 +22,20 @@ namespace terrabench::cross {
 namespace {
 
 const std::array kSpecs{
-    ParameterSpec{"window", std::int64_t{255}, "samples", "of each clipmap level", 15, 4095},
-    ParameterSpec{"distance", 200.0, "km", "of the flight, and of the way back", 1, 5000},
-    ParameterSpec{"step", 100.0, "m", "between frames", 10, 100000},
-    ParameterSpec{"far", 150.0, "km", "to the far plane", 1, 10000},
-    ParameterSpec{"home", 0.0, "km", "south-east of sample 0, where the flight begins", 0, 10000000},
+    ParameterSpec{"window", std::int64_t{255}, "samples", "side of each clipmap level", 15, 4095},
+    ParameterSpec{"distance", 200.0, "km", "length of the outward flight, and of the return", 1, 5000},
+    ParameterSpec{"step", 100.0, "m", "distance between frames", 10, 100000},
+    ParameterSpec{"far", 150.0, "km", "distance of the far plane", 1, 10000},
+    ParameterSpec{"home", 0.0, "km", "distance of the start south-east of sample 0", 0, 10000000},
 };
 constexpr double kEyeHeight = 400;       // metres above the ground
-constexpr double kPictureHeight = 2500;  // over the peaks around, so that the horizon is seen
+constexpr double kPictureHeight = 2500;  // above the surrounding peaks, so that the horizon shows
 constexpr double kHeading = 0.3;         // radians south of east
-constexpr double kKeepWithin = 30000;    // metres from what stands at x = z = 0, as long as no meter looks
+constexpr double kKeepWithin = 30000;    // metres between the eye and the origin, except for the meters
 constexpr int kMetered = 8;              // frames on the way out
-constexpr double kGap = 14, kPanel = 700, kLabel = 30;  // units of the sheet
+constexpr double kPanel = 700;           // units of the sheet
 
-// Where the eye is, in samples of the ground.
+// Position in samples of the ground after that many metres of flight.
 glm::dvec2 along(glm::dvec2 home, double metres, double cell) {
   return home + glm::dvec2(std::cos(kHeading), std::sin(kHeading)) * (metres / cell);
 }
@@ -60,44 +62,49 @@ class Flight {
 
   void measure(Progress& progress) {
     fly_out(progress);
-    recorder_.add("held_far", "B", static_cast<double>(clipmap_->memory().total()));
+    recorder_.add("held_far", "B", clipmap_->memory().total());
     come_home(progress);
-    recorder_.add("held_home", "B", static_cast<double>(clipmap_->memory().total()));
-    recorder_.add("flight_bytes", "B", static_cast<double>(uploaded_));
-    recorder_.add("flight_strip_bytes", "B", static_cast<double>(strips_));
+    recorder_.add("held_home", "B", clipmap_->memory().total());
+    recorder_.add("flight_bytes", "B", uploaded_);
+    recorder_.add("flight_strip_bytes", "B", strips_);
     recorder_.add("levels", "", clipmap_->levels());
   }
 
-  // The view from home, as it is and with its wires.
+  // The view from home, without and with wires.
   void draw(const std::string& renderer, const std::string& suffix) {
     const View view = seen_from(home_, kPictureHeight);
     const auto context = open_context(renderer, view.width, view.height);
-    figures::Sheet sheet(kPanel + 2 * kGap, 2 * (kPanel * view.height / view.width + kLabel) + kGap);
-    double y = 0;
-    for (const float wires : {0.0F, 1.0F}) {
+    const figures::PanelGrid grid{.columns = 1,
+                                  .rows = 2,
+                                  .width = kPanel,
+                                  .height = kPanel * view.height / view.width,
+                                  .gap = 14,
+                                  .below = 0,
+                                  .title = 30,
+                                  .text_size = 16};
+    figures::Sheet sheet(grid.sheet_width(), grid.bottom() + grid.gap);
+    for (const bool wires : {false, true}) {
       const Frame& frame = clipmap_->update(view);
       FrameRenderer shown(*context);
       shown.draw(frame, view,
                  {.lowest = -0.33F * ground_.relief,
                   .highest = 0.33F * ground_.relief,
                   .background = {205, 220, 235},
-                  .wire_width = wires,
+                  .wire_width = wires ? 1.0F : 0.0F,
                   .wire_opacity = 0.3F});
       shown.finish();
-      sheet.text(kGap, y + kLabel - 8,
-                 wires == 0 ? fmt::format("Ground to {:g} km, {} levels", far_ / 1000, clipmap_->levels())
-                            : fmt::format("Its {} triangles",
-                                          format_number(static_cast<double>(frame.stats.triangles))),
-                 16);
-      const double height = kPanel * view.height / view.width;
-      sheet.picture(kGap, y + kLabel, kPanel, height, shown.image());
-      y += kLabel + height;
+      const std::string triangles = format_number(static_cast<double>(frame.stats.triangles));
+      grid.place(sheet, wires ? 1 : 0,
+                 wires ? fmt::format("Its {} triangles", triangles)
+                       : fmt::format("Ground to {:g} km, {} levels", far_ / 1000, clipmap_->levels()),
+                 shown.image());
     }
     sheet.write(recorder_.figure(
         "cross.lod-endless" + suffix, "png",
-        fmt::format("Endless ground under a clipmap of {} samples a window, from {:g} m above it; the hybrid "
-                    "paper's endless terrain (§3.2). Colours by height from {:.0f} to {:.0f} m.",
-                    clipmap_->window(), kPictureHeight, -0.33 * ground_.relief, 0.33 * ground_.relief)));
+        fmt::format(
+            "Endless ground under a clipmap of {} samples per window, from {:g} m above it; the hybrid "
+            "paper's endless terrain (§3.2). Colours by height from {:.0f} to {:.0f} m.",
+            clipmap_->window(), kPictureHeight, -0.33 * ground_.relief, 0.33 * ground_.relief)));
   }
 
  private:
@@ -106,8 +113,8 @@ class Flight {
     const Stopwatch watch;
     const Frame& first = clipmap_->update(from(home_));
     recorder_.add("first_time", "s", watch.seconds());
-    recorder_.add("first_bytes", "B", static_cast<double>(first.stats.bytes_uploaded));
-    recorder_.add("held_first", "B", static_cast<double>(clipmap_->memory().total()));
+    recorder_.add("first_bytes", "B", first.stats.bytes_uploaded);
+    recorder_.add("held_first", "B", clipmap_->memory().total());
     finest_ = finest_level(kEyeHeight, clipmap_->window(), ground_.cell, clipmap_->levels());
     expected_.follow(home_, finest_, clipmap_->levels());
     const int every = std::max(1, steps_ / kMetered);
@@ -116,12 +123,12 @@ class Flight {
       if (k % every == 0) meter(at(k));
       progress.advance();
     }
-    recorder_.add("gaps", "", static_cast<double>(gaps_));
-    recorder_.add("edges_in_view", "", static_cast<double>(edges_));
-    recorder_.add("metered_frames", "", static_cast<double>(metered_));
+    recorder_.add("gaps", "", gaps_);
+    recorder_.add("edges_in_view", "", edges_);
+    recorder_.add("metered_frames", "", metered_);
   }
 
-  // Home again, the windows are held against ones that never left: as many heights as differ.
+  // Compares the windows after the return with those of a clipmap that has not moved, height by height.
   void come_home(Progress& progress) {
     progress.begin("flying home", static_cast<std::uint64_t>(steps_));
     for (int k = steps_ - 1; k >= 0; --k) {
@@ -144,13 +151,13 @@ class Flight {
         }
       }
     }
-    recorder_.add("heights_compared", "", static_cast<double>(compared));
-    recorder_.add("heights_differing", "", static_cast<double>(different));
+    recorder_.add("heights_compared", "", compared);
+    recorder_.add("heights_differing", "", different);
   }
 
   glm::dvec2 at(int k) const { return along(home_, k * step_, ground_.cell); }
 
-  // Metres are counted from near the eye, so that the view's floats keep millimetres.
+  // Keeps the origin near the eye, so that the view's floats resolve millimetres.
   View from(glm::dvec2 eye) {
     const glm::dvec2 away = (eye - glm::dvec2(clipmap_->origin())) * static_cast<double>(ground_.cell);
     if (std::max(std::abs(away.x), std::abs(away.y)) > kKeepWithin)
@@ -179,21 +186,21 @@ class Flight {
     const Stopwatch watch;
     const Frame& frame = clipmap_->update(view);
     recorder_.add("update_time", "s", watch.seconds());
-    recorder_.add("frame_bytes", "B", static_cast<double>(frame.stats.bytes_uploaded));
-    recorder_.add("triangles", "", static_cast<double>(frame.stats.triangles));
+    recorder_.add("frame_bytes", "B", frame.stats.bytes_uploaded);
+    recorder_.add("triangles", "", frame.stats.triangles);
     uploaded_ += frame.stats.bytes_uploaded;
     strips_ += expected_.follow(at(k), finest_, clipmap_->levels());
   }
 
-  // Of the same windows, counted from a sample north-west of them all: the meter takes coordinates of 0 and
-  // less for a border. An edge of the ground within the far plane would show as bare.
+  // Looks for cracks with the origin moved north-west of all windows: find_cracks() takes coordinates ≤ 0 for
+  // a border of the ground. An edge of the ground nearer than the far plane would count as a bare edge.
   void meter(glm::dvec2 eye) {
     const glm::ivec2 before = clipmap_->origin();
     const int span = clipmap_->window() << (clipmap_->levels() - 1);
     clipmap_->move_origin(glm::ivec2(glm::floor(eye)) - span);
     const View view = seen_from(eye, kEyeHeight);
     const Frame& frame = clipmap_->update(view);
-    uploaded_ += frame.stats.bytes_uploaded;  // none: another origin changes no window
+    uploaded_ += frame.stats.bytes_uploaded;  // 0: moving the origin changes no window
     const CrackReport cracks = find_cracks(frame, INT_MAX, INT_MAX, view);
     gaps_ += cracks.gaps + cracks.overlaps + cracks.flipped + cracks.t_junctions;
     edges_ += cracks.bare_edges;

@@ -47,7 +47,7 @@ int wait(pid_t child) {
     int status = 0;
     const pid_t ended = waitpid(child, &status, WNOHANG);
     if (ended == child) return status;
-    // ECHILD, where the caller has SIGCHLD ignored: how it ended is lost, so nothing of it can be trusted.
+    // ECHILD when SIGCHLD is ignored: the exit status is lost, so the results cannot be trusted.
     if (ended < 0 && errno != EINTR) {
       throw environment_error(fmt::format("cannot wait for the second process: {}", std::strerror(errno)),
                               kSelf, "run the program with SIGCHLD at its default");
@@ -89,7 +89,7 @@ std::uint64_t peak_resident_bytes() {
   while (std::getline(status, line)) {
     if (std::sscanf(line.c_str(), "VmHWM: %llu kB", &kibibytes) == 1) return kibibytes * 1024;
   }
-  throw environment_error("the system does not tell the peak of resident memory", "/proc/self/status",
+  throw environment_error("the system does not report peak resident memory", "/proc/self/status",
                           "measure on Linux");
 }
 

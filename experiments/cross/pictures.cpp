@@ -6,19 +6,19 @@
 #include <cstddef>
 
 #include "experiments/figures/figure_id.h"
-#include "experiments/figures/sheet.h"
+#include "experiments/figures/maps.h"
 #include "lod/brute_force/brute_force.h"
 #include "results/format.h"
 
 namespace terrabench::cross {
 namespace {
 
-constexpr double kPanel = 400, kLabel = 30, kGap = 14;  // units of the sheet, each two pixels
-constexpr std::size_t kColumns = 3;
-constexpr int kSky = 8;     // pixels left over the horizon
-constexpr int kWarmUp = 8;  // frames before the pictured one, so that methods that keep a mesh have one
+constexpr double kPanel = 400;  // units of the sheet
+constexpr int kColumns = 3;
+constexpr int kSky = 8;     // pixels kept above the horizon
+constexpr int kWarmUp = 8;  // frames before the pictured one, for methods that keep a mesh between frames
 
-// The first row with anything on it.
+// The first row that is not all background.
 int horizon(const Image& image, Rgb background) {
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
@@ -59,7 +59,7 @@ void draw_reference(Flight& flight, GlContext& context, Progress& progress) {
 
 void draw_wires(Flight& flight, double pixels, const std::string& options, GlContext& context,
                 Recorder& recorder, Progress& progress) {
-  // Half-way, where the paths are close to the ground.
+  // Halfway along the path, where it is close to the ground.
   const std::size_t last = flight.metered[flight.metered.size() / 2];
   const View& view = flight.views[last];
   struct Panel {
@@ -83,14 +83,18 @@ void draw_wires(Flight& flight, double pixels, const std::string& options, GlCon
     sky = std::min(sky, std::max(0, horizon(panels.back().image, FrameStyle{}.background) - kSky));
     recorder.add(fmt::format("{}_triangles", type.name), "", triangles);
   }
-  const double height = kPanel * (view.height - sky) / view.width, row = kLabel + height + kGap;
-  const auto rows = static_cast<double>((panels.size() + kColumns - 1) / kColumns);
-  figures::Sheet sheet(kColumns * (kPanel + kGap) + kGap, rows * row + kGap);
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    const double x = kGap + static_cast<double>(i % kColumns) * (kPanel + kGap);
-    const double y = static_cast<double>(i / kColumns) * row;
-    sheet.text(x, y + kLabel - 8, panels[i].words, 16);
-    sheet.picture(x, y + kLabel, kPanel, height, without_rows(panels[i].image, sky));
+  const int count = static_cast<int>(panels.size());
+  const figures::PanelGrid grid{.columns = kColumns,
+                                .rows = (count + kColumns - 1) / kColumns,
+                                .width = kPanel,
+                                .height = kPanel * (view.height - sky) / view.width,
+                                .gap = 14,
+                                .below = 14,
+                                .title = 30,
+                                .text_size = 16};
+  figures::Sheet sheet(grid.sheet_width(), grid.bottom() + grid.gap);
+  for (int i = 0; i < count; ++i) {
+    grid.place(sheet, i, panels[i].words, without_rows(panels[i].image, sky));
   }
   const std::string suffix = figures::ground_suffix(flight.route.terrain, kMainGround);
   sheet.write(recorder.figure(

@@ -1,6 +1,6 @@
-// How many bytes a clipmap has to upload, from nothing but the path of the eye (Losasso & Hoppe 2004, §3):
-// what the windows of an eye there hold that those of the eye before did not. Knows no clipmap, so that what
-// one reports can be held against it.
+// The bytes that a clipmap has to upload, computed from the eye's path alone (Losasso & Hoppe 2004, §3): the
+// samples in the windows around an eye that were not in those around the eye before. Independent of the
+// clipmap, whose reported bytes can thus be checked.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace terrabench::cross {
 
-// The finest level shown from so far above the ground, metres: finer ones' windows are smaller than 2.5 times
-// that.
+// The finest level shown from `above` metres over the ground: windows of finer levels are narrower than 2.5
+// times that.
 inline int finest_level(double above, int window, double cell, int levels) {
   int finest = 0;
   while (finest + 1 < levels && above > 0.4 * std::ldexp(window * cell, finest)) ++finest;
@@ -21,14 +21,14 @@ inline int finest_level(double above, int window, double cell, int levels) {
 
 class Strips {
  public:
-  explicit Strips(int window) : window_(window) {}  // samples a side
+  explicit Strips(int window) : window_(window) {}  // samples per side
 
-  // `eye` is in samples of the ground, levels finest … levels - 1 are shown both here and before. The first
-  // call gives 0: whole windows are no strips.
+  // `eye` is in samples of the ground; levels finest … levels - 1 are shown here and were before. The first
+  // call gives 0, since whole windows are not strips.
   std::size_t follow(glm::dvec2 eye, int finest, int levels) {
     std::size_t bytes = 0;
     for (int l = finest; l < levels && moved_; ++l) {
-      // A window goes in steps of two of its samples, 2^(l+1) of the ground's.
+      // A window moves in steps of two of its samples, 2^(l+1) of the ground's.
       const double step = std::ldexp(2.0, l);
       const auto kept = [&](double now, double before) {
         const double by = 2 * std::abs(std::floor(now / step) - std::floor(before / step));

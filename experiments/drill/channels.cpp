@@ -1,5 +1,4 @@
-// Channel networks of the drill paper's §2.1 and §3.1: how many pixels a threshold gives, and the largest
-// flow.
+// Channel networks of the drill paper's §2.1 and §3.1: channel pixels per threshold, and the largest flow.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,15 +25,14 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const FlowNetwork network = route_flow(*source.heights, &progress);
   const auto channels = channel_pixels(network, static_cast<std::uint32_t>(at.parameters.integer("tau")));
   const auto largest =
       static_cast<double>(*std::max_element(network.accumulation.begin(), network.accumulation.end()));
   const auto pixels = static_cast<double>(source.heights->heights.size()) -
                       static_cast<double>(height_range(*source.heights).no_data);
-  recorder.add("channel_pixels", "", static_cast<double>(channels.size()));
+  recorder.add("channel_pixels", "", channels.size());
   recorder.add("channel_share", "", static_cast<double>(channels.size()) / pixels);
   recorder.add("largest_flow", "", largest);
   recorder.add("largest_flow_share", "", largest / pixels);

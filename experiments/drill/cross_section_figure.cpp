@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "experiments/drill/figures.h"
-#include "experiments/figures/colours.h"
-#include "experiments/figures/sheet.h"
+#include "experiments/figures/maps.h"
 #include "representations/drill/cross_sections.h"
 #include "representations/drill/profile_fit.h"
 
@@ -21,8 +20,8 @@ constexpr int kW = 20;
 constexpr double kSide = 420, kTop = 44, kLeft = 24;
 constexpr Rgb kInk{0, 0, 0}, kGrid{225, 225, 225}, kFit{224, 0, 110};
 
-// A pixel whose surroundings show a valley: of those with room for w all around and a flow of at least 200
-// pixels, that from which the rays rise most, on average.
+// A pixel in a clear valley: among the pixels at least w from the border and with a flow of at least 200
+// pixels, the one whose rays rise most on average.
 std::uint32_t example_pixel(const Study& study, const CrossSections& sections) {
   const int w = sections.w();
   std::vector<float> rays(static_cast<std::size_t>(CrossSections::kRays) * static_cast<std::size_t>(w));
@@ -43,7 +42,7 @@ std::uint32_t example_pixel(const Study& study, const CrossSections& sections) {
   return best;
 }
 
-// The ground around the pixel from above, with the rays upon it.
+// The ground around the pixel seen from above, with the rays drawn on it.
 void draw_rays(figures::Sheet& sheet, const Heightfield& ground, int i, int j) {
   constexpr int kAround = kW + 4;
   const int i0 = std::clamp(i - kAround, 0, std::max(0, ground.width - 2 * kAround - 1));
@@ -51,22 +50,15 @@ void draw_rays(figures::Sheet& sheet, const Heightfield& ground, int i, int j) {
   const Heightfield around = crop(ground, i0, j0, std::min(2 * kAround + 1, ground.width - i0),
                                   std::min(2 * kAround + 1, ground.depth - j0));
   const HeightRange range = height_range(around);
-  // A square a sample, since distances count in samples; pale, so that the rays stand out.
+  // One square per sample, since distances count in samples; pale, so that the rays stand out.
   const float span = std::max(range.highest - range.lowest, 1e-6F);
   const auto pale = [&](double t) {
     Rgb colour = figures::elevation_colour(t);
     for (std::uint8_t& c : colour) c = static_cast<std::uint8_t>((c + 255) / 2);
     return colour;
   };
-  const figures::Light light(around);
-  Image image(around.width, around.depth, {255, 255, 255});
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const float h = around.at(x, y);
-      if (Heightfield::is_no_data(h)) continue;
-      image.set(x, y, figures::lit(pale((h - range.lowest) / span), 0.4 + 0.5 * light.at(x, y)));
-    }
-  }
+  const Image image = figures::shaded_map(
+      around, figures::Light(around), [&](float h) { return pale((h - range.lowest) / span); }, 0.4, 0.5);
   const double scale = kSide / around.width;
   sheet.picture(kLeft, kTop, kSide, scale * around.depth, image);
   const figures::SheetPoint centre{kLeft + (i - i0 + 0.5) * scale, kTop + (j - j0 + 0.5) * scale};
@@ -76,14 +68,11 @@ void draw_rays(figures::Sheet& sheet, const Heightfield& ground, int i, int j) {
                                                       centre.y + kW * scale * std::sin(angle)}},
                {.colour = figures::direction_colour(turn), .thickness = 1.2});
   }
-  const figures::Sheet::Tick ticks[] = {{0, fmt::format("{:.0f}", range.lowest)},
-                                        {1, fmt::format("{:.0f}", range.highest)}};
-  const double below = kTop + scale * around.depth + 14;
-  sheet.text(kLeft, below + 11, "elevation, m", 12);
-  sheet.colour_bar(kLeft + 110, below, 180, pale, ticks);
+  figures::add_colour_key(sheet, kLeft, kTop + scale * around.depth + 14, "elevation, m", 110, 180, pale,
+                          {fmt::format("{:.0f}", range.lowest), fmt::format("{:.0f}", range.highest)});
 }
 
-// 1, 2 or 5 times a power of ten, so that some six steps cover the span.
+// 1, 2 or 5 times a power of ten: about six steps cover the span.
 double round_step(double span) {
   const double step = span / 6, power = std::pow(10, std::floor(std::log10(step)));
   return power * (step <= power ? 1 : step <= 2 * power ? 2 : step <= 5 * power ? 5 : 10);
@@ -116,7 +105,7 @@ class ProfileChart {
   void curve(const LevelOf& level, const figures::Stroke& stroke) {
     std::vector<figures::SheetPoint> points;
     for (int i = 0; i <= kW; ++i) {
-      if (level(i) > high_) {  // a fitted curve may leave the chart: it ends at the upper border
+      if (level(i) > high_) {  // a fitted curve that leaves the chart is cut at the upper border
         if (i > 0) points.push_back(at(i - (level(i) - high_) / (level(i) - level(i - 1)), high_));
         break;
       }
@@ -124,7 +113,7 @@ class ProfileChart {
     }
     sheet_.line(points, stroke);
   }
-  // Below the chart, in a row with the left panel's legend.
+  // An entry of the key below the chart, level with the left panel's legend.
   void key(double x, std::string_view words, const figures::Stroke& stroke) {
     const double y = kTop + kHeight + 62;
     sheet_.line(std::array{figures::SheetPoint{kX + x, y}, figures::SheetPoint{kX + x + 34, y}}, stroke);

@@ -1,4 +1,4 @@
-// The 54 outcomes of one ground together: best sets, main effects, figures.
+// The 54 outcomes on one ground: best parameter sets, main effects, figures.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 struct Measure {
   std::string name;
-  double (*of)(const Outcome&);
+  ErrorOf of;
 };
 
 const Measure kMeasures[] = {
@@ -49,8 +49,8 @@ void record_measure(const std::vector<Outcome>& outcomes, const Measure& measure
   };
   const Effects effects = main_effects(outcomes, measure.of);
   add_effects(effects, "");
-  // The paper calls parameters good that create no outliers. The least k leaves much of the ground as the
-  // plateau, which drowns all else.
+  // The paper calls parameters good that create no outliers. With the least k much of the ground stays
+  // plateau, which dominates the variance.
   std::vector<Outcome> good;
   std::copy_if(outcomes.begin(), outcomes.end(), std::back_inserter(good),
                [](const Outcome& o) { return o.setting.k > kInfluences.front(); });
@@ -61,20 +61,19 @@ void record_measure(const std::vector<Outcome>& outcomes, const Measure& measure
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const FlowNetwork network = route_flow(*source.heights, &progress);
   const std::vector<Outcome> outcomes = factorial(*source.heights, network, progress);
 
-  recorder.add("runs", "", static_cast<double>(outcomes.size()));
+  recorder.add("runs", "", outcomes.size());
   for (const Measure& measure : kMeasures) record_measure(outcomes, measure, recorder);
-  // The paper's best set: τ is not named, and the densest network is.
+  // The paper's best set does not name τ, only the densest network.
   double at_paper_best = std::numeric_limits<double>::infinity();
   for (const Outcome& o : outcomes) {
     if (o.setting.w == 10 && o.setting.k == 20) at_paper_best = std::min(at_paper_best, o.rmse);
   }
   recorder.add("rmse_at_w10_k20", "", at_paper_best);
-  // On flat ground there is no error to compare with.
+  // Flat ground has no error to divide by.
   if (const double best = least(outcomes, kMeasures[0]).rmse; best > 0) {
     recorder.add("rmse_at_w10_k20_to_least", "", at_paper_best / best);
   }

@@ -1,6 +1,5 @@
-// What the drill paper's §4.1 leaves as future work, each for what it gains: an influence for every drill,
-// interpolation of what no drill touches, channels that never rise downstream, and parameters chosen for a
-// budget.
+// The gain of what the drill paper's §4.1 leaves as future work: an influence per drill, interpolation of
+// untouched pixels, channels that never rise downstream, and parameters chosen for a budget.
 #include <fmt/format.h>
 
 #include <limits>
@@ -19,15 +18,15 @@ namespace {
 
 constexpr std::array kSpecs{
     ParameterSpec{"tau", std::int64_t{25}, "pixels", "least flow of a channel", 1, 1e9},
-    ParameterSpec{"adaptive_k", false, "", "an influence of its own for every drill, up to 30"},
-    ParameterSpec{"interpolate_untouched", false, "", "draw what no drill touches from its surroundings"},
+    ParameterSpec{"adaptive_k", false, "", "a separate influence per drill, up to 30"},
+    ParameterSpec{"interpolate_untouched", false, "", "interpolate pixels that no drill touches"},
     ParameterSpec{"monotone_profiles", false, "", "channels never rise downstream"},
     ParameterSpec{"choose", false, "", "tau, w and k chosen for the bytes of the paper's setting"},
 };
 
 struct Variant {
   std::string_view name;
-  bool adaptive_k, interpolate, monotone_profiles;
+  bool adaptive_k, interpolate, monotone_profiles, choose = false;
 };
 constexpr std::array kVariants{
     Variant{"as-printed", false, false, false},      Variant{"own-influence", true, false, false},
@@ -52,7 +51,7 @@ Extended regenerated(const Heightfield& ground, const Drills& drills) {
           count_untouched(drills, regenerate(bare).heights), count_pits(terrain).count};
 }
 
-// Under the best single k of the factorial, unless every drill has its own.
+// With the best k of the factorial, unless every drill has its own.
 Extended extended(const Heightfield& ground, const FlowNetwork& network, DrillOptions options) {
   if (options.adaptive_k) options.k = kInfluences.back();
   Drills drills = extract_drills(ground, network, options);
@@ -70,23 +69,21 @@ Extended extended(const Heightfield& ground, const FlowNetwork& network, DrillOp
 
 void record(const Extended& result, Recorder& recorder) {
   recorder.add("k", "samples", result.k);
-  recorder.add("drill_bytes", "B", static_cast<double>(result.bytes));
+  recorder.add("drill_bytes", "B", result.bytes);
   recorder.add("rmse", "m", result.error.rmse);
   recorder.add("rmse_normalised", "", result.error.normalised());
-  recorder.add("untouched", "pixels", static_cast<double>(result.untouched));
-  recorder.add("pits", "", static_cast<double>(result.pits));
+  recorder.add("untouched", "pixels", result.untouched);
+  recorder.add("pits", "", result.pits);
 }
 
-// The setting that the paper prints, and what a choice makes of as many bytes.
+// The printed setting, and parameters chosen for the same number of bytes.
 void record_choice(const Heightfield& ground, const FlowNetwork& network, std::uint32_t tau,
                    Recorder& recorder, Progress& progress) {
-  DrillOptions options;
-  options.tau = tau;
-  const Extended printed = extended(ground, network, options);
+  const Extended printed = extended(ground, network, {.tau = tau});
   const DrillChoice choice =
       choose_parameters(ground, network, {.bytes = printed.bytes, .rmse = 0}, {}, &progress);
-  recorder.add("budget", "B", static_cast<double>(printed.bytes));
-  recorder.add("drill_bytes", "B", static_cast<double>(choice.bytes));
+  recorder.add("budget", "B", printed.bytes);
+  recorder.add("drill_bytes", "B", choice.bytes);
   recorder.add("chosen_tau", "pixels", choice.options.tau);
   recorder.add("chosen_w", "samples", choice.options.w);
   recorder.add("k", "samples", choice.options.k);
@@ -98,34 +95,32 @@ std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const std::string& ground : grounds(options)) {
     for (const std::uint32_t tau : kTaus) {
-      const auto add = [&](std::string_view name) -> Parameters& {
-        cases.push_back(
-            {fmt::format("{}/tau={}/{}", ground, tau, name), {kSpecs, {{"tau", std::int64_t{tau}}}}, ground});
-        return added.parameters;
+      const auto add = [&](const Variant& variant) {
+        cases.push_back({fmt::format("{}/tau={}/{}", ground, tau, variant.name),
+                         {kSpecs,
+                          {{"tau", std::int64_t{tau}},
+                           {"adaptive_k", variant.adaptive_k},
+                           {"interpolate_untouched", variant.interpolate},
+                           {"monotone_profiles", variant.monotone_profiles},
+                           {"choose", variant.choose}}},
+                         ground});
       };
-      for (const Variant& variant : kVariants) {
-        Parameters& parameters = add(variant.name);
-        parameters.set("adaptive_k", variant.adaptive_k);
-        parameters.set("interpolate_untouched", variant.interpolate);
-        parameters.set("monotone_profiles", variant.monotone_profiles);
-      }
-      if (tau == kTaus[1]) add("chosen").set("choose", true);
+      for (const Variant& variant : kVariants) add(variant);
+      if (tau == kTaus[1]) add({"chosen", false, false, false, true});
     }
   }
   return cases;
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const FlowNetwork network = route_flow(*source.heights, &progress);
   const auto tau = static_cast<std::uint32_t>(at.parameters.integer("tau"));
   if (at.parameters.flag("choose")) return record_choice(*source.heights, network, tau, recorder, progress);
-  DrillOptions extract;
-  extract.tau = tau;
-  extract.adaptive_k = at.parameters.flag("adaptive_k");
-  extract.interpolate_untouched = at.parameters.flag("interpolate_untouched");
-  extract.monotone_profiles = at.parameters.flag("monotone_profiles");
+  const DrillOptions extract{.tau = tau,
+                             .monotone_profiles = at.parameters.flag("monotone_profiles"),
+                             .adaptive_k = at.parameters.flag("adaptive_k"),
+                             .interpolate_untouched = at.parameters.flag("interpolate_untouched")};
   record(extended(*source.heights, network, extract), recorder);
 }
 

@@ -17,25 +17,17 @@ constexpr std::array kSpecs{
     ParameterSpec{"k", std::int64_t{20}, "samples", "influence of a drill", 0, 255},
 };
 
-DrillOptions options_for(const Setting& setting) {
-  DrillOptions options;
-  options.tau = setting.tau;
-  options.w = setting.w;
-  options.k = setting.k;
-  return options;
-}
-
-// The error when shapes may fall outward, in the two readings of "monotone" that are weaker than ours.
-double unbound_error(const Heightfield& ground, const FlowNetwork& network, DrillOptions options,
-                     Progress& progress) {
+// The error under the options of another reading of "monotone".
+double error_under(const DrillOptions& options, const Heightfield& ground, const FlowNetwork& network,
+                   Progress& progress) {
   const Drills drills = extract_drills(ground, network, options, &progress);
   return elevation_error(ground, regenerate(drills)).normalised();
 }
 
 }  // namespace
 
-std::string name(const Setting& setting) {
-  return fmt::format("tau={},w={},k={}", setting.tau, setting.w, setting.k);
+DrillOptions options_for(const Setting& setting) {
+  return {.tau = setting.tau, .w = setting.w, .k = setting.k};
 }
 
 Outcome compare(const Heightfield& ground, const FlowNetwork& network, const Heightfield& regenerated,
@@ -51,6 +43,36 @@ Outcome compare(const Heightfield& ground, const FlowNetwork& network, const Hei
     outcome.ahd[r] = channel_distance(ground, channels, regenerated, others, kReadings[r]).normalised();
   }
   return outcome;
+}
+
+Effects main_effects(const std::vector<Outcome>& outcomes, ErrorOf error) {
+  double mean = 0, total = 0;
+  for (const Outcome& o : outcomes) mean += error(o);
+  mean /= static_cast<double>(outcomes.size());
+  for (const Outcome& o : outcomes) total += (error(o) - mean) * (error(o) - mean);
+  if (total == 0) return {};
+  // The sum of squares of the level means about the grand mean, as a share of the total.
+  const auto between = [&](const auto& levels, auto factor, double* means) {
+    double squares = 0;
+    for (std::size_t l = 0; l < levels.size(); ++l) {
+      double sum = 0, count = 0;
+      for (const Outcome& o : outcomes) {
+        if (o.setting.*factor != levels[l]) continue;
+        sum += error(o);
+        ++count;
+      }
+      if (count == 0) continue;
+      if (means != nullptr) means[l] = sum / count;
+      squares += count * (sum / count - mean) * (sum / count - mean);
+    }
+    return squares / total;
+  };
+  Effects effects;
+  effects.tau = between(kTaus, &Setting::tau, effects.mean_at_tau.data());
+  effects.w = between(kWidths, &Setting::w, nullptr);
+  effects.k = between(kInfluences, &Setting::k, nullptr);
+  effects.interactions = 1 - effects.tau - effects.w - effects.k;
+  return effects;
 }
 
 std::vector<Outcome> factorial(const Heightfield& ground, const FlowNetwork& network, Progress& progress) {
@@ -82,7 +104,7 @@ std::vector<Case> cases(const RunOptions& options) {
       for (const int w : kWidths) {
         for (const int k : kInfluences) {
           cases.push_back(
-              {fmt::format("{}/{}", ground, name({tau, w, k})),
+              {fmt::format("{}/tau={},w={},k={}", ground, tau, w, k),
                {kSpecs, {{"tau", std::int64_t{tau}}, {"w", std::int64_t{w}}, {"k", std::int64_t{k}}}},
                ground});
         }
@@ -93,8 +115,7 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   const Setting setting{static_cast<std::uint32_t>(at.parameters.integer("tau")),
                         static_cast<int>(at.parameters.integer("w")),
@@ -104,22 +125,22 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const Heightfield regenerated = regenerate(drills);
   const Outcome outcome = compare(ground, network, regenerated, setting);
 
-  recorder.add("drills", "", static_cast<double>(drills.count()));
+  recorder.add("drills", "", drills.count());
   recorder.add("rmse", "m", outcome.rmse_metres);
   recorder.add("rmse_normalised", "", outcome.rmse);
   for (std::size_t r = 0; r < kReadings.size(); ++r) {
     recorder.add(fmt::format("ahd_{}", name(kReadings[r])), "", outcome.ahd[r]);
   }
-  DrillOptions unbound = options_for(setting);
-  unbound.window_only = true;
-  recorder.add("rmse_monotone_in_window", "", unbound_error(ground, network, unbound, progress));
-  unbound.window_only = false;
-  unbound.monotone = false;
-  recorder.add("rmse_not_monotone", "", unbound_error(ground, network, unbound, progress));
+  // Two weaker readings of "monotone" than ours: shapes may fall outward.
+  DrillOptions in_window = options_for(setting), not_monotone = in_window;
+  in_window.window_only = true;
+  not_monotone.monotone = false;
+  recorder.add("rmse_monotone_in_window", "", error_under(in_window, ground, network, progress));
+  recorder.add("rmse_not_monotone", "", error_under(not_monotone, ground, network, progress));
   recorder.add("untouched_share", "",
                static_cast<double>(count_untouched(drills, regenerated.heights)) /
                    static_cast<double>(regenerated.heights.size()));
-  recorder.add("pits", "", static_cast<double>(count_pits(regenerated).count));
+  recorder.add("pits", "", count_pits(regenerated).count);
 }
 
 }  // namespace

@@ -1,25 +1,18 @@
 // The grounds on which the drill paper's claims are measured. Its own 400 × 400 mountains are not public.
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include "experiments/experiment.h"
-#include "terrain/source.h"
+#include "experiments/ground.h"
 
 namespace terrabench::drill {
 
 // The ground of the claims and figures: real mountains at the paper's size.
 inline constexpr std::string_view kMainGround = "jacksboro-400";
 
-// jacksboro as it is; jacksboro-400, resampled to the paper's 400 × 400; noise-ridges and noise-hills, 400 ×
-// 400 whole metres from noise. Any other name is opened as a terrain.
+// jacksboro-400, resampled to the paper's 400 × 400; noise-ridges and noise-hills, 400 × 400 whole metres
+// from noise. Any other name is opened as a terrain.
 TerrainSource open_ground(std::string_view name, std::uint64_t seed);
 
-// Those that the options name; otherwise the main ground, and in the paper profile the other three too.
+// Those that the options name; otherwise the main ground, and in the paper profile three more.
 std::vector<std::string> grounds(const RunOptions& options);
 
 // One case without parameters for each of these.

@@ -1,13 +1,13 @@
-// What each step costs on ever larger grounds: one window, growing, of the same endless hills of noise, so
-// that a pixel has as much to do everywhere. Flow is routed over whole metres (integer keys) and over the
-// same heights unrounded (heaps).
+// Time of each step against the size of the ground: windows of growing size on the same endless hills of
+// noise, so that the work per pixel stays the same. Flow is routed over whole metres (integer keys) and over
+// the same heights unrounded (heaps).
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
 
-#include "experiments/drill/ground.h"
 #include "experiments/experiment.h"
+#include "experiments/ground.h"
 #include "experiments/stopwatch.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/files.h"
@@ -20,7 +20,7 @@ const std::array kSpecs{
     ParameterSpec{"n", std::int64_t{1024}, "samples", "side of the ground", 64, 16384},
 };
 
-// Small grounds are measured more often; the largest in seconds, where one sample says as much.
+// Small grounds are measured more often; the largest take seconds, and one sample is enough.
 constexpr double kSampledPixels = 1 << 25;
 constexpr int kMostSamples = 9;
 
@@ -41,21 +41,17 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("pixels", "", pixels);
 
   const int samples = std::clamp(static_cast<int>(kSampledPixels / pixels), 1, kMostSamples);
-  // The first round of several warms up.
-  const int warming = samples > 1 ? 1 : 0;
+  const int warming = samples > 1 ? 1 : 0;  // rounds that are not recorded
   progress.begin(fmt::format("{0} × {0} samples", n), samples + warming);
   std::size_t drilled = 0;
   for (int sample = -warming; sample < samples; ++sample) {
     std::optional<FlowNetwork> network;
     const double routing_fine = seconds([&] { network = route_flow(fine); });
-    network.reset();  // only one at a time: the largest takes as much memory as the ground
+    network.reset();  // one at a time, to bound memory: a network takes as much as the ground
     const double routing = seconds([&] { network = route_flow(whole); });
-    DrillOptions extract;
-    extract.tau = 25;
-    extract.w = 10;
-    extract.k = 20;
     Drills drills;
-    const double extraction = seconds([&] { drills = extract_drills(whole, *network, extract); });
+    const double extraction =
+        seconds([&] { drills = extract_drills(whole, *network, {.tau = 25, .w = 10, .k = 20}); });
     network.reset();
     const double regeneration = seconds([&] { regenerate(drills); });
     drilled = drills.count();
@@ -69,7 +65,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     recorder.add("routed_pixels_per_second_unrounded", "1/s", pixels / routing_fine);
     recorder.add("drills_per_second", "1/s", static_cast<double>(drills.count()) / extraction);
   }
-  recorder.add("drills", "", static_cast<double>(drilled));
+  recorder.add("drills", "", drilled);
 }
 
 }  // namespace

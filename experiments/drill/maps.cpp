@@ -1,4 +1,6 @@
-// Figures 1 and 3, and what regeneration changes: the ground seen from above.
+// Figures 1 and 3, and maps of the error of regeneration.
+#include "experiments/figures/maps.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,67 +8,39 @@
 #include <vector>
 
 #include "experiments/drill/figures.h"
-#include "experiments/figures/colours.h"
-#include "experiments/figures/sheet.h"
 #include "representations/drill/regenerate.h"
 #include "results/format.h"
 
 namespace terrabench::drill {
 namespace {
 
-constexpr double kGap = 16, kTitle = 26, kLegend = 48;
-constexpr double kPanel = 400;  // about as wide
+constexpr double kGap = 16, kLegend = 48;  // units of the sheet, as all lengths here
+constexpr double kPanel = 400;             // approximate width
 constexpr Rgb kInk{32, 32, 32};
 
-// A panel of square pixels that shows the ground without distortion, each sample at least one of them.
-struct Panel {
-  int columns, rows;
-  double width, height;  // units
+// Rows of two panels with square pixels, at least one sample per pixel, and a legend below.
+struct Layout {
+  int columns, rows;  // pixels of a panel
+  figures::PanelGrid grid;
 
-  explicit Panel(const Heightfield& ground) {
+  Layout(const Heightfield& ground, int panel_rows) {
     constexpr double kMost = kPanel * figures::Sheet::kPixels;
     columns = std::min(ground.width, static_cast<int>(kMost));
     const double aspect =
         (static_cast<double>(ground.depth) * ground.cell_z) / (ground.width * ground.cell_x);
     rows = std::clamp(static_cast<int>(std::lround(columns * aspect)), 1, 4 * columns);
     const double pixel = std::max(1.0, std::round(kMost / columns)) / figures::Sheet::kPixels;
-    width = pixel * columns;
-    height = pixel * rows;
+    grid = {.rows = panel_rows, .width = pixel * columns, .height = pixel * rows, .gap = kGap};
   }
   Heightfield fitted(const Heightfield& field) const {
     return field.width == columns && field.depth == rows ? field : resample(field, columns, rows);
   }
-};
-
-// Two panels beside each other, `rows` such rows, and a legend below.
-struct Layout {
-  Panel panel;
-  int rows;
-  double width() const { return 2 * panel.width + 3 * kGap; }
-  double x(int number) const { return kGap + (number % 2) * (panel.width + kGap); }
-  double y(int number) const { return kTitle + (number / 2) * (panel.height + kGap + kTitle); }
-  double legend() const { return y(2 * rows - 1) + panel.height + kGap; }
-  double height() const { return legend() + kLegend; }
-
-  figures::Sheet sheet() const { return {width(), height()}; }
+  double legend() const { return grid.bottom(); }
+  figures::Sheet sheet() const { return {grid.sheet_width(), legend() + kLegend}; }
   void place(figures::Sheet& sheet, int number, std::string_view title, const Image& image) const {
-    sheet.text(x(number), y(number) - 8, fmt::format("({:c}) {}", 'a' + number, title), 13);
-    sheet.picture(x(number), y(number), panel.width, panel.height, image);
+    grid.place(sheet, number, fmt::format("({:c}) {}", 'a' + number, title), image);
   }
 };
-
-template <class ColourOf>
-Image shaded_map(const Heightfield& field, const figures::Light& light, const ColourOf& colour) {
-  Image image(field.width, field.depth, {255, 255, 255});
-  for (int j = 0; j < field.depth; ++j) {
-    for (int i = 0; i < field.width; ++i) {
-      if (!Heightfield::is_no_data(field.at(i, j))) {
-        image.set(i, j, figures::lit(colour(field.at(i, j)), light.at(i, j)));
-      }
-    }
-  }
-  return image;
-}
 
 auto colour_between(const HeightRange& range) {
   return [range](float height) {
@@ -75,7 +49,7 @@ auto colour_between(const HeightRange& range) {
   };
 }
 
-// The pixels of the image that hold a channel pixel, or lie in one where they are finer than samples.
+// Colours every image pixel that overlaps a channel pixel; either grid may be the finer one.
 void draw_channel_pixels(const std::vector<std::uint32_t>& channels, const Heightfield& ground,
                          Image& image) {
   std::vector<bool> is_channel(ground.heights.size());
@@ -94,7 +68,7 @@ void draw_channel_pixels(const std::vector<std::uint32_t>& channels, const Heigh
   }
 }
 
-// A key in the legend; returns where the next begins.
+// An entry of the legend; returns where the next one begins.
 double add_swatch(figures::Sheet& sheet, double x, double y, Rgb colour, std::string_view words) {
   sheet.box(x, y, 22, 12, colour);
   sheet.text(x + 28, y + 11, words, 12);
@@ -103,20 +77,19 @@ double add_swatch(figures::Sheet& sheet, double x, double y, Rgb colour, std::st
 
 void add_elevations(figures::Sheet& sheet, double x, double y, const HeightRange& range) {
   const double middle = (static_cast<double>(range.lowest) + range.highest) / 2;
-  const figures::Sheet::Tick ticks[] = {{0, fmt::format("{:.0f}", range.lowest)},
-                                        {0.5, fmt::format("{:.0f}", middle)},
-                                        {1, fmt::format("{:.0f}", range.highest)}};
-  sheet.text(x, y + 11, "elevation, m", 12);
-  sheet.colour_bar(x + 100, y, 180, figures::elevation_colour, ticks);
+  figures::add_colour_key(sheet, x, y, "elevation, m", 100, 180, figures::elevation_colour,
+                          {fmt::format("{:.0f}", range.lowest), fmt::format("{:.0f}", middle),
+                           fmt::format("{:.0f}", range.highest)});
 }
 
-// About a quarter of the panel, a round number of metres, ending at the panels' right border.
+// A scale bar of about a quarter of the panel's width and a round number of metres, aligned right.
 void add_scale(figures::Sheet& sheet, const Layout& layout, const Heightfield& ground) {
-  const double metres_a_unit = static_cast<double>(ground.width) * ground.cell_x / layout.panel.width;
-  const double wish = layout.panel.width / 4 * metres_a_unit,
+  const double metres_per_unit = static_cast<double>(ground.width) * ground.cell_x / layout.grid.width;
+  const double wish = layout.grid.width / 4 * metres_per_unit,
                power = std::pow(10, std::floor(std::log10(wish)));
   const double length = power * (wish >= 5 * power ? 5 : wish >= 2 * power ? 2 : 1);
-  const double right = layout.width() - kGap, left = right - length / metres_a_unit, y = layout.legend() + 6;
+  const double right = layout.grid.sheet_width() - kGap, left = right - length / metres_per_unit,
+               y = layout.legend() + 6;
   sheet.line(std::array{figures::SheetPoint{left, y - 4}, figures::SheetPoint{left, y + 4},
                         figures::SheetPoint{left, y}, figures::SheetPoint{right, y},
                         figures::SheetPoint{right, y - 4}, figures::SheetPoint{right, y + 4}},
@@ -124,14 +97,6 @@ void add_scale(figures::Sheet& sheet, const Layout& layout, const Heightfield& g
   const bool far = length >= 1000;
   sheet.text(right, y + 23, fmt::format("{:g} {}, north up", far ? length / 1000 : length, far ? "km" : "m"),
              12, "end");
-}
-
-Drills drills_of(const Study& study, const Setting& setting) {
-  DrillOptions options;
-  options.tau = setting.tau;
-  options.w = setting.w;
-  options.k = setting.k;
-  return extract_drills(study.ground, study.network, options);
 }
 
 std::string title_of(std::string_view what, const Outcome& o) {
@@ -144,27 +109,13 @@ Heightfield difference(const Heightfield& ground, const Heightfield& other) {
   return field;
 }
 
-// Over the ground's own shade, kept light so that the colours count.
-Image difference_map(const Heightfield& metres, const figures::Light& light, double most) {
-  Image image(metres.width, metres.depth, {255, 255, 255});
-  for (int j = 0; j < metres.depth; ++j) {
-    for (int i = 0; i < metres.width; ++i) {
-      const float m = metres.at(i, j);
-      if (Heightfield::is_no_data(m)) continue;
-      image.set(i, j,
-                figures::lit(figures::difference_colour(0.5 + 0.5 * m / most), 0.45 + 0.4 * light.at(i, j)));
-    }
-  }
-  return image;
-}
-
 }  // namespace
 
 void draw_channels(const Study& study, Recorder& recorder) {
-  const Layout layout{Panel(study.ground), 2};
+  const Layout layout(study.ground, 2);
   const HeightRange range = height_range(study.ground);
-  const Heightfield fitted = layout.panel.fitted(study.ground);
-  const Image relief = shaded_map(fitted, figures::Light(fitted), colour_between(range));
+  const Heightfield fitted = layout.fitted(study.ground);
+  const Image relief = figures::shaded_map(fitted, figures::Light(fitted), colour_between(range));
   figures::Sheet sheet = layout.sheet();
   int panel = 0;
   for (const std::uint32_t tau : {25U, 50U, 100U, 200U}) {
@@ -188,26 +139,29 @@ void draw_channels(const Study& study, Recorder& recorder) {
 }
 
 void draw_best(const Study& study, const Outcome& least_rmse, const Outcome& least_ahd, Recorder& recorder) {
-  const Layout layout{Panel(study.ground), 1};
+  const Layout layout(study.ground, 1);
   const HeightRange range = height_range(study.ground);
-  const Heightfield ground = layout.panel.fitted(study.ground);
+  const Heightfield ground = layout.fitted(study.ground);
   const figures::Light light(ground);
   const double most = 4 * std::max(least_rmse.rmse_metres, 1e-3);
   figures::Sheet sheet = layout.sheet(), maps = layout.sheet();
   for (int panel = 0; panel < 2; ++panel) {
     const Outcome& outcome = panel == 0 ? least_rmse : least_ahd;
-    const Drills drills = drills_of(study, outcome.setting);
-    const Heightfield regenerated = regenerate(drills), fitted = layout.panel.fitted(regenerated);
+    const Drills drills = extract_drills(study.ground, study.network, options_for(outcome.setting));
+    const Heightfield regenerated = regenerate(drills), fitted = layout.fitted(regenerated);
     const double untouched = static_cast<double>(count_untouched(drills, regenerated.heights)) /
                              static_cast<double>(regenerated.heights.size() - range.no_data);
     const auto elevations = colour_between(range);
     const std::string title = title_of(panel == 0 ? "RMSE" : "AHD", outcome);
     layout.place(sheet, panel, fmt::format("{}; {:.1f} % untouched", title, 100 * untouched),
-                 shaded_map(fitted, figures::Light(fitted, light), [&](float height) {
+                 figures::shaded_map(fitted, figures::Light(fitted, light), [&](float height) {
                    return is_touched(height, drills) ? elevations(height) : figures::kUntouched;
                  }));
-    layout.place(maps, panel, fmt::format("{}; RMSE {:.1f} m", title, outcome.rmse_metres),
-                 difference_map(layout.panel.fitted(difference(study.ground, regenerated)), light, most));
+    layout.place(
+        maps, panel, fmt::format("{}; RMSE {:.1f} m", title, outcome.rmse_metres),
+        figures::shaded_map(
+            layout.fitted(difference(study.ground, regenerated)), light,
+            [&](float metres) { return figures::difference_colour(0.5 + 0.5 * metres / most); }, 0.45, 0.4));
   }
   const double next = add_swatch(sheet, kGap, layout.legend(), figures::kUntouched, "no drill reaches");
   add_elevations(sheet, next, layout.legend(), range);
@@ -216,18 +170,17 @@ void draw_best(const Study& study, const Outcome& least_rmse, const Outcome& lea
       "drill.F3" + study.suffix, "png",
       fmt::format(
           "The paper's figure 3: {} regenerated with the parameters of least RMSE (a) and of least AHD "
-          "along the map (b). Where no drill reaches, the plateau is left.",
+          "along the map (b). Where no drill reaches, the plateau remains.",
           study.name)));
 
-  const figures::Sheet::Tick ticks[] = {
-      {0, fmt::format("−{:.0f} or less", most)}, {0.5, "0"}, {1, fmt::format("{:.0f} or more", most)}};
-  maps.text(kGap, layout.legend() + 11, "regenerated minus original, m", 12);
-  maps.colour_bar(kGap + 240, layout.legend(), 260, figures::difference_colour, ticks);
+  figures::add_colour_key(maps, kGap, layout.legend(), "regenerated minus original, m", 240, 260,
+                          figures::difference_colour,
+                          {fmt::format("−{:.0f} or less", most), "0", fmt::format("{:.0f} or more", most)});
   add_scale(maps, layout, study.ground);
   maps.write(recorder.figure(
       "drill.difference" + study.suffix, "png",
       fmt::format(
-          "What figure 3's two terrains differ by from {}, over its shaded relief: blue too low, red too "
+          "The difference of figure 3's two terrains from {}, over its shaded relief: blue too low, red too "
           "high",
           study.name)));
 }

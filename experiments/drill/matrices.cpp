@@ -16,32 +16,29 @@ namespace {
 constexpr double kCellWidth = 70, kCellHeight = 36, kLeft = 62, kTop = 64, kBelow = 62, kGap = 20;
 constexpr double kMatrixWidth = kCellWidth * kInfluences.size(), kMatrixHeight = kCellHeight * kTaus.size();
 
-// What is shown of an error: how many times it, to how many digits behind the point.
+// How errors are printed: multiplied by `times`, with `digits` after the point.
 struct Figures {
   double times;
   int digits;
   std::string of(double error) const { return fmt::format("{:.{}f}", times * error, digits); }
 };
 
-// A logarithmic scale: the few large errors of windows that leave the plateau would drown all others.
+// A logarithmic scale, since the few large errors, of windows that leave plateau uncovered, would hide the
+// rest.
 struct Scale {
   double low, high;
   double at(double error) const { return high > low ? std::log(error / low) / std::log(high / low) : 0; }
 };
 
-template <std::size_t N, class T>
-double place(const std::array<T, N>& levels, T level) {
-  return static_cast<double>(std::find(levels.begin(), levels.end(), level) - levels.begin());
-}
-
-template <class ErrorOf>
 void add_matrix(figures::Sheet& sheet, double x0, double y0, int w, const std::vector<Outcome>& outcomes,
-                const ErrorOf& error, const Scale& scale, const Figures& figures) {
+                ErrorOf error, const Scale& scale, const Figures& figures) {
   sheet.text(x0, y0 - 8, fmt::format("w = {}", w), 14);
   for (const Outcome& o : outcomes) {
     if (o.setting.w != w) continue;
-    const double x = x0 + place(kInfluences, o.setting.k) * kCellWidth,
-                 y = y0 + place(kTaus, o.setting.tau) * kCellHeight;
+    const auto column = std::find(kInfluences.begin(), kInfluences.end(), o.setting.k) - kInfluences.begin();
+    const auto row = std::find(kTaus.begin(), kTaus.end(), o.setting.tau) - kTaus.begin();
+    const double x = x0 + static_cast<double>(column) * kCellWidth,
+                 y = y0 + static_cast<double>(row) * kCellHeight;
     const Rgb colour = figures::error_colour(scale.at(error(o)));
     sheet.box(x, y, kCellWidth - 1, kCellHeight - 1, colour);
     sheet.text(x + kCellWidth / 2, y + kCellHeight / 2 + 5, figures.of(error(o)), 13, "middle",
@@ -57,9 +54,8 @@ void add_matrix(figures::Sheet& sheet, double x0, double y0, int w, const std::v
   }
 }
 
-template <class ErrorOf>
 void add_column(figures::Sheet& sheet, int column, std::string_view title,
-                const std::vector<Outcome>& outcomes, const ErrorOf& error, const Figures& figures) {
+                const std::vector<Outcome>& outcomes, ErrorOf error, const Figures& figures) {
   const double x = kLeft + column * (kLeft + kMatrixWidth + kGap);
   const auto [least, most] =
       std::minmax_element(outcomes.begin(), outcomes.end(),
@@ -90,7 +86,7 @@ void draw_matrices(const Study& study, const std::vector<Outcome>& outcomes, Rec
       "drill.F4" + study.suffix, "png",
       fmt::format(
           "The paper's figure 4: normalised errors of the 54 parameter sets on {}, RMSE left and AHD "
-          "right, one matrix a width w. Colours are logarithmic, from the least of each metric (blue) "
+          "right, one matrix per width w. Colours are logarithmic, from the least of each metric (blue) "
           "to the largest (red).",
           study.name)));
 }

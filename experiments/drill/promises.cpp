@@ -1,5 +1,5 @@
-// What the drill paper's text promises of regeneration: equation 1 never raises anything, gives the same in
-// any order, and drills keep no promise about pits.
+// The drill paper's statements about regeneration: equation 1 never raises a pixel and does not depend on the
+// order of drills; pits are counted.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -64,10 +64,10 @@ void record_orders(const Drills& drills, const Heightfield& regenerated, std::ui
     differing += differences(drill_one_by_one(drills, order), regenerated);
     progress.advance();
   }
-  recorder.add("order_differences", "", static_cast<double>(differing));
+  recorder.add("order_differences", "", differing);
 }
 
-// The drills of the first `count` pixels alone.
+// The first `count` drills.
 Drills first_drills(Drills drills, std::size_t count) {
   drills.pixel.resize(count);
   drills.direction.resize(count);
@@ -78,7 +78,7 @@ Drills first_drills(Drills drills, std::size_t count) {
   return drills;
 }
 
-// Pixels that stand higher after more drills than after fewer.
+// Pixels that are higher after more drills than after fewer.
 void record_rises(const Drills& drills, Recorder& recorder) {
   std::size_t rises = 0;
   Heightfield before = regenerate(first_drills(drills, 0));
@@ -87,7 +87,7 @@ void record_rises(const Drills& drills, Recorder& recorder) {
     for (std::size_t i = 0; i < after.heights.size(); ++i) rises += after.heights[i] > before.heights[i];
     before = std::move(after);
   }
-  recorder.add("rises", "", static_cast<double>(rises));
+  recorder.add("rises", "", rises);
 }
 
 void record_channels(const Drills& drills, const Heightfield& ground, const Heightfield& regenerated,
@@ -98,25 +98,23 @@ void record_channels(const Drills& drills, const Heightfield& ground, const Heig
     above += regenerated.heights[pixel] > ground.heights[pixel];
   }
   for (const float height : regenerated.heights) over_plateau += height > drills.plateau;
-  recorder.add("channel_pixels", "", static_cast<double>(drills.count()));
-  recorder.add("channel_pixels_kept", "", static_cast<double>(kept));
-  recorder.add("channel_pixels_above", "", static_cast<double>(above));
-  recorder.add("pixels_above_plateau", "", static_cast<double>(over_plateau));
+  recorder.add("channel_pixels", "", drills.count());
+  recorder.add("channel_pixels_kept", "", kept);
+  recorder.add("channel_pixels_above", "", above);
+  recorder.add("pixels_above_plateau", "", over_plateau);
 }
 
 void record_pits(std::string_view of, const Heightfield& terrain, Recorder& recorder) {
   const Pits pits = count_pits(terrain);
-  recorder.add(std::string("pits_") + std::string(of), "", static_cast<double>(pits.count));
-  recorder.add(std::string("pit_pixels_") + std::string(of), "", static_cast<double>(pits.pixels));
+  recorder.add(std::string("pits_") + std::string(of), "", pits.count);
+  recorder.add(std::string("pit_pixels_") + std::string(of), "", pits.pixels);
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   const FlowNetwork network = route_flow(ground, &progress);
-  DrillOptions extract;
-  extract.k = 20;
+  DrillOptions extract{.k = 20};
   const Drills drills = extract_drills(ground, network, extract, &progress);
   const Heightfield regenerated = regenerate(drills);
   record_orders(drills, regenerated, options.seed, recorder, progress);
@@ -125,7 +123,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
   std::size_t falling = 0;
   for (std::size_t i = 0; i < drills.count(); ++i) falling += drills.slope[i] < 0 || drills.curvature[i] < 0;
-  recorder.add("shapes_that_fall", "", static_cast<double>(falling));
+  recorder.add("shapes_that_fall", "", falling);
   record_pits("original", ground, recorder);
   record_pits("regenerated", regenerated, recorder);
   // §4.1: channels that never rise downstream.

@@ -1,5 +1,5 @@
-// What drills take: the paper's count of values (§4.1) and true bytes, beside the same ground through other
-// compressors at the same error.
+// The size of drills: the paper's count of values (§4.1) and true bytes, compared with other compressors of
+// the same ground at the same error.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,11 +33,9 @@ struct Stored {
   ElevationError error;
 };
 
-// The k of the factorial with the least error, as stored: rounded.
+// The least error over the factorial's k, with drills rounded as in their file.
 Stored store(const Heightfield& ground, const FlowNetwork& network, std::uint32_t tau) {
-  DrillOptions options;
-  options.tau = tau;
-  Drills drills = extract_drills(ground, network, options);
+  Drills drills = extract_drills(ground, network, {.tau = tau});
   quantise(drills, automatic_quantum(ground));
   ByteSink bytes;
   encode_drills(drills, bytes);
@@ -51,14 +49,14 @@ Stored store(const Heightfield& ground, const FlowNetwork& network, std::uint32_
   return best;
 }
 
-// The threshold whose channel pixels are nearest to so many.
+// The threshold whose number of channel pixels is nearest to `pixels`.
 std::uint32_t threshold_for(const FlowNetwork& network, std::size_t pixels) {
   std::vector<std::uint32_t> flow = network.accumulation;
   pixels = std::clamp<std::size_t>(pixels, 1, flow.size());
   std::nth_element(flow.begin(), flow.begin() + static_cast<std::ptrdiff_t>(pixels) - 1, flow.end(),
                    std::greater<>());
   const std::uint32_t tau = std::max(flow[pixels - 1], 1U);
-  // With equal flows the count jumps past the wish; the next threshold may be nearer.
+  // Where many flows are equal the count jumps; the next threshold may be nearer.
   const auto distance = [&](std::uint32_t t) {
     const auto count = std::count_if(flow.begin(), flow.end(), [=](std::uint32_t f) { return f >= t; });
     return std::abs(static_cast<double>(count) - static_cast<double>(pixels));
@@ -66,8 +64,8 @@ std::uint32_t threshold_for(const FlowNetwork& network, std::size_t pixels) {
   return distance(tau + 1) < distance(tau) ? tau + 1 : tau;
 }
 
-// The settings of each codec that the plot shows: steps in metres for zstd, percent for JPEG 2000, largest
-// errors in metres for LERC.
+// The settings of each codec in the plot: quantisation steps in metres for zstd, percent for JPEG 2000,
+// largest errors in metres for LERC.
 struct Peer {
   RasterCodec codec;
   std::vector<double> settings;
@@ -110,24 +108,23 @@ void draw_rate_distortion(const TerrainSource& source, const FlowNetwork& networ
     }
     progress.advance();
   }
-  // Flat ground is stored by all without any error, which a logarithmic axis cannot show.
+  // All codecs store flat ground without error, which a logarithmic axis cannot show.
   if (height_range(ground).lowest == height_range(ground).highest) return;
   svg_text_to_png(
       plot_svg(plot),
       recorder.figure(
           "drill.rate-distortion" + suffix, "png",
           fmt::format(
-              "Bits a sample against error for {}: drills in their own file form, w = 10 and the best k at "
-              "each of seven thresholds, beside the same ground through other codecs. All count "
-              "the coded bytes alone. Drills' bytes are entropy-coded, so that of the two LERCs the one "
-              "with DEFLATE is the fair peer.",
+              "Bits per sample against error for {}: drills in their own file format, with w = 10 and the "
+              "best k at each of seven thresholds, and the same ground in other codecs. Only coded bytes "
+              "count. Drills are entropy-coded, so LERC with DEFLATE is the fair "
+              "comparison.",
               source.name)),
       1200);
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   const FlowNetwork network = route_flow(ground, &progress);
   const auto samples = static_cast<double>(ground.heights.size());
@@ -135,17 +132,17 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
       ground, network, threshold_for(network, static_cast<std::size_t>(std::lround(kPaperShare * samples))));
   recorder.add("tau", "pixels", stored.tau);
   recorder.add("k", "samples", stored.k);
-  recorder.add("drills", "", static_cast<double>(stored.drills));
+  recorder.add("drills", "", stored.drills);
   recorder.add("drills_per_160000", "", static_cast<double>(stored.drills) * 160000 / samples);
   recorder.add("values_to_samples", "", 4 * static_cast<double>(stored.drills) / samples);
   recorder.add("rmse", "m", stored.error.rmse);
   recorder.add("rmse_normalised", "", stored.error.normalised());
-  recorder.add("drill_bytes", "B", static_cast<double>(stored.bytes));
+  recorder.add("drill_bytes", "B", stored.bytes);
   const auto add = [&](std::string_view metric, const CompressedSize& size) {
-    recorder.add(fmt::format("{}_bytes", metric), "B", static_cast<double>(size.bytes));
+    recorder.add(fmt::format("{}_bytes", metric), "B", size.bytes);
     recorder.add(fmt::format("{}_rmse", metric), "m", size.rmse);
   };
-  // Other compressors know no holes.
+  // The other compressors do not support holes.
   const Heightfield filled = fill_no_data(ground);
   add("zstd_metres", compressed_size(filled, RasterCodec::kZstd, 1));
   add("jpeg2000_lossless", compressed_size(filled, RasterCodec::kJpeg2000, 100));

@@ -1,4 +1,4 @@
-// What extraction and regeneration cost, against the number of drills (the drill paper's §3.1).
+// Time of extraction and regeneration against the number of drills (the drill paper's §3.1).
 #include <fmt/format.h>
 
 #include <array>
@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kSamples = 9;
 constexpr std::array<std::uint32_t, 8> kTimedTaus{10, 15, 25, 50, 100, 200, 400, 800};
+constexpr std::size_t kPaperTau = 2;  // 25: regeneration is timed there
 
 // Least squares of y = intercept + slope · x.
 struct Line {
@@ -39,27 +40,24 @@ Line fit_line(const std::vector<double>& x, const std::vector<double>& y) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   FlowNetwork network = route_flow(ground);
   std::vector<std::vector<double>> extraction(kTimedTaus.size());
   std::vector<double> regeneration;
   std::vector<Drills> drills(kTimedTaus.size());
   progress.begin("timing extraction", kSamples);
-  // All thresholds in turn, so that a busy moment of the machine meets all alike; the first round warms up.
+  // Thresholds alternate, so that a slow period of the machine affects all alike. The first round warms up.
   for (int sample = -1; sample < kSamples; ++sample) {
     const double routing = seconds([&] { network = route_flow(ground); });
     if (sample >= 0) recorder.add("routing_time", "s", routing);
     for (std::size_t t = 0; t < kTimedTaus.size(); ++t) {
-      DrillOptions extract;
-      extract.tau = kTimedTaus[t];
-      extract.k = 20;
+      const DrillOptions extract{.tau = kTimedTaus[t], .k = 20};
       const double time = seconds([&] { drills[t] = extract_drills(ground, network, extract); });
       if (sample < 0) continue;
       extraction[t].push_back(time);
       recorder.add(fmt::format("extraction_time_tau_{}", extract.tau), "s", time);
-      if (extract.tau != 25) continue;
+      if (t != kPaperTau) continue;
       const double again = seconds([&] { regenerate(drills[t]); });
       regeneration.push_back(again);
       recorder.add("regeneration_time", "s", again);
@@ -67,17 +65,15 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     if (sample >= 0) progress.advance();
   }
   std::vector<double> pixels, medians;
-  double at_25 = 0;
   for (std::size_t t = 0; t < kTimedTaus.size(); ++t) {
     pixels.push_back(static_cast<double>(drills[t].count()));
     medians.push_back(summarise(extraction[t]).median);
-    if (kTimedTaus[t] == 25) at_25 = medians.back();
   }
   const Line line = fit_line(pixels, medians);
   recorder.add("seconds_per_drill", "s", line.slope);
   recorder.add("seconds_without_drills", "s", line.intercept);
   recorder.add("r_squared", "", line.r_squared);
-  recorder.add("extraction_to_regeneration", "", at_25 / summarise(regeneration).median);
+  recorder.add("extraction_to_regeneration", "", medians[kPaperTau] / summarise(regeneration).median);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// §3.1.3 of "hybrid": what each noise adds to the terrain, counted.
+// §3.1.3 of "hybrid": overhangs, caves and floating islands that each noise adds to the terrain.
 #include <array>
 
 #include "experiments/build_at.h"
@@ -15,7 +15,7 @@ constexpr std::array kSpecs{
     ParameterSpec{"caves", true, "", "carve with two ridged multifractals"},
     ParameterSpec{"attenuation", true, "", "weaken the carving with height"},
     ParameterSpec{"printed_product", false, "",
-                  "multiply the two cave maps as printed: a cave where either says so"},
+                  "multiply the two cave maps as printed: a cave where either map has one"},
 };
 
 std::vector<Case> cases(const RunOptions& options) {
@@ -46,21 +46,19 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  noise::CaveOptions terrain;
-  terrain.seed = options.seed;
-  terrain.perturb_x = at.parameters.flag("perturb_x");
-  terrain.caves = at.parameters.flag("caves");
-  terrain.attenuation = at.parameters.flag("attenuation");
-  terrain.printed_product = at.parameters.flag("printed_product");
-  const TerrainSource source = noise::cave_source(terrain);
-  recorder.terrain(source);
+  const noise::CaveOptions terrain{.seed = options.seed,
+                                   .perturb_x = at.parameters.flag("perturb_x"),
+                                   .caves = at.parameters.flag("caves"),
+                                   .attenuation = at.parameters.flag("attenuation"),
+                                   .printed_product = at.parameters.flag("printed_product")};
+  const TerrainSource source = recorder.terrain(noise::cave_source(terrain));
   const auto built = build_at_resolution("layered_stack", source, at.parameters.integer("n"), progress);
   const auto& stack = dynamic_cast<const LayeredStack&>(*built);
   const Components found = find_components(stack);
 
-  recorder.add("overhang_columns", "", static_cast<double>(found.overhang_columns));
-  recorder.add("solid_components", "", static_cast<double>(found.total));
-  recorder.add("floating_components", "", static_cast<double>(found.floating));
+  recorder.add("overhang_columns", "", found.overhang_columns);
+  recorder.add("solid_components", "", found.total);
+  recorder.add("floating_components", "", found.floating);
   recorder.add("floating_volume", "m³", found.floating_volume);
   const glm::vec3 size = source.bounds().size();
   recorder.add("solid_share", "", found.solid_volume / (static_cast<double>(size.x) * size.y * size.z));

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "experiments/experiment.h"
-#include "terrain/error.h"
 #include "terrain/files.h"
 #include "terrain/image.h"
 #include "terrain/sources/noise/cave_terrain.h"
@@ -16,39 +15,32 @@
 namespace terrabench::hybrid {
 namespace {
 
+constexpr std::int64_t kFirstFigure = 3,
+                       kLastFigure = kFirstFigure + noise::kStages - 1;  // a figure per stage
+
 constexpr std::array kSpecs{
-    ParameterSpec{"figure", std::int64_t{3}, "", "number of the figure in the paper", 3, 13},
+    ParameterSpec{"figure", kFirstFigure, "", "number of the figure in the paper", kFirstFigure, kLastFigure},
     ParameterSpec{"pixels", std::int64_t{512}, "pixels", "side of the square picture", 16, 8192},
 };
 
-const noise::StageInfo& stage_of_figure(std::int64_t figure) {
-  for (int i = 0; i < noise::kStages; ++i) {
-    const noise::StageInfo& stage = noise::info(static_cast<noise::Stage>(i));
-    if (stage.figure == figure) return stage;
-  }
-  throw usage_error(fmt::format("no noise stage is figure {}", figure), "figure",
-                    "figures 3 to 13 are noise stages");
-}
-
 std::vector<Case> cases(const RunOptions&) {
   std::vector<Case> cases;
-  for (int i = 0; i < noise::kStages; ++i) {
-    const int figure = noise::info(static_cast<noise::Stage>(i)).figure;
-    cases.push_back({fmt::format("F{}", figure), {kSpecs, {{"figure", std::int64_t{figure}}}}, ""});
+  for (std::int64_t figure = kFirstFigure; figure <= kLastFigure; ++figure) {
+    cases.push_back({fmt::format("F{}", figure), {kSpecs, {{"figure", figure}}}, ""});
   }
   return cases;
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const noise::StageInfo& stage = stage_of_figure(at.parameters.integer("figure"));
+  const noise::StageInfo& stage =
+      noise::info(static_cast<noise::Stage>(at.parameters.integer("figure") - kFirstFigure));
   const int side = static_cast<int>(at.parameters.integer("pixels"));
-  noise::CaveOptions terrain;
-  terrain.seed = options.seed;
+  const noise::CaveOptions terrain{.seed = options.seed};
   const noise::CaveGraph graph = noise::graph_for(stage.stage, terrain);
   recorder.terrain(fmt::format("caves ({})", stage.name), checksum(graph.graph.describe()));
   const noise::Program program(graph.graph, graph.root);
 
-  // Rows bottom up in the slice, top down in the picture; samples at pixel centres.
+  // Rows run upwards in the slice and downwards in the picture; samples are at pixel centres.
   const float step = terrain.extent / static_cast<float>(side);
   std::vector<float> values(static_cast<std::size_t>(side) * side);
   progress.begin(stage.name, side);

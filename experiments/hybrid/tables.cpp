@@ -33,7 +33,7 @@ struct Layer {
   Material material;
 };
 
-// A structure's bytes twice: as it accounts for them itself and as the allocator saw them.
+// A structure's bytes, by its own accounting and by the allocator.
 struct Bytes {
   Memory memory;
   std::int64_t heap = 0;
@@ -45,12 +45,11 @@ Bytes bytes_of(std::string_view name, const TerrainSource& source, std::int64_t 
   return {memory, destroy_and_count(std::move(built))};
 }
 
-// The layout that the paper's figure fits: an array of one std::vector of layers a column. Its figure is the
-// array alone, 24 bytes a column whatever they hold; the layers lie in a heap block each, which it leaves
-// out.
+// The layout that agrees with the paper's number: an array with one std::vector of layers per column. That
+// number is the array alone, 24 bytes per column; it leaves out the heap blocks that hold the layers.
 struct PaperLayout {
   Memory columns;         // the array
-  std::int64_t heap = 0;  // with all blocks
+  std::int64_t heap = 0;  // array and blocks
 };
 
 PaperLayout paper_layout(const TerrainSource& source, std::int64_t n, Progress& progress) {
@@ -73,7 +72,7 @@ PaperLayout paper_layout(const TerrainSource& source, std::int64_t n, Progress& 
   return {{array, 0, heap_bytes(columns.data()) - array}, scope.held()};
 }
 
-// Queries a second of one thread at random positions: the material of a point, all spans of a column.
+// Queries per second of one thread at random positions: the material of a point, all spans of a column.
 void measure_queries(const Representation& structure, const Bounds& bounds, Recorder& recorder) {
   constexpr std::size_t kQueries = 1 << 20;
   constexpr int kSamples = 7;
@@ -104,8 +103,7 @@ std::vector<Case> table1_cases(const RunOptions& options) {
 void measure_table1(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const std::int64_t n = at.parameters.integer("n");
   const auto columns = static_cast<double>(n * n);
-  const TerrainSource source = noise::cave_source({.seed = options.seed});
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(noise::cave_source({.seed = options.seed}));
   const PaperLayout paper = paper_layout(source, n, progress);
   measure_queries(*build_at_resolution("layered_stack", source, n, progress), source.bounds(), recorder);
   const Bytes stack = bytes_of("layered_stack", source, n, progress);
@@ -114,15 +112,15 @@ void measure_table1(const Case& at, const RunOptions& options, Recorder& recorde
 
   const auto paper_bytes = static_cast<double>(paper.columns.payload);
   recorder.add("paper_stack_bytes", "B", paper_bytes);
-  recorder.add("paper_layout_heap_bytes", "B", static_cast<double>(paper.heap));
-  recorder.add("dense_voxel_bytes", "B", static_cast<double>(dense.memory.payload));
+  recorder.add("paper_layout_heap_bytes", "B", paper.heap);
+  recorder.add("dense_voxel_bytes", "B", dense.memory.payload);
   recorder.add("voxel_to_stack_ratio", "", static_cast<double>(dense.memory.payload) / paper_bytes);
-  recorder.add("stack_bytes", "B", static_cast<double>(stack.memory.total()));
-  recorder.add("stack_heap_bytes", "B", static_cast<double>(stack.heap));
+  recorder.add("stack_bytes", "B", stack.memory.total());
+  recorder.add("stack_heap_bytes", "B", stack.heap);
   recorder.add("stack_bytes_per_column", "B", static_cast<double>(stack.heap) / columns);
-  recorder.add("dense_heap_bytes", "B", static_cast<double>(dense.heap));
-  recorder.add("openvdb_bytes", "B", static_cast<double>(openvdb.memory.total()));
-  recorder.add("openvdb_heap_bytes", "B", static_cast<double>(openvdb.heap));
+  recorder.add("dense_heap_bytes", "B", dense.heap);
+  recorder.add("openvdb_bytes", "B", openvdb.memory.total());
+  recorder.add("openvdb_heap_bytes", "B", openvdb.heap);
 }
 
 std::vector<Case> table2_cases(const RunOptions& options) {
@@ -131,8 +129,7 @@ std::vector<Case> table2_cases(const RunOptions& options) {
 
 void measure_table2(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const std::int64_t n = at.parameters.integer("n");
-  const TerrainSource source = noise::cave_source({.seed = options.seed});
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(noise::cave_source({.seed = options.seed}));
   build_at_resolution("layered_stack", source, std::min<std::int64_t>(n, 64),
                       progress);  // warm caches, pool and clock
   const int samples = n >= 512 ? 7 : 11;

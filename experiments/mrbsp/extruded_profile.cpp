@@ -14,12 +14,12 @@ namespace terrabench::mrbsp {
 namespace {
 
 constexpr int kFineSegments = 1 << kFineDigits, kCoarseSegments = 1 << kCoarseDigits;
-// Full squares of triangles lie at odd depths of the tree.
+// Two triangles form an upright square at odd depths of the tree.
 constexpr int kStripDepth = 2 * kFineDigits + 1, kStripCoarseDepth = 2 * kCoarseDigits + 1;
 
 using Segments = std::set<std::uint32_t>;
 
-// Fine segments that are drawn for an observer on the ground in the middle of the cell.
+// The fine segments drawn for an observer on the ground in the middle of the cell.
 Segments drawn_from(int cell, const Heightfield& strip, Mrbsp& lod) {
   View view;
   view.eye.x = (static_cast<float>(cell) + 0.5F) * strip.extent_x() / kProfileCells;
@@ -57,21 +57,18 @@ Heightfield extrude(std::span<const float> profile) {
 }
 
 visibility::ChangeTable find_changes(const Heightfield& strip, bool conservative, Progress& progress) {
-  visibility::Options options;
-  options.mode = conservative ? visibility::Mode::kConservative : visibility::Mode::kSampled;
-  options.cells = kProfileCells;
-  options.coarseness = kStripDepth - kStripCoarseDepth;
-  options.eye_height = 0;
+  const visibility::Options options{
+      .mode = conservative ? visibility::Mode::kConservative : visibility::Mode::kSampled,
+      .cells = kProfileCells,
+      .coarseness = kStripDepth - kStripCoarseDepth,
+      .eye_height = 0};
   const BisectionTree tree = BisectionTree::over(strip.width, strip.depth, kStripDepth);
   return changes_of(find_sets(grid_of(strip), tree, options, progress));
 }
 
 std::vector<ProfileStep> profile_steps(const Heightfield& strip, const visibility::ChangeTable& table,
                                        Progress& progress) {
-  MrbspOptions options;
-  options.depth = kStripDepth;
-  options.cull = false;
-  Mrbsp lod(strip, options, table, progress);
+  Mrbsp lod(strip, {.depth = kStripDepth, .cull = false}, table, progress);
   lod.tune(kFinest);
   const NodeNumber level = NodeNumber{1} << table.depth;
   std::vector<ProfileStep> steps;

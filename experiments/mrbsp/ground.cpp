@@ -5,50 +5,35 @@
 #include <numbers>
 
 #include "lod/mrbsp/surface_height.h"
-#include "terrain/error.h"
 #include "terrain/sources/drawing/drawing.h"
 #include "terrain/sources/fractal/diamond_square.h"
 
 namespace terrabench::mrbsp {
-namespace {
-
-TerrainSource from_heights(std::string_view name, Heightfield heights) {
-  TerrainSource source;
-  source.name = name;
-  source.checksum = checksum(heights);
-  source.heights = std::move(heights);
-  return source;
-}
-
-}  // namespace
 
 TerrainSource open_ground(std::string_view name, std::uint64_t seed) {
   if (name == "real-257") {
     return from_heights(name, resample(*open_terrain("jacksboro").heights, kSide, kSide));
   }
   if (name == "drawing-257") {
-    DrawingOptions options;
-    options.peak = 1600;
-    return from_heights(name, land_from_drawing(example_drawing(kSide, seed), options));
+    return from_heights(name, land_from_drawing(example_drawing(kSide, seed), {.peak = 1600}));
   }
   if (name == "rough-257") {
     return from_heights(name, fractal::diamond_square({.seed = seed, .side = kSide, .hurst = 0.5F}));
   }
-  TerrainSource source = open_terrain(name, seed);
-  if (!source.heights) {
-    throw usage_error("level of detail needs a height field, not a solid", name, "name a terrain of heights");
-  }
-  source.heights = fill_no_data(*source.heights);
-  return source;
+  return open_filled_heights(name, seed);
 }
 
 std::vector<std::string> grounds(const RunOptions& options, bool rough) {
-  if (!options.terrains.empty()) return options.terrains;
-  if (rough) return {"real-257", "drawing-257", "rough-257"};
-  return {"real-257", "drawing-257"};
+  if (!rough) return terrabench::grounds(options, {"real-257", "drawing-257"});
+  return terrabench::grounds(options, {"real-257", "drawing-257", "rough-257"});
 }
 
 int depth_over(const Heightfield& field) { return field.width == kSide && field.depth == kSide ? kDepth : 0; }
+
+glm::ivec2 cell_below(const visibility::CellGrid& cells, const Heightfield& field, const glm::vec3& eye) {
+  return {std::min(static_cast<int>(eye.x / field.cell_x) / cells.side, cells.columns - 1),
+          std::min(static_cast<int>(eye.z / field.cell_z) / cells.side, cells.rows - 1)};
+}
 
 float eye_height(const Heightfield& field, float x, float z) {
   const BisectionTree tree = BisectionTree::over(field.width, field.depth, depth_over(field));
@@ -58,14 +43,14 @@ float eye_height(const Heightfield& field, float x, float z) {
 std::vector<View> walk(const Heightfield& field, int views, float reach) {
   std::vector<View> all;
   const auto place = [&](double turn) {
-    // Two loops and three: crosses the middle and its own way, and comes back.
+    // A Lissajous curve of frequencies 2 and 3: closed, crosses the middle and itself.
     const double angle = 2 * std::numbers::pi * turn;
     return glm::vec2(
         field.extent_x() * (0.5F + 0.5F * reach * static_cast<float>(std::sin(2 * angle))),
         field.extent_z() * (0.5F + 0.5F * reach * static_cast<float>(std::sin(3 * angle + 0.7))));
   };
   for (int k = 0; k < views; ++k) {
-    // Off the places where the way crosses itself, so that no two eyes are the same.
+    // Not where the curve crosses itself, so that no two eyes coincide.
     const glm::vec2 here = place((k + 0.4) / views), next = place((k + 0.65) / views);
     View view;
     view.eye = {here.x, eye_height(field, here.x, here.y), here.y};
@@ -75,6 +60,10 @@ std::vector<View> walk(const Heightfield& field, int views, float reach) {
     all.push_back(view);
   }
   return all;
+}
+
+double share(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
 double mean_triangles(Mrbsp& lod, const std::vector<View>& views) {

@@ -1,24 +1,24 @@
-// §5: level of detail gains more as the land grows outwards, visibility as it gets rougher. A gain is how
-// many times fewer triangles are drawn than without.
+// §5: level of detail gains more on larger ground, visibility on rougher ground. A gain is the number of
+// triangles drawn without the method divided by that with it.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
 #include "experiments/experiment.h"
+#include "experiments/ground.h"
 #include "experiments/mrbsp/ground.h"
-#include "experiments/noise_ground.h"
 #include "terrain/sources/fractal/diamond_square.h"
 
 namespace terrabench::mrbsp {
 namespace {
 
 constexpr std::array kLandSpecs{
-    ParameterSpec{"n", std::int64_t{257}, "samples", "side of the land", 65, 8193},
+    ParameterSpec{"n", std::int64_t{257}, "samples", "side of the ground", 65, 8193},
 };
 constexpr std::array kRoughnessSpecs{
-    ParameterSpec{"relief", 600.0, "m", "most that the first level of the fractal is displaced", 0, 10000},
-    ParameterSpec{"hurst", 0.9, "", "exponent by which detail falls with its size: lower is rougher", 0, 1},
+    ParameterSpec{"relief", 600.0, "m", "largest displacement at the first level of the fractal", 0, 10000},
+    ParameterSpec{"hurst", 0.9, "", "Hurst exponent: lower is rougher", 0, 1},
 };
 constexpr int kViews = 60, kSmallest = 129, kLargest = 2049, kSeeds = 3;
 
@@ -33,24 +33,22 @@ std::vector<Case> land_cases(const RunOptions& options) {
 
 void measure_land(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const int n = static_cast<int>(at.parameters.integer("n"));
-  // Outwards: the same middle, and more and more around it.
+  // Grounds of all sizes share their middle.
   const int around = std::max(n, kLargest);
   const Heightfield ground =
       crop(noise_hills(around, options.seed), (around - n) / 2, (around - n) / 2, n, n);
   recorder.terrain("noise-hills", checksum(ground));
-  // The walk on the smallest land.
+  // On every ground the walk has the extent that it has on the smallest.
   const float reach = 0.6F * (kSmallest - 1) / static_cast<float>(std::max(n, kSmallest) - 1);
   const std::vector<View> views = walk(ground, kViews, reach);
-  MrbspOptions rule;
-  rule.conforming = false;
-  Mrbsp lod(ground, rule, progress);
+  Mrbsp lod(ground, {.conforming = false}, progress);
   lod.tune(kFinest);
   const double all = mean_triangles(lod, views);
   lod.tune(kTunedSize);
   const double some = mean_triangles(lod, views);
   lod.tune(1);
   const double printed = mean_triangles(lod, views);
-  recorder.add("triangles_all", "", static_cast<double>(lod.tree().triangles()));
+  recorder.add("triangles_all", "", lod.tree().triangles());
   recorder.add("triangles_brute", "", all);
   recorder.add("triangles_lod", "", some);
   recorder.add("gain", "", all / some);
@@ -79,12 +77,13 @@ void measure_roughness(const Case& at, const RunOptions& options, Recorder& reco
     if (k == 0) recorder.terrain("diamond-square", checksum(ground));
     const std::vector<View> views = walk(ground, kViews);
     for (std::size_t way = 0; way < sums.size(); ++way) {
-      MrbspOptions rule;
-      rule.depth = kDepth;
-      rule.conforming = false;
-      rule.visibility = way > 0;
-      rule.visible.mode = way == 2 ? visibility::Mode::kConservative : visibility::Mode::kSampled;
-      Mrbsp lod(ground, rule, progress);
+      Mrbsp lod(
+          ground,
+          {.depth = kDepth,
+           .conforming = false,
+           .visibility = way > 0,
+           .visible = {.mode = way == 2 ? visibility::Mode::kConservative : visibility::Mode::kSampled}},
+          progress);
       lod.tune(kFinest);
       sums[way] += mean_triangles(lod, views) / kSeeds;
     }

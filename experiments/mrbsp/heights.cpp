@@ -1,5 +1,5 @@
-// §2: that every level of the tree is the whole land, and what heights its vertices get by the recursion as
-// printed, in which each half of a triangle is handed the points on its own side of the cut.
+// §2: whether every level of the tree covers the whole ground, and the heights that the printed recursion
+// gives its vertices: it passes to each half of a triangle only the points on that half's side of the cut.
 #include <fmt/format.h>
 
 #include <array>
@@ -15,14 +15,12 @@ namespace terrabench::mrbsp {
 namespace {
 
 constexpr std::array kSpecs{
-    ParameterSpec{
-        "points", std::int64_t{kSide}, "points",
-        "along either side; vertices stand on points where the side is one more than a power of two", 2,
-        4097},
+    ParameterSpec{"points", std::int64_t{kSide}, "points",
+                  "per side; where this is a power of two plus one, vertices coincide with points", 2, 4097},
     ParameterSpec{"depth", std::int64_t{kDepth}, "levels", "bisections", 1, 24},
 };
 
-// Is the frame 2^depth triangles of the same size in plan that cover the land?
+// Whether the frame consists of 2^depth triangles of equal size in plan that cover the ground.
 bool is_whole_level(const Frame& frame, const Heightfield& ground, int depth) {
   const double land = static_cast<double>(ground.extent_x()) * ground.extent_z();
   const double each = land / std::exp2(depth);
@@ -52,8 +50,7 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const auto side = static_cast<int>(at.parameters.integer("points"));
   const auto depth = static_cast<int>(at.parameters.integer("depth"));
   const Heightfield ground = resample(*source.heights, side, side);
@@ -67,10 +64,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   view.target = {0, 0, 0};
   view.up = {0, 0, -1};
   for (int level = 1; level <= depth; ++level) {
-    MrbspOptions rule;
-    rule.depth = level;
-    rule.cull = false;
-    Mrbsp lod(lattice, rule, progress);
+    Mrbsp lod(lattice, {.depth = level, .cull = false}, progress);
     lod.tune(kFinest);
     whole += is_whole_level(lod.update(view), lattice, level);
   }
@@ -87,11 +81,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     const SubsetTriangles subsets = interpolate_subsets(points, tree, shared);
     const VertexGaps gaps = vertex_gaps(subsets);
     const std::string_view suffix = shared ? "_shared" : "";
-    const auto share = [](std::size_t part, std::size_t all) {
-      return static_cast<double>(part) / static_cast<double>(all);
-    };
-    recorder.add(fmt::format("vertices{}", suffix), "", static_cast<double>(gaps.vertices));
-    recorder.add(fmt::format("torn{}", suffix), "", static_cast<double>(gaps.torn));
+    recorder.add(fmt::format("vertices{}", suffix), "", gaps.vertices);
+    recorder.add(fmt::format("torn{}", suffix), "", gaps.torn);
     recorder.add(fmt::format("torn_share{}", suffix), "", share(gaps.torn, gaps.vertices));
     recorder.add(fmt::format("mean_gap{}", suffix), "m", gaps.mean);
     recorder.add(fmt::format("largest_gap{}", suffix), "m", gaps.largest);

@@ -1,4 +1,4 @@
-// §3: what the one-vertex rule leaves open, counted by the detector that all methods share.
+// §3: holes that the one-vertex rule leaves, counted by the crack detector that all methods share.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace terrabench::mrbsp {
 namespace {
 
 constexpr std::array kSpecs{
-    ParameterSpec{"conforming", false, "", "the rule without holes, not the paper's"},
+    ParameterSpec{"conforming", false, "", "the rule without holes instead of the paper's"},
     ParameterSpec{"area", false, "", "threshold M - 2 log2(D/S)"},
 };
 constexpr std::array kSizes{1.0, 4.0, 16.0};
@@ -33,14 +33,13 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
-  MrbspOptions rule;
-  rule.depth = depth_over(ground);
-  rule.conforming = at.parameters.flag("conforming");
-  rule.area_consistent = at.parameters.flag("area");
-  Mrbsp lod(ground, rule, progress);
+  Mrbsp lod(ground,
+            {.depth = depth_over(ground),
+             .area_consistent = at.parameters.flag("area"),
+             .conforming = at.parameters.flag("conforming")},
+            progress);
   const std::vector<View> views = walk(ground, options.profile == Profile::kPaper ? 240 : 40);
   CrackReport all;
   std::size_t torn = 0, drawn = 0;
@@ -63,12 +62,13 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   }
   progress.end();
   const auto frames = static_cast<double>(kSizes.size() * views.size());
+  const std::size_t holes = all.gaps + all.bare_edges + all.overlaps;
   recorder.add("frames", "", frames);
   recorder.add("triangles_per_frame", "", static_cast<double>(drawn) / frames);
-  recorder.add("holes", "", static_cast<double>(all.gaps + all.bare_edges + all.overlaps));
-  recorder.add("holes_per_frame", "", static_cast<double>(all.gaps + all.bare_edges + all.overlaps) / frames);
-  recorder.add("t_junctions", "", static_cast<double>(all.t_junctions));
-  recorder.add("frames_with_holes", "", static_cast<double>(torn));
+  recorder.add("holes", "", holes);
+  recorder.add("holes_per_frame", "", static_cast<double>(holes) / frames);
+  recorder.add("t_junctions", "", all.t_junctions);
+  recorder.add("frames_with_holes", "", torn);
   recorder.add("largest_gap", "m", all.largest_gap_m);
   recorder.add("largest_gap_on_screen", "pixels", all.largest_gap_px);
 }

@@ -1,4 +1,4 @@
-// §1: what each adjustment does to the land that a drawing becomes.
+// §1: the effect of each adjustment on the ground made from a drawing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "experiments/experiment.h"
-#include "experiments/figures/sheet.h"
+#include "experiments/figures/ground.h"
+#include "experiments/figures/maps.h"
 #include "experiments/mrbsp/ground.h"
 #include "renderers/ramp.h"
 #include "renderers/scene.h"
@@ -31,23 +32,19 @@ Heightfield ramp(const DrawingOptions& options) {
 }
 
 template <class Test>
-double share(const Heightfield& field, const Test& test) {
+double share_where(const Heightfield& field, const Test& test) {
   return static_cast<double>(std::count_if(field.heights.begin(), field.heights.end(), test)) /
          static_cast<double>(field.heights.size());
 }
 
-// How many samples break a rule that the text states for single greys.
+// Number of samples that break a rule that the text states for single greys.
 std::size_t broken_greys() {
   std::size_t broken = 0;
   for (const float peak : {500.0F, 1000.0F, 2000.0F}) {
     for (const float bed : {0.05F, 0.3F}) {
       for (const int shore : {0, 51, 102}) {
-        DrawingOptions options;
-        options.smoothing = 0;
-        options.peak = peak;
-        options.seabed = bed;
-        options.sea_level = static_cast<float>(shore) / 255;
-        const Heightfield field = ramp(options);
+        const Heightfield field =
+            ramp({.sea_level = static_cast<float>(shore) / 255, .peak = peak, .seabed = bed, .smoothing = 0});
         broken += field.at(255, 0) != peak;
         broken += field.at(shore, 0) != 0;
         if (shore > 0) broken += field.at(0, 0) != -bed * peak;
@@ -58,9 +55,9 @@ std::size_t broken_greys() {
   return broken;
 }
 
-// Mean bend of the ground that was drawn as low land, and how many samples of mountains have moved.
+// Mean curvature of the ground drawn as low land, and the number of mountain samples that moved.
 struct Smoothed {
-  double bend = 0;
+  double bend = 0;  // metres
   std::size_t moved = 0, mountains = 0;
 };
 Smoothed compare(const Heightfield& field, const Heightfield& drawn, const DrawingOptions& options) {
@@ -87,26 +84,7 @@ Rgb ramp_rgb(double t) {
   return {static_cast<std::uint8_t>(c.x), static_cast<std::uint8_t>(c.y), static_cast<std::uint8_t>(c.z)};
 }
 
-TriangleMesh land_mesh(const Heightfield& field) {
-  TriangleMesh mesh;
-  for (int j = 0; j < field.depth; ++j) {
-    for (int i = 0; i < field.width; ++i) {
-      mesh.positions.emplace_back(static_cast<float>(i) * field.cell_x, field.at(i, j),
-                                  static_cast<float>(j) * field.cell_z);
-    }
-  }
-  for (int j = 0; j + 1 < field.depth; ++j) {
-    for (int i = 0; i + 1 < field.width; ++i) {
-      const auto a = static_cast<std::uint32_t>(j * field.width + i), b = a + 1;
-      const auto c = a + static_cast<std::uint32_t>(field.width), d = c + 1;
-      mesh.indices.insert(mesh.indices.end(), {a, c, b, b, c, d});
-    }
-  }
-  compute_normals(mesh);
-  return mesh;
-}
-
-// The cut through the ground along the border, from the land down to `bottom`.
+// The sides of the block of ground, from the surface down to `bottom`.
 TriangleMesh border_walls(const Heightfield& field, float bottom) {
   TriangleMesh mesh;
   const auto wall = [&](glm::ivec2 from, glm::ivec2 step, int count) {
@@ -120,7 +98,7 @@ TriangleMesh border_walls(const Heightfield& field, float bottom) {
       mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2, first + 2, first + 1, first + 3});
     }
   };
-  // Around, counter-clockwise from above, so that walls face outwards.
+  // Counter-clockwise as seen from above, so that walls face outwards.
   const int right = field.width - 1, south = field.depth - 1;
   wall({0, 0}, {0, 1}, south);
   wall({0, south}, {1, 0}, right);
@@ -132,20 +110,19 @@ TriangleMesh border_walls(const Heightfield& field, float bottom) {
 void draw(const Image& picture, const Heightfield& field, const RunOptions& options, Recorder& recorder) {
   constexpr double kPicture = 340, kWide = 620, kMargin = 20;
   const HeightRange range = height_range(field);
-  const TriangleMesh mesh = land_mesh(field), walls = border_walls(field, range.lowest);
+  const TriangleMesh walls = border_walls(field, range.lowest);
+  TriangleMesh mesh = figures::ground_mesh(field);
+  compute_normals(mesh);
   const auto context = open_context(options.renderer, 64, 64);
   Scene scene;
   scene.lowest = 0;
   scene.highest = range.highest;
-  scene.meshes.emplace_back().mesh = &mesh;
-  SceneMesh& cut = scene.meshes.emplace_back();
-  cut.mesh = &walls;
-  cut.colors.assign(walls.positions.size(), {196, 180, 158});
-  ScenePlane& sea = scene.planes.emplace_back();
-  sea.corners = {
-      {0, 0, 0}, {0, 0, field.extent_z()}, {field.extent_x(), 0, field.extent_z()}, {field.extent_x(), 0, 0}};
-  sea.fill_opacity = 0.75F;
-  sea.line_width = 1;
+  scene.meshes = {{.mesh = &mesh},
+                  {.mesh = &walls, .colors = std::vector<Rgb>(walls.positions.size(), {196, 180, 158})}};
+  const float east = field.extent_x(), south = field.extent_z();
+  scene.planes = {{.corners = {{0, 0, 0}, {0, 0, south}, {east, 0, south}, {east, 0, 0}},
+                   .fill_opacity = 0.75F,
+                   .line_width = 1}};
   const View view = overview(bounds_of(mesh), static_cast<int>(2 * kWide), static_cast<int>(2 * kPicture));
   figures::Sheet sheet(kPicture + kWide + 3 * kMargin, kPicture + 2 * kMargin + 40);
   sheet.picture(kMargin, kMargin, kPicture, kPicture, picture);
@@ -155,14 +132,12 @@ void draw(const Image& picture, const Heightfield& field, const RunOptions& opti
   const double land = kPicture + 2 * kMargin, below = kPicture + kMargin + 24;
   sheet.text(land + 20, below, fmt::format("land, {:.1f} km across, with the sea", field.extent_x() / 1000),
              15);
-  sheet.text(land + kWide - 250, below, "height, m", 12);
-  const std::array<figures::Sheet::Tick, 3> ticks{
-      {{0, "0"}, {0.5, fmt::format("{:.0f}", range.highest / 2)}, {1, fmt::format("{:.0f}", range.highest)}}};
-  sheet.colour_bar(land + kWide - 180, below - 11, 160, ramp_rgb, ticks);
+  figures::add_colour_key(
+      sheet, land + kWide - 250, below - 11, "height, m", 70, 160, ramp_rgb,
+      {"0", fmt::format("{:.0f}", range.highest / 2), fmt::format("{:.0f}", range.highest)});
   sheet.write(recorder.figure("mrbsp.landscape", "png",
                               "The paper's section 1: a drawing of grey clouds with lightened ridges and a "
-                              "river and a lake in black, "
-                              "and the land that it becomes"));
+                              "river and a lake in black, and the ground made from it"));
 }
 
 std::vector<Case> cases(const RunOptions&) { return {Case{"drawing", Parameters(kSpecs), ""}}; }
@@ -172,17 +147,18 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   DrawingOptions adjust;
   const Heightfield land = land_from_drawing(picture, adjust);
   recorder.terrain("drawing", checksum(land));
-  recorder.add("broken_greys", "", static_cast<double>(broken_greys()));
+  recorder.add("broken_greys", "", broken_greys());
   for (const int percent : {10, 30, 40, 50}) {
     adjust.sea_level = static_cast<float>(percent) / 100;
     recorder.add(fmt::format("land_share_at_sea_level_{}", percent), "",
-                 share(land_from_drawing(picture, adjust), [](float h) { return h > 0; }));
+                 share_where(land_from_drawing(picture, adjust), [](float h) { return h > 0; }));
   }
   adjust = {};
   for (const int percent : {60, 30, 10, 3}) {
     adjust.seabed = static_cast<float>(percent) / 100;
-    recorder.add(fmt::format("beach_share_at_seabed_{}", percent), "",
-                 share(land_from_drawing(picture, adjust), [](float h) { return std::abs(h) < kBeach; }));
+    recorder.add(
+        fmt::format("beach_share_at_seabed_{}", percent), "",
+        share_where(land_from_drawing(picture, adjust), [](float h) { return std::abs(h) < kBeach; }));
   }
   adjust = {};
   adjust.smoothing = 0;
@@ -193,9 +169,9 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     const Smoothed smoothed = compare(land_from_drawing(picture, adjust), drawn, adjust);
     recorder.add(fmt::format("hill_bend_after_{}", passes), "m", smoothed.bend);
     moved += smoothed.moved;
-    if (passes == 0) recorder.add("mountain_samples", "", static_cast<double>(smoothed.mountains));
+    if (passes == 0) recorder.add("mountain_samples", "", smoothed.mountains);
   }
-  recorder.add("mountain_samples_moved", "", static_cast<double>(moved));
+  recorder.add("mountain_samples_moved", "", moved);
   draw(picture, land, options, recorder);
 }
 

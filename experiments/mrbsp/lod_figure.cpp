@@ -1,5 +1,5 @@
-// Figure 1: what level of detail draws, seen by its observer, with thresholds at the vertices and one
-// triangle that the one-vertex rule splits.
+// Figure 1: the triangles that level of detail draws, seen by its observer, with thresholds at the vertices
+// and one triangle that the one-vertex rule splits.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,9 +38,7 @@ class LodFigure {
     Scene scene;
     scene.lowest = range.lowest;
     scene.highest = range.highest;
-    SceneMesh& land = scene.meshes.emplace_back();
-    land.mesh = &mesh;
-    land.wire_width = 2;
+    scene.meshes = {{.mesh = &mesh, .wire_width = 2}};
     const Image image = render_scene(*context, scene, view_);
     Sheet sheet(kWidth, kHeight);
     sheet.picture(0, 0, kWidth, kHeight, with_few_colours(image));
@@ -67,7 +65,7 @@ class LodFigure {
     if (p.x < 14 || p.y < 14 || p.x > kWidth - 14 || p.y > kHeight - 14) return std::nullopt;
     return p;
   }
-  // Does one of its triangles show beside it?
+  // Whether a pixel next to the vertex shows one of its triangles.
   bool is_shown(std::uint32_t vertex, const SheetPoint& at) const {
     const int x = static_cast<int>(at.x * Sheet::kPixels), y = static_cast<int>(at.y * Sheet::kPixels);
     for (int dy = -3; dy <= 3; ++dy) {
@@ -90,8 +88,8 @@ class LodFigure {
     return true;
   }
 
-  // The largest in the picture of the triangles that the rule has split: drawn as two halves, one after the
-  // other.
+  // Marks the largest triangle in the picture that the rule has split: its halves are consecutive in the
+  // frame.
   void mark_split(Sheet& sheet) {
     std::array<SheetPoint, 4> best{};
     double largest = 0;
@@ -154,13 +152,9 @@ class LodFigure {
 std::vector<Case> cases(const RunOptions&) { return {Case{"real-257", Parameters(), "real-257"}}; }
 
 void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
-  MrbspOptions rule;
-  rule.depth = depth_over(ground);
-  rule.conforming = false;
-  Mrbsp lod(ground, rule, progress);
+  Mrbsp lod(ground, {.depth = depth_over(ground), .conforming = false}, progress);
   View view;
   view.width = kWidth * Sheet::kPixels;
   view.height = kHeight * Sheet::kPixels;
@@ -169,14 +163,14 @@ void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progres
   view.eye = {x, ground.sample(x, z) + 5 * lod.short_side(), z};
   view.target = view.eye + glm::vec3(0.75F, -0.32F, -0.66F);
   view.far = 2 * (ground.extent_x() + ground.extent_z());
-  recorder.add("triangles", "", static_cast<double>(lod.update(view).stats.triangles));
+  recorder.add("triangles", "", lod.update(view).stats.triangles);
   LodFigure(ground, lod, view)
-      .draw(options,
-            recorder.figure("mrbsp.F1", "png",
-                            "Figure 1 of the paper, on real mountains: what level of detail draws, with the "
-                            "threshold at each vertex that has room for it; T is a triangle that the "
-                            "one-vertex rule splits (dashed) because its right angle alone has a lower "
-                            "threshold"));
+      .draw(options, recorder.figure(
+                         "mrbsp.F1", "png",
+                         "Figure 1 of the paper, on real mountains: the triangles of level of detail, with "
+                         "the threshold at each vertex that has room for it; T is a triangle that the "
+                         "one-vertex rule splits (dashed) because the vertex at its right angle alone has "
+                         "a lower threshold"));
 }
 
 }  // namespace

@@ -7,18 +7,17 @@
 
 #include "experiments/experiment.h"
 #include "experiments/mrbsp/extruded_profile.h"
-#include "experiments/mrbsp/profile_figures.h"
 #include "lod/mrbsp/visibility/codec.h"
 
 namespace terrabench::mrbsp {
 namespace {
 
-// As printed: where the table's fine changes break off, so do these.
+// As printed, with the table's ellipsis.
 constexpr std::array<PrintedStep, 3> kTable1{{{"a-b", "11", "1100, 1101, 1110, 1111"},
                                               {"d-e", "00, 01, 10, 11", "0000, 0001, 0010, 0011, ..."},
                                               {"g-h", "00", "0000, 0001, 0010, 0011"}}};
 
-// Is the step what the table says of it? Of steps that it does not name: that nothing changes.
+// Whether the step agrees with the table. Steps that the table does not list must change nothing.
 bool is_printed(const std::string& name, const ProfileStep& step) {
   const auto line =
       std::find_if(kTable1.begin(), kTable1.end(), [&](const PrintedStep& l) { return l.name == name; });
@@ -35,7 +34,7 @@ int differing_steps(std::span<const ProfileStep> steps) {
   return differing;
 }
 
-// How many of the profiles whose heights each lie within `metres` of the chosen ones give the table too.
+// The share of random profiles with heights within `metres` of ours that give the same table.
 double share_alike(float metres, std::uint64_t seed, Progress& progress) {
   constexpr int kProfiles = 100;
   std::mt19937_64 random(seed);
@@ -59,8 +58,8 @@ void measure(const Case&, const RunOptions& options, Recorder& recorder, Progres
   recorder.add("differing_lines", "", differing_steps(steps));
   std::size_t changes = 0;
   for (const ProfileStep& step : steps) changes += step.coarse.size();
-  recorder.add("changes", "", static_cast<double>(changes));
-  // And through the file and back.
+  recorder.add("changes", "", changes);
+  // Saved and loaded again.
   const visibility::ChangeTable again = visibility::decode_text(encode_text(table), "table 1");
   recorder.add("lost_in_the_file", "", again == table ? 0 : 1);
   const visibility::ChangeTable safe = find_changes(strip, true, progress);
@@ -69,13 +68,13 @@ void measure(const Case&, const RunOptions& options, Recorder& recorder, Progres
   draw_profile(table1_profile(), steps,
                recorder.figure("mrbsp.F2", "png",
                                "Figure 2 of the paper: fine segments (black) and coarse ones (grey) with "
-                               "their numbers in the tree, and cells; those beside a change of visibility "
+                               "their numbers in the tree, and cells. Cells next to a change of visibility "
                                "are dark, with the coarse segments that change"));
   draw_table(kTable1, steps,
              recorder.figure("mrbsp.T1", "png",
-                             "Table 1 of the paper, cell-to-cell changes in visibility, beside what the "
-                             "sampled visibility of a landscape finds on figure 2's profile drawn out "
-                             "sideways: coarse changes as stored, fine ones as drawn"));
+                             "Table 1 of the paper, cell-to-cell changes in visibility, and the changes that "
+                             "our sampled visibility finds on figure 2's profile extruded sideways: coarse "
+                             "changes as stored, fine ones as drawn"));
 }
 
 }  // namespace

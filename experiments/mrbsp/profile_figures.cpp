@@ -1,10 +1,9 @@
-#include "experiments/mrbsp/profile_figures.h"
-
 #include <algorithm>
 #include <array>
 #include <vector>
 
 #include "experiments/figures/sheet.h"
+#include "experiments/mrbsp/extruded_profile.h"
 #include "lod/mrbsp/visibility/codec.h"
 
 namespace terrabench::mrbsp {
@@ -25,7 +24,7 @@ class ProfileDrawing {
 
   const Sheet& draw() {
     cells();
-    // Coarse below fine, so that both show where they run close together.
+    // Coarse under fine, so that both show where they nearly coincide.
     outline(profile_.size() >> kCoarseDigits, {.colour = kCoarse, .thickness = 5}, 9);
     outline(1, {.colour = kInk, .thickness = 2}, 5);
     numbers(kFineDigits, kTop + kHeight + 34, 12, kInk);
@@ -66,7 +65,7 @@ class ProfileDrawing {
     }
   }
   bool changes(std::size_t step) const { return step < steps_.size() && !steps_[step].coarse.empty(); }
-  // Dark where a step to a neighbour changes what is seen.
+  // Dark where a step to a neighbouring cell changes visibility.
   void cells() {
     const double side = kWidth / kProfileCells, y = kTop + kHeight + 74;
     for (std::size_t c = 0; c < kProfileCells; ++c) {
@@ -118,32 +117,25 @@ void draw_table(std::span<const PrintedStep> printed, std::span<const ProfileSte
                 const std::filesystem::path& png) {
   constexpr std::array kColumns{20.0, 100.0, 240.0, 380.0, 590.0};
   constexpr double kRow = 24, kRight = 980;
-  constexpr std::size_t kALine = 8;  // fine segments
-  struct Row {
-    std::array<std::string, 5> cells;
-    std::vector<std::string> more;  // of the last column
-  };
-  std::vector<Row> rows;
-  std::size_t lines = 0;
+  constexpr std::size_t kPerLine = 8;  // fine segments
+  std::vector<std::array<std::string, kColumns.size()>>
+      lines;  // empty cells where a step takes several lines
   for (std::size_t k = 0; k < steps.size(); ++k) {
-    const auto line = std::find_if(printed.begin(), printed.end(),
-                                   [&](const PrintedStep& p) { return p.name == step_name(k); });
-    const bool in_print = line != printed.end();
-    if (!in_print && steps[k].coarse.empty() && steps[k].fine.empty()) continue;
-    std::vector<std::string> fine;
-    for (std::size_t at = 0; at < steps[k].fine.size(); at += kALine) {
-      const std::span<const std::uint32_t> all(steps[k].fine);
-      const auto part = all.subspan(at, std::min(kALine, all.size() - at));
-      fine.push_back(segment_labels(part, kFineDigits) + (at + part.size() < all.size() ? "," : ""));
+    const std::span<const std::uint32_t> coarse(steps[k].coarse), fine(steps[k].fine);
+    const auto row = std::find_if(printed.begin(), printed.end(),
+                                  [&](const PrintedStep& p) { return p.name == step_name(k); });
+    const bool in_print = row != printed.end();
+    if (!in_print && coarse.empty() && fine.empty()) continue;
+    lines.push_back({step_name(k), in_print ? std::string(row->coarse) : "none",
+                     coarse.empty() ? "none" : segment_labels(coarse, kCoarseDigits),
+                     in_print ? std::string(row->fine) : "none", fine.empty() ? "none" : ""});
+    for (std::size_t at = 0; at < fine.size(); at += kPerLine) {
+      const auto part = fine.subspan(at, std::min(kPerLine, fine.size() - at));
+      if (at > 0) lines.emplace_back();
+      lines.back().back() = segment_labels(part, kFineDigits) + (at + part.size() < fine.size() ? "," : "");
     }
-    if (fine.empty()) fine.emplace_back("none");
-    rows.push_back({{step_name(k), in_print ? std::string(line->coarse) : "none",
-                     steps[k].coarse.empty() ? "none" : segment_labels(steps[k].coarse, kCoarseDigits),
-                     in_print ? std::string(line->fine) : "none", fine.front()},
-                    {fine.begin() + 1, fine.end()}});
-    lines += fine.size();
   }
-  Sheet sheet(kRight + 20, 74 + kRow * static_cast<double>(lines) + 20);
+  Sheet sheet(kRight + 20, 74 + kRow * static_cast<double>(lines.size()) + 20);
   const auto rule = [&](double y) {
     sheet.line(std::array{SheetPoint{kColumns[0], y}, SheetPoint{kRight, y}}, {.colour = kDark});
   };
@@ -157,10 +149,11 @@ void draw_table(std::span<const PrintedStep> printed, std::span<const ProfileSte
   }
   rule(68);
   double y = 68;
-  for (const Row& row : rows) {
+  for (const auto& line : lines) {
     y += kRow;
-    for (std::size_t c = 0; c < row.cells.size(); ++c) sheet.text(kColumns[c], y - 6, row.cells[c], 13);
-    for (const std::string& words : row.more) sheet.text(kColumns.back(), (y += kRow) - 6, words, 13);
+    for (std::size_t c = 0; c < line.size(); ++c) {
+      if (!line[c].empty()) sheet.text(kColumns[c], y - 6, line[c], 13);
+    }
   }
   rule(y + 4);
   sheet.write(png);

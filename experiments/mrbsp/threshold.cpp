@@ -1,6 +1,5 @@
-// §3 says that depth M - log2(D/S) makes triangles far away look as large as those nearby. What is drawn on
-// level ground says how large they look: the short side, in pixels, against the distance of the furthest
-// corner.
+// §3 says that depth M - log2(D/S) makes distant triangles look as large as near ones. Measured on level
+// ground: the short side of triangles, in pixels, against the distance of their furthest corner.
 #include <fmt/format.h>
 
 #include <array>
@@ -19,7 +18,7 @@ namespace {
 constexpr std::array kSpecs{
     ParameterSpec{"n", std::int64_t{1025}, "samples", "side of the level ground", 65, 4097},
 };
-constexpr int kFirstBin = 10, kBins = 10;  // two a doubling, from 32 short sides on
+constexpr int kFirstBin = 10, kBins = 10;  // two per doubling of distance, from 32 short sides
 constexpr double kSize = 16;
 constexpr int kPictureWidth = 1760;
 // At 800 × 600 pixels and 40° across.
@@ -30,13 +29,9 @@ struct Bin {
   std::size_t triangles = 0;
 };
 
-// Geometric means of the apparent short side, by distance.
+// Geometric means of the apparent short side, per bin of distance.
 std::vector<PlotPoint> apparent_sizes(const Heightfield& ground, bool area, Progress& progress) {
-  MrbspOptions options;
-  options.area_consistent = area;
-  options.conforming = false;
-  options.cull = false;
-  Mrbsp lod(ground, options, progress);
+  Mrbsp lod(ground, {.area_consistent = area, .conforming = false, .cull = false}, progress);
   lod.tune(kSize);
   View view;
   view.eye = {0, 1.8F, 0};
@@ -96,11 +91,11 @@ void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress& pr
   svg_text_to_png(
       plot_svg(plot),
       recorder.figure("mrbsp.threshold", "png",
-                      "The paper's section 3: how large triangles look against their distance, on level "
-                      "ground, by the formula as printed and by the one that reckons with halved areas. The "
+                      "The paper's section 3: apparent size of triangles against their distance, on level "
+                      "ground, by the printed formula and by the one that accounts for halved areas. The "
                       "paper says that the size stays the same. S is 16 times the short side of the finest "
-                      "triangles; 800 × 600 pixels, 40° across. Two distances a doubling, and whole levels: "
-                      "hence the steps"),
+                      "triangles; 800 × 600 pixels, 40° wide. The steps come from whole levels and two bins "
+                      "per doubling of distance"),
       kPictureWidth);
 }
 

@@ -1,10 +1,9 @@
-// §4: whether the stored sets over-estimate what is seen, against pictures in which every pixel says which
-// triangle it shows; and what storing changes alone saves.
+// §4: whether the stored sets over-estimate visibility, checked against pictures whose pixels hold the number
+// of the triangle they show; and the bytes saved by storing only changes.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <random>
 #include <unordered_set>
 
@@ -19,24 +18,21 @@
 namespace terrabench::mrbsp {
 namespace {
 
+constexpr std::int64_t kCoarseness = 6;  // of most cases
 constexpr std::array kSpecs{
-    ParameterSpec{"conservative", false, "", "the sets that miss nothing, not the paper's sampling"},
-    ParameterSpec{"cells", std::int64_t{16}, "cells", "at most, along the longer side", 1, 256},
-    ParameterSpec{"coarseness", std::int64_t{6}, "levels", "from the finest triangles to those of visibility",
+    ParameterSpec{"conservative", false, "", "sets that miss nothing instead of the paper's sampling"},
+    ParameterSpec{"cells", std::int64_t{16}, "cells", "largest number along the longer side", 1, 256},
+    ParameterSpec{"coarseness", kCoarseness, "levels", "between the finest triangles and those of visibility",
                   0, 14},
 };
-constexpr int kHeadings = 4, kPixels = 512;
+constexpr int kPixels = 512;
 
 struct Misses {
   std::size_t seen = 0, missed = 0, pixels = 0, missed_pixels = 0, eyes = 0;
-  double worst_eye = 0;  // missed pixels, share of those that show ground
+  double worst_eye = 0;  // largest share of missed pixels of one eye
 };
 
-double share_of(std::size_t part, std::size_t whole) {
-  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
-}
-
-// Which coarse triangle a triangle of the frame lies in: by its middle.
+// The coarse triangle that contains the middle of a triangle of the frame.
 std::uint32_t element_of(const Frame& frame, std::uint32_t triangle,
                          const visibility::CoarseSquares& squares) {
   glm::vec2 middle(0);
@@ -53,23 +49,21 @@ std::uint32_t element_of(const Frame& frame, std::uint32_t triangle,
   return squares.element(square, high ? 1 : 0);
 }
 
-// What an eye sees all around that its cell's set lacks.
+// Adds the triangles that an eye sees in all directions but its cell's set lacks.
 void look_around(const Heightfield& ground, const glm::vec3& eye, Mrbsp& full, FrameRenderer& renderer,
                  const visibility::Sets& sets, const visibility::CoarseSquares& squares, Misses& misses) {
-  const visibility::CellGrid& cells = sets.cells;
-  const int column = std::min(static_cast<int>(eye.x / ground.cell_x) / cells.side, cells.columns - 1);
-  const int row = std::min(static_cast<int>(eye.z / ground.cell_z) / cells.side, cells.rows - 1);
-  std::unordered_set<std::uint64_t> seen, missed;  // a triangle may show in two directions
+  const glm::ivec2 cell = cell_below(sets.cells, ground, eye);
+  const int cell_number = cell.y * sets.cells.columns + cell.x;
+  std::unordered_set<std::uint64_t> seen, missed;  // a triangle may show in two pictures
   std::size_t pixels = 0, missed_pixels = 0;
-  for (int heading = 0; heading < kHeadings; ++heading) {
-    View view;
-    view.eye = eye;
-    const std::array<glm::vec3, kHeadings> ways{{{1, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}}};
-    view.target = eye + ways[static_cast<std::size_t>(heading)];
-    view.vertical_fov = 1.5708F;
-    view.width = view.height = kPixels;
-    view.near = kWalkersNear;
-    view.far = 2 * (ground.extent_x() + ground.extent_z());
+  for (const glm::vec3 heading : {glm::vec3(1, 0, 0), {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}}) {
+    const View view{.eye = eye,
+                    .target = eye + heading,
+                    .vertical_fov = 1.5708F,
+                    .width = kPixels,
+                    .height = kPixels,
+                    .near = kWalkersNear,
+                    .far = 2 * (ground.extent_x() + ground.extent_z())};
     const Frame& frame = full.update(view);
     for (const std::uint32_t number : renderer.triangle_numbers(frame, view)) {
       if (number == 0) continue;
@@ -77,8 +71,8 @@ void look_around(const Heightfield& ground, const glm::vec3& eye, Mrbsp& full, F
       const std::uint64_t key = triangle_key(frame, triangle);
       ++pixels;
       const bool known = missed.contains(key);
-      if (known || (seen.insert(key).second &&
-                    !sets.sees(row * cells.columns + column, element_of(frame, triangle, squares)))) {
+      if (known ||
+          (seen.insert(key).second && !sets.sees(cell_number, element_of(frame, triangle, squares)))) {
         missed.insert(key);
         ++missed_pixels;
       }
@@ -88,7 +82,7 @@ void look_around(const Heightfield& ground, const glm::vec3& eye, Mrbsp& full, F
   misses.missed += missed.size();
   misses.pixels += pixels;
   misses.missed_pixels += missed_pixels;
-  misses.worst_eye = std::max(misses.worst_eye, share_of(missed_pixels, pixels));
+  misses.worst_eye = std::max(misses.worst_eye, share(missed_pixels, pixels));
   ++misses.eyes;
 }
 
@@ -96,51 +90,48 @@ std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   const bool paper = options.profile == Profile::kPaper;
   const auto add = [&](const std::string& ground, bool conservative, std::int64_t cells,
-                       std::optional<std::int64_t> coarseness) {
+                       std::int64_t coarseness) {
     const std::string_view sets = conservative ? "conservative" : "sampled";
     std::string name = fmt::format("{}/{}/cells={}", ground, sets, cells);
-    if (coarseness) name += fmt::format("/coarseness={}", *coarseness);
-    cases.push_back({std::move(name), {kSpecs, {{"conservative", conservative}, {"cells", cells}}}, ground});
-    if (coarseness) added.parameters.set("coarseness", *coarseness);
+    if (coarseness != kCoarseness) name += fmt::format("/coarseness={}", coarseness);
+    cases.push_back({std::move(name),
+                     {kSpecs, {{"conservative", conservative}, {"cells", cells}, {"coarseness", coarseness}}},
+                     ground});
   };
   for (const std::string& ground : grounds(options, paper)) {
     for (const bool conservative : {false, true}) {
       for (const int cells : {16, 32, 64}) {
-        if (cells == 16 || !conservative || paper) add(ground, conservative, cells, {});
+        if (cells == 16 || !conservative || paper) add(ground, conservative, cells, kCoarseness);
       }
     }
-    // At the paper's depth an even number of levels gives squares one level further up.
+    // At the paper's depth an even coarseness gives squares one level coarser.
     for (const int coarseness : {4, 8}) add(ground, false, 16, coarseness);
   }
   return cases;
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
-  MrbspOptions finest;
-  finest.depth = depth_over(ground);
-  Mrbsp full(ground, finest, progress);
+  Mrbsp full(ground, {.depth = depth_over(ground)}, progress);
   full.tune(kFinest);
-  visibility::Options how;
-  how.mode =
-      at.parameters.flag("conservative") ? visibility::Mode::kConservative : visibility::Mode::kSampled;
-  how.cells = static_cast<int>(at.parameters.integer("cells"));
-  how.coarseness = static_cast<int>(at.parameters.integer("coarseness"));
+  const visibility::Options how{.mode = at.parameters.flag("conservative") ? visibility::Mode::kConservative
+                                                                           : visibility::Mode::kSampled,
+                                .cells = static_cast<int>(at.parameters.integer("cells")),
+                                .coarseness = static_cast<int>(at.parameters.integer("coarseness"))};
   const Stopwatch watch;
   const visibility::Sets sets = find_sets(grid_of(ground), full.tree(), how, progress);
   recorder.add("preprocessing_time", "s", watch.seconds());
   std::size_t visible = 0;
   for (int cell = 0; cell < sets.cells.count(); ++cell) visible += sets.count(cell);
   recorder.add("cells", "", sets.cells.count());
-  recorder.add("coarse_triangles", "", static_cast<double>(std::uint64_t{1} << sets.depth));
+  recorder.add("coarse_triangles", "", std::uint64_t{1} << sets.depth);
   recorder.add("visible_share", "",
                static_cast<double>(visible) / sets.cells.count() / std::exp2(sets.depth));
   const visibility::EncodedSizes bytes = encoded_sizes(changes_of(sets));
-  recorder.add("bytes_changes", "B", static_cast<double>(bytes.changes));
-  recorder.add("bytes_lists", "B", static_cast<double>(bytes.lists));
-  recorder.add("bytes_bits", "B", static_cast<double>(bytes.bits));
+  recorder.add("bytes_changes", "B", bytes.changes);
+  recorder.add("bytes_lists", "B", bytes.lists);
+  recorder.add("bytes_bits", "B", bytes.bits);
   recorder.add("changes_to_lists", "", static_cast<double>(bytes.changes) / static_cast<double>(bytes.lists));
   recorder.add("changes_to_bits", "", static_cast<double>(bytes.changes) / static_cast<double>(bytes.bits));
 
@@ -148,22 +139,22 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   FrameRenderer renderer(*context);
   const visibility::CoarseSquares squares(full.tree(), sets.depth);
   std::mt19937_64 random(options.seed);
-  const auto share = [&] { return static_cast<float>(random() >> 40) / 16777216.0F; };
+  const auto random_share = [&] { return static_cast<float>(random() >> 40) / 16777216.0F; };
   const int eyes = options.profile == Profile::kPaper ? 100 : 20;
   Misses misses;
   progress.begin("looking around", static_cast<std::uint64_t>(eyes));
   for (int e = 0; e < eyes; ++e) {
-    glm::vec3 eye(share() * ground.extent_x(), 0, share() * ground.extent_z());
+    glm::vec3 eye(random_share() * ground.extent_x(), 0, random_share() * ground.extent_z());
     eye.y = eye_height(ground, eye.x, eye.z);
     look_around(ground, eye, full, renderer, sets, squares, misses);
     progress.advance();
   }
   progress.end();
-  recorder.add("eyes", "", static_cast<double>(misses.eyes));
-  recorder.add("seen", "", static_cast<double>(misses.seen));
-  recorder.add("missed", "", static_cast<double>(misses.missed));
-  recorder.add("missed_share", "", share_of(misses.missed, misses.seen));
-  recorder.add("missed_pixel_share", "", share_of(misses.missed_pixels, misses.pixels));
+  recorder.add("eyes", "", misses.eyes);
+  recorder.add("seen", "", misses.seen);
+  recorder.add("missed", "", misses.missed);
+  recorder.add("missed_share", "", share(misses.missed, misses.seen));
+  recorder.add("missed_pixel_share", "", share(misses.missed_pixels, misses.pixels));
   recorder.add("missed_pixel_share_most", "", misses.worst_eye);
 }
 

@@ -1,5 +1,5 @@
-// Table 2: how many triangles each of the four methods draws along one walk, how long a frame takes, and how
-// long the choice of triangles. All methods see the same views, in turn.
+// Table 2: triangles that each of the four methods draws along one walk, time per frame, and time to choose
+// the triangles. All methods get the same views.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,13 +19,14 @@ namespace {
 constexpr std::array kSpecs{
     ParameterSpec{
         "size", 1.0, "short sides",
-        "distance up to which the finest triangles are drawn; 0: that at which level of detail alone "
-        "draws the paper's share",
+        "distance up to which the finest triangles are drawn; 0 fits it so that level of detail alone "
+        "draws the paper's share of triangles",
         0, kFinest},
-    ParameterSpec{"frames", std::int64_t{0}, "frames", "drawn and timed of each method", 0, 240},
+    ParameterSpec{"frames", std::int64_t{0}, "frames", "frames drawn and timed per method", 0, 240},
     ParameterSpec{"pictures", std::int64_t{0}, "views",
-                  "in which the pixels that visibility loses are counted", 0, 240},
-    ParameterSpec{"conservative", false, "", "visibility that misses nothing, not the paper's sampling"},
+                  "views in which pixels lost by visibility are counted", 0, 240},
+    ParameterSpec{"conservative", false, "",
+                  "visibility that misses nothing instead of the paper's sampling"},
 };
 
 constexpr int kViews = 240, kRounds = 12;
@@ -38,9 +39,7 @@ struct Methods {
   std::vector<Mrbsp> lods;
 
   Methods(const Heightfield& ground, bool conservative, Progress& progress) {
-    MrbspOptions options;
-    options.depth = depth_over(ground);
-    options.conforming = false;  // as printed
+    const MrbspOptions options{.depth = depth_over(ground), .conforming = false};  // as printed
     MrbspOptions with_visibility = options;
     with_visibility.visibility = true;
     with_visibility.visible.mode =
@@ -58,12 +57,9 @@ struct Methods {
   }
 };
 
-// All that is drawn from anywhere when nothing is left out for the view.
+// The number of all triangles, those outside the view included.
 std::size_t triangles_unculled(const Heightfield& ground, const View& view, Progress& progress) {
-  MrbspOptions options;
-  options.depth = depth_over(ground);
-  options.cull = false;
-  Mrbsp lod(ground, options, progress);
+  Mrbsp lod(ground, {.depth = depth_over(ground), .cull = false}, progress);
   lod.tune(kFinest);
   return lod.update(view).stats.triangles;
 }
@@ -82,13 +78,14 @@ double fitted_size(Methods& methods, const std::vector<View>& views) {
 
 void count_triangles(Methods& methods, const std::vector<View>& views, Recorder& recorder) {
   std::array<double, kMethods> sums{};
-  std::size_t brute_most = 0, both_least = 0, tied = 0;  // views; strictly; both as many as the lesser
+  // Views in which brute force draws strictly most, both together strictly least, or as many as the lesser.
+  std::size_t brute_most = 0, both_least = 0, tied = 0;
   for (const View& view : views) {
     std::array<std::size_t, kMethods> drawn{};
     for (std::size_t m = 0; m < kMethods; ++m) {
       drawn[m] = methods.lods[m].update(view).stats.triangles;
       sums[m] += static_cast<double>(drawn[m]);
-      recorder.add(fmt::format("triangles_{}", kNames[m]), "", static_cast<double>(drawn[m]));
+      recorder.add(fmt::format("triangles_{}", kNames[m]), "", drawn[m]);
     }
     const auto [less, more] = std::minmax(drawn[kLod], drawn[kVis]);
     brute_most += more < drawn[kBrute];
@@ -99,13 +96,13 @@ void count_triangles(Methods& methods, const std::vector<View>& views, Recorder&
     recorder.add(fmt::format("mean_{}", kNames[m]), "", sums[m] / static_cast<double>(views.size()));
     recorder.add(fmt::format("share_{}", kNames[m]), "", sums[m] / sums[kBrute]);
   }
-  recorder.add("views", "", static_cast<double>(views.size()));
-  recorder.add("views_brute_most", "", static_cast<double>(brute_most));
-  recorder.add("views_both_least", "", static_cast<double>(both_least));
-  recorder.add("views_tied", "", static_cast<double>(tied));
+  recorder.add("views", "", views.size());
+  recorder.add("views_brute_most", "", brute_most);
+  recorder.add("views_both_least", "", both_least);
+  recorder.add("views_tied", "", tied);
 }
 
-// Evenly over the walk.
+// `count` views, evenly spaced over the walk.
 std::vector<View> some_of(const std::vector<View>& views, std::size_t count) {
   std::vector<View> some;
   some.reserve(count);
@@ -113,7 +110,7 @@ std::vector<View> some_of(const std::vector<View>& views, std::size_t count) {
   return some;
 }
 
-// What the pictures lack for the triangles that visibility leaves out, with level of detail and without.
+// Counts pixels lost because visibility leaves out triangles, with level of detail and without.
 void count_lost_pixels(Methods& methods, const std::vector<View>& views, const RunOptions& options,
                        Recorder& recorder, Progress& progress) {
   const auto context = open_context(options.renderer, views[0].width, views[0].height);
@@ -133,32 +130,30 @@ void count_lost_pixels(Methods& methods, const std::vector<View>& views, const R
       progress.advance();
     }
     progress.end();
-    const double a_picture = static_cast<double>(views[0].width) * views[0].height;
+    const double picture = static_cast<double>(views[0].width) * views[0].height;
+    const double all = picture * static_cast<double>(views.size());
     const auto add = [&](std::string_view metric, std::string_view unit, double value) {
       recorder.add(fmt::format("{}_{}", metric, kNames[hiding]), unit, value);
     };
-    add("ground_share", "", static_cast<double>(ground) / (a_picture * static_cast<double>(views.size())));
-    add("lost_share", "", static_cast<double>(lost) / (a_picture * static_cast<double>(views.size())));
-    add("most_lost_share", "", static_cast<double>(most_lost) / a_picture);
-    add("most_lost", "px", static_cast<double>(most_lost));
-    add("most_open", "px", static_cast<double>(most_open));
-    add("open_views", "", static_cast<double>(open_views));
+    add("ground_share", "", static_cast<double>(ground) / all);
+    add("lost_share", "", static_cast<double>(lost) / all);
+    add("most_lost_share", "", static_cast<double>(most_lost) / picture);
+    add("most_lost", "px", most_lost);
+    add("most_open", "px", most_open);
+    add("open_views", "", open_views);
   }
-  recorder.add("pictures", "", static_cast<double>(views.size()));
+  recorder.add("pictures", "", views.size());
 }
 
-// What changing the flags of visibility takes along the walk, beside choosing triangles without them.
+// Time to update the flags of visibility along the walk, relative to choosing triangles without them.
 void time_flags(Methods& methods, const Heightfield& ground, const std::vector<View>& views,
                 Recorder& recorder) {
   const visibility::ChangeTable& table = methods.lods[kVis].visibility();
   visibility::Flags flags(table);
-  const visibility::CellGrid& cells = table.cells;
   double flag_time = 0, lod_time = 0;
   std::size_t toggled = 0;
   for (const View& view : views) {
-    const glm::ivec2 cell(
-        std::min(static_cast<int>(view.eye.x / ground.cell_x) / cells.side, cells.columns - 1),
-        std::min(static_cast<int>(view.eye.z / ground.cell_z) / cells.side, cells.rows - 1));
+    const glm::ivec2 cell = cell_below(table.cells, ground, view.eye);
     flag_time += seconds([&] { toggled += flags.move_to(table, cell); });
     lod_time += seconds([&] { methods.lods[kLod].update(view); });
   }
@@ -168,9 +163,9 @@ void time_flags(Methods& methods, const Heightfield& ground, const std::vector<V
   recorder.add("toggle_to_lod_time", "", flag_time / lod_time);
 }
 
-// Methods take turns at every view, so that a busy moment of the machine meets all alike, there and back, so
-// that none always finds the caches as the same other one left them. They are compared within a round, over
-// all views: a round as a whole may be slow, its ratios stay.
+// Methods alternate at every view, so that a slow period of the machine affects all alike; every second round
+// reverses their order, so that none always follows the same other one and inherits its caches. They are
+// compared within a round, over all views: a whole round may be slow without changing its ratios.
 void time_frames(Methods& methods, const Heightfield& ground, const std::vector<View>& views,
                  const RunOptions& options, Recorder& recorder, Progress& progress) {
   const auto context = open_context(options.renderer, views[0].width, views[0].height);
@@ -218,7 +213,7 @@ std::vector<Case> cases(const RunOptions& options) {
                          {"pictures", std::int64_t{pictures}}}},
                        ground});
     };
-    // Frames cost a hundred times as much as counting triangles.
+    // Drawing a frame takes a hundred times as long as counting its triangles.
     const bool paper = options.profile == Profile::kPaper;
     const int pictures = paper ? kViews : 80;
     add("printed", 1, false, paper ? 12 : 0, 0);
@@ -229,8 +224,7 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_ground(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   const std::vector<View> views = walk(ground, kViews);
   Methods methods(ground, at.parameters.flag("conservative"), progress);
@@ -238,7 +232,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const double size = asked > 0 ? asked : fitted_size(methods, views);
   methods.tune(size);
   recorder.add("size", "short sides", size);
-  recorder.add("triangles_all", "", static_cast<double>(triangles_unculled(ground, views[0], progress)));
+  recorder.add("triangles_all", "", triangles_unculled(ground, views[0], progress));
   count_triangles(methods, views, recorder);
   for (const View& view : views) {
     recorder.add("lod_time", "s", seconds([&] { methods.lods[kLod].update(view); }));

@@ -1,17 +1,18 @@
+// Every terrain in every representation: build time, bytes, fidelity and a picture.
 #include "renderers/relief.h"
 
 #include <fmt/format.h>
 
 #include <array>
 
-#include "experiments/experiment.h"
 #include "experiments/fidelity.h"
+#include "experiments/ground.h"
 #include "experiments/stopwatch.h"
 #include "representations/representation.h"
 #include "terrain/files.h"
 #include "terrain/view.h"
 
-namespace terrabench::overview {
+namespace terrabench::relief {
 namespace {
 
 const std::array kSpecs{
@@ -22,8 +23,8 @@ const std::array kSpecs{
 };
 constexpr int kBuilds = 5;
 
-// For files: the name itself or, of a path, its last part and a digest, since two folders may hold equal
-// names.
+// Part of a file name: the catalogue name; for a path its stem and a digest, since two folders may hold files
+// of one name.
 std::string file_name(const std::string& terrain) {
   const std::string file = terrain_file(terrain);
   if (file.empty()) return terrain;
@@ -35,10 +36,8 @@ std::string file_name(const std::string& terrain) {
 }
 
 std::vector<Case> cases(const RunOptions& options) {
-  std::vector<std::string> terrains = options.terrains;
-  if (terrains.empty()) terrains = {"jacksboro", "caves"};
   std::vector<Case> cases;
-  for (const std::string& terrain : terrains) {
+  for (const std::string& terrain : grounds(options, {"jacksboro", "caves"})) {
     for (const RepresentationType& type : representations()) {
       cases.push_back({fmt::format("{}/{}", terrain, type.name),
                        {kSpecs, {{"representation", std::string(type.name)}}},
@@ -49,29 +48,27 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = open_terrain(at.terrain, options.seed);
-  recorder.terrain(source);
+  const TerrainSource source = recorder.terrain(open_terrain(at.terrain, options.seed));
   const RepresentationType& type = representation(at.parameters.text("representation"));
   std::unique_ptr<Representation> built;
   for (int i = 0; i < kBuilds; ++i) {
     built.reset();
     const Stopwatch watch;
     built = type.build(source, Parameters(type.parameters), progress);
-    const double seconds = watch.seconds();
-    recorder.add("build_time", "s", seconds);
+    recorder.add("build_time", "s", watch.seconds());
   }
-  recorder.add("bytes", "B", static_cast<double>(built->memory().total()));
+  recorder.add("bytes", "B", built->memory().total());
   const Fidelity fidelity = measure_fidelity(*built, source, progress);
   if (fidelity.from_heights) {
     recorder.add("rmse", "m", fidelity.rmse);
     recorder.add("largest_error", "m", fidelity.largest_error);
-    recorder.add("lost_columns", "", static_cast<double>(fidelity.lost));
+    recorder.add("lost_columns", "", fidelity.lost);
   } else {
     recorder.add("volume_iou", "", fidelity.volume_iou);
   }
 
   const TriangleMesh mesh = built->mesh({});
-  recorder.add("triangles", "", static_cast<double>(mesh.triangles()));
+  recorder.add("triangles", "", mesh.triangles());
   const View view = overview(bounds_of(mesh), static_cast<int>(at.parameters.integer("width")),
                              static_cast<int>(at.parameters.integer("height")));
   const auto context = open_context(options.renderer, view.width, view.height);
@@ -91,4 +88,4 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 extern const Experiment kRelief{"overview.relief", "Shaded relief of each terrain in each representation",
                                 kSpecs, cases, measure};
 
-}  // namespace terrabench::overview
+}  // namespace terrabench::relief

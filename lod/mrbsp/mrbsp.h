@@ -22,13 +22,13 @@
 namespace terrabench {
 
 struct MrbspOptions {
-  int depth = 0;                       // M; 0: down to every sample
-  bool area_consistent = false;        // threshold M - 2·log2(D/S); false: the printed one
-  bool conforming = true;              // no holes; false: the printed rule
-  bool cull = true;                    // skip triangles outside the view frustum
-  bool three_nearest = false;          // heights by the paper's interpolation; false: the samples themselves
-  bool visibility = false;             // skip triangles that the ground hides
-  mrbsp::visibility::Options visible;  // how the visible sets are computed
+  int depth = 0;                 // M; 0: down to every sample
+  bool area_consistent = false;  // threshold M - 2·log2(D/S); false: the printed one
+  bool conforming = true;        // no holes; false: the printed rule
+  bool cull = true;              // skip triangles outside the view frustum
+  bool three_nearest = false;    // heights by the paper's interpolation; false: the samples themselves
+  bool visibility = false;       // skip triangles that the ground hides
+  mrbsp::visibility::Options visible{};  // how the visible sets are computed
 };
 
 class Mrbsp : public Lod {

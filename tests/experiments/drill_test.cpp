@@ -1,4 +1,3 @@
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +10,7 @@
 namespace terrabench::drill {
 namespace {
 
-// The 54 settings with the error put where `error` says.
+// Outcomes of the 54 settings with the RMSE that `error` gives.
 template <class ErrorOf>
 std::vector<Outcome> outcomes(const ErrorOf& error) {
   std::vector<Outcome> all;
@@ -39,7 +38,7 @@ TEST(DrillEffects, OneFactorExplainsAll) {
 }
 
 TEST(DrillEffects, SumsOfFactorsShareTheVariance) {
-  // Variances of the levels: of 0, 1, 1 over three τ 2/9, of 0, 2 over the six k 1.
+  // Variances of the level means: 2/9 for 0, 1, 1 over three τ; 1 for 0 and 2 over six k.
   const auto all =
       outcomes([](const Setting& s) { return (s.tau > 25 ? 1.0 : 0.0) + (s.k > 15 ? 2.0 : 0.0); });
   const Effects effects = main_effects(all, rmse);
@@ -51,7 +50,7 @@ TEST(DrillEffects, SumsOfFactorsShareTheVariance) {
 }
 
 TEST(DrillEffects, WhatNoFactorExplainsIsInteraction) {
-  // The sign changes with τ and with k: each mean is the same.
+  // The sign changes with τ and with k, so that all level means are equal.
   const auto all = outcomes([](const Setting& s) {
     const double tau = s.tau == 25 ? 1 : s.tau == 100 ? -1 : 0;
     return tau * (s.k > 15 ? 1 : -1);
@@ -88,16 +87,17 @@ TEST(DrillGround, LargerHillsContinueSmallerOnes) {
 }
 
 TEST(DrillGrowth, DoublesTheSideUpToTheProfilesLargest) {
+  const Experiment& growth = experiment("drill.growth");
   RunOptions options;
-  EXPECT_EQ(growth_cases(options).back().name, "n=1024");
+  EXPECT_EQ(growth.cases(options).back().name, "n=1024");
   options.profile = Profile::kPaper;
-  const std::vector<Case> cases = growth_cases(options);
+  const std::vector<Case> cases = growth.cases(options);
   EXPECT_EQ(cases.size(), 6U);
   EXPECT_EQ(cases.back().parameters.integer("n"), 8192);
 }
 
-// Relative luminance (WCAG 2) as seen with all cones, and without the red or the green ones (Viénot, Brettel
-// & Mollon 1999, in linear RGB).
+// Relative luminance (WCAG 2) with all cones, and without the red or the green ones (Viénot, Brettel & Mollon
+// 1999, in linear RGB).
 enum class Eyes { kAll, kProtan, kDeutan };
 
 double luminance(const Rgb& colour, Eyes eyes) {
@@ -122,7 +122,7 @@ TEST(DrillColours, ChannelsStandOutOnEveryElevationForAllEyes) {
     for (double t = 0; t <= 1; t += 0.05) {
       const double ground = luminance(figures::elevation_colour(t), eyes),
                    water = luminance(figures::kChannel, eyes);
-      EXPECT_GE((ground + 0.05) / (water + 0.05), 2.5) << t;  // thin lines in full light
+      EXPECT_GE((ground + 0.05) / (water + 0.05), 2.5) << t;  // for thin lines in full light
     }
   }
 }

@@ -8,7 +8,6 @@
 #include <set>
 #include <string>
 
-#include "experiments/cross/cross.h"
 #include "experiments/cross/flight.h"
 #include "results/claims.h"
 #include "results/statistics.h"
@@ -21,7 +20,7 @@ namespace {
 constexpr Knob kPixels{"error", "px", 0.1, 1000, 1}, kFineness{"size", "", 65536, 1.0 / 64, 1},
     kSamples{"window", "samples", 4095, 15, 255, true};
 
-// A legal path of more frames than memory holds the sight of: said so, and not begun.
+// Visibility of so many frames exceeds memory: an error before any work.
 TEST(Flight, RefusesMoreFramesThanMemoryHolds) {
   const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "endless_path.toml";
   write_file(path,
@@ -32,7 +31,7 @@ TEST(Flight, RefusesMoreFramesThanMemoryHolds) {
   const Route route{"peak", path.string(), 4097, 300000, 1};
   try {
     const Flight flight(route, silent);
-    ADD_FAILURE() << "1.2 TB have been found";
+    ADD_FAILURE() << "1.2 TB were allocated";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kEnvironment);
     EXPECT_THAT(error.what(), testing::HasSubstr("memory"));
@@ -44,37 +43,27 @@ TEST(Flight, RefusesMoreFramesThanMemoryHolds) {
 TEST(KnobSearch, ComesWithinSlackOfTheTargetInAFewTries) {
   const auto error_at = [](double knob) { return 0.3 * std::pow(knob, 0.8); };
   for (const double target : {0.3, 1.0, 2.0, 4.0, 40.0}) {
-    KnobSearch search(kPixels);
-    const Tuned tuned = search.find(target, error_at);
+    int tried = 0;
+    const Tuned tuned = search_knob(kPixels, target, [&](double knob) {
+      ++tried;
+      return error_at(knob);
+    });
     EXPECT_TRUE(tuned.reached);
     EXPECT_LE(tuned.error, target);
-    EXPECT_GE(tuned.error, (1 - KnobSearch::kSlack) * target);
+    EXPECT_GE(tuned.error, (1 - kKnobSlack) * target);
     EXPECT_NEAR(tuned.error / error_at(tuned.knob), 1, 1e-9);
-    EXPECT_LE(search.tried(), 10U) << target;
+    EXPECT_LE(tried, 10) << target;
   }
 }
 
 TEST(KnobSearch, TurnsKnobsThatAreFineWhenTheyAreLarge) {
-  KnobSearch search(kFineness);
-  const Tuned tuned = search.find(1, [](double knob) { return 50 / knob; });
+  const Tuned tuned = search_knob(kFineness, 1, [](double knob) { return 50 / knob; });
   EXPECT_TRUE(tuned.reached);
   EXPECT_NEAR(tuned.knob, 50, 2);
 }
 
-TEST(KnobSearch, WhatWasTriedServesTheNextTarget) {
-  KnobSearch search(kPixels);
-  const auto error_at = [](double knob) { return knob; };
-  search.find(2, error_at);
-  const std::size_t before = search.tried();
-  EXPECT_EQ(search.find(2, [](double) -> double { throw std::logic_error("known already"); }).error,
-            search.find(2, error_at).error);
-  search.find(1.99, error_at);
-  EXPECT_LE(search.tried(), before + 3);
-}
-
 TEST(KnobSearch, WholeKnobsEndAtTheNextNumber) {
-  KnobSearch search(kSamples);
-  const Tuned tuned = search.find(1, [](double knob) {
+  const Tuned tuned = search_knob(kSamples, 1, [](double knob) {
     EXPECT_EQ(knob, std::round(knob));
     return 20.5 / knob;
   });
@@ -82,14 +71,12 @@ TEST(KnobSearch, WholeKnobsEndAtTheNextNumber) {
 }
 
 TEST(KnobSearch, SaysWhatCannotBeReached) {
-  KnobSearch rough(kPixels);
-  const Tuned worse = rough.find(1, [](double knob) { return 3 + knob; });
+  const Tuned worse = search_knob(kPixels, 1, [](double knob) { return 3 + knob; });
   EXPECT_FALSE(worse.reached);
   EXPECT_EQ(worse.knob, kPixels.finest);
   EXPECT_DOUBLE_EQ(worse.error, 3.1);
-  // Ground on which nothing can go wrong: no setting has the error, which is not to be called equal.
-  KnobSearch flat(kPixels);
-  const Tuned better = flat.find(1, [](double) { return 0.0; });
+  // Flat ground: even the coarsest setting has less error than the target, so the target is not reached.
+  const Tuned better = search_knob(kPixels, 1, [](double) { return 0.0; });
   EXPECT_FALSE(better.reached);
   EXPECT_EQ(better.knob, kPixels.coarsest);
 }
@@ -118,7 +105,8 @@ TEST(TuneTo, GivesTheSameWhateverWasTunedBefore) {
 
 TEST(EqualErrorCases, NameEveryMethodOnEveryGroundAndTheLedgerReadsThem) {
   std::set<std::string> names;
-  for (const Case& at : equal_error_cases({})) EXPECT_TRUE(names.insert(at.name).second);
+  for (const Case& at : experiment("cross.lod-equal-error").cases({}))
+    EXPECT_TRUE(names.insert(at.name).second);
   for (const char* const ground : {"jacksboro", "fractal", "peak"}) {
     for (const Entrant& entrant : entrants()) {
       const std::string start =
@@ -152,15 +140,16 @@ TEST(EqualErrorCases, NameEveryMethodOnEveryGroundAndTheLedgerReadsThem) {
 class EqualError : public ::testing::TestWithParam<std::string_view> {
  protected:
   static Record measure(std::string_view method, std::int64_t size) {
-    Case at{"small", Parameters(kEqualErrorParameters), "peak"};
-    at.parameters.set("method", std::string(method));
-    at.parameters.set("error", 2.0);
-    at.parameters.set("frames", std::int64_t{5});
-    at.parameters.set("size", size);
+    const Experiment& compared = experiment("cross.lod-equal-error");
+    const Case at{
+        "small",
+        {compared.parameters,
+         {{"method", std::string(method)}, {"error", 2.0}, {"frames", std::int64_t{5}}, {"size", size}}},
+        "peak"};
     Record record;
     Recorder recorder(record, "unused");
     Progress progress;
-    measure_equal_error(at, {}, recorder, progress);
+    compared.measure(at, {}, recorder, progress);
     return record;
   }
   static double value(const Record& record, std::string_view metric) {
@@ -194,10 +183,10 @@ TEST_P(EqualError, CountsAreTheSameForAnyNumberOfThreads) {
   const auto counts = [](int threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     Progress progress;
-    // Another route in between, so that nothing is kept from the measurement before.
+    // Another route in between, so that the flight of the previous measurement is not reused.
     flight_along({"peak", "fly", 17, 2, 1}, progress);
     std::vector<Metric> exact = measure(GetParam(), 33).metrics;
-    // Bytes held include what the allocator rounds up by, which depends on what was freed before.
+    // Bytes held include the allocator's rounding, which depends on what was freed before.
     std::erase_if(exact, [](const Metric& m) {
       return is_timing(m.unit) || m.name == "heap_growth" || m.name == "bytes_held";
     });

@@ -1,4 +1,5 @@
-// The walk over ground on disk measures what it says and leaves nothing behind, whether it ends or is ended.
+// The walk over ground on disk: its counts, and that no temporary files remain after success, errors and
+// interruptions.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -48,13 +49,13 @@ TEST_F(LodDisk, UploadsTheStripsAndLeavesNothing) {
   EXPECT_TRUE(fs::is_empty(temporary_));
 }
 
-// Steps that the ground is too short for turn back at its border, and go on counting.
+// On ground shorter than the number of steps, the walk turns back at the border.
 TEST_F(LodDisk, KeepsWalkingOverShortGround) {
   const Outcome outcome = call(run("--set side=40 --set steps=400 --set window=15"));
   ASSERT_EQ(outcome.code, 0) << outcome.text;
   const Store store = Store::open(folder_ / "out");
   const double bytes = only(store.records().front(), "step_bytes");
-  // The finest window alone takes in two columns of 15 samples every other step.
+  // The finest window alone uploads two columns of 15 samples every other step.
   EXPECT_GE(bytes, 150.0 * 2 * 15 * 4);
   EXPECT_EQ(bytes, only(store.records().front(), "step_strip_bytes"));
 }
@@ -81,7 +82,7 @@ TEST_F(LodDisk, APyramidIsKnownByItsContent) {
   EXPECT_NE(digests["one"], digests["other"]);
 }
 
-// Whoever has SIGCHLD ignored never hears how a process of its own ended: that is no success.
+// With SIGCHLD ignored the second process's exit status is lost: an error, not success.
 TEST_F(LodDisk, ALostProcessIsAnError) {
   const Outcome outcome =
       call("export TMPDIR=" + temporary_.string() +
@@ -101,11 +102,11 @@ TEST_F(LodDisk, WalksOverFilesAndRefusesWhatHasNoHeights) {
   const Outcome outcome = call(run("--terrain holes.tif --set steps=5"));
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_EQ(call(run("--terrain caves")).code, 2);
-  EXPECT_EQ(call(run("--terrain temporary")).code, 3);  // a folder that is no pyramid
+  EXPECT_EQ(call(run("--terrain temporary")).code, 3);  // a folder that holds no pyramid
   EXPECT_TRUE(fs::is_empty(temporary_));
 }
 
-// While the ground is made, and while the second process walks.
+// Once while the ground is made, once while the second process walks.
 TEST_F(LodDisk, AnInterruptionLeavesNothing) {
   for (const auto& [rest, sign] : {std::pair{"--set side=16384", "ground.tif"},
                                    std::pair{"--set side=300 --set steps=1000000", "walk.log"}}) {

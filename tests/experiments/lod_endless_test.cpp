@@ -1,4 +1,4 @@
-// The flight over endless ground, small: what it counts is what the ledger's row asks for.
+// A short flight over endless ground: the counts that the ledger's row reads.
 #include <gtest/gtest.h>
 
 #include <filesystem>

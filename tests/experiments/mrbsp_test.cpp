@@ -1,4 +1,4 @@
-// The experiments of the MRBSP paper on little ground: what they say must hold on any.
+// The experiments of the MRBSP paper on small ground, whose results must hold on any ground.
 
 #include <gtest/gtest.h>
 
@@ -16,18 +16,20 @@
 namespace terrabench::mrbsp {
 namespace {
 
-constexpr std::string_view kGround = "topobathy";  // 120 × 91 samples: no power of two
-
-using Measure = void (*)(const Case&, const RunOptions&, Recorder&, Progress&);
+constexpr std::string_view kGround = "topobathy";  // 120 × 91 samples: not powers of two
 
 class MrbspExperiments : public testing::Test {
  protected:
-  Record run(Measure measure, const Case& at) {
+  // Measures one case: the given parameters, fallbacks for the others.
+  Record run(std::string_view id, std::string_view terrain,
+             std::initializer_list<std::pair<std::string_view, Value>> given = {}) {
+    const Experiment& measured = experiment(id);
     Record record;
     Recorder recorder(record, folder_.path());
     std::filesystem::create_directories(folder_.path() / "figures");
     Progress progress;
-    measure(at, RunOptions{}, recorder, progress);
+    measured.measure({"tiny", {measured.parameters, given}, std::string(terrain)}, RunOptions{}, recorder,
+                     progress);
     return record;
   }
   static double value(const Record& record, std::string_view metric) {
@@ -43,11 +45,8 @@ class MrbspExperiments : public testing::Test {
 };
 
 TEST_F(MrbspExperiments, AWalkIsCountedAndTimedInOrder) {
-  Case at{"tiny", Parameters(kWalkParameters), std::string(kGround)};
-  at.parameters.set("size", 0.0);
-  at.parameters.set("frames", std::int64_t{1});
-  at.parameters.set("pictures", std::int64_t{8});
-  const Record record = run(measure_walk, at);
+  const Record record =
+      run("mrbsp.walk", kGround, {{"size", 0.0}, {"frames", std::int64_t{1}}, {"pictures", std::int64_t{8}}});
   EXPECT_EQ(value(record, "triangles_all"), 2 * 119 * 90);
   EXPECT_EQ(value(record, "views"), 240);
   EXPECT_GT(value(record, "views_brute_most"), 200);
@@ -68,10 +67,8 @@ TEST_F(MrbspExperiments, AWalkIsCountedAndTimedInOrder) {
 
 TEST_F(MrbspExperiments, ConservativeSetsLeaveNoPictureOpen) {
   for (const bool conservative : {false, true}) {
-    Case at{"tiny", Parameters(kWalkParameters), std::string(kGround)};
-    at.parameters.set("conservative", conservative);
-    at.parameters.set("pictures", std::int64_t{12});
-    const Record record = run(measure_walk, at);
+    const Record record =
+        run("mrbsp.walk", kGround, {{"conservative", conservative}, {"pictures", std::int64_t{12}}});
     EXPECT_EQ(value(record, "pictures"), 12);
     for (const std::string method : {"vis", "both"}) {
       if (conservative) {
@@ -110,8 +107,7 @@ TEST(LostPixels, KeysTellTrianglesOfLargeGroundApart) {
 }
 
 TEST_F(MrbspExperiments, OnlyTheFormulaForAreasKeepsTheSize) {
-  Case at{"tiny", Parameters(kThresholdParameters), ""};
-  const Record record = run(measure_threshold, at);
+  const Record record = run("mrbsp.threshold", "");
   EXPECT_NEAR(value(record, "slope_area"), 0, 0.05);
   EXPECT_NEAR(value(record, "slope_printed"), -0.5, 0.05);
   ASSERT_EQ(record.figures.size(), 1U);
@@ -122,10 +118,7 @@ TEST_F(MrbspExperiments, HolesAreThePrintedRulesAlone) {
   for (const bool conforming : {false, true}) {
     double holes = 0;
     for (const bool area : {false, true}) {
-      Case at{"tiny", Parameters(kHoleParameters), std::string(kGround)};
-      at.parameters.set("conforming", conforming);
-      at.parameters.set("area", area);
-      const Record record = run(measure_holes, at);
+      const Record record = run("mrbsp.holes", kGround, {{"conforming", conforming}, {"area", area}});
       holes += value(record, "holes");
       EXPECT_GT(value(record, "triangles_per_frame"), 0);
     }
@@ -139,9 +132,7 @@ TEST_F(MrbspExperiments, HolesAreThePrintedRulesAlone) {
 
 TEST_F(MrbspExperiments, ConservativeSetsMissNothingThatAPictureShows) {
   for (const bool conservative : {false, true}) {
-    Case at{"tiny", Parameters(kVisibilityParameters), std::string(kGround)};
-    at.parameters.set("conservative", conservative);
-    const Record record = run(measure_visibility, at);
+    const Record record = run("mrbsp.visibility", kGround, {{"conservative", conservative}});
     EXPECT_GT(value(record, "seen"), 1000);
     if (conservative) {
       EXPECT_EQ(value(record, "missed"), 0);
@@ -154,7 +145,7 @@ TEST_F(MrbspExperiments, ConservativeSetsMissNothingThatAPictureShows) {
 }
 
 TEST_F(MrbspExperiments, TheProfileGivesTable1) {
-  const Record record = run(measure_profile, profile_cases({}).front());
+  const Record record = run("mrbsp.profile", "");
   EXPECT_EQ(value(record, "differing_lines"), 0);
   EXPECT_EQ(value(record, "lost_in_the_file"), 0);
   EXPECT_EQ(value(record, "changes"), 6);
@@ -171,14 +162,14 @@ std::vector<ProfileStep> sampled_steps(std::span<const float> profile) {
 }
 
 TEST(ExtrudedProfile, ChangesWithTheShapeOfTheLand) {
-  // All of a bowl is seen from all of it.
+  // Every point of a bowl sees the whole bowl.
   std::vector<float> bowl;
   for (int k = -8; k <= 8; ++k) bowl.push_back(0.1F * static_cast<float>(k * k));
   for (const ProfileStep& step : sampled_steps(bowl)) {
     EXPECT_TRUE(step.coarse.empty());
     EXPECT_TRUE(step.fine.empty());
   }
-  // With rims below the ridge nobody sees over it: the step across it is the only change.
+  // With rims below the ridge no cell sees over it: the step across it is the only change.
   std::vector<float> low(table1_profile().begin(), table1_profile().end());
   low.front() = low.back() = 8.5F;
   const std::vector<ProfileStep> steps = sampled_steps(low);
@@ -190,7 +181,7 @@ TEST(ExtrudedProfile, ChangesWithTheShapeOfTheLand) {
   }
 }
 
-// A strip is as good as a square: there each row of cells sees as much of its own row of squares.
+// On a square of equal profiles each row of cells sees of its own row of squares what the strip's cells see.
 TEST(ExtrudedProfile, IsTheSameOnASquare) {
   Progress progress;
   const Heightfield strip = extrude(table1_profile());
@@ -219,10 +210,7 @@ TEST(ExtrudedProfile, IsTheSameOnASquare) {
 
 TEST_F(MrbspExperiments, OnlyPointsOnVerticesLeaveThePrintedHeightsWhole) {
   for (const std::int64_t points : {33, 32}) {
-    Case at{"tiny", Parameters(kHeightParameters), std::string(kGround)};
-    at.parameters.set("points", points);
-    at.parameters.set("depth", std::int64_t{10});
-    const Record record = run(measure_heights, at);
+    const Record record = run("mrbsp.heights", kGround, {{"points", points}, {"depth", std::int64_t{10}}});
     EXPECT_EQ(value(record, "levels_not_whole"), 0);
     EXPECT_GT(value(record, "torn_share"), 0.5);
     EXPECT_EQ(value(record, "torn_shared") == 0, points == 33);
@@ -233,18 +221,14 @@ TEST_F(MrbspExperiments, OnlyPointsOnVerticesLeaveThePrintedHeightsWhole) {
 TEST_F(MrbspExperiments, LevelOfDetailGainsWithTheLand) {
   double before = 1;
   for (const std::int64_t n : {65, 129, 257}) {
-    Case at{"tiny", Parameters(kLandParameters), ""};
-    at.parameters.set("n", n);
-    const double gain = value(run(measure_land, at), "gain");
+    const double gain = value(run("mrbsp.land", "", {{"n", n}}), "gain");
     EXPECT_GT(gain, before);
     before = gain;
   }
 }
 
 TEST_F(MrbspExperiments, ADrawingKeepsItsRules) {
-  Case at{"tiny", Parameters(kDrawingParameters), ""};
-  at.parameters.set("n", std::int64_t{64});
-  const Record record = run(measure_drawing, at);
+  const Record record = run("mrbsp.drawing", "", {{"n", std::int64_t{64}}});
   EXPECT_EQ(value(record, "broken_greys"), 0);
   EXPECT_EQ(value(record, "mountain_samples_moved"), 0);
   EXPECT_GT(value(record, "mountain_samples"), 0);
@@ -274,8 +258,8 @@ TEST(MrbspGround, RefusesASolid) { EXPECT_THROW(open_ground("caves", 1), Error);
 TEST(MrbspCases, TheOptionsNameTheGround) {
   RunOptions options;
   options.terrains = {"topobathy"};
-  for (const auto cases : {walk_cases, hole_cases, visibility_cases, height_cases}) {
-    for (const Case& at : cases(options)) EXPECT_EQ(at.terrain, "topobathy");
+  for (const char* const id : {"mrbsp.walk", "mrbsp.holes", "mrbsp.visibility", "mrbsp.heights"}) {
+    for (const Case& at : experiment(id).cases(options)) EXPECT_EQ(at.terrain, "topobathy");
   }
 }
 

@@ -1,4 +1,4 @@
-#include "experiments/noise_ground.h"
+#include "experiments/ground.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terrain/error.h"
 #include "terrain/sources/noise/program.h"
 
 namespace terrabench {
 namespace {
 
-// 30 m samples; rows side by side.
+// Rows in parallel.
 Heightfield from_noise(const noise::Graph& graph, noise::Node root, int size, float lift, float relief) {
   Heightfield field;
   field.width = field.depth = size;
@@ -34,10 +35,35 @@ Heightfield from_noise(const noise::Graph& graph, noise::Node root, int size, fl
   return field;
 }
 
-// The largest features are about a third of the paper's ground wide.
-constexpr float kFrequency = 1.0F / 4000;
+constexpr float kFrequency = 1.0F / 4000;  // of the first octave: a third of the drill paper's ground
 
 }  // namespace
+
+std::vector<std::string> grounds(const RunOptions& options, std::vector<std::string> own) {
+  return options.terrains.empty() ? std::move(own) : options.terrains;
+}
+
+TerrainSource from_heights(std::string_view name, Heightfield heights) {
+  TerrainSource source;
+  source.name = name;
+  source.checksum = checksum(heights);
+  source.heights = std::move(heights);
+  return source;
+}
+
+TerrainSource open_heights(std::string_view name, std::uint64_t seed) {
+  TerrainSource source = open_terrain(name, seed);
+  if (!source.heights) {
+    throw usage_error("the experiment needs a height field, not a solid", name, "name a terrain of heights");
+  }
+  return source;
+}
+
+TerrainSource open_filled_heights(std::string_view name, std::uint64_t seed) {
+  TerrainSource source = open_heights(name, seed);
+  source.heights = fill_no_data(*source.heights);
+  return source;
+}
 
 Heightfield noise_ridges(int size, std::uint64_t seed) {
   noise::Graph graph;
