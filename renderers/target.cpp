@@ -14,9 +14,8 @@ namespace {
 void check_size(int width, int height) {
   constexpr int kLargest = RenderTarget::kLargestSide;
   if (width < 1 || height < 1 || width > kLargest || height > kLargest) {
-    throw usage_error(
-        fmt::format("picture sides must be 1 to {} pixels, got {} × {}", kLargest, width, height), "",
-        "choose another size");
+    throw usage_error(fmt::format("invalid picture size {} × {}", width, height), "",
+                      fmt::format("each side must be 1 to {} pixels", kLargest));
   }
   // Colour and depth of four bytes per sample, and the averaged colour.
   constexpr std::uint64_t kBytesPerPixel = 8 * RenderTarget::kSamples + 4;
