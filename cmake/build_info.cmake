@@ -1,6 +1,6 @@
-# results/build_info.h: the git revision and how the program was compiled, for the provenance of every measurement.
-# terrabench_build_info(TARGET) makes it at every build and rewrites it only when something changed, so that nothing is
-# compiled again without need. Run with cmake -P, this file is also the generator.
+# results/build_info.h: git revision, compiler and flags, for the provenance of every measurement.
+# terrabench_build_info(TARGET) generates it at every build and writes it only when it changed, so that nothing is
+# recompiled without need. Run with cmake -P, this file is the generator.
 if(CMAKE_SCRIPT_MODE_FILE)
   set(revision unknown)
   set(dirty true)
@@ -13,7 +13,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
       execute_process(COMMAND ${GIT} -C ${ROOT} rev-parse HEAD
                       OUTPUT_VARIABLE head OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
     endif()
-    # A file that was not added yet is code all the same.
+    # An untracked file may be code, so it makes the checkout dirty too.
     execute_process(COMMAND ${GIT} -C ${ROOT} status --porcelain --untracked-files=normal
                     OUTPUT_VARIABLE changes ERROR_QUIET RESULT_VARIABLE status_failed)
     if(NOT failed)

@@ -1,6 +1,5 @@
-# The OpenGL loader: glad writes it at build time from Debian's copy of the Khronos registry, so no generated code is
-# kept in the tree. --reproducible makes it read that copy; without, it would ask the network. No extensions: 4.5 core
-# alone is what all contexts share.
+# The OpenGL loader, which glad generates at build time from Debian's copy of the Khronos registry. --reproducible makes
+# glad read that copy instead of the network's. No extensions: all contexts share 4.5 core and nothing more.
 find_program(GLAD glad REQUIRED)
 
 set(glad_dir ${PROJECT_BINARY_DIR}/glad)
