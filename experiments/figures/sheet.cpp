@@ -43,7 +43,7 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-// Whole multiples, so that what draws the sheet has nothing to interpolate.
+// By whole numbers, so that the SVG renderer has nothing to interpolate.
 Image enlarged(const Image& image, int across, int down) {
   Image large(image.width * across, image.height * down, {});
   for (int y = 0; y < large.height; ++y) {
@@ -80,7 +80,7 @@ void Sheet::picture(double x, double y, double width, double height, const Image
   const auto times = [](double units, int pixels) {
     return std::max(1, static_cast<int>(std::lround(kPixels * units / pixels)));
   };
-  // By way of a file, which is what writes PNG.
+  // Through a file, as write_png() writes files only.
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / fmt::format("terrabench-panel.{}.png", getpid());
   write_png(file, enlarged(image, times(width, image.width), times(height, image.height)));
@@ -106,12 +106,14 @@ void Sheet::colour_bar(double x, double y, double width, const std::function<Rgb
   }
 }
 
-void Sheet::write(const std::filesystem::path& png) const {
-  svg_text_to_png(fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
-                              "viewBox=\"0 0 {0} {1}\" font-family=\"DejaVu Sans\">\n"
-                              "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n{2}</svg>\n",
-                              width_, height_, body_),
-                  png, kPixels * width_);
+std::string Sheet::svg() const {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+      "viewBox=\"0 0 {0} {1}\" font-family=\"DejaVu Sans\">\n"
+      "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n{2}</svg>\n",
+      width_, height_, body_);
 }
+
+void Sheet::write(const std::filesystem::path& png) const { svg_text_to_png(svg(), png, kPixels * width_); }
 
 }  // namespace terrabench::figures

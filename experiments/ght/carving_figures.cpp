@@ -1,18 +1,24 @@
 // Figures 15 and 19 to 21 of "ght": tunnels and caves, and the ground cut open along their axes.
 #include <glm/geometric.hpp>
 
-#include "experiments/ght/events.h"
-#include "renderers/scene.h"
-#include "terrain/events/event.h"
+#include "experiments/figures/panels.h"
+#include "experiments/ght/event_figures.h"
+#include "experiments/ght/event_views.h"
 #include "terrain/events/scripts.h"
 
 namespace terrabench::ght {
 namespace {
 
 using namespace events;
+using figures::CutPlane;
+using figures::Drawing;
+using figures::Look;
+using figures::Panel;
+using figures::panel_sheet;
+using figures::Sheet;
 
-// Along the axis, away from what looks at it; a hundredth of a section beside it, so that no corner lies in
-// the plane.
+// Along the axis, so that the ground towards `from` goes; 1.7 m beside the axis, so that no corner of the
+// section lies in the plane.
 CutPlane along(const Carving& carving, glm::vec3 from) {
   const Line line = carving.line();
   glm::dvec2 towards = line.left;
@@ -20,7 +26,7 @@ CutPlane along(const Carving& carving, glm::vec3 from) {
   return {glm::vec2(line.origin + 1.7 * towards), glm::vec2(towards)};
 }
 
-// A ridge across 61 samples of 10 m.
+// A ridge from north to south; 61 × 41 samples, 10 m apart.
 Ght ridge() {
   constexpr int kWide = 61, kDeep = 41;
   constexpr float kCell = 10;
@@ -36,16 +42,16 @@ Ght ridge() {
 
 std::vector<glm::dvec2> vault() { return {{-28, -24}, {28, -24}, {34, 6}, {20, 30}, {-20, 30}, {-34, 6}}; }
 
-std::vector<Panel> four_views(GlContext& context, const Ght& ght, const Carving& carving, const Look& look) {
+std::vector<Panel> four_views(GlContext& gl, const Ght& ght, const Carving& carving, const Look& look) {
   Look open = look;
   open.cuts.push_back(along(carving, look.from));
-  return {{planes_view(context, ght, look), "ground planes"},
-          {wires_view(context, ght, look), "wireframe"},
-          {solid_view(context, ght, look), "solid"},
-          {solid_view(context, ght, open), "solid, cut along the axis"}};
+  return {{planes_view(gl, ght, look), "ground planes"},
+          {wires_view(gl, ght, look), "wireframe"},
+          {solid_view(gl, ght, look), "solid"},
+          {solid_view(gl, ght, open), "solid, cut along the axis"}};
 }
 
-// The ridge with the carvings and the valleys on both its sides, out of the whole terrain.
+// Cuts that leave the ridge with the carvings and the valleys on both sides of it.
 std::vector<CutPlane> around_the_ridge(const Ght& ght) {
   const Lattice& lattice = ght.model().tree.lattice();
   return {{{lattice.x(49), 0}, {-1, 0}},
@@ -54,62 +60,41 @@ std::vector<CutPlane> around_the_ridge(const Ght& ght) {
           {{0, lattice.z(73)}, {0, 1}}};
 }
 
-// Two by two.
-void write_four(std::vector<Panel> views, const std::filesystem::path& png) {
-  write_panels({{views[0], views[1]}, {views[2], views[3]}}, png);
-}
-
-void draw_single(GlContext& context, const char* script, const std::filesystem::path& png) {
+Sheet draw_single(Drawing& drawing, const char* script) {
   const TerrainSource source = open_named_script(script);
   const Ght ght = open_tree(script);
   const Look look{{0.8F, 0.4F, 1.0F}, 1000, 560, around_the_ridge(ght)};
-  write_four(four_views(context, ght, std::get<Carving>(source.events->events.at(0)), look), png);
+  const auto& carving = std::get<Carving>(source.events->events.at(0));
+  return panel_sheet(figures::in_rows_of(2, four_views(drawing.gl(), ght, carving, look)));
 }
 
 }  // namespace
 
-void draw_carving_shapes(GlContext& context, Recorder& recorder) {
-  const Look look{{0.55F, 0.4F, 1.0F}, 760, 440, {}};
+Sheet draw_carving_shapes(Drawing& drawing) {
+  const Look look{{0.55F, 0.4F, 1.0F}, 760, 440};
   const glm::dvec3 east{390, 55, 200};
-  std::vector<std::vector<Panel>> rows;
+  figures::PanelRows rows;
   for (const bool cave : {false, true}) {
     const Carving carving{cave, east, {cave ? 270.0 : 210.0, 55, 200}, vault(), 1, cave ? 1.2 : 1, 0, 0};
     Ght ght = ridge();
     ght.apply(carving);
-    std::vector<Panel> views = four_views(context, ght, carving, look);
+    std::vector<Panel> views = four_views(drawing.gl(), ght, carving, look);
     views.erase(views.begin() + 1);
     views[0].words = cave ? "cave: ground planes" : "tunnel: ground planes";
     rows.push_back(std::move(views));
   }
-  write_panels(rows,
-               recorder.figure("ght.F15", "png",
-                               "Figure 15 of the paper: a tunnel and a cave carved into a ridge; on the "
-                               "right the ground is cut open along the axis"));
+  return panel_sheet(rows);
 }
 
-void draw_tunnel(GlContext& context, Recorder& recorder) {
-  draw_single(context, "tunnel",
-              recorder.figure(
-                  "ght.F19", "png",
-                  "Figure 19 of the paper: a tunnel carved through a terrain of 129 × 129; the views but the "
-                  "first are of the ground around it"));
-}
+Sheet draw_tunnel(Drawing& drawing) { return draw_single(drawing, "tunnel"); }
 
-void draw_cave(GlContext& context, Recorder& recorder) {
-  draw_single(
-      context, "cave",
-      recorder.figure("ght.F20", "png",
-                      "Figure 20 of the paper: a cave carved into a terrain of 129 × 129; the views but the "
-                      "first are of the ground around it"));
-}
+Sheet draw_cave(Drawing& drawing) { return draw_single(drawing, "cave"); }
 
-void draw_two_tunnels(GlContext& context, Recorder& recorder) {
+Sheet draw_two_tunnels(Drawing& drawing) {
   const Ght ght = open_tree("two-tunnels");
   const Look look{{0.9F, 0.45F, 1.0F}, 1060, 620, around_the_ridge(ght)};
-  write_panels(
-      {{{wires_view(context, ght, look), "wireframe"}, {solid_view(context, ght, look), "solid"}}},
-      recorder.figure("ght.F21", "png",
-                      "Figure 21 of the paper: the part with two tunnels of a terrain of 129 × 129"));
+  return panel_sheet(
+      {{{wires_view(drawing.gl(), ght, look), "wireframe"}, {solid_view(drawing.gl(), ght, look), "solid"}}});
 }
 
 }  // namespace terrabench::ght

@@ -5,47 +5,46 @@
 #include <glm/common.hpp>
 #include <utility>
 
-#include "renderers/scene.h"
+#include "experiments/figures/ground.h"
 
 namespace terrabench::ght {
 namespace {
 
-constexpr Rgb kRoot{110, 110, 115}, kGroundWire{120, 120, 124}, kRock{196, 178, 158};
+using figures::CutPlane;
+using figures::Look;
+
+constexpr Rgb kRoot{110, 110, 115}, kGroundWire{120, 120, 124}, kYellow{240, 200, 20};
 constexpr int kPlaneGrid = 8;  // lines across the root's plane
 
-// Okabe & Ito's colours, but for black and yellow, which is not seen on white.
+// Okabe & Ito's colours, without black and without yellow, which is too pale on white.
 constexpr std::array<Rgb, 6> kColours{
     {{213, 94, 0}, {0, 114, 178}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}}};
 
-// The same box for all views of a tree, so that they show it in one place and size. Planes lie around 0,
-// which need not be where the ground is.
-View view_of(const Bounds& bounds, const Look& look) {
-  return overview(bounds, look.width, look.height, look.from);
-}
-
-Bounds surface_bounds(const Ght& ght, const TriangleMesh& mesh) {
-  Bounds box{glm::vec3(HUGE_VALF), glm::vec3(-HUGE_VALF)};
-  for (const std::uint32_t v : mesh.indices) {  // a cut leaves vertices of no triangle
+void extend(Bounds& box, const TriangleMesh& mesh) {
+  for (const std::uint32_t v : mesh.indices) {  // a cut leaves vertices that no triangle uses
     box.low = glm::min(box.low, mesh.positions[v]);
     box.high = glm::max(box.high, mesh.positions[v]);
   }
+}
+
+// The same box for wires and solid, so that both show the tree in one place and size.
+Bounds surface_bounds(const Ght& ght, const TriangleMesh& mesh) {
+  Bounds box{glm::vec3(HUGE_VALF), glm::vec3(-HUGE_VALF)};
+  extend(box, mesh);
   box.low.y = ght.bounds().low.y;
   return box;
 }
 
-SceneMesh wired(const TriangleMesh& mesh, Rgb colour, float width, std::vector<std::uint8_t> wires) {
-  SceneMesh item;
-  item.mesh = &mesh;
-  item.surface = terrabench::Surface::kFlat;
-  item.wire_width = width;
-  item.wire_color = colour;
-  item.wires = std::move(wires);
-  return item;
+TriangleMesh sides_of(const Ght& ght) {
+  const Tree& tree = ght.model().tree;
+  return figures::block_sides(
+      tree.lattice().width, tree.lattice().depth,
+      [&](int i, int j) { return tree.position(tree.at_sample(i, j)); }, ght.bounds().low.y);
 }
 
 }  // namespace
 
-Image planes_view(GlContext& context, const Ght& ght, const Look& look) {
+Image planes_view(GlContext& gl, const Ght& ght, const Look& look) {
   const Tree& tree = ght.model().tree;
   const Lattice& lattice = tree.lattice();
   Scene scene;
@@ -62,12 +61,12 @@ Image planes_view(GlContext& context, const Ght& ght, const Look& look) {
     if (outline.size() >= 3)
       scene.planes.push_back({std::move(outline), kColours[(n - 1) % kColours.size()], 0.3F, line});
   }
-  return render_scene(context, scene, view_of(bounds_of(scene), look));
+  return render_scene(gl, scene, look.at(bounds_of(scene)));  // planes need not be where the ground is
 }
 
-Image wires_view(GlContext& context, const Ght& ght, const Look& look) {
+Image wires_view(GlContext& gl, const Ght& ght, const Look& look) {
   TreeSurface surface = tree_surface(ght.model());
-  for (const CutPlane& cut : look.cuts) cut_away(surface.mesh, cut, &surface.nodes);
+  for (const CutPlane& cut : look.cuts) figures::cut_away(surface.mesh, cut, &surface.nodes);
   const std::vector<std::uint8_t> wires = quad_wires(surface.mesh);
   const auto part = [&](bool of_events) {
     const auto keep = [&](std::size_t t) { return (surface.nodes[t] != 0) == of_events; };
@@ -75,45 +74,42 @@ Image wires_view(GlContext& context, const Ght& ght, const Look& look) {
     for (std::size_t t = 0; t < wires.size(); ++t) {
       if (keep(t)) kept.push_back(wires[t]);
     }
-    return std::pair(part_of(surface.mesh, keep), std::move(kept));
+    return std::pair(figures::part_of(surface.mesh, keep), std::move(kept));
   };
   const auto [ground, ground_wires] = part(false);
   const auto [made, made_wires] = part(true);
   Scene scene;
-  scene.meshes.push_back(wired(ground, kGroundWire, 0.9F, ground_wires));
-  scene.meshes.push_back(wired(made, kColours[1], 1.1F, made_wires));
-  return render_scene(context, scene, view_of(surface_bounds(ght, surface.mesh), look));
+  scene.meshes.push_back(figures::wired(ground, ground_wires, 0.9F, kGroundWire));
+  scene.meshes.push_back(figures::wired(made, made_wires, 1.1F, kColours[1]));
+  return render_scene(gl, scene, look.at(surface_bounds(ght, surface.mesh)));
 }
 
-Image solid_view(GlContext& context, const Ght& ght, const Look& look) {
+Image solid_view(GlContext& gl, const Ght& ght, const Look& look, const TriangleMesh& particles) {
   TreeSurface surface = tree_surface(ght.model());
-  TriangleMesh sides = block_sides(ght);
-  std::vector<TriangleMesh> faces;
+  std::vector<TriangleMesh> rocks{sides_of(ght)};
   for (const CutPlane& cut : look.cuts) {
-    cut_away(surface.mesh, cut);
-    cut_away(sides, cut);
-    faces.push_back(section_face(ght, cut, ght.bounds().size().x / 2000));
+    figures::cut_away(surface.mesh, cut);
+    figures::cut_away(rocks[0], cut);
+  }
+  for (const CutPlane& cut : look.cuts) {
+    TriangleMesh& face = rocks.emplace_back(figures::section_face(ght, cut, ght.bounds().size().x / 2000));
     for (const CutPlane& other : look.cuts) {
-      if (&other != &cut) cut_away(faces.back(), other);
+      if (&other != &cut) figures::cut_away(face, other);
     }
   }
   Scene scene;
   scene.lowest = bounds_of(surface.mesh).low.y;
   scene.highest = bounds_of(surface.mesh).high.y;
-  scene.meshes.reserve(2 + faces.size());
-  SceneMesh& ground = scene.meshes.emplace_back();
-  ground.mesh = &surface.mesh;
-  SceneMesh& block = scene.meshes.emplace_back();
-  block.mesh = &sides;
-  block.colors.assign(sides.positions.size(), kRock);
-  block.shading_exaggeration = 1;
-  for (const TriangleMesh& face : faces) {
-    SceneMesh& section = scene.meshes.emplace_back();
-    section.mesh = &face;
-    section.colors.assign(face.positions.size(), kRock);
-    section.shading_exaggeration = 1;
+  scene.meshes.emplace_back().mesh = &surface.mesh;
+  for (const TriangleMesh& mesh : rocks) scene.meshes.push_back(figures::rock(mesh));
+  Bounds box = surface_bounds(ght, surface.mesh);
+  if (particles.triangles() > 0) {
+    extend(box, particles);
+    scene.meshes.push_back(
+        figures::wired(particles, std::vector<std::uint8_t>(particles.triangles(), 0), 0.8F));
+    scene.meshes.back().fill = kYellow;
   }
-  return render_scene(context, scene, view_of(surface_bounds(ght, surface.mesh), look));
+  return render_scene(gl, scene, look.at(box));
 }
 
 }  // namespace terrabench::ght

@@ -1,24 +1,16 @@
-// The three views of a tree that "ght" shows beside one another, whole or cut open.
+// The three views in which "ght" shows a tree, whole or cut open.
 #pragma once
 
-#include <glm/vec3.hpp>
-#include <vector>
-
+#include "experiments/figures/views.h"
 #include "experiments/ght/tree_view.h"
-#include "renderers/context.h"
-#include "terrain/image.h"
 
 namespace terrabench::ght {
 
-struct Look {
-  glm::vec3 from{0.55F, 0.75F, 1.0F};  // towards the eye
-  int width = 800, height = 600;       // pixels
-  std::vector<CutPlane> cuts{};        // of wires and solid; what they leave is convex
-};
-
-Image planes_view(GlContext&, const Ght&, const Look&);
-Image wires_view(GlContext&, const Ght&, const Look&);
-// Lit and coloured by height, as a block of ground.
-Image solid_view(GlContext&, const Ght&, const Look&);
+// The root's ground plane grey, those of other nodes in colour.
+Image planes_view(GlContext&, const Ght&, const figures::Look&);
+// The triangles of the root grey, those of other nodes blue.
+Image wires_view(GlContext&, const Ght&, const figures::Look&);
+// Lit and coloured by height, as a block of ground; with particles above it, if there are any.
+Image solid_view(GlContext&, const Ght&, const figures::Look&, const TriangleMesh& particles = {});
 
 }  // namespace terrabench::ght

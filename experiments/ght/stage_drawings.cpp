@@ -8,8 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/ght/arrays.h"
-#include "experiments/ght/heightmap_image.h"
+#include "experiments/figures/heightmap_image.h"
+#include "experiments/figures/marks.h"
+#include "experiments/figures/panels.h"
 #include "experiments/ght/stages.h"
 #include "terrain/sources/fractal/diamond_square.h"
 #include "terrain/sources/fractal/faults.h"
@@ -18,12 +19,27 @@
 namespace terrabench::ght {
 namespace {
 
-using figures::Sheet;
-using figures::SheetPoint;
+using namespace figures;
 
 constexpr Rgb kInk{20, 20, 24}, kSet{150, 150, 155}, kUnset{215, 215, 218}, kAccent{0, 90, 170},
     kSecond{190, 70, 20};
 constexpr double kMargin = 28, kLabel = 26;
+
+// Points of an array of `side` × `side` on the sheet.
+struct ArrayPlace {
+  double x, y, size;  // of the corner point, and of the whole array
+  int side;
+  SheetPoint at(double i, double j) const { return {x + size * i / (side - 1), y + size * j / (side - 1)}; }
+};
+
+// Thin lines between the points.
+void draw_grid(Sheet& sheet, const ArrayPlace& array) {
+  constexpr Rgb kGrid{205, 205, 205};
+  for (int k = 0; k < array.side; ++k) {
+    draw_stroke(sheet, array.at(k, 0), array.at(k, array.side - 1), kGrid, 1);
+    draw_stroke(sheet, array.at(0, k), array.at(array.side - 1, k), kGrid, 1);
+  }
+}
 
 void label(Sheet& sheet, double x, double y, std::string_view words) {
   sheet.text(x, y, words, 15, "middle");
@@ -35,15 +51,15 @@ std::string height_text(float metres) {
 
 bool is_set(const Heightfield& field, int i, int j) { return !Heightfield::is_no_data(field.at(i, j)); }
 
-// Lines from a point that a step has set to the points it was taken from: the diagonal neighbours after a
-// diamond step, the straight ones after a square step. Lines that leave the array end at its border.
+// Lines from a point that a step has set to the points whose mean it took: the diagonal neighbours in a
+// diamond step, the straight ones in a square step. Neighbours outside the array get no line.
 void draw_origins(Sheet& sheet, const ArrayPlace& array, int i, int j, int half, bool diamond_step) {
   static constexpr std::array<std::pair<int, int>, 4> kDiagonal{{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
   static constexpr std::array<std::pair<int, int>, 4> kStraight{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
   for (const auto& [dx, dz] : diamond_step ? kDiagonal : kStraight) {
     const int x = i + dx * half, z = j + dz * half;
     if (x < 0 || z < 0 || x >= array.side || z >= array.side) continue;
-    stroke(sheet, array.at(x, z), array.at(i, j), kAccent, 1.4);
+    draw_stroke(sheet, array.at(x, z), array.at(i, j), kAccent, 1.4);
   }
 }
 
@@ -75,27 +91,28 @@ void draw_steps(Sheet& sheet, const ArrayPlace& array, const fractal::DiamondSqu
 
 }  // namespace
 
-void draw_midpoints(std::uint64_t seed, Recorder& recorder) {
+Sheet draw_midpoints(Drawing& drawing) {
   constexpr std::array kLevels{0, 1, 2, 3, 4, 9};
   constexpr double kWidth = 300, kHeight = 150;
   Sheet sheet(static_cast<int>(3 * kWidth + 4 * kMargin),
               static_cast<int>(2 * (kHeight + kLabel) + 3 * kMargin));
-  float most = 0;  // of all panels, the last one has the highest and the lowest point
-  for (const float h : fractal::midpoint_displacement({.seed = seed, .levels = kLevels.back()})) {
+  float most = 0;  // the last panel has the highest and the lowest point of all
+  for (const float h : fractal::midpoint_displacement({.seed = drawing.seed(), .levels = kLevels.back()})) {
     most = std::max(most, std::abs(h));
   }
   for (std::size_t panel = 0; panel < kLevels.size(); ++panel) {
     const int levels = kLevels[panel];
     const double x0 = kMargin + static_cast<double>(panel % 3) * (kWidth + kMargin);
     const double y0 = kMargin + static_cast<double>(panel / 3) * (kHeight + kLabel + kMargin);
-    const std::vector<float> heights = fractal::midpoint_displacement({.seed = seed, .levels = levels});
+    const std::vector<float> heights =
+        fractal::midpoint_displacement({.seed = drawing.seed(), .levels = levels});
     const auto place = [&](std::size_t i) {
       return SheetPoint{x0 + kWidth * static_cast<double>(i) / static_cast<double>(heights.size() - 1),
                         y0 + kHeight / 2 * (1 - heights[i] / most)};
     };
     std::vector<SheetPoint> points;
     for (std::size_t i = 0; i < heights.size(); ++i) points.push_back(place(i));
-    stroke(sheet, {x0, y0 + kHeight / 2}, {x0 + kWidth, y0 + kHeight / 2}, kUnset, 1);
+    draw_stroke(sheet, {x0, y0 + kHeight / 2}, {x0 + kWidth, y0 + kHeight / 2}, kUnset, 1);
     sheet.line(points, {.colour = kInk, .thickness = levels < 6 ? 2 : 1.2, .dashes = {}});
     if (levels < 6) {
       for (std::size_t i = 0; i < points.size(); ++i) {
@@ -106,12 +123,10 @@ void draw_midpoints(std::uint64_t seed, Recorder& recorder) {
     label(sheet, x0 + kWidth / 2, y0 + kHeight + 26,
           levels == 0 ? "start" : fmt::format("{} step{}", levels, levels == 1 ? "" : "s"));
   }
-  sheet.write(recorder.figure("ght.F3", "png",
-                              "Figure 3 of the paper: midpoint displacement of a line; the points that each "
-                              "step adds are blue, and its range is half of the one before"));
+  return sheet;
 }
 
-void draw_neighbourhoods(Recorder& recorder) {
+Sheet draw_neighbourhoods(Drawing&) {
   constexpr double kSize = 220, kStep = kSize + 2.5 * kMargin;
   Sheet sheet(static_cast<int>(3 * kStep + kMargin), static_cast<int>(kSize + kLabel + 3 * kMargin));
   const auto array = [&](int panel) {
@@ -122,7 +137,7 @@ void draw_neighbourhoods(Recorder& recorder) {
     for (std::size_t k = 0; k + (closed ? 0 : 1) < corners.size(); ++k) {
       const auto& [i, j] = corners[k];
       const auto& [x, z] = corners[(k + 1) % corners.size()];
-      stroke(sheet, at.at(i, j), at.at(x, z), kAccent, 2);
+      draw_stroke(sheet, at.at(i, j), at.at(x, z), kAccent, 2);
     }
     for (const auto& [i, j] : corners) draw_dot(sheet, at.at(i, j), 7, kInk);
   };
@@ -141,13 +156,10 @@ void draw_neighbourhoods(Recorder& recorder) {
     label(sheet, array(panel).at(2, 0).x, array(panel).at(0, 4).y + kMargin + 12, words);
     ++panel;
   }
-  sheet.write(
-      recorder.figure("ght.F4", "png",
-                      "Figure 4 of the paper: the four points of a square, of a diamond, and of a diamond "
-                      "that straddles the border; rings are the points that take their mean"));
+  return sheet;
 }
 
-void draw_diamond_square_steps(std::uint64_t seed, Recorder& recorder) {
+Sheet draw_diamond_square_steps(Drawing& drawing) {
   constexpr double kSize = 200, kStepX = kSize + 2.5 * kMargin, kStepY = kSize + kLabel + 2 * kMargin;
   constexpr std::array kWords{"a) corners", "b) diamond step", "c) square step", "d) diamond step",
                               "e) square step"};
@@ -156,26 +168,23 @@ void draw_diamond_square_steps(std::uint64_t seed, Recorder& recorder) {
     // Three above, two below them, centred.
     const double x = 1.5 * kMargin + (steps < 3 ? steps : steps - 2.5) * kStepX;
     const ArrayPlace array{x, kMargin + (steps < 3 ? 0 : kStepY), kSize, 5};
-    draw_steps(sheet, array, {.seed = seed, .side = 5}, steps);
+    draw_steps(sheet, array, {.seed = drawing.seed(), .side = 5}, steps);
     label(sheet, x + kSize / 2, array.at(0, 4).y + kMargin + 8, kWords[static_cast<std::size_t>(steps)]);
   }
-  sheet.write(
-      recorder.figure("ght.F5", "png",
-                      "Figure 5 of the paper: diamond-square on an array of 5 × 5; points that the step sets "
-                      "are black, earlier ones grey, and lines lead to the points whose mean they take"));
+  return sheet;
 }
 
-void draw_straddling_diamond(std::uint64_t seed, Recorder& recorder) {
+Sheet draw_straddling_diamond(Drawing& drawing) {
   constexpr double kSize = 300;
-  const fractal::DiamondSquareOptions options{.seed = seed, .side = 5};
+  const fractal::DiamondSquareOptions options{.seed = drawing.seed(), .side = 5};
   const Heightfield field = fractal::diamond_square(options),
                     before = fractal::diamond_square_after(options, 3);
   Sheet sheet(static_cast<int>(kSize + 10 * kMargin), static_cast<int>(kSize + 3 * kMargin));
   const ArrayPlace array{5 * kMargin, 1.5 * kMargin, kSize, 5};
   draw_grid(sheet, array);
   for (const auto& [border, inside] : {std::pair{0, 1}, {4, 3}}) {
-    stroke(sheet, array.at(border, 0), array.at(inside, 1), kAccent, 2);
-    stroke(sheet, array.at(inside, 1), array.at(border, 2), kAccent, 2);
+    draw_stroke(sheet, array.at(border, 0), array.at(inside, 1), kAccent, 2);
+    draw_stroke(sheet, array.at(inside, 1), array.at(border, 2), kAccent, 2);
   }
   for (int j = 0; j < 5; ++j) {
     for (int i = 0; i < 5; ++i) {
@@ -193,16 +202,14 @@ void draw_straddling_diamond(std::uint64_t seed, Recorder& recorder) {
     sheet.text(at.x + (west ? -16 : 16), at.y + 5, height_text(field.at(border, 1)), 15,
                west ? "end" : "start");
   }
-  sheet.write(recorder.figure(
-      "ght.F6", "png",
-      "Figure 6 of the paper: the diamond that straddles the border of the array gives its value "
-      "to a point on either side (rings, with the height that each received)"));
+  return sheet;
 }
 
-void draw_first_fault(std::uint64_t seed, Recorder& recorder) {
+Sheet draw_first_fault(Drawing& drawing) {
   constexpr int kSide = 13;
   constexpr double kSize = 330;
-  const fractal::FaultOptions options{.seed = seed, .width = kSide, .depth = kSide, .faults = 1, .step = 1};
+  const fractal::FaultOptions options{
+      .seed = drawing.seed(), .width = kSide, .depth = kSide, .faults = 1, .step = 1};
   const fractal::FaultLine line = fractal::fault_lines(options)[0];
   const Heightfield field = fractal::fault_terrain(options);
   Sheet sheet(static_cast<int>(kSize + 4 * kMargin), static_cast<int>(kSize + kLabel + 4 * kMargin));
@@ -227,34 +234,24 @@ void draw_first_fault(std::uint64_t seed, Recorder& recorder) {
     if (const double i = (c - b * edge) / a; a != 0 && i > kLow && i < kHigh)
       ends.push_back(array.at(i, edge));
   }
-  if (ends.size() >= 2) stroke(sheet, ends[0], ends[1], kInk, 2.5);
+  if (ends.size() >= 2) draw_stroke(sheet, ends[0], ends[1], kInk, 2.5);
   label(sheet, array.at((kSide - 1) / 2.0, 0).x, array.at(0, kSide - 1).y + 2 * kMargin,
         "× height decreased,  ✱ height increased");
-  sheet.write(
-      recorder.figure("ght.F8", "png",
-                      "Figure 8 of the paper: the first fault divides the height field; points on its one "
-                      "side rise (stars), those on the other sink (crosses)"));
+  return sheet;
 }
 
-void draw_fault_maps(std::uint64_t seed, Recorder& recorder) {
-  constexpr std::array kFaults{1, 4, 16, 64, 256, 1024};
+Sheet draw_fault_maps(Drawing& drawing) {
   constexpr int kSide = 257;
-  constexpr double kSize = kSide, kStepX = kSize + kMargin, kStepY = kSize + kLabel + kMargin;
-  Sheet sheet(static_cast<int>(3 * kStepX + kMargin), static_cast<int>(2 * kStepY + kMargin));
-  for (std::size_t panel = 0; panel < kFaults.size(); ++panel) {
+  std::vector<Panel> panels;
+  for (const int faults : {1, 4, 16, 64, 256, 1024}) {
     const Heightfield field =
-        fractal::fault_terrain({.seed = seed, .width = kSide, .depth = kSide, .faults = kFaults[panel]});
-    const double x = kMargin + static_cast<double>(panel % 3) * kStepX;
-    const double y = kMargin + static_cast<double>(panel / 3) * kStepY;
-    sheet.box(x - 1, y - 1, kSize + 2, kSize + 2, kSet);  // a frame: white is a height too
-    sheet.picture(x, y, kSize, kSize, heightmap_image(field));
-    label(sheet, x + kSize / 2, y + kSize + 20,
-          fmt::format("{} iteration{}", kFaults[panel], kFaults[panel] == 1 ? "" : "s"));
+        fractal::fault_terrain({.seed = drawing.seed(), .width = kSide, .depth = kSide, .faults = faults});
+    panels.push_back(
+        {heightmap_image(field), fmt::format("{} iteration{}", faults, faults == 1 ? "" : "s"), 1});
   }
-  sheet.write(
-      recorder.figure("ght.F9", "png",
-                      "Figure 9 of the paper: the height map as the number of faults grows; black is each "
-                      "map's lowest point, white its highest"));
+  // Framed, as white is a height too.
+  return panel_sheet(in_rows_of(3, std::move(panels)),
+                     {.margin = kMargin, .words = kLabel, .baseline = 20, .text_size = 15, .frame = kSet});
 }
 
 }  // namespace terrabench::ght

@@ -1,169 +1,118 @@
-// Figures 1, 7 and 10 of "ght": terrains in space as wireframes, and the dispatch of all figures of §2.
+// Figures 1 and 3 to 10 of "ght": the generators of base terrain step by step. Here those in space, and the
+// table of all.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <memory>
-#include <string>
 
-#include "experiments/experiment.h"
-#include "experiments/figures/sheet.h"
-#include "experiments/ght/heightmap_image.h"
+#include "experiments/cases.h"
+#include "experiments/figures/ground.h"
+#include "experiments/figures/heightmap_image.h"
+#include "experiments/figures/panels.h"
+#include "experiments/figures/views.h"
 #include "experiments/ght/stages.h"
-#include "renderers/scene.h"
-#include "terrain/error.h"
 #include "terrain/sources/fractal/diamond_square.h"
 #include "terrain/sources/fractal/hills.h"
 
 namespace terrabench::ght {
 namespace {
 
+using figures::Drawing;
+using figures::ground_mesh;
+using figures::Look;
+using figures::panel_sheet;
 using figures::Sheet;
+using figures::wire_view;
 
-constexpr double kMargin = 20, kLabel = 28;
-constexpr int kPixels = 2;  // of a picture, for each unit of the sheet
+constexpr figures::PanelStyle kStyle{.margin = 20, .words = 28, .baseline = 20, .text_size = 15};
 
-constexpr std::array kSpecs{
-    ParameterSpec{"figure", std::int64_t{1}, "", "number of the figure in the paper", 1, 10},
-};
-constexpr std::array<std::int64_t, 9> kFigures{1, 3, 4, 5, 6, 7, 8, 9, 10};
-
-// Samples as vertices, the ground alone: no sides, no floor.
-TriangleMesh ground_mesh(const Heightfield& field) {
-  TriangleMesh mesh;
-  for (int j = 0; j < field.depth; ++j) {
-    for (int i = 0; i < field.width; ++i) {
-      mesh.positions.emplace_back(static_cast<float>(i) * field.cell_x, field.at(i, j),
-                                  static_cast<float>(j) * field.cell_z);
-    }
-  }
-  for (int j = 0; j + 1 < field.depth; ++j) {
-    for (int i = 0; i + 1 < field.width; ++i) {
-      const auto a = static_cast<std::uint32_t>(j * field.width + i), b = a + 1;
-      const auto c = a + static_cast<std::uint32_t>(field.width), d = c + 1;
-      mesh.indices.insert(mesh.indices.end(), {a, c, b, b, c, d});
-    }
-  }
-  return mesh;
+Sheet draw_heightmap_and_wireframe(Drawing& drawing) {
+  const Heightfield field = fractal::diamond_square(
+      {.seed = drawing.seed(), .side = 129, .cell = 30, .amplitude = 800, .hurst = 0.9F});
+  const Look look{.width = 1120, .height = 774};
+  return panel_sheet({{{figures::heightmap_image(field), "heightmap, 129 × 129", 3},
+                       {wire_view(drawing.gl(), ground_mesh(resample(field, 65, 65)), look, 1.2F),
+                        "wireframe, every other sample"}}},
+                     kStyle);
 }
 
-// The cells' borders over white ground, in a picture that fills width × height units of a sheet.
-Image wire_view(GlContext& context, const Heightfield& field, double width, double height, float wire_width) {
-  const TriangleMesh mesh = ground_mesh(field);
-  Scene scene;
-  SceneMesh& ground = scene.meshes.emplace_back();
-  ground.mesh = &mesh;
-  ground.surface = Surface::kFlat;
-  ground.wire_width = wire_width;
-  ground.wires = quad_wires(mesh);
-  return render_scene(
-      context, scene,
-      overview(bounds_of(mesh), static_cast<int>(kPixels * width), static_cast<int>(kPixels * height)));
-}
-
-}  // namespace
-
-void draw_heightmap_and_wireframe(GlContext& context, std::uint64_t seed, Recorder& recorder) {
-  constexpr double kSize = 387, kWide = 560;  // three units a sample
-  const Heightfield field =
-      fractal::diamond_square({.seed = seed, .side = 129, .cell = 30, .amplitude = 800, .hurst = 0.9F});
-  Sheet sheet(static_cast<int>(kSize + kWide + 3 * kMargin), static_cast<int>(kSize + kLabel + 2 * kMargin));
-  sheet.picture(kMargin, kMargin, kSize, kSize, heightmap_image(field));
-  sheet.picture(2 * kMargin + kSize, kMargin, kWide, kSize,
-                wire_view(context, resample(field, 65, 65), kWide, kSize, 1.2F));
-  sheet.text(kMargin + kSize / 2, kMargin + kSize + 20, "heightmap, 129 × 129", 15, "middle");
-  sheet.text(2 * kMargin + kSize + kWide / 2, kMargin + kSize + 20, "wireframe, every other sample", 15,
-             "middle");
-  sheet.write(recorder.figure(
-      "ght.F1", "png",
-      "Figure 1 of the paper: a terrain as heightmap (black low, white high) and as wireframe "
-      "seen from the south-east"));
-}
-
-void draw_diamond_square_terrains(GlContext& context, std::uint64_t seed, Recorder& recorder) {
-  constexpr double kWide = 330, kHigh = 230;
-  Sheet sheet(static_cast<int>(3 * kWide + 4 * kMargin),
-              static_cast<int>(2 * (kHigh + kLabel) + 3 * kMargin));
+Sheet draw_diamond_square_terrains(Drawing& drawing) {
+  std::vector<figures::Panel> panels;
   for (int n = 1; n <= 6; ++n) {
     const int side = (1 << n) + 1;
-    const Heightfield field = fractal::diamond_square({.seed = seed,
+    const Heightfield field = fractal::diamond_square({.seed = drawing.seed(),
                                                        .side = side,
                                                        .cell = 3840.0F / static_cast<float>(side - 1),
                                                        .amplitude = 900,
                                                        .hurst = 0.9F});
-    const double x = kMargin + (n - 1) % 3 * (kWide + kMargin);
-    const double y = kMargin + (n - 1) / 3 * (kHigh + kLabel + kMargin);
-    sheet.picture(x, y, kWide, kHigh, wire_view(context, field, kWide, kHigh, n < 5 ? 2 : 1.2F));
-    sheet.text(x + kWide / 2, y + kHigh + 20,
-               fmt::format("{} iteration{}: {} × {}", n, n == 1 ? "" : "s", side, side), 15, "middle");
+    const Look look{.width = 660, .height = 460};
+    panels.push_back({wire_view(drawing.gl(), ground_mesh(field), look, n < 5 ? 2 : 1.2F),
+                      fmt::format("{} iteration{}: {} × {}", n, n == 1 ? "" : "s", side, side)});
   }
-  sheet.write(recorder.figure(
-      "ght.F7", "png", "Figure 7 of the paper: one terrain after 1 to 6 iterations of diamond-square"));
+  return panel_sheet(figures::in_rows_of(3, std::move(panels)), kStyle);
 }
 
-void draw_hills_one_and_many(GlContext& context, std::uint64_t seed, Recorder& recorder) {
-  constexpr double kWide = 500, kHigh = 330;
+Sheet draw_hills_one_and_many(Drawing& drawing) {
   fractal::HillOptions options{
-      .seed = seed, .width = 65, .depth = 65, .cell = 1, .hills = 60, .scale = 0.05F};
+      .seed = drawing.seed(), .width = 65, .depth = 65, .cell = 1, .hills = 60, .scale = 0.05F};
   options.least_radius = 5;
   options.most_radius = 17;
-  const Heightfield one = fractal::raise_hills(options, {{32, 32, 19}});
-  const Heightfield many = fractal::hill_terrain(options);
-  Sheet sheet(static_cast<int>(2 * kWide + 3 * kMargin), static_cast<int>(kHigh + kLabel + 2 * kMargin));
-  int panel = 0;
-  for (const Heightfield* const field : {&one, &many}) {
-    const double x = kMargin + panel * (kWide + kMargin);
-    sheet.picture(x, kMargin, kWide, kHigh, wire_view(context, *field, kWide, kHigh, 1.4F));
-    sheet.text(x + kWide / 2, kMargin + kHigh + 20, panel == 0 ? "one hill" : "60 hills", 15, "middle");
-    ++panel;
-  }
-  sheet.write(recorder.figure(
-      "ght.F10", "png",
-      "Figure 10 of the paper: an isolated hill, and the terrain after 60 of them; heights are "
-      "(r² − d²) / 20"));
+  const auto view = [&](const Heightfield& field) {
+    return wire_view(drawing.gl(), ground_mesh(field), {.width = 1000, .height = 660}, 1.4F);
+  };
+  return panel_sheet({{{view(fractal::raise_hills(options, {{32, 32, 19}})), "one hill"},
+                       {view(fractal::hill_terrain(options)), "60 hills"}}},
+                     kStyle);
 }
 
-namespace {
+// Figure 2 shows a triangulated irregular network, which no method here makes.
+constexpr std::array kFigures{
+    figures::Figure{1, "F1",
+                    "Figure 1 of the paper: a terrain as heightmap (black low, white high) and as wireframe "
+                    "seen from the south-east",
+                    draw_heightmap_and_wireframe},
+    figures::Figure{3, "F3",
+                    "Figure 3 of the paper: midpoint displacement of a line; the points that each step adds "
+                    "are blue, and its range is half of the one before",
+                    draw_midpoints},
+    figures::Figure{4, "F4",
+                    "Figure 4 of the paper: the four points of a square, of a diamond, and of a diamond that "
+                    "straddles the border; rings are the points that take their mean",
+                    draw_neighbourhoods},
+    figures::Figure{5, "F5",
+                    "Figure 5 of the paper: diamond-square on an array of 5 × 5; points that the step sets "
+                    "are black, earlier ones grey, and lines lead to the points whose mean they take",
+                    draw_diamond_square_steps},
+    figures::Figure{6, "F6",
+                    "Figure 6 of the paper: the diamond that straddles the border of the array gives its "
+                    "value to a point on either side (rings, with the height that each received)",
+                    draw_straddling_diamond},
+    figures::Figure{7, "F7", "Figure 7 of the paper: one terrain after 1 to 6 iterations of diamond-square",
+                    draw_diamond_square_terrains},
+    figures::Figure{8, "F8",
+                    "Figure 8 of the paper: the first fault divides the height field; points on its one side "
+                    "rise (stars), those on the other sink (crosses)",
+                    draw_first_fault},
+    figures::Figure{9, "F9",
+                    "Figure 9 of the paper: the height map as the number of faults grows; black is each "
+                    "map's lowest point, white its highest",
+                    draw_fault_maps},
+    figures::Figure{10, "F10",
+                    "Figure 10 of the paper: an isolated hill, and the terrain after 60 of them; heights are "
+                    "(r² − d²) / 20",
+                    draw_hills_one_and_many},
+};
+constexpr std::array kNames = names_of(kFigures);
+const std::array kSpecs{choice("figure", kNames, "figure of the paper")};
 
-std::vector<Case> cases(const RunOptions&) {
-  std::vector<Case> cases;
-  for (const std::int64_t figure : kFigures) {
-    cases.push_back({fmt::format("F{}", figure), {kSpecs, {{"figure", figure}}}, ""});
-  }
-  return cases;
-}
+std::vector<Case> cases(const RunOptions&) { return cases_by("figure", kSpecs); }
 
 void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const std::int64_t figure = at.parameters.integer("figure");
-  if (figure == 2) {
-    throw usage_error("figure 2 shows a triangulated network, which nothing here makes", "figure",
-                      "figures 1 and 3 to 10 are there");
-  }
-  const auto context = [&] { return open_context(options.renderer, 64, 64); };
-  recorder.add("figure", "", static_cast<double>(figure));
-  switch (figure) {
-    case 1:
-      return draw_heightmap_and_wireframe(*context(), options.seed, recorder);
-    case 3:
-      return draw_midpoints(options.seed, recorder);
-    case 4:
-      return draw_neighbourhoods(recorder);
-    case 5:
-      return draw_diamond_square_steps(options.seed, recorder);
-    case 6:
-      return draw_straddling_diamond(options.seed, recorder);
-    case 7:
-      return draw_diamond_square_terrains(*context(), options.seed, recorder);
-    case 8:
-      return draw_first_fault(options.seed, recorder);
-    case 9:
-      return draw_fault_maps(options.seed, recorder);
-    default:
-      return draw_hills_one_and_many(*context(), options.seed, recorder);
-  }
+  draw_figure(kFigures, "ght", at, options, recorder);
 }
 
 }  // namespace
+
+std::span<const figures::Figure> stage_figures() { return kFigures; }
 
 extern const Experiment kStages{"ght.stages", "Figures 1 and 3-10: the generators, step by step", kSpecs,
                                 cases, draw};

@@ -1,22 +1,20 @@
-// The figures of §2 of "ght", one function each.
+// The figures of §2 of "ght".
 #pragma once
 
-#include "experiments/recorder.h"
-#include "renderers/context.h"
+#include <span>
+
+#include "experiments/figures/figure.h"
 
 namespace terrabench::ght {
 
-// Drawn flat: stage_drawings.cpp.
-void draw_midpoints(std::uint64_t seed, Recorder&);             // figure 3
-void draw_neighbourhoods(Recorder&);                            // figure 4
-void draw_diamond_square_steps(std::uint64_t seed, Recorder&);  // figure 5
-void draw_straddling_diamond(std::uint64_t seed, Recorder&);    // figure 6
-void draw_first_fault(std::uint64_t seed, Recorder&);           // figure 8
-void draw_fault_maps(std::uint64_t seed, Recorder&);            // figure 9
+std::span<const figures::Figure> stage_figures();  // 1 and 3 to 10
 
-// Drawn in space: stage_views.cpp.
-void draw_heightmap_and_wireframe(GlContext&, std::uint64_t seed, Recorder&);  // figure 1
-void draw_diamond_square_terrains(GlContext&, std::uint64_t seed, Recorder&);  // figure 7
-void draw_hills_one_and_many(GlContext&, std::uint64_t seed, Recorder&);       // figure 10
+// stage_drawings.cpp
+figures::Sheet draw_midpoints(figures::Drawing&);
+figures::Sheet draw_neighbourhoods(figures::Drawing&);
+figures::Sheet draw_diamond_square_steps(figures::Drawing&);
+figures::Sheet draw_straddling_diamond(figures::Drawing&);
+figures::Sheet draw_first_fault(figures::Drawing&);
+figures::Sheet draw_fault_maps(figures::Drawing&);
 
 }  // namespace terrabench::ght

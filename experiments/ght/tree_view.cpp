@@ -1,10 +1,7 @@
 #include "experiments/ght/tree_view.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <unordered_map>
 #include <utility>
 
@@ -39,12 +36,6 @@ class SurfaceBuilder {
   std::unordered_map<std::uint64_t, std::uint32_t> vertices_;  // of a cell in a node's triangles
 };
 
-void add_quad(TriangleMesh& mesh, const std::array<glm::vec3, 4>& corners) {
-  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  mesh.positions.insert(mesh.positions.end(), corners.begin(), corners.end());
-  for (const std::uint32_t k : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.indices.push_back(first + k);
-}
-
 double turn(glm::ivec2 a, glm::ivec2 b, glm::ivec2 c) {
   return static_cast<double>(b.x - a.x) * (c.y - a.y) - static_cast<double>(b.y - a.y) * (c.x - a.x);
 }
@@ -76,84 +67,6 @@ TreeSurface tree_surface(const Model& model) {
   }
   model.surface.each_face([&](FaceId f) { builder.add(model.surface.face(f)); });
   return builder.finish();
-}
-
-void cut_away(TriangleMesh& mesh, const CutPlane& plane, std::vector<NodeId>* nodes) {
-  const auto add = [&](std::uint32_t from, std::uint32_t to) {
-    const glm::vec3 a = mesh.positions[from], b = mesh.positions[to];
-    const float share = plane.in_front(a) / (plane.in_front(a) - plane.in_front(b));
-    mesh.positions.push_back(glm::mix(a, b, share));
-    if (!mesh.normals.empty()) {
-      mesh.normals.push_back(glm::normalize(glm::mix(mesh.normals[from], mesh.normals[to], share)));
-    }
-    return static_cast<std::uint32_t>(mesh.positions.size() - 1);
-  };
-  std::vector<std::uint32_t> kept, polygon;
-  std::vector<NodeId> kept_nodes;
-  for (std::size_t t = 0; t < mesh.triangles(); ++t) {
-    polygon.clear();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = mesh.indices[3 * t + k], b = mesh.indices[3 * t + (k + 1) % 3];
-      const bool a_goes = plane.in_front(mesh.positions[a]) > 0,
-                 b_goes = plane.in_front(mesh.positions[b]) > 0;
-      if (!a_goes) polygon.push_back(a);
-      if (a_goes != b_goes) polygon.push_back(add(a, b));
-    }
-    for (std::size_t k = 2; k < polygon.size(); ++k) {
-      kept.insert(kept.end(), {polygon[0], polygon[k - 1], polygon[k]});
-      if (nodes != nullptr) kept_nodes.push_back((*nodes)[t]);
-    }
-  }
-  mesh.indices = std::move(kept);
-  if (nodes != nullptr) *nodes = std::move(kept_nodes);
-}
-
-TriangleMesh section_face(const Ght& ght, const CutPlane& plane, float step) {
-  const Bounds box = ght.bounds();
-  const glm::vec2 along(plane.towards.y, -plane.towards.x);  // rightwards for who looks at the face
-  const float reach = glm::length(glm::vec2(box.size().x, box.size().z));
-  std::vector<float> x, z;
-  for (float at = -reach; at <= reach; at += step) {
-    const glm::vec2 p = plane.point + at * along;
-    if (p.x < box.low.x || p.y < box.low.z || p.x > box.high.x || p.y > box.high.z) continue;
-    x.push_back(p.x);
-    z.push_back(p.y);
-  }
-  SpanSink sink;
-  ght.spans({x, z}, sink);
-  TriangleMesh mesh;
-  const glm::vec2 half = 0.51F * step * along;  // strips overlap a little
-  for (std::size_t c = 0; c < x.size(); ++c) {
-    const glm::vec2 left = glm::vec2(x[c], z[c]) - half, right = glm::vec2(x[c], z[c]) + half;
-    for (const Span& span : sink.column(c)) {
-      add_quad(mesh, {glm::vec3(left.x, span.bottom, left.y), glm::vec3(right.x, span.bottom, right.y),
-                      glm::vec3(right.x, span.top, right.y), glm::vec3(left.x, span.top, left.y)});
-    }
-  }
-  return mesh;
-}
-
-TriangleMesh block_sides(const Ght& ght) {
-  const Tree& tree = ght.model().tree;
-  const Lattice& lattice = tree.lattice();
-  const int last_i = lattice.width - 1, last_j = lattice.depth - 1;
-  TriangleMesh mesh;
-  // From a to b with the ground on the left, seen from above.
-  const auto side = [&](Square a, Square b) {
-    const glm::vec3 from = tree.position(tree.at_sample(a.i, a.j)),
-                    to = tree.position(tree.at_sample(b.i, b.j));
-    const float floor = ght.bounds().low.y;
-    add_quad(mesh, {glm::vec3(from.x, floor, from.z), glm::vec3(to.x, floor, to.z), to, from});
-  };
-  for (int i = 0; i < last_i; ++i) {
-    side({i, last_j}, {i + 1, last_j});
-    side({i + 1, 0}, {i, 0});
-  }
-  for (int j = 0; j < last_j; ++j) {
-    side({last_i, j + 1}, {last_i, j});
-    side({0, j}, {0, j + 1});
-  }
-  return mesh;
 }
 
 std::vector<glm::vec3> plane_outline(const Tree& tree, NodeId n) {

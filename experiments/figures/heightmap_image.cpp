@@ -1,8 +1,8 @@
-#include "experiments/ght/heightmap_image.h"
+#include "experiments/figures/heightmap_image.h"
 
 #include <cmath>
 
-namespace terrabench::ght {
+namespace terrabench::figures {
 
 Image heightmap_image(const Heightfield& field) {
   const HeightRange range = height_range(field);
@@ -18,4 +18,4 @@ Image heightmap_image(const Heightfield& field) {
   return image;
 }
 
-}  // namespace terrabench::ght
+}  // namespace terrabench::figures

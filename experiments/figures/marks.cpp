@@ -1,47 +1,36 @@
-#include "experiments/ght/arrays.h"
+#include "experiments/figures/marks.h"
 
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-namespace terrabench::ght {
+namespace terrabench::figures {
 namespace {
-
-using figures::Sheet;
-using figures::SheetPoint;
 
 void circle(Sheet& sheet, SheetPoint centre, double radius, Rgb colour, double thickness) {
   constexpr int kCorners = 32;
   std::vector<SheetPoint> points;
-  for (int k = 0; k <= kCorners + 1; ++k) {  // the last corner again, so that the ends join
+  for (int k = 0; k <= kCorners + 1; ++k) {  // one corner past the first, so that the ends join
     const double angle = 2 * std::numbers::pi * k / kCorners;
     points.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
   }
-  sheet.line(points, {.colour = colour, .thickness = thickness, .dashes = {}});
+  sheet.line(points, {.colour = colour, .thickness = thickness});
 }
 
-// Strokes through the centre, evenly turned from `first` (as a share of a half turn) on.
+// `count` strokes through the centre, evenly turned, the first by `first` half turns.
 void rays(Sheet& sheet, SheetPoint centre, double radius, int count, double first, Rgb colour) {
   for (int k = 0; k < count; ++k) {
     const double angle = std::numbers::pi * (first + static_cast<double>(k) / count);
     const double dx = radius * std::cos(angle), dy = radius * std::sin(angle);
-    stroke(sheet, {centre.x - dx, centre.y - dy}, {centre.x + dx, centre.y + dy}, colour, radius / 3);
+    draw_stroke(sheet, {centre.x - dx, centre.y - dy}, {centre.x + dx, centre.y + dy}, colour, radius / 3);
   }
 }
 
 }  // namespace
 
-void stroke(Sheet& sheet, SheetPoint from, SheetPoint to, Rgb colour, double thickness) {
-  sheet.line(std::array{from, to}, {.colour = colour, .thickness = thickness, .dashes = {}});
-}
-
-void draw_grid(Sheet& sheet, const ArrayPlace& array) {
-  constexpr Rgb kGrid{205, 205, 205};
-  for (int k = 0; k < array.side; ++k) {
-    stroke(sheet, array.at(k, 0), array.at(k, array.side - 1), kGrid, 1);
-    stroke(sheet, array.at(0, k), array.at(array.side - 1, k), kGrid, 1);
-  }
+void draw_stroke(Sheet& sheet, SheetPoint from, SheetPoint to, Rgb colour, double thickness) {
+  sheet.line(std::array{from, to}, {.colour = colour, .thickness = thickness});
 }
 
 // A wide stroke along a circle of about half the radius fills the disc, its centre included.
@@ -62,4 +51,4 @@ void draw_star(Sheet& sheet, SheetPoint centre, double radius, Rgb colour) {
   rays(sheet, centre, radius, 3, 0.5, colour);
 }
 
-}  // namespace terrabench::ght
+}  // namespace terrabench::figures

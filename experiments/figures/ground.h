@@ -1,0 +1,24 @@
+// Meshes of the ground for pictures in space.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <glm/vec3.hpp>
+
+#include "terrain/heightfield.h"
+#include "terrain/mesh.h"
+
+namespace terrabench::figures {
+
+// The surface alone, without sides and normals: vertices are the samples, row by row. O(samples)
+TriangleMesh ground_mesh(const Heightfield&);
+
+// The four upright sides of a block of ground, from the surface's border down to `floor`. `surface` gives the
+// surface's point at sample (i, j) of the border of columns × rows samples. O(border)
+TriangleMesh block_sides(int columns, int rows, const std::function<glm::vec3(int i, int j)>& surface,
+                         float floor);
+
+// Corners counter-clockwise as seen from the air.
+void add_quad(TriangleMesh&, const std::array<glm::vec3, 4>& corners);
+
+}  // namespace terrabench::figures

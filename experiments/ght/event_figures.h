@@ -1,0 +1,27 @@
+// The figures of §3.2 and §4 of "ght".
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "experiments/figures/figure.h"
+#include "representations/ght/ght.h"
+
+namespace terrabench::ght {
+
+std::span<const figures::Figure> event_figures();  // 13, 15 and 17 to 24
+
+// carving_figures.cpp
+figures::Sheet draw_carving_shapes(figures::Drawing&);
+figures::Sheet draw_tunnel(figures::Drawing&);
+figures::Sheet draw_cave(figures::Drawing&);
+figures::Sheet draw_two_tunnels(figures::Drawing&);
+// tree_figure.cpp
+figures::Sheet draw_tree(figures::Drawing&);
+// rain_figure.cpp
+figures::Sheet draw_rain(figures::Drawing&);
+
+// The terrain of that name in terrain/events/scripts as a tree, with or without its events.
+Ght open_tree(std::string_view script, bool with_events = true);
+
+}  // namespace terrabench::ght
