@@ -21,7 +21,17 @@ constexpr std::array<std::string_view, N> names_of(const std::array<Entry, N>& t
 
 // One case per value that the parameter takes, named after it; `given` holds for all of them. Throws as
 // Parameters::set() does.
-std::vector<Case> cases_by(std::string_view parameter, std::span<const ParameterSpec> specs,
-                           std::initializer_list<std::pair<std::string_view, Value>> given = {});
+inline std::vector<Case> cases_by(std::string_view parameter, std::span<const ParameterSpec> specs,
+                                  std::initializer_list<std::pair<std::string_view, Value>> given = {}) {
+  std::vector<Case> cases;
+  for (const ParameterSpec& spec : specs) {
+    if (spec.name != parameter) continue;
+    for (const std::string_view value : spec.allowed) {
+      Case& added = cases.emplace_back(Case{std::string(value), Parameters(specs, given)});
+      added.parameters.set(parameter, added.name);
+    }
+  }
+  return cases;
+}
 
 }  // namespace terrabench

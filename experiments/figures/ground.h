@@ -1,4 +1,4 @@
-// Meshes of the ground for pictures in space.
+// A height field as figures show it: as a grey image, as a surface in space, as a block.
 #pragma once
 
 #include <array>
@@ -6,9 +6,14 @@
 #include <glm/vec3.hpp>
 
 #include "terrain/heightfield.h"
+#include "terrain/image.h"
 #include "terrain/mesh.h"
 
 namespace terrabench::figures {
+
+// One grey pixel per sample: black is the lowest, white the highest; all of a level field is the middle grey.
+// O(samples)
+Image heightmap_image(const Heightfield&);
 
 // The surface alone, without sides and normals: vertices are the samples, row by row. O(samples)
 TriangleMesh ground_mesh(const Heightfield&);

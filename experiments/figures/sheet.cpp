@@ -4,7 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "results/rasterise.h"
 #include "terrain/files.h"
@@ -69,6 +72,42 @@ void Sheet::line(std::span<const SheetPoint> points, const Stroke& stroke) {
   body_ += " points=\"";
   for (const SheetPoint& p : points) body_ += fmt::format("{:.2f},{:.2f} ", p.x, p.y);
   body_ += "\"/>\n";
+}
+
+void Sheet::stroke(SheetPoint from, SheetPoint to, Rgb colour, double thickness) {
+  line(std::array{from, to}, {.colour = colour, .thickness = thickness});
+}
+
+// A wide stroke along a circle of about half the radius fills the disc, its centre included.
+void Sheet::dot(SheetPoint centre, double radius, Rgb colour) {
+  circle(centre, 0.45 * radius, colour, 1.1 * radius);
+}
+
+void Sheet::ring(SheetPoint centre, double radius, Rgb colour, double thickness) {
+  dot(centre, radius, {255, 255, 255});
+  circle(centre, radius, colour, thickness);
+}
+
+void Sheet::cross(SheetPoint centre, double radius, Rgb colour) { rays(centre, radius, 2, 0.25, colour); }
+
+void Sheet::star(SheetPoint centre, double radius, Rgb colour) { rays(centre, radius, 3, 0.5, colour); }
+
+void Sheet::circle(SheetPoint centre, double radius, Rgb colour, double thickness) {
+  constexpr int kCorners = 32;
+  std::vector<SheetPoint> points;
+  for (int k = 0; k <= kCorners + 1; ++k) {  // one corner past the first, so that the ends join
+    const double angle = 2 * std::numbers::pi * k / kCorners;
+    points.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
+  }
+  line(points, {.colour = colour, .thickness = thickness});
+}
+
+void Sheet::rays(SheetPoint centre, double radius, int count, double first, Rgb colour) {
+  for (int k = 0; k < count; ++k) {
+    const double angle = std::numbers::pi * (first + static_cast<double>(k) / count);
+    const double dx = radius * std::cos(angle), dy = radius * std::sin(angle);
+    stroke({centre.x - dx, centre.y - dy}, {centre.x + dx, centre.y + dy}, colour, radius / 3);
+  }
 }
 
 void Sheet::text(double x, double y, std::string_view words, int size, std::string_view anchor, Rgb colour) {

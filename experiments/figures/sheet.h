@@ -30,6 +30,12 @@ class Sheet {
 
   void box(double x, double y, double width, double height, Rgb fill);
   void line(std::span<const SheetPoint> points, const Stroke&);
+  void stroke(SheetPoint from, SheetPoint to, Rgb colour, double thickness);
+  // Marks for points; `radius` in units. Rings are white inside.
+  void dot(SheetPoint, double radius, Rgb colour);
+  void ring(SheetPoint, double radius, Rgb colour, double thickness);
+  void cross(SheetPoint, double radius, Rgb colour);
+  void star(SheetPoint, double radius, Rgb colour);
   // `anchor` is start, middle or end.
   void text(double x, double y, std::string_view words, int size, std::string_view anchor = "start",
             Rgb colour = {32, 32, 32});
@@ -47,6 +53,10 @@ class Sheet {
   void write(const std::filesystem::path& png) const;
 
  private:
+  void circle(SheetPoint centre, double radius, Rgb colour, double thickness);
+  // `count` strokes through the centre, evenly turned, the first by `first` half turns.
+  void rays(SheetPoint centre, double radius, int count, double first, Rgb colour);
+
   int width_, height_;
   std::string body_;
 };

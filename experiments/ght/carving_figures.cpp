@@ -1,9 +1,8 @@
 // Figures 15 and 19 to 21 of "ght": tunnels and caves, and the ground cut open along their axes.
 #include <glm/geometric.hpp>
 
-#include "experiments/figures/panels.h"
 #include "experiments/ght/event_figures.h"
-#include "experiments/ght/event_views.h"
+#include "experiments/ght/tree_view.h"
 #include "terrain/events/scripts.h"
 
 namespace terrabench::ght {
@@ -51,14 +50,8 @@ std::vector<Panel> four_views(GlContext& gl, const Ght& ght, const Carving& carv
           {solid_view(gl, ght, open), "solid, cut along the axis"}};
 }
 
-// Cuts that leave the ridge with the carvings and the valleys on both sides of it.
-std::vector<CutPlane> around_the_ridge(const Ght& ght) {
-  const Lattice& lattice = ght.model().tree.lattice();
-  return {{{lattice.x(49), 0}, {-1, 0}},
-          {{lattice.x(111), 0}, {1, 0}},
-          {{0, lattice.z(28)}, {0, -1}},
-          {{0, lattice.z(73)}, {0, 1}}};
-}
+// The ridge with the carvings and the valleys on both sides of it.
+std::vector<CutPlane> around_the_ridge(const Ght& ght) { return around(ght, {49, 28}, {111, 73}); }
 
 Sheet draw_single(Drawing& drawing, const char* script) {
   const TerrainSource source = open_named_script(script);

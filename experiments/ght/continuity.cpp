@@ -50,7 +50,9 @@ class Inspection {
   }
   // Once per sequence: the counts made here, and the edges of the closed mesh.
   void finish(const Ght& tree) {
-    wrong_ += count_breaks(tree.model());
+    const Breaks breaks = count_breaks(tree.model());
+    dangling_ += breaks.dangling;
+    voids_seen_ += breaks.voids_seen;
     const EdgeReport edges = check_edges(tree.mesh({}));
     open_ += edges.open + edges.non_manifold + edges.misoriented;
     const Census all = census(tree.model());
@@ -58,22 +60,21 @@ class Inspection {
     deepest_ = std::max(deepest_, all.deepest);
   }
   void write() const {
-    const auto add = [&](std::string_view name, double value) { recorder_.add(name, "", value); };
-    add("events", static_cast<double>(applied_));
-    add("refused_events", static_cast<double>(refused_));
-    add("boundary_links", static_cast<double>(boundary_links_));
-    add("deepest_node", deepest_);
-    add("dangling_links", static_cast<double>(wrong_.dangling));
-    add("unlinked_boundary_cells", static_cast<double>(unlinked_));
-    add("voids_seen", static_cast<double>(wrong_.voids_seen));
-    add("open_edges", static_cast<double>(open_));
-    add("broken_invariants", static_cast<double>(broken_));
+    using Count = std::pair<const char*, std::size_t>;
+    for (const auto& [name, count] :
+         {Count{"events", applied_}, Count{"refused_events", refused_},
+          Count{"boundary_links", boundary_links_}, Count{"deepest_node", deepest_},
+          Count{"dangling_links", dangling_}, Count{"unlinked_boundary_cells", unlinked_},
+          Count{"voids_seen", voids_seen_}, Count{"open_edges", open_},
+          Count{"broken_invariants", broken_}}) {
+      recorder_.add(name, "", static_cast<double>(count));
+    }
   }
 
  private:
   Recorder& recorder_;
-  Breaks wrong_;
-  std::size_t applied_ = 0, refused_ = 0, broken_ = 0, unlinked_ = 0, open_ = 0, boundary_links_ = 0;
+  std::size_t applied_ = 0, refused_ = 0, broken_ = 0, unlinked_ = 0, open_ = 0, boundary_links_ = 0,
+              dangling_ = 0, voids_seen_ = 0;
   std::uint32_t deepest_ = 0;
 };
 
@@ -147,12 +148,6 @@ void play_random(int sequences, std::uint64_t seed, Inspection& inspection, Prog
 }
 
 }  // namespace
-
-Breaks& Breaks::operator+=(const Breaks& other) {
-  dangling += other.dangling;
-  voids_seen += other.voids_seen;
-  return *this;
-}
 
 Breaks count_breaks(const Model& model) {
   const Tree& tree = model.tree;

@@ -7,8 +7,7 @@
 #include <cmath>
 
 #include "experiments/cases.h"
-#include "experiments/figures/panels.h"
-#include "experiments/ght/event_views.h"
+#include "experiments/ght/tree_view.h"
 #include "terrain/events/scripts.h"
 
 namespace terrabench::ght {
@@ -102,49 +101,40 @@ Sheet draw_sequence(Drawing& drawing) {
 }
 
 // Figures 14 and 16 list code.
-constexpr std::array kFigures{
-    figures::Figure{13, "F13",
-                    "Figure 13 of the paper: the shapes that geotectonic events make of level ground, as "
-                    "ground planes (the root's grey), wireframe and solid",
-                    draw_geotectonic_events},
-    figures::Figure{
-        15, "F15",
-        "Figure 15 of the paper: a tunnel and a cave carved into a ridge; on the right the ground "
-        "is cut open along the axis",
-        draw_carving_shapes},
-    figures::Figure{17, "F17",
-                    "Figure 17 of the paper: linear and radial erosions, each on the same fresh terrain of "
-                    "129 × 129; what an event made has a colour in the wireframe",
-                    draw_erosions},
-    figures::Figure{18, "F18",
-                    "Figure 18 of the paper: a normal and an inverse fault, each on the same fresh terrain; "
-                    "the raised block of the inverse one hangs over",
-                    draw_faults},
-    figures::Figure{19, "F19",
-                    "Figure 19 of the paper: a tunnel carved through a terrain of 129 × 129; the views but "
-                    "the first are of the ground around it",
-                    draw_tunnel},
-    figures::Figure{20, "F20",
-                    "Figure 20 of the paper: a cave carved into a terrain of 129 × 129; the views but the "
-                    "first are of the ground around it",
-                    draw_cave},
-    figures::Figure{21, "F21", "Figure 21 of the paper: the part with two tunnels of a terrain of 129 × 129",
-                    draw_two_tunnels},
-    figures::Figure{22, "F22",
-                    "Figure 22 of the paper: a sequence of overlapping events on one terrain, and the ground "
-                    "planes of the tree after it",
-                    draw_sequence},
-    figures::Figure{23, "F23",
-                    "Figure 23 of the paper: the tree of figure 22's terrain; edges lead from each heightmap "
-                    "to those that an event attached to it, and cells show what they hold",
-                    draw_tree},
-    figures::Figure{
-        24, "F24",
-        "Figure 24 of the paper: a rain of particles (yellow: the first 250), each of which "
-        "erodes the ground where it crashes; the mountains and the rain are those of the "
-        "measurement, with 257 × 257 of its 1025 × 1025 samples and 2,500 of its 10,000 particles",
-        draw_rain},
-};
+constexpr std::array<figures::Figure, 10> kFigures{{
+    {13, "F13",
+     "the shapes that geotectonic events make of level ground, as ground planes (the root's grey), wireframe "
+     "and solid",
+     draw_geotectonic_events},
+    {15, "F15", "a tunnel and a cave carved into a ridge; on the right the ground is cut open along the axis",
+     draw_carving_shapes},
+    {17, "F17",
+     "linear and radial erosions, each on the same fresh terrain of 129 × 129; what an event made has a "
+     "colour in the wireframe",
+     draw_erosions},
+    {18, "F18",
+     "a normal and an inverse fault, each on the same fresh terrain; the raised block of the inverse one "
+     "hangs over",
+     draw_faults},
+    {19, "F19",
+     "a tunnel carved through a terrain of 129 × 129; the views but the first are of the ground around it",
+     draw_tunnel},
+    {20, "F20",
+     "a cave carved into a terrain of 129 × 129; the views but the first are of the ground around it",
+     draw_cave},
+    {21, "F21", "the part with two tunnels of a terrain of 129 × 129", draw_two_tunnels},
+    {22, "F22", "a sequence of overlapping events on one terrain, and the ground planes of the tree after it",
+     draw_sequence},
+    {23, "F23",
+     "the tree of figure 22's terrain; edges lead from each heightmap to those that an event attached to it, "
+     "and cells show what they hold",
+     draw_tree},
+    {24, "F24",
+     "a rain of particles (yellow: the first 250), each of which erodes the ground where it crashes; the "
+     "mountains and the rain are those of the measurement, with 257 × 257 of its 1025 × 1025 samples and "
+     "2,500 of its 10,000 particles",
+     draw_rain},
+}};
 constexpr std::array kNames = names_of(kFigures);
 const std::array kSpecs{choice("figure", kNames, "figure of the paper")};
 

@@ -16,7 +16,6 @@ struct Model;
 struct Breaks {
   std::size_t dangling = 0;    // links that end in no cell of the surface
   std::size_t voids_seen = 0;  // corners of the surface that hold no height
-  Breaks& operator+=(const Breaks&);
 };
 // O(cells + faces)
 Breaks count_breaks(const Model&);

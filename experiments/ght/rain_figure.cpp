@@ -3,10 +3,9 @@
 
 #include <cmath>
 
-#include "experiments/figures/panels.h"
 #include "experiments/ght/event_figures.h"
-#include "experiments/ght/event_views.h"
 #include "experiments/ght/site.h"
+#include "experiments/ght/tree_view.h"
 #include "results/format.h"
 
 namespace terrabench::ght {
@@ -37,15 +36,6 @@ TriangleMesh falling(const Ght& ght, Rain rain) {
   return mesh;
 }
 
-// Cuts that leave the middle of the terrain.
-std::vector<figures::CutPlane> around_the_window(const Lattice& lattice) {
-  constexpr int kFirst = 96, kLast = 160;
-  return {{{lattice.x(kFirst), 0}, {-1, 0}},
-          {{lattice.x(kLast), 0}, {1, 0}},
-          {{0, lattice.z(kFirst)}, {0, -1}},
-          {{0, lattice.z(kLast)}, {0, 1}}};
-}
-
 }  // namespace
 
 figures::Sheet draw_rain(figures::Drawing& drawing) {
@@ -55,7 +45,7 @@ figures::Sheet draw_rain(figures::Drawing& drawing) {
   Rain rain(site.ground, drawing.seed());
   const figures::Look look{{0.45F, 0.7F, 1.0F}, 760, 520};
   figures::Look window = look;
-  window.cuts = around_the_window(ght.model().tree.lattice());
+  window.cuts = around(ght, {96, 96}, {160, 160});
   figures::PanelRows rows{{{planes_view(gl, ght, look), "before: ground plane"},
                            {wires_view(gl, ght, window), "wireframe, a window of 65 × 65"},
                            {solid_view(gl, ght, look, falling(ght, rain)), "solid, the rain begins"}}};

@@ -47,7 +47,7 @@ glm::dvec2 low_place(const Site& site) {
 
 // Applies the event if the tree accepts it. A carving must pass the exact evaluation too: the two can differ
 // by a cell in how far a carving reaches.
-bool takes(Ght& tree, const Site& site, const Event& event) {
+bool try_apply(Ght& tree, const Site& site, const Event& event) {
   try {
     if (std::holds_alternative<Carving>(event)) {
       Ght trial = tree;
@@ -168,7 +168,7 @@ std::optional<Event> carve(Ght& tree, const Site& site, bool cave, int sides) {
         carving.to = rounded(glm::dvec3(top.x + along.x, y, top.y + along.y));
         if (!comes_out_once(site, carving, 0, -1)) continue;
         if (!cave && !comes_out_once(site, carving, carving.line().length, 1)) continue;
-        if (takes(tree, site, carving)) return carving;
+        if (try_apply(tree, site, carving)) return carving;
         if (--tries == 0) return std::nullopt;
       }
     }
@@ -231,7 +231,7 @@ std::vector<Event> overlapping_events(const Site& site) {
   for (const Planned& p : kPlan) {
     const Event event =
         geotectonic_event(site, p.kind, site.corner + site.extent() * p.at, p.length * site.size);
-    if (takes(tree, site, event)) all.push_back(event);
+    if (try_apply(tree, site, event)) all.push_back(event);
   }
   for (const bool cave : {false, true}) {
     if (const auto carving = carve(tree, site, cave, cave ? 6 : 8)) all.push_back(*carving);

@@ -8,9 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/figures/heightmap_image.h"
-#include "experiments/figures/marks.h"
-#include "experiments/figures/panels.h"
+#include "experiments/figures/ground.h"
 #include "experiments/ght/stages.h"
 #include "terrain/sources/fractal/diamond_square.h"
 #include "terrain/sources/fractal/faults.h"
@@ -36,8 +34,8 @@ struct ArrayPlace {
 void draw_grid(Sheet& sheet, const ArrayPlace& array) {
   constexpr Rgb kGrid{205, 205, 205};
   for (int k = 0; k < array.side; ++k) {
-    draw_stroke(sheet, array.at(k, 0), array.at(k, array.side - 1), kGrid, 1);
-    draw_stroke(sheet, array.at(0, k), array.at(array.side - 1, k), kGrid, 1);
+    sheet.stroke(array.at(k, 0), array.at(k, array.side - 1), kGrid, 1);
+    sheet.stroke(array.at(0, k), array.at(array.side - 1, k), kGrid, 1);
   }
 }
 
@@ -59,7 +57,7 @@ void draw_origins(Sheet& sheet, const ArrayPlace& array, int i, int j, int half,
   for (const auto& [dx, dz] : diamond_step ? kDiagonal : kStraight) {
     const int x = i + dx * half, z = j + dz * half;
     if (x < 0 || z < 0 || x >= array.side || z >= array.side) continue;
-    draw_stroke(sheet, array.at(x, z), array.at(i, j), kAccent, 1.4);
+    sheet.stroke(array.at(x, z), array.at(i, j), kAccent, 1.4);
   }
 }
 
@@ -78,13 +76,8 @@ void draw_steps(Sheet& sheet, const ArrayPlace& array, const fractal::DiamondSqu
   }
   for (int j = 0; j < options.side; ++j) {
     for (int i = 0; i < options.side; ++i) {
-      if (!is_set(now, i, j)) {
-        draw_dot(sheet, array.at(i, j), 2.5, kUnset);
-      } else if (steps > 0 && is_set(before, i, j)) {
-        draw_dot(sheet, array.at(i, j), 6, kSet);
-      } else {
-        draw_dot(sheet, array.at(i, j), 8, kInk);
-      }
+      const bool set = is_set(now, i, j), earlier = steps > 0 && is_set(before, i, j);
+      sheet.dot(array.at(i, j), !set ? 2.5 : earlier ? 6 : 8, !set ? kUnset : earlier ? kSet : kInk);
     }
   }
 }
@@ -94,8 +87,7 @@ void draw_steps(Sheet& sheet, const ArrayPlace& array, const fractal::DiamondSqu
 Sheet draw_midpoints(Drawing& drawing) {
   constexpr std::array kLevels{0, 1, 2, 3, 4, 9};
   constexpr double kWidth = 300, kHeight = 150;
-  Sheet sheet(static_cast<int>(3 * kWidth + 4 * kMargin),
-              static_cast<int>(2 * (kHeight + kLabel) + 3 * kMargin));
+  Sheet sheet(3 * kWidth + 4 * kMargin, 2 * (kHeight + kLabel) + 3 * kMargin);
   float most = 0;  // the last panel has the highest and the lowest point of all
   for (const float h : fractal::midpoint_displacement({.seed = drawing.seed(), .levels = kLevels.back()})) {
     most = std::max(most, std::abs(h));
@@ -112,12 +104,12 @@ Sheet draw_midpoints(Drawing& drawing) {
     };
     std::vector<SheetPoint> points;
     for (std::size_t i = 0; i < heights.size(); ++i) points.push_back(place(i));
-    draw_stroke(sheet, {x0, y0 + kHeight / 2}, {x0 + kWidth, y0 + kHeight / 2}, kUnset, 1);
+    sheet.stroke({x0, y0 + kHeight / 2}, {x0 + kWidth, y0 + kHeight / 2}, kUnset, 1);
     sheet.line(points, {.colour = kInk, .thickness = levels < 6 ? 2 : 1.2, .dashes = {}});
     if (levels < 6) {
       for (std::size_t i = 0; i < points.size(); ++i) {
         const bool fresh = levels > 0 && i % 2 == 1;
-        draw_dot(sheet, points[i], fresh ? 4.5 : 3, fresh ? kAccent : kInk);
+        sheet.dot(points[i], fresh ? 4.5 : 3, fresh ? kAccent : kInk);
       }
     }
     label(sheet, x0 + kWidth / 2, y0 + kHeight + 26,
@@ -128,7 +120,7 @@ Sheet draw_midpoints(Drawing& drawing) {
 
 Sheet draw_neighbourhoods(Drawing&) {
   constexpr double kSize = 220, kStep = kSize + 2.5 * kMargin;
-  Sheet sheet(static_cast<int>(3 * kStep + kMargin), static_cast<int>(kSize + kLabel + 3 * kMargin));
+  Sheet sheet(3 * kStep + kMargin, kSize + kLabel + 3 * kMargin);
   const auto array = [&](int panel) {
     return ArrayPlace{1.5 * kMargin + panel * kStep, 1.5 * kMargin, kSize, 5};
   };
@@ -137,20 +129,20 @@ Sheet draw_neighbourhoods(Drawing&) {
     for (std::size_t k = 0; k + (closed ? 0 : 1) < corners.size(); ++k) {
       const auto& [i, j] = corners[k];
       const auto& [x, z] = corners[(k + 1) % corners.size()];
-      draw_stroke(sheet, at.at(i, j), at.at(x, z), kAccent, 2);
+      sheet.stroke(at.at(i, j), at.at(x, z), kAccent, 2);
     }
-    for (const auto& [i, j] : corners) draw_dot(sheet, at.at(i, j), 7, kInk);
+    for (const auto& [i, j] : corners) sheet.dot(at.at(i, j), 7, kInk);
   };
   for (int panel = 0; panel < 3; ++panel) draw_grid(sheet, array(panel));
   outline(array(0), {{1, 1}, {3, 1}, {3, 3}, {1, 3}}, true);
-  draw_ring(sheet, array(0).at(2, 2), 7, kInk, 2);
+  sheet.ring(array(0).at(2, 2), 7, kInk, 2);
   outline(array(1), {{2, 1}, {3, 2}, {2, 3}, {1, 2}}, true);
-  draw_ring(sheet, array(1).at(2, 2), 7, kInk, 2);
+  sheet.ring(array(1).at(2, 2), 7, kInk, 2);
   // The fourth corner of the diamond around (0, 2) stands one column inside the opposite border.
   outline(array(2), {{0, 1}, {1, 2}, {0, 3}}, false);
   outline(array(2), {{4, 1}, {3, 2}, {4, 3}}, false);
-  draw_ring(sheet, array(2).at(0, 2), 7, kInk, 2);
-  draw_ring(sheet, array(2).at(4, 2), 7, kInk, 2);
+  sheet.ring(array(2).at(0, 2), 7, kInk, 2);
+  sheet.ring(array(2).at(4, 2), 7, kInk, 2);
   int panel = 0;
   for (const char* const words : {"square", "diamond", "circular diamond"}) {
     label(sheet, array(panel).at(2, 0).x, array(panel).at(0, 4).y + kMargin + 12, words);
@@ -163,7 +155,7 @@ Sheet draw_diamond_square_steps(Drawing& drawing) {
   constexpr double kSize = 200, kStepX = kSize + 2.5 * kMargin, kStepY = kSize + kLabel + 2 * kMargin;
   constexpr std::array kWords{"a) corners", "b) diamond step", "c) square step", "d) diamond step",
                               "e) square step"};
-  Sheet sheet(static_cast<int>(3 * kStepX + kMargin), static_cast<int>(2 * kStepY + kMargin));
+  Sheet sheet(3 * kStepX + kMargin, 2 * kStepY + kMargin);
   for (int steps = 0; steps <= 4; ++steps) {
     // Three above, two below them, centred.
     const double x = 1.5 * kMargin + (steps < 3 ? steps : steps - 2.5) * kStepX;
@@ -179,25 +171,22 @@ Sheet draw_straddling_diamond(Drawing& drawing) {
   const fractal::DiamondSquareOptions options{.seed = drawing.seed(), .side = 5};
   const Heightfield field = fractal::diamond_square(options),
                     before = fractal::diamond_square_after(options, 3);
-  Sheet sheet(static_cast<int>(kSize + 10 * kMargin), static_cast<int>(kSize + 3 * kMargin));
+  Sheet sheet(kSize + 10 * kMargin, kSize + 3 * kMargin);
   const ArrayPlace array{5 * kMargin, 1.5 * kMargin, kSize, 5};
   draw_grid(sheet, array);
   for (const auto& [border, inside] : {std::pair{0, 1}, {4, 3}}) {
-    draw_stroke(sheet, array.at(border, 0), array.at(inside, 1), kAccent, 2);
-    draw_stroke(sheet, array.at(inside, 1), array.at(border, 2), kAccent, 2);
+    sheet.stroke(array.at(border, 0), array.at(inside, 1), kAccent, 2);
+    sheet.stroke(array.at(inside, 1), array.at(border, 2), kAccent, 2);
   }
   for (int j = 0; j < 5; ++j) {
     for (int i = 0; i < 5; ++i) {
-      if (is_set(before, i, j)) {
-        draw_dot(sheet, array.at(i, j), 8, kInk);
-      } else {
-        draw_dot(sheet, array.at(i, j), 2.5, kUnset);
-      }
+      const bool set = is_set(before, i, j);
+      sheet.dot(array.at(i, j), set ? 8 : 2.5, set ? kInk : kUnset);
     }
   }
   for (const int border : {0, 4}) {
     const SheetPoint at = array.at(border, 1);
-    draw_ring(sheet, at, 8, kInk, 2.5);
+    sheet.ring(at, 8, kInk, 2.5);
     const bool west = border == 0;
     sheet.text(at.x + (west ? -16 : 16), at.y + 5, height_text(field.at(border, 1)), 15,
                west ? "end" : "start");
@@ -212,14 +201,14 @@ Sheet draw_first_fault(Drawing& drawing) {
       .seed = drawing.seed(), .width = kSide, .depth = kSide, .faults = 1, .step = 1};
   const fractal::FaultLine line = fractal::fault_lines(options)[0];
   const Heightfield field = fractal::fault_terrain(options);
-  Sheet sheet(static_cast<int>(kSize + 4 * kMargin), static_cast<int>(kSize + kLabel + 4 * kMargin));
+  Sheet sheet(kSize + 4 * kMargin, kSize + kLabel + 4 * kMargin);
   const ArrayPlace array{2 * kMargin, 2 * kMargin, kSize, kSide};
   for (int j = 0; j < kSide; ++j) {
     for (int i = 0; i < kSide; ++i) {
       if (field.at(i, j) > 0) {
-        draw_star(sheet, array.at(i, j), 6, kAccent);
+        sheet.star(array.at(i, j), 6, kAccent);
       } else {
-        draw_cross(sheet, array.at(i, j), 5, kSecond);
+        sheet.cross(array.at(i, j), 5, kSecond);
       }
     }
   }
@@ -234,7 +223,7 @@ Sheet draw_first_fault(Drawing& drawing) {
     if (const double i = (c - b * edge) / a; a != 0 && i > kLow && i < kHigh)
       ends.push_back(array.at(i, edge));
   }
-  if (ends.size() >= 2) draw_stroke(sheet, ends[0], ends[1], kInk, 2.5);
+  if (ends.size() >= 2) sheet.stroke(ends[0], ends[1], kInk, 2.5);
   label(sheet, array.at((kSide - 1) / 2.0, 0).x, array.at(0, kSide - 1).y + 2 * kMargin,
         "× height decreased,  ✱ height increased");
   return sheet;

@@ -6,8 +6,6 @@
 
 #include "experiments/cases.h"
 #include "experiments/figures/ground.h"
-#include "experiments/figures/heightmap_image.h"
-#include "experiments/figures/panels.h"
 #include "experiments/figures/views.h"
 #include "experiments/ght/stages.h"
 #include "terrain/sources/fractal/diamond_square.h"
@@ -65,42 +63,36 @@ Sheet draw_hills_one_and_many(Drawing& drawing) {
 }
 
 // Figure 2 shows a triangulated irregular network, which no method here makes.
-constexpr std::array kFigures{
-    figures::Figure{1, "F1",
-                    "Figure 1 of the paper: a terrain as heightmap (black low, white high) and as wireframe "
-                    "seen from the south-east",
-                    draw_heightmap_and_wireframe},
-    figures::Figure{3, "F3",
-                    "Figure 3 of the paper: midpoint displacement of a line; the points that each step adds "
-                    "are blue, and its range is half of the one before",
-                    draw_midpoints},
-    figures::Figure{4, "F4",
-                    "Figure 4 of the paper: the four points of a square, of a diamond, and of a diamond that "
-                    "straddles the border; rings are the points that take their mean",
-                    draw_neighbourhoods},
-    figures::Figure{5, "F5",
-                    "Figure 5 of the paper: diamond-square on an array of 5 × 5; points that the step sets "
-                    "are black, earlier ones grey, and lines lead to the points whose mean they take",
-                    draw_diamond_square_steps},
-    figures::Figure{6, "F6",
-                    "Figure 6 of the paper: the diamond that straddles the border of the array gives its "
-                    "value to a point on either side (rings, with the height that each received)",
-                    draw_straddling_diamond},
-    figures::Figure{7, "F7", "Figure 7 of the paper: one terrain after 1 to 6 iterations of diamond-square",
-                    draw_diamond_square_terrains},
-    figures::Figure{8, "F8",
-                    "Figure 8 of the paper: the first fault divides the height field; points on its one side "
-                    "rise (stars), those on the other sink (crosses)",
-                    draw_first_fault},
-    figures::Figure{9, "F9",
-                    "Figure 9 of the paper: the height map as the number of faults grows; black is each "
-                    "map's lowest point, white its highest",
-                    draw_fault_maps},
-    figures::Figure{10, "F10",
-                    "Figure 10 of the paper: an isolated hill, and the terrain after 60 of them; heights are "
-                    "(r² − d²) / 20",
-                    draw_hills_one_and_many},
-};
+constexpr std::array<figures::Figure, 9> kFigures{{
+    {1, "F1", "a terrain as heightmap (black low, white high) and as wireframe seen from the south-east",
+     draw_heightmap_and_wireframe},
+    {3, "F3",
+     "midpoint displacement of a line; the points that each step adds are blue, and its range is half of the "
+     "one before",
+     draw_midpoints},
+    {4, "F4",
+     "the four points of a square, of a diamond, and of a diamond that straddles the border; rings are the "
+     "points that take their mean",
+     draw_neighbourhoods},
+    {5, "F5",
+     "diamond-square on an array of 5 × 5; points that the step sets are black, earlier ones grey, and lines "
+     "lead to the points whose mean they take",
+     draw_diamond_square_steps},
+    {6, "F6",
+     "the diamond that straddles the border of the array gives its value to a point on either side (rings, "
+     "with the height that each received)",
+     draw_straddling_diamond},
+    {7, "F7", "one terrain after 1 to 6 iterations of diamond-square", draw_diamond_square_terrains},
+    {8, "F8",
+     "the first fault divides the height field; points on its one side rise (stars), those on the other sink "
+     "(crosses)",
+     draw_first_fault},
+    {9, "F9",
+     "the height map as the number of faults grows; black is each map's lowest point, white its highest",
+     draw_fault_maps},
+    {10, "F10", "an isolated hill, and the terrain after 60 of them; heights are (r² − d²) / 20",
+     draw_hills_one_and_many},
+}};
 constexpr std::array kNames = names_of(kFigures);
 const std::array kSpecs{choice("figure", kNames, "figure of the paper")};
 

@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <array>
 
-#include "experiments/figures/marks.h"
 #include "experiments/ght/event_figures.h"
 
 namespace terrabench::ght {
 namespace {
 
-using figures::draw_stroke;
 using figures::Sheet;
 using figures::SheetPoint;
 
@@ -33,23 +31,17 @@ Image cells_image(const Tree& tree, const Node& node, int most) {
 }
 
 std::string part_name(const Tree& tree, const Applied& event, NodeId n) {
-  static constexpr std::array kTrench{"left side", "right side", "end at 'from'", "end at 'to'"};
-  static constexpr std::array kFault{"raised block", "sunk block", "scarp"};
-  static constexpr std::array kSlip{"left piece", "right piece"};
+  static const std::array<std::vector<const char*>, events::kKinds> kParts{{
+      {"left side", "right side", "end at 'from'", "end at 'to'"},
+      {"bowl"},
+      {"raised block", "sunk block", "scarp"},
+      {"raised block", "sunk block", "scarp"},
+      {"left piece", "right piece"},
+  }};  // in the order of Kind; carvings have walls and mouths
   const std::size_t k = n - event.first;
-  switch (event.kind) {
-    case events::Kind::kLinearErosion:
-      return kTrench.at(k);
-    case events::Kind::kRadialErosion:
-      return "bowl";
-    case events::Kind::kNormalFault:
-    case events::Kind::kInverseFault:
-      return kFault.at(k);
-    case events::Kind::kLateralFault:
-      return kSlip.at(k);
-    default:
-      return tree.nodes()[n].area == Area::kBorder ? "mouth" : fmt::format("wall {}", k + 1);
-  }
+  const std::vector<const char*>& parts = kParts[static_cast<std::size_t>(event.kind)];
+  if (!parts.empty()) return parts.at(k);
+  return tree.nodes()[n].area == Area::kBorder ? "mouth" : fmt::format("wall {}", k + 1);
 }
 
 const char* area_name(Area area) {
@@ -102,17 +94,17 @@ class TreeSheet {
     const double bar = box_[event.first].y - 12;
     double trunk = host.x + 12;
     if (event.host == 0) {
-      draw_stroke(sheet, {trunk, host.y + kRoot}, {trunk, bar}, kEdge, 1.5);
+      sheet.stroke({trunk, host.y + kRoot}, {trunk, bar}, kEdge, 1.5);
     } else {  // beside the words under the box
       const Node& node = tree_.nodes()[event.host];
       trunk = host.x - 16;
       const double from = host.y + kBox * node.rows / std::max(node.columns, node.rows) / 2;
-      draw_stroke(sheet, {host.x + kBox / 2, from}, {trunk, from}, kEdge, 1.5);
-      draw_stroke(sheet, {trunk, from}, {trunk, bar}, kEdge, 1.5);
+      sheet.stroke({host.x + kBox / 2, from}, {trunk, from}, kEdge, 1.5);
+      sheet.stroke({trunk, from}, {trunk, bar}, kEdge, 1.5);
     }
-    draw_stroke(sheet, {trunk, bar}, {box_[event.first + event.nodes - 1].x + kBox / 2, bar}, kEdge, 1.5);
+    sheet.stroke({trunk, bar}, {box_[event.first + event.nodes - 1].x + kBox / 2, bar}, kEdge, 1.5);
     for (NodeId n = event.first; n < event.first + event.nodes; ++n) {
-      draw_stroke(sheet, {box_[n].x + kBox / 2, bar}, {box_[n].x + kBox / 2, box_[n].y}, kEdge, 1.5);
+      sheet.stroke({box_[n].x + kBox / 2, bar}, {box_[n].x + kBox / 2, box_[n].y}, kEdge, 1.5);
     }
   }
 

@@ -1,12 +1,12 @@
-// What figures of grounded heightmap trees draw: the surface with the node of each triangle, and the ground
-// planes.
+// How "ght" draws a tree: its ground planes, the surface with the node of each triangle, and the three views
+// of these, whole or cut open.
 #pragma once
 
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "experiments/figures/views.h"
 #include "representations/ght/ght.h"
-#include "terrain/mesh.h"
 
 namespace terrabench::ght {
 
@@ -20,5 +20,15 @@ TreeSurface tree_surface(const Model&);
 // Corners of the ground plane of a node, in order: the convex hull of its cells that are not void. Empty for
 // fewer than three cells. O(cells of the node)
 std::vector<glm::vec3> plane_outline(const Tree&, NodeId);
+
+// The root's ground plane grey, those of other nodes in colour.
+Image planes_view(GlContext&, const Ght&, const figures::Look&);
+// The triangles of the root grey, those of other nodes blue.
+Image wires_view(GlContext&, const Ght&, const figures::Look&);
+// Lit and coloured by height, as a block of ground; with particles above it, if there are any.
+Image solid_view(GlContext&, const Ght&, const figures::Look&, const TriangleMesh& particles = {});
+
+// Cuts that leave the ground from sample `low` to sample `high`.
+std::vector<figures::CutPlane> around(const Ght&, glm::ivec2 low, glm::ivec2 high);
 
 }  // namespace terrabench::ght

@@ -8,7 +8,7 @@
 
 #include "experiments/figures/cut_away.h"
 #include "experiments/ght/event_figures.h"
-#include "experiments/ght/event_views.h"
+#include "experiments/ght/tree_view.h"
 #include "experiments/ght/stages.h"
 #include "representations/ght/invariants.h"
 #include "terrain/error.h"
