@@ -5,15 +5,19 @@
 
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "experiments/cases.h"
+#include "experiments/ght/site.h"
 #include "experiments/ght/tree_view.h"
+#include "results/format.h"
 #include "terrain/events/scripts.h"
 
 namespace terrabench::ght {
 namespace {
 
 using namespace events;
+using figures::CutPlane;
 using figures::Drawing;
 using figures::Look;
 using figures::Panel;
@@ -27,23 +31,31 @@ std::vector<Panel> three_views(GlContext& gl, const Ght& ght, const Look& look, 
           {solid_view(gl, ght, look), "solid"}};
 }
 
-// Level ground with furrows from north to south, 41 × 41 samples, 10 m apart.
-Ght small_ground() {
-  constexpr int kSide = 41;
-  constexpr float kCell = 10;
+// Samples 10 m apart, height(i, j) metres high.
+template <class Height>
+Ght small_ground(int wide, int deep, float floor, const Height& height) {
   std::vector<float> heights;
-  for (int j = 0; j < kSide; ++j) {
-    for (int i = 0; i < kSide; ++i) {
-      heights.push_back(6 * std::cos(0.5F * static_cast<float>(i)));
-    }
+  for (int j = 0; j < deep; ++j) {
+    for (int i = 0; i < wide; ++i) heights.push_back(height(static_cast<float>(i), static_cast<float>(j)));
   }
-  return {{kSide, kSide, kCell, kCell, 0, 0}, std::move(heights), -75};
+  return {{wide, deep, 10, 10, 0, 0}, std::move(heights), floor};
+}
+// Level ground with furrows from north to south.
+Ght furrows() {
+  return small_ground(41, 41, -75, [](float i, float) { return 6 * std::cos(0.5F * i); });
+}
+// A ridge from north to south.
+Ght ridge() {
+  return small_ground(61, 41, -60, [](float i, float j) {
+    const float x = (i - 30) / 14, z = (j - 20) / 30;
+    return 170 * std::exp(-x * x) * (1 - 0.25F * z * z);
+  });
 }
 
 constexpr glm::vec3 kHigh{0.4F, 0.62F, 1.0F}, kLow{0.45F, 0.4F, 1.0F};  // kLow shows what hangs over
 
 // Across the middle of the line of the fault in that script.
-figures::CutPlane across(std::string_view script) {
+CutPlane across(std::string_view script) {
   const TerrainSource source = open_named_script(script);
   const Line line = std::get<DipFault>(source.events->events.at(0)).line();
   return {glm::vec2(line.plan({line.length / 2, 0})), glm::vec2(line.along)};
@@ -60,7 +72,7 @@ Sheet draw_geotectonic_events(Drawing& drawing) {
   }};
   PanelRows rows;
   for (const auto& [name, event] : events) {
-    Ght ght = small_ground();
+    Ght ght = furrows();
     ght.apply(event);
     const Look look{kind(event) == Kind::kInverseFault ? kLow : kHigh, 640, 380};
     rows.push_back(three_views(drawing.gl(), ght, look, name));
@@ -98,6 +110,112 @@ Sheet draw_sequence(Drawing& drawing) {
                       {{wires_view(gl, ght, look), fmt::format("after {} events, wireframe", events)},
                        {solid_view(gl, ght, look), fmt::format("after {} events, solid", events)}},
                       {{planes_view(gl, ght, look), fmt::format("the {} ground planes", nodes)}}});
+}
+
+// Figures 15 and 19 to 21: tunnels and caves, and the ground cut open along their axes.
+
+// Along the axis, so that the ground towards `from` goes; 1.7 m beside the axis, so that no corner of the
+// section lies in the plane.
+CutPlane along(const Carving& carving, glm::vec3 from) {
+  const Line line = carving.line();
+  glm::dvec2 towards = line.left;
+  if (glm::dot(towards, glm::dvec2(from.x, from.z)) < 0) towards = -towards;
+  return {glm::vec2(line.origin + 1.7 * towards), glm::vec2(towards)};
+}
+
+std::vector<glm::dvec2> vault() { return {{-28, -24}, {28, -24}, {34, 6}, {20, 30}, {-20, 30}, {-34, 6}}; }
+
+std::vector<Panel> four_views(GlContext& gl, const Ght& ght, const Carving& carving, const Look& look) {
+  Look open = look;
+  open.cuts.push_back(along(carving, look.from));
+  return {{planes_view(gl, ght, look), "ground planes"},
+          {wires_view(gl, ght, look), "wireframe"},
+          {solid_view(gl, ght, look), "solid"},
+          {solid_view(gl, ght, open), "solid, cut along the axis"}};
+}
+
+// The ridge with the carvings and the valleys on both sides of it.
+std::vector<CutPlane> around_the_ridge(const Ght& ght) { return around(ght, {49, 28}, {111, 73}); }
+
+Sheet draw_single(Drawing& drawing, const char* script) {
+  const TerrainSource source = open_named_script(script);
+  const Ght ght = open_tree(script);
+  const Look look{{0.8F, 0.4F, 1.0F}, 1000, 560, around_the_ridge(ght)};
+  const auto& carving = std::get<Carving>(source.events->events.at(0));
+  return panel_sheet(figures::in_rows_of(2, four_views(drawing.gl(), ght, carving, look)));
+}
+
+Sheet draw_carving_shapes(Drawing& drawing) {
+  const Look look{{0.55F, 0.4F, 1.0F}, 760, 440};
+  const glm::dvec3 east{390, 55, 200};
+  PanelRows rows;
+  for (const bool cave : {false, true}) {
+    const Carving carving{cave, east, {cave ? 270.0 : 210.0, 55, 200}, vault(), 1, cave ? 1.2 : 1, 0, 0};
+    Ght ght = ridge();
+    ght.apply(carving);
+    std::vector<Panel> views = four_views(drawing.gl(), ght, carving, look);
+    views.erase(views.begin() + 1);
+    views[0].words = cave ? "cave: ground planes" : "tunnel: ground planes";
+    rows.push_back(std::move(views));
+  }
+  return panel_sheet(rows);
+}
+
+Sheet draw_tunnel(Drawing& drawing) { return draw_single(drawing, "tunnel"); }
+
+Sheet draw_cave(Drawing& drawing) { return draw_single(drawing, "cave"); }
+
+Sheet draw_two_tunnels(Drawing& drawing) {
+  const Ght ght = open_tree("two-tunnels");
+  const Look look{{0.9F, 0.45F, 1.0F}, 1060, 620, around_the_ridge(ght)};
+  return panel_sheet(
+      {{{wires_view(drawing.gl(), ght, look), "wireframe"}, {solid_view(drawing.gl(), ght, look), "solid"}}});
+}
+
+// Figure 24: the rain of particles (§4.2), as ght.complex measures it.
+
+// A quarter of the measurement's samples along each side, which show at this size.
+constexpr int kSide = 256, kParticles = 2500, kDrawn = 250;
+
+// Octahedra over the places that the next particles will hit, at several heights.
+TriangleMesh falling(const Ght& ght, Rain rain) {
+  const float width = ght.bounds().size().x, size = 0.008F * width;
+  TriangleMesh mesh;
+  for (int k = 0; k < kDrawn; ++k) {
+    glm::vec3 centre(std::get<RadialErosion>(rain.next(ght)).centre);
+    const float turns = 0.618F * static_cast<float>(k);  // the golden ratio spreads its fractions evenly
+    centre.y += width * (0.01F + 0.24F * (turns - std::floor(turns)));
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const glm::vec3 corner :
+         {glm::vec3(1, 0, 0), {0, 0, -1}, {-1, 0, 0}, {0, 0, 1}, {0, 1, 0}, {0, -1, 0}}) {
+      mesh.positions.push_back(centre + size * corner);
+    }
+    for (std::uint32_t side = 0; side < 4; ++side) {
+      const std::uint32_t next = (side + 1) % 4;
+      mesh.indices.insert(mesh.indices.end(), {first + side, first + next, first + 4});
+      mesh.indices.insert(mesh.indices.end(), {first + next, first + side, first + 5});
+    }
+  }
+  return mesh;
+}
+
+Sheet draw_rain(Drawing& drawing) {
+  GlContext& gl = drawing.gl();
+  const Site site = make_site(kSide, kSide / kEventsAlong, drawing.seed());
+  Ght ght = plain_tree(site.ground);
+  Rain rain(site.ground, drawing.seed());
+  const Look look{{0.45F, 0.7F, 1.0F}, 760, 520};
+  Look window = look;
+  window.cuts = around(ght, {96, 96}, {160, 160});
+  PanelRows rows{{{planes_view(gl, ght, look), "before: ground plane"},
+                  {wires_view(gl, ght, window), "wireframe, a window of 65 × 65"},
+                  {solid_view(gl, ght, look, falling(ght, rain)), "solid, the rain begins"}}};
+  for (int k = 0; k < kParticles; ++k) ght.apply(rain.next(ght));
+  const std::string particles = format_number(static_cast<double>(ght.model().tree.events().size()));
+  rows.push_back({{planes_view(gl, ght, look), fmt::format("after {} particles: ground planes", particles)},
+                  {wires_view(gl, ght, window), "wireframe, the same window"},
+                  {solid_view(gl, ght, look), "solid"}});
+  return panel_sheet(rows);
 }
 
 // Figures 14 and 16 list code.

@@ -11,15 +11,7 @@ namespace terrabench::ght {
 
 std::span<const figures::Figure> event_figures();  // 13, 15 and 17 to 24
 
-// carving_figures.cpp
-figures::Sheet draw_carving_shapes(figures::Drawing&);
-figures::Sheet draw_tunnel(figures::Drawing&);
-figures::Sheet draw_cave(figures::Drawing&);
-figures::Sheet draw_two_tunnels(figures::Drawing&);
-// tree_figure.cpp
-figures::Sheet draw_tree(figures::Drawing&);
-// rain_figure.cpp
-figures::Sheet draw_rain(figures::Drawing&);
+figures::Sheet draw_tree(figures::Drawing&);  // 23: tree_figure.cpp
 
 // The terrain of that name in terrain/events/scripts as a tree, with or without its events.
 Ght open_tree(std::string_view script, bool with_events = true);
