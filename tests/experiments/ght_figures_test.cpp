@@ -8,8 +8,8 @@
 
 #include "experiments/figures/cut_away.h"
 #include "experiments/ght/event_figures.h"
-#include "experiments/ght/tree_view.h"
 #include "experiments/ght/stages.h"
+#include "experiments/ght/tree_view.h"
 #include "representations/ght/invariants.h"
 #include "terrain/error.h"
 #include "terrain/events/scripts.h"
@@ -60,7 +60,6 @@ TEST_P(GhtFigure, HasItsPanelsEachDrawnAndNamed) {
       {21, {2}},    {22, {2, 2, 1}}, {24, {3, 3}}};
   const figures::Figure figure = all_figures()[GetParam()];
   EXPECT_EQ(figure.name, fmt::format("F{}", figure.number));
-  EXPECT_EQ(figure.caption.find(fmt::format("Figure {} of the paper: ", figure.number)), 0U);
   const SheetReader shown = read(figure.number);
   const auto inked = [](const Rgb& c) { return c != Rgb{255, 255, 255}; };
   const SheetReader::Picture whole{0, 0, shown.image.width / 2.0, shown.image.height / 2.0};
@@ -78,6 +77,14 @@ TEST_P(GhtFigure, HasItsPanelsEachDrawnAndNamed) {
     EXPECT_GT(under.y, picture.y + picture.height);
     EXPECT_LT(under.y, picture.y + picture.height + 28);
     EXPECT_GT(shown.share(picture, inked), 0.005) << under.text;
+    double left = picture.x, right = 0;  // of its row, which stands in the middle
+    for (const SheetReader::Picture& other : shown.pictures) {
+      if (other.y != picture.y) continue;
+      EXPECT_EQ(other.height, picture.height);
+      left = std::min(left, other.x);
+      right = std::max(right, other.x + other.width);
+    }
+    EXPECT_DOUBLE_EQ(left + right, shown.image.width / 2.0);
   }
 }
 
@@ -172,6 +179,7 @@ std::filesystem::path draw(const Case& at, const std::filesystem::path& folder) 
   experiment("ght.event-figures").measure(at, {}, recorder, progress);
   EXPECT_EQ(record.figures.size(), 1U);
   EXPECT_EQ(record.figures.at(0).id, "ght." + at.name);
+  EXPECT_EQ(record.figures.at(0).caption.find("Figure 15 of the paper: a tunnel"), 0U);
   EXPECT_EQ(record.find("figure")->samples, std::vector<double>{15});
   return folder / record.figures.at(0).file;
 }
