@@ -1,6 +1,4 @@
 // Figures 13, 15 and 17 to 24 of "ght": what events make of the ground, and the table of these figures.
-#include "experiments/ght/event_figures.h"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -8,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "experiments/cases.h"
+#include "experiments/ght/figures.h"
 #include "experiments/ght/site.h"
 #include "experiments/ght/tree_view.h"
 #include "results/format.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "experiments/ght/event_figures.h"
+#include "experiments/ght/figures.h"
 
 namespace terrabench::ght {
 namespace {

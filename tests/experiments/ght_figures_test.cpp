@@ -7,8 +7,7 @@
 #include <map>
 
 #include "experiments/figures/cut_away.h"
-#include "experiments/ght/event_figures.h"
-#include "experiments/ght/stages.h"
+#include "experiments/ght/figures.h"
 #include "experiments/ght/tree_view.h"
 #include "representations/ght/invariants.h"
 #include "terrain/error.h"

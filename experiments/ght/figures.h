@@ -1,4 +1,4 @@
-// The figures of §3.2 and §4 of "ght".
+// The figures of "ght".
 #pragma once
 
 #include <span>
@@ -9,7 +9,8 @@
 
 namespace terrabench::ght {
 
-std::span<const figures::Figure> event_figures();  // 13, 15 and 17 to 24
+std::span<const figures::Figure> stage_figures();  // 1 and 3 to 10: stages.cpp
+std::span<const figures::Figure> event_figures();  // 13, 15 and 17 to 24: event_figures.cpp
 
 figures::Sheet draw_tree(figures::Drawing&);  // 23: tree_figure.cpp
 
