@@ -58,7 +58,7 @@ Rgb direction_colour(double turn) {
 }
 
 Light::Light(const Heightfield& field) : field_(field) {
-  constexpr double kUsual = 0.45;  // root mean square of the slope that looks best
+  constexpr double kUsual = 0.45;  // the root mean square slope that looks best
   double squares = 0, count = 0;
   for (int j = 0; j < field.depth; ++j) {
     for (int i = 0; i < field.width; ++i) {
@@ -93,7 +93,7 @@ Rgb lit(const Rgb& colour, double light) {
 }
 
 Rgb ink_on(const Rgb& colour) {
-  // Rec. 709 luminance of what a screen shows, roughly linearised.
+  // Rec. 709 luminance, with gamma 2.2 in place of the sRGB curve.
   const auto linear = [](std::uint8_t v) { return std::pow(v / 255.0, 2.2); };
   const double luminance =
       0.2126 * linear(colour[0]) + 0.7152 * linear(colour[1]) + 0.0722 * linear(colour[2]);

@@ -6,8 +6,8 @@
 
 namespace terrabench::figures {
 
-// What follows the id: nothing for the main ground, whose figures are the paper's; ".name" for others. Of a
-// path only the last part counts, with '_' for what file names should not hold.
+// The end of a figure's id: empty for the main ground, which stands for the paper's own; ".name" for others.
+// Of a path the last part is the name, with '_' in place of characters other than letters, digits and '-'.
 std::string ground_suffix(std::string_view ground, std::string_view main_ground);
 
 }  // namespace terrabench::figures

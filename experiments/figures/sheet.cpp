@@ -4,7 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "results/rasterise.h"
 #include "terrain/files.h"
@@ -43,7 +46,7 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-// Whole multiples, so that what draws the sheet has nothing to interpolate.
+// By whole numbers, so that the SVG renderer has nothing to interpolate.
 Image enlarged(const Image& image, int across, int down) {
   Image large(image.width * across, image.height * down, {});
   for (int y = 0; y < large.height; ++y) {
@@ -71,6 +74,42 @@ void Sheet::line(std::span<const SheetPoint> points, const Stroke& stroke) {
   body_ += "\"/>\n";
 }
 
+void Sheet::stroke(SheetPoint from, SheetPoint to, Rgb colour, double thickness) {
+  line(std::array{from, to}, {.colour = colour, .thickness = thickness});
+}
+
+// A wide stroke along a circle of about half the radius fills the disc, its centre included.
+void Sheet::dot(SheetPoint centre, double radius, Rgb colour) {
+  circle(centre, 0.45 * radius, colour, 1.1 * radius);
+}
+
+void Sheet::ring(SheetPoint centre, double radius, Rgb colour, double thickness) {
+  dot(centre, radius, {255, 255, 255});
+  circle(centre, radius, colour, thickness);
+}
+
+void Sheet::cross(SheetPoint centre, double radius, Rgb colour) { rays(centre, radius, 2, 0.25, colour); }
+
+void Sheet::star(SheetPoint centre, double radius, Rgb colour) { rays(centre, radius, 3, 0.5, colour); }
+
+void Sheet::circle(SheetPoint centre, double radius, Rgb colour, double thickness) {
+  constexpr int kCorners = 32;
+  std::vector<SheetPoint> points;
+  for (int k = 0; k <= kCorners + 1; ++k) {  // one corner past the first, so that the ends join
+    const double angle = 2 * std::numbers::pi * k / kCorners;
+    points.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
+  }
+  line(points, {.colour = colour, .thickness = thickness});
+}
+
+void Sheet::rays(SheetPoint centre, double radius, int count, double first, Rgb colour) {
+  for (int k = 0; k < count; ++k) {
+    const double angle = std::numbers::pi * (first + static_cast<double>(k) / count);
+    const double dx = radius * std::cos(angle), dy = radius * std::sin(angle);
+    stroke({centre.x - dx, centre.y - dy}, {centre.x + dx, centre.y + dy}, colour, radius / 3);
+  }
+}
+
 void Sheet::text(double x, double y, std::string_view words, int size, std::string_view anchor, Rgb colour) {
   body_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\">{}</text>\n",
                        x, y, size, anchor, css(colour), escaped(words));
@@ -80,7 +119,7 @@ void Sheet::picture(double x, double y, double width, double height, const Image
   const auto times = [](double units, int pixels) {
     return std::max(1, static_cast<int>(std::lround(kPixels * units / pixels)));
   };
-  // By way of a file, which is what writes PNG.
+  // Through a file, as write_png() writes files only.
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / fmt::format("terrabench-panel.{}.png", getpid());
   write_png(file, enlarged(image, times(width, image.width), times(height, image.height)));
@@ -106,12 +145,14 @@ void Sheet::colour_bar(double x, double y, double width, const std::function<Rgb
   }
 }
 
-void Sheet::write(const std::filesystem::path& png) const {
-  svg_text_to_png(fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
-                              "viewBox=\"0 0 {0} {1}\" font-family=\"DejaVu Sans\">\n"
-                              "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n{2}</svg>\n",
-                              width_, height_, body_),
-                  png, kPixels * width_);
+std::string Sheet::svg() const {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+      "viewBox=\"0 0 {0} {1}\" font-family=\"DejaVu Sans\">\n"
+      "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n{2}</svg>\n",
+      width_, height_, body_);
 }
+
+void Sheet::write(const std::filesystem::path& png) const { svg_text_to_png(svg(), png, kPixels * width_); }
 
 }  // namespace terrabench::figures

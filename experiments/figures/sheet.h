@@ -1,5 +1,5 @@
-// A sheet of panels, lines and lettering for figures that no chart draws. Positions in units from the top
-// left; a unit is two pixels of the picture.
+// A sheet of pictures, lines and text, for figures that are not charts. Positions are in units from the top
+// left corner; a unit is two pixels of the image file.
 #pragma once
 
 #include <filesystem>
@@ -19,33 +19,44 @@ struct SheetPoint {
 struct Stroke {
   Rgb colour{0, 0, 0};
   double thickness = 1, opacity = 1;
-  std::string_view dashes = "";  // lengths of strokes and gaps, as SVG has them; empty: none
+  std::string_view dashes = "";  // lengths of dashes and gaps, as in SVG; empty: a solid line
 };
 
 class Sheet {
  public:
-  static constexpr int kPixels = 2;  // a unit
+  static constexpr int kPixels = 2;  // per unit
 
   Sheet(double width, double height);
 
   void box(double x, double y, double width, double height, Rgb fill);
   void line(std::span<const SheetPoint> points, const Stroke&);
+  void stroke(SheetPoint from, SheetPoint to, Rgb colour, double thickness);
+  // Marks for points; `radius` in units. Rings are white inside.
+  void dot(SheetPoint, double radius, Rgb colour);
+  void ring(SheetPoint, double radius, Rgb colour, double thickness);
+  void cross(SheetPoint, double radius, Rgb colour);
+  void star(SheetPoint, double radius, Rgb colour);
   // `anchor` is start, middle or end.
   void text(double x, double y, std::string_view words, int size, std::string_view anchor = "start",
             Rgb colour = {32, 32, 32});
-  // Each pixel of the image a sharp rectangle where it is enlarged by whole numbers, as near as that goes.
+  // Pixels become sharp rectangles. Their sizes are exact where the image is enlarged by whole numbers.
   void picture(double x, double y, double width, double height, const Image& image);
-  // Colours from 0 to 1 from left to right, with words below at these places of it.
+  // The colours for 0 to 1 from left to right, with words below at the ticks.
   struct Tick {
-    double at;
+    double at;  // 0 to 1
     std::string words;
   };
   void colour_bar(double x, double y, double width, const std::function<Rgb(double)>& colour,
                   std::span<const Tick> ticks);
+  std::string svg() const;
   // As PNG. Throws environment_error.
   void write(const std::filesystem::path& png) const;
 
  private:
+  void circle(SheetPoint centre, double radius, Rgb colour, double thickness);
+  // `count` strokes through the centre, evenly turned, the first by `first` half turns.
+  void rays(SheetPoint centre, double radius, int count, double first, Rgb colour);
+
   int width_, height_;
   std::string body_;
 };

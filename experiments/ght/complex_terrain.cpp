@@ -3,7 +3,7 @@
 #include <array>
 #include <random>
 
-#include "experiments/experiment.h"
+#include "experiments/cases.h"
 #include "experiments/ght/processor_time.h"
 #include "experiments/ght/site.h"
 #include "representations/ght/invariants.h"
@@ -14,14 +14,16 @@ namespace {
 
 using namespace events;
 
+constexpr std::array<std::string_view, 2> kTerrains{"sequence", "rain"};
 const std::array kSpecs{
+    choice("events", kTerrains, "the events that shape the terrain"),
     ParameterSpec{"n", std::int64_t{128}, "cells", "along each side of the terrain", 128, 4096},
-    ParameterSpec{"particles", std::int64_t{10000}, "", "of the rain", 1, 20000},
+    ParameterSpec{"particles", std::int64_t{10000}, "", "in the rain", 1, 20000},
 };
 
 constexpr int kSamples = 3;
 
-// Columns at random places, asked by one thread.
+// Queries of columns at random places, on one thread.
 void time_columns(const Ght& tree, std::uint64_t seed, Recorder& recorder) {
   constexpr std::size_t kColumns = 1 << 20, kBatch = 1 << 14;
   std::mt19937 random(static_cast<std::mt19937::result_type>(seed));
@@ -50,10 +52,8 @@ std::vector<std::byte> bytes_of(const Ght& tree) {
 }
 
 std::vector<Case> cases(const RunOptions&) {
-  std::vector<Case> cases;
-  for (const auto& [name, n] : {std::pair{"sequence", 128}, std::pair{"rain", 1024}}) {
-    cases.push_back({name, {kSpecs, {{"n", std::int64_t{n}}}}, ""});
-  }
+  std::vector<Case> cases = cases_by("events", kSpecs);
+  cases[1].parameters.set("n", std::int64_t{1024});
   return cases;
 }
 
@@ -61,10 +61,10 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const auto n = static_cast<int>(at.parameters.integer("n"));
   const Site site = make_site(n, n / kEventsAlong, options.seed);
   recorder.terrain("diamond-square", checksum(site.ground));
-  const bool rains = at.name.starts_with("rain");
+  const bool rains = at.parameters.text("events") == "rain";
   std::vector<Event> events;
   if (!rains) events = overlapping_events(site);
-  // On the heap: memory() counts its own block.
+  // On the heap, as memory() counts the tree's own block.
   const auto held = std::make_unique<Ght>(plain_tree(site.ground));
   Ght& tree = *held;
   const double fresh = static_cast<double>(tree.memory().total());
@@ -100,7 +100,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const std::vector<std::byte> file = bytes_of(tree);
   recorder.add("file_bytes", "B", static_cast<double>(file.size()));
 
-  // As a text, and from the text again.
+  // As text, and built again from the text.
   const std::string text = to_text(Script{"diamond-square", options.seed, n + 1, events, {}});
   recorder.add("text_bytes", "B", static_cast<double>(text.size()));
   const Script again = parse_script(text, "ght.complex");

@@ -1,11 +1,10 @@
-// Whether the tree stays whole: its invariants after every event, and counted apart after every sequence.
-#include <fmt/format.h>
-
+// Whether the tree stays sound: its invariants after every event, and counts made here after every sequence.
 #include <algorithm>
 #include <array>
 #include <random>
 
-#include "experiments/experiment.h"
+#include "experiments/cases.h"
+#include "experiments/ght/ght.h"
 #include "experiments/ght/site.h"
 #include "representations/ght/invariants.h"
 #include "terrain/error.h"
@@ -15,15 +14,18 @@ namespace {
 
 using namespace events;
 
+constexpr std::array<std::string_view, 5> kSequences{"single-events", "two-tunnels", "sequence", "rain",
+                                                     "random"};
 const std::array kSpecs{
-    ParameterSpec{"particles", std::int64_t{200}, "", "of the rain", 1, 100000},
+    choice("events", kSequences, "the events that are played"),
+    ParameterSpec{"particles", std::int64_t{200}, "", "in the rain", 1, 100000},
     ParameterSpec{"sequences", std::int64_t{100}, "", "random sequences of up to 12 events", 1, 100000},
 };
 
-// The random sequences' terrains are smaller, so that there are many, and their events crowd.
+// Squares per event. Random sequences have smaller terrains: more sequences in the time, and crowded events.
 constexpr int kSize = 32, kRandomSize = 16;
 
-// Plays events on one tree after another and adds up what is wrong.
+// Plays events on trees and adds up what is wrong.
 class Inspection {
  public:
   explicit Inspection(Recorder& recorder) : recorder_(recorder) {}
@@ -46,9 +48,11 @@ class Inspection {
     unlinked_ += unlinked_boundary_cells(tree.model());
     return true;
   }
-  // What is counted here, and the closed mesh: once a sequence.
+  // Once per sequence: the counts made here, and the edges of the closed mesh.
   void finish(const Ght& tree) {
-    wrong_ += count_breaks(tree.model());
+    const Breaks breaks = count_breaks(tree.model());
+    dangling_ += breaks.dangling;
+    voids_seen_ += breaks.voids_seen;
     const EdgeReport edges = check_edges(tree.mesh({}));
     open_ += edges.open + edges.non_manifold + edges.misoriented;
     const Census all = census(tree.model());
@@ -56,42 +60,38 @@ class Inspection {
     deepest_ = std::max(deepest_, all.deepest);
   }
   void write() const {
-    const auto add = [&](std::string_view name, double value) { recorder_.add(name, "", value); };
-    add("events", static_cast<double>(applied_));
-    add("refused_events", static_cast<double>(refused_));
-    add("boundary_links", static_cast<double>(boundary_links_));
-    add("deepest_node", deepest_);
-    add("dangling_links", static_cast<double>(wrong_.dangling));
-    add("unlinked_boundary_cells", static_cast<double>(unlinked_));
-    add("voids_seen", static_cast<double>(wrong_.voids_seen));
-    add("open_edges", static_cast<double>(open_));
-    add("broken_invariants", static_cast<double>(broken_));
+    using Count = std::pair<const char*, std::size_t>;
+    for (const auto& [name, count] :
+         {Count{"events", applied_}, Count{"refused_events", refused_},
+          Count{"boundary_links", boundary_links_}, Count{"deepest_node", deepest_},
+          Count{"dangling_links", dangling_}, Count{"unlinked_boundary_cells", unlinked_},
+          Count{"voids_seen", voids_seen_}, Count{"open_edges", open_},
+          Count{"broken_invariants", broken_}}) {
+      recorder_.add(name, "", static_cast<double>(count));
+    }
   }
 
  private:
   Recorder& recorder_;
-  Breaks wrong_;
-  std::size_t applied_ = 0, refused_ = 0, broken_ = 0, unlinked_ = 0, open_ = 0, boundary_links_ = 0;
+  std::size_t applied_ = 0, refused_ = 0, broken_ = 0, unlinked_ = 0, open_ = 0, boundary_links_ = 0,
+              dangling_ = 0, voids_seen_ = 0;
   std::uint32_t deepest_ = 0;
 };
 
 // An event of any kind anywhere; carvings go through the higher ground.
-Event random_event(std::mt19937& random, const Site& site) {
-  const auto between = [&](double low, double high) {
-    return low + (high - low) * 0x1p-32 * static_cast<double>(random());
-  };
-  // One number a statement: the order in which arguments are evaluated is the compiler's.
+Event random_event(Dice& dice, const Site& site) {
+  // One number per statement: compilers differ in the order in which they evaluate arguments.
   const auto point = [&] {
-    const double x = between(0.1, 0.9);
-    return site.extent() * glm::dvec2(x, between(0.1, 0.9));
+    const double x = dice.between(0.1, 0.9);
+    return site.extent() * glm::dvec2(x, dice.between(0.1, 0.9));
   };
   const auto height = [&](glm::dvec2 p) {
     return site.ground.sample(static_cast<float>(p.x), static_cast<float>(p.y));
   };
   const double cell = site.ground.cell_x;
-  const auto kind = static_cast<Kind>(random() % kKinds);
+  const auto kind = static_cast<Kind>(dice.next() % kKinds);
   const glm::dvec2 from = point(), to = point();
-  const double first = between(0, 1), second = between(0, 1), third = between(0, 1);
+  const double first = dice.between(0, 1), second = dice.between(0, 1), third = dice.between(0, 1);
   const auto within = [](double low, double high, double share) { return low + (high - low) * share; };
   switch (kind) {
     case Kind::kLinearErosion:
@@ -116,18 +116,18 @@ Event random_event(std::mt19937& random, const Site& site) {
   }
   const double angle = 2 * std::numbers::pi * first, radius = within(1.3, 2, second) * cell,
                y = height(top) - within(1.2, 2.5, third) * radius - cell;
-  const glm::dvec2 along = between(1, 4) * cell * glm::dvec2(std::cos(angle), std::sin(angle));
+  const glm::dvec2 along = dice.between(1, 4) * cell * glm::dvec2(std::cos(angle), std::sin(angle));
   Carving carving;
   carving.cave = kind == Kind::kCave;
   carving.from = {top.x - along.x, y, top.y - along.y};
   carving.to = {top.x + along.x, y, top.y + along.y};
-  const auto sides = 3 + static_cast<int>(random() % 8);
+  const auto sides = 3 + static_cast<int>(dice.next() % 8);
   for (int k = 0; k < sides; ++k) {
     const double turn = 2 * std::numbers::pi * (k + 0.5) / sides;
     carving.section.push_back(1.3 * radius * glm::dvec2(std::cos(turn), std::sin(turn)));
   }
   carving.roughness = 0.03 * radius;
-  carving.seed = random();
+  carving.seed = dice.next();
   return carving;
 }
 
@@ -135,25 +135,19 @@ void play_random(int sequences, std::uint64_t seed, Inspection& inspection, Prog
   progress.begin("random sequences", static_cast<std::size_t>(sequences));
   for (int s = 0; s < sequences; ++s) {
     const std::uint64_t each = seed * 1000003 + static_cast<std::uint64_t>(s);
-    std::mt19937 random(static_cast<std::mt19937::result_type>(each));
+    Dice dice(each);
     const Site site = make_site(kEventsAlong * kRandomSize, kRandomSize, each);
     Ght tree = plain_tree(site.ground);
     constexpr int kEvents = 12, kAttempts = 40;
     int done = 0;
     for (int k = 0; k < kAttempts && done < kEvents; ++k)
-      done += inspection.play(tree, random_event(random, site));
+      done += inspection.play(tree, random_event(dice, site));
     inspection.finish(tree);
     progress.advance();
   }
 }
 
 }  // namespace
-
-Breaks& Breaks::operator+=(const Breaks& other) {
-  dangling += other.dangling;
-  voids_seen += other.voids_seen;
-  return *this;
-}
 
 Breaks count_breaks(const Model& model) {
   const Tree& tree = model.tree;
@@ -175,7 +169,7 @@ Breaks count_breaks(const Model& model) {
   for (CellId c = 0; c < tree.cells(); ++c) {
     if (tree.kind(c) != CellKind::kLink) continue;
     const CellId end = tree.resolve(c);
-    // The paper's null links, over the mouth of a carving, end in an empty cell of its border.
+    // The paper's null links, over the mouth of a carving, end in a void cell of its border.
     const bool null =
         tree.kind(end) == CellKind::kVoid && tree.nodes()[tree.node_of(end)].area == Area::kBorder;
     found.dangling += !null && seen[end] == 0;
@@ -186,18 +180,14 @@ Breaks count_breaks(const Model& model) {
 namespace {
 
 std::vector<Case> cases(const RunOptions& options) {
-  std::vector<Case> cases;
-  for (const char* const name : {"single-events", "two-tunnels", "sequence", "rain", "random"}) {
-    Case& added = cases.emplace_back(Case{name, Parameters(kSpecs), ""});
-    const bool paper = options.profile == Profile::kPaper;
-    added.parameters.set("sequences", std::int64_t{paper ? 300 : 30});
-    added.parameters.set("particles", std::int64_t{paper ? 1000 : 200});
-  }
-  return cases;
+  const bool paper = options.profile == Profile::kPaper;
+  return cases_by(
+      "events", kSpecs,
+      {{"sequences", std::int64_t{paper ? 300 : 30}}, {"particles", std::int64_t{paper ? 1000 : 200}}});
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const std::string what = at.name.substr(0, at.name.find(' '));
+  const std::string& what = at.parameters.text("events");
   const Site site = make_site(kEventsAlong * kSize, kSize, options.seed);
   recorder.terrain("diamond-square", checksum(site.ground));
   Inspection inspection(recorder);

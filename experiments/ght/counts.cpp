@@ -1,11 +1,12 @@
-// How many heightmaps each event adds: read off the tree before and after it, on the root and on another
-// node.
+// How many heightmaps each event adds, on the root and on another node: the difference between the trees
+// before and after it.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
-#include "experiments/experiment.h"
+#include "experiments/cases.h"
+#include "experiments/ght/ght.h"
 #include "experiments/ght/site.h"
 #include "terrain/error.h"
 
@@ -15,21 +16,22 @@ namespace {
 using events::Kind;
 
 const std::array kSpecs{
+    choice("event", event_names(), "the event that is counted"),
     ParameterSpec{"size", std::int64_t{32}, "cells", "length of an event; the terrain is 4 times as long", 32,
                   512},
 };
 
 constexpr int kFewestSides = 3, kMostSides = 12;
 
-// What the last event did, as the tree tells and as its nodes do.
+// What the last event did, from the tree's nodes and its list of events.
 void record(const Tree& tree, std::size_t nodes_before, std::string_view where, Recorder& recorder) {
   const Applied& last = tree.events().back();
   recorder.add(fmt::format("added_{}", where), "", static_cast<double>(tree.nodes().size() - nodes_before));
   recorder.add(fmt::format("host_depth_{}", where), "", tree.nodes()[last.host].depth);
 }
 
-// On the root; and, beyond the paper's figures, on a block of a fault so large that all of a smaller event
-// lies in it.
+// On the root. Also, which the paper does not count, on a block of a fault so large that a smaller event lies
+// wholly in it.
 void measure_geotectonic(const Site& site, Kind kind, Recorder& recorder) {
   Ght fresh = plain_tree(site.ground);
   fresh.apply(single_event(site, kind));
@@ -45,8 +47,7 @@ void measure_geotectonic(const Site& site, Kind kind, Recorder& recorder) {
   record(faulted.model().tree, before, "on_block", recorder);
 }
 
-// With sections of 3 to 12 sides, each in fresh ground; once more after events that left the root's heights
-// to other nodes.
+// With sections of 3 to 12 sides, each in fresh ground.
 void measure_carving(const Site& site, bool cave, Recorder& recorder) {
   for (int sides = kFewestSides; sides <= kMostSides; ++sides) {
     Ght tree = plain_tree(site.ground);
@@ -65,31 +66,13 @@ void measure_carving(const Site& site, bool cave, Recorder& recorder) {
   }
 }
 
-}  // namespace
-
-Kind kind_named(std::string_view name) {
-  for (int k = 0; k < events::kKinds; ++k) {
-    if (events::name(static_cast<Kind>(k)) == name) return static_cast<Kind>(k);
-  }
-  throw usage_error(fmt::format("there is no event '{}'", name), "ght", "name one of event files");
-}
-
-namespace {
-
-std::vector<Case> cases(const RunOptions&) {
-  std::vector<Case> cases;
-  for (int k = 0; k < events::kKinds; ++k) {
-    cases.push_back({std::string(events::name(static_cast<Kind>(k))), Parameters(kSpecs), ""});
-  }
-  return cases;
-}
+std::vector<Case> cases(const RunOptions&) { return cases_by("event", kSpecs); }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   const auto size = static_cast<int>(at.parameters.integer("size"));
   const Site site = make_site(kEventsAlong * size, size, options.seed);
   recorder.terrain("diamond-square", checksum(site.ground));
-  // Of a case with changed parameters the name goes on behind a space.
-  const Kind kind = kind_named(at.name.substr(0, at.name.find(' ')));
+  const auto kind = static_cast<Kind>(at.parameters.choice("event"));
   if (is_carving(kind)) {
     measure_carving(site, kind == Kind::kCave, recorder);
   } else {
@@ -98,6 +81,15 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 }
 
 }  // namespace
+
+std::span<const std::string_view> event_names() {
+  static const auto names = [] {
+    std::array<std::string_view, events::kKinds> all;
+    for (int k = 0; k < events::kKinds; ++k) all[k] = events::name(static_cast<Kind>(k));
+    return all;
+  }();
+  return names;
+}
 
 extern const Experiment kCounts{"ght.counts", "§3.2: heightmaps that each event adds", kSpecs, cases,
                                 measure};

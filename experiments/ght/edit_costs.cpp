@@ -1,8 +1,7 @@
-// What an event costs, beside layered stacks and OpenVDB's voxels doing the same edit. The tree is told the
-// event. They are told, column by column, what it leaves: for erosions and carvings the air that it makes, so
-// that the edit is a subtraction; for faults, which move ground sideways and which neither has a word for,
-// the air and the ground of every column that changes. Finding that out is not in their times; in the tree's
-// it is.
+// The cost of an event, compared with layered stacks and OpenVDB's voxels doing the same edit. The tree gets
+// the event. Stacks and voxels get its result, column by column: for erosions and carvings the new air, so
+// that the edit is a subtraction; for faults, which move ground sideways, the air and the ground of every
+// column that changes. Computing that result is part of the tree's times, but not of theirs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <cmath>
 
 #include "experiments/experiment.h"
+#include "experiments/ght/ght.h"
 #include "experiments/ght/processor_time.h"
 #include "experiments/ght/site.h"
 #include "terrain/events/evaluate.h"
@@ -20,6 +20,7 @@ namespace {
 using namespace events;
 
 const std::array kEditSpecs{
+    choice("event", event_names(), "the event that is measured"),
     ParameterSpec{"n", std::int64_t{128}, "cells", "along each side of the terrain", 128, 16384},
     ParameterSpec{"size", std::int64_t{32}, "cells", "length of the event", 32, 4096},
 };
@@ -28,11 +29,11 @@ const std::array kReachSpecs{
     ParameterSpec{"size", std::int64_t{32}, "cells", "length of the events", 32, 4096},
 };
 
-// One is enough of what takes seconds.
+// Fewer samples of what takes long: one of what takes seconds.
 constexpr int kMostSamples = 7;
 constexpr double kSecondsOfSamples = 0.1;
 
-// Calls sample(), which returns seconds, until there are enough of them.
+// Calls sample(), which returns seconds.
 template <class Sample>
 void sample_times(const Sample& sample) {
   double sum = 0;
@@ -41,7 +42,7 @@ void sample_times(const Sample& sample) {
 
 double used(const Memory& memory) { return static_cast<double>(memory.payload + memory.index); }
 
-// What columns are told, and what takes it back.
+// The edit of the columns that change, and the edit that undoes it.
 struct Strokes {
   struct List {
     std::vector<float> x, z;
@@ -55,16 +56,16 @@ struct Strokes {
     void paint(Representation& on) const { on.paint({x, z}, spans); }
   };
   List edit, undo;
-  std::vector<float> x, z;  // columns that change
+  std::vector<float> x, z;  // of the columns that change
 };
 
-// Columns stand at the samples, as the structures' own do.
+// Columns stand at the samples, as those of the structures do.
 Strokes strokes_of(const Site& site, const Event& event) {
   const Heightfield& ground = site.ground;
   const Evaluation after(std::make_shared<Sculpture>(Sculpture{ground, {event}}));
   PlanBox box = plan_box(event);
   const bool moves = std::holds_alternative<DipFault>(event) || std::holds_alternative<LateralFault>(event);
-  if (std::holds_alternative<Carving>(event)) {  // how far it goes on is the ground's affair
+  if (std::holds_alternative<Carving>(event)) {  // how far it reaches depends on the ground
     box.low -= site.size;
     box.high += site.size;
   }
@@ -101,7 +102,7 @@ std::vector<double> solid_lengths(const Representation& structure, const Strokes
   std::vector<double> lengths;
   const double floor = structure.bounds().low.y;
   for (std::size_t c = 0; c < strokes.x.size(); ++c) {
-    double length = floor;  // so that floors cancel out
+    double length = floor;  // so that different floors cancel out
     for (const Span& s : sink.column(c)) length += static_cast<double>(s.top) - s.bottom;
     lengths.push_back(length);
   }
@@ -124,7 +125,7 @@ class Peer {
       const double time = processor_seconds([&] { strokes.edit.paint(*structure_); });
       recorder.add(fmt::format("{}_time{}", name_, suffix), "s", time);
       if (std::exchange(first, false)) {
-        // Of an untouched structure only: what was taken back leaves nodes behind.
+        // On the untouched structure only: an undone edit leaves nodes behind.
         if (suffix.empty()) {
           recorder.add(fmt::format("{}_bytes", name_), "B", used(structure_->memory()) - before);
         }
@@ -164,9 +165,10 @@ class Comparison {
     const Strokes strokes = strokes_of(site_, event);
     recorder_.add(fmt::format("columns{}", suffix), "", static_cast<double>(strokes.x.size()));
     sample_times([&] {
-      const auto held = std::make_unique<Ght>(tree_);  // memory() counts its own block
+      const auto held = std::make_unique<Ght>(tree_);  // on the heap, as memory() counts the tree's own block
       Ght& tree = *held;
-      // The arena is full: the first event of all makes it larger, at a cost that later ones share.
+      // The arena is full at first. Any first event pays for its growth, from which later ones profit, so it
+      // is timed apart.
       recorder_.add(fmt::format("first_event_time{}", suffix), "s",
                     processor_seconds([&] { tree.apply(pebble()); }));
       const double before = used(tree.memory());
@@ -184,7 +186,7 @@ class Comparison {
   }
 
  private:
-  // A crater of a few cells, out of everything's way.
+  // A crater of a few cells, away from the measured event.
   Event pebble() const {
     const double cell = site_.ground.cell_x, at = 6 * cell;
     return RadialErosion{{at, site_.ground.at(6, 6), at}, {2 * cell, cell, 2 * cell}};
@@ -196,42 +198,45 @@ class Comparison {
   std::vector<Peer> peers_;
 };
 
+Site site_of(const Case& at, const RunOptions& options) {
+  return make_site(static_cast<int>(at.parameters.integer("n")),
+                   static_cast<int>(at.parameters.integer("size")), options.seed);
+}
+
 std::vector<Case> edit_cases(const RunOptions& options) {
   std::vector<Case> cases;
   const std::int64_t largest = options.profile == Profile::kPaper ? 4096 : 1024;
   for (std::int64_t n = 128; n <= largest; n *= 2) {
-    for (int k = 0; k < kKinds; ++k) {
-      cases.push_back({fmt::format("n={}/{}", n, name(static_cast<Kind>(k))), {kEditSpecs, {{"n", n}}}, ""});
+    for (const std::string_view event : event_names()) {
+      cases.push_back(
+          {fmt::format("n={}/{}", n, event), {kEditSpecs, {{"event", std::string(event)}, {"n", n}}}});
     }
   }
   return cases;
 }
 
 void measure_edit(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const std::string what = at.name.substr(0, at.name.find(' '));
-  const Site site = make_site(static_cast<int>(at.parameters.integer("n")),
-                              static_cast<int>(at.parameters.integer("size")), options.seed);
-  Comparison(site, recorder, progress).measure(kind_named(what.substr(what.find('/') + 1)), "");
+  const Site site = site_of(at, options);
+  Comparison(site, recorder, progress).measure(static_cast<Kind>(at.parameters.choice("event")), "");
 }
 
 std::vector<Case> reach_cases(const RunOptions&) {
   std::vector<Case> cases;
-  // Of twice that size the inverse fault's end is a gap that the tree refuses to close.
+  // At twice that size the tree refuses the inverse fault: its end would be a gap that cannot be closed.
   constexpr std::int64_t kLargest = 256;
   for (std::int64_t size = 32; size <= kLargest; size *= 2) {
-    cases.push_back({fmt::format("size={}", size), {kReachSpecs, {{"size", size}}}, ""});
+    cases.push_back({fmt::format("size={}", size), {kReachSpecs, {{"size", size}}}});
   }
   return cases;
 }
 
 void measure_reach(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const Site site = make_site(static_cast<int>(at.parameters.integer("n")),
-                              static_cast<int>(at.parameters.integer("size")), options.seed);
+  const Site site = site_of(at, options);
   Comparison comparison(site, recorder, progress);
   progress.begin(at.name, kKinds);
   for (int k = 0; k < kKinds; ++k) {
     progress.advance();
-    // Finer mountains are rougher about a mouth, until the tree refuses it.
+    // Finer mountains are rougher around a mouth, and the tree refuses the carving.
     if (is_carving(static_cast<Kind>(k))) continue;
     std::string suffix = fmt::format("_{}", name(static_cast<Kind>(k)));
     std::replace(suffix.begin(), suffix.end(), '-', '_');

@@ -1,97 +1,66 @@
-// Figures 13, 17, 18 and 22 of "ght": what events make of the ground, as ground planes, wireframe and solid.
+// Figures 13, 15 and 17 to 24 of "ght": what events make of the ground, and the table of these figures.
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 
-#include "experiments/experiment.h"
-#include "experiments/ght/events.h"
-#include "terrain/error.h"
-#include "terrain/events/event.h"
+#include "experiments/cases.h"
+#include "experiments/ght/figures.h"
+#include "experiments/ght/site.h"
+#include "experiments/ght/tree_view.h"
+#include "results/format.h"
 #include "terrain/events/scripts.h"
 
 namespace terrabench::ght {
 namespace {
 
 using namespace events;
+using figures::CutPlane;
+using figures::Drawing;
+using figures::Look;
+using figures::Panel;
+using figures::panel_sheet;
+using figures::PanelRows;
+using figures::Sheet;
 
-constexpr std::array kSpecs{
-    ParameterSpec{"figure", std::int64_t{13}, "", "number of the figure in the paper", 13, 24},
-};
-constexpr std::array<std::int64_t, 10> kFigures{13, 15, 17, 18, 19, 20, 21, 22, 23, 24};
-
-std::vector<Panel> three_views(GlContext& context, const Ght& ght, const Look& look, std::string_view name) {
-  std::vector<Panel> row;
-  row.push_back({planes_view(context, ght, look), fmt::format("{}: ground planes", name)});
-  row.push_back({wires_view(context, ght, look), "wireframe"});
-  row.push_back({solid_view(context, ght, look), "solid"});
-  return row;
+std::vector<Panel> three_views(GlContext& gl, const Ght& ght, const Look& look, std::string_view name) {
+  return {{planes_view(gl, ght, look), fmt::format("{}: ground planes", name)},
+          {wires_view(gl, ght, look), "wireframe"},
+          {solid_view(gl, ght, look), "solid"}};
 }
 
-// Level ground with furrows from north to south, 41 samples of 10 m a side.
-Ght small_ground() {
-  constexpr int kSide = 41;
-  constexpr float kCell = 10;
+// Samples 10 m apart, height(i, j) metres high.
+template <class Height>
+Ght small_ground(int wide, int deep, float floor, const Height& height) {
   std::vector<float> heights;
-  for (int j = 0; j < kSide; ++j) {
-    for (int i = 0; i < kSide; ++i) {
-      heights.push_back(6 * std::cos(0.5F * static_cast<float>(i)));
-    }
+  for (int j = 0; j < deep; ++j) {
+    for (int i = 0; i < wide; ++i) heights.push_back(height(static_cast<float>(i), static_cast<float>(j)));
   }
-  return {{kSide, kSide, kCell, kCell, 0, 0}, std::move(heights), -75};
+  return {{wide, deep, 10, 10, 0, 0}, std::move(heights), floor};
+}
+// Level ground with furrows from north to south.
+Ght furrows() {
+  return small_ground(41, 41, -75, [](float i, float) { return 6 * std::cos(0.5F * i); });
+}
+// A ridge from north to south.
+Ght ridge() {
+  return small_ground(61, 41, -60, [](float i, float j) {
+    const float x = (i - 30) / 14, z = (j - 20) / 30;
+    return 170 * std::exp(-x * x) * (1 - 0.25F * z * z);
+  });
 }
 
-constexpr glm::vec3 kHigh{0.4F, 0.62F, 1.0F}, kLow{0.45F, 0.4F, 1.0F};  // the latter under an overhang
+constexpr glm::vec3 kHigh{0.4F, 0.62F, 1.0F}, kLow{0.45F, 0.4F, 1.0F};  // kLow shows what hangs over
 
-// Across the middle of a fault's line.
+// Across the middle of the line of the fault in that script.
 CutPlane across(std::string_view script) {
   const TerrainSource source = open_named_script(script);
   const Line line = std::get<DipFault>(source.events->events.at(0)).line();
   return {glm::vec2(line.plan({line.length / 2, 0})), glm::vec2(line.along)};
 }
 
-}  // namespace
-
-Ght open_tree(std::string_view script, bool with_events) {
-  const TerrainSource source = open_named_script(script);
-  const Heightfield& field = source.events->ground;
-  // As low as the events need it: the solid's own floor allows for the worst that they could do.
-  Ght ght({field.width, field.depth, field.cell_x, field.cell_z, 0, 0}, field.heights,
-          height_range(field).lowest - 3 * field.cell_x);
-  if (with_events) {
-    for (const Event& event : source.events->events) ght.apply(event);
-  }
-  return ght;
-}
-
-void write_panels(const std::vector<std::vector<Panel>>& rows, const std::filesystem::path& png) {
-  constexpr double kMargin = 14, kLabel = 26;
-  double width = 0, height = kMargin;
-  for (const std::vector<Panel>& row : rows) {
-    double across = kMargin;
-    for (const Panel& panel : row) across += panel.image.width / figures::Sheet::kPixels + kMargin;
-    width = std::max(width, across);
-    height += row[0].image.height / figures::Sheet::kPixels + kLabel + kMargin;
-  }
-  figures::Sheet sheet(width, height);
-  double y = kMargin;
-  for (const std::vector<Panel>& row : rows) {
-    double across = kMargin;
-    for (const Panel& panel : row) across += panel.image.width / figures::Sheet::kPixels + kMargin;
-    double x = kMargin + (width - across) / 2;
-    for (const Panel& panel : row) {
-      const double wide = static_cast<double>(panel.image.width) / figures::Sheet::kPixels;
-      const double high = static_cast<double>(panel.image.height) / figures::Sheet::kPixels;
-      sheet.picture(x, y, wide, high, panel.image);
-      sheet.text(x + wide / 2, y + high + 17, panel.words, 14, "middle");
-      x += wide + kMargin;
-    }
-    y += row[0].image.height / figures::Sheet::kPixels + kLabel + kMargin;
-  }
-  sheet.write(png);
-}
-
-void draw_geotectonic_events(GlContext& context, Recorder& recorder) {
+Sheet draw_geotectonic_events(Drawing& drawing) {
   const glm::dvec2 from{110, 230}, to{290, 170};
   const std::array<std::pair<const char*, Event>, 5> events{{
       {"linear erosion", LinearErosion{from, to, 45, 38}},
@@ -100,104 +69,213 @@ void draw_geotectonic_events(GlContext& context, Recorder& recorder) {
       {"inverse fault", DipFault{true, from, to, 110, 70, 50}},
       {"lateral fault", LateralFault{from, to, 90, 90}},
   }};
-  std::vector<std::vector<Panel>> rows;
+  PanelRows rows;
   for (const auto& [name, event] : events) {
-    Ght ght = small_ground();
+    Ght ght = furrows();
     ght.apply(event);
-    rows.push_back(
-        three_views(context, ght, {kind(event) == Kind::kInverseFault ? kLow : kHigh, 640, 380, {}}, name));
+    const Look look{kind(event) == Kind::kInverseFault ? kLow : kHigh, 640, 380};
+    rows.push_back(three_views(drawing.gl(), ght, look, name));
   }
-  write_panels(rows,
-               recorder.figure("ght.F13", "png",
-                               "Figure 13 of the paper: the shapes that geotectonic events make of level "
-                               "ground, as ground planes (the root's grey), wireframe and solid"));
+  return panel_sheet(rows);
 }
 
-void draw_erosions(GlContext& context, Recorder& recorder) {
-  std::vector<std::vector<Panel>> rows;
-  const Look look{{-0.7F, 0.9F, 0.9F}, 760, 480, {}};
-  rows.push_back(three_views(context, open_tree("linear-erosion"), look, "linear erosion"));
-  rows.push_back(three_views(context, open_tree("radial-erosion"), look, "radial erosion"));
-  write_panels(rows,
-               recorder.figure("ght.F17", "png",
-                               "Figure 17 of the paper: linear and radial erosions, each on the same fresh "
-                               "terrain of 129 × 129; what an event made has a colour in the wireframe"));
+Sheet draw_erosions(Drawing& drawing) {
+  const Look look{{-0.7F, 0.9F, 0.9F}, 760, 480};
+  return panel_sheet({three_views(drawing.gl(), open_tree("linear-erosion"), look, "linear erosion"),
+                      three_views(drawing.gl(), open_tree("radial-erosion"), look, "radial erosion")});
 }
 
-void draw_faults(GlContext& context, Recorder& recorder) {
-  std::vector<std::vector<Panel>> rows;
+Sheet draw_faults(Drawing& drawing) {
+  PanelRows rows;
   std::vector<Panel> cuts;
   for (const char* const name : {"normal", "inverse"}) {
     const std::string script = fmt::format("{}-fault", name);
     const Ght ght = open_tree(script);
-    rows.push_back(three_views(context, ght, {kLow, 760, 430, {}}, fmt::format("{} fault", name)));
-    cuts.push_back({solid_view(context, ght, {{1.0F, 0.25F, 0.6F}, 1154, 480, {across(script)}}),
+    rows.push_back(three_views(drawing.gl(), ght, {kLow, 760, 430}, fmt::format("{} fault", name)));
+    cuts.push_back({solid_view(drawing.gl(), ght, {{1.0F, 0.25F, 0.6F}, 1154, 480, {across(script)}}),
                     fmt::format("{} fault, cut across its line", name)});
   }
   rows.push_back(std::move(cuts));
-  write_panels(rows,
-               recorder.figure("ght.F18", "png",
-                               "Figure 18 of the paper: a normal and an inverse fault, each on the same "
-                               "fresh terrain; the raised block of the inverse one hangs over"));
+  return panel_sheet(rows);
 }
 
-void draw_sequence(GlContext& context, Recorder& recorder) {
-  const Look look{{0.4F, 0.7F, 1.0F}, 1060, 630, {}};
+Sheet draw_sequence(Drawing& drawing) {
+  GlContext& gl = drawing.gl();
+  const Look look{{0.4F, 0.7F, 1.0F}, 1060, 630};
   const Ght fresh = open_tree("canyon", false), ght = open_tree("canyon");
   const std::size_t events = ght.model().tree.events().size(), nodes = ght.model().tree.nodes().size();
-  write_panels({{{wires_view(context, fresh, look), "fresh terrain, wireframe"},
-                 {solid_view(context, fresh, look), "fresh terrain, solid"}},
-                {{wires_view(context, ght, look), fmt::format("after {} events, wireframe", events)},
-                 {solid_view(context, ght, look), fmt::format("after {} events, solid", events)}},
-                {{planes_view(context, ght, look), fmt::format("the {} ground planes", nodes)}}},
-               recorder.figure("ght.F22", "png",
-                               "Figure 22 of the paper: a sequence of overlapping events on one terrain, and "
-                               "the ground planes of the tree after it"));
+  return panel_sheet({{{wires_view(gl, fresh, look), "fresh terrain, wireframe"},
+                       {solid_view(gl, fresh, look), "fresh terrain, solid"}},
+                      {{wires_view(gl, ght, look), fmt::format("after {} events, wireframe", events)},
+                       {solid_view(gl, ght, look), fmt::format("after {} events, solid", events)}},
+                      {{planes_view(gl, ght, look), fmt::format("the {} ground planes", nodes)}}});
 }
 
-namespace {
+// Figures 15 and 19 to 21: tunnels and caves, and the ground cut open along their axes.
 
-std::vector<Case> cases(const RunOptions&) {
-  std::vector<Case> cases;
-  for (const std::int64_t figure : kFigures) {
-    cases.push_back({fmt::format("F{}", figure), {kSpecs, {{"figure", figure}}}, ""});
+// Along the axis, so that the ground towards `from` goes; 1.7 m beside the axis, so that no corner of the
+// section lies in the plane.
+CutPlane along(const Carving& carving, glm::vec3 from) {
+  const Line line = carving.line();
+  glm::dvec2 towards = line.left;
+  if (glm::dot(towards, glm::dvec2(from.x, from.z)) < 0) towards = -towards;
+  return {glm::vec2(line.origin + 1.7 * towards), glm::vec2(towards)};
+}
+
+std::vector<glm::dvec2> vault() { return {{-28, -24}, {28, -24}, {34, 6}, {20, 30}, {-20, 30}, {-34, 6}}; }
+
+std::vector<Panel> four_views(GlContext& gl, const Ght& ght, const Carving& carving, const Look& look) {
+  Look open = look;
+  open.cuts.push_back(along(carving, look.from));
+  return {{planes_view(gl, ght, look), "ground planes"},
+          {wires_view(gl, ght, look), "wireframe"},
+          {solid_view(gl, ght, look), "solid"},
+          {solid_view(gl, ght, open), "solid, cut along the axis"}};
+}
+
+// The ridge with the carvings and the valleys on both sides of it.
+std::vector<CutPlane> around_the_ridge(const Ght& ght) { return around(ght, {49, 28}, {111, 73}); }
+
+Sheet draw_single(Drawing& drawing, const char* script) {
+  const TerrainSource source = open_named_script(script);
+  const Ght ght = open_tree(script);
+  const Look look{{0.8F, 0.4F, 1.0F}, 1000, 560, around_the_ridge(ght)};
+  const auto& carving = std::get<Carving>(source.events->events.at(0));
+  return panel_sheet(figures::in_rows_of(2, four_views(drawing.gl(), ght, carving, look)));
+}
+
+Sheet draw_carving_shapes(Drawing& drawing) {
+  const Look look{{0.55F, 0.4F, 1.0F}, 760, 440};
+  const glm::dvec3 east{390, 55, 200};
+  PanelRows rows;
+  for (const bool cave : {false, true}) {
+    const Carving carving{cave, east, {cave ? 270.0 : 210.0, 55, 200}, vault(), 1, cave ? 1.2 : 1, 0, 0};
+    Ght ght = ridge();
+    ght.apply(carving);
+    std::vector<Panel> views = four_views(drawing.gl(), ght, carving, look);
+    views.erase(views.begin() + 1);
+    views[0].words = cave ? "cave: ground planes" : "tunnel: ground planes";
+    rows.push_back(std::move(views));
   }
-  return cases;
+  return panel_sheet(rows);
 }
+
+Sheet draw_tunnel(Drawing& drawing) { return draw_single(drawing, "tunnel"); }
+
+Sheet draw_cave(Drawing& drawing) { return draw_single(drawing, "cave"); }
+
+Sheet draw_two_tunnels(Drawing& drawing) {
+  const Ght ght = open_tree("two-tunnels");
+  const Look look{{0.9F, 0.45F, 1.0F}, 1060, 620, around_the_ridge(ght)};
+  return panel_sheet(
+      {{{wires_view(drawing.gl(), ght, look), "wireframe"}, {solid_view(drawing.gl(), ght, look), "solid"}}});
+}
+
+// Figure 24: the rain of particles (§4.2), as ght.complex measures it.
+
+// A quarter of the measurement's samples along each side, which show at this size.
+constexpr int kSide = 256, kParticles = 2500, kDrawn = 250;
+
+// Octahedra over the places that the next particles will hit, at several heights.
+TriangleMesh falling(const Ght& ght, Rain rain) {
+  const float width = ght.bounds().size().x, size = 0.008F * width;
+  TriangleMesh mesh;
+  for (int k = 0; k < kDrawn; ++k) {
+    glm::vec3 centre(std::get<RadialErosion>(rain.next(ght)).centre);
+    const float turns = 0.618F * static_cast<float>(k);  // the golden ratio spreads its fractions evenly
+    centre.y += width * (0.01F + 0.24F * (turns - std::floor(turns)));
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const glm::vec3 corner :
+         {glm::vec3(1, 0, 0), {0, 0, -1}, {-1, 0, 0}, {0, 0, 1}, {0, 1, 0}, {0, -1, 0}}) {
+      mesh.positions.push_back(centre + size * corner);
+    }
+    for (std::uint32_t side = 0; side < 4; ++side) {
+      const std::uint32_t next = (side + 1) % 4;
+      mesh.indices.insert(mesh.indices.end(), {first + side, first + next, first + 4});
+      mesh.indices.insert(mesh.indices.end(), {first + next, first + side, first + 5});
+    }
+  }
+  return mesh;
+}
+
+Sheet draw_rain(Drawing& drawing) {
+  GlContext& gl = drawing.gl();
+  const Site site = make_site(kSide, kSide / kEventsAlong, drawing.seed());
+  Ght ght = plain_tree(site.ground);
+  Rain rain(site.ground, drawing.seed());
+  const Look look{{0.45F, 0.7F, 1.0F}, 760, 520};
+  Look window = look;
+  window.cuts = around(ght, {96, 96}, {160, 160});
+  PanelRows rows{{{planes_view(gl, ght, look), "before: ground plane"},
+                  {wires_view(gl, ght, window), "wireframe, a window of 65 × 65"},
+                  {solid_view(gl, ght, look, falling(ght, rain)), "solid, the rain begins"}}};
+  for (int k = 0; k < kParticles; ++k) ght.apply(rain.next(ght));
+  const std::string particles = format_number(static_cast<double>(ght.model().tree.events().size()));
+  rows.push_back({{planes_view(gl, ght, look), fmt::format("after {} particles: ground planes", particles)},
+                  {wires_view(gl, ght, window), "wireframe, the same window"},
+                  {solid_view(gl, ght, look), "solid"}});
+  return panel_sheet(rows);
+}
+
+// Figures 14 and 16 list code.
+constexpr std::array<figures::Figure, 10> kFigures{{
+    {13, "F13",
+     "the shapes that geotectonic events make of level ground, as ground planes (the root's grey), wireframe "
+     "and solid",
+     draw_geotectonic_events},
+    {15, "F15", "a tunnel and a cave carved into a ridge; on the right the ground is cut open along the axis",
+     draw_carving_shapes},
+    {17, "F17",
+     "linear and radial erosions, each on the same fresh terrain of 129 × 129; what an event made has a "
+     "colour in the wireframe",
+     draw_erosions},
+    {18, "F18",
+     "a normal and an inverse fault, each on the same fresh terrain; the raised block of the inverse one "
+     "hangs over",
+     draw_faults},
+    {19, "F19",
+     "a tunnel carved through a terrain of 129 × 129; the views but the first are of the ground around it",
+     draw_tunnel},
+    {20, "F20",
+     "a cave carved into a terrain of 129 × 129; the views but the first are of the ground around it",
+     draw_cave},
+    {21, "F21", "the part with two tunnels of a terrain of 129 × 129", draw_two_tunnels},
+    {22, "F22", "a sequence of overlapping events on one terrain, and the ground planes of the tree after it",
+     draw_sequence},
+    {23, "F23",
+     "the tree of figure 22's terrain; edges lead from each heightmap to those that an event attached to it, "
+     "and cells show what they hold",
+     draw_tree},
+    {24, "F24",
+     "a rain of particles (yellow: the first 250), each of which erodes the ground where it crashes; the "
+     "mountains and the rain are those of the measurement, with 257 × 257 of its 1025 × 1025 samples and "
+     "2,500 of its 10,000 particles",
+     draw_rain},
+}};
+constexpr std::array kNames = names_of(kFigures);
+const std::array kSpecs{choice("figure", kNames, "figure of the paper")};
+
+std::vector<Case> cases(const RunOptions&) { return cases_by("figure", kSpecs); }
 
 void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const std::int64_t figure = at.parameters.integer("figure");
-  if (std::find(kFigures.begin(), kFigures.end(), figure) == kFigures.end()) {
-    throw usage_error(fmt::format("figure {} is a listing of code", figure), "figure",
-                      "figures 13, 15 and 17 to 24 are there");
-  }
-  const auto context = [&] { return open_context(options.renderer, 64, 64); };
-  recorder.add("figure", "", static_cast<double>(figure));
-  switch (figure) {
-    case 13:
-      return draw_geotectonic_events(*context(), recorder);
-    case 15:
-      return draw_carving_shapes(*context(), recorder);
-    case 17:
-      return draw_erosions(*context(), recorder);
-    case 18:
-      return draw_faults(*context(), recorder);
-    case 19:
-      return draw_tunnel(*context(), recorder);
-    case 20:
-      return draw_cave(*context(), recorder);
-    case 21:
-      return draw_two_tunnels(*context(), recorder);
-    case 22:
-      return draw_sequence(*context(), recorder);
-    case 23:
-      return draw_tree(recorder);
-    default:
-      return draw_rain(*context(), options.seed, recorder);
-  }
+  draw_figure(kFigures, "ght", at, options, recorder);
 }
 
 }  // namespace
+
+Ght open_tree(std::string_view script, bool with_events) {
+  const TerrainSource source = open_named_script(script);
+  const Heightfield& field = source.events->ground;
+  // Low enough for these events. The floor of the script's own solid allows for the worst case.
+  Ght ght({field.width, field.depth, field.cell_x, field.cell_z, 0, 0}, field.heights,
+          height_range(field).lowest - 3 * field.cell_x);
+  if (with_events) {
+    for (const Event& event : source.events->events) ght.apply(event);
+  }
+  return ght;
+}
+
+std::span<const figures::Figure> event_figures() { return kFigures; }
 
 extern const Experiment kEventFigures{"ght.event-figures", "Figures 13, 15 and 17-24: events and their trees",
                                       kSpecs, cases, draw};

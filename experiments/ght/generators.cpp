@@ -6,8 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "experiments/experiment.h"
-#include "terrain/error.h"
+#include "experiments/cases.h"
 #include "terrain/sources/fractal/diamond_square.h"
 #include "terrain/sources/fractal/faults.h"
 #include "terrain/sources/fractal/hills.h"
@@ -18,18 +17,13 @@ namespace {
 
 using namespace fractal;
 
-constexpr std::array kSpecs{
-    ParameterSpec{"side", std::int64_t{129}, "samples", "2^n + 1 along each side", 9, 4097},
-    ParameterSpec{"steps", std::int64_t{100}, "", "faults or hills", 1, 10000},
-};
-
 std::size_t differences(const Heightfield& a, const Heightfield& b) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.heights.size(); ++i) count += a.heights[i] != b.heights[i];
   return count;
 }
 
-// The same seed again, on one thread; and another seed.
+// Whether the same seed gives the same terrain on one thread, and another seed another one.
 template <class Make>
 void record_seeds(std::string_view name, const Make& make, std::uint64_t seed, Recorder& recorder) {
   const Heightfield field = make(seed);
@@ -43,9 +37,9 @@ void record_seeds(std::string_view name, const Make& make, std::uint64_t seed, R
       static_cast<double>(differences(field, make(seed + 1))) / static_cast<double>(field.heights.size()));
 }
 
-// Samples of opposite borders that differ, corners that are not as set, and displacements beyond the range of
-// their level; the ratio of mean displacements from level to level.
-void measure_diamond_square(int side, std::uint64_t seed, Recorder& recorder) {
+// Counts samples of opposite borders that differ, corners that are not as set, and displacements beyond the
+// range of their level. Also records the ratio of the mean displacements of successive levels.
+void measure_diamond_square(int side, int, std::uint64_t seed, Recorder& recorder) {
   DiamondSquareOptions options{.seed = seed, .side = side, .corner = 100};
   const Heightfield field = diamond_square(options);
   const int last = side - 1, levels = levels_of_side(side);
@@ -73,7 +67,7 @@ void measure_diamond_square(int side, std::uint64_t seed, Recorder& recorder) {
         sum += moved / std::pow(4.0, level);
       }
     }
-    constexpr int kManyPoints = 4;  // levels from 256 middles on
+    constexpr int kManyPoints = 4;  // the first level of 256 points or more
     if (level > kManyPoints) {
       ratio += sum / before;
       ++ratios;
@@ -90,8 +84,9 @@ void measure_diamond_square(int side, std::uint64_t seed, Recorder& recorder) {
       recorder);
 }
 
-// Every fault compared with the terrain before it: samples that did not rise on its one side or sink on the
-// other by the step. On the sphere, samples that differ across the date line or at a pole.
+// Compares the terrain before and after each fault: counts samples that did not rise by the step on the one
+// side or sink by it on the other. On the sphere, counts samples that differ across the date line or at a
+// pole.
 void measure_faults(int side, int steps, std::uint64_t seed, Recorder& recorder) {
   FaultOptions options{.seed = seed, .width = side, .depth = side, .faults = 0, .step = 1};
   Heightfield before = fault_terrain(options);
@@ -133,8 +128,8 @@ void measure_faults(int side, int steps, std::uint64_t seed, Recorder& recorder)
       seed, recorder);
 }
 
-// The largest deviation from r² − d² cut off at zero, for one hill and for the sum of all, as a share of the
-// highest point; and samples off the hill that are not zero.
+// The largest deviation from r² − d², cut off at zero, for one hill and for the sum of all, as a share of the
+// highest point. Also counts samples outside the single hill that are not zero.
 void measure_hills(int side, int steps, std::uint64_t seed, Recorder& recorder) {
   HillOptions options{.seed = seed, .width = side, .depth = side, .cell = 1, .hills = steps};
   options.least_radius = static_cast<float>(side) / 32;
@@ -175,27 +170,31 @@ void measure_hills(int side, int steps, std::uint64_t seed, Recorder& recorder) 
       seed, recorder);
 }
 
+struct Generator {
+  std::string_view name;
+  void (*measure)(int side, int steps, std::uint64_t seed, Recorder&);
+};
+constexpr std::array kGeneratorTable{
+    Generator{"diamond-square", measure_diamond_square},
+    Generator{"fault-formation", measure_faults},
+    Generator{"hill", measure_hills},
+};
+constexpr std::array kNames = names_of(kGeneratorTable);
+const std::array kSpecs{
+    choice("generator", kNames, "the generator that is measured"),
+    ParameterSpec{"side", std::int64_t{129}, "samples", "2^n + 1 along each side", 9, 4097},
+    ParameterSpec{"steps", std::int64_t{100}, "", "number of faults or hills", 1, 10000},
+};
+
 std::vector<Case> cases(const RunOptions& options) {
-  std::vector<Case> cases;
-  for (const char* const name : {"diamond-square", "fault-formation", "hill"}) {
-    cases.push_back(
-        {name, {kSpecs, {{"side", std::int64_t{options.profile == Profile::kPaper ? 513 : 129}}}}, ""});
-  }
-  return cases;
+  return cases_by("generator", kSpecs,
+                  {{"side", std::int64_t{options.profile == Profile::kPaper ? 513 : 129}}});
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const int side = static_cast<int>(at.parameters.integer("side"));
-  const int steps = static_cast<int>(at.parameters.integer("steps"));
-  // Of a case with changed parameters the name goes on behind a space.
-  const std::string generator = at.name.substr(0, at.name.find(' '));
-  if (generator == "diamond-square") {
-    measure_diamond_square(side, options.seed, recorder);
-  } else if (generator == "fault-formation") {
-    measure_faults(side, steps, options.seed, recorder);
-  } else {
-    measure_hills(side, steps, options.seed, recorder);
-  }
+  const auto side = static_cast<int>(at.parameters.integer("side"));
+  const auto steps = static_cast<int>(at.parameters.integer("steps"));
+  kGeneratorTable[at.parameters.choice("generator")].measure(side, steps, options.seed, recorder);
 }
 
 }  // namespace

@@ -2,23 +2,22 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string_view>
-
-#include "terrain/events/event.h"
 
 namespace terrabench::ght {
 
-events::Kind kind_named(std::string_view name);  // throws usage_error
+// The names of all kinds of event, in the order of events::Kind: the values of a parameter "event".
+std::span<const std::string_view> event_names();
 
 struct Model;
 
-// What must not be: counted here apart from broken_invariants().
+// What a sound tree does not have; broken_invariants() counts other things.
 struct Breaks {
   std::size_t dangling = 0;    // links that end in no cell of the surface
   std::size_t voids_seen = 0;  // corners of the surface that hold no height
-  Breaks& operator+=(const Breaks&);
 };
-// O(cells + faces).
+// O(cells + faces)
 Breaks count_breaks(const Model&);
 
 }  // namespace terrabench::ght

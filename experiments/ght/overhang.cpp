@@ -1,10 +1,10 @@
-// What lies over what: columns of more than one solid interval, and the air under the topmost surface, which
-// a heightmap of the same terrain fills.
+// Overhangs: columns of more than one solid interval, and the air below the topmost surface, which a
+// heightmap of the same terrain would fill.
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "experiments/experiment.h"
+#include "experiments/cases.h"
 #include "experiments/ght/site.h"
 #include "terrain/events/evaluate.h"
 
@@ -13,19 +13,38 @@ namespace {
 
 using namespace events;
 
+struct Terrain {
+  std::string_view name;
+  std::vector<Event> (*events)(const Site&);
+};
+template <Kind kind>
+std::vector<Event> single(const Site& site) {
+  return {single_event(site, kind)};
+}
+constexpr std::array kTerrains{
+    Terrain{"no-event", [](const Site&) { return std::vector<Event>(); }},
+    Terrain{"normal-fault", single<Kind::kNormalFault>},
+    Terrain{"inverse-fault", single<Kind::kInverseFault>},
+    Terrain{"tunnel", single<Kind::kTunnel>},
+    Terrain{"cave", single<Kind::kCave>},
+    Terrain{"two-tunnels", two_tunnels},
+    Terrain{"sequence", overlapping_events},
+};
+constexpr std::array kNames = names_of(kTerrains);
 const std::array kSpecs{
+    choice("events", kNames, "the events that shape the terrain"),
     ParameterSpec{"size", std::int64_t{32}, "cells", "length of an event; the terrain is 4 times as long", 32,
                   512},
-    ParameterSpec{"columns_a_cell", std::int64_t{4}, "", "asked along each side of a cell", 1, 64},
+    ParameterSpec{"columns_a_cell", std::int64_t{4}, "", "columns along each side of a cell", 1, 64},
 };
 
 struct Hollow {
   std::size_t overhangs = 0;  // columns with more than one interval
   std::size_t most = 0;       // intervals
   std::size_t manifold = 0;   // columns with more than two
-  double air = 0;             // metres, under the top, of all columns
+  double air = 0;             // metres below the top, summed over all columns
 
-  // Intervals from below: bottoms and tops.
+  // intervals(k) is the bottom and top of the k-th of `count` intervals, from below.
   template <class Intervals>
   void column(const Intervals& intervals, std::size_t count) {
     overhangs += count > 1;
@@ -36,28 +55,16 @@ struct Hollow {
 };
 
 std::vector<Case> cases(const RunOptions& options) {
-  std::vector<Case> cases;
-  for (const char* const name :
-       {"no-event", "normal-fault", "inverse-fault", "tunnel", "cave", "two-tunnels", "sequence"}) {
-    cases.push_back(
-        {name, {kSpecs, {{"columns_a_cell", std::int64_t{options.profile == Profile::kPaper ? 8 : 4}}}}, ""});
-  }
-  return cases;
+  return cases_by("events", kSpecs,
+                  {{"columns_a_cell", std::int64_t{options.profile == Profile::kPaper ? 8 : 4}}});
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const std::string what = at.name.substr(0, at.name.find(' '));
   const auto size = static_cast<int>(at.parameters.integer("size"));
   const auto per_cell = static_cast<int>(at.parameters.integer("columns_a_cell"));
   const Site site = make_site(kEventsAlong * size, size, options.seed);
-  auto sculpture = std::make_shared<Sculpture>(Sculpture{site.ground, {}});
-  if (what == "two-tunnels") {
-    sculpture->events = two_tunnels(site);
-  } else if (what == "sequence") {
-    sculpture->events = overlapping_events(site);
-  } else if (what != "no-event") {
-    sculpture->events = {single_event(site, kind_named(what))};
-  }
+  const auto sculpture = std::make_shared<Sculpture>(
+      Sculpture{site.ground, kTerrains[at.parameters.choice("events")].events(site)});
   Ght tree = plain_tree(site.ground);
   for (const Event& event : sculpture->events) tree.apply(event);
   const Evaluation evaluation(sculpture);

@@ -1,5 +1,5 @@
-// Seconds of the processor that one thread spends, so that whatever else the machine does is not counted. TBB
-// is held to that thread.
+// Processor seconds that a piece of work takes on one thread, to which TBB is limited. Other work of the
+// machine is not counted.
 #pragma once
 
 #include <tbb/global_control.h>

@@ -16,7 +16,7 @@ namespace {
 
 using namespace events;
 
-// Whole metres, so that events are short as texts.
+// Whole metres keep event files short.
 template <class T>
 T rounded(const T& metres) {
   return glm::round(metres);
@@ -28,7 +28,8 @@ double height(const Site& site, glm::dvec2 plan) {
   return site.ground.sample(static_cast<float>(plan.x), static_cast<float>(plan.y));
 }
 
-// The lowest of nine places: what an event raises there stays under the peaks, where stacks and voxels end.
+// The lowest of nine places: what an event raises there stays below the peaks, above which stacks and voxels
+// hold nothing.
 glm::dvec2 low_place(const Site& site) {
   constexpr std::array kShares = {0.35, 0.5, 0.65};
   glm::dvec2 best{0};
@@ -44,8 +45,9 @@ glm::dvec2 low_place(const Site& site) {
   return best;
 }
 
-// Whether the tree takes it; of carvings, on whose reach the two can differ by a cell, the evaluation too.
-bool takes(Ght& tree, const Site& site, const Event& event) {
+// Applies the event if the tree accepts it. A carving must pass the exact evaluation too: the two can differ
+// by a cell in how far a carving reaches.
+bool try_apply(Ght& tree, const Site& site, const Event& event) {
   try {
     if (std::holds_alternative<Carving>(event)) {
       Ght trial = tree;
@@ -60,9 +62,9 @@ bool takes(Ght& tree, const Site& site, const Event& event) {
   }
 }
 
-// Whether the section comes out for good where it first does: beyond the end at u, outwards, ground that has
-// sunk under its roof does not rise over it again by half a cell before all of the section is out. Where it
-// does, a roof follows that the tree's walls, which end where they first come out, do not have.
+// Whether the carving, beyond its end at u, stays in the air where it first comes out: ground that has sunk
+// below its roof must not rise half a cell above it again before the whole section is out. Otherwise the
+// exact shape has a further piece of roof, while the tree's walls end where they first come out.
 bool comes_out_once(const Site& site, const Carving& carving, double u, double outwards) {
   constexpr int kAcross = 8;
   const Line line = carving.line();
@@ -101,7 +103,7 @@ std::vector<glm::dvec2> high_places(const Site& site) {
 
 Site make_site(int side, int size, std::uint64_t seed) {
   fractal::DiamondSquareOptions options{.seed = seed, .side = kEventsAlong * size + 1};
-  // The same mountains, in other steps, as event files have them.
+  // The cell shrinks as samples grow: the same mountains in metres, as event files have them.
   options.cell *=
       static_cast<float>(fractal::DiamondSquareOptions{}.side - 1) / static_cast<float>(options.side - 1);
   Site site;
@@ -127,7 +129,7 @@ Ght plain_tree(const Heightfield& ground) {
              height_range(ground).lowest - ground.cell_x);
 }
 
-// Across the lattice, so that no event has its directions.
+// Oblique, so that no event runs along rows or columns.
 Event geotectonic_event(const Site& site, Kind kind, glm::dvec2 centre, double length) {
   const glm::dvec2 half = 0.5 * length * direction(0.4), from = rounded(centre - half),
                    to = rounded(centre + half);
@@ -166,7 +168,7 @@ std::optional<Event> carve(Ght& tree, const Site& site, bool cave, int sides) {
         carving.to = rounded(glm::dvec3(top.x + along.x, y, top.y + along.y));
         if (!comes_out_once(site, carving, 0, -1)) continue;
         if (!cave && !comes_out_once(site, carving, carving.line().length, 1)) continue;
-        if (takes(tree, site, carving)) return carving;
+        if (try_apply(tree, site, carving)) return carving;
         if (--tries == 0) return std::nullopt;
       }
     }
@@ -174,7 +176,7 @@ std::optional<Event> carve(Ght& tree, const Site& site, bool cave, int sides) {
   return std::nullopt;
 }
 
-// Found on the least site that has room for carvings, where looking is quick.
+// Carvings are searched for on the smallest site that has room for them, where the search is quick.
 Event single_event(const Site& site, Kind kind) {
   if (!is_carving(kind)) return geotectonic_event(site, kind, site.middle, site.size);
   constexpr int kLeast = 32;
@@ -203,10 +205,10 @@ std::vector<Event> two_tunnels(const Site& site) {
 }
 
 Event Rain::next(const Ght& tree) {
-  const double radius = between(1.5, 4) * cell_;
+  const double radius = dice_.between(1.5, 4) * cell_;
   const double far = 8 * cell_;  // from the border
-  const double x = between(far, extent_.x - far);
-  const glm::dvec2 at{x, between(far, extent_.y - far)};
+  const double x = dice_.between(far, extent_.x - far);
+  const glm::dvec2 at{x, dice_.between(far, extent_.y - far)};
   return RadialErosion{{at.x, tree.model().surface.top(tree.model().tree, at), at.y},
                        {radius, radius / 3, radius}};
 }
@@ -229,7 +231,7 @@ std::vector<Event> overlapping_events(const Site& site) {
   for (const Planned& p : kPlan) {
     const Event event =
         geotectonic_event(site, p.kind, site.corner + site.extent() * p.at, p.length * site.size);
-    if (takes(tree, site, event)) all.push_back(event);
+    if (try_apply(tree, site, event)) all.push_back(event);
   }
   for (const bool cave : {false, true}) {
     if (const auto carving = carve(tree, site, cave, cave ? 6 : 8)) all.push_back(*carving);

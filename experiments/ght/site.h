@@ -1,6 +1,6 @@
 // Where the tree is measured: the mountains of the catalogue's "diamond-square", the paper's own generator,
-// at any number of samples, and on them each of its events at the same places in metres. That ground closes
-// on itself, so larger terrains are it again and again, and an event finds the same ground on all of them.
+// at any number of samples, with each of the paper's events at the same place in metres. Opposite borders of
+// that ground are equal, so larger terrains repeat it, and an event finds the same ground on all of them.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@
 
 namespace terrabench::ght {
 
-inline constexpr int kEventsAlong = 4;  // a repetition of the mountains is so many events long
+inline constexpr int kEventsAlong = 4;  // length of one repetition of the mountains, in events
 
 struct Site {
   Heightfield ground;
   std::uint64_t seed = 0;
-  double size = 0;       // metres: events are about so long
-  glm::dvec2 corner{0};  // of the repetition where events are, in the middle of the terrain
-  glm::dvec2 middle{0};  // of geotectonic events
-  double extent() const { return kEventsAlong * size; }  // of a repetition, metres
+  double size = 0;       // metres, about the length of an event
+  glm::dvec2 corner{0};  // of the repetition that has the events, in the middle of the terrain
+  glm::dvec2 middle{0};  // of the geotectonic event
+  double extent() const { return kEventsAlong * size; }  // metres, of a repetition
 };
 
 // `side` squares along the terrain, events about `size` squares long. Both are powers of two, size ≥ 8 and
@@ -35,36 +35,44 @@ Ght plain_tree(const Heightfield& ground);
 
 // A geotectonic event around `centre`, `length` metres long.
 events::Event geotectonic_event(const Site&, events::Kind, glm::dvec2 centre, double length);
-// The first place in the mountains where the tree takes a tunnel or a cave of so many sides; the tree has it
-// then. Nothing when none is found: the section must be more than 2 cells wide, so sites of size 32 upward.
+// Applies to the tree, and returns, the first tunnel or cave with a section of `sides` sides for which the
+// mountains have a place. Nothing if there is none. The section must be more than 2 cells wide, so the site's
+// size must be 32 or more. About a second at most.
 std::optional<events::Event> carve(Ght& tree, const Site&, bool cave, int sides);
-// Of either family, alone on the site: carvings with eight sides. The same in metres for all sites of a seed,
-// but for where the terrain's middle is. Throws environment_error when the mountains have no place for it.
+// The event of that kind, alone on the site; carvings have eight sides. The same for all sites of a seed, in
+// metres from the corner. Throws environment_error if the mountains have no place for it.
 events::Event single_event(const Site&, events::Kind);
 
 // Two tunnels (figure 21).
 std::vector<events::Event> two_tunnels(const Site&);
-// Particles that crash into the ground (§4.2, figure 24), each as it is then, by one law: a crater of one and
-// a half to four cells' radius, a third as deep.
+
+// Numbers in a range, the same on every machine.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : random_(static_cast<std::mt19937::result_type>(seed)) {}
+  std::uint32_t next() { return static_cast<std::uint32_t>(random_()); }
+  double between(double low, double high) { return low + (high - low) * 0x1p-32 * next(); }
+
+ private:
+  std::mt19937 random_;
+};
+
+// Particles that crash into the ground (§4.2, figure 24). Each leaves a crater of 1.5 to 4 cells' radius, a
+// third as deep, in the surface of the tree as it is then.
 class Rain {
  public:
   Rain(const Heightfield& ground, std::uint64_t seed)
-      : random_(static_cast<std::mt19937::result_type>(seed)),
-        extent_(ground.extent_x(), ground.extent_z()),
-        cell_(ground.cell_x) {}
+      : dice_(seed), extent_(ground.extent_x(), ground.extent_z()), cell_(ground.cell_x) {}
   events::Event next(const Ght& tree);
 
  private:
-  double between(double low, double high) {
-    return low + (high - low) * 0x1p-32 * static_cast<double>(random_());
-  }
-  std::mt19937 random_;
+  Dice dice_;
   glm::dvec2 extent_;
   double cell_;
 };
 
-// Overlapping events of all kinds (§4.2, figure 22), over a site of one repetition: those of them that the
-// tree takes on these mountains.
+// Overlapping events of all kinds (§4.2, figure 22), over a site of one repetition: the planned ones that the
+// tree accepts on these mountains.
 std::vector<events::Event> overlapping_events(const Site&);
 
 }  // namespace terrabench::ght

@@ -4,18 +4,19 @@
 #include <algorithm>
 #include <array>
 
-#include "experiments/ght/arrays.h"
-#include "experiments/ght/events.h"
+#include "experiments/ght/figures.h"
 
 namespace terrabench::ght {
 namespace {
 
 using figures::Sheet;
+using figures::SheetPoint;
 
 constexpr Rgb kHeight{200, 200, 200}, kLink{213, 94, 0}, kVoid{0, 114, 178}, kEdge{70, 70, 75};
 constexpr double kMargin = 24, kBox = 74, kStep = 128, kRow = 150, kRoot = 150;
 
-// A pixel a cell, or the kind of the cell in the middle of its share where there are more than fit.
+// One pixel per cell, but at most `most` pixels across and down: then that of the cell in the middle of each
+// pixel.
 Image cells_image(const Tree& tree, const GroundedHeightmap& node, int most) {
   const int across = std::min(node.columns, most), down = std::min(node.rows, most);
   Image image(across, down, {});
@@ -30,31 +31,25 @@ Image cells_image(const Tree& tree, const GroundedHeightmap& node, int most) {
 }
 
 std::string part_name(const Tree& tree, const Applied& event, NodeId n) {
-  static constexpr std::array kTrench{"left side", "right side", "end at 'from'", "end at 'to'"};
-  static constexpr std::array kFault{"raised block", "sunk block", "scarp"};
-  static constexpr std::array kSlip{"left piece", "right piece"};
+  static const std::array<std::vector<const char*>, events::kKinds> kParts{{
+      {"left side", "right side", "end at 'from'", "end at 'to'"},
+      {"bowl"},
+      {"raised block", "sunk block", "scarp"},
+      {"raised block", "sunk block", "scarp"},
+      {"left piece", "right piece"},
+  }};  // in the order of Kind; carvings have walls and mouths
   const std::size_t k = n - event.first;
-  switch (event.kind) {
-    case events::Kind::kLinearErosion:
-      return kTrench.at(k);
-    case events::Kind::kRadialErosion:
-      return "bowl";
-    case events::Kind::kNormalFault:
-    case events::Kind::kInverseFault:
-      return kFault.at(k);
-    case events::Kind::kLateralFault:
-      return kSlip.at(k);
-    default:
-      return tree.nodes()[n].area == Area::kBorder ? "mouth" : fmt::format("wall {}", k + 1);
-  }
+  const std::vector<const char*>& parts = kParts[static_cast<std::size_t>(event.kind)];
+  if (!parts.empty()) return parts.at(k);
+  return tree.nodes()[n].area == Area::kBorder ? "mouth" : fmt::format("wall {}", k + 1);
 }
 
 const char* area_name(Area area) {
   return area == Area::kOutdoor ? "outdoor" : area == Area::kIndoor ? "indoor" : "border";
 }
 
-// A row for every event, further right than the heightmap it hangs from, and under it. Of the heightmaps of a
-// row the rightmost has its events first, so that no edge crosses a row.
+// One row of boxes per event, below its host heightmap and further right. The children of the rightmost box
+// of a row come first, so that no edge crosses a row.
 class TreeSheet {
  public:
   explicit TreeSheet(const Tree& tree) : tree_(tree), box_(tree.nodes().size()) {
@@ -62,7 +57,7 @@ class TreeSheet {
     right_ = kMargin + kRoot;
     place_children(0, kMargin);
   }
-  void write(const std::filesystem::path& png) {
+  Sheet draw() const {
     Sheet sheet(std::max(right_ + kMargin, 640.0), y_);
     for (const Applied& event : tree_.events()) edges(sheet, event);
     box(sheet, 0, kRoot, "root");
@@ -73,15 +68,15 @@ class TreeSheet {
       }
       std::string words(events::name(event.kind));
       std::replace(words.begin(), words.end(), '-', ' ');
-      const figures::SheetPoint at = box_[event.first];
+      const SheetPoint at = box_[event.first];
       sheet.text(at.x + kBox / 2 + 5, at.y - 20, fmt::format("{}. {}", e + 1, words), 13, "start");
     }
     legend(sheet, kMargin + kRoot + 60, kMargin + 40);
-    sheet.write(png);
+    return sheet;
   }
 
  private:
-  // At the top left of node n's box, below it what hangs from it.
+  // Places the rows of all events on the host, from y_ down; `x` is the left of the host.
   void place_children(NodeId host, double x) {
     if (host == 0) box_[0] = {x, kMargin};
     for (const Applied& event : tree_.events()) {
@@ -95,30 +90,30 @@ class TreeSheet {
   }
 
   void edges(Sheet& sheet, const Applied& event) const {
-    const figures::SheetPoint host = box_[event.host];
+    const SheetPoint host = box_[event.host];
     const double bar = box_[event.first].y - 12;
     double trunk = host.x + 12;
     if (event.host == 0) {
-      stroke(sheet, {trunk, host.y + kRoot}, {trunk, bar}, kEdge, 1.5);
-    } else {  // past the words under the box
+      sheet.stroke({trunk, host.y + kRoot}, {trunk, bar}, kEdge, 1.5);
+    } else {  // beside the words under the box
       const GroundedHeightmap& node = tree_.nodes()[event.host];
       trunk = host.x - 16;
       const double from = host.y + kBox * node.rows / std::max(node.columns, node.rows) / 2;
-      stroke(sheet, {host.x + kBox / 2, from}, {trunk, from}, kEdge, 1.5);
-      stroke(sheet, {trunk, from}, {trunk, bar}, kEdge, 1.5);
+      sheet.stroke({host.x + kBox / 2, from}, {trunk, from}, kEdge, 1.5);
+      sheet.stroke({trunk, from}, {trunk, bar}, kEdge, 1.5);
     }
-    stroke(sheet, {trunk, bar}, {box_[event.first + event.nodes - 1].x + kBox / 2, bar}, kEdge, 1.5);
+    sheet.stroke({trunk, bar}, {box_[event.first + event.nodes - 1].x + kBox / 2, bar}, kEdge, 1.5);
     for (NodeId n = event.first; n < event.first + event.nodes; ++n) {
-      stroke(sheet, {box_[n].x + kBox / 2, bar}, {box_[n].x + kBox / 2, box_[n].y}, kEdge, 1.5);
+      sheet.stroke({box_[n].x + kBox / 2, bar}, {box_[n].x + kBox / 2, box_[n].y}, kEdge, 1.5);
     }
   }
 
-  // As large as fits a square of that side, in the array's own proportions.
+  // As large as fits a square of that side, with the proportions of the node's array.
   void box(Sheet& sheet, NodeId n, double side, const std::string& words) const {
     const GroundedHeightmap& node = tree_.nodes()[n];
     const double scale = side / std::max(node.columns, node.rows);
     const double wide = std::max(scale * node.columns, 6.0), high = std::max(scale * node.rows, 6.0);
-    const figures::SheetPoint at = box_[n];
+    const SheetPoint at = box_[n];
     const double x = at.x + (side - wide) / 2;
     sheet.box(x - 1, at.y - 1, wide + 2, high + 2, kEdge);
     sheet.picture(x, at.y, wide, high, cells_image(tree_, node, static_cast<int>(2 * side)));
@@ -144,19 +139,12 @@ class TreeSheet {
   }
 
   const Tree& tree_;
-  std::vector<figures::SheetPoint> box_;
+  std::vector<SheetPoint> box_;
   double y_ = 0, right_ = 0;
 };
 
 }  // namespace
 
-void draw_tree(Recorder& recorder) {
-  const Ght ght = open_tree("canyon");
-  TreeSheet(ght.model().tree)
-      .write(
-          recorder.figure("ght.F23", "png",
-                          "Figure 23 of the paper: the tree of figure 22's terrain; edges lead from each "
-                          "heightmap to those that an event attached to it, and cells show what they hold"));
-}
+Sheet draw_tree(figures::Drawing&) { return TreeSheet(open_tree("canyon").model().tree).draw(); }
 
 }  // namespace terrabench::ght

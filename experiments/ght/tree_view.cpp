@@ -4,45 +4,44 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <unordered_map>
 #include <utility>
+
+#include "experiments/figures/ground.h"
 
 namespace terrabench::ght {
 namespace {
 
-class SurfaceBuilder {
- public:
-  explicit SurfaceBuilder(const Tree& tree) : tree_(tree) {}
-  void add(const Face& face) {
-    NodeId node = 0;
-    for (const CellId c : face) node = std::max(node, tree_.node_of(c));
-    for (const CellId c : face) surface_.mesh.indices.push_back(vertex(c, node));
-    surface_.nodes.push_back(node);
-  }
-  TreeSurface finish() {
-    compute_normals(surface_.mesh);
-    return std::move(surface_);
-  }
+using figures::CutPlane;
+using figures::Look;
 
- private:
-  std::uint32_t vertex(CellId c, NodeId node) {
-    const auto [at, added] =
-        vertices_.try_emplace(static_cast<std::uint64_t>(node) << 32 | c,
-                              static_cast<std::uint32_t>(surface_.mesh.positions.size()));
-    if (added) surface_.mesh.positions.push_back(tree_.position(c));
-    return at->second;
+constexpr Rgb kRoot{110, 110, 115}, kGroundWire{120, 120, 124}, kYellow{240, 200, 20};
+constexpr int kPlaneGrid = 8;  // lines across the root's plane
+
+// Okabe & Ito's colours, without black and without yellow, which is too pale on white.
+constexpr std::array<Rgb, 6> kColours{
+    {{213, 94, 0}, {0, 114, 178}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}}};
+
+void extend(Bounds& box, const TriangleMesh& mesh) {
+  for (const std::uint32_t v : mesh.indices) {  // a cut leaves vertices that no triangle uses
+    box.low = glm::min(box.low, mesh.positions[v]);
+    box.high = glm::max(box.high, mesh.positions[v]);
   }
+}
 
-  const Tree& tree_;
-  TreeSurface surface_;
-  std::unordered_map<std::uint64_t, std::uint32_t> vertices_;  // of a cell in a node's triangles
-};
+// The same box for wires and solid, so that both show the tree in one place and size.
+Bounds surface_bounds(const Ght& ght, const TriangleMesh& mesh) {
+  Bounds box{glm::vec3(HUGE_VALF), glm::vec3(-HUGE_VALF)};
+  extend(box, mesh);
+  box.low.y = ght.bounds().low.y;
+  return box;
+}
 
-void add_quad(TriangleMesh& mesh, const std::array<glm::vec3, 4>& corners) {
-  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  mesh.positions.insert(mesh.positions.end(), corners.begin(), corners.end());
-  for (const std::uint32_t k : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.indices.push_back(first + k);
+TriangleMesh sides_of(const Ght& ght) {
+  const Tree& tree = ght.model().tree;
+  return figures::block_sides(
+      tree.grid().width, tree.grid().depth, [&](int i, int j) { return tree.position(tree.at_sample(i, j)); },
+      ght.bounds().low.y);
 }
 
 double turn(glm::ivec2 a, glm::ivec2 b, glm::ivec2 c) {
@@ -66,95 +65,30 @@ std::vector<glm::ivec2> convex_hull(const std::vector<glm::ivec2>& points) {
 }  // namespace
 
 TreeSurface tree_surface(const Model& model) {
-  SurfaceBuilder builder(model.tree);
-  const SampleGrid& grid = model.tree.grid();
+  const Tree& tree = model.tree;
+  TreeSurface surface;
+  std::unordered_map<std::uint64_t, std::uint32_t> vertices;  // of a cell in a node's triangles
+  const auto add = [&](const Face& face) {
+    NodeId node = 0;
+    for (const CellId c : face) node = std::max(node, tree.node_of(c));
+    for (const CellId c : face) {
+      const auto [at, added] = vertices.try_emplace(static_cast<std::uint64_t>(node) << 32 | c,
+                                                    static_cast<std::uint32_t>(vertices.size()));
+      if (added) surface.mesh.positions.push_back(tree.position(c));
+      surface.mesh.indices.push_back(at->second);
+    }
+    surface.nodes.push_back(node);
+  };
+  const SampleGrid& grid = tree.grid();
   for (int j = 0; j + 1 < grid.depth; ++j) {
     for (int i = 0; i + 1 < grid.width; ++i) {
-      if (!model.surface.plain(model.tree, {i, j})) continue;
-      for (const Face& face : ComposedSurface::plain_faces(ComposedSurface::corners(model.tree, {i, j})))
-        builder.add(face);
+      if (!model.surface.plain(tree, {i, j})) continue;
+      for (const Face& face : ComposedSurface::plain_faces(ComposedSurface::corners(tree, {i, j}))) add(face);
     }
   }
-  model.surface.each_face([&](FaceId f) { builder.add(model.surface.face(f)); });
-  return builder.finish();
-}
-
-void cut_away(TriangleMesh& mesh, const CutPlane& plane, std::vector<NodeId>* nodes) {
-  const auto add = [&](std::uint32_t from, std::uint32_t to) {
-    const glm::vec3 a = mesh.positions[from], b = mesh.positions[to];
-    const float share = plane.in_front(a) / (plane.in_front(a) - plane.in_front(b));
-    mesh.positions.push_back(glm::mix(a, b, share));
-    if (!mesh.normals.empty()) {
-      mesh.normals.push_back(glm::normalize(glm::mix(mesh.normals[from], mesh.normals[to], share)));
-    }
-    return static_cast<std::uint32_t>(mesh.positions.size() - 1);
-  };
-  std::vector<std::uint32_t> kept, polygon;
-  std::vector<NodeId> kept_nodes;
-  for (std::size_t t = 0; t < mesh.triangles(); ++t) {
-    polygon.clear();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = mesh.indices[3 * t + k], b = mesh.indices[3 * t + (k + 1) % 3];
-      const bool a_goes = plane.in_front(mesh.positions[a]) > 0,
-                 b_goes = plane.in_front(mesh.positions[b]) > 0;
-      if (!a_goes) polygon.push_back(a);
-      if (a_goes != b_goes) polygon.push_back(add(a, b));
-    }
-    for (std::size_t k = 2; k < polygon.size(); ++k) {
-      kept.insert(kept.end(), {polygon[0], polygon[k - 1], polygon[k]});
-      if (nodes != nullptr) kept_nodes.push_back((*nodes)[t]);
-    }
-  }
-  mesh.indices = std::move(kept);
-  if (nodes != nullptr) *nodes = std::move(kept_nodes);
-}
-
-TriangleMesh section_face(const Ght& ght, const CutPlane& plane, float step) {
-  const Bounds box = ght.bounds();
-  const glm::vec2 along(plane.towards.y, -plane.towards.x);  // rightwards for who looks at the face
-  const float reach = glm::length(glm::vec2(box.size().x, box.size().z));
-  std::vector<float> x, z;
-  for (float at = -reach; at <= reach; at += step) {
-    const glm::vec2 p = plane.point + at * along;
-    if (p.x < box.low.x || p.y < box.low.z || p.x > box.high.x || p.y > box.high.z) continue;
-    x.push_back(p.x);
-    z.push_back(p.y);
-  }
-  SpanSink sink;
-  ght.spans({x, z}, sink);
-  TriangleMesh mesh;
-  const glm::vec2 half = 0.51F * step * along;  // strips overlap a little
-  for (std::size_t c = 0; c < x.size(); ++c) {
-    const glm::vec2 left = glm::vec2(x[c], z[c]) - half, right = glm::vec2(x[c], z[c]) + half;
-    for (const Span& span : sink.column(c)) {
-      add_quad(mesh, {glm::vec3(left.x, span.bottom, left.y), glm::vec3(right.x, span.bottom, right.y),
-                      glm::vec3(right.x, span.top, right.y), glm::vec3(left.x, span.top, left.y)});
-    }
-  }
-  return mesh;
-}
-
-TriangleMesh block_sides(const Ght& ght) {
-  const Tree& tree = ght.model().tree;
-  const SampleGrid& grid = tree.grid();
-  const int last_i = grid.width - 1, last_j = grid.depth - 1;
-  TriangleMesh mesh;
-  // From a to b with the ground on the left, seen from above.
-  const auto side = [&](Square a, Square b) {
-    const glm::vec3 from = tree.position(tree.at_sample(a.i, a.j)),
-                    to = tree.position(tree.at_sample(b.i, b.j));
-    const float floor = ght.bounds().low.y;
-    add_quad(mesh, {glm::vec3(from.x, floor, from.z), glm::vec3(to.x, floor, to.z), to, from});
-  };
-  for (int i = 0; i < last_i; ++i) {
-    side({i, last_j}, {i + 1, last_j});
-    side({i + 1, 0}, {i, 0});
-  }
-  for (int j = 0; j < last_j; ++j) {
-    side({last_i, j + 1}, {last_i, j});
-    side({0, j}, {0, j + 1});
-  }
-  return mesh;
+  model.surface.each_face([&](FaceId f) { add(model.surface.face(f)); });
+  compute_normals(surface.mesh);
+  return surface;
 }
 
 std::vector<glm::vec3> plane_outline(const Tree& tree, NodeId n) {
@@ -178,6 +112,82 @@ std::vector<glm::vec3> plane_outline(const Tree& tree, NodeId n) {
                                    : glm::vec3(node.plane.at(c.x, c.y, 0)));
   }
   return corners;
+}
+
+Image planes_view(GlContext& gl, const Ght& ght, const Look& look) {
+  const Tree& tree = ght.model().tree;
+  const SampleGrid& grid = tree.grid();
+  Scene scene;
+  scene.planes.push_back({plane_outline(tree, 0), kRoot, 0.06F, 2});
+  const float x1 = grid.x(grid.width - 1), z1 = grid.z(grid.depth - 1);
+  for (int k = 1; k < kPlaneGrid; ++k) {
+    const float share = static_cast<float>(k) / kPlaneGrid;
+    scene.lines.push_back({{{share * x1, 0, 0}, {share * x1, 0, z1}}, {200, 200, 204}, 1});
+    scene.lines.push_back({{{0, 0, share * z1}, {x1, 0, share * z1}}, {200, 200, 204}, 1});
+  }
+  const float line = tree.nodes().size() > 1000 ? 0.7F : 2.5F;
+  for (NodeId n = 1; n < tree.nodes().size(); ++n) {
+    std::vector<glm::vec3> outline = plane_outline(tree, n);
+    if (outline.size() >= 3)
+      scene.planes.push_back({std::move(outline), kColours[(n - 1) % kColours.size()], 0.3F, line});
+  }
+  return render_scene(gl, scene, look.at(bounds_of(scene)));  // planes need not be where the ground is
+}
+
+Image wires_view(GlContext& gl, const Ght& ght, const Look& look) {
+  TreeSurface surface = tree_surface(ght.model());
+  for (const CutPlane& cut : look.cuts) figures::cut_away(surface.mesh, cut, &surface.nodes);
+  const std::vector<std::uint8_t> wires = quad_wires(surface.mesh);
+  const auto part = [&](bool of_events) {
+    const auto keep = [&](std::size_t t) { return (surface.nodes[t] != 0) == of_events; };
+    std::vector<std::uint8_t> kept;
+    for (std::size_t t = 0; t < wires.size(); ++t) {
+      if (keep(t)) kept.push_back(wires[t]);
+    }
+    return std::pair(figures::part_of(surface.mesh, keep), std::move(kept));
+  };
+  const auto [ground, ground_wires] = part(false);
+  const auto [made, made_wires] = part(true);
+  Scene scene;
+  scene.meshes.push_back(figures::wired(ground, ground_wires, 0.9F, kGroundWire));
+  scene.meshes.push_back(figures::wired(made, made_wires, 1.1F, kColours[1]));
+  return render_scene(gl, scene, look.at(surface_bounds(ght, surface.mesh)));
+}
+
+Image solid_view(GlContext& gl, const Ght& ght, const Look& look, const TriangleMesh& particles) {
+  TreeSurface surface = tree_surface(ght.model());
+  std::vector<TriangleMesh> rocks{sides_of(ght)};
+  for (const CutPlane& cut : look.cuts) {
+    figures::cut_away(surface.mesh, cut);
+    figures::cut_away(rocks[0], cut);
+  }
+  for (const CutPlane& cut : look.cuts) {
+    TriangleMesh& face = rocks.emplace_back(figures::section_face(ght, cut, ght.bounds().size().x / 2000));
+    for (const CutPlane& other : look.cuts) {
+      if (&other != &cut) figures::cut_away(face, other);
+    }
+  }
+  Scene scene;
+  scene.lowest = bounds_of(surface.mesh).low.y;
+  scene.highest = bounds_of(surface.mesh).high.y;
+  scene.meshes.emplace_back().mesh = &surface.mesh;
+  for (const TriangleMesh& mesh : rocks) scene.meshes.push_back(figures::rock(mesh));
+  Bounds box = surface_bounds(ght, surface.mesh);
+  if (particles.triangles() > 0) {
+    extend(box, particles);
+    scene.meshes.push_back(
+        figures::wired(particles, std::vector<std::uint8_t>(particles.triangles(), 0), 0.8F));
+    scene.meshes.back().fill = kYellow;
+  }
+  return render_scene(gl, scene, look.at(box));
+}
+
+std::vector<CutPlane> around(const Ght& ght, glm::ivec2 low, glm::ivec2 high) {
+  const SampleGrid& grid = ght.model().tree.grid();
+  return {{{grid.x(low.x), 0}, {-1, 0}},
+          {{grid.x(high.x), 0}, {1, 0}},
+          {{0, grid.z(low.y)}, {0, -1}},
+          {{0, grid.z(high.y)}, {0, 1}}};
 }
 
 }  // namespace terrabench::ght

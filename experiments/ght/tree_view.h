@@ -1,47 +1,34 @@
-// What figures of grounded heightmap trees draw: the surface with the node that each triangle belongs to, the
-// block of ground under it, ground planes, and a cut through the ground.
+// How "ght" draws a tree: its ground planes, the surface with the node of each triangle, and the three views
+// of these, whole or cut open.
 #pragma once
 
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "experiments/figures/views.h"
 #include "representations/ght/ght.h"
-#include "terrain/mesh.h"
 
 namespace terrabench::ght {
 
 struct TreeSurface {
   TriangleMesh mesh;          // with normals; sharp where two nodes meet
-  std::vector<NodeId> nodes;  // one a triangle: the latest of its corners' nodes
+  std::vector<NodeId> nodes;  // one per triangle: the latest of its corners' nodes
 };
-// O(surface).
+// O(surface)
 TreeSurface tree_surface(const Model&);
 
-// An upright plane; what lies on the side of `towards` is cut away.
-struct CutPlane {
-  glm::vec2 point{0}, towards{0};  // in plan: x, z; `towards` is a unit vector
-  float in_front(glm::vec3 p) const { return (p.x - point.x) * towards.x + (p.z - point.y) * towards.y; }
-};
-// Triangles that the plane crosses are divided; `nodes` follow them. O(triangles).
-void cut_away(TriangleMesh&, const CutPlane&, std::vector<NodeId>* nodes = nullptr);
-// The solid ground in the plane, in strips `step` metres wide. O(strips).
-TriangleMesh section_face(const Ght&, const CutPlane&, float step);
-
-// The four upright sides of the block of ground, from the surface at the terrain's border to the floor.
-TriangleMesh block_sides(const Ght&);
-
-// Corners of the ground plane of a node around all its cells that are not void: a convex polygon.
+// Corners of the ground plane of a node, in order: the convex hull of its cells that are not void. Empty for
+// fewer than three cells. O(cells of the node)
 std::vector<glm::vec3> plane_outline(const Tree&, NodeId);
 
-// The part of a mesh that `keep` says, by triangle; vertices stay.
-template <class Keep>
-TriangleMesh part_of(const TriangleMesh& mesh, const Keep& keep) {
-  TriangleMesh part{mesh.positions, mesh.normals, {}};
-  for (std::size_t t = 0; t < mesh.triangles(); ++t) {
-    if (keep(t)) part.indices.insert(part.indices.end(), &mesh.indices[3 * t], &mesh.indices[3 * t] + 3);
-  }
-  return part;
-}
+// The root's ground plane grey, those of other nodes in colour.
+Image planes_view(GlContext&, const Ght&, const figures::Look&);
+// The triangles of the root grey, those of other nodes blue.
+Image wires_view(GlContext&, const Ght&, const figures::Look&);
+// Lit and coloured by height, as a block of ground; with particles above it, if there are any.
+Image solid_view(GlContext&, const Ght&, const figures::Look&, const TriangleMesh& particles = {});
+
+// Cuts that leave the ground from sample `low` to sample `high`.
+std::vector<figures::CutPlane> around(const Ght&, glm::ivec2 low, glm::ivec2 high);
 
 }  // namespace terrabench::ght

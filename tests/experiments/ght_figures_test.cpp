@@ -1,20 +1,172 @@
+// The figures of "ght": that they show what they say, read back from the pictures themselves.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <set>
+#include <map>
 
-#include "experiments/ght/event_views.h"
-#include "experiments/ght/events.h"
-#include "experiments/ght/ght.h"
+#include "experiments/figures/cut_away.h"
+#include "experiments/ght/figures.h"
+#include "experiments/ght/tree_view.h"
 #include "representations/ght/invariants.h"
-#include "terrain/events/event.h"
+#include "terrain/error.h"
 #include "terrain/events/scripts.h"
 #include "terrain/files.h"
-#include "tests/terrain/temporary_folder.h"
+#include "terrain/sources/fractal/diamond_square.h"
+#include "terrain/sources/fractal/faults.h"
+#include "tests/experiments/sheet_reader.h"
 
 namespace terrabench::ght {
 namespace {
+
+using figures::cut_away;
+using figures::CutPlane;
+using figures::section_face;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+std::vector<figures::Figure> all_figures() {
+  std::vector<figures::Figure> all(stage_figures().begin(), stage_figures().end());
+  all.insert(all.end(), event_figures().begin(), event_figures().end());
+  return all;
+}
+
+SheetReader read(int number) {
+  const std::vector<figures::Figure> all = all_figures();
+  const auto at = std::find_if(all.begin(), all.end(), [&](const auto& f) { return f.number == number; });
+  const RunOptions options;
+  figures::Drawing drawing(options);
+  return SheetReader(at->draw(drawing));
+}
+
+std::vector<std::string> words(const SheetReader& shown) {
+  std::vector<std::string> all;
+  for (const SheetReader::Words& each : shown.words) all.push_back(each.text);
+  return all;
+}
+
+class GhtFigure : public testing::TestWithParam<std::size_t> {};
+INSTANTIATE_TEST_SUITE_P(Ght, GhtFigure, testing::Range(std::size_t{0}, all_figures().size()));
+
+TEST_P(GhtFigure, HasItsPanelsEachDrawnAndNamed) {
+  // Pictures in each row; figure 23 has one per node, flat drawings have none.
+  static const std::map<int, std::vector<int>> kRows{
+      {1, {2}},     {7, {3, 3}},     {9, {3, 3}},     {10, {2}},    {13, {3, 3, 3, 3, 3}},
+      {15, {3, 3}}, {17, {3, 3}},    {18, {3, 3, 2}}, {19, {2, 2}}, {20, {2, 2}},
+      {21, {2}},    {22, {2, 2, 1}}, {24, {3, 3}}};
+  const figures::Figure figure = all_figures()[GetParam()];
+  EXPECT_EQ(figure.name, fmt::format("F{}", figure.number));
+  const SheetReader shown = read(figure.number);
+  const auto inked = [](const Rgb& c) { return c != Rgb{255, 255, 255}; };
+  const SheetReader::Picture whole{0, 0, shown.image.width / 2.0, shown.image.height / 2.0};
+  EXPECT_GT(shown.share(whole, inked), 0.02);
+  EXPECT_LT(shown.bytes, 700'000U);
+  const auto rows = kRows.find(figure.number);
+  if (rows == kRows.end()) return;
+  EXPECT_EQ(shown.rows(), rows->second);
+  ASSERT_EQ(shown.words.size(), shown.pictures.size());
+  for (std::size_t k = 0; k < shown.pictures.size(); ++k) {
+    const SheetReader::Picture& picture = shown.pictures[k];
+    const SheetReader::Words& under = shown.words[k];
+    EXPECT_FALSE(under.text.empty());
+    EXPECT_DOUBLE_EQ(under.x, picture.x + picture.width / 2);
+    EXPECT_GT(under.y, picture.y + picture.height);
+    EXPECT_LT(under.y, picture.y + picture.height + 28);
+    EXPECT_GT(shown.share(picture, inked), 0.005) << under.text;
+    double left = picture.x, right = 0;  // of its row, which stands in the middle
+    for (const SheetReader::Picture& other : shown.pictures) {
+      if (other.y != picture.y) continue;
+      EXPECT_EQ(other.height, picture.height);
+      left = std::min(left, other.x);
+      right = std::max(right, other.x + other.width);
+    }
+    EXPECT_DOUBLE_EQ(left + right, shown.image.width / 2.0);
+  }
+}
+
+// Figures 1 and 9: the grey of every sample gives back its height.
+void expect_heights(const SheetReader& shown, const SheetReader::Picture& picture, const Heightfield& field) {
+  const HeightRange range = height_range(field);
+  const double span = static_cast<double>(range.highest) - range.lowest;
+  double worst = 0;
+  for (int j = 0; j < field.depth; ++j) {
+    for (int i = 0; i < field.width; ++i) {
+      const Rgb grey = shown.pixel(picture, (i + 0.5) / field.width, (j + 0.5) / field.depth);
+      worst = std::max(worst, std::abs(range.lowest + grey[1] / 255.0 * span - field.at(i, j)));
+    }
+  }
+  EXPECT_LE(worst, 4.0 / 255 * span);  // the file's palette may move a grey by some levels
+}
+
+TEST(GhtFigures, HeightmapsHoldTheHeights) {
+  const SheetReader one = read(1);
+  expect_heights(
+      one, one.pictures.at(0),
+      fractal::diamond_square({.seed = 1, .side = 129, .cell = 30, .amplitude = 800, .hurst = 0.9F}));
+  const SheetReader nine = read(9);
+  int faults = 1;
+  for (const SheetReader::Picture& picture : nine.pictures) {
+    expect_heights(nine, picture,
+                   fractal::fault_terrain({.seed = 1, .width = 257, .depth = 257, .faults = faults}));
+    faults *= 4;
+  }
+  EXPECT_EQ(words(nine).back(), "1024 iterations");
+}
+
+TEST(GhtFigures, WordsSayWhatTheTreeHolds) {
+  const Tree tree = open_tree("canyon").model().tree;
+  EXPECT_THAT(words(read(22)), AllOf(Contains(fmt::format("after {} events, solid", tree.events().size())),
+                                     Contains(fmt::format("the {} ground planes", tree.nodes().size()))));
+  const Heightfield field = fractal::diamond_square({.seed = 1, .side = 5});
+  EXPECT_THAT(words(read(6)), Contains(HasSubstr(fmt::format("{:.1f} m", std::abs(field.at(0, 1))))));
+}
+
+TEST(GhtFigures, TreeShowsEachCellOfEachNode) {
+  const Tree tree = open_tree("canyon").model().tree;
+  const SheetReader shown = read(23);
+  ASSERT_EQ(shown.pictures.size(), tree.nodes().size());
+  const std::map<CellKind, Rgb> colours{{CellKind::kHeight, {200, 200, 200}},
+                                        {CellKind::kLink, {213, 94, 0}},
+                                        {CellKind::kVoid, {0, 114, 178}}};
+  std::map<CellKind, std::size_t> cells;
+  for (NodeId n = 0; n < tree.nodes().size(); ++n) {
+    const GroundedHeightmap& node = tree.nodes()[n];
+    std::size_t wrong = 0;
+    for (int j = 0; j < node.rows; ++j) {
+      for (int i = 0; i < node.columns; ++i) {
+        const CellKind kind = tree.kind(node.cell(i, j));
+        ++cells[kind];
+        wrong += shown.pixel(shown.pictures[n], (i + 0.5) / node.columns, (j + 0.5) / node.rows) !=
+                 colours.at(kind);
+      }
+    }
+    EXPECT_EQ(wrong, 0U) << "node " << n;
+    EXPECT_THAT(words(shown), Contains(EndsWith(fmt::format(", {} × {}", node.columns, node.rows))));
+  }
+  EXPECT_EQ(cells.size(), 3U);
+  for (const Applied& event : tree.events()) {
+    std::string name(events::name(event.kind));
+    std::replace(name.begin(), name.end(), '-', ' ');
+    EXPECT_THAT(words(shown), Contains(EndsWith(". " + name)));
+  }
+}
+
+// Wires of the root are grey, those of other nodes blue.
+TEST(GhtFigures, WiresShowWhatEventsMade) {
+  const auto blue = [](const Rgb& c) { return c[2] > c[0] + 60; };
+  const SheetReader sequence = read(22), rain = read(24);
+  EXPECT_EQ(sequence.share(sequence.pictures.at(0), blue), 0);
+  EXPECT_GT(sequence.share(sequence.pictures.at(2), blue), 0.01);
+  EXPECT_EQ(rain.share(rain.pictures.at(1), blue), 0);
+  EXPECT_GT(rain.share(rain.pictures.at(4), blue), 0.02);
+  EXPECT_EQ(rain.words.at(3).text, "after 2,500 particles: ground planes");
+  const auto yellow = [](const Rgb& c) { return c[0] > 225 && c[1] > 185 && c[2] < 40; };
+  EXPECT_GT(rain.share(rain.pictures.at(2), yellow), 0.002);
+  EXPECT_EQ(rain.share(rain.pictures.at(5), yellow), 0);
+}
 
 std::filesystem::path draw(const Case& at, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder / "figures");
@@ -23,47 +175,27 @@ std::filesystem::path draw(const Case& at, const std::filesystem::path& folder) 
   record.case_name = at.name;
   Recorder recorder(record, folder);
   Progress progress;
-  draw_event_figure(at, {}, recorder, progress);
+  experiment("ght.event-figures").measure(at, {}, recorder, progress);
   EXPECT_EQ(record.figures.size(), 1U);
   EXPECT_EQ(record.figures.at(0).id, "ght." + at.name);
+  EXPECT_EQ(record.figures.at(0).caption.find("Figure 15 of the paper: a tunnel"), 0U);
+  EXPECT_EQ(record.find("figure")->samples, std::vector<double>{15});
   return folder / record.figures.at(0).file;
 }
 
-class EventFigure : public testing::TestWithParam<std::size_t> {};
-INSTANTIATE_TEST_SUITE_P(Ght, EventFigure, testing::Range(std::size_t{0}, event_figure_cases({}).size()));
-
-TEST_P(EventFigure, IsDrawnAndNotBlank) {
+TEST(GhtFigures, AreTheSameEveryTime) {
   const TemporaryFolder folder;
-  const std::filesystem::path png = draw(event_figure_cases({})[GetParam()], folder.path());
-  const Image image = read_png(png);
-  std::set<Rgb> colours;
-  std::size_t inked = 0;
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      colours.insert(image.pixel(x, y));
-      inked += image.pixel(x, y) != Rgb{255, 255, 255};
-    }
-  }
-  EXPECT_GT(colours.size(), 20U);
-  EXPECT_GT(inked, image.rgb.size() / 3 / 50);
-  EXPECT_LT(std::filesystem::file_size(png), 700'000U);
-}
-
-TEST(EventFigures, AreTheSameEveryTime) {
-  const TemporaryFolder folder;
-  for (const Case& at : event_figure_cases({})) {
+  for (const Case& at : experiment("ght.event-figures").cases({})) {
     if (at.name != "F15") continue;
-    EXPECT_EQ(read_file(draw(at, folder.path() / "a")), read_file(draw(at, folder.path() / "b"))) << at.name;
+    const std::filesystem::path png = draw(at, folder.path() / "a");
+    EXPECT_EQ(read_file(png), read_file(draw(at, folder.path() / "b")));
   }
 }
 
-TEST(EventFigures, OfListingsOfCodeAreRefused) {
-  Case at = event_figure_cases({})[0];
-  at.parameters.set("figure", std::int64_t{16});
-  Record record;
-  Recorder recorder(record, {});
-  Progress progress;
-  EXPECT_THROW(draw_event_figure(at, {}, recorder, progress), Error);
+TEST(GhtFigures, OfListingsOfCodeAreRefused) {
+  Case at = experiment("ght.event-figures").cases({})[0];
+  EXPECT_EQ(at.parameters.text("figure"), at.name);
+  EXPECT_THROW(at.parameters.set("figure", std::string("F16")), Error);
 }
 
 TEST(Scripts, MakeSoundTrees) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "experiments/experiment.h"
 #include "experiments/ght/ght.h"
 #include "experiments/ght/site.h"
 #include "representations/ght/invariants.h"
@@ -88,6 +89,10 @@ TEST(GhtSite, RainRepeatsAndStaysOnTheTerrain) {
   EXPECT_NE(events::to_text(std::array{other.next(first)}), events::to_text(std::array{Rain(a).next(first)}));
   for (int k = 0; k < 300; ++k) {
     const Event event = a.next(first);
+    const glm::dvec3 radii = std::get<events::RadialErosion>(event).radii;
+    EXPECT_GE(radii.x, 1.5 * site.ground.cell_x);
+    EXPECT_LT(radii.x, 4 * site.ground.cell_x);
+    EXPECT_EQ(radii, glm::dvec3(radii.x, radii.x / 3, radii.x));
     EXPECT_EQ(events::to_text(std::array{event}), events::to_text(std::array{b.next(second)}));
     ASSERT_NO_THROW(first.apply(event));
     second.apply(event);
@@ -133,14 +138,15 @@ class Measured : public testing::Test {
     }
     return found->samples.front();
   }
-  template <class Cases, class Measure>
-  void run(const Cases& cases, const Measure& measure, std::string_view name) {
-    const std::vector<Case> all = cases(options_);
+  void run(std::string_view id, std::string_view name) {
+    const std::vector<Case> all = experiment(id).cases(options_);
     const auto at = std::find_if(all.begin(), all.end(), [&](const Case& c) { return c.name == name; });
     ASSERT_NE(at, all.end()) << name;
+    Case unnamed = *at;
+    unnamed.name = "a label";  // parameters alone say what is measured
     record_ = {};
     Recorder recorder(record_, {});
-    measure(*at, options_, recorder, progress_);
+    experiment(id).measure(unnamed, options_, recorder, progress_);
   }
 
   RunOptions options_;
@@ -149,21 +155,21 @@ class Measured : public testing::Test {
 };
 
 TEST_F(Measured, CountsAreThePapers) {
-  run(count_cases, measure_count, "lateral-fault");
+  run("ght.counts", "lateral-fault");
   EXPECT_EQ(metric("added_on_root"), 2);
   EXPECT_EQ(metric("added_on_block"), 2);
   EXPECT_EQ(metric("host_depth_on_block"), 1);
-  run(count_cases, measure_count, "cave");
+  run("ght.counts", "cave");
   EXPECT_EQ(metric("added_sides_3"), 5);
   EXPECT_EQ(metric("added_sides_12"), 14);
 }
 
 TEST_F(Measured, OverhangsAreWhereTheyAre) {
-  run(overhang_cases, measure_overhang, "normal-fault");
+  run("ght.overhang", "normal-fault");
   EXPECT_EQ(metric("overhang_columns"), 0);
   EXPECT_EQ(metric("lost_volume"), 0);
   for (const char* const name : {"inverse-fault", "tunnel", "cave"}) {
-    run(overhang_cases, measure_overhang, name);
+    run("ght.overhang", name);
     EXPECT_GT(metric("overhang_columns"), 100) << name;
     // Both are true to a cell, of which the hollow is a few high.
     EXPECT_NEAR(metric("lost_volume") / metric("evaluated_lost_volume"), 1, 0.15) << name;
@@ -173,7 +179,7 @@ TEST_F(Measured, OverhangsAreWhereTheyAre) {
 TEST_F(Measured, AllStructuresDoTheSameEdit) {
   for (int k = 0; k < events::kKinds; ++k) {
     const std::string name = "n=128/" + std::string(events::name(static_cast<Kind>(k)));
-    run(edit_cases, measure_edit, name);
+    run("ght.edits", name);
     EXPECT_GT(metric("columns"), 50) << name;
     EXPECT_GT(metric("ght_bytes"), 0) << name;
     // Of what is several cells deep, in the mean of the columns that change.
@@ -183,24 +189,29 @@ TEST_F(Measured, AllStructuresDoTheSameEdit) {
 }
 
 TEST_F(Measured, SequenceIsRepeatedFromItsText) {
-  run(complex_cases, measure_complex, "sequence");
+  run("ght.complex", "sequence");
   EXPECT_EQ(metric("events"), 12);
   EXPECT_EQ(metric("differs_from_text"), 0);
   EXPECT_LT(metric("text_bytes"), 2000);
   EXPECT_EQ(metric("heights") + metric("links") + metric("voids"), metric("cells"));
 }
 
-TEST(GhtCases, NamesOfKindsAreUnderstoodAndOthersRefused) {
-  for (int k = 0; k < events::kKinds; ++k) {
-    EXPECT_EQ(kind_named(events::name(static_cast<Kind>(k))), static_cast<Kind>(k));
-  }
-  EXPECT_THROW(kind_named("landslide"), Error);
+TEST(GhtCases, NameTheirEventsAndRefuseOthers) {
   RunOptions options;
-  EXPECT_EQ(edit_cases(options).size(), 4U * events::kKinds);
-  EXPECT_EQ(reach_cases(options).back().name, "size=256");
-  EXPECT_EQ(reach_cases(options).back().parameters.integer("n"), 1024);
+  std::vector<Case> counts = experiment("ght.counts").cases(options);
+  ASSERT_EQ(counts.size(), static_cast<std::size_t>(events::kKinds));
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    EXPECT_EQ(counts[k].name, events::name(static_cast<Kind>(k)));
+    EXPECT_EQ(counts[k].parameters.choice("event"), k);
+  }
+  EXPECT_THROW(counts[0].parameters.set("event", std::string("landslide")), Error);
+  const Experiment &edits = experiment("ght.edits"), &reach = experiment("ght.reach");
+  EXPECT_EQ(edits.cases(options).size(), 4U * events::kKinds);
+  EXPECT_EQ(reach.cases(options).back().name, "size=256");
+  EXPECT_EQ(reach.cases(options).back().parameters.integer("n"), 1024);
   options.profile = Profile::kPaper;
-  EXPECT_EQ(edit_cases(options).back().name, "n=4096/cave");
+  EXPECT_EQ(edits.cases(options).back().name, "n=4096/cave");
+  EXPECT_EQ(edits.cases(options).back().parameters.text("event"), "cave");
 }
 
 }  // namespace

@@ -1,0 +1,20 @@
+// The figures of "ght".
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "experiments/figures/figure.h"
+#include "representations/ght/ght.h"
+
+namespace terrabench::ght {
+
+std::span<const figures::Figure> stage_figures();  // 1 and 3 to 10: stages.cpp
+std::span<const figures::Figure> event_figures();  // 13, 15 and 17 to 24: event_figures.cpp
+
+figures::Sheet draw_tree(figures::Drawing&);  // 23: tree_figure.cpp
+
+// The terrain of that name in terrain/events/scripts as a tree, with or without its events.
+Ght open_tree(std::string_view script, bool with_events = true);
+
+}  // namespace terrabench::ght

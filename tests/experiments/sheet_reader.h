@@ -1,0 +1,77 @@
+// What a sheet shows: its pictures and words with their places, and the pixels of the file that it writes.
+#pragma once
+
+#include <cstdlib>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "experiments/figures/sheet.h"
+#include "tests/terrain/temporary_folder.h"
+
+namespace terrabench {
+
+class SheetReader {
+ public:
+  struct Picture {
+    double x, y, width, height;  // units of the sheet
+  };
+  struct Words {
+    double x, y;
+    std::string text;
+  };
+
+  explicit SheetReader(const figures::Sheet& sheet) {
+    std::istringstream svg(sheet.svg());
+    for (std::string line; std::getline(svg, line);) {  // one element per line
+      const auto number = [&](const char* name) {
+        return std::strtod(line.c_str() + line.find(name) + std::string(name).size(), nullptr);
+      };
+      if (line.starts_with("<image")) {
+        pictures.push_back({number(" x=\""), number(" y=\""), number(" width=\""), number(" height=\"")});
+      } else if (line.starts_with("<text")) {
+        const std::size_t begin = line.find('>') + 1;
+        words.push_back({number(" x=\""), number(" y=\""), line.substr(begin, line.rfind('<') - begin)});
+      }
+    }
+    const TemporaryFolder folder;
+    sheet.write(folder / "sheet.png");
+    image = read_png(folder / "sheet.png");
+    bytes = std::filesystem::file_size(folder / "sheet.png");
+  }
+
+  // The number of pictures in each row.
+  std::vector<int> rows() const {
+    std::vector<int> counts;
+    for (std::size_t k = 0; k < pictures.size(); ++k) {
+      if (k == 0 || pictures[k].y != pictures[k - 1].y) counts.push_back(0);
+      ++counts.back();
+    }
+    return counts;
+  }
+  // At this share of the picture's width and height.
+  Rgb pixel(const Picture& picture, double across, double down) const {
+    constexpr int kPixels = figures::Sheet::kPixels;
+    return image.pixel(static_cast<int>(kPixels * (picture.x + across * picture.width)),
+                       static_cast<int>(kPixels * (picture.y + down * picture.height)));
+  }
+  // The share of the picture's pixels for which test(pixel).
+  template <class Test>
+  double share(const Picture& picture, const Test& test) const {
+    constexpr int kAcross = 400;
+    int count = 0;
+    for (int j = 0; j < kAcross; ++j) {
+      for (int i = 0; i < kAcross; ++i) {
+        count += test(pixel(picture, (i + 0.5) / kAcross, (j + 0.5) / kAcross));
+      }
+    }
+    return static_cast<double>(count) / (kAcross * kAcross);
+  }
+
+  std::vector<Picture> pictures;
+  std::vector<Words> words;
+  Image image;
+  std::uintmax_t bytes = 0;  // of the file
+};
+
+}  // namespace terrabench
