@@ -1,12 +1,12 @@
 # shellcheck shell=bash
-# What the scripts share; sourced, not run. Sets root, and strict mode in the script that sources it.
+# Functions that the scripts share. Source this file, do not run it: it sets root, and strict mode in the caller.
 set -euo pipefail
 export LC_ALL=C.UTF-8
 
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P)
 
-# A checkout that belongs to another user (a container's mount, a copy made as root) is one that git refuses to read,
-# and then the results would not know their revision. For this run and its children only, this checkout is trusted.
+# git refuses to read a checkout that belongs to another user (a container's mount, a copy made as root), and the
+# results would not know their revision. Trust this checkout, for this run and its children only.
 if [[ -z ${GIT_CONFIG_COUNT:-} ]]; then
   export GIT_CONFIG_COUNT=1 GIT_CONFIG_KEY_0=safe.directory GIT_CONFIG_VALUE_0=$root
 fi
@@ -22,8 +22,8 @@ fail() {
 # Prints the comment that opens the script: its help.
 usage() { sed -n '2,/^$/ { s/^# \{0,1\}//; /^$/ q; p }' "$0"; }
 
-# How many compilers to run at once: one a core, while each has 1.5 GiB. The largest source needs 0.8 GiB, and half as
-# much again with a sanitizer.
+# How many compilers to run at once: one per core, if each has 1.5 GiB. The largest source needs 0.8 GiB, with a
+# sanitizer 1.2 GiB.
 compile_jobs() {
   local cores kib=0 limit
   cores=$(nproc)
