@@ -1,4 +1,4 @@
-// The command line: options to arguments, one handler for errors, exit codes as documented in README.md.
+// The command line: parses options, handles errors in one place, returns the exit codes of README.md.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
@@ -20,30 +20,34 @@
 namespace terrabench {
 namespace {
 
+// Exit code when the reader of standard output closes it, as in `terrabench list | head -1`: the same that a
+// shell shows for a program ended by SIGPIPE.
+constexpr int kClosedPipe = 141;
+
 constexpr const char* kFooter =
     "Exit codes: 0 good, 1 a claim falls short, 2 wrong use, 3 bad input, 4 environment (no GL, disk full), "
-    "130 interrupted.\n"
+    "130 interrupted, 141 the reader of the output closed the pipe.\n"
     "Examples:\n"
     "  terrabench run 'hybrid.*' --profile quick --out out && terrabench check out && terrabench report out\n"
     "  terrabench represent mountain.tif --as layered_stack --save mountain.tb --render mountain.png";
 
 void on_signal(int) {
-  // The second one ends the process at once: the first may find it in code that never asks.
+  // A second signal ends the process at once: the work may not check for the first.
   if (Progress::interrupted()) _exit(static_cast<int>(ExitCode::kInterrupted));
   Progress::interrupt();
 }
 
-// "2/4": the second of four parts.
+// "2/8": every 8th case, from the second.
 void parse_shard(const std::string& text, RunPlan& plan) {
   char rest = 0;
   if (std::sscanf(text.c_str(), "%d/%d%c", &plan.shard, &plan.shards, &rest) != 2 || plan.shard < 1 ||
       plan.shards < 1 || plan.shard > plan.shards) {
-    throw usage_error(fmt::format("'{}' is no share", text), "--shard",
-                      "write i/n with 1 ≤ i ≤ n, such as 2/4");
+    throw usage_error(fmt::format("invalid shard '{}': expected i/n, such as 2/8", text), "--shard",
+                      "i counts from 1 to n");
   }
 }
 
-// Everything that options fill. Lives as long as the parser.
+// What the options set. Must outlive the parser.
 struct Arguments {
   ListArguments list;
   RunPlan run;
@@ -56,8 +60,8 @@ struct Arguments {
 };
 
 void add_list(CLI::App& app, Arguments& a) {
-  auto* command =
-      app.add_subcommand("list", "What there is: representations, lods, experiments, claims, terrains");
+  auto* command = app.add_subcommand(
+      "list", "List representations, lods, experiments, claims and terrains, with their parameters");
   command->add_option("what", a.list.what,
                       "representations, lods, experiments, claims or terrains (default: all)");
   command->add_flag("--json", a.list.json, "Print JSON");
@@ -79,13 +83,23 @@ void add_run(CLI::App& app, Arguments& a) {
   command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
       ->check(CLI::Range(1, 4096));
   command->add_option("--seed", a.run.options.seed, "Seed of all randomness")->capture_default_str();
-  command->add_option("--set", a.run.assignments, "name=value for each case that has the parameter");
+  command->add_option(
+      "--set", a.run.assignments,
+      "Parameters of the experiments, name=value or name=value,name=value, for each case that "
+      "has them; a text value may contain commas except before the name= of a parameter");
 }
 
 void add_results(CLI::App& app, Arguments& a) {
-  auto* check = app.add_subcommand("check", "Verdict of every ledger row; exit 0 only when each is as known");
+  auto* check = app.add_subcommand("check",
+                                   "The verdict on every claim: first the claims that fail the check, then "
+                                   "one line per claim (verdict, the "
+                                   "figure that decides, its expected range), then one line per paper. Exits "
+                                   "with 0 when every verdict is the "
+                                   "known one, else with 1");
   check->add_option("dir", a.check.folder, "Results folder")->capture_default_str();
-  check->add_option("--rows", a.check.rows, "Only these rows: ids or globs such as 'hybrid.T1.*'");
+  check->add_option("--claims,--rows", a.check.claims,
+                    "Only these claims: ids or globs such as 'hybrid.T1.*'");
+  check->add_flag("--verbose", a.check.verbose, "Print all evidence under each line");
   check->add_flag("--json", a.check.json, "Print JSON");
   check->add_option("--junit", a.check.junit, "Also write JUnit XML for a CI server");
   auto* report =
@@ -106,8 +120,9 @@ void add_represent(CLI::App& app, Arguments& a) {
                    "A name of `list terrains`, the path of a DEM, or drawing:FILE.png")
       ->required();
   command->add_option("--as", a.represent.as, "A name of `list representations`")->required();
-  command->add_option("--set", a.represent.assignments, "Parameters of the representation, name=value");
-  // Short for --set, since whoever has a budget should not have to know how it is spent.
+  command->add_option("--set", a.represent.assignments,
+                      "Parameters of the representation, name=value or name=value,name=value");
+  // Short forms of --set for parameters of drill.
   const auto budget = [&](const char* option, const char* parameter, const char* help) {
     command
         ->add_option_function<std::string>(
@@ -120,7 +135,7 @@ void add_represent(CLI::App& app, Arguments& a) {
             [](const std::string& value) {
               double number = 0;
               const bool above = CLI::detail::lexical_cast(value, number) && number > 0;
-              return above ? std::string() : fmt::format("'{}' is no number above 0", value);
+              return above ? std::string() : fmt::format("must be a number above 0, got '{}'", value);
             },
             "NUMBER"));
   };
@@ -143,7 +158,7 @@ void add_represent(CLI::App& app, Arguments& a) {
   info->add_option("file", a.info, "File or folder, or drawing:FILE.png")->required();
 }
 
-// Only where the work asks Progress whether to stop; elsewhere the signal ends the process at once, as usual.
+// Only for work that asks Progress whether to stop; elsewhere a signal ends the process at once, as usual.
 void install_signals() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
@@ -182,7 +197,7 @@ int main_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
   }
-  std::signal(SIGPIPE, SIG_IGN);  // both come back as errors of write(), which say what was being written
+  std::signal(SIGPIPE, SIG_IGN);  // both become errors of write(), which name the file
   std::signal(SIGXFSZ, SIG_IGN);
   const std::size_t threads = arguments.threads > 0 ? arguments.threads : std::thread::hardware_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
@@ -197,18 +212,24 @@ int main_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using terrabench::ExitCode;
+  // Not fmt::print, which throws when standard error is closed.
+  const auto fail = [](ExitCode code, const char* what, const char* advice) {
+    std::fprintf(stderr, "terrabench: %s\n", what);
+    if (*advice != 0) std::fprintf(stderr, "  %s\n", advice);
+    return static_cast<int>(code);
+  };
   try {
     return terrabench::main_program(argc, argv);
   } catch (const terrabench::Error& error) {
-    fmt::print(stderr, "terrabench: {}\n", error.what());
-    if (!error.advice().empty()) fmt::print(stderr, "  {}\n", error.advice());
-    return static_cast<int>(error.code());
+    return fail(error.code(), error.what(), error.advice().c_str());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr,
-               "terrabench: out of memory\n  use a smaller terrain (--crop, --resample) or resolution\n");
-    return static_cast<int>(ExitCode::kEnvironment);
-  } catch (const std::exception& error) {  // a full or closed standard output, above all
-    std::fprintf(stderr, "terrabench: %s\n", error.what());
-    return static_cast<int>(ExitCode::kEnvironment);
+    return fail(ExitCode::kEnvironment, "out of memory",
+                "use a smaller terrain (--crop, --resample) or resolution");
+  } catch (const std::system_error& error) {
+    // Only standard output and error throw this; files throw terrabench::Error.
+    if (error.code() == std::errc::broken_pipe) return terrabench::kClosedPipe;
+    return fail(ExitCode::kEnvironment, error.what(), "");
+  } catch (const std::exception& error) {
+    return fail(ExitCode::kEnvironment, error.what(), "");
   }
 }

@@ -7,10 +7,12 @@
 #include <chrono>
 #include <cstdio>
 
+#include "experiments/assignments.h"
 #include "renderers/context.h"
 #include "results/glob.h"
 #include "results/provenance.h"
 #include "results/store.h"
+#include "results/timing_conditions.h"
 #include "terrain/error.h"
 #include "terrain/files.h"
 #include "terrain/sources/noise/program.h"
@@ -18,7 +20,7 @@
 namespace terrabench {
 namespace {
 
-// GL_RENDERER, or why there is none: a run without pictures is still worth having.
+// GL_RENDERER, or why there is none; a run without pictures is still useful.
 std::string renderer_name(const std::string& context) {
   try {
     return open_context(context, 16, 16)->renderer();
@@ -36,7 +38,7 @@ std::vector<std::pair<std::string, Value>> values(const Parameters& parameters) 
   return out;
 }
 
-// Before anything is measured, not hours later.
+// Reports a missing file before anything is measured, not hours later.
 void check_terrain(const std::string& terrain) {
   std::error_code error;
   const bool virtual_file = terrain.starts_with("/vsi") || terrain.starts_with('<');
@@ -74,21 +76,18 @@ std::vector<PlannedCase> plan_cases(const RunPlan& plan) {
   for (const std::string& terrain : plan.options.terrains) check_terrain(terrain);
   std::vector<std::string_view> ids;
   for (const Experiment& experiment : experiments()) ids.push_back(experiment.id);
-  for (const std::string& pattern : plan.patterns) {
-    if (std::none_of(ids.begin(), ids.end(), [&](auto id) { return matches_glob(pattern, id); })) {
-      throw unknown_name("experiment", pattern, ids);
-    }
-  }
+  demand_matches(plan.patterns, ids, "experiment");
   std::vector<PlannedCase> cases;
   for (const Experiment& experiment : experiments()) {
-    const bool chosen = plan.patterns.empty() || std::any_of(plan.patterns.begin(), plan.patterns.end(),
-                                                             [&](const std::string& pattern) {
-                                                               return matches_glob(pattern, experiment.id);
-                                                             });
-    if (!chosen) continue;
+    if (!matches_any(plan.patterns, experiment.id)) continue;
     for (Case& at : experiment.cases(plan.options)) cases.push_back({&experiment, std::move(at)});
   }
-  apply(plan.assignments, cases);
+  std::vector<ParameterSpec> specs;
+  for (const PlannedCase& planned : cases) {
+    specs.insert(specs.end(), planned.experiment->parameters.begin(), planned.experiment->parameters.end());
+  }
+  const std::vector<std::string> assignments = split_assignments(plan.assignments, specs);
+  apply(assignments, cases);
   if (!plan.options.terrains.empty() &&
       std::none_of(cases.begin(), cases.end(), [](const PlannedCase& p) { return !p.at.terrain.empty(); })) {
     throw usage_error("none of these experiments takes a terrain", "--terrain",
@@ -109,6 +108,9 @@ void run(const RunPlan& plan) {
                                                     .simd = std::string(noise::simd_name()),
                                                     .threads = plan.threads,
                                                     .libraries = {}});
+  for (const std::string& warning : timing_warnings(read_timing_conditions())) {
+    fmt::print(stderr, "warning: {}\n", warning);
+  }
   store.begin_run(provenance);
   const bool terminal = isatty(STDERR_FILENO) != 0;
   std::size_t number = 0, skipped = 0;

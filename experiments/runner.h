@@ -12,10 +12,10 @@ namespace terrabench {
 struct RunPlan {
   std::vector<std::string> patterns;  // experiment ids or globs (* and ?); empty: all
   RunOptions options;
-  std::vector<std::string> assignments;  // name=value, for every case that has such a parameter
+  std::vector<std::string> assignments;  // name=value,…, for every case that has such a parameter
   std::filesystem::path folder = "out";
   bool resume = false;               // skip cases that the folder already holds
-  int shard = 1, shards = 1;         // this process takes every shards-th case, counted from shard
+  int shard = 1, shards = 1;         // measure only every shards-th case, from the shard-th
   int threads = 0;                   // in use, for the provenance; 0: all
   std::vector<std::string> command;  // argv, for the provenance
 };

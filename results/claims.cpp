@@ -7,9 +7,8 @@
 #include <optional>
 #include <set>
 
-#include "results/claims_entry.h"
 #include "results/embedded.h"
-#include "results/further_grounds.h"
+#include "results/toml_reader.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -19,7 +18,7 @@ constexpr std::string_view kVerdicts[] = {
     "reproduced", "reproduced (shape)", "differs", "not comparable", "pending", "not run", "missing"};
 constexpr std::string_view kAllProfiles[] = {"quick", "paper"};
 
-Operand operand_from(const ClaimsNode& node) {
+Operand operand_from(const TomlValue& node) {
   Operand operand;
   if (!node.node->is_string()) {
     operand.number = node.number("operand");
@@ -36,7 +35,7 @@ Operand operand_from(const ClaimsNode& node) {
   return operand;
 }
 
-Condition condition_from(const ClaimsNode& node) {
+Condition condition_from(const TomlValue& node) {
   using Kind = Condition::Kind;
   struct Form {
     std::string_view key;
@@ -49,7 +48,7 @@ Condition condition_from(const ClaimsNode& node) {
                              {"within", Kind::kWithin, 1, 1, true},
                              {"ratio", Kind::kRatio, 2, 2, true},
                              {"growth", Kind::kGrowth, 2, 2, true}};
-  ClaimsEntry entry(node);
+  TomlTable entry(node);
   Condition condition;
   if (entry.has("figure")) {
     condition.kind = Kind::kFigure;
@@ -60,10 +59,10 @@ Condition condition_from(const ClaimsNode& node) {
   const auto* const form =
       std::find_if(std::begin(kForms), std::end(kForms), [&](const Form& f) { return entry.has(f.key); });
   if (form == std::end(kForms)) {
-    entry.refuse("a check is one of equal, order, within, ratio, growth, figure");
+    entry.refuse("a condition is one of equal, order, within, ratio, growth, figure");
   }
   condition.kind = form->kind;
-  for (const ClaimsNode& operand : entry.list(form->key)) {
+  for (const TomlValue& operand : entry.list(form->key)) {
     condition.operands.push_back(operand_from(operand));
   }
   if (condition.operands.size() < form->fewest || condition.operands.size() > form->most) {
@@ -79,29 +78,30 @@ Condition condition_from(const ClaimsNode& node) {
   return condition;
 }
 
-// All when none is named.
-std::vector<std::string> profiles_from(ClaimsEntry& entry) {
+// All profiles if the entry names none.
+std::vector<std::string> profiles_from(TomlTable& entry) {
   std::vector<std::string> profiles;
-  for (const ClaimsNode& profile : entry.list("profiles")) profiles.push_back(profile.text("profiles"));
+  for (const TomlValue& profile : entry.list("profiles")) profiles.push_back(profile.text("profiles"));
   if (profiles.empty()) profiles.assign(std::begin(kAllProfiles), std::end(kAllProfiles));
   return profiles;
 }
 
-Verdict known_verdict(const ClaimsEntry& entry, const std::string& known, const std::string& note) {
+Verdict known_verdict(const TomlTable& entry, const std::string& known, const std::string& note) {
   const auto* const at = std::find(std::begin(kVerdicts), std::end(kVerdicts), known);
   const auto verdict = static_cast<Verdict>(at - std::begin(kVerdicts));
-  // The others say what a run lacks, which nobody can know beforehand.
+  // The other verdicts depend on the run.
   if (verdict > Verdict::kNotComparable) {
-    entry.refuse(fmt::format("'{}' is no verdict that a row can be known to have", known));
+    entry.refuse(fmt::format("invalid known verdict '{}': expected {}", known,
+                             fmt::join(std::span(kVerdicts).first(4), ", ")));
   }
   if (verdict == Verdict::kDiffers && note.empty()) {
-    entry.refuse("a row known to differ needs a 'note' that says why");
+    entry.refuse("a claim known to differ needs a 'note' with the reason");
   }
   return verdict;
 }
 
-Claim claim_from(const ClaimsNode& node) {
-  ClaimsEntry entry(node);
+Claim claim_from(const TomlValue& node) {
+  TomlTable entry(node);
   Claim claim;
   claim.id = entry.text("id");
   claim.where = entry.text("where");
@@ -111,14 +111,14 @@ Claim claim_from(const ClaimsNode& node) {
     entry.refuse("'class' is one of E, T, S, F, Q");
   }
   claim.type = type[0];
-  for (const ClaimsNode& value : entry.list("reported")) claim.reported.push_back(value.number("reported"));
+  for (const TomlValue& value : entry.list("reported")) claim.reported.push_back(value.number("reported"));
   claim.unit = entry.text_or("unit", "");
   claim.tolerance = entry.text_or("tolerance", "");
   claim.note = entry.text_or("note", "");
   claim.pending = entry.text_or("pending", "");
   claim.not_comparable = entry.text_or("not_comparable", "");
   claim.profiles = profiles_from(entry);
-  for (const ClaimsNode& condition : entry.list("check"))
+  for (const TomlValue& condition : entry.list("check"))
     claim.conditions.push_back(condition_from(condition));
   const bool measured = claim.pending.empty() && claim.not_comparable.empty();
   if (measured == claim.conditions.empty()) {
@@ -133,14 +133,29 @@ Claim claim_from(const ClaimsNode& node) {
   return claim;
 }
 
-FurtherGround ground_from(const ClaimsNode& node, const std::vector<Claim>& claims) {
-  ClaimsEntry entry(node);
+// Another ground for claims: the same conditions, read from other cases.
+struct FurtherGround {
+  // A claim whose known verdict on this ground is another than on the ground of the paper's claim.
+  struct Known {
+    std::string claim;
+    Verdict verdict;
+    std::string note;  // empty: the claim's own
+  };
+  std::string name;   // appended to the id of each claim and of its figures
+  std::string of;     // the ground that the claims' conditions name: the case, or its first part
+  std::string label;  // appended to where the claim stands in the paper
+  std::vector<std::string> profiles;
+  std::vector<Known> known;
+};
+
+FurtherGround ground_from(const TomlValue& node, const std::vector<Claim>& claims) {
+  TomlTable entry(node);
   FurtherGround ground{entry.text("name"), entry.text("of"), entry.text("label"), profiles_from(entry), {}};
-  for (const ClaimsNode& row : entry.list("known")) {
-    ClaimsEntry known(row);
+  for (const TomlValue& known_entry : entry.list("known")) {
+    TomlTable known(known_entry);
     const std::string id = known.text("claim"), verdict = known.text("verdict");
-    const auto claim = std::find_if(claims.begin(), claims.end(), [&](const Claim& c) { return c.id == id; });
-    if (claim == claims.end()) known.refuse(fmt::format("there is no row '{}'", id));
+    const auto claim = std::ranges::find(claims, id, &Claim::id);
+    if (claim == claims.end()) known.refuse(fmt::format("unknown claim '{}'", id));
     const std::string note = known.text_or("note", "");
     ground.known.push_back({id, known_verdict(known, verdict, note.empty() ? claim->note : note), note});
     known.refuse_unknown();
@@ -149,110 +164,45 @@ FurtherGround ground_from(const ClaimsNode& node, const std::vector<Claim>& clai
   return ground;
 }
 
-TableLayout::Row row_from(const ClaimsNode& node) {
-  ClaimsEntry entry(node);
-  TableLayout::Row row{entry.text("label"), entry.text("case"), {}};
-  for (const auto& [key, value] : entry.rest()) {
-    if (value.node->is_string()) {
-      row.values.emplace(key, value.text(key));
-    } else {
-      row.values.emplace(key, value.number(key));
+// Makes the claim's conditions read this ground in place of `of`. False if none of them reads `of`.
+bool move_to(const FurtherGround& ground, Claim& claim) {
+  bool moved = false;
+  for (Condition& condition : claim.conditions) {
+    if (condition.kind == Condition::Kind::kFigure) {
+      condition.figure += "." + ground.name;
+      moved = true;
+    }
+    for (Operand& operand : condition.operands) {
+      std::string& name = operand.case_name;
+      if (name != ground.of && !name.starts_with(ground.of + "/")) continue;
+      name.replace(0, ground.of.size(), ground.name);
+      moved = true;
     }
   }
-  return row;
+  return moved;
 }
 
-TableLayout::Column column_from(const ClaimsNode& node) {
-  using Kind = TableLayout::Column::Kind;
-  constexpr std::pair<std::string_view, Kind> kKinds[] = {
-      {"reported", Kind::kReported}, {"metric", Kind::kMetric},    {"interval", Kind::kInterval},
-      {"growth", Kind::kGrowth},     {"speed_up", Kind::kSpeedUp}, {"verdict", Kind::kVerdict}};
-  ClaimsEntry entry(node);
-  TableLayout::Column column;
-  column.title = entry.text("title");
-  column.unit = entry.text_or("unit", "");
-  const auto* const kind =
-      std::find_if(std::begin(kKinds), std::end(kKinds), [&](const auto& k) { return entry.has(k.first); });
-  if (kind == std::end(kKinds)) {
-    entry.refuse("a column is one of reported, metric, interval, growth, speed_up, verdict");
-  }
-  column.kind = kind->second;
-  if (column.kind == Kind::kSpeedUp) {
-    const auto [key, metric] = entry.get("speed_up").pair("speed_up");
-    column.key = key.text("speed_up");
-    column.metric = metric.text("speed_up");
-  } else {
-    const bool measured =
-        column.kind == Kind::kMetric || column.kind == Kind::kInterval || column.kind == Kind::kGrowth;
-    (measured ? column.metric : column.key) = entry.text(kind->first);
-  }
-  entry.refuse_unknown();
-  return column;
-}
-
-TableLayout table_from(const ClaimsNode& node) {
-  ClaimsEntry entry(node);
-  TableLayout table;
-  table.id = entry.text("id");
-  table.title = entry.text("title");
-  table.caption = entry.text("caption");
-  table.experiment = entry.text("experiment");
-  table.rows_title = entry.text("rows_title");
-  for (const ClaimsNode& row : entry.list("rows")) table.rows.push_back(row_from(row));
-  for (const ClaimsNode& column : entry.list("columns")) {
-    table.columns.push_back(column_from(column));
-  }
-  if (table.rows.empty() || table.columns.empty()) entry.refuse("a table needs rows and columns");
-  entry.refuse_unknown();
-  return table;
-}
-
-PlotLayout::Axis axis_from(const ClaimsNode& node) {
-  ClaimsEntry entry(node);
-  PlotLayout::Axis axis{entry.text("label"), entry.text_or("unit", ""), entry.flag("log")};
-  entry.refuse_unknown();
-  return axis;
-}
-
-PlotLayout::Series series_from(const ClaimsNode& node) {
-  ClaimsEntry entry(node);
-  PlotLayout::Series series;
-  series.label = entry.text("label");
-  series.slope = entry.flag("slope");
-  for (const ClaimsNode& point : entry.list("values")) {
-    const auto [x, y] = point.pair("values");
-    series.values.emplace_back(x.number("values"), y.number("values"));
-  }
-  series.x_metric = entry.text_or("x_metric", "");
-  for (const ClaimsNode& point : entry.list("cases")) {
-    if (!series.x_metric.empty()) {
-      series.cases.emplace_back(0, point.text("cases"));
-      continue;
+// All claims; after each claim that is measured on a ground's `of`, its copy for that ground.
+std::vector<Claim> on_further_grounds(const std::vector<Claim>& claims,
+                                      const std::vector<FurtherGround>& grounds) {
+  std::vector<Claim> all;
+  for (const Claim& claim : claims) {
+    all.push_back(claim);
+    for (const FurtherGround& ground : grounds) {
+      Claim again = claim;
+      if (!move_to(ground, again)) continue;
+      again.id += "." + ground.name;
+      again.where += ", on " + ground.label;
+      again.profiles = ground.profiles;
+      const auto known = std::ranges::find(ground.known, claim.id, &FurtherGround::Known::claim);
+      if (known != ground.known.end()) {
+        again.known = known->verdict;
+        if (!known->note.empty()) again.note = known->note;
+      }
+      all.push_back(std::move(again));
     }
-    const auto [x, case_name] = point.pair("cases");
-    series.cases.emplace_back(x.number("cases"), case_name.text("cases"));
   }
-  if (series.values.empty() == series.cases.empty()) entry.refuse("a series has either 'values' or 'cases'");
-  if (!series.cases.empty()) {
-    series.experiment = entry.text("experiment");
-    series.metric = entry.text("metric");
-  }
-  entry.refuse_unknown();
-  return series;
-}
-
-PlotLayout plot_from(const ClaimsNode& node) {
-  ClaimsEntry entry(node);
-  PlotLayout plot;
-  plot.id = entry.text("id");
-  plot.title = entry.text("title");
-  plot.caption = entry.text("caption");
-  plot.x = axis_from(entry.get("x"));
-  plot.y = axis_from(entry.get("y"));
-  for (const ClaimsNode& series : entry.list("series")) plot.series.push_back(series_from(series));
-  if (plot.series.empty()) entry.refuse("a plot needs series");
-  entry.refuse_unknown();
-  return plot;
+  return all;
 }
 
 // Ids become file names and anchors.
@@ -261,8 +211,8 @@ void check_ids(const Paper& paper, const std::string& origin) {
   const auto check = [&](std::string_view id) {
     constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
     if (id.empty() || id[0] == '.' || id.find_first_not_of(kPlain) != id.npos) {
-      throw bad_input(fmt::format("'{}' is no id: letters, digits, '.', '_' and '-' only", id), origin,
-                      "correct the claims file");
+      throw bad_input(fmt::format("invalid id '{}': expected letters, digits, '.', '_' and '-' only", id),
+                      origin, "correct the claims file");
     }
     if (!seen.insert(id).second) {
       throw bad_input(fmt::format("the id '{}' is used twice", id), origin, "correct the claims file");
@@ -280,17 +230,17 @@ std::string_view name(Verdict verdict) { return kVerdicts[static_cast<std::size_
 
 Paper parse_claims(std::string_view text, const std::string& origin) {
   const toml::table table = parse_toml(text, origin, "correct the claims file");
-  ClaimsFile file{origin, {}};
+  TomlFile file{origin, {}};
   read_sets(table, file);
-  ClaimsEntry entry({&table, &file, {}});
+  TomlTable entry({&table, &file, {}});
   entry.has("sets");
   Paper paper{entry.text("paper"), entry.text("title"), entry.text("source"), {}, {}, {}};
-  for (const ClaimsNode& claim : entry.list("claim")) paper.claims.push_back(claim_from(claim));
+  for (const TomlValue& claim : entry.list("claim")) paper.claims.push_back(claim_from(claim));
   std::vector<FurtherGround> grounds;
-  for (const ClaimsNode& ground : entry.list("ground")) grounds.push_back(ground_from(ground, paper.claims));
+  for (const TomlValue& ground : entry.list("ground")) grounds.push_back(ground_from(ground, paper.claims));
   paper.claims = on_further_grounds(paper.claims, grounds);
-  for (const ClaimsNode& table : entry.list("table")) paper.tables.push_back(table_from(table));
-  for (const ClaimsNode& plot : entry.list("plot")) paper.plots.push_back(plot_from(plot));
+  for (const TomlValue& table : entry.list("table")) paper.tables.push_back(parse_table(table));
+  for (const TomlValue& plot : entry.list("plot")) paper.plots.push_back(parse_plot(plot));
   entry.refuse_unknown();
   check_ids(paper, origin);
   return paper;
@@ -309,14 +259,6 @@ std::span<const Paper> papers() {
     return all;
   }();
   return kPapers;
-}
-
-std::vector<const Claim*> claims() {
-  std::vector<const Claim*> all;
-  for (const Paper& paper : papers()) {
-    for (const Claim& claim : paper.claims) all.push_back(&claim);
-  }
-  return all;
 }
 
 }  // namespace terrabench

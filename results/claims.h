@@ -1,28 +1,28 @@
-// What the papers reported, and how each claim is read from the measurements: experiments/*/claims.toml,
-// compiled in. Tables and plots of the report are laid out in the same files. Verdicts are never written
-// there, only what is known.
+// What the papers report, and how each claim is read from the measurements: experiments/*/claims.toml,
+// compiled in. The files also lay out the report's tables and plots. They hold the verdict that a claim is
+// known to have, never one that was found.
 #pragma once
 
-#include <map>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <variant>
 #include <vector>
+
+#include "results/layouts.h"
 
 namespace terrabench {
 
 enum class Verdict {
-  kReproduced,  // inside the row's tolerance
+  kReproduced,  // inside the claim's tolerance
   kShape,    // ratio, slope or order inside the tolerance; the absolute figure belongs to the paper's machine
   kDiffers,  // outside the tolerance
-  kNotComparable,  // cannot be measured even in shape; the row says why
+  kNotComparable,  // cannot be measured even in shape; the claim says why
   kPending,        // the method is not built yet
   kNotRun,         // the profile that was run does not measure it
-  kMissing,        // it should, but there is no measurement
+  kMissing,        // it should be measured, but there is no measurement
 };
 std::string_view name(Verdict);
+inline bool was_measured(Verdict v) { return v != Verdict::kPending && v != Verdict::kNotRun; }
 
 // A number, or "experiment/case/metric".
 struct Operand {
@@ -31,7 +31,7 @@ struct Operand {
   bool is_number() const { return metric.empty(); }
 };
 
-// One thing that must hold.
+// One thing that must hold: an element of a claim's `check`.
 struct Condition {
   enum class Kind {
     kEqual,   // all operands equal, to the bit
@@ -52,47 +52,10 @@ struct Claim {
   char type = 'E';               // E exact, T tolerance, S shape, F figure, Q qualitative
   std::vector<double> reported;  // as printed in the paper
   std::string unit, tolerance, note;
-  std::vector<std::string> profiles;  // in which it is measured
+  std::vector<std::string> profiles;  // that measure it
   std::vector<Condition> conditions;  // all must hold
   Verdict known = Verdict::kReproduced;
-  std::string pending, not_comparable;  // why; empty when measured
-};
-
-// A table of the report. Its rows are cases of one experiment; a row's own values are what the paper printed
-// (numbers) and ids of claims (text).
-struct TableLayout {
-  struct Row {
-    std::string label, case_name;
-    std::map<std::string, std::variant<double, std::string>, std::less<>> values;
-  };
-  struct Column {
-    enum class Kind { kReported, kMetric, kInterval, kGrowth, kSpeedUp, kVerdict };
-    Kind kind = Kind::kMetric;
-    std::string title, unit;
-    std::string key;     // of Row::values; kReported, kSpeedUp (reported ÷ measured), kVerdict
-    std::string metric;  // kMetric, kInterval, kGrowth (÷ the row before), kSpeedUp
-  };
-  std::string id, title, caption, experiment, rows_title;
-  std::vector<Row> rows;
-  std::vector<Column> columns;
-};
-
-// A plot of the report: lines through cases of an experiment, or through what the paper printed.
-struct PlotLayout {
-  struct Axis {
-    std::string label, unit;
-    bool log = false;
-  };
-  struct Series {
-    std::string label, experiment, metric;
-    std::string x_metric;  // of the same case, in place of the x of `cases`; empty: none
-    std::vector<std::pair<double, std::string>> cases;  // x, case
-    std::vector<std::pair<double, double>> values;      // x, y as printed; used when cases is empty
-    bool slope = false;                                 // fit a power law and say its exponent
-  };
-  std::string id, title, caption;
-  Axis x, y;
-  std::vector<Series> series;
+  std::string pending, not_comparable;  // the reason; empty when measured
 };
 
 struct Paper {
@@ -102,13 +65,11 @@ struct Paper {
   std::vector<PlotLayout> plots;
 };
 
-// The five papers and the comparison across them, in the ledger's order. Parsed once.
+// The five papers and the comparison across them, in this order. Parsed once.
 std::span<const Paper> papers();
-// All rows of all papers.
-std::vector<const Claim*> claims();
 
-// One claims file. Throws bad_input with file and line for anything that is not as described above: syntax,
-// unknown or missing keys, wrong types, repeated ids. O(size).
+// Reads one claims file. Throws bad_input with file and line for wrong syntax, unknown or missing keys, wrong
+// types and repeated ids. O(size).
 Paper parse_claims(std::string_view toml, const std::string& origin);
 
 }  // namespace terrabench

@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kNames[] = {"same",       "rose",        "fell",      "differs",
                                        "unresolved", "only before", "only after"};
 
-Change judge(const Metric& before, const Metric& after, const Summary& ratio) {
+Change change_of(const Metric& before, const Metric& after, const Summary& ratio) {
   if (!is_timing(before.unit) || before.unit != after.unit) {
     return before.unit == after.unit && before.samples == after.samples ? Change::kSame : Change::kDiffers;
   }
@@ -31,32 +31,23 @@ bool same_ground(const Record& a, const Record& b) {
   return a.seed == b.seed && left == right && a.terrain_checksum == b.terrain_checksum;
 }
 
-MetricChange described(const Record& record, const Metric& metric) {
-  MetricChange change;
-  change.experiment = record.experiment;
-  change.case_name = record.case_name;
-  change.profile = record.profile;
-  change.metric = metric.name;
-  change.unit = metric.unit;
-  return change;
+MetricChange described(const Record& record, const Metric& metric, Change change) {
+  return {record.experiment, record.case_name, record.profile, metric.name, metric.unit, change};
 }
 
-void add_only(const Record& record, const Metric& metric, bool before, Comparison& out) {
-  MetricChange change = described(record, metric);
-  change.change = before ? Change::kOnlyBefore : Change::kOnlyAfter;
-  (before ? change.before : change.after) = summarise(metric.samples).median;
-  out.metrics.push_back(std::move(change));
+void add_only(const Record& record, const Metric& metric, Change side, Comparison& out) {
+  MetricChange& change = out.metrics.emplace_back(described(record, metric, side));
+  (side == Change::kOnlyBefore ? change.before : change.after) = summarise(metric.samples).median;
 }
 
 void add_both(const Record& record, const Record& other, const Metric& before, const Metric& after,
               Comparison& out) {
-  MetricChange change = described(record, before);
+  const Summary ratio = summarise_ratio(after.samples, before.samples);
+  MetricChange& change = out.metrics.emplace_back(described(record, before, change_of(before, after, ratio)));
   change.before = summarise(before.samples).median;
   change.after = summarise(after.samples).median;
-  change.ratio = summarise_ratio(after.samples, before.samples);
-  change.change = judge(before, after, change.ratio);
+  change.ratio = ratio;
   change.same_ground = same_ground(record, other);
-  out.metrics.push_back(std::move(change));
 }
 
 bool one_sided(const MetricChange& m) {
@@ -67,14 +58,10 @@ bool one_sided(const MetricChange& m) {
 
 std::string_view name(Change change) { return kNames[static_cast<std::size_t>(change)]; }
 
-bool Comparison::exact_equal() const {
-  return std::none_of(metrics.begin(), metrics.end(),
-                      [](const auto& m) { return m.change == Change::kDiffers; });
-}
+bool Comparison::exact_equal() const { return count(Change::kDiffers) == 0; }
 
 std::size_t Comparison::count(Change change) const {
-  return static_cast<std::size_t>(
-      std::count_if(metrics.begin(), metrics.end(), [&](const auto& m) { return m.change == change; }));
+  return static_cast<std::size_t>(std::ranges::count(metrics, change, &MetricChange::change));
 }
 
 Comparison compare(const std::filesystem::path& before, const std::filesystem::path& after) {
@@ -92,7 +79,7 @@ Comparison compare(const Store& before, const Store& after) {
     for (const Metric& metric : record.metrics) {
       const Metric* const match = other == nullptr ? nullptr : other->find(metric.name);
       if (match == nullptr) {
-        add_only(record, metric, true, out);
+        add_only(record, metric, Change::kOnlyBefore, out);
       } else {
         add_both(record, *other, metric, *match, out);
       }
@@ -101,7 +88,8 @@ Comparison compare(const Store& before, const Store& after) {
   for (const Record& record : after.records()) {
     const Record* const other = before.find(record.experiment, record.case_name, record.profile);
     for (const Metric& metric : record.metrics) {
-      if (other == nullptr || other->find(metric.name) == nullptr) add_only(record, metric, false, out);
+      if (other == nullptr || other->find(metric.name) == nullptr)
+        add_only(record, metric, Change::kOnlyAfter, out);
     }
   }
   return out;
@@ -111,7 +99,7 @@ std::string compare_text(const Comparison& comparison, bool colour) {
   std::string text, heading;
   for (const MetricChange& m : comparison.metrics) {
     const std::string title = fmt::format("{} {} ({}){}", m.experiment, m.case_name, m.profile,
-                                          m.same_ground ? "" : ": another seed, terrain or parameter");
+                                          m.same_ground ? "" : ": seed, terrain or parameters differ");
     if (title != heading) text += title + "\n";
     heading = title;
     const bool marked = m.change != Change::kSame && m.change != Change::kUnresolved;
@@ -136,10 +124,10 @@ std::string compare_text(const Comparison& comparison, bool colour) {
     const std::size_t count = comparison.count(static_cast<Change>(i));
     if (count > 0) tally += fmt::format("{}{} {}", tally.empty() ? "" : ", ", count, kNames[i]);
   }
-  text += fmt::format("\n{}\n", tally.empty() ? "nothing to compare" : tally);
+  text += fmt::format("\n{}\n", tally.empty() ? "no metrics to compare" : tally);
   for (const std::string& warning : comparison.warnings) text += fmt::format("warning: {}\n", warning);
   if (!comparison.faults.empty()) {
-    text += fmt::format("{} faults, the results cannot be trusted\n", comparison.faults.size());
+    text += fmt::format("{} faults: the results cannot be trusted\n", comparison.faults.size());
   }
   return text;
 }

@@ -1,4 +1,4 @@
-// Two results folders, metric by metric: what changed, and whether it is more than noise.
+// Compares two results folders metric by metric: what changed, and whether the change exceeds the noise.
 #pragma once
 
 #include <filesystem>
@@ -11,11 +11,11 @@
 namespace terrabench {
 
 enum class Change {
-  kSame,        // exact and equal, or a timing whose ratio's interval holds 1
+  kSame,        // exact and equal, or a timing whose ratio's interval contains 1
   kRose,        // the ratio's interval lies above 1
-  kFell,        // … below 1
-  kDiffers,     // exact, and not equal
-  kUnresolved,  // a timing with one sample on a side: no interval to judge by
+  kFell,        // the ratio's interval lies below 1
+  kDiffers,     // exact and not equal
+  kUnresolved,  // a timing with only one sample in a folder, so without an interval
   kOnlyBefore,
   kOnlyAfter,
 };
@@ -25,13 +25,13 @@ struct MetricChange {
   std::string experiment, case_name, profile, metric, unit;
   Change change = Change::kSame;
   double before = 0, after = 0;  // medians
-  Summary ratio;                 // after ÷ before, when both are there
-  bool same_ground = true;       // seed, parameters and terrain are those of before
+  Summary ratio = {};            // after ÷ before, when both exist
+  bool same_ground = true;       // both have the same seed, parameters and terrain
 };
 
 struct Comparison {
-  std::vector<MetricChange> metrics;  // in the order of the first folder, then what only the second has
-  std::vector<std::string> warnings, faults;  // of both stores, as Store says them
+  std::vector<MetricChange> metrics;  // in the first folder's order, then those that only the second has
+  std::vector<std::string> warnings, faults;  // of both stores
 
   bool exact_equal() const;  // no exact metric differs
   bool passed() const { return exact_equal() && faults.empty(); }

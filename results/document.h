@@ -1,4 +1,4 @@
-// The report as blocks, written as one HTML page that needs nothing from outside, and as Markdown.
+// The report as a list of blocks, written as one self-contained HTML page and as Markdown.
 #pragma once
 
 #include <string>
@@ -22,20 +22,20 @@ struct Paragraph {
   std::string text;
   bool warning = false;
 };
-// Terms and what they mean, one a line.
+// Terms with their meanings, one per line.
 struct Facts {
   std::vector<std::pair<std::string, std::string>> lines;
 };
 struct TableBlock {
   Table table;
-  std::vector<Link> links;  // where it came from, other forms
+  std::vector<Link> links;  // to its runs and its other file forms
 };
 struct Picture {
   std::string title, caption, file;  // file: for HTML
   std::string bitmap;                // for Markdown, when it differs
   std::vector<Link> links;
 };
-// Pictures side by side where there is room; a single one is wide.
+// Pictures side by side where they fit; a single picture is wide.
 struct Gallery {
   std::vector<Picture> pictures;
 };

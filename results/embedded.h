@@ -1,4 +1,4 @@
-// The data files of results and experiments that are compiled in.
+// Data files of results/ and experiments/ that are compiled into the program.
 #pragma once
 
 #include <span>

@@ -19,7 +19,7 @@ std::string replace(std::string_view text, std::span<const Replacement> replacem
     const auto it = std::find_if(replacements.begin(), replacements.end(),
                                  [&](const Replacement& r) { return text.starts_with(r.first); });
     const bool known = it != replacements.end();
-    // A newline or an escape sequence would end a table's row or a terminal's line.
+    // Control characters become spaces: they would break a table's row or a terminal's line.
     const char c = text[0];
     if (known) {
       out += it->second;

@@ -1,4 +1,4 @@
-// How numbers and text look to people, and in each of the languages that we write.
+// Formats numbers for people, and escapes text for each language that the report is written in.
 #pragma once
 
 #include <string>

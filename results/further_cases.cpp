@@ -42,8 +42,7 @@ const TableLayout* table_of(std::string_view experiment, std::span<const Paper> 
 }
 
 bool any_has(std::span<const Record* const> records, std::string_view metric) {
-  return std::any_of(records.begin(), records.end(),
-                     [&](const Record* r) { return r->find(metric) != nullptr; });
+  return std::ranges::any_of(records, [&](const Record* r) { return r->find(metric) != nullptr; });
 }
 
 std::vector<Column> columns_for(std::span<const Record* const> records, const TableLayout* like) {
@@ -56,8 +55,7 @@ std::vector<Column> columns_for(std::span<const Record* const> records, const Ta
   if (!columns.empty()) return columns;
   for (const Record* const record : records) {
     for (const Metric& metric : record->metrics) {
-      const auto has = [&](const Column& c) { return c.metric == metric.name; };
-      if (std::any_of(columns.begin(), columns.end(), has)) continue;
+      if (std::ranges::count(columns, metric.name, &Column::metric) > 0) continue;
       columns.push_back({Column::Kind::kMetric, metric.name, metric.unit, "", metric.name});
     }
   }
@@ -82,14 +80,14 @@ std::vector<TableLayout> further_cases(const Store& store, std::span<const Paper
   for (const auto& [experiment, records] : experiments) {
     TableLayout table{experiment + ".further",
                       experiment,
-                      "Medians of what no row of the ledger is about: other ground, other parameters.",
+                      "Medians of cases that no claim is about: other terrain, other parameters.",
                       experiment,
                       "Case",
                       {},
                       columns_for(records, table_of(experiment, papers))};
     for (const Record* const record : records) {
-      const bool fits = std::any_of(table.columns.begin(), table.columns.end(),
-                                    [&](const Column& c) { return record->find(c.metric) != nullptr; });
+      const bool fits = std::ranges::any_of(
+          table.columns, [&](const Column& c) { return record->find(c.metric) != nullptr; });
       if (fits) table.rows.push_back({record->case_name, record->case_name, {}});
     }
     tables.push_back(std::move(table));

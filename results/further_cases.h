@@ -1,5 +1,4 @@
-// Tables of what was measured but stands in no table, plot or row of the ledger: ground of the user's own,
-// other parameters.
+// Tables of cases that no table, plot or claim shows: the user's own terrain, other parameters.
 #pragma once
 
 #include <span>
@@ -11,9 +10,9 @@
 
 namespace terrabench {
 
-// One an experiment that has such cases, in the order of measurement. The columns are those of the
-// experiment's first table in the ledger; or, where these cases have none of its figures, all figures that
-// they have.
+// One table per experiment with such cases, in the order of measurement. The columns are those of the
+// experiment's first table in the claims files that these cases have metrics for; if there are none, all
+// metrics of these cases.
 std::vector<TableLayout> further_cases(const Store&, std::span<const Paper>, std::string_view profile);
 
 }  // namespace terrabench

@@ -33,7 +33,7 @@ namespace {
 constexpr int kWidth = 880, kHeight = 560, kFontSize = 17;
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
-// Okabe & Ito (2008): told apart by all kinds of colour vision, and in print.
+// Okabe & Ito (2008): distinguishable with every kind of colour vision, and in print.
 struct Style {
   std::array<unsigned char, 3> colour;
   int marker;
@@ -58,7 +58,7 @@ class ErrorBarLine : public vtkPlotLine {
     cap_ = cap;
   }
   bool Paint(vtkContext2D* painter) override {
-    // VTK warns of a line through one point; its marker is all there is.
+    // VTK warns about a line through one point, so only its marker is drawn.
     const bool painted =
         GetInput()->GetNumberOfRows() < 2 ? vtkPlotPoints::Paint(painter) : vtkPlotLine::Paint(painter);
     painter->ApplyPen(Pen);
@@ -93,7 +93,7 @@ vtkStandardNewMacro(ErrorBarLine)
 
 bool shown(const PlotAxis& axis, double value) { return std::isfinite(value) && (!axis.log || value > 0); }
 
-// 1, 2 or 5 times a power of ten, so that about five steps cover the span.
+// 1, 2 or 5 times a power of ten; about five steps cover the span.
 double round_step(double span) {
   const double step = span / 5, power = std::pow(10, std::floor(std::log10(step)));
   const double mantissa = step / power;
@@ -113,14 +113,14 @@ std::vector<double> log_ticks(double low, double high) {
   return ticks;
 }
 
-// Values are those of all points; when they are few and the axis is logarithmic, each is a tick of its own.
+// `values` are those of all points. On a logarithmic axis with few values and own_ticks, each is a tick.
 Scale scale_for(const PlotAxis& axis, std::vector<double> values, bool own_ticks, double margin) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   Scale scale{axis.log, 0, 1, {}};
   scale.low = scale.chart(values.front());
   scale.high = scale.chart(values.back());
-  // A linear axis starts at zero: bars and lines must not exaggerate.
+  // A linear axis starts at zero, so that differences are not exaggerated.
   if (!axis.log) scale.low = std::min(scale.low, 0.0);
   double span = scale.high - scale.low;
   if (span <= 0) span = axis.log ? 1 : std::max(1e-12, std::abs(scale.high));
@@ -139,7 +139,7 @@ Scale scale_for(const PlotAxis& axis, std::vector<double> values, bool own_ticks
   return scale;
 }
 
-// Without exponents, which small seconds would have.
+// Plain digits where format_number would write an exponent, as for small times.
 std::string tick_label(double tick) {
   const double size = std::abs(tick);
   if (size < 1e-7 || size >= 1e-4) return format_number(tick);
@@ -245,7 +245,7 @@ std::string plot_svg(const Plot& plot) {
   set_font(chart->GetLegend()->GetLabelProperties(), false);
   chart->GetLegend()->SetSymbolWidth(44);
   chart->GetLegend()->SetPadding(8);
-  // Above the plot, where it can cover nothing.
+  // Above the plot, where it covers nothing.
   chart->GetLegend()->SetInline(false);
   chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::CENTER);
   chart->GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);

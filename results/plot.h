@@ -1,4 +1,4 @@
-// Line plots with error bars on linear or logarithmic axes, painted by VTK's charts and written as SVG.
+// Line plots with error bars on linear or logarithmic axes, drawn by VTK's charts and written as SVG.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ struct PlotPoint {
 struct PlotSeries {
   std::string label;
   std::vector<PlotPoint> points;  // any order
-  bool reported = false;          // printed in a paper, not measured: dashed
+  bool reported = false;          // printed in a paper, not measured; drawn dashed
 };
 
 struct PlotAxis {
@@ -24,7 +24,7 @@ struct PlotAxis {
 };
 
 struct Plot {
-  std::string title;  // for screen readers: a caption belongs to the page
+  std::string title;  // for screen readers; the caption belongs to the page
   PlotAxis x, y;
   std::vector<PlotSeries> series;
 };

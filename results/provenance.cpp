@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <gdal_version.h>
 #include <png.h>
-#include <sched.h>
 #include <sys/utsname.h>
 #include <tbb/version.h>
 #include <vtkVersionMacros.h>
@@ -14,13 +13,13 @@
 #include <chrono>
 #include <fstream>
 #include <glm/detail/setup.hpp>
-#include <thread>
 #if __has_include(<openvdb/version.h>)
 #include <openvdb/version.h>
 #endif
 
 #include "results/build_info.h"
 #include "results/record_json.h"
+#include "results/timing_conditions.h"
 #include "terrain/memory.h"
 
 namespace terrabench {
@@ -55,15 +54,6 @@ std::string utc_time() {
   char text[32];
   std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
   return text;
-}
-
-// Fewer than the machine has, in a container or under taskset.
-int allowed_processors() {
-  cpu_set_t allowed;
-  CPU_ZERO(&allowed);
-  return sched_getaffinity(0, sizeof allowed, &allowed) == 0
-             ? std::max(1, CPU_COUNT(&allowed))
-             : static_cast<int>(std::thread::hardware_concurrency());
 }
 
 std::string packed(int number, int step) {

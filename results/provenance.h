@@ -1,4 +1,4 @@
-// Where numbers come from: the code, the compiler, the machine and the command, collected once a process.
+// Where the numbers come from: code, compiler, machine and command, collected once per process.
 #pragma once
 
 #include <string>
@@ -12,16 +12,16 @@ namespace terrabench {
 // What only the caller knows.
 struct RunFacts {
   std::vector<std::string> command;  // argv
-  std::string gl_renderer;           // as GlContext::renderer() says; empty when nothing was drawn
+  std::string gl_renderer;           // of GlContext::renderer(); empty when nothing was drawn
   std::string simd;                  // instruction set chosen at run time
-  int threads = 0;                   // that really work; 0: as many as this process may use
+  int threads = 0;                   // in use; 0: as many as this process may use
   std::vector<std::pair<std::string, std::string>> libraries;  // added to those known here: name, version
 };
 
-// Reads /proc and the build's own facts; what cannot be found out says "unknown". The id is set.
+// Reads /proc and the build's own facts; a fact that cannot be read is "unknown". Sets the id.
 Provenance collect_provenance(const RunFacts&);
 
-// For shells: 'a b' 'it'\''s'. Arguments that need no quotes get none.
+// A command line that can be pasted into a shell: arguments are quoted where needed, 'it'\''s'.
 std::string quote_command(const std::vector<std::string>& arguments);
 
 }  // namespace terrabench

@@ -1,5 +1,5 @@
-// The page, tables and figures that are made from a results folder, whole or partial, in seconds: no
-// measuring here.
+// Writes the page, tables and figures of a results folder, complete or partial. Takes seconds; measures
+// nothing.
 #pragma once
 
 #include <filesystem>

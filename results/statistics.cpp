@@ -13,10 +13,11 @@ namespace terrabench {
 namespace {
 
 constexpr int kResamples = 2000;
-// Above this the median's rank is drawn directly: it is normal to well under the interval's own uncertainty.
+// Above this the median's rank is drawn from a normal distribution: the error is far below the interval's
+// own.
 constexpr std::size_t kDrawEach = 1000;
 
-// splitmix64: the standard library's distributions differ between implementations, these numbers do not.
+// splitmix64: gives the same numbers everywhere, unlike the distributions of the standard library.
 class Random {
  public:
   std::uint64_t next() {

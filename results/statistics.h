@@ -9,7 +9,7 @@
 
 namespace terrabench {
 
-// low, high: the 95 % interval of the median; both equal to it for one sample.
+// low, high: the 95 % interval of the median; both are the median for one sample.
 struct Summary {
   std::size_t count = 0;
   double median = 0, low = 0, high = 0;
@@ -17,7 +17,7 @@ struct Summary {
 Summary summarise(std::span<const double> samples);  // at least one sample, all finite
 
 // median(numerator) / median(denominator) with its 95 % interval. Both need samples; a denominator that can
-// be zero gives infinities or NaN, which lie inside no tolerance.
+// be zero gives infinities or NaN, which lie in no range.
 Summary summarise_ratio(std::span<const double> numerator, std::span<const double> denominator);
 
 // Whether a quantity of this unit varies from run to run (times, rates); all others are exact.

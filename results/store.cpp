@@ -26,13 +26,13 @@ Error cannot_append(const std::filesystem::path& file, int error) {
                                : "check the folder's permissions, or choose another with --out");
 }
 
-// The file, held alone among all processes that append to it.
+// The file, locked against other processes that append to it.
 class LockedFile {
  public:
   explicit LockedFile(const std::filesystem::path& path) : path_(path) {
     descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (descriptor_ < 0) throw cannot_append(path, errno);
-    // A file system without locks still gets whole lines: each is one write.
+    // Without locks in the file system, lines still stay whole: each is one write.
     while (flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
     }
   }
@@ -42,7 +42,7 @@ class LockedFile {
 
   off_t size() const { return lseek(descriptor_, 0, SEEK_END); }
 
-  // What stands after the last newline.
+  // The text after the last newline.
   std::string unfinished_line() const {
     std::string tail;
     char block[4096];
@@ -63,16 +63,16 @@ class LockedFile {
     if (ftruncate(descriptor_, size) != 0) throw cannot_append(path_, errno);
   }
 
-  // All or nothing.
+  // Writes all of the text or none of it.
   void append(std::string_view text) {
     const off_t before = size();
     const ssize_t written = pwrite(descriptor_, text.data(), text.size(), before);
     const bool whole = written == static_cast<ssize_t>(text.size());
-    // A short write is what a full disk looks like at first.
+    // A full disk first shows as a short write.
     int error = whole ? 0 : written < 0 ? errno : ENOSPC;
     if (whole && fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) error = errno;
     if (error == 0) return;
-    // If even this fails, the next append cuts the half line off.
+    // If this fails too, the next append removes the half line.
     [[maybe_unused]] const int cut = ftruncate(descriptor_, before);
     throw cannot_append(path_, error);
   }
@@ -111,19 +111,18 @@ Store Store::open(const std::filesystem::path& folder) {
 }
 
 void Store::read(std::string_view content) {
-  std::size_t number = 0;
   for (std::size_t at = 0; at < content.size();) {
     const std::size_t newline = content.find('\n', at);
     const bool last = newline == content.npos;
     const std::string_view text = content.substr(at, last ? content.npos : newline - at);
     at = last ? content.size() : newline + 1;
-    ++number;
+    ++last_line_;
     if (text.find_first_not_of(" \t\r") == text.npos) continue;
     if (last && !is_complete_json(text)) {
       warnings_.push_back(
-          fmt::format("{}:{}: the last line was cut short and is dropped", file_.string(), number));
+          fmt::format("{}:{}: the last line was cut short and is dropped", file_.string(), last_line_));
     } else {
-      read_line(text, number);
+      read_line(text);
     }
   }
   for (std::size_t i = 0; i < records_.size(); ++i) {
@@ -137,13 +136,13 @@ void Store::read(std::string_view content) {
   }
 }
 
-void Store::read_line(std::string_view text, std::size_t number) {
-  const std::string where = fmt::format("{}:{}", file_.string(), number);
+void Store::read_line(std::string_view text) {
+  const std::string where = fmt::format("{}:{}", file_.string(), last_line_);
   try {
     Line line = parse_line(text, where);
     if (!line.warning.empty()) warnings_.push_back(where + ": " + line.warning);
     if (line.altered) {
-      faults_.push_back(where + ": altered: the digest does not belong to the content");
+      faults_.push_back(where + ": altered: the digest does not match the content");
       warnings_.push_back(faults_.back());
     }
     if (auto* record = std::get_if<Record>(&line.content)) {
@@ -166,12 +165,12 @@ void Store::keep(Record record, bool altered) {
     }
     records_[i] = std::move(record);
     altered_[i] = altered;
-    ages_[i] = ++kept_;
+    lines_[i] = last_line_;
     return;
   }
   records_.push_back(std::move(record));
   altered_.push_back(altered);
-  ages_.push_back(++kept_);
+  lines_.push_back(last_line_);
 }
 
 void Store::append_line(const std::string& line) const {
@@ -180,7 +179,7 @@ void Store::append_line(const std::string& line) const {
   if (error) throw cannot_append(file_, error.value());
   LockedFile file(file_);
   const std::string tail = file.unfinished_line();
-  const bool finish = is_complete_json(tail);  // an editor may have taken the last newline
+  const bool finish = is_complete_json(tail);  // an editor may have removed the last newline
   if (!tail.empty() && !finish) file.cut_to(file.size() - static_cast<off_t>(tail.size()));
   file.append((finish ? "\n" : "") + line + "\n");
 }
@@ -194,9 +193,10 @@ void Store::begin_run(const Provenance& provenance) {
 
 void Store::append(const Record& record) {
   const std::string line = to_line(record);
-  // What cannot be read back must not be written.
+  // Do not write a line that cannot be read back.
   Line parsed = parse_line(line, record.experiment + "/" + record.case_name);
   append_line(line);
+  ++last_line_;
   keep(std::get<Record>(std::move(parsed.content)), false);
 }
 
@@ -215,8 +215,8 @@ const Record* Store::find(const CaseKey& key, const Provenance& now) const {
   if (measured_under == nullptr || !comparable(*measured_under, now)) return nullptr;
   if (record->seed != key.seed || by_name(record->parameters) != by_name(key.parameters)) return nullptr;
   if (key.terrain_checksum && record->terrain_checksum != *key.terrain_checksum) return nullptr;
-  const bool pictures = std::all_of(record->figures.begin(), record->figures.end(),
-                                    [&](const Figure& figure) { return intact(figure); });
+  const bool pictures =
+      std::ranges::all_of(record->figures, [&](const Figure& figure) { return intact(figure); });
   return pictures ? record : nullptr;
 }
 
@@ -225,7 +225,7 @@ std::pair<const Record*, const Figure*> Store::find_figure(std::string_view id,
   std::pair<const Record*, const Figure*> found{nullptr, nullptr};
   for (const Record& record : records_) {
     if (record.profile != profile || !record.overrides.empty()) continue;
-    if (found.first != nullptr && ages_[index(record)] < ages_[index(*found.first)]) continue;
+    if (found.first != nullptr && lines_[index(record)] < lines_[index(*found.first)]) continue;
     for (const Figure& figure : record.figures) {
       if (figure.id == id) found = {&record, &figure};
     }
@@ -234,12 +234,15 @@ std::pair<const Record*, const Figure*> Store::find_figure(std::string_view id,
 }
 
 const Provenance* Store::run(std::string_view id) const {
-  const auto it =
-      std::find_if(runs_.begin(), runs_.end(), [&](const Provenance& run) { return run.id == id; });
+  const auto it = std::ranges::find(runs_, id, &Provenance::id);
   return it == runs_.end() ? nullptr : &*it;
 }
 
 bool Store::altered(const Record& record) const { return altered_[index(record)]; }
+
+std::string Store::where(const Record& record) const {
+  return fmt::format("{}:{}", file_.string(), lines_[index(record)]);
+}
 
 bool Store::intact(const Figure& figure) const {
   const std::filesystem::path path = folder_ / figure.file;

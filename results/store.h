@@ -1,5 +1,6 @@
-// A results folder: DIR/measurements.jsonl, one line a process run and one a measured case, only ever
-// appended to, so that a killed run loses at most the case it was in. Each append is one write and one fsync.
+// A results folder: DIR/measurements.jsonl, with one line per run of the program and one per measured case.
+// Lines are only appended, so a killed run loses at most its current case. An append is one write and one
+// fsync.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +15,26 @@
 
 namespace terrabench {
 
-// What makes a measurement the one that --resume need not repeat.
+// Identifies a case for --resume, which skips cases that are already measured.
 struct CaseKey {
   std::string_view experiment, case_name, profile;
   std::vector<std::pair<std::string, Value>> parameters;  // in any order
   std::uint64_t seed = 0;
-  std::optional<std::string_view> terrain_checksum;  // nothing: not known yet, and not compared
+  std::optional<std::string_view> terrain_checksum;  // none: not known yet, and not compared
 };
 
 class Store {
  public:
-  // Reads what the folder holds; a folder without measurements is an empty store. A last line that was cut
-  // short, so that it is no JSON, is dropped with a warning (and removed by the next append); so is any line
-  // that is damaged. Throws bad_input when the file cannot be read, or holds nothing but damage.
+  // Reads the folder; a folder without measurements is an empty store. Drops damaged lines with a warning,
+  // also a last line that was cut short, which the next append removes. Throws bad_input when the file cannot
+  // be read or all its lines are damaged.
   explicit Store(std::filesystem::path folder);
 
-  // As above, for reading results: throws bad_input when there are no measurements.
+  // The same, but throws bad_input when there are no measurements.
   static Store open(const std::filesystem::path& folder);
 
-  // Throw environment_error (disk full, unwritable) with the file as it was. Several processes may append to
-  // one folder. append() needs the record's run to have begun.
+  // Throw environment_error (disk full, unwritable) and leave the file as it was. Several processes may
+  // append to one folder. The record's run must have begun before append().
   void begin_run(const Provenance&);
   void append(const Record&);
 
@@ -44,26 +45,28 @@ class Store {
   // The record with this key, if it is unaltered, its pictures are still those that it drew, and its run is
   // comparable with `now`.
   const Record* find(const CaseKey&, const Provenance& now) const;
-  // The newest record of the profile that drew this picture for the ledger: not one with overridden
-  // parameters. Both null when there is none.
+  // The newest record of the profile that drew this figure, ignoring records with overridden parameters. Both
+  // null when there is none.
   std::pair<const Record*, const Figure*> find_figure(std::string_view id, std::string_view profile) const;
   const Provenance* run(std::string_view id) const;  // null when unknown
 
-  bool altered(const Record&) const;  // of records()
-  // The picture is there, byte for byte as it was recorded. Reads the file.
+  // For a record of records(): whether it was altered by hand, and "file:line".
+  bool altered(const Record&) const;
+  std::string where(const Record&) const;
+  // Whether the picture exists, byte for byte as recorded. Reads the file.
   bool intact(const Figure&) const;
-  // The profile of what was measured last; empty for an empty store.
+  // The profile of the newest record; empty for an empty store.
   const std::string& last_profile() const { return last_profile_; }
 
   const std::filesystem::path& folder() const { return folder_; }
-  // For the user: what was dropped or ignored in reading, with line numbers.
+  // What was dropped or ignored while reading, with line numbers.
   const std::vector<std::string>& warnings() const { return warnings_; }
-  // Of these, what makes the results untrustworthy: altered and damaged lines, records without their run.
+  // Those warnings that make the results untrustworthy: altered or damaged lines, records without their run.
   const std::vector<std::string>& faults() const { return faults_; }
 
  private:
   void read(std::string_view content);
-  void read_line(std::string_view text, std::size_t number);
+  void read_line(std::string_view text);
   void keep(Record record, bool altered);
   std::size_t index(const Record& record) const {
     return static_cast<std::size_t>(&record - records_.data());
@@ -72,9 +75,9 @@ class Store {
 
   std::filesystem::path folder_, file_;
   std::vector<Record> records_;
-  std::vector<bool> altered_;      // beside records_
-  std::vector<std::size_t> ages_;  // beside records_: the larger, the later it was measured
-  std::size_t kept_ = 0;
+  std::vector<bool> altered_;       // parallel to records_
+  std::vector<std::size_t> lines_;  // parallel to records_: line numbers, so a larger one is newer
+  std::size_t last_line_ = 0;       // number of the line that was read or appended last
   std::vector<Provenance> runs_;
   std::string last_profile_;
   std::vector<std::string> warnings_, faults_;

@@ -23,7 +23,7 @@ constexpr int kDotsPerInch = 72;  // one font point is one pixel of the picture
 // Added to the width of every text, so that charts keep axis titles off the numbers.
 constexpr int kRoom = 8;
 
-// Two decimals are a hundredth of a pixel; equal charts give equal bytes.
+// Rounded to a hundredth of a pixel, so that equal charts give equal bytes.
 std::string number(double value) {
   const double rounded = std::round(value * 100) / 100;
   return fmt::format("{}", rounded == 0 ? 0.0 : rounded);
@@ -127,7 +127,7 @@ void SvgDevice::DrawPointSprites(vtkImageData*, float* points, int n, unsigned c
   DrawMarkers(VTK_MARKER_CIRCLE, false, points, n, colors, components);
 }
 
-// VTK hands the marker's size over as the pen's width. A white rim keeps overlapping markers apart.
+// VTK passes the marker's size as the pen's width. A white rim separates overlapping markers.
 void SvgDevice::DrawMarkers(int shape, bool, float* points, int n, unsigned char*, int) {
   const double r = Pen->GetWidth() / 2;
   const std::string paint = fmt::format(" fill=\"{}\" stroke=\"#ffffff\" stroke-width=\"1\"",
@@ -209,7 +209,7 @@ void SvgDevice::DrawString(float* point, const vtkStdString& text) {
                   TextProp->GetBold() != 0 ? " font-weight=\"bold\"" : "", colour(bytes), escape_html(text)));
 }
 
-// Charts draw byte strings only; this overload is a leftover of VTK's interface.
+// Never called: charts draw byte strings only, but VTK's interface demands this overload.
 void SvgDevice::DrawString(float*, const vtkUnicodeString&) {}
 
 void SvgDevice::ComputeStringBounds(const vtkStdString& text, float bounds[4]) {

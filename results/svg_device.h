@@ -11,7 +11,7 @@
 
 namespace terrabench {
 
-// VTK counts y upward in device pixels, SVG downward: turned over on output. Text is real text in DejaVu
+// VTK's y points up in device pixels, SVG's down; points are converted on output. Text is real text in DejaVu
 // Sans, measured with the same font. Images, textures and math text are not drawn: charts of lines and
 // markers use none.
 class SvgDevice : public vtkContextDevice2D {
@@ -19,7 +19,7 @@ class SvgDevice : public vtkContextDevice2D {
   static SvgDevice* New();
   vtkTypeMacro(SvgDevice, vtkContextDevice2D)
 
-      void start(int width, int height);  // forgets what was painted
+      void start(int width, int height);  // discards what was painted
   std::string svg(const std::string& title) const;
 
   void DrawPoly(float* points, int n, unsigned char* colors, int components) override;

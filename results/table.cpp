@@ -11,7 +11,7 @@ std::string heading(const Column& column) {
   return column.unit.empty() ? column.title : fmt::format("{} [{}]", column.title, column.unit);
 }
 
-// One line: what `cell` makes of each column's entry, between separators.
+// The results of `write` for all entries, with separators between them.
 template <class Entries, class Write>
 std::string line(const Entries& entries, std::string_view separator, Write write) {
   std::string text;

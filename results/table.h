@@ -1,4 +1,4 @@
-// One table, written as HTML, Markdown, CSV and LaTeX (booktabs), each correctly escaped.
+// A table, written as HTML, Markdown, CSV and LaTeX (booktabs), each escaped.
 #pragma once
 
 #include <string>
@@ -7,14 +7,14 @@
 namespace terrabench {
 
 struct Cell {
-  std::string text;   // as people read it
-  std::string raw;    // what CSV holds instead, such as all digits; empty: the text
-  std::string link;   // HTML and Markdown: where the text points, empty for nowhere
-  std::string style;  // HTML class of the cell
+  std::string text;        // as people read it
+  std::string raw = "";    // what CSV holds instead, such as all digits; empty: the text
+  std::string link = "";   // HTML and Markdown: where the text points; empty: nowhere
+  std::string style = "";  // HTML class of the cell
 };
 
 struct Column {
-  std::string title, unit;
+  std::string title, unit = "";
   bool numeric = false;  // aligned right
 };
 
@@ -25,7 +25,7 @@ struct Table {
 };
 
 std::string html(const Table&);      // <table> with caption and scopes
-std::string markdown(const Table&);  // pipes; the caption is the document's affair
+std::string markdown(const Table&);  // pipes; without the caption
 std::string csv(const Table&);       // RFC 4180, units in the header
 std::string latex(const Table&);     // a table float; needs \usepackage{booktabs} and UTF-8
 

@@ -1,13 +1,14 @@
-// Units that figures are shown in, beside those they are measured in.
+// Conversion between the units that figures are measured in and shown in.
 #pragma once
 
 #include <string_view>
 
 namespace terrabench {
 
-// What a figure in `from` is multiplied by to be one in `to`. Times (s, ms, µs, ns) and bytes (B, kB, MB, GB)
-// are converted, any other unit only to itself or to none, and what has none to ×. Throws bad_input, naming
-// `what`, where the two do not measure the same.
-double conversion(std::string_view from, std::string_view to, std::string_view what);
+// The factor from `from` to `to`. Times (s, ms, µs, ns) and bytes (B, kB, MB, GB) are converted; any other
+// unit only to itself or to none; none to ×. Throws bad_input for other pairs, naming the metric and where it
+// was read ("file:line").
+double conversion(std::string_view from, std::string_view to, std::string_view metric,
+                  std::string_view where);
 
 }  // namespace terrabench

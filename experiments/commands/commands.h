@@ -1,5 +1,5 @@
-// The subcommands of the command line, one function and one file each. They print to standard output, throw
-// Error for whatever the user can mend, and return the exit code.
+// The subcommands of the command line. Each prints to standard output, throws Error for what the user can
+// correct, and returns the exit code.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct RepresentArguments {
   std::string terrain, as;
   std::vector<std::string> assignments;
   std::string save, render;   // files to write; empty: none
-  std::string write_flow;     // likewise: flow accumulation, and beside it the directions
+  std::string write_flow;     // likewise: flow accumulation; directions go into a second file beside it
   std::vector<int> crop;      // i, j, width, depth
   std::vector<int> resample;  // width, depth
   bool fill = false;          // fill no-data holes
@@ -34,8 +34,8 @@ ExitCode represent_command(const RepresentArguments&);
 
 struct CheckArguments {
   std::filesystem::path folder = "out", junit;
-  std::vector<std::string> rows;  // ids or globs; empty: all
-  bool json = false;
+  std::vector<std::string> claims;  // ids or globs; empty: all
+  bool json = false, verbose = false;
 };
 ExitCode check_command(const CheckArguments&);
 
@@ -47,7 +47,7 @@ ExitCode compare_command(const CompareArguments&);
 
 ExitCode report_command(const std::filesystem::path& folder);
 
-// Tells a DEM, a saved structure and a results folder apart by content.
+// Describes a DEM, a saved structure or a results folder, which it distinguishes by content.
 ExitCode info_command(const std::filesystem::path&);
 
 }  // namespace terrabench

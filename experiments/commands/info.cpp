@@ -33,7 +33,7 @@ void describe_dem(const std::filesystem::path& path) {
   fmt::print("{}: digital elevation model ({})\n", path.string(), dem.format);
   print_heights(dem.heights, dem.notes);
   if (dem.format == "PNG") {
-    fmt::print("note        its values are taken as heights; {}{} makes a landscape with a sea of it\n",
+    fmt::print("note        its values are used as heights; {}{} makes a landscape with a sea of it\n",
                kDrawingPrefix, path.string());
   }
 }
@@ -44,7 +44,7 @@ void describe_drawing(const std::string& name) {
   print_heights(*source.heights, source.notes);
 }
 
-// What a grounded heightmap tree consists of, and whether all is as it must be.
+// The parts of a grounded heightmap tree, and whether its invariants hold.
 void print_tree(const Representation& structure) {
   const auto* const tree = dynamic_cast<const Ght*>(&structure);
   if (tree == nullptr) return;
@@ -71,7 +71,7 @@ void describe_representation(const std::filesystem::path& path) {
   print_tree(*loaded.representation);
 }
 
-// A script of events, as the tree that it makes.
+// A script of events, described by the tree that it builds.
 void describe_script(const std::filesystem::path& path) {
   const TerrainSource source = events::open_script(read_file(path), path.string());
   const RepresentationType& type = representation("ght");
@@ -108,7 +108,7 @@ ExitCode info_command(const std::filesystem::path& path) {
   } else if (path.extension() == events::kExtension && std::filesystem::exists(status)) {
     describe_script(path);
   } else {
-    describe_dem(path);  // says what is wrong with a path that is none of these
+    describe_dem(path);  // its error names what is wrong with any other path
   }
   return ExitCode::kGood;
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -19,8 +20,12 @@ using Json = nlohmann::ordered_json;
 Json parameters_json(std::span<const ParameterSpec> specs) {
   Json list = Json::array();
   for (const ParameterSpec& spec : specs) {
-    Json entry = {{"name", spec.name}, {"unit", spec.unit}, {"help", spec.help}};
+    Json entry = {
+        {"name", spec.name}, {"unit", spec.unit}, {"help", spec.help}, {"accepts", accepted_values(spec)}};
     std::visit([&](const auto& value) { entry["default"] = value; }, spec.fallback);
+    if (std::isfinite(spec.lowest)) entry["lowest"] = spec.lowest;
+    if (std::isfinite(spec.highest)) entry["highest"] = spec.highest;
+    if (!spec.allowed.empty()) entry["allowed"] = spec.allowed;
     list.push_back(std::move(entry));
   }
   return list;
@@ -93,7 +98,7 @@ Json list_terrains() {
   }
   list.push_back({{"name", fmt::format("{}FILE.png", kDrawingPrefix)},
                   {"summary",
-                   "land from a picture of yours, black sea bed to white peaks; may be followed by "
+                   "land from your own picture, from black (sea bed) to white (peaks); may be followed by "
                    ",cell=30,sea_level=0.3,peak=1000,seabed=0.1,smoothing=2,mountains=0.6"},
                   {"origin", "the MRBSP paper's drawings"}});
   return list;
@@ -120,10 +125,9 @@ void print_text(std::string_view title, const Json& list) {
                entry["summary"].get<std::string>());
     if (!entry.contains("parameters")) continue;
     for (const Json& parameter : entry["parameters"]) {
-      const std::string unit = parameter["unit"].get<std::string>();
-      fmt::print("  {:<{}}    --set {}={}  {}{}\n", "", width, parameter["name"].get<std::string>(),
+      fmt::print("  {:<{}}    --set {}={}  {} ({})\n", "", width, parameter["name"].get<std::string>(),
                  parameter["default"].dump(), parameter["help"].get<std::string>(),
-                 unit.empty() ? "" : fmt::format(" [{}]", unit));
+                 parameter["accepts"].get<std::string>());
     }
   }
 }

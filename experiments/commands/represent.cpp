@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "experiments/assignments.h"
 #include "experiments/commands/commands.h"
 #include "experiments/fidelity.h"
 #include "renderers/relief.h"
@@ -16,7 +17,7 @@
 namespace terrabench {
 namespace {
 
-// Files are cropped and resampled while they are read, so that only the result must fit into memory.
+// Crops and resamples a file while reading it, so that only the result must fit into memory.
 TerrainSource open_file(const RepresentArguments& a, Progress& progress) {
   DemOptions options;
   if (!a.crop.empty()) options.window = {a.crop[0], a.crop[1], a.crop[2], a.crop[3]};
@@ -69,7 +70,7 @@ void draw(const RepresentArguments& a, const Representation& built, Bounds bound
   fmt::print("rendered    {} ({} triangles, {})\n", a.render, mesh.triangles(), context->renderer());
 }
 
-// What drills came to, which a budget chooses and no other line shows.
+// The drills' number and parameters, which a budget chooses and no other line shows.
 void print_drills(const DrillTerrain& built, const Parameters& parameters) {
   const Drills& drills = built.drills();
   ByteSink encoded;
@@ -80,13 +81,13 @@ void print_drills(const DrillTerrain& built, const Parameters& parameters) {
              format_quantity(static_cast<double>(bytes), "B"));
   if (drills.count() == 0) {
     fmt::print(
-        "warning     no channels: the flow of no pixel reaches tau = {}, so that the terrain is a "
+        "warning     no channels: no pixel's flow reaches tau = {}, so the terrain is a "
         "plateau at {} m; choose a smaller tau\n",
         parameters.integer("tau"), drills.plateau);
   }
 }
 
-// For other programs to read and check: how many pixels drain through each, and where to.
+// Rasters for other programs: how many pixels drain through each pixel, and in which direction.
 void write_flow(const std::filesystem::path& path, const TerrainSource& source, Progress& progress) {
   const FlowNetwork network = route_flow(*source.heights, &progress);
   std::filesystem::path directions = path;
@@ -101,12 +102,14 @@ void write_flow(const std::filesystem::path& path, const TerrainSource& source, 
 ExitCode represent_command(const RepresentArguments& a) {
   const RepresentationType& type = representation(a.as);
   Parameters parameters(type.parameters);
-  for (const std::string& assignment : a.assignments) parameters.set_from_text(assignment);
+  for (const std::string& assignment : split_assignments(a.assignments, type.parameters)) {
+    parameters.set_from_text(assignment);
+  }
   Progress progress(isatty(STDERR_FILENO) != 0 ? Progress::Output::kTerminal : Progress::Output::kLines);
 
   const TerrainSource source = names_dem_file(a.terrain) ? open_file(a, progress) : open_named(a);
-  if (!a.write_flow.empty() && !source.heights) {  // before work that may take minutes
-    throw usage_error("this terrain is a solid, over which no flow is routed", "--write-flow",
+  if (!a.write_flow.empty() && !source.heights) {  // checked before work that may take minutes
+    throw usage_error("this terrain is a solid; flow needs a grid of heights", "--write-flow",
                       "leave it out, or name a terrain of heights");
   }
   const auto begin = std::chrono::steady_clock::now();

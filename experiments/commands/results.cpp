@@ -1,9 +1,12 @@
-// check, report and compare: the subcommands that read measurements and measure nothing.
+// check, report and compare: the subcommands that only read measurements.
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "experiments/commands/commands.h"
-#include "results/check.h"
+#include "results/check_output.h"
 #include "results/compare.h"
 #include "results/report.h"
 #include "terrain/files.h"
@@ -11,10 +14,17 @@
 namespace terrabench {
 
 ExitCode check_command(const CheckArguments& arguments) {
-  const CheckReport report = check(arguments.folder, arguments.rows);
-  fmt::print("{}", arguments.json ? check_json(report) : check_text(report, isatty(STDOUT_FILENO) != 0));
-  if (!arguments.junit.empty()) write_file(arguments.junit, check_junit(report));
-  return report.passed() ? ExitCode::kGood : ExitCode::kClaimFallsShort;
+  const JudgedResults results = judge(arguments.folder, arguments.claims);
+  // Before the text, whose reader may close the pipe.
+  if (!arguments.junit.empty()) write_file(arguments.junit, check_junit(results));
+  TextLook look{.verbose = arguments.verbose};
+  if (isatty(STDOUT_FILENO) != 0) {
+    winsize size{};
+    look.colour = true;
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0) look.width = std::clamp<int>(size.ws_col, 80, 100);
+  }
+  fmt::print("{}", arguments.json ? check_json(results) : check_text(results, look));
+  return results.passed() ? ExitCode::kGood : ExitCode::kClaimFallsShort;
 }
 
 ExitCode report_command(const std::filesystem::path& folder) {
@@ -26,7 +36,7 @@ ExitCode compare_command(const CompareArguments& arguments) {
   const Comparison comparison = compare(arguments.before, arguments.after);
   fmt::print(
       "{}", arguments.json ? compare_json(comparison) : compare_text(comparison, isatty(STDOUT_FILENO) != 0));
-  return comparison.exact_equal() && comparison.faults.empty() ? ExitCode::kGood : ExitCode::kClaimFallsShort;
+  return comparison.passed() ? ExitCode::kGood : ExitCode::kClaimFallsShort;
 }
 
 }  // namespace terrabench

@@ -36,7 +36,9 @@ TEST_F(CommandLine, HelpAndVersionExitGood) {
 TEST_F(CommandLine, WrongUseExits2AndSuggests) {
   EXPECT_EQ(call("$T").code, 2);
   EXPECT_EQ(call("$T run --profile huge").code, 2);
-  EXPECT_EQ(call("$T run --shard 3/2").code, 2);
+  const Outcome shard = call("$T run --shard 3/2");
+  EXPECT_EQ(shard.code, 2);
+  EXPECT_THAT(shard.text, HasSubstr("invalid shard '3/2': expected i/n, such as 2/8"));
   EXPECT_EQ(call("$T run --threads 0").code, 2);
   const Outcome experiment = call("$T run hybrid.tabel1");
   EXPECT_EQ(experiment.code, 2);
@@ -88,6 +90,7 @@ TEST_F(CommandLine, ListsEverythingAsTextAndJson) {
     EXPECT_THAT(text.text, HasSubstr(name));
   }
   EXPECT_EQ(call("$T list --json | python3 -m json.tool").code, 0);
+  EXPECT_THAT(call("$T list experiments").text, HasSubstr("(a number between 0.01 and 1000 px)"));
 }
 
 TEST_F(CommandLine, RepresentSavesRendersAndInfoReadsBack) {
@@ -189,7 +192,7 @@ TEST_F(CommandLine, FullOrUnwritableOutputExits4AndLeavesNothingHalf) {
 TEST_F(CommandLine, CheckPassesOnTrueMeasurementsAndFailsOnAlteredOnes) {
   const Outcome measured = call("$T run hybrid.table1 hybrid.caves --out out");
   ASSERT_EQ(measured.code, 0) << measured.text;
-  const std::string rows = "$T check out --rows 'hybrid.T1.*' hybrid.caves";
+  const std::string rows = "$T check out --claims 'hybrid.T1.*' hybrid.caves";
   const Outcome good = call(rows);
   ASSERT_EQ(good.code, 0) << good.text;
   // One more digit in a figure: the structure would still be smaller than the paper's.
@@ -211,6 +214,36 @@ TEST_F(CommandLine, OutputThatCannotBeWrittenExits4) {
   EXPECT_EQ(call("$T represent jacksboro --as heightmap --render /dev/null").code, 4);
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
   EXPECT_EQ(call("$T info " + std::string(300, 'x')).code, 3);
+}
+
+// The reader of the pipe is gone before anything is written.
+TEST_F(CommandLine, AClosedPipeEndsQuietly) {
+  const auto closed = [&](const std::string& command) {
+    return call("rm -f p; mkfifo p; (exec 3<p) & exec 4>p; wait; " + command + "; echo code $?");
+  };
+  EXPECT_EQ(closed("$T list >&4").text, "code 141\n");
+  EXPECT_EQ(closed("$T list nonsense 2>&4").text, "code 2\n");
+  ASSERT_EQ(call("$T run hybrid.table1 --out out").code, 0);
+  EXPECT_EQ(closed("$T check out --junit junit.xml >&4").text, "code 141\n");
+  EXPECT_TRUE(fs::exists(folder_ / "junit.xml"));
+  EXPECT_EQ(closed("$T report out >&4").text, "code 141\n");
+  EXPECT_TRUE(fs::exists(folder_ / "out/report/index.html"));
+  // Errors elsewhere keep their message.
+  const Outcome other = closed("$T represent jacksboro --as heightmap --save p/s.tb >&4");
+  EXPECT_THAT(other.text, HasSubstr("p/s.tb"));
+  EXPECT_THAT(other.text, HasSubstr("code 4"));
+}
+
+TEST_F(CommandLine, OneSetOptionMayHoldSeveralAssignments) {
+  const Outcome run = call("$T run hybrid.noise-stages --shard 1/11 --set pixels=16,no=1 --out out");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.text, HasSubstr("unknown parameter 'no'"));
+  for (const char* set : {"tau=50,w=4,k=9", "tau=50 w=4,k=9", "tau=50 --set w=4 --set k=9"}) {
+    const Outcome built =
+        call(std::string("$T represent jacksboro --as drill --crop 0 0 60 60 --set ") + set);
+    EXPECT_EQ(built.code, 0) << built.text;
+    EXPECT_THAT(built.text, HasSubstr("w = 4, k = 9"));
+  }
 }
 
 TEST_F(CommandLine, APartialRunStillMakesAReport) {

@@ -29,7 +29,15 @@ void expect_refused(const std::string& text, const std::string& what, int line) 
   }
 }
 
-TEST(Claims, EveryRowOfTheLedgerIsThere) {
+std::vector<const Claim*> claims() {
+  std::vector<const Claim*> all;
+  for (const Paper& paper : papers()) {
+    for (const Claim& claim : paper.claims) all.push_back(&claim);
+  }
+  return all;
+}
+
+TEST(Claims, EveryClaimOfThePapersIsThere) {
   std::set<std::string> ids;
   for (const Claim* claim : claims()) EXPECT_TRUE(ids.insert(claim->id).second) << claim->id << " twice";
   std::vector<std::string> expected = {"hybrid.T3",
@@ -90,7 +98,7 @@ TEST(Claims, EveryRowOfTheLedgerIsThere) {
   figures("ght", {1, 5, 6, 7, 8, 9, 10, 13, 15, 17, 18, 19, 20, 21, 22, 23, 24});
   figures("drill", {1, 2, 3, 4});
   figures("mrbsp", {1, 2});
-  // A row with several figures may be split: drill.error into drill.error.rmse and drill.error.ahd.
+  // A claim with several figures may be split: drill.error into drill.error.rmse and drill.error.ahd.
   for (const std::string& id : expected) {
     EXPECT_TRUE(ids.contains(id) || ids.lower_bound(id + ".") != ids.lower_bound(id + "/")) << id;
   }
@@ -130,7 +138,7 @@ TEST(Claims, TheLargestSizeAndFurtherGroundsAreMeasuredInThePaperProfileOnly) {
   }
 }
 
-TEST(Claims, EveryRowOfTheDrillPaperIsJudgedOnFourGrounds) {
+TEST(Claims, EveryClaimOfTheDrillPaperIsJudgedOnFourGrounds) {
   const std::span<const Paper> all = papers();
   const auto drill = std::find_if(all.begin(), all.end(), [](const Paper& p) { return p.id == "drill"; });
   ASSERT_NE(drill, all.end());
@@ -142,7 +150,7 @@ TEST(Claims, EveryRowOfTheDrillPaperIsJudgedOnFourGrounds) {
   }
 }
 
-TEST(Claims, WhatHoldsForEveryMemberOfASetIsSaidOnce) {
+TEST(Claims, EachStandsForEveryMemberOfASet) {
   const std::string sets =
       "[sets]\npx = [\"1\", \"2\"]\n"
       "on = [{name = \"a\", at = \"here\"}, {name = \"b\", at = \"there\"}]\nother = [\"x\", \"y\"]\n";
@@ -174,7 +182,7 @@ TEST(Claims, WhatHoldsForEveryMemberOfASetIsSaidOnce) {
   EXPECT_EQ(paper.tables[1].rows[1].case_name, "b/1x");
 }
 
-TEST(Claims, RefusesSetsThatAreNone) {
+TEST(Claims, RefusesInvalidSets) {
   const auto refused = [](const std::string& sets, const std::string& where, const std::string& what,
                           int line) {
     expect_refused(std::string(kHead) + "[sets]\n" + sets + "\n" + std::string(kClaim) + where, what, line);
@@ -184,19 +192,20 @@ TEST(Claims, RefusesSetsThatAreNone) {
   refused("px = 3", "", "list", 5);
   refused("px = [3]", "", "table", 5);
   refused("px = [{at = \"x\"}]", "", "'name' is missing", 5);
-  refused(good, "note = \"{px}\"\n", "'px' is no set that 'each' names here", 11);
-  refused(good, "check = [{equal = [\"e/{py}/m\", 1]}]\n", "no set 'py'", 11);
-  refused(good, "check = [{each = [\"py\"], equal = [\"e/c/m\", 1]}]\n", "no set 'py'", 11);
+  refused(good, "note = \"{px}\"\n", "no 'each' names the set 'px' here", 11);
+  refused(good, "check = [{equal = [\"e/{py}/m\", 1]}]\n", "unknown set 'py'", 11);
+  refused(good, "check = [{each = [\"py\"], equal = [\"e/c/m\", 1]}]\n", "unknown set 'py'", 11);
   refused(good, "check = [{each = \"px\", equal = [\"e/c/m\", 1]}]\n", "not a list", 11);
   refused(good, "check = [{equal = [\"e/{px.at}/m\", 1]}]\n", "no 'at'", 11);
-  refused(good, "check = [{each = [\"px\", \"px\"], equal = [\"e/c/m\", 1]}]\n", "within itself", 11);
+  refused(good, "check = [{each = [\"px\", \"px\"], equal = [\"e/c/m\", 1]}]\n", "names the set 'px' twice",
+          11);
   std::string many = "n = [";
   for (int i = 0; i < 100; ++i) many += fmt::format("\"{}\", ", i);
-  refused(many + "]\nm = [\"{n}\"]", "", "no set 'n'", 6);
+  refused(many + "]\nm = [\"{n}\"]", "", "unknown set 'n'", 6);
   refused(many + "]", "check = [{equal = [\"e/{n}/m\", 1]}]\n", "2 to 64", 11);
 }
 
-TEST(Claims, RowsAreRepeatedOnFurtherGrounds) {
+TEST(Claims, ClaimsAreRepeatedOnFurtherGrounds) {
   const std::string claim(kClaim);
   const std::string text =
       std::string(kHead) + claim +
@@ -213,7 +222,7 @@ TEST(Claims, RowsAreRepeatedOnFurtherGrounds) {
   EXPECT_EQ(order.operands[0].number, 1);
   EXPECT_EQ(order.operands[1].case_name, "b");
   EXPECT_EQ(order.operands[2].case_name, "b/x");
-  EXPECT_EQ(order.operands[3].case_name, "ab");  // another ground, whose name begins alike
+  EXPECT_EQ(order.operands[3].case_name, "ab");  // another ground, whose name starts with the same letters
   EXPECT_EQ(claims[1].conditions[1].figure, "p.F.b");
   EXPECT_EQ(claims[1].where, "w, on hills");
   EXPECT_EQ(claims[1].profiles, std::vector<std::string>{"paper"});
@@ -224,7 +233,7 @@ TEST(Claims, RowsAreRepeatedOnFurtherGrounds) {
   EXPECT_EQ(claims[0].conditions[0].operands[1].case_name, "a");
 }
 
-TEST(Claims, ReadsEveryKindOfCheck) {
+TEST(Claims, ReadsEveryKindOfCondition) {
   const std::string text =
       std::string(kHead) + std::string(kClaim) +
       "check = [{equal = [\"e/c/m\", 3]}, {order = [1, \"e/a/b/m\", 9]},\n"
@@ -256,26 +265,29 @@ TEST(Claims, RefusesWithFileAndLine) {
   expect_refused(claim, "needs either 'check' or a reason", 4);
   expect_refused(claim + "pending = \"x\"\ncheck = [{figure = \"f\"}]\n", "needs either", 4);
   expect_refused(claim + "check = [{figure = 3}]\n", "'figure' is not text", 9);
-  expect_refused(claim + "check = [{exact = [1, 2]}]\n", "a check is one of", 9);
+  expect_refused(claim + "check = [{exact = [1, 2]}]\n", "a condition is one of", 9);
   expect_refused(claim + "check = [{equal = [1]}]\n", "takes 2 to 64 operands", 9);
   expect_refused(claim + "check = [{equal = [1, \"e/m\"]}]\n", "an operand is a number or", 9);
   expect_refused(claim + "check = [{equal = [1, nan]}]\n", "not a finite number", 9);
   expect_refused(claim + "check = [{within = [\"e/c/m\"]}]\n", "'range' is missing", 9);
   expect_refused(claim + "check = [{within = [\"e/c/m\"], range = [2, 1]}]\n", "the range is empty", 9);
-  expect_refused(claim + "check = [{figure = \"f\"}]\nknown = \"maybe\"\n", "'maybe' is no verdict", 4);
+  expect_refused(claim + "check = [{figure = \"f\"}]\nknown = \"maybe\"\n", "invalid known verdict 'maybe'",
+                 4);
   for (const char* verdict : {"pending", "not run", "missing"}) {
-    expect_refused(claim + "check = [{figure = \"f\"}]\nknown = \"" + verdict + "\"\n", "is no verdict", 4);
+    expect_refused(claim + "check = [{figure = \"f\"}]\nknown = \"" + verdict + "\"\n",
+                   "invalid known verdict", 4);
   }
   expect_refused(claim + "check = [{figure = \"f\"}]\nknown = \"differs\"\n", "needs a 'note'", 4);
   expect_refused(claim + "pending = \"x\"\n" + std::string(kClaim) + "pending = \"x\"\n", "used twice", 0);
   const std::string ground =
       claim + "check = [{figure = \"f\"}]\n[[ground]]\nname = \"b\"\nof = \"a\"\nlabel = \"l\"\n";
-  expect_refused(ground + "known = [{claim = \"p.9\", verdict = \"differs\"}]\n", "no row 'p.9'", 14);
+  expect_refused(ground + "known = [{claim = \"p.9\", verdict = \"differs\"}]\n", "unknown claim 'p.9'", 14);
   expect_refused(ground + "known = [{claim = \"p.1\", verdict = \"differs\"}]\n", "needs a 'note'", 14);
-  expect_refused(ground + "known = [{claim = \"p.1\", verdict = \"missing\"}]\n", "is no verdict", 14);
+  expect_refused(ground + "known = [{claim = \"p.1\", verdict = \"missing\"}]\n", "invalid known verdict",
+                 14);
   expect_refused(
       head + "[[claim]]\nid = \"../p\"\nwhere = \"\"\nstatement = \"\"\nclass = \"E\"\npending = \"x\"\n",
-      "is no id", 0);
+      "invalid id", 0);
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST_F(CompareTest, SaysWhatOnlyOneSideHasAndWhatWasMeasuredOnOtherGround) {
   EXPECT_TRUE(c.passed());
   const std::string text = compare_text(c, false);
   EXPECT_THAT(text, HasSubstr("only before"));
-  EXPECT_THAT(text, HasSubstr("another seed"));
+  EXPECT_THAT(text, HasSubstr("seed, terrain or parameters differ"));
   const auto json = nlohmann::json::parse(compare_json(c));
   EXPECT_THAT(text, HasSubstr("1 same, 1 only before, 1 only after"));
   EXPECT_EQ(json["metrics"].size(), 3U);

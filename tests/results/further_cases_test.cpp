@@ -53,13 +53,13 @@ TEST_F(FurtherCases, AreThoseThatNothingElseShows) {
 
   const std::vector<TableLayout> tables = further_cases(store, papers, "quick");
   ASSERT_EQ(tables.size(), 2U);
-  // As the ledger's own table shows them, without what none of them has.
+  // As the claims file's own table shows them, without columns that none of them has.
   ASSERT_EQ(tables[0].columns.size(), 1U);
   EXPECT_EQ(tables[0].columns[0].title, "Time");
   EXPECT_EQ(tables[0].columns[0].unit, "ms");
   ASSERT_EQ(tables[0].rows.size(), 1U);
   EXPECT_EQ(tables[0].rows[0].case_name, "mine");
-  // The ledger has no table of this experiment.
+  // No claims file has a table of this experiment.
   ASSERT_EQ(tables[1].columns.size(), 2U);
   EXPECT_EQ(tables[1].columns[0].unit, "px");
   EXPECT_EQ(tables[1].rows.size(), 2U);

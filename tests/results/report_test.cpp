@@ -167,6 +167,18 @@ TEST_F(ReportTest, EmptyFolderIsBadInput) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "report"));
 }
 
+TEST_F(ReportTest, AUnitThatCannotBeShownIsAnErrorAtTheRecordsLine) {
+  write_fake_results(folder_, "quick");
+  edit(file(), "\"paper_stack_bytes\",\"samples\":[98304.0],\"unit\":\"B\"",
+       "\"paper_stack_bytes\",\"samples\":[98304.0],\"unit\":\"s\"");
+  try {
+    write_report(folder_);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("measurements.jsonl:2: 'paper_stack_bytes' was measured in 's'"));
+  }
+}
+
 TEST_F(ReportTest, DoesNotReplaceWhatIsNoReport) {
   write_fake_results(folder_, "quick");
   write_file(folder_ / "report/thesis.tex", std::string_view("years of work"));

@@ -32,17 +32,6 @@ void write_two(const std::filesystem::path& folder) {
   store.append(timed(run, "n=128", 2.5));
 }
 
-void expect_bad_input(const std::string& line, const std::string& what) {
-  try {
-    parse_line(line, "there:3");
-    ADD_FAILURE() << "accepted: " << line.substr(0, 100);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kBadInput);
-    EXPECT_THAT(error.what(), HasSubstr("there:3"));
-    EXPECT_THAT(error.what(), HasSubstr(what));
-  }
-}
-
 TEST_F(StoreTest, GivesBackWhatWasAppended) {
   write_two(folder_);
   const Store store = Store::open(folder_);
@@ -70,6 +59,19 @@ TEST_F(StoreTest, NewestRecordOfACaseWins) {
   EXPECT_EQ(store.records().size(), 2U);
   EXPECT_EQ(store.find("hybrid.table2", "n=64", "quick")->find("generation_time")->samples[0], 99);
   EXPECT_THAT(content(), HasSubstr("0.25")) << "nothing is ever taken out of the file";
+}
+
+TEST_F(StoreTest, KnowsTheLineOfARecord) {
+  write_two(folder_);
+  Store store(folder_);
+  const auto where = [](const Store& s, const char* name) {
+    return s.where(*s.find("hybrid.table2", name, "quick"));
+  };
+  EXPECT_EQ(where(store, "n=64"), file().string() + ":2");
+  EXPECT_EQ(where(store, "n=128"), file().string() + ":3");
+  store.append(timed(fake_provenance(), "n=64", 0.5));
+  EXPECT_EQ(where(store, "n=64"), file().string() + ":4");
+  EXPECT_EQ(where(Store(folder_), "n=64"), file().string() + ":4");
 }
 
 TEST_F(StoreTest, FindsAFigureAlteredByHand) {
@@ -174,50 +176,6 @@ TEST_F(StoreTest, GarbageIsBadInput) {
   EXPECT_THROW(Store{folder_}, Error);
 }
 
-TEST(RecordLine, RefusesWhatIsNoLine) {
-  const std::string good = to_line(timed(fake_provenance(), "n=64", 0.25));
-  const auto changed = [&](std::string_view from, std::string_view to) {
-    std::string line = good;
-    const std::size_t at = line.find(from);
-    EXPECT_NE(at, line.npos) << from;
-    return line.replace(at, from.size(), to);
-  };
-  expect_bad_input("", "not valid JSON");
-  expect_bad_input("null", "not an object");
-  expect_bad_input("{}", "'kind' is missing");
-  expect_bad_input(good.substr(0, good.size() / 2), "not valid JSON");
-  expect_bad_input(changed("\"record\"", "\"recrod\""), "'kind' is neither");
-  expect_bad_input(changed("0.25", "NaN"), "not valid JSON");
-  expect_bad_input(changed("0.25", "1e999"), "too large");
-  expect_bad_input(changed("0.25", "\"0.25\""), "is not a number");
-  expect_bad_input(changed("[0.25,0.35,0.3333333333333333]", "[]"), "has no samples");
-  expect_bad_input(changed("\"hybrid.table2\"", "7"), "'experiment' is not text");
-  expect_bad_input(changed("hybrid.table2", "hybrid\\u001b[31m"), "control characters");
-  expect_bad_input(changed("\"figures\":[]", "\"figures\":{}"), "'figures' is not a list");
-  for (const char* path : {"../secret.png", "/etc/passwd", "figures/../../x.png"}) {
-    const std::string figure =
-        std::string(R"("figures":[{"id":"a","file":")") + path + R"(","caption":"","checksum":""}])";
-    expect_bad_input(changed("\"figures\":[]", figure), "outside the results folder");
-  }
-  expect_bad_input(std::string(2'000'000, '['), "nested too deeply");
-}
-
-TEST(RecordLine, UnknownFieldIsIgnoredWithAWarningAndCountsAsAltered) {
-  std::string line = to_line(timed(fake_provenance(), "n=64", 0.25));
-  line.insert(1, "\"comment\":\"hello\",");
-  const Line parsed = parse_line(line, "x");
-  EXPECT_EQ(parsed.warning, "unknown field 'comment' is ignored");
-  EXPECT_TRUE(parsed.altered);
-}
-
-TEST(RecordLine, SurvivesBytesThatAreNoText) {
-  Provenance run = fake_provenance();
-  run.command = "terrabench run \xff\xfe";
-  const Line line = parse_line(to_line(run), "x");
-  EXPECT_FALSE(line.altered);
-  EXPECT_EQ(std::get<Provenance>(line.content).id, digest(run));
-}
-
 TEST_F(StoreTest, RefusesNumbersThatAreNotFinite) {
   Store store(folder_);
   const Provenance run = fake_provenance();
@@ -230,7 +188,7 @@ TEST_F(StoreTest, RefusesNumbersThatAreNotFinite) {
   EXPECT_EQ(content(), before);
 }
 
-// A file size limit is how a full disk is had without filling one: the write stops in the middle of the line.
+// A file size limit stands in for a full disk: the write stops in the middle of the line.
 TEST_F(StoreTest, FullDiskLeavesNoHalfLine) {
   write_two(folder_);
   const std::string before = content();
@@ -334,7 +292,7 @@ TEST_F(StoreTest, InterruptedRunOfADirtyBuildGoesOn) {
   EXPECT_NE(store.find(key, dirty), nullptr);
 }
 
-// A figure of the ledger is the newest that was drawn with the ledger's parameters, whichever case drew it.
+// The figure of a claim is the newest that was drawn with the experiment's own parameters, by whichever case.
 TEST_F(StoreTest, FigureIsTheNewestWithoutOverriddenParameters) {
   Store store(folder_);
   const Provenance run = fake_provenance();

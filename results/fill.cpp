@@ -1,4 +1,4 @@
-#include "results/layout.h"
+#include "results/fill.h"
 
 #include <fmt/format.h>
 
@@ -14,30 +14,31 @@ namespace {
 
 using ColumnKind = TableLayout::Column::Kind;
 
-const Cell kNothing{"–", "", "", ""};
+const Cell kNothing{"–"};
 
 void note_run(std::vector<std::string>& runs, const Record& record) {
-  if (std::find(runs.begin(), runs.end(), record.run) == runs.end()) runs.push_back(record.run);
+  if (std::ranges::count(runs, record.run) == 0) runs.push_back(record.run);
 }
 
-Cell number_cell(double number) { return {format_number(number), format_exact(number), "", ""}; }
+Cell number_cell(double number) { return {format_number(number), format_exact(number)}; }
 
-Cell measured_cell(const TableLayout::Column& column, const TableLayout::Row& row, const Metric& metric) {
+Cell measured_cell(const TableLayout::Column& column, const TableLayout::Row& row, const Metric& metric,
+                   const std::string& where) {
   const Summary s = summarise(metric.samples);
   if (column.kind == ColumnKind::kMetric || column.kind == ColumnKind::kInterval) {
-    const double factor = conversion(metric.unit, column.unit, column.metric);
+    const double factor = conversion(metric.unit, column.unit, column.metric, where);
     if (column.kind == ColumnKind::kMetric) return number_cell(s.median * factor);
     if (s.count == 1) return kNothing;
     const double low = s.low * factor, high = s.high * factor;
     return {fmt::format("{} … {}", format_number(low), format_number(high)),
-            fmt::format("{} … {}", format_exact(low), format_exact(high)), "", ""};
+            fmt::format("{} … {}", format_exact(low), format_exact(high))};
   }
   const auto reported = row.values.find(column.key);
   if (reported == row.values.end() || !std::holds_alternative<double>(reported->second)) return kNothing;
   return number_cell(std::get<double>(reported->second) / s.median);
 }
 
-// Nothing across machines or builds: `check` would refuse it too.
+// Empty across machines or builds, whose times cannot be compared.
 Cell growth_cell(const std::string& metric, const Record* before, const Record* record, const Store& store) {
   const Metric* const from = before == nullptr ? nullptr : before->find(metric);
   const Metric* const to = record == nullptr ? nullptr : record->find(metric);
@@ -49,7 +50,7 @@ Cell growth_cell(const std::string& metric, const Record* before, const Record* 
 }
 
 Cell cell_for(const TableLayout::Column& column, const TableLayout::Row& row, const Record* record,
-              const CheckReport& check) {
+              const Store& store, const JudgedResults& results) {
   const auto value = row.values.find(column.key);
   const bool given = value != row.values.end();
   if (column.kind == ColumnKind::kReported) {
@@ -60,40 +61,39 @@ Cell cell_for(const TableLayout::Column& column, const TableLayout::Row& row, co
   if (column.kind == ColumnKind::kVerdict) {
     if (!given || !std::holds_alternative<std::string>(value->second)) return kNothing;
     const std::string& id = std::get<std::string>(value->second);
-    const auto it =
-        std::find_if(check.rows.begin(), check.rows.end(), [&](const Row& r) { return r.claim->id == id; });
-    return it == check.rows.end() ? kNothing : verdict_cell(*it);
+    const auto it = std::ranges::find(results.judgements, id, [](const Judgement& j) { return j.claim->id; });
+    return it == results.judgements.end() ? kNothing : verdict_cell(*it);
   }
   const Metric* const metric = record == nullptr ? nullptr : record->find(column.metric);
-  return metric == nullptr ? kNothing : measured_cell(column, row, *metric);
+  return metric == nullptr ? kNothing : measured_cell(column, row, *metric, store.where(*record));
 }
 
 }  // namespace
 
-Cell verdict_cell(const Row& row) {
-  // The class is the verdict's last word, such as "shape" or "run".
-  constexpr std::string_view kClasses[] = {"reproduced", "shape", "differs", "incomparable",
-                                           "pending",    "unrun", "missing"};
-  return {std::string(name(row.verdict)), "", "",
-          "verdict " + std::string(kClasses[static_cast<std::size_t>(row.verdict)])};
+Cell verdict_cell(const Judgement& judgement) {
+  // The style is the verdict's last word, such as "shape" or "run".
+  constexpr std::string_view kStyles[] = {"reproduced", "shape", "differs", "incomparable",
+                                          "pending",    "unrun", "missing"};
+  return {std::string(name(judgement.verdict)), "", "",
+          "verdict " + std::string(kStyles[static_cast<std::size_t>(judgement.verdict)])};
 }
 
-FilledTable fill(const TableLayout& layout, const Store& store, const CheckReport& check) {
+FilledTable fill(const TableLayout& layout, const Store& store, const JudgedResults& results) {
   FilledTable filled;
-  filled.table = {layout.id, layout.title, layout.caption, {{layout.rows_title, "", false}}, {}};
+  filled.table = {layout.id, layout.title, layout.caption, {{layout.rows_title}}, {}};
   for (const TableLayout::Column& column : layout.columns) {
     filled.table.columns.push_back({column.title, column.unit, column.kind != ColumnKind::kVerdict});
   }
   const Record* before = nullptr;
   for (const TableLayout::Row& row : layout.rows) {
-    const Record* const record = store.find(layout.experiment, row.case_name, check.profile);
+    const Record* const record = store.find(layout.experiment, row.case_name, results.profile);
     const Record* const above = std::exchange(before, record);
     if (record == nullptr && row.values.empty()) continue;
     if (record != nullptr) note_run(filled.runs, *record);
-    std::vector<Cell> cells = {{row.label, "", "", ""}};
+    std::vector<Cell> cells = {{row.label}};
     for (const TableLayout::Column& column : layout.columns) {
       cells.push_back(column.kind == ColumnKind::kGrowth ? growth_cell(column.metric, above, record, store)
-                                                         : cell_for(column, row, record, check));
+                                                         : cell_for(column, row, record, store, results));
     }
     filled.table.rows.push_back(std::move(cells));
   }
@@ -119,10 +119,12 @@ FilledPlot fill(const PlotLayout& layout, const Store& store, const std::string&
       if (metric == nullptr || (across == nullptr && !series.x_metric.empty())) continue;
       note_run(filled.runs, *record);
       const Summary s = summarise(metric->samples);
-      const double up = conversion(metric->unit, layout.y.unit, series.metric);
-      const double right = across == nullptr ? x
-                                             : summarise(across->samples).median *
-                                                   conversion(across->unit, layout.x.unit, series.x_metric);
+      const std::string where = store.where(*record);
+      const double up = conversion(metric->unit, layout.y.unit, series.metric, where);
+      const double right = across == nullptr
+                               ? x
+                               : summarise(across->samples).median *
+                                     conversion(across->unit, layout.x.unit, series.x_metric, where);
       line.points.push_back({right, s.median * up, s.low * up, s.high * up});
     }
     if (!series.slope) continue;

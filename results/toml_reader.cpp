@@ -1,4 +1,4 @@
-#include "results/claims_entry.h"
+#include "results/toml_reader.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@ namespace terrabench {
 namespace {
 
 constexpr std::string_view kEach = "each", kName = "name";
-constexpr std::size_t kMostElements = 4096;  // of a list, when all that repeat are written out
+constexpr std::size_t kMostElements = 4096;  // of a list, after `each` is applied
 
 // "{set}" or "{set.field}" in a text.
 struct Slot {
@@ -28,32 +28,33 @@ std::optional<Slot> next_slot(std::string_view text, std::size_t from) {
   return Slot{begin, end + 1, inside.substr(0, dot), dot == inside.npos ? kName : inside.substr(dot + 1)};
 }
 
-const std::vector<SetMember>& set_of(const ClaimsNode& at, std::string_view name) {
+const std::vector<SetMember>& set_of(const TomlValue& at, std::string_view name) {
   const auto set = at.file->sets.find(name);
-  if (set == at.file->sets.end()) at.fail(fmt::format("there is no set '{}'", name));
+  if (set == at.file->sets.end()) at.fail(fmt::format("unknown set '{}'", name));
   return set->second;
 }
 
-std::vector<ClaimsNode> for_each_member(const std::vector<ClaimsNode>& nodes, std::string_view set) {
-  std::vector<ClaimsNode> all;
-  for (const ClaimsNode& node : nodes) {
-    if (node.bound.contains(set)) node.fail(fmt::format("'{}' is repeated within itself", set));
+std::vector<TomlValue> for_each_member(const std::vector<TomlValue>& nodes, std::string_view set) {
+  std::vector<TomlValue> all;
+  for (const TomlValue& node : nodes) {
+    if (node.bound.contains(set)) node.fail(fmt::format("'each' names the set '{}' twice", set));
     for (const SetMember& member : set_of(node, set)) {
       all.push_back(node);
       all.back().bound[std::string(set)] = &member;
     }
   }
-  if (all.size() > kMostElements) nodes.front().fail("this stands for too many elements");
+  if (all.size() > kMostElements)
+    nodes.front().fail(fmt::format("a list has more than {} elements", kMostElements));
   return all;
 }
 
-std::vector<ClaimsNode> written_out(const ClaimsNode& node) {
-  std::vector<ClaimsNode> all{node};
+std::vector<TomlValue> repeated(const TomlValue& node) {
+  std::vector<TomlValue> all{node};
   if (const toml::table* const table = node.node->as_table()) {
     const toml::node* const each = table->get(kEach);
     if (each == nullptr) return all;
-    all.front().repeated = true;
-    for (const ClaimsNode& name : node.at(*each).elements(kEach)) {
+    all.front().each_done = true;
+    for (const TomlValue& name : node.at(*each).elements(kEach)) {
       all = for_each_member(all, name.text(kEach));
     }
   } else if (node.node->is_string()) {
@@ -67,19 +68,19 @@ std::vector<ClaimsNode> written_out(const ClaimsNode& node) {
 
 }  // namespace
 
-void ClaimsNode::fail(std::string_view what) const {
+void TomlValue::fail(std::string_view what) const {
   throw bad_input(what, fmt::format("{}:{}", file->origin, node->source().begin.line),
                   "correct the claims file");
 }
 
-std::string ClaimsNode::text(std::string_view what) const {
+std::string TomlValue::text(std::string_view what) const {
   if (!node->is_string()) fail(fmt::format("'{}' is not text", what));
   const std::string& raw = node->ref<std::string>();
   std::string full;
   std::size_t done = 0;
   for (auto slot = next_slot(raw, 0); slot; slot = next_slot(raw, slot->end)) {
     const auto member = bound.find(slot->set);
-    if (member == bound.end()) fail(fmt::format("'{}' is no set that 'each' names here", slot->set));
+    if (member == bound.end()) fail(fmt::format("no 'each' names the set '{}' here", slot->set));
     const auto field = member->second->fields.find(slot->field);
     if (field == member->second->fields.end()) {
       fail(fmt::format("a member of '{}' has no '{}'", slot->set, slot->field));
@@ -90,61 +91,61 @@ std::string ClaimsNode::text(std::string_view what) const {
   return full.append(raw, done);
 }
 
-double ClaimsNode::number(std::string_view what) const {
+double TomlValue::number(std::string_view what) const {
   const std::optional<double> value = node->is_number() ? node->value<double>() : std::nullopt;
   if (!value || !std::isfinite(*value)) fail(fmt::format("'{}' is not a finite number", what));
   return *value;
 }
 
-std::pair<ClaimsNode, ClaimsNode> ClaimsNode::pair(std::string_view what) const {
+std::pair<TomlValue, TomlValue> TomlValue::pair(std::string_view what) const {
   const toml::array* const array = node->as_array();
   if (array == nullptr || array->size() != 2) fail(fmt::format("'{}' is not a pair", what));
   return {at(*array->get(0)), at(*array->get(1))};
 }
 
-std::vector<ClaimsNode> ClaimsNode::elements(std::string_view what) const {
+std::vector<TomlValue> TomlValue::elements(std::string_view what) const {
   const toml::array* const array = node->as_array();
   if (array == nullptr) fail(fmt::format("'{}' is not a list", what));
-  std::vector<ClaimsNode> all;
+  std::vector<TomlValue> all;
   for (const toml::node& element : *array) {
-    for (ClaimsNode& one : written_out(at(element))) all.push_back(std::move(one));
+    for (TomlValue& one : repeated(at(element))) all.push_back(std::move(one));
   }
   return all;
 }
 
-ClaimsEntry::ClaimsEntry(ClaimsNode node) : node_(std::move(node)) {
+TomlTable::TomlTable(TomlValue node) : node_(std::move(node)) {
   if (!node_.node->is_table()) refuse("a table is expected here");
-  if (node_.repeated) known_.insert(std::string(kEach));
+  if (node_.each_done) known_.insert(std::string(kEach));
 }
 
-const toml::node* ClaimsEntry::find(std::string_view key) {
+const toml::node* TomlTable::find(std::string_view key) {
   known_.insert(std::string(key));
   return table().get(key);
 }
 
-ClaimsNode ClaimsEntry::get(std::string_view key) {
+TomlValue TomlTable::get(std::string_view key) {
   const toml::node* const node = find(key);
   if (node == nullptr) refuse(fmt::format("'{}' is missing", key));
   return node_.at(*node);
 }
 
-std::string ClaimsEntry::text_or(std::string_view key, std::string fallback) {
+std::string TomlTable::text_or(std::string_view key, std::string fallback) {
   return has(key) ? text(key) : std::move(fallback);
 }
 
-bool ClaimsEntry::flag(std::string_view key) {
+bool TomlTable::flag(std::string_view key) {
   const toml::node* const node = find(key);
-  if (node != nullptr && !node->is_boolean()) refuse(fmt::format("'{}' is neither true nor false", key));
+  if (node != nullptr && !node->is_boolean()) refuse(fmt::format("'{}' must be true or false", key));
   return node != nullptr && node->ref<bool>();
 }
 
-std::vector<ClaimsNode> ClaimsEntry::list(std::string_view key) {
+std::vector<TomlValue> TomlTable::list(std::string_view key) {
   if (!has(key)) return {};
   return get(key).elements(key);
 }
 
-std::vector<std::pair<std::string, ClaimsNode>> ClaimsEntry::rest() {
-  std::vector<std::pair<std::string, ClaimsNode>> others;
+std::vector<std::pair<std::string, TomlValue>> TomlTable::rest() {
+  std::vector<std::pair<std::string, TomlValue>> others;
   for (const auto& [key, value] : table()) {
     if (!known_.contains(key.str())) others.emplace_back(key.str(), node_.at(value));
   }
@@ -152,22 +153,22 @@ std::vector<std::pair<std::string, ClaimsNode>> ClaimsEntry::rest() {
   return others;
 }
 
-void ClaimsEntry::refuse_unknown() {
+void TomlTable::refuse_unknown() {
   for (const auto& [key, node] : rest()) node.fail(fmt::format("unknown key '{}'", key));
 }
 
-void read_sets(const toml::table& table, ClaimsFile& file) {
+void read_sets(const toml::table& table, TomlFile& file) {
   const toml::node* const sets = table.get("sets");
   if (sets == nullptr) return;
-  for (const auto& [name, node] : ClaimsEntry({sets, &file, {}}).rest()) {
+  for (const auto& [name, node] : TomlTable({sets, &file, {}}).rest()) {
     std::vector<SetMember> members;
-    for (const ClaimsNode& element : node.elements(name)) {
+    for (const TomlValue& element : node.elements(name)) {
       SetMember& member = members.emplace_back();
       if (element.node->is_string()) {
         member.fields.emplace(kName, element.text(name));
         continue;
       }
-      ClaimsEntry entry(element);
+      TomlTable entry(element);
       member.fields.emplace(kName, entry.text(kName));
       for (const auto& [key, value] : entry.rest()) member.fields.emplace(key, value.text(key));
     }

@@ -1,9 +1,8 @@
-#include "results/check.h"
+#include "results/judge.h"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "results/record_json.h"
 #include "terrain/error.h"
@@ -18,19 +17,19 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::Pair;
 
-using CheckTest = FolderTest;
+using JudgeTest = FolderTest;
 
-const Row& row(const CheckReport& report, std::string_view id) {
-  const auto it =
-      std::find_if(report.rows.begin(), report.rows.end(), [&](const Row& r) { return r.claim->id == id; });
-  if (it == report.rows.end()) throw std::runtime_error("no such row");
+const Judgement& of(const JudgedResults& results, std::string_view id) {
+  const auto it = std::find_if(results.judgements.begin(), results.judgements.end(),
+                               [&](const Judgement& j) { return j.claim->id == id; });
+  if (it == results.judgements.end()) throw std::runtime_error("no such claim");
   return *it;
 }
 
-// One claim with this check, measured against one record with these metrics.
+// One claim with these conditions, measured against one record with these metrics.
 class OneClaim : public FolderTest {
  protected:
-  Row judge(const std::string& check, const std::string& type = "E", const std::string& more = "") {
+  Judgement judge_one(const std::string& check, const std::string& type = "E", const std::string& more = "") {
     std::filesystem::remove(file());
     Store store(folder_);
     const Provenance run = fake_provenance();
@@ -50,10 +49,10 @@ class OneClaim : public FolderTest {
                      "statement = \"s\"\nclass = \"" +
                          type + "\"\ncheck = [" + check + "]\n" + more,
                      "x")};
-    return terrabench::check(store, papers_).rows.at(0);
+    return judge(store, papers_).judgements.at(0);
   }
   Verdict verdict(const std::string& check, const std::string& type = "E") {
-    return judge(check, type).verdict;
+    return judge_one(check, type).verdict;
   }
 
   std::vector<Metric> metrics_;
@@ -76,7 +75,7 @@ TEST_F(OneClaim, OrderIsStrict) {
   EXPECT_EQ(verdict("{order = [\"e/c/n\", \"e/c/m\"]}"), Verdict::kDiffers);
 }
 
-TEST_F(OneClaim, ShapeRowsSayShape) {
+TEST_F(OneClaim, ShapeClaimsSayShape) {
   metrics_ = {{"m", "s", {1}}, {"n", "s", {8}}};
   EXPECT_EQ(verdict("{growth = [\"e/c/m\", \"e/c/n\"], range = [6.5, 9.5]}", "S"), Verdict::kShape);
   EXPECT_EQ(verdict("{ratio = [\"e/c/m\", \"e/c/n\"], range = [0.1, 0.2]}", "S"), Verdict::kShape);
@@ -90,8 +89,8 @@ TEST_F(OneClaim, MedianDecidesAndItsSpreadIsSaid) {
               {"inside", "s", {1.2, 1.21, 1.22, 1.2, 1.21}},
               {"wild", "s", {0.1, 0.2, 1.1, 5, 9, 1.2, 0.3}}};
   const auto judged = [&](const std::string& metric) {
-    const Row row = judge("{within = [\"e/c/" + metric + "\"], range = [1, 1.5]}", "T");
-    return std::pair(row.verdict, row.measured);
+    const Judgement found = judge_one("{within = [\"e/c/" + metric + "\"], range = [1, 1.5]}", "T");
+    return std::pair(found.verdict, found.measured);
   };
   EXPECT_THAT(judged("steady"), Pair(Verdict::kDiffers, AllOf(HasSubstr("not in [1, 1.5] but 3 % below"),
                                                               Not(HasSubstr("uncertain")))));
@@ -106,13 +105,30 @@ TEST_F(OneClaim, MedianDecidesAndItsSpreadIsSaid) {
 
 TEST_F(OneClaim, DifferenceSaysByHowMuch) {
   metrics_ = {{"m", "B", {110}}, {"n", "B", {100}}, {"zero", "B", {0}}};
-  const auto text = [&](const std::string& check) { return judge(check).measured; };
+  const auto text = [&](const std::string& check) { return judge_one(check).measured; };
   EXPECT_THAT(text("{within = [\"e/c/m\"], range = [90, 100]}"), HasSubstr("but 10 % above"));
   EXPECT_THAT(text("{ratio = [\"e/c/m\", \"e/c/n\"], range = [2.2, 3]}"), HasSubstr("but 50 % below"));
   EXPECT_THAT(text("{equal = [\"e/c/m\", 100]}"), HasSubstr("≠ 100 (10 % above)"));
   EXPECT_THAT(text("{order = [\"e/c/m\", \"e/c/n\"]}"), HasSubstr("≥ n 100 B (10 % above)"));
   EXPECT_THAT(text("{within = [\"e/c/m\"], range = [-1, 0]}"), HasSubstr("but 110 above"));
   EXPECT_THAT(text("{ratio = [\"e/c/m\", \"e/c/zero\"], range = [0, 1]}"), HasSubstr("without measure"));
+}
+
+// The short form: the figure that decides, what it must be, its name.
+TEST_F(OneClaim, TheFirstFailingConditionDecides) {
+  metrics_ = {{"m_n", "B", {110}}, {"n", "B", {100}}, {"t", "s", {0.5}}};
+  const auto deciding = [&](const std::string& check) {
+    const Finding found = judge_one(check).deciding;
+    return found.value + " | " + found.expected + " | " + found.quantity;
+  };
+  EXPECT_EQ(deciding("{within = [\"e/c/m_n\"], range = [90, 100]}"), "110 B | [90, 100] | m n");
+  EXPECT_EQ(deciding("{ratio = [\"e/c/m_n\", \"e/c/n\"], range = [1, 2]}"), "1.1 | [1, 2] | m n ÷ n");
+  EXPECT_EQ(deciding("{equal = [\"e/c/m_n\", 110]}"), "110 B | = 110 | m n");
+  EXPECT_EQ(deciding("{order = [\"e/c/n\", \"e/c/m_n\", 109]}"), "110 B | < 109 | m n");
+  EXPECT_EQ(deciding("{order = [1, \"e/c/t\", 2]}"), "0.5 s | > 1 | t");
+  EXPECT_EQ(deciding("{equal = [\"e/c/n\", 100]}, {equal = [\"e/c/t\", 1]}"), "0.5 s | = 1 | t");
+  EXPECT_EQ(deciding("{equal = [\"e/c/n\", 1]}, {equal = [\"e/c/other\", 1]}"), "not measured |  | other");
+  EXPECT_EQ(deciding("{figure = \"p.F1\"}"), "not drawn |  | picture");
 }
 
 TEST_F(OneClaim, RatiosAcrossMachinesOrBuildsAreRefused) {
@@ -122,7 +138,7 @@ TEST_F(OneClaim, RatiosAcrossMachinesOrBuildsAreRefused) {
   const auto complaint = [&](const std::string& check) {
     other.id = digest(other);
     other_runs_ = {{other, {{"t", "s", {8}}, {"bytes", "B", {8}}}}};
-    return judge(check, "S").complaint;
+    return judge_one(check, "S").complaint;
   };
   other.time = "another day";
   EXPECT_EQ(complaint(growth), "");
@@ -148,7 +164,7 @@ TEST_F(OneClaim, DivisionByZeroLiesInNoRange) {
 }
 
 TEST_F(OneClaim, MissingMeasurementFails) {
-  const Row found = judge("{equal = [\"e/other/m\", 1]}");
+  const Judgement found = judge_one("{equal = [\"e/other/m\", 1]}");
   EXPECT_EQ(found.verdict, Verdict::kMissing);
   EXPECT_THAT(found.complaint, HasSubstr("missing"));
   EXPECT_THAT(found.measured, HasSubstr("no m of e other was measured"));
@@ -157,8 +173,8 @@ TEST_F(OneClaim, MissingMeasurementFails) {
 TEST_F(OneClaim, KnownDifferenceDoesNotFailAndAnEndToItDoes) {
   metrics_ = {{"m", "", {2}}};
   const std::string known = "known = \"differs\"\nnote = \"n\"\n";
-  EXPECT_EQ(judge("{equal = [\"e/c/m\", 3]}", "E", known).complaint, "");
-  EXPECT_NE(judge("{equal = [\"e/c/m\", 2]}", "E", known).complaint, "");
+  EXPECT_EQ(judge_one("{equal = [\"e/c/m\", 3]}", "E", known).complaint, "");
+  EXPECT_NE(judge_one("{equal = [\"e/c/m\", 2]}", "E", known).complaint, "");
 }
 
 TEST_F(OneClaim, FigureMustBeThereDecodeAndShowSomething) {
@@ -172,65 +188,66 @@ TEST_F(OneClaim, FigureMustBeThereDecodeAndShowSomething) {
   Image image(8, 8, {10, 20, 30});
   write_png(folder_ / "figures/f.png", image);
   drawn();
-  EXPECT_THAT(judge(check, "F").measured, HasSubstr("blank"));
+  EXPECT_THAT(judge_one(check, "F").measured, HasSubstr("blank"));
   image.set(7, 7, {10, 20, 31});
   write_png(folder_ / "figures/f.png", image);
-  EXPECT_THAT(judge(check, "F").measured, HasSubstr("is not the picture that was drawn"));
+  EXPECT_THAT(judge_one(check, "F").measured, HasSubstr("is not the picture that was drawn"));
   EXPECT_EQ(verdict(check, "F"), Verdict::kDiffers);
   drawn();
   EXPECT_EQ(verdict(check, "F"), Verdict::kReproduced);
 }
 
-TEST_F(CheckTest, WholeRunsPassInBothProfiles) {
+TEST_F(JudgeTest, WholeRunsPassInBothProfiles) {
   for (const char* profile : {"quick", "paper"}) {
     std::filesystem::remove(file());
     write_fake_results(folder_, profile);
-    const CheckReport report = check(Store::open(folder_), faked_papers());
-    EXPECT_TRUE(report.passed()) << check_text(report, false);
-    EXPECT_EQ(report.profile, profile);
-    EXPECT_EQ(row(report, "hybrid.T1.128").verdict, Verdict::kReproduced);
-    EXPECT_EQ(row(report, "hybrid.T2.256").verdict, Verdict::kShape);
-    EXPECT_EQ(row(report, "hybrid.F13").verdict, Verdict::kReproduced);
-    EXPECT_EQ(row(report, "hybrid.T3").verdict, Verdict::kPending);
+    const JudgedResults results = judge(Store::open(folder_), faked_papers());
+    EXPECT_TRUE(results.passed());
+    EXPECT_EQ(results.profile, profile);
+    EXPECT_EQ(of(results, "hybrid.T1.128").verdict, Verdict::kReproduced);
+    EXPECT_EQ(of(results, "hybrid.T2.256").verdict, Verdict::kShape);
+    EXPECT_EQ(of(results, "hybrid.F13").verdict, Verdict::kReproduced);
+    EXPECT_EQ(of(results, "hybrid.T3").verdict, Verdict::kPending);
     const Verdict large = profile == std::string("paper") ? Verdict::kReproduced : Verdict::kNotRun;
-    EXPECT_EQ(row(report, "hybrid.T1.512").verdict, large);
+    EXPECT_EQ(of(results, "hybrid.T1.512").verdict, large);
   }
 }
 
-TEST_F(CheckTest, AFigureAlteredByHandFailsItsRowEvenInsideTheTolerance) {
+TEST_F(JudgeTest, AFigureAlteredByHandFailsItsClaimEvenInsideTheTolerance) {
   write_fake_results(folder_, "quick");
   edit(file(), "\"stack_heap_bytes\",\"samples\":[213040.0]", "\"stack_heap_bytes\",\"samples\":[213041.0]");
-  const CheckReport report = check(folder_);
-  EXPECT_FALSE(report.passed());
-  EXPECT_THAT(row(report, "hybrid.T1.128").complaint, HasSubstr("altered"));
-  EXPECT_EQ(row(report, "hybrid.T1.256").complaint, "");
-  EXPECT_THAT(check_text(report, false), HasSubstr("FAIL"));
+  const JudgedResults results = judge(folder_);
+  EXPECT_FALSE(results.passed());
+  EXPECT_THAT(of(results, "hybrid.T1.128").complaint, HasSubstr("altered"));
+  EXPECT_EQ(of(results, "hybrid.T1.256").complaint, "");
 }
 
-TEST_F(CheckTest, PictureAlteredByHandIsAFault) {
+TEST_F(JudgeTest, PictureAlteredByHandIsAFault) {
   write_fake_results(folder_, "quick");
-  // Even one that no row asks for.
+  // Even one that no claim is about.
   Image image(8, 8, {10, 20, 30});
   write_png(folder_ / "figures/relief.jacksboro.heightmap.png", image);
-  const CheckReport report = check(folder_);
-  ASSERT_EQ(report.faults.size(), 1U);
-  EXPECT_THAT(report.faults[0], HasSubstr("relief.jacksboro.heightmap.png: picture altered"));
-  EXPECT_FALSE(report.passed());
+  const JudgedResults results = judge(folder_);
+  ASSERT_EQ(results.faults.size(), 1U);
+  EXPECT_THAT(results.faults[0], HasSubstr("relief.jacksboro.heightmap.png: picture altered"));
+  EXPECT_FALSE(results.passed());
 }
 
-TEST_F(CheckTest, RowsAreChosenByGlob) {
+TEST_F(JudgeTest, ClaimsAreChosenByGlob) {
   write_fake_results(folder_, "quick");
   const auto ids = [&](const std::vector<std::string>& globs) {
     std::vector<std::string> found;
-    for (const Row& row : check(folder_, globs).rows) found.push_back(row.claim->id);
+    for (const Judgement& j : judge(folder_, globs).judgements) found.push_back(j.claim->id);
     return found;
   };
   EXPECT_THAT(ids({"hybrid.T1.*.128", "hybrid.T2.25?"}),
               testing::ElementsAre("hybrid.T1.voxels.128", "hybrid.T1.ratio.128", "hybrid.T2.256"));
-  EXPECT_EQ(ids({}).size(), claims().size());
+  std::size_t claims = 0;
+  for (const Paper& paper : papers()) claims += paper.claims.size();
+  EXPECT_EQ(ids({}).size(), claims);
   const std::vector<std::string> wrong = {"hybrid.T1.128", "hybrid.t9*"};
   try {
-    check(folder_, wrong);
+    judge(folder_, wrong);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kUsage);
@@ -238,55 +255,26 @@ TEST_F(CheckTest, RowsAreChosenByGlob) {
   }
 }
 
-TEST_F(CheckTest, PartialRunFailsForWhatItsProfileShouldHold) {
+TEST_F(JudgeTest, PartialRunFailsForWhatItsProfileShouldHold) {
   write_fake_results(folder_, "quick");
   std::string text = content();
   write_file(file(), text.substr(0, text.find("hybrid.caves")));
-  const CheckReport report = check(folder_);
-  EXPECT_FALSE(report.passed());
-  EXPECT_EQ(row(report, "hybrid.caves").verdict, Verdict::kMissing);
-  EXPECT_EQ(row(report, "hybrid.T1.128").complaint, "");
+  const JudgedResults results = judge(folder_);
+  EXPECT_FALSE(results.passed());
+  EXPECT_EQ(of(results, "hybrid.caves").verdict, Verdict::kMissing);
+  EXPECT_EQ(of(results, "hybrid.T1.128").complaint, "");
 }
 
-TEST_F(CheckTest, EmptyOrGarbledFolderIsBadInput) {
+TEST_F(JudgeTest, EmptyOrGarbledFolderIsBadInput) {
   for (const char* text : {"", "\n\n", "garbage\n", "{\"kind\":\"run\"}\n"}) {
     write_file(file(), std::string_view(text));
     try {
-      check(folder_);
+      judge(folder_);
       ADD_FAILURE() << text;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::kBadInput);
     }
   }
-}
-
-TEST_F(CheckTest, TextIsColouredOnATerminalOnly) {
-  write_fake_results(folder_, "quick");
-  const CheckReport report = check(Store::open(folder_), faked_papers());
-  EXPECT_THAT(check_text(report, false), Not(HasSubstr("\x1b[")));
-  EXPECT_THAT(check_text(report, true), HasSubstr("\x1b[32mreproduced"));
-  EXPECT_THAT(check_text(report, false), HasSubstr("PASS"));
-}
-
-TEST_F(CheckTest, JsonAndJunitHoldEveryRow) {
-  write_fake_results(folder_, "quick");
-  edit(file(), "\"overhang_columns\",\"samples\":[0.0]", "\"overhang_columns\",\"samples\":[5.0]");
-  const CheckReport report = check(Store::open(folder_), faked_papers());
-  const auto json = nlohmann::json::parse(check_json(report));
-  EXPECT_EQ(json["passed"], false);
-  EXPECT_EQ(json["rows"].size(), report.rows.size());
-  EXPECT_EQ(json["rows"][0]["id"], "hybrid.T1.128");
-  EXPECT_EQ(json["rows"][0]["reported"][0], 393216);
-  const std::string junit = check_junit(report);
-  const auto count = [&](std::string_view what) {
-    std::size_t n = 0;
-    for (std::size_t at = junit.find(what); at != junit.npos; at = junit.find(what, at + 1)) ++n;
-    return n;
-  };
-  EXPECT_EQ(count("<testcase "), report.rows.size() + report.faults.size());
-  EXPECT_EQ(count("<failure "), 2U) << "the row and the altered line";
-  EXPECT_THAT(junit, HasSubstr("failures=\"2\""));
-  EXPECT_THAT(junit, HasSubstr("&lt;"));
 }
 
 }  // namespace

@@ -1,0 +1,218 @@
+#include "results/evidence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "results/format.h"
+#include "results/statistics.h"
+#include "terrain/error.h"
+#include "terrain/image.h"
+
+namespace terrabench {
+namespace {
+
+using Kind = Condition::Kind;
+using Outcome = Finding::Outcome;
+
+// An operand with its samples. A number has no name.
+struct Quantity {
+  std::vector<double> samples;
+  std::string name, unit;
+
+  std::string show(double value) const {
+    const std::string text = format_quantity(value, unit);
+    return name.empty() ? text : name + " " + text;
+  }
+};
+
+Outcome outcome(bool holds) { return holds ? Outcome::kHolds : Outcome::kFails; }
+
+// How far a value misses a bound, relative to the bound unless that is 0.
+std::string missed_by(double value, double bound) {
+  const double distance = value - bound;
+  if (!std::isfinite(distance)) return "without measure";
+  const std::string_view side = distance < 0 ? "below" : "above";
+  return bound == 0 ? fmt::format("{:.3g} {}", std::abs(distance), side)
+                    : fmt::format("{:.3g} % {}", 100 * std::abs(distance / bound), side);
+}
+
+// Whether the 95 % interval leaves the outcome open, which the median alone decides.
+std::string_view doubt(const Summary& s, double low, double high) {
+  const bool holds = s.median >= low && s.median <= high;
+  if (holds) {
+    return s.low < low || s.high > high ? "; uncertain: the 95 % interval reaches outside" : "";
+  }
+  if (s.low <= high && s.high >= low) return "; uncertain: the 95 % interval reaches in";
+  return s.high - s.low > high - low ? "; uncertain: the 95 % interval is wider than the range" : "";
+}
+
+// within, ratio, growth.
+Finding compare_range(const Condition& condition, const Summary& s, const std::string& what,
+                      std::string_view unit) {
+  const bool holds = s.median >= condition.low && s.median <= condition.high;
+  Finding found{outcome(holds), "", format_quantity(s.median, unit),
+                fmt::format("[{}, {}]", format_exact(condition.low), format_exact(condition.high)), what};
+  found.text = what + " " + found.value;
+  if (s.low != s.high) found.text += fmt::format(" [{}, {}]", format_number(s.low), format_number(s.high));
+  found.text += fmt::format(", {} {}", holds ? "in" : "not in", found.expected);
+  if (!holds) {
+    found.text += " but " + missed_by(s.median, s.median < condition.low ? condition.low : condition.high);
+  }
+  found.text += doubt(s, condition.low, condition.high);
+  return found;
+}
+
+// equal, order. The first link that does not hold decides; when all hold, the first.
+Finding compare_chain(bool equal, const std::vector<Quantity>& quantities) {
+  const std::string_view sign = equal ? "=" : "<", broken = equal ? "≠" : "≥";
+  double before = summarise(quantities[0].samples).median;
+  Finding found{Outcome::kHolds, quantities[0].show(before), "", "", ""};
+  for (std::size_t i = 1; i < quantities.size(); ++i) {
+    const double median = summarise(quantities[i].samples).median;
+    const bool holds = equal ? before == median : before < median;
+    found.text += fmt::format(" {} {}", holds ? sign : broken, quantities[i].show(median));
+    if (!holds && before != median) found.text += fmt::format(" ({})", missed_by(before, median));
+    if (i == 1 || (!holds && found.outcome == Outcome::kHolds)) {
+      const bool bound_first = quantities[i - 1].name.empty();
+      const Quantity &bound = quantities[bound_first ? i - 1 : i],
+                     &measured = quantities[bound_first ? i : i - 1];
+      found.value = format_quantity(bound_first ? median : before, measured.unit);
+      found.expected = fmt::format("{} {}", bound_first && !equal ? ">" : sign,
+                                   format_quantity(bound_first ? before : median, bound.unit));
+      found.quantity = measured.name;
+    }
+    if (!holds) found.outcome = Outcome::kFails;
+    before = median;
+  }
+  return found;
+}
+
+Finding compare(const Condition& condition, const std::vector<Quantity>& quantities) {
+  const Quantity &first = quantities[0], &second = quantities.back();
+  switch (condition.kind) {
+    case Kind::kWithin:
+      return compare_range(condition, summarise(first.samples), first.name, first.unit);
+    case Kind::kRatio:
+      return compare_range(condition, summarise_ratio(first.samples, second.samples),
+                           fmt::format("{} ÷ {}", first.name, second.name), "");
+    case Kind::kGrowth:
+      return compare_range(condition, summarise_ratio(second.samples, first.samples),
+                           fmt::format("{} grows by the factor", second.name), "");
+    default:
+      return compare_chain(condition.kind == Kind::kEqual, quantities);
+  }
+}
+
+// A ratio or order of times holds only between times taken under the same conditions.
+bool compares_times(const Condition& condition, const std::vector<Quantity>& quantities) {
+  if (condition.kind == Kind::kRatio || condition.kind == Kind::kGrowth) return true;
+  return condition.kind == Kind::kOrder && std::any_of(quantities.begin(), quantities.end(),
+                                                       [](const Quantity& q) { return is_timing(q.unit); });
+}
+
+// Evaluates the conditions of one claim and notes which records they read.
+class Reader {
+ public:
+  Reader(const Store& store, const std::string& profile) : store_(store), profile_(profile) {}
+
+  Evidence read(const Claim& claim) {
+    // Operands that all read one case are shown without its name.
+    const Operand* first = nullptr;
+    for (const Condition& condition : claim.conditions) {
+      for (const Operand& operand : condition.operands) {
+        if (operand.is_number()) continue;
+        if (first == nullptr) first = &operand;
+        name_cases_ = name_cases_ || operand.case_name != first->case_name;
+      }
+    }
+    for (const Condition& condition : claim.conditions) {
+      evidence_.findings.push_back(condition.kind == Kind::kFigure ? read_figure(condition.figure)
+                                                                   : read_metrics(condition));
+    }
+    return std::move(evidence_);
+  }
+
+ private:
+  Finding read_metrics(const Condition& condition) {
+    std::vector<Quantity> quantities;
+    std::vector<const Record*> records;
+    for (const Operand& operand : condition.operands) {
+      if (operand.is_number()) {
+        quantities.push_back({{operand.number}, "", ""});
+        continue;
+      }
+      const Record* const record = store_.find(operand.experiment, operand.case_name, profile_);
+      const Metric* const metric = record == nullptr ? nullptr : record->find(operand.metric);
+      std::string spoken = operand.metric;
+      std::replace(spoken.begin(), spoken.end(), '_', ' ');
+      if (metric == nullptr) {
+        return {
+            Outcome::kMissing,
+            fmt::format("no {} of {} {} was measured", operand.metric, operand.experiment, operand.case_name),
+            "not measured", "", spoken};
+      }
+      note_read(*record);
+      records.push_back(record);
+      if (name_cases_) spoken = operand.case_name + " " + spoken;
+      quantities.push_back({metric->samples, std::move(spoken), metric->unit});
+    }
+    if (compares_times(condition, quantities)) note_incomparable(records);
+    return compare(condition, quantities);
+  }
+
+  Finding read_figure(const std::string& id) {
+    const auto [record, figure] = store_.find_figure(id, profile_);
+    if (figure == nullptr) return {Outcome::kMissing, "no picture was drawn", "not drawn", "", "picture"};
+    note_read(*record);
+    const auto [holds, text] = inspect(*figure);
+    return {outcome(holds), text, holds ? "drawn" : "not usable", "", "picture"};
+  }
+
+  // Whether the picture is the one that was drawn and shows something.
+  std::pair<bool, std::string> inspect(const Figure& figure) const {
+    const std::string& name = figure.file;
+    try {
+      const Image image = read_png(store_.folder() / name);
+      if (!store_.intact(figure)) return {false, name + " is not the picture that was drawn"};
+      for (std::size_t i = 3; i < image.rgb.size(); ++i) {
+        if (image.rgb[i] != image.rgb[i - 3]) {
+          return {true, fmt::format("drawn, {} × {} pixels", image.width, image.height)};
+        }
+      }
+      return {false, name + " is blank"};
+    } catch (const Error& error) {
+      return {false, fmt::format("the picture cannot be used: {}", error.what())};
+    }
+  }
+
+  void note_read(const Record& record) {
+    std::vector<std::string>& runs = evidence_.runs;
+    if (std::ranges::count(runs, record.run) == 0) runs.push_back(record.run);
+    evidence_.altered = evidence_.altered || store_.altered(record);
+  }
+
+  void note_incomparable(const std::vector<const Record*>& records) {
+    const Provenance* first = nullptr;
+    for (const Record* const record : records) {
+      const Provenance* const run = store_.run(record->run);
+      if (run == nullptr) continue;  // the store reports this as a fault
+      if (first == nullptr) first = run;
+      evidence_.incomparable = evidence_.incomparable || !comparable(*first, *run);
+    }
+  }
+
+  const Store& store_;
+  const std::string& profile_;
+  bool name_cases_ = false;
+  Evidence evidence_;
+};
+
+}  // namespace
+
+Evidence gather_evidence(const Claim& claim, const Store& store, const std::string& profile) {
+  return Reader(store, profile).read(claim);
+}
+
+}  // namespace terrabench

@@ -1,0 +1,31 @@
+// What the measurements say about one claim: each of its conditions, evaluated. judge.h makes the verdict of
+// it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "results/claims.h"
+#include "results/store.h"
+
+namespace terrabench {
+
+// One condition, evaluated.
+struct Finding {
+  enum class Outcome { kHolds, kFails, kMissing } outcome = Outcome::kMissing;
+  std::string text;  // in full: "time 0.12 s [0.11, 0.13], in [0, 1]"
+  // In short: the figure that decides ("0.12 s"), what it must be ("[0, 1]", "< 3 s"), and its name ("time").
+  std::string value, expected, quantity;
+};
+
+struct Evidence {
+  std::vector<Finding> findings;  // one per condition of the claim, in their order
+  std::vector<std::string> runs;  // ids of the runs whose records were read
+  bool altered = false;           // one of these records was altered by hand
+  bool incomparable = false;      // times from different machines or builds are compared
+};
+
+// Reads the records of one profile. Medians decide; a 95 % interval is reported beside each.
+Evidence gather_evidence(const Claim&, const Store&, const std::string& profile);
+
+}  // namespace terrabench

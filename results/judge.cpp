@@ -1,0 +1,117 @@
+#include "results/judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "results/glob.h"
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+using Outcome = Finding::Outcome;
+
+// The findings' texts, separated by semicolons.
+std::string joined(const std::vector<Finding>& findings) {
+  std::string text;
+  for (const Finding& finding : findings) {
+    if (!text.empty()) text += "; ";
+    text += finding.text;
+  }
+  return text;
+}
+
+void judge_measured(Judgement& judgement, const Store& store, const std::string& profile) {
+  const Claim& claim = *judgement.claim;
+  Evidence evidence = gather_evidence(claim, store, profile);
+  std::vector<Finding>& findings = evidence.findings;
+  const auto first = [&](Outcome outcome) { return std::ranges::find(findings, outcome, &Finding::outcome); };
+  judgement.runs = evidence.runs;
+  if (first(Outcome::kMissing) != findings.end()) {
+    std::erase_if(findings, [](const Finding& finding) { return finding.outcome != Outcome::kMissing; });
+    judgement.verdict = Verdict::kMissing;
+  } else if (first(Outcome::kFails) != findings.end()) {
+    judgement.verdict = Verdict::kDiffers;
+  } else {
+    judgement.verdict = claim.type == 'S' ? Verdict::kShape : Verdict::kReproduced;
+  }
+  const auto failing = first(Outcome::kFails);
+  judgement.deciding = failing != findings.end() ? *failing : findings.front();
+  judgement.measured = joined(findings);
+  if (evidence.altered) {
+    judgement.complaint = "rests on a record that was altered";
+  } else if (evidence.incomparable) {
+    judgement.complaint = "compares what was measured on different machines or builds";
+  } else if (judgement.verdict != claim.known) {
+    judgement.complaint =
+        fmt::format("known as '{}', found '{}'", name(claim.known), name(judgement.verdict));
+  }
+}
+
+Judgement judge_claim(const Paper& paper, const Claim& claim, const Store& store,
+                      const std::string& profile) {
+  Judgement judgement{&paper, &claim, Verdict::kPending, claim.pending, {}, {}, ""};
+  if (!claim.not_comparable.empty()) {
+    judgement.verdict = Verdict::kNotComparable;
+    judgement.measured = claim.not_comparable;
+  } else if (claim.pending.empty()) {
+    if (std::ranges::count(claim.profiles, profile) > 0) {
+      judge_measured(judgement, store, profile);
+    } else {
+      judgement.verdict = Verdict::kNotRun;
+      judgement.measured = fmt::format("measured in profile {}", fmt::join(claim.profiles, ", "));
+    }
+  }
+  return judgement;
+}
+
+void look_for_altered_pictures(const Store& store, JudgedResults& results) {
+  for (const Record& record : store.records()) {
+    if (record.profile != results.profile) continue;
+    for (const Figure& figure : record.figures) {
+      if (store.intact(figure)) continue;
+      results.faults.push_back(fmt::format("{}: picture altered or gone: not the one that {} {} drew",
+                                           (store.folder() / figure.file).string(), record.experiment,
+                                           record.case_name));
+      results.warnings.push_back(results.faults.back());
+    }
+  }
+}
+
+}  // namespace
+
+bool JudgedResults::passed() const {
+  return faults.empty() &&
+         std::ranges::all_of(judgements, [](const Judgement& j) { return j.complaint.empty(); });
+}
+
+std::span<const Judgement> JudgedResults::of(const Paper& paper) const {
+  const auto first = std::ranges::find(judgements, &paper, &Judgement::paper);
+  return {first,
+          std::find_if(first, judgements.end(), [&](const Judgement& j) { return j.paper != &paper; })};
+}
+
+JudgedResults judge(const std::filesystem::path& folder, std::span<const std::string> globs) {
+  return judge(Store::open(folder), papers(), globs);
+}
+
+JudgedResults judge(const Store& store, std::span<const Paper> papers, std::span<const std::string> globs) {
+  std::vector<std::string_view> ids;
+  for (const Paper& paper : papers) {
+    for (const Claim& claim : paper.claims) ids.push_back(claim.id);
+  }
+  demand_matches(globs, ids, "claim");
+  JudgedResults results{store.last_profile(), {}, store.warnings(), store.faults()};
+  look_for_altered_pictures(store, results);
+  for (const Paper& paper : papers) {
+    for (const Claim& claim : paper.claims) {
+      if (matches_any(globs, claim.id)) {
+        results.judgements.push_back(judge_claim(paper, claim, store, results.profile));
+      }
+    }
+  }
+  return results;
+}
+
+}  // namespace terrabench

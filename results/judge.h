@@ -1,0 +1,44 @@
+// The verdict on every claim, computed from claims and records and nothing else:
+// 1. A claim (claims.h, read from experiments/*/claims.toml) has conditions on metrics of named cases.
+// 2. gather_evidence (evidence.h) reads these metrics from the records and evaluates each condition.
+// 3. judge() makes one verdict of the findings: missing if one could not be evaluated, differs if one fails,
+//    else reproduced ("shape" for claims of class S); not run if the claim is of another profile.
+// 4. A verdict other than the claim's known one is a complaint, and `terrabench check` exits with 1.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "results/evidence.h"
+
+namespace terrabench {
+
+// The verdict on one claim.
+struct Judgement {
+  const Paper* paper = nullptr;
+  const Claim* claim = nullptr;
+  Verdict verdict = Verdict::kPending;
+  std::string measured;  // the findings in full; or why nothing was measured
+  Finding deciding;      // the first finding that fails, else the first; empty if nothing was measured
+  std::vector<std::string> runs;  // ids of the runs that it rests on
+  std::string complaint;          // why `check` fails at this claim; empty when it does not
+};
+
+struct JudgedResults {
+  std::string profile;                        // of the newest record
+  std::vector<Judgement> judgements;          // by paper, in the claims' order
+  std::vector<std::string> warnings, faults;  // of the store and of the pictures that its records drew
+
+  bool passed() const;  // no complaint, no fault
+  std::span<const Judgement> of(const Paper&) const;
+};
+
+// Judges the claims whose id matches one of the globs (* and ?), or all when there are no globs. The papers
+// must outlive the result. Throws bad_input when the folder holds no results, usage_error when a glob matches
+// no claim.
+JudgedResults judge(const std::filesystem::path& folder, std::span<const std::string> globs = {});
+JudgedResults judge(const Store&, std::span<const Paper>, std::span<const std::string> globs = {});
+
+}  // namespace terrabench

@@ -1,0 +1,119 @@
+#include "results/layouts.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "results/toml_reader.h"
+
+namespace terrabench {
+namespace {
+
+TableLayout::Row row_from(const TomlValue& node) {
+  TomlTable entry(node);
+  TableLayout::Row row{entry.text("label"), entry.text("case"), {}};
+  for (const auto& [key, value] : entry.rest()) {
+    if (value.node->is_string()) {
+      row.values.emplace(key, value.text(key));
+    } else {
+      row.values.emplace(key, value.number(key));
+    }
+  }
+  return row;
+}
+
+TableLayout::Column column_from(const TomlValue& node) {
+  using Kind = TableLayout::Column::Kind;
+  constexpr std::pair<std::string_view, Kind> kKinds[] = {
+      {"reported", Kind::kReported}, {"metric", Kind::kMetric},    {"interval", Kind::kInterval},
+      {"growth", Kind::kGrowth},     {"speed_up", Kind::kSpeedUp}, {"verdict", Kind::kVerdict}};
+  TomlTable entry(node);
+  TableLayout::Column column;
+  column.title = entry.text("title");
+  column.unit = entry.text_or("unit", "");
+  const auto* const kind =
+      std::find_if(std::begin(kKinds), std::end(kKinds), [&](const auto& k) { return entry.has(k.first); });
+  if (kind == std::end(kKinds)) {
+    entry.refuse("a column is one of reported, metric, interval, growth, speed_up, verdict");
+  }
+  column.kind = kind->second;
+  if (column.kind == Kind::kSpeedUp) {
+    const auto [key, metric] = entry.get("speed_up").pair("speed_up");
+    column.key = key.text("speed_up");
+    column.metric = metric.text("speed_up");
+  } else {
+    const bool measured =
+        column.kind == Kind::kMetric || column.kind == Kind::kInterval || column.kind == Kind::kGrowth;
+    (measured ? column.metric : column.key) = entry.text(kind->first);
+  }
+  entry.refuse_unknown();
+  return column;
+}
+
+PlotLayout::Axis axis_from(const TomlValue& node) {
+  TomlTable entry(node);
+  PlotLayout::Axis axis{entry.text("label"), entry.text_or("unit", ""), entry.flag("log")};
+  entry.refuse_unknown();
+  return axis;
+}
+
+PlotLayout::Series series_from(const TomlValue& node) {
+  TomlTable entry(node);
+  PlotLayout::Series series;
+  series.label = entry.text("label");
+  series.slope = entry.flag("slope");
+  for (const TomlValue& point : entry.list("values")) {
+    const auto [x, y] = point.pair("values");
+    series.values.emplace_back(x.number("values"), y.number("values"));
+  }
+  series.x_metric = entry.text_or("x_metric", "");
+  for (const TomlValue& point : entry.list("cases")) {
+    if (!series.x_metric.empty()) {
+      series.cases.emplace_back(0, point.text("cases"));
+      continue;
+    }
+    const auto [x, case_name] = point.pair("cases");
+    series.cases.emplace_back(x.number("cases"), case_name.text("cases"));
+  }
+  if (series.values.empty() == series.cases.empty()) entry.refuse("a series has either 'values' or 'cases'");
+  if (!series.cases.empty()) {
+    series.experiment = entry.text("experiment");
+    series.metric = entry.text("metric");
+  }
+  entry.refuse_unknown();
+  return series;
+}
+
+}  // namespace
+
+TableLayout parse_table(const TomlValue& node) {
+  TomlTable entry(node);
+  TableLayout table;
+  table.id = entry.text("id");
+  table.title = entry.text("title");
+  table.caption = entry.text("caption");
+  table.experiment = entry.text("experiment");
+  table.rows_title = entry.text("rows_title");
+  for (const TomlValue& row : entry.list("rows")) table.rows.push_back(row_from(row));
+  for (const TomlValue& column : entry.list("columns")) {
+    table.columns.push_back(column_from(column));
+  }
+  if (table.rows.empty() || table.columns.empty()) entry.refuse("a table needs rows and columns");
+  entry.refuse_unknown();
+  return table;
+}
+
+PlotLayout parse_plot(const TomlValue& node) {
+  TomlTable entry(node);
+  PlotLayout plot;
+  plot.id = entry.text("id");
+  plot.title = entry.text("title");
+  plot.caption = entry.text("caption");
+  plot.x = axis_from(entry.get("x"));
+  plot.y = axis_from(entry.get("y"));
+  for (const TomlValue& series : entry.list("series")) plot.series.push_back(series_from(series));
+  if (plot.series.empty()) entry.refuse("a plot needs series");
+  entry.refuse_unknown();
+  return plot;
+}
+
+}  // namespace terrabench

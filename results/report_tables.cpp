@@ -1,0 +1,128 @@
+#include "results/report_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "results/fill.h"
+
+namespace terrabench {
+namespace {
+
+std::string where_and_statement(const Claim& claim) { return claim.where + ": " + claim.statement; }
+
+}  // namespace
+
+std::string short_id(const std::string& run) { return run.substr(0, 8); }
+std::string run_anchor(const std::string& run) { return "run-" + short_id(run); }
+
+Table summary_table(const JudgedResults& results, std::span<const Paper> papers) {
+  constexpr Verdict kShown[] = {Verdict::kReproduced,    Verdict::kShape,   Verdict::kDiffers,
+                                Verdict::kNotComparable, Verdict::kMissing, Verdict::kNotRun,
+                                Verdict::kPending};
+  Table table{"summary", "Verdicts", "How many claims of each paper have which verdict.", {{"Paper"}}, {}};
+  for (const Verdict verdict : kShown) table.columns.push_back({std::string(name(verdict)), "", true});
+  for (const Paper& paper : papers) {
+    std::vector<Cell> cells = {{paper.title}};
+    for (const Verdict verdict : kShown) {
+      const auto count = std::ranges::count(results.of(paper), verdict, &Judgement::verdict);
+      cells.push_back({std::to_string(count)});
+    }
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+Table verdict_table(const JudgedResults& results, const Paper& paper) {
+  Table table{
+      paper.id + ".verdicts",
+      "Every claim that is measured so far",
+      "What the paper says in our words, the tolerance, what was found, and the verdict that follows.",
+      {{"Claim"}, {"The paper"}, {"Tolerance"}, {"Measured"}, {"Verdict"}, {"Run"}},
+      {}};
+  for (const Judgement& judgement : results.of(paper)) {
+    if (judgement.verdict == Verdict::kPending) continue;
+    const Claim& claim = *judgement.claim;
+    const std::string run = judgement.runs.empty() ? "" : judgement.runs.back();
+    table.rows.push_back({{claim.id},
+                          {where_and_statement(claim)},
+                          {claim.tolerance},
+                          {judgement.measured},
+                          verdict_cell(judgement),
+                          {short_id(run), "", run.empty() ? "" : "#" + run_anchor(run)}});
+  }
+  return table;
+}
+
+Facts claim_notes(const JudgedResults& results, const Paper& paper) {
+  Facts notes;
+  for (const Judgement& judgement : results.of(paper)) {
+    const Claim& claim = *judgement.claim;
+    if (judgement.verdict == Verdict::kPending || claim.note.empty()) continue;
+    // Claims of one table often share a note.
+    if (!notes.lines.empty() && notes.lines.back().second == claim.note) {
+      notes.lines.back().first += ", " + claim.id;
+    } else {
+      notes.lines.emplace_back(claim.id, claim.note);
+    }
+  }
+  return notes;
+}
+
+Table pending_table(const JudgedResults& results) {
+  Table table{"pending-rows",
+              "Claims that wait for their method",
+              "They do not count against a run.",
+              {{"Claim"}, {"The paper"}, {"Why"}},
+              {}};
+  for (const Judgement& judgement : results.judgements) {
+    if (judgement.verdict != Verdict::kPending) continue;
+    table.rows.push_back(
+        {{judgement.claim->id}, {where_and_statement(*judgement.claim)}, {judgement.measured}});
+  }
+  return table;
+}
+
+Facts run_facts(const Provenance& run) {
+  std::string libraries;
+  for (const auto& [name, version] : run.libraries) {
+    libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", name, version);
+  }
+  return {
+      {{"Time", run.time},
+       {"Command", run.command},
+       {"Code", fmt::format("git {}{}", run.git_revision, run.git_dirty ? ", with uncommitted changes" : "")},
+       {"Compiler", fmt::format("{}, {}, {}", run.compiler, run.build_type, run.flags)},
+       {"Processor", fmt::format("{}, {} threads used, {}", run.cpu, run.threads, run.simd)},
+       {"Memory", fmt::format("{:.1f} GiB", static_cast<double>(run.memory) / (1 << 30))},
+       {"System", run.os},
+       {"Renderer", run.gl_renderer},
+       {"Libraries", libraries},
+       {"Digest", run.id}}};
+}
+
+Table input_table(const Store& store, std::string_view profile) {
+  Table table{
+      "inputs",
+      "What was measured",
+      "Every case with its seed, its ground and the checksum of that ground.",
+      {{"Experiment"}, {"Case"}, {"Seed", "", true}, {"Terrain"}, {"Checksum"}, {"Parameters"}, {"Run"}},
+      {}};
+  for (const Record& record : store.records()) {
+    if (record.profile != profile) continue;
+    std::string parameters;
+    for (const auto& [name, value] : record.parameters) {
+      parameters += fmt::format("{}{}={}", parameters.empty() ? "" : " ", name, to_string(value));
+    }
+    table.rows.push_back({{record.experiment},
+                          {record.case_name},
+                          {std::to_string(record.seed)},
+                          {record.terrain},
+                          {record.terrain_checksum},
+                          {parameters},
+                          {short_id(record.run), "", "#" + run_anchor(record.run)}});
+  }
+  return table;
+}
+
+}  // namespace terrabench

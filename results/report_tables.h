@@ -1,0 +1,27 @@
+// The report's own tables, which no claims file lays out: verdicts, notes, pending claims, provenance.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "results/document.h"
+#include "results/judge.h"
+
+namespace terrabench {
+
+// How many claims of each paper have which verdict.
+Table summary_table(const JudgedResults&, std::span<const Paper>);
+// The claims of one paper, except pending ones, with what was measured; and the notes that belong to them.
+Table verdict_table(const JudgedResults&, const Paper&);
+Facts claim_notes(const JudgedResults&, const Paper&);
+// The claims of all papers whose method is not built yet.
+Table pending_table(const JudgedResults&);
+
+// Where the numbers come from: one run, and every case of a profile with its seed, terrain and parameters.
+Facts run_facts(const Provenance&);
+Table input_table(const Store&, std::string_view profile);
+// Runs are named by the start of their digest, and have an anchor in the page.
+std::string short_id(const std::string& run);
+std::string run_anchor(const std::string& run);
+
+}  // namespace terrabench

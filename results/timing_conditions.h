@@ -1,0 +1,28 @@
+// What makes the times of a run untrustworthy, read before it starts (as Google Benchmark does). The run
+// warns about it and keeps the warnings in its provenance.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace terrabench {
+
+struct TimingConditions {
+  std::string build_type, flags;  // of this program
+  double load = 0;                // runnable threads of the machine, averaged over the last minute
+  int processors = 1;             // of the machine
+  int allowed_processors = 1;     // of these, those that this process may use
+  double quota = 0;               // processor time per second that the control group allows; 0: no limit
+  std::string governor;           // frequency scaling other than "performance" of some processor; empty: none
+};
+
+// Reads /proc, /sys and the build's own facts. What cannot be read stays at its default.
+TimingConditions read_timing_conditions();
+
+// One sentence per condition that makes times longer or makes them vary; empty when there is none.
+std::vector<std::string> timing_warnings(const TimingConditions&);
+
+// At least 1; fewer than the machine's in a container or under taskset.
+int allowed_processors();
+
+}  // namespace terrabench

@@ -1,0 +1,77 @@
+// Reads a claims file: every key is asked for by type, and a key that was not asked for is an error.
+//
+// A file may define sets and state once what holds for every member:
+//
+//   [sets]
+//   size = ["128", "256"]
+//   ground = [{name = "flat", where = "on flat land"}, {name = "hills", where = "on hills"}]
+//
+// A list element with each = ["ground", "size"] stands for one element per pair of members. In its texts,
+// {size}, {ground} (the member's name) and {ground.where} are replaced by those of the pair. In a list of
+// texts, a text with a set that no `each` names stands for one text per member. Numbers are not replaced.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "terrain/toml.h"
+
+namespace terrabench {
+
+struct SetMember {
+  std::map<std::string, std::string, std::less<>> fields;  // includes "name"
+};
+
+struct TomlFile {
+  std::string origin;  // for error messages
+  std::map<std::string, std::vector<SetMember>, std::less<>> sets;
+};
+
+// A value in a file, with the set members chosen for it by the `each` of the elements around it.
+struct TomlValue {
+  const toml::node* node;
+  const TomlFile* file;
+  std::map<std::string, const SetMember*, std::less<>> bound;  // set name to member
+  bool each_done = false;                                      // its own `each` has been applied
+
+  // All of these throw bad_input with file and line. `what` names the value in the message.
+  [[noreturn]] void fail(std::string_view what) const;
+  std::string text(std::string_view what) const;  // with set names replaced
+  double number(std::string_view what) const;     // finite
+  std::pair<TomlValue, TomlValue> pair(std::string_view what) const;
+  std::vector<TomlValue> elements(std::string_view what) const;  // of a list, after `each` is applied
+
+  TomlValue at(const toml::node& other) const { return {&other, file, bound}; }
+};
+
+// A value that is a table. Throws bad_input like TomlValue.
+class TomlTable {
+ public:
+  explicit TomlTable(TomlValue);
+
+  [[noreturn]] void refuse(std::string_view what) const { node_.fail(what); }
+  bool has(std::string_view key) { return find(key) != nullptr; }
+  TomlValue get(std::string_view key);
+  std::string text(std::string_view key) { return get(key).text(key); }
+  std::string text_or(std::string_view key, std::string fallback);
+  bool flag(std::string_view key);                        // false when the key is absent
+  std::vector<TomlValue> list(std::string_view key);      // empty when the key is absent
+  std::vector<std::pair<std::string, TomlValue>> rest();  // the keys not asked for so far
+  void refuse_unknown();                                  // an error if there is such a key
+
+ private:
+  const toml::table& table() const { return *node_.node->as_table(); }
+  const toml::node* find(std::string_view key);
+
+  TomlValue node_;
+  std::set<std::string, std::less<>> known_;
+};
+
+// Reads the sets of a file into `sets`. Throws bad_input for an empty set or members of another form.
+void read_sets(const toml::table& file, TomlFile&);
+
+}  // namespace terrabench

@@ -1,0 +1,122 @@
+#include "results/check_output.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/results/fake_results.h"
+
+namespace terrabench {
+namespace {
+
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+class CheckOutput : public FolderTest {
+ protected:
+  // The fake results of the quick profile, one claim of which is not met.
+  JudgedResults failing() {
+    write_fake_results(folder_, "quick");
+    edit(file(), "\"overhang_columns\",\"samples\":[0.0]", "\"overhang_columns\",\"samples\":[5.0]");
+    return judge(Store::open(folder_), faked_papers());
+  }
+  JudgedResults passing() {
+    write_fake_results(folder_, "quick");
+    return judge(Store::open(folder_), faked_papers());
+  }
+};
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> all;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) all.push_back(line);
+  return all;
+}
+
+auto columns(const std::string& line) {
+  return std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
+}
+
+std::size_t count(const std::string& text, std::string_view what) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+TEST_F(CheckOutput, OneLinePerMeasuredClaimFitsTheWidth) {
+  const JudgedResults results = passing();
+  for (const int width : {80, 100}) {
+    const std::string text = check_text(results, {.width = width});
+    for (const std::string& line : lines(text)) EXPECT_LE(columns(line), width) << line;
+    for (const Judgement& judgement : results.judgements) {
+      if (!was_measured(judgement.verdict)) continue;
+      EXPECT_EQ(count(text, "\n  " + judgement.claim->id + " "), 1U) << judgement.claim->id;
+    }
+    // Verdict, figure, what it must be, and its name where there is room.
+    EXPECT_THAT(text, ContainsRegex("\n  hybrid.T2.256 +reproduced .shape. +7.781 +.6.5, 9.5. *"));
+  }
+  EXPECT_THAT(check_text(results, {.width = 100}),
+              ContainsRegex("\n  hybrid.T1.128 +reproduced +393,216 B +[=] 393,216 +paper stack bytes\n"));
+  EXPECT_THAT(check_text(results, {.width = 80}),
+              ContainsRegex("\n  hybrid.T1.128 +reproduced +393,216 B +[=] 393,216\n"));
+}
+
+TEST_F(CheckOutput, WhatChangedComesFirstAndTheSummaryLast) {
+  const std::string good = check_text(passing(), {});
+  EXPECT_THAT(good, StartsWith("Profile quick: "));
+  EXPECT_THAT(lines(good).front(), HasSubstr("no verdict changed"));
+  EXPECT_THAT(lines(good).back(), StartsWith("PASS: "));
+  std::filesystem::remove(file());
+  const std::string bad = check_text(failing(), {});
+  EXPECT_THAT(lines(bad).at(0), HasSubstr("1 of "));
+  EXPECT_THAT(lines(bad).at(1), StartsWith("  hybrid.caves  differs  5 "));
+  EXPECT_THAT(lines(bad).at(2), HasSubstr("rests on a record that was altered"));
+  EXPECT_LT(bad.find("\n    rests on"), bad.find("\n  hybrid.T1.128 "));
+  EXPECT_GT(bad.find("\nSummary\n  hybrid "), bad.find("\n  hybrid.T1.128 "));
+  EXPECT_THAT(bad, HasSubstr("\nFAIL: "));
+}
+
+TEST_F(CheckOutput, VerbosePrintsAllEvidence) {
+  const JudgedResults results = passing();
+  std::string brief = check_text(results, {}), verbose = check_text(results, {.verbose = true});
+  EXPECT_THAT(brief, Not(HasSubstr("measured:")));
+  // Every word of the evidence, whatever line it is on.
+  const auto words = [](std::string text) {
+    std::istringstream in(text);
+    std::string all;
+    for (std::string word; in >> word;) all += word + " ";
+    return all;
+  };
+  for (const Judgement& judgement : results.judgements) {
+    if (was_measured(judgement.verdict)) {
+      EXPECT_THAT(words(verbose), HasSubstr("measured: " + words(judgement.measured)));
+    }
+  }
+}
+
+TEST_F(CheckOutput, ColourIsOptional) {
+  const JudgedResults results = passing();
+  EXPECT_THAT(check_text(results, {}), Not(HasSubstr("\x1b[")));
+  EXPECT_THAT(check_text(results, {.colour = true}), HasSubstr("\x1b[32mreproduced"));
+}
+
+TEST_F(CheckOutput, JsonAndJunitHoldEveryClaim) {
+  const JudgedResults results = failing();
+  const auto json = nlohmann::json::parse(check_json(results));
+  EXPECT_EQ(json["passed"], false);
+  EXPECT_EQ(json["rows"].size(), results.judgements.size());
+  EXPECT_EQ(json["rows"][0]["id"], "hybrid.T1.128");
+  EXPECT_EQ(json["rows"][0]["reported"][0], 393216);
+  const std::string junit = check_junit(results);
+  EXPECT_EQ(count(junit, "<testcase "), results.judgements.size() + results.faults.size());
+  EXPECT_EQ(count(junit, "<failure "), 2U) << "the claim and the altered line";
+  EXPECT_THAT(junit, HasSubstr("failures=\"2\""));
+  EXPECT_THAT(junit, HasSubstr("&lt;"));
+}
+
+}  // namespace
+}  // namespace terrabench

@@ -1,0 +1,75 @@
+#include "results/record_json.h"
+
+#include <gmock/gmock.h>
+
+#include "terrain/error.h"
+#include "tests/results/fake_results.h"
+
+namespace terrabench {
+namespace {
+
+using testing::HasSubstr;
+
+Record sample() {
+  Record record = fake_record(fake_provenance(), "hybrid.table2", "n=64");
+  add(record, "generation_time", "s", {0.25, 0.35, 1.0 / 3});
+  return record;
+}
+
+void expect_bad_input(const std::string& line, const std::string& what) {
+  try {
+    parse_line(line, "there:3");
+    ADD_FAILURE() << "accepted: " << line.substr(0, 100);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    EXPECT_THAT(error.what(), HasSubstr("there:3"));
+    EXPECT_THAT(error.what(), HasSubstr(what));
+  }
+}
+
+TEST(RecordLine, RefusesInvalidLines) {
+  const std::string good = to_line(sample());
+  const auto changed = [&](std::string_view from, std::string_view to) {
+    std::string line = good;
+    const std::size_t at = line.find(from);
+    EXPECT_NE(at, line.npos) << from;
+    return line.replace(at, from.size(), to);
+  };
+  expect_bad_input("", "not valid JSON");
+  expect_bad_input("null", "not an object");
+  expect_bad_input("{}", "'kind' is missing");
+  expect_bad_input(good.substr(0, good.size() / 2), "not valid JSON");
+  expect_bad_input(changed("\"record\"", "\"recrod\""), "'kind' is neither");
+  expect_bad_input(changed("0.25", "NaN"), "not valid JSON");
+  expect_bad_input(changed("0.25", "1e999"), "too large");
+  expect_bad_input(changed("0.25", "\"0.25\""), "is not a number");
+  expect_bad_input(changed("[0.25,0.35,0.3333333333333333]", "[]"), "has no samples");
+  expect_bad_input(changed("\"hybrid.table2\"", "7"), "'experiment' is not text");
+  expect_bad_input(changed("hybrid.table2", "hybrid\\u001b[31m"), "control characters");
+  expect_bad_input(changed("\"figures\":[]", "\"figures\":{}"), "'figures' is not a list");
+  for (const char* path : {"../secret.png", "/etc/passwd", "figures/../../x.png"}) {
+    const std::string figure =
+        std::string(R"("figures":[{"id":"a","file":")") + path + R"(","caption":"","checksum":""}])";
+    expect_bad_input(changed("\"figures\":[]", figure), "outside the results folder");
+  }
+  expect_bad_input(std::string(2'000'000, '['), "nested too deeply");
+}
+
+TEST(RecordLine, UnknownFieldIsIgnoredWithAWarningAndCountsAsAltered) {
+  std::string line = to_line(sample());
+  line.insert(1, "\"comment\":\"hello\",");
+  const Line parsed = parse_line(line, "x");
+  EXPECT_EQ(parsed.warning, "unknown field 'comment' is ignored");
+  EXPECT_TRUE(parsed.altered);
+}
+
+TEST(RecordLine, AcceptsBytesThatAreNotUtf8) {
+  Provenance run = fake_provenance();
+  run.command = "terrabench run \xff\xfe";
+  const Line line = parse_line(to_line(run), "x");
+  EXPECT_FALSE(line.altered);
+  EXPECT_EQ(std::get<Provenance>(line.content).id, digest(run));
+}
+
+}  // namespace
+}  // namespace terrabench

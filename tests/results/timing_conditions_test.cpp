@@ -1,0 +1,58 @@
+#include "results/timing_conditions.h"
+
+#include <gmock/gmock.h>
+
+namespace terrabench {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// An idle machine of 8 processors, all allowed, and a release build.
+TimingConditions good() {
+  return {.build_type = "Release",
+          .flags = "-O3 -DNDEBUG",
+          .load = 0.1,
+          .processors = 8,
+          .allowed_processors = 8,
+          .quota = 0,
+          .governor = ""};
+}
+
+TEST(TimingConditions, GoodOnesGiveNoWarning) {
+  EXPECT_THAT(timing_warnings(good()), IsEmpty());
+  TimingConditions pinned = good();
+  pinned.allowed_processors = 2;
+  pinned.quota = 2;
+  EXPECT_THAT(timing_warnings(pinned), IsEmpty()) << "fewer processors, but whole ones";
+}
+
+TEST(TimingConditions, EachBadOneGivesItsWarning) {
+  const auto warnings = [](auto change) {
+    TimingConditions now = good();
+    change(now);
+    return timing_warnings(now);
+  };
+  EXPECT_THAT(warnings([](auto& now) { now.build_type = "Debug", now.flags = "-g"; }),
+              ElementsAre(HasSubstr("this build (Debug) is not optimised")));
+  EXPECT_THAT(warnings([](auto& now) { now.flags += " -fsanitize=address,undefined"; }),
+              ElementsAre(HasSubstr("sanitizers")));
+  EXPECT_THAT(warnings([](auto& now) { now.load = 3.14; }),
+              ElementsAre(HasSubstr("load average 3.1 on 8 processors")));
+  EXPECT_THAT(warnings([](auto& now) { now.governor = "powersave"; }),
+              ElementsAre(HasSubstr("governor 'powersave'")));
+  EXPECT_THAT(warnings([](auto& now) { now.quota = 1.5; }), ElementsAre(HasSubstr("1.5 of 8 processors")));
+  EXPECT_EQ(warnings([](auto& now) { now.load = 8, now.quota = 1, now.governor = "ondemand"; }).size(), 3U);
+}
+
+TEST(TimingConditions, AreReadFromThisMachine) {
+  const TimingConditions now = read_timing_conditions();
+  EXPECT_FALSE(now.flags.empty());
+  EXPECT_GE(now.processors, 1);
+  EXPECT_GE(now.allowed_processors, 1);
+  EXPECT_GE(now.load, 0);
+}
+
+}  // namespace
+}  // namespace terrabench
