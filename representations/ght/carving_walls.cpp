@@ -11,9 +11,9 @@ namespace terrabench::ght {
 namespace {
 
 constexpr double kRowsPerSpacing = 2;
-// In a narrower section no cell of the end would be clear of the walls. In sample spacings.
+// In sample spacings: a narrower section has no room for cells inside its walls.
 constexpr double kLeastSection = 2;
-// Ground left between a carving and everything else, in sample spacings: both are exact to one.
+// In sample spacings: the ground left between a carving and everything else, which are exact to one each.
 constexpr double kClearance = 1;
 // Of one carving: more than any terrain has room for, less than would exhaust memory.
 constexpr double kMostWallCells = 1 << 26;

@@ -169,7 +169,7 @@ void Edit::commit(events::Kind kind) {
   // Nothing fails from here on. Faces are found by the places of their cells, so they are removed before the
   // cells change.
   for (const FaceId f : removed_) model_.surface.remove(tree, f);
-  for (const Link& link : links_) tree.set_link(link.from, link.to);
+  for (const auto& [from, to] : links_) tree.set_link(from, to);
   for (const Square s : covered_) model_.surface.set_covered(s, true);
   for (const Square s : plain_) model_.surface.set_covered(s, false);
   for (const Face& face : faces_) model_.surface.add(tree, face);

@@ -64,7 +64,7 @@ class Edit {
   void make_plain(Square s) { plain_.push_back(s); }
 
   // Step 4. `old` becomes a link to `by`, which is a later cell.
-  void relink(CellId old, CellId by) { links_.push_back({old, by}); }
+  void relink(CellId old, CellId by) { links_.emplace_back(old, by); }
   // Adds the triangles between a loop and an outline, both counter-clockwise. Refuses when a cell of the
   // outline gets no link to another heightmap.
   void close_ring(std::span<const CellId> loop, std::span<const CellId> outline);
@@ -79,10 +79,6 @@ class Edit {
   void check_linked(std::span<const CellId> outline) const;
   std::vector<std::pair<CellId, CellId>> joined_cells(std::span<const CellId> loop) const;
 
-  struct Link {
-    CellId from, to;
-  };
-
   Model& model_;
   NodeId host_;
   std::string where_;
@@ -91,7 +87,7 @@ class Edit {
   std::vector<Square> covered_, plain_;
   std::vector<FaceId> removed_;
   std::vector<Face> faces_;
-  std::vector<Link> links_;
+  std::vector<std::pair<CellId, CellId>> links_;  // from, to
 };
 
 }  // namespace terrabench::ght

@@ -12,8 +12,9 @@
 //   LateralFault                     §3.2, figure 13         lateral_fault.cpp
 //   Carving (tunnel and cave)        §3.2, figures 15, 16    carving.cpp, carving_walls.cpp
 //
-// To follow one event read terrain/events/event.h (its formula), apply_event.h, edit.h (the four steps of
-// every event) and the event's file. tree.h and composed_surface.h are what it changes.
+// To follow one event, read its formula in terrain/events/event.h, the four steps in edit.h and the event's
+// file, with along_line.h for events along a line. apply_event.h finds the host and commits. tree.h and
+// composed_surface.h are what it changes.
 #pragma once
 
 #include <memory>
