@@ -43,14 +43,6 @@ std::vector<std::string> grounds(const RunOptions& options, std::vector<std::str
   return options.terrains.empty() ? std::move(own) : options.terrains;
 }
 
-TerrainSource from_heights(std::string_view name, Heightfield heights) {
-  TerrainSource source;
-  source.name = name;
-  source.checksum = checksum(heights);
-  source.heights = std::move(heights);
-  return source;
-}
-
 TerrainSource open_heights(std::string_view name, std::uint64_t seed) {
   TerrainSource source = open_terrain(name, seed);
   if (!source.heights) {

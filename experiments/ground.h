@@ -14,7 +14,6 @@ namespace terrabench {
 // The terrains that the options name, or else these.
 std::vector<std::string> grounds(const RunOptions&, std::vector<std::string> own);
 
-TerrainSource from_heights(std::string_view name, Heightfield);
 // open_terrain() for experiments that need heights. Throws usage_error for a solid.
 TerrainSource open_heights(std::string_view name, std::uint64_t seed);
 TerrainSource open_filled_heights(std::string_view name, std::uint64_t seed);  // without holes

@@ -60,9 +60,9 @@ std::vector<std::size_t> evenly(std::size_t count, std::size_t last) {
 }  // namespace
 
 TerrainSource open_ground(std::string_view name, int size, std::uint64_t seed) {
-  if (name == "peak") return from_heights(name, peak(size));
+  if (name == "peak") return source_of(name, peak(size));
   if (name != "fractal") return open_filled_heights(name, seed);
-  return from_heights(
+  return source_of(
       name, fractal::diamond_square(
                 {.seed = seed, .side = size, .cell = kCell, .amplitude = amplitude(size), .hurst = kHurst}));
 }

@@ -1,4 +1,6 @@
 // Channel networks of the drill paper's §2.1 and §3.1: channel pixels per threshold, and the largest flow.
+#include "terrain/hydrology/channels.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

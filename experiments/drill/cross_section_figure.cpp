@@ -12,6 +12,7 @@
 #include "experiments/figures/maps.h"
 #include "representations/drill/cross_sections.h"
 #include "representations/drill/profile_fit.h"
+#include "terrain/hydrology/channels.h"
 
 namespace terrabench::drill {
 namespace {

@@ -9,7 +9,9 @@
 #include "experiments/experiment.h"
 #include "representations/drill/choose_parameters.h"
 #include "representations/drill/drill_codec.h"
+#include "representations/drill/extract.h"
 #include "representations/drill/pits.h"
+#include "representations/drill/quantum.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/metrics/elevation_error.h"
 

@@ -4,8 +4,10 @@
 
 #include "experiments/drill/ground.h"
 #include "experiments/experiment.h"
+#include "representations/drill/extract.h"
 #include "representations/drill/pits.h"
 #include "representations/drill/regenerate.h"
+#include "terrain/hydrology/channels.h"
 #include "terrain/metrics/elevation_error.h"
 
 namespace terrabench::drill {
@@ -132,11 +134,11 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     recorder.add(fmt::format("ahd_{}", name(kReadings[r])), "", outcome.ahd[r]);
   }
   // Two weaker readings of "monotone" than ours: shapes may fall outward.
-  DrillOptions in_window = options_for(setting), not_monotone = in_window;
-  in_window.window_only = true;
-  not_monotone.monotone = false;
-  recorder.add("rmse_monotone_in_window", "", error_under(in_window, ground, network, progress));
-  recorder.add("rmse_not_monotone", "", error_under(not_monotone, ground, network, progress));
+  DrillOptions weaker = options_for(setting);
+  weaker.monotone = Monotone::kWindow;
+  recorder.add("rmse_monotone_in_window", "", error_under(weaker, ground, network, progress));
+  weaker.monotone = Monotone::kNowhere;
+  recorder.add("rmse_not_monotone", "", error_under(weaker, ground, network, progress));
   recorder.add("untouched_share", "",
                static_cast<double>(count_untouched(drills, regenerated.heights)) /
                    static_cast<double>(regenerated.heights.size()));

@@ -4,10 +4,10 @@ namespace terrabench::drill {
 
 TerrainSource open_ground(std::string_view name, std::uint64_t seed) {
   constexpr int kPaperSize = 400;
-  if (name == "noise-ridges") return from_heights(name, whole_metres(noise_ridges(kPaperSize, seed)));
-  if (name == "noise-hills") return from_heights(name, whole_metres(noise_hills(kPaperSize, seed)));
+  if (name == "noise-ridges") return source_of(name, whole_metres(noise_ridges(kPaperSize, seed)));
+  if (name == "noise-hills") return source_of(name, whole_metres(noise_hills(kPaperSize, seed)));
   if (name == kMainGround) {
-    return from_heights(name, resample(*open_terrain("jacksboro").heights, kPaperSize, kPaperSize));
+    return source_of(name, resample(*open_terrain("jacksboro").heights, kPaperSize, kPaperSize));
   }
   return open_heights(name, seed);
 }

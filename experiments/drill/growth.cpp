@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <optional>
 
+#include "experiments/drill/ground.h"
 #include "experiments/experiment.h"
 #include "experiments/ground.h"
 #include "experiments/stopwatch.h"
+#include "representations/drill/extract.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/files.h"
 #include "terrain/hydrology/flow.h"

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "experiments/drill/figures.h"
+#include "representations/drill/extract.h"
 #include "representations/drill/regenerate.h"
 #include "results/format.h"
+#include "terrain/hydrology/channels.h"
 
 namespace terrabench::drill {
 namespace {

@@ -7,8 +7,10 @@
 
 #include "experiments/drill/ground.h"
 #include "experiments/experiment.h"
+#include "representations/drill/extract.h"
 #include "representations/drill/pits.h"
 #include "representations/drill/regenerate.h"
+#include "terrain/hydrology/channels.h"
 #include "terrain/hydrology/flow.h"
 #include "terrain/metrics/elevation_error.h"
 

@@ -14,6 +14,8 @@
 #include "experiments/experiment.h"
 #include "experiments/figures/figure_id.h"
 #include "representations/drill/drill_codec.h"
+#include "representations/drill/extract.h"
+#include "representations/drill/quantum.h"
 #include "representations/drill/regenerate.h"
 #include "results/plot.h"
 #include "results/rasterise.h"

@@ -7,6 +7,7 @@
 #include "experiments/drill/ground.h"
 #include "experiments/experiment.h"
 #include "experiments/stopwatch.h"
+#include "representations/drill/extract.h"
 #include "representations/drill/regenerate.h"
 #include "results/statistics.h"
 #include "terrain/hydrology/flow.h"

@@ -12,13 +12,13 @@ namespace terrabench::mrbsp {
 
 TerrainSource open_ground(std::string_view name, std::uint64_t seed) {
   if (name == "real-257") {
-    return from_heights(name, resample(*open_terrain("jacksboro").heights, kSide, kSide));
+    return source_of(name, resample(*open_terrain("jacksboro").heights, kSide, kSide));
   }
   if (name == "drawing-257") {
-    return from_heights(name, land_from_drawing(example_drawing(kSide, seed), {.peak = 1600}));
+    return source_of(name, land_from_drawing(example_drawing(kSide, seed), {.peak = 1600}));
   }
   if (name == "rough-257") {
-    return from_heights(name, fractal::diamond_square({.seed = seed, .side = kSide, .hurst = 0.5F}));
+    return source_of(name, fractal::diamond_square({.seed = seed, .side = kSide, .hurst = 0.5F}));
   }
   return open_filled_heights(name, seed);
 }

@@ -204,7 +204,7 @@ void same_edit(benchmark::State& state) {
     if (auto* const tree = dynamic_cast<Ght*>(structure.get())) {
       tree->apply(erosion);
     } else {
-      structure->paint({x, z}, air);
+      structure->edit({x, z}, air);
     }
     state.SetIterationTime(thread_seconds() - start);
     after = static_cast<double>(structure->memory().total());
