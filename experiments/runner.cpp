@@ -12,7 +12,6 @@
 #include "results/glob.h"
 #include "results/provenance.h"
 #include "results/store.h"
-#include "results/timing_conditions.h"
 #include "terrain/error.h"
 #include "terrain/files.h"
 #include "terrain/sources/noise/program.h"
@@ -108,9 +107,7 @@ void run(const RunPlan& plan) {
                                                     .simd = std::string(noise::simd_name()),
                                                     .threads = plan.threads,
                                                     .libraries = {}});
-  for (const std::string& warning : timing_warnings(read_timing_conditions())) {
-    fmt::print(stderr, "warning: {}\n", warning);
-  }
+  for (const std::string& warning : provenance.timing_warnings) fmt::print(stderr, "warning: {}\n", warning);
   store.begin_run(provenance);
   const bool terminal = isatty(STDERR_FILENO) != 0;
   std::size_t number = 0, skipped = 0;

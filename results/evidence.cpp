@@ -20,6 +20,7 @@ using Outcome = Finding::Outcome;
 struct Quantity {
   std::vector<double> samples;
   std::string name, unit;
+  std::string metric;  // the name without the case
 
   std::string show(double value) const {
     const std::string text = format_quantity(value, unit);
@@ -50,10 +51,10 @@ std::string_view doubt(const Summary& s, double low, double high) {
 
 // within, ratio, growth.
 Finding compare_range(const Condition& condition, const Summary& s, const std::string& what,
-                      std::string_view unit) {
+                      const std::string& metric, std::string_view unit) {
   const bool holds = s.median >= condition.low && s.median <= condition.high;
   Finding found{outcome(holds), "", format_quantity(s.median, unit),
-                fmt::format("[{}, {}]", format_exact(condition.low), format_exact(condition.high)), what};
+                fmt::format("[{}, {}]", format_exact(condition.low), format_exact(condition.high)), metric};
   found.text = what + " " + found.value;
   if (s.low != s.high) found.text += fmt::format(" [{}, {}]", format_number(s.low), format_number(s.high));
   found.text += fmt::format(", {} {}", holds ? "in" : "not in", found.expected);
@@ -81,7 +82,7 @@ Finding compare_chain(bool equal, const std::vector<Quantity>& quantities) {
       found.value = format_quantity(bound_first ? median : before, measured.unit);
       found.expected = fmt::format("{} {}", bound_first && !equal ? ">" : sign,
                                    format_quantity(bound_first ? before : median, bound.unit));
-      found.quantity = measured.name;
+      found.quantity = measured.metric;
     }
     if (!holds) found.outcome = Outcome::kFails;
     before = median;
@@ -93,13 +94,15 @@ Finding compare(const Condition& condition, const std::vector<Quantity>& quantit
   const Quantity &first = quantities[0], &second = quantities.back();
   switch (condition.kind) {
     case Kind::kWithin:
-      return compare_range(condition, summarise(first.samples), first.name, first.unit);
+      return compare_range(condition, summarise(first.samples), first.name, first.metric, first.unit);
     case Kind::kRatio:
       return compare_range(condition, summarise_ratio(first.samples, second.samples),
-                           fmt::format("{} ÷ {}", first.name, second.name), "");
+                           fmt::format("{} ÷ {}", first.name, second.name),
+                           fmt::format("{} ÷ {}", first.metric, second.metric), "");
     case Kind::kGrowth:
       return compare_range(condition, summarise_ratio(second.samples, first.samples),
-                           fmt::format("{} grows by the factor", second.name), "");
+                           fmt::format("{} grows by the factor", second.name), "growth of " + second.metric,
+                           "");
     default:
       return compare_chain(condition.kind == Kind::kEqual, quantities);
   }
@@ -140,7 +143,7 @@ class Reader {
     std::vector<const Record*> records;
     for (const Operand& operand : condition.operands) {
       if (operand.is_number()) {
-        quantities.push_back({{operand.number}, "", ""});
+        quantities.push_back({{operand.number}, "", "", ""});
         continue;
       }
       const Record* const record = store_.find(operand.experiment, operand.case_name, profile_);
@@ -155,8 +158,8 @@ class Reader {
       }
       note_read(*record);
       records.push_back(record);
-      if (name_cases_) spoken = operand.case_name + " " + spoken;
-      quantities.push_back({metric->samples, std::move(spoken), metric->unit});
+      const std::string name = name_cases_ ? operand.case_name + " " + spoken : spoken;
+      quantities.push_back({metric->samples, name, metric->unit, std::move(spoken)});
     }
     if (compares_times(condition, quantities)) note_incomparable(records);
     return compare(condition, quantities);

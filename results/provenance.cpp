@@ -116,6 +116,7 @@ Provenance collect_provenance(const RunFacts& facts) {
     p.libraries.push_back(library);
   }
   std::sort(p.libraries.begin(), p.libraries.end());
+  p.timing_warnings = timing_warnings(read_timing_conditions());
   p.id = digest(p);
   return p;
 }

@@ -36,6 +36,7 @@ struct Provenance {
   std::uint64_t memory = 0;                                    // bytes of the machine
   std::string simd;                                            // instruction set chosen at run time
   std::vector<std::pair<std::string, std::string>> libraries;  // name, version
+  std::vector<std::string> timing_warnings;                    // timing_conditions.h; older stores have none
 };
 
 // Whether times of the two can be set against each other, and one be taken for the other: same machine, same

@@ -52,21 +52,23 @@ Json to_json(const Value& value, const std::string& name) {
 Json to_json(const Provenance& p) {
   Json libraries = Json::object();
   for (const auto& [name, version] : p.libraries) libraries[name] = version;
-  return {{"kind", "run"},
-          {"time", p.time},
-          {"command", p.command},
-          {"git_revision", p.git_revision},
-          {"git_dirty", p.git_dirty},
-          {"compiler", p.compiler},
-          {"flags", p.flags},
-          {"build_type", p.build_type},
-          {"cpu", p.cpu},
-          {"threads", p.threads},
-          {"memory", p.memory},
-          {"os", p.os},
-          {"gl_renderer", p.gl_renderer},
-          {"simd", p.simd},
-          {"libraries", libraries}};
+  Json json = {{"kind", "run"},
+               {"time", p.time},
+               {"command", p.command},
+               {"git_revision", p.git_revision},
+               {"git_dirty", p.git_dirty},
+               {"compiler", p.compiler},
+               {"flags", p.flags},
+               {"build_type", p.build_type},
+               {"cpu", p.cpu},
+               {"threads", p.threads},
+               {"memory", p.memory},
+               {"os", p.os},
+               {"gl_renderer", p.gl_renderer},
+               {"simd", p.simd},
+               {"libraries", libraries}};
+  if (!p.timing_warnings.empty()) json["timing_warnings"] = p.timing_warnings;
+  return json;
 }
 
 // One object of a line: typed access, and what was never asked for is what we do not know.
@@ -203,6 +205,12 @@ Provenance provenance_from(Fields& fields) {
   for (const auto& [name, version] : fields.object("libraries").items()) {
     require(version.is_string(), fmt::format("the version of '{}' is not text", name));
     p.libraries.emplace_back(name, version.get<std::string>());
+  }
+  if (fields.has("timing_warnings")) {
+    for (const Json& warning : fields.array("timing_warnings")) {
+      require(warning.is_string(), "a timing warning is not text");
+      p.timing_warnings.push_back(warning.get<std::string>());
+    }
   }
   return p;
 }

@@ -88,7 +88,7 @@ Facts run_facts(const Provenance& run) {
   for (const auto& [name, version] : run.libraries) {
     libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", name, version);
   }
-  return {
+  Facts facts{
       {{"Time", run.time},
        {"Command", run.command},
        {"Code", fmt::format("git {}{}", run.git_revision, run.git_dirty ? ", with uncommitted changes" : "")},
@@ -99,6 +99,10 @@ Facts run_facts(const Provenance& run) {
        {"Renderer", run.gl_renderer},
        {"Libraries", libraries},
        {"Digest", run.id}}};
+  if (!run.timing_warnings.empty()) {
+    facts.lines.emplace_back("Times", fmt::format("untrustworthy: {}", fmt::join(run.timing_warnings, "; ")));
+  }
+  return facts;
 }
 
 Table input_table(const Store& store, std::string_view profile) {

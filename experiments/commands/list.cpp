@@ -25,7 +25,7 @@ Json parameters_json(std::span<const ParameterSpec> specs) {
     std::visit([&](const auto& value) { entry["default"] = value; }, spec.fallback);
     if (std::isfinite(spec.lowest)) entry["lowest"] = spec.lowest;
     if (std::isfinite(spec.highest)) entry["highest"] = spec.highest;
-    if (!spec.allowed.empty()) entry["allowed"] = spec.allowed;
+    if (!spec.allowed.empty()) entry["allowed"] = std::vector(spec.allowed.begin(), spec.allowed.end());
     list.push_back(std::move(entry));
   }
   return list;

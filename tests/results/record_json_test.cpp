@@ -71,5 +71,19 @@ TEST(RecordLine, AcceptsBytesThatAreNotUtf8) {
   EXPECT_EQ(std::get<Provenance>(line.content).id, digest(run));
 }
 
+// Stores that were written before there were timing warnings have no such field and keep their digest.
+TEST(RunLine, TimingWarningsAreOptional) {
+  Provenance run = fake_provenance();
+  EXPECT_EQ(to_line(run).find("timing_warnings"), std::string::npos);
+  EXPECT_TRUE(std::get<Provenance>(parse_line(to_line(run), "x").content).timing_warnings.empty());
+  run.timing_warnings = {"the machine is busy", "debug build"};
+  run.id = digest(run);
+  const Line line = parse_line(to_line(run), "x");
+  EXPECT_FALSE(line.altered);
+  EXPECT_EQ(line.warning, "");
+  EXPECT_EQ(std::get<Provenance>(line.content).timing_warnings, run.timing_warnings);
+  EXPECT_EQ(std::get<Provenance>(line.content).id, run.id);
+}
+
 }  // namespace
 }  // namespace terrabench
