@@ -4,7 +4,6 @@
 
 #include "experiments/drill/ground.h"
 #include "experiments/experiment.h"
-#include "representations/drill/extract.h"
 #include "representations/drill/pits.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/hydrology/channels.h"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "representations/drill/drills.h"
+#include "representations/drill/extract.h"
 #include "terrain/heightfield.h"
 #include "terrain/hydrology/flow.h"
 #include "terrain/metrics/channel_distance.h"
