@@ -11,14 +11,17 @@
 #include "terrain/error.h"
 
 namespace terrabench {
+
+std::span<const EmbeddedFile> embedded_shaders();
+
 namespace {
 
 // Owned until the program is linked; OpenGL keeps what an attached shader still needs.
 class Shader {
  public:
   Shader(GLenum stage, const ShaderFile& file) : id_(glCreateShader(stage)) {
-    const char* const text = file.source.data();
-    const auto length = static_cast<GLint>(file.source.size());
+    const char* const text = file.text.data();
+    const auto length = static_cast<GLint>(file.text.size());
     glShaderSource(id_, 1, &text, &length);
     glCompileShader(id_);
     GLint good = 0, log_size = 0;
@@ -118,9 +121,10 @@ GLuint BufferTextureKind::create() {
 }
 
 const ShaderFile& shader_file(std::string_view name) {
-  const auto files = shader_files();
-  const auto found =
-      std::find_if(files.begin(), files.end(), [&](const auto& file) { return file.name == name; });
+  const auto files = embedded_shaders();
+  const auto found = std::find_if(files.begin(), files.end(), [&](const ShaderFile& file) {
+    return file.name.substr(file.name.rfind('/') + 1) == name;
+  });
   assert(found != files.end());
   return *found;
 }

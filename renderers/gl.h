@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "terrain/embedded.h"
+
 namespace terrabench {
 
 // Points the gl* functions at the current context's. One table serves the process: contexts of different
@@ -82,12 +84,10 @@ Buffer make_buffer(std::span<const T> content) {
   return buffer;
 }
 
-// The shaders of renderers/shaders, built into the program (cmake/shaders.cmake).
-struct ShaderFile {
-  std::string_view name, source;
-};
-std::span<const ShaderFile> shader_files();
-const ShaderFile& shader_file(std::string_view name);  // the name must exist
+// The shaders of renderers/shaders, built into the program (cmake/embed.cmake), by file name, which must
+// exist.
+using ShaderFile = EmbeddedFile;
+const ShaderFile& shader_file(std::string_view name);
 
 // Compiles and links; a geometry shader is optional. Throws environment_error with the file's name and the
 // driver's log.
