@@ -24,10 +24,9 @@ bool ends(Levels column, std::uint16_t level) {
   const auto at = std::lower_bound(column.begin(), column.end(), level);
   return at != column.end() && *at == level && (at - column.begin()) % 2 == 1;
 }
-// The vertical lines where four columns meet, one row of them: every level at which one of the four begins or
-// ends has a vertex. Where just two diagonal columns are solid between two such levels, four walls share that
-// edge: two points in its middle keep them apart, the first for the northern column, the second for the
-// southern.
+// One row of the vertical lines where four columns meet. Every level at which one of the four begins or ends
+// has a vertex. Where only two diagonal columns are solid between two such levels, four walls share the edge:
+// two points in its middle separate them, the first for the northern column, the second for the southern.
 struct CornerRow {
   std::vector<std::uint32_t> starts;  // of each corner's levels, and the end
   std::vector<std::uint16_t> levels;
@@ -70,9 +69,9 @@ class BlockMesher {
       row.first_vertex = static_cast<std::uint32_t>(vertices);
       vertices += row.vertices();
       if (vertices > kNone)
-        throw usage_error("has more than 2³² vertices", "block mesh", "ask for larger cells");
+        throw usage_error("the mesh has more than 2³² vertices", "block mesh", "choose larger cells");
     }
-    // A closed surface has about two triangles a vertex; they are gathered by row first.
+    // A closed surface has about two triangles per vertex; they are collected per row first.
     require_memory(static_cast<std::size_t>(vertices) * (sizeof(glm::vec3) + 12 * sizeof(std::uint32_t)),
                    "block mesh");
     TriangleMesh mesh;
@@ -119,7 +118,7 @@ class BlockMesher {
       for (const Levels levels : around) merged.insert(merged.end(), levels.begin(), levels.end());
       std::sort(merged.begin(), merged.end());
       merged.erase(std::unique(merged.begin(), merged.end()), merged.end());
-      std::array<std::size_t, 4> passed{};  // levels of each column at or under the one at hand
+      std::array<std::size_t, 4> passed{};  // levels of each column up to the current one
       for (const std::uint16_t level : merged) {
         for (std::size_t c = 0; c < 4; ++c) {
           if (passed[c] < around[c].size() && around[c][passed[c]] == level) ++passed[c];
@@ -295,7 +294,7 @@ class BlockMesher {
     const std::size_t edge = 2 * static_cast<std::size_t>(i);
     const std::uint32_t own = top ? 0 : 1;  // the point of the solid below, or above
     out.polygon.clear();
-    std::size_t middle = 0;  // where in the polygon the last middle point stands
+    std::size_t middle = 0;  // the position of the last middle point in the polygon
     const auto add = [&](std::uint32_t point) { out.polygon.push_back(point); };
     const auto add_middle = [&](std::uint32_t point) {
       middle = out.polygon.size();

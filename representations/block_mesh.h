@@ -9,14 +9,14 @@
 
 namespace terrabench {
 
-// Where the solid parts of one row of columns begin and end. Materials do not matter here.
+// The levels at which the solid parts of one row of columns begin and end, without materials.
 class SurfaceRow {
  public:
   void clear() {
     levels_.clear();
     ends_.clear();
   }
-  // Levels [bottom, top), upward; joins what touches.
+  // Levels [bottom, top), in upward order; joins touching parts.
   void add_solid(int bottom, int top) {
     const std::size_t first = ends_.empty() ? 0 : ends_.back();
     if (levels_.size() > first && levels_.back() == bottom) {
@@ -38,10 +38,10 @@ class SurfaceRow {
   std::vector<std::uint32_t> ends_;
 };
 
-// Horizontal faces of one cell, vertical faces as tall as the solid is bare. Watertight and free of
+// Horizontal faces of one cell, vertical faces as tall as the exposed solid. Watertight and free of
 // T-vertices: a wall has a vertex wherever one of the four columns around its edge begins or ends. Where
-// solids touch along an edge only, a point in the middle of that edge is doubled, so that each edge belongs
-// to two triangles. `row_of(j, row)` fills all columns of row j; it is called from many threads. A detail
+// solids touch along an edge only, a point in the middle of the edge is duplicated, so that each edge belongs
+// to two triangles. `row_of(j, row)` fills all columns of row j; it must be thread-safe. A detail
 // coarser than the grid takes every n-th column. O(boundary), parallel over rows, the same mesh for any
 // number of threads. Throws usage_error for more than 2³² vertices.
 TriangleMesh block_mesh(const ColumnGrid&, MeshDetail,

@@ -10,7 +10,7 @@
 namespace terrabench {
 namespace {
 
-// Not below the spacing of floats at this magnitude: finer levels would share one height.
+// The spacing of floats at this magnitude: finer levels would share one height.
 double least_step(double magnitude) { return magnitude > 0 ? std::exp2(std::ilogb(magnitude) - 23) : 0; }
 
 int cells_along(double length, double cell) {
@@ -50,7 +50,7 @@ ColumnGrid ColumnGrid::load(ByteSource& in) {
   if (grid.width < 1 || grid.depth < 1 || grid.levels < 1 || grid.width > kMaxColumns ||
       grid.depth > kMaxColumns || grid.levels > kMaxLevels || !(grid.cell_x > 0) || !(grid.step > 0) ||
       !(grid.cell_z > 0)) {
-    in.fail("the grid's sizes cannot be");
+    in.fail("the grid's sizes are impossible");
   }
   return grid;
 }
@@ -88,7 +88,7 @@ void ColumnSampler::choose_grid(const Solid& solid, const Parameters& parameters
   }
   if (grid_.step < least_step(std::max(std::abs(low.y), std::abs(solid.bounds.high.y)))) {
     throw usage_error(
-        fmt::format("levels of {} m cannot be told apart at a height of {} m", grid_.step, low.y), "step",
+        fmt::format("levels of {} m cannot be distinguished at a height of {} m", grid_.step, low.y), "step",
         "choose a larger step, or move the solid to lower coordinates");
   }
   grid_.cell_x = size.x / static_cast<double>(grid_.width);
@@ -98,8 +98,8 @@ void ColumnSampler::choose_grid(const Solid& solid, const Parameters& parameters
   grid_.origin_z = low.z;
 }
 
-// The floor is a multiple of the step, so that with a power of two whole metres stay exact. It lies a cell
-// under the lowest sample, and at least half a step, so that each column with data keeps one level.
+// The floor is a multiple of the step, so that whole metres stay exact for a power of two. It lies one cell
+// below the lowest sample, and at least half a step, so that each column with data has at least one level.
 void ColumnSampler::choose_grid(const Heightfield& field, double step, int automatic_levels) {
   const HeightRange range = height_range(field);
   const double lowest = range.lowest, highest = range.highest, depth = std::max(field.cell_x, field.cell_z);
@@ -144,9 +144,9 @@ void ColumnSampler::sample(int i, int j, std::span<Material> out) const {
 std::span<const ParameterSpec> column_parameters() {
   static const ParameterSpec kSpecs[] = {
       {"resolution", std::int64_t{0}, "samples",
-       "columns along the longest side; 0 takes a heightfield's own samples, and 128 for a solid", 0, 65535},
+       "columns along the longest side; 0: the samples of a heightfield, and 128 for a solid", 0, 65535},
       {"step", 0.0, "m",
-       "height of a level; 0 takes a solid's cell, and for heights a power of two that fits their range", 0,
+       "height of a level; 0: the cell of a solid, and for heights a power of two that fits their range", 0,
        1e6},
   };
   return kSpecs;
@@ -159,7 +159,8 @@ void check_heights(const Heightfield& field, std::string_view where) {
   if (field.width < 1 || field.depth < 1 || field.width > ColumnGrid::kMaxColumns ||
       field.depth > ColumnGrid::kMaxColumns ||
       field.heights.size() != static_cast<std::size_t>(field.width) * static_cast<std::size_t>(field.depth)) {
-    throw wrong(fmt::format("a heightfield of {} × {} samples cannot be used", field.width, field.depth));
+    throw wrong(fmt::format("a heightfield of {} × {} samples is empty, too large or incomplete", field.width,
+                            field.depth));
   }
   if (!(field.cell_x > 0 && field.cell_z > 0 && std::isfinite(field.cell_x + field.cell_z))) {
     throw wrong("the cell size is not a positive number of metres");
@@ -180,15 +181,15 @@ std::optional<Heightfield> at_resolution(const Heightfield& field, std::int64_t 
   return resample(field, scaled(field.width), scaled(field.depth));
 }
 
-void check_paint(Columns where, std::span<const Span> what) {
+void check_edit(Columns where, std::span<const Span> what) {
   if (where.x.size() != what.size() || where.z.size() != what.size()) {
-    throw usage_error(fmt::format("{} spans for {} columns", what.size(), where.size()), "paint",
-                      "give one span for each column");
+    throw usage_error(fmt::format("{} spans for {} columns", what.size(), where.size()), "edit",
+                      "give one span per column");
   }
   for (std::size_t i = 0; i < what.size(); ++i) {
     if (!(what[i].bottom < what[i].top)) {
       throw usage_error(fmt::format("a span from {} to {} m", what[i].bottom, what[i].top),
-                        fmt::format("paint, span {}", i), "the bottom must lie under the top");
+                        fmt::format("edit, span {}", i), "the bottom must lie under the top");
     }
   }
 }

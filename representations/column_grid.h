@@ -1,5 +1,5 @@
-// The lattice that stacks and voxels quantise space to: vertical columns on a horizontal grid, cut into
-// levels. A sample stands for the cell around it, as the materials of "hybrid" §3.1.1 do.
+// The lattice to which stacks and voxels quantise space: vertical columns on a horizontal grid, cut into
+// levels. A sample represents the cell around it, as the materials of "hybrid" §3.1.1 do.
 #pragma once
 
 #include <cstddef>
@@ -43,7 +43,7 @@ struct ColumnGrid {
   bool operator==(const ColumnGrid&) const = default;
 };
 
-// Finds columns and levels for a batch of queries.
+// Maps positions to columns and levels, for a batch of queries.
 class ColumnLookup {
  public:
   explicit ColumnLookup(const ColumnGrid& grid)
@@ -61,8 +61,8 @@ class ColumnLookup {
     j = clamp(static_cast<int>((z - grid_.origin_z) * per_z_), grid_.depth);
     return true;
   }
-  // The level with edge_y(level) ≤ y < edge_y(level + 1) to the last bit, so that materials and spans agree;
-  // -1 outside.
+  // The level with edge_y(level) ≤ y < edge_y(level + 1), exactly, so that materials() and spans() agree; -1
+  // outside.
   int level(float y) const {
     if (!(y >= bounds_.low.y && y < bounds_.high.y)) return -1;
     const int guess = clamp(static_cast<int>((y - grid_.origin_y) * per_y_), grid_.levels);
@@ -80,16 +80,16 @@ class ColumnLookup {
 // Reads a source column by column on the grid that its parameters `resolution` and `step` ask for.
 class ColumnSampler {
  public:
-  // `automatic_levels`: for heights and step 0, the step is the least power of two (metres) whose levels are
-  // no more. Throws bad_input for a source without substance, usage_error for a step that needs more than
+  // For heights and step 0 the step is the least power of two (metres) that gives at most `automatic_levels`.
+  // Throws bad_input for a source without solid material, usage_error for a step that needs more than
   // kMaxLevels.
   ColumnSampler(const TerrainSource&, const Parameters&, int automatic_levels);
 
   const ColumnGrid& grid() const { return grid_; }
   bool from_heights() const { return heights_ != nullptr; }
-  // Level that the ground of column (i, j) reaches; 0 where there is no data. Heights only.
+  // The level of the ground in column (i, j); 0 without data. Heights only.
   int top(int i, int j) const;
-  // All levels of column (i, j), which `out` has room for. Safe from many threads.
+  // All levels of column (i, j); `out` holds at least grid().levels. Thread-safe.
   void sample(int i, int j, std::span<Material> out) const;
 
  private:
@@ -102,7 +102,7 @@ class ColumnSampler {
   std::optional<Heightfield> resampled_;
 };
 
-// `resolution` and `step`, which all methods on this lattice take.
+// `resolution` and `step`, common to all methods on this lattice.
 std::span<const ParameterSpec> column_parameters();
 
 // Columns along the longest side of a solid when `resolution` is 0.
@@ -110,10 +110,9 @@ inline constexpr int kDefaultResolution = 128;
 
 // Throws bad_input unless every height is finite or no-data, at least one is a height, and sizes make sense.
 void check_heights(const Heightfield&, std::string_view where);
-// The field at `resolution` samples along its longer side; nothing when it has that many, or for 0.
+// The field resampled to `resolution` samples along its longer side; nothing when it has that many, or for 0.
 std::optional<Heightfield> at_resolution(const Heightfield&, std::int64_t resolution);
-// Throws usage_error unless both lists are as long and every span is one (bottom < top; infinite ends are
-// fine).
-void check_paint(Columns where, std::span<const Span> what);
+// Throws usage_error unless there is one span per column, each with bottom < top (infinite ends are allowed).
+void check_edit(Columns where, std::span<const Span> what);
 
 }  // namespace terrabench

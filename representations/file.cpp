@@ -1,5 +1,5 @@
 // The container: magic, format version, type name, sizes, the zstd frame, and XXH3-128 of everything before
-// it. The checksum is looked at before anything is unpacked, so that a damaged file cannot ask for memory.
+// it. The checksum is verified before unpacking, so that a damaged file cannot make the program allocate.
 #include <fmt/format.h>
 #include <zstd.h>
 
@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::array<char, 8> kMagic = {'T', 'e', 'r', 'r', 'a', 'R', 'e', 'p'};
 constexpr std::uint32_t kVersion = 1;
-constexpr int kLevel = 9;  // of zstd, the same for all methods
+constexpr int kLevel = 9;  // zstd level, the same for all methods
 constexpr std::size_t kChecksum = 32;
-// A zstd block of 128 KiB takes 4 bytes at least, so that no true file unpacks to more than this many times
-// its size.
+// A zstd block of 128 KiB takes at least 4 bytes: no valid file unpacks to more than this many times its
+// size.
 constexpr std::uint64_t kLargestRatio = 1 << 15;
 
 std::vector<std::byte> compress(std::span<const std::byte> raw) {
@@ -33,7 +33,7 @@ std::vector<std::byte> decompress(std::span<const std::byte> packed, std::uint64
                                   const ByteSource& in) {
   if (raw_size / kLargestRatio > packed.size() || raw_size > available_memory() ||
       ZSTD_getFrameContentSize(packed.data(), packed.size()) != raw_size) {
-    in.fail("the unpacked size cannot be");
+    in.fail("the unpacked size is impossible");
   }
   std::vector<std::byte> raw(static_cast<std::size_t>(raw_size));
   const std::size_t size = ZSTD_decompress(raw.data(), raw.size(), packed.data(), packed.size());
@@ -63,7 +63,7 @@ std::size_t save_representation(const std::filesystem::path& path, const Represe
 Loaded load_representation(std::span<const std::byte> file, const std::string& origin) {
   ByteSource in(file, origin);
   if (in.left() < kMagic.size() || in.get<std::array<char, 8>>() != kMagic) {
-    throw bad_input("is no saved representation", origin, "name a file that `terrabench represent` wrote");
+    throw bad_input("is not a saved representation", origin, "name a file that `terrabench represent` wrote");
   }
   if (const auto version = in.get<std::uint32_t>(); version != kVersion) {
     throw bad_input(fmt::format("has format version {}, this program reads {}", version, kVersion), origin,
@@ -73,17 +73,16 @@ Loaded load_representation(std::span<const std::byte> file, const std::string& o
   const auto content = file.first(file.size() - kChecksum);
   const std::string sum = checksum(content);
   if (!std::equal(sum.begin(), sum.end(), reinterpret_cast<const char*>(file.data()) + content.size())) {
-    in.fail("the checksum does not fit the content");
+    in.fail("the checksum does not match the content");
   }
   Loaded loaded;
   const std::string name = in.get_text();
   const auto types = representations();
   const auto type = std::find_if(types.begin(), types.end(), [&](const auto& t) { return t.name == name; });
-  if (type == types.end())
-    in.fail(fmt::format("holds a representation that this program does not know, '{}'", name));
+  if (type == types.end()) in.fail(fmt::format("unknown representation '{}'", name));
   loaded.type = &*type;
   const auto raw_size = in.get<std::uint64_t>(), packed_size = in.get<std::uint64_t>();
-  if (packed_size + kChecksum != in.left()) in.fail("the content's size does not fit the file");
+  if (packed_size + kChecksum != in.left()) in.fail("the content's size does not match the file");
   const std::vector<std::byte> raw =
       decompress(content.last(static_cast<std::size_t>(packed_size)), raw_size, in);
   ByteSource structure(raw, origin);

@@ -19,9 +19,9 @@ void Representation::materials(Points where, std::span<Material> out) const {
   }
 }
 
-void Representation::paint(Columns, std::span<const Span>) {
-  throw usage_error("cannot be edited", "paint",
-                    "choose a representation that `terrabench list` calls editable");
+void Representation::edit(Columns, std::span<const Span>) {
+  throw usage_error("this representation cannot be edited", "edit",
+                    "choose an editable representation: see `terrabench list representations`");
 }
 
 std::int64_t destroy_and_count(std::unique_ptr<Representation> structure) {

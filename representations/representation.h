@@ -1,5 +1,5 @@
-// The one interface of all representations. A representation answers for every vertical line which parts of
-// it are solid; overhangs, volumes, errors and ray hits all derive from that question.
+// The interface of all representations. A representation answers which parts of a vertical line are solid;
+// overhangs, volumes, errors and ray hits all derive from the answer.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ struct Points {
   std::size_t size() const { return x.size(); }
 };
 
-// Receives the spans of a batch of columns, in order. Kept between batches, it allocates nothing once warm.
+// Collects the spans of a batch of columns, in order. Reused for later batches it hardly allocates.
 class SpanSink {
  public:
   void clear() {
@@ -61,25 +61,24 @@ class SpanSink {
 };
 
 struct MeshDetail {
-  float cell = 0;  // metres between vertices; 0 takes the structure's own resolution
+  float cell = 0;  // metres between vertices; 0: the structure's own resolution
 };
 
 class Representation {
  public:
   virtual ~Representation() = default;
 
-  // Appends one column to `out` for each line asked for: its spans sorted upward and disjoint, touching spans
-  // only where the material changes; none outside the terrain. A batch, so that the virtual call is paid
-  // once. Thread-safe.
+  // Appends one column to `out` per line: its spans, sorted upward and disjoint; spans touch only where the
+  // material changes; none outside the terrain. A batch, so that the virtual call is paid once. Thread-safe.
   virtual void spans(Columns where, SpanSink& out) const = 0;
 
-  // The material at each point; air outside. The default asks spans(); methods with something quicker
-  // override it.
+  // The material at each point; air outside. The default uses spans(); methods with something faster override
+  // it.
   virtual void materials(Points where, std::span<Material> out) const;
 
-  // Fills (or, with air, clears) from bottom to top in each column. For types whose traits say editable; the
-  // others throw usage_error. Edits quantise as building does. Throws before anything is changed.
-  virtual void paint(Columns where, std::span<const Span> what);
+  // Fills each column from the span's bottom to its top with its material (air clears). For types with the
+  // trait `editable`; others throw usage_error. Quantises as building does. Throws before any change.
+  virtual void edit(Columns where, std::span<const Span> what);
 
   virtual TriangleMesh mesh(MeshDetail detail) const = 0;  // watertight where the method promises it
   virtual Memory memory() const = 0;                       // every heap byte the structure holds
@@ -87,14 +86,14 @@ class Representation {
   virtual Bounds bounds() const = 0;
 };
 
-// Heap bytes that the structure holds by the allocator's count: what destroying it gives back. Nothing else
-// may run.
+// The heap bytes that destroying the structure frees, by the allocator's count. No other thread may allocate
+// meanwhile.
 std::int64_t destroy_and_count(std::unique_ptr<Representation>);
 
 struct Traits {
   bool overhangs = false;
   bool materials = false;
-  bool lossless = false;  // gives back the samples it was built from, to the bit
+  bool lossless = false;  // returns the samples that it was built from, to the bit
   bool editable = false;
 };
 
@@ -102,19 +101,18 @@ struct RepresentationType {
   std::string_view name, summary, paper;
   Traits traits;
   std::span<const ParameterSpec> parameters;
-  // The source must stay alive during the call only. Throws usage_error when it cannot represent such a
-  // source.
+  // Keeps no reference to the source. Throws usage_error for a source that the type cannot represent.
   std::unique_ptr<Representation> (*build)(const TerrainSource&, const Parameters&, Progress&);
   std::unique_ptr<Representation> (*load)(ByteSource&);
 };
 
-// The table, one line a method: registry.cpp.
+// The table, one entry per method: registry.cpp.
 std::span<const RepresentationType> representations();
 const RepresentationType& representation(std::string_view name);  // throws unknown_name
 
 // Files: a header that names the type, then the structure's bytes, zstd-compressed and checksummed alike for
-// all methods, so that sizes on disk compare. Reading a cut or altered file throws bad_input. Returns the
-// bytes on disk.
+// all methods, so that sizes on disk are comparable. Reading a truncated or altered file throws bad_input.
+// Returns the bytes on disk.
 std::size_t save_representation(const std::filesystem::path&, const RepresentationType&,
                                 const Representation&);
 struct Loaded {
@@ -122,7 +120,7 @@ struct Loaded {
   std::unique_ptr<Representation> representation;
 };
 Loaded load_representation(const std::filesystem::path&);
-// Whether the file says that it is one, by its first bytes; damaged ones say so too.
+// Whether the file's first bytes are those of a saved representation; the rest may be damaged.
 bool is_saved_representation(const std::filesystem::path&);
 Loaded load_representation(std::span<const std::byte> file, const std::string& origin);
 

@@ -1,4 +1,4 @@
-// Runs of equal material along one column: the vocabulary that stacks, voxels and their edits share.
+// Runs of equal material along one column, shared by stacks, voxels and their edits.
 #pragma once
 
 #include <bit>
@@ -20,7 +20,7 @@ struct Run {
 };
 
 // The end of the run that begins at `begin`: the first later sample of another material, or the column's end.
-// Eight samples a step.
+// Eight samples per step.
 inline std::size_t run_end(std::span<const Material> column, std::size_t begin) {
   const std::uint64_t same = 0x0101010101010101U * static_cast<std::uint64_t>(column[begin]);
   std::size_t at = begin + 1;
@@ -33,14 +33,14 @@ inline std::size_t run_end(std::span<const Material> column, std::size_t begin) 
   return at;
 }
 
-// Canonical runs, bottom up: neighbours differ, what is not covered is air, the last run is not air.
+// Canonical runs, bottom up: neighbours differ, uncovered levels are air, the last run is not air.
 class RunList {
  public:
   void clear() { runs_.clear(); }
   std::span<const Run> runs() const { return runs_; }
   int height() const { return runs_.empty() ? 0 : runs_.back().top; }
 
-  // Appends [height(), top) of a material; joins an equal run below. Nothing when top ≤ height().
+  // Appends [height(), top) of a material, joined with an equal run below. Does nothing when top ≤ height().
   void add(int top, Material material) {
     if (top <= height()) return;
     if (!runs_.empty() && runs_.back().material == material) {
@@ -61,8 +61,8 @@ class RunList {
     }
     drop_trailing_air();
   }
-  // `from` with levels [bottom, top) made of `material`; `from` must not be this list's own.
-  void paint(std::span<const Run> from, int bottom, int top, Material material) {
+  // Becomes `from` with levels [bottom, top) of `material`; `from` must not be this list's own runs.
+  void edit(std::span<const Run> from, int bottom, int top, Material material) {
     clear();
     for (const Run& run : from) add(run.top < bottom ? run.top : bottom, run.material);
     add(bottom, Material::kAir);

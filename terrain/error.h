@@ -1,5 +1,5 @@
-// The one exception type that reaches the user. Thrown at the edges (files, options, GL), caught once in
-// main(). Inside algorithms a broken precondition is an assertion, not an Error.
+// The one exception type whose text the user sees. Thrown where input enters (files, options, OpenGL), caught
+// once in main(). Inside algorithms a broken precondition is an assertion, not an Error.
 #pragma once
 
 #include <span>
@@ -13,16 +13,15 @@ namespace terrabench {
 enum class ExitCode {
   kGood = 0,
   kClaimFallsShort = 1,  // `check` found a ledger row without the verdict it is known to have
-  kUsage = 2,            // wrong option, unknown name
-  kBadInput = 3,         // a file is damaged, or its content cannot be used
+  kUsage = 2,            // invalid option, unknown name
+  kBadInput = 3,         // a file is damaged, or its content is unusable
   kEnvironment = 4,      // no GL context, disk full, unwritable folder
   kInterrupted = 130,    // Ctrl-C or SIGTERM; what was measured so far is kept
 };
 
 class Error : public std::runtime_error {
  public:
-  // `what` went wrong, `where` (a file, an option, a position; may be empty), and `advice`: what to do about
-  // it.
+  // `what` went wrong, `where` (a file, an option, a position; may be empty), and `advice` on what to do.
   Error(ExitCode code, std::string_view what, std::string_view where, std::string_view advice);
 
   ExitCode code() const { return code_; }

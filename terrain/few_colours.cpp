@@ -39,7 +39,7 @@ std::vector<Counted> histogram(const Image& image) {
 
 using Mean = std::array<double, 3>;
 
-// Colours [begin, end) of the list, and along which channel they spread most.
+// Colours [begin, end) of the list, and the channel of their largest spread.
 struct Box {
   std::size_t begin, end;
   Mean mean{};
@@ -108,7 +108,7 @@ std::size_t nearest(const std::vector<Mean>& means, const Rgb& colour) {
   return best;
 }
 
-// The palette's entry of each colour, after moving the means to the middle of what is nearest to them.
+// The palette entry of each colour, after moving each mean to the mean of the colours nearest to it.
 std::vector<std::size_t> grouped(const std::vector<Counted>& colours, std::vector<Mean>& means) {
   std::vector<std::size_t> group(colours.size());
   for (int round = 0; round < kRounds; ++round) {
@@ -126,8 +126,8 @@ std::vector<std::size_t> grouped(const std::vector<Counted>& colours, std::vecto
   return group;
 }
 
-// Of each group its most frequent colour where that is most of it, so that white paper and flat colours stay
-// what they are; otherwise the mean.
+// The most frequent colour of each group if more than half of its pixels have it, so that white paper and
+// flat colours do not change; otherwise the group's mean.
 std::vector<Rgb> palette(const std::vector<Counted>& colours, const std::vector<std::size_t>& group,
                          const std::vector<Mean>& means) {
   std::vector<double> pixels(means.size(), 0);

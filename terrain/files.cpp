@@ -55,7 +55,7 @@ void ByteSource::fail(std::string_view what) const {
 
 void write_file(const std::filesystem::path& name, std::span<const std::byte> content) {
   std::error_code error;
-  // A link stays a link: what it points to is replaced. Renaming over a device would remove the device.
+  // A link stays a link: its target is replaced. Renaming over a device would remove the device.
   const bool link = std::filesystem::is_symlink(name, error);
   const std::filesystem::path path = link ? std::filesystem::weakly_canonical(name, error) : name;
   error.clear();  // a new file has no status yet
@@ -79,7 +79,7 @@ void write_file(const std::filesystem::path& name, std::span<const std::byte> co
     if (written < 0) throw cannot_write(path, errno);
     done += static_cast<std::size_t>(written);
   }
-  // A full disk may show itself only here.
+  // A full disk may be reported only here.
   if (fsync(temporary.descriptor) != 0 && errno != EINVAL && errno != EROFS) throw cannot_write(path, errno);
   if (close(std::exchange(temporary.descriptor, -1)) != 0) throw cannot_write(path, errno);
   if (std::rename(temporary.path.c_str(), path.c_str()) != 0) throw cannot_write(path, errno);
@@ -101,7 +101,7 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t limit) {
   const std::uint64_t size = std::filesystem::file_size(path, error);
   if (error || size > limit) {
     throw bad_input(fmt::format("is larger than {} bytes", limit), path.string(),
-                    "this cannot be a file of this kind");
+                    "check the path: files of this kind are smaller");
   }
   std::ifstream in(path, std::ios::binary);
   std::string content(size, '\0');

@@ -1,4 +1,4 @@
-// Files and byte streams: nothing half-written is ever left behind, nothing is read past its end.
+// Files and byte streams: a file is written whole or not at all, and no read goes past the end.
 #pragma once
 
 #include <bit>
@@ -17,7 +17,7 @@ namespace terrabench {
 static_assert(std::endian::native == std::endian::little,
               "file forms are little-endian and written as they lie in memory");
 
-// Collects what a structure saves.
+// Collects the bytes that a structure saves.
 class ByteSink {
  public:
   template <class T>
@@ -44,8 +44,8 @@ class ByteSink {
   std::vector<std::byte> bytes_;
 };
 
-// Reads what a structure saved. Every read is checked: past the end throws bad_input that names `origin` and
-// the offset.
+// Reads the bytes that a structure saved. Every read is checked: one past the end throws bad_input with
+// `origin` and the offset.
 class ByteSource {
  public:
   ByteSource(std::span<const std::byte> bytes, std::string origin)
@@ -70,7 +70,7 @@ class ByteSource {
   std::string get_text();
   std::size_t left() const { return bytes_.size() - position_; }
   const std::string& origin() const { return origin_; }
-  // Throws bad_input(what) at the current offset: for values that cannot be.
+  // Throws bad_input(what) with the current offset: for impossible values.
   [[noreturn]] void fail(std::string_view what) const;
 
  private:

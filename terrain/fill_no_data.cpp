@@ -1,7 +1,6 @@
 // Hole filling on a pyramid (push-pull: Gortler et al. 1996, "The Lumigraph", §3.4), with a few relaxation
-// sweeps on each level, so that what fills a hole is nearly the membrane stretched over its rim: no peak, no
-// pit, no seam. O(n) whatever the size of the holes; the levels hold two thirds of the field's bytes while it
-// runs.
+// sweeps on each level, so that a filled hole is nearly the membrane stretched over its rim: no peak, no pit,
+// no seam. O(n) for holes of any size. The levels take two thirds of the field's bytes while it runs.
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -13,7 +12,7 @@
 namespace terrabench {
 namespace {
 
-struct Level {
+struct Raster {
   int width = 0, depth = 0;
   std::vector<float> heights;
 
@@ -37,8 +36,8 @@ bool has_holes(const std::vector<float>& heights) {
 }
 
 // Push: each coarse sample is the mean of those of its four children that hold data.
-Level halve(const float* heights, int width, int depth) {
-  Level coarse{(width + 1) / 2, (depth + 1) / 2, {}};
+Raster halve(const float* heights, int width, int depth) {
+  Raster coarse{(width + 1) / 2, (depth + 1) / 2, {}};
   coarse.heights.resize(static_cast<std::size_t>(coarse.width) * static_cast<std::size_t>(coarse.depth));
   each_row(coarse.depth, [&](int j) {
     const float* const north = heights + static_cast<std::size_t>(2 * j) * width;
@@ -59,13 +58,13 @@ Level halve(const float* heights, int width, int depth) {
   return coarse;
 }
 
-// Where the holes of each row begin and end: most rows of most DEMs have none and are skipped.
+// The first hole of a row and the sample after its last: most rows of most DEMs have none and are skipped.
 struct HoleRange {
   int begin = 0, end = 0;
 };
 
 // Pull: holes of a level get the bilinear height of the filled coarse level.
-void pull(const float* pushed, const Level& coarse, Level& fine, std::vector<HoleRange>& holes) {
+void pull(const float* pushed, const Raster& coarse, Raster& fine, std::vector<HoleRange>& holes) {
   each_row(fine.depth, [&](int j) {
     const float* const in = pushed + static_cast<std::size_t>(j) * fine.width;
     float* const out = fine.row(j);
@@ -86,10 +85,9 @@ void pull(const float* pushed, const Level& coarse, Level& fine, std::vector<Hol
   });
 }
 
-// One red-black half sweep: each hole of one colour becomes the mean of its neighbours, all of the other
-// colour, so the order in which threads come does not matter. At the field's border the missing neighbour is
-// left out.
-void relax(const float* pushed, Level& level, const std::vector<HoleRange>& holes, int colour) {
+// One red-black half sweep: each hole of one colour becomes the mean of its neighbours, which all have the
+// other colour, so that the order of the threads does not matter. Neighbours outside the field are left out.
+void relax(const float* pushed, Raster& level, const std::vector<HoleRange>& holes, int colour) {
   each_row(level.depth, [&](int j) {
     const HoleRange range = holes[j];
     const float* const in = pushed + static_cast<std::size_t>(j) * level.width;
@@ -114,7 +112,7 @@ void relax(const float* pushed, Level& level, const std::vector<HoleRange>& hole
   });
 }
 
-void fill_level(const float* pushed, const Level& coarse, Level& fine) {
+void fill_level(const float* pushed, const Raster& coarse, Raster& fine) {
   std::vector<HoleRange> holes(static_cast<std::size_t>(fine.depth));
   pull(pushed, coarse, fine, holes);
   for (int half = 0; half < 2 * kSweeps; ++half) relax(pushed, fine, holes, half & 1);
@@ -126,12 +124,13 @@ Heightfield fill_no_data(const Heightfield& field) {
   if (!has_holes(field.heights)) return field;
   // Up to the first level without holes; the single sample at the top can have none unless the field has no
   // data.
-  std::vector<Level> levels;
+  std::vector<Raster> levels;
   levels.push_back(halve(field.heights.data(), field.width, field.depth));
   while (has_holes(levels.back().heights)) {
-    const Level& finest = levels.back();
+    const Raster& finest = levels.back();
     if (finest.heights.size() == 1) {
-      throw bad_input("no sample holds a height", "", "there is nothing to fill the holes from");
+      throw bad_input("no sample holds a height, so the holes cannot be filled", "",
+                      "choose a part that holds heights");
     }
     levels.push_back(halve(finest.heights.data(), finest.width, finest.depth));
   }
@@ -140,16 +139,10 @@ Heightfield fill_no_data(const Heightfield& field) {
     fill_level(pushed.data(), levels[k], levels[k - 1]);
     levels.pop_back();
   }
-  Level finest{field.width, field.depth, field.heights};
+  Raster finest{field.width, field.depth, field.heights};
   fill_level(field.heights.data(), levels[0], finest);
-  Heightfield out;
-  out.width = field.width;
-  out.depth = field.depth;
-  out.cell_x = field.cell_x;
-  out.cell_z = field.cell_z;
-  out.georeference = field.georeference;
-  out.heights = std::move(finest.heights);
-  return out;
+  return {field.width,       field.depth, field.cell_x, field.cell_z, std::move(finest.heights),
+          field.georeference};
 }
 
 }  // namespace terrabench

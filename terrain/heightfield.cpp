@@ -68,16 +68,11 @@ Heightfield crop(const Heightfield& field, int i0, int j0, int width, int depth)
                                   depth, i0, j0, field.width, field.depth),
                       "crop", "give a rectangle of at least one sample inside the terrain");
   }
-  Heightfield out;
-  out.width = width;
-  out.depth = depth;
-  out.cell_x = field.cell_x;
-  out.cell_z = field.cell_z;
+  Heightfield out = Heightfield::zeros(width, depth, field.cell_x, field.cell_z);
   out.georeference = field.georeference;
   std::array<double, 6>& t = out.georeference.transform;
   t[0] += i0 * t[1] + j0 * t[2];
   t[3] += i0 * t[4] + j0 * t[5];
-  out.heights.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(depth));
   tbb::parallel_for(0, depth, [&](int j) {
     const float* const from = field.heights.data() + static_cast<std::size_t>(j0 + j) * field.width + i0;
     std::copy_n(from, width, out.heights.data() + static_cast<std::size_t>(j) * width);

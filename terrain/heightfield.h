@@ -11,7 +11,7 @@
 
 namespace terrabench {
 
-// Where the grid lies on the Earth, kept so that what we write can be opened in a GIS again.
+// Where the grid lies on the Earth, kept so that our files can be opened in a GIS again.
 struct Georeference {
   std::string crs;                    // WKT; empty when the file named none
   std::array<double, 6> transform{};  // GDAL's affine pixel-to-world transform
@@ -21,7 +21,7 @@ struct Georeference {
 // Heights in metres at grid points, row-major, rows from north to south: sample (i, j) stands at x = i·cell_x
 // (east), z = j·cell_z (south). The field covers [0, (width-1)·cell_x] × [0, (depth-1)·cell_z].
 struct Heightfield {
-  // The one internal no-data value, whatever the file's was. Test with is_no_data(), never with ==.
+  // The one internal no-data value, whatever the file uses. Test with is_no_data(), never with ==.
   static constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
   static bool is_no_data(float height) { return std::isnan(height); }
 
@@ -29,6 +29,12 @@ struct Heightfield {
   float cell_x = 1.0F, cell_z = 1.0F;  // metres between neighbouring samples, both > 0
   std::vector<float> heights;          // width·depth values
   Georeference georeference;
+
+  // A flat field at height 0. Both sides ≥ 1.
+  static Heightfield zeros(int width, int depth, float cell_x = 1, float cell_z = 1) {
+    const std::size_t samples = static_cast<std::size_t>(width) * static_cast<std::size_t>(depth);
+    return {width, depth, cell_x, cell_z, std::vector<float>(samples), {}};
+  }
 
   float at(int i, int j) const { return heights[static_cast<std::size_t>(j) * width + i]; }
   float& at(int i, int j) { return heights[static_cast<std::size_t>(j) * width + i]; }
@@ -45,7 +51,7 @@ struct HeightRange {
   std::size_t no_data = 0;  // how many samples hold no height
 };
 
-// Of all samples that hold a height. lowest > highest when there is none. O(n).
+// Over all samples that hold a height; lowest > highest when there is none. O(n).
 HeightRange height_range(const Heightfield&);
 
 // Part of the field; throws usage_error when the rectangle does not lie inside. O(size of the part).
@@ -54,8 +60,8 @@ Heightfield crop(const Heightfield&, int i0, int j0, int width, int depth);
 // The same ground at another number of samples (bilinear up, area-averaged down). O(n).
 Heightfield resample(const Heightfield&, int width, int depth);
 
-// Fills every no-data hole smoothly from its rim (push-pull pyramid), so that flow routing or meshing need no
-// special case. Throws bad_input when the whole field is no-data. O(n).
+// Fills every no-data hole smoothly from its rim (push-pull pyramid), so that flow routing and meshing need
+// no special case. Throws bad_input when the whole field is no-data. O(n).
 Heightfield fill_no_data(const Heightfield&);
 
 // XXH3-128 of the dimensions, cell sizes and height bits, as 32 hex digits: names the input in every result.

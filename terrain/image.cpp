@@ -56,7 +56,7 @@ Palette palette_of(const Image& image) {
   return palette;
 }
 
-// Empty, with the reason in `png`, when libpng cannot.
+// Empty, with the reason in `png`, when libpng cannot encode the picture.
 std::vector<std::byte> encoded(png_image& png, const void* pixels, const void* colours) {
   png_alloc_size_t size = 0;
   std::vector<std::byte> bytes;

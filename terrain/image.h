@@ -12,7 +12,7 @@ using Rgb = std::array<std::uint8_t, 3>;
 
 struct Image {
   int width = 0, height = 0;
-  std::vector<std::uint8_t> rgb;  // rows from top to bottom, three bytes a pixel
+  std::vector<std::uint8_t> rgb;  // rows from top to bottom, three bytes per pixel
 
   Image() = default;
   Image(int width, int height, Rgb fill);
@@ -20,13 +20,13 @@ struct Image {
   void set(int x, int y, Rgb);
 };
 
-// The same picture in at most `most` colours, chosen for it: a third of the bytes as PNG, where 256 do.
+// The same picture in at most `most` colours chosen for it: as PNG, 256 colours take a third of the bytes.
 // Flat areas keep their colour. O(pixels · log pixels + colours · most).
 Image with_few_colours(Image image, int most = 256);
 
-// Whole or not at all, as write_file; with a palette where 256 colours suffice and that is smaller.
+// Written whole or not at all, as by write_file(); with a palette if 256 colours suffice and that is smaller.
 void write_png(const std::filesystem::path&, const Image&);
-// Any PNG, converted; what is transparent becomes white. Throws bad_input.
+// Any PNG, converted to RGB; transparent pixels become white. Throws bad_input.
 Image read_png(const std::filesystem::path&);
 
 }  // namespace terrabench

@@ -79,7 +79,7 @@ std::uint64_t available_memory() {
   std::uint64_t limit = 0, used = 0;
   if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit &&
       std::ifstream("/sys/fs/cgroup/memory.current") >> used) {
-    // Pages of files count as used and are given up when memory is asked for.
+    // Pages of files count as used, but the kernel frees them when memory is needed.
     std::ifstream parts("/sys/fs/cgroup/memory.stat");
     std::uint64_t bytes = 0;
     for (std::string key; parts >> key >> bytes;) {
@@ -102,12 +102,12 @@ void require_memory(std::uint64_t bytes, std::string_view what, std::string_view
 
 }  // namespace terrabench
 
-// The hook: the global allocation functions, replaced for every program that links terrain.
+// The global allocation functions, replaced in every program that links terrain.
 void* operator new(std::size_t size) { return terrabench::allocate(size); }
 void* operator new[](std::size_t size) { return terrabench::allocate(size); }
 void* operator new(std::size_t size, std::align_val_t align) { return terrabench::allocate(size, align); }
 void* operator new[](std::size_t size, std::align_val_t align) { return terrabench::allocate(size, align); }
-// The forms that return null would call those above, were it not that sanitizers bring their own.
+// The forms that return null call those above by default, but not under sanitizers, which replace them.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept try {
   return terrabench::allocate(size);
 } catch (const std::bad_alloc&) {

@@ -1,5 +1,5 @@
-// Memory, by part and by measurement. memory() of a structure says what each heap byte is for; HeapCounter
-// measures the same bytes behind the program's back. The two agree, and the tests say so.
+// Memory, by part and by measurement. memory() of a structure says what each of its heap bytes is for;
+// HeapCounter counts the same bytes in the allocator. The two agree, and tests check it.
 #pragma once
 
 #include <malloc.h>
@@ -14,13 +14,13 @@ namespace terrabench {
 
 struct Memory {
   std::size_t payload = 0;  // the data itself
-  std::size_t index = 0;    // offsets, tables, nodes: what finds the payload
+  std::size_t index = 0;    // offsets, tables and nodes that lead to the payload
   std::size_t slack = 0;    // reserved and unused, rounding by the allocator included
   std::size_t total() const { return payload + index + slack; }
   Memory& operator+=(const Memory& other);
 };
 
-// Bytes the allocator really gave for a block (0 for null).
+// Bytes that the allocator gave for a block (0 for null).
 inline std::size_t heap_bytes(const void* block) {
   return block == nullptr ? 0 : malloc_usable_size(const_cast<void*>(block));
 }
@@ -40,14 +40,14 @@ Memory index_memory(const std::vector<T>& v) {
 }
 
 // Every block that operator new hands out anywhere in the process is counted with the size that the allocator
-// gave it. Blocks that C libraries take from malloc directly (GDAL, Mesa) are not ours and not counted.
+// gave it. Blocks that C libraries take from malloc directly (GDAL, Mesa) are not counted.
 struct HeapCounter {
   static std::int64_t live();  // bytes held now, by all threads
   static std::int64_t peak();  // largest live() since the last reset_peak()
   static void reset_peak();
 };
 
-// Heap bytes that the code between construction and held() left allocated.
+// The heap bytes that were allocated since construction and are still held.
 class HeapScope {
  public:
   HeapScope() : before_(HeapCounter::live()) {}
@@ -57,12 +57,12 @@ class HeapScope {
   std::int64_t before_;
 };
 
-// Physical memory in bytes, and how much of it could still be taken: for refusing input that would not fit.
-// The least of the machine's and, in a container, its control group's.
+// Physical memory in bytes, and how many of them are available: the lesser of the machine's and, in a
+// container, its control group's.
 std::uint64_t physical_memory();
 std::uint64_t available_memory();
-// Throws environment_error, with this advice, when so many bytes cannot be had: asked before much is
-// reserved.
+// Throws environment_error, with this advice, when so many bytes are not available. To be called before large
+// allocations; costs some file reads.
 void require_memory(std::uint64_t bytes, std::string_view what,
                     std::string_view advice = "choose a lower resolution, a larger step or less ground");
 

@@ -21,7 +21,7 @@ void compute_normals(TriangleMesh& mesh) {
   mesh.normals.assign(mesh.positions.size(), glm::vec3(0));
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
-    // The cross product's length is twice the area: that is the weight.
+    // The cross product's length is twice the area, which is the weight.
     const glm::vec3 normal =
         glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
     for (const std::uint32_t v : {a, b, c}) mesh.normals[v] += normal;
@@ -33,8 +33,8 @@ void compute_normals(TriangleMesh& mesh) {
 }
 
 EdgeReport check_edges(const TriangleMesh& mesh) {
-  // One key an edge side: the vertices in ascending order, and one bit for the direction the triangle runs
-  // it.
+  // One key per side of an edge: the vertices in ascending order, and a bit for the direction in which the
+  // triangle traverses it.
   struct Side {
     std::uint64_t edge;
     bool forward;

@@ -1,4 +1,4 @@
-// Indexed triangles: what representations produce and renderers draw.
+// Indexed triangles, which representations produce and renderers draw.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ namespace terrabench {
 
 struct TriangleMesh {
   std::vector<glm::vec3> positions;    // metres
-  std::vector<glm::vec3> normals;      // unit length, one a position; may be empty until compute_normals()
-  std::vector<std::uint32_t> indices;  // three a triangle, counter-clockwise seen from the air
+  std::vector<glm::vec3> normals;      // unit length, one per position; may be empty until compute_normals()
+  std::vector<std::uint32_t> indices;  // three per triangle, counter-clockwise seen from the air
 
   std::size_t triangles() const { return indices.size() / 3; }
 };
@@ -24,10 +24,10 @@ Bounds bounds_of(const TriangleMesh&);
 // Area-weighted vertex normals. O(triangles).
 void compute_normals(TriangleMesh&);
 
-// How well a mesh closes: an edge used by one triangle only is open, by more than two non-manifold.
+// Whether a mesh is closed: an edge of one triangle is open, one of more than two is non-manifold.
 struct EdgeReport {
   std::size_t edges = 0, open = 0, non_manifold = 0,
-              misoriented = 0;  // misoriented: both triangles run it the same way
+              misoriented = 0;  // misoriented: both triangles traverse it in the same direction
   bool watertight() const { return open == 0 && non_manifold == 0 && misoriented == 0; }
 };
 // O(triangles log triangles).

@@ -1,4 +1,4 @@
-// One small typed key-value set, shared by the command line, TOML files, JSON records and the report.
+// A small typed set of named values, shared by the command line, JSON records and the report.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ ParameterSpec choice(std::string_view name, std::span<const std::string_view> al
 // "a number in m", "off, sampled or conservative", "text".
 std::string accepted_values(const ParameterSpec&);
 
-// Values for a list of specs; whatever is not set has its fallback. Specs must outlive the set (they are
-// static tables).
+// Values for a list of specs; a value that is not set is the fallback. The specs are static tables: they must
+// outlive the set.
 class Parameters {
  public:
   Parameters() = default;

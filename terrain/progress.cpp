@@ -11,7 +11,7 @@
 namespace terrabench {
 namespace {
 
-constexpr std::int64_t kTerminalInterval = 100, kLineInterval = 5000;  // milliseconds between two showings
+constexpr std::int64_t kTerminalInterval = 100, kLineInterval = 5000;  // milliseconds between two lines
 
 std::string duration(double seconds) {
   if (seconds < 90) return fmt::format("{:.0f} s", seconds);
@@ -30,13 +30,13 @@ void Progress::begin(std::string_view what, std::uint64_t steps) {
   steps_ = steps;
   done_ = 0;
   begin_ = std::chrono::steady_clock::now();
-  // Work that is over at once shows nothing.
+  // Short work shows nothing.
   next_show_ = output_ == Output::kTerminal ? kTerminalInterval : kLineInterval;
 }
 
 void Progress::advance(std::uint64_t steps) {
-  // Release here, acquire in end(): whoever ends a phase sees what its steps wrote, even through a scheduler
-  // whose hand-over a race detector cannot follow.
+  // Release here, acquire in end(): the thread that ends a phase sees the writes of its steps, even through a
+  // scheduler whose synchronisation a race detector cannot follow.
   const std::uint64_t done = done_.fetch_add(steps, std::memory_order_release) + steps;
   if (interrupted()) throw Error(ExitCode::kInterrupted, "interrupted", what_, "");
   if (output_ != Output::kSilent) show(done);

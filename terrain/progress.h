@@ -1,5 +1,5 @@
-// Progress with an estimate of the time left, and cancellation by Ctrl-C, in one object that long work is
-// handed.
+// Progress with an estimate of the time left, and cancellation by Ctrl-C. Long work takes a Progress& or
+// Progress*.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,7 @@
 
 namespace terrabench {
 
-// Thread-safe except begin(). Costs an atomic add a step, so a step should be a row or a slab, not a sample.
+// Thread-safe except begin(). Costs an atomic add per step: a step should be a row or a slab, not a sample.
 class Progress {
  public:
   enum class Output { kSilent, kLines, kTerminal };
@@ -19,7 +19,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // Opens a phase of so many equal steps; closes the one before.
+  // Begins a phase of so many equal steps; ends the phase before.
   void begin(std::string_view what, std::uint64_t steps);
   // Counts steps done. Throws Error(kInterrupted) once interrupt() was called: inside tbb::parallel_for that
   // cancels the loop and reaches its caller.

@@ -29,7 +29,7 @@ Taps area_taps(long from, long to, long k) {
   return taps;
 }
 
-// New sample k stands at the centre of its cell; beyond the outermost old samples their height goes on.
+// New sample k lies at the centre of its cell; beyond the outermost old samples their height is used.
 Taps linear_taps(int from, int to, int k) {
   const double at = std::clamp((k + 0.5) * from / to - 0.5, 0.0, from - 1.0);
   Taps taps;
@@ -70,7 +70,7 @@ void RowAccumulator::add(const float* row, double weight) {
   const std::size_t n = sums_.size();
   if (total_ == 0) std::fill_n(sums, n, 0.0);
   if (!holed_ && has_hole(row, n)) {
-    // Up to here all columns weighed the same.
+    // All columns had the same weight so far.
     weights_.assign(n, total_);
     holed_ = true;
   }
@@ -93,7 +93,7 @@ void RowAccumulator::finish(const std::vector<Taps>& columns, float* row) const 
       row[i] = static_cast<float>(combine(columns[i], sums_.data()));
     return;
   }
-  // Half the weight is enough; the tolerance lets rounding decide nothing.
+  // Half the weight is enough; the tolerance keeps rounding from deciding.
   constexpr double kEnough = 0.5 - 1e-9;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const double weight = combine(columns[i], weights_.data());
@@ -104,8 +104,8 @@ void RowAccumulator::finish(const std::vector<Taps>& columns, float* row) const 
 
 Heightfield resample(const Heightfield& field, int width, int depth) {
   if (width < 1 || depth < 1) {
-    throw usage_error(fmt::format("cannot resample to {}×{} samples", width, depth), "",
-                      "both must be at least 1");
+    throw usage_error(fmt::format("width and depth must be at least 1, got {} and {}", width, depth),
+                      "resample", "choose the number of samples along both sides");
   }
   if (field.width == width && field.depth == depth) return field;
   Heightfield out;

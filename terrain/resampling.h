@@ -1,6 +1,6 @@
 // Separable resampling of height grids: linear between samples where the new grid is finer, the exact average
-// over the new cell's area where it is coarser, each axis by itself. Every sample stands for a cell around
-// it, so that the new grid covers the same ground and an exact reduction keeps the mean.
+// over the new cell's area where it is coarser, along each axis separately. Every sample represents a cell
+// around it, so that the new grid covers the same ground and an exact reduction keeps the mean.
 //
 // Holes: a weight is carried beside each sum, and a new sample whose cell is more than half without data has
 // none.
@@ -42,7 +42,7 @@ class RowAccumulator {
  private:
   std::vector<double> sums_, weights_;
   double total_ = 0;    // weight of all rows added so far
-  bool holed_ = false;  // one of them has a hole: weights_ holds each column's own weight
+  bool holed_ = false;  // a row had a hole: weights_ holds the weight of each column
 };
 
 }  // namespace terrabench

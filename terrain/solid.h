@@ -10,8 +10,8 @@
 
 namespace terrabench {
 
-// What a point is made of. Air is 0, so that a byte grid set to zero is empty; numbers above bedrock are free
-// for more.
+// The material of a point. Air is 0, so that a byte grid set to zero is empty; numbers above bedrock are free
+// for further materials.
 enum class Material : std::uint8_t { kAir = 0, kBedrock = 1 };
 std::string_view name(Material);
 
@@ -26,10 +26,10 @@ struct ColumnSamples {
 };
 
 struct Solid {
-  Bounds bounds;         // nothing is solid outside, except that the ground goes on below
+  Bounds bounds;         // nothing is solid outside, except that the ground continues below
   std::string checksum;  // of what defines the solid (graph, seed), 32 hex digits
-  // Writes the materials of the samples. A whole column a call, so that the indirect call is paid once; safe
-  // to call from many threads at once. The same samples give the same answer on every machine.
+  // Writes the materials of the samples: a whole column per call, so that the indirect call is paid once.
+  // Thread-safe. The same samples give the same answer on every machine.
   std::function<void(const ColumnSamples&, std::span<Material>)> column;
 };
 

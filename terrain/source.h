@@ -1,4 +1,4 @@
-// What a structure is built from: a named piece of ground, as heights or as a solid, with what identifies it.
+// What a structure is built from: named ground, as heights or as a solid, and what identifies its content.
 #pragma once
 
 #include <functional>
@@ -26,14 +26,17 @@ struct TerrainSource {
   std::vector<std::string> notes;  // what the reader converted, guessed or left out, for the user
   std::optional<Heightfield> heights;
   std::optional<Solid> solid;
-  // What the solid was evaluated from, for structures that can repeat the events; null for other solids and
-  // for heights.
+  // The events that the solid was evaluated from, for structures that can apply them themselves; null for
+  // other solids and for heights.
   std::shared_ptr<const events::Sculpture> events;
 
   // For heights: the ground's floor lies one cell under the lowest sample, so that every column has
   // substance.
   Bounds bounds() const;
 };
+
+// Heights as a source, with the checksum of their content. Holds the field, O(samples).
+TerrainSource source_of(std::string_view name, Heightfield heights);
 
 // A name in the catalogue: one line in terrain/sources/catalogue.cpp.
 struct TerrainType {
@@ -42,14 +45,14 @@ struct TerrainType {
 };
 std::span<const TerrainType> terrains();
 
-// Before the path of a picture that is a landscape, see terrain/sources/drawing/drawing.h:
+// The prefix of a picture's path that is read as land, see terrain/sources/drawing/drawing.h:
 // "drawing:coast.png", "drawing:coast.png,sea_level=0.4,peak=1500".
 inline constexpr std::string_view kDrawingPrefix = "drawing:";
 
 // The file that a terrain is read from: a drawing's picture, or what can only be a path (it exists, or looks
 // like one). Empty for a catalogue name. Throws unknown_name, with the nearest, for anything else.
 std::string terrain_file(std::string_view name_or_path);
-// Whether it is a path of the latter kind.
+// Whether it is the path of a DEM or event file.
 bool names_dem_file(std::string_view name_or_path);
 
 // By catalogue name, as a drawing or, for anything else, the path of any DEM that GDAL opens. Throws

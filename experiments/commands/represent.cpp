@@ -10,6 +10,7 @@
 #include "representations/drill/drill_terrain.h"
 #include "representations/representation.h"
 #include "results/format.h"
+#include "terrain/hydrology/channels.h"
 #include "terrain/hydrology/flow.h"
 #include "terrain/sources/dem/dem.h"
 

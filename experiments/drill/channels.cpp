@@ -1,5 +1,7 @@
 // Channel networks of the drill paper's §2.1 and §3.1: how many pixels a threshold gives, and the largest
 // flow.
+#include "terrain/hydrology/channels.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -13,6 +13,7 @@
 #include "experiments/drill/sheet.h"
 #include "representations/drill/cross_sections.h"
 #include "representations/drill/profile_fit.h"
+#include "terrain/hydrology/channels.h"
 
 namespace terrabench::drill {
 namespace {

@@ -10,7 +10,9 @@
 #include "experiments/drill/ground.h"
 #include "representations/drill/choose_parameters.h"
 #include "representations/drill/drill_codec.h"
+#include "representations/drill/extract.h"
 #include "representations/drill/pits.h"
+#include "representations/drill/quantum.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/metrics/elevation_error.h"
 

@@ -4,8 +4,10 @@
 
 #include "experiments/drill/drill.h"
 #include "experiments/drill/ground.h"
+#include "representations/drill/extract.h"
 #include "representations/drill/pits.h"
 #include "representations/drill/regenerate.h"
+#include "terrain/hydrology/channels.h"
 #include "terrain/metrics/elevation_error.h"
 
 namespace terrabench::drill {
@@ -112,10 +114,9 @@ void measure_factorial(const Case& at, const RunOptions& options, Recorder& reco
     recorder.add(fmt::format("ahd_{}", name(kReadings[r])), "", outcome.ahd[r]);
   }
   DrillOptions unbound = options_for(setting);
-  unbound.window_only = true;
+  unbound.monotone = Monotone::kWindow;
   recorder.add("rmse_monotone_in_window", "", unbound_error(ground, network, unbound, progress));
-  unbound.window_only = false;
-  unbound.monotone = false;
+  unbound.monotone = Monotone::kNowhere;
   recorder.add("rmse_not_monotone", "", unbound_error(ground, network, unbound, progress));
   recorder.add("untouched_share", "",
                static_cast<double>(count_untouched(drills, regenerated.heights)) /

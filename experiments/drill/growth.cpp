@@ -9,6 +9,7 @@
 
 #include "experiments/drill/drill.h"
 #include "experiments/drill/ground.h"
+#include "representations/drill/extract.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/files.h"
 #include "terrain/hydrology/flow.h"

@@ -8,8 +8,10 @@
 #include "experiments/drill/colours.h"
 #include "experiments/drill/figures.h"
 #include "experiments/drill/sheet.h"
+#include "representations/drill/extract.h"
 #include "representations/drill/regenerate.h"
 #include "results/format.h"
+#include "terrain/hydrology/channels.h"
 
 namespace terrabench::drill {
 namespace {

@@ -7,8 +7,10 @@
 
 #include "experiments/drill/drill.h"
 #include "experiments/drill/ground.h"
+#include "representations/drill/extract.h"
 #include "representations/drill/pits.h"
 #include "representations/drill/regenerate.h"
+#include "terrain/hydrology/channels.h"
 #include "terrain/hydrology/flow.h"
 #include "terrain/metrics/elevation_error.h"
 

@@ -13,6 +13,8 @@
 #include "experiments/drill/factorial.h"
 #include "experiments/drill/ground.h"
 #include "representations/drill/drill_codec.h"
+#include "representations/drill/extract.h"
+#include "representations/drill/quantum.h"
 #include "representations/drill/regenerate.h"
 #include "results/plot.h"
 #include "results/rasterise.h"

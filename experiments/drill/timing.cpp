@@ -7,6 +7,7 @@
 
 #include "experiments/drill/drill.h"
 #include "experiments/drill/ground.h"
+#include "representations/drill/extract.h"
 #include "representations/drill/regenerate.h"
 #include "results/statistics.h"
 #include "terrain/hydrology/flow.h"

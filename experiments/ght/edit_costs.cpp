@@ -52,7 +52,7 @@ struct Strokes {
       z.push_back(at_z);
       spans.push_back({static_cast<float>(bottom), static_cast<float>(top), material});
     }
-    void paint(Representation& on) const { on.paint({x, z}, spans); }
+    void paint(Representation& on) const { on.edit({x, z}, spans); }
   };
   List edit, undo;
   std::vector<float> x, z;  // columns that change

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "representations/drill/drill_codec.h"
+#include "representations/drill/quantum.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/error.h"
 #include "terrain/metrics/elevation_error.h"
@@ -15,7 +16,7 @@ constexpr std::uint32_t kTaus[] = {6, 12, 25, 50, 100, 200, 400, 800};
 constexpr int kCrossSections[] = {3, 5, 7, 10, 14, 20}, kInfluences[] = {4, 6, 8, 10, 12, 15, 20, 30};
 constexpr float kQuanta[] = {1, 2, 4, 8};  // times the automatic one
 
-// How far a choice is from the budget, and then what it costs in the other coin: less is better.
+// How far a choice exceeds the budget, and then its cost in the other measure: less is better.
 std::pair<double, double> cost(const DrillChoice& choice, const DrillBudget& budget) {
   const auto bytes = static_cast<double>(choice.bytes);
   if (budget.bytes > 0) return {std::max(0.0, bytes - static_cast<double>(budget.bytes)), choice.rmse};
@@ -26,13 +27,13 @@ class Search {
  public:
   Search(const Heightfield& field, const FlowNetwork& network, DrillOptions options)
       : field_(field), network_(network), options_(options) {
-    // Shapes are compared under one k for all; the chosen one then gets its own for every drill.
+    // Shapes are compared under one k for all drills; the chosen one then gets a k per drill.
     options_.adaptive_k = false;
   }
 
   // The w and k of least error for a τ.
   DrillOptions best_shape(std::uint32_t tau) {
-    // Of terrains smaller than the shortest cross-section, which are not looked at further.
+    // The answer for terrains smaller than the shortest cross-section.
     DrillOptions best = options_;
     best.tau = tau;
     best.w = std::min(options_.w, std::max(field_.width, field_.depth));
@@ -46,8 +47,8 @@ class Search {
       Drills drills = extract_drills(field_, network_, at);
       for (const int k : kInfluences) {
         at.k = drills.k = k;
-        // The shapes depend on k in this reading alone.
-        if (at.window_only) drills = extract_drills(field_, network_, at);
+        // The shapes depend on k in this reading only.
+        if (at.monotone == Monotone::kWindow) drills = extract_drills(field_, network_, at);
         const double error = elevation_error(field_, regenerate(drills)).rmse;
         if (error >= least) continue;
         least = error;
@@ -68,7 +69,8 @@ class Search {
 DrillChoice choose_parameters(const Heightfield& field, const FlowNetwork& network, const DrillBudget& budget,
                               const DrillOptions& options, Progress* progress) {
   if ((budget.bytes > 0) == (budget.rmse > 0)) {
-    throw usage_error("needs one budget, of bytes or of error", "drill", "give one of the two, above 0");
+    throw usage_error("expected one budget, of bytes or of error", "drill",
+                      "set either budget_bytes or max_rmse above 0");
   }
   Search search(field, network, options);
   const float automatic = automatic_quantum(field);

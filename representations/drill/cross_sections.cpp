@@ -49,7 +49,7 @@ HWY_EXPORT(join);
 
 namespace {
 
-// A ray's sample that lies on a grid line but for rounding is put there: else a hole beside the line would
+// Moves a sample that lies on a grid line except for rounding onto it: otherwise a hole beside the line would
 // count, and weights could be too small for kNothing.
 double snap(double position) {
   const double nearest = std::round(position);

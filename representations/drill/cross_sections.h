@@ -1,10 +1,10 @@
 // Cross-sections of the terrain around a pixel and their union (Stuetzle & Franklin 2012, §2.2): 120 rays
 // three degrees apart, sampled bilinearly at 1 … w samples from the pixel; the union takes the highest at
-// each distance, which is the narrowest channel any ray sees.
+// each distance, the narrowest channel that any ray sees.
 //
-// The offsets and weights are the same for every pixel, so they are made once and the rays run in SIMD lanes:
-// 480·w loads a pixel and no branch. Samples that need ground outside the terrain or without data are left
-// out.
+// The offsets and weights are the same for every pixel: they are computed once, and rays run in SIMD lanes:
+// 480·w loads per pixel and no branch. Samples that need ground outside the terrain or without data are
+// omitted.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,8 @@ namespace terrabench {
 class CrossSections {
  public:
   static constexpr int kRays = 120;
-  // Rays beyond the last repeat others, which no maximum notices, so that all vector lengths divide them.
+  // Rays beyond kRays repeat others, which does not change a maximum, so that all vector lengths divide
+  // kLanes.
   static constexpr int kLanes = 128;
   // Stands for no data. Any bilinear weight of at least 10⁻⁸ of it outweighs every true height.
   static constexpr float kNothing = -1e30F;
@@ -29,13 +30,13 @@ class CrossSections {
   static std::size_t bytes(const Heightfield& field, int w) {
     return row_length(field.width, w) * row_length(field.depth, w) * sizeof(float);
   }
-  // Whether offsets within a terrain so wide fit 32 bits, as all do up to 8 million samples.
+  // Whether offsets fit 32 bits in a terrain of this width; up to 8 million samples they always do.
   static bool reaches(int width, int w) {
     return row_length(width, w) * (static_cast<std::size_t>(w) + 1) < std::size_t{1} << 31;
   }
 
   int w() const { return w_; }
-  // The union at a pixel: w heights, the i-th at distance i + 1; not is_sample() where no ray has one.
+  // The union at a pixel: w heights, the i-th at distance i + 1; is_sample() is false where no ray has one.
   void join(std::uint32_t pixel, std::span<float> out) const;
   // The rays themselves: kRays·w heights, ray by ray.
   void rays(std::uint32_t pixel, std::span<float> out) const;

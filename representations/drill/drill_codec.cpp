@@ -1,7 +1,5 @@
 #include "representations/drill/drill_codec.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -9,17 +7,17 @@
 #include <optional>
 #include <span>
 
-#include "representations/column_grid.h"
+#include "representations/drill/quantum.h"
 #include "representations/drill/range_coder.h"
-#include "terrain/error.h"
+#include "terrain/hydrology/flow.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 namespace {
 
-constexpr std::int32_t kLargest = 1 << 22;  // products with any quantum then round back to the same number
-constexpr float kLeastQuantum = 1e-9F, kMostQuantum = 1e6F, kMostHeight = 1e9F;
+constexpr float kMostHeight = 1e9F;
 constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28;
-constexpr std::size_t kBytesADrill =
+constexpr std::size_t kBytesPerDrill =
     2 * (4 * sizeof(float) + 2) + sizeof(std::uint32_t);  // while being sorted
 
 // A drill's numbers in quanta, and how they differ from those downstream.
@@ -28,20 +26,7 @@ struct Numbers {
   std::int32_t rise = 0, turn = 0;
 };
 
-struct Quanta {
-  double elevation, slope, curvature;
-  Quanta(double quantum, int w)
-      : elevation(quantum),
-        slope(quantum / std::bit_floor(static_cast<unsigned>(w))),
-        curvature(slope / std::bit_floor(static_cast<unsigned>(w))) {}
-};
-
-std::int32_t in_quanta(float value, double quantum) {
-  return static_cast<std::int32_t>(std::lround(value / quantum));
-}
-float in_metres(std::int32_t number, double quantum) { return static_cast<float>(number * quantum); }
-
-// What stands in a drill's place in the tree: where it is, where it drains to, and what is known downstream.
+// A drill's place in the tree: its pixel, the direction in which it drains, and what is known downstream.
 struct Place {
   std::uint32_t pixel;
   std::uint8_t direction;
@@ -50,7 +35,7 @@ struct Place {
 };
 constexpr std::uint8_t kAtOutlet = 8;
 
-// The statistics of all parts, and how one drill is coded in terms of them. The same for both directions.
+// The adaptive statistics of all parts, and the coding of one drill with them, for both directions.
 template <class Coder>
 class DrillCoder {
  public:
@@ -61,7 +46,7 @@ class DrillCoder {
   std::int32_t hole_gap(std::int32_t value) { return hole_gap_.code(coder_, value); }
   std::int32_t hole_count(std::int32_t value) { return hole_count_.code(coder_, value); }
 
-  // Bit e: the neighbour in direction (own direction + e) mod 8 drains into this pixel. Bit 0 is clear but at
+  // Bit e: the neighbour in direction (own direction + e) mod 8 drains into this pixel. Bit 0 is set only at
   // outlets.
   std::uint32_t children(const Place& place, std::uint32_t mask) {
     if (place.direction == FlowNetwork::kOutlet) return outlet_children_.code(coder_, mask);
@@ -86,7 +71,7 @@ class DrillCoder {
   }
 
  private:
-  // Damaged files hold differences of any size; the sum is looked at afterwards.
+  // Damaged files hold differences of any size; the sum is checked afterwards.
   static std::int32_t sum(std::int32_t a, std::int32_t b) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
   }
@@ -99,7 +84,7 @@ class DrillCoder {
   NumberModel rise_[kContexts], turn_[kContexts], curvature_[4], influence_;
 };
 
-// The place upstream of `place` that child bit `e` speaks of. Nothing beyond the grid.
+// The place upstream of `place` for child bit `e`; nothing beyond the grid.
 std::optional<Place> upstream(const Drills& grid, const Place& place, std::uint32_t e,
                               const Numbers& numbers) {
   const bool outlet = place.direction == FlowNetwork::kOutlet;
@@ -222,7 +207,7 @@ class Decoder {
   void run() {
     get_holes();
     const std::int32_t roots = code_.count(0);
-    if (roots < 0) source_.fail("the number of outlets cannot be");
+    if (roots < 0) source_.fail("the number of outlets is impossible");
     std::uint64_t last = 0;
     Numbers numbers;
     for (std::int32_t i = 0; i < roots; ++i) {
@@ -238,7 +223,7 @@ class Decoder {
  private:
   void get_holes() {
     const std::int32_t holes = code_.count(0);
-    if (holes < 0) source_.fail("the number of holes cannot be");
+    if (holes < 0) source_.fail("the number of holes is impossible");
     std::uint64_t last = 0;
     for (std::int32_t i = 0; i < holes; ++i) {
       const std::int32_t gap = code_.hole_gap(0), count = code_.hole_count(0);
@@ -264,27 +249,27 @@ class Decoder {
     return first;
   }
 
-  // Before each doubling of what a damaged file may ask for: a few bytes can stand for millions of drills.
+  // Checked before each doubling: a few bytes of a damaged file can stand for millions of drills.
   void before_growth(std::size_t count, std::size_t size) const {
-    constexpr std::size_t kUnasked = 1 << 20;
-    if (count >= kUnasked && std::has_single_bit(count)) {
+    constexpr std::size_t kUnchecked = 1 << 20;
+    if (count >= kUnchecked && std::has_single_bit(count)) {
       require_memory(2 * count * size, "drills of " + source_.origin());
     }
   }
 
-  // Every pixel once: no channel may close on itself.
+  // Each pixel at most once: no channel may close on itself.
   void take(std::uint32_t pixel) {
-    if (taken_[pixel]) source_.fail("a drill stands where another does, or in a hole");
+    if (taken_[pixel]) source_.fail("a drill lies on another, or in a hole");
     taken_[pixel] = true;
   }
 
   Numbers get_drill(const Place& place) {
-    before_growth(drills_.count(), kBytesADrill);
+    before_growth(drills_.count(), kBytesPerDrill);
     const Numbers own = code_.numbers(place, {}, with_influence_);
-    const auto fits = [](std::int32_t number) { return number >= -kLargest && number <= kLargest; };
+    const auto fits = [](std::int32_t number) { return number >= -kMostQuanta && number <= kMostQuanta; };
     if (!fits(own.elevation) || !fits(own.slope) || !fits(own.curvature) || own.influence < 0 ||
         own.influence > drills_.k) {
-      source_.fail("a drill's shape cannot be");
+      source_.fail("a drill's shape is impossible");
     }
     drills_.pixel.push_back(place.pixel);
     drills_.direction.push_back(place.direction);
@@ -335,46 +320,16 @@ class Decoder {
 
 void check_frame(const Drills& drills, const ByteSource& in) {
   if (drills.width < 1 || drills.depth < 1 || drills.pixels() > kMostPixels) {
-    in.fail("the terrain's size cannot be");
+    in.fail("the terrain's size is impossible");
   }
   const auto positive = [](float metres) { return std::isfinite(metres) && metres > 0; };
   if (!positive(drills.cell_x) || !positive(drills.cell_z) || !(std::abs(drills.plateau) <= kMostHeight) ||
       !(drills.quantum >= kLeastQuantum && drills.quantum <= kMostQuantum) || drills.w < 1) {
-    in.fail("the drills' measures cannot be");
+    in.fail("the drills' cell sizes, plateau, quantum or w are impossible");
   }
 }
 
 }  // namespace
-
-void quantise(Drills& drills, float quantum) {
-  if (!(quantum >= kLeastQuantum && quantum <= kMostQuantum)) {
-    throw usage_error(fmt::format("quantum = {} is no height to round to", quantum), "drill",
-                      fmt::format("choose {} to {} metres", kLeastQuantum, kMostQuantum));
-  }
-  const Quanta quanta(quantum, drills.w);
-  const auto round = [&](std::vector<float>& values, double step) {
-    for (float& value : values) {
-      if (!(std::abs(value / step) < kLargest)) {
-        throw usage_error(fmt::format("quantum = {} is too fine for this terrain", quantum), "drill",
-                          "choose a larger one, or 0 for one that fits");
-      }
-      value = in_metres(in_quanta(value, step), step);
-    }
-  };
-  round(drills.elevation, quanta.elevation);
-  round(drills.slope, quanta.slope);
-  round(drills.curvature, quanta.curvature);
-  drills.quantum = quantum;
-}
-
-float automatic_quantum(const Heightfield& field) {
-  const HeightRange range = height_range(field);
-  if (range.no_data == field.heights.size()) return 1;
-  const float largest = std::max(std::abs(range.lowest), std::abs(range.highest));
-  const float wanted = std::max((range.highest - range.lowest) / 256, largest / (kLargest / 2));
-  if (!(wanted > 0)) return 1;
-  return std::clamp(std::exp2(std::floor(std::log2(wanted))), kLeastQuantum, kMostQuantum);
-}
 
 void encode_drills(const Drills& drills, ByteSink& out) {
   out.put(drills.width);
@@ -398,7 +353,7 @@ Drills decode_drills(ByteSource& in) {
   drills.w = in.get<std::uint8_t>();
   drills.k = in.get<std::uint8_t>();
   const auto with_influence = in.get<std::uint8_t>(), interpolated = in.get<std::uint8_t>();
-  if (with_influence > 1 || interpolated > 1) in.fail("the drills' flags cannot be");
+  if (with_influence > 1 || interpolated > 1) in.fail("the drills' flags are impossible");
   drills.interpolated = interpolated == 1;
   check_frame(drills, in);
   const std::vector<std::byte> coded = in.get_array<std::byte>(in.get<std::uint64_t>());

@@ -8,13 +8,15 @@
 #include "representations/column_grid.h"
 #include "representations/drill/choose_parameters.h"
 #include "representations/drill/drill_codec.h"
+#include "representations/drill/extract.h"
+#include "representations/drill/quantum.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/error.h"
 
 namespace terrabench {
 namespace {
 
-constexpr float kMostHeight = 1e9F;  // CrossSections takes what lies far below for no data
+constexpr float kMostHeight = 1e9F;  // CrossSections treats heights far below as no data
 
 std::vector<ParameterSpec> make_parameters() {
   const std::span<const ParameterSpec> grid = column_parameters();
@@ -27,12 +29,13 @@ std::vector<ParameterSpec> make_parameters() {
         Drills::kMaxInfluence},
        {"monotone", true, "", "shapes never fall from the centre outward"},
        {"monotone_profiles", false, "", "elevations never rise downstream, so that no pit is left"},
-       {"adaptive_k", false, "", "an influence of its own for every drill, up to k"},
-       {"interpolate_untouched", false, "", "draw what no drill touches from its surroundings"},
-       {"quantum", 0.0, "m", "drills are rounded to; 0: about 1/256 of the range of heights", 0, 1e6},
+       {"adaptive_k", false, "", "an influence per drill, up to k"},
+       {"interpolate_untouched", false, "", "interpolate pixels that no drill touches"},
+       {"quantum", 0.0, "m",
+        "elevations are rounded to multiples of it; 0: about 1/256 of the range of heights", 0, 1e6},
        {"budget_bytes", std::int64_t{0}, "B",
-        "choose tau, w, k and quantum for so many bytes of drills; 0: do not", 0, 1e15},
-       {"max_rmse", 0.0, "m", "choose tau, w, k and quantum for so small an error; 0: do not", 0, 1e9}});
+        "choose tau, w, k and quantum for at most so many bytes of drills; 0: no budget", 0, 1e15},
+       {"max_rmse", 0.0, "m", "choose tau, w, k and quantum for at most this error; 0: no budget", 0, 1e9}});
   return specs;
 }
 
@@ -41,7 +44,7 @@ DrillOptions options_from(const Parameters& parameters) {
   options.tau = static_cast<std::uint32_t>(parameters.integer("tau"));
   options.w = static_cast<int>(parameters.integer("w"));
   options.k = static_cast<int>(parameters.integer("k"));
-  options.monotone = parameters.flag("monotone");
+  options.monotone = parameters.flag("monotone") ? Monotone::kEverywhere : Monotone::kNowhere;
   options.monotone_profiles = parameters.flag("monotone_profiles");
   options.adaptive_k = parameters.flag("adaptive_k");
   options.interpolate_untouched = parameters.flag("interpolate_untouched");
@@ -49,13 +52,13 @@ DrillOptions options_from(const Parameters& parameters) {
 }
 
 Heightfield as_field(const Heightmap& map) {
-  Heightfield field;
-  field.width = map.grid().width;
-  field.depth = map.grid().depth;
-  field.cell_x = static_cast<float>(map.grid().cell_x);
-  field.cell_z = static_cast<float>(map.grid().cell_z);
-  field.heights.assign(map.heights().begin(), map.heights().end());
-  return field;
+  const HeightGrid& grid = map.grid();
+  return {grid.width,
+          grid.depth,
+          static_cast<float>(grid.cell_x),
+          static_cast<float>(grid.cell_z),
+          {map.heights().begin(), map.heights().end()},
+          {}};
 }
 
 }  // namespace
@@ -69,7 +72,7 @@ DrillTerrain::DrillTerrain(Drills drills, HeightGrid grid) : drills_(std::move(d
   const std::size_t copies = drills_.interpolated ? 4 : 2;  // interpolate_untouched() works on copies
   require_memory(drills_.pixels() * copies * sizeof(float), "terrain from drills");
   Heightfield field = regenerate(drills_);
-  // Shapes that may fall can dig through the floor.
+  // Shapes that may fall outward can cut through the floor.
   const HeightRange range = height_range(field);
   const bool empty = range.no_data == field.heights.size();
   if (!empty && range.lowest <= grid.bounds.low.y) {
@@ -88,8 +91,7 @@ std::unique_ptr<Representation> DrillTerrain::build(const TerrainSource& source,
   check_options(options, field.width, field.depth);
   if (std::any_of(field.heights.begin(), field.heights.end(),
                   [](float h) { return std::abs(h) > kMostHeight; })) {
-    throw bad_input("heights reach beyond 10⁹ m", source.name,
-                    "check the file's units and its no-data value");
+    throw bad_input("heights exceed 10⁹ m", source.name, "check the file's units and its no-data value");
   }
   const FlowNetwork network = route_flow(field, &progress);
   auto quantum = static_cast<float>(parameters.number("quantum"));
@@ -100,7 +102,7 @@ std::unique_ptr<Representation> DrillTerrain::build(const TerrainSource& source,
     const DrillChoice choice = choose_parameters(field, network, budget, options, &progress);
     if (!choice.within_budget) {
       throw usage_error(
-          fmt::format("no drills keep the budget: the nearest are {} bytes with an error of {:.4g} m",
+          fmt::format("no drills within the budget: the nearest take {} bytes with an error of {:.4g} m",
                       choice.bytes, choice.rmse),
           "drill", "allow more bytes, or a larger error");
     }
@@ -134,7 +136,7 @@ std::unique_ptr<Representation> DrillTerrain::load(ByteSource& in) {
   const HeightGrid grid = HeightGrid::load(in);
   Drills drills = decode_drills(in);
   if (grid.width != drills.width || grid.depth != drills.depth)
-    in.fail("the drills belong to another terrain");
+    in.fail("the drills do not match the grid's size");
   return std::unique_ptr<Representation>(new DrillTerrain(std::move(drills), grid));
 }
 

@@ -1,8 +1,8 @@
 // The drill representation (Stuetzle & Franklin 2012, "Representing terrain with mathematical operators"):
-// what is kept on disk are the drills (drills.h, drill_codec.h); queries are answered by the terrain that
-// they regenerate, which is held as a heightmap. So it answers as quickly and takes more memory; on disk,
-// 13,000 drills for 400² samples take a thirtieth of the heights as floats, at an error of some 2 % of their
-// range.
+// on disk only the drills are kept (drills.h, drill_codec.h); queries are answered by the terrain that they
+// regenerate, which is held as a heightmap. Queries are as fast as a heightmap's, and memory is larger; on
+// disk 13,000 drills for 400² samples take a thirtieth of the heights as floats, at an error of about 2 % of
+// their range.
 #pragma once
 
 #include <memory>

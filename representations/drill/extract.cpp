@@ -1,3 +1,5 @@
+#include "representations/drill/extract.h"
+
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -5,17 +7,17 @@
 #include <cassert>
 #include <numbers>
 
-#include "representations/column_grid.h"
 #include "representations/drill/cross_sections.h"
-#include "representations/drill/drills.h"
 #include "representations/drill/influence.h"
 #include "representations/drill/profile_fit.h"
 #include "terrain/error.h"
+#include "terrain/hydrology/channels.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 namespace {
 
-constexpr std::size_t kDrillsAStep = 1024;
+constexpr std::size_t kDrillsPerTask = 1024;
 
 std::vector<HoleRun> find_holes(const Heightfield& field) {
   std::vector<HoleRun> holes;
@@ -29,7 +31,7 @@ std::vector<HoleRun> find_holes(const Heightfield& field) {
   return holes;
 }
 
-// Lowers every channel pixel to the lowest upstream of it.
+// Lowers every channel pixel to the lowest one upstream of it.
 std::vector<float> monotone_elevations(const Heightfield& field, const FlowNetwork& network,
                                        std::uint32_t tau) {
   std::vector<float> elevation = field.heights;
@@ -43,12 +45,12 @@ std::vector<float> monotone_elevations(const Heightfield& field, const FlowNetwo
 
 void shape_drills(const CrossSections& sections, double rises_to, Drills& drills, Progress* progress) {
   const std::size_t count = drills.count();
-  if (progress != nullptr) progress->begin("drill shapes", (count + kDrillsAStep - 1) / kDrillsAStep);
+  if (progress != nullptr) progress->begin("drill shapes", (count + kDrillsPerTask - 1) / kDrillsPerTask);
   drills.slope.resize(count);
   drills.curvature.resize(count);
-  tbb::parallel_for(std::size_t{0}, (count + kDrillsAStep - 1) / kDrillsAStep, [&](std::size_t step) {
+  tbb::parallel_for(std::size_t{0}, (count + kDrillsPerTask - 1) / kDrillsPerTask, [&](std::size_t step) {
     std::vector<float> joined(static_cast<std::size_t>(sections.w()));
-    for (std::size_t i = step * kDrillsAStep; i < std::min(count, (step + 1) * kDrillsAStep); ++i) {
+    for (std::size_t i = step * kDrillsPerTask; i < std::min(count, (step + 1) * kDrillsPerTask); ++i) {
       sections.join(drills.pixel[i], joined);
       const float centre = drills.elevation[i];
       const Profile profile = fit_profile(joined, centre, rises_to);
@@ -61,13 +63,19 @@ void shape_drills(const CrossSections& sections, double rises_to, Drills& drills
 }
 
 double rises_to(const DrillOptions& options) {
-  if (!options.monotone) return kRisesNowhere;
-  if (!options.window_only) return kRisesEverywhere;
-  return std::max(static_cast<double>(options.w), options.k * std::numbers::sqrt2);
+  switch (options.monotone) {
+    case Monotone::kNowhere:
+      return kRisesNowhere;
+    case Monotone::kWindow:
+      return std::max(static_cast<double>(options.w), options.k * std::numbers::sqrt2);
+    case Monotone::kEverywhere:
+      break;
+  }
+  return kRisesEverywhere;
 }
 
-Error bad_option(std::string_view name, std::int64_t value, std::string_view why, std::string_view advice) {
-  return usage_error(fmt::format("{} = {} {}", name, value, why), "drill", advice);
+void require(bool good, std::string_view what, std::int64_t given, std::string_view advice) {
+  if (!good) throw usage_error(fmt::format("{}, got {}", what, given), "drill", advice);
 }
 
 }  // namespace
@@ -75,22 +83,13 @@ Error bad_option(std::string_view name, std::int64_t value, std::string_view why
 void check_options(const DrillOptions& options, int width, int depth) {
   constexpr int kMost = Drills::kMaxInfluence;
   const int most_w = std::min(kMost, std::max(width, depth));
-  if (options.tau < 1) {
-    throw bad_option("tau", options.tau, "is no flow", "choose 1 or more: at 1 every pixel is a channel");
-  }
-  if (options.w < 1 || options.w > most_w) {
-    throw bad_option("w", options.w, "is no length of a cross-section of this terrain",
-                     fmt::format("choose 1 to {} samples", most_w));
-  }
-  if (!CrossSections::reaches(width, options.w)) {
-    throw bad_option("w", options.w, "is too long for a terrain so wide",
-                     "choose a shorter one, or turn the terrain so that its longer side runs south");
-  }
-  if (options.k < 0 || options.k > kMost) {
-    throw bad_option(
-        "k", options.k, "is no influence",
-        fmt::format("choose 0 to {}: a window is 2k + 1 samples wide, which is odd for any k", kMost));
-  }
+  require(options.tau >= 1, "tau must be at least 1", options.tau, "at 1 every pixel is a channel");
+  require(options.w >= 1 && options.w <= most_w, fmt::format("w must be between 1 and {} samples", most_w),
+          options.w, "a cross-section is no longer than the terrain");
+  require(CrossSections::reaches(width, options.w), "w is too long for so wide a terrain", options.w,
+          "choose a smaller w, or turn the terrain so that its longer side runs south");
+  require(options.k >= 0 && options.k <= kMost, fmt::format("k must be between 0 and {} samples", kMost),
+          options.k, "a window is 2k + 1 samples wide");
 }
 
 Drills extract_drills(const Heightfield& field, const FlowNetwork& network, const DrillOptions& options,

@@ -8,9 +8,10 @@
 
 namespace terrabench {
 
-// Chooses among about ten influences from 2 to drills.k: the terrain is regenerated with each for all drills,
-// and every drill takes that under which the squared error in its largest window adds up to least. Sets
-// drills.influence. Costs as many regenerations and O(pixels) each; holds 12 bytes a pixel. Deterministic.
+// Chooses from about ten influences between 2 and drills.k: the terrain is regenerated with each for all
+// drills, and every drill takes the one with the least squared error in the drill's largest window. Sets
+// drills.influence. Costs one regeneration and O(pixels) per influence; holds 12 bytes per pixel.
+// Deterministic.
 void choose_influence(const Heightfield& field, Drills& drills, Progress* progress = nullptr);
 
 }  // namespace terrabench

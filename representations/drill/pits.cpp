@@ -22,7 +22,7 @@ class PitSearch {
   }
 
  private:
-  // Collects the flat around a pixel; whether water leaves it.
+  // Collects the flat around a pixel. Returns whether water leaves it.
   bool flood(std::size_t start) {
     bool drained = false;
     flat_.assign(1, start);
@@ -43,7 +43,7 @@ class PitSearch {
         continue;
       }
       const float there = field_.at(i, j);
-      // Also where there is no data.
+      // True for no-data too.
       if (!(there >= height)) drained = true;
       const std::size_t at = static_cast<std::size_t>(j) * width + static_cast<std::size_t>(i);
       if (there == height && seen_[at] == 0) {

@@ -1,11 +1,11 @@
-// Local minima: what drills should not leave behind (Stuetzle & Franklin 2012, §1 and §4).
+// Local minima, which drills should not leave (Stuetzle & Franklin 2012, §1 and §4).
 //
 // Shapes that never fall outward, with elevations that never rise downstream
-// (DrillOptions::monotone_profiles), leave none. From any drilled pixel a step towards the centre of the
-// drill that dug deepest there is no step up; a centre that another drill dug deeper hands over to that one,
-// which happens only downward; any other centre has the next one downstream beside it, not higher, and so on
-// until the outlet. Rounding keeps all of these relations (see regenerate.cpp and drill_codec.h).
-// Interpolated pixels are not covered.
+// (DrillOptions::monotone_profiles), leave none: from any drilled pixel a path leads to an outlet and
+// never rises. Towards the centre of the drill that cut deepest at the pixel, the terrain does not rise. If
+// another drill cut deeper at that centre, the path continues towards that drill's centre, which is lower;
+// otherwise to the centre downstream, which is not higher. Rounding keeps all of these relations (see
+// regenerate.cpp and quantum.h). Interpolated pixels are not covered.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,9 @@
 namespace terrabench {
 
 struct Pits {
-  std::size_t count = 0;   // flats (single pixels included) from which no neighbour of 8 leads down or out
-  std::size_t pixels = 0;  // that they cover
+  std::size_t count =
+      0;  // flats (single pixels included) of which no pixel has a lower neighbour or drains out
+  std::size_t pixels = 0;  // pixels of these flats
 };
 
 // Water leaves over the grid's edge and into pixels without data. O(pixels).

@@ -42,8 +42,8 @@ Profile fit_profile(std::span<const float> joined, float centre, double rises_to
   const double curvature = s.samples == 1 ? 0 : (s.r2y * s.r2 - s.ry * s.r3) / determinant;
   if (rises_to == kRisesNowhere) return profile(slope, curvature);
 
-  // The derivative, slope + 2r·curvature, must not be negative at either end, which bounds two unknowns
-  // twice. Their least squares lie inside, or on one bound.
+  // The derivative, slope + 2r·curvature, must not be negative at either end: two constraints on two
+  // unknowns. The least squares solution lies inside, or on one of the bounds.
   const bool everywhere = rises_to == kRisesEverywhere;
   if (slope >= 0 && (everywhere ? curvature >= 0 : slope + 2 * rises_to * curvature >= 0)) {
     return profile(slope, curvature);

@@ -1,4 +1,4 @@
-// The quadratic that a drill takes from the union of its cross-sections (Stuetzle & Franklin 2012, §2.2).
+// The quadratic fitted to the union of a drill's cross-sections (Stuetzle & Franklin 2012, §2.2).
 #pragma once
 
 #include <limits>
@@ -8,15 +8,15 @@ namespace terrabench {
 
 struct Profile {
   float slope = 0, curvature = 0;
-  bool determined = false;  // false when the union holds no sample at all
+  bool determined = false;  // false when the union holds no sample
 };
 
 // How far from the centre a shape must not fall, in samples.
 inline constexpr double kRisesNowhere = 0, kRisesEverywhere = std::numeric_limits<double>::infinity();
 
 // Least squares of slope·r + curvature·r² against joined[r - 1] - centre for r = 1 … w, so that the curve
-// passes through the centre, under the bound that it rises up to r = `rises_to`. Distances without a sample
-// take no part; with a single one the curve is a line. O(w).
+// passes through the centre, under the constraint that it does not fall up to r = `rises_to`. Distances
+// without a sample are ignored; with a single sample the curve is a line. O(w).
 Profile fit_profile(std::span<const float> joined, float centre, double rises_to);
 
 }  // namespace terrabench

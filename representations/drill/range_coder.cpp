@@ -7,7 +7,7 @@ namespace terrabench {
 namespace {
 
 constexpr std::uint32_t kTop = 1U << 24;
-constexpr int kQuick = 4, kSlow = 7;  // shifts: the estimates look back over some 16 and 128 bits
+constexpr int kQuick = 4, kSlow = 7;  // shifts: the estimates average over about 16 and 128 bits
 
 }  // namespace
 

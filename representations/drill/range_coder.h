@@ -1,5 +1,5 @@
-// Adaptive binary range coder: carry-propagating as in LZMA, each bit's probability the mean of a quick and a
-// slow estimate, which fits small alphabets whose statistics drift along a channel. About 10 ns a bit.
+// Adaptive binary range coder: carry-propagating as in LZMA, each bit's probability the mean of a fast and a
+// slow estimate, which suits small alphabets whose statistics drift along a channel. About 10 ns per bit.
 // Integers are coded as a class (the number of binary digits) and digits, the first two of which adapt too.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace terrabench {
 
-// The chance of a bit being 0, learnt from those before.
+// The probability that a bit is 0, learnt from the bits before.
 class BitModel {
  public:
   static constexpr int kBits = 16;
@@ -29,7 +29,7 @@ class BitModel {
 class RangeEncoder {
  public:
   void bit(BitModel& model, bool value);
-  void even_bits(std::uint32_t value, int count);  // as likely 0 as 1, highest first; count ≤ 32
+  void even_bits(std::uint32_t value, int count);  // equiprobable bits, highest first; count ≤ 32
   // Ends the stream. Call once, last.
   std::vector<std::byte> finish();
 
@@ -46,11 +46,11 @@ class RangeEncoder {
 // Reads what RangeEncoder wrote. Any bytes decode to something; past the end, ByteSource::fail() is thrown.
 class RangeDecoder {
  public:
-  // `source` is only asked to fail; `bytes` must stay alive.
+  // `source` only reports errors; `bytes` must stay alive.
   RangeDecoder(std::span<const std::byte> bytes, const ByteSource& source);
   bool bit(BitModel& model);
   std::uint32_t even_bits(int count);
-  // Whether as many bytes were read as the encoder wrote for the same symbols.
+  // Whether all bytes were read, as the encoder wrote for the same symbols.
   bool at_end() const { return position_ == bytes_.size(); }
 
  private:
@@ -62,8 +62,8 @@ class RangeDecoder {
   std::uint32_t range_ = 0xFFFFFFFF, code_ = 0;
 };
 
-// One routine serves both directions: an encoder codes what it is given and returns it, a decoder ignores
-// that and returns what it read.
+// One function for both directions: an encoder writes its argument and returns it, a decoder ignores the
+// argument and returns what it reads.
 inline bool code_bit(RangeEncoder& coder, BitModel& model, bool value) {
   coder.bit(model, value);
   return value;
@@ -95,10 +95,10 @@ class SymbolModel {
   std::array<BitModel, std::size_t{1} << Bits> models_;
 };
 
-// Signed integers below 2^31 in magnitude, small ones short.
+// Signed integers below 2^31 in magnitude; small ones take few bits.
 class NumberModel {
  public:
-  // Binary digits of the magnitude: a context for a number that tends to be as large as another.
+  // Binary digits of the magnitude: a context for a number of similar magnitude.
   static int size(std::int32_t value) { return std::bit_width(static_cast<std::uint32_t>(std::abs(value))); }
 
   template <class Coder>

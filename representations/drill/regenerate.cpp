@@ -17,7 +17,7 @@ inline constexpr std::size_t kMostLanes = 16;
 // A rectangle of pixels being drilled, with margins left and right so that windows need no clipping there.
 struct DrillTile {
   int row, rows;   // of the terrain
-  int left;        // the terrain's column that the tile's first column is
+  int left;        // the terrain's column at the tile's first column
   float* heights;  // of (left, row)
   std::size_t stride;
   const float* distance;  // √(i² + j²) for j = 0 … k, i = -k … k, rows `distance_stride` apart
@@ -48,7 +48,8 @@ HWY_INLINE void lower(hn::Vec<F> shape, float* to) {
   hn::StoreU(hn::Min(hn::LoadU(F(), to), shape), F(), to);
 }
 
-// What lies past the window stays. A masked store could fault or be slow; the tile's margin may be rewritten.
+// Heights past the window do not change. A masked store could fault or be slow; the tile's margin may be
+// rewritten.
 HWY_INLINE void lower(hn::Vec<F> shape, hn::Mask<F> inside, float* to) {
   const auto before = hn::LoadU(F(), to);
   hn::StoreU(hn::IfThenElse(inside, hn::Min(before, shape), before), F(), to);
@@ -110,8 +111,8 @@ HWY_EXPORT(drill);
 
 namespace {
 
-// Large against windows, so that few drills reach into several tiles, and yet at home in the second-level
-// cache.
+// Large compared with windows, so that few drills reach into several tiles, and small enough for the
+// second-level cache.
 constexpr int kTileRows = 50, kTileColumns = 1024;
 
 std::size_t distance_stride(int k) { return 2 * static_cast<std::size_t>(k) + 1 + kMostLanes; }
@@ -140,7 +141,7 @@ void regenerate_tile(const Drills& drills, int row, int column, const std::vecto
                      std::vector<float>& scratch, std::span<float> heights) {
   const int k = drills.k, rows = std::min(kTileRows, drills.depth - row);
   const int columns = std::min(kTileColumns, drills.width - column);
-  // A drill k beside the tile has a window that begins 2k beside it.
+  // The window of a drill k pixels outside the tile begins 2k pixels outside.
   const std::size_t stride = static_cast<std::size_t>(columns) + 4 * static_cast<std::size_t>(k) + kMostLanes;
   scratch.assign(stride * static_cast<std::size_t>(rows), drills.plateau);
   const DrillTile tile{
@@ -177,12 +178,7 @@ void regenerate(const Drills& drills, std::span<float> heights) {
 }
 
 Heightfield regenerate(const Drills& drills) {
-  Heightfield field;
-  field.width = drills.width;
-  field.depth = drills.depth;
-  field.cell_x = drills.cell_x;
-  field.cell_z = drills.cell_z;
-  field.heights.resize(drills.pixels());
+  Heightfield field = Heightfield::zeros(drills.width, drills.depth, drills.cell_x, drills.cell_z);
   regenerate(drills, field.heights);
   if (drills.interpolated) interpolate_untouched(drills, field);
   return field;

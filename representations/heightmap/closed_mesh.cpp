@@ -63,7 +63,8 @@ class ClosedMesher {
         const unsigned cells = around(i, j);
         count += cells == 0 ? 0 : doubled(cells) ? 2 : 1;
         if (2 * count > std::numeric_limits<std::uint32_t>::max()) {
-          throw usage_error("has more than 2³² vertices", "mesh of a heightmap", "ask for larger cells");
+          throw usage_error("the mesh has more than 2³² vertices", "mesh of a heightmap",
+                            "choose larger cells");
         }
       }
     }
@@ -130,8 +131,8 @@ class ClosedMesher {
   std::span<const float> x_, z_, heights_;
   float floor_;
   int columns_, rows_;
-  std::uint32_t tops_ = 0;                // vertices of the surface; as many follow on the floor
-  std::vector<std::uint32_t> first_;      // first vertex of each sample
+  std::uint32_t tops_ = 0;            // vertices of the surface; those of the floor follow, equal in number
+  std::vector<std::uint32_t> first_;  // first vertex of each sample
   std::vector<std::size_t> first_index_;  // where each row's triangles begin
 };
 

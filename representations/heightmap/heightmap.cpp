@@ -12,13 +12,13 @@
 namespace terrabench {
 namespace {
 
-// Where a position lies between samples.
+// A position between two samples.
 struct Between {
   int first, second;
   float weight;  // of the second; exactly 0 on a sample
 };
 
-// Positions are floats, so that a sample's own position misses it by some 2⁻²⁴ of the distance: snapped.
+// Positions are floats, so that a sample's own position is off by about 2⁻²⁴ of its value: snapped.
 Between between(double position, int samples) {
   const double u = std::clamp(position, 0.0, static_cast<double>(samples - 1)), nearest = std::round(u);
   if (std::abs(u - nearest) <= nearest * 0x1p-22) {
@@ -102,7 +102,7 @@ void Heightmap::spans(Columns where, SpanSink& out) const {
   }
 }
 
-// The structure's own samples, and the bounds where they lie further out; or even lines `cell` apart.
+// The structure's own samples, and the bounds where these lie outside; or evenly spaced lines `cell` apart.
 std::vector<float> Heightmap::lines(float cell, float low, float high, double origin, double own_cell,
                                     int samples) const {
   std::vector<float> at;
@@ -158,12 +158,12 @@ HeightGrid HeightGrid::load(ByteSource& in) {
   grid.bounds = in.get<Bounds>();
   if (grid.width < 1 || grid.depth < 1 || grid.width > ColumnGrid::kMaxColumns ||
       grid.depth > ColumnGrid::kMaxColumns || !(grid.cell_x > 0 && grid.cell_z > 0)) {
-    in.fail("the grid's sizes cannot be");
+    in.fail("the grid's sizes are impossible");
   }
   const Bounds& bounds = grid.bounds;
   if (!(bounds.low.x <= bounds.high.x && bounds.low.y <= bounds.high.y && bounds.low.z <= bounds.high.z &&
         std::isfinite(bounds.size().x + bounds.size().y + bounds.size().z))) {
-    in.fail("the bounds cannot be");
+    in.fail("the bounds are impossible");
   }
   return grid;
 }

@@ -1,6 +1,6 @@
-// A height for every point of a grid, bilinear between them: the form that "hybrid" §2.1 and all other papers
-// start from. One span a column, so no overhangs: a solid loses all but its topmost surface. 4 B a sample; a
-// query is O(1).
+// Heights on a grid, bilinear between samples: the form that "hybrid" §2.1 and all other papers start from.
+// One span per column, so no overhangs: a solid loses all but its topmost surface. 4 B per sample; a query is
+// O(1).
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace terrabench {
 
-// Where the samples of a heightmap stand.
+// The positions of a heightmap's samples.
 struct HeightGrid {
   int width = 1, depth = 1;
   double origin_x = 0, origin_z = 0;  // of sample (0, 0), metres
@@ -30,8 +30,8 @@ class Heightmap final : public Representation {
   const HeightGrid& grid() const { return grid_; }
   std::span<const float> heights() const { return heights_; }
 
-  // Bilinear; no-data outside the bounds, and where a sample that carries weight has none. Between the
-  // outermost samples and the bounds (half a cell, for solids) the height of the border goes on.
+  // Bilinear; no-data outside the bounds, and where a sample with weight has none. Between the outermost
+  // samples and the bounds (half a cell, for solids) the border's height continues.
   float height(float x, float z) const;
 
   void spans(Columns where, SpanSink& out) const override;

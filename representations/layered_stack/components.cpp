@@ -17,7 +17,7 @@ struct Stretch {
 // The solid stretches of one row of columns, neighbouring materials joined, numbered on from `first_id`.
 struct StretchRow {
   std::vector<Stretch> stretches;
-  std::vector<std::uint32_t> starts;  // one a column, and the end
+  std::vector<std::uint32_t> starts;  // one per column, and the end
   std::size_t first_id = 0;
 
   void read(const LayeredStack& stack, int j, std::size_t id) {
@@ -63,7 +63,7 @@ class Forest {
   std::vector<std::uint32_t> parent_;
 };
 
-// Unites what shares a level in column i of `a` and column k of `b`.
+// Unites the stretches of column i of `a` and column k of `b` that share a level.
 void join(const StretchRow& a, std::size_t i, const StretchRow& b, std::size_t k, Forest& forest) {
   for (std::size_t p = a.starts[i], q = b.starts[k]; p < a.starts[i + 1] && q < b.starts[k + 1];) {
     const Stretch s = a.stretches[p], t = b.stretches[q];
@@ -79,7 +79,7 @@ Forest connect(const LayeredStack& stack) {
     row.read(stack, j, north.first_id + north.stretches.size());
     const std::size_t end = row.first_id + row.stretches.size();
     if (end > std::numeric_limits<std::uint32_t>::max()) {
-      throw usage_error("has more than 2³² solid stretches", "components",
+      throw usage_error("the stack has more than 2³² solid stretches", "components",
                         "build the stack at a lower resolution");
     }
     forest.grow(end);
@@ -97,7 +97,7 @@ Forest connect(const LayeredStack& stack) {
 Components find_components(const LayeredStack& stack) {
   Forest forest = connect(stack);
   const ColumnGrid& grid = stack.grid();
-  // Second reading, in the same order: which trees stand on the ground, then what belongs to the others.
+  // Second pass, in the same order: first the components on the ground, then the sums over the others.
   std::vector<bool> grounded(forest.size());
   const auto for_each_row = [&](const auto& visit) {
     StretchRow row;

@@ -1,5 +1,5 @@
-// Which parts of a stacked terrain hang together: the measure behind "hybrid" §3.1.3's claims that
-// attenuation keeps floating islands out, and that moving samples sideways makes overhangs.
+// Connected components of a stacked terrain: the measure for the claims of "hybrid" §3.1.3 that attenuation
+// prevents floating islands, and that moving samples sideways makes overhangs.
 #pragma once
 
 #include <cstddef>
@@ -9,16 +9,16 @@
 namespace terrabench {
 
 struct Components {
-  std::size_t total = 0;             // pieces of solid, joined through faces of cells
-  std::size_t floating = 0;          // of them, those without a cell on the lowest level
+  std::size_t total = 0;             // connected solids, joined through faces of cells
+  std::size_t floating = 0;          // those without a cell on the lowest level
   double solid_volume = 0;           // m³
   double floating_volume = 0;        // m³
   std::size_t overhang_columns = 0;  // columns with air under solid
-  std::size_t solid_columns = 0;     // columns with any solid at all
+  std::size_t solid_columns = 0;     // columns with any solid
 };
 
-// Union-find over solid stretches of neighbouring columns; all materials but air are solid. O(runs·α), 4 B a
-// stretch. Throws usage_error for more than 2³² stretches.
+// Union-find over solid stretches of neighbouring columns; all materials but air are solid. O(runs·α), 4 B
+// per stretch. Throws usage_error for more than 2³² stretches.
 Components find_components(const LayeredStack&);
 
 }  // namespace terrabench

@@ -34,7 +34,7 @@ std::unique_ptr<LayeredStack> LayeredStack::build_stack(const TerrainSource& sou
                                                         const Parameters& parameters, Progress& progress) {
   const ColumnSampler sampler(source, parameters, ColumnGrid::kMaxLevels);
   const ColumnGrid& grid = sampler.grid();
-  require_memory(grid.columns() * 5, "layered_stack");  // a start and one run a column, at the least
+  require_memory(grid.columns() * 5, "layered_stack");  // at least a start and one run per column
   std::unique_ptr<LayeredStack> stack(new LayeredStack(grid));
   struct Scratch {
     std::vector<Material> samples;
@@ -88,11 +88,11 @@ void LayeredStack::spans(Columns where, SpanSink& out) const {
   }
 }
 
-// In groups, so that the misses of many random points overlap: first all addresses, then all starts, then all
-// searches.
+// In groups, so that the cache misses of many random points overlap: first all addresses, then all starts,
+// then all searches.
 void LayeredStack::materials(Points where, std::span<Material> out) const {
   constexpr std::size_t kGroup = 32;
-  constexpr std::size_t kLinear = 16;  // up to so many runs counting beats bisecting
+  constexpr std::size_t kLinear = 16;  // up to so many runs counting is faster than bisecting
   struct Probe {
     const StackTile* tile;
     std::size_t slot;
@@ -137,27 +137,27 @@ void LayeredStack::materials(Points where, std::span<Material> out) const {
   }
 }
 
-struct LayeredStack::Stroke {
+struct LayeredStack::ColumnEdit {
   std::size_t tile, slot;
   int bottom, top;
   Material material;
 };
 
-// The tile with its strokes, which are sorted by slot and within a slot in the order of painting.
-StackTile LayeredStack::repaint(std::size_t tile, std::span<const Stroke> strokes,
-                                TileBuilder& builder) const {
+// The tile after `edits`, which are sorted by slot and within a slot in the order given.
+StackTile LayeredStack::edited_tile(std::size_t tile, std::span<const ColumnEdit> edits,
+                                    TileBuilder& builder) const {
   RunList before, after;
   const StackTile& old = tiles_[tile];
   std::size_t copied = 0;  // slots done
   builder.begin();
-  for (auto stroke = strokes.begin(); stroke != strokes.end();) {
-    const std::size_t slot = stroke->slot;
+  for (auto at = edits.begin(); at != edits.end();) {
+    const std::size_t slot = at->slot;
     builder.add(old, copied, slot);
     const ColumnRuns runs = old.column(slot);
     before.clear();
     for (std::size_t r = 0; r < runs.count; ++r) before.add(runs.tops[r], runs.materials[r]);
-    for (; stroke != strokes.end() && stroke->slot == slot; ++stroke) {
-      after.paint(before.runs(), stroke->bottom, stroke->top, stroke->material);
+    for (; at != edits.end() && at->slot == slot; ++at) {
+      after.edit(before.runs(), at->bottom, at->top, at->material);
       std::swap(before, after);
     }
     builder.add(before.runs());
@@ -167,36 +167,35 @@ StackTile LayeredStack::repaint(std::size_t tile, std::span<const Stroke> stroke
   return builder.finish();
 }
 
-void LayeredStack::paint(Columns where, std::span<const Span> what) {
-  check_paint(where, what);
+void LayeredStack::edit(Columns where, std::span<const Span> what) {
+  check_edit(where, what);
   const ColumnLookup lookup(grid_);
-  std::vector<Stroke> strokes;
+  std::vector<ColumnEdit> edits;
   for (std::size_t c = 0; c < where.size(); ++c) {
     int i, j;
     const LevelRange levels = grid_.quantise(what[c].bottom, what[c].top);
     if (levels.begin >= levels.end || !lookup.column(where.x[c], where.z[c], i, j)) continue;
     const Place at = place(i, j);
-    strokes.push_back({at.tile, at.slot, levels.begin, levels.end, what[c].material});
+    edits.push_back({at.tile, at.slot, levels.begin, levels.end, what[c].material});
   }
-  std::stable_sort(strokes.begin(), strokes.end(), [](const Stroke& a, const Stroke& b) {
+  std::stable_sort(edits.begin(), edits.end(), [](const ColumnEdit& a, const ColumnEdit& b) {
     return std::pair(a.tile, a.slot) < std::pair(b.tile, b.slot);
   });
-  std::vector<std::span<const Stroke>> touched;  // one stretch a tile
-  for (auto begin = strokes.cbegin(), end = begin; begin != strokes.cend(); begin = end) {
-    end =
-        std::find_if(begin, strokes.cend(), [&](const Stroke& stroke) { return stroke.tile != begin->tile; });
+  std::vector<std::span<const ColumnEdit>> touched;  // one list per tile
+  for (auto begin = edits.cbegin(), end = begin; begin != edits.cend(); begin = end) {
+    end = std::find_if(begin, edits.cend(), [&](const ColumnEdit& at) { return at.tile != begin->tile; });
     touched.emplace_back(begin, end);
   }
   constexpr std::size_t kTilesATask = 16;
-  std::vector<StackTile> repainted(touched.size());
+  std::vector<StackTile> edited(touched.size());
   using Range = tbb::blocked_range<std::size_t>;
   tbb::parallel_for(Range(0, touched.size(), kTilesATask), [&](const Range& range) {
     TileBuilder builder;
     for (std::size_t t = range.begin(); t < range.end(); ++t) {
-      repainted[t] = repaint(touched[t].front().tile, touched[t], builder);
+      edited[t] = edited_tile(touched[t].front().tile, touched[t], builder);
     }
   });
-  for (std::size_t t = 0; t < touched.size(); ++t) tiles_[touched[t].front().tile] = std::move(repainted[t]);
+  for (std::size_t t = 0; t < touched.size(); ++t) tiles_[touched[t].front().tile] = std::move(edited[t]);
 }
 
 TriangleMesh LayeredStack::mesh(MeshDetail detail) const {
@@ -242,7 +241,7 @@ void LayeredStack::save(ByteSink& out) const {
 std::unique_ptr<Representation> LayeredStack::load(ByteSource& in) {
   const ColumnGrid grid = ColumnGrid::load(in);
   if (grid.columns() > in.left() / sizeof(std::uint16_t))
-    in.fail("there are fewer columns than the grid has");
+    in.fail("the file holds fewer columns than the grid");
   std::unique_ptr<LayeredStack> stack(new LayeredStack(grid));
   TileBuilder builder;
   RunList runs;

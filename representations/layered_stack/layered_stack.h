@@ -1,7 +1,7 @@
 // The discrete data structure of "hybrid" §3.1.1 (after Benes & Forsbach 2001): a two-dimensional array of
-// material stacks. The paper lays no memory out; here columns lie in square tiles of one block each, 2 B a
-// column and 3 B a run. A point query is O(log runs of the column), an edit rewrites the tiles that it
-// touches (2 to 4 KiB each).
+// material stacks. The paper gives no memory layout; here columns lie in square tiles of one heap block each,
+// 2 B per column and 3 B per run. A point query is O(log runs of the column), an edit rewrites the tiles that
+// it touches (2 to 4 KiB each).
 #pragma once
 
 #include <memory>
@@ -15,8 +15,8 @@ namespace terrabench {
 
 class LayeredStack final : public Representation {
  public:
-  // From a solid, sampled at cell centres, or from heights (one run a column, to half a step). Parallel over
-  // tiles; the same structure for any number of threads. O(samples).
+  // From a solid, sampled at cell centres, or from heights (one run per column, to half a step). Parallel
+  // over tiles; the same structure for any number of threads. O(samples).
   static std::unique_ptr<Representation> build(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<LayeredStack> build_stack(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<Representation> load(ByteSource&);
@@ -32,9 +32,8 @@ class LayeredStack final : public Representation {
 
   void spans(Columns where, SpanSink& out) const override;
   void materials(Points where, std::span<Material> out) const override;
-  // Clipped to bounds(); columns outside are passed over. Later spans paint over earlier ones. Strong
-  // guarantee.
-  void paint(Columns where, std::span<const Span> what) override;
+  // Clipped to bounds(); columns outside are skipped. Later spans replace earlier ones. Strong guarantee.
+  void edit(Columns where, std::span<const Span> what) override;
   // The cells' boundary as blocks, watertight. A coarser detail takes every n-th column.
   TriangleMesh mesh(MeshDetail) const override;
   Memory memory() const override;
@@ -45,7 +44,7 @@ class LayeredStack final : public Representation {
   struct Place {
     std::size_t tile, slot;
   };
-  struct Stroke;
+  struct ColumnEdit;
 
   explicit LayeredStack(const ColumnGrid&);
   Place place(int i, int j) const {
@@ -57,7 +56,7 @@ class LayeredStack final : public Representation {
   }
   template <class ColumnOf>
   StackTile make_tile(std::size_t tile, TileBuilder&, const ColumnOf&) const;
-  StackTile repaint(std::size_t tile, std::span<const Stroke>, TileBuilder&) const;
+  StackTile edited_tile(std::size_t tile, std::span<const ColumnEdit>, TileBuilder&) const;
 
   ColumnGrid grid_;
   int tiles_x_ = 0, last_tile_width_ = 0;

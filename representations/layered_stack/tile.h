@@ -1,5 +1,6 @@
 // A square of neighbouring material stacks in one heap block: where each column starts, then all levels, then
-// all materials. 2 B a column and 3 B a run; nothing is allocated per column, and an edit rewrites one tile.
+// all materials. 2 B per column and 3 B per run; nothing is allocated per column, and an edit rewrites one
+// tile.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +23,7 @@ struct ColumnRuns {
 
 class StackTile {
  public:
-  static constexpr int kSide = 16;  // 8 costs 0.4 B a column more, 32 makes an edit four times dearer
+  static constexpr int kSide = 16;  // 8 costs 0.4 B per column more, 32 makes edits four times slower
 
   StackTile() = default;
 
@@ -32,7 +33,8 @@ class StackTile {
   }
   std::size_t columns() const { return columns_; }
   std::size_t runs() const { return runs_; }
-  // Where column()'s first read goes, and (when the starts are in the cache) its second.
+  // For prefetching: the address of column()'s first read and, when the starts are in the cache, of its
+  // second.
   const void* start_address(std::size_t slot) const { return block_.get() + slot * start_bytes(); }
   const void* tops_address(std::size_t slot) const { return tops() + start(slot); }
   const void* materials_address(std::size_t slot) const { return materials() + start(slot); }
@@ -60,8 +62,7 @@ class StackTile {
   bool wide_ = false;  // more than 65535 runs, so that starts take 32 bits
 };
 
-// Scratch in which a tile's columns are gathered, then laid out. Kept between tiles, it allocates only the
-// tiles.
+// Scratch that collects a tile's columns and lays them out. Reused, it allocates only the tiles.
 class TileBuilder {
  public:
   void begin() {
@@ -76,7 +77,7 @@ class TileBuilder {
     }
     end_column();
   }
-  // Slots [first, end) of a tile as they are.
+  // Slots [first, end) of a tile, unchanged.
   void add(const StackTile&, std::size_t first, std::size_t end);
   StackTile finish() const;
 

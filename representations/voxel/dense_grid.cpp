@@ -67,8 +67,8 @@ void DenseGrid::materials(Points where, std::span<Material> out) const {
   }
 }
 
-void DenseGrid::paint(Columns where, std::span<const Span> what) {
-  check_paint(where, what);
+void DenseGrid::edit(Columns where, std::span<const Span> what) {
+  check_edit(where, what);
   const ColumnLookup lookup(grid_);
   for (std::size_t c = 0; c < where.size(); ++c) {
     int i, j;

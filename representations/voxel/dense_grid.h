@@ -1,5 +1,5 @@
-// One byte for each voxel: what "hybrid" Table 1 compares the material stacks with. n³ bytes whatever the
-// content; a point query is one read, a column query and an edit are O(levels).
+// One byte per voxel, with which "hybrid" Table 1 compares the material stacks. n³ bytes for any content; a
+// point query is one read, a column query and an edit are O(levels).
 #pragma once
 
 #include <vector>
@@ -22,7 +22,7 @@ class DenseGrid final : public Representation {
 
   void spans(Columns where, SpanSink& out) const override;
   void materials(Points where, std::span<Material> out) const override;
-  void paint(Columns where, std::span<const Span> what) override;  // clipped to bounds()
+  void edit(Columns where, std::span<const Span> what) override;  // clipped to bounds()
   TriangleMesh mesh(MeshDetail) const override;  // the voxels' boundary as blocks, watertight
   Memory memory() const override;
   void save(ByteSink&) const override;
@@ -32,7 +32,7 @@ class DenseGrid final : public Representation {
   explicit DenseGrid(const ColumnGrid& grid) : grid_(grid) {}
 
   ColumnGrid grid_;
-  std::vector<Material> voxels_;  // columns row-major, the levels of a column side by side
+  std::vector<Material> voxels_;  // columns row-major, the levels of a column contiguous
 };
 
 }  // namespace terrabench

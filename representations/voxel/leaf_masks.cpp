@@ -7,7 +7,7 @@
 namespace terrabench {
 namespace {
 
-// Sets levels [begin, end) of the column at (x, z) within the block, a leaf a step.
+// Sets levels [begin, end) of the column at (x, z) within the block, one leaf per step.
 void set_levels(std::vector<LeafMask>& masks, int x, int z, std::size_t begin, std::size_t end) {
   for (std::size_t level = begin; level < end;) {
     const std::size_t low = level % kLeafSide, count = std::min(kLeafSide - low, end - level);

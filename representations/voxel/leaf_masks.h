@@ -12,9 +12,9 @@ namespace terrabench {
 
 inline constexpr int kLeafSide = 8;
 
-// A word for each slice of equal x; in it a byte for each column along z; in it a bit for each level.
+// A word per slice of equal x, in it a byte per column along z, in it a bit per level.
 using LeafMask = std::array<std::uint64_t, kLeafSide>;
-// The masks over a block of 8 × 8 columns, bottom up, for each material that occurs (air does not).
+// The masks over a block of 8 × 8 columns, bottom up, one list per material present (not air).
 using BlockMasks = std::map<Material, std::vector<LeafMask>>;
 
 // The block of columns from (i0, j0). `column` is scratch for one column's samples. O(samples).

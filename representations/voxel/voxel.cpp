@@ -21,12 +21,11 @@ namespace {
 using Tree = openvdb::MaskTree;
 using Leaf = Tree::LeafNodeType;
 using Coord = openvdb::Coord;
-// Reads without a lock and without entering itself in the tree's list: for trees that nobody edits meanwhile.
+// Reads without a lock and without registering with the tree: for trees that are not edited meanwhile.
 using Reader = openvdb::tree::ValueAccessor<const Tree, false>;
 constexpr int kLeaf = kLeafSide;
 static_assert(Leaf::DIM == kLeaf);
-// Voxels along what a node of each depth covers when it is one tile: root, both inner levels, and (-1) no
-// node at all.
+// The side, in voxels, of a tile at each depth: root and both inner levels. Depth -1 stands for no node.
 constexpr int kTileSize[] = {4096, 128, 8};
 
 // Tree coordinates: x, then z, then the level.
@@ -81,13 +80,13 @@ Column8 cut(Material material, const std::vector<LeafMask>& masks, int i0, int j
   return column;
 }
 
-// The allocator's real size of a block of so many bytes.
+// The size that the allocator gives a block of so many bytes.
 std::size_t block_bytes(std::size_t size) {
   const std::unique_ptr<std::byte[]> probe = std::make_unique_for_overwrite<std::byte[]>(size);
   return heap_bytes(probe.get());
 }
 
-// What std::map allocates for a child of the root: the tree's links and colour, then key and value
+// The node that std::map allocates for a child of the root: the tree's links and colour, then key and value
 // (RootNode::NodeStruct is private: a pointer, and a tile of two bools).
 struct RootEntry {
   void* links[4];
@@ -129,7 +128,7 @@ struct Voxel::Layers {
     std::unique_ptr<Tree> tree;
   };
   std::vector<Layer> layers;
-  std::size_t strokes_since_prune = 0;
+  std::size_t edits_since_prune = 0;
 
   Tree& of(Material material) {
     for (Layer& layer : layers) {
@@ -139,7 +138,7 @@ struct Voxel::Layers {
   }
   void prune() {
     for (Layer& layer : layers) openvdb::tools::prune(*layer.tree);
-    strokes_since_prune = 0;
+    edits_since_prune = 0;
   }
   std::size_t leaves() const {
     std::size_t count = 0;
@@ -151,8 +150,8 @@ struct Voxel::Layers {
 Voxel::Voxel(const ColumnGrid& grid) : grid_(grid), layers_(std::make_unique<Layers>()) {}
 Voxel::~Voxel() = default;
 
-// The blocks are sampled and cut in parallel and handed to the trees in order: cheaper than merging a tree a
-// thread, and the same tree for any number of threads.
+// The blocks are sampled and cut in parallel and added to the trees in order: cheaper than merging one tree
+// per thread, and the same tree for any number of threads.
 std::unique_ptr<Representation> Voxel::build(const TerrainSource& source, const Parameters& parameters,
                                              Progress& progress) {
   const ColumnSampler sampler(source, parameters, kVoxelLevels);
@@ -236,8 +235,8 @@ void Voxel::materials(Points where, std::span<Material> out) const {
   }
 }
 
-void Voxel::paint(Columns where, std::span<const Span> what) {
-  check_paint(where, what);
+void Voxel::edit(Columns where, std::span<const Span> what) {
+  check_edit(where, what);
   const ColumnLookup lookup(grid_);
   for (std::size_t c = 0; c < where.size(); ++c) {
     int i, j;
@@ -248,10 +247,10 @@ void Voxel::paint(Columns where, std::span<const Span> what) {
       if (layer.material != what[c].material) layer.tree->fill(box, false, false);
     }
     if (what[c].material != Material::kAir) layers_->of(what[c].material).fill(box, true, true);
-    ++layers_->strokes_since_prune;
+    ++layers_->edits_since_prune;
   }
-  // Pruning walks all leaves, so it waits until as many strokes have paid for it.
-  if (layers_->strokes_since_prune > layers_->leaves()) layers_->prune();
+  // Pruning walks all leaves; after at least as many edits, its cost per edit is constant.
+  if (layers_->edits_since_prune > layers_->leaves()) layers_->prune();
 }
 
 TriangleMesh Voxel::mesh(MeshDetail) const {
@@ -262,7 +261,8 @@ TriangleMesh Voxel::mesh(MeshDetail) const {
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec3I> triangles;
   std::vector<openvdb::Vec4I> quads;
-  constexpr double kHalfway = 0.5;  // between on and off, or the surface would run through the outer centres
+  // Between on and off; otherwise the surface would pass through the outer centres.
+  constexpr double kHalfway = 0.5;
   openvdb::tools::volumeToMesh(*openvdb::MaskGrid::create(all), points, triangles, quads, kHalfway);
   mesh.positions.reserve(points.size());
   for (const openvdb::Vec3s& p : points) {  // a voxel's centre has whole coordinates
@@ -270,8 +270,8 @@ TriangleMesh Voxel::mesh(MeshDetail) const {
                                 static_cast<float>(grid_.origin_y + (p.z() + 0.5) * grid_.step),
                                 static_cast<float>(grid_.origin_z + (p.y() + 0.5) * grid_.cell_z));
   }
-  // OpenVDB's faces run clockwise seen from outside, and exchanging two axes mirrors them: the order is right
-  // as it is.
+  // OpenVDB's faces run clockwise seen from outside; exchanging two axes mirrors them, so that the order is
+  // right.
   mesh.indices.reserve(quads.size() * 6 + triangles.size() * 3);
   const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     mesh.indices.insert(mesh.indices.end(), {a, b, c});
@@ -317,8 +317,8 @@ void Voxel::save(ByteSink& out) const {
 
 namespace {
 
-// Inner nodes are large: a few far-apart leaves in a small file could ask for any amount. Their sum is known
-// beforehand.
+// Inner nodes are large: a few distant leaves in a small damaged file could need any amount of memory. Sums
+// the nodes before they are allocated.
 class NodeBudget {
  public:
   void add(const Coord& origin, ByteSource& in) {
@@ -375,7 +375,7 @@ std::unique_ptr<Representation> Voxel::load(ByteSource& in) {
     const auto material = in.get<Material>();
     Tree& tree = built->layers_->of(material);
     if (material == Material::kAir || built->layers_->layers.size() != l + 1)
-      in.fail("a material comes twice, or is air");
+      in.fail("a material is repeated, or is air");
     load_tree(in, built->grid_, tree);
     if (layers == 1) break;
     const auto voxels = all.activeVoxelCount();

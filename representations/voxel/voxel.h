@@ -1,7 +1,7 @@
-// Sparse voxels: one OpenVDB mask tree (Museth 2013) for each material, the packaged peer of the stacks in
-// "hybrid" Table 1. A mask costs a bit a voxel near surfaces and nothing inside; the vertical lies along the
-// tree's contiguous axis, so that a byte of a leaf is eight levels of a column. Queries are O(materials), a
-// column O(levels / 8) at most.
+// Sparse voxels: one OpenVDB mask tree (Museth 2013) per material, the packaged peer of the stacks in
+// "hybrid" Table 1. A mask costs one bit per voxel near surfaces and nothing inside; the vertical lies along
+// the tree's contiguous axis, so that a byte of a leaf is eight levels of a column. Queries are O(materials),
+// a column O(levels / 8) at most.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace terrabench {
 
-// Levels for heights when `step` is 0: between half as many and this many. Also for the dense grid.
+// For heights and step 0 there are between half of this and this many levels. Also for the dense grid.
 inline constexpr int kVoxelLevels = 512;
 
 class Voxel final : public Representation {
@@ -21,18 +21,18 @@ class Voxel final : public Representation {
   ~Voxel() override;
 
   const ColumnGrid& grid() const { return grid_; }
-  // What OpenVDB says its trees take; memory() says what they really take: see memory().
+  // The bytes of the trees by OpenVDB's memUsage(); memory() counts more.
   std::size_t openvdb_bytes() const;
 
   void spans(Columns where, SpanSink& out) const override;
   void materials(Points where, std::span<Material> out) const override;
-  void paint(Columns where, std::span<const Span> what) override;  // clipped to bounds()
+  void edit(Columns where, std::span<const Span> what) override;  // clipped to bounds()
   // OpenVDB's volumeToMesh on the union of all materials: smoothed, vertices within half a voxel of the true
-  // faces. It has no open edge, but can have edges of four triangles where solids touch along an edge only.
-  // The detail is the grid's.
+  // faces. No edge is open, but where solids touch along an edge only, an edge can have four triangles.
+  // Always at the grid's resolution.
   TriangleMesh mesh(MeshDetail) const override;
-  // OpenVDB's memUsage() leaves out the allocator's rounding, the padding of inner nodes, the nodes of the
-  // root's map and the tree objects' own blocks: counted here.
+  // Includes what OpenVDB's memUsage() omits: the allocator's rounding, the padding of inner nodes, the nodes
+  // of the root's map and the tree objects' own blocks.
   Memory memory() const override;
   void save(ByteSink&) const override;
   Bounds bounds() const override { return grid_.bounds(); }

@@ -1,7 +1,7 @@
-// Flow is followed from every head and stops where a tributary is missing; whoever brings the last one
-// carries on. No order of all pixels is needed, and walks keep to one part of the grid. Bands of rows are
-// walked in parallel, each writing its own rows only; what leaves a band waits and is followed last, by one
-// thread.
+// Flow is followed downstream from every head and stops at a pixel with a tributary not yet followed; the
+// walk that brings the last tributary continues. No order of all pixels is needed, and walks stay in one part
+// of the grid. Bands of rows are walked in parallel, each writing its own rows only; flow that leaves a band
+// is followed last, by one thread.
 #include "terrain/hydrology/accumulate.h"
 
 #include <tbb/parallel_for.h>

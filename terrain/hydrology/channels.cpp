@@ -1,8 +1,8 @@
+#include "terrain/hydrology/channels.h"
+
 #include <tbb/parallel_for.h>
 
 #include <cassert>
-
-#include "terrain/hydrology/flow.h"
 
 namespace terrabench {
 namespace {
@@ -29,7 +29,7 @@ std::vector<std::uint32_t> channel_pixels(const FlowNetwork& network, std::uint3
   for (std::size_t i = 0; i < network.size(); ++i) {
     if (network.accumulation[i] >= tau) channels.push_back(static_cast<std::uint32_t>(i));
   }
-  // What a channel pixel drains to is one too: accumulation never falls downstream.
+  // A channel pixel drains to a channel pixel: accumulation never falls downstream.
   std::vector<std::uint8_t> missing(network.size());
   for (const std::uint32_t pixel : channels) {
     if (network.flows(pixel)) ++missing[network.receiver(pixel)];

@@ -19,7 +19,7 @@ namespace {
 using hydrology::BucketQueue;
 using hydrology::SortedBucketQueue;
 
-// What decides how heights become keys.
+// The properties of the heights that decide how they become keys.
 struct HeightKind {
   float lowest = std::numeric_limits<float>::infinity();
   float highest = -std::numeric_limits<float>::infinity();
@@ -69,8 +69,8 @@ HeightKind kind_of(const Heightfield& field) {
 }
 
 // The search's grid: the field with a rim of one pixel, so that no neighbour needs a bounds check, and in
-// each cell the key below and what is known of the pixel above. Cells that a neighbour may still claim
-// compare lower than all others.
+// each cell the key in the low bits and the pixel's state in the high bits. Cells that a neighbour may still
+// claim compare lower than all others.
 template <class Cell, int kKeyBits>
 struct SearchGrid {
   enum Tag : unsigned {
@@ -88,7 +88,7 @@ struct SearchGrid {
   std::ptrdiff_t stride;
   std::unique_ptr<Cell[]> cells;
 
-  // Left unset until fill(), whose threads then take the memory from the system between them.
+  // Not initialised before fill(), so that its threads share the first touch of the memory.
   SearchGrid(int w, int d)
       : width(w),
         depth(d),
@@ -111,8 +111,8 @@ struct SearchGrid {
     });
   }
 
-  // Without holes only the edge of the grid is looked at; and at heights, since other threads change the
-  // cells around.
+  // Without holes only the edge of the grid is examined. Reads heights, not cells, which other threads
+  // change.
   void mark_border(const Heightfield& field, bool holes) {
     const auto open_to = [&](int i, int j) {
       return i < 0 || j < 0 || i >= width || j >= depth || Heightfield::is_no_data(field.at(i, j));
@@ -175,7 +175,7 @@ void search(Grid& grid, bool holes, Queue& queue, Progress* progress) {
         neighbour = settled;
         queue.push(its_key, static_cast<std::uint32_t>(&neighbour - cells));
       } else if (its_key > key) {
-        neighbour = settled;  // a border pixel that waits already
+        neighbour = settled;  // a border pixel, already in the queue
       }
     }
     if (++taken % 65536 == 0 && progress != nullptr) progress->advance(65536);
@@ -213,7 +213,7 @@ float from_ordered_bits(std::uint32_t key) {
   return std::bit_cast<float>((key & 0x80000000U) != 0 ? key & 0x7FFFFFFFU : ~key);
 }
 
-// Of 2^12 to 2^17 the quickest, or near it, on mountains of 512² to 4096² pixels.
+// The quickest of 2^12 to 2^17, or nearly, on mountains of 512² to 4096² pixels.
 constexpr std::uint32_t kBuckets = 1U << 16;
 constexpr float kLeastRange = 1e-30F;  // the scale stays finite
 
@@ -221,7 +221,7 @@ void route_any(const Heightfield& field, const HeightKind& kind, FlowNetwork& ne
   SearchGrid<std::uint64_t, 32> grid(field.width, field.depth);
   grid.fill(field, ordered_bits);
   grid.mark_border(field, kind.holes);
-  // Heights that reach to infinity, or hardly differ, cannot be divided into buckets and share one.
+  // Infinite or almost equal heights cannot be divided into buckets and share one.
   const float range = kind.highest - kind.lowest;
   const std::uint32_t buckets = range > kLeastRange && std::isfinite(range) ? kBuckets : 1;
   const float scale = buckets > 1 ? static_cast<float>(buckets - 1) / range : 0;

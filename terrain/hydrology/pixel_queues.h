@@ -1,7 +1,7 @@
-// The two queues of the least-cost search (flow.h). Both give the pixel of the lowest key, of equal keys the
-// one that waited longest; both find the lowest of their buckets by a bit set of bit sets, in constant time,
-// because heights in pits put lower keys back behind the search; and both know which pixels come next, so
-// that their surroundings can be fetched into the cache ahead of their turn.
+// The two queues of the least-cost search (flow.h). Both return the pixel of the lowest key, first in first
+// out among equal keys. Both find the lowest bucket in constant time by a bit set of bit sets, because in
+// pits keys lower than the last one returned are pushed. Both report the pixels that come next, so that their
+// neighbourhoods can be prefetched.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace terrabench::hydrology {
 
-// Which of up to 2^24 buckets hold something. Four levels of 64 bits a word.
+// The set of non-empty buckets, of up to 2^24. Four levels of 64 bits per word.
 class BucketSet {
  public:
   explicit BucketSet(std::size_t buckets) {
@@ -52,8 +52,8 @@ class BucketSet {
   std::array<std::vector<std::uint64_t>, 4> levels_;
 };
 
-// Blocks of entries by number, for buckets that are chains of them: a bucket's pixels then lie together, and
-// no bucket takes memory of its own.
+// Numbered blocks of entries, of which buckets are chains: a bucket's pixels lie together, and no
+// bucket needs an allocation of its own.
 template <class Block>
 class BlockPool {
  public:
@@ -75,10 +75,10 @@ class BlockPool {
   std::vector<std::uint32_t> free_;
 };
 
-// How many pops ahead to fetch: enough to cover a memory access, few enough to stay in the nearest cache.
+// Prefetch distance, in pops: enough to cover a memory access, few enough to stay in the nearest cache.
 inline constexpr std::uint32_t kAhead = 8;
 
-// One first-in-first-out bucket a key, for whole numbers. O(1) a pixel.
+// One first-in-first-out bucket per key, for whole numbers. O(1) per pixel.
 class BucketQueue {
  public:
   explicit BucketQueue(std::uint32_t keys) : buckets_(keys), filled_(keys) {}
@@ -90,10 +90,10 @@ class BucketQueue {
     if (slot(bucket.tail) == kSlots) grow(key, bucket);
     pool_[block(bucket.tail)].pixels[slot(bucket.tail)] = pixel;
     ++bucket.tail;
-    if (key < current_) current_ = kNone;  // also when there is none
+    if (key < current_) current_ = kNone;  // also when it is kNone
   }
 
-  // `fetch` is called with pixels whose turn comes soon; some of them may be wrong.
+  // Calls `fetch` with pixels that are likely to be popped soon.
   template <class Fetch>
   std::uint32_t pop(const Fetch& fetch) {
     if (current_ == kNone) {
@@ -123,14 +123,14 @@ class BucketQueue {
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
-  static constexpr std::uint32_t kBlock = 32, kSlots = kBlock - 1;  // two cache lines a block
+  static constexpr std::uint32_t kBlock = 32, kSlots = kBlock - 1;  // two cache lines per block
 
   struct Block {
     std::uint32_t pixels[kSlots];
     std::uint32_t next;
   };
-  // Positions are block · kBlock + slot; a position at slot kSlots stands at the end of its block. No block
-  // yet looks like the end of one.
+  // Positions are block · kBlock + slot; slot kSlots is the end of a block. kNone, no block
+  // yet, has that slot too.
   struct Bucket {
     std::uint32_t head = kNone, tail = kNone;
   };
@@ -161,11 +161,10 @@ class BucketQueue {
   std::uint32_t current_ = kNone;  // the lowest filled bucket, when known
 };
 
-// For any numbers: buckets of near heights (Denardo & Fox 1979), the lowest of which is sorted when its turn
-// comes and taken from end to end. What is pushed at or under it meanwhile, mostly in pits, goes to a heap
-// beside it; should the heap outgrow it, as in a basin that reaches far down, all is put back into buckets.
-// Nearly O(1) a pixel when heights spread over the buckets, O(log n) at worst.
-// `BucketOf` maps keys to buckets and never falls as keys rise.
+// For any numbers: buckets of near heights (Denardo & Fox 1979). The lowest bucket is sorted into a run and
+// popped in order. Keys pushed at or under it meanwhile, mostly in pits, go to a heap; when the heap outgrows
+// the run, as in a deep basin, run and heap are put back into buckets. Nearly O(1) per pixel when heights
+// spread over the buckets, O(log n) at worst. `BucketOf` maps keys to buckets, monotonically.
 template <class BucketOf>
 class SortedBucketQueue {
  public:
@@ -184,12 +183,12 @@ class SortedBucketQueue {
     }
   }
 
-  // `fetch` is called with pixels whose turn comes soon.
+  // Calls `fetch` with pixels that are popped soon.
   template <class Fetch>
   std::uint32_t pop(const Fetch& fetch) {
     if (heap_.size() > kMostInHeap && heap_.size() > 2 * (run_.size() - next_)) put_back();
     if (next_ == run_.size() && heap_.empty()) begin_lowest(fetch);
-    // What stands in the run has waited longer than what has the same key in the heap.
+    // Of equal keys, those in the run were pushed before those in the heap.
     if (next_ < run_.size() && (heap_.empty() || run_[next_].key <= heap_.front().key >> 32)) {
       if (next_ + kAhead < run_.size()) fetch(run_[next_ + kAhead].pixel);
       return run_[next_++].pixel;
@@ -202,14 +201,14 @@ class SortedBucketQueue {
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
-  static constexpr std::uint32_t kSlots = 15;       // two cache lines a block
+  static constexpr std::uint32_t kSlots = 15;       // two cache lines per block
   static constexpr std::size_t kMostInHeap = 4096;  // larger ones leave the nearest cache
 
   struct Entry {
     std::uint32_t key, pixel;
   };
   struct Late {
-    std::uint64_t key;  // and under it the turn
+    std::uint64_t key;  // the key above, the number of the push below
     std::uint32_t pixel;
   };
   static bool later(const Late& a, const Late& b) { return a.key > b.key; }
@@ -219,7 +218,7 @@ class SortedBucketQueue {
     std::uint32_t used, next;
   };
   struct Bucket {
-    std::uint32_t first = kNone, last = kNone;  // blocks; entries stand in the order of waiting
+    std::uint32_t first = kNone, last = kNone;  // blocks; entries in the order of pushing
   };
 
   void put(std::uint32_t at, Entry entry) {
@@ -266,7 +265,7 @@ class SortedBucketQueue {
     next_ = 0;
   }
 
-  // The run before the heap and the heap by turns, so that equal keys stay in the order of waiting.
+  // The run first, then the heap in the order of pushing, so that equal keys stay in order.
   void put_back() {
     for (; next_ < run_.size(); ++next_) put(current_, run_[next_]);
     std::sort(heap_.begin(), heap_.end(), [](const Late& a, const Late& b) {
@@ -279,7 +278,7 @@ class SortedBucketQueue {
     heap_.clear();
   }
 
-  std::vector<Bucket> buckets_;  // those at and under the current one are empty
+  std::vector<Bucket> buckets_;  // those up to the current one are empty
   BlockPool<Block> pool_;
   BucketSet filled_;
   BucketOf bucket_of_;
@@ -288,7 +287,7 @@ class SortedBucketQueue {
   std::size_t next_ = 0;
   std::vector<Late> heap_;
   std::uint32_t turn_ = 0;
-  // Of begin_lowest(), kept for their memory.
+  // Scratch of begin_lowest(), kept for its memory.
   std::vector<Entry> waited_;
   std::vector<std::uint64_t> order_;
 };

@@ -13,7 +13,7 @@
 namespace terrabench {
 namespace {
 
-// Sums of parts of fixed size, added in order: the same for any number of threads.
+// Sums over parts of fixed size, added in order: the same for any number of threads.
 template <class DistanceOf>
 double mean_distance(std::span<const std::uint32_t> pixels, const DistanceOf& distance) {
   constexpr std::size_t kPart = 1024;

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Squared distance along each column, in place of infinity and 0: the rows' distance from the last point met,
-// once downwards and once upwards. Bands of columns, so that whole cache lines are touched.
+// Replaces infinity and 0 by the squared distance along each column: from the last point met, once downwards
+// and once upwards. Bands of columns, so that whole cache lines are used.
 void column_pass(int width, int depth, double cell_z, std::vector<double>& squared) {
   tbb::parallel_for(tbb::blocked_range<int>(0, width, 64), [&](const tbb::blocked_range<int>& columns) {
     std::vector<double> since(columns.size());
@@ -32,8 +32,8 @@ void column_pass(int width, int depth, double cell_z, std::vector<double>& squar
   });
 }
 
-// The lower envelope of the parabolas over one row: which column is nearest from where on. Reused between
-// rows.
+// The lower envelope of the parabolas over one row: the nearest columns, and where each begins to be the
+// nearest. Reused between rows.
 class Envelope {
  public:
   explicit Envelope(int width) : column_(width), from_(width), height_(width) {}

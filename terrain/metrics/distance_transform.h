@@ -1,6 +1,6 @@
 // Exact Euclidean distance transform of a grid (Meijster, Roerdink & Hesselink 2000; Felzenszwalb &
-// Huttenlocher 2012): a pass along columns, then the lower envelope of one parabola a column along each row.
-// O(n) whatever the set; rows in parallel.
+// Huttenlocher 2012): a pass along columns, then along each row the lower envelope of one parabola per
+// column. O(n) for any set of points; parallel.
 #pragma once
 
 #include <cstdint>

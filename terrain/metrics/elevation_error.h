@@ -12,8 +12,8 @@ namespace terrabench {
 struct ElevationError {
   double rmse = 0, largest = 0;  // metres
   double range = 0;              // metres between the original's lowest and highest sample
-  std::size_t pixels = 0;        // compared: both hold a height
-  std::size_t unmatched = 0;     // one of the two holds a height
+  std::size_t pixels = 0;        // pixels compared: both hold a height
+  std::size_t unmatched = 0;     // pixels where only one holds a height
 
   // rmse / range; of a flat original 0 when it is met exactly, otherwise infinite.
   double normalised() const;

@@ -6,7 +6,7 @@
 namespace terrabench {
 namespace {
 
-// Parts so small are searched from end to end.
+// Parts of at most so many points are searched linearly.
 constexpr std::size_t kLeaf = 8;
 
 double squared_distance(const SpacePoint& a, const SpacePoint& b) {

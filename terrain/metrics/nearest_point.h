@@ -25,7 +25,7 @@ class NearestPoint {
   void search(std::size_t begin, std::size_t end, const SpacePoint& from, double& best) const;
 
   std::vector<SpacePoint> points_;
-  std::vector<std::uint8_t> axes_;  // along which each point splits its part
+  std::vector<std::uint8_t> axes_;  // the axis along which each point splits its part
 };
 
 }  // namespace terrabench

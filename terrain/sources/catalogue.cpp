@@ -70,19 +70,8 @@ std::string vrt(const PackagedArray& array) {
 
 TerrainSource from_dem(std::string_view name, const std::string& path) {
   Dem dem = read_dem(path);
-  TerrainSource source;
-  source.name = name;
-  source.checksum = checksum(dem.heights);
+  TerrainSource source = source_of(name, std::move(dem.heights));
   source.notes = std::move(dem.notes);
-  source.heights = std::move(dem.heights);
-  return source;
-}
-
-TerrainSource from_heights(std::string_view name, Heightfield heights) {
-  TerrainSource source;
-  source.name = name;
-  source.checksum = checksum(heights);
-  source.heights = std::move(heights);
   return source;
 }
 
@@ -90,11 +79,12 @@ TerrainSource from_drawing(std::string_view name) {
   const NamedDrawing drawing = parse_drawing(name.substr(kDrawingPrefix.size()));
   const Image picture = read_png(drawing.file);
   if (picture.width < 2 || picture.height < 2) {
-    throw bad_input(fmt::format("a picture of {} × {} pixels is no landscape", picture.width, picture.height),
-                    drawing.file, "draw 2 × 2 pixels at least");
+    throw bad_input(
+        fmt::format("a drawing must have at least 2 × 2 pixels, got {} × {}", picture.width, picture.height),
+        drawing.file, "give a larger picture");
   }
   const DrawingOptions& o = drawing.options;
-  TerrainSource source = from_heights(name, land_from_drawing(picture, o));
+  TerrainSource source = source_of(name, land_from_drawing(picture, o));
   source.notes.push_back(
       fmt::format("read as a drawing: black is {:.6g} m, intensity {:.6g} the shore, white {:.6g} m, a pixel "
                   "{:.6g} m wide",
@@ -112,21 +102,17 @@ constexpr TerrainType kTerrains[] = {
     {"caves", "hills with overhangs and tunnels from 3-D noise, a cube of 128 m",
      "the hybrid paper's noise graph", [](std::uint64_t seed) { return noise::cave_source({.seed = seed}); }},
     {"diamond-square", "mountains that close on themselves, 513×513 samples of 30 m", "diamond-square method",
-     [](std::uint64_t seed) {
-       return from_heights("diamond-square", fractal::diamond_square({.seed = seed}));
-     }},
+     [](std::uint64_t seed) { return source_of("diamond-square", fractal::diamond_square({.seed = seed})); }},
     {"faults", "mountains of 1000 faults of 10 m, 513×513 samples of 30 m", "fault formation",
      [](std::uint64_t seed) {
-       return from_heights("faults", fractal::fault_terrain({.seed = seed, .faults = 1000, .step = 10}));
+       return source_of("faults", fractal::fault_terrain({.seed = seed, .faults = 1000, .step = 10}));
      }},
     {"planet-faults", "a sphere of 100 km radius after 1000 faults, 1025×513 samples of equal angles",
      "fault formation on the sphere",
-     [](std::uint64_t seed) {
-       return from_heights("planet-faults", fractal::planet_faults({.seed = seed}));
-     }},
+     [](std::uint64_t seed) { return source_of("planet-faults", fractal::planet_faults({.seed = seed})); }},
     {"hills", "400 overlapping hills, 513×513 samples of 30 m", "hill technique",
      [](std::uint64_t seed) {
-       return from_heights("hills", fractal::hill_terrain({.seed = seed, .scale = 5e-5F}));
+       return source_of("hills", fractal::hill_terrain({.seed = seed, .scale = 5e-5F}));
      }},
     {"canyon", "hills with trenches, faults, craters and a tunnel that overlap, 129×129 samples of 120 m",
      "events on hill technique", [](std::uint64_t) { return events::open_named_script("canyon"); }},
@@ -134,7 +120,7 @@ constexpr TerrainType kTerrains[] = {
      "events on hill technique", [](std::uint64_t) { return events::open_named_script("two-tunnels"); }},
 };
 
-// What can only be meant as a path: a typing slip in a name has neither.
+// Whether it can only be a path: a misspelt name holds none of these characters.
 bool looks_like_path(std::string_view text) { return text.find_first_of("./\\<") != std::string_view::npos; }
 
 }  // namespace

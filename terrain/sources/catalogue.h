@@ -1,5 +1,5 @@
 // The terrains that have a name: real ones read in place from packages, and generated ones. See
-// terrain/source.h for terrains() and open_terrain(); here is what tests and tools need beside them.
+// terrain/source.h for terrains() and open_terrain(); these are for tests and tools.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Reading, resampling and hole filling in Mpixel/s, each beside what GDAL itself does for the same result in
-// the same run. Counter `vs_gdal` is GDAL's time over ours: above 1 we are faster.
+// Reading, resampling and hole filling in Mpixel/s, each compared with GDAL for the same result in the same
+// run. Counter `vs_gdal` is GDAL's time over ours: above 1 we are faster.
 #include <benchmark/benchmark.h>
 #include <gdal_alg.h>
 #include <gdal_priv.h>
@@ -49,7 +49,7 @@ using Dataset = std::unique_ptr<GDALDataset, Close>;
 
 // GDAL's view of the same heights, with NaN as no-data.
 Dataset memory_dataset(const Heightfield& field) {
-  GDALAllRegister();  // the reader takes MEM out again
+  GDALAllRegister();  // the reader removes MEM
   Dataset dataset(GetGDALDriverManager()->GetDriverByName("MEM")->Create("", field.width, field.depth, 1,
                                                                          GDT_Float32, nullptr));
   GDALRasterBand& band = *dataset->GetRasterBand(1);
@@ -59,7 +59,7 @@ Dataset memory_dataset(const Heightfield& field) {
   return dataset;
 }
 
-// Times ours by the loop and GDAL's once an iteration outside it; both report their best.
+// Times ours in the loop, and GDAL's once per iteration outside the timing; both report their best.
 template <class Ours, class Theirs>
 void compare(benchmark::State& state, double pixels, const Ours& ours, const Theirs& theirs) {
   double our_best = 1e300, their_best = 1e300;

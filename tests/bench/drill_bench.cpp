@@ -1,11 +1,13 @@
-// Drills on the packaged mountain DEM, 400 × 400 as in the paper (which took some eight minutes to extract
-// and a tenth of that to regenerate), and on tiles of it up to 8192², where every rate should stay what it
-// is.
+// Drills on the packaged mountain DEM, 400 × 400 as in the paper (which took about eight minutes to
+// extract and a tenth of that to regenerate), and on tiles of it up to 8192², where the rates should not
+// change.
 #include <benchmark/benchmark.h>
 
 #include "representations/drill/drill_codec.h"
+#include "representations/drill/extract.h"
 #include "representations/drill/influence.h"
 #include "representations/drill/pits.h"
+#include "representations/drill/quantum.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/source.h"
 
@@ -18,7 +20,7 @@ const Heightfield& mountains() {
   return field;
 }
 
-// Mirrored at every seam, so that no cliffs stand there.
+// Mirrored at every seam, so that there are no cliffs.
 Heightfield tiled(int size) {
   const Heightfield& tile = mountains();
   Heightfield field = tile;

@@ -1,6 +1,6 @@
-// The generators beside the methods as the textbooks tell them, on the same terrain. times_naive is the ratio
-// of thread time measured in this very run; the naive loops of faults and hills are timed on a smaller share
-// of the work and scaled, since they would take minutes.
+// The generators compared with the textbook forms of the methods on the same terrain. times_naive is the
+// ratio of thread times measured in the same run; the naive loops of faults and hills are timed on a smaller
+// share of the work and scaled, since they would take minutes.
 #include <benchmark/benchmark.h>
 #include <libnoise/noise.h>
 #include <tbb/global_control.h>
@@ -21,7 +21,7 @@
 namespace terrabench::fractal {
 namespace {
 
-// Seconds of the fastest call, by side: the least disturbed on a machine that is rarely alone.
+// Seconds of the fastest call, by side: the least disturbed one on a busy machine.
 using Fastest = std::map<std::int64_t, double>;
 
 double seconds_of(clockid_t clock) {
@@ -60,7 +60,7 @@ constexpr int kFaults = 1000, kHills = 1000;
 
 int side_of(const benchmark::State& state) { return static_cast<int>(state.range(0)); }
 
-// Steps within the final array, a hash a point, as the method is usually written.
+// Steps within the final array, one hash per point, as the method is usually written.
 void naive_diamond_square(benchmark::State& state) {
   const int side = side_of(state), last = side - 1;
   g_diamond_square[state.range(0)] = measure(state, CLOCK_THREAD_CPUTIME_ID, 1, [&] {
@@ -189,7 +189,7 @@ void our_hills(benchmark::State& state, bool all_threads) {
                [&] { benchmark::DoNotOptimize(hill_terrain(options).heights.data()); });
 }
 
-// The packaged way to a fractal ground of as many octaves as diamond-square has levels: libnoise, one thread.
+// The packaged peer, libnoise on one thread: fractal ground with one octave per level of diamond-square.
 void libnoise_fbm(benchmark::State& state) {
   const int side = side_of(state);
   ::noise::module::Perlin module;

@@ -204,7 +204,7 @@ void same_edit(benchmark::State& state) {
     if (auto* const tree = dynamic_cast<Ght*>(structure.get())) {
       tree->apply(bowl);
     } else {
-      structure->paint({x, z}, air);
+      structure->edit({x, z}, air);
     }
     state.SetIterationTime(worked() - start);
     after = static_cast<double>(structure->memory().total());

@@ -1,9 +1,10 @@
-// Flow routing and accumulation on synthetic mountains with int16 heights: pixels a second and how time grows
-// with the number of pixels (linear: the same rate at every size). The packaged peer, GRASS r.watershed, is
-// a program of its own: hydrology_peer.cpp runs both.
+// Flow routing and accumulation on synthetic mountains with int16 heights: pixels per second and how time
+// grows with the number of pixels (linear: the same rate at every size). The packaged peer, GRASS
+// r.watershed, is a separate program: hydrology_peer.cpp runs both.
 #include <benchmark/benchmark.h>
 
 #include "terrain/hydrology/accumulate.h"
+#include "terrain/hydrology/channels.h"
 #include "terrain/hydrology/flow.h"
 #include "tests/bench/mountains.h"
 

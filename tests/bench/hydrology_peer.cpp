@@ -1,9 +1,10 @@
-// Flow routing beside GRASS r.watershed (Debian: grass-core) on the same int16 DEM in one run, alternately:
+// Flow routing compared with GRASS r.watershed (Debian: grass-core) on the same int16 DEM in one run,
+// alternately:
 //   hydrology_peer [SIZE [REPEATS]]
 // GRASS runs as its own process with the map imported beforehand; its time includes reading that map and
 // writing two. Ours is timed twice: from heights in memory to directions and accumulation in memory, and from
 // a GeoTIFF to two, which is the fair comparison though GeoTIFF is not GRASS's own format. Prints medians as
-// pixels a second and the ratios; ours alone without GRASS.
+// pixels per second and the ratios; without GRASS only ours.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 
 #include "terrain/error.h"
 #include "terrain/files.h"
+#include "terrain/hydrology/channels.h"
 #include "terrain/hydrology/flow.h"
 #include "terrain/sources/dem/dem.h"
 #include "tests/bench/mountains.h"
@@ -70,7 +72,7 @@ bool grass(const std::filesystem::path& folder, const std::string& commands) {
     const std::string line = fmt::format("cd {} && grass {} >log 2>&1", folder.string(), arguments);
     return std::system(line.c_str()) == 0;
   };
-  // GRASS wants the location's whole path.
+  // GRASS needs the location's absolute path.
   if (!std::filesystem::exists(folder / "location") && !run("-c XY $PWD/location -e")) return false;
   return run("$PWD/location/PERMANENT --exec sh commands.sh");
 }

@@ -19,8 +19,8 @@ inline float lattice(std::uint32_t x, std::uint32_t z, std::uint32_t octave) {
 
 inline float smooth(float t) { return t * t * (3 - 2 * t); }
 
-// Value noise over octaves from 1024 pixels down to 2: 0 to about 3000 m, `scale` 1 gives whole metres as
-// SRTM has them, with its flats and pits.
+// Value noise over octaves from 1024 pixels down to 2: 0 to about 3000 m, `scale` 1 gives whole metres, with
+// flats and pits as in SRTM.
 inline Heightfield mountains(int size, float scale = 1) {
   Heightfield field;
   field.width = field.depth = size;

@@ -1,5 +1,5 @@
-// Noise beside libnoise on the same fractals and the same points, and the cave terrain column by column.
-// times_libnoise is the ratio of thread time measured in this very run.
+// Noise compared with libnoise on the same fractals and points, and the cave terrain column by column.
+// times_libnoise is the ratio of thread times measured in the same run.
 #include <benchmark/benchmark.h>
 #include <hwy/targets.h>
 #include <libnoise/noise.h>
@@ -28,8 +28,8 @@ double thread_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// Where noise is sampled: points in no order that a column or a cache could use, or vertical columns of 512
-// samples a quarter of a metre apart, as terrain is.
+// Where noise is sampled: points in random order, or vertical columns of 512
+// samples a quarter of a metre apart, as terrains sample it.
 struct Points {
   std::vector<float> x, y, z;
 };
@@ -72,8 +72,8 @@ struct Case {
   Where where;
 };
 
-// Of libnoise, by subject and place: samples a second of thread time in the fastest iteration. The machine is
-// rarely alone; the fastest iteration of either side is the least disturbed.
+// Libnoise's rates by subject and place: samples per second of thread time in the fastest iteration, which on
+// a busy machine is the least disturbed one.
 std::array<std::array<double, 2>, 2> g_libnoise{};
 
 template <class Body>
@@ -116,7 +116,7 @@ noise::Program program(Subject subject) {
   return {graph, root};
 }
 
-// Restricts Highway to one instruction set (0: the best) while it lives.
+// Restricts Highway to one instruction set (0: the best) during its lifetime.
 struct Target {
   explicit Target(std::int64_t target) { hwy::SetSupportedTargetsForTest(target); }
   ~Target() { hwy::SetSupportedTargetsForTest(0); }

@@ -1,6 +1,6 @@
-// Layered stacks beside OpenVDB's accessors and mesher (the `voxel` representation) and the dense grid, on
-// one cave-like solid that costs next to nothing to sample. Rates are items a second of one thread, except
-// build and mesh.
+// Layered stacks compared with OpenVDB's accessors and mesher (the `voxel` representation) and the dense
+// grid, on one cave-like solid that is very cheap to sample. Rates are items per second of one thread, except
+// for build and mesh.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -20,7 +20,8 @@ using namespace terrabench;
 
 constexpr std::array<std::string_view, 3> kNames = {"layered_stack", "voxel", "dense_voxel"};
 
-// Ground and tunnels from per-column phases, so that a sample is a few adds: what is timed is not the source.
+// Ground and tunnels from per-column phases, so that a sample costs a few additions and the source hardly
+// counts.
 TerrainSource cheap_caves() {
   TerrainSource source;
   source.name = "cheap caves";
@@ -113,7 +114,7 @@ void single_edits(benchmark::State& state) {
   for (auto _ : state) {
     const float x = positions()[0][at], z = positions()[1][at], bottom = 0.9F * positions()[2][at];
     const Span span = {bottom, bottom + 0.05F, at % 2 == 0 ? Material::kAir : Material::kBedrock};
-    structure->paint({std::span(&x, 1), std::span(&z, 1)}, std::span(&span, 1));
+    structure->edit({std::span(&x, 1), std::span(&z, 1)}, std::span(&span, 1));
     at = (at + 1) % kQueries;
   }
   state.SetItemsProcessed(state.iterations());
@@ -130,7 +131,7 @@ void builds(benchmark::State& state) {
   state.SetLabel(std::string(name));
 }
 
-// Filling each column's samples and nothing more: what is left of `builds` is the structure's own.
+// Only fills each column's samples: the difference to `builds` is the cost of the structure.
 void sampling(benchmark::State& state) {
   const TerrainSource source = cheap_caves();
   const auto n = static_cast<std::size_t>(state.range(0));

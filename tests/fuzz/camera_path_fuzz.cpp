@@ -1,4 +1,4 @@
-// Camera paths: any text is refused with an Error, or is a path whose views are views.
+// Camera paths: any text is refused with an Error, or is a path all of whose views are valid.
 #include <string_view>
 
 #include "lod/camera/camera_path.h"

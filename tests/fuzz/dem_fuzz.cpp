@@ -1,5 +1,5 @@
-// The DEM reader on damaged files. The first byte chooses the format by its ending; the rest is the file,
-// which lies in memory. Whatever comes must either be a terrain whose parts agree or an Error.
+// The DEM reader on damaged files. The first byte chooses the format by its extension; the rest is the file,
+// in memory. The result must be a consistent terrain or an Error.
 #include <cpl_vsi.h>
 #include <gdal_priv.h>
 

@@ -5,6 +5,8 @@
 #include <span>
 
 #include "representations/drill/drill_codec.h"
+#include "representations/drill/extract.h"
+#include "representations/drill/quantum.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/error.h"
 #include "tests/fuzz/fuzz.h"
@@ -55,7 +57,7 @@ std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
       options.tau = 2;
       options.w = 1;
       options.k = 3;
-      options.monotone = !all;
+      options.monotone = all ? Monotone::kNowhere : Monotone::kEverywhere;
       options.adaptive_k = options.interpolate_untouched = all;
       Drills drills = extract_drills(field, route_flow(field), options);
       quantise(drills, 0.5F);

@@ -1,5 +1,5 @@
-// Terrains as texts: any text is read or refused with an Error, and what was read survives writing; so do the
-// checks on its events and, where those pass, their evaluation.
+// Event files: any text is read or refused with an Error; what was read is equal after writing and reading,
+// and its events are evaluated or refused with an Error.
 #include <cstdlib>
 
 #include "terrain/error.h"

@@ -1,4 +1,4 @@
-// What a fuzz target defines: the entry point, and valid inputs to start from.
+// A fuzz target defines these: the entry point, and valid inputs to start from.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Flow over grids of any floats, infinite, denormal and no-data among them: the rule of flow.h with a plain
-// priority queue gives the same directions, and all that flows arrives in outlets. The first byte is the
+// Flow over grids of any floats, including infinite, denormal and no-data ones: the rule of flow.h with a
+// plain priority queue gives the same directions, and all flow arrives in outlets. The first byte is the
 // width, the rest are heights.
 #include <algorithm>
 #include <cstdlib>
@@ -7,6 +7,7 @@
 #include <queue>
 #include <tuple>
 
+#include "terrain/hydrology/channels.h"
 #include "terrain/hydrology/flow.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -1,5 +1,5 @@
-// Saved structures: the container, and behind its checksum, where mutations rarely get, each type's own
-// reader.
+// Saved structures: the container, and each type's own reader, which mutations rarely reach behind the
+// container's checksum.
 #include <unistd.h>
 
 #include <array>
@@ -17,7 +17,7 @@ using namespace terrabench;
 // The first byte of an input: a type's own reader, or the container.
 constexpr std::uint8_t kContainer = 255;
 
-// What loaded must also answer, and save what it was loaded from.
+// A loaded structure must also answer queries, and save the bytes that it was loaded from.
 void use(const RepresentationType& type, Representation& structure) {
   const Bounds bounds = structure.bounds();
   const std::array x{bounds.low.x, bounds.high.x, 0.5F * (bounds.low.x + bounds.high.x)};

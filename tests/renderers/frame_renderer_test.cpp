@@ -14,24 +14,10 @@
 #include "lod/lod.h"
 #include "lod/meters/image_error.h"
 #include "tests/lod/variants.h"
+#include "tests/terrain/ground.h"
 
 namespace terrabench {
 namespace {
-
-Heightfield bumps(int width, int depth) {
-  Heightfield field;
-  field.width = width;
-  field.depth = depth;
-  field.cell_x = 2;
-  field.cell_z = 3;
-  for (int j = 0; j < depth; ++j) {
-    for (int i = 0; i < width; ++i) {
-      field.heights.push_back(20 * std::sin(0.15F * static_cast<float>(i)) *
-                              std::cos(0.11F * static_cast<float>(j)));
-    }
-  }
-  return field;
-}
 
 View walk(const Heightfield& field, float t) {
   View view;
@@ -86,7 +72,7 @@ class FrameRendererTest : public ::testing::TestWithParam<test::Variant> {
  protected:
   std::unique_ptr<Lod> build() { return test::build(GetParam(), field_, silent_); }
   std::unique_ptr<GlContext> context_ = open_context("osmesa", 16, 16);
-  Heightfield field_ = bumps(150, 120);
+  Heightfield field_ = test::waves(150, 120, 20, 2, 3);
   Progress silent_;
 };
 
@@ -254,7 +240,7 @@ TEST_P(FrameRendererTest, NothingShinesThroughRidges) {
 // The same picture as of a ground that has been moved beforehand, and another than of the ground unmoved.
 TEST(FrameRenderer, MovesVerticesAsTheyAreSaidToMove) {
   const std::unique_ptr<GlContext> context = open_context("osmesa", 16, 16);
-  const Heightfield field = bumps(150, 120);
+  const Heightfield field = test::waves(150, 120, 20, 2, 3);
   Progress silent;
   const std::unique_ptr<Lod> lod = test::build({"geomipmap", "morph=true"}, field, silent);
   lod->tune(20);

@@ -1,5 +1,4 @@
-// Every representation that can hold a terrain gives back the samples it was built from, and all give the
-// same.
+// Every representation that can hold a terrain returns the samples that it was built from, so that all agree.
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
@@ -8,11 +7,12 @@
 #include "representations/column_grid.h"
 #include "representations/layered_stack/layered_stack.h"
 #include "tests/representations/ground.h"
+#include "tests/terrain/ground.h"
 
 namespace terrabench::test {
 namespace {
 
-constexpr std::string_view kVolumes[] = {"layered_stack", "voxel", "dense_voxel"};
+const std::vector<std::string_view> kVolumes = types(&Traits::materials);
 
 // The lattice's samples, asked at cell centres, are the source's own.
 void expect_samples(std::string_view name, const TerrainSource& source, std::int64_t resolution) {
@@ -35,7 +35,7 @@ void expect_samples(std::string_view name, const TerrainSource& source, std::int
   }
 }
 
-// materials() is what spans() says, at any point; the default implementation asks spans().
+// materials() agrees with spans() at any point; the default implementation uses spans().
 void expect_materials_follow_spans(const Representation& built, unsigned seed) {
   const Cloud cloud(built.bounds(), 3000, seed);
   std::vector<Material> quick(cloud.x.size()), slow(cloud.x.size());
@@ -95,7 +95,8 @@ TEST(Agreement, Caves) {
   for (const std::string_view name : kVolumes) expect_samples(name, source, 64);
 }
 
-TEST(Agreement, TallTilesOfRunsNeedWideStarts) {  // 16 × 16 columns of some 500 runs: more than 16 bits count
+TEST(Agreement,
+     TallTilesOfRunsNeedWideStarts) {  // 16 × 16 columns of about 500 runs: starts need more than 16 bits
   const TerrainSource source = random_cells(5, 20, 1024, 18, 1, 50);
   for (const std::string_view name : kVolumes) expect_samples(name, source, 1024);
 }
@@ -119,10 +120,7 @@ TEST(Agreement, HeightmapIsTheTopmostSurface) {
 }
 
 TEST(Agreement, HeightsComeBackExactlyOrToHalfAStep) {
-  std::mt19937 random(4);
-  std::uniform_real_distribution<float> height(-120.5F, 2300);
-  std::vector<float> heights(31 * 17);
-  for (float& h : heights) h = height(random);
+  std::vector<float> heights = random_ground(31, 17, 4, -120.5F, 2300).heights;
   heights[40] = heights[200] = Heightfield::kNoData;
   const TerrainSource source = from_heights(31, 17, heights, 29.7F, 31.3F);
   std::vector<float> x, z;
@@ -173,7 +171,7 @@ TEST(Agreement, HeightmapIsBilinearBetweenSamples) {
     ASSERT_EQ(sink.column(c).size(), 1U);
     EXPECT_EQ(sink.column(c)[0].top, expected[c]) << c;
   }
-  EXPECT_TRUE(sink.column(5).empty());  // no-data carries weight
+  EXPECT_TRUE(sink.column(5).empty());  // a no-data sample has weight
   EXPECT_TRUE(sink.column(6).empty());  // outside
 }
 

@@ -1,9 +1,11 @@
-// Range coder and drills as bytes: what goes in comes out, and nothing else is taken.
+// Range coder and drills as bytes: the output is the input, and other bytes are refused.
 #include "representations/drill/drill_codec.h"
 
 #include <functional>
 
+#include "representations/drill/extract.h"
 #include "representations/drill/pits.h"
+#include "representations/drill/quantum.h"
 #include "representations/drill/range_coder.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/memory.h"
@@ -96,7 +98,7 @@ TEST(DrillCodec, GivesBackEveryBit) {
     for (const std::uint32_t tau : {1U, 10U, 200U, 1000000U}) {
       DrillOptions options;
       options.tau = tau;
-      options.monotone = seed != 4;
+      options.monotone = seed == 4 ? Monotone::kNowhere : Monotone::kEverywhere;
       options.adaptive_k = seed == 5;
       options.interpolate_untouched = seed == 2;
       Drills drills = drill(field, options);
@@ -171,7 +173,7 @@ TEST(DrillCodec, RefusesQuantaThatMakeNoSense) {
 
 TEST(DrillCodec, AutomaticQuantumSuitsTheHeights) {
   Heightfield field = hills(30, 30, 1);
-  EXPECT_EQ(automatic_quantum(field), 1);  // a range of some 400 m
+  EXPECT_EQ(automatic_quantum(field), 1);  // a range of about 400 m
   for (float& h : field.heights) h *= 1e-3F;
   EXPECT_LT(automatic_quantum(field), 0.002F);
   for (float& h : field.heights) h = 1e6F;
@@ -217,7 +219,7 @@ TEST(DrillCodec, CutBytesAreRefusedAndAlteredOnesNeverCrash) {
   EXPECT_GT(refused, 1000U);
 }
 
-// A few bytes can stand for millions of drills, and whoever damages a file may claim the largest terrain.
+// A few bytes can stand for millions of drills, and a damaged file may claim the largest terrain.
 TEST(DrillCodec, AlteredBytesOfTheLargestTerrainTakeLittleMemory) {
   ByteSink head;
   for (const int size : {1 << 14, 1 << 14}) head.put(size);

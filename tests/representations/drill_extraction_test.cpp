@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "representations/drill/cross_sections.h"
+#include "representations/drill/extract.h"
 #include "representations/drill/profile_fit.h"
 #include "tests/representations/drill_ground.h"
 #include "tests/terrain/errors.h"

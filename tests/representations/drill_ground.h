@@ -1,4 +1,4 @@
-// Terrains to drill, and slow, plain readings of the paper to compare with.
+// Terrains to drill, and slow, literal implementations of the paper to compare with.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,28 +9,16 @@
 #include <random>
 #include <vector>
 
-#include "representations/drill/drills.h"
+#include "representations/drill/extract.h"
 #include "terrain/heightfield.h"
+#include "tests/terrain/ground.h"
 
 namespace terrabench::test {
 
-// Hills with noise on them, of whole metres or not, with a share of the samples knocked out.
-inline Heightfield hills(int width, int depth, unsigned seed, bool whole = false,
-                         unsigned percent_holes = 0) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> unit(0, 1);
-  Heightfield field{width, depth, 30, 25, std::vector<float>(static_cast<std::size_t>(width) * depth), {}};
-  const float a = unit(random), b = unit(random), c = unit(random);
-  for (int j = 0; j < depth; ++j) {
-    for (int i = 0; i < width; ++i) {
-      const auto x = static_cast<float>(i), z = static_cast<float>(j);
-      float h = 500 + 150 * std::sin(0.11F * x + 6 * a) * std::cos(0.09F * z + 6 * b) +
-                60 * std::sin(0.31F * x - 0.23F * z + 6 * c) + 20 * unit(random);
-      if (random() % 100 < percent_holes) h = Heightfield::kNoData;
-      field.at(i, j) = whole ? std::round(h) : h;
-    }
-  }
-  return field;
+// Rough hills, of whole metres or not, with a share of the samples missing.
+inline Heightfield hills(int width, int depth, unsigned seed, bool whole, unsigned percent_holes = 0) {
+  const Heightfield field = with_holes(hills(width, depth, seed), seed + 1, percent_holes / 100.0);
+  return whole ? rounded(field) : field;
 }
 
 inline Drills drill(const Heightfield& field, const DrillOptions& options) {

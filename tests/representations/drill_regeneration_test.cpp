@@ -3,6 +3,7 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include "representations/drill/extract.h"
 #include "representations/drill/influence.h"
 #include "representations/drill/pits.h"
 #include "representations/drill/regenerate.h"
@@ -31,7 +32,7 @@ TEST(Regeneration, IsEquationOneInAnyOrder) {
   // Windows smaller and larger than vectors, tiles and the terrain.
   for (const int k : {0, 1, 3, 7, 20, 64, 255}) {
     const Heightfield field = hills(83, 61, static_cast<unsigned>(k), false, k % 2 == 0 ? 5U : 0U);
-    for (const bool monotone : {true, false}) {
+    for (const Monotone monotone : {Monotone::kEverywhere, Monotone::kNowhere}) {
       DrillOptions options = options_for(30, 6, k);
       options.monotone = monotone;
       const Drills drills = drill(field, options);
@@ -151,7 +152,7 @@ TEST(Influence, SmallerThanTheLeastCandidateIsKept) {
   }
 }
 
-// The same by brute force: a pixel is drained when some path that never climbs leads out.
+// The same by brute force: a pixel is drained when some path that never rises leads out.
 Pits pits_naively(const Heightfield& field) {
   std::vector<bool> drained(field.heights.size());
   for (bool changed = true; changed;) {
@@ -173,7 +174,7 @@ Pits pits_naively(const Heightfield& field) {
       }
     }
   }
-  // Lower neighbours count as drains even when they lie in a pit themselves, so what is left are bottoms.
+  // Lower neighbours count as drains even when they lie in a pit themselves, so that only the bottoms remain.
   Pits pits;
   std::vector<bool> seen = drained;
   for (std::size_t start = 0; start < seen.size(); ++start) {

@@ -3,6 +3,8 @@
 
 #include "representations/drill/choose_parameters.h"
 #include "representations/drill/drill_codec.h"
+#include "representations/drill/extract.h"
+#include "representations/drill/quantum.h"
 #include "representations/drill/regenerate.h"
 #include "tests/representations/drill_ground.h"
 #include "tests/representations/ground.h"
@@ -11,19 +13,12 @@
 namespace terrabench::test {
 namespace {
 
-TerrainSource source_of(Heightfield field) {
-  TerrainSource source;
-  source.name = "hills";
-  source.heights = std::move(field);
-  return source;
-}
-
 std::unique_ptr<Representation> drilled(const Heightfield& field,
                                         const std::vector<std::pair<std::string_view, Value>>& values) {
   Parameters parameters(DrillTerrain::parameters());
   for (const auto& [name, value] : values) parameters.set(name, value);
   Progress progress;
-  return DrillTerrain::build(source_of(field), parameters, progress);
+  return DrillTerrain::build(source_of("hills", field), parameters, progress);
 }
 
 double rmse(const Heightfield& a, const Heightfield& b) {
@@ -183,7 +178,7 @@ TEST(Budget, OfTheSmallestTerrains) {
     const DrillChoice choice = choose_parameters(field, route_flow(field), {1000, 0}, {});
     EXPECT_TRUE(choice.within_budget);
     EXPECT_LE(choice.options.w, size);
-    EXPECT_EQ(choice.options.tau, 6U);  // the first looked at: no flow reaches any
+    EXPECT_EQ(choice.options.tau, 6U);  // the first candidate: no flow reaches any
   }
 }
 
@@ -192,7 +187,7 @@ TEST(Budget, ReachesTheRepresentation) {
   ByteSink small, large;
   drilled(field, {{"budget_bytes", std::int64_t{800}}})->save(small);
   drilled(field, {{"max_rmse", 12.0}})->save(large);
-  EXPECT_LT(small.bytes().size(), 800U + 80);  // the frame comes on top
+  EXPECT_LT(small.bytes().size(), 800U + 80);  // and the header
   EXPECT_GT(large.bytes().size(), small.bytes().size());
 }
 

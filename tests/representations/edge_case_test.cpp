@@ -1,4 +1,4 @@
-// Terrains at the limits, and input that cannot be.
+// Terrains at the limits, and impossible input.
 #include "representations/column_grid.h"
 #include "representations/layered_stack/layered_stack.h"
 #include "terrain/error.h"
@@ -20,7 +20,7 @@ ExitCode code_of(const std::function<void()>& action) {
 }
 
 class Any : public testing::TestWithParam<std::string_view> {};
-INSTANTIATE_TEST_SUITE_P(Types, Any, testing::Values("heightmap", "layered_stack", "voxel", "dense_voxel"),
+INSTANTIATE_TEST_SUITE_P(Types, Any, testing::ValuesIn(types()),
                          [](const auto& at) { return std::string(at.param); });
 
 TEST_P(Any, TakesFieldsOfOneSampleOrOneRow) {

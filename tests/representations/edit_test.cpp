@@ -1,4 +1,4 @@
-// Painting, against a model that is too simple to be wrong: a byte for each voxel.
+// Edits, against a model that is too simple to be wrong: one byte per voxel.
 #include "representations/column_grid.h"
 #include "representations/layered_stack/layered_stack.h"
 #include "terrain/error.h"
@@ -7,11 +7,11 @@
 namespace terrabench::test {
 namespace {
 
-class Painted : public testing::TestWithParam<std::string_view> {};
-INSTANTIATE_TEST_SUITE_P(Types, Painted, testing::Values("layered_stack", "voxel", "dense_voxel"),
+class Edited : public testing::TestWithParam<std::string_view> {};
+INSTANTIATE_TEST_SUITE_P(Types, Edited, testing::ValuesIn(types(&Traits::editable)),
                          [](const auto& at) { return std::string(at.param); });
 
-TEST_P(Painted, ManyRandomStrokesEqualTheModel) {
+TEST_P(Edited, ManyRandomStrokesEqualTheModel) {
   constexpr int kWidth = 21, kLevels = 26, kDepth = 18;
   const TerrainSource source = random_cells(7, kWidth, kLevels, kDepth, 2, 40);
   const auto built = build(GetParam(), source, kLevels);
@@ -54,7 +54,7 @@ TEST_P(Painted, ManyRandomStrokesEqualTheModel) {
             static_cast<std::uint8_t>(strokes.back().material);
       }
     }
-    built->paint({stroke_x, stroke_z}, strokes);
+    built->edit({stroke_x, stroke_z}, strokes);
     built->materials({x, y, z}, got);
     for (std::size_t v = 0; v < model.size(); ++v)
       ASSERT_EQ(static_cast<std::uint8_t>(got[v]), model[v]) << "round " << round;
@@ -64,7 +64,7 @@ TEST_P(Painted, ManyRandomStrokesEqualTheModel) {
   for (std::size_t v = 0; v < model.size(); ++v) ASSERT_EQ(static_cast<std::uint8_t>(got[v]), model[v]);
 }
 
-TEST_P(Painted, StrokesThatCannotBeChangeNothing) {
+TEST_P(Edited, StrokesThatCannotBeChangeNothing) {
   const auto built = build(GetParam(), random_boxes(1, 10, 20, 1), 10);
   ByteSink before, after;
   built->save(before);
@@ -73,33 +73,36 @@ TEST_P(Painted, StrokesThatCannotBeChangeNothing) {
   for (const Span& wrong : {Span{5, 5, Material::kAir}, Span{6, 5, Material::kBedrock},
                             Span{nan, 5, Material::kAir}, Span{1, nan, Material::kAir}}) {
     const std::vector<Span> strokes{{0, 10, Material::kBedrock}, wrong};
-    EXPECT_THROW(built->paint({x, z}, strokes), Error);
+    EXPECT_THROW(built->edit({x, z}, strokes), Error);
   }
-  EXPECT_THROW(built->paint({x, z}, std::vector<Span>{{0, 10, Material::kBedrock}}), Error);
-  built->paint({std::vector<float>{nan, -100}, std::vector<float>{1, 1}},
-               std::vector<Span>{{0, 10, Material::kBedrock}, {0, 10, Material::kBedrock}});
+  EXPECT_THROW(built->edit({x, z}, std::vector<Span>{{0, 10, Material::kBedrock}}), Error);
+  built->edit({std::vector<float>{nan, -100}, std::vector<float>{1, 1}},
+              std::vector<Span>{{0, 10, Material::kBedrock}, {0, 10, Material::kBedrock}});
   built->save(after);
   EXPECT_TRUE(
       std::equal(before.bytes().begin(), before.bytes().end(), after.bytes().begin(), after.bytes().end()));
 }
 
-TEST_P(Painted, InfiniteSpansReachTheBounds) {
+TEST_P(Edited, InfiniteSpansReachTheBounds) {
   const auto built = build(GetParam(), random_boxes(1, 10, 20, 1), 10);
   const float infinity = std::numeric_limits<float>::infinity();
   const std::vector<float> x{3.5F}, z{4.5F};
-  built->paint({x, z}, std::vector<Span>{{-infinity, infinity, Material{9}}});
+  built->edit({x, z}, std::vector<Span>{{-infinity, infinity, Material{9}}});
   const SpanSink sink = spans_of(*built, {x, z});
   ASSERT_EQ(sink.column(0).size(), 1U);
   EXPECT_EQ(sink.column(0)[0], (Span{0, 10, Material{9}}));
 }
 
-TEST(Paint, HeightmapsRefuse) {
-  const auto built = build("heightmap", from_heights(2, 2, {1, 2, 3, 4}));
+TEST(Edit, TypesWithoutTheTraitRefuse) {
   const std::vector<float> at{0};
-  EXPECT_THROW(built->paint({at, at}, std::vector<Span>{{0, 1, Material::kAir}}), Error);
+  for (const RepresentationType& type : representations()) {
+    if (type.traits.editable) continue;
+    const auto built = build(type.name, from_heights(2, 2, {1, 2, 3, 4}));
+    EXPECT_THROW(built->edit({at, at}, std::vector<Span>{{0, 1, Material::kAir}}), Error) << type.name;
+  }
 }
 
-TEST(Paint, UndoneEditsLeaveTheStackAsItWas) {  // canonical runs: the same content is the same bytes
+TEST(Edit, UndoneEditsLeaveTheStackAsItWas) {  // canonical runs: the same content is the same bytes
   Progress progress;
   const TerrainSource source = caves();
   const Parameters parameters = with(representation("layered_stack"), 40);
@@ -107,13 +110,13 @@ TEST(Paint, UndoneEditsLeaveTheStackAsItWas) {  // canonical runs: the same cont
   const auto untouched = LayeredStack::build_stack(source, parameters, progress);
   const Lattice lattice(stack->bounds(), 40, 40);
   const SpanSink before = spans_of(*stack, lattice.columns());
-  stack->paint(lattice.columns(), std::vector<Span>(1600, Span{0.2F, 0.9F, Material{3}}));
+  stack->edit(lattice.columns(), std::vector<Span>(1600, Span{0.2F, 0.9F, Material{3}}));
   EXPECT_FALSE(*stack == *untouched);
-  stack->paint(lattice.columns(), std::vector<Span>(1600, Span{0, 1, Material::kAir}));
+  stack->edit(lattice.columns(), std::vector<Span>(1600, Span{0, 1, Material::kAir}));
   for (std::size_t c = 0; c < before.columns(); ++c) {
     const std::vector<float> x(before.column(c).size(), lattice.x[c]),
         z(before.column(c).size(), lattice.z[c]);
-    stack->paint({x, z}, before.column(c));
+    stack->edit({x, z}, before.column(c));
   }
   EXPECT_TRUE(*stack == *untouched);
   EXPECT_EQ(stack->memory().total(), untouched->memory().total());

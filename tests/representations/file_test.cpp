@@ -104,7 +104,7 @@ TEST_F(SavedFile, AnUnwritablePlaceIsAnError) {
   EXPECT_THROW(save_representation("/proc/none/file.tb", representation("heightmap"), *built), Error);
 }
 
-// What the structure's own reader must catch, since checksums only tell accidents.
+// Damage that the structure's own reader must detect: checksums only detect accidents.
 TEST(SavedStructure, OfImpossibleContentIsRefused) {
   for (const RepresentationType& type : representations()) {
     const auto built = build(type.name, random_boxes(8, 12, 20, 3), 12);

@@ -1,4 +1,4 @@
-// Solids and heights with known answers, and the questions that the tests ask every representation.
+// Solids and heights with known answers, and the queries that tests make to every representation.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -28,10 +28,7 @@ inline TerrainSource from_predicate(Bounds bounds,
 
 inline TerrainSource from_heights(int width, int depth, std::vector<float> heights, float cell_x = 1,
                                   float cell_z = 1) {
-  TerrainSource source;
-  source.name = "heights";
-  source.heights = Heightfield{width, depth, cell_x, cell_z, std::move(heights), {}};
-  return source;
+  return source_of("heights", Heightfield{width, depth, cell_x, cell_z, std::move(heights), {}});
 }
 
 // Boxes of up to `materials` materials; with few levels they touch in every way that cells can.
@@ -81,8 +78,8 @@ inline TerrainSource random_cells(unsigned seed, int width, int levels, int dept
   });
 }
 
-// Rolling ground with winding tunnels and an overhanging face: about as many runs a column as the paper's
-// caves.
+// Rolling ground with winding tunnels and an overhanging face: about as many runs per column as the
+// paper's caves.
 inline TerrainSource caves() {
   return from_predicate({{0, 0, 0}, {1, 1, 1}}, [](float x, float y, float z) {
     constexpr float kTurn = 2 * std::numbers::pi_v<float>;
@@ -93,6 +90,15 @@ inline TerrainSource caves() {
     const bool tunnel = std::abs(a) < 0.5F && std::abs(b) < 0.6F;
     return y < ground && !tunnel ? Material::kBedrock : Material::kAir;
   });
+}
+
+// The names of all registered types, or of those with a trait: the tests of them find a new method.
+inline std::vector<std::string_view> types(bool Traits::*trait = nullptr) {
+  std::vector<std::string_view> names;
+  for (const RepresentationType& type : representations()) {
+    if (trait == nullptr || type.traits.*trait) names.push_back(type.name);
+  }
+  return names;
 }
 
 inline Parameters with(const RepresentationType& type, std::int64_t resolution, double step = 0) {

@@ -1,4 +1,4 @@
-// What a structure says it takes is what the allocator gave it.
+// A structure's memory() is what the allocator gave it.
 #include "representations/layered_stack/layered_stack.h"
 #include "representations/voxel/voxel.h"
 #include "tests/representations/ground.h"
@@ -7,9 +7,7 @@ namespace terrabench::test {
 namespace {
 
 class Counted : public testing::TestWithParam<std::string_view> {};
-INSTANTIATE_TEST_SUITE_P(Types, Counted,
-                         testing::Values("heightmap", "layered_stack", "voxel", "dense_voxel", "drill",
-                                         "ght"),
+INSTANTIATE_TEST_SUITE_P(Types, Counted, testing::ValuesIn(types()),
                          [](const auto& at) { return std::string(at.param); });
 
 TEST_P(Counted, AfterBuildEditLoadAndDestruction) {
@@ -30,7 +28,7 @@ TEST_P(Counted, AfterBuildEditLoadAndDestruction) {
         const Span span = {bounds.low.y + std::min(a, b) * bounds.size().y,
                            bounds.low.y + (std::max(a, b) + 0.01F) * bounds.size().y,
                            static_cast<Material>(random() % 5)};
-        built->paint({std::span(&x, 1), std::span(&z, 1)}, std::span(&span, 1));
+        built->edit({std::span(&x, 1), std::span(&z, 1)}, std::span(&span, 1));
       }
     }
     EXPECT_EQ(static_cast<std::int64_t>(built->memory().total()), scope.held());

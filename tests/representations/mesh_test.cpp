@@ -1,5 +1,6 @@
 // Meshes close, face outward and enclose the volume that the spans add up to.
 #include "tests/representations/ground.h"
+#include "tests/terrain/ground.h"
 
 namespace terrabench::test {
 namespace {
@@ -73,10 +74,8 @@ TEST(StackMesh, WallsAreMergedOverLevels) {
 
 TEST(HeightmapMesh, ClosesAroundHolesThatTouchAtCorners) {
   for (unsigned seed = 0; seed < 20; ++seed) {
-    std::mt19937 random(seed);
-    std::vector<float> heights(23 * 31);
-    for (float& h : heights)
-      h = random() % 100 < 2 * seed ? Heightfield::kNoData : static_cast<float>(random() % 1000) / 100;
+    std::vector<float> heights =
+        with_holes(random_ground(23, 31, seed, 0, 10), seed + 1, 0.02 * seed).heights;
     heights[0] = 1;
     const auto built = build("heightmap", from_heights(23, 31, heights, 3, 2));
     for (const float cell : {0.0F, 1.1F, 5.0F, 400.0F}) {

@@ -5,21 +5,18 @@
 #include <cmath>
 
 #include "tests/terrain/errors.h"
+#include "tests/terrain/ground.h"
 
 namespace terrabench {
 namespace {
 
 Heightfield waves(int width, int depth, bool whole) {
-  Heightfield field{width, depth, 30, 30, {}, {}};
-  for (int j = 0; j < depth; ++j) {
-    for (int i = 0; i < width; ++i) {
-      const float h = 300 +
-                      90 * std::sin(0.07F * static_cast<float>(i)) * std::cos(0.05F * static_cast<float>(j)) +
-                      static_cast<float>((i * 7919 + j * 104729) % 13);
-      field.heights.push_back(whole ? std::round(h) : h);
-    }
-  }
-  return field;
+  const auto height = [](int i, int j) {
+    return 300 + 90 * std::sin(0.07F * static_cast<float>(i)) * std::cos(0.05F * static_cast<float>(j)) +
+           static_cast<float>((i * 7919 + j * 104729) % 13);
+  };
+  const Heightfield field = test::ground_of(width, depth, height, 30, 30);
+  return whole ? test::rounded(field) : field;
 }
 
 TEST(CompressedSizes, WholeMetresAreKeptWithoutLoss) {

@@ -17,8 +17,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr std::array<double, 6> kUtm = {500000, 30, 0, 5100000, 0, -30};
-
 class BadDem : public testing::Test {
  protected:
   void SetUp() override { testing::internal::CaptureStderr(); }
@@ -148,7 +146,7 @@ TEST_F(BadDem, ComplexNumbers) {
   for (const GDALDataType type : {GDT_CInt16, GDT_CFloat64}) {
     RasterFile file;
     file.type = type;
-    EXPECT_THAT(refused(file), HasSubstr("which are no heights"));
+    EXPECT_THAT(refused(file), HasSubstr("values, not heights"));
   }
 }
 

@@ -100,7 +100,7 @@ TEST(DiamondSquare, DependsOnTheSeedAlone) {
   EXPECT_LT(equal, expected.heights.size() / 1000);
 }
 
-// What a later machine or compiler must still give.
+// Values that every machine and compiler must give.
 TEST(DiamondSquare, HasKnownBits) {
   EXPECT_EQ(checksum(diamond_square({.seed = 1, .side = 129})), "2dd5145a9569e18071dd3d7f720ea8b9");
 }

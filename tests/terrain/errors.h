@@ -1,4 +1,4 @@
-// Runs what must fail and hands back how it failed.
+// Runs a call that must fail and returns how it failed.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace terrabench {
 
 struct Failure {
-  ExitCode code = ExitCode::kGood;  // kGood: it did not fail, which no test expects
+  ExitCode code = ExitCode::kGood;  // kGood: it did not fail
   std::string what, advice;
 };
 

@@ -1,4 +1,4 @@
-// Terrains as texts: what is read, what is written, and what is refused at which line.
+// Event files: reading, writing, and the line of each refusal.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

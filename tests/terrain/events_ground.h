@@ -6,16 +6,13 @@
 #include <vector>
 
 #include "terrain/events/evaluate.h"
+#include "tests/terrain/ground.h"
 
 namespace terrabench::events {
 
 template <class Height>
 Heightfield ground_of(const Height& height) {
-  Heightfield field{65, 65, 1, 1, {}, {}};
-  for (int z = 0; z < field.depth; ++z) {
-    for (int x = 0; x < field.width; ++x) field.heights.push_back(static_cast<float>(height(x, z)));
-  }
-  return field;
+  return test::ground_of(65, 65, height);
 }
 
 inline Heightfield flat() {

@@ -1,4 +1,4 @@
-// What is written band by band is read back as it was.
+// Heights written band by band are equal when read.
 #include "terrain/sources/dem/geotiff_rows.h"
 
 #include <gtest/gtest.h>

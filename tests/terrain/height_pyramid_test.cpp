@@ -10,6 +10,7 @@
 
 #include "terrain/error.h"
 #include "terrain/sources/dem/dem.h"
+#include "tests/terrain/ground.h"
 
 namespace terrabench {
 namespace {
@@ -25,16 +26,8 @@ class HeightPyramidTest : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  Heightfield ground(int width, int depth) {
-    Heightfield field;
-    field.width = width;
-    field.depth = depth;
-    field.cell_x = 2;
-    field.cell_z = 3;
-    std::mt19937 random(5);
-    for (int k = 0; k < width * depth; ++k)
-      field.heights.push_back(static_cast<float>(random() % 9999) * 0.1F);
-    return field;
+  static Heightfield ground(int width, int depth) {
+    return test::random_ground(width, depth, 5, 0, 1000, 2, 3);
   }
   fs::path built(const Heightfield& field) {
     write_geotiff(folder_ / "dem.tif", field);

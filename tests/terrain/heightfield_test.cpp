@@ -7,10 +7,10 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <random>
 
 #include "terrain/resampling.h"
 #include "tests/terrain/errors.h"
+#include "tests/terrain/ground.h"
 
 namespace terrabench {
 namespace {
@@ -18,24 +18,11 @@ namespace {
 using testing::HasSubstr;
 
 Heightfield field_of(int width, int depth, const std::function<float(int, int)>& height) {
-  Heightfield field;
-  field.width = width;
-  field.depth = depth;
-  field.cell_x = 10;
-  field.cell_z = 20;
-  for (int j = 0; j < depth; ++j) {
-    for (int i = 0; i < width; ++i) field.heights.push_back(height(i, j));
-  }
-  return field;
+  return test::ground_of(width, depth, height, 10, 20);
 }
 
-Heightfield noise(int width, int depth, std::uint32_t seed, double holes = 0) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> height(-500, 3000), chance(0, 1);
-  return field_of(width, depth, [&](int, int) {
-    const float h = height(random);
-    return chance(random) < holes ? Heightfield::kNoData : h;
-  });
+Heightfield noise(int width, int depth, unsigned seed, double holes = 0) {
+  return test::with_holes(test::random_ground(width, depth, seed, -500, 3000, 10, 20), seed + 1, holes);
 }
 
 double mean(const Heightfield& field) {

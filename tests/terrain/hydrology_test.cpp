@@ -8,30 +8,19 @@
 #include <random>
 
 #include "terrain/error.h"
+#include "terrain/hydrology/channels.h"
 #include "terrain/hydrology/flow.h"
+#include "tests/terrain/ground.h"
 
 namespace terrabench {
 namespace {
 
-Heightfield grid(int width, int depth, float height = 0) {
-  Heightfield field;
-  field.width = width;
-  field.depth = depth;
-  field.heights.assign(static_cast<std::size_t>(width) * depth, height);
-  return field;
-}
+using test::flat;
+using test::ground_of;
+using test::with_holes;
 
-template <class HeightOf>
-Heightfield grid_of(int width, int depth, const HeightOf& height) {
-  Heightfield field = grid(width, depth);
-  for (int j = 0; j < depth; ++j) {
-    for (int i = 0; i < width; ++i) field.at(i, j) = height(i, j);
-  }
-  return field;
-}
-
-// The documented rule word by word: a list searched from end to end for each pixel taken, and accumulation by
-// walking every pixel's path to its end. O(n²).
+// The documented rule, literally: a list searched linearly for each pixel taken, and accumulation by
+// following every pixel's path to its end. O(n²).
 class SlowRouter {
  public:
   explicit SlowRouter(const Heightfield& field) : field_(field) {
@@ -145,16 +134,8 @@ void check_against_slow(const Heightfield& field) {
 }
 
 Heightfield random_grid(int width, int depth, unsigned seed, float range, bool whole) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> heights(-range, range);
-  return grid_of(width, depth,
-                 [&](int, int) { return whole ? std::round(heights(random)) : heights(random); });
-}
-
-void punch_holes(Heightfield& field, unsigned seed, double share) {
-  std::mt19937 random(seed);
-  std::bernoulli_distribution hole(share);
-  for (float& h : field.heights) h = hole(random) ? Heightfield::kNoData : h;
+  const Heightfield field = test::random_ground(width, depth, seed, -range, range);
+  return whole ? test::rounded(field) : field;
 }
 
 TEST(Hydrology, AgreesWithTheSlowRouterOnWholeHeights) {
@@ -170,28 +151,27 @@ TEST(Hydrology, AgreesWithTheSlowRouterOnAnyHeights) {
   // Whole but too wide for buckets, and whole but too large for exact sums.
   check_against_slow(random_grid(20, 20, 9, 3e6F, true));
   check_against_slow(
-      grid_of(12, 12, [](int i, int j) { return 3e9F + static_cast<float>((i * 7 + j * 5) % 9) * 512; }));
+      ground_of(12, 12, [](int i, int j) { return 3e9F + static_cast<float>((i * 7 + j * 5) % 9) * 512; }));
 }
 
 TEST(Hydrology, AgreesWithTheSlowRouterOnFlatsAndPits) {
-  check_against_slow(grid(33, 21, 5));
-  check_against_slow(grid(33, 21, 5.5F));
+  check_against_slow(flat(33, 21, 5));
+  check_against_slow(flat(33, 21, 5.5F));
   // A bowl, a bowl with a hill in it, and a staircase of pits behind one gate.
-  check_against_slow(grid_of(31, 31, [](int i, int j) { return std::hypot(i - 15.0F, j - 15.0F); }));
-  check_against_slow(grid_of(
+  check_against_slow(ground_of(31, 31, [](int i, int j) { return std::hypot(i - 15.0F, j - 15.0F); }));
+  check_against_slow(ground_of(
       31, 31, [](int i, int j) { return std::round(std::abs(10 - std::hypot(i - 15.0F, j - 15.0F))); }));
-  check_against_slow(grid_of(40, 9, [](int i, int j) {
+  check_against_slow(ground_of(40, 9, [](int i, int j) {
     return j == 0 || j == 8 || i == 0 || i == 39 ? 50.0F : static_cast<float>((i * 13) % 29 - i);
   }));
-  check_against_slow(grid_of(25, 25, [](int i, int j) { return (i / 5 + j / 5) % 2 == 0 ? 3.0F : -3.0F; }));
+  check_against_slow(ground_of(25, 25, [](int i, int j) { return (i / 5 + j / 5) % 2 == 0 ? 3.0F : -3.0F; }));
 }
 
 TEST(Hydrology, AgreesWithTheSlowRouterAroundHoles) {
   unsigned seed = 20;
   for (const double share : {0.02, 0.3, 0.8, 0.99}) {
     for (const bool whole : {true, false}) {
-      Heightfield field = random_grid(35, 27, seed, 6, whole);
-      punch_holes(field, seed + 1, share);
+      const Heightfield field = with_holes(random_grid(35, 27, seed, 6, whole), seed + 1, share);
       check_against_slow(field);
       seed += 2;
     }
@@ -206,13 +186,13 @@ TEST(Hydrology, AgreesWithTheSlowRouterOnThinGrids) {
 }
 
 TEST(Hydrology, OneSampleIsAnOutlet) {
-  const FlowNetwork network = route_flow(grid(1, 1));
+  const FlowNetwork network = route_flow(flat(1, 1));
   EXPECT_EQ(network.direction[0], FlowNetwork::kOutlet);
   EXPECT_EQ(network.accumulation[0], 1U);
 }
 
 TEST(Hydrology, NothingFlowsWithoutData) {
-  const Heightfield field = grid(5, 4, Heightfield::kNoData);
+  const Heightfield field = flat(5, 4, Heightfield::kNoData);
   const FlowNetwork network = route_flow(field);
   check_sound(field, network);
   EXPECT_TRUE(channel_pixels(network, 1).empty());
@@ -259,15 +239,15 @@ TEST(Hydrology, WholeAndFractionalHeightsFlowAlike) {
 TEST(Hydrology, AllFlowLeavesAValleyThroughItsMouth) {
   // A V-shaped valley that falls to the south.
   const FlowNetwork network = route_flow(
-      grid_of(21, 30, [](int i, int j) { return static_cast<float>(std::abs(i - 10) * 3 - j + 100); }));
+      ground_of(21, 30, [](int i, int j) { return static_cast<float>(std::abs(i - 10) * 3 - j + 100); }));
   const std::size_t mouth = 29 * 21 + 10;
   EXPECT_EQ(network.direction[mouth], FlowNetwork::kOutlet);
   EXPECT_EQ(network.accumulation[mouth], 21U * 30U);
 }
 
 TEST(Hydrology, SameForAnyNumberOfThreads) {
-  Heightfield field = random_grid(150, 1100, 77, 40, true);  // several bands of rows
-  punch_holes(field, 78, 0.001);
+  // Several bands of rows.
+  const Heightfield field = with_holes(random_grid(150, 1100, 77, 40, true), 78, 0.001);
   const FlowNetwork all = route_flow(field);
   check_sound(field, all);
   for (const int threads : {1, 2, 8}) {
@@ -281,7 +261,8 @@ TEST(Hydrology, SameForAnyNumberOfThreads) {
 
 TEST(Hydrology, ManyPixelsOfOneHeightQueueInOrder) {
   // More than one block of the queue a bucket, filled and drained many times over.
-  check_against_slow(grid_of(90, 70, [](int i, int j) { return static_cast<float>((i / 30 + j / 35) % 2); }));
+  check_against_slow(
+      ground_of(90, 70, [](int i, int j) { return static_cast<float>((i / 30 + j / 35) % 2); }));
 }
 
 TEST(Hydrology, ChannelsAreListedDownstreamChainByChain) {
@@ -333,7 +314,7 @@ TEST(Hydrology, RastersCarryFlowAndTheDirectionsOfGisTools) {
 TEST(Hydrology, StopsWhenInterrupted) {
   Progress progress;
   Progress::interrupt();
-  EXPECT_THROW(route_flow(grid(512, 512), &progress), Error);
+  EXPECT_THROW(route_flow(flat(512, 512), &progress), Error);
   Progress::clear_interrupt();
 }
 

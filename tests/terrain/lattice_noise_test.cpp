@@ -1,4 +1,4 @@
-// Noise at whole points is the graph's noise, and stays exact where floats no longer hold the point.
+// Noise at whole points equals the graph's noise, and is exact where floats cannot hold the point.
 #include "terrain/sources/noise/lattice_noise.h"
 
 #include <gtest/gtest.h>

@@ -10,21 +10,13 @@
 #include "terrain/metrics/distance_transform.h"
 #include "terrain/metrics/elevation_error.h"
 #include "terrain/metrics/nearest_point.h"
+#include "tests/terrain/ground.h"
 
 namespace terrabench {
 namespace {
 
 Heightfield random_grid(int width, int depth, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> heights(0, 50);
-  Heightfield field;
-  field.width = width;
-  field.depth = depth;
-  field.cell_x = 3;
-  field.cell_z = 4.5F;
-  field.heights.resize(static_cast<std::size_t>(width) * depth);
-  for (float& h : field.heights) h = heights(random);
-  return field;
+  return test::random_ground(width, depth, seed, 0, 50, 3, 4.5F);
 }
 
 std::vector<std::uint32_t> random_pixels(std::size_t size, double share, unsigned seed) {

@@ -151,7 +151,7 @@ TEST(CaveTerrain, ThePrintedProductOpensWhereEitherMapDoes) {
 }
 
 TEST(CaveTerrain, ColumnsHaveFewBoundaries) {
-  // 3 bytes a run and 2 a column must stay below the paper's 24 bytes a column.
+  // 3 bytes per run and 2 per column must stay below the paper's 24 bytes per column.
   for (const int n : {64, 128}) {
     const double average = shape(sample(cave_terrain({}), n)).boundaries / static_cast<double>(n * n);
     EXPECT_LT(2 + 3 * (average + 1), 16) << n;

@@ -77,7 +77,7 @@ TEST(NoiseGraph, ModulesFollowTheirFormulas) {
   EXPECT_EQ(at(g, g.cache(x), 3, 0, 0), 3.0F);
 }
 
-// What is not needed does not matter, NaN included.
+// Operands that are not needed do not matter, NaN included.
 TEST(NoiseGraph, UnneededOperandsDoNotMatter) {
   Graph g;
   const Node x = coordinate(g, 0), nan = g.constant(kNan);

@@ -1,4 +1,4 @@
-// Gradient noise and fractals written plainly, one point at a time, to hold the SIMD evaluation against.
+// Gradient noise and fractals in scalar code, one point at a time, to compare the SIMD evaluation with.
 #pragma once
 
 #include <array>

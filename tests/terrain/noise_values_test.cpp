@@ -161,7 +161,7 @@ TEST(NoiseValues, PowerLiesAroundTheFrequencyAlongEveryAxis) {
         p.push(axis == 0 ? t : o, axis == 1 ? t : o + 0.41F, axis == 2 ? t : o + 0.77F);
       }
       const std::vector<float> v = evaluate(program, p);
-      // 64 cells a line: harmonic h has h/64 cycles a cell.
+      // 64 cells per line: harmonic h has h/64 cycles per cell.
       for (int h = 1; h < 320; ++h) {
         double re = 0, im = 0;
         for (int i = 0; i < kCount; ++i) {

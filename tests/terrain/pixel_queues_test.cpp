@@ -12,7 +12,7 @@ namespace {
 
 constexpr auto kFetchNothing = [](std::uint32_t) {};
 
-// Pushes and pops by turns of random length, keys near the last one popped or anywhere: `near` of 100 near.
+// Alternates pushes and pops, in series of random length; `near` of 100 keys lie near the last one popped.
 template <class Queue>
 void check_order(Queue& queue, std::uint32_t keys, unsigned near, std::size_t pushes, unsigned seed) {
   std::mt19937 random(seed);

@@ -1,7 +1,8 @@
-// Raster files for tests, written through GDAL with every property that a DEM reader must cope with.
+// Raster files for tests, written through GDAL with every property that a DEM reader must handle.
 #pragma once
 
 #include <gdal_priv.h>
+#include <gtest/gtest.h>
 #include <ogr_spatialref.h>
 
 #include <array>
@@ -80,5 +81,26 @@ struct RasterFile {
     CPLSetThreadLocalConfigOption("GDAL_TIFF_INTERNAL_MASK", nullptr);
   }
 };
+
+inline constexpr std::array<double, 6> kUtm = {500000, 30, 0, 5100000, 0, -30};
+inline constexpr int kUtm33 = 32633, kWgs84 = 4326;
+
+// In UTM coordinates, cells of 30 m.
+inline RasterFile metres() {
+  RasterFile file;
+  file.transform = kUtm;
+  file.epsg = kUtm33;
+  return file;
+}
+
+// The heights that RasterFile writes by default.
+inline void expect_ramp(const Heightfield& field, int width, int depth) {
+  ASSERT_EQ(field.width, width);
+  ASSERT_EQ(field.depth, depth);
+  ASSERT_EQ(field.heights.size(), static_cast<std::size_t>(width) * depth);
+  for (int j = 0; j < depth; ++j) {
+    for (int i = 0; i < width; ++i) EXPECT_EQ(field.at(i, j), 100.0F + i + 10.0F * j) << i << "," << j;
+  }
+}
 
 }  // namespace terrabench

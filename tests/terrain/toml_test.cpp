@@ -1,4 +1,4 @@
-// TOML with characters beyond ASCII: values are what they are without them, and every other place is refused.
+// TOML with characters beyond ASCII: allowed in strings and comments, refused elsewhere.
 #include "terrain/toml.h"
 
 #include <gmock/gmock.h>
@@ -67,8 +67,8 @@ TEST(Toml, ElsewhereTheyAreRefusedWithLineAndColumn) {
       {"a = \"\"\"b\\é\"\"\"", "f:1:10: 'é' (U+00E9) after a backslash"},
       {"a = \"\xff\"", "f:1:6: byte 0xFF is not valid UTF-8"},
       {"# \xc3", "f:1:3: byte 0xC3 is not"},
-      {"# \xc0\xaf", "f:1:3: byte 0xC0 is not"},          // longer than it need be
-      {"# \xe0\x80\xaf", "f:1:3: byte 0xE0 is not"},      // so is this
+      {"# \xc0\xaf", "f:1:3: byte 0xC0 is not"},          // overlong
+      {"# \xe0\x80\xaf", "f:1:3: byte 0xE0 is not"},      // overlong
       {"a = '\xed\xa0\x80'", "f:1:6: byte 0xED is not"},  // a surrogate
       {"a = '\xf4\x90\x80\x80'", "f:1:6: byte 0xF4 is not"},
       {"a = 'é\x80'", "f:1:7: byte 0x80 is not"},
@@ -85,7 +85,7 @@ TEST(Toml, MalformedTextsAreRefusedByLine) {
   const std::pair<const char*, const char*> cases[] = {
       {"a = ", "f:1: "},
       {"a = 1\n= 2", "f:2: "},
-      {"a = \"é\n\"", "f:1: "},             // strings that do not end
+      {"a = \"é\n\"", "f:1: "},             // unterminated strings
       {"a = '\\τ\nb = 1'", "f:1: "},        //
       {"a = \"\"\"é\n\\", "f:2: "},         //
       {"a = 1 # é\nb = 'x", "f:2: "},       //

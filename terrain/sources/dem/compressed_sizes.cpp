@@ -22,7 +22,7 @@ constexpr RasterCodec kCodecs[] = {RasterCodec::kZstd, RasterCodec::kZstdDiffere
 constexpr double kMostSteps = 65535;
 constexpr int kZstdLevel = 19;
 
-// A file in memory that goes with its name.
+// A file in memory, deleted with this object.
 struct MemoryFile {
   std::string path;
   MemoryFile() {
@@ -60,7 +60,7 @@ struct Steps {
   double height(std::uint16_t number) const { return lowest + number * step; }
 };
 
-// Whole metres where the heights are that, otherwise as fine as 16 bits allow.
+// Whole metres where all heights are, otherwise as fine as 16 bits allow.
 double natural_step(const Heightfield& field) {
   const HeightRange range = height_range(field);
   const double finest = (static_cast<double>(range.highest) - range.lowest) / kMostSteps;
@@ -128,7 +128,8 @@ bool read_back(const MemoryFile& file, const Heightfield& field, GDALDataType ty
 
 CompressedSize jpeg2000_size(const Heightfield& field, double quality) {
   if (!(quality > 0 && quality <= 100)) {
-    throw usage_error(fmt::format("{} is no quality", quality), "compressed size", "choose above 0 to 100");
+    throw usage_error(fmt::format("quality must be above 0 and at most 100, got {}", quality),
+                      "compressed size", "it is a percentage of the uncompressed size");
   }
   Steps steps(field, natural_step(field));
   register_gdal();
@@ -150,7 +151,7 @@ CompressedSize jpeg2000_size(const Heightfield& field, double quality) {
   return {packed.size(), rmse(field, [&](std::size_t i) { return steps.height(numbers[i]); }), quality};
 }
 
-// Of the first block of a GeoTIFF: what surrounds it is the file's, not the codec's.
+// The bytes of a GeoTIFF's first block: the rest is the container's, not the codec's.
 std::size_t block_bytes(const MemoryFile& file) {
   const DatasetPointer dataset(GDALDataset::Open(file.path.c_str(), GDAL_OF_RASTER));
   const char* const bytes =
@@ -160,7 +161,8 @@ std::size_t block_bytes(const MemoryFile& file) {
 
 CompressedSize lerc_size(const Heightfield& field, double largest_error, bool deflate) {
   if (!(largest_error >= 0)) {
-    throw usage_error(fmt::format("{} m is no error", largest_error), "compressed size", "choose 0 or more");
+    throw usage_error(fmt::format("the largest error must be at least 0 m, got {} m", largest_error),
+                      "compressed size", "0 is without loss");
   }
   register_gdal();
   const RasterCodec codec = deflate ? RasterCodec::kLercDeflate : RasterCodec::kLerc;
@@ -182,7 +184,7 @@ CompressedSize lerc_size(const Heightfield& field, double largest_error, bool de
           largest_error};
 }
 
-// The settings between which bisection looks, from the finest to the coarsest.
+// The range of settings that bisection searches, from the finest to the coarsest.
 std::pair<double, double> setting_range(const Heightfield& field, RasterCodec codec) {
   const HeightRange range = height_range(field);
   const double span = std::max(static_cast<double>(range.highest) - range.lowest, 1e-6);
@@ -219,7 +221,7 @@ std::string_view name(RasterCodec codec) {
 CompressedSize compressed_size(const Heightfield& field, RasterCodec codec, double setting) {
   for (const float h : field.heights) {
     if (!std::isfinite(h)) {
-      throw bad_input("has samples without data", "compressed size", "fill them first");
+      throw bad_input("the field has samples without data", "compressed size", "fill them first");
     }
   }
   switch (codec) {
@@ -237,7 +239,7 @@ CompressedSize compressed_size_at(const Heightfield& field, RasterCodec codec, d
   constexpr int kSteps = 14;
   auto [fine, coarse] = setting_range(field, codec);
   CompressedSize best = compressed_size(field, codec, fine);
-  // Settings matter by their ratio.
+  // Bisects the logarithm of the setting.
   for (int i = 0; i < kSteps; ++i) {
     const double middle = std::sqrt(fine * coarse);
     const CompressedSize at = compressed_size(field, codec, middle);

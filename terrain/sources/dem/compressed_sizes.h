@@ -1,5 +1,5 @@
-// How small usual raster formats make a height field, and at what error: the yardstick for representations
-// that claim to be compact. Files are made in memory and read back; the error is that of what is read.
+// The bytes and errors of a height field in usual raster formats: the yardstick for representations that
+// claim to be compact. Files are made in memory and read back; the error is that of the heights read.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,10 @@ namespace terrabench {
 
 enum class RasterCodec {
   kZstd,             // 16-bit numbers of steps above the lowest height, row by row, zstd level 19
-  kZstdDifferences,  // the same, each number less the one to the west
+  kZstdDifferences,  // the same, each number minus the one to the west
   kJpeg2000,         // GDAL and OpenJPEG, codestream only, of 16-bit numbers
   kLerc,             // the one block of GDAL's GeoTIFF with LERC compression, of floats
-  kLercDeflate,      // the same block through DEFLATE: LERC itself packs bits and codes no entropy
+  kLercDeflate,      // the same block through DEFLATE: LERC itself packs bits without entropy coding
 };
 std::span<const RasterCodec> raster_codecs();
 std::string_view name(RasterCodec);
@@ -23,7 +23,7 @@ std::string_view name(RasterCodec);
 struct CompressedSize {
   std::size_t bytes = 0;
   double rmse = 0;     // metres
-  double setting = 0;  // what it was made with, as below
+  double setting = 0;  // the setting of the codec, as below
 };
 
 // `setting`: the step in metres for zstd, the largest error in metres for both LERCs (0: none), and for JPEG
@@ -32,7 +32,7 @@ struct CompressedSize {
 // lacks the format.
 CompressedSize compressed_size(const Heightfield& field, RasterCodec codec, double setting);
 
-// The smallest found by bisection whose error is not above `rmse` metres. Some 15 times the cost.
+// The smallest found by bisection whose error is at most `rmse` metres. Costs about 15 compressions.
 CompressedSize compressed_size_at(const Heightfield& field, RasterCodec codec, double rmse);
 
 }  // namespace terrabench

@@ -17,7 +17,7 @@
 namespace terrabench {
 namespace {
 
-// Inline VRT would fill the screen.
+// For messages: inline VRT is too long for them.
 std::string label(const std::string& path) { return path.starts_with('<') ? "inline VRT" : path; }
 
 std::string size_text(std::uint64_t width, std::uint64_t depth) { return fmt::format("{}×{}", width, depth); }
@@ -44,7 +44,7 @@ GDALRasterBand& choose_band(GDALDataset& dataset, int number, const std::string&
                             std::vector<std::string>& notes) {
   const int bands = dataset.GetRasterCount();
   if (bands == 0) {
-    throw bad_input("holds no raster itself", where,
+    throw bad_input("holds no raster, only subdatasets", where,
                     "name one of the subdatasets that gdalinfo lists for it");
   }
   if (number < 1 || number > bands) {
@@ -54,9 +54,8 @@ GDALRasterBand& choose_band(GDALDataset& dataset, int number, const std::string&
   GDALRasterBand& band = *dataset.GetRasterBand(number);
   const GDALDataType type = band.GetRasterDataType();
   if (type == GDT_Unknown || type >= GDT_TypeCount || GDALDataTypeIsComplex(type) != 0) {
-    throw bad_input(
-        fmt::format("band {} holds {} values, which are no heights", number, GDALGetDataTypeName(type)),
-        where, "choose another band, or convert it with gdal_translate -ot Float32");
+    throw bad_input(fmt::format("band {} holds {} values, not heights", number, GDALGetDataTypeName(type)),
+                    where, "choose another band, or convert it with gdal_translate -ot Float32");
   }
   if (band.GetColorTable() != nullptr && band.GetColorInterpretation() == GCI_PaletteIndex) {
     throw bad_input(fmt::format("band {} holds numbers of colours, not heights", number), where,
@@ -66,12 +65,12 @@ GDALRasterBand& choose_band(GDALDataset& dataset, int number, const std::string&
   return band;
 }
 
-// Some raw formats read what lies beyond the file's end as zeros without a word (ENVI allows sparse files).
+// Some raw formats silently read zeros beyond the file's end (ENVI allows sparse files).
 void check_raw_length(GDALDataset& dataset, int band, const std::string& where) {
   GDALDataset::RawBinaryLayout layout;
   VSIStatBufL file;
   if (!dataset.GetRawBinaryLayout(layout) || VSIStatL(layout.osRawFilename.c_str(), &file) != 0) return;
-  // In double: the offsets come from the file and may be anything.
+  // In double: the offsets come from the file and may have any value.
   const auto stretch = [](int count, GIntBig step) { return (count - 1.0) * static_cast<double>(step); };
   const double needed = static_cast<double>(layout.nImageOffset) + stretch(band, layout.nBandOffset) +
                         std::max(0.0, stretch(dataset.GetRasterYSize(), layout.nLineOffset)) +
@@ -96,7 +95,7 @@ DemWindow choose_window(GDALDataset& dataset, const DemWindow& asked, const std:
   return asked;
 }
 
-// Float holds these exactly; the others pass through double.
+// Float holds the values of these types exactly; the others are read as double.
 bool fits_float(GDALDataType type) {
   return type == GDT_Byte || type == GDT_Int16 || type == GDT_UInt16 || type == GDT_Float32;
 }
@@ -112,17 +111,17 @@ class Reader {
     // A few blocks side by side, so that tall blocks of a wide raster do not push each other out of GDAL's
     // cache.
     constexpr std::uint64_t kSideBySide = std::uint64_t{16} << 20;
-    columns_a_read_ = static_cast<int>(std::min<std::uint64_t>(
+    columns_per_read_ = static_cast<int>(std::min<std::uint64_t>(
         std::max<std::uint64_t>(1, kSideBySide / std::max<std::uint64_t>(1, block_bytes)) * block_width_,
         window.width));
-    // Whole rows of blocks, so that each block is decoded once; thin ones are bundled.
+    // Whole rows of blocks, so that each block is decoded once; several where blocks are low.
     constexpr int kFewestRows = 64;
-    rows_a_strip_ = std::max(block_depth_, kFewestRows / block_depth_ * block_depth_);
+    rows_per_strip_ = std::max(block_depth_, kFewestRows / block_depth_ * block_depth_);
   }
 
   // Bytes beside the output.
   std::uint64_t buffer_bytes(bool resampled) const {
-    const std::uint64_t samples = std::uint64_t(window_.width) * std::min(rows_a_strip_, window_.depth);
+    const std::uint64_t samples = std::uint64_t(window_.width) * std::min(rows_per_strip_, window_.depth);
     const std::uint64_t wide = fits_float(band_.GetRasterDataType()) ? 0 : sizeof(double);
     return samples * (wide + (resampled ? sizeof(float) : 0) + (rule_.masked ? 1 : 0));
   }
@@ -134,13 +133,13 @@ class Reader {
     });
   }
 
-  // Averaged on the way in: row after row into the one or two new rows that it belongs to.
+  // Averages while reading: each row is added to the one or two new rows that it belongs to.
   void read_reduced(int width, int depth, float* out, Progress* progress) {
     const std::vector<Taps> columns = resampling_taps(window_.width, width);
     const std::vector<Taps> rows = resampling_taps(window_.depth, depth);
     RowAccumulator accumulator(window_.width);
     std::vector<float> strip(static_cast<std::size_t>(window_.width) *
-                             std::min(rows_a_strip_, window_.depth));
+                             std::min(rows_per_strip_, window_.depth));
     int j = 0;
     each_strip(progress, [&](int y0, int count) {
       read_strip(y0, count, strip.data());
@@ -165,7 +164,7 @@ class Reader {
     if (progress != nullptr) progress->begin("reading " + where_, static_cast<std::uint64_t>(window_.depth));
     // The first strip ends where a row of blocks ends in the file.
     for (int y = 0; y < window_.depth;) {
-      const int left_of_block = rows_a_strip_ - (window_.y + y) % rows_a_strip_;
+      const int left_of_block = rows_per_strip_ - (window_.y + y) % rows_per_strip_;
       const int rows = std::min(left_of_block, window_.depth - y);
       body(y, rows);
       y += rows;
@@ -196,7 +195,8 @@ class Reader {
   void fetch(GDALRasterBand& band, int y, int rows, T* out, GDALDataType type) {
     for (int x = 0; x < window_.width;) {
       // The first read ends where a block ends in the file.
-      const int columns = std::min(columns_a_read_ - (window_.x + x) % columns_a_read_, window_.width - x);
+      const int columns =
+          std::min(columns_per_read_ - (window_.x + x) % columns_per_read_, window_.width - x);
       const CPLErr error =
           band.RasterIO(GF_Read, window_.x + x, window_.y + y, columns, rows, out + x, columns, rows, type,
                         sizeof(T), static_cast<GSpacing>(sizeof(T)) * window_.width, nullptr);
@@ -215,24 +215,25 @@ class Reader {
   HeightRule rule_;
   const GdalMessages& messages_;
   const std::string& where_;
-  int block_width_ = 1, block_depth_ = 1, columns_a_read_ = 1, rows_a_strip_ = 1;
+  int block_width_ = 1, block_depth_ = 1, columns_per_read_ = 1, rows_per_strip_ = 1;
   std::vector<std::uint8_t> mask_;
   std::vector<double> wide_;
   Tally tally_;
 };
 
-// The sizes on the way from the file to the result.
+// The sizes at each step from the file to the result.
 struct Plan {
   int width, depth;  // of the result
-  bool reduced;      // averaged while reading
+  bool reduced;      // averages while reading
   int read_width,
       read_depth;  // what is held first: the result's, or the window's when it is enlarged afterwards
 };
 
 Plan plan_sizes(const DemWindow& window, const DemOptions& options, const std::string& where) {
   if (options.width < 0 || options.depth < 0) {
-    throw usage_error(fmt::format("cannot resample to {} samples", size_text(options.width, options.depth)),
-                      where, "both must be at least 1");
+    throw usage_error(
+        fmt::format("width and depth must be at least 1, got {}", size_text(options.width, options.depth)),
+        where, "choose the number of samples along both sides");
   }
   Plan plan{options.width > 0 ? options.width : window.width,
             options.depth > 0 ? options.depth : window.depth, false, window.width, window.depth};
@@ -270,7 +271,7 @@ void check_sizes(const Plan& plan, const DemWindow& window, const DemOptions& op
                   size_text(width, depth)));
 }
 
-// To rows from north to south and columns from west to east.
+// Flips the field to rows from north to south and columns from west to east.
 void turn(const Placement& placement, Heightfield& field) {
   std::array<double, 6>& t = field.georeference.transform;
   if (placement.mirrored) {

@@ -2,8 +2,8 @@
 // .dem, VRT, PNG …) as a Heightfield in metres, rows from north to south, and a Heightfield as GeoTIFF.
 //
 // Files are streamed in rows of blocks: reading needs the result's memory and about one row of blocks, and a
-// reduction by `width` and `depth` is averaged on the way in, so that a raster far larger than memory can be
-// read small.
+// reduction to `width` × `depth` averages while reading, so that a raster far larger than memory can be read
+// at a lower resolution.
 #pragma once
 
 #include <cstdint>
@@ -32,23 +32,22 @@ struct DemOptions {
 
 struct Dem {
   Heightfield heights;
-  std::string format;  // GDAL's name of the driver that read it
-  std::vector<std::string>
-      notes;  // what had to be converted, guessed or left out, one sentence each, for the user
+  std::string format;              // GDAL's name of the driver that read it
+  std::vector<std::string> notes;  // what was converted, guessed or left out, one sentence each, for the user
 };
 
-// `path` is anything GDAL takes, /vsizip/… and inline VRT included; drivers that fetch from the network are
-// off. Throws bad_input for files that cannot be used and usage_error for options that do not fit the file.
-// Each says what to do. Nothing is printed. Safe to call from several threads at once. O(pixels of the
+// `path` is anything that GDAL opens, /vsizip/… and inline VRT included; drivers that fetch from the network
+// are disabled. Throws bad_input for unusable files and usage_error for options that do not fit the file.
+// Prints nothing. Safe to call from several threads at once. O(pixels of the
 // window).
 Dem read_dem(const std::string& path, const DemOptions& options = {}, Progress* progress = nullptr);
 
-// Float32, compressed without loss, with georeference and no-data value. Written whole or not at all: throws
-// environment_error with nothing left behind. `unit` is that of the values; empty for counts and codes. O(n).
+// Float32, compressed without loss, with georeference and no-data value. Written whole or not at all. Throws
+// environment_error. `unit` is that of the values; empty for counts and codes. O(n).
 void write_geotiff(const std::filesystem::path& path, const Heightfield& field,
                    const std::string& unit = "m");
 
-// Metres in one degree along the parallel and along the meridian at a latitude on an ellipsoid (WGS 84 by
+// Metres per degree along the parallel and along the meridian at a latitude, on an ellipsoid (WGS 84 by
 // default).
 struct DegreeLengths {
   double east, north;

@@ -2,6 +2,7 @@
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <mutex>
@@ -10,8 +11,8 @@
 namespace terrabench {
 namespace {
 
-// Formats that hold elevations, or pictures used as heights. All others are taken out again: drivers that
-// fetch from the network or a database, vector formats, and MEM, whose "file names" are addresses in memory.
+// Formats that hold elevations, or pictures used as heights. All others are removed: drivers that fetch from
+// the network or a database, vector formats, and MEM, whose "file names" are addresses in memory.
 constexpr std::string_view kFormats[] = {"AAIGrid",     "ACE2",    "AIG",      "ARG",       "BAG",
                                          "BLX",         "BMP",     "BT",       "BYN",       "DTED",
                                          "EHdr",        "ENVI",    "ERS",      "FITS",      "GIF",
@@ -27,14 +28,14 @@ constexpr std::string_view kFormats[] = {"AAIGrid",     "ACE2",    "AIG",      "
                                          "VICAR",       "VRT",     "WEBP",     "XYZ",       "ZMap",
                                          "Zarr",        "netCDF"};
 
-// Decoded blocks that GDAL may keep for all open files together. Reading goes block by block, so more brings
-// nothing.
+// The cache of decoded blocks for all open files together. Reading proceeds block by block, so that a larger
+// cache does not help.
 constexpr GIntBig kBlockCache = GIntBig{64} << 20;
 
 constexpr std::size_t kMostWarnings = 8, kLongestMessage = 300;
 
 void register_drivers() {
-  GdalMessages messages;  // a plugin that does not load is no concern of whoever reads a file
+  GdalMessages messages;  // a plugin that fails to load does not matter to the reader of a file
   // A raw file that is shorter than its header says must fail, not read as zeros.
   CPLSetConfigOption("RAW_CHECK_FILE_SIZE", "YES");
   CPLSetConfigOption("GDAL_ERROR_ON_LIBJPEG_WARNING", "YES");
@@ -50,7 +51,7 @@ void register_drivers() {
   if (CPLGetConfigOption("GDAL_CACHEMAX", nullptr) == nullptr) GDALSetCacheMax64(kBlockCache);
 }
 
-// One line, no control characters, of bounded length: messages quote whatever a damaged file holds.
+// One line of bounded length without control characters: messages quote the content of damaged files.
 std::string tidy(const char* text) {
   std::string line(text == nullptr ? "" : text);
   if (line.size() > kLongestMessage) line = line.substr(0, kLongestMessage) + "…";
@@ -72,7 +73,7 @@ GdalMessages::~GdalMessages() { CPLPopErrorHandler(); }
 
 void GdalMessages::collect(CPLErr severity, CPLErrorNum, const char* text) {
   auto& messages = *static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
-  // Trouble with the reference system's data base costs the name of a reference system, not the heights.
+  // Errors in the database of reference systems affect the name of a reference system, not the heights.
   const bool about_place = text != nullptr && std::string_view(text).starts_with("PROJ:");
   if (severity >= CE_Failure && !about_place) {
     if (messages.first_failure_.empty()) messages.first_failure_ = tidy(text);
@@ -81,6 +82,11 @@ void GdalMessages::collect(CPLErr severity, CPLErrorNum, const char* text) {
     auto& known = messages.warnings_;
     if (std::find(known.begin(), known.end(), warning) == known.end()) known.push_back(std::move(warning));
   }
+}
+
+Error cannot_write(const std::filesystem::path& path, const std::string& why) {
+  return environment_error(fmt::format("cannot write: {}", why), path.string(),
+                           "check the folder's permissions and the space left on its disk");
 }
 
 }  // namespace terrabench

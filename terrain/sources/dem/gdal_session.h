@@ -1,19 +1,22 @@
-// What every use of GDAL needs: drivers registered once, its messages caught instead of printed, datasets
-// that close. Internal to terrain/sources/dem: pulls in GDAL's headers.
+// Shared by all uses of GDAL: drivers registered once, messages collected instead of printed, datasets that
+// are closed. Internal to terrain/sources/dem: pulls in GDAL's headers.
 #pragma once
 
 #include <gdal_priv.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include "terrain/error.h"
 
 namespace terrabench {
 
 // Registers the drivers on the first call; cheap and thread-safe afterwards.
 void register_gdal();
 
-// While one lives, what GDAL reports on this thread is collected here and does not reach stderr.
+// During its lifetime GDAL's messages on this thread are collected here and do not reach stderr.
 class GdalMessages {
  public:
   GdalMessages();
@@ -23,7 +26,7 @@ class GdalMessages {
 
   bool failed() const { return !first_failure_.empty(); }
   const std::string& first_failure() const { return first_failure_; }
-  const std::vector<std::string>& warnings() const { return warnings_; }  // different ones, the first few
+  const std::vector<std::string>& warnings() const { return warnings_; }  // the first few different ones
 
  private:
   static void collect(CPLErr severity, CPLErrorNum number, const char* text);
@@ -36,5 +39,8 @@ struct CloseDataset {
   void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
 };
 using DatasetPointer = std::unique_ptr<GDALDataset, CloseDataset>;
+
+// environment_error for a file that GDAL cannot write.
+Error cannot_write(const std::filesystem::path& path, const std::string& why);
 
 }  // namespace terrabench

@@ -23,18 +23,13 @@ struct RemoveUnlessKept {
   }
 };
 
-Error cannot_write(const std::filesystem::path& path, const std::string& why) {
-  return environment_error(fmt::format("cannot write: {}", why), path.string(),
-                           "check the folder's permissions and the space left on its disk");
-}
-
 void describe(GDALDataset& dataset, const Heightfield& field, const std::string& unit) {
   const Georeference& georeference = field.georeference;
   if (georeference.transform != std::array<double, 6>{}) {
     std::array<double, 6> transform = georeference.transform;
     dataset.SetGeoTransform(transform.data());
   } else {
-    // Without a place on the Earth, the cells at least keep their size.
+    // Without a georeference the file still holds the size of the cells.
     std::array<double, 6> transform{0, field.cell_x, 0, 0, 0, -field.cell_z};
     dataset.SetGeoTransform(transform.data());
   }
@@ -54,7 +49,7 @@ void write_rows(GDALRasterBand& band, const Heightfield& field, const GdalMessag
   constexpr int kRows = 64;
   for (int y = 0; y < field.depth; y += kRows) {
     const int rows = std::min(kRows, field.depth - y);
-    // GDAL's signature serves reading too; writing leaves the buffer as it is.
+    // One signature for reading and writing: writing does not change the buffer.
     auto* const from = const_cast<float*>(field.heights.data()) + static_cast<std::size_t>(y) * field.width;
     const CPLErr error =
         band.RasterIO(GF_Write, 0, y, field.width, rows, from, field.width, rows, GDT_Float32, 0, 0, nullptr);
@@ -79,7 +74,7 @@ void write_geotiff(const std::filesystem::path& path, const Heightfield& field, 
   std::error_code error;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
   if (error) throw cannot_write(path, error.message());
-  // Declared before the dataset: destroyed after it is closed.
+  // Declared before the dataset, so that it is destroyed after the dataset is closed.
   RemoveUnlessKept temporary{path.string() + fmt::format(".{}.tmp", getpid())};
   const GdalMessages messages;
   CPLStringList options;
@@ -92,7 +87,7 @@ void write_geotiff(const std::filesystem::path& path, const Heightfield& field, 
   if (dataset == nullptr) throw cannot_write(path, messages.first_failure());
   describe(*dataset, field, unit);
   write_rows(*dataset->GetRasterBand(1), field, messages, path);
-  // A full disk may show itself only when the last blocks and the directory are written.
+  // A full disk may be reported only when the last blocks and the directory are written.
   dataset.reset();
   if (messages.failed()) throw cannot_write(path, messages.first_failure());
   sync(temporary.path);

@@ -12,14 +12,11 @@ namespace terrabench {
 
 struct GeotiffRows::File {
   std::filesystem::path path;
-  GdalMessages messages;  // before the dataset: what closing reports comes here too
+  GdalMessages messages;  // before the dataset: collects what closing reports
   DatasetPointer dataset;
   int written = 0;  // rows
 
-  Error refused() const {
-    return environment_error(fmt::format("cannot write: {}", messages.first_failure()), path.string(),
-                             "check the folder's permissions and the space left on its disk");
-  }
+  Error refused() const { return cannot_write(path, messages.first_failure()); }
 };
 
 GeotiffRows::GeotiffRows(const std::filesystem::path& path, int width, int depth, float cell_x,
@@ -50,7 +47,7 @@ void GeotiffRows::write(std::span<const float> heights) {
   const int width = file_->dataset->GetRasterXSize();
   const int rows = static_cast<int>(heights.size() / width);
   assert(heights.size() % width == 0 && file_->written + rows <= file_->dataset->GetRasterYSize());
-  // GDAL's signature serves reading too; writing leaves the buffer as it is.
+  // One signature for reading and writing: writing does not change the buffer.
   const CPLErr error = file_->dataset->GetRasterBand(1)->RasterIO(GF_Write, 0, file_->written, width, rows,
                                                                   const_cast<float*>(heights.data()), width,
                                                                   rows, GDT_Float32, 0, 0, nullptr);
@@ -58,7 +55,7 @@ void GeotiffRows::write(std::span<const float> heights) {
   file_->written += rows;
 }
 
-// A full disk may show itself only here.
+// A full disk may be reported only here.
 void GeotiffRows::close() {
   file_->dataset.reset();
   if (file_->messages.failed()) throw file_->refused();

@@ -1,5 +1,5 @@
-// A GeoTIFF of heights written from top to bottom, for ground that never is in memory whole: tiled, Float32,
-// compressed without loss. Memory: a row of tiles, whatever the size.
+// A GeoTIFF of heights written from top to bottom, for ground larger than memory: tiled, Float32, compressed
+// without loss. Memory: one row of tiles at any size.
 #pragma once
 
 #include <filesystem>
@@ -8,12 +8,12 @@
 
 namespace terrabench {
 
-inline constexpr int kGeotiffTile = 256;  // samples a side; whole rows of tiles are the quickest to write
+inline constexpr int kGeotiffTile = 256;  // samples per side; whole rows of tiles are the quickest to write
 
 class GeotiffRows {
  public:
-  // Cells in metres. All throw environment_error where the disk takes no more. The file is a raster that can
-  // be read only after close(); whoever gives up before removes it.
+  // Cells in metres. All functions throw environment_error when the disk is full. The file is readable only
+  // after close(); a caller that stops earlier removes it.
   GeotiffRows(const std::filesystem::path&, int width, int depth, float cell_x, float cell_z);
   ~GeotiffRows();
   // Rows from the first one not yet written; whole rows, `heights` a multiple of the width.

@@ -28,11 +28,6 @@ std::string level_file(const fs::path& folder, int level) {
 // Samples of a level along an axis with so many in the level below: every second one and the last.
 int halved(int samples) { return samples / 2 + 1; }
 
-Error cannot_write(const fs::path& path, const std::string& why) {
-  return environment_error(fmt::format("cannot write: {}", why), path.string(),
-                           "check the folder's permissions and the space left on its disk");
-}
-
 Error damaged(const fs::path& path, const std::string& why) {
   return bad_input(why, path.string(), "the pyramid is not whole: build it again");
 }
@@ -43,7 +38,7 @@ DatasetPointer open_level(const std::string& path) {
   return DatasetPointer(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers));
 }
 
-// The size of a level's cells, metres; 0 where the file does not say.
+// The size of a level's cells, metres; 0 where the file does not give it.
 struct Cells {
   float x = 0, z = 0;
 };
@@ -68,13 +63,13 @@ RasterSize raster_size(const std::string& dem) {
   const GdalMessages messages;
   const DatasetPointer dataset(GDALDataset::Open(dem.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
   if (dataset == nullptr) {
-    read_dem(dem);  // says what is wrong with it
+    read_dem(dem);  // throws with the reason
     throw bad_input("cannot be opened as a terrain", dem, "give a raster that gdalinfo opens");
   }
   return {dataset->GetRasterXSize(), dataset->GetRasterYSize()};
 }
 
-// Puts the reduced copy's height where a sample holds none.
+// Replaces missing heights by those of the reduced copy.
 class HoleFiller {
  public:
   HoleFiller(const std::string& dem, const RasterSize& size) : dem_(dem), size_(size) {}
@@ -113,7 +108,7 @@ class HoleFiller {
 
 void write_ground(const std::string& dem, const RasterSize& size, const fs::path& folder,
                   Progress& progress) {
-  // The middle's cells: along a parallel they shrink towards the poles.
+  // The cells in the middle: along a parallel they shrink towards the poles.
   DemOptions middle;
   middle.window = {0, std::max(0, size.depth / 2 - 1), size.width, std::min(2, size.depth)};
   const Heightfield rows = read_dem(dem, middle).heights;
@@ -143,7 +138,7 @@ void write_level(const fs::path& folder, int level, Progress& progress) {
   std::vector<float> rows, kept;
   for (int b = 0; b < halved(depth); b += kGeotiffTile) {
     const int count = std::min(kGeotiffTile, halved(depth) - b);
-    // Of an even depth the last row kept is the ground's last, which the row before may have reached already.
+    // For an even depth the last row kept is the ground's last, which the row before may be too.
     const int last = depth - 1, first = std::min(2 * b, last);
     const int read = std::min(2 * (b + count - 1), last) - first + 1;
     rows.resize(static_cast<std::size_t>(width) * read);
@@ -184,7 +179,7 @@ struct HeightPyramid::Levels {
   fs::path folder;
   std::vector<DatasetPointer> datasets;
   float cell_x = 1, cell_z = 1;
-  std::vector<float> block;  // what a read takes from the disk, before its borders are repeated
+  std::vector<float> block;  // samples read from disk, before the borders are repeated
   std::uint64_t tiles_read = 0;
 };
 
@@ -192,7 +187,8 @@ void HeightPyramid::build(const std::string& dem, const fs::path& folder, Progre
   register_gdal();
   std::error_code error;
   if (fs::exists(folder, error) && !fs::exists(level_file(folder, 0), error)) {
-    throw usage_error("exists and is no pyramid", folder.string(), "choose another folder");
+    throw usage_error("the folder exists and does not hold a pyramid", folder.string(),
+                      "choose another folder");
   }
   const RasterSize size = raster_size(dem);
   const fs::path temporary = folder.string() + fmt::format(".{}.tmp", getpid());

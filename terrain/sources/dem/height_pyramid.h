@@ -1,6 +1,6 @@
-// Ground on disk that never comes into memory whole: every level of detail of a DEM as a tiled, losslessly
-// compressed GeoTIFF, so that a window of any level costs the tiles it touches. Level l holds every 2ˡ-th
-// sample along x and z as it is (not averaged), and the ground's last sample at its far borders.
+// Ground on disk, larger than memory: every level of detail of a DEM as a tiled, losslessly
+// compressed GeoTIFF, so that reading a window of any level costs the tiles that it touches. Level l holds
+// every 2ˡ-th sample along x and z, unaveraged, and the ground's last samples at its far borders.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@ namespace terrabench {
 
 class HeightPyramid {
  public:
-  // Converts any DEM that read_dem() takes, in rows of tiles: bounded memory at any size, a third more bytes
-  // than the ground alone on disk. Holes are filled from a reduced copy of the ground. The folder appears
-  // whole or not at all; one that exists is replaced when it is a pyramid, refused (usage_error) when it is
-  // something else.
+  // Converts any DEM that read_dem() takes, in rows of tiles: bounded memory at any size; on disk a third
+  // more bytes than the ground alone. Holes are filled from a reduced copy of the ground. The folder is
+  // written whole or not at all; an existing pyramid is replaced, any other existing folder refused
+  // (usage_error).
   static void build(const std::string& dem, const std::filesystem::path& folder, Progress&);
 
-  // Throws bad_input for a folder that is no whole pyramid.
+  // Throws bad_input for a folder that does not hold a whole pyramid.
   static std::unique_ptr<HeightPyramid> open(const std::filesystem::path& folder);
   ~HeightPyramid();
 
@@ -29,12 +29,12 @@ class HeightPyramid {
   float cell_x() const;  // metres
   float cell_z() const;
   // Lattice samples [a, a + columns) × [b, b + rows) of the level, row by row into `out`, rows `stride`
-  // apart; beyond the ground its border's. Any level ≥ 0. GDAL keeps decoded tiles within its cache
+  // apart; beyond the ground its border is repeated. Any level ≥ 0. GDAL keeps decoded tiles within its cache
   // (64 MiB unless GDAL_CACHEMAX says otherwise). Throws bad_input when the disk's bytes cannot be
   // decoded. Not thread-safe.
   void read(int level, int a, int b, int columns, int rows, float* out, int stride);
-  std::uint64_t tiles_read() const;  // decoded since open(); what was in the cache does not count
-  std::size_t bytes() const;         // heap bytes of ours; GDAL's own are not counted
+  std::uint64_t tiles_read() const;  // decoded since open(); cache hits do not count
+  std::size_t bytes() const;         // heap bytes, without GDAL's own
 
  private:
   struct Levels;

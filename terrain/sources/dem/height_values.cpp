@@ -14,7 +14,7 @@
 namespace terrabench {
 namespace {
 
-// Metres in one unit, by the unit's name as GDAL gives it.
+// Metres per unit, by the unit's name in GDAL.
 double metres_per_height_unit(const std::string& unit, std::vector<std::string>& notes) {
   struct Unit {
     std::string_view name;
@@ -69,13 +69,13 @@ double metres_per_height_unit(const std::string& unit, std::vector<std::string>&
 constexpr float kImpossible = 1e6F;
 
 // One row. Floats are converted in place, which the compiler must see to vectorise it: `in` is `out` then.
-// `mask` is read when kMasked; 0 in it is no height.
+// `mask` is read when kMasked; 0 in it means no height.
 template <bool kMasked, class T>
 void convert_row(const T* in, const std::uint8_t* mask, int width, const HeightRule& rule, float* out,
                  Tally& tally) {
   if constexpr (std::is_same_v<T, float>) in = out;
   const bool nan_is_missing = rule.no_data && std::isnan(*rule.no_data);
-  // Compared as the file's type has it: -3.4028234663852886e+38 names a float. NaN equals nothing.
+  // Compared in the file's type: -3.4028234663852886e+38 stands for a float. NaN equals nothing.
   const double no_data = rule.no_data.value_or(std::nan(""));
   const T hole =
       std::abs(no_data) <= std::numeric_limits<T>::max() ? static_cast<T>(no_data) : static_cast<T>(NAN);

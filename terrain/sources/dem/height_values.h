@@ -1,4 +1,4 @@
-// How a band's numbers become heights in metres: no-data, mask, scale, offset and unit. Internal to
+// Conversion of a band's numbers to heights in metres: no-data, mask, scale, offset and unit. Internal to
 // terrain/sources/dem.
 #pragma once
 
@@ -11,24 +11,24 @@
 
 namespace terrabench {
 
-// How a pixel's number becomes a height.
+// The conversion of a pixel's number to a height.
 struct HeightRule {
   std::optional<double> no_data;
-  bool masked = false;           // the file brings a mask of its own
+  bool masked = false;           // the file holds a mask
   double scale = 1, offset = 0;  // to metres
 };
 
-// Throws bad_input for a scale that leaves no heights; conversions are said in `notes`. `where` names the
-// file in errors.
+// Throws bad_input for a scale that leaves no heights; conversions are described in `notes`. `where` names
+// the file in errors.
 HeightRule height_rule(GDALRasterBand& band, const std::string& where, std::vector<std::string>& notes);
 
-// What was found that is no height.
+// Counts of numbers that are not heights.
 struct Tally {
   std::uint64_t missing = 0, impossible = 0;
 };
 
 // Rows of `width` numbers, as float (in and out are the same array then) or double. `mask` may be null; 0 in
-// it is no height. What holds none becomes kNoData and is counted.
+// it means no height. Pixels without a height become kNoData and are counted.
 void to_metres(float* heights, const std::uint8_t* mask, int width, int rows, const HeightRule& rule,
                Tally& tally);
 void to_metres(const double* in, const std::uint8_t* mask, int width, int rows, const HeightRule& rule,

@@ -18,7 +18,7 @@ void check(const Image& picture, const DrawingOptions& options) {
     }
   };
   if (picture.width < 1 || picture.height < 1) {
-    throw usage_error("the drawing has no pixels", "picture", "give a picture of one pixel at least");
+    throw usage_error("the drawing has no pixels", "picture", "give a picture of at least one pixel");
   }
   within(options.cell, 1e-3F, 1e6F, "cell", "choose 0.001 to 1e6 m");
   within(options.sea_level, 0, 0.999F, "sea_level", "choose 0 to 0.999");
@@ -26,7 +26,7 @@ void check(const Image& picture, const DrawingOptions& options) {
   within(options.seabed, 0, 1, "seabed", "choose 0 to 1");
   within(options.mountains, 0, 1, "mountains", "choose 0 to 1");
   if (options.smoothing < 0 || options.smoothing > 1000) {
-    throw usage_error("so many passes cannot be", "smoothing", "choose 0 to 1000");
+    throw usage_error("the number of smoothing passes is out of range", "smoothing", "choose 0 to 1000");
   }
 }
 
@@ -41,8 +41,8 @@ float height_of(int grey, const DrawingOptions& options) {
   return g >= s ? options.peak * ((g - s) / (1 - s)) : -options.seabed * options.peak * ((s - g) / s);
 }
 
-// How far each pass moves a sample: 1 for hills, 0 for mountains. By its drawn height, so that smoothing
-// cannot turn one into the other.
+// The share by which each pass moves a sample: 1 for hills, 0 for mountains. It depends on the drawn height,
+// so that smoothing cannot turn one into the other.
 float softness(float height, const DrawingOptions& options) {
   const float foot = 0.75F * options.mountains * options.peak, top = options.mountains * options.peak;
   if (height >= top) return 0;
@@ -73,11 +73,7 @@ Heightfield land_from_drawing(const Image& picture, const DrawingOptions& option
   const std::size_t fields = options.smoothing == 0 ? 1 : 3;
   require_memory(fields * sizeof(float) * picture.width * static_cast<std::size_t>(picture.height),
                  "land from a drawing", "give a smaller picture");
-  Heightfield field;
-  field.width = picture.width;
-  field.depth = picture.height;
-  field.cell_x = field.cell_z = options.cell;
-  field.heights.resize(static_cast<std::size_t>(field.width) * field.depth);
+  Heightfield field = Heightfield::zeros(picture.width, picture.height, options.cell, options.cell);
   for (std::size_t k = 0; k < field.heights.size(); ++k) {
     field.heights[k] = height_of(intensity(picture, k), options);
   }

@@ -1,4 +1,4 @@
-// Where an art program would be: the strokes that the paper names, one after the other.
+// In place of an art program: the strokes that the paper names, one after the other.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace terrabench {
 namespace {
 
-// Distances are in shares of the picture's side.
+// Distances as shares of the picture's side.
 constexpr float kRidgeWidth = 0.09F, kRiverWidth = 0.012F, kShore = 0.05F;
 constexpr glm::vec2 kLake{0.70F, 0.30F};
 constexpr float kLakeRadius = 0.08F;
@@ -38,7 +38,7 @@ float distance_to_ridges(glm::vec2 at) {
   return nearest;
 }
 
-// Out of the lake to the western border.
+// From the lake to the western border.
 float distance_to_river(glm::vec2 at) {
   const float bed = 0.58F + 0.06F * std::sin(11 * at.x) + 0.03F * std::sin(27 * at.x + 1);
   const float joined = kLake.y + (bed - kLake.y) * std::clamp((kLake.x - at.x) / 0.2F, 0.0F, 1.0F);

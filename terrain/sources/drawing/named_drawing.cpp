@@ -7,7 +7,7 @@
 namespace terrabench {
 namespace {
 
-// Ranges are land_from_drawing()'s.
+// land_from_drawing() checks the ranges.
 const std::array kSpecs{
     ParameterSpec{"cell", 30.0, "m", "side of a pixel"},
     ParameterSpec{"sea_level", 0.3, "", "intensity at the shore"},

@@ -1,5 +1,5 @@
-// Random numbers that are a function of what they are for, such as (seed, level, row): they come out the same
-// on every machine, in any order and on any number of threads.
+// Random numbers as a function of their purpose, such as (seed, level, row): the same on every machine, in
+// any order of use and for any number of threads.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ constexpr std::uint64_t scramble(std::uint64_t v) {
   return v ^ (v >> 31);
 }
 
-// The numbers of one thing: `which` of a kind, under a seed.
+// The random numbers of one item: number `which` of a kind, for a seed.
 class CounterRandom {
  public:
   constexpr CounterRandom(std::uint64_t seed, std::uint64_t kind, std::uint64_t which)
@@ -25,7 +25,7 @@ class CounterRandom {
   constexpr double share(std::uint64_t counter) const {
     return static_cast<double>(bits(counter) >> 11) * 0x1p-53;
   }
-  // In [0, n), n ≤ 2^32; the bias of at most n / 2^32 is not seen in a terrain.
+  // In [0, n), n ≤ 2^32; the bias of at most n / 2^32 does not show in a terrain.
   constexpr std::uint64_t below(std::uint64_t n, std::uint64_t counter) const {
     return (bits(counter) >> 32) * n >> 32;
   }
@@ -34,7 +34,7 @@ class CounterRandom {
   std::uint64_t key_;
 };
 
-// Kinds, so that two generators with one seed do not draw the same numbers.
+// One kind per generator, so that two of them with one seed do not draw the same numbers.
 inline constexpr std::uint64_t kMidpoints = 1, kDiamondSquare = 2, kFaults = 3, kPlanetFaults = 4, kHills = 5;
 
 // One row of displacements: a number in [-1, 1) for each x. Short enough for vectors of 32-bit lanes, so the

@@ -22,11 +22,11 @@ constexpr char kWhere[] = "diamond-square";
 constexpr int kLargestLevels = 15;
 
 // One level: a diamond and a square step from a grid of `points` on a side, stored row after row, to one of
-// 2·points − 1. That is far faster than the textbook's steps within the final array, which touch every cache
-// line of it once a level.
-class Level {
+// 2·points − 1. Far faster than the textbook's steps within the final array, which touch each of its cache
+// lines once per level.
+class Subdivision {
  public:
-  Level(const DiamondSquareOptions& options, int level)
+  Subdivision(const DiamondSquareOptions& options, int level)
       : seed_(options.seed), level_(level), points_((1 << level) + 1) {
     range_ = level_range(options.amplitude, options.hurst, level);
   }
@@ -40,7 +40,8 @@ class Level {
   // last; rows 0 and points − 2 must be among them when begin is 0. Fine rows go to `fine`, where row 0 would
   // start.
   void expand(const float* coarse, int first, int begin, int end, float* fine) const {
-    constexpr int kBand = 32;  // rows a task: each makes one row of middles that its neighbour makes too
+    constexpr int kBand =
+        32;  // rows per task; neighbouring tasks both compute the row of middles between them
     tbb::parallel_for(
         tbb::blocked_range<int>(begin, end, kBand),
         [&](const tbb::blocked_range<int>& band) {
@@ -80,10 +81,10 @@ class Level {
   float range_ = 0;
 };
 
-// The last level fills the array whose tail holds its input. Fine rows grow four times as fast as coarse rows
-// are used up, so the first three quarters can be written at once, then three quarters of the rest, and so
-// on; the last few rows are made from a copy.
-void expand_in_place(const Level& level, float* heights) {
+// The last level fills the array whose tail holds that level's input. Fine rows grow four times as fast as
+// coarse rows are used up, so the first three quarters can be written at once, then three quarters of the
+// rest, and so on; the last few rows are made from a copy.
+void expand_in_place(const Subdivision& level, float* heights) {
   const int points = level.points();
   const auto width = static_cast<std::size_t>(points),
              fine_side = static_cast<std::size_t>(level.fine_side());
@@ -106,8 +107,8 @@ void expand_in_place(const Level& level, float* heights) {
   }
 }
 
-// A grid moves between the ends of the array, level by level, so that the last one finds its input at the
-// tail.
+// The grids of successive levels lie at alternate ends of the array, so that the last level's input lies at
+// its tail.
 void run(const DiamondSquareOptions& options, int levels, float* heights, std::size_t size) {
   const auto place = [&](int level) {  // where the input of this level starts
     const auto points = (std::size_t{1} << level) + 1;
@@ -115,7 +116,7 @@ void run(const DiamondSquareOptions& options, int levels, float* heights, std::s
   };
   std::fill_n(place(0), 4, options.corner);
   for (int l = 0; l < levels; ++l) {
-    const Level level(options, l);
+    const Subdivision level(options, l);
     float* const fine = l + 1 == levels ? heights : place(l + 1);
     if (l + 1 == levels) {
       expand_in_place(level, heights);
@@ -136,27 +137,19 @@ void check(const DiamondSquareOptions& options) {
   check_memory(options.side, options.side, kWhere);
 }
 
-Heightfield empty_field(const DiamondSquareOptions& options) {
-  Heightfield field;
-  field.width = field.depth = options.side;
-  field.cell_x = field.cell_z = options.cell;
-  field.heights.resize(static_cast<std::size_t>(options.side) * options.side);
-  return field;
-}
-
 }  // namespace
 
 int levels_of_side(int side) {
   for (int n = 1; n <= kLargestLevels; ++n) {
     if (side == (1 << n) + 1) return n;
   }
-  throw usage_error(fmt::format("side is {} samples", side), kWhere,
-                    "give 2^n + 1 samples, n from 1 to 15, such as 513, 1025 or 4097");
+  throw usage_error(fmt::format("side must be 2^n + 1 samples, n between 1 and 15, got {}", side), kWhere,
+                    "such as 513, 1025 or 4097");
 }
 
 Heightfield diamond_square(const DiamondSquareOptions& options) {
   check(options);
-  Heightfield field = empty_field(options);
+  Heightfield field = Heightfield::zeros(options.side, options.side, options.cell, options.cell);
   run(options, levels_of_side(options.side), field.heights.data(), field.heights.size());
   return field;
 }

@@ -3,8 +3,8 @@
 // corner from the other side.
 //
 // Each displacement is a function of (seed, level, x, z) alone. A terrain with fewer levels is therefore the
-// coarse part of one with more, and neither threads nor machines change a bit. O(side²) time; memory is the
-// output and a few rows a thread.
+// coarse part of one with more, and the result is the same for any number of threads and on any machine.
+// O(side²) time; memory is the output and a few rows per thread.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct DiamondSquareOptions {
   float hurst = 0.8F;      // each level's range is 2^-hurst of the one before; 0 to 1, smoother upward
 };
 
-// Throws usage_error for what is not described above, environment_error when the field does not fit the
+// Throws usage_error for options outside these ranges, environment_error when the field does not fit the
 // memory.
 Heightfield diamond_square(const DiamondSquareOptions&);
 

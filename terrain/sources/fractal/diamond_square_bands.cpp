@@ -10,7 +10,7 @@
 namespace terrabench::fractal {
 namespace {
 
-// Rows are circular: the last is the first.
+// Rows are circular: the last row equals the first.
 int around(int row, int period) { return (row % period + period) % period; }
 
 DiamondSquareOptions reduced(DiamondSquareOptions options, int levels) {

@@ -1,5 +1,5 @@
-// Diamond-square (diamond_square.h) in bands of rows, for terrains that no memory should have to hold: the
-// same heights, bit for bit, at any row. Memory: a coarse grid, and a band and its halo a thread.
+// Diamond-square (diamond_square.h) in bands of rows, for terrains larger than memory: the same heights to
+// the bit, at any row. Memory: a coarse grid, and per thread a band and its halo.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@ namespace terrabench::fractal {
 
 class DiamondSquareBands {
  public:
-  // Keeps the grid of 2^kept + 1 samples a side; kept lies in [1, n]. Throws as diamond_square() does.
+  // Keeps the grid of 2^kept + 1 samples per side; kept lies in [1, n]. Throws as diamond_square() does.
   // O(4^kept).
   DiamondSquareBands(const DiamondSquareOptions&, int kept = 12);
 

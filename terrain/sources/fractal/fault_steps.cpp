@@ -19,8 +19,8 @@ FaultSteps fault_steps(int faults, float step, float decay, float least, std::st
   check_between(decay, 1e-3, 1, "decay", where);
   check_between(least, 0, kLargestMetres, "least_step", where);
   if (least > step) {
-    throw usage_error(fmt::format("least_step is {} m and step {} m", least, step), where,
-                      "steps shrink from step to least_step: give least_step at most as large");
+    throw usage_error(fmt::format("least_step must be at most step, {} m, got {} m", step, least), where,
+                      "steps shrink from step to least_step");
   }
   FaultSteps steps;
   steps.unit = step / kUnits;

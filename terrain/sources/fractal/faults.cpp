@@ -1,8 +1,5 @@
 #include "terrain/sources/fractal/faults.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -54,49 +51,33 @@ void cross(const FaultLine& line, std::int64_t step, int j, int width, std::int6
   turns[static_cast<std::size_t>(inside)] -= 2 * west;
 }
 
-void check(const FaultOptions& options) {
+FaultSteps checked_steps(const FaultOptions& options) {
   check_side(options.width, "width", kWhere);
   check_side(options.depth, "depth", kWhere);
   check_between(options.cell, 1e-6, kLargestMetres, "cell", kWhere);
+  return fault_steps(options, kWhere);
 }
 
-std::vector<FaultLine> draw_lines(const FaultOptions& options) {
+}  // namespace
+
+std::vector<FaultLine> fault_lines(const FaultOptions& options) {
+  checked_steps(options);
   std::vector<FaultLine> lines;
   lines.reserve(static_cast<std::size_t>(options.faults));
   for (int k = 0; k < options.faults; ++k) lines.push_back(fault_line(options, k));
   return lines;
 }
 
-}  // namespace
-
-std::vector<FaultLine> fault_lines(const FaultOptions& options) {
-  check(options);
-  fault_steps(options.faults, options.step, options.decay, options.least_step, kWhere);
-  return draw_lines(options);
-}
-
 Heightfield fault_terrain(const FaultOptions& options) {
-  check(options);
+  const FaultSteps steps = checked_steps(options);
   check_memory(options.width, options.depth, kWhere);
-  const FaultSteps steps =
-      fault_steps(options.faults, options.step, options.decay, options.least_step, kWhere);
-  const std::vector<FaultLine> lines = draw_lines(options);
-  Heightfield field;
-  field.width = options.width;
-  field.depth = options.depth;
-  field.cell_x = field.cell_z = options.cell;
-  field.heights.resize(static_cast<std::size_t>(options.width) * options.depth);
-  constexpr int kRows = 16;  // a task
-  tbb::parallel_for(tbb::blocked_range<int>(0, options.depth, kRows), [&](const auto& rows) {
-    std::vector<std::int64_t> turns(static_cast<std::size_t>(options.width) + 1);
-    for (int j = rows.begin(); j < rows.end(); ++j) {
-      std::int64_t sum = 0;
-      for (std::size_t k = 0; k < lines.size(); ++k) {
-        cross(lines[k], steps.whole[k], j, options.width, sum, turns);
-      }
-      write_row(steps, sum, turns, options.width, &field.at(0, j));
-    }
+  const std::vector<FaultLine> lines = fault_lines(options);
+  Heightfield field = sum_of_faults(steps, options.width, options.depth, options.width, [&](int j) {
+    return [&, j](std::size_t k, std::int64_t step, std::int64_t& sum, std::vector<std::int64_t>& turns) {
+      cross(lines[k], step, j, options.width, sum, turns);
+    };
   });
+  field.cell_x = field.cell_z = options.cell;
   return field;
 }
 

@@ -2,9 +2,9 @@
 // rises, the other sinks; again and again.
 //
 // A line crosses each row of the field once, so that a row's heights are sums over the crossings before them:
-// O(faults · depth + width · depth) instead of the O(faults · width · depth) of the method as told. Which
-// side a sample is on is decided in whole numbers and steps are summed as such: the result does not depend on
-// threads or machines.
+// O(faults · depth + width · depth) instead of the O(faults · width · depth) of the method as printed. Which
+// side a sample is on is decided in whole numbers and steps are summed in whole numbers: the result does not
+// depend on threads or machines.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,9 @@ struct FaultOptions {
   float cell = 30;               // metres between samples
   int faults = 400;              // 0 to 1,000,000
   float step = 20;               // metres by which the first fault moves each side
-  // Each fault moves the ground by this share of the one before, but never less than `least_step`: 1, as
-  // printed, moves all alike. Less gives large forms first and then detail.
+  // Each fault moves the ground by `decay` times the step of the fault before, but by no less than
+  // `least_step`. At 1, as printed, all steps are equal; a smaller decay gives large forms first, then
+  // detail.
   float decay = 1;
   float least_step = 0;  // metres, up to `step`
 };

@@ -18,7 +18,7 @@ namespace {
 constexpr char kWhere[] = "hill technique";
 constexpr int kMostHills = 10'000'000;
 constexpr int kBand = 32;             // rows that one task raises
-constexpr std::size_t kBatch = 8192;  // hills sorted at a time: bounds the memory of the lists
+constexpr std::size_t kBatch = 8192;  // hills sorted at a time, which bounds the memory of the lists
 
 void check_field(const HillOptions& options) {
   check_side(options.width, "width", kWhere);
@@ -83,9 +83,9 @@ std::vector<Hill> draw_hills(const HillOptions& options) {
   check_between(options.least_radius, kLeast, kMost, "least_radius", kWhere);
   check_between(options.most_radius, kLeast, kMost, "most_radius", kWhere);
   if (options.least_radius > options.most_radius) {
-    throw usage_error(
-        fmt::format("least_radius is {} m and most_radius {} m", options.least_radius, options.most_radius),
-        kWhere, "give least_radius at most as large as most_radius");
+    throw usage_error(fmt::format("most_radius must be at least least_radius, {} m, got {} m",
+                                  options.least_radius, options.most_radius),
+                      kWhere, "give least_radius at most as large as most_radius");
   }
   std::vector<Hill> hills;
   hills.reserve(static_cast<std::size_t>(options.hills));
@@ -105,11 +105,7 @@ Heightfield hill_terrain(const HillOptions& options) { return raise_hills(option
 
 Heightfield raise_hills(const HillOptions& options, const std::vector<Hill>& hills) {
   check_field(options);
-  Heightfield field;
-  field.width = options.width;
-  field.depth = options.depth;
-  field.cell_x = field.cell_z = options.cell;
-  field.heights.resize(static_cast<std::size_t>(options.width) * options.depth);
+  Heightfield field = Heightfield::zeros(options.width, options.depth, options.cell, options.cell);
   for (std::size_t first = 0; first < hills.size(); first += kBatch) {
     const auto batch = std::span(hills).subspan(first, std::min(kBatch, hills.size() - first));
     const Bands bands(options, batch);

@@ -18,22 +18,22 @@ struct HillOptions {
   float cell = 30;                               // metres between samples
   int hills = 400;                               // 0 to 10,000,000
   float least_radius = 300, most_radius = 3000;  // metres
-  float scale = 1;  // by which r² − d² is multiplied; 1, as printed, makes a hill of 100 m radius 10 km high
+  float scale = 1;  // factor of r² − d²; 1, as printed, makes a hill of 100 m radius 10 km high
 };
 
 struct Hill {
   float x, z, radius;  // metres
 };
 
-// Each a function of its number, the seed and the field's extent; radii are spread evenly. Centres lie on the
-// field or nearer to it than the radius: every place is as likely to be under a hill. With fewer hills the
-// terrain is the earlier stage. Both throw usage_error, and environment_error when the field does not fit the
-// memory.
+// Each hill is a function of its number, the seed and the field's extent; radii are distributed uniformly.
+// Centres lie on the field or within their radius of it, so that every place is equally likely to be under a
+// hill. With fewer hills the terrain is an earlier stage of the same one. Both throw usage_error, and
+// environment_error when the field does not fit the memory.
 std::vector<Hill> draw_hills(const HillOptions&);
 Heightfield hill_terrain(const HillOptions&);
 
-// The same with the given hills, whose centres and radii are finite; one of no radius adds nothing. Of the
-// options, seed, hills and radii are not used.
+// The same with the given hills, whose centres and radii are finite; a hill of radius 0 adds nothing. The
+// options `seed`, `hills` and the radii are not used.
 Heightfield raise_hills(const HillOptions&, const std::vector<Hill>& hills);
 
 }  // namespace terrabench::fractal

@@ -1,4 +1,4 @@
-// What the generators accept, said in one way by all of them.
+// Range checks of the generators' options, with one form of error.
 #pragma once
 
 #include <cstdint>

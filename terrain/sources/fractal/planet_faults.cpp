@@ -1,8 +1,5 @@
 // Fault formation on the sphere. On one parallel the points that a plane lifts are one arc, whose ends follow
 // from a formula to within a column; which columns belong to it is then decided by the plane itself.
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -130,60 +127,45 @@ FaultPlane fault_plane(const PlanetFaultOptions& options, int number) {
   return plane;
 }
 
-void check(const PlanetFaultOptions& options) {
+FaultSteps checked_steps(const PlanetFaultOptions& options) {
   check_side(options.width, "width", kWhere);
   check_side(options.depth, "depth", kWhere);
   check_between(options.width, 5, kLargestSide, "width", kWhere);  // four columns around, and the first again
   check_between(options.radius, 1e-3, kLargestMetres, "radius", kWhere);
+  return fault_steps(options, kWhere);
 }
 
-std::vector<FaultPlane> draw_planes(const PlanetFaultOptions& options) {
+}  // namespace
+
+std::vector<FaultPlane> fault_planes(const PlanetFaultOptions& options) {
+  checked_steps(options);
   std::vector<FaultPlane> planes;
   planes.reserve(static_cast<std::size_t>(options.faults));
   for (int k = 0; k < options.faults; ++k) planes.push_back(fault_plane(options, k));
   return planes;
 }
 
-}  // namespace
-
-std::vector<FaultPlane> fault_planes(const PlanetFaultOptions& options) {
-  check(options);
-  fault_steps(options.faults, options.step, options.decay, options.least_step, kWhere);
-  return draw_planes(options);
-}
-
 Heightfield planet_faults(const PlanetFaultOptions& options) {
-  check(options);
+  const FaultSteps steps = checked_steps(options);
   check_memory(options.width, options.depth, kWhere);
-  const FaultSteps steps =
-      fault_steps(options.faults, options.step, options.decay, options.least_step, kWhere);
   const int columns = options.width - 1, parallels = options.depth - 1;
   const SineTable table(columns);
   std::vector<Wave> waves;
-  for (const FaultPlane& plane : draw_planes(options)) waves.push_back(wave_of(plane, table));
-  Heightfield field;
-  field.width = options.width;
-  field.depth = options.depth;
+  for (const FaultPlane& plane : fault_planes(options)) waves.push_back(wave_of(plane, table));
+  Heightfield field = sum_of_faults(steps, options.width, options.depth, columns, [&](int j) {
+    // Row j is j half-turns of parallels from the north pole: its sine is the cosine of that angle.
+    const std::int64_t whole = 8 * static_cast<std::int64_t>(parallels),
+                       part = 4 * static_cast<std::int64_t>(j);
+    const double sine = sine_of_turn((part + whole / 4) % whole, whole), cosine = sine_of_turn(part, whole);
+    return [&, sine, cosine](std::size_t k, std::int64_t step, std::int64_t& sum,
+                             std::vector<std::int64_t>& turns) {
+      cross(waves[k], table, sine, cosine, step, sum, turns);
+    };
+  });
+  for (int j = 0; j < options.depth; ++j) field.at(columns, j) = field.at(0, j);
   const double degree_metres = options.radius * std::numbers::pi / 180;
   field.cell_x = static_cast<float>(360.0 / columns * degree_metres);
   field.cell_z = static_cast<float>(180.0 / parallels * degree_metres);
-  field.heights.resize(static_cast<std::size_t>(options.width) * options.depth);
-  constexpr int kRows = 8;  // a task
-  tbb::parallel_for(tbb::blocked_range<int>(0, options.depth, kRows), [&](const auto& rows) {
-    std::vector<std::int64_t> turns(static_cast<std::size_t>(columns));
-    for (int j = rows.begin(); j < rows.end(); ++j) {
-      // Row j is j half-turns of parallels from the north pole: its sine is the cosine of that angle.
-      const std::int64_t whole = 8 * static_cast<std::int64_t>(parallels),
-                         part = 4 * static_cast<std::int64_t>(j);
-      const double sine = sine_of_turn((part + whole / 4) % whole, whole), cosine = sine_of_turn(part, whole);
-      std::int64_t sum = 0;
-      for (std::size_t k = 0; k < waves.size(); ++k) {
-        cross(waves[k], table, sine, cosine, steps.whole[k], sum, turns);
-      }
-      write_row(steps, sum, turns, columns, &field.at(0, j));
-      field.at(columns, j) = field.at(0, j);
-    }
-  });
   return field;
 }
 

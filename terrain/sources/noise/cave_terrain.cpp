@@ -15,9 +15,9 @@
 namespace terrabench::noise {
 namespace {
 
-// The paper prints no numbers for the following; chosen so that hills, overhangs and tunnels are all clearly
-// there at 128³, and little is cut off by roughness alone. Lengths are shares of the extent, frequencies are
-// lattice cells an extent.
+// The paper prints no numbers for these. They are chosen so that hills, overhangs and tunnels are clearly
+// visible at 128³, and roughness alone cuts off little. Lengths are shares of the extent, frequencies are
+// lattice cells per extent.
 struct Shape {
   float frequency, gain, reach;
 };
@@ -25,10 +25,10 @@ constexpr Shape kHills{2.0F, 0.42F, 0.55F};
 constexpr Shape kOverhangs{3.0F, 0.32F, 0.5F};
 constexpr Shape kCaves{3.5F, 0.35F, 0.0F};
 constexpr Shape kRoughness{5.0F, 0.32F, 0.06F};
-// The fractal's proven range is twice what it ever uses: limiting it costs no hill and lets the evaluation
-// know that the surface lies in the middle of the cube.
+// The fractal's provable range is twice the range of its values: the limit removes no hill and lets the
+// evaluation prove that the surface lies in the middle of the cube.
 constexpr float kHillLimit = 0.55F;
-// Where a ridged multifractal, weakened by the attenuation, reaches this, it allows a cave.
+// A ridged multifractal, weakened by the attenuation, allows a cave where it reaches this value.
 constexpr float kCaveThreshold = 0.72F;
 // Caves have their full width up to the lower height, and none at all well below the upper.
 constexpr float kAttenuationLow = 0.15F, kAttenuationHigh = 0.75F, kAttenuationBias = 0.75F;
@@ -73,7 +73,7 @@ class Builder {
   // 0 or 1: the two multifractals differ in their seed and with it in the offsets of their octaves.
   Node ridged(std::uint64_t which) { return graph_.ridged_multifractal(fractal(2 + which, kCaves)); }
 
-  // 1 where ridged multifractal `which` is so near its crests that it allows a cave.
+  // 1 where ridged multifractal `which` is close enough to its crests to allow a cave.
   Node cave(std::uint64_t which, bool attenuated) {
     const Node strength = attenuated ? graph_.multiply(attenuation(), ridged(which)) : ridged(which);
     return graph_.select(graph_.constant(0), graph_.constant(1), strength, kCaveThreshold);
@@ -96,7 +96,7 @@ class Builder {
 
  private:
   Fractal fractal(std::uint64_t which, const Shape& shape) const {
-    // The seeds of one terrain's fractals and of the next terrain's never meet.
+    // No two terrains share the seed of a fractal.
     return {.seed = options_.seed * 16 + which,
             .frequency = shape.frequency / options_.extent,
             .octaves = 6,
@@ -173,8 +173,8 @@ CaveGraph graph_for(Stage stage, const CaveOptions& options) {
 
 Solid cave_terrain(const CaveOptions& options) {
   if (!std::isfinite(options.extent) || options.extent <= 0) {
-    throw usage_error(fmt::format("{} is no extent", options.extent), "cave terrain",
-                      "give the side of the cube in metres, more than 0");
+    throw usage_error(fmt::format("extent must be above 0 m, got {}", options.extent), "cave terrain",
+                      "it is the side of the cube");
   }
   const CaveGraph cave = terrain_graph(options);
   Solid solid;

@@ -2,8 +2,8 @@
 // fractal that ignores y (hills), in x by one that does not (overhangs), and hollowed by two ridged
 // multifractals (tunnels) that fade with height. Six octaves in each of the five fractals.
 //
-// About 24 million samples a second and core on a 512³ grid with AVX-512, 15 with AVX2: what is surely air or
-// ground is not evaluated.
+// About 24 million samples per second and core on a 512³ grid with AVX-512, 15 with AVX2: parts that are
+// provably air or ground are not evaluated.
 #pragma once
 
 #include <cstdint>
@@ -17,20 +17,20 @@ namespace terrabench::noise {
 
 struct CaveOptions {
   std::uint64_t seed = 1;
-  float extent = 128.0F;  // metres, side of the cube; features keep their share of it at any sampling
+  float extent = 128.0F;  // metres, side of the cube; features scale with it
   bool perturb_y = true;  // hills
-  bool perturb_x = true;  // overhangs; without hills there is nothing to move
+  bool perturb_x = true;  // overhangs; without hills it moves nothing
   bool caves = true;
-  bool attenuation = true;  // of the caves, with height
-  // The paper multiplies two maps that are 0 in caves, which is 0 where either is, yet says that caves form
-  // only where both are. By default both must be 0, which gives tunnels; this option takes the product as
-  // printed, which gives sheets that cut the ground apart.
+  bool attenuation = true;  // caves fade with height
+  // The paper multiplies two maps that are 0 in caves; the product is 0 where either is, yet the text says
+  // that caves form only where both are. By default both must be 0, which gives tunnels; with this option the
+  // product as printed, which gives sheets that cut the ground apart.
   bool printed_product = false;
 };
 
-// The stages of the paper's figures 3 to 13. Its captions 9 and 10 are swapped: the text says that the noise
-// comes first and is then clamped, and so do we. In the cave maps, as in the paper, 0 is a cave. The stages
-// that show one ridged multifractal show the first; those of the whole terrain have both.
+// The stages of the paper's figures 3 to 13. Its captions 9 and 10 are swapped: by the text, followed here,
+// the noise comes first and is then clamped. In the cave maps, as in the paper, 0 is a cave. Stages with one
+// ridged multifractal show the first; those of the whole terrain have both.
 enum class Stage : std::uint8_t {
   kGradient,         // figure 3: 0 at the top, 1 at the bottom
   kClampedGradient,  // 4: ground 1, sky 0
@@ -65,7 +65,7 @@ CaveGraph graph_for(Stage stage, const CaveOptions& options);
 // Throws usage_error when the extent is not a positive number. Safe to sample from many threads.
 Solid cave_terrain(const CaveOptions& options = {});
 
-// The same as ground to build structures from.
+// The same as a source for structures.
 TerrainSource cave_source(const CaveOptions& options = {});
 
 }  // namespace terrabench::noise

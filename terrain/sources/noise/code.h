@@ -12,10 +12,10 @@
 
 namespace terrabench::noise {
 
-inline constexpr std::uint32_t kMaxLanes = 16;  // of the widest vector used
+inline constexpr std::uint32_t kMaxLanes = 16;  // lanes of the widest vector used
 inline constexpr std::uint32_t kMaxOctaves = 24;
-// Samples evaluated at a time. A program that can skip takes a share of the column, within limits, so that
-// what it skips is a matter of the terrain and not of the resolution; one that cannot takes as many as the
+// Samples evaluated at a time. A program with jumps takes a share of the column, within limits, so that the
+// parts that it skips depend on the terrain and not on the resolution; one without takes as many as the
 // registers hold.
 inline constexpr std::uint32_t kBatch = 256;
 inline constexpr std::uint32_t kBatchToSkip = 64;
@@ -37,7 +37,7 @@ enum class Op : std::uint8_t {
   kFbm,
   kRidged,
   kBillow,
-  // Jumps; `jump` is where to go on.
+  // Jumps, to the instruction `jump`.
   kSkipIfAllZero,
   kSkipIfAllOne,
   kSkipIfDecided  // fills register `out` when bounds show that a kStep is all 0 or all 1
@@ -51,8 +51,8 @@ struct Operand {
 
 struct Instruction {
   Op op = Op::kConstant;
-  bool along_column = false;  // fractal whose x and z are constant and whose y grows evenly
-  std::uint32_t window = 0;   // its first PlaneWindow, one an octave
+  bool along_column = false;  // fractal with constant x and z and evenly spaced y
+  std::uint32_t window = 0;   // its first PlaneWindow, one per octave
   Operand out, a, b, c;
   float p = 0, q = 0;
   std::uint32_t first = 0, count = 0;  // octaves of a fractal, or interval steps of kSkipIfDecided
@@ -75,7 +75,7 @@ struct IntervalStep {
 inline constexpr std::uint32_t kMaxIntervalSteps = 64;
 
 struct Code {
-  std::vector<Instruction> once;   // run once a column, for what is constant along it
+  std::vector<Instruction> once;   // run once per column, for what is constant along it
   std::vector<Instruction> batch;  // run for each batch
   std::vector<IntervalStep> intervals;
   std::vector<Octave> octaves;
@@ -85,23 +85,23 @@ struct Code {
   bool skips = false;  // whether `batch` has jumps
 };
 
-// Lattice planes of one octave of noise along the column at hand: what gradient_noise_inl.h computes once for
-// all samples between the same planes.
+// Lattice planes of one octave of noise along the current column, which gradient_noise_inl.h computes once
+// for all samples between the same planes.
 struct alignas(64) PlaneWindow {
   static constexpr std::uint32_t kSize =
       (static_cast<std::uint32_t>(kBatch / kPlaneCost) + 5 + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
   float a[kSize], b[kSize];
   std::int32_t base = 0;    // cell height of the first
-  std::uint32_t count = 0;  // 0: none yet
+  std::uint32_t count = 0;  // 0: none computed
 };
 
-// Where a program works. Registers are aligned to 64 bytes.
+// A program's memory. Registers are aligned to 64 bytes.
 struct Scratch {
   float* registers = nullptr;      // Code::scratch_floats
   PlaneWindow* windows = nullptr;  // Code::windows
 };
 
-// Where the samples lie: a column (x, z, y0, dy), or arrays.
+// The positions of the samples: a column (x, z, y0, dy), or arrays.
 struct Samples {
   bool column = false;
   float x = 0, z = 0, y0 = 0, dy = 0;

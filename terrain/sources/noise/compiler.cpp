@@ -13,7 +13,7 @@
 namespace terrabench::noise {
 namespace {
 
-using Id = std::uint32_t;  // of a value: an index into Compiler::values_
+using Id = std::uint32_t;  // the index of a value in Compiler::values_
 constexpr Id kNone = ~Id{0};
 constexpr std::uint32_t kRootRegion = 0;
 
@@ -170,7 +170,7 @@ Id Compiler::gradient(const Module& m, const Coordinates& at) {
   for (int axis = 2; axis >= 0; --axis) {
     const float slope = m.parameters[static_cast<std::size_t>(axis)];
     if (slope == 0) continue;
-    // The constant term goes with the first axis that counts.
+    // The constant term is added to the first axis with a slope.
     const Id term = scale_offset(axes[axis], slope, total == kNone ? m.parameters[3] : 0.0F);
     total = total == kNone ? term : sum(total, term);
   }
@@ -248,7 +248,7 @@ std::uint32_t Compiler::common(std::uint32_t a, std::uint32_t b) const {
   return a;
 }
 
-// Users come after their operands, so going backwards every user has its region before its operands need it.
+// Users come after their operands: going backwards, the regions of all users of a value are known.
 // A value belongs to the innermost region that contains all its uses.
 void Compiler::find_regions() {
   constexpr std::uint32_t kUnused = ~std::uint32_t{0};
@@ -336,7 +336,7 @@ std::optional<std::uint32_t> Compiler::interval(Id id, std::map<Id, std::uint32_
   return known[id] = static_cast<std::uint32_t>(steps.size() - 1);
 }
 
-// The code of a lazy operand, behind the jump that passes over it.
+// The code of a lazy operand, after the jump that skips it.
 void Compiler::emit_lazily(Id user, int slot) {
   const auto region = lazy_region_.find({user, slot});
   if (region == lazy_region_.end() || members_[region->second].empty()) return;
@@ -364,7 +364,7 @@ void Compiler::emit_lazily(Id user, int slot) {
   code_.batch.push_back(skip);
   code_.skips = true;
   emit_region(region->second);
-  // A decided step jumps past its own instruction too, which follows the region.
+  // A decided step also skips its own instruction, which follows the region.
   code_.batch[at].jump = static_cast<std::uint32_t>(code_.batch.size()) + (v.op == Op::kStep ? 1 : 0);
 }
 

@@ -68,7 +68,8 @@ HWY_INLINE VU hash_y(VU xzy) {
   return hn::Mul(hn::Xor(xzy, hn::ShiftRight<15>(xzy)), hn::Set(u, kMixY));
 }
 
-// What the four lattice lines around a point share in all planes: hash, x,z weight, weighted distances.
+// Values of the four vertical lattice lines around a point that all planes share: hash, x,z weight, weighted
+// distances.
 struct Line {
   VU hash;
   VF weight, x, z;
@@ -150,8 +151,8 @@ HWY_INLINE VF gradient_noise(VF px, VF py, VF pz, VU seed) {
   return gradient_noise(split(px), split(py), split(pz), seed);
 }
 
-// Computes the planes from `base` on, and as many more as fill whole vectors, on the side to which y moves:
-// there the next batch will look for them.
+// Computes the planes from `base` on, rounded up to whole vectors on the side to which y moves, where the
+// next batch uses them.
 HWY_INLINE void fill_window(VF px, VF pz, std::uint32_t seed, std::int32_t base, std::uint32_t planes,
                             bool rising, PlaneWindow& window) {
   const F f;
@@ -169,23 +170,23 @@ HWY_INLINE void fill_window(VF px, VF pz, std::uint32_t seed, std::int32_t base,
   }
 }
 
-// Noise at (px, py[i], pz) for `count` samples, a multiple of the vector size, py growing or falling
-// steadily. `window` holds planes of the same px, pz and seed, or none. Returns false, with nothing written,
-// where the samples lie too sparse for planes to be shared.
+// Noise at (px, py[i], pz) for `count` samples, a multiple of the vector size, py rising or falling
+// monotonically. `window` holds planes of the same px, pz and seed, or none. Returns false, with nothing
+// written, when the samples are too sparse to share planes.
 HWY_INLINE bool gradient_noise_along_y(VF px, const float* HWY_RESTRICT py, VF pz, std::uint32_t seed,
                                        std::uint32_t count, PlaneWindow& window, float* HWY_RESTRICT out) {
   const F f;
   const I i;
   const auto n = static_cast<std::uint32_t>(hn::Lanes(f));
   const float first = py[0], last = py[count - 1];
-  // Written so that NaN fails.
+  // False for NaN.
   if (!(first > -kPlaneLimit && first < kPlaneLimit && last > -kPlaneLimit && last < kPlaneLimit)) {
     return false;
   }
   const bool rising = first < last;
   const float low = rising ? first : last, span = rising ? last - first : first - last;
   if (span * kPlaneCost > static_cast<float>(count)) return false;
-  const std::int32_t lowest = static_cast<std::int32_t>(low) - 1;  // not above the lowest cell
+  const std::int32_t lowest = static_cast<std::int32_t>(low) - 1;  // at most the lowest cell
   const auto planes = static_cast<std::uint32_t>(span) + 5;        // past the plane above the highest
   if (lowest < window.base || static_cast<std::uint32_t>(lowest - window.base) + planes > window.count) {
     fill_window(px, pz, seed, lowest, planes, rising, window);

@@ -1,9 +1,9 @@
 // A graph of noise modules, with the names of the library that the hybrid paper builds its terrain from
 // (§3.1.3; Tippetts' Accidental Noise Library). A graph is a flat array of nodes, a handle is an index into
-// it, operands come before what uses them. Building costs nothing to speak of; Program (program.h) evaluates.
+// it, operands come before what uses them. Building is cheap; Program (program.h) evaluates it.
 //
-// Coordinates are metres. A coordinate that is not finite or not below 2^30 in size (in lattice cells) counts
-// as 0 on its axis inside a fractal; elsewhere NaN follows IEEE rules, and a comparison with NaN is false.
+// Coordinates are metres. A coordinate that is not finite, or at least 2^30 in magnitude (in lattice cells),
+// counts as 0 inside a fractal; elsewhere NaN follows IEEE rules, and a comparison with NaN is false.
 #pragma once
 
 #include <array>
@@ -34,12 +34,11 @@ enum class Kind : std::uint8_t {
   kCache
 };
 
-// Octave i has frequency·lacunarity^i cells a metre and the weight gain^i. Each octave's lattice is shifted
-// by an offset drawn from the seed, or the zeros of all octaves would coincide at whole coordinates; fractals
-// of different seeds therefore also have different offsets.
+// Octave i has frequency·lacunarity^i cells per metre and the weight gain^i. Each octave's lattice is shifted
+// by an offset drawn from the seed; otherwise the zeros of all octaves would coincide at whole coordinates.
 struct Fractal {
   std::uint64_t seed = 0;
-  float frequency = 1.0F;  // cells a metre of the first octave, finite and > 0
+  float frequency = 1.0F;  // cells per metre of the first octave, finite and > 0
   int octaves = 6;         // 1 … 24 (kMaxOctaves)
   float lacunarity = 2.0F;
   float gain = 0.5F;
@@ -51,7 +50,7 @@ struct Node {
   bool operator==(const Node&) const = default;
 };
 
-// One node as stored. Which fields mean something depends on the kind.
+// One node as stored. The kind decides which fields are used.
 struct Module {
   Kind kind = Kind::kConstant;
   std::array<Node, 4> inputs{};       // in the order of the builder's parameters
@@ -80,8 +79,8 @@ class Graph {
   // min(max(source, low), high), low ≤ high.
   Node clamp(Node source, float low, float high);
   // low where control < threshold, else high. With a falloff f > 0 the two are mixed by a quintic fade for
-  // control in threshold ± f. Where the mix is wholly one operand, the other is not evaluated, nor does its
-  // value matter, NaN included.
+  // control in threshold ± f. Where the mix is wholly one operand, the other is not evaluated and its value,
+  // NaN included, does not matter.
   Node select(Node low, Node high, Node control, float threshold, float falloff = 0.0F);
   // low + t (high - low), t = clamp(control, 0, 1). At t = 0 and 1 as for select.
   Node blend(Node low, Node high, Node control);
@@ -98,18 +97,18 @@ class Graph {
   // a·b, and 0 where the mask a is 0, whatever b (NaN included): there b is not evaluated.
   Node multiply(Node mask, Node b);
 
-  // Samples the source at (x + dx, y + dy, z + dz). A handle without a node moves nothing along its axis. The
-  // offsets are sampled where the result is asked for.
+  // Samples the source at (x + dx, y + dy, z + dz). A handle without a node is an offset of 0. The offsets
+  // are sampled at (x, y, z).
   Node translate_domain(Node source, Node dx, Node dy = {}, Node dz = {});
   // Samples the source at (x·sx, y·sy, z·sz). A scale of 0 makes the source constant along that axis.
   Node scale_domain(Node source, float sx, float sy, float sz);
 
-  // The value of the source, unchanged: says that it is used more than once. Only a hint, because the
-  // compiler evaluates equal expressions at equal coordinates once whether marked or not.
+  // The value of the source, unchanged: a hint that it is used more than once. The compiler evaluates equal
+  // expressions at equal coordinates once with or without it.
   Node cache(Node source);
 
   const std::vector<Module>& modules() const { return modules_; }
-  // One line a node with all parameters, floats exact: equal texts evaluate equally.
+  // One line per node with all parameters, floats exact: graphs with equal texts have equal values.
   std::string describe() const;
 
  private:

@@ -19,14 +19,14 @@ Interval multiply(Interval a, Interval b) {
   return {*low, *high};
 }
 
-// low + t (high - low) with t in [0, 1] may round past either end, by no more than this share of the larger.
+// low + t (high - low) with t in [0, 1] may round past either end, by at most this share of the larger.
 Interval mix(Interval high, Interval low) {
   const Interval both = hull(high, low);
   const float slack = 1e-6F * std::max(std::max(both.high, -both.high), std::max(both.low, -both.low));
   return {both.low - slack, both.high + slack};
 }
 
-// Bias and gain grow with their source, but for rounding.
+// Bias and gain are monotone except for rounding.
 Interval growing(Interval at_ends) { return {at_ends.low - 1e-6F, at_ends.high + 1e-6F}; }
 
 float bias(float t, float p) {
@@ -65,7 +65,7 @@ int decide_step(std::span<const IntervalStep> steps, const float* scratch, Inter
   Interval at[kMaxIntervalSteps];
   for (std::size_t i = 0; i < steps.size(); ++i) {
     at[i] = bound(steps[i], at, scratch, y);
-    // Infinities may become NaN inside, which no bound shows.
+    // Infinities may become NaN inside the interval, which its bounds do not show.
     if (!std::isfinite(at[i].low) || !std::isfinite(at[i].high)) return -1;
   }
   const Interval control = at[steps.size() - 1];

@@ -75,8 +75,9 @@ HWY_EXPORT(lattice_points);
 LatticeNoise::LatticeNoise(const LatticeFractal& fractal) : cell_bits_(fractal.cell_bits) {
   if (fractal.cell_bits < 1 || fractal.cell_bits > 15 || fractal.octaves < 1 ||
       fractal.octaves > fractal.cell_bits + 1 || !(fractal.gain > 0 && fractal.gain < 1)) {
-    throw usage_error("no noise has such octaves", "",
-                      "choose 1 to 15 bits of the first cell, at most one octave more, a gain in (0, 1)");
+    throw usage_error(
+        "the octaves are out of range", "lattice noise",
+        "choose 1 to 15 bits for the first cell, at most one octave more than bits, a gain in (0, 1)");
   }
   octaves_ = octaves({.seed = fractal.seed,
                       .frequency = std::ldexp(1.0F, -fractal.cell_bits),

@@ -16,12 +16,12 @@ struct Machine {
   const Code& code;
   float* scratch;
   PlaneWindow* windows;
-  std::uint32_t count;  // samples of the batch at hand, rounded up to whole vectors
+  std::uint32_t count;  // samples of the current batch, rounded up to whole vectors
 
   VF load(const Operand& operand, std::uint32_t at) const {
     return hn::Load(F(), scratch + operand.offset + (at & operand.mask));
   }
-  // out[i] = function(i), vector by vector. What is constant along the column fills kMaxLanes values.
+  // out[i] = function(i), vector by vector. Constants along the column fill kMaxLanes values.
   template <class Function>
   HWY_INLINE void each(const Operand& out, const Function& function) const {
     float* const to = scratch + out.offset;
@@ -92,8 +92,8 @@ HWY_NOINLINE void octave_noise(const Machine& m, const Instruction& in, std::uin
   }
 }
 
-// Noise of all octaves of a fractal that is constant along the column, one octave a lane instead of one value
-// in all.
+// Noise of all octaves of a fractal that is constant along the column: one octave per lane, instead of equal
+// lanes.
 HWY_NOINLINE void constant_octaves(const Machine& m, const Instruction& in, float* HWY_RESTRICT out) {
   const F f;
   const auto lanes = static_cast<std::uint32_t>(hn::Lanes(f));
@@ -175,7 +175,7 @@ void run(const Machine& m, std::span<const Instruction> program) {
       case Op::kInputX:
       case Op::kInputY:
       case Op::kInputZ:
-        break;  // filled in before the program runs
+        break;  // filled before the program runs
       case Op::kConstant:
         m.each(in.out, [&](std::uint32_t) { return p; });
         break;
@@ -231,8 +231,8 @@ void run(const Machine& m, std::span<const Instruction> program) {
   }
 }
 
-// Fills the input registers for samples [begin, begin + n), up to whole vectors: a column goes on past its
-// end, arrays repeat their last sample.
+// Fills the input registers for samples [begin, begin + n), up to whole vectors: a column continues past
+// its end, arrays repeat their last sample.
 void fill_inputs(const Machine& m, const Samples& samples, std::size_t begin, std::uint32_t n) {
   const Code& code = m.code;
   if (samples.column) {

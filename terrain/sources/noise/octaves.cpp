@@ -13,7 +13,7 @@ std::uint64_t next_random(std::uint64_t& state) {
   return z ^ (z >> 31);
 }
 
-// In [0, 256), in steps of 1/256: far apart, and coarse enough to cost a coordinate few of its bits.
+// In [0, 256), in steps of 1/256: far apart, and so coarse that adding one loses few bits of a coordinate.
 float lattice_offset(std::uint64_t& state) { return static_cast<float>(next_random(state) >> 48) / 256.0F; }
 
 }  // namespace
@@ -33,8 +33,8 @@ std::vector<Octave> octaves(const Fractal& f) {
     octave.frequency *= f.lacunarity;
     octave.weight *= f.gain;
   }
-  // A sum of rounded weights may exceed 1 by half an ulp an octave; the range that graph.h promises, and that
-  // bounds rely on, must hold exactly.
+  // A sum of rounded weights may exceed 1 by half an ulp per octave; the range that graph.h promises, and
+  // that bounds rely on, must hold exactly.
   constexpr float kRoom = 1.0F - 2e-6F;
   for (Octave& each : drawn) each.weight = each.weight / total * kRoom;
   return drawn;

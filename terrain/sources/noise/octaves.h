@@ -1,4 +1,4 @@
-// What the octaves of a fractal are: frequencies and weights, and the seeds and offsets drawn from its seed.
+// The octaves of a fractal: frequencies and weights, and the seeds and offsets drawn from its seed.
 #pragma once
 
 #include <vector>

@@ -12,7 +12,7 @@ struct alignas(64) Registers {
   float values[kMaxLanes];
 };
 
-// The thread's own, as large as the largest program needed so far.
+// The thread's own scratch, as large as the largest program run so far needs.
 Scratch scratch(const Code& code) {
   thread_local std::vector<Registers> registers;
   thread_local std::vector<PlaneWindow> windows;

@@ -1,12 +1,11 @@
 // Evaluates a noise graph (graph.h): compiled once to a flat register program, then run over batches of
 // samples.
 //  - Equal expressions at equal coordinates are evaluated once (hash consing while compiling).
-//  - What does not change along a column is evaluated once a column.
+//  - Expressions that are constant along a column are evaluated once per column.
 //  - Operands of multiply, select and blend that a whole batch does not need are skipped; so is the control
-//  of a
-//    select that interval bounds decide. Skipping never changes a value.
-//  - SIMD on the best instruction set of the machine, bit-identical on all of them, in columns or points
-//  alike.
+//  of
+//    a select that interval bounds decide. Skipping never changes a value.
+//  - SIMD on the best instruction set of the machine, bit-identical on all of them, for columns and points.
 // Compiling is O(nodes), a few microseconds. Evaluation allocates nothing after a thread's first call.
 #pragma once
 
@@ -30,15 +29,15 @@ class Program {
  public:
   Program(const Graph& graph, Node root);
 
-  // Values at (x, y0 + i·dy, z), i = 0 … out.size() - 1. Safe from many threads at once, as all below.
+  // Values at (x, y0 + i·dy, z), i = 0 … out.size() - 1. Thread-safe, as are all below.
   void column(const ColumnSamples& samples, std::span<float> out) const;
-  // Values at (x[i], y[i], z[i]); the four are equally long.
+  // Values at (x[i], y[i], z[i]); all four have one length.
   void points(std::span<const float> x, std::span<const float> y, std::span<const float> z,
               std::span<float> out) const;
   // width·height values, row-major.
   void slice(const Slice& slice, std::span<float> out) const;
 
-  // Instructions that a column runs once, and for each batch: what sharing and hoisting achieved.
+  // The number of instructions run per column, and per batch: the effect of sharing and hoisting.
   std::size_t instructions_once() const { return column_.once.size(); }
   std::size_t instructions_per_batch() const { return column_.batch.size(); }
 

@@ -1,0 +1,41 @@
+// Drills from a terrain (Stuetzle & Franklin 2012, §2.1 and §2.2): one for every channel pixel, its shape the
+// quadratic fitted to the union of the cross-sections around it. O(pixels + drills · w).
+#pragma once
+
+#include <cstdint>
+
+#include "representations/drill/drills.h"
+#include "terrain/heightfield.h"
+#include "terrain/hydrology/flow.h"
+#include "terrain/progress.h"
+
+namespace terrabench {
+
+// How far from its centre a shape must not fall outward.
+enum class Monotone {
+  kNowhere,    // the fit as printed in §2.2: parabolas may bend down, and then fall without end beyond w
+  kWindow,     // as far as the window and the cross-section reach
+  kEverywhere  // as §4 says of the shapes: slope and curvature ≥ 0
+};
+
+struct DrillOptions {
+  std::uint32_t tau = 25;  // least flow of a channel, pixels
+  int w = 10;              // length of a cross-section, samples
+  int k = 10;              // influence, samples
+  Monotone monotone = Monotone::kEverywhere;
+  // §4.1: elevations never rise downstream. With shapes monotone everywhere no pit can be left (pits.h).
+  bool monotone_profiles = false;
+  bool adaptive_k = false;             // §4.1: a k per drill, up to `k` (influence.h)
+  bool interpolate_untouched = false;  // §4.1: see regenerate.h
+};
+
+// Throws usage_error: τ < 1, w < 1 or larger than the terrain, w or k above 255, k < 0.
+void check_options(const DrillOptions&, int width, int depth);
+
+// Drills for all pixels whose flow is at least τ; none when no flow is. `network` is route_flow(field);
+// heights are below 10⁹ m. Parallel over drills, the same on every machine. Throws what check_options()
+// throws, and environment_error when the cross-sections do not fit the memory.
+Drills extract_drills(const Heightfield& field, const FlowNetwork& network, const DrillOptions& options,
+                      Progress* progress = nullptr);
+
+}  // namespace terrabench
