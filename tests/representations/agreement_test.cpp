@@ -12,7 +12,7 @@
 namespace terrabench::test {
 namespace {
 
-const std::vector<std::string_view> kVolumes = types(&Traits::materials);
+const std::vector<std::string_view> kVolumes = types([](const Traits& t) { return t.materials; });
 
 // The lattice's samples, asked at cell centres, are the source's own.
 void expect_samples(std::string_view name, const TerrainSource& source, std::int64_t resolution) {

@@ -15,12 +15,6 @@
 
 namespace terrabench::test {
 
-// Rough hills, of whole metres or not, with a share of the samples missing.
-inline Heightfield hills(int width, int depth, unsigned seed, bool whole, unsigned percent_holes = 0) {
-  const Heightfield field = with_holes(hills(width, depth, seed), seed + 1, percent_holes / 100.0);
-  return whole ? rounded(field) : field;
-}
-
 inline Drills drill(const Heightfield& field, const DrillOptions& options) {
   return extract_drills(field, route_flow(field), options);
 }

@@ -8,7 +8,7 @@ namespace terrabench::test {
 namespace {
 
 class Edited : public testing::TestWithParam<std::string_view> {};
-INSTANTIATE_TEST_SUITE_P(Types, Edited, testing::ValuesIn(types(&Traits::editable)),
+INSTANTIATE_TEST_SUITE_P(Types, Edited, testing::ValuesIn(types([](const Traits& t) { return t.editable; })),
                          [](const auto& at) { return std::string(at.param); });
 
 TEST_P(Edited, ManyRandomStrokesEqualTheModel) {

@@ -92,11 +92,11 @@ inline TerrainSource caves() {
   });
 }
 
-// The names of all registered types, or of those with a trait: the tests of them find a new method.
-inline std::vector<std::string_view> types(bool Traits::*trait = nullptr) {
+// The names of all registered types, or of those with the traits asked for, so that tests find a new method.
+inline std::vector<std::string_view> types(bool (*chosen)(const Traits&) = nullptr) {
   std::vector<std::string_view> names;
   for (const RepresentationType& type : representations()) {
-    if (trait == nullptr || type.traits.*trait) names.push_back(type.name);
+    if (chosen == nullptr || chosen(type.traits)) names.push_back(type.name);
   }
   return names;
 }

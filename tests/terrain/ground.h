@@ -52,17 +52,21 @@ inline Heightfield waves(int width, int depth, float height, float cell_x = 1, f
   return ground_of(width, depth, wave, cell_x, cell_z);
 }
 
-// Rough hills of 270 to 730 m, cells of 30 m × 25 m; seeds differ in the hills too.
-inline Heightfield hills(int width, int depth, unsigned seed) {
+// Rough hills of 270 to 730 m, of whole metres or not, with a share of holes; cells of 30 m × 25 m. Seeds
+// differ in the hills too.
+inline Heightfield hills(int width, int depth, unsigned seed, bool whole = false,
+                         unsigned percent_holes = 0) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> unit(0, 1);
   const float a = unit(random), b = unit(random), c = unit(random);
   const auto hill = [&](int i, int j) {
     const auto x = static_cast<float>(i), z = static_cast<float>(j);
-    return 500 + 150 * std::sin(0.11F * x + 6 * a) * std::cos(0.09F * z + 6 * b) +
-           60 * std::sin(0.31F * x - 0.23F * z + 6 * c) + 20 * unit(random);
+    const float h = 500 + 150 * std::sin(0.11F * x + 6 * a) * std::cos(0.09F * z + 6 * b) +
+                    60 * std::sin(0.31F * x - 0.23F * z + 6 * c) + 20 * unit(random);
+    return random() % 100 < percent_holes ? Heightfield::kNoData : h;
   };
-  return ground_of(width, depth, hill, 30, 25);
+  const Heightfield field = ground_of(width, depth, hill, 30, 25);
+  return whole ? rounded(field) : field;
 }
 
 }  // namespace terrabench::test
