@@ -167,7 +167,7 @@ TEST(Budget, ThatCannotBeKeptIsRefused) {
            {"budget_bytes", std::int64_t{1}}, {"max_rmse", 1e-6}}) {
     const Failure failure = failure_of([&] { drilled(field, {{name, value}}); });
     EXPECT_EQ(failure.code, ExitCode::kUsage) << name;
-    EXPECT_NE(failure.what.find("the nearest are"), std::string::npos) << failure.what;
+    EXPECT_NE(failure.what.find("the nearest take"), std::string::npos) << failure.what;
   }
 }
 

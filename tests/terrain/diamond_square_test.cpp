@@ -215,14 +215,15 @@ TEST(DiamondSquare, RefusesWhatItCannotMake) {
   for (const int side : {-5, 0, 1, 2, 4, 6, 512, 514, 1'000'000'000, 65537}) {
     const Failure failure = failure_of([&] { diamond_square({.side = side}); });
     EXPECT_EQ(failure.code, ExitCode::kUsage) << side;
-    EXPECT_THAT(failure.advice, HasSubstr("2^n + 1")) << side;
+    EXPECT_THAT(failure.what, HasSubstr("2^n + 1")) << side;
   }
   for (const float bad : {nan, infinity, -1.0F}) {
     EXPECT_EQ(failure_of([&] { diamond_square({.amplitude = bad}); }).code, ExitCode::kUsage) << bad;
     EXPECT_EQ(failure_of([&] { diamond_square({.hurst = bad}); }).code, ExitCode::kUsage) << bad;
     EXPECT_EQ(failure_of([&] { diamond_square({.cell = bad}); }).code, ExitCode::kUsage) << bad;
   }
-  EXPECT_THAT(failure_of([&] { diamond_square({.hurst = 1.5F}); }).what, HasSubstr("hurst is 1.5"));
+  EXPECT_THAT(failure_of([&] { diamond_square({.hurst = 1.5F}); }).what,
+              HasSubstr("hurst must be between 0 and 1, got 1.5"));
   EXPECT_EQ(failure_of([&] { diamond_square({.corner = nan}); }).code, ExitCode::kUsage);
   EXPECT_EQ(failure_of([&] { diamond_square({.cell = 0}); }).code, ExitCode::kUsage);
   for (const float height : diamond_square({.side = 129, .amplitude = 0}).heights) ASSERT_EQ(height, 0);
@@ -262,7 +263,7 @@ TEST(Midpoint, MovesEachMiddleWithinTheRangeOfItsLevel) {
 
 TEST(Midpoint, RefusesWhatItCannotMake) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THAT(failure_of([] { midpoint_displacement({.levels = 25}); }).advice, HasSubstr("24"));
+  EXPECT_THAT(failure_of([] { midpoint_displacement({.levels = 25}); }).what, HasSubstr("0 and 24, got 25"));
   EXPECT_EQ(failure_of([] { midpoint_displacement({.levels = -1}); }).code, ExitCode::kUsage);
   EXPECT_EQ(failure_of([&] { midpoint_displacement({.amplitude = nan}); }).code, ExitCode::kUsage);
   EXPECT_EQ(failure_of([&] { midpoint_displacement({.left = nan}); }).code, ExitCode::kUsage);

@@ -119,7 +119,8 @@ TEST(Hills, RefuseWhatTheyCannotMake) {
     EXPECT_EQ(failure_of([&] { hill_terrain({.depth = side}); }).code, ExitCode::kUsage) << side;
   }
   for (const int hills : {-1, 1'000'000'000}) {
-    EXPECT_THAT(failure_of([&] { hill_terrain({.hills = hills}); }).what, HasSubstr("hills is"));
+    EXPECT_THAT(failure_of([&] { hill_terrain({.hills = hills}); }).what,
+                HasSubstr("hills must be between 0 and 10000000,"));
   }
   for (const float bad : {nan, 0.0F, -1.0F, std::numeric_limits<float>::infinity()}) {
     EXPECT_EQ(failure_of([&] { hill_terrain({.least_radius = bad}); }).code, ExitCode::kUsage) << bad;

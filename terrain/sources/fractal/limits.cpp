@@ -12,13 +12,13 @@ namespace terrabench::fractal {
 void check_side(int samples, std::string_view what, std::string_view where) {
   if (samples >= 2 && samples <= kLargestSide) return;
   throw usage_error(fmt::format("{} must be between 2 and {} samples, got {}", what, kLargestSide, samples),
-                    where, fmt::format("choose another {}", what));
+                    where, "choose a number in this range");
 }
 
 void check_between(double value, double low, double high, std::string_view what, std::string_view where) {
   if (value >= low && value <= high) return;  // false for NaN
   throw usage_error(fmt::format("{} must be between {} and {}, got {}", what, low, high, value), where,
-                    fmt::format("choose another {}", what));
+                    "choose a number in this range");
 }
 
 void check_memory(std::int64_t width, std::int64_t depth, std::string_view where) {
