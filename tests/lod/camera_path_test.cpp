@@ -198,7 +198,7 @@ TEST(CameraPath, RefusesGarbageByLine) {
   refused("speed = 4", "speed = ", 10, "");
   refused("speed = 4", "heading = 4", 8, "all keyframes must");
   refused("speed = 4", "height = 4", 10, "'height'");
-  refused("\"walk\"", "\"swim\"", 1, "walk, fly, turn");
+  refused("\"walk\"", "\"swim\"", 1, "walk, fly or turn");
   refused("\"walk\"", "7", 1, "'kind'");
   refused("\"walk\"", "\"turn\"", 6, "heading");
   refused("= 90", "= 180", 2, "'field_of_view'");
