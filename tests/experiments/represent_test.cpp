@@ -148,9 +148,9 @@ TEST_F(Represent, KeepsABudgetOrSaysThatItCannot) {
   EXPECT_THAT(kept.text, Not(HasSubstr("warning")));
   // The saved file has a header of its own beside the drills.
   EXPECT_LT(std::filesystem::file_size(folder_ / "d.tb"), 2200U);
-  EXPECT_THAT(call(drill + "--budget-bytes 3").text, HasSubstr("no drills keep the budget"));
+  EXPECT_THAT(call(drill + "--budget-bytes 3").text, HasSubstr("no drills within the budget"));
   EXPECT_THAT(call(drill + "--max-rmse 40").text, Not(HasSubstr("warning")));
-  EXPECT_THAT(call(drill + "--max-rmse 0.001").text, HasSubstr("no drills keep the budget"));
+  EXPECT_THAT(call(drill + "--max-rmse 0.001").text, HasSubstr("no drills within the budget"));
   for (const char* const wrong : {"--budget-bytes 0", "--budget-bytes -5", "--budget-bytes many",
                                   "--max-rmse 0", "--max-rmse 1 --budget-bytes 9"}) {
     EXPECT_EQ(call(drill + wrong).code, 2) << wrong;

@@ -29,7 +29,7 @@ void use(const RepresentationType& type, Representation& structure) {
   structure.materials({x, y, z}, materials);
   if (sink.columns() != x.size() || structure.memory().total() == 0) std::abort();
   if (type.traits.editable && y[0] < y[1]) {
-    structure.paint({std::span(x).first(1), std::span(z).first(1)},
+    structure.edit({std::span(x).first(1), std::span(z).first(1)},
                     std::array{Span{y[0], y[1], Material::kBedrock}});
   }
   ByteSink saved;
