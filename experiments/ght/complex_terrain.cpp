@@ -87,22 +87,22 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   }
   const Census all = census(tree.model());
   const Memory memory = tree.memory();
-  recorder.add("events", "", static_cast<double>(events.size()));
-  recorder.add("heightmaps", "", static_cast<double>(all.nodes));
+  recorder.add("events", "", events.size());
+  recorder.add("heightmaps", "", all.nodes);
   recorder.add("deepest_node", "", all.deepest);
-  recorder.add("cells", "", static_cast<double>(all.heights + all.links + all.voids));
-  recorder.add("heights", "", static_cast<double>(all.heights));
-  recorder.add("links", "", static_cast<double>(all.links));
-  recorder.add("voids", "", static_cast<double>(all.voids));
+  recorder.add("cells", "", all.heights + all.links + all.voids);
+  recorder.add("heights", "", all.heights);
+  recorder.add("links", "", all.links);
+  recorder.add("voids", "", all.voids);
   recorder.add("fresh_bytes", "B", fresh);
-  recorder.add("bytes", "B", static_cast<double>(memory.payload + memory.index));
-  recorder.add("slack_bytes", "B", static_cast<double>(memory.slack));
+  recorder.add("bytes", "B", memory.payload + memory.index);
+  recorder.add("slack_bytes", "B", memory.slack);
   const std::vector<std::byte> file = bytes_of(tree);
-  recorder.add("file_bytes", "B", static_cast<double>(file.size()));
+  recorder.add("file_bytes", "B", file.size());
 
   // As text, and built again from the text.
   const std::string text = to_text(Script{"diamond-square", options.seed, n + 1, events, {}});
-  recorder.add("text_bytes", "B", static_cast<double>(text.size()));
+  recorder.add("text_bytes", "B", text.size());
   const Script again = parse_script(text, "ght.complex");
   Ght repeated = plain_tree(site.ground);
   for (const Event& event : again.events) repeated.apply(event);

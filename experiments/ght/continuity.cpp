@@ -67,7 +67,7 @@ class Inspection {
           Count{"dangling_links", dangling_}, Count{"unlinked_boundary_cells", unlinked_},
           Count{"voids_seen", voids_seen_}, Count{"open_edges", open_},
           Count{"broken_invariants", broken_}}) {
-      recorder_.add(name, "", static_cast<double>(count));
+      recorder_.add(name, "", count);
     }
   }
 

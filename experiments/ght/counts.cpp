@@ -26,7 +26,7 @@ constexpr int kFewestSides = 3, kMostSides = 12;
 // What the last event did, from the tree's nodes and its list of events.
 void record(const Tree& tree, std::size_t nodes_before, std::string_view where, Recorder& recorder) {
   const Applied& last = tree.events().back();
-  recorder.add(fmt::format("added_{}", where), "", static_cast<double>(tree.nodes().size() - nodes_before));
+  recorder.add(fmt::format("added_{}", where), "", tree.nodes().size() - nodes_before);
   recorder.add(fmt::format("host_depth_{}", where), "", tree.nodes()[last.host].depth);
 }
 

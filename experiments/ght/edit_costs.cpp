@@ -163,7 +163,7 @@ class Comparison {
     const Event event = single_event(site_, kind);
     std::vector<double> lengths;
     const Strokes strokes = strokes_of(site_, event);
-    recorder_.add(fmt::format("columns{}", suffix), "", static_cast<double>(strokes.x.size()));
+    recorder_.add(fmt::format("columns{}", suffix), "", strokes.x.size());
     sample_times([&] {
       const auto held = std::make_unique<Ght>(tree_);  // on the heap, as memory() counts the tree's own block
       Ght& tree = *held;

@@ -95,16 +95,16 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     }
   }
   const double all = static_cast<double>(columns) * columns;
-  recorder.add("events", "", static_cast<double>(sculpture->events.size()));
+  recorder.add("events", "", sculpture->events.size());
   recorder.add("columns", "", all);
-  recorder.add("overhang_columns", "", static_cast<double>(found.overhangs));
+  recorder.add("overhang_columns", "", found.overhangs);
   recorder.add("overhang_share", "", static_cast<double>(found.overhangs) / all);
-  recorder.add("most_intervals", "", static_cast<double>(found.most));
+  recorder.add("most_intervals", "", found.most);
   recorder.add("lost_volume", "m³", found.air * step * step);
-  recorder.add("columns_of_three", "", static_cast<double>(found.manifold));
-  recorder.add("evaluated_columns_of_three", "", static_cast<double>(truth.manifold));
-  recorder.add("evaluated_most_intervals", "", static_cast<double>(truth.most));
-  recorder.add("evaluated_overhang_columns", "", static_cast<double>(truth.overhangs));
+  recorder.add("columns_of_three", "", found.manifold);
+  recorder.add("evaluated_columns_of_three", "", truth.manifold);
+  recorder.add("evaluated_most_intervals", "", truth.most);
+  recorder.add("evaluated_overhang_columns", "", truth.overhangs);
   recorder.add("evaluated_lost_volume", "m³", truth.air * step * step);
 }
 
