@@ -1,4 +1,4 @@
-#include "results/units.h"
+#include "results/fill.h"
 
 #include <gtest/gtest.h>
 
