@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cstdio>
 
-#include "experiments/assignments.h"
 #include "renderers/context.h"
 #include "results/glob.h"
 #include "results/provenance.h"

@@ -3,7 +3,6 @@
 
 #include <chrono>
 
-#include "experiments/assignments.h"
 #include "experiments/commands/commands.h"
 #include "experiments/fidelity.h"
 #include "renderers/relief.h"

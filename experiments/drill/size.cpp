@@ -12,7 +12,7 @@
 #include "experiments/drill/factorial.h"
 #include "experiments/drill/ground.h"
 #include "experiments/experiment.h"
-#include "experiments/figures/figure_id.h"
+#include "experiments/figures/maps.h"
 #include "representations/drill/drill_codec.h"
 #include "representations/drill/extract.h"
 #include "representations/drill/quantum.h"

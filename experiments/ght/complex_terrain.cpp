@@ -4,8 +4,8 @@
 #include <random>
 
 #include "experiments/cases.h"
-#include "experiments/ght/processor_time.h"
 #include "experiments/ght/site.h"
+#include "experiments/stopwatch.h"
 #include "representations/ght/invariants.h"
 #include "terrain/events/event_file.h"
 

@@ -4,7 +4,6 @@
 #include <random>
 
 #include "experiments/cases.h"
-#include "experiments/ght/ght.h"
 #include "experiments/ght/site.h"
 #include "representations/ght/invariants.h"
 #include "terrain/error.h"

@@ -6,7 +6,6 @@
 #include <array>
 
 #include "experiments/cases.h"
-#include "experiments/ght/ght.h"
 #include "experiments/ght/site.h"
 #include "terrain/error.h"
 

@@ -9,9 +9,8 @@
 #include <cmath>
 
 #include "experiments/experiment.h"
-#include "experiments/ght/ght.h"
-#include "experiments/ght/processor_time.h"
 #include "experiments/ght/site.h"
+#include "experiments/stopwatch.h"
 #include "terrain/events/evaluate.h"
 
 namespace terrabench::ght {
