@@ -90,11 +90,7 @@ void draw_wires(Flight& flight, double pixels, const std::string& options, GlCon
   // Halfway along the path, where it is close to the ground.
   const std::size_t last = flight.metered[flight.metered.size() / 2];
   const View& view = flight.views[last];
-  struct Panel {
-    std::string words;
-    Image image;
-  };
-  std::vector<Panel> panels;
+  std::vector<figures::Panel> panels;
   int sky = view.height;
   for (const LodType& type : lods()) {
     const Contender method = contender(type.name, options);
@@ -107,23 +103,12 @@ void draw_wires(Flight& flight, double pixels, const std::string& options, GlCon
     draw_ground(renderer, flight, frame, view, 1);
     const auto triangles = static_cast<double>(frame.stats.triangles);
     panels.push_back(
-        {fmt::format("{}: {} triangles", type.name, format_number(triangles)), renderer.image()});
+        {renderer.image(), fmt::format("{}: {} triangles", type.name, format_number(triangles))});
     sky = std::min(sky, std::max(0, horizon(panels.back().image, FrameStyle{}.background) - kSky));
     recorder.add(fmt::format("{}_triangles", type.name), "", triangles);
   }
-  const int count = static_cast<int>(panels.size());
-  const figures::PanelGrid grid{.columns = kColumns,
-                                .rows = (count + kColumns - 1) / kColumns,
-                                .width = kPanel,
-                                .height = kPanel * (view.height - sky) / view.width,
-                                .gap = 14,
-                                .below = 14,
-                                .title = 30,
-                                .text_size = 16};
-  figures::Sheet sheet(grid.sheet_width(), grid.bottom() + grid.gap);
-  for (int i = 0; i < count; ++i) {
-    grid.place(sheet, i, panels[i].words, without_rows(panels[i].image, sky));
-  }
+  for (figures::Panel& panel : panels) panel.image = without_rows(panel.image, sky);
+  const figures::Sheet sheet = figures::titled_sheet(kColumns, kPanel, 14, panels);
   const std::string suffix = figures::ground_suffix(flight.route.terrain, kMainGround);
   sheet.write(recorder.figure(
       "cross.lod-wires" + suffix, "png",

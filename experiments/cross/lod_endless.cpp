@@ -74,15 +74,7 @@ class Flight {
   void draw(const std::string& renderer, const std::string& suffix) {
     const View view = seen_from(home_, kPictureHeight);
     const auto context = open_context(renderer, view.width, view.height);
-    const figures::PanelGrid grid{.columns = 1,
-                                  .rows = 2,
-                                  .width = kPanel,
-                                  .height = kPanel * view.height / view.width,
-                                  .gap = 14,
-                                  .below = 0,
-                                  .title = 30,
-                                  .text_size = 16};
-    figures::Sheet sheet(grid.sheet_width(), grid.bottom() + grid.gap);
+    std::vector<figures::Panel> panels;
     for (const bool wires : {false, true}) {
       const Frame& frame = clipmap_->update(view);
       FrameRenderer shown(*context);
@@ -94,17 +86,17 @@ class Flight {
                   .wire_opacity = 0.3F});
       shown.finish();
       const std::string triangles = format_number(static_cast<double>(frame.stats.triangles));
-      grid.place(sheet, wires ? 1 : 0,
-                 wires ? fmt::format("Its {} triangles", triangles)
-                       : fmt::format("Ground to {:g} km, {} levels", far_ / 1000, clipmap_->levels()),
-                 shown.image());
+      panels.push_back({shown.image(), wires ? fmt::format("Its {} triangles", triangles)
+                                             : fmt::format("Ground to {:g} km, {} levels", far_ / 1000,
+                                                           clipmap_->levels())});
     }
-    sheet.write(recorder_.figure(
-        "cross.lod-endless" + suffix, "png",
-        fmt::format(
-            "Endless ground under a clipmap of {} samples per window, from {:g} m above it; the hybrid "
-            "paper's endless terrain (§3.2). Colours by height from {:.0f} to {:.0f} m.",
-            clipmap_->window(), kPictureHeight, -0.33 * ground_.relief, 0.33 * ground_.relief)));
+    figures::titled_sheet(1, kPanel, 0, panels)
+        .write(recorder_.figure(
+            "cross.lod-endless" + suffix, "png",
+            fmt::format(
+                "Endless ground under a clipmap of {} samples per window, from {:g} m above it; the hybrid "
+                "paper's endless terrain (§3.2). Colours by height from {:.0f} to {:.0f} m.",
+                clipmap_->window(), kPictureHeight, -0.33 * ground_.relief, 0.33 * ground_.relief)));
   }
 
  private:

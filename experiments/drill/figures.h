@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "experiments/drill/factorial.h"
 #include "experiments/recorder.h"

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "experiments/drill/figures.h"
 #include "representations/drill/extract.h"

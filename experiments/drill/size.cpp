@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <string>
-#include <vector>
 
 #include "experiments/drill/factorial.h"
 #include "experiments/drill/ground.h"

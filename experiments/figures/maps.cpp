@@ -112,6 +112,22 @@ void PanelGrid::place(Sheet& sheet, int number, std::string_view words, const Im
   sheet.picture(x(number), y(number), width, height, image);
 }
 
+Sheet titled_sheet(int columns, double width, double below, const std::vector<Panel>& panels) {
+  const int count = static_cast<int>(panels.size());
+  const Image& first = panels.front().image;
+  const PanelGrid grid{.columns = columns,
+                       .rows = (count + columns - 1) / columns,
+                       .width = width,
+                       .height = width * first.height / first.width,
+                       .gap = 14,
+                       .below = below,
+                       .title = 30,
+                       .text_size = 16};
+  Sheet sheet(grid.sheet_width(), grid.bottom() + grid.gap);
+  for (int i = 0; i < count; ++i) grid.place(sheet, i, panels[i].words, panels[i].image);
+  return sheet;
+}
+
 void add_colour_key(Sheet& sheet, double x, double y, std::string_view words, double indent, double width,
                     const std::function<Rgb(double)>& colour, const std::vector<std::string>& labels) {
   std::vector<Sheet::Tick> ticks;

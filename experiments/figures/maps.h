@@ -71,6 +71,10 @@ struct PanelGrid {
   void place(Sheet&, int number, std::string_view words, const Image&) const;
 };
 
+// Pictures of one size with their words as titles, `width` units wide, in rows of `columns`; `below` units of
+// space below each.
+Sheet titled_sheet(int columns, double width, double below, const std::vector<Panel>&);
+
 // Words, and `indent` units to their right a colour bar with labels at even distances.
 void add_colour_key(Sheet&, double x, double y, std::string_view words, double indent, double width,
                     const std::function<Rgb(double)>& colour, const std::vector<std::string>& labels);

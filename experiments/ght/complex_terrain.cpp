@@ -1,5 +1,4 @@
 // Terrains of many events (§4.2): the overlapping sequence and the rain of particles.
-#include <algorithm>
 #include <array>
 #include <random>
 

@@ -1,7 +1,6 @@
 // Whether the tree stays sound: its invariants after every event, and counts made here after every sequence.
 #include <algorithm>
 #include <array>
-#include <random>
 
 #include "experiments/cases.h"
 #include "experiments/ght/site.h"

@@ -2,7 +2,6 @@
 // heightmap of the same terrain would fill.
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "experiments/cases.h"
 #include "experiments/ght/site.h"
