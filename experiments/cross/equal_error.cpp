@@ -293,9 +293,9 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const auto whole = [&](std::string_view name) { return static_cast<int>(at.parameters.integer(name)); };
   Flight& flight = flight_along(
-      {at.terrain, at.parameters.text("path"), whole("size"), whole("frames"), options.seed}, progress);
+      {at.terrain, at.parameters.text("path"), at.integer("size"), at.integer("frames"), options.seed},
+      progress);
   recorder.terrain(flight.source);
   const double pixels = at.parameters.number("error");
   const std::string& method = at.parameters.text("method");

@@ -309,8 +309,7 @@ std::uint64_t peak_resident_bytes() {
 
 void walk_here(const fs::path& pyramid, const Case& at, Recorder& recorder, Progress& progress) {
   recorder.terrain(pyramid.string(), digest(pyramid));
-  Walk(pyramid, static_cast<int>(at.parameters.integer("window")))
-      .measure(static_cast<int>(at.parameters.integer("steps")), recorder, progress);
+  Walk(pyramid, at.integer("window")).measure(at.integer("steps"), recorder, progress);
   recorder.add("peak_resident", "B", peak_resident_bytes());
 }
 
@@ -341,7 +340,7 @@ std::vector<Case> cases(const RunOptions& options) {
   if (!cases.empty()) return cases;
   for (const std::int64_t side : {4096, 16384}) {
     if (side > 4096 && options.profile == Profile::kQuick) break;
-    cases.push_back({fmt::format("side={}", side), {kSpecs, {{"side", side}}}, ""});
+    cases.push_back({fmt::format("side={}", side), {kSpecs, {{"side", side}}}});
   }
   return cases;
 }
@@ -354,7 +353,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   std::string dem = at.terrain;
   Stopwatch watch;
   if (at.terrain.empty()) {
-    const auto side = static_cast<int>(at.parameters.integer("side"));
+    const int side = at.integer("side");
     recorder.terrain(fmt::format("mountains {0} × {0}", side),
                      write_mountains(made, side, options.seed, progress));
     dem = made.string();

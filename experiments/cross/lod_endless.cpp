@@ -46,7 +46,7 @@ class Flight {
       : far_(static_cast<float>(1000 * at.parameters.number("far"))),
         step_(at.parameters.number("step")),
         steps_(std::max(1, static_cast<int>(std::lround(1000 * at.parameters.number("distance") / step_)))),
-        window_(static_cast<int>(at.parameters.integer("window"))),
+        window_(at.integer("window")),
         recorder_(recorder) {
     ground_.seed = options.seed;
     heights_ = endless_heights(ground_);
@@ -216,7 +216,7 @@ class Flight {
 std::vector<Case> cases(const RunOptions&) {
   std::vector<Case> cases;
   for (const auto& [name, home] : {std::pair{"home", 0.0}, std::pair{"far", 5000000.0}}) {
-    cases.push_back({name, {kSpecs, {{"home", home}}}, ""});
+    cases.push_back({name, {kSpecs, {{"home", home}}}});
   }
   return cases;
 }

@@ -57,7 +57,7 @@ std::vector<Case> cases(const RunOptions&) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const auto n = static_cast<int>(at.parameters.integer("n"));
+  const int n = at.integer("n");
   const Site site = make_site(n, n / kEventsAlong, options.seed);
   recorder.terrain("diamond-square", checksum(site.ground));
   const bool rains = at.parameters.text("events") == "rain";

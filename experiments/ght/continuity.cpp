@@ -205,7 +205,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
       inspection.play(tree, rain.next(tree));
     inspection.finish(tree);
   } else {
-    play_random(static_cast<int>(at.parameters.integer("sequences")), options.seed, inspection, progress);
+    play_random(at.integer("sequences"), options.seed, inspection, progress);
   }
   inspection.write();
 }

@@ -68,7 +68,7 @@ void measure_carving(const Site& site, bool cave, Recorder& recorder) {
 std::vector<Case> cases(const RunOptions&) { return cases_by("event", kSpecs); }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const auto size = static_cast<int>(at.parameters.integer("size"));
+  const int size = at.integer("size");
   const Site site = make_site(kEventsAlong * size, size, options.seed);
   recorder.terrain("diamond-square", checksum(site.ground));
   const auto kind = static_cast<Kind>(at.parameters.choice("event"));

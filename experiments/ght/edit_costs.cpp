@@ -198,8 +198,7 @@ class Comparison {
 };
 
 Site site_of(const Case& at, const RunOptions& options) {
-  return make_site(static_cast<int>(at.parameters.integer("n")),
-                   static_cast<int>(at.parameters.integer("size")), options.seed);
+  return make_site(at.integer("n"), at.integer("size"), options.seed);
 }
 
 std::vector<Case> edit_cases(const RunOptions& options) {

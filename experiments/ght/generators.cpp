@@ -192,8 +192,8 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const auto side = static_cast<int>(at.parameters.integer("side"));
-  const auto steps = static_cast<int>(at.parameters.integer("steps"));
+  const int side = at.integer("side");
+  const int steps = at.integer("steps");
   kGeneratorTable[at.parameters.choice("generator")].measure(side, steps, options.seed, recorder);
 }
 

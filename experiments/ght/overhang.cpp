@@ -59,8 +59,8 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const auto size = static_cast<int>(at.parameters.integer("size"));
-  const auto per_cell = static_cast<int>(at.parameters.integer("columns_a_cell"));
+  const int size = at.integer("size");
+  const int per_cell = at.integer("columns_a_cell");
   const Site site = make_site(kEventsAlong * size, size, options.seed);
   const auto sculpture = std::make_shared<Sculpture>(
       Sculpture{site.ground, kTerrains[at.parameters.choice("events")].events(site)});

@@ -21,7 +21,7 @@ constexpr std::array kSizeSpecs{
 std::vector<Case> size_cases(std::initializer_list<std::int64_t> sizes) {
   std::vector<Case> cases;
   for (const std::int64_t n : sizes) {
-    cases.push_back({fmt::format("n={}", n), {kSizeSpecs, {{"n", n}}}, ""});
+    cases.push_back({fmt::format("n={}", n), {kSizeSpecs, {{"n", n}}}});
   }
   return cases;
 }
