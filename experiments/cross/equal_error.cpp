@@ -112,10 +112,9 @@ void draw_wires(Flight& flight, double pixels, const std::string& options, GlCon
   const std::string suffix = figures::ground_suffix(flight.route.terrain, kMainGround);
   sheet.write(recorder.figure(
       "cross.lod-wires" + suffix, "png",
-      fmt::format(
-          "{}: every method's triangles in the same view, each tuned to {:g} px at the 99th percentile "
-          "over the path {}; colours by height from {:.0f} to {:.0f} m",
-          flight.source.name, pixels, flight.route.path, flight.lowest, flight.highest)));
+      fmt::format("{}: every method's triangles in the same view, each tuned to {:g} px at the 99th "
+                  "percentile over the path {}; colours by height from {:.0f} to {:.0f} m",
+                  flight.source.name, pixels, flight.route.path, flight.lowest, flight.highest)));
 }
 
 // Time and uploaded bytes over the whole path, with nothing between two updates. The first update, which

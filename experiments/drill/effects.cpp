@@ -129,13 +129,12 @@ void draw_matrices(const Study& study, const std::vector<Outcome>& outcomes, Rec
              {1, 4});
   add_column(sheet, 1, "1000 × AHD along the map ÷ diagonal", outcomes,
              [](const Outcome& o) { return o.ahd[0]; }, {1000, 3});
-  sheet.write(recorder.figure(
-      "drill.F4" + study.suffix, "png",
-      fmt::format(
-          "The paper's figure 4: normalised errors of the 54 parameter sets on {}, RMSE left and AHD "
-          "right, one matrix per width w. Colours are logarithmic, from the least of each metric (blue) "
-          "to the largest (red).",
-          study.name)));
+  sheet.write(
+      recorder.figure("drill.F4" + study.suffix, "png",
+                      fmt::format("The paper's figure 4: normalised errors of the 54 parameter sets on {}, "
+                                  "RMSE left and AHD right, one matrix per width w. Colours are logarithmic, "
+                                  "from the least of each metric (blue) to the largest (red).",
+                                  study.name)));
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {

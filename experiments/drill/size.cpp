@@ -116,8 +116,7 @@ void draw_rate_distortion(const TerrainSource& source, const FlowNetwork& networ
           fmt::format(
               "Bits per sample against error for {}: drills in their own file format, with w = 10 and the "
               "best k at each of seven thresholds, and the same ground in other codecs. Only coded bytes "
-              "count. Drills are entropy-coded, so LERC with DEFLATE is the fair "
-              "comparison.",
+              "count. Drills are entropy-coded, so LERC with DEFLATE is the fair comparison.",
               source.name)),
       1200);
 }

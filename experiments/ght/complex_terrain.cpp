@@ -73,7 +73,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
       events.clear();
       Rain rain(site.ground, options.seed);
       recorder.add("time", "s", processor_seconds([&] {
-                     for (std::int64_t k = at.parameters.integer("particles"); k > 0; --k) {
+                     for (int k = at.integer("particles"); k > 0; --k) {
                        events.push_back(rain.next(tree));
                        tree.apply(events.back());
                      }

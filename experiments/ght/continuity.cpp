@@ -201,8 +201,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   } else if (what == "rain") {
     Ght tree = plain_tree(site.ground);
     Rain rain(site.ground, options.seed);
-    for (std::int64_t k = at.parameters.integer("particles"); k > 0; --k)
-      inspection.play(tree, rain.next(tree));
+    for (int k = at.integer("particles"); k > 0; --k) inspection.play(tree, rain.next(tree));
     inspection.finish(tree);
   } else {
     play_random(at.integer("sequences"), options.seed, inspection, progress);
