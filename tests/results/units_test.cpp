@@ -1,7 +1,6 @@
-#include "results/fill.h"
-
 #include <gtest/gtest.h>
 
+#include "results/fill.h"
 #include "terrain/error.h"
 
 namespace terrabench {
