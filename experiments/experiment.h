@@ -30,6 +30,8 @@ struct Case {
   Parameters parameters;
   std::string terrain = "";  // catalogue name or path; empty when the case makes its own ground
   std::vector<std::string> overrides = {};  // "name=value" of --set, which the name repeats
+
+  int integer(std::string_view parameter) const { return static_cast<int>(parameters.integer(parameter)); }
 };
 
 struct Experiment {

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <memory>
 #include <new>
 #include <system_error>
 #include <thread>
@@ -85,17 +84,16 @@ void add_run(CLI::App& app, Arguments& a) {
   command->add_option("--seed", a.run.options.seed, "Seed of all randomness")->capture_default_str();
   command->add_option(
       "--set", a.run.assignments,
-      "Parameters of the experiments, name=value or name=value,name=value, for each case that "
-      "has them; a text value may contain commas except before the name= of a parameter");
+      "Parameters of the experiments, name=value or name=value,name=value, for each case that has them; a "
+      "text value may contain commas except before the name= of a parameter");
 }
 
 void add_results(CLI::App& app, Arguments& a) {
-  auto* check = app.add_subcommand("check",
-                                   "The verdict on every claim: first the claims that fail the check, then "
-                                   "one line per claim (verdict, the "
-                                   "figure that decides, its expected range), then one line per paper. Exits "
-                                   "with 0 when every verdict is the "
-                                   "known one, else with 1");
+  auto* check =
+      app.add_subcommand("check",
+                         "The verdict on every claim: first the claims that fail the check, then one line "
+                         "per claim (verdict, the figure that decides, its expected range), then one line "
+                         "per paper. Exits with 0 when every verdict is the known one, else with 1");
   check->add_option("dir", a.check.folder, "Results folder")->capture_default_str();
   check->add_option("--claims,--rows", a.check.claims,
                     "Only these claims: ids or globs such as 'hybrid.T1.*'");

@@ -4,10 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 
-#include "experiments/assignments.h"
+#include "experiments/stopwatch.h"
 #include "renderers/context.h"
 #include "results/glob.h"
 #include "results/provenance.h"
@@ -134,14 +133,13 @@ void run(const RunPlan& plan) {
     }
     Progress progress(terminal ? Progress::Output::kTerminal : Progress::Output::kLines);
     Recorder recorder(record, plan.folder);
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     planned.experiment->measure(planned.at, plan.options, recorder, progress);
     progress.end();
     for (Figure& figure : record.figures) figure.checksum = checksum(read_file(plan.folder / figure.file));
     store.append(record);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     fmt::print(stderr, "[{}/{}] {} {}: {:.2f} s\n", number, cases.size(), record.experiment, record.case_name,
-               seconds.count());
+               watch.seconds());
   }
   if (skipped > 0) fmt::print(stderr, "{} of {} cases were already there\n", skipped, cases.size());
 }

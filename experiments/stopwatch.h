@@ -1,7 +1,10 @@
-// Wall-clock time of a piece of work.
+// Wall-clock and processor time of a piece of work.
 #pragma once
 
+#include <tbb/global_control.h>
+
 #include <chrono>
+#include <ctime>
 
 namespace terrabench {
 
@@ -19,6 +22,21 @@ double seconds(const Work& work) {
   const Stopwatch watch;
   work();
   return watch.seconds();
+}
+
+// Processor seconds that a piece of work takes on one thread, to which TBB is limited. Other work of the
+// machine is not counted.
+template <class Work>
+double processor_seconds(const Work& work) {
+  const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
+  const auto now = [] {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  };
+  const double begin = now();
+  work();
+  return now() - begin;
 }
 
 }  // namespace terrabench

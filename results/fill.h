@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "results/judge.h"
@@ -25,6 +26,12 @@ struct FilledPlot {
 };
 // The label of a series with `slope` gives the exponent of its power law. Throws as above.
 FilledPlot fill(const PlotLayout&, const Store&, const std::string& profile);
+
+// The factor from `from` to `to`. Times (s, ms, µs, ns) and bytes (B, kB, MB, GB) are converted; any other
+// unit only to itself or to none; none to ×. Throws bad_input for other pairs, naming the metric and where it
+// was read ("file:line").
+double conversion(std::string_view from, std::string_view to, std::string_view metric,
+                  std::string_view where);
 
 // A verdict with its style: colour and sign, so that neither is needed alone.
 Cell verdict_cell(const Judgement&);

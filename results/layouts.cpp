@@ -49,9 +49,9 @@ TableLayout::Column column_from(const TomlValue& node) {
   return column;
 }
 
-PlotLayout::Axis axis_from(const TomlValue& node) {
+PlotAxis axis_from(const TomlValue& node) {
   TomlTable entry(node);
-  PlotLayout::Axis axis{entry.text("label"), entry.text_or("unit", ""), entry.flag("log")};
+  PlotAxis axis{entry.text("label"), entry.text_or("unit", ""), entry.flag("log")};
   entry.refuse_unknown();
   return axis;
 }

@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "results/plot.h"
+
 namespace terrabench {
 
 // A table of the report. Its rows are cases of one experiment; a row's own values are what the paper printed
@@ -30,10 +32,6 @@ struct TableLayout {
 
 // A plot of the report: lines through cases of an experiment, or through what the paper printed.
 struct PlotLayout {
-  struct Axis {
-    std::string label, unit;
-    bool log = false;
-  };
   struct Series {
     std::string label, experiment, metric;
     std::string x_metric;  // of the same case, in place of the x of `cases`; empty: none
@@ -42,7 +40,7 @@ struct PlotLayout {
     bool slope = false;                                 // fit a power law and say its exponent
   };
   std::string id, title, caption;
-  Axis x, y;
+  PlotAxis x, y;
   std::vector<Series> series;
 };
 

@@ -21,7 +21,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
 #include "results/format.h"
 #include "results/svg_device.h"

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <fstream>
 #include <glm/detail/setup.hpp>
+#include <tuple>
 #if __has_include(<openvdb/version.h>)
 #include <openvdb/version.h>
 #endif
@@ -93,6 +94,13 @@ std::string quote_command(const std::vector<std::string>& arguments) {
     command += '\'';
   }
   return command;
+}
+
+bool comparable(const Provenance& a, const Provenance& b) {
+  const auto identity = [](const Provenance& p) {
+    return std::tie(p.git_revision, p.git_dirty, p.compiler, p.flags, p.build_type, p.cpu, p.threads, p.simd);
+  };
+  return identity(a) == identity(b);
 }
 
 Provenance collect_provenance(const RunFacts& facts) {

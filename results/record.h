@@ -2,6 +2,7 @@
 // from these and nothing else.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -55,7 +56,10 @@ struct Record {
   std::vector<Metric> metrics;
   std::vector<Figure> figures;
 
-  const Metric* find(std::string_view metric) const;  // null when absent
+  const Metric* find(std::string_view metric) const {  // null when absent
+    const auto it = std::ranges::find(metrics, metric, &Metric::name);
+    return it == metrics.end() ? nullptr : &*it;
+  }
 };
 
 }  // namespace terrabench

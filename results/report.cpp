@@ -1,8 +1,11 @@
 #include "results/report.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <set>
 
 #include "results/document.h"
@@ -12,7 +15,6 @@
 #include "results/judge.h"
 #include "results/plot.h"
 #include "results/rasterise.h"
-#include "results/report_folder.h"
 #include "results/report_tables.h"
 #include "terrain/error.h"
 #include "terrain/files.h"
@@ -35,6 +37,53 @@ std::string file_name(std::string_view id) {
   }
   return name.starts_with('.') ? "_" + name : name;
 }
+
+// The folder that the report is written into: a temporary folder beside the target. publish() renames it to
+// the target, so that the report appears whole or not at all; otherwise it is removed.
+class ReportFolder {
+ public:
+  // Throws environment_error when the target holds files that are no report, or nothing can be written there.
+  explicit ReportFolder(std::filesystem::path target)
+      : target_(std::move(target)),
+        path_(target_.parent_path() / fmt::format(".{}.{}.tmp", target_.filename().string(), getpid())) {
+    std::error_code error;
+    if (std::filesystem::exists(target_, error) && !std::filesystem::exists(target_ / "index.html", error) &&
+        !std::filesystem::is_empty(target_, error)) {
+      throw environment_error("holds files that are not a report and would be replaced", target_.string(),
+                              "move them away");
+    }
+    std::filesystem::remove_all(path_, error);
+    std::filesystem::create_directories(path_, error);
+    if (error) {
+      throw environment_error(fmt::format("cannot write: {}", error.message()), path_.string(),
+                              "check the folder's permissions and the free space");
+    }
+  }
+  ~ReportFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ReportFolder(const ReportFolder&) = delete;
+  ReportFolder& operator=(const ReportFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  // Exchanges an earlier report with this one; the earlier one is removed with the temporary folder.
+  void publish() {
+    if (std::rename(path_.c_str(), target_.c_str()) == 0) return;
+    if (renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0) return;
+    // A file system without exchange: remove the old report first.
+    std::error_code error;
+    std::filesystem::remove_all(target_, error);
+    std::filesystem::rename(path_, target_, error);
+    if (error) {
+      throw environment_error(fmt::format("cannot write: {}", error.message()), target_.string(),
+                              "check the folder's permissions");
+    }
+  }
+
+ private:
+  std::filesystem::path target_, path_;
+};
 
 class Report {
  public:

@@ -2,7 +2,6 @@
 // correct, and returns the exit code.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>

@@ -1,11 +1,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <chrono>
-
-#include "experiments/assignments.h"
 #include "experiments/commands/commands.h"
 #include "experiments/fidelity.h"
+#include "experiments/stopwatch.h"
 #include "renderers/relief.h"
 #include "representations/drill/drill_codec.h"
 #include "representations/drill/drill_terrain.h"
@@ -113,16 +111,16 @@ ExitCode represent_command(const RepresentArguments& a) {
     throw usage_error("this terrain is a solid; flow needs a grid of heights", "--write-flow",
                       "leave it out, or name a terrain of heights");
   }
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   auto built = type.build(source, parameters, progress);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  const double seconds = watch.seconds();
   const Fidelity fidelity = measure_fidelity(*built, source, progress);
   progress.end();
 
   const Memory memory = built->memory();
   fmt::print("terrain     {}, checksum {}\n", source.name, source.checksum);
   for (const std::string& note : source.notes) fmt::print("note        {}\n", note);
-  fmt::print("built as    {} in {:.3g} s\n", type.name, seconds.count());
+  fmt::print("built as    {} in {:.3g} s\n", type.name, seconds);
   fmt::print("memory      {} (payload {}, index {}, slack {})\n",
              format_quantity(static_cast<double>(memory.total()), "B"), memory.payload, memory.index,
              memory.slack);

@@ -9,12 +9,15 @@
 #include <optional>
 
 #include "experiments/cross/flight.h"
-#include "experiments/cross/pictures.h"
+#include "experiments/figures/maps.h"
 #include "experiments/ground.h"
 #include "experiments/stopwatch.h"
+#include "lod/brute_force/brute_force.h"
 #include "lod/meters/cracks.h"
 #include "lod/meters/image_error.h"
 #include "lod/meters/screen_error.h"
+#include "renderers/frame_renderer.h"
+#include "results/format.h"
 #include "terrain/error.h"
 #include "terrain/memory.h"
 
@@ -35,6 +38,84 @@ const std::array kSpecs{
     ParameterSpec{"frames", std::int64_t{24}, "", "frames of the path that are metered", 1, 100000},
     ParameterSpec{"size", std::int64_t{257}, "samples", "side of the generated grounds, 2^n + 1", 3, 8193},
 };
+
+constexpr double kPanel = 400;  // units of the sheet
+constexpr int kColumns = 3;
+constexpr int kSky = 8;     // pixels kept above the horizon
+constexpr int kWarmUp = 8;  // frames before the pictured one, for methods that keep a mesh between frames
+
+// The first row that is not all background.
+int horizon(const Image& image, Rgb background) {
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      if (image.pixel(x, y) != background) return y;
+    }
+  }
+  return 0;
+}
+
+Image without_rows(const Image& image, int rows) {
+  Image rest(image.width, image.height - rows, {});
+  rest.rgb.assign(image.rgb.begin() + std::ptrdiff_t{3} * rows * image.width, image.rgb.end());
+  return rest;
+}
+
+// Draws, and waits for the result. `wires`: width in pixels, 0 for none.
+void draw_ground(FrameRenderer& renderer, const Flight& flight, const Frame& frame, const View& view,
+                 float wires = 0) {
+  renderer.draw(frame, view, {.lowest = flight.lowest, .highest = flight.highest, .wire_width = wires});
+  renderer.finish();
+}
+
+// Draws the full terrain in the flight's pictured frames, once per flight.
+void draw_reference(Flight& flight, GlContext& context, Progress& progress) {
+  if (!flight.pictures.empty()) return;
+  BruteForce full(flight.ground());
+  FrameRenderer renderer(context);
+  const std::vector<std::size_t> chosen = pictured(flight);
+  progress.begin(fmt::format("drawing the full {}", flight.route.terrain), chosen.size());
+  for (const std::size_t k : chosen) {
+    const View& view = flight.views[flight.metered[k]];
+    draw_ground(renderer, flight, full.update(view), view);
+    flight.pictures.push_back(renderer.image());
+    progress.advance();
+  }
+  progress.end();
+}
+
+// The figure of one ground: every method's triangles in the same view halfway along the path, each method
+// tuned to `pixels`.
+void draw_wires(Flight& flight, double pixels, const std::string& options, GlContext& context,
+                Recorder& recorder, Progress& progress) {
+  // Halfway along the path, where it is close to the ground.
+  const std::size_t last = flight.metered[flight.metered.size() / 2];
+  const View& view = flight.views[last];
+  std::vector<figures::Panel> panels;
+  int sky = view.height;
+  for (const LodType& type : lods()) {
+    const Contender method = contender(type.name, options);
+    const Tuned tuned = tune_to(flight, method, pixels, progress);
+    const std::unique_ptr<Lod> lod = method.build(flight.ground(), progress);
+    lod->tune(tuned.knob);
+    for (std::size_t i = last > kWarmUp ? last - kWarmUp : 0; i < last; ++i) lod->update(flight.views[i]);
+    const Frame& frame = lod->update(view);
+    FrameRenderer renderer(context);
+    draw_ground(renderer, flight, frame, view, 1);
+    const auto triangles = static_cast<double>(frame.stats.triangles);
+    panels.push_back(
+        {renderer.image(), fmt::format("{}: {} triangles", type.name, format_number(triangles))});
+    sky = std::min(sky, std::max(0, horizon(panels.back().image, FrameStyle{}.background) - kSky));
+    recorder.add(fmt::format("{}_triangles", type.name), "", triangles);
+  }
+  for (figures::Panel& panel : panels) panel.image = without_rows(panel.image, sky);
+  const figures::Sheet sheet = figures::titled_sheet(kColumns, kPanel, 14, panels);
+  const std::string suffix = figures::ground_suffix(flight.route.terrain, kMainGround);
+  sheet.write(recorder.figure(
+      "cross.lod-wires" + suffix, "png",
+      fmt::format("{}: every method's triangles in the same view, each tuned to {:g} px at the 99th "
+                  "percentile over the path {}; colours by height from {:.0f} to {:.0f} m",
+                  flight.source.name, pixels, flight.route.path, flight.lowest, flight.highest)));
+}
 
 // Time and uploaded bytes over the whole path, with nothing between two updates. The first update, which
 // builds what later ones keep, is reported separately.
@@ -211,9 +292,9 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const auto whole = [&](std::string_view name) { return static_cast<int>(at.parameters.integer(name)); };
   Flight& flight = flight_along(
-      {at.terrain, at.parameters.text("path"), whole("size"), whole("frames"), options.seed}, progress);
+      {at.terrain, at.parameters.text("path"), at.integer("size"), at.integer("frames"), options.seed},
+      progress);
   recorder.terrain(flight.source);
   const double pixels = at.parameters.number("error");
   const std::string& method = at.parameters.text("method");

@@ -1,20 +1,25 @@
 // A clipmap over ground that stays on disk: steps of one sample, then a walk across, in a process of its own.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <span>
-#include <vector>
+#include <thread>
 
-#include "experiments/cross/own_process.h"
 #include "experiments/cross/strips.h"
 #include "experiments/experiment.h"
 #include "experiments/stopwatch.h"
@@ -225,10 +230,86 @@ class Walk {
   std::size_t uploaded_ = 0, strips_ = 0, tiles_ = 0;
 };
 
+// A second process, to measure what a process can only measure of itself.
+
+constexpr const char* kSelf = "/proc/self/exe";
+
+pid_t start(const std::vector<std::string>& arguments, const std::filesystem::path& log) {
+  std::string program = kSelf;
+  std::vector<char*> argv{program.data()};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  pid_t child = 0;
+  const int error = posix_spawn(&child, kSelf, &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) {
+    throw environment_error(fmt::format("cannot start a second process: {}", std::strerror(error)), kSelf,
+                            "raise the limit on processes (ulimit -u)");
+  }
+  return child;
+}
+
+int wait(pid_t child) {
+  bool told = false;
+  for (;;) {
+    int status = 0;
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended == child) return status;
+    // ECHILD when SIGCHLD is ignored: the exit status is lost, so the results cannot be trusted.
+    if (ended < 0 && errno != EINTR) {
+      throw environment_error(fmt::format("cannot wait for the second process: {}", std::strerror(errno)),
+                              kSelf, "run the program with SIGCHLD at its default");
+    }
+    if (Progress::interrupted() && !told) {
+      kill(child, SIGTERM);
+      told = true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+std::string last_line(const std::filesystem::path& log) {
+  std::ifstream in(log);
+  std::string line, last;
+  while (std::getline(in, line)) {
+    if (!line.empty()) last = line;
+  }
+  return last;
+}
+
+// Runs this executable with these arguments and waits; its output goes to `log`. An interruption is passed on
+// to it. Throws environment_error with the log's last line when it fails, and Error(kInterrupted).
+void run_own_program(const std::vector<std::string>& arguments, const std::filesystem::path& log,
+                     Progress& progress) {
+  const int status = wait(start(arguments, log));
+  progress.advance();  // throws when interrupted
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+  throw environment_error(WIFSIGNALED(status)
+                              ? fmt::format("the second process was ended by signal {}", WTERMSIG(status))
+                              : fmt::format("the second process failed: {}", last_line(log)),
+                          "", "run the same experiment by itself");
+}
+
+// Peak resident memory of this process (Linux: VmHWM). Throws environment_error where the system does not
+// report it.
+std::uint64_t peak_resident_bytes() {
+  std::ifstream status("/proc/self/status");
+  std::string line;
+  unsigned long long kibibytes = 0;
+  while (std::getline(status, line)) {
+    if (std::sscanf(line.c_str(), "VmHWM: %llu kB", &kibibytes) == 1) return kibibytes * 1024;
+  }
+  throw environment_error("the system does not report peak resident memory", "/proc/self/status",
+                          "measure on Linux");
+}
+
 void walk_here(const fs::path& pyramid, const Case& at, Recorder& recorder, Progress& progress) {
   recorder.terrain(pyramid.string(), digest(pyramid));
-  Walk(pyramid, static_cast<int>(at.parameters.integer("window")))
-      .measure(static_cast<int>(at.parameters.integer("steps")), recorder, progress);
+  Walk(pyramid, at.integer("window")).measure(at.integer("steps"), recorder, progress);
   recorder.add("peak_resident", "B", peak_resident_bytes());
 }
 
@@ -259,7 +340,7 @@ std::vector<Case> cases(const RunOptions& options) {
   if (!cases.empty()) return cases;
   for (const std::int64_t side : {4096, 16384}) {
     if (side > 4096 && options.profile == Profile::kQuick) break;
-    cases.push_back({fmt::format("side={}", side), {kSpecs, {{"side", side}}}, ""});
+    cases.push_back({fmt::format("side={}", side), {kSpecs, {{"side", side}}}});
   }
   return cases;
 }
@@ -272,7 +353,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   std::string dem = at.terrain;
   Stopwatch watch;
   if (at.terrain.empty()) {
-    const auto side = static_cast<int>(at.parameters.integer("side"));
+    const int side = at.integer("side");
     recorder.terrain(fmt::format("mountains {0} × {0}", side),
                      write_mountains(made, side, options.seed, progress));
     dem = made.string();

@@ -46,7 +46,7 @@ class Flight {
       : far_(static_cast<float>(1000 * at.parameters.number("far"))),
         step_(at.parameters.number("step")),
         steps_(std::max(1, static_cast<int>(std::lround(1000 * at.parameters.number("distance") / step_)))),
-        window_(static_cast<int>(at.parameters.integer("window"))),
+        window_(at.integer("window")),
         recorder_(recorder) {
     ground_.seed = options.seed;
     heights_ = endless_heights(ground_);
@@ -74,15 +74,7 @@ class Flight {
   void draw(const std::string& renderer, const std::string& suffix) {
     const View view = seen_from(home_, kPictureHeight);
     const auto context = open_context(renderer, view.width, view.height);
-    const figures::PanelGrid grid{.columns = 1,
-                                  .rows = 2,
-                                  .width = kPanel,
-                                  .height = kPanel * view.height / view.width,
-                                  .gap = 14,
-                                  .below = 0,
-                                  .title = 30,
-                                  .text_size = 16};
-    figures::Sheet sheet(grid.sheet_width(), grid.bottom() + grid.gap);
+    std::vector<figures::Panel> panels;
     for (const bool wires : {false, true}) {
       const Frame& frame = clipmap_->update(view);
       FrameRenderer shown(*context);
@@ -94,17 +86,16 @@ class Flight {
                   .wire_opacity = 0.3F});
       shown.finish();
       const std::string triangles = format_number(static_cast<double>(frame.stats.triangles));
-      grid.place(sheet, wires ? 1 : 0,
-                 wires ? fmt::format("Its {} triangles", triangles)
-                       : fmt::format("Ground to {:g} km, {} levels", far_ / 1000, clipmap_->levels()),
-                 shown.image());
+      panels.push_back({shown.image(), wires ? fmt::format("Its {} triangles", triangles)
+                                             : fmt::format("Ground to {:g} km, {} levels", far_ / 1000,
+                                                           clipmap_->levels())});
     }
-    sheet.write(recorder_.figure(
-        "cross.lod-endless" + suffix, "png",
-        fmt::format(
-            "Endless ground under a clipmap of {} samples per window, from {:g} m above it; the hybrid "
-            "paper's endless terrain (§3.2). Colours by height from {:.0f} to {:.0f} m.",
-            clipmap_->window(), kPictureHeight, -0.33 * ground_.relief, 0.33 * ground_.relief)));
+    figures::titled_sheet(1, kPanel, 0, panels)
+        .write(recorder_.figure(
+            "cross.lod-endless" + suffix, "png",
+            fmt::format("Endless ground under a clipmap of {} samples per window, from {:g} m above it; the "
+                        "hybrid paper's endless terrain (§3.2). Colours by height from {:.0f} to {:.0f} m.",
+                        clipmap_->window(), kPictureHeight, -0.33 * ground_.relief, 0.33 * ground_.relief)));
   }
 
  private:
@@ -224,7 +215,7 @@ class Flight {
 std::vector<Case> cases(const RunOptions&) {
   std::vector<Case> cases;
   for (const auto& [name, home] : {std::pair{"home", 0.0}, std::pair{"far", 5000000.0}}) {
-    cases.push_back({name, {kSpecs, {{"home", home}}}, ""});
+    cases.push_back({name, {kSpecs, {{"home", home}}}});
   }
   return cases;
 }

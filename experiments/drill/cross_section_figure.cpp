@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <vector>
 
 #include "experiments/drill/figures.h"
 #include "experiments/figures/maps.h"

@@ -118,9 +118,8 @@ std::vector<Case> cases(const RunOptions& options) {
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
-  const Setting setting{static_cast<std::uint32_t>(at.parameters.integer("tau")),
-                        static_cast<int>(at.parameters.integer("w")),
-                        static_cast<int>(at.parameters.integer("k"))};
+  const Setting setting{static_cast<std::uint32_t>(at.parameters.integer("tau")), at.integer("w"),
+                        at.integer("k")};
   const FlowNetwork network = route_flow(ground, &progress);
   const Drills drills = extract_drills(ground, network, options_for(setting), &progress);
   const Heightfield regenerated = regenerate(drills);

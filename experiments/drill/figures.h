@@ -1,8 +1,7 @@
-// The drill paper's figures 1 to 4, in its layout, and maps of the error of regeneration.
+// The drill paper's figures 1 to 3, in its layout, and maps of the error of regeneration.
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "experiments/drill/factorial.h"
 #include "experiments/recorder.h"
@@ -20,6 +19,5 @@ void draw_channels(const Study&, Recorder&);        // figure 1
 void draw_cross_sections(const Study&, Recorder&);  // figure 2
 // Figure 3, and the difference from the ground as a figure of its own.
 void draw_best(const Study&, const Outcome& least_rmse, const Outcome& least_ahd, Recorder&);
-void draw_matrices(const Study&, const std::vector<Outcome>&, Recorder&);  // figure 4
 
 }  // namespace terrabench::drill

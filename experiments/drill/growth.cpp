@@ -30,13 +30,13 @@ std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   const std::int64_t largest = options.profile == Profile::kPaper ? 8192 : 1024;
   for (std::int64_t n = 256; n <= largest; n *= 2) {
-    cases.push_back({fmt::format("n={}", n), {kSpecs, {{"n", n}}}, ""});
+    cases.push_back({fmt::format("n={}", n), {kSpecs, {{"n", n}}}});
   }
   return cases;
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const auto n = static_cast<int>(at.parameters.integer("n"));
+  const int n = at.integer("n");
   const double pixels = static_cast<double>(n) * n;
   const Heightfield fine = noise_hills(n, options.seed), whole = whole_metres(fine);
   recorder.terrain("noise-hills", checksum(whole));

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "experiments/drill/figures.h"
 #include "representations/drill/extract.h"
@@ -170,21 +169,18 @@ void draw_best(const Study& study, const Outcome& least_rmse, const Outcome& lea
   add_scale(sheet, layout, study.ground);
   sheet.write(recorder.figure(
       "drill.F3" + study.suffix, "png",
-      fmt::format(
-          "The paper's figure 3: {} regenerated with the parameters of least RMSE (a) and of least AHD "
-          "along the map (b). Where no drill reaches, the plateau remains.",
-          study.name)));
+      fmt::format("The paper's figure 3: {} regenerated with the parameters of least RMSE (a) and of least "
+                  "AHD along the map (b). Where no drill reaches, the plateau remains.",
+                  study.name)));
 
   figures::add_colour_key(maps, kGap, layout.legend(), "regenerated minus original, m", 240, 260,
                           figures::difference_colour,
                           {fmt::format("−{:.0f} or less", most), "0", fmt::format("{:.0f} or more", most)});
   add_scale(maps, layout, study.ground);
-  maps.write(recorder.figure(
-      "drill.difference" + study.suffix, "png",
-      fmt::format(
-          "The difference of figure 3's two terrains from {}, over its shaded relief: blue too low, red too "
-          "high",
-          study.name)));
+  maps.write(recorder.figure("drill.difference" + study.suffix, "png",
+                             fmt::format("The difference of figure 3's two terrains from {}, over its shaded "
+                                         "relief: blue too low, red too high",
+                                         study.name)));
 }
 
 }  // namespace terrabench::drill

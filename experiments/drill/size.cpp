@@ -5,14 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <string>
-#include <vector>
 
 #include "experiments/drill/factorial.h"
 #include "experiments/drill/ground.h"
 #include "experiments/experiment.h"
-#include "experiments/figures/figure_id.h"
+#include "experiments/figures/maps.h"
 #include "representations/drill/drill_codec.h"
 #include "representations/drill/extract.h"
 #include "representations/drill/quantum.h"
@@ -119,8 +116,7 @@ void draw_rate_distortion(const TerrainSource& source, const FlowNetwork& networ
           fmt::format(
               "Bits per sample against error for {}: drills in their own file format, with w = 10 and the "
               "best k at each of seven thresholds, and the same ground in other codecs. Only coded bytes "
-              "count. Drills are entropy-coded, so LERC with DEFLATE is the fair "
-              "comparison.",
+              "count. Drills are entropy-coded, so LERC with DEFLATE is the fair comparison.",
               source.name)),
       1200);
 }

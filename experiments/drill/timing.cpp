@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <vector>
 
 #include "experiments/drill/ground.h"
 #include "experiments/experiment.h"

@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -38,14 +37,6 @@ struct Figure {
 // Draws the case's figure as "PAPER.NAME.png", and records its number as the metric "figure".
 void draw_figure(std::span<const Figure>, std::string_view paper, const Case&, const RunOptions&, Recorder&);
 
-// A picture with words under it.
-struct Panel {
-  Image image;
-  std::string words;
-  double scale = 1.0 / Sheet::kPixels;  // units of the sheet per pixel of the image
-  double width() const { return scale * image.width; }
-  double height() const { return scale * image.height; }
-};
 using PanelRows = std::vector<std::vector<Panel>>;  // rows are not empty
 
 struct PanelStyle {      // in units of the sheet

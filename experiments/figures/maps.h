@@ -1,4 +1,6 @@
-// Maps of ground seen from above, in a grid of panels with a title over each and keys below.
+// Maps of ground seen from above, in a grid of panels with a title over each and keys below; the colours and
+// the light of figures. Readers with the common kinds of colour blindness can tell the colours apart: where
+// hue has a meaning it runs between blue and orange or red, and lightness changes with it.
 #pragma once
 
 #include <functional>
@@ -6,10 +8,48 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/figures/colours.h"
 #include "experiments/figures/sheet.h"
+#include "terrain/heightfield.h"
+#include "terrain/image.h"
 
 namespace terrabench::figures {
+
+// Marks on top of the colours of elevations.
+inline constexpr Rgb kChannel{0, 56, 168}, kUntouched{120, 120, 128};
+
+// From the lowest, 0, to the highest, 1: cream to brown, light enough for lines and shading on top.
+Rgb elevation_colour(double t);
+// 0 to ½, for what is too low: blue to white. ½ to 1, for what is too high: white to red. ColorBrewer's RdBu.
+Rgb difference_colour(double t);
+// Blue for 0, red for 1, as in figure 4 of "drill". ColorBrewer's RdYlBu.
+Rgb error_colour(double t);
+// For a direction, in turns: equal for whole turns; dark enough for thin lines on white.
+Rgb direction_colour(double turn);
+
+// How light each sample of a height field is, 0 to 1, with the sun in the north-west, 45° high. Slopes are
+// scaled by one factor per field, so that steep and gentle ground have similar contrast.
+class Light {
+ public:
+  // Keeps a reference to the field. O(samples)
+  explicit Light(const Heightfield& field);
+  // With the scale of another field's light, so that the two can be compared.
+  Light(const Heightfield& field, const Light& as) : field_(field), exaggeration_(as.exaggeration_) {}
+  double at(int i, int j) const;
+
+ private:
+  struct Slope {
+    double east, south;
+  };
+  Slope slope(int i, int j) const;
+
+  const Heightfield& field_;
+  double exaggeration_ = 1;
+};
+// A colour in that light, dimmed to 45 % at most.
+Rgb lit(const Rgb& colour, double light);
+
+// Black or white, whichever can be read on this colour.
+Rgb ink_on(const Rgb& colour);
 
 // One pixel per sample in the colour of its height, in the light `base` + `by` · light; white where there is
 // no data. O(samples)
@@ -31,8 +71,17 @@ struct PanelGrid {
   void place(Sheet&, int number, std::string_view words, const Image&) const;
 };
 
+// Pictures of one size with their words as titles, `width` units wide, in rows of `columns`; `below` units of
+// space below each.
+Sheet titled_sheet(int columns, double width, double below, const std::vector<Panel>&);
+
 // Words, and `indent` units to their right a colour bar with labels at even distances.
 void add_colour_key(Sheet&, double x, double y, std::string_view words, double indent, double width,
                     const std::function<Rgb(double)>& colour, const std::vector<std::string>& labels);
+
+// The end of the id of a figure that is drawn once per ground: empty for the main ground, which stands for
+// the paper's own; ".name" for others. Of a path the last part is the name, with '_' in place of characters
+// other than letters, digits and '-'.
+std::string ground_suffix(std::string_view ground, std::string_view main_ground);
 
 }  // namespace terrabench::figures

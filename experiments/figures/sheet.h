@@ -61,4 +61,13 @@ class Sheet {
   std::string body_;
 };
 
+// A picture with its words.
+struct Panel {
+  Image image;
+  std::string words;
+  double scale = 1.0 / Sheet::kPixels;  // units of the sheet per pixel of the image
+  double width() const { return scale * image.width; }
+  double height() const { return scale * image.height; }
+};
+
 }  // namespace terrabench::figures

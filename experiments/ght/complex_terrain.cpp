@@ -1,11 +1,10 @@
 // Terrains of many events (§4.2): the overlapping sequence and the rain of particles.
-#include <algorithm>
 #include <array>
 #include <random>
 
 #include "experiments/cases.h"
-#include "experiments/ght/processor_time.h"
 #include "experiments/ght/site.h"
+#include "experiments/stopwatch.h"
 #include "representations/ght/invariants.h"
 #include "terrain/events/event_file.h"
 
@@ -58,7 +57,7 @@ std::vector<Case> cases(const RunOptions&) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const auto n = static_cast<int>(at.parameters.integer("n"));
+  const int n = at.integer("n");
   const Site site = make_site(n, n / kEventsAlong, options.seed);
   recorder.terrain("diamond-square", checksum(site.ground));
   const bool rains = at.parameters.text("events") == "rain";
@@ -74,7 +73,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
       events.clear();
       Rain rain(site.ground, options.seed);
       recorder.add("time", "s", processor_seconds([&] {
-                     for (std::int64_t k = at.parameters.integer("particles"); k > 0; --k) {
+                     for (int k = at.integer("particles"); k > 0; --k) {
                        events.push_back(rain.next(tree));
                        tree.apply(events.back());
                      }
@@ -87,22 +86,22 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   }
   const Census all = census(tree.model());
   const Memory memory = tree.memory();
-  recorder.add("events", "", static_cast<double>(events.size()));
-  recorder.add("heightmaps", "", static_cast<double>(all.nodes));
+  recorder.add("events", "", events.size());
+  recorder.add("heightmaps", "", all.nodes);
   recorder.add("deepest_node", "", all.deepest);
-  recorder.add("cells", "", static_cast<double>(all.heights + all.links + all.voids));
-  recorder.add("heights", "", static_cast<double>(all.heights));
-  recorder.add("links", "", static_cast<double>(all.links));
-  recorder.add("voids", "", static_cast<double>(all.voids));
+  recorder.add("cells", "", all.heights + all.links + all.voids);
+  recorder.add("heights", "", all.heights);
+  recorder.add("links", "", all.links);
+  recorder.add("voids", "", all.voids);
   recorder.add("fresh_bytes", "B", fresh);
-  recorder.add("bytes", "B", static_cast<double>(memory.payload + memory.index));
-  recorder.add("slack_bytes", "B", static_cast<double>(memory.slack));
+  recorder.add("bytes", "B", memory.payload + memory.index);
+  recorder.add("slack_bytes", "B", memory.slack);
   const std::vector<std::byte> file = bytes_of(tree);
-  recorder.add("file_bytes", "B", static_cast<double>(file.size()));
+  recorder.add("file_bytes", "B", file.size());
 
   // As text, and built again from the text.
   const std::string text = to_text(Script{"diamond-square", options.seed, n + 1, events, {}});
-  recorder.add("text_bytes", "B", static_cast<double>(text.size()));
+  recorder.add("text_bytes", "B", text.size());
   const Script again = parse_script(text, "ght.complex");
   Ght repeated = plain_tree(site.ground);
   for (const Event& event : again.events) repeated.apply(event);

@@ -1,10 +1,8 @@
 // Whether the tree stays sound: its invariants after every event, and counts made here after every sequence.
 #include <algorithm>
 #include <array>
-#include <random>
 
 #include "experiments/cases.h"
-#include "experiments/ght/ght.h"
 #include "experiments/ght/site.h"
 #include "representations/ght/invariants.h"
 #include "terrain/error.h"
@@ -67,7 +65,7 @@ class Inspection {
           Count{"dangling_links", dangling_}, Count{"unlinked_boundary_cells", unlinked_},
           Count{"voids_seen", voids_seen_}, Count{"open_edges", open_},
           Count{"broken_invariants", broken_}}) {
-      recorder_.add(name, "", static_cast<double>(count));
+      recorder_.add(name, "", count);
     }
   }
 
@@ -203,11 +201,10 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   } else if (what == "rain") {
     Ght tree = plain_tree(site.ground);
     Rain rain(site.ground, options.seed);
-    for (std::int64_t k = at.parameters.integer("particles"); k > 0; --k)
-      inspection.play(tree, rain.next(tree));
+    for (int k = at.integer("particles"); k > 0; --k) inspection.play(tree, rain.next(tree));
     inspection.finish(tree);
   } else {
-    play_random(static_cast<int>(at.parameters.integer("sequences")), options.seed, inspection, progress);
+    play_random(at.integer("sequences"), options.seed, inspection, progress);
   }
   inspection.write();
 }

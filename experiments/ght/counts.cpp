@@ -6,7 +6,6 @@
 #include <array>
 
 #include "experiments/cases.h"
-#include "experiments/ght/ght.h"
 #include "experiments/ght/site.h"
 #include "terrain/error.h"
 
@@ -26,7 +25,7 @@ constexpr int kFewestSides = 3, kMostSides = 12;
 // What the last event did, from the tree's nodes and its list of events.
 void record(const Tree& tree, std::size_t nodes_before, std::string_view where, Recorder& recorder) {
   const Applied& last = tree.events().back();
-  recorder.add(fmt::format("added_{}", where), "", static_cast<double>(tree.nodes().size() - nodes_before));
+  recorder.add(fmt::format("added_{}", where), "", tree.nodes().size() - nodes_before);
   recorder.add(fmt::format("host_depth_{}", where), "", tree.nodes()[last.host].depth);
 }
 
@@ -69,7 +68,7 @@ void measure_carving(const Site& site, bool cave, Recorder& recorder) {
 std::vector<Case> cases(const RunOptions&) { return cases_by("event", kSpecs); }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const auto size = static_cast<int>(at.parameters.integer("size"));
+  const int size = at.integer("size");
   const Site site = make_site(kEventsAlong * size, size, options.seed);
   recorder.terrain("diamond-square", checksum(site.ground));
   const auto kind = static_cast<Kind>(at.parameters.choice("event"));

@@ -9,9 +9,8 @@
 #include <cmath>
 
 #include "experiments/experiment.h"
-#include "experiments/ght/ght.h"
-#include "experiments/ght/processor_time.h"
 #include "experiments/ght/site.h"
+#include "experiments/stopwatch.h"
 #include "terrain/events/evaluate.h"
 
 namespace terrabench::ght {
@@ -163,7 +162,7 @@ class Comparison {
     const Event event = single_event(site_, kind);
     std::vector<double> lengths;
     const Strokes strokes = strokes_of(site_, event);
-    recorder_.add(fmt::format("columns{}", suffix), "", static_cast<double>(strokes.x.size()));
+    recorder_.add(fmt::format("columns{}", suffix), "", strokes.x.size());
     sample_times([&] {
       const auto held = std::make_unique<Ght>(tree_);  // on the heap, as memory() counts the tree's own block
       Ght& tree = *held;
@@ -199,8 +198,7 @@ class Comparison {
 };
 
 Site site_of(const Case& at, const RunOptions& options) {
-  return make_site(static_cast<int>(at.parameters.integer("n")),
-                   static_cast<int>(at.parameters.integer("size")), options.seed);
+  return make_site(at.integer("n"), at.integer("size"), options.seed);
 }
 
 std::vector<Case> edit_cases(const RunOptions& options) {

@@ -160,10 +160,6 @@ Sheet draw_carving_shapes(Drawing& drawing) {
   return panel_sheet(rows);
 }
 
-Sheet draw_tunnel(Drawing& drawing) { return draw_single(drawing, "tunnel"); }
-
-Sheet draw_cave(Drawing& drawing) { return draw_single(drawing, "cave"); }
-
 Sheet draw_two_tunnels(Drawing& drawing) {
   const Ght ght = open_tree("two-tunnels");
   const Look look{{0.9F, 0.45F, 1.0F}, 1060, 620, around_the_ridge(ght)};
@@ -235,10 +231,10 @@ constexpr std::array<figures::Figure, 10> kFigures{{
      draw_faults},
     {19, "F19",
      "a tunnel carved through a terrain of 129 × 129; the views but the first are of the ground around it",
-     draw_tunnel},
+     [](Drawing& drawing) { return draw_single(drawing, "tunnel"); }},
     {20, "F20",
      "a cave carved into a terrain of 129 × 129; the views but the first are of the ground around it",
-     draw_cave},
+     [](Drawing& drawing) { return draw_single(drawing, "cave"); }},
     {21, "F21", "the part with two tunnels of a terrain of 129 × 129", draw_two_tunnels},
     {22, "F22", "a sequence of overlapping events on one terrain, and the ground planes of the tree after it",
      draw_sequence},

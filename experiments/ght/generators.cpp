@@ -30,7 +30,7 @@ void record_seeds(std::string_view name, const Make& make, std::uint64_t seed, R
   recorder.terrain(name, checksum(field));
   {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
-    recorder.add("repeat_differences", "", static_cast<double>(differences(field, make(seed))));
+    recorder.add("repeat_differences", "", differences(field, make(seed)));
   }
   recorder.add(
       "other_seed_share", "",
@@ -75,9 +75,9 @@ void measure_diamond_square(int side, int, std::uint64_t seed, Recorder& recorde
     before = sum;
   }
   recorder.add("side_exponent", "", levels);
-  recorder.add("open_border_samples", "", static_cast<double>(open));
-  recorder.add("corner_differences", "", static_cast<double>(corners));
-  recorder.add("beyond_range", "", static_cast<double>(beyond));
+  recorder.add("open_border_samples", "", open);
+  recorder.add("corner_differences", "", corners);
+  recorder.add("beyond_range", "", beyond);
   if (ratios > 0) recorder.add("range_ratio", "", ratio / ratios / std::exp2(-options.hurst));
   record_seeds(
       "diamond-square", [&](std::uint64_t s) { return diamond_square({.seed = s, .side = side}); }, seed,
@@ -92,7 +92,7 @@ void measure_faults(int side, int steps, std::uint64_t seed, Recorder& recorder)
   Heightfield before = fault_terrain(options);
   const auto raised =
       std::count_if(before.heights.begin(), before.heights.end(), [](float h) { return h != 0; });
-  recorder.add("not_flat_at_first", "", static_cast<double>(raised));
+  recorder.add("not_flat_at_first", "", raised);
   options.faults = steps;
   const std::vector<FaultLine> lines = fault_lines(options);
   std::size_t wrong = 0, up = 0;
@@ -108,7 +108,7 @@ void measure_faults(int side, int steps, std::uint64_t seed, Recorder& recorder)
     }
     before = after;
   }
-  recorder.add("wrong_samples", "", static_cast<double>(wrong));
+  recorder.add("wrong_samples", "", wrong);
   recorder.add("rising_share", "", static_cast<double>(up) / (static_cast<double>(side) * side * steps));
 
   const Heightfield planet =
@@ -119,7 +119,7 @@ void measure_faults(int side, int steps, std::uint64_t seed, Recorder& recorder)
     seam += planet.at(i, 0) != planet.at(0, 0);
     seam += planet.at(i, side - 1) != planet.at(0, side - 1);
   }
-  recorder.add("planet_seam_samples", "", static_cast<double>(seam));
+  recorder.add("planet_seam_samples", "", seam);
   record_seeds(
       "faults",
       [&](std::uint64_t s) {
@@ -159,7 +159,7 @@ void measure_hills(int side, int steps, std::uint64_t seed, Recorder& recorder) 
   }
   recorder.add("one_hill_deviation", "", one_off / (static_cast<double>(single.radius) * single.radius));
   recorder.add("sum_deviation", "", all_off / highest);
-  recorder.add("raised_outside", "", static_cast<double>(outside));
+  recorder.add("raised_outside", "", outside);
   record_seeds(
       "hills",
       [&](std::uint64_t s) {
@@ -192,8 +192,8 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const auto side = static_cast<int>(at.parameters.integer("side"));
-  const auto steps = static_cast<int>(at.parameters.integer("steps"));
+  const int side = at.integer("side");
+  const int steps = at.integer("steps");
   kGeneratorTable[at.parameters.choice("generator")].measure(side, steps, options.seed, recorder);
 }
 

@@ -2,7 +2,6 @@
 // heightmap of the same terrain would fill.
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "experiments/cases.h"
 #include "experiments/ght/site.h"
@@ -60,8 +59,8 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const auto size = static_cast<int>(at.parameters.integer("size"));
-  const auto per_cell = static_cast<int>(at.parameters.integer("columns_a_cell"));
+  const int size = at.integer("size");
+  const int per_cell = at.integer("columns_a_cell");
   const Site site = make_site(kEventsAlong * size, size, options.seed);
   const auto sculpture = std::make_shared<Sculpture>(
       Sculpture{site.ground, kTerrains[at.parameters.choice("events")].events(site)});
@@ -95,16 +94,16 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     }
   }
   const double all = static_cast<double>(columns) * columns;
-  recorder.add("events", "", static_cast<double>(sculpture->events.size()));
+  recorder.add("events", "", sculpture->events.size());
   recorder.add("columns", "", all);
-  recorder.add("overhang_columns", "", static_cast<double>(found.overhangs));
+  recorder.add("overhang_columns", "", found.overhangs);
   recorder.add("overhang_share", "", static_cast<double>(found.overhangs) / all);
-  recorder.add("most_intervals", "", static_cast<double>(found.most));
+  recorder.add("most_intervals", "", found.most);
   recorder.add("lost_volume", "m³", found.air * step * step);
-  recorder.add("columns_of_three", "", static_cast<double>(found.manifold));
-  recorder.add("evaluated_columns_of_three", "", static_cast<double>(truth.manifold));
-  recorder.add("evaluated_most_intervals", "", static_cast<double>(truth.most));
-  recorder.add("evaluated_overhang_columns", "", static_cast<double>(truth.overhangs));
+  recorder.add("columns_of_three", "", found.manifold);
+  recorder.add("evaluated_columns_of_three", "", truth.manifold);
+  recorder.add("evaluated_most_intervals", "", truth.most);
+  recorder.add("evaluated_overhang_columns", "", truth.overhangs);
   recorder.add("evaluated_lost_volume", "m³", truth.air * step * step);
 }
 

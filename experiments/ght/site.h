@@ -7,6 +7,8 @@
 #include <glm/vec2.hpp>
 #include <optional>
 #include <random>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "representations/ght/ght.h"
@@ -74,5 +76,16 @@ class Rain {
 // Overlapping events of all kinds (§4.2, figure 22), over a site of one repetition: the planned ones that the
 // tree accepts on these mountains.
 std::vector<events::Event> overlapping_events(const Site&);
+
+// The names of all kinds of event, in the order of events::Kind: the values of a parameter "event".
+std::span<const std::string_view> event_names();
+
+// What a sound tree does not have; broken_invariants() counts other things.
+struct Breaks {
+  std::size_t dangling = 0;    // links that end in no cell of the surface
+  std::size_t voids_seen = 0;  // corners of the surface that hold no height
+};
+// O(cells + faces)
+Breaks count_breaks(const Model&);
 
 }  // namespace terrabench::ght

@@ -26,7 +26,7 @@ constexpr std::array kSpecs{
 std::vector<Case> cases(const RunOptions&) {
   std::vector<Case> cases;
   for (std::int64_t figure = kFirstFigure; figure <= kLastFigure; ++figure) {
-    cases.push_back({fmt::format("F{}", figure), {kSpecs, {{"figure", figure}}}, ""});
+    cases.push_back({fmt::format("F{}", figure), {kSpecs, {{"figure", figure}}}});
   }
   return cases;
 }
@@ -34,7 +34,7 @@ std::vector<Case> cases(const RunOptions&) {
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const noise::StageInfo& stage =
       noise::info(static_cast<noise::Stage>(at.parameters.integer("figure") - kFirstFigure));
-  const int side = static_cast<int>(at.parameters.integer("pixels"));
+  const int side = at.integer("pixels");
   const noise::CaveOptions terrain{.seed = options.seed};
   const noise::CaveGraph graph = noise::graph_for(stage.stage, terrain);
   recorder.terrain(fmt::format("caves ({})", stage.name), checksum(graph.graph.describe()));

@@ -2,9 +2,7 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <memory>
 #include <random>
-#include <vector>
 
 #include "experiments/build_at.h"
 #include "experiments/experiment.h"
@@ -23,7 +21,7 @@ constexpr std::array kSizeSpecs{
 std::vector<Case> size_cases(std::initializer_list<std::int64_t> sizes) {
   std::vector<Case> cases;
   for (const std::int64_t n : sizes) {
-    cases.push_back({fmt::format("n={}", n), {kSizeSpecs, {{"n", n}}}, ""});
+    cases.push_back({fmt::format("n={}", n), {kSizeSpecs, {{"n", n}}}});
   }
   return cases;
 }
@@ -46,13 +44,9 @@ Bytes bytes_of(std::string_view name, const TerrainSource& source, std::int64_t 
 }
 
 // The layout that agrees with the paper's number: an array with one std::vector of layers per column. That
-// number is the array alone, 24 bytes per column; it leaves out the heap blocks that hold the layers.
-struct PaperLayout {
-  Memory columns;         // the array
-  std::int64_t heap = 0;  // array and blocks
-};
-
-PaperLayout paper_layout(const TerrainSource& source, std::int64_t n, Progress& progress) {
+// number is the array alone, 24 bytes per column; it leaves out the heap blocks that hold the layers,
+// which the heap bytes here include.
+Bytes paper_layout(const TerrainSource& source, std::int64_t n, Progress& progress) {
   const auto built = build_at_resolution("layered_stack", source, n, progress);
   const auto& stack = dynamic_cast<const LayeredStack&>(*built);
   const ColumnGrid& grid = stack.grid();
@@ -104,13 +98,13 @@ void measure_table1(const Case& at, const RunOptions& options, Recorder& recorde
   const std::int64_t n = at.parameters.integer("n");
   const auto columns = static_cast<double>(n * n);
   const TerrainSource source = recorder.terrain(noise::cave_source({.seed = options.seed}));
-  const PaperLayout paper = paper_layout(source, n, progress);
+  const Bytes paper = paper_layout(source, n, progress);
   measure_queries(*build_at_resolution("layered_stack", source, n, progress), source.bounds(), recorder);
   const Bytes stack = bytes_of("layered_stack", source, n, progress);
   const Bytes dense = bytes_of("dense_voxel", source, n, progress);
   const Bytes openvdb = bytes_of("voxel", source, n, progress);
 
-  const auto paper_bytes = static_cast<double>(paper.columns.payload);
+  const auto paper_bytes = static_cast<double>(paper.memory.payload);
   recorder.add("paper_stack_bytes", "B", paper_bytes);
   recorder.add("paper_layout_heap_bytes", "B", paper.heap);
   recorder.add("dense_voxel_bytes", "B", dense.memory.payload);

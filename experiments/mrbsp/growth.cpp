@@ -26,13 +26,13 @@ std::vector<Case> land_cases(const RunOptions& options) {
   std::vector<Case> cases;
   const int largest = options.profile == Profile::kPaper ? kLargest : 1025;
   for (int n = kSmallest; n <= largest; n = 2 * n - 1) {
-    cases.push_back({fmt::format("n={}", n), {kLandSpecs, {{"n", std::int64_t{n}}}}, ""});
+    cases.push_back({fmt::format("n={}", n), {kLandSpecs, {{"n", std::int64_t{n}}}}});
   }
   return cases;
 }
 
 void measure_land(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const int n = static_cast<int>(at.parameters.integer("n"));
+  const int n = at.integer("n");
   // Grounds of all sizes share their middle.
   const int around = std::max(n, kLargest);
   const Heightfield ground =
@@ -58,10 +58,10 @@ void measure_land(const Case& at, const RunOptions& options, Recorder& recorder,
 std::vector<Case> roughness_cases(const RunOptions&) {
   std::vector<Case> cases;
   for (const double relief : {5.0, 20.0, 80.0, 320.0, 1280.0}) {
-    cases.push_back({fmt::format("relief={}", relief), {kRoughnessSpecs, {{"relief", relief}}}, ""});
+    cases.push_back({fmt::format("relief={}", relief), {kRoughnessSpecs, {{"relief", relief}}}});
   }
   for (const double hurst : {0.9, 0.8, 0.7, 0.6}) {
-    cases.push_back({fmt::format("hurst={}", hurst), {kRoughnessSpecs, {{"hurst", hurst}}}, ""});
+    cases.push_back({fmt::format("hurst={}", hurst), {kRoughnessSpecs, {{"hurst", hurst}}}});
   }
   return cases;
 }

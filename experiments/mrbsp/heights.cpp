@@ -51,8 +51,8 @@ std::vector<Case> cases(const RunOptions& options) {
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
-  const auto side = static_cast<int>(at.parameters.integer("points"));
-  const auto depth = static_cast<int>(at.parameters.integer("depth"));
+  const int side = at.integer("points");
+  const int depth = at.integer("depth");
   const Heightfield ground = resample(*source.heights, side, side);
   const BisectionTree tree(depth / 2, depth);
   const std::vector<glm::vec3> points = height_points(ground);

@@ -143,7 +143,7 @@ void draw(const Image& picture, const Heightfield& field, const RunOptions& opti
 std::vector<Case> cases(const RunOptions&) { return {Case{"drawing", Parameters(kSpecs), ""}}; }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const Image picture = example_drawing(static_cast<int>(at.parameters.integer("n")), options.seed);
+  const Image picture = example_drawing(at.integer("n"), options.seed);
   DrawingOptions adjust;
   const Heightfield land = land_from_drawing(picture, adjust);
   recorder.terrain("drawing", checksum(land));

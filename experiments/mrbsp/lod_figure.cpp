@@ -1,13 +1,11 @@
 // Figure 1: the triangles that level of detail draws, seen by its observer, with thresholds at the vertices
 // and one triangle that the one-vertex rule splits.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <unordered_map>
-#include <vector>
 
 #include "experiments/experiment.h"
 #include "experiments/figures/sheet.h"

@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <random>
-#include <string>
-#include <vector>
 
 #include "experiments/experiment.h"
 #include "experiments/mrbsp/extruded_profile.h"

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <vector>
 
 #include "experiments/figures/sheet.h"
 #include "experiments/mrbsp/extruded_profile.h"

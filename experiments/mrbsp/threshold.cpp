@@ -66,7 +66,7 @@ std::vector<Case> cases(const RunOptions&) { return {Case{"level", Parameters(kS
 
 void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress& progress) {
   Heightfield ground;
-  ground.width = ground.depth = static_cast<int>(at.parameters.integer("n"));
+  ground.width = ground.depth = at.integer("n");
   ground.cell_x = ground.cell_z = 30;
   ground.heights.assign(static_cast<std::size_t>(ground.width) * ground.depth, 0.0F);
   recorder.terrain("level", checksum(ground));

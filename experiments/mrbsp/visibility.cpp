@@ -117,8 +117,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   full.tune(kFinest);
   const visibility::Options how{.mode = at.parameters.flag("conservative") ? visibility::Mode::kConservative
                                                                            : visibility::Mode::kSampled,
-                                .cells = static_cast<int>(at.parameters.integer("cells")),
-                                .coarseness = static_cast<int>(at.parameters.integer("coarseness"))};
+                                .cells = at.integer("cells"),
+                                .coarseness = at.integer("coarseness")};
   const Stopwatch watch;
   const visibility::Sets sets = find_sets(grid_of(ground), full.tree(), how, progress);
   recorder.add("preprocessing_time", "s", watch.seconds());

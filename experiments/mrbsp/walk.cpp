@@ -17,11 +17,10 @@ namespace terrabench::mrbsp {
 namespace {
 
 constexpr std::array kSpecs{
-    ParameterSpec{
-        "size", 1.0, "short sides",
-        "distance up to which the finest triangles are drawn; 0 fits it so that level of detail alone "
-        "draws the paper's share of triangles",
-        0, kFinest},
+    ParameterSpec{"size", 1.0, "short sides",
+                  "distance up to which the finest triangles are drawn; 0 fits it so that level of detail "
+                  "alone draws the paper's share of triangles",
+                  0, kFinest},
     ParameterSpec{"frames", std::int64_t{0}, "frames", "frames drawn and timed per method", 0, 240},
     ParameterSpec{"pictures", std::int64_t{0}, "views",
                   "views in which pixels lost by visibility are counted", 0, 240},

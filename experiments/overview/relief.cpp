@@ -69,8 +69,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
   const TriangleMesh mesh = built->mesh({});
   recorder.add("triangles", "", mesh.triangles());
-  const View view = overview(bounds_of(mesh), static_cast<int>(at.parameters.integer("width")),
-                             static_cast<int>(at.parameters.integer("height")));
+  const View view = overview(bounds_of(mesh), at.integer("width"), at.integer("height"));
   const auto context = open_context(options.renderer, view.width, view.height);
   const Bounds ground = source.bounds();  // the same colours for every representation of it
   const Image image = render_relief(*context, mesh, view, {.lowest = ground.low.y, .highest = ground.high.y});

@@ -1,6 +1,6 @@
-#include "experiments/assignments.h"
-
 #include <gtest/gtest.h>
+
+#include "terrain/parameters.h"
 
 namespace terrabench {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "experiments/drill/factorial.h"
 #include "experiments/drill/ground.h"
-#include "experiments/figures/colours.h"
+#include "experiments/figures/maps.h"
 
 namespace terrabench::drill {
 namespace {

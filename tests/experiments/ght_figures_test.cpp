@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-#include "experiments/figures/cut_away.h"
+#include "experiments/figures/views.h"
 #include "experiments/ght/figures.h"
 #include "experiments/ght/tree_view.h"
 #include "representations/ght/invariants.h"

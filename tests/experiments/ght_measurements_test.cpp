@@ -7,7 +7,6 @@
 #include <set>
 
 #include "experiments/experiment.h"
-#include "experiments/ght/ght.h"
 #include "experiments/ght/site.h"
 #include "representations/ght/invariants.h"
 #include "terrain/error.h"

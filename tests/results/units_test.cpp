@@ -1,7 +1,6 @@
-#include "results/units.h"
-
 #include <gtest/gtest.h>
 
+#include "results/fill.h"
 #include "terrain/error.h"
 
 namespace terrabench {
