@@ -1,5 +1,5 @@
-// Colours and light of figures. Readers with the common kinds of colour blindness can tell them apart: where
-// hue has a meaning it runs between blue and orange or red, and lightness changes with it.
+// Colours and shading of figures. Readers with the common kinds of colour blindness can tell the colours
+// apart: a scale whose hue has a meaning runs from blue to orange or red, and its lightness varies as well.
 #pragma once
 
 #include "terrain/heightfield.h"
@@ -7,25 +7,25 @@
 
 namespace terrabench::figures {
 
-// Marks on top of the colours of elevations.
+// Marks on maps coloured by elevation: channel pixels, and samples that no drill reaches.
 inline constexpr Rgb kChannel{0, 56, 168}, kUntouched{120, 120, 128};
 
-// From the lowest, 0, to the highest, 1: cream to brown, light enough for lines and shading on top.
+// Cream at t = 0, the lowest height, to brown at 1, the highest; light enough for lines and shading on top.
 Rgb elevation_colour(double t);
-// 0 to ½, for what is too low: blue to white. ½ to 1, for what is too high: white to red. ColorBrewer's RdBu.
+// Blue at t = 0 (too low), white at ½ (equal), red at 1 (too high). ColorBrewer's RdBu.
 Rgb difference_colour(double t);
 // Blue for 0, red for 1, as in figure 4 of "drill". ColorBrewer's RdYlBu.
 Rgb error_colour(double t);
-// For a direction, in turns: equal for whole turns; dark enough for thin lines on white.
+// Cyclic colour of a direction in turns: 0 and 1 have the same. Dark enough for thin lines on white.
 Rgb direction_colour(double turn);
 
-// How light each sample of a height field is, 0 to 1, with the sun in the north-west, 45° high. Slopes are
-// scaled by one factor per field, so that steep and gentle ground have similar contrast.
+// Lambert shading of each sample of a height field, 0 to 1, with the sun in the north-west, 45° high. Slopes
+// are scaled by one factor per field, so that steep and gentle ground have similar contrast.
 class Light {
  public:
   // Keeps a reference to the field. O(samples)
   explicit Light(const Heightfield& field);
-  // With the scale of another field's light, so that the two can be compared.
+  // Scales slopes by the factor of `as`, so that the two fields can be compared.
   Light(const Heightfield& field, const Light& as) : field_(field), exaggeration_(as.exaggeration_) {}
   double at(int i, int j) const;
 
@@ -38,7 +38,7 @@ class Light {
   const Heightfield& field_;
   double exaggeration_ = 1;
 };
-// A colour in that light, dimmed to 45 % at most.
+// The colour multiplied by 0.45 + 0.75 · light, at most 1.
 Rgb lit(const Rgb& colour, double light);
 
 // Black or white, whichever can be read on this colour.

@@ -17,14 +17,14 @@ struct CutPlane {
   float in_front(glm::vec3 p) const { return (p.x - point.x) * towards.x + (p.z - point.y) * towards.y; }
 };
 
-// Divides the triangles that the plane crosses. `tags` holds one number per triangle, which its parts keep.
-// O(triangles)
+// Removes the part of the mesh that the plane cuts away; triangles that the plane crosses are divided. `tags`
+// may be null, or holds one number per triangle, which its parts keep. O(triangles)
 void cut_away(TriangleMesh&, const CutPlane&, std::vector<std::uint32_t>* tags = nullptr);
 
-// The solid ground in the plane, as upright strips `step` metres wide. O(strips)
+// The cross-section of the solid ground in the plane, as upright strips `step` metres wide. O(strips)
 TriangleMesh section_face(const Representation&, const CutPlane&, float step);
 
-// The triangles t for which keep(t); all vertices stay.
+// The triangles t for which keep(t) is true; all vertices stay.
 template <class Keep>
 TriangleMesh part_of(const TriangleMesh& mesh, const Keep& keep) {
   TriangleMesh part{mesh.positions, mesh.normals, {}};

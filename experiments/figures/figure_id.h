@@ -6,8 +6,8 @@
 
 namespace terrabench::figures {
 
-// The end of a figure's id: empty for the main ground, which stands for the paper's own; ".name" for others.
-// Of a path the last part is the name, with '_' in place of characters other than letters, digits and '-'.
+// The end of a figure's id: empty for the main ground, on which the paper's claim is measured; ".name" for
+// others. The name of a path is its last component. Characters other than letters, digits and '-' become '_'.
 std::string ground_suffix(std::string_view ground, std::string_view main_ground);
 
 }  // namespace terrabench::figures
