@@ -1,5 +1,5 @@
-// An experiment is one value: what to run in each profile, and a function that measures one case.
-// Each .cpp file of a paper's folder exports its own as `extern const Experiment kName`; registry.cpp lists
+// An experiment is one value: a function that lists its cases for a profile, and one that measures a case.
+// The .cpp files of each paper's folder define them as `extern const Experiment kName`; registry.cpp lists
 // them.
 #pragma once
 
@@ -21,7 +21,7 @@ enum class Profile { kQuick, kPaper };
 struct RunOptions {
   Profile profile = Profile::kQuick;
   std::uint64_t seed = 1;
-  std::vector<std::string> terrains;  // names or paths; empty: each experiment's own
+  std::vector<std::string> terrains;  // names or paths; empty: each experiment uses its own
   std::string renderer = "osmesa";
 };
 
@@ -29,13 +29,13 @@ struct Case {
   std::string name;  // unique within the experiment, such as "n=128"; a label, never parsed
   Parameters parameters;
   std::string terrain = "";  // catalogue name or path; empty when the case makes its own ground
-  std::vector<std::string> overrides = {};  // "name=value" of --set, which the name repeats
+  std::vector<std::string> overrides = {};  // "name=value" given by --set; `name` contains them too
 
   int integer(std::string_view parameter) const { return static_cast<int>(parameters.integer(parameter)); }
 };
 
 struct Experiment {
-  std::string_view id, title;  // the id begins with the paper: "ght.edits"
+  std::string_view id, title;  // the id is the paper's, a dot and a name: "ght.edits"
   std::span<const ParameterSpec> parameters;
   std::vector<Case> (*cases)(const RunOptions&);
   void (*measure)(const Case&, const RunOptions&, Recorder&, Progress&);

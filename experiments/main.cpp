@@ -19,8 +19,8 @@
 namespace terrabench {
 namespace {
 
-// Exit code when the reader of standard output closes it, as in `terrabench list | head -1`: the same that a
-// shell shows for a program ended by SIGPIPE.
+// Exit code when the reader of standard output closes the pipe, as in `terrabench list | head -1`. A shell
+// reports the same for a program that SIGPIPE ended.
 constexpr int kClosedPipe = 141;
 
 constexpr const char* kFooter =
@@ -69,55 +69,56 @@ void add_list(CLI::App& app, Arguments& a) {
 void add_run(CLI::App& app, Arguments& a) {
   auto* command = app.add_subcommand("run", "Measure experiments into a results folder");
   command->add_option("ids", a.run.patterns, "Experiment ids or globs such as 'hybrid.*' (default: all)");
-  command->add_option("--profile", a.profile, "quick: minutes; paper: the sizes as printed")
+  command->add_option("--profile", a.profile, "quick: takes minutes; paper: the papers' sizes")
       ->check(CLI::IsMember({"quick", "paper"}))
       ->capture_default_str();
   command->add_option("--terrain", a.run.options.terrains,
-                      "Names of `list terrains`, paths of DEMs, or drawing:FILE.png");
+                      "Measure on these terrains: names from `terrabench list terrains`, paths of DEMs, or "
+                      "drawing:FILE.png (default: each experiment's own)");
   command->add_option("--out", a.run.folder, "Results folder")->capture_default_str();
-  command->add_flag("--resume", a.run.resume, "Skip cases that the folder already holds");
-  command->add_option("--shard", a.shard, "i/n: measure every n-th case only, from the i-th")
+  command->add_flag("--resume", a.run.resume, "Skip cases that are already in the folder");
+  command->add_option("--shard", a.shard, "i/n: measure only every n-th case, starting with the i-th")
       ->capture_default_str();
-  command->add_option("--renderer", a.run.options.renderer, "OpenGL context")->capture_default_str();
+  command->add_option("--renderer", a.run.options.renderer, "OpenGL context: osmesa")->capture_default_str();
   command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
       ->check(CLI::Range(1, 4096));
   command->add_option("--seed", a.run.options.seed, "Seed of all randomness")->capture_default_str();
   command->add_option(
       "--set", a.run.assignments,
-      "Parameters of the experiments, name=value or name=value,name=value, for each case that has them; a "
-      "text value may contain commas except before the name= of a parameter");
+      "Parameters of the experiments: name=value or name=value,name=value. Each applies to the cases that "
+      "have it. A text value may contain commas, but not one followed by a parameter's name and '='");
 }
 
 void add_results(CLI::App& app, Arguments& a) {
-  auto* check =
-      app.add_subcommand("check",
-                         "The verdict on every claim: first the claims that fail the check, then one line "
-                         "per claim (verdict, the figure that decides, its expected range), then one line "
-                         "per paper. Exits with 0 when every verdict is the known one, else with 1");
+  auto* check = app.add_subcommand(
+      "check",
+      "Print the verdict on every claim: first the claims that fail the check, then one line per claim "
+      "(verdict, the value that decides, its expected range), then one line per paper. Exits with 0 if every "
+      "verdict is the known one, else with 1");
   check->add_option("dir", a.check.folder, "Results folder")->capture_default_str();
   check->add_option("--claims,--rows", a.check.claims,
-                    "Only these claims: ids or globs such as 'hybrid.T1.*'");
+                    "Check only these claims: ids or globs such as 'hybrid.T1.*'");
   check->add_flag("--verbose", a.check.verbose, "Print all evidence under each line");
   check->add_flag("--json", a.check.json, "Print JSON");
   check->add_option("--junit", a.check.junit, "Also write JUnit XML for a CI server");
-  auto* report =
-      app.add_subcommand("report", "Tables, plots and a page from the measurements: DIR/report/index.html");
+  auto* report = app.add_subcommand(
+      "report", "Write tables, plots and a web page from the measurements: DIR/report/index.html");
   report->add_option("dir", a.report, "Results folder")->capture_default_str();
-  auto* compare =
-      app.add_subcommand("compare", "Two results folders, metric by metric, with confidence intervals");
+  auto* compare = app.add_subcommand(
+      "compare", "Compare two results folders, metric by metric, with confidence intervals");
   compare->add_option("a", a.compare.before, "Results folder")->required();
   compare->add_option("b", a.compare.after, "Results folder")->required();
   compare->add_flag("--json", a.compare.json, "Print JSON");
 }
 
 void add_represent(CLI::App& app, Arguments& a) {
-  auto* command =
-      app.add_subcommand("represent", "Build one structure; print its bytes and error, save it, draw it");
+  auto* command = app.add_subcommand("represent",
+                                     "Build one representation; print its bytes and error, save it, draw it");
   command
       ->add_option("terrain", a.represent.terrain,
-                   "A name of `list terrains`, the path of a DEM, or drawing:FILE.png")
+                   "A name from `terrabench list terrains`, the path of a DEM, or drawing:FILE.png")
       ->required();
-  command->add_option("--as", a.represent.as, "A name of `list representations`")->required();
+  command->add_option("--as", a.represent.as, "A name from `terrabench list representations`")->required();
   command->add_option("--set", a.represent.assignments,
                       "Parameters of the representation, name=value or name=value,name=value");
   // Short forms of --set for parameters of drill.
@@ -137,26 +138,28 @@ void add_represent(CLI::App& app, Arguments& a) {
             },
             "NUMBER"));
   };
-  budget("--budget-bytes", "budget_bytes", "Choose the drills' parameters for at most so many bytes");
-  budget("--max-rmse", "max_rmse", "Choose the drills' parameters for at most so many metres of RMSE");
-  command->add_option("--save", a.represent.save, "Write the structure to this file");
+  budget("--budget-bytes", "budget_bytes",
+         "For drill: choose the parameters so that it takes at most this many bytes");
+  budget("--max-rmse", "max_rmse",
+         "For drill: choose the parameters so that the RMSE is at most this many metres");
+  command->add_option("--save", a.represent.save, "Write the representation to this file");
   command->add_option("--render", a.represent.render, "Write a shaded relief to this PNG");
   command->add_option("--write-flow", a.represent.write_flow,
                       "Write flow accumulation to this GeoTIFF, and directions beside it");
-  command->add_option("--crop", a.represent.crop, "First column, first row, width, depth in samples")
+  command->add_option("--crop", a.represent.crop, "Part to use, in samples: column, row, width, depth")
       ->expected(4);
-  command->add_option("--resample", a.represent.resample, "Width and depth in samples")->expected(2);
-  command->add_flag("--fill", a.represent.fill, "Fill no-data holes from their rims");
-  command->add_option("--renderer", a.represent.renderer, "OpenGL context")->capture_default_str();
+  command->add_option("--resample", a.represent.resample, "New width and depth in samples")->expected(2);
+  command->add_flag("--fill", a.represent.fill, "Fill samples without data from the samples around them");
+  command->add_option("--renderer", a.represent.renderer, "OpenGL context: osmesa")->capture_default_str();
   command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
       ->check(CLI::Range(1, 4096));
   command->add_option("--seed", a.represent.seed, "Seed of procedural terrains")->capture_default_str();
   auto* info =
-      app.add_subcommand("info", "What is in a DEM, a drawing, a saved structure or a results folder");
+      app.add_subcommand("info", "Describe a DEM, a drawing, a saved representation or a results folder");
   info->add_option("file", a.info, "File or folder, or drawing:FILE.png")->required();
 }
 
-// Only for work that asks Progress whether to stop; elsewhere a signal ends the process at once, as usual.
+// Only for commands that ask Progress whether to stop; in others a signal ends the process at once, as usual.
 void install_signals() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
@@ -195,7 +198,8 @@ int main_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
   }
-  std::signal(SIGPIPE, SIG_IGN);  // both become errors of write(), which name the file
+  // A closed pipe and a file over the size limit then make write() fail, so that the error names the file.
+  std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   const std::size_t threads = arguments.threads > 0 ? arguments.threads : std::thread::hardware_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
@@ -224,7 +228,7 @@ int main(int argc, char** argv) {
     return fail(ExitCode::kEnvironment, "out of memory",
                 "use a smaller terrain (--crop, --resample) or resolution");
   } catch (const std::system_error& error) {
-    // Only standard output and error throw this; files throw terrabench::Error.
+    // Thrown only for standard output and standard error; errors of files are terrabench::Error.
     if (error.code() == std::errc::broken_pipe) return terrabench::kClosedPipe;
     return fail(ExitCode::kEnvironment, error.what(), "");
   } catch (const std::exception& error) {

@@ -1,6 +1,6 @@
 // What the papers report, and how each claim is read from the measurements: experiments/*/claims.toml,
-// compiled in. The files also lay out the report's tables and plots. They hold the verdict that a claim is
-// known to have, never one that was found.
+// compiled in. The files also lay out the report's tables and plots. Key `known` is the verdict that a claim
+// is expected to have, written by hand; the verdicts of a run are computed by judge.h and not stored.
 #pragma once
 
 #include <span>
@@ -14,9 +14,9 @@ namespace terrabench {
 
 enum class Verdict {
   kReproduced,  // inside the claim's tolerance
-  kShape,    // ratio, slope or order inside the tolerance; the absolute figure belongs to the paper's machine
-  kDiffers,  // outside the tolerance
-  kNotComparable,  // cannot be measured even in shape; the claim says why
+  kShape,       // ratio, slope or order inside the tolerance; absolute values depend on the paper's machine
+  kDiffers,     // outside the tolerance
+  kNotComparable,  // not even the shape can be measured; the claim says why
   kPending,        // the method is not built yet
   kNotRun,         // the profile that was run does not measure it
   kMissing,        // it should be measured, but there is no measurement
@@ -24,42 +24,44 @@ enum class Verdict {
 std::string_view name(Verdict);
 inline bool was_measured(Verdict v) { return v != Verdict::kPending && v != Verdict::kNotRun; }
 
-// A number, or "experiment/case/metric".
+// A number, or a metric of a case: "experiment/case/metric". Case names may contain '/'.
 struct Operand {
   std::string experiment, case_name, metric;  // all empty for a number
   double number = 0;
   bool is_number() const { return metric.empty(); }
 };
 
-// One thing that must hold: an element of a claim's `check`.
+// One condition on the measurements: an element of a claim's `check`, such as
+// {growth = ["drill.growth/n=256/drills", "drill.growth/n=8192/drills"], range = [362, 2896]}. Medians are
+// compared. An element with `each` stands for several: toml_reader.h.
 struct Condition {
   enum class Kind {
-    kEqual,   // all operands equal, to the bit
-    kOrder,   // each below the next
-    kWithin,  // the one operand lies in [low, high]
-    kRatio,   // first ÷ second lies in [low, high]
-    kGrowth,  // second ÷ first lies in [low, high]
-    kFigure,  // the picture is there, can be decoded and is not blank
+    kEqual,   // equal = [a, b, …]: all operands are equal, to the bit
+    kOrder,   // order = [a, b, …]: each is below the next
+    kWithin,  // within = [a]: a lies in the range
+    kRatio,   // ratio = [a, b]: a ÷ b lies in the range
+    kGrowth,  // growth = [a, b]: b ÷ a, the growth from a to b, lies in the range
+    kFigure,  // figure = ID: the picture is the one that was drawn, can be decoded and is not blank
   };
   Kind kind = Kind::kEqual;
   std::vector<Operand> operands;
-  double low = 0, high = 0;
-  std::string figure;
+  double low = 0, high = 0;  // range, both ends included
+  std::string figure;        // id
 };
 
 struct Claim {
   std::string id, where, statement;
-  char type = 'E';               // E exact, T tolerance, S shape, F figure, Q qualitative
+  char type = 'E';               // key `class`: E exact, T tolerance, S shape, F figure, Q qualitative
   std::vector<double> reported;  // as printed in the paper
   std::string unit, tolerance, note;
-  std::vector<std::string> profiles;  // that measure it
-  std::vector<Condition> conditions;  // all must hold
-  Verdict known = Verdict::kReproduced;
-  std::string pending, not_comparable;  // the reason; empty when measured
+  std::vector<std::string> profiles;     // those that measure it
+  std::vector<Condition> conditions;     // all must hold
+  Verdict known = Verdict::kReproduced;  // expected
+  std::string pending, not_comparable;   // the reason; both empty if the claim is measured
 };
 
 struct Paper {
-  std::string id, title, source;  // source: authors, year, where
+  std::string id, title, source;  // source: authors, year, place of publication
   std::vector<Claim> claims;
   std::vector<TableLayout> tables;
   std::vector<PlotLayout> plots;

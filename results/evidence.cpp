@@ -39,7 +39,7 @@ std::string missed_by(double value, double bound) {
                     : fmt::format("{:.3g} % {}", 100 * std::abs(distance / bound), side);
 }
 
-// Whether the 95 % interval leaves the outcome open, which the median alone decides.
+// The median alone decides the outcome. Remark for the reader if the 95 % interval leaves it uncertain.
 std::string_view doubt(const Summary& s, double low, double high) {
   const bool holds = s.median >= low && s.median <= high;
   if (holds) {
@@ -65,7 +65,7 @@ Finding compare_range(const Condition& condition, const Summary& s, const std::s
   return found;
 }
 
-// equal, order. The first link that does not hold decides; when all hold, the first.
+// equal, order. The finding shows the first neighbouring pair that fails; if all hold, the first pair.
 Finding compare_chain(bool equal, const std::vector<Quantity>& quantities) {
   const std::string_view sign = equal ? "=" : "<", broken = equal ? "≠" : "≥";
   double before = summarise(quantities[0].samples).median;
@@ -76,6 +76,7 @@ Finding compare_chain(bool equal, const std::vector<Quantity>& quantities) {
     found.text += fmt::format(" {} {}", holds ? sign : broken, quantities[i].show(median));
     if (!holds && before != median) found.text += fmt::format(" ({})", missed_by(before, median));
     if (i == 1 || (!holds && found.outcome == Outcome::kHolds)) {
+      // Of the pair, a plain number is the bound; without one, the second operand is.
       const bool bound_first = quantities[i - 1].name.empty();
       const Quantity &bound = quantities[bound_first ? i - 1 : i],
                      &measured = quantities[bound_first ? i : i - 1];
@@ -108,7 +109,7 @@ Finding compare(const Condition& condition, const std::vector<Quantity>& quantit
   }
 }
 
-// A ratio or order of times holds only between times taken under the same conditions.
+// Whether the records must come from one machine and build: for ratios, growth, and orders of times.
 bool compares_times(const Condition& condition, const std::vector<Quantity>& quantities) {
   if (condition.kind == Kind::kRatio || condition.kind == Kind::kGrowth) return true;
   return condition.kind == Kind::kOrder && std::any_of(quantities.begin(), quantities.end(),

@@ -1,5 +1,5 @@
-// What the measurements say about one claim: each of its conditions, evaluated. judge.h makes the verdict of
-// it.
+// The evidence for one claim: each of its conditions, evaluated on the measurements. judge.h derives the
+// verdict from it.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ struct Evidence {
   std::vector<Finding> findings;  // one per condition of the claim, in their order
   std::vector<std::string> runs;  // ids of the runs whose records were read
   bool altered = false;           // one of these records was altered by hand
-  bool incomparable = false;      // times from different machines or builds are compared
+  bool incomparable = false;      // a condition compares times from different machines or builds
 };
 
 // Reads the records of one profile. Medians decide; a 95 % interval is reported beside each.

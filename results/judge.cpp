@@ -29,6 +29,7 @@ void judge_measured(Judgement& judgement, const Store& store, const std::string&
   const auto first = [&](Outcome outcome) { return std::ranges::find(findings, outcome, &Finding::outcome); };
   judgement.runs = evidence.runs;
   if (first(Outcome::kMissing) != findings.end()) {
+    // Report only what is missing.
     std::erase_if(findings, [](const Finding& finding) { return finding.outcome != Outcome::kMissing; });
     judgement.verdict = Verdict::kMissing;
   } else if (first(Outcome::kFails) != findings.end()) {

@@ -1,9 +1,11 @@
 // The verdict on every claim, computed from claims and records and nothing else:
 // 1. A claim (claims.h, read from experiments/*/claims.toml) has conditions on metrics of named cases.
 // 2. gather_evidence (evidence.h) reads these metrics from the records and evaluates each condition.
-// 3. judge() makes one verdict of the findings: missing if one could not be evaluated, differs if one fails,
-//    else reproduced ("shape" for claims of class S); not run if the claim is of another profile.
-// 4. A verdict other than the claim's known one is a complaint, and `terrabench check` exits with 1.
+// 3. judge() makes one verdict from the findings: missing if one could not be evaluated, differs if one
+//    fails, else reproduced ("shape" for claims of class S). A claim is not run if the profile of the newest
+//    record does not measure it.
+// 4. Complaints, with which `terrabench check` exits with 1: a verdict other than the claim's known one, a
+//    record altered by hand, a comparison between different machines or builds.
 #pragma once
 
 #include <filesystem>

@@ -28,7 +28,7 @@ struct Figure {
   std::string checksum = "";  // of the file's bytes, so that another picture in its place is noticed
 };
 
-// Where numbers came from. One a process; every record names the one it was measured under.
+// Where numbers came from: one per run of the program. Each record names its run.
 struct Provenance {
   std::string id;  // digest of the rest
   std::string time, command, git_revision, compiler, flags, build_type, cpu, os, gl_renderer;
@@ -40,15 +40,15 @@ struct Provenance {
   std::vector<std::string> timing_warnings;                    // timing_conditions.h; older stores have none
 };
 
-// Whether times of the two can be set against each other, and one be taken for the other: same machine, same
-// code, same compiler. Two builds with uncommitted changes of one revision count as the same code, though
-// they need not be: an interrupted run must be able to go on.
+// Whether times of the two runs can be compared, and a case of one need not be measured again in the other:
+// same machine, code and compiler. Two builds of one revision with uncommitted changes count as the same
+// code, although they may differ, so that an interrupted run can be resumed.
 bool comparable(const Provenance&, const Provenance&);
 
 // One case of one experiment, measured.
 struct Record {
   std::string experiment, case_name, profile;
-  std::vector<std::string> overrides = {};  // the "name=value" of --set: not the case that the ledger means
+  std::vector<std::string> overrides = {};  // "name=value" given by --set; claims then do not use the record
   std::string run;                          // Provenance::id
   std::uint64_t seed = 0;
   std::string terrain, terrain_checksum;  // what was measured on

@@ -174,11 +174,14 @@ Record record_from(Fields& fields, std::string& warning) {
   for (const auto& [name, value] : fields.object("parameters").items()) {
     record.parameters.emplace_back(name, value_from(value, name));
   }
+  // Records written before this field existed name overrides only at the end of the case.
   if (fields.has("overrides")) {
     for (const Json& assignment : fields.array("overrides")) {
       require(assignment.is_string(), "an override is not text");
       record.overrides.push_back(assignment.get<std::string>());
     }
+  } else if (const std::size_t at = record.case_name.find(" ("); at != record.case_name.npos) {
+    record.overrides.push_back(record.case_name.substr(at + 2, record.case_name.size() - at - 3));
   }
   for (const Json& metric : fields.array("metrics")) record.metrics.push_back(metric_from(metric, warning));
   for (const Json& figure : fields.array("figures")) record.figures.push_back(figure_from(figure, warning));

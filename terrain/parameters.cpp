@@ -153,10 +153,11 @@ std::vector<std::string> split_assignments(std::span<const std::string> texts,
                                            std::span<const ParameterSpec> specs) {
   std::vector<std::string> all;
   for (const std::string& text : texts) {
-    bool first = true, value_is_text = false;
-    for (std::string_view rest = text; first || !rest.empty();) {
+    bool first = true, more = true, value_is_text = false;
+    for (std::string_view rest = text; more;) {
       const std::string_view part = rest.substr(0, rest.find(','));
-      rest.remove_prefix(std::min(part.size() + 1, rest.size()));
+      more = part.size() < rest.size();
+      rest.remove_prefix(part.size() + (more ? 1 : 0));
       const std::size_t equals = part.find('=');
       const auto spec = std::find_if(specs.begin(), specs.end(), [&](const ParameterSpec& s) {
         return equals != part.npos && s.name == part.substr(0, equals);

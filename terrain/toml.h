@@ -1,12 +1,12 @@
-// The one way to read TOML: event files, camera paths and claims. Only the readers of such files include this
-// header: toml++ takes seconds to compile, and its parser is compiled once, in toml.cpp.
+// Reads TOML, for event files, camera paths and claims. Include this header only in .cpp files that read such
+// a file: toml++ takes seconds to compile. Its parser is compiled once, in toml.cpp.
 #pragma once
 
 #ifndef TOML_HEADER_ONLY
 #define TOML_HEADER_ONLY 0
 #endif
-// toml++ 3.3.0 asserts (and assumes, with clang) that the time of a date begins with a digit; without that it
-// refuses such a time.
+// toml++ 3.3.0 asserts, or with clang assumes, that the time after a date begins with a digit. Without the
+// assertion, it reports a time that does not as a syntax error.
 #include <toml++/impl/preprocessor.h>
 #undef TOML_ASSERT_ASSUME
 #define TOML_ASSERT_ASSUME(...) static_assert(true)
@@ -17,9 +17,10 @@
 
 namespace terrabench {
 
-// Parses `text`, which came from `file`. Throws bad_input with file and line for what is not TOML, with
-// `advice` where toml++ refuses it, and with the column for invalid UTF-8 and for characters beyond ASCII
-// outside strings and comments, where toml++ 3.3.0 has undefined behaviour (U+00A1 to U+0499). O(n).
+// Parses `text`, the content of `file`. Throws bad_input with file and line if it is not TOML, and `advice`
+// if toml++ found the error. Invalid UTF-8, and characters beyond ASCII outside strings and comments, are
+// found before toml++ runs, with the column: toml++ 3.3.0 has undefined behaviour for some (U+00A1 to
+// U+0499). O(n).
 toml::table parse_toml(std::string_view text, const std::string& file, std::string_view advice);
 
 }  // namespace terrabench

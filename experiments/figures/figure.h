@@ -1,6 +1,6 @@
-// A figure of a paper: a number, a caption and the function that draws its sheet, most often a grid of
-// panels. An experiment that draws figures is a table of these; its cases, one per figure, differ in the
-// parameter "figure".
+// A figure of a paper: its number, its caption and a function that draws its sheet, most often a grid of
+// panels. An experiment that draws figures has a table of these, and one case per figure, with the figure's
+// name as the parameter "figure". (A figure that a record holds is terrabench::Figure, results/record.h.)
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@
 
 namespace terrabench::figures {
 
-// What a figure is drawn with.
+// What a function that draws a figure may use.
 class Drawing {
  public:
   explicit Drawing(const RunOptions& options) : options_(options) {}  // keeps a reference
@@ -29,8 +29,8 @@ class Drawing {
 
 struct Figure {
   int number;                // in the paper
-  std::string_view name;     // its case and the value of "figure": "F13"
-  std::string_view caption;  // after "Figure 13 of the paper: "
+  std::string_view name;     // the case's name and the value of "figure", such as "F13"
+  std::string_view caption;  // follows "Figure 13 of the paper: "
   Sheet (*draw)(Drawing&);
 };
 
@@ -41,15 +41,15 @@ using PanelRows = std::vector<std::vector<Panel>>;  // rows are not empty
 
 struct PanelStyle {      // in units of the sheet
   double margin = 14;    // around and between panels
-  double words = 26;     // height of the strip under each picture
-  double baseline = 17;  // of the words, below the picture
+  double words = 26;     // height of the strip for the text under each picture
+  double baseline = 17;  // of the text, below the picture
   int text_size = 14;
-  std::optional<Rgb> frame{};  // one unit wide around each picture
+  std::optional<Rgb> frame{};  // colour of a frame one unit wide around each picture
 };
 
-// Pictures of one row have one height; a row narrower than the sheet is centred.
+// All pictures of a row must have the same height. A row narrower than the sheet is centred.
 Sheet panel_sheet(const PanelRows&, const PanelStyle& = {});
-// The panels in rows of `across`, the last one possibly shorter.
+// The panels in rows of `across`; the last row may be shorter.
 PanelRows in_rows_of(std::size_t across, std::vector<Panel>);
 
 }  // namespace terrabench::figures

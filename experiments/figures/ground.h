@@ -11,15 +11,15 @@
 
 namespace terrabench::figures {
 
-// One grey pixel per sample: black is the lowest, white the highest; all of a level field is the middle grey.
+// One grey pixel per sample: black is the lowest, white the highest; a level field is middle grey throughout.
 // O(samples)
 Image heightmap_image(const Heightfield&);
 
 // The surface alone, without sides and normals: vertices are the samples, row by row. O(samples)
 TriangleMesh ground_mesh(const Heightfield&);
 
-// The four upright sides of a block of ground, from the surface's border down to `floor`. `surface` gives the
-// surface's point at sample (i, j) of the border of columns × rows samples. O(border)
+// The four upright sides of a block of ground of columns × rows samples, from the surface's border down to
+// `floor`. `surface` gives the point of the surface at sample (i, j) of the border. O(border)
 TriangleMesh block_sides(int columns, int rows, const std::function<glm::vec3(int i, int j)>& surface,
                          float floor);
 

@@ -14,25 +14,25 @@
 
 namespace terrabench::figures {
 
-// Marks on top of the colours of elevations.
+// Marks on maps coloured by elevation: channel pixels, and samples that no drill reaches.
 inline constexpr Rgb kChannel{0, 56, 168}, kUntouched{120, 120, 128};
 
-// From the lowest, 0, to the highest, 1: cream to brown, light enough for lines and shading on top.
+// Cream at t = 0, the lowest height, to brown at 1, the highest; light enough for lines and shading on top.
 Rgb elevation_colour(double t);
-// 0 to ½, for what is too low: blue to white. ½ to 1, for what is too high: white to red. ColorBrewer's RdBu.
+// Blue at t = 0 (too low), white at ½ (equal), red at 1 (too high). ColorBrewer's RdBu.
 Rgb difference_colour(double t);
 // Blue for 0, red for 1, as in figure 4 of "drill". ColorBrewer's RdYlBu.
 Rgb error_colour(double t);
-// For a direction, in turns: equal for whole turns; dark enough for thin lines on white.
+// Cyclic colour of a direction in turns: 0 and 1 have the same. Dark enough for thin lines on white.
 Rgb direction_colour(double turn);
 
-// How light each sample of a height field is, 0 to 1, with the sun in the north-west, 45° high. Slopes are
-// scaled by one factor per field, so that steep and gentle ground have similar contrast.
+// Lambert shading of each sample of a height field, 0 to 1, with the sun in the north-west, 45° high. Slopes
+// are scaled by one factor per field, so that steep and gentle ground have similar contrast.
 class Light {
  public:
   // Keeps a reference to the field. O(samples)
   explicit Light(const Heightfield& field);
-  // With the scale of another field's light, so that the two can be compared.
+  // Scales slopes by the factor of `as`, so that the two fields can be compared.
   Light(const Heightfield& field, const Light& as) : field_(field), exaggeration_(as.exaggeration_) {}
   double at(int i, int j) const;
 
@@ -45,27 +45,27 @@ class Light {
   const Heightfield& field_;
   double exaggeration_ = 1;
 };
-// A colour in that light, dimmed to 45 % at most.
+// The colour multiplied by 0.45 + 0.75 · light, at most 1.
 Rgb lit(const Rgb& colour, double light);
 
 // Black or white, whichever can be read on this colour.
 Rgb ink_on(const Rgb& colour);
 
-// One pixel per sample in the colour of its height, in the light `base` + `by` · light; white where there is
-// no data. O(samples)
+// One pixel per sample, in the colour of its height under the light `base` + `by` · light (see lit()); white
+// where there is no data. O(samples)
 Image shaded_map(const Heightfield&, const Light&, const std::function<Rgb(float)>& colour, double base = 0,
                  double by = 1);
 
-// A grid of pictures of one size. Lengths in units of the sheet; panels are numbered row by row.
+// A grid of pictures of the same size. Lengths are in units of the sheet; panels are numbered row by row.
 struct PanelGrid {
   int columns = 2, rows = 1;
   double width = 0, height = 0;  // of a picture
-  double gap = 16, below = 16;   // around columns; below each picture
+  double gap = 16, below = 16;   // left and right of each column; below each picture
   double title = 26;             // height of the strip over each picture
   int text_size = 13;
 
   double sheet_width() const { return columns * (width + gap) + gap; }
-  double bottom() const { return rows * (title + height + below); }  // of all panels
+  double bottom() const { return rows * (title + height + below); }  // lower end of all panels
   double x(int number) const { return gap + number % columns * (width + gap); }
   double y(int number) const { return number / columns * (title + height + below) + title; }
   void place(Sheet&, int number, std::string_view words, const Image&) const;
@@ -75,7 +75,7 @@ struct PanelGrid {
 // space below each.
 Sheet titled_sheet(int columns, double width, double below, const std::vector<Panel>&);
 
-// Words, and `indent` units to their right a colour bar with labels at even distances.
+// Words at x, and a colour bar at x + `indent`, with two or more labels at equal distances.
 void add_colour_key(Sheet&, double x, double y, std::string_view words, double indent, double width,
                     const std::function<Rgb(double)>& colour, const std::vector<std::string>& labels);
 

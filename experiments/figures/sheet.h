@@ -31,7 +31,7 @@ class Sheet {
   void box(double x, double y, double width, double height, Rgb fill);
   void line(std::span<const SheetPoint> points, const Stroke&);
   void stroke(SheetPoint from, SheetPoint to, Rgb colour, double thickness);
-  // Marks for points; `radius` in units. Rings are white inside.
+  // Marks for points; `radius` is in units. A ring is filled with white.
   void dot(SheetPoint, double radius, Rgb colour);
   void ring(SheetPoint, double radius, Rgb colour, double thickness);
   void cross(SheetPoint, double radius, Rgb colour);
@@ -39,9 +39,9 @@ class Sheet {
   // `anchor` is start, middle or end.
   void text(double x, double y, std::string_view words, int size, std::string_view anchor = "start",
             Rgb colour = {32, 32, 32});
-  // Pixels become sharp rectangles. Their sizes are exact where the image is enlarged by whole numbers.
+  // Pixels become sharp rectangles, all of the same size if the image is enlarged by a whole number.
   void picture(double x, double y, double width, double height, const Image& image);
-  // The colours for 0 to 1 from left to right, with words below at the ticks.
+  // The colours of 0 to 1 from left to right, with words below the bar at each tick.
   struct Tick {
     double at;  // 0 to 1
     std::string words;
@@ -49,12 +49,13 @@ class Sheet {
   void colour_bar(double x, double y, double width, const std::function<Rgb(double)>& colour,
                   std::span<const Tick> ticks);
   std::string svg() const;
-  // As PNG. Throws environment_error.
+  // Writes a PNG. Throws environment_error.
   void write(const std::filesystem::path& png) const;
 
  private:
   void circle(SheetPoint centre, double radius, Rgb colour, double thickness);
-  // `count` strokes through the centre, evenly turned, the first by `first` half turns.
+  // `count` strokes through the centre, evenly spaced over half a turn; the first is turned by `first` half
+  // turns.
   void rays(SheetPoint centre, double radius, int count, double first, Rgb colour);
 
   int width_, height_;

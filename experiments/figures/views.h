@@ -42,17 +42,17 @@ TriangleMesh part_of(const TriangleMesh& mesh, const Keep& keep) {
 struct Look {
   glm::vec3 from{0.55F, 0.75F, 1.0F};  // direction towards the eye
   int width = 800, height = 600;       // pixels
-  std::vector<CutPlane> cuts{};        // the part behind all of them is shown
+  std::vector<CutPlane> cuts{};        // only ground that none of them cuts away is shown
   View at(const Bounds& box) const { return overview(box, width, height, from); }
 };
 
-// White triangles, or of another `fill`, that hide what lies behind; `wires` as in SceneMesh.
+// Opaque white triangles that hide the wires behind them; `wires` as in SceneMesh.
 SceneMesh wired(const TriangleMesh&, std::vector<std::uint8_t> wires, float wire_width,
                 Rgb wire_colour = SceneMesh{}.wire_color);
-// The colour of cut rock, lit as steeply as it stands. O(vertices)
+// The mesh in the colour of cut rock, shaded by its true slopes. O(vertices)
 SceneMesh rock(const TriangleMesh&);
 
-// The borders of the mesh's four-sided cells over white ground.
+// The edges of the mesh's quadrilaterals, without their diagonals, over white triangles.
 Image wire_view(GlContext&, const TriangleMesh&, const Look&, float wire_width);
 
 }  // namespace terrabench::figures

@@ -50,11 +50,12 @@ class Entry {
   // The value's index in `words`.
   std::size_t word(std::string_view key, std::span<const std::string_view> words) {
     const toml::node& node = get(key);
-    const std::optional<std::string_view> text = node.value<std::string_view>();
+    if (!node.is_string()) fail(node, origin_, fmt::format("'{}' must be text", key));
+    const std::string_view text = *node.value<std::string_view>();
     for (std::size_t w = 0; w < words.size(); ++w) {
-      if (node.is_string() && text == words[w]) return w;
+      if (text == words[w]) return w;
     }
-    fail(node, origin_, invalid_value(key, text.value_or("not a text"), words));
+    fail(node, origin_, invalid_value(key, text, words));
   }
   const toml::array& list(std::string_view key) {
     const toml::node& node = get(key);

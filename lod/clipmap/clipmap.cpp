@@ -12,10 +12,11 @@
 namespace terrabench {
 namespace {
 
-constexpr float kHighestEye = 0.4F;  // eye's height as a share of a window's extent; above, it is left out
-constexpr float kTransition = 0.1F;  // as a share of the window's side
-constexpr int kSmallestM = 4, kLargestM = 1024;
-constexpr float kLeastRemainder = 1e-6F;  // of 1 - rise, doubled: keeps a transition's width finite
+// A level is left out while the eye's height over the ground exceeds this share of its window's extent.
+constexpr float kHighestEye = 0.4F;
+constexpr float kTransition = 0.1F;              // width, as a share of the window's side
+constexpr int kSmallestM = 4, kLargestM = 1024;  // m determines the window's side: window_pattern.h
+constexpr float kLeastDivisor = 1e-6F;           // in set_transition(): keeps the width finite
 
 // Largest distance to which endless ground is drawn, samples, so that all sample numbers fit into an int.
 constexpr double kFarthestSight = 1 << 26;
@@ -34,7 +35,7 @@ int m_of(const HeightSource& source, int window) {
   return std::clamp((window + 1) / 4, kSmallestM, covering);
 }
 
-// Levels until a window reaches this many samples from any place that the eye can have in it.
+// The number of levels whose coarsest window reaches at least `samples` from wherever the eye is in it.
 int level_count(double samples, int n) {
   int levels = 1;
   while (std::ldexp(n / 2 - 1, levels - 1) < samples) ++levels;
@@ -50,6 +51,7 @@ double sight(const View& view) {
 // Floor of eye / spacing as a whole number.
 int lattice_floor(double eye, int spacing) { return static_cast<int>(std::floor(eye / spacing)); }
 
+// Ceiling of samples / spacing, a power of two.
 int ceiling(int samples, int spacing) {
   return static_cast<int>((static_cast<std::int64_t>(samples) + spacing - 1) & -spacing) / spacing;
 }
@@ -141,7 +143,8 @@ const Frame& Clipmap::update(const View& view) {
 
   for (int l = finest; l < levels(); ++l) {
     const int spacing = 1 << l;
-    // Even, and such that the next finer window begins m - 1 or m samples inside.
+    // The corner is even, and the eye is 2m - 2 to 2m samples of the level from it. Hence the next finer
+    // window begins m - 1 or m samples inside this one.
     move_window(l, {2 * (lattice_floor(eye.x, 2 * spacing) - pattern_.m + 1),
                     2 * (lattice_floor(eye.y, 2 * spacing) - pattern_.m + 1)});
     ClipLevel& level = clip_levels_[l];
@@ -163,15 +166,15 @@ const Frame& Clipmap::update(const View& view) {
   return frame_;
 }
 
-// `rise`: the eye's height as a share of the height at which the level is left out. From a half to 1, which
-// only the finest level reaches, the transition grows inwards until it covers the whole window, so that
-// nothing moves when the level disappears.
+// `rise`: the eye's height as a share of the height at which the level is left out. Only the finest level
+// reaches the range from ½ to 1; there the transition grows inwards until it covers the whole window, so that
+// no vertex jumps when the level is left out.
 void Clipmap::set_transition(int l, float rise) {
   ClipLevel& level = clip_levels_[l];
   if (l + 1 == levels()) return;
-  level.to = static_cast<float>(2 * pattern_.m - 2);  // the eye's least distance from the border
+  level.to = static_cast<float>(2 * pattern_.m - 2);  // the eye's least distance from the border, samples
   const float width = std::max(1.0F, kTransition * static_cast<float>(pattern_.n));
-  level.from = level.to - width / std::clamp(2 - 2 * rise, kLeastRemainder, 1.0F);
+  level.from = level.to - width / std::clamp(2 - 2 * rise, kLeastDivisor, 1.0F);
 }
 
 // Reads the samples that entered the window; samples that stay keep their place in the array.
@@ -252,6 +255,7 @@ void Clipmap::draw_level(int l, int finest, const Frustum& frustum) {
     ++number;
   }
   if (l == finest) return;
+  // Where the finer window begins, 0 or 1 per axis beyond cell m - 1: see WindowPattern::trims.
   const glm::ivec2 hole = clip_levels_[l - 1].corner / 2 - clip_levels_[l].corner - (pattern_.m - 1);
   const auto trim = static_cast<std::size_t>(2 * (2 * hole.y + hole.x));
   for (std::size_t k = trim; k < trim + 2; ++k) draw_block(l, number + k, pattern_.trims[k], frustum);

@@ -108,13 +108,16 @@ void Mesh::bisect_diamond(std::uint32_t id) {
   bisect(id);
   if (base == kNone) return;
   bisect(base);
-  const std::uint32_t here = nodes_[id].child, across = nodes_[base].child;  // the left ones
+  // Across the common hypotenuse, the left child of one half borders on the right child of the other.
+  const std::uint32_t here = nodes_[id].child, across = nodes_[base].child;  // the left children
   nodes_[here].right = across + 1;
   nodes_[here + 1].left = across;
   nodes_[across].right = here + 1;
   nodes_[across + 1].left = here;
 }
 
+// The new apex is the middle of the hypotenuse. A leg becomes a child's hypotenuse, so the neighbour at the
+// leg becomes the child's base neighbour; headings turn by 5 and 3 eighths of a turn.
 void Mesh::bisect(std::uint32_t id) {
   const std::uint32_t pair = take_pair();
   Node& node = nodes_[id];
@@ -160,6 +163,7 @@ void Mesh::join(std::uint32_t id) {
   --leaves_;
 }
 
+// Replaces the neighbour's link to `from` by one to `to`.
 void Mesh::relink(std::uint32_t neighbour, std::uint32_t from, std::uint32_t to) {
   if (neighbour == kNone) return;
   Node& node = nodes_[neighbour];

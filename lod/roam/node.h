@@ -32,8 +32,9 @@ inline constexpr CullLabel kAllInside = 0x3F, kOutside = 0x40;
 // Whether all descendants of a triangle with this label have it too.
 inline bool inherited(CullLabel parent) { return parent == kAllInside || (parent & kOutside) != 0; }
 
-// Corners: the apex at the right angle; left and right as seen from the apex along the heading, on a map with
-// z pointing down. Neighbours share the edges apex-left, apex-right and left-right (base). In a split
+// Corners: the apex at the right angle; left and right as seen from the apex along the heading, the direction
+// (of kSteps) from the apex to the middle of the hypotenuse, on a map with z pointing down. The neighbours
+// left, right and base share the edges apex-left, apex-right and left-right (the hypotenuse). In a split
 // triangle only the base neighbour, the other half of its diamond, is kept up to date.
 struct alignas(64) Node {
   std::int32_t u = 0, v = 0;  // lattice point of the apex
@@ -44,14 +45,14 @@ struct alignas(64) Node {
   Links queue;                   // in the split queue (leaves) or the merge queue (diamonds)
   union {
     Links deferral{};   // in the deferral list
-    Validity validity;  // between the ranking of a leaf and the end of the frame
+    Validity validity;  // until the end of the frame in which a leaf was ranked
   };
   std::uint32_t slot = kNone;  // in the draw list
   std::uint16_t bucket = kNoList, deferral_list = kNoList;
   std::uint8_t level = 0, heading = 0;
   CullLabel label = kOutside;  // until the first update
   bool in_use = true;
-  std::uint8_t split_children = 0;  // without degenerate ones
+  std::uint8_t split_children = 0;  // children that are split, except degenerate ones
 
   bool leaf() const { return child == kNone; }
   bool visible() const { return (label & kOutside) == 0; }

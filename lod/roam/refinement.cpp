@@ -24,6 +24,7 @@ constexpr std::size_t kPrefetch = 16;                // prefetch distance, in no
 // Merges while the lowest diamond is below max_error or the mesh is too large; splits while the highest leaf
 // is above; swaps the two when the limit on triangles is reached.
 void Roam::refine() {
+  // Whether the mesh exceeds its limit with this many triangles more.
   const auto full = [&](std::size_t more) {
     return options_.triangles > 0 && mesh_.leaves() + more > options_.triangles;
   };
@@ -34,7 +35,7 @@ void Roam::refine() {
   for (std::size_t step = 1;; ++step) {
     constexpr std::size_t kStepsPerClockReading = 32;
     if (step % kStepsPerClockReading == 0 && out_of_time()) return;
-    if (full(0)) queue_split_diamonds();
+    if (full(0)) queue_split_diamonds();  // they may be the lowest
     const int lowest = merges_.lowest(), highest = splits_.highest();
     if (lowest >= 0 && (lowest < kMaxErrorBucket || full(0))) {
       force_merge(merges_.first(lowest));
@@ -63,7 +64,8 @@ bool Roam::out_of_time() const {
   return spent.count() >= options_.milliseconds;
 }
 
-// Splits coarser base neighbours until the triangle forms a diamond, then splits that.
+// Splits coarser base neighbours until the triangle forms a diamond, then splits that diamond. A split of the
+// base neighbour makes one of its children the new base neighbour.
 void Roam::force_split(std::uint32_t id) {
   while (mesh_.nodes()[id].leaf() && !mesh_.forms_diamond(id)) force_split(mesh_.nodes()[id].base);
   // Splitting a degenerate neighbour may already have split this triangle.
@@ -109,8 +111,8 @@ void Roam::split_diamond(std::uint32_t id) {
       if (nodes[child].leaf()) force_split(child);
     }
   }
-  // A merge would include the degenerate children. Rank with them now; otherwise split and merge would
-  // alternate forever.
+  // A merge would include the degenerate children. Rank the diamond with them now; otherwise split and merge
+  // would alternate forever.
   if (degenerate_children) requeue_diamond(diamond);
 }
 
@@ -242,7 +244,7 @@ Distortion Roam::distortion(std::uint32_t id, const roam::Corners& corners) cons
   return distortion(mesh_.nodes()[id], view_.corner(a), view_.corner(b), view_.corner(c));
 }
 
-// How long until the error may have changed by the factor `share`, up or down.
+// How long until the error may have changed by the factor `share`, up or down; rounded to the early side.
 Validity Roam::validity(const Distortion& now, double share) {
   return {static_cast<float>(0.9999 * (1 - share) * now.scale), static_cast<float>(1.0001 * now.reach)};
 }

@@ -7,10 +7,18 @@
 // The mesh never has cracks. The same views give the same triangles, unless time is limited. A frame costs
 // O(changes · log samples), plus the triangles on the view's border and those with expired priorities.
 //
-// Glossary (refinement.cpp tells a split and a merge, from refine() on):
+// To follow one split: refine() takes a leaf from the split queue, force_split() makes it half of a diamond,
+// split_diamond() updates the queues and labels, Mesh::bisect_diamond() the triangles (refinement.cpp,
+// mesh.cpp).
+//
+// Glossary:
 //   wedgie       the prism around a triangle that contains its samples and its descendants' wedgies
 //   diamond      two triangles with a common hypotenuse, or one at the border; named by its lower node
-//   priority     bound of a wedgie's screen-space error, of a diamond's larger one; kept as a bucket
+//   distortion   upper bound of a wedgie's screen-space error, in pixels
+//   priority     a leaf's distortion, or the largest that a merge would bring back, as a multiple of
+//                max_error; kept as the number of its bucket
+//   rank         to compute a priority and enter the leaf or diamond into its queue
+//   label        which planes of the view a wedgie lies inside (CullLabel)
 //   bisect, join what Mesh does to the two triangles of a diamond, without regard to the queues
 //   split, merge what Roam does to a diamond: the mesh, the queues, the culling labels, the draw list
 //   force_split  splits coarser neighbours first, until the triangle is half of a diamond
@@ -123,8 +131,8 @@ class Roam : public Lod {
   std::vector<Batch> batches_;
   std::vector<DirtyRange> uploads_;
   Frame frame_;
-  // From this bucket up, the order of the split queue is exact; below it, priorities may be out of date, but
-  // none has risen to this bucket.
+  // From this bucket up, priorities are recomputed as soon as the camera's motion may have changed them by a
+  // bucket. Below it, they may be out of date, but none has risen to this bucket.
   int exact_from_ = kMaxErrorBucket;
   std::size_t changes_ = 0;
   std::chrono::steady_clock::time_point start_;

@@ -15,9 +15,9 @@ int steps(double length, const SampleGrid& grid);
 // The step, of `steps`, nearest to a share of the way.
 int nearest_step(double share, int steps);
 
-// Step 2. Appends a heightmap of so many steps along its plane, given by coordinates (u, d, y) of the line:
-// the first cell, a step from column to column, and one from row to row. `taper` is added to the step per
-// column from row to row.
+// Step 2. Appends a heightmap of `columns` × `rows` steps, one cell more along each axis. Its plane is given
+// in coordinates (u, d, y) of the line: the first cell, the step per column, the step per row. From each row
+// to the next, the step per column grows by `taper` along u.
 struct PlaneAlong {
   glm::dvec3 origin, column, row;
   double taper = 0;

@@ -1,6 +1,14 @@
 // Normal and inverse faults (Alonso, Joan-Arinyo & Solano, §3.2, figure 13): three heightmaps, two blocks
-// that tilt and the scarp between their lips (the edges along the line). A cell of a block holds the height
-// of the ground that the block was made of; a cell of the scarp that of the ground on the line.
+// that tilt, the left one up and the right one down, and the scarp between their lips (the edges along the
+// line). Their planes, cut across the line, which points into the page; R is `extent`, d runs left:
+//
+//           normal: an open scarp             inverse: the left block overhangs the right
+//             __--L                                     __--''L
+//   d=R __--''     \       __-- d=-R          d=R __--''    /    __-- d=-R
+//                   r__--''                               r__--''
+//
+// The lips L and r lie half the rise above and below 0. A cell's height over its plane is that of the old
+// ground: for a block at the point that moves to the cell, for the scarp at the nearest point of the line.
 #include <algorithm>
 #include <cmath>
 
@@ -13,15 +21,17 @@ namespace {
 struct DipFaultMaps {
   events::Line line;
   double extent, rise;            // of the event, metres
-  double lip;                     // d of the left block's lip; the right one's is the opposite
+  double lip;                     // d of the left block's lip, negative if inverse; the right one's is -lip
   int columns, rows, scarp_rows;  // steps along the line, outwards in a block, and from lip to lip
-  int folded = 0;                 // rows of the right block under the overhang of an inverse fault
+  int folded = 0;                 // rows of the right block under the overhang; 0 for a normal fault
   GroundedHeightmap left{}, right{}, scarp{};
 
   bool at_end(int column) const { return column == 0 || column == columns; }
   double u(int column) const { return line.length * column / columns; }
 };
 
+// `sign`: 1 for the left block, -1 for the right one. Rows run from the lip, moved up or down by half the
+// rise, to the edge at `extent`, which stays. Columns run along the line.
 GroundedHeightmap append_block(Edit& edit, const DipFaultMaps& maps, int sign) {
   const int rows = maps.rows;
   return append_along(edit, maps.line, maps.columns, rows,
@@ -40,6 +50,7 @@ GroundedHeightmap append_scarp(Edit& edit, const DipFaultMaps& maps, Area area) 
                       area);
 }
 
+// The right block's rows from its lip up to below the left block's lip.
 int rows_under_overhang(const Edit& edit, const DipFaultMaps& maps) {
   const double tolerance = 1e-3 * edit.grid().spacing(), step = (maps.extent - maps.lip) / maps.rows;
   const int rows = static_cast<int>(std::floor((-2 * maps.lip + tolerance) / step)) + 1;
@@ -63,19 +74,22 @@ DipFaultMaps append_maps(Edit& edit, const events::DipFault& e) {
   if (e.inverse) maps.folded = rows_under_overhang(edit, maps);
   maps.left = append_block(edit, maps, 1);
   maps.right = append_block(edit, maps, -1);
+  // An overhanging scarp cannot be the host of later events, which kIndoor states.
   maps.scarp = append_scarp(edit, maps, e.inverse ? Area::kIndoor : Area::kOutdoor);
   return maps;
 }
 
-// The height that puts a cell on the ground before the event: at both ends the blocks meet it there.
+// The height that puts a cell on the ground as it was before the event. Cells at both ends of the line have
+// it, so that the blocks join the ground around them.
 float height_on_ground(const Edit& edit, const events::Line& line, const GroundedHeightmap& map, int column,
                        int row) {
   const glm::dvec3 p = map.plane.at(column, row, 0);
   return edit.ground(line.plan(line.local({p.x, p.z}))) - static_cast<float>(p.y);
 }
 
-// Links lead to later cells: the scarp holds both lips, and its last row holds the folded ends of the right
-// block.
+// A cell at a lip links to the scarp, which comes later in the tree and holds the heights of both lips. In
+// the end columns the fault closes without an overhang, so there the right block's cells under it link to the
+// scarp's last row, the left lip.
 void fill_block(Edit& edit, const DipFaultMaps& maps, int sign) {
   const GroundedHeightmap& block = sign > 0 ? maps.left : maps.right;
   for (int i = 0; i <= maps.columns; ++i) {

@@ -67,7 +67,8 @@ void Edit::quads(const GroundedHeightmap& node, bool mirrored) {
   }
 }
 
-// Pairs of cells that a face joins already: a new one, or one that stays above or upright beside the ring.
+// Pairs of cells that are already an edge of a face: of a new one, or of an old one that stays near the loop.
+// The ring must not use such an edge again.
 std::vector<std::pair<CellId, CellId>> Edit::joined_cells(std::span<const CellId> loop) const {
   std::vector<std::pair<CellId, CellId>> joined;
   const auto join = [&](const Face& face) {

@@ -5,12 +5,13 @@
 //   3. the outline of the new heightmaps lists their boundary cells;
 //   4. links: triangles close the ring between loop and outline, and superseded cells link to new ones.
 // The ring's triangles are the paper's boundary links (Alonso, Joan-Arinyo & Solano, §3.2: "each cell in the
-// boundary of a new heightmap is linked to the neighbor cell in another heightmap"). They join cells that
-// exist on both sides, so the surface is closed whatever was there before.
+// boundary of a new heightmap is linked to the neighbor cell in another heightmap"). Their corners are cells
+// of the old and of the new heightmaps, so the surface stays closed, whatever earlier events left there.
+// Squares, plain squares and faces: composed_surface.h. Cells and links: tree.h.
 //
-// Until commit() only new nodes are in the tree, and the destructor removes them again: an Edit that is not
-// committed leaves the tree as it was, to the bit. commit() allocates all that it needs and then changes the
-// tree by steps that cannot fail. All costs are of the region touched.
+// Before commit(), an Edit only appends nodes to the tree. The destructor removes them unless commit()
+// succeeded; the tree is then as it was, to the bit. commit() first allocates all that it needs, then changes
+// the tree by steps that cannot fail. Every cost is proportional to the region that the event touches.
 #pragma once
 
 #include <array>
@@ -45,33 +46,36 @@ class Edit {
   // Height of the ground before the event; refuses ground without data.
   float ground(glm::dvec2 plan) const;
 
-  // Step 1.
+  // Step 1. On commit(), the squares count as covered by faces, and the faces are removed.
   void remove(std::span<const Square> squares, std::span<const FaceId> faces);
 
   // Step 2. Appends a heightmap of void cells as a child of the host.
   GroundedHeightmap append(GroundedHeightmap heightmap);
-  // Of cells of new heightmaps only.
+  // For cells of new heightmaps only.
   void set_height(CellId c, float height) { model_.tree.set_height(c, height); }
   void set_link(CellId c, CellId target) { model_.tree.set_link(c, target); }
   void face(CellId a, CellId b, CellId c) { faces_.push_back({a, b, c}); }
-  // A quadrilateral, counter-clockwise seen from the air; void and repeated cells reduce it to a triangle or
-  // to nothing. Cells may be links.
+  // Adds two faces, split along the shorter diagonal. Corners are counter-clockwise seen from the air and may
+  // be links. Void and repeated corners are left out; of three, one face is made, of fewer none.
   void quad(std::array<CellId, 4> corners);
-  // All quadrilaterals of a heightmap. `mirrored` when columns and rows run clockwise seen from the air.
+  // Adds all quadrilaterals of a heightmap. `mirrored`: the turn from columns to rows is clockwise seen from
+  // the air.
   void quads(const GroundedHeightmap& heightmap, bool mirrored);
   std::span<const Face> faces() const { return faces_; }
+  // Drops the recorded faces from number `from` on.
   void drop_faces(std::size_t from) { faces_.resize(from); }
+  // On commit(), the square becomes plain again.
   void make_plain(Square s) { plain_.push_back(s); }
 
-  // Step 4. `old` becomes a link to `by`, which is a later cell.
+  // Step 4. On commit(), the cell `old` becomes a link to `by`, which must be a later cell.
   void relink(CellId old, CellId by) { links_.emplace_back(old, by); }
-  // Adds the triangles between a loop and an outline, both counter-clockwise. Refuses when a cell of the
-  // outline gets no link to another heightmap.
+  // Adds the triangles between a loop and an outline, both counter-clockwise. Refuses if no triangle joins a
+  // cell of the outline to another heightmap.
   void close_ring(std::span<const CellId> loop, std::span<const CellId> outline);
-  // Refuses new heights less than one sample spacing above a tunnel or cave.
+  // Refuses the event if a new height lies less than one sample spacing above the roof of a tunnel or cave.
   void keep_clear_of_carvings() const;
 
-  // Throws and changes nothing, or does all of it.
+  // Applies everything recorded, or throws and changes nothing.
   void commit(events::Kind kind);
 
  private:

@@ -31,6 +31,7 @@ TEST(Assignments, UnknownNamesAreSplitOffNumbers) {
   EXPECT_EQ(split({"n=16,sclae=2"}), (Texts{"n=16", "sclae=2"}));
   EXPECT_EQ(split({"n=1,6"}), Texts{"n=1,6"});
   EXPECT_EQ(split({""}), Texts{""});
+  EXPECT_EQ(split({"n=16,"}), Texts{"n=16,"});  // which set() refuses as a number
 }
 
 }  // namespace

@@ -55,6 +55,18 @@ TEST(RecordLine, RefusesInvalidLines) {
   expect_bad_input(std::string(2'000'000, '['), "nested too deeply");
 }
 
+TEST(RecordLine, OverridesAreAFieldAndInOlderLinesTheEndOfTheCase) {
+  const auto overrides = [](const std::string& line) {
+    return std::get<Record>(parse_line(line, "there:3").content).overrides;
+  };
+  Record record = sample();
+  EXPECT_TRUE(overrides(to_line(record)).empty());
+  record.case_name = "n=64 (n=3)";
+  EXPECT_EQ(overrides(to_line(record)), std::vector<std::string>{"n=3"});  // as older versions wrote it
+  record.overrides = {"n=3", "w=4"};
+  EXPECT_EQ(overrides(to_line(record)), record.overrides);
+}
+
 TEST(RecordLine, UnknownFieldIsIgnoredWithAWarningAndCountsAsAltered) {
   std::string line = to_line(sample());
   line.insert(1, "\"comment\":\"hello\",");

@@ -1,7 +1,7 @@
 // Visible sets, computed before rendering (MRBSP paper, §4). The ground is divided into rectangular cells in
 // plan. The visible set of a cell holds the coarse triangles that an observer anywhere in the cell can see.
-// Coarse triangles are those of one odd depth of the tree, so each is half of a square (coarse_squares.h);
-// a coarse triangle is shown or hidden together with its whole subtree.
+// Coarse triangles are the nodes of one odd depth of the tree, so each is half of a square
+// (coarse_squares.h). A coarse triangle is shown or hidden together with its whole subtree.
 //
 //   compute   find_sets(), here     by Mode: line_of_sight.h (sampled) or area_occlusion.h (conservative)
 //   compress  change_table.h        the first cell's set and the changes between neighbouring cells
@@ -34,9 +34,9 @@ inline std::string_view name_of(Mode mode) { return kModeNames[static_cast<std::
 
 struct Options {
   Mode mode = Mode::kConservative;
-  int cells = 16;           // upper limit along the longer side, 1 to 1024
-  int coarseness = 6;       // least number of levels from the finest to the coarse triangles
-  int eyes = 2;             // sampled: eyes along each side of a cell, at the centres of equal parts; 1 to 64
+  int cells = 16;           // most cells along the longer side of the ground, 1 to 1024
+  int coarseness = 6;       // levels from the finest to the coarse triangles; 1 more if the depth is even
+  int eyes = 2;             // sampled only: eyes along each side of a cell, evenly spaced, 1 to 64
   float eye_height = 1.8F;  // metres above the ground, 0 to 1e6
 };
 
@@ -52,11 +52,12 @@ struct CellGrid {
   bool operator==(const CellGrid&) const = default;
 };
 
-// Identifies the ground that sets hold for, as 32 hex digits: the samples, their spacing and the tree.
+// Identifies the ground for which sets were computed: 32 hex digits, from samples, spacing and tree.
 using GroundChecksum = std::array<char, 32>;
 GroundChecksum ground_checksum(const GroundGrid&, const BisectionTree&);
 
-// One bit per cell and coarse triangle: element e of depth C is node 2^C + e.
+// One bit per cell and coarse triangle. The coarse triangles of depth C are numbered by `element`: element e
+// is node 2^C + e of the tree.
 struct Sets {
   CellGrid cells;
   int depth = 1;          // C
@@ -79,8 +80,8 @@ struct Sets {
   bool operator==(const Sets&) const = default;
 };
 
-// The cells and the depth of coarse triangles, at most kDeepestCoarse, that options give for a ground.
-// layout_of() throws usage_error for options out of range.
+// The cells, and the depth of the coarse triangles (at most kDeepestCoarse), that result from the options on
+// this ground. layout_of() throws usage_error for options out of range.
 inline constexpr int kDeepestCoarse = 24;
 struct Layout {
   CellGrid cells;
