@@ -30,7 +30,7 @@ void use(const RepresentationType& type, Representation& structure) {
   if (sink.columns() != x.size() || structure.memory().total() == 0) std::abort();
   if (type.traits.editable && y[0] < y[1]) {
     structure.edit({std::span(x).first(1), std::span(z).first(1)},
-                    std::array{Span{y[0], y[1], Material::kBedrock}});
+                   std::array{Span{y[0], y[1], Material::kBedrock}});
   }
   ByteSink saved;
   structure.save(saved);
