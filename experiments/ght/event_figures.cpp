@@ -243,9 +243,10 @@ constexpr std::array<figures::Figure, 10> kFigures{{
      "and cells show what they hold",
      draw_tree},
     {24, "F24",
-     "a rain of particles (yellow: the first 250), each of which erodes the ground where it crashes; the "
-     "mountains and the rain are those of the measurement, with 257 × 257 of its 1025 × 1025 samples and "
-     "2,500 of its 10,000 particles",
+     "a rain of particles (yellow: the first 250), each of which erodes the ground where it crashes. The "
+     "mountains are those of the measurement at every fourth sample, 257 × 257 of 1025 × 1025; the particles "
+     "follow its law, with radii in cells, so that craters are four times as wide in metres; 2,500 particles "
+     "instead of 10,000",
      draw_rain},
 }};
 constexpr std::array kNames = names_of(kFigures);
