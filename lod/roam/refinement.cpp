@@ -73,10 +73,10 @@ void Roam::force_split(std::uint32_t id) {
 }
 
 // Takes both halves out of the split queue and the draw list, bisects them, ranks the four children,
-// schedules the diamond for the merge queue, and removes the parents' diamonds from it.
+// schedules the diamond for the merge queue, and takes the parents' diamonds out of it.
 void Roam::split_diamond(std::uint32_t id) {
   std::vector<Node>& nodes = mesh_.nodes();
-  const std::array<std::uint32_t, 2> both = halves(id);
+  const Halves both = halves(id);
   for (const std::uint32_t half : both) {
     if (half == kNone) continue;
     unqueue(half);
@@ -92,28 +92,37 @@ void Roam::split_diamond(std::uint32_t id) {
   if (const std::uint32_t base = both[1]; base != kNone) {
     add_children(base, view_.corner(mesh_.apex(nodes[base])), right, left, middle);
   }
-  const std::uint32_t diamond = diamond_of(id);
-  split_diamonds_.push_back(diamond);
+  split_diamonds_.push_back(diamond_of(id));
+  withdraw_parents(both);
+  split_degenerate_children(both);
+}
+
+// A parent's diamond cannot merge while a child is split that is not degenerate. It is still in the merge
+// queue only if this is the first such child.
+void Roam::withdraw_parents(const Halves& both) {
+  std::vector<Node>& nodes = mesh_.nodes();
   for (const std::uint32_t half : both) {
     if (half == kNone) continue;
-    // The parent's diamond cannot merge while a child is split that is not degenerate. It is still in the
-    // merge queue only if this is the first such child.
     const std::uint32_t parent = nodes[half].parent;
     if (parent == kNone || mesh_.degenerate(nodes[half])) continue;
     if (++nodes[parent].split_children == 1) unqueue(diamond_of(parent));
   }
-  bool degenerate_children = false;
+}
+
+// Degenerate triangles occur only where the grid's sides are not 2^n + 1 samples. A merge would include them,
+// so the diamond is ranked with them now; otherwise split and merge would alternate forever.
+void Roam::split_degenerate_children(const Halves& both) {
+  const std::vector<Node>& nodes = mesh_.nodes();
+  bool any = false;
   for (const std::uint32_t half : both) {
     if (half == kNone) continue;
     for (const std::uint32_t child : {nodes[half].child, nodes[half].child + 1}) {
       if (!mesh_.degenerate(nodes[child])) continue;
-      degenerate_children = true;
+      any = true;
       if (nodes[child].leaf()) force_split(child);
     }
   }
-  // A merge would include the degenerate children. Rank the diamond with them now; otherwise split and merge
-  // would alternate forever.
-  if (degenerate_children) requeue_diamond(diamond);
+  if (any) requeue_diamond(both[0]);
 }
 
 // Culls and ranks the two children of a triangle, given by its corners and the middle of its hypotenuse.
@@ -173,7 +182,7 @@ void Roam::force_merge(std::uint32_t id) {
 }
 
 void Roam::merge_diamond(std::uint32_t id) {
-  const std::array<std::uint32_t, 2> both = halves(id);
+  const Halves both = halves(id);
   unqueue(diamond_of(id));
   for (const std::uint32_t half : both) {
     if (half == kNone) continue;

@@ -80,9 +80,13 @@ class Roam : public Lod {
   void update_drawn(std::uint32_t id);
 
   // Refinement: refinement.cpp.
+  // The two triangles of a diamond; the second is kNone at the border.
+  using Halves = std::array<std::uint32_t, 2>;
   void refine();
   void force_split(std::uint32_t id);
   void split_diamond(std::uint32_t id);
+  void withdraw_parents(const Halves&);
+  void split_degenerate_children(const Halves&);
   void add_children(std::uint32_t id, const roam::ViewedCorner& apex, const roam::ViewedCorner& left,
                     const roam::ViewedCorner& right, const roam::ViewedCorner& middle);
   void force_merge(std::uint32_t id);
@@ -92,8 +96,8 @@ class Roam : public Lod {
   bool lower_exact_bucket();
   bool out_of_time() const;
 
-  // Diamonds and their queue. The second half is kNone at the border.
-  std::array<std::uint32_t, 2> halves(std::uint32_t id) const { return {id, mesh_.nodes()[id].base}; }
+  // Diamonds and their queue.
+  Halves halves(std::uint32_t id) const { return {id, mesh_.nodes()[id].base}; }
   std::uint32_t diamond_of(std::uint32_t id) const;
   bool mergeable(std::uint32_t id) const;
   void requeue_diamond(std::uint32_t id);
