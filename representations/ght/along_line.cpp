@@ -33,15 +33,15 @@ RemovedPart cut_out_with_margin(Edit& edit, TurnedRectangle shape) {
                  {shape.line, shape.u0 - margin, shape.u1 + margin, shape.d0 - margin, shape.d1 + margin});
 }
 
-void link(Edit& edit, const events::Line& line, const RemovedPart& old, std::vector<CellId> outline,
-          const std::function<CellId(glm::dvec2)>& nearest) {
+void join_to_ground(Edit& edit, const events::Line& line, const RemovedPart& old, std::vector<CellId> outline,
+                    const std::function<CellId(glm::dvec2)>& nearest) {
   const Tree& tree = edit.tree();
   for (CellId& c : outline) c = tree.resolve(c);
   outline.erase(std::unique(outline.begin(), outline.end()), outline.end());
   while (outline.size() > 1 && outline.back() == outline.front()) outline.pop_back();
   edit.close_ring(old.loop, outline);
   edit.keep_clear_of_carvings();
-  for (const CellId c : old.superseded) edit.relink(c, tree.resolve(nearest(line.local(tree.plan(c)))));
+  for (const CellId c : old.superseded) edit.supersede(c, tree.resolve(nearest(line.local(tree.plan(c)))));
 }
 
 }  // namespace terrabench::ght

@@ -30,7 +30,7 @@ RemovedPart cut_out_with_margin(Edit& edit, TurnedRectangle shape);
 
 // Step 4. `outline` lists boundary cells in order, counter-clockwise; links and repetitions are allowed.
 // `nearest` gives the new cell for a point of the old ground, as (u, d).
-void link(Edit& edit, const events::Line& line, const RemovedPart& old, std::vector<CellId> outline,
-          const std::function<CellId(glm::dvec2)>& nearest);
+void join_to_ground(Edit& edit, const events::Line& line, const RemovedPart& old, std::vector<CellId> outline,
+                    const std::function<CellId(glm::dvec2)>& nearest);
 
 }  // namespace terrabench::ght

@@ -80,8 +80,8 @@ Loop fill_border(Edit& edit, const GroundedHeightmap& border, const RemovedPart&
   const Tree& tree = edit.tree();
   for (const CellId c : hole.superseded) {
     const glm::dvec2 at = glm::round(edit.grid().samples_to(tree.plan(c)));
-    edit.relink(c, border.cell(std::clamp(static_cast<int>(at.x) - border.i0, 0, border.columns - 1),
-                               std::clamp(static_cast<int>(at.y) - border.j0, 0, border.rows - 1)));
+    edit.supersede(c, border.cell(std::clamp(static_cast<int>(at.x) - border.i0, 0, border.columns - 1),
+                                  std::clamp(static_cast<int>(at.y) - border.j0, 0, border.rows - 1)));
   }
   std::vector<std::pair<CellId, CellId>> taken;  // from, to
   for (int j = 0; j < border.rows; ++j) {
@@ -90,9 +90,9 @@ Loop fill_border(Edit& edit, const GroundedHeightmap& border, const RemovedPart&
       const CellId now = tree.at_sample(sample.i, sample.j), next = border.cell(i, j);
       if (!belongs_to_ground(edit, sample, now, hole)) continue;
       edit.set_height(next, tree.height(now));
-      edit.relink(now, next);
+      edit.supersede(now, next);
       const CellId root = tree.root_cell(sample.i, sample.j);
-      if (root != now) edit.relink(root, next);
+      if (root != now) edit.supersede(root, next);
       taken.emplace_back(now, next);
     }
   }

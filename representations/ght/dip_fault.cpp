@@ -150,7 +150,7 @@ void record(Edit& edit, const events::DipFault& e) {
   edit.quads(maps.left, false);
   edit.quads(maps.right, true);
   edit.quads(maps.scarp, false);
-  link(edit, line, old, outline(maps), [&](glm::dvec2 p) {
+  join_to_ground(edit, line, old, outline(maps), [&](glm::dvec2 p) {
     return (p.y >= 0 ? maps.left : maps.right)
         .cell(nearest_step(p.x / line.length, maps.columns),
               nearest_step(std::abs(p.y) / e.extent, maps.rows));

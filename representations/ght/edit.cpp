@@ -97,10 +97,10 @@ void Edit::close_ring(std::span<const CellId> loop, std::span<const CellId> outl
       });
   if (!triangles) refuse(kNoFit, kMove);
   for (const Triangle& t : *triangles) face(cell(t[0]), cell(t[1]), cell(t[2]));
-  check_linked(outline);
+  check_joined(outline);
 }
 
-void Edit::check_linked(std::span<const CellId> outline) const {
+void Edit::check_joined(std::span<const CellId> outline) const {
   std::vector<CellId> linked;
   for (const Face& face : faces_) {
     const std::array nodes = {model_.tree.node_of(face[0]), model_.tree.node_of(face[1]),
@@ -170,7 +170,7 @@ void Edit::commit(events::Kind kind) {
   // Nothing fails from here on. Faces are found by the places of their cells, so they are removed before the
   // cells change.
   for (const FaceId f : removed_) model_.surface.remove(tree, f);
-  for (const auto& [from, to] : links_) tree.set_link(from, to);
+  for (const auto& [old, by] : superseded_) tree.set_link(old, by);
   for (const Square s : covered_) model_.surface.set_covered(s, true);
   for (const Square s : plain_) model_.surface.set_covered(s, false);
   for (const Face& face : faces_) model_.surface.add(tree, face);

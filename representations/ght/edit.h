@@ -3,7 +3,8 @@
 //   1. cut out: the part of the surface that the event touches is removed, up to a simple loop of cells;
 //   2. new heightmaps are appended to the tree and their quadrilaterals become faces;
 //   3. the outline of the new heightmaps lists their boundary cells;
-//   4. links: triangles close the ring between loop and outline, and superseded cells link to new ones.
+//   4. join: triangles close the ring between loop and outline, and superseded cells become links to new
+//   ones.
 // The ring's triangles are the paper's boundary links (Alonso, Joan-Arinyo & Solano, §3.2: "each cell in the
 // boundary of a new heightmap is linked to the neighbor cell in another heightmap"). Their corners are cells
 // of the old and of the new heightmaps, so the surface stays closed, whatever earlier events left there.
@@ -68,7 +69,7 @@ class Edit {
   void make_plain(Square s) { plain_.push_back(s); }
 
   // Step 4. On commit(), the cell `old` becomes a link to `by`, which must be a later cell.
-  void relink(CellId old, CellId by) { links_.emplace_back(old, by); }
+  void supersede(CellId old, CellId by) { superseded_.emplace_back(old, by); }
   // Adds the triangles between a loop and an outline, both counter-clockwise. Refuses if no triangle joins a
   // cell of the outline to another heightmap.
   void close_ring(std::span<const CellId> loop, std::span<const CellId> outline);
@@ -80,7 +81,7 @@ class Edit {
 
  private:
   void check_faces() const;
-  void check_linked(std::span<const CellId> outline) const;
+  void check_joined(std::span<const CellId> outline) const;
   std::vector<std::pair<CellId, CellId>> joined_cells(std::span<const CellId> loop) const;
 
   Model& model_;
@@ -91,7 +92,7 @@ class Edit {
   std::vector<Square> covered_, plain_;
   std::vector<FaceId> removed_;
   std::vector<Face> faces_;
-  std::vector<std::pair<CellId, CellId>> links_;  // from, to
+  std::vector<std::pair<CellId, CellId>> superseded_;  // old cell, new cell
 };
 
 }  // namespace terrabench::ght

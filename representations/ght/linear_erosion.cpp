@@ -124,7 +124,7 @@ void record(Edit& edit, const events::LinearErosion& e) {
   edit.quads(maps.right, true);
   edit.quads(maps.from, false);
   edit.quads(maps.to, false);
-  link(edit, line, old, outline(maps), [&](glm::dvec2 local) { return nearest(maps, local); });
+  join_to_ground(edit, line, old, outline(maps), [&](glm::dvec2 local) { return nearest(maps, local); });
 }
 
 }  // namespace terrabench::ght

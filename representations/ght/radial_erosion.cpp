@@ -71,8 +71,8 @@ void record_on_plain(Edit& edit, const events::RadialErosion& e, const SampleRan
     const CellId now = tree.at_sample(i, j), next = map.cell(i - range.i0, j - range.j0),
                  root = tree.root_cell(i, j);
     edit.set_height(next, static_cast<float>(std::min<double>(y, tree.height(now))));
-    edit.relink(now, next);
-    if (root != now) edit.relink(root, next);
+    edit.supersede(now, next);
+    if (root != now) edit.supersede(root, next);
     return false;
   });
   edit.keep_clear_of_carvings();
@@ -108,13 +108,13 @@ void record_over_heightmaps(Edit& edit, const events::RadialErosion& e, const Sa
       const CellId next = map.cell(i - i0, j - j0);
       const double bottom = e.bottom({grid.x(i), grid.z(j)});
       edit.set_height(next, static_cast<float>(std::min<double>(bottom, ground(edit, i, j))));
-      edit.relink(tree.root_cell(i, j), next);
+      edit.supersede(tree.root_cell(i, j), next);
       if (i < i1 && j < j1) edit.make_plain({i, j});
     }
   }
   for (const CellId c : old.superseded) {
     const glm::dvec2 at = grid.samples_to(tree.plan(c));
-    edit.relink(c, map.cell(nearest(at.x, i0, i1), nearest(at.y, j0, j1)));
+    edit.supersede(c, map.cell(nearest(at.x, i0, i1), nearest(at.y, j0, j1)));
   }
   edit.close_ring(old.loop, outline(map));
   edit.keep_clear_of_carvings();
