@@ -84,33 +84,14 @@ Rgb ramp_rgb(double t) {
   return {static_cast<std::uint8_t>(c.x), static_cast<std::uint8_t>(c.y), static_cast<std::uint8_t>(c.z)};
 }
 
-// The sides of the block of ground, from the surface down to `bottom`.
-TriangleMesh border_walls(const Heightfield& field, float bottom) {
-  TriangleMesh mesh;
-  const auto wall = [&](glm::ivec2 from, glm::ivec2 step, int count) {
-    for (int k = 0; k < count; ++k, from += step) {
-      const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-      for (const glm::ivec2 at : {from, from + step}) {
-        const float x = static_cast<float>(at.x) * field.cell_x, z = static_cast<float>(at.y) * field.cell_z;
-        mesh.positions.emplace_back(x, field.at(at.x, at.y), z);
-        mesh.positions.emplace_back(x, bottom, z);
-      }
-      mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2, first + 2, first + 1, first + 3});
-    }
-  };
-  // Counter-clockwise as seen from above, so that walls face outwards.
-  const int right = field.width - 1, south = field.depth - 1;
-  wall({0, 0}, {0, 1}, south);
-  wall({0, south}, {1, 0}, right);
-  wall({right, south}, {0, -1}, south);
-  wall({right, 0}, {-1, 0}, right);
-  return mesh;
-}
-
 void draw(const Image& picture, const Heightfield& field, const RunOptions& options, Recorder& recorder) {
   constexpr double kPicture = 340, kWide = 620, kMargin = 20;
   const HeightRange range = height_range(field);
-  const TriangleMesh walls = border_walls(field, range.lowest);
+  const auto surface = [&](int i, int j) {
+    return glm::vec3(static_cast<float>(i) * field.cell_x, field.at(i, j),
+                     static_cast<float>(j) * field.cell_z);
+  };
+  const TriangleMesh walls = figures::block_sides(field.width, field.depth, surface, range.lowest);
   TriangleMesh mesh = figures::ground_mesh(field);
   compute_normals(mesh);
   const auto context = open_context(options.renderer, 64, 64);
