@@ -136,7 +136,8 @@ void run(const RunPlan& plan) {
     const Stopwatch watch;
     planned.experiment->measure(planned.at, plan.options, recorder, progress);
     progress.end();
-    for (Figure& figure : record.figures) figure.checksum = checksum(read_file(plan.folder / figure.file));
+    for (RecordedFigure& figure : record.figures)
+      figure.checksum = checksum(read_file(plan.folder / figure.file));
     store.append(record);
     fmt::print(stderr, "[{}/{}] {} {}: {:.2f} s\n", number, cases.size(), record.experiment, record.case_name,
                watch.seconds());

@@ -18,7 +18,7 @@ std::string check_json(const JudgedResults& results) {
                     {"paper", judgement.paper->id},
                     {"where", claim.where},
                     {"statement", claim.statement},
-                    {"class", std::string(1, claim.type)},
+                    {"class", std::string(1, claim.claim_class)},
                     {"reported", claim.reported},
                     {"unit", claim.unit},
                     {"tolerance", claim.tolerance},

@@ -108,7 +108,7 @@ Claim claim_from(const TomlValue& node) {
   if (type.size() != 1 || std::string_view("ETSFQ").find(type[0]) == std::string_view::npos) {
     entry.refuse("'class' is one of E, T, S, F, Q");
   }
-  claim.type = type[0];
+  claim.claim_class = type[0];
   for (const TomlValue& value : entry.list("reported")) claim.reported.push_back(value.number("reported"));
   claim.unit = entry.text_or("unit", "");
   claim.tolerance = entry.text_or("tolerance", "");
@@ -124,7 +124,7 @@ Claim claim_from(const TomlValue& node) {
         fmt::format("{} needs either 'check' or a reason in 'pending' or 'not_comparable'", claim.id));
   }
   const Verdict usual = !claim.not_comparable.empty() ? Verdict::kNotComparable
-                        : claim.type == 'S'           ? Verdict::kShape
+                        : claim.claim_class == 'S'    ? Verdict::kShape
                                                       : Verdict::kReproduced;
   claim.known = known_verdict(entry, entry.text_or("known", std::string(name(usual))), claim.note);
   entry.refuse_unknown();

@@ -51,7 +51,7 @@ struct Condition {
 
 struct Claim {
   std::string id, where, statement;
-  char type = 'E';               // key `class`: E exact, T tolerance, S shape, F figure, Q qualitative
+  char claim_class = 'E';        // key `class`: E exact, T tolerance, S shape, F figure, Q qualitative
   std::vector<double> reported;  // as printed in the paper
   std::string unit, tolerance, note;
   std::vector<std::string> profiles;     // those that measure it

@@ -175,7 +175,7 @@ class Reader {
   }
 
   // Whether the picture is the one that was drawn and shows something.
-  std::pair<bool, std::string> inspect(const Figure& figure) const {
+  std::pair<bool, std::string> inspect(const RecordedFigure& figure) const {
     const std::string& name = figure.file;
     try {
       const Image image = read_png(store_.folder() / name);

@@ -35,7 +35,7 @@ void judge_measured(Judgement& judgement, const Store& store, const std::string&
   } else if (first(Outcome::kFails) != findings.end()) {
     judgement.verdict = Verdict::kDiffers;
   } else {
-    judgement.verdict = claim.type == 'S' ? Verdict::kShape : Verdict::kReproduced;
+    judgement.verdict = claim.claim_class == 'S' ? Verdict::kShape : Verdict::kReproduced;
   }
   const auto failing = first(Outcome::kFails);
   judgement.deciding = failing != findings.end() ? *failing : findings.front();
@@ -70,7 +70,7 @@ Judgement judge_claim(const Paper& paper, const Claim& claim, const Store& store
 void look_for_altered_pictures(const Store& store, JudgedResults& results) {
   for (const Record& record : store.records()) {
     if (record.profile != results.profile) continue;
-    for (const Figure& figure : record.figures) {
+    for (const RecordedFigure& figure : record.figures) {
       if (store.intact(figure)) continue;
       results.faults.push_back(fmt::format("{}: picture altered or gone: not the one that {} {} drew",
                                            (store.folder() / figure.file).string(), record.experiment,

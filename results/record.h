@@ -21,7 +21,7 @@ struct Metric {
 };
 
 // A picture that a case drew, relative to the results folder.
-struct Figure {
+struct RecordedFigure {
   std::string id;             // ledger row, such as hybrid.F3
   std::string file;           // figures/hybrid.F3.png
   std::string caption;        // names the paper's figure and what is seen
@@ -54,7 +54,7 @@ struct Record {
   std::string terrain, terrain_checksum;  // what was measured on
   std::vector<std::pair<std::string, Value>> parameters;
   std::vector<Metric> metrics;
-  std::vector<Figure> figures;
+  std::vector<RecordedFigure> figures;
 
   const Metric* find(std::string_view metric) const {  // null when absent
     const auto it = std::ranges::find(metrics, metric, &Metric::name);

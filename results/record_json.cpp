@@ -152,9 +152,10 @@ Metric metric_from(const Json& json, std::string& warning) {
   return metric;
 }
 
-Figure figure_from(const Json& json, std::string& warning) {
+RecordedFigure figure_from(const Json& json, std::string& warning) {
   Fields fields(json, "a figure");
-  Figure figure{fields.name("id"), fields.name("file"), fields.text("caption"), fields.text("checksum")};
+  RecordedFigure figure{fields.name("id"), fields.name("file"), fields.text("caption"),
+                        fields.text("checksum")};
   const std::filesystem::path path(figure.file);
   require(path.is_relative() && std::find(path.begin(), path.end(), "..") == path.end(),
           fmt::format("figure '{}' lies outside the results folder", figure.id));
@@ -249,7 +250,7 @@ std::string to_line(const Record& record) {
     for (const double sample : metric.samples) check_finite(sample, where + metric.name);
     metrics.push_back({{"name", metric.name}, {"unit", metric.unit}, {"samples", metric.samples}});
   }
-  for (const Figure& figure : record.figures) {
+  for (const RecordedFigure& figure : record.figures) {
     figures.push_back({{"id", figure.id},
                        {"file", figure.file},
                        {"caption", figure.caption},

@@ -174,7 +174,8 @@ class Report {
   // Whether a claim of class F is about this figure. Claims of other classes may have it as a condition too.
   bool has_own_claim(const Paper& paper, const std::string& figure) const {
     return std::ranges::any_of(results_.of(paper), [&](const Judgement& j) {
-      return j.claim->type == 'F' && std::ranges::count(j.claim->conditions, figure, &Condition::figure) > 0;
+      return j.claim->claim_class == 'F' &&
+             std::ranges::count(j.claim->conditions, figure, &Condition::figure) > 0;
     });
   }
 
@@ -183,7 +184,8 @@ class Report {
     for (const Judgement& judgement : results_.of(paper)) {
       for (const Condition& condition : judgement.claim->conditions) {
         const auto [record, figure] = store_.find_figure(condition.figure, results_.profile);
-        if (figure == nullptr || (judgement.claim->type != 'F' && has_own_claim(paper, figure->id))) continue;
+        if (figure == nullptr || (judgement.claim->claim_class != 'F' && has_own_claim(paper, figure->id)))
+          continue;
         claimed_.insert(figure->id);
         add_picture(gallery, *record, *figure, judgement.claim->where,
                     judgement.claim->statement + " " + figure->caption);
@@ -208,7 +210,7 @@ class Report {
     Gallery gallery;
     for (const Record& record : store_.records()) {
       if (record.profile != results_.profile) continue;
-      for (const Figure& figure : record.figures) {
+      for (const RecordedFigure& figure : record.figures) {
         if (!claimed_.contains(figure.id)) {
           add_picture(gallery, record, figure, record.experiment + " " + record.case_name, figure.caption);
         }
@@ -221,7 +223,7 @@ class Report {
   }
 
   // Copies the picture, so that the report folder can be moved alone.
-  void add_picture(Gallery& gallery, const Record& record, const Figure& figure, std::string title,
+  void add_picture(Gallery& gallery, const Record& record, const RecordedFigure& figure, std::string title,
                    std::string caption) {
     const std::filesystem::path from = store_.folder() / figure.file;
     std::error_code error;

@@ -216,17 +216,17 @@ const Record* Store::find(const CaseKey& key, const Provenance& now) const {
   if (record->seed != key.seed || by_name(record->parameters) != by_name(key.parameters)) return nullptr;
   if (key.terrain_checksum && record->terrain_checksum != *key.terrain_checksum) return nullptr;
   const bool pictures =
-      std::ranges::all_of(record->figures, [&](const Figure& figure) { return intact(figure); });
+      std::ranges::all_of(record->figures, [&](const RecordedFigure& figure) { return intact(figure); });
   return pictures ? record : nullptr;
 }
 
-std::pair<const Record*, const Figure*> Store::find_figure(std::string_view id,
-                                                           std::string_view profile) const {
-  std::pair<const Record*, const Figure*> found{nullptr, nullptr};
+std::pair<const Record*, const RecordedFigure*> Store::find_figure(std::string_view id,
+                                                                   std::string_view profile) const {
+  std::pair<const Record*, const RecordedFigure*> found{nullptr, nullptr};
   for (const Record& record : records_) {
     if (record.profile != profile || !record.overrides.empty()) continue;
     if (found.first != nullptr && lines_[index(record)] < lines_[index(*found.first)]) continue;
-    for (const Figure& figure : record.figures) {
+    for (const RecordedFigure& figure : record.figures) {
       if (figure.id == id) found = {&record, &figure};
     }
   }
@@ -244,7 +244,7 @@ std::string Store::where(const Record& record) const {
   return fmt::format("{}:{}", file_.string(), lines_[index(record)]);
 }
 
-bool Store::intact(const Figure& figure) const {
+bool Store::intact(const RecordedFigure& figure) const {
   const std::filesystem::path path = folder_ / figure.file;
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;

@@ -47,14 +47,15 @@ class Store {
   const Record* find(const CaseKey&, const Provenance& now) const;
   // The newest record of the profile that drew this figure, ignoring records with overridden parameters. Both
   // null when there is none.
-  std::pair<const Record*, const Figure*> find_figure(std::string_view id, std::string_view profile) const;
+  std::pair<const Record*, const RecordedFigure*> find_figure(std::string_view id,
+                                                              std::string_view profile) const;
   const Provenance* run(std::string_view id) const;  // null when unknown
 
   // For a record of records(): whether it was altered by hand, and "file:line".
   bool altered(const Record&) const;
   std::string where(const Record&) const;
   // Whether the picture exists, byte for byte as recorded. Reads the file.
-  bool intact(const Figure&) const;
+  bool intact(const RecordedFigure&) const;
   // The profile of the newest record; empty for an empty store.
   const std::string& last_profile() const { return last_profile_; }
 

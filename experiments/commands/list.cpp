@@ -83,7 +83,7 @@ Json list_claims() {
                       {"summary", claim.statement},
                       {"paper", paper.id},
                       {"where", claim.where},
-                      {"class", std::string(1, claim.type)},
+                      {"class", std::string(1, claim.claim_class)},
                       {"known", name(claim.known)}});
     }
   }

@@ -56,7 +56,7 @@ class OneClaim : public FolderTest {
   }
 
   std::vector<Metric> metrics_;
-  std::vector<Figure> figures_;
+  std::vector<RecordedFigure> figures_;
   std::vector<std::pair<Provenance, std::vector<Metric>>> other_runs_;  // each measured e/d
   std::vector<Paper> papers_;
 };
