@@ -46,7 +46,7 @@ std::vector<std::string> grounds(const RunOptions& options, std::vector<std::str
 TerrainSource open_heights(std::string_view name, std::uint64_t seed) {
   TerrainSource source = open_terrain(name, seed);
   if (!source.heights) {
-    throw usage_error("the experiment needs a height field, not a solid", name, "name a terrain of heights");
+    throw usage_error("the experiment needs a height field, not a solid", name, "name a height field");
   }
   return source;
 }

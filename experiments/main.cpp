@@ -24,7 +24,8 @@ namespace {
 constexpr int kClosedPipe = 141;
 
 constexpr const char* kFooter =
-    "Exit codes: 0 good, 1 a claim falls short, 2 wrong use, 3 bad input, 4 environment (no GL, disk full), "
+    "Exit codes: 0 good, 1 a verdict is not the known one, 2 wrong use, 3 bad input, 4 environment (no GL, "
+    "disk full), "
     "130 interrupted, 141 the reader of the output closed the pipe.\n"
     "Examples:\n"
     "  terrabench run 'hybrid.*' --profile quick --out out && terrabench check out && terrabench report out\n"

@@ -19,7 +19,7 @@ void Recorder::add(std::string_view metric, std::string_view unit, double sample
 
 std::filesystem::path Recorder::figure(std::string_view id, std::string_view extension,
                                        std::string_view caption) {
-  // Another profile, or a case with overridden parameters, draws a different picture under the same ledger
+  // Another profile, or a case with overridden parameters, draws a different picture under the same claim
   // id: it must not overwrite the first.
   const std::string variant = record_.overrides.empty() ? "" : "-" + checksum(record_.case_name).substr(0, 8);
   Figure figure{std::string(id), fmt::format("figures/{}.{}{}.{}", id, record_.profile, variant, extension),

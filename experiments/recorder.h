@@ -15,9 +15,9 @@ class Recorder {
 
   // Adds a sample to the metric of that name.
   void add(std::string_view metric, std::string_view unit, double sample);
-  // Declares a picture of a ledger row; returns the path to write it to. `extension` without the dot.
+  // Declares a picture of a claim; returns the path to write it to. `extension` without the dot.
   std::filesystem::path figure(std::string_view id, std::string_view extension, std::string_view caption);
-  // Notes which ground was measured; a temporary one is passed on.
+  // Records the ground that was measured. The overload for a temporary returns it.
   void terrain(const TerrainSource& source) { terrain(source.name, source.checksum); }
   TerrainSource terrain(TerrainSource&& source) {
     terrain(source.name, source.checksum);

@@ -142,7 +142,8 @@ void run(const RunPlan& plan) {
     fmt::print(stderr, "[{}/{}] {} {}: {:.2f} s\n", number, cases.size(), record.experiment, record.case_name,
                watch.seconds());
   }
-  if (skipped > 0) fmt::print(stderr, "{} of {} cases were already there\n", skipped, cases.size());
+  if (skipped > 0)
+    fmt::print(stderr, "{} of {} cases were already in the results folder\n", skipped, cases.size());
 }
 
 }  // namespace terrabench

@@ -22,7 +22,7 @@ struct Metric {
 
 // A picture that a case drew, relative to the results folder.
 struct RecordedFigure {
-  std::string id;             // ledger row, such as hybrid.F3
+  std::string id;             // of a claim, such as hybrid.F3
   std::string file;           // figures/hybrid.F3.png
   std::string caption;        // names the paper's figure and what is seen
   std::string checksum = "";  // of the file's bytes, so that another picture in its place is noticed

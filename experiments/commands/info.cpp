@@ -52,7 +52,7 @@ void print_tree(const Representation& structure) {
   fmt::print("heightmaps  {} after {} events, the deepest {} below the root\n", census.nodes,
              tree->model().tree.events().size(), census.deepest);
   fmt::print("cells       {} heights, {} links, {} void\n", census.heights, census.links, census.voids);
-  fmt::print("seams       {} faces, {} boundary links\n", census.faces, census.boundary_links);
+  fmt::print("surface     {} faces, {} boundary links\n", census.faces, census.boundary_links);
   const std::vector<std::string> broken = ght::broken_invariants(tree->model());
   if (broken.empty()) fmt::print("invariants  all hold\n");
   for (const std::string& what : broken) fmt::print("invariants  broken: {}\n", what);

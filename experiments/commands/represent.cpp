@@ -39,7 +39,7 @@ TerrainSource open_named(const RepresentArguments& a) {
   const bool shaped = !a.crop.empty() || !a.resample.empty() || a.fill;
   if (!shaped) return source;
   if (!source.heights) {
-    throw usage_error("this terrain is a solid, not a grid of heights", "--crop, --resample, --fill",
+    throw usage_error("this terrain is a solid, not a height field", "--crop, --resample, --fill",
                       "leave them out, or set the representation's resolution");
   }
   if (!a.crop.empty()) source.heights = crop(*source.heights, a.crop[0], a.crop[1], a.crop[2], a.crop[3]);
@@ -108,8 +108,8 @@ ExitCode represent_command(const RepresentArguments& a) {
 
   const TerrainSource source = names_dem_file(a.terrain) ? open_file(a, progress) : open_named(a);
   if (!a.write_flow.empty() && !source.heights) {  // checked before work that may take minutes
-    throw usage_error("this terrain is a solid; flow needs a grid of heights", "--write-flow",
-                      "leave it out, or name a terrain of heights");
+    throw usage_error("this terrain is a solid; flow needs a height field", "--write-flow",
+                      "leave it out, or name a height field");
   }
   const Stopwatch watch;
   auto built = type.build(source, parameters, progress);
@@ -134,7 +134,7 @@ ExitCode represent_command(const RepresentArguments& a) {
   }
   if (!a.write_flow.empty()) write_flow(a.write_flow, source, progress);
   if (!a.render.empty()) draw(a, *built, source.bounds());
-  fmt::print("allocator   {} given back\n",
+  fmt::print("allocator   {} freed\n",
              format_quantity(static_cast<double>(destroy_and_count(std::move(built))), "B"));
   return ExitCode::kGood;
 }

@@ -33,7 +33,7 @@ const std::array kSpecs{
                   "their triangles side by side"},
     ParameterSpec{"options", std::string(), "",
                   "options of methods, such as geomipmap.patch=32,mrbsp.threshold=area"},
-    ParameterSpec{"error", 1.0, "px", "wanted 99th percentile of the screen-space error", 0.01, 1000},
+    ParameterSpec{"error", 1.0, "px", "required 99th percentile of the screen-space error", 0.01, 1000},
     ParameterSpec{"path", std::string("fly"), "", "camera path: cross, fly, low, turn, walk, or a TOML file"},
     ParameterSpec{"frames", std::int64_t{24}, "", "frames of the path that are metered", 1, 100000},
     ParameterSpec{"size", std::int64_t{257}, "samples", "side of the generated grounds, 2^n + 1", 3, 8193},
@@ -253,7 +253,7 @@ const Entrant& entrant(std::string_view name) {
   throw unknown_name("level-of-detail method", name, known);
 }
 
-// The user's options follow the entrant's own, and so override them.
+// The user's options follow the method's own, and so override them.
 std::string join(const std::string& own, const std::string& asked) {
   return own.empty() || asked.empty() ? own + asked : own + "," + asked;
 }
@@ -262,7 +262,7 @@ std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
   std::vector<Case> cases;
   for (const std::string& terrain : grounds(options, {std::string(kMainGround), "fractal", "peak"})) {
-    // The path `fly` suits the width of the other grounds. This one is 123 km wide in the paper profile; a
+    // The path `fly` suits the width of the other grounds. The fractal is 123 km wide in the paper profile; a
     // flight as high as that width implies would not resolve its samples, and brute force takes ten seconds
     // and more per frame.
     const bool fractal = terrain == "fractal", large = paper && fractal;

@@ -78,10 +78,10 @@ Flight::Flight(const Route& along, Progress& progress)
   }
   metered = evenly(static_cast<std::size_t>(route.frames), views.size() - 1);
   require_memory(metered.size() * SeenSamples::bytes(ground().width, ground().depth),
-                 fmt::format("what {} frames see of {}", metered.size(), route.terrain),
+                 fmt::format("the visible samples of {} frames on {}", metered.size(), route.terrain),
                  "meter fewer frames (--set frames=…) or choose less ground");
   seen.reserve(metered.size());
-  progress.begin(fmt::format("finding what is seen on {}", route.terrain), metered.size());
+  progress.begin(fmt::format("finding visible samples on {}", route.terrain), metered.size());
   for (const std::size_t frame : metered) {
     seen.emplace_back(ground(), views[frame]);
     progress.advance();

@@ -39,7 +39,7 @@ std::optional<double> next_place(const Knob& knob, const Tried& tried, double ta
   if (coarse == tried.end()) {
     const auto& [place, error] = *tried.rbegin();
     if (place >= 1 || error >= (1 - kKnobSlack) * target) return std::nullopt;
-    // As if the error were proportional to the knob, and a little further, to bracket the target.
+    // Steps as if the error were proportional to the knob, and slightly further, to bracket the target.
     const double stride = std::clamp(0.25 - 1.2 * octaves_of(error, target), 0.25, kLongestStride);
     return std::min(1.0, place + stride / octaves);
   }

@@ -1,4 +1,4 @@
-// Finds the setting of a method's knob that gives a wanted error, by bisection on a logarithmic scale with
+// Finds the setting of a method's knob that gives a required error, by bisection on a logarithmic scale with
 // interpolation between the ends of the bracket.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace terrabench::cross {
 struct Tuned {
   double knob = 0, error = 0;
   // The error is at most the target, and within kKnobSlack of it unless the next coarser setting exceeds it.
-  // False also where even the coarsest setting stays below: such a method is not at the wanted error.
+  // False also where even the coarsest setting stays below: such a method is not at the required error.
   bool reached = false;
 };
 

@@ -360,7 +360,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   } else {
     const TerrainSource source = open_terrain(at.terrain, options.seed);
     recorder.terrain(source);
-    if (!source.heights) throw usage_error("a solid has no heights to walk on", at.terrain, "choose a DEM");
+    if (!source.heights)
+      throw usage_error("this terrain is a solid, not a height field", at.terrain, "choose a DEM");
     if (!names_dem_file(at.terrain)) {
       write_geotiff(made, *source.heights);
       dem = made.string();

@@ -31,9 +31,10 @@ const std::array kSpecs{
 constexpr double kEyeHeight = 400;       // metres above the ground
 constexpr double kPictureHeight = 2500;  // above the surrounding peaks, so that the horizon shows
 constexpr double kHeading = 0.3;         // radians south of east
-constexpr double kKeepWithin = 30000;    // metres between the eye and the origin, except for the meters
-constexpr int kMetered = 8;              // frames on the way out
-constexpr double kPanel = 700;           // units of the sheet
+constexpr double kKeepWithin =
+    30000;  // largest distance from the eye to the origin, metres; exceeded while cracks are metered
+constexpr int kMetered = 8;     // frames on the way out
+constexpr double kPanel = 700;  // units of the sheet
 
 // Position in samples of the ground after that many metres of flight.
 glm::dvec2 along(glm::dvec2 home, double metres, double cell) {
@@ -86,7 +87,7 @@ class Flight {
                   .wire_opacity = 0.3F});
       shown.finish();
       const std::string triangles = format_number(static_cast<double>(frame.stats.triangles));
-      panels.push_back({shown.image(), wires ? fmt::format("Its {} triangles", triangles)
+      panels.push_back({shown.image(), wires ? fmt::format("{} triangles", triangles)
                                              : fmt::format("Ground to {:g} km, {} levels", far_ / 1000,
                                                            clipmap_->levels())});
     }

@@ -127,8 +127,8 @@ void draw_matrices(const Study& study, const std::vector<Outcome>& outcomes, Rec
                        kTop + kWidths.size() * (kMatrixHeight + kBelow) + 18);
   add_column(sheet, 0, "RMSE ÷ range of elevations", outcomes, [](const Outcome& o) { return o.rmse; },
              {1, 4});
-  add_column(sheet, 1, "1000 × AHD along the map ÷ diagonal", outcomes,
-             [](const Outcome& o) { return o.ahd[0]; }, {1000, 3});
+  add_column(sheet, 1, "1000 × AHD in plan ÷ diagonal", outcomes, [](const Outcome& o) { return o.ahd[0]; },
+             {1000, 3});
   sheet.write(
       recorder.figure("drill.F4" + study.suffix, "png",
                       fmt::format("The paper's figure 4: normalised errors of the 54 parameter sets on {}, "
@@ -144,7 +144,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
   recorder.add("runs", "", outcomes.size());
   for (const Measure& measure : kMeasures) record_measure(outcomes, measure, recorder);
-  // The paper's best set does not name τ, only the densest network.
+  // The paper gives w and k of its best set, but τ only as the densest network; hence the least error over τ.
   double at_paper_best = std::numeric_limits<double>::infinity();
   for (const Outcome& o : outcomes) {
     if (o.setting.w == 10 && o.setting.k == 20) at_paper_best = std::min(at_paper_best, o.rmse);

@@ -170,7 +170,7 @@ void draw_best(const Study& study, const Outcome& least_rmse, const Outcome& lea
   sheet.write(recorder.figure(
       "drill.F3" + study.suffix, "png",
       fmt::format("The paper's figure 3: {} regenerated with the parameters of least RMSE (a) and of least "
-                  "AHD along the map (b). Where no drill reaches, the plateau remains.",
+                  "AHD in plan (b). Where no drill reaches, the plateau remains.",
                   study.name)));
 
   figures::add_colour_key(maps, kGap, layout.legend(), "regenerated minus original, m", 240, 260,

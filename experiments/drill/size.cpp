@@ -85,8 +85,8 @@ void draw_rate_distortion(const TerrainSource& source, const FlowNetwork& networ
   const Heightfield& ground = *source.heights;
   const std::size_t samples = ground.heights.size();
   Plot plot;
-  plot.title = "Error against bits a sample";
-  plot.x = {"bits a sample", "", true};
+  plot.title = "Error against bits per sample";
+  plot.x = {"bits per sample", "", true};
   plot.y = {"RMSE", "m", true};
   constexpr std::array kThresholds{10U, 25U, 50U, 100U, 200U, 400U, 800U};
   progress.begin("rate and distortion", kThresholds.size() + kPeers.size());

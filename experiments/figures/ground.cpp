@@ -39,7 +39,7 @@ TriangleMesh ground_mesh(const Heightfield& field) {
 TriangleMesh block_sides(int columns, int rows, const std::function<glm::vec3(int i, int j)>& surface,
                          float floor) {
   TriangleMesh mesh;
-  // Between two points of the border that have the ground on the left of the way, seen from above.
+  // Adds the side below a border edge; seen from above, the ground is left of from → to.
   const auto add_side = [&](const glm::vec3& from, const glm::vec3& to) {
     add_quad(mesh, {glm::vec3(from.x, floor, from.z), glm::vec3(to.x, floor, to.z), to, from});
   };

@@ -211,7 +211,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kContinuity{"ght.continuity", "§3.2: nothing dangles, nothing is open", kSpecs, cases,
-                                    measure};
+extern const Experiment kContinuity{
+    "ght.continuity", "§3.2: dangling links, unlinked boundary cells and open edges", kSpecs, cases, measure};
 
 }  // namespace terrabench::ght

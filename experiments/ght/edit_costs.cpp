@@ -28,7 +28,7 @@ const std::array kReachSpecs{
     ParameterSpec{"size", std::int64_t{32}, "cells", "length of the events", 32, 4096},
 };
 
-// Fewer samples of what takes long: one of what takes seconds.
+// At most kMostSamples samples; sampling stops once they add up to kSecondsOfSamples.
 constexpr int kMostSamples = 7;
 constexpr double kSecondsOfSamples = 0.1;
 
@@ -166,8 +166,8 @@ class Comparison {
     sample_times([&] {
       const auto held = std::make_unique<Ght>(tree_);  // on the heap, as memory() counts the tree's own block
       Ght& tree = *held;
-      // The arena is full at first. Any first event pays for its growth, from which later ones profit, so it
-      // is timed apart.
+      // The tree's arrays start without spare capacity. The first event pays for their growth, so it is timed
+      // separately.
       recorder_.add(fmt::format("first_event_time{}", suffix), "s",
                     processor_seconds([&] { tree.apply(pebble()); }));
       const double before = used(tree.memory());

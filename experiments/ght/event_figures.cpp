@@ -51,7 +51,8 @@ Ght ridge() {
   });
 }
 
-constexpr glm::vec3 kHigh{0.4F, 0.62F, 1.0F}, kLow{0.45F, 0.4F, 1.0F};  // kLow shows what hangs over
+constexpr glm::vec3 kHigh{0.4F, 0.62F, 1.0F},
+    kLow{0.45F, 0.4F, 1.0F};  // towards the eye; kLow looks under overhangs
 
 // Across the middle of the line of the fault in that script.
 CutPlane across(std::string_view script) {
@@ -113,8 +114,8 @@ Sheet draw_sequence(Drawing& drawing) {
 
 // Figures 15 and 19 to 21: tunnels and caves, and the ground cut open along their axes.
 
-// Along the axis, so that the ground towards `from` goes; 1.7 m beside the axis, so that no corner of the
-// section lies in the plane.
+// A cut along the axis that removes the ground on the side of the eye (`from`); 1.7 m beside the axis, so
+// that no corner of the section lies in the plane.
 CutPlane along(const Carving& carving, glm::vec3 from) {
   const Line line = carving.line();
   glm::dvec2 towards = line.left;
@@ -226,14 +227,14 @@ constexpr std::array<figures::Figure, 10> kFigures{{
      "colour in the wireframe",
      draw_erosions},
     {18, "F18",
-     "a normal and an inverse fault, each on the same fresh terrain; the raised block of the inverse one "
-     "hangs over",
+     "a normal and an inverse fault, each on the same fresh terrain; the raised block of the inverse "
+     "fault overhangs the sunk one",
      draw_faults},
     {19, "F19",
-     "a tunnel carved through a terrain of 129 × 129; the views but the first are of the ground around it",
+     "a tunnel carved through a terrain of 129 × 129; all views but the first show only the ground around it",
      [](Drawing& drawing) { return draw_single(drawing, "tunnel"); }},
     {20, "F20",
-     "a cave carved into a terrain of 129 × 129; the views but the first are of the ground around it",
+     "a cave carved into a terrain of 129 × 129; all views but the first show only the ground around it",
      [](Drawing& drawing) { return draw_single(drawing, "cave"); }},
     {21, "F21", "the part with two tunnels of a terrain of 129 × 129", draw_two_tunnels},
     {22, "F22", "a sequence of overlapping events on one terrain, and the ground planes of the tree after it",

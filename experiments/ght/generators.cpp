@@ -199,7 +199,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kGenerators{"ght.generators", "§2.3: what the generators of base terrain promise",
+extern const Experiment kGenerators{"ght.generators", "§2.3: properties of the base-terrain generators",
                                     kSpecs, cases, measure};
 
 }  // namespace terrabench::ght

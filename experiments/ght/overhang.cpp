@@ -34,7 +34,7 @@ const std::array kSpecs{
     choice("events", kNames, "the events that shape the terrain"),
     ParameterSpec{"size", std::int64_t{32}, "cells", "length of an event; the terrain is 4 times as long", 32,
                   512},
-    ParameterSpec{"columns_a_cell", std::int64_t{4}, "", "columns along each side of a cell", 1, 64},
+    ParameterSpec{"columns_per_cell", std::int64_t{4}, "", "columns along each side of a cell", 1, 64},
 };
 
 struct Hollow {
@@ -55,12 +55,12 @@ struct Hollow {
 
 std::vector<Case> cases(const RunOptions& options) {
   return cases_by("events", kSpecs,
-                  {{"columns_a_cell", std::int64_t{options.profile == Profile::kPaper ? 8 : 4}}});
+                  {{"columns_per_cell", std::int64_t{options.profile == Profile::kPaper ? 8 : 4}}});
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   const int size = at.integer("size");
-  const int per_cell = at.integer("columns_a_cell");
+  const int per_cell = at.integer("columns_per_cell");
   const Site site = make_site(kEventsAlong * size, size, options.seed);
   const auto sculpture = std::make_shared<Sculpture>(
       Sculpture{site.ground, kTerrains[at.parameters.choice("events")].events(site)});

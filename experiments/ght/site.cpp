@@ -62,9 +62,9 @@ bool try_apply(Ght& tree, const Site& site, const Event& event) {
   }
 }
 
-// Whether the carving, beyond its end at u, stays in the air where it first comes out: ground that has sunk
-// below its roof must not rise half a cell above it again before the whole section is out. Otherwise the
-// exact shape has a further piece of roof, while the tree's walls end where they first come out.
+// Whether the carving leaves the ground only once beyond its end at u: after its roof has first come out, the
+// ground must not rise half a cell above the roof again before the whole section is out. If it did, the exact
+// shape would have another piece of roof, but the tree's walls end at the first exit.
 bool comes_out_once(const Site& site, const Carving& carving, double u, double outwards) {
   constexpr int kAcross = 8;
   const Line line = carving.line();

@@ -80,7 +80,7 @@ std::vector<events::Event> overlapping_events(const Site&);
 // The names of all kinds of event, in the order of events::Kind: the values of a parameter "event".
 std::span<const std::string_view> event_names();
 
-// What a sound tree does not have; broken_invariants() counts other things.
+// Defects that broken_invariants() does not count.
 struct Breaks {
   std::size_t dangling = 0;    // links that end in no cell of the surface
   std::size_t voids_seen = 0;  // corners of the surface that hold no height

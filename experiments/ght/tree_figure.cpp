@@ -15,8 +15,8 @@ using figures::SheetPoint;
 constexpr Rgb kHeight{200, 200, 200}, kLink{213, 94, 0}, kVoid{0, 114, 178}, kEdge{70, 70, 75};
 constexpr double kMargin = 24, kBox = 74, kStep = 128, kRow = 150, kRoot = 150;
 
-// One pixel per cell, but at most `most` pixels across and down: then that of the cell in the middle of each
-// pixel.
+// One pixel per cell. A larger array is reduced to `most` pixels along that axis; a pixel shows the cell at
+// its middle.
 Image cells_image(const Tree& tree, const GroundedHeightmap& node, int most) {
   const int across = std::min(node.columns, most), down = std::min(node.rows, most);
   Image image(across, down, {});

@@ -16,7 +16,8 @@ TerrainSource open_ground(std::string_view name, std::uint64_t seed);
 std::vector<std::string> grounds(const RunOptions&, bool rough);
 // The cell below an eye.
 glm::ivec2 cell_below(const visibility::CellGrid&, const Heightfield&, const glm::vec3& eye);
-// The tree's depth: the paper's on ground of its size; otherwise 0, as deep as the samples go.
+// The tree's depth: 16, as in the paper, on ground of 257² samples; otherwise 0: as deep as the samples
+// allow.
 int depth_over(const Heightfield&);
 
 // Height of a walker's eyes: 1.8 m above both the samples and the triangles drawn from them.

@@ -19,7 +19,7 @@ namespace {
 constexpr std::array kSpecs{
     ParameterSpec{"n", std::int64_t{kSide}, "pixels", "side of the drawing", 16, 4096},
 };
-constexpr float kBeach = 25;  // metres above the sea and below
+constexpr float kBeach = 25;  // metres; samples within this height of sea level are beach
 
 // All greys from black to white.
 Heightfield ramp(const DrawingOptions& options) {
@@ -55,7 +55,7 @@ std::size_t broken_greys() {
   return broken;
 }
 
-// Mean curvature of the ground drawn as low land, and the number of mountain samples that moved.
+// Mean absolute Laplacian of the low land, and the number of mountain samples that moved.
 struct Smoothed {
   double bend = 0;  // metres
   std::size_t moved = 0, mountains = 0;

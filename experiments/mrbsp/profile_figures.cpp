@@ -139,7 +139,7 @@ void draw_table(std::span<const PrintedStep> printed, std::span<const ProfileSte
     sheet.line(std::array{SheetPoint{kColumns[0], y}, SheetPoint{kRight, y}}, {.colour = kDark});
   };
   rule(16);
-  sheet.text(kColumns[0], 48, "Change", 13);
+  sheet.text(kColumns[0], 48, "Step", 13);
   sheet.text(kColumns[1], 36, "Coarse change", 13);
   sheet.text(kColumns[3], 36, "Fine change", 13);
   for (const std::size_t c : {1U, 3U}) {

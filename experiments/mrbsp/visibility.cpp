@@ -104,7 +104,7 @@ std::vector<Case> cases(const RunOptions& options) {
         if (cells == 16 || !conservative || paper) add(ground, conservative, cells, kCoarseness);
       }
     }
-    // At the paper's depth an even coarseness gives squares one level coarser.
+    // At the paper's depth of 16, an even coarseness gives squares that are one level coarser.
     for (const int coarseness : {4, 8}) add(ground, false, 16, coarseness);
   }
   return cases;

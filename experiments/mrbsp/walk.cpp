@@ -77,7 +77,8 @@ double fitted_size(Methods& methods, const std::vector<View>& views) {
 
 void count_triangles(Methods& methods, const std::vector<View>& views, Recorder& recorder) {
   std::array<double, kMethods> sums{};
-  // Views in which brute force draws strictly most, both together strictly least, or as many as the lesser.
+  // Numbers of views in which brute force draws more than every other method; in which both together draw
+  // fewer than either alone; in which they draw as many as the lesser of the two.
   std::size_t brute_most = 0, both_least = 0, tied = 0;
   for (const View& view : views) {
     std::array<std::size_t, kMethods> drawn{};

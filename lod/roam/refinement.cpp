@@ -22,7 +22,7 @@ constexpr std::size_t kPrefetch = 16;                // prefetch distance, in no
 }  // namespace
 
 // Merges while the lowest diamond is below max_error or the mesh is too large; splits while the highest leaf
-// is above; swaps the two when the limit on triangles is reached.
+// is above. At the limit on triangles, merges the lowest diamond to make room for the highest leaf.
 void Roam::refine() {
   // Whether the mesh exceeds its limit with this many triangles more.
   const auto full = [&](std::size_t more) {
@@ -73,7 +73,8 @@ void Roam::force_split(std::uint32_t id) {
 }
 
 // Takes both halves out of the split queue and the draw list, bisects them, ranks the four children,
-// schedules the diamond for the merge queue, and takes the parents' diamonds out of it.
+// schedules the diamond for the merge queue, and takes the parents' diamonds out of it. The
+// children enter the draw list in finish_ranked_leaves().
 void Roam::split_diamond(std::uint32_t id) {
   std::vector<Node>& nodes = mesh_.nodes();
   const Halves both = halves(id);
@@ -141,7 +142,8 @@ void Roam::add_children(std::uint32_t id, const ViewedCorner& apex, const Viewed
 // Upper bound of the triangles that force_split() adds.
 std::size_t Roam::cost_of_split(std::uint32_t id) const {
   const int finest = mesh_.lattice().finest_level();
-  // Splitting a degenerate triangle may force one more chain of neighbours, and those the same again at most.
+  // Splitting a degenerate child may force a further chain of neighbours, two triangles per level, whose
+  // splits may do the same. Four chains are a safe bound (roam_cost_test.cpp).
   std::size_t cost = !mesh_.lattice().exact && mesh_.nodes()[id].level >= finest - 2
                          ? 8 * (static_cast<std::size_t>(finest) + 1)
                          : 0;
@@ -258,7 +260,8 @@ Validity Roam::validity(const Distortion& now, double share) {
   return {static_cast<float>(0.9999 * (1 - share) * now.scale), static_cast<float>(1.0001 * now.reach)};
 }
 
-// A leaf without error is in no queue: splitting it gains nothing.
+// A leaf without error is in no queue: splitting it gains nothing. Also lists the leaf for
+// finish_ranked_leaves(). `validity` shares memory with the deferral links, so the leaf must not be deferred.
 void Roam::rank_leaf(std::uint32_t id, const Distortion& now) {
   std::vector<Node>& nodes = mesh_.nodes();
   ranked_leaves_.push_back(id);

@@ -84,6 +84,8 @@ const Frame& Roam::update(const View& view) {
     deferred_.advance(mesh_.nodes(), motion, expired_);
     rerank_expired();
   }
+  // refine() leaves the merge queue, the draw list and the deferral lists behind the mesh; these calls update
+  // them.
   do {
     refine();
     queue_split_diamonds();

@@ -7,15 +7,17 @@
 // The mesh never has cracks. The same views give the same triangles, unless time is limited. A frame costs
 // O(changes · log samples), plus the triangles on the view's border and those with expired priorities.
 //
-// To follow one split: refine() takes a leaf from the split queue, force_split() makes it half of a diamond,
-// split_diamond() updates the queues and labels, Mesh::bisect_diamond() the triangles (refinement.cpp,
-// mesh.cpp).
+// To follow one split: refine() takes a leaf from the split queue; force_split() makes it half of a diamond;
+// split_diamond() takes the halves out of the queues and the draw list, Mesh::bisect_diamond() makes the
+// children, add_children() labels and ranks them (refinement.cpp, mesh.cpp). After refine(), update() calls
+// queue_split_diamonds(), which fills the merge queue, and finish_ranked_leaves(), which draws and defers the
+// leaves that remain (roam.cpp).
 //
 // Glossary:
 //   wedgie       the prism around a triangle that contains its samples and its descendants' wedgies
-//   diamond      two triangles with a common hypotenuse, or one at the border; named by its lower node
-//   distortion   upper bound of a wedgie's screen-space error, in pixels
-//   priority     a leaf's distortion, or the largest that a merge would bring back, as a multiple of
+//   diamond      two triangles with a common hypotenuse, or one at the border; identified by the smaller of
+//   their node numbers distortion   upper bound of a wedgie's screen-space error, in pixels priority     a
+//   leaf's distortion, or the largest that a merge would bring back, as a multiple of
 //                max_error; kept as the number of its bucket
 //   rank         to compute a priority and enter the leaf or diamond into its queue
 //   label        which planes of the view a wedgie lies inside (CullLabel)
@@ -80,6 +82,7 @@ class Roam : public Lod {
   void update_drawn(std::uint32_t id);
 
   // Refinement: refinement.cpp.
+
   // The two triangles of a diamond; the second is kNone at the border.
   using Halves = std::array<std::uint32_t, 2>;
   void refine();

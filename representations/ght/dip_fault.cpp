@@ -9,6 +9,8 @@
 //
 // The lips L and r lie half the rise above and below 0. A cell's height over its plane is that of the old
 // ground: for a block at the point that moves to the cell, for the scarp at the nearest point of the line.
+// At distance |d| ≤ R from the line, points move across it by (1 − |d| / R) · offset / 2 and up or down by
+// (1 − |d| / R) · rise / 2.
 #include <algorithm>
 #include <cmath>
 
@@ -50,7 +52,7 @@ GroundedHeightmap append_scarp(Edit& edit, const DipFaultMaps& maps, Area area) 
                       area);
 }
 
-// The right block's rows from its lip up to below the left block's lip.
+// Number of the right block's rows, counted from its lip, that lie under the left block's lip.
 int rows_under_overhang(const Edit& edit, const DipFaultMaps& maps) {
   const double tolerance = 1e-3 * edit.grid().spacing(), step = (maps.extent - maps.lip) / maps.rows;
   const int rows = static_cast<int>(std::floor((-2 * maps.lip + tolerance) / step)) + 1;
@@ -88,8 +90,8 @@ float height_on_ground(const Edit& edit, const events::Line& line, const Grounde
 }
 
 // A cell at a lip links to the scarp, which comes later in the tree and holds the heights of both lips. In
-// the end columns the fault closes without an overhang, so there the right block's cells under it link to the
-// scarp's last row, the left lip.
+// the two end columns the overhang has no width: the right block's cells under it and the scarp's cells all
+// link to the left lip.
 void fill_block(Edit& edit, const DipFaultMaps& maps, int sign) {
   const GroundedHeightmap& block = sign > 0 ? maps.left : maps.right;
   for (int i = 0; i <= maps.columns; ++i) {
@@ -143,13 +145,16 @@ std::vector<CellId> outline(const DipFaultMaps& maps) {
 
 void record(Edit& edit, const events::DipFault& e) {
   const events::Line line = e.line();
+  // Step 1: cut out.
   const RemovedPart old = cut_out_with_margin(edit, {line, 0, line.length, -e.extent, e.extent});
+  // Step 2: new heightmaps. Their links come before their quadrilaterals, which follow links.
   const DipFaultMaps maps = append_maps(edit, e);
   for (const int sign : {1, -1}) fill_block(edit, maps, sign);
   fill_scarp(edit, maps);
   edit.quads(maps.left, false);
   edit.quads(maps.right, true);
   edit.quads(maps.scarp, false);
+  // Steps 3 and 4: outline and join. apply_event() then commits.
   join_to_ground(edit, line, old, outline(maps), [&](glm::dvec2 p) {
     return (p.y >= 0 ? maps.left : maps.right)
         .cell(nearest_step(p.x / line.length, maps.columns),

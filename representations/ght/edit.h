@@ -8,7 +8,11 @@
 // The ring's triangles are the paper's boundary links (Alonso, Joan-Arinyo & Solano, §3.2: "each cell in the
 // boundary of a new heightmap is linked to the neighbor cell in another heightmap"). Their corners are cells
 // of the old and of the new heightmaps, so the surface stays closed, whatever earlier events left there.
-// Squares, plain squares and faces: composed_surface.h. Cells and links: tree.h.
+//
+// Square: between four of the root's samples; plain (two triangles) or covered by faces. Face: a triangle
+// between any three cells. Cell: a height, a link to a later cell, or void. Loop: the cells around the
+// removed part. Outline: the boundary cells of the new heightmaps. apply_event() chooses the host, creates
+// the Edit, calls record() and then commit().
 //
 // Before commit(), an Edit only appends nodes to the tree. The destructor removes them unless commit()
 // succeeded; the tree is then as it was, to the bit. commit() first allocates all that it needs, then changes
@@ -70,8 +74,8 @@ class Edit {
 
   // Step 4. On commit(), the cell `old` becomes a link to `by`, which must be a later cell.
   void supersede(CellId old, CellId by) { superseded_.emplace_back(old, by); }
-  // Adds the triangles between a loop and an outline, both counter-clockwise. Refuses if no triangle joins a
-  // cell of the outline to another heightmap.
+  // Adds the triangles between a loop and an outline, both counter-clockwise. Refuses unless every cell of
+  // the outline is a corner of a triangle that also has a corner in another heightmap.
   void close_ring(std::span<const CellId> loop, std::span<const CellId> outline);
   // Refuses the event if a new height lies less than one sample spacing above the roof of a tunnel or cave.
   void keep_clear_of_carvings() const;

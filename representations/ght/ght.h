@@ -12,9 +12,8 @@
 //   LateralFault                     §3.2, figure 13         lateral_fault.cpp
 //   Carving (tunnel and cave)        §3.2, figures 15, 16    carving.cpp, carving_walls.cpp
 //
-// To follow one event, read its formula in terrain/events/event.h, the four steps in edit.h and the event's
-// file, with along_line.h for events along a line. apply_event.h finds the host and commits. tree.h and
-// composed_surface.h are what it changes.
+// To follow one event, read edit.h, then record() at the end of the event's file, along_line.cpp for events
+// along a line, and edit.cpp from close_ring() on. The event's formula is in terrain/events/event.h.
 #pragma once
 
 #include <memory>

@@ -111,7 +111,7 @@ TEST_F(CommandLine, ResumeSkipsWhatIsThere) {
   EXPECT_THAT(first.text, HasSubstr("F3"));
   const Outcome second = call(std::string(kSmallRun) + "--resume");
   ASSERT_EQ(second.code, 0) << second.text;
-  EXPECT_THAT(second.text, HasSubstr("6 of 11 cases were already there"));
+  EXPECT_THAT(second.text, HasSubstr("6 of 11 cases were already in the results folder"));
   EXPECT_THAT(second.text, Not(HasSubstr("noise-stages F3 ")));
 }
 
