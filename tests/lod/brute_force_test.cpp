@@ -8,32 +8,16 @@
 
 #include "terrain/error.h"
 #include "terrain/memory.h"
+#include "tests/lod/drawing.h"
 
 namespace terrabench {
 namespace {
 
 Heightfield hills(int width, int depth) {
-  Heightfield field;
-  field.width = width;
-  field.depth = depth;
-  field.cell_x = 2.0F;
-  field.cell_z = 3.0F;
-  for (int j = 0; j < depth; ++j) {
-    for (int i = 0; i < width; ++i) {
-      field.heights.push_back(5.0F * std::sin(0.1F * static_cast<float>(i)) + static_cast<float>(j % 7));
-    }
-  }
-  return field;
-}
-
-// From high above the middle; the whole field is in view.
-View from_above(const Heightfield& field) {
-  View view;
-  view.target = {0.5F * field.extent_x(), 0, 0.5F * field.extent_z()};
-  view.eye = view.target + glm::vec3(0, 4 * (field.extent_x() + field.extent_z()) + 100, 0);
-  view.up = {0, 0, -1};
-  view.far = 10 * view.eye.y;
-  return view;
+  const auto hill = [](int i, int j) {
+    return 5.0F * std::sin(0.1F * static_cast<float>(i)) + static_cast<float>(j % 7);
+  };
+  return test::ground_of(width, depth, hill, 2, 3);
 }
 
 double plan_area(const Frame& frame) {
@@ -51,7 +35,7 @@ TEST(BruteForce, DrawsEveryTriangleOfAnySize) {
   for (const auto& [width, depth] : {std::pair{2, 2}, {33, 33}, {34, 65}, {100, 37}}) {
     const Heightfield field = hills(width, depth);
     BruteForce lod(field);
-    const Frame& frame = lod.update(from_above(field));
+    const Frame& frame = lod.update(test::from_above(field));
     EXPECT_EQ(frame.stats.triangles, std::size_t{2} * (width - 1) * (depth - 1));
     EXPECT_NEAR(plan_area(frame), field.extent_x() * field.extent_z(), 1e-6 * plan_area(frame));
   }
@@ -60,9 +44,9 @@ TEST(BruteForce, DrawsEveryTriangleOfAnySize) {
 TEST(BruteForce, UploadsOnceOnly) {
   const Heightfield field = hills(50, 50);
   BruteForce lod(field);
-  const std::size_t indices = lod.update(from_above(field)).indices.size();
-  EXPECT_EQ(BruteForce(field).update(from_above(field)).stats.bytes_uploaded, 4 * (indices + 2500));
-  EXPECT_EQ(lod.update(from_above(field)).stats.bytes_uploaded, 0U);
+  const std::size_t indices = lod.update(test::from_above(field)).indices.size();
+  EXPECT_EQ(BruteForce(field).update(test::from_above(field)).stats.bytes_uploaded, 4 * (indices + 2500));
+  EXPECT_EQ(lod.update(test::from_above(field)).stats.bytes_uploaded, 0U);
 }
 
 TEST(BruteForce, LeavesOutBlocksBehindTheEye) {
@@ -80,7 +64,7 @@ TEST(BruteForce, CountsItsHeapBytes) {
   const Heightfield field = hills(200, 200);
   const HeapScope heap;
   auto lod = std::make_unique<BruteForce>(field);
-  lod->update(from_above(field));
+  lod->update(test::from_above(field));
   EXPECT_EQ(heap.held(), static_cast<std::int64_t>(lod->memory().total()));
 }
 

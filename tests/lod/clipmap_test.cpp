@@ -24,15 +24,9 @@ namespace terrabench {
 namespace {
 
 Heightfield rough(int width, int depth) {
-  Heightfield field;
-  field.width = width;
-  field.depth = depth;
-  field.cell_x = 2.0F;
-  field.cell_z = 3.0F;
   std::mt19937 random(7);
-  for (int k = 0; k < width * depth; ++k)
-    field.heights.push_back(static_cast<float>(random() % 1000) * 0.01F);
-  return field;
+  return test::ground_of(
+      width, depth, [&](int, int) { return static_cast<float>(random() % 1000) * 0.01F; }, 2, 3);
 }
 
 // An eye low enough to draw the finest level, with a field of view of nearly 180°, so that everything is in

@@ -1,37 +1,18 @@
-// Grounds, and frames made by hand, for the tests of meters and methods.
+// Frames made by hand, and what the tests of meters and methods share.
 #pragma once
 
-#include <cmath>
-#include <random>
 #include <vector>
 
 #include "terrain/frame.h"
-#include "terrain/heightfield.h"
+#include "terrain/progress.h"
 #include "terrain/view.h"
+#include "tests/terrain/ground.h"
 
 namespace terrabench::test {
 
-inline Heightfield flat(int width, int depth, float height = 0) {
-  Heightfield field;
-  field.width = width;
-  field.depth = depth;
-  field.heights.assign(static_cast<std::size_t>(width) * depth, height);
-  return field;
-}
-
-// Waves of several lengths, with noise of `noise` metres.
-inline Heightfield hilly(int width, int depth, float noise = 0, unsigned seed = 1) {
-  Heightfield field = flat(width, depth);
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> spread(-noise, noise);
-  for (int j = 0; j < depth; ++j) {
-    for (int i = 0; i < width; ++i) {
-      const float x = static_cast<float>(i), z = static_cast<float>(j);
-      field.at(i, j) = 12 * std::sin(0.05F * x) * std::cos(0.07F * z) + 2 * std::sin(0.31F * x + 0.2F * z) +
-                       spread(random);
-    }
-  }
-  return field;
+inline Progress& silent() {
+  static Progress progress;
+  return progress;
 }
 
 // From high above the middle: the whole field is in view.

@@ -15,11 +15,7 @@
 namespace terrabench::test {
 namespace {
 
-Heightfield ground() {
-  Heightfield field = hilly(202, 173, 0.7F);
-  field.cell_x = field.cell_z = 5;
-  return field;
-}
+Heightfield ground() { return hilly(202, 173, 0.7F, 1, 5, 5); }
 
 // Every 20th frame of every committed path: near and far ground, small steps and jumps.
 std::vector<View> path_over(const Heightfield& field) {

@@ -5,16 +5,11 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "terrain/heightfield.h"
-#include "terrain/progress.h"
-#include "terrain/view.h"
+#include "tests/lod/drawing.h"
 
 namespace terrabench {
 
-inline Progress& silent() {
-  static Progress progress;
-  return progress;
-}
+using test::silent;
 
 // A deterministic number in [0, 1) for a key.
 inline float random_share(std::uint32_t key) {
@@ -25,19 +20,12 @@ inline float random_share(std::uint32_t key) {
 
 // Hills with noise: nowhere flat, with valleys that are hidden from far away.
 inline Heightfield rough_ground(int width, int depth, float relief = 40.0F) {
-  Heightfield field;
-  field.width = width;
-  field.depth = depth;
-  field.cell_x = 5.0F;
-  field.cell_z = 4.0F;
-  for (int j = 0; j < depth; ++j) {
-    for (int i = 0; i < width; ++i) {
-      const float x = static_cast<float>(i), z = static_cast<float>(j);
-      const float noise = random_share(static_cast<std::uint32_t>(j * 7919 + i));
-      field.heights.push_back(relief * (std::sin(0.35F * x) * std::cos(0.27F * z) + 0.2F * noise));
-    }
-  }
-  return field;
+  const auto rough = [=](int i, int j) {
+    const auto x = static_cast<float>(i), z = static_cast<float>(j);
+    const float noise = random_share(static_cast<std::uint32_t>(j * 7919 + i));
+    return relief * (std::sin(0.35F * x) * std::cos(0.27F * z) + 0.2F * noise);
+  };
+  return test::ground_of(width, depth, rough, 5, 4);
 }
 
 // The view of an observer 1.8 m above the ground; the position is a fraction of the ground's extent.
@@ -47,15 +35,6 @@ inline View walker(const Heightfield& field, float share_x, float share_z, float
   view.eye = {x, field.sample(x, z) + 1.8F, z};
   view.target = view.eye + glm::vec3(std::sin(heading), -0.05F, std::cos(heading));
   view.far = 4 * (field.extent_x() + field.extent_z());
-  return view;
-}
-
-inline View high_above(const Heightfield& field) {
-  View view;
-  view.target = {0.5F * field.extent_x(), 0, 0.5F * field.extent_z()};
-  view.eye = view.target + glm::vec3(0, 4 * (field.extent_x() + field.extent_z()) + 100, 0);
-  view.up = {0, 0, -1};
-  view.far = 10 * view.eye.y;
   return view;
 }
 

@@ -41,7 +41,7 @@ TEST(Mrbsp, DrawsThePapersNumberOfTriangles) {
   const Heightfield field = rough_ground(257, 257);
   Mrbsp lod(field, options_of(true, true, 16), silent());
   lod.tune(Mrbsp::knob().finest);
-  EXPECT_EQ(lod.update(high_above(field)).stats.triangles, 65536U);
+  EXPECT_EQ(lod.update(test::from_above(field)).stats.triangles, 65536U);
   EXPECT_NEAR(lod.short_side(), std::sqrt(2 * 5.0 * 4.0), 1e-4);
 }
 
@@ -54,13 +54,14 @@ TEST(Mrbsp, CoversFieldsOfAnySizeOnceAtAnyDepth) {
       for (int levels = 1; levels <= deepest; ++levels) {
         Mrbsp lod(field, options_of(false, conforming, levels), silent());
         lod.tune(Mrbsp::knob().finest);
-        EXPECT_NEAR(plan_area(lod.update(high_above(field))), area, 1e-5 * area)
+        EXPECT_NEAR(plan_area(lod.update(test::from_above(field))), area, 1e-5 * area)
             << width << " × " << depth << ", depth " << levels;
       }
     }
     Mrbsp lod(field, options_of(false, true), silent());
     lod.tune(Mrbsp::knob().finest);
-    EXPECT_EQ(lod.update(high_above(field)).stats.triangles, std::size_t{2} * (width - 1) * (depth - 1));
+    EXPECT_EQ(lod.update(test::from_above(field)).stats.triangles,
+              std::size_t{2} * (width - 1) * (depth - 1));
   }
 }
 
@@ -232,7 +233,7 @@ TEST(Mrbsp, TheKnobRefinesMonotonously) {
     std::size_t before = 0;
     for (double size = Mrbsp::knob().coarsest; size <= Mrbsp::knob().finest; size *= 2) {
       lod.tune(size);
-      const std::size_t count = lod.update(high_above(field)).stats.triangles;
+      const std::size_t count = lod.update(test::from_above(field)).stats.triangles;
       EXPECT_GE(count, before);
       before = count;
     }
@@ -305,7 +306,7 @@ TEST(Mrbsp, InterpolatedHeightsAreALatticeOfTheirOwn) {
   options.three_nearest = true;
   Mrbsp lod(field, options, silent());
   lod.tune(Mrbsp::knob().finest);
-  const Frame& frame = lod.update(high_above(field));
+  const Frame& frame = lod.update(test::from_above(field));
   EXPECT_EQ(frame.stats.triangles, 4096U);
   EXPECT_EQ(frame.grid.width, 65);
   EXPECT_NEAR(plan_area(frame), field.extent_x() * field.extent_z(), 1);

@@ -14,11 +14,6 @@
 
 namespace terrabench::test {
 
-inline Progress& silent() {
-  static Progress progress;
-  return progress;
-}
-
 struct Sizes {
   int width, depth;
 };
@@ -27,10 +22,7 @@ inline constexpr Sizes kSizes[] = {{2, 2},   {3, 2},    {2, 9},    {4, 4},    {3
                                    {34, 65}, {100, 37}, {129, 65}, {150, 201}};
 
 inline Heightfield ground(int width, int depth, float noise = 1) {
-  Heightfield field = hilly(width, depth, noise);
-  field.cell_x = 3;
-  field.cell_z = 2;
-  return field;
+  return hilly(width, depth, noise, 1, 3, 2);
 }
 
 // An eye over the field or near it, sometimes underground, looking in any direction.

@@ -52,6 +52,19 @@ inline Heightfield waves(int width, int depth, float height, float cell_x = 1, f
   return ground_of(width, depth, wave, cell_x, cell_z);
 }
 
+// Waves of several lengths, with noise of `noise` metres.
+inline Heightfield hilly(int width, int depth, float noise = 0, unsigned seed = 1, float cell_x = 1,
+                         float cell_z = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> spread(-noise, noise);
+  const auto hill = [&](int i, int j) {
+    const auto x = static_cast<float>(i), z = static_cast<float>(j);
+    return 12 * std::sin(0.05F * x) * std::cos(0.07F * z) + 2 * std::sin(0.31F * x + 0.2F * z) +
+           spread(random);
+  };
+  return ground_of(width, depth, hill, cell_x, cell_z);
+}
+
 // Rough hills of 270 to 730 m, of whole metres or not, with a share of holes; cells of 30 m × 25 m. Seeds
 // differ in the hills too.
 inline Heightfield hills(int width, int depth, unsigned seed, bool whole = false,
