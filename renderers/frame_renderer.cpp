@@ -156,6 +156,8 @@ void FrameRenderer::Gl::upload(const Frame& frame, const DirtyRange& range) {
     case DirtyRange::Target::kMorphs:
       morphs.write(range.first * sizeof(PatchMorph), &frame.morphs[range.first], range.bytes());
       break;
+    case DirtyRange::Target::kMesh:
+      break;  // meshes are uploaded by id
     case DirtyRange::Target::kClipLevel:
       const ClipLevel& level = frame.clip_levels[range.level];
       for (std::size_t row = range.z; row < std::size_t{range.z} + range.depth; ++row) {

@@ -122,6 +122,7 @@ glm::vec3 clip_position(const Frame& frame, const Batch& batch, std::uint32_t ve
 
 std::size_t DirtyRange::bytes() const {
   if (target == Target::kClipLevel) return std::size_t{4} * width * depth;
+  if (target == Target::kMesh) return count;
   return count * (target == Target::kMorphs ? sizeof(PatchMorph) : 4);
 }
 
@@ -145,8 +146,23 @@ glm::vec3 vertex_position(const Frame& frame, const Batch& batch, std::uint32_t 
   return frame.morphs.empty() ? grid_position(frame.grid, vertex) : morphed_position(frame, batch, vertex);
 }
 
+namespace {
+
+using Corners = std::array<glm::vec3, 3 * 256>;
+
+void mesh_triangles(const FrameMesh& mesh, Corners& corners, const TriangleSink& sink) {
+  for (std::size_t done = 0; done < mesh.indices.size();) {
+    const std::size_t n = std::min(corners.size(), mesh.indices.size() - done);
+    for (std::size_t k = 0; k < n; ++k) corners[k] = mesh.positions[mesh.indices[done + k]];
+    sink({corners.data(), n});
+    done += n;
+  }
+}
+
+}  // namespace
+
 void triangles(const Frame& frame, const TriangleSink& sink) {
-  std::array<glm::vec3, 3 * 256> corners;
+  Corners corners;
   for (const Batch& batch : frame.batches) {
     for (std::uint32_t done = 0; done < batch.index_count;) {
       const std::uint32_t n = std::min<std::uint32_t>(corners.size(), batch.index_count - done);
@@ -158,6 +174,7 @@ void triangles(const Frame& frame, const TriangleSink& sink) {
       done += n;
     }
   }
+  for (const FrameMesh& mesh : frame.meshes) mesh_triangles(mesh, corners, sink);
 }
 
 }  // namespace terrabench

@@ -59,12 +59,28 @@ struct Batch {
   std::uint32_t morph = 0;  // number in Frame::morphs, when the frame has morphs
 };
 
+// A mesh in space that a frame draws beside its heights, such as a chunk of an implicit surface; triangles
+// are counter-clockwise from the air and may face downwards. Meshes with the same id have the same content in
+// all frames of a method, so a renderer uploads an id once and frees it when a frame does not list it.
+struct FrameMesh {
+  std::uint64_t id = 0;
+  std::span<const glm::vec3> positions, normals;  // metres; a unit normal per position
+  std::span<const std::uint32_t> indices;         // three per triangle
+};
+
 // A part of the frame's arrays that differs from the last frame: a range of indices, of grid heights or of
-// morphs, or a rectangle of a clip level in toroidal array coordinates. The first frame lists everything.
+// morphs, a rectangle of a clip level in toroidal array coordinates, or a mesh that the last frame did not
+// list. The first frame lists everything.
 struct DirtyRange {
-  enum class Target : std::uint8_t { kIndices, kHeights, kMorphs, kClipLevel } target = Target::kIndices;
-  std::uint16_t level = 0;                           // of kClipLevel
-  std::uint32_t first = 0, count = 0;                // elements, except for kClipLevel
+  enum class Target : std::uint8_t {
+    kIndices,
+    kHeights,
+    kMorphs,
+    kClipLevel,
+    kMesh
+  } target = Target::kIndices;
+  std::uint16_t level = 0;             // of kClipLevel
+  std::uint32_t first = 0, count = 0;  // elements, except for kClipLevel; of kMesh: its number, and its bytes
   std::uint16_t x = 0, z = 0, width = 0, depth = 0;  // of kClipLevel, never across the array's border
   std::size_t bytes() const;
 };
@@ -97,6 +113,7 @@ struct Frame {
   // vertex. Empty: all vertices of the grid lie at their samples.
   std::span<const PatchMorph> morphs{};
   int patch_side = 0;
+  std::span<const FrameMesh> meshes{};
   std::span<const DirtyRange> uploads{};
   FrameStats stats{};
 };
@@ -114,7 +131,8 @@ glm::vec3 vertex_position(const Frame&, const Batch&, std::uint32_t vertex);
 
 // Receives the corners of triangles, three per triangle, in blocks.
 using TriangleSink = std::function<void(std::span<const glm::vec3>)>;
-// Passes the triangles that the GPU draws for this frame to the sink, batch by batch. O(triangles).
+// Passes the triangles that the GPU draws for this frame to the sink, batch by batch and then mesh by mesh.
+// O(triangles).
 void triangles(const Frame&, const TriangleSink&);
 
 }  // namespace terrabench
