@@ -22,8 +22,9 @@ std::filesystem::path Recorder::figure(std::string_view id, std::string_view ext
   // Another profile, or a case with overridden parameters, draws a different picture under the same claim
   // id: it must not overwrite the first.
   const std::string variant = record_.overrides.empty() ? "" : "-" + checksum(record_.case_name).substr(0, 8);
-  Figure figure{std::string(id), fmt::format("figures/{}.{}{}.{}", id, record_.profile, variant, extension),
-                std::string(caption)};
+  RecordedFigure figure{std::string(id),
+                        fmt::format("figures/{}.{}{}.{}", id, record_.profile, variant, extension),
+                        std::string(caption)};
   const std::filesystem::path path = folder_ / figure.file;
   record_.figures.push_back(std::move(figure));
   return path;
