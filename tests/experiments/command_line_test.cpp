@@ -175,7 +175,7 @@ TEST_F(CommandLine, InterruptKeepsRecordsExits130AndResumes) {
   // Goes on from there: the first stage is not measured again.
   const Outcome resumed =
       call("$T run hybrid.noise-stages --set pixels=4000 --shard 1/11 --out out --resume");
-  EXPECT_THAT(resumed.text, HasSubstr("already there"));
+  EXPECT_THAT(resumed.text, HasSubstr("already in the results folder"));
 }
 
 TEST_F(CommandLine, FullOrUnwritableOutputExits4AndLeavesNothingHalf) {
