@@ -145,7 +145,9 @@ class Writer {
     for (const std::string& warning : results_.warnings) text_ += fmt::format("warning: {}\n", warning);
     text_ += "\nSummary\n";
     for (const Paper* const paper : papers_) {
-      text_ += fmt::format("  {:<9}  {}\n", paper->id, tally(results_.of(*paper)));
+      constexpr std::size_t kIndent = 13;
+      text_ += fmt::format("  {:<9}  ", paper->id) +
+               wrapped(tally(results_.of(*paper)), kIndent, width_).substr(kIndent);
     }
     const bool passed = results_.passed();
     text_ += fmt::format("{}{}{}: {}\n", paint(passed ? kGreen : kRed), passed ? "PASS" : "FAIL",

@@ -108,7 +108,7 @@ TEST_F(ReportTest, GrowthIsFromTheRowAboveOnTheSameMachine) {
   other.id = digest(other);
   Store store(folder_);
   store.begin_run(other);
-  Record record = fake_record(other, "hybrid.table2", "n=128");
+  Record record = fake_record(other, "hybrid.table2", "n=128/every-cell");
   add(record, "generation_time", "s", {0.16});
   store.append(record);
   write_report(folder_);

@@ -177,6 +177,21 @@ TEST(CaveTerrain, IsTheSameTerrainAtAnySamplingAndScale) {
   EXPECT_LT(different, 8);  // places that differ by rounding
 }
 
+TEST(CaveTerrain, IsTheSameWhenEveryCellIsEvaluated) {
+  const Solid skipping = cave_terrain(), every = cave_terrain({.every_cell = true});
+  EXPECT_EQ(every.checksum, skipping.checksum);
+  for (const std::size_t n : {1U, 37U, 300U}) {
+    std::vector<Material> a(n), b(n);
+    for (int i = 0; i < 200; ++i) {
+      const ColumnSamples at{0.61F * static_cast<float>(i), 127.0F - 0.63F * static_cast<float>(i), 0.2F,
+                             127.0F / static_cast<float>(n)};
+      skipping.column(at, a);
+      every.column(at, b);
+      ASSERT_EQ(a, b) << n << " samples, column " << i;
+    }
+  }
+}
+
 TEST(CaveTerrain, IsTheSameOnAllInstructionSets) {
   const Grid expected = sample(cave_terrain({.seed = 3}), 48);
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {

@@ -114,6 +114,16 @@ TEST(NoiseProgram, WhatIsConstantAlongAColumnRunsOncePerColumn) {
   EXPECT_EQ(values[0], at(g, flat, 1.5F, 77.0F, 2.5F));
 }
 
+TEST(NoiseProgram, EveryModuleCanRunForEverySample) {
+  Graph g;
+  const Node flat = g.scale_domain(g.fbm({.seed = 3}), 1, 0, 1);
+  const Node root = g.select(g.fbm({.seed = 4}), g.ridged_multifractal({.seed = 5}), flat, 0.0F);
+  const Program lazy(g, root), every(g, root, Evaluation::kEverySample);
+  EXPECT_GT(lazy.instructions_once(), every.instructions_once());
+  const ColumnSamples at{1.5F, 2.5F, -100.0F, 0.37F};
+  EXPECT_EQ(column(every, at, 300), column(lazy, at, 300));
+}
+
 // A random graph over all modules: deep, shared, with lazies nested in lazies.
 Node random_graph(Graph& g, std::uint64_t seed) {
   std::mt19937_64 random(seed);

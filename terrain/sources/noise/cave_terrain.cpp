@@ -182,7 +182,8 @@ Solid cave_terrain(const CaveOptions& options) {
   // The graph's text holds every option that shapes the terrain.
   solid.checksum = checksum(
       fmt::format("cave terrain {} root {}\n{}", options.extent, cave.root.index, cave.graph.describe()));
-  solid.column = [program = std::make_shared<const Program>(cave.graph, cave.root)](
+  const Evaluation evaluation = options.every_cell ? Evaluation::kEverySample : Evaluation::kWhereNeeded;
+  solid.column = [program = std::make_shared<const Program>(cave.graph, cave.root, evaluation)](
                      const ColumnSamples& at, std::span<Material> out) { fill_column(*program, at, out); };
   return solid;
 }

@@ -26,6 +26,8 @@ struct CaveOptions {
   // that caves form only where both are. By default both must be 0, which gives tunnels; with this option the
   // product as printed, which gives sheets that cut the ground apart.
   bool printed_product = false;
+  // Evaluates all fractals in every cell, as the paper's implementation does: the same terrain, more slowly.
+  bool every_cell = false;
 };
 
 // The stages of the paper's figures 3 to 13. Its captions 9 and 10 are swapped: by the text, followed here,

@@ -48,9 +48,10 @@ bool is_lazy(Op op, int slot) {
 class Compiler {
  public:
   Compiler(const Graph& graph, Mode mode) : graph_(graph), mode_(mode) {
-    input_ = {add({.op = Op::kInputX, .varies = mode == Mode::kPoints}),
-              add({.op = Op::kInputY, .varies = true, .even = mode == Mode::kColumn}),
-              add({.op = Op::kInputZ, .varies = mode == Mode::kPoints})};
+    const bool column = mode == Mode::kColumn;
+    input_ = {add({.op = Op::kInputX, .varies = !column}),
+              add({.op = Op::kInputY, .varies = true, .even = column}),
+              add({.op = Op::kInputZ, .varies = !column})};
   }
 
   Code compile(Node root) {
@@ -263,7 +264,7 @@ void Compiler::find_regions() {
       const Id operand = value.operands[static_cast<std::size_t>(slot)];
       if (operand == kNone) continue;
       std::uint32_t use = region_of_[id];
-      if (is_lazy(value.op, slot) && value.varies && values_[operand].varies) {
+      if (mode_ != Mode::kEverySample && is_lazy(value.op, slot) && value.varies && values_[operand].varies) {
         use = static_cast<std::uint32_t>(regions_.size());
         regions_.push_back({id, slot, region_of_[id], regions_[region_of_[id]].depth + 1});
         lazy_region_[{id, slot}] = use;

@@ -6,7 +6,11 @@
 
 namespace terrabench::noise {
 
-enum class Mode { kColumn, kPoints };
+enum class Mode {
+  kColumn,
+  kPoints,
+  kEverySample  // points, without jumps: every instruction runs for every sample
+};
 
 Code compile(const Graph& graph, Node root, Mode mode);
 

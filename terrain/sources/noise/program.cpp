@@ -24,10 +24,22 @@ Scratch scratch(const Code& code) {
 
 }  // namespace
 
-Program::Program(const Graph& graph, Node root)
-    : column_(compile(graph, root, Mode::kColumn)), points_(compile(graph, root, Mode::kPoints)) {}
+Program::Program(const Graph& graph, Node root, Evaluation evaluation)
+    : evaluation_(evaluation),
+      column_(
+          compile(graph, root, evaluation == Evaluation::kEverySample ? Mode::kEverySample : Mode::kColumn)),
+      points_(compile(graph, root, Mode::kPoints)) {}
 
 void Program::column(const ColumnSamples& at, std::span<float> out) const {
+  if (evaluation_ == Evaluation::kEverySample) {
+    thread_local std::vector<float> x, y, z;
+    x.assign(out.size(), at.x);
+    z.assign(out.size(), at.z);
+    y.resize(out.size());
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] = at.y0 + static_cast<float>(i) * at.dy;
+    const Samples samples{.xs = x.data(), .ys = y.data(), .zs = z.data()};
+    return execute(column_, samples, scratch(column_), out.data(), out.size());
+  }
   const Samples samples{.column = true, .x = at.x, .z = at.z, .y0 = at.y0, .dy = at.dy};
   execute(column_, samples, scratch(column_), out.data(), out.size());
 }

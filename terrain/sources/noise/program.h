@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string_view>
 
@@ -25,9 +26,15 @@ struct Slice {
   int width = 0, height = 0;
 };
 
+// The values are the same; the time is not.
+enum class Evaluation : std::uint8_t {
+  kWhereNeeded,  // shares work along a column and skips what bounds decide
+  kEverySample   // evaluates every module at every sample of a column, as a plain noise library does
+};
+
 class Program {
  public:
-  Program(const Graph& graph, Node root);
+  Program(const Graph& graph, Node root, Evaluation = Evaluation::kWhereNeeded);
 
   // Values at (x, y0 + i·dy, z), i = 0 … out.size() - 1. Thread-safe, as are all below.
   void column(const ColumnSamples& samples, std::span<float> out) const;
@@ -42,6 +49,7 @@ class Program {
   std::size_t instructions_per_batch() const { return column_.batch.size(); }
 
  private:
+  Evaluation evaluation_;
   Code column_, points_;
 };
 
