@@ -193,7 +193,10 @@ const Frame& Clipmap::update(const View& view) {
     if (l == 0 && !hole_cut_) update_blocks(l);
     ClipLevel& level = clip_levels_[l];
     level.eye = eye / static_cast<double>(spacing) - glm::dvec2(level.corner);
-    set_transition(l, height / (kHighestEye * static_cast<float>(pattern_.n << l) * cell));
+    // With a hole, the eye may be higher than where the finest level is left out otherwise. Beyond the
+    // finest, transitions must not grow: they would move vertices that the next finer level ends at.
+    const float rise = height / (kHighestEye * static_cast<float>(pattern_.n << l) * cell);
+    set_transition(l, l == finest ? rise : std::min(rise, 0.5F));
   }
   const Frustum frustum(view);
   for (int l = finest; l < levels(); ++l) draw_level(l, finest, frustum);

@@ -93,6 +93,7 @@ double Hybrid::height_over_ground(const View& view, glm::dvec2 eye) const {
 }
 
 double Hybrid::near_height() const {
+  if (options_.height > 0) return options_.height;
   return (options_.radius + 0.5) * layout_.side * std::max(heights_.cell_x, heights_.cell_z);
 }
 

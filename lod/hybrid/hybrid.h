@@ -9,7 +9,8 @@
 //
 // Where the paper leaves a choice: chunks are whole cells of the clipmap, so that the cut leaves no
 // T-junctions; the hole is a rectangle around the eye; the transition to coarser levels begins outside it.
-// While the eye is more than about `radius` chunks above or below the ground, the clipmap is drawn alone.
+// While the eye is farther above or below the ground than the near chunks reach in plan, the clipmap is drawn
+// alone.
 //
 // Without a near surface (LodGround::near_surface), the heights themselves are cut into chunks. update():
 // O(triangles of the chunks that changed) besides the clipmap's own cost, and O(radius²) to list chunks.
@@ -29,6 +30,8 @@ struct HybridOptions {
   int radius = 2;  // near chunks on each side of the eye's
   int ahead = 4;   // chunks queued per frame; 0: all are built when they are needed
   int band = 8;    // samples from the rim within which near points move towards the far heights
+  // Metres above or below the ground up to which an eye sees the near surface; 0: `radius` chunks and a half.
+  double height = 0;
   // False leaves the near surface as it is: the cut alone, with gaps along the rim. For measurements.
   bool interpolate = true;
 };

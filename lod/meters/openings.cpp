@@ -4,8 +4,6 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -13,13 +11,10 @@
 #include <tuple>
 #include <vector>
 
-#include "lod/meters/depth_buffer.h"
 #include "lod/meters/projector.h"
 
 namespace terrabench {
 namespace {
-
-constexpr float kSameDepth = 1 + 1e-4F;
 
 // A side of a triangle, the lesser end first; `forward` 1 when the triangle has it in this direction, else
 // -1.
@@ -119,69 +114,6 @@ OpenEdges find_open_edges(const Frame& frame, const Heightfield& ground, const V
     report.largest_gap_px = std::max(report.largest_gap_px, edge.pixels);
   }
   return report;
-}
-
-namespace {
-
-// Upper sides and undersides, drawn apart.
-struct Sides {
-  explicit Sides(const View& view) : eye(view.eye), upper(view), under(view) {}
-
-  void draw(std::span<const glm::vec3> corners) {
-    tbb::parallel_for(std::size_t{0}, corners.size() / 3, [&](std::size_t t) {
-      const glm::dvec3 a = corners[3 * t], b = corners[3 * t + 1], c = corners[3 * t + 2];
-      const double facing = glm::dot(glm::cross(b - a, c - a), eye - a);
-      if (facing == 0) return;
-      DepthBuffer& buffer = facing > 0 ? upper : under;
-      buffer.draw(buffer.vertex(a), buffer.vertex(b), buffer.vertex(c));
-    });
-  }
-
-  glm::dvec3 eye;
-  DepthBuffer upper, under;
-};
-
-// Whether a line of sight that meets nothing has passed through the ground: it leaves the ground's extent
-// below the border, by more than two pixels.
-bool passes_ground(const Heightfield& ground, const glm::dvec3& eye, const glm::dvec3& direction,
-                   double focal) {
-  double way = std::numeric_limits<double>::infinity();
-  const glm::dvec3 extent(ground.extent_x(), 0, ground.extent_z());
-  for (const int axis : {0, 2}) {
-    if (direction[axis] > 0) way = std::min(way, (extent[axis] - eye[axis]) / direction[axis]);
-    if (direction[axis] < 0) way = std::min(way, -eye[axis] / direction[axis]);
-  }
-  if (std::isinf(way)) return direction.y < 0;
-  const glm::dvec3 end = eye + way * direction;
-  const float border = ground.sample(std::clamp(static_cast<float>(end.x), 0.0F, ground.extent_x()),
-                                     std::clamp(static_cast<float>(end.z), 0.0F, ground.extent_z()));
-  return end.y < border - 2 * way / focal;
-}
-
-}  // namespace
-
-BarePixels find_bare_pixels(const Frame& frame, const Heightfield& ground, const View& view) {
-  Sides sides(view);
-  std::vector<glm::vec3> corners;
-  corners.reserve(3 * frame.stats.triangles);
-  triangles(frame, [&](std::span<const glm::vec3> some) {
-    corners.insert(corners.end(), some.begin(), some.end());
-  });
-  sides.draw(corners);
-  const Projector project(view);
-  std::atomic<std::size_t> sky = 0, underside = 0;
-  tbb::parallel_for(0, view.height, [&](int y) {
-    for (int x = 0; x < view.width; ++x) {
-      const float upper = sides.upper.at(x, y), under = sides.under.at(x, y);
-      if (under > upper * kSameDepth) {
-        ++underside;
-      } else if (upper == 0 &&
-                 passes_ground(ground, sides.eye, project.direction(x + 0.5, y + 0.5), project.focal())) {
-        ++sky;
-      }
-    }
-  });
-  return {sky, underside};
 }
 
 }  // namespace terrabench

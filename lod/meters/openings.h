@@ -1,5 +1,5 @@
 // Detects openings in the drawn surface of ground with overhangs and caves, where heights by sample
-// (cracks.h) do not apply: by edges, exactly, and by what is seen through them, per pixel.
+// (cracks.h) do not apply: exactly, by its edges. See bare_pixels.h for what is seen through them.
 #pragma once
 
 #include <cstddef>
@@ -25,17 +25,5 @@ struct OpenEdges {
 // For a frame over ground of this extent; its heights are not read. O(triangles log triangles + open edges
 // squared).
 OpenEdges find_open_edges(const Frame&, const Heightfield& ground, const View&);
-
-// Pixels whose centre shows no upper side of the ground although the line of sight enters it.
-struct BarePixels {
-  std::size_t sky = 0;        // nothing is drawn, and the line leaves the ground's extent below its border
-  std::size_t underside = 0;  // the nearest triangle is seen from inside the ground
-  std::size_t total() const { return sky + underside; }
-};
-
-// The eye must be over the ground's extent, in the air, and the far plane beyond the ground. Within a depth
-// of one in ten thousand, an upper side hides an underside, as where caves taper to nothing. O(triangles +
-// pixels), in parallel.
-BarePixels find_bare_pixels(const Frame&, const Heightfield& ground, const View&);
 
 }  // namespace terrabench

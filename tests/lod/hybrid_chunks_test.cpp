@@ -84,8 +84,8 @@ TEST_F(HybridChunks, FramesDependOnNoThreads) {
 }
 
 TEST_F(HybridChunks, AnEditRebuildsItsChunksAlone) {
-  Hybrid lod({field_, &meso_}, {.radius = 1});
-  const View view = everything_from(field_, 40, 40);
+  Hybrid lod({field_, &meso_}, {.radius = 1, .height = kAboveAll});
+  const View view = everything_from(40, 40);
   const auto ids = [](const Frame& frame) {
     std::set<std::uint64_t> all;
     for (const FrameMesh& mesh : frame.meshes) all.insert(mesh.id);
@@ -104,7 +104,7 @@ TEST_F(HybridChunks, AnEditRebuildsItsChunksAlone) {
   EXPECT_EQ(kept.size(), 8U);
   EXPECT_EQ(frame.uploads.size(), 1U);
   EXPECT_EQ(openings_inside(field_, frame), 0U);
-  Hybrid fresh({field_, &meso_}, {.radius = 1});
+  Hybrid fresh({field_, &meso_}, {.radius = 1, .height = kAboveAll});
   EXPECT_EQ(corners_of(frame), corners_of(fresh.update(view)));
   lod.finish();
   EXPECT_EQ(lod.built(), built + 1 + 4);  // and four more of the next ring
@@ -138,10 +138,11 @@ TEST_F(HybridChunks, ListsAndUploadsWhatANewFrameNeeds) {
 }
 
 TEST_F(HybridChunks, CountsItsHeapBytes) {
+  const std::vector<glm::vec2> places = random_places(field_, 12, 4);
   Hybrid({field_, &meso_}, {.radius = 1}).update(standing(field_, 40, 40, 0));  // creates the threads
   const HeapScope heap;
   const auto lod = std::make_unique<Hybrid>(LodGround(field_, &meso_), HybridOptions{.radius = 1});
-  for (const glm::vec2 at : random_places(field_, 12, 4)) {
+  for (const glm::vec2 at : places) {
     lod->update(standing(field_, at.x, at.y, 1));
     const auto counted = static_cast<std::int64_t>(lod->memory().total());
     EXPECT_EQ(heap.held(), counted);

@@ -25,14 +25,17 @@ inline View standing(const Heightfield& field, float x, float z, float heading, 
   return view;
 }
 
-// So wide a view down from a place that nothing is culled.
-inline View everything_from(const Heightfield& field, float x, float z) {
-  View view = standing(field, x, z, 0);
-  view.target = view.eye - glm::vec3(0, 1, 0);
+// So wide a view down that nothing is culled, from above everything; for options with this height.
+inline constexpr double kAboveAll = 200;
+inline View everything_from(float x, float z) {
+  View view;
+  view.eye = {x, 100, z};
+  view.target = {x, 0, z};
   view.up = {0, 0, -1};
   view.vertical_fov = 3.1415F;
   view.width = view.height = 100;
   view.near = 0.001F;
+  view.far = 1e5F;
   return view;
 }
 

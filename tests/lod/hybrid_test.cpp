@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "lod/meters/bare_pixels.h"
 #include "lod/meters/openings.h"
 #include "lod/meters/surface_raster.h"
 #include "tests/lod/hybrid_ground.h"
@@ -16,7 +17,13 @@ struct Fit {
   const char* name;
   MesoOptions ground;
   HybridOptions options;
+  float raised = 0;  // far heights over the near surface's hills, metres
 };
+
+Heightfield raised(Heightfield field, float by) {
+  for (float& height : field.heights) height += by;
+  return field;
+}
 
 const std::vector<Fit>& fits() {
   static const std::vector<Fit> kFits = {
@@ -26,8 +33,10 @@ const std::vector<Fit>& fits() {
       {"coarser_by_another_factor", {.cell = 1.5F, .cells = 4, .chunks = 16}, {.radius = 2, .band = 3}},
       {"one_chunk", {}, {.radius = 0, .band = 8}},
       {"a_part_of_the_ground", {.low = {20, 33}, .chunks = 3}, {.radius = 1}},
-      {"rough", {.relief = 25}, {.radius = 1, .band = 16}},
+      {"rough", {.relief = 12}, {.radius = 1, .band = 16}},
       {"sharp_rim", {}, {.radius = 1, .band = 1}},
+      {"far_heights_above", {}, {.radius = 1}, 2.5F},
+      {"far_heights_below", {}, {.radius = 1}, -2.5F},
   };
   return kFits;
 }
@@ -36,8 +45,13 @@ class HybridFit : public ::testing::TestWithParam<std::size_t> {
  protected:
   const Fit& fit_ = fits()[GetParam()];
   const MesoGround meso_{fit_.ground};
-  const Heightfield field_ = meso_.heights();
+  const Heightfield field_ = raised(meso_.heights(), fit_.raised);
+  static HybridOptions from_above(HybridOptions options) {
+    options.height = kAboveAll;
+    return options;
+  }
   Hybrid lod_{{field_, &meso_}, fit_.options};
+  Hybrid from_above_{{field_, &meso_}, from_above(fit_.options)};
 };
 
 std::string name_of_fit(const ::testing::TestParamInfo<std::size_t>& info) { return fits()[info.param].name; }
@@ -45,7 +59,7 @@ std::string name_of_fit(const ::testing::TestParamInfo<std::size_t>& info) { ret
 TEST_P(HybridFit, IsClosedToTheBitFromEverywhere) {
   std::size_t with_mesh = 0;
   for (const glm::vec2 place : random_places(field_, 30, 5)) {
-    const Frame& frame = lod_.update(everything_from(field_, place.x, place.y));
+    const Frame& frame = from_above_.update(everything_from(place.x, place.y));
     ASSERT_EQ(openings_inside(field_, frame), 0U) << place.x << " " << place.y;
     with_mesh += frame.meshes.empty() ? 0 : 1;
   }
@@ -53,18 +67,18 @@ TEST_P(HybridFit, IsClosedToTheBitFromEverywhere) {
 }
 
 TEST_P(HybridFit, IsClosedToTheBitInMotion) {
-  lod_.tune(63);
+  from_above_.tune(63);
   for (int k = 0; k < 60; ++k) {
     const float along = static_cast<float>(k) / 59;
     const glm::vec2 at = glm::mix(glm::vec2(3, 90), glm::vec2(94, 11), along);
-    ASSERT_EQ(openings_inside(field_, lod_.update(everything_from(field_, at.x, at.y))), 0U) << k;
+    ASSERT_EQ(openings_inside(field_, from_above_.update(everything_from(at.x, at.y))), 0U) << k;
   }
 }
 
 TEST_P(HybridFit, TheHoleHoldsTheNearSurfaceAlone) {
   for (const glm::vec2 place : random_places(field_, 20, 6)) {
-    const Frame& frame = lod_.update(everything_from(field_, place.x, place.y));
-    const glm::vec2 low = lod_.near_outline().low, high = lod_.near_outline().high;
+    const Frame& frame = from_above_.update(everything_from(place.x, place.y));
+    const glm::vec2 low = from_above_.near_outline().low, high = from_above_.near_outline().high;
     double far_area = 0, near_area = 0;
     const auto plan_area = [](const glm::vec3* p) {
       const glm::dvec3 u = p[1] - p[0], v = p[2] - p[0];
@@ -117,9 +131,9 @@ INSTANTIATE_TEST_SUITE_P(Hybrid, HybridFit, ::testing::Range(std::size_t{0}, fit
 TEST(Hybrid, DrawsOverhangsNearTheEyeOnly) {
   const MesoGround meso;
   const Heightfield field = meso.heights();
-  Hybrid lod({field, &meso}, {.radius = 1});
+  Hybrid lod({field, &meso}, {.radius = 1, .height = kAboveAll});
   const auto undersides = [&](float x, float z) {
-    const std::vector<glm::vec3> corners = corners_of(lod.update(everything_from(field, x, z)));
+    const std::vector<glm::vec3> corners = corners_of(lod.update(everything_from(x, z)));
     std::size_t n = 0;
     for (std::size_t k = 0; k < corners.size(); k += 3) {
       n += glm::cross(corners[k + 1] - corners[k], corners[k + 2] - corners[k]).y < -1e-3F;
@@ -178,7 +192,7 @@ TEST(Hybrid, OverHeightsItDrawsTheClipmapsSurface) {
 // The planted fault: the cut without interpolation.
 TEST(Hybrid, WithoutInterpolationTheMetersFindTheRim) {
   const MesoGround meso;
-  const Heightfield field = meso.heights();
+  const Heightfield field = raised(meso.heights(), 0.5F);
   Hybrid lod({field, &meso}, {.radius = 1, .interpolate = false});
   std::size_t edges = 0, pixels = 0;
   double metres = 0, on_screen = 0;
