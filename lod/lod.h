@@ -9,6 +9,7 @@
 #include "terrain/frame.h"
 #include "terrain/heightfield.h"
 #include "terrain/memory.h"
+#include "terrain/mesh_chunks.h"
 #include "terrain/parameters.h"
 #include "terrain/progress.h"
 #include "terrain/view.h"
@@ -25,7 +26,19 @@ class Lod {
   // Sets the method's knob (LodType::knob) to setting(), which throws for NaN; takes effect with the next
   // update().
   virtual void tune(double knob) = 0;
-  virtual Memory memory() const = 0;  // every heap byte, the object itself included
+  // Every heap byte, the object itself included. Waits for work in the background, so that the answer holds
+  // until the next update().
+  virtual Memory memory() const = 0;
+};
+
+// What a method is built from: heights and, where the ground has more than one surface over a place, the near
+// surface as chunks of a mesh. Methods for heights alone ignore the chunks. Points to both, which must
+// outlive the method.
+struct LodGround {
+  LodGround(const Heightfield& of, const MeshChunks* surface = nullptr)  // NOLINT: heights are ground
+      : heights(of), near_surface(surface) {}
+  const Heightfield& heights;
+  const MeshChunks* near_surface;
 };
 
 // The one setting that trades triangles for error. Each method has its own unit: methods are compared at
@@ -46,9 +59,9 @@ struct LodType {
   LodTraits traits;
   Knob knob;
   std::span<const ParameterSpec> parameters;
-  // Takes fields of any size from 2 × 2 samples. The field must outlive the method, which may point into it.
-  // Throws usage_error for a smaller field or one with no-data (see fill_no_data).
-  std::unique_ptr<Lod> (*build)(const Heightfield&, const Parameters&, Progress&);
+  // Takes fields of any size from 2 × 2 samples. Throws usage_error for a smaller field or one with no-data
+  // (see fill_no_data).
+  std::unique_ptr<Lod> (*build)(const LodGround&, const Parameters&, Progress&);
 };
 
 // The registry, one entry per method: registry.cpp.

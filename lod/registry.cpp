@@ -3,6 +3,7 @@
 #include "lod/brute_force/brute_force.h"
 #include "lod/clipmap/clipmap.h"
 #include "lod/geomipmap/geomipmap.h"
+#include "lod/hybrid/hybrid.h"
 #include "lod/lod.h"
 #include "lod/mrbsp/mrbsp.h"
 #include "lod/roam/roam.h"
@@ -40,6 +41,13 @@ std::span<const LodType> lods() {
        Clipmap::knob(),
        {},
        Clipmap::build},
+      {"hybrid",
+       "chunks of a near surface around the eye, in a clipmap with a hole of their outline",
+       "hybrid §3.5",
+       {},
+       Hybrid::knob(),
+       Hybrid::parameters(),
+       Hybrid::build},
       {"mrbsp",
        "a tree of bisected triangles, drawn at a depth that decreases with distance, without hidden ones",
        "mrbsp",

@@ -2,6 +2,7 @@
 #include "representations/drill/drill_terrain.h"
 #include "representations/ght/ght.h"
 #include "representations/heightmap/heightmap.h"
+#include "representations/implicit/implicit_surface.h"
 #include "representations/layered_stack/layered_stack.h"
 #include "representations/representation.h"
 #include "representations/voxel/dense_grid.h"
@@ -40,6 +41,13 @@ std::span<const RepresentationType> representations() {
        column_parameters(),
        DenseGrid::build,
        DenseGrid::load},
+      {"implicit",
+       "stacks smoothed by a kernel, as the zero set of a field",
+       "hybrid §3.1.2",
+       {.overhangs = true, .editable = true},
+       ImplicitSurface::parameters(),
+       ImplicitSurface::build,
+       ImplicitSurface::load},
       {"drill",
        "channels drilled into a plateau",
        "drill §2",

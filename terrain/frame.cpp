@@ -127,10 +127,15 @@ std::size_t DirtyRange::bytes() const {
 }
 
 FrameStats count(std::span<const Batch> batches, std::span<const DirtyRange> uploads, std::size_t changes,
-                 std::size_t clip_levels) {
+                 std::size_t clip_levels, std::span<const FrameMesh> meshes) {
   FrameStats stats{.bytes_commands = kBytesPerBatch * batches.size() + kBytesPerClipLevel * clip_levels,
                    .changes = changes};
   for (const Batch& batch : batches) stats.triangles += batch.index_count / 3;
+  for (const FrameMesh& mesh : meshes) {
+    if (!mesh.drawn) continue;
+    stats.triangles += mesh.triangles();
+    stats.bytes_commands += kBytesPerBatch;
+  }
   for (const DirtyRange& range : uploads) stats.bytes_uploaded += range.bytes();
   return stats;
 }
@@ -174,7 +179,9 @@ void triangles(const Frame& frame, const TriangleSink& sink) {
       done += n;
     }
   }
-  for (const FrameMesh& mesh : frame.meshes) mesh_triangles(mesh, corners, sink);
+  for (const FrameMesh& mesh : frame.meshes) {
+    if (mesh.drawn) mesh_triangles(mesh, corners, sink);
+  }
 }
 
 }  // namespace terrabench

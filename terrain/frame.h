@@ -66,6 +66,10 @@ struct FrameMesh {
   std::uint64_t id = 0;
   std::span<const glm::vec3> positions, normals;  // metres; a unit normal per position
   std::span<const std::uint32_t> indices;         // three per triangle
+  bool drawn = true;  // false: out of view; kept on the GPU for later frames, but not drawn in this one
+
+  std::size_t triangles() const { return indices.size() / 3; }
+  std::size_t bytes() const { return positions.size_bytes() + normals.size_bytes() + indices.size_bytes(); }
 };
 
 // A part of the frame's arrays that differs from the last frame: a range of indices, of grid heights or of
@@ -85,8 +89,8 @@ struct DirtyRange {
   std::size_t bytes() const;
 };
 
-// Bytes sent to the GPU with every frame, changed or not: per batch a draw command of 20 bytes and a record
-// of 16, and per clip level its position and transition.
+// Bytes sent to the GPU with every frame, changed or not: per batch and per mesh that is drawn a draw command
+// of 20 bytes and a record of 16, and per clip level its position and transition.
 inline constexpr std::size_t kBytesPerBatch = 36;
 inline constexpr std::size_t kBytesPerClipLevel = 32;
 
@@ -118,9 +122,9 @@ struct Frame {
   FrameStats stats{};
 };
 
-// The stats of a frame with these batches, uploads and clip levels. O(batches + uploads).
+// The stats of a frame with these batches, uploads, clip levels and meshes. O(batches + uploads + meshes).
 FrameStats count(std::span<const Batch>, std::span<const DirtyRange>, std::size_t changes,
-                 std::size_t clip_levels = 0);
+                 std::size_t clip_levels = 0, std::span<const FrameMesh> = {});
 
 // The height of sample (i, j) in the patch whose low corner is sample (i0, j0). O(1).
 float morphed_height(const GroundGrid&, int patch_side, const PatchMorph&, int level, glm::ivec2 low,
@@ -131,7 +135,8 @@ glm::vec3 vertex_position(const Frame&, const Batch&, std::uint32_t vertex);
 
 // Receives the corners of triangles, three per triangle, in blocks.
 using TriangleSink = std::function<void(std::span<const glm::vec3>)>;
-// Passes the triangles that the GPU draws for this frame to the sink, batch by batch and then mesh by mesh.
+// Passes the triangles that the GPU draws for this frame to the sink, batch by batch and then mesh by mesh,
+// without meshes that are not drawn.
 // O(triangles).
 void triangles(const Frame&, const TriangleSink&);
 

@@ -6,7 +6,8 @@
 
 namespace terrabench {
 
-std::unique_ptr<Lod> BruteForce::build(const Heightfield& ground, const Parameters&, Progress&) {
+std::unique_ptr<Lod> BruteForce::build(const LodGround& from, const Parameters&, Progress&) {
+  const Heightfield& ground = from.heights;
   check_ground(ground);
   return std::make_unique<BruteForce>(ground);
 }

@@ -12,7 +12,7 @@ namespace terrabench {
 class BruteForce : public Lod {
  public:
   // The field must outlive it.
-  static std::unique_ptr<Lod> build(const Heightfield&, const Parameters&, Progress&);
+  static std::unique_ptr<Lod> build(const LodGround&, const Parameters&, Progress&);
   static Knob knob() { return {"stride", "samples", 1, 1, 1, true}; }
 
   explicit BruteForce(const Heightfield&);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "terrain/error.h"
 #include "terrain/frustum.h"
@@ -20,6 +21,9 @@ constexpr float kLeastDivisor = 1e-6F;           // in set_transition(): keeps t
 
 // Largest distance to which endless ground is drawn, samples, so that all sample numbers fit into an int.
 constexpr double kFarthestSight = 1 << 26;
+
+// Width of the transition in a window of n samples.
+float transition_width(int n) { return std::max(1.0F, kTransition * static_cast<float>(n)); }
 
 // Samples of bounded ground along its longer side.
 int longest(const HeightSource& source) {
@@ -58,7 +62,8 @@ int ceiling(int samples, int spacing) {
 
 }  // namespace
 
-std::unique_ptr<Lod> Clipmap::build(const Heightfield& ground, const Parameters&, Progress&) {
+std::unique_ptr<Lod> Clipmap::build(const LodGround& from, const Parameters&, Progress&) {
+  const Heightfield& ground = from.heights;
   check_ground(ground);
   return std::make_unique<Clipmap>(heights_in_memory(ground), static_cast<int>(knob().fallback));
 }
@@ -110,6 +115,42 @@ void Clipmap::move_origin(glm::ivec2 sample) {
   origin_ = sample;
 }
 
+int Clipmap::reach_of(int window) {
+  const int m = (window + 1) / 4;
+  return static_cast<int>(static_cast<float>(2 * m - 3) - transition_width(4 * m - 1));
+}
+
+int Clipmap::window_of(int reach) {
+  int m = kSmallestM;
+  while (m < kLargestM && reach_of(4 * m - 1) < reach) ++m;
+  return 4 * m - 1;
+}
+
+void Clipmap::set_hole(glm::ivec2 low, glm::ivec2 high) {
+  if (low == high) high = low = glm::ivec2(0);
+  if (low == hole_low_ && high == hole_high_) return;
+  hole_low_ = low;
+  hole_high_ = high;
+  hole_cut_ = false;
+}
+
+// Finds how far the hole reaches. Where one level covers all ground, nothing has to fit around the hole.
+void Clipmap::check_hole(glm::dvec2 eye) {
+  if (!has_hole()) return;
+  const glm::dvec2 reach = glm::max(glm::dvec2(hole_high_) - eye, eye - glm::dvec2(hole_low_));
+  hole_reach_ = static_cast<float>(std::max(reach.x, reach.y));
+  const bool on_ground = glm::all(glm::greaterThanEqual(hole_low_, source_->first())) &&
+                         glm::all(glm::lessThanEqual(hole_high_, source_->last())) &&
+                         glm::all(glm::lessThan(hole_low_, hole_high_));
+  const bool one_level = levels() == 1 && source_->bounded();
+  if (on_ground && (one_level || hole_reach_ <= static_cast<float>(reach_of(pattern_.n)))) return;
+  throw usage_error(
+      fmt::format("a hole from sample ({}, {}) to ({}, {}) is not on the ground, or reaches {:.0f} samples "
+                  "from the eye and the finest window only {}",
+                  hole_low_.x, hole_low_.y, hole_high_.x, hole_high_.y, hole_reach_, reach_of(pattern_.n)),
+      "hole", "choose a smaller hole or a larger window");
+}
+
 // The eye in samples, clamped to the ground.
 glm::dvec2 Clipmap::eye_in_samples(const View& view) const {
   const glm::dvec2 eye(view.eye.x / static_cast<double>(source_->cell_x()),
@@ -125,6 +166,8 @@ float Clipmap::ground_below_eye(glm::dvec2 eye) {
 
 const Frame& Clipmap::update(const View& view) {
   check_view(view);
+  const glm::dvec2 eye = eye_in_samples(view);
+  check_hole(eye);
   batches_.clear();
   uploads_.clear();
   moved_ = 0;
@@ -134,11 +177,11 @@ const Frame& Clipmap::update(const View& view) {
     indices_uploaded_ = true;
   }
   add_levels_in_sight(view);
-  const glm::dvec2 eye = eye_in_samples(view);
   const float height = view.eye.y - ground_below_eye(eye);
   const float cell = std::max(source_->cell_x(), source_->cell_z());
   int finest = 0;
-  while (finest + 1 < levels() && height > kHighestEye * static_cast<float>(pattern_.n << finest) * cell)
+  while (!has_hole() && finest + 1 < levels() &&
+         height > kHighestEye * static_cast<float>(pattern_.n << finest) * cell)
     ++finest;
 
   for (int l = finest; l < levels(); ++l) {
@@ -147,9 +190,13 @@ const Frame& Clipmap::update(const View& view) {
     // window begins m - 1 or m samples inside this one.
     move_window(l, {2 * (lattice_floor(eye.x, 2 * spacing) - pattern_.m + 1),
                     2 * (lattice_floor(eye.y, 2 * spacing) - pattern_.m + 1)});
+    if (l == 0 && !hole_cut_) update_blocks(l);
     ClipLevel& level = clip_levels_[l];
     level.eye = eye / static_cast<double>(spacing) - glm::dvec2(level.corner);
-    set_transition(l, height / (kHighestEye * static_cast<float>(pattern_.n << l) * cell));
+    // With a hole, the eye may be higher than where the finest level is left out otherwise. Beyond the
+    // finest, transitions must not grow: they would move vertices that the next finer level ends at.
+    const float rise = height / (kHighestEye * static_cast<float>(pattern_.n << l) * cell);
+    set_transition(l, l == finest ? rise : std::min(rise, 0.5F));
   }
   const Frustum frustum(view);
   for (int l = finest; l < levels(); ++l) draw_level(l, finest, frustum);
@@ -173,8 +220,9 @@ void Clipmap::set_transition(int l, float rise) {
   ClipLevel& level = clip_levels_[l];
   if (l + 1 == levels()) return;
   level.to = static_cast<float>(2 * pattern_.m - 2);  // the eye's least distance from the border, samples
-  const float width = std::max(1.0F, kTransition * static_cast<float>(pattern_.n));
-  level.from = level.to - width / std::clamp(2 - 2 * rise, kLeastDivisor, 1.0F);
+  level.from = level.to - transition_width(pattern_.n) / std::clamp(2 - 2 * rise, kLeastDivisor, 1.0F);
+  // One sample more, so that rounding cannot move vertices at the rim of the hole.
+  if (l == 0 && has_hole()) level.from = std::max(level.from, hole_reach_ + 1);
 }
 
 // Reads the samples that entered the window; samples that stay keep their place in the array.
@@ -234,10 +282,13 @@ void Clipmap::update_blocks(int l) {
   const glm::ivec2 begin(lattice_floor(first.x, spacing), lattice_floor(first.y, spacing));
   const glm::ivec2 end(ceiling(last.x, spacing), ceiling(last.y, spacing));
   std::size_t number = 0;
+  if (l == 0) hole_cut_ = true;
   level.ranges.clear();
   for (const auto* blocks : {&pattern_.ring, &pattern_.middle, &pattern_.trims}) {
     for (const clipmap::Block& block : *blocks) {
-      append_inside(pattern_, block, begin - corner, end - corner, level.ranges);
+      const bool cut = l == 0 && has_hole();
+      append_outside(pattern_, block, begin - corner, end - corner, cut ? hole_low_ - corner : glm::ivec2(0),
+                     cut ? hole_high_ - corner : glm::ivec2(0), level.ranges);
       level.block_ends[number] = static_cast<std::uint32_t>(level.ranges.size());
       const glm::ivec2 low = glm::max(glm::ivec2(block.x0, block.z0) - 1, 0);
       const glm::ivec2 high = glm::min(glm::ivec2(block.x1, block.z1) + 1, pattern_.n - 1);

@@ -32,7 +32,7 @@ namespace terrabench {
 class Clipmap : public Lod {
  public:
   // The field must outlive it.
-  static std::unique_ptr<Lod> build(const Heightfield&, const Parameters&, Progress&);
+  static std::unique_ptr<Lod> build(const LodGround&, const Parameters&, Progress&);
   static Knob knob() { return {"window", "samples", 4095, 15, 255, true}; }
 
   // `window`: samples per side, rounded to 4m - 1 ≥ 15 and limited to what covers the ground.
@@ -46,6 +46,15 @@ class Clipmap : public Lod {
   // sample is not on the ground.
   void move_origin(glm::ivec2 sample);
   glm::ivec2 origin() const { return origin_; }
+
+  // From the next update() on, the finest level is drawn at any height of the eye, but not its cells from
+  // sample `low` to sample `high`, where something else is drawn; its transition begins outside them. low =
+  // high: no hole. The next update() throws usage_error when the hole reaches more than reach_of(window())
+  // samples from the eye along an axis, or beyond the ground.
+  void set_hole(glm::ivec2 low, glm::ivec2 high);
+  static int reach_of(int window);
+  // The smallest window with at least this reach; see also the constructor.
+  static int window_of(int reach);
 
   int levels() const { return static_cast<int>(storage_.size()); }
   int window() const { return pattern_.n; }
@@ -71,11 +80,16 @@ class Clipmap : public Lod {
   void move_window(int level, glm::ivec2 corner);
   void read_strip(int level, int a, int b, int columns, int rows);
   void update_blocks(int level);
+  bool has_hole() const { return hole_low_ != hole_high_; }
+  void check_hole(glm::dvec2 eye);
   void draw_level(int level, int finest, const class Frustum&);
   void draw_block(int level, std::size_t number, const clipmap::Block&, const Frustum&);
 
   std::unique_ptr<HeightSource> source_;
   glm::ivec2 origin_{0};
+  glm::ivec2 hole_low_{0}, hole_high_{0};  // samples
+  float hole_reach_ = 0;                   // from the eye, samples, in this update
+  bool hole_cut_ = true;                   // out of the index ranges
   clipmap::WindowPattern pattern_;
   std::vector<ClipLevel> clip_levels_;  // per level, finest first: as the frame describes them
   std::vector<LevelStorage> storage_;   // per level

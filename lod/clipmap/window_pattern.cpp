@@ -87,17 +87,21 @@ class Inside {
   std::size_t begin_;
 };
 
+constexpr int kOfCell = 6;  // indices per cell away from the window's border
+
 }  // namespace
 
-void append_inside(const WindowPattern& pattern, const Block& block, glm::ivec2 low, glm::ivec2 high,
-                   std::vector<IndexRange>& ranges) {
-  constexpr int kOfCell = 6;  // indices per cell away from the window's border
+void append_outside(const WindowPattern& pattern, const Block& block, glm::ivec2 low, glm::ivec2 high,
+                    glm::ivec2 hole_low, glm::ivec2 hole_high, std::vector<IndexRange>& ranges) {
   low = glm::clamp(low, 0, pattern.n - 1);
   high = glm::clamp(high, 0, pattern.n - 1);
   const auto even_inside = [](int from, int to, int first, int last) {
     return (from & ~1) >= first && ((to + 1) & ~1) <= last;
   };
-  if (even_inside(block.x0, block.x1, low.x, high.x) && even_inside(block.z0, block.z1, low.y, high.y)) {
+  const bool cut =
+      hole_low.x < block.x1 && hole_high.x > block.x0 && hole_low.y < block.z1 && hole_high.y > block.z0;
+  if (!cut && even_inside(block.x0, block.x1, low.x, high.x) &&
+      even_inside(block.z0, block.z1, low.y, high.y)) {
     ranges.push_back(block.indices);
     return;
   }
@@ -117,8 +121,10 @@ void append_inside(const WindowPattern& pattern, const Block& block, glm::ivec2 
     const std::uint32_t begin = block.x0 < x0 ? row[1] - regular : row[0];
     inside.add_one_by_one(row[0], begin);
     if (z >= low.y && z < high.y && from < to) {
-      inside.add(begin + static_cast<std::uint32_t>(kOfCell * (from - x0)),
-                 begin + static_cast<std::uint32_t>(kOfCell * (to - x0)));
+      const auto at = [&](int x) { return begin + static_cast<std::uint32_t>(kOfCell * (x - x0)); };
+      const bool in_hole = z >= hole_low.y && z < hole_high.y;
+      inside.add(at(from), at(in_hole ? std::clamp(hole_low.x, from, to) : to));
+      if (in_hole) inside.add(at(std::clamp(hole_high.x, from, to)), at(to));
     }
     inside.add_one_by_one(begin + regular, row[1]);
   }

@@ -37,9 +37,10 @@ struct WindowPattern {
 WindowPattern make_window_pattern(int m);
 
 // Appends the index ranges of the block's triangles that have plan area when vertices are clamped to
-// low … high, samples of the window: a single range, or one per row if an edge of the ground cuts the block's
-// rows. O(rows).
-void append_inside(const WindowPattern&, const Block&, glm::ivec2 low, glm::ivec2 high,
-                   std::vector<IndexRange>&);
+// low … high, samples of the window, without the cells from sample hole_low to sample hole_high (equal: no
+// hole), none of which may lie at the window's border. One range, or one or two per row if an edge of the
+// ground or the hole cuts the block's rows. O(rows).
+void append_outside(const WindowPattern&, const Block&, glm::ivec2 low, glm::ivec2 high, glm::ivec2 hole_low,
+                    glm::ivec2 hole_high, std::vector<IndexRange>&);
 
 }  // namespace terrabench::clipmap

@@ -36,8 +36,9 @@ std::span<const ParameterSpec> GeoMipMap::parameters() {
   return kSpecs;
 }
 
-std::unique_ptr<Lod> GeoMipMap::build(const Heightfield& ground, const Parameters& parameters,
+std::unique_ptr<Lod> GeoMipMap::build(const LodGround& from, const Parameters& parameters,
                                       Progress& progress) {
+  const Heightfield& ground = from.heights;
   check_ground(ground);
   Options options{static_cast<int>(parameters.integer("patch")), parameters.flag("level_camera"),
                   parameters.flag("morph")};

@@ -32,7 +32,7 @@ class GeoMipMap : public Lod {
   };
 
   // The field must outlive it.
-  static std::unique_ptr<Lod> build(const Heightfield&, const Parameters&, Progress&);
+  static std::unique_ptr<Lod> build(const LodGround&, const Parameters&, Progress&);
   static Knob knob() { return {"error", "px", 0.05, 200, 2}; }
   static std::span<const ParameterSpec> parameters();
 

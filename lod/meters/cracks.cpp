@@ -111,6 +111,7 @@ bool on_border(const Edge& e, int width, int depth) {
 std::vector<Open> open_edges(const Frame& frame, int width, int depth, CrackReport& report) {
   std::size_t triangles = 0;
   for (const Batch& batch : frame.batches) triangles += batch.index_count / 3;
+  for (const FrameMesh& mesh : frame.meshes) triangles += mesh.triangles();
   const std::size_t passes = 3 * triangles / kEdgesAtOnce + 1;
   std::vector<Open> open;
   for (std::size_t pass = 0; pass < passes; ++pass) {

@@ -1,4 +1,5 @@
-// Detects T-junctions, gaps and overlaps in the drawn surface of any method.
+// Detects T-junctions, gaps and overlaps in the drawn surface of any method over a heightfield. For ground
+// with overhangs and caves see openings.h.
 //
 // An edge is closed when another triangle has the same edge, in plan and heights, in the opposite direction.
 // The other edges are grouped by their line in plan. On each line, the heights of its two sides are compared

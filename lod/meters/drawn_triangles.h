@@ -1,6 +1,7 @@
-// The triangles that a frame draws, with corners by sample of the full terrain, for the meters. Every
-// method's vertices lie over samples (terrain/frame.h), so plan positions are integers and all plan geometry
-// is exact. O(triangles), in parallel.
+// The triangles that a frame draws, with corners by sample of the full terrain, for the meters of ground that
+// is a heightfield. Every method's vertices lie over samples there (terrain/frame.h), so plan positions are
+// integers and all plan geometry is exact. Vertices of meshes in space count as lying over the nearest
+// sample; for ground with overhangs see openings.h. O(triangles), in parallel.
 #pragma once
 
 #include <functional>

@@ -23,6 +23,10 @@ class Projector {
   double pixels_between(const glm::dvec3&, const glm::dvec3&) const;
   // Whether any part of the segment is in view, by more than rounding.
   bool sees_segment(const glm::dvec3&, const glm::dvec3&) const;
+  // Through a point of the screen, pixels; per metre of depth.
+  glm::dvec3 direction(double x, double y) const {
+    return forward_ + ((x - 0.5 * width_) * right_ + (0.5 * height_ - y) * above_) / focal_;
+  }
   double focal() const { return focal_; }  // pixels per metre at a depth of 1 m
 
  private:

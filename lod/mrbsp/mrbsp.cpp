@@ -43,8 +43,8 @@ BisectionTree tree_for_interpolation(const Heightfield& ground, int depth) {
 
 }  // namespace
 
-std::unique_ptr<Lod> Mrbsp::build(const Heightfield& ground, const Parameters& parameters,
-                                  Progress& progress) {
+std::unique_ptr<Lod> Mrbsp::build(const LodGround& from, const Parameters& parameters, Progress& progress) {
+  const Heightfield& ground = from.heights;
   const MrbspOptions options = options_of(parameters);
   const std::string& file = parameters.text("visibility_file");
   if (!file.empty() && !options.visibility) {

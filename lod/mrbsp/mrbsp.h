@@ -34,7 +34,7 @@ struct MrbspOptions {
 class Mrbsp : public Lod {
  public:
   // The field must outlive it.
-  static std::unique_ptr<Lod> build(const Heightfield&, const Parameters&, Progress&);
+  static std::unique_ptr<Lod> build(const LodGround&, const Parameters&, Progress&);
   static std::span<const ParameterSpec> parameters();
   static Knob knob() { return {"size", "short sides", 65536, 1.0 / 64, 1, false}; }
 

@@ -35,8 +35,8 @@ std::span<const ParameterSpec> Roam::parameters() {
   return specs;
 }
 
-std::unique_ptr<Lod> Roam::build(const Heightfield& ground, const Parameters& parameters,
-                                 Progress& progress) {
+std::unique_ptr<Lod> Roam::build(const LodGround& from, const Parameters& parameters, Progress& progress) {
+  const Heightfield& ground = from.heights;
   check_ground(ground);
   const RoamOptions options{.max_error = parameters.number("max_error"),
                             .triangles = static_cast<std::size_t>(parameters.integer("triangles")),

@@ -52,7 +52,7 @@ struct RoamOptions {
 class Roam : public Lod {
  public:
   // The field must outlive it.
-  static std::unique_ptr<Lod> build(const Heightfield&, const Parameters&, Progress&);
+  static std::unique_ptr<Lod> build(const LodGround&, const Parameters&, Progress&);
   static std::span<const ParameterSpec> parameters();
   static Knob knob() { return {"max_error", "px", 0.1, 1000, 1, false}; }
 

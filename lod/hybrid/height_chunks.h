@@ -1,0 +1,34 @@
+// A heightfield as chunks of a mesh: two triangles per cell, split as a clipmap splits them. The near surface
+// of ground that has no other. Cells need not be square here; cell() is the one along x.
+#pragma once
+
+#include "lod/hybrid/chunk_layout.h"
+
+namespace terrabench::hybrid {
+
+class HeightChunks final : public MeshChunks {
+ public:
+  explicit HeightChunks(const Heightfield& heights) : heights_(heights) {}  // must outlive it
+
+  Bounds bounds() const override;  // O(samples)
+  float cell() const override { return heights_.cell_x; }
+  int cells() const override { return kCells; }
+  glm::ivec2 chunks() const override { return layout().chunks; }
+  // O(cells). `detail` must be 0.
+  TriangleMesh chunk(glm::ivec2 at, int detail) const override;
+  std::uint64_t version(glm::ivec2) const override { return 0; }
+
+  // The chunks cover the ground; the last ones may be narrower.
+  ChunkLayout layout() const;
+
+ private:
+  static constexpr int kCells = 16;
+  const Heightfield& heights_;
+};
+
+// The place of a sample as renderers compute it (vertex_position()), and the surface's unit normal there by
+// central differences. O(1)
+glm::vec3 place_of(const Heightfield&, glm::ivec2 sample);
+glm::vec3 normal_of(const Heightfield&, glm::ivec2 sample);
+
+}  // namespace terrabench::hybrid

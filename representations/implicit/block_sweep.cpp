@@ -1,0 +1,158 @@
+#include "representations/implicit/block_sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace terrabench {
+
+FieldLattice::FieldLattice(const Bounds& bounds, float cell_size)
+    : low(bounds.low), high(bounds.high), cell(cell_size) {
+  for (int axis = 0; axis < 3; ++axis) {
+    // A remainder below a thousandth of a cell is rounding, not ground.
+    const double count = std::ceil(static_cast<double>(bounds.size()[axis]) / cell_size - 1e-3);
+    cells[axis] = std::max(1, static_cast<int>(count));
+  }
+}
+
+BlockSweep::BlockSweep(const BlockTask& task)
+    : task_(task), z_(task.begin.y), width_(static_cast<std::size_t>(task.end.x - task.begin.x) + 3) {
+  choose_levels();
+  if (empty()) return;
+  for (int i = task.begin.x - 1; i <= task.end.x + 1; ++i) xs_.push_back(task.lattice.position(0, i));
+  for (int n = 0; n < points_; ++n) ys_.push_back(task.lattice.position(1, first_y_ + n));
+  words_ = static_cast<std::size_t>(points_ + 63) / 64;
+  values_.resize(4 * width_ * ys_.size());
+  bits_.resize(4 * width_ * words_);
+  planes_ = task.field.planes(xs_, ys_);
+  for (int j = z_ - 1; j <= std::min(z_ + 2, task.end.y + 1); ++j) load(j);
+}
+
+// Leaves out the heights below which all is solid and above which all is air.
+void BlockSweep::choose_levels() {
+  const FieldLattice& lattice = task_.lattice;
+  const auto [solid, air] =
+      task_.field.heights({lattice.position(0, task_.begin.x - 1), lattice.position(2, task_.begin.y - 1)},
+                          {lattice.position(0, task_.end.x + 1), lattice.position(2, task_.end.y + 1)});
+  if (!(solid < air)) return;
+  const auto point = [&](double y) {
+    return std::clamp((y - lattice.low.y) / lattice.cell, 0.0, static_cast<double>(lattice.cells.y));
+  };
+  const int last = static_cast<int>(std::ceil(point(air)));
+  const int first = task_.closed ? 0 : std::min(last, static_cast<int>(std::floor(point(solid))));
+  first_y_ = first - 1;
+  points_ = last - first + 3;
+}
+
+void BlockSweep::load(int j) {
+  planes_->sample(task_.lattice.position(2, j),
+                  std::span(values_).subspan(slot(j) * width_ * ys_.size(), width_ * ys_.size()));
+  set_bits(j);
+}
+
+void BlockSweep::set_bits(int j) {
+  std::uint64_t* const plane = &bits_[slot(j) * width_ * words_];
+  const float* values = &values_[slot(j) * width_ * ys_.size()];
+  std::fill(plane, plane + width_ * words_, 0);
+  if (task_.closed && (j < 0 || j > task_.lattice.cells.z)) return;
+  for (std::size_t i = 0; i < width_; ++i, values += ys_.size()) {
+    const int x = task_.begin.x - 1 + static_cast<int>(i);
+    if (task_.closed && (x < 0 || x > task_.lattice.cells.x)) continue;
+    std::uint64_t* column = plane + i * words_;
+    for (std::size_t n = 1; n + 1 < ys_.size(); ++n) {
+      column[n / 64] |= static_cast<std::uint64_t>(values[n] > 0) << (n % 64);
+    }
+    if (task_.closed) continue;
+    const std::size_t last = ys_.size() - 1;
+    column[0] |= column[0] >> 1 & 1;
+    column[last / 64] |= (column[(last - 1) / 64] >> ((last - 1) % 64) & 1) << (last % 64);
+  }
+  if (task_.closed) return;
+  const auto copy = [&](std::size_t from, std::size_t to) {
+    std::copy_n(plane + from * words_, words_, plane + to * words_);
+  };
+  copy(1, 0);
+  copy(width_ - 2, width_ - 1);
+  // Planes outside the block equal the plane at its border, which is sampled after the first and before the
+  // last.
+  const std::size_t size = width_ * words_;
+  if (j == task_.begin.y) std::copy_n(plane, size, &bits_[slot(j - 1) * size]);
+  if (j == task_.end.y + 1) std::copy_n(&bits_[slot(j - 1) * size], size, plane);
+}
+
+void BlockSweep::advance() {
+  ++z_;
+  if (z_ + 2 <= task_.end.y + 1) load(z_ + 2);
+}
+
+std::uint64_t BlockSweep::crossed_cells(int i, int j, std::size_t w) const {
+  const std::uint64_t *a = solid(i, j), *b = solid(i + 1, j), *c = solid(i, j + 1), *d = solid(i + 1, j + 1);
+  const std::uint64_t any = a[w] | b[w] | c[w] | d[w], all = a[w] & b[w] & c[w] & d[w];
+  const std::uint64_t any_above = above(a, w) | above(b, w) | above(c, w) | above(d, w);
+  const std::uint64_t all_above = above(a, w) & above(b, w) & above(c, w) & above(d, w);
+  return (any | any_above) & ~(all & all_above);
+}
+
+int BlockSweep::cell_case(int i, int j, int n) const {
+  int solid_corners = 0;
+  for (int corner = 0; corner < 8; corner += 2) {
+    // Corners along x are 1 apart, along y 2, along z 4.
+    const int m = n + (corner >> 1 & 1), z = j + (corner >> 2);
+    solid_corners |= static_cast<int>(bit(solid(i, z), m)) << corner;
+    solid_corners |= static_cast<int>(bit(solid(i + 1, z), m)) << (corner + 1);
+  }
+  return solid_corners;
+}
+
+bool BlockSweep::outside(glm::ivec3 point) const {
+  const int k = first_y_ + point.y;
+  const glm::ivec3 cells = task_.lattice.cells;
+  return point.x < 0 || point.x > cells.x || k < 0 || k > cells.y || point.z < 0 || point.z > cells.z;
+}
+
+glm::vec3 BlockSweep::gradient(glm::ivec3 p) const {
+  const FieldLattice& lattice = task_.lattice;
+  const int k = first_y_ + p.y;
+  if (const float step = task_.gradient_step; step > 0) {
+    const glm::vec3 at{lattice.position(0, p.x), lattice.position(1, k), lattice.position(2, p.z)};
+    glm::vec3 slope;
+    for (int axis = 0; axis < 3; ++axis) {
+      glm::vec3 low = at, high = at;
+      low[axis] -= step;
+      high[axis] += step;
+      slope[axis] = (task_.field.at(high) - task_.field.at(low)) / (high[axis] - low[axis]);
+    }
+    return slope;
+  }
+  const auto distance = [&](int axis, int index) {
+    return lattice.position(axis, index + 1) - lattice.position(axis, index - 1);
+  };
+  return {(value(p.x + 1, p.z, p.y) - value(p.x - 1, p.z, p.y)) / distance(0, p.x),
+          (value(p.x, p.z, p.y + 1) - value(p.x, p.z, p.y - 1)) / distance(1, k),
+          (value(p.x, p.z + 1, p.y) - value(p.x, p.z - 1, p.y)) / distance(2, p.z)};
+}
+
+BlockSweep::Crossing BlockSweep::crossing(int axis, int i, int j, int n) const {
+  const FieldLattice& lattice = task_.lattice;
+  const glm::ivec3 low{i, n, j};
+  glm::ivec3 high = low;
+  ++high[axis];
+  const auto place = [&](glm::ivec3 p) {
+    return glm::vec3{lattice.position(0, p.x), lattice.position(1, first_y_ + p.y), lattice.position(2, p.z)};
+  };
+  const bool solid_low = bit(solid(i, j), n);
+  glm::vec3 outward(0);
+  outward[axis] = solid_low ? 1.0F : -1.0F;
+  if (task_.closed && (outside(low) || outside(high))) return {place(solid_low ? low : high), outward};
+  const float a = value(low.x, low.z, low.y), b = value(high.x, high.z, high.y);
+  const float t = a / (a - b);
+  Crossing at;
+  at.position = place(low);
+  at.position[axis] += t * (place(high)[axis] - at.position[axis]);
+  const glm::vec3 slope = (1 - t) * gradient(low) + t * gradient(high);
+  const float length = glm::length(slope);
+  at.normal = length > 0 ? -slope / length : outward;
+  return at;
+}
+
+}  // namespace terrabench

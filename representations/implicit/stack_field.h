@@ -1,0 +1,73 @@
+// The field of the hybrid paper's implicit surface (§3.1.2, after Peytavie et al. 2009): material stacks, +1
+// where they are solid and -1 in air, convolved with a kernel of radius σ. With V the volume of material
+// inside the kernel's support around p and V_all the support's volume, f(p) = 2 V / V_all - 1: exactly 1
+// where the support is full, exactly -1 where it is empty, exactly 0 where it is half full.
+//
+// Exactly, because all volumes are sums of integers: positions and radius are rounded to a fraction of a
+// column and of a level (1/256 for the cube, coarser for very large kernels; in plan 1/8 of a column for the
+// sphere). Points at the columns' corners, and a radius of whole columns, are not rounded at all.
+//
+// The ground continues: beyond the sides as the outermost columns, below the floor as the lowest level.
+// Above the highest level is air.
+//
+// Cube: volumes are differences of prefix sums along y, x and z in turn, so that a sample of planes() costs
+// the same for any σ. Sphere: sphere_chords.h; a sample costs O((σ / column)²).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "representations/implicit/sampled_field.h"
+#include "representations/implicit/sphere_chords.h"
+#include "representations/layered_stack/layered_stack.h"
+
+namespace terrabench {
+
+enum class Kernel : std::uint8_t { kCube, kSphere };
+inline constexpr std::array<std::string_view, 2> kKernelNames{"cube", "sphere"};
+
+class StackField final : public SampledField {
+ public:
+  // `radius` in metres, positive. Keeps a reference to the stacks, which may be edited between calls. Throws
+  // usage_error for a sphere of more than SphereChords::kMaxRadius columns, and for a cube whose volume in
+  // units exceeds the exact integers of a double (a radius of some thousand columns).
+  StackField(const LayeredStack&, Kernel, double radius);
+
+  Kernel kernel() const { return kernel_; }
+  double radius() const { return radius_; }
+  // How far positions along x or z and the radius together may be moved by rounding, metres.
+  double rounding() const;
+
+  std::unique_ptr<FieldPlanes> planes(std::span<const float> xs, std::span<const float> ys) const override;
+  float at(glm::vec3) const override;
+  Heights heights(glm::dvec2 low, glm::dvec2 high) const override;
+  // Along a vertical line: heights y ascend. O(columns of the support · (their runs + y)).
+  void line(double x, double z, std::span<const float> y, std::span<float> out) const;
+  Memory memory() const { return chords_.memory(); }
+
+ private:
+  friend class CubePlanes;
+  // Positions in units from the grid's border or floor.
+  std::int64_t unit_x(double x) const;
+  std::int64_t unit_z(double z) const;
+  double unit_y(double y) const;
+  void cube_volumes(double x, double z, std::span<const double> v, std::span<double> volume) const;
+  // Returns the volume of the whole sphere.
+  double sphere_volumes(double x, double z, std::span<const float> y, std::span<double> volume) const;
+
+  const LayeredStack& stack_;
+  Kernel kernel_;
+  double radius_;
+  std::int64_t column_unit_ = 256, level_unit_ = 256;        // units per column and per level
+  std::int64_t radius_x_ = 0, radius_y_ = 0, radius_z_ = 0;  // in units
+  double support_ = 0;                                       // volume of the cube, in units
+  SphereChords chords_;
+};
+
+// Adds to volume[k] the length of the column's solid part in [v[k] - radius, v[k] + radius], times `weight`.
+// `v` ascends, in units of which a level has `per_level`. The lowest level continues downward.
+void add_solid_lengths(const ColumnRuns&, double per_level, std::span<const double> v, double radius,
+                       double weight, std::span<double> volume);
+
+}  // namespace terrabench
