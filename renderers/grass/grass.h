@@ -49,7 +49,8 @@ struct GrassLook {
   glm::vec3 fog_colour{0.55F, 0.68F, 0.85F};    // far away
   glm::vec3 fog_sun_colour{1.0F, 0.85F, 0.6F};  // far away towards the sun
   float fog_density = 0;                        // per metre; 0: none
-  // Points p with dot(plane, (p, 1)) < 0 are not drawn where the caller has enabled GL_CLIP_DISTANCE0.
+  // Points p with dot(plane, (p, 1)) < 0 are not drawn. The caller enables GL_CLIP_DISTANCE0; llvmpipe clips
+  // even without. The default keeps everything.
   glm::vec4 clip_plane{0, 0, 0, 1};
   glm::vec2 wind{0};  // x, z: metres by which the tip of a strand of 1 m moves at most
   float seconds = 0;  // of the wind's motion
