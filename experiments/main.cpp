@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -13,6 +14,7 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/runner.h"
+#include "renderers/context.h"
 #include "terrain/error.h"
 #include "terrain/progress.h"
 
@@ -59,6 +61,22 @@ struct Arguments {
   int threads = 0;
 };
 
+void add_renderer(CLI::App& command, std::string& renderer) {
+  const auto names = context_names();
+  command
+      .add_option(
+          "--renderer", renderer,
+          "OpenGL context: osmesa (software), egl (the first GPU, otherwise software), glfw (a hidden "
+          "window on an X display), auto (egl if there is a GPU, otherwise osmesa)")
+      ->check(CLI::Validator(
+          [names](const std::string& value) {
+            const bool known = std::find(names.begin(), names.end(), value) != names.end();
+            return known ? std::string() : std::string(unknown_name("renderer", value, names).what());
+          },
+          ""))
+      ->capture_default_str();
+}
+
 void add_list(CLI::App& app, Arguments& a) {
   auto* command = app.add_subcommand(
       "list", "List representations, lods, experiments, claims and terrains, with their parameters");
@@ -80,7 +98,7 @@ void add_run(CLI::App& app, Arguments& a) {
   command->add_flag("--resume", a.run.resume, "Skip cases that are already in the folder");
   command->add_option("--shard", a.shard, "i/n: measure only every n-th case, starting with the i-th")
       ->capture_default_str();
-  command->add_option("--renderer", a.run.options.renderer, "OpenGL context: osmesa")->capture_default_str();
+  add_renderer(*command, a.run.options.renderer);
   command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
       ->check(CLI::Range(1, 4096));
   command->add_option("--seed", a.run.options.seed, "Seed of all randomness")->capture_default_str();
@@ -151,7 +169,7 @@ void add_represent(CLI::App& app, Arguments& a) {
       ->expected(4);
   command->add_option("--resample", a.represent.resample, "New width and depth in samples")->expected(2);
   command->add_flag("--fill", a.represent.fill, "Fill samples without data from the samples around them");
-  command->add_option("--renderer", a.represent.renderer, "OpenGL context: osmesa")->capture_default_str();
+  add_renderer(*command, a.represent.renderer);
   command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
       ->check(CLI::Range(1, 4096));
   command->add_option("--seed", a.represent.seed, "Seed of procedural terrains")->capture_default_str();

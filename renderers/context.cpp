@@ -2,17 +2,27 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
-#include <vector>
+#include <array>
 
+#include "renderers/egl/egl_context.h"
 #include "renderers/gl.h"
+#include "renderers/glfw/glfw_context.h"
 #include "renderers/osmesa/osmesa_context.h"
 #include "renderers/target.h"
 #include "terrain/error.h"
 
 namespace terrabench {
 namespace {
+
+std::unique_ptr<GlContext> open_auto(int width, int height) {
+  try {
+    auto context = open_egl(width, height, EglDevices::kGpus);
+    if (!context->software()) return context;
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kEnvironment) throw;  // a wrong size is wrong for OSMesa, too
+  }
+  return open_osmesa(width, height);
+}
 
 struct ContextType {
   std::string_view name;
@@ -22,6 +32,9 @@ struct ContextType {
 // One entry per context.
 constexpr ContextType kContexts[] = {
     {"osmesa", [](int width, int height) { return open_osmesa(width, height); }},
+    {"egl", [](int width, int height) { return open_egl(width, height); }},
+    {"glfw", [](int width, int height) { return open_glfw(width, height); }},
+    {"auto", open_auto},
 };
 
 std::string text(GLenum name) {
@@ -29,23 +42,71 @@ std::string text(GLenum name) {
   return value == nullptr ? "unknown" : value;
 }
 
+// The context that is current on this thread.
+thread_local GlContext* current = nullptr;
+
 }  // namespace
 
 GlContext::GlContext() = default;
-GlContext::~GlContext() = default;
+GlContext::~GlContext() {
+  if (current == this) current = nullptr;
+}
+
+void GlContext::make_current() {
+  // Contexts of another library must be released by that library. With EGL's still current, GLX ends the
+  // process with an X error.
+  if (current != this) leave_current();
+  acquire();
+  current = this;
+}
+
+void GlContext::leave_current() noexcept {
+  if (current != nullptr) current->release();
+  current = nullptr;
+}
+
+void GlContext::open_target(int width, int height) {
+  make_current();
+  target_ = std::make_unique<RenderTarget>(width, height);
+}
+
+void GlContext::close_target() noexcept {
+  try {
+    make_current();
+  } catch (const Error&) {
+    // The context was lost, and the picture with it. No context is current now, so deleting does nothing.
+  }
+  target_.reset();
+  release();
+  if (current == this) current = nullptr;
+}
 
 std::string GlContext::renderer() const {
   return fmt::format("{}, OpenGL {}", text(GL_RENDERER), text(GL_VERSION));
+}
+
+bool GlContext::software() const {
+  const std::string name = text(GL_RENDERER);
+  for (const std::string_view known : {"llvmpipe", "softpipe", "swrast", "Software Rasterizer"}) {
+    if (name.find(known) != std::string::npos) return true;
+  }
+  return false;
+}
+
+std::span<const std::string_view> context_names() {
+  static const auto names = [] {
+    std::array<std::string_view, std::size(kContexts)> all;
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = kContexts[i].name;
+    return all;
+  }();
+  return names;
 }
 
 std::unique_ptr<GlContext> open_context(std::string_view name, int width, int height) {
   for (const ContextType& type : kContexts) {
     if (type.name == name) return type.open(width, height);
   }
-  std::vector<std::string_view> known;
-  std::transform(std::begin(kContexts), std::end(kContexts), std::back_inserter(known),
-                 [](const ContextType& type) { return type.name; });
-  throw unknown_name("renderer", name, known);
+  throw unknown_name("renderer", name, context_names());
 }
 
 }  // namespace terrabench

@@ -1,7 +1,9 @@
-// An OpenGL 4.5 core context with a picture to draw into. The same OpenGL code runs on all contexts.
+// An OpenGL 4.5 core context with a picture to draw into. The same OpenGL code runs on all contexts, and
+// contexts of different kinds may exist beside each other.
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -9,28 +11,49 @@ namespace terrabench {
 
 class RenderTarget;
 
+// Used and destroyed on the thread that opened it.
 class GlContext {
  public:
   virtual ~GlContext();
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
 
-  virtual void make_current() = 0;
-  virtual void present() {}  // shows the frame, where there is a window
+  // Takes the place of the thread's current context. Throws environment_error if the context was lost.
+  void make_current();
+  virtual void present() {}  // shows the picture, where there is a window; never waits for the display
+
+  // Leaves the thread without a current context.
+  static void leave_current() noexcept;
 
   // GL_RENDERER and GL_VERSION, recorded with every picture and frame time. The context must be current.
   std::string renderer() const;
+  // Whether the processor draws (Mesa's llvmpipe or softpipe). The context must be current.
+  bool software() const;
   RenderTarget& target() { return *target_; }
 
  protected:
   GlContext();
-  // Created by the derived constructor and released by its destructor, while the context is current.
+  virtual void acquire() = 0;           // makes it current and loads its functions; throws if that fails
+  virtual void release() noexcept = 0;  // leaves the thread without a current context
+
+  // To be called by the derived constructor, and by its destructor before the context is destroyed.
+  void open_target(int width, int height);
+  void close_target() noexcept;
+
+ private:
   std::unique_ptr<RenderTarget> target_;
 };
 
-// `name`: "osmesa" (software, needs no display). Throws unknown_name for any other, environment_error when it
-// cannot be opened, usage_error for a side outside 1…16384. On return the context is current and has a
-// picture of this size. Takes milliseconds; use one context for many pictures.
+// `name` is one of:
+//   osmesa  Mesa's software renderer; needs neither display nor GPU
+//   egl     the first GPU that has OpenGL 4.5; without one, Mesa's software renderer
+//   glfw    a hidden window; needs an X display
+//   auto    egl if that finds a GPU, otherwise osmesa
+// Throws unknown_name for any other, environment_error when it cannot be opened (the message says what to
+// install), usage_error for a side outside 1…16384. On return the context is current and has a picture of
+// this size. Takes milliseconds; use one context for many pictures.
 std::unique_ptr<GlContext> open_context(std::string_view name, int width, int height);
+
+std::span<const std::string_view> context_names();  // those above, in this order
 
 }  // namespace terrabench

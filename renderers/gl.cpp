@@ -2,49 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <mutex>
-#include <optional>
-#include <string>
 
 #include "renderers/ramp.h"
 #include "terrain/error.h"
 
 namespace terrabench {
 
-std::span<const EmbeddedFile> embedded_shaders();
-
 namespace {
-
-// Owns a shader until the program is linked.
-class Shader {
- public:
-  Shader(GLenum stage, const ShaderFile& file) : id_(glCreateShader(stage)) {
-    const char* const text = file.text.data();
-    const auto length = static_cast<GLint>(file.text.size());
-    glShaderSource(id_, 1, &text, &length);
-    glCompileShader(id_);
-    GLint good = 0, log_size = 0;
-    glGetShaderiv(id_, GL_COMPILE_STATUS, &good);
-    if (good != 0) return;
-    glGetShaderiv(id_, GL_INFO_LOG_LENGTH, &log_size);
-    std::string log(static_cast<std::size_t>(log_size), '\0');
-    glGetShaderInfoLog(id_, log_size, &log_size, log.data());
-    log.resize(static_cast<std::size_t>(log_size));
-    glDeleteShader(id_);
-    throw environment_error(fmt::format("the shader does not compile: {}", log), file.name,
-                            "report it with the OpenGL renderer from the results' provenance");
-  }
-  ~Shader() { glDeleteShader(id_); }
-  Shader(const Shader&) = delete;
-  Shader& operator=(const Shader&) = delete;
-  GLuint id() const { return id_; }
-
- private:
-  GLuint id_;
-};
 
 std::string_view error_text(GLenum error) {
   switch (error) {
@@ -77,48 +44,21 @@ void load_gl(GLADloadfunc get_function, std::string_view library) {
   loaded = get_function;
 }
 
+Error context_lost(std::string_view where) {
+  return environment_error(
+      "the OpenGL context was lost: the driver reset the GPU", where,
+      "run again; if it happens again, draw smaller pictures or choose --renderer osmesa");
+}
+
 void check_gl(std::string_view where) {
   const GLenum error = glGetError();
+  if (error == GL_CONTEXT_LOST || glGetGraphicsResetStatus() != GL_NO_ERROR) throw context_lost(where);
   if (error == GL_NO_ERROR) return;
-  while (glGetError() != GL_NO_ERROR) {
+  // Bounded: without a current context some drivers report an error for ever.
+  for (int i = 0; i < 100 && glGetError() != GL_NO_ERROR; ++i) {
   }
   throw environment_error(fmt::format("{} (0x{:04x})", error_text(error), error), where,
                           "try a smaller picture or a coarser mesh");
-}
-
-const ShaderFile& shader_file(std::string_view name) {
-  const auto files = embedded_shaders();
-  const auto found = std::find_if(files.begin(), files.end(), [&](const ShaderFile& file) {
-    return file.name.substr(file.name.rfind('/') + 1) == name;
-  });
-  assert(found != files.end());
-  return *found;
-}
-
-Program link_program(const ShaderFile& vertex, const ShaderFile& fragment, const ShaderFile* geometry) {
-  const Shader first(GL_VERTEX_SHADER, vertex), last(GL_FRAGMENT_SHADER, fragment);
-  std::optional<Shader> between;
-  if (geometry != nullptr) between.emplace(GL_GEOMETRY_SHADER, *geometry);
-  Program program;
-  glAttachShader(program.id(), first.id());
-  if (between) glAttachShader(program.id(), between->id());
-  glAttachShader(program.id(), last.id());
-  glLinkProgram(program.id());
-  GLint good = 0, log_size = 0;
-  glGetProgramiv(program.id(), GL_LINK_STATUS, &good);
-  if (good == 0) {
-    glGetProgramiv(program.id(), GL_INFO_LOG_LENGTH, &log_size);
-    std::string log(static_cast<std::size_t>(log_size), '\0');
-    glGetProgramInfoLog(program.id(), log_size, &log_size, log.data());
-    log.resize(static_cast<std::size_t>(log_size));
-    throw environment_error(fmt::format("the shaders do not link: {}", log),
-                            fmt::format("{} and {}", vertex.name, fragment.name),
-                            "report it with the OpenGL renderer from the results' provenance");
-  }
-  glDetachShader(program.id(), first.id());
-  if (between) glDetachShader(program.id(), between->id());
-  glDetachShader(program.id(), last.id());
-  return program;
 }
 
 GLint uniform(const Program& program, const char* name) {

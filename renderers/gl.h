@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "terrain/embedded.h"
+#include "terrain/error.h"
 
 namespace terrabench {
 
@@ -18,8 +19,10 @@ namespace terrabench {
 // below 4.5.
 void load_gl(GLADloadfunc get_function, std::string_view library);
 
-// Throws environment_error if OpenGL reported an error since the last call, such as running out of memory.
+// Throws environment_error if OpenGL reported an error since the last call, such as running out of memory, or
+// if the context was lost: then its objects are, too.
 void check_gl(std::string_view where);
+Error context_lost(std::string_view where);
 
 // Owns one OpenGL object, which Kind creates and destroys.
 template <class Kind>
@@ -68,6 +71,11 @@ struct TextureKind {
   static GLuint create() { return create_one(glCreateTextures, kTarget); }
   static void destroy(GLuint id) { glDeleteTextures(1, &id); }
 };
+template <GLenum kTarget>
+struct QueryKind {
+  static GLuint create() { return create_one(glCreateQueries, kTarget); }
+  static void destroy(GLuint id) { glDeleteQueries(1, &id); }
+};
 struct ProgramKind {
   static GLuint create() { return glCreateProgram(); }
   static void destroy(GLuint id) { glDeleteProgram(id); }
@@ -78,6 +86,9 @@ using VertexArray = GlObject<VertexArrayKind>;
 using Renderbuffer = GlObject<RenderbufferKind>;
 using Framebuffer = GlObject<FramebufferKind>;
 using Texture1d = GlObject<TextureKind<GL_TEXTURE_1D>>;
+using Texture2dArray = GlObject<TextureKind<GL_TEXTURE_2D_ARRAY>>;
+using TimeQuery = GlObject<QueryKind<GL_TIME_ELAPSED>>;
+using PrimitiveQuery = GlObject<QueryKind<GL_PRIMITIVES_GENERATED>>;
 using BufferTexture = GlObject<TextureKind<GL_TEXTURE_BUFFER>>;
 using Program = GlObject<ProgramKind>;
 
@@ -94,10 +105,12 @@ Buffer make_buffer(std::span<const T> content) {
 using ShaderFile = EmbeddedFile;
 const ShaderFile& shader_file(std::string_view name);
 
-// Compiles and links; a geometry shader is optional. Throws environment_error with the file's name and the
-// driver's log.
+// Compile and link; a geometry shader is optional. A line `#include "NAME"` of a shader stands for the text
+// of shader_file(NAME). Throw environment_error with the file and line of the first error and the driver's
+// log.
 Program link_program(const ShaderFile& vertex, const ShaderFile& fragment,
                      const ShaderFile* geometry = nullptr);
+Program link_compute(const ShaderFile&);
 
 // The location of a uniform, which the program must use.
 GLint uniform(const Program&, const char* name);

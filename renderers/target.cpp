@@ -55,9 +55,21 @@ void RenderTarget::bind() const {
   glViewport(0, 0, width_, height_);
 }
 
-Image RenderTarget::read() const {
+void RenderTarget::average() const {
   glBlitNamedFramebuffer(drawn_.id(), averaged_.id(), 0, 0, width_, height_, 0, 0, width_, height_,
                          GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void RenderTarget::show(int width, int height) const {
+  average();
+  const GLenum filter = width == width_ && height == height_ ? GL_NEAREST : GL_LINEAR;
+  glBlitNamedFramebuffer(averaged_.id(), 0, 0, 0, width_, height_, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+                         filter);
+  check_gl("showing the picture");
+}
+
+Image RenderTarget::read() const {
+  average();
   Image image(width_, height_, {0, 0, 0});
   glBindFramebuffer(GL_READ_FRAMEBUFFER, averaged_.id());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);

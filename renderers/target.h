@@ -22,11 +22,15 @@ class RenderTarget {
   void bind() const;
   // Averages the samples and reads the picture back.
   Image read() const;
+  // Averages the samples and copies the picture into the window's back buffer of width × height pixels.
+  void show(int width, int height) const;
 
   int width() const { return width_; }
   int height() const { return height_; }
 
  private:
+  void average() const;
+
   int width_, height_;
   Renderbuffer color_, depth_, averaged_color_;
   Framebuffer drawn_, averaged_;

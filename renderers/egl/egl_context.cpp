@@ -1,0 +1,183 @@
+#include "renderers/egl/egl_context.h"
+
+// Without EGL_NO_X11, EGL's header includes Xlib, whose macros break other headers.
+#define EGL_NO_X11
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "renderers/gl.h"
+#include "renderers/shared_library.h"
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+constexpr const char* kAdvice =
+    "install Debian's packages libegl1 and libgl1-mesa-dri or the GPU's driver, or choose --renderer osmesa";
+
+// The functions of EGL/egl.h that are used, and those of the extensions for devices.
+struct Library {
+  decltype(&eglQueryString) query_string;
+  decltype(&eglInitialize) initialize;
+  decltype(&eglBindAPI) bind_api;
+  decltype(&eglChooseConfig) choose_config;
+  decltype(&eglCreateContext) create_context;
+  decltype(&eglDestroyContext) destroy_context;
+  decltype(&eglMakeCurrent) make_current;
+  decltype(&eglGetError) get_error;
+  decltype(&eglGetProcAddress) get_function;
+  PFNEGLQUERYDEVICESEXTPROC query_devices = nullptr;  // null when the extension is absent, as those below
+  PFNEGLQUERYDEVICESTRINGEXTPROC query_device_string = nullptr;
+  PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display = nullptr;
+};
+
+bool has_word(const char* words, std::string_view word) {
+  std::string_view rest = words == nullptr ? "" : words;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(' '), rest.size());
+    if (rest.substr(0, end) == word) return true;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return false;
+}
+
+Library load_library(const char* path) {
+  const SharedLibrary library(path, "EGL is not installed", kAdvice);
+  Library egl{};
+  library.find("eglQueryString", egl.query_string);
+  library.find("eglInitialize", egl.initialize);
+  library.find("eglBindAPI", egl.bind_api);
+  library.find("eglChooseConfig", egl.choose_config);
+  library.find("eglCreateContext", egl.create_context);
+  library.find("eglDestroyContext", egl.destroy_context);
+  library.find("eglMakeCurrent", egl.make_current);
+  library.find("eglGetError", egl.get_error);
+  library.find("eglGetProcAddress", egl.get_function);
+  const auto extension = [&](const char* name, auto& function) {
+    function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(egl.get_function(name));
+  };
+  extension("eglQueryDevicesEXT", egl.query_devices);
+  extension("eglQueryDeviceStringEXT", egl.query_device_string);
+  extension("eglGetPlatformDisplayEXT", egl.get_platform_display);
+  return egl;
+}
+
+// The displays to try, in order. EGL returns the same display for the same device each time.
+std::vector<EGLDisplay> displays(const Library& egl, EglDevices which) {
+  std::vector<EGLDisplay> gpus, software;
+  const char* const known = egl.query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+  if (egl.get_platform_display == nullptr) return {};
+  if (egl.query_devices != nullptr && egl.query_device_string != nullptr &&
+      has_word(known, "EGL_EXT_platform_device")) {
+    std::array<EGLDeviceEXT, 64> devices{};
+    EGLint count = 0;
+    egl.query_devices(static_cast<EGLint>(devices.size()), devices.data(), &count);
+    for (EGLint i = 0; i < count; ++i) {
+      const bool on_cpu =
+          has_word(egl.query_device_string(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software");
+      (on_cpu ? software : gpus)
+          .push_back(egl.get_platform_display(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr));
+    }
+  }
+  if (which == EglDevices::kGpus) return gpus;
+  gpus.insert(gpus.end(), software.begin(), software.end());
+  if (has_word(known, "EGL_MESA_platform_surfaceless")) {
+    gpus.push_back(egl.get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+  }
+  return gpus;
+}
+
+struct Opened {
+  EGLDisplay display = EGL_NO_DISPLAY;
+  EGLContext context = EGL_NO_CONTEXT;
+};
+
+// An OpenGL 4.5 core context, if the display has one. Displays are never terminated: other contexts of the
+// process may use them.
+std::optional<Opened> try_display(const Library& egl, EGLDisplay display) {
+  if (display == EGL_NO_DISPLAY || egl.initialize(display, nullptr, nullptr) == EGL_FALSE) return {};
+  if (egl.bind_api(EGL_OPENGL_API) == EGL_FALSE) return {};
+  EGLConfig config = EGL_NO_CONFIG_KHR;
+  if (!has_word(egl.query_string(display, EGL_EXTENSIONS), "EGL_KHR_no_config_context")) {
+    const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_DONT_CARE, EGL_NONE};
+    EGLint found = 0;
+    if (egl.choose_config(display, wanted, &config, 1, &found) == EGL_FALSE || found == 0) return {};
+  }
+  // Where it is supported, a GPU that is reset reports this (check_gl) instead of drawing nothing.
+  constexpr EGLint kVersion[] = {EGL_CONTEXT_MAJOR_VERSION,       4,
+                                 EGL_CONTEXT_MINOR_VERSION,       5,
+                                 EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+  std::vector<EGLint> plain(std::begin(kVersion), std::end(kVersion)), robust = plain;
+  plain.push_back(EGL_NONE);
+  robust.insert(robust.end(),
+                {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET, EGL_NONE});
+  for (const auto& attributes : {robust, plain}) {
+    const EGLContext context = egl.create_context(display, config, EGL_NO_CONTEXT, attributes.data());
+    if (context == EGL_NO_CONTEXT) continue;
+    if (egl.make_current(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) != EGL_FALSE) {
+      egl.make_current(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+      return Opened{display, context};
+    }
+    egl.destroy_context(display, context);
+  }
+  return {};
+}
+
+class EglContext final : public GlContext {
+ public:
+  EglContext(const Library& egl, const Opened& opened, int width, int height) : egl_(egl), opened_(opened) {
+    try {
+      open_target(width, height);
+    } catch (...) {
+      close();
+      throw;
+    }
+  }
+  ~EglContext() override { close(); }
+
+ private:
+  void acquire() override {
+    egl_.bind_api(EGL_OPENGL_API);
+    if (egl_.make_current(opened_.display, EGL_NO_SURFACE, EGL_NO_SURFACE, opened_.context) == EGL_FALSE) {
+      const EGLint error = egl_.get_error();
+      if (error == EGL_CONTEXT_LOST) throw context_lost("EGL");
+      throw environment_error(fmt::format("the OpenGL context cannot be made current (0x{:x})", error), "EGL",
+                              "close it and open a new one");
+    }
+    load_gl(reinterpret_cast<GLADloadfunc>(egl_.get_function), "EGL");
+  }
+  void release() noexcept override {
+    egl_.bind_api(EGL_OPENGL_API);
+    egl_.make_current(opened_.display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  }
+  void close() {
+    close_target();
+    egl_.destroy_context(opened_.display, opened_.context);
+  }
+
+  Library egl_;
+  Opened opened_;
+};
+
+}  // namespace
+
+std::unique_ptr<GlContext> open_egl(int width, int height, EglDevices devices, const char* library) {
+  const Library egl = load_library(library);
+  for (const EGLDisplay display : displays(egl, devices)) {
+    // try_display() makes its context current for a moment, in the place of one of another library.
+    GlContext::leave_current();
+    if (const auto opened = try_display(egl, display)) {
+      return std::make_unique<EglContext>(egl, *opened, width, height);
+    }
+  }
+  throw environment_error(devices == EglDevices::kGpus ? "no GPU has OpenGL 4.5" : "no device has OpenGL 4.5",
+                          "EGL", kAdvice);
+}
+
+}  // namespace terrabench
