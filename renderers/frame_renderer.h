@@ -24,7 +24,7 @@ struct FrameStyle {
 };
 
 // For the frames of one method, each drawn once and in order: heights and meshes. Facets are lit flat, so
-// that that the triangles are visible. The context must outlive it.
+// that the triangles are visible. The context must outlive it.
 class FrameRenderer {
  public:
   explicit FrameRenderer(GlContext&);
