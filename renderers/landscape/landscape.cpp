@@ -264,6 +264,11 @@ void LandscapeRenderer::draw(const Frame& frame, const View& view, double second
   check_gl("drawing the landscape");
 }
 
+void LandscapeRenderer::skip(const Frame& frame) {
+  context_.make_current();
+  gl_->buffers.upload(frame);
+}
+
 Image LandscapeRenderer::image() {
   context_.make_current();
   return context_.target().read();

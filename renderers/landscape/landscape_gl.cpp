@@ -1,7 +1,6 @@
 #include "renderers/landscape/landscape_gl.h"
 
 #include <algorithm>
-#include <string_view>
 
 #include "terrain/memory.h"
 
@@ -12,18 +11,6 @@ namespace {
 constexpr GLuint kMaterialMaps = 0, kSkyNoise = 1, kWaveMap = 2, kReflection = 3, kRefraction = 4, kDepth = 5,
                  kShadowMaps = 6, kOcclusion = 7;
 constexpr int kMaterialSide = 512, kWaveSide = 512, kSkyWidth = 2048, kSkyHeight = 768;
-
-constexpr GLenum kMaxAnisotropy = 0x84FE;  // of OpenGL 4.6 and of an extension that all drivers have
-
-bool has_extension(std::string_view name) {
-  GLint count = 0;
-  glGetIntegerv(GL_NUM_EXTENSIONS, &count);
-  for (GLint k = 0; k < count; ++k) {
-    const GLubyte* const text = glGetStringi(GL_EXTENSIONS, static_cast<GLuint>(k));
-    if (text != nullptr && name == reinterpret_cast<const char*>(text)) return true;
-  }
-  return false;
-}
 
 Program ground_program(bool meshes, bool lit) {
   const auto link = [&](ShaderParts vertex) {
@@ -62,9 +49,6 @@ LandscapeGl::LandscapeGl(const LandscapeStyle& style)
   glTextureStorage3D(materials.id(), mip_levels(kMaterialSide, kMaterialSide), GL_RGBA8, kMaterialSide,
                      kMaterialSide, kMaterials);
   glTextureParameteri(materials.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  if (has_extension("GL_EXT_texture_filter_anisotropic")) {
-    glTextureParameterf(materials.id(), kMaxAnisotropy, 4);
-  }
   make_textures(style);
 }
 

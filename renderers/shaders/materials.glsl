@@ -11,24 +11,31 @@ struct Surface {
 };
 
 // A layer over a plane, at three of the sizes 1, 7.3, 53, … widths, turned against each other so that no repetition
-// shows: those that are neither finer than a pixel nor wider than the picture. Returns tone, bump slopes and patches.
-vec4 tile(int layer, vec2 p, vec2 dx, vec2 dy) {
+// shows: those that are neither finer than a pixel nor wider than the picture. `texels`: how many of the layer's a
+// pixel covers. Returns tone, bump slopes and patches.
+vec4 tile(int layer, vec2 p, float texels) {
   const float kTimes = 0.137;
-  float texels = 512.0 * max(length(dx), length(dy)), sizes = max(0.34883 * (log2(max(texels, 1e-6)) - 1.0), 0.0);
+  float sizes = max(0.34883 * (log2(max(texels, 1e-6)) - 1.0), 0.0);
   int finest = int(sizes);
   float next = sizes - float(finest);
   vec3 shares = vec3(1.0 - next, 1.0, next);
   vec4 sum = vec4(0.0);
   for (int k = 0; k < 3; ++k) {
-    if (shares[k] <= 0.0) continue;
     float octave = float(finest + k), scale = pow(kTimes, octave), angle = 0.63 * octave;
     mat2 turn = mat2(cos(angle), sin(angle), -sin(angle), cos(angle));
-    vec4 texel = textureGrad(material_maps, vec3(turn * p * scale + 0.31 * octave, layer), turn * dx * scale,
-                             turn * dy * scale) - 0.5;
+    vec4 texel = textureLod(material_maps, vec3(turn * p * scale + 0.31 * octave, layer),
+                            log2(max(texels * scale, 1e-6))) - 0.5;
     texel.yz = transpose(turn) * texel.yz;
     sum += shares[k] * texel;
   }
   return vec4(0.5 + 0.85 * sum.x, sum.yz, 0.5 + 0.8 * sum.w);
+}
+
+// Texels per pixel over a plane in which a pixel's sides are these: between the longer side, which would blur
+// ground seen at a flat angle, and the shorter, which would let it flicker.
+float texels_of(vec2 dx, vec2 dy) {
+  float a = length(dx), b = length(dy);
+  return 512.0 * sqrt(max(a, b) * max(min(a, b), 0.125 * max(a, b)));
 }
 
 vec3 colour_of(int layer, vec4 texel) {
@@ -37,7 +44,7 @@ vec3 colour_of(int layer, vec4 texel) {
 }
 
 Surface flat_surface(int layer, vec2 p, vec2 dx, vec2 dy) {
-  vec4 texel = tile(layer, p, dx, dy);
+  vec4 texel = tile(layer, p, texels_of(dx, dy));
   return Surface(colour_of(layer, texel), vec3(texel.y, 0.0, texel.z));
 }
 
@@ -47,17 +54,17 @@ Surface triplanar_surface(int layer, vec3 p, vec3 dx, vec3 dy, vec3 n) {
   share /= share.x + share.y + share.z;
   Surface all = Surface(vec3(0.0), vec3(0.0));
   if (share.x > 0.02) {
-    vec4 texel = tile(layer, p.zy, dx.zy, dy.zy);
+    vec4 texel = tile(layer, p.zy, texels_of(dx.zy, dy.zy));
     all.albedo += share.x * colour_of(layer, texel);
     all.bump += share.x * vec3(0.0, texel.z, texel.y);
   }
   if (share.y > 0.02) {
-    vec4 texel = tile(layer, p.xz, dx.xz, dy.xz);
+    vec4 texel = tile(layer, p.xz, texels_of(dx.xz, dy.xz));
     all.albedo += share.y * colour_of(layer, texel);
     all.bump += share.y * vec3(texel.y, 0.0, texel.z);
   }
   if (share.z > 0.02) {
-    vec4 texel = tile(layer, p.xy, dx.xy, dy.xy);
+    vec4 texel = tile(layer, p.xy, texels_of(dx.xy, dy.xy));
     all.albedo += share.z * colour_of(layer, texel);
     all.bump += share.z * vec3(texel.y, texel.z, 0.0);
   }
