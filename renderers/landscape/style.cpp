@@ -45,7 +45,7 @@ const ParameterSpec kSpecs[] = {
     colour("sky_low", "#b4d0e8", "colour of the sky near the horizon, #rrggbb"),
     colour("cloud_color", "#f4f4f2", "colour of clouds, #rrggbb"),
     share("cloud_cover", 0.45, "how much of the sky has clouds"),
-    number("cloud_softness", 0.35, "", "width of the clouds' edges, in units of the noise", 0.01, 2),
+    number("cloud_softness", 0.6, "", "width of the clouds' edges, in units of the noise", 0.01, 2),
     number("cloud_size", 1, "", "size of clouds", 0.05, 20),
     number("cloud_speed", 1.0 / 900, "1/s", "turns of the sky's dome per second", -1, 1),
     number("haze", 0.16, "", "height up to which fog covers the sky, the sine of its angle", 0.001, 1),
@@ -71,7 +71,7 @@ const ParameterSpec kSpecs[] = {
     flag("triplanar", true, "texture rock along three axes, so that steep ground has no stretched texture"),
     number("bumps", 1, "", "strength of the textures' bumps", 0, 10),
     colour("sand_color", "#b49a6e", "colour of sand, #rrggbb; darker and lighter shades derive from it"),
-    colour("grass_color", "#5f7030", "colour of grass, likewise"),
+    colour("grass_color", "#5c6438", "colour of grass, likewise"),
     colour("earth_color", "#6f5a40", "colour of earth, likewise"),
     colour("rock_color", "#7c7770", "colour of rock, likewise"),
     colour("snow_color", "#e9eef4", "colour of snow, likewise"),
@@ -154,7 +154,7 @@ void set_materials(LandscapeStyle& style, const Parameters& p, float base, float
                                                              "rock_color", "snow_color"};
   // Dark shades tend to the material's neighbours in nature: wet sand, deep green, shadowed snow.
   const std::array<MaterialColors, kMaterials> kShades{{{{0.62F, 0.60F, 0.58F}, {1.25F, 1.24F, 1.2F}},
-                                                        {{0.50F, 0.62F, 0.55F}, {1.65F, 1.38F, 1.2F}},
+                                                        {{0.50F, 0.62F, 0.55F}, {1.4F, 1.22F, 1.1F}},
                                                         {{0.55F, 0.55F, 0.56F}, {1.5F, 1.45F, 1.35F}},
                                                         {{0.42F, 0.43F, 0.46F}, {1.55F, 1.5F, 1.42F}},
                                                         {{0.86F, 0.9F, 0.96F}, {1.08F, 1.06F, 1.04F}}}};

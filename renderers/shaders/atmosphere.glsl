@@ -31,9 +31,11 @@ vec3 clear_sky(vec3 d) {
 
 vec3 sky_towards(vec3 d) {
   float intensity = cloud_intensity(d), share = sky_share(intensity);
-  // Thick cloud is darker below, and bright towards the sun.
+  // Cloud is bright where it thins out towards the sun, and darker where it thickens.
   float towards = max(dot(d, sun.xyz), 0.0);
-  vec3 cloud = cloud_color.rgb * mix(1.0, 0.72, smoothstep(0.55, 1.0, intensity)) +
+  float thinner = intensity - cloud_intensity(normalize(d + 0.035 * sun.xyz));
+  float bright = clamp(0.86 - 0.22 * intensity + 0.55 * thinner, 0.45, 1.12);
+  vec3 cloud = cloud_color.rgb * mix(sky_light.rgb / max(sky_light.b, 1e-3), vec3(1.0), 0.75) * bright +
                sun_light.rgb * 0.06 * pow(towards, 5.0);
   vec3 sky = share * clear_sky(d) + (1.0 - share) * cloud;
   float disc = smoothstep(0.99985, 0.99992, dot(d, sun.xyz));

@@ -28,7 +28,7 @@ vec4 tile(int layer, vec2 p, float texels) {
     texel.yz = transpose(turn) * texel.yz;
     sum += shares[k] * texel;
   }
-  return vec4(0.5 + 0.85 * sum.x, sum.yz, 0.5 + 0.8 * sum.w);
+  return vec4(0.5 + 1.15 * sum.x, 3.0 * sum.yz, 0.5 + 0.9 * sum.w);
 }
 
 // Texels per pixel over a plane in which a pixel's sides are these: between the longer side, which would blur
