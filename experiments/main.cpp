@@ -54,6 +54,7 @@ struct Arguments {
   ListArguments list;
   RunPlan run;
   RepresentArguments represent;
+  RenderArguments render;
   CheckArguments check;
   CompareArguments compare;
   std::filesystem::path report = "out", info;
@@ -79,9 +80,10 @@ void add_renderer(CLI::App& command, std::string& renderer) {
 
 void add_list(CLI::App& app, Arguments& a) {
   auto* command = app.add_subcommand(
-      "list", "List representations, lods, experiments, claims and terrains, with their parameters");
+      "list",
+      "List representations, lods, experiments, claims, terrains and the scene, with their parameters");
   command->add_option("what", a.list.what,
-                      "representations, lods, experiments, claims or terrains (default: all)");
+                      "representations, lods, experiments, claims, terrains or scene (default: all)");
   command->add_flag("--json", a.list.json, "Print JSON");
 }
 
@@ -178,6 +180,47 @@ void add_represent(CLI::App& app, Arguments& a) {
   info->add_option("file", a.info, "File or folder, or drawing:FILE.png")->required();
 }
 
+void add_render(CLI::App& app, Arguments& a) {
+  auto* command = app.add_subcommand(
+      "render",
+      "Draw a terrain through a level-of-detail method: a picture, or a sequence along a camera path");
+  RenderArguments& r = a.render;
+  command
+      ->add_option("terrain", r.terrain,
+                   "A name from `terrabench list terrains`, the path of a DEM, or drawing:FILE.png")
+      ->required();
+  command->add_flag(
+      "--scene", r.scene,
+      "A landscape with materials, sky, fog, water and shadows; otherwise the method's triangles "
+      "as shaded relief");
+  command->add_option("--path", r.path,
+                      "Camera path: fly, low, walk, turn or cross, or a TOML file (default: one view)");
+  command->add_option("--frames", r.frames, "Pictures, evenly spaced along the path")->capture_default_str();
+  command->add_option("--lod", r.lod, "A name from `terrabench list lods`")->capture_default_str();
+  command->add_option("--detail", r.detail, "The method's knob (see `terrabench list lods`)")->expected(1);
+  command->add_option("--size", r.size, "Size of the picture in pixels, such as 1600x1000");
+  command->add_option("--eye", r.eye, "Place of the eye in metres: x (east), y (up), z (south)")->expected(3);
+  command->add_option("--look-at", r.look_at, "Place in the middle of the picture, likewise")->expected(3);
+  command->add_option("--fov", r.field_of_view, "Vertical field of view in degrees")
+      ->check(CLI::Range(1.0, 170.0));
+  command->add_option("--seconds", r.seconds, "Time of clouds and waves in the first picture")
+      ->check(CLI::Range(-1e9, 1e9));
+  command->add_option("--samples", r.samples, "Height samples along each side of a solid terrain")
+      ->check(CLI::Range(2, 16385))
+      ->capture_default_str();
+  command->add_option("--set", r.assignments,
+                      "Parameters of the landscape or of the method: name=value or name=value,name=value "
+                      "(see `terrabench list scene`)");
+  command
+      ->add_option("--out", r.out,
+                   "PNG to write, or a folder for several frames: pictures that it holds are kept")
+      ->capture_default_str();
+  command->add_option("--renderer", r.renderer, "OpenGL context: osmesa")->capture_default_str();
+  command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
+      ->check(CLI::Range(1, 4096));
+  command->add_option("--seed", r.seed, "Seed of procedural terrains")->capture_default_str();
+}
+
 // Only for commands that ask Progress whether to stop; in others a signal ends the process at once, as usual.
 void install_signals() {
   std::signal(SIGINT, on_signal);
@@ -192,6 +235,7 @@ ExitCode dispatch(const CLI::App& app, Arguments& a) {
   if (app.got_subcommand("info")) return info_command(a.info);
   install_signals();
   if (app.got_subcommand("represent")) return represent_command(a.represent);
+  if (app.got_subcommand("render")) return render_command(a.render);
   parse_shard(a.shard, a.run);
   a.run.threads = a.threads;
   a.run.options.profile = a.profile == "paper" ? Profile::kPaper : Profile::kQuick;
@@ -212,6 +256,7 @@ int main_program(int argc, char** argv) {
   add_run(app, arguments);
   add_results(app, arguments);
   add_represent(app, arguments);
+  add_render(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

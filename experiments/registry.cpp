@@ -9,6 +9,9 @@
   ENTRY(hybrid, kTable2)              \
   ENTRY(hybrid, kCaves)               \
   ENTRY(hybrid, kNoiseStages)         \
+  ENTRY(hybrid, kFresnel)             \
+  ENTRY(hybrid, kSky)                 \
+  ENTRY(hybrid, kLandscape)           \
   ENTRY(ght, kGenerators)             \
   ENTRY(ght, kStages)                 \
   ENTRY(ght, kEventFigures)           \

@@ -12,7 +12,7 @@
 namespace terrabench {
 
 struct ListArguments {
-  std::string what;  // representations, lods, experiments, claims, terrains; empty: all
+  std::string what;  // representations, lods, experiments, claims, terrains, scene; empty: all
   bool json = false;
 };
 ExitCode list_command(const ListArguments&);
@@ -30,6 +30,25 @@ struct RepresentArguments {
   std::uint64_t seed = 1;
 };
 ExitCode represent_command(const RepresentArguments&);
+
+struct RenderArguments {
+  std::string terrain;
+  bool scene = false;  // a landscape; otherwise the method's triangles as shaded relief
+  std::string path;    // camera path: a name or a TOML file; empty: one view
+  int frames = 1;      // pictures, evenly spaced along the path
+  std::string lod = "clipmap";
+  std::vector<double> detail;               // the method's knob; empty: its usual setting
+  std::string size;                         // "1600x1000"; empty: the path's, or 1600x1000
+  std::vector<float> eye, look_at;          // three metres each; empty: chosen
+  float field_of_view = 0;                  // degrees, vertical; 0: chosen
+  double seconds = 0;                       // time of clouds and waves in the first picture
+  int samples = 513;                        // along the sides of a solid's height field
+  std::vector<std::string> assignments;     // of the landscape and of the method
+  std::filesystem::path out = "scene.png";  // a file, or a folder for several frames
+  std::string renderer = "osmesa";
+  std::uint64_t seed = 1;
+};
+ExitCode render_command(const RenderArguments&);
 
 struct CheckArguments {
   std::filesystem::path folder = "out", junit;

@@ -7,6 +7,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/experiment.h"
 #include "lod/lod.h"
+#include "renderers/landscape/style.h"
 #include "representations/representation.h"
 #include "results/claims.h"
 #include "terrain/source.h"
@@ -103,6 +104,13 @@ Json list_terrains() {
   return list;
 }
 
+Json list_scene() {
+  return Json::array(
+      {{{"name", "landscape"},
+        {"summary", "how `terrabench render --scene` draws: light, sky, fog, materials and water"},
+        {"parameters", parameters_json(landscape_parameters())}}});
+}
+
 struct Listing {
   std::string_view name;
   Json (*list)();
@@ -113,6 +121,7 @@ constexpr std::array kListings{
     Listing{"experiments", list_experiments},
     Listing{"claims", list_claims},
     Listing{"terrains", list_terrains},
+    Listing{"scene", list_scene},
 };
 
 void print_text(std::string_view title, const Json& list) {

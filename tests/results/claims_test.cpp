@@ -44,6 +44,7 @@ TEST(Claims, EveryClaimOfThePapersIsThere) {
                                        "hybrid.implicit",
                                        "hybrid.slope",
                                        "hybrid.bary",
+                                       "hybrid.fresnel",
                                        "hybrid.sky",
                                        "hybrid.caves",
                                        "hybrid.stitch",

@@ -1,0 +1,228 @@
+// `terrabench render`: a picture of a terrain, or a sequence of pictures along a camera path.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "experiments/commands/commands.h"
+#include "experiments/scene.h"
+#include "lod/camera/camera_path.h"
+#include "renderers/frame_renderer.h"
+#include "terrain/files.h"
+
+namespace terrabench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostFrames = 100000;
+
+struct Shot {
+  View view;
+  double seconds;
+  fs::path file;
+};
+
+glm::ivec2 parse_size(const std::string& text) {
+  int width = 0, height = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 1 || height < 1) {
+    throw usage_error(fmt::format("invalid size '{}': expected WIDTHxHEIGHT, such as 1600x1000", text),
+                      "--size", "give both sides in pixels");
+  }
+  return {width, height};
+}
+
+// The values of --set, each for the landscape or the method, whichever has it.
+struct Settings {
+  Parameters look, method;
+};
+
+Settings parse_settings(const RenderArguments& a, const LodType& type) {
+  Settings settings{Parameters(landscape_parameters()), Parameters(type.parameters)};
+  std::vector<ParameterSpec> all(landscape_parameters().begin(), landscape_parameters().end());
+  all.insert(all.end(), type.parameters.begin(), type.parameters.end());
+  for (const std::string& assignment : split_assignments(a.assignments, all)) {
+    const bool of_method = settings.method.has(assignment.substr(0, assignment.find('=')));
+    (of_method ? settings.method : settings.look).set_from_text(assignment);
+  }
+  return settings;
+}
+
+glm::vec3 vector_of(const std::vector<float>& three) { return {three[0], three[1], three[2]}; }
+
+View single_view(const RenderArguments& a, const LandscapeStyle& style, const Heightfield& field) {
+  const glm::ivec2 size = parse_size(a.size.empty() ? "1600x1000" : a.size);
+  View view = scene_view(style, field, size.x, size.y);
+  if (!a.look_at.empty()) view.target = vector_of(a.look_at);
+  if (!a.eye.empty()) {
+    view.eye = vector_of(a.eye);
+    view.near = std::max(1e-5F * view.far, 0.05F);
+  }
+  if (a.field_of_view > 0) view.vertical_fov = a.field_of_view * 3.14159265F / 180;
+  return view;
+}
+
+std::string frame_name(int number, int frames) {
+  const int digits = std::max(4, static_cast<int>(std::to_string(frames - 1).size()));
+  return fmt::format("frame_{:0{}}.png", number, digits);
+}
+
+// One view into a.out, or a.frames views of the path into files of the folder a.out.
+std::vector<Shot> plan_shots(const RenderArguments& a, const LandscapeStyle& style,
+                             const Heightfield& field) {
+  if (a.path.empty()) return {{single_view(a, style, field), a.seconds, a.out}};
+  const CameraPath path = open_camera_path(a.path);
+  const std::vector<View> all = views(path, field);
+  std::vector<Shot> shots;
+  for (int k = 0; k < a.frames; ++k) {
+    const std::size_t last = all.size() - 1;
+    const std::size_t at = a.frames == 1 ? 0 : last * static_cast<std::size_t>(k) / (a.frames - 1);
+    View view = all[at];
+    if (!a.size.empty()) {
+      const glm::ivec2 size = parse_size(a.size);
+      view.width = size.x;
+      view.height = size.y;
+    }
+    view.far = std::max(view.far, 4 * std::max(field.extent_x(), field.extent_z()));
+    const double seconds = a.seconds + static_cast<double>(at) / path.frames_per_second;
+    shots.push_back({view, seconds, a.frames == 1 ? a.out : a.out / frame_name(k, a.frames)});
+  }
+  return shots;
+}
+
+void check_arguments(const RenderArguments& a) {
+  if (a.frames < 1 || a.frames > kMostFrames) {
+    throw usage_error(fmt::format("invalid number of frames {}", a.frames), "--frames",
+                      fmt::format("it must be 1 to {}", kMostFrames));
+  }
+  if (a.frames > 1 && a.path.empty()) {
+    throw usage_error("several frames need a camera path", "--frames", "add --path, such as --path fly");
+  }
+  if (!a.path.empty() && (!a.eye.empty() || !a.look_at.empty() || a.field_of_view > 0)) {
+    throw usage_error("a camera path sets the view", "--eye, --look-at, --fov", "leave them out, or --path");
+  }
+  std::error_code error;
+  const fs::file_status status = fs::status(a.out, error);
+  if (a.frames == 1 && fs::is_directory(status)) {
+    throw usage_error("a single picture needs a file, but this is a folder", a.out.string(),
+                      "name a file, such as scene.png");
+  }
+  if (a.frames > 1 && fs::exists(status) && !fs::is_directory(status)) {
+    throw usage_error("several frames need a folder, but this is a file", a.out.string(), "name a folder");
+  }
+}
+
+// What the pictures of a folder depend on, kept in it, so that a later run continues only its own sequence.
+std::string describe(const RenderArguments& a, const TerrainSource& source, const Settings& settings,
+                     const std::vector<Shot>& shots) {
+  std::string text = fmt::format(
+      "terrain = \"{}\"\nchecksum = \"{}\"\nscene = {}\npath = \"{}\"\nframes = {}\n"
+      "size = \"{}x{}\"\nlod = \"{}\"\ndetail = \"{}\"\nsamples = {}\nseconds = {}\n",
+      source.name, source.checksum, a.scene, a.path, a.frames, shots[0].view.width, shots[0].view.height,
+      a.lod, a.detail.empty() ? "usual" : fmt::format("{}", a.detail[0]), a.samples, a.seconds);
+  for (const Parameters* parameters : {&settings.look, &settings.method}) {
+    for (std::size_t k = 0; k < parameters->specs().size(); ++k) {
+      text += fmt::format("{} = \"{}\"\n", parameters->specs()[k].name, to_string(parameters->value(k)));
+    }
+  }
+  return text;
+}
+
+void claim_folder(const fs::path& folder, const std::string& description) {
+  const fs::path file = folder / "render.toml";
+  if (fs::exists(file)) {
+    if (read_file(file) == description) return;
+    throw usage_error("the folder holds pictures that were rendered with other settings", folder.string(),
+                      "choose another --out, or delete the folder");
+  }
+  write_file(file, description);
+}
+
+// Draws frames as a landscape or as shaded relief.
+class Painter {
+ public:
+  Painter(const RenderArguments& a, GlContext& context, Lod& lod, const LandscapeStyle& style)
+      : lod_(lod), style_(style) {
+    if (a.scene) {
+      scene_.emplace(context, lod, style);
+    } else {
+      relief_.emplace(context);
+    }
+  }
+  const Frame& update(const View& view) { return scene_ ? scene_->update(view) : lod_.update(view); }
+  Image draw(const Frame& frame, const Shot& shot) {
+    if (scene_) return scene_->draw(shot.view, shot.seconds);
+    const Bounds& ground = style_.ground;
+    relief_->draw(frame, shot.view, {.lowest = ground.low.y, .highest = ground.high.y});
+    return relief_->image();
+  }
+  // A frame whose picture exists: a method's next frame builds on it.
+  void skip(const Frame& frame, const View& view) {
+    if (scene_) {
+      scene_->skip();
+    } else {
+      View small = view;
+      small.width = small.height = 1;
+      relief_->draw(frame, small, {});
+    }
+  }
+
+ private:
+  Lod& lod_;
+  const LandscapeStyle& style_;
+  std::optional<ScenePainter> scene_;
+  std::optional<FrameRenderer> relief_;
+};
+
+std::size_t paint(const RenderArguments& a, const std::vector<Shot>& shots, Painter& painter,
+                  const TerrainSource& source, const Heightfield& field, Progress& progress) {
+  std::size_t kept = 0;
+  progress.begin("render", shots.size());
+  for (const Shot& shot : shots) {
+    const Frame& frame = painter.update(shot.view);
+    check_eye(shot.view, frame, source, field);
+    if (a.frames > 1 && fs::exists(shot.file)) {
+      painter.skip(frame, shot.view);
+      ++kept;
+    } else {
+      write_png(shot.file, painter.draw(frame, shot));
+    }
+    progress.advance();
+  }
+  progress.end();
+  return kept;
+}
+
+}  // namespace
+
+ExitCode render_command(const RenderArguments& a) {
+  check_arguments(a);
+  const LodType& type = lod(a.lod);
+  const Settings settings = parse_settings(a, type);
+  if (!a.size.empty()) parse_size(a.size);
+  if (!a.path.empty()) open_camera_path(a.path);  // before work that may take minutes
+  Progress progress(isatty(STDERR_FILENO) != 0 ? Progress::Output::kTerminal : Progress::Output::kLines);
+
+  const TerrainSource source = open_terrain(a.terrain, a.seed);
+  const Heightfield field = scene_heights(source, a.samples, progress);
+  const LandscapeStyle style = make_style(settings.look, bounds_of(field));
+  const std::vector<Shot> shots = plan_shots(a, style, field);
+  const auto method = type.build(field, settings.method, progress);
+  if (!a.detail.empty()) method->tune(a.detail[0]);
+  const auto context = open_context(a.renderer, shots[0].view.width, shots[0].view.height);
+  if (a.frames > 1) claim_folder(a.out, describe(a, source, settings, shots));
+  Painter painter(a, *context, *method, style);
+  const std::size_t kept = paint(a, shots, painter, source, field, progress);
+
+  fmt::print("terrain     {}, checksum {}\n", source.name, source.checksum);
+  fmt::print("method      {}, {}\n", type.name, context->renderer());
+  if (kept > 0) fmt::print("kept        {} of {} pictures from an earlier run\n", kept, shots.size());
+  fmt::print("rendered    {}\n", a.out.string());
+  return ExitCode::kGood;
+}
+
+}  // namespace terrabench

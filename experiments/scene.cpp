@@ -1,0 +1,124 @@
+#include "experiments/scene.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+constexpr int kSteps = 64;  // samples of a column, and again of the step that holds its surface
+
+// The highest sample that is solid, or -1.
+int highest_solid(std::span<const Material> column) {
+  for (int k = static_cast<int>(column.size()) - 1; k >= 0; --k) {
+    if (column[k] != Material::kAir) return k;
+  }
+  return -1;
+}
+
+float surface_height(const Solid& solid, float x, float z) {
+  const float low = solid.bounds.low.y, tall = solid.bounds.size().y;
+  const float step = tall / kSteps, fine = step / kSteps;
+  std::array<Material, kSteps> column{};
+  solid.column({x, z, low + 0.5F * step, step}, column);
+  const int highest = highest_solid(column);
+  const float from = low + (static_cast<float>(highest) + 0.5F) * step;  // solid, or below the ground
+  solid.column({x, z, from + fine, fine}, column);
+  return std::clamp(from + (static_cast<float>(highest_solid(column)) + 1.5F) * fine, low, low + tall);
+}
+
+}  // namespace
+
+Heightfield surface_heights(const Solid& solid, int samples, Progress& progress) {
+  const glm::vec3 size = solid.bounds.size();
+  const auto cells = static_cast<float>(samples - 1);
+  Heightfield field = Heightfield::zeros(samples, samples, size.x / cells, size.z / cells);
+  progress.begin("surface", samples);
+  tbb::parallel_for(0, samples, [&](int j) {
+    for (int i = 0; i < samples; ++i) {
+      field.at(i, j) = surface_height(solid, solid.bounds.low.x + static_cast<float>(i) * field.cell_x,
+                                      solid.bounds.low.z + static_cast<float>(j) * field.cell_z);
+    }
+    progress.advance();
+  });
+  progress.end();
+  return field;
+}
+
+Heightfield scene_heights(const TerrainSource& source, int samples, Progress& progress) {
+  Heightfield field =
+      source.solid ? surface_heights(*source.solid, samples, progress) : fill_no_data(*source.heights);
+  check_ground(field);
+  return field;
+}
+
+Bounds bounds_of(const Heightfield& field) {
+  const HeightRange range = height_range(field);
+  return {{0, range.lowest, 0}, {field.extent_x(), range.highest, field.extent_z()}};
+}
+
+View scene_view(const LandscapeStyle& style, const Heightfield& field, int width, int height) {
+  const glm::vec3 size = style.ground.size();
+  const float extent = std::max(size.x, size.z);
+  View view;
+  view.width = width;
+  view.height = height;
+  view.vertical_fov = 0.75F;
+  view.eye = {0.5F * size.x, 0, 0.82F * size.z};
+  const float ground = field.sample(view.eye.x, view.eye.z);
+  const float base = style.has_water ? std::max(ground, style.water_level) : ground;
+  view.eye.y = base + 0.03F * extent + 0.15F * size.y;
+  view.target = {0.47F * size.x, base + 0.1F * size.y, 0.3F * size.z};
+  view.near = std::max(2e-4F * extent, 0.01F);
+  view.far = 4 * extent;
+  return view;
+}
+
+void check_eye(const View& view, const Frame& frame, const TerrainSource& source, const Heightfield& field) {
+  const glm::vec3 eye = view.eye;
+  const char* const advice = "raise the eye, or move it into the open";
+  if (source.solid && !frame.meshes.empty()) {
+    std::array<Material, 1> here{Material::kAir};
+    const Bounds& box = source.solid->bounds;
+    const bool inside =
+        glm::all(glm::lessThanEqual(box.low, eye)) && glm::all(glm::lessThanEqual(eye, box.high));
+    if (inside) source.solid->column({eye.x, eye.z, eye.y, 1}, here);
+    if (here[0] != Material::kAir) {
+      throw usage_error(fmt::format("the eye ({:.6g}, {:.6g}, {:.6g}) is inside rock", eye.x, eye.y, eye.z),
+                        "render", advice);
+    }
+    return;
+  }
+  const float ground = field.sample(eye.x, eye.z);
+  if (eye.y <= ground) {
+    throw usage_error(
+        fmt::format(
+            "the eye ({:.6g}, {:.6g}, {:.6g}) is {:.4g} m under the ground, whose surface is at {:.6g} m "
+            "there",
+            eye.x, eye.y, eye.z, ground - eye.y, ground),
+        "render", advice);
+  }
+}
+
+ScenePainter::ScenePainter(GlContext& context, Lod& lod, const LandscapeStyle& style)
+    : lod_(lod), renderer_(context, style) {}
+
+const Frame& ScenePainter::update(const View& view) {
+  frame_ = &lod_.update(surroundings(view));
+  return *frame_;
+}
+
+Image ScenePainter::draw(const View& view, double seconds) {
+  renderer_.draw(*frame_, view, seconds);
+  return renderer_.image();
+}
+
+void ScenePainter::skip() { renderer_.skip(*frame_); }
+
+}  // namespace terrabench

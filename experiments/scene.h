@@ -1,0 +1,53 @@
+// Ground drawn as a landscape through a level-of-detail method: what `terrabench render` and the figures of
+// the hybrid paper share.
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "lod/lod.h"
+#include "renderers/landscape/landscape.h"
+#include "terrain/heightfield.h"
+#include "terrain/source.h"
+
+namespace terrabench {
+
+// The height of the highest surface of a solid over samples × samples points of its bounds in plan; the floor
+// of the bounds where a column is empty, since ground continues below. Within 1/4096 of the bounds' height.
+// O(samples²), parallel.
+Heightfield surface_heights(const Solid&, int samples, Progress&);
+
+// The source's heights, with holes filled, or those of its solid's surface. Throws as fill_no_data() and
+// check_ground() do.
+Heightfield scene_heights(const TerrainSource&, int samples, Progress&);
+
+// The box around a field. O(samples).
+Bounds bounds_of(const Heightfield&);
+
+// A view from the south over the middle of the ground, as a picture without other wishes has: above the water
+// and the ground before it.
+View scene_view(const LandscapeStyle&, const Heightfield&, int width, int height);
+
+// Throws usage_error for an eye inside the ground: in the solid if the frame draws meshes, otherwise under
+// the heights that it draws. An eye beside or over the ground is good.
+void check_eye(const View&, const Frame&, const TerrainSource&, const Heightfield&);
+
+// Draws views in order. The context, the method and what it was built from must outlive it.
+class ScenePainter {
+ public:
+  ScenePainter(GlContext& context, Lod& lod, const LandscapeStyle& style);
+  LandscapeRenderer& renderer() { return renderer_; }
+  // The frame for the view and its surroundings.
+  const Frame& update(const View&);
+  // Draws the frame of the last update(), once; or only uploads it, so that the next picture is the same as
+  // if this one had been drawn.
+  Image draw(const View&, double seconds = 0);
+  void skip();
+
+ private:
+  Lod& lod_;
+  LandscapeRenderer renderer_;
+  const Frame* frame_ = nullptr;
+};
+
+}  // namespace terrabench
