@@ -9,6 +9,10 @@
   ENTRY(hybrid, kTable2)              \
   ENTRY(hybrid, kCaves)               \
   ENTRY(hybrid, kNoiseStages)         \
+  ENTRY(hybrid, kClipmapFigures)      \
+  ENTRY(hybrid, kSumHeights)          \
+  ENTRY(hybrid, kStitch)              \
+  ENTRY(hybrid, kLessGeometry)        \
   ENTRY(ght, kGenerators)             \
   ENTRY(ght, kStages)                 \
   ENTRY(ght, kEventFigures)           \
