@@ -12,6 +12,10 @@
   ENTRY(hybrid, kFresnel)             \
   ENTRY(hybrid, kSky)                 \
   ENTRY(hybrid, kLandscape)           \
+  ENTRY(hybrid, kClipmapFigures)      \
+  ENTRY(hybrid, kSumHeights)          \
+  ENTRY(hybrid, kStitch)              \
+  ENTRY(hybrid, kLessGeometry)        \
   ENTRY(ght, kGenerators)             \
   ENTRY(ght, kStages)                 \
   ENTRY(ght, kEventFigures)           \

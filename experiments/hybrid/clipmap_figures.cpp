@@ -1,0 +1,161 @@
+// Figures 14 and 22 of "hybrid": the rings of a clipmap, and the height map interpolated from the stacks.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "experiments/build_at.h"
+#include "experiments/cases.h"
+#include "experiments/figures/figure.h"
+#include "experiments/figures/ground.h"
+#include "experiments/figures/maps.h"
+#include "lod/clipmap/clipmap.h"
+#include "renderers/scene.h"
+#include "representations/layered_stack/height_map.h"
+
+namespace terrabench::hybrid {
+namespace {
+
+using namespace figures;
+
+constexpr int kWindow = 31;                 // samples
+constexpr double kSide = 480, kLong = 640;  // of the pictures, units
+// Okabe and Ito's colours, which readers with colour blindness can tell apart; light, so that wires show.
+constexpr std::array<Rgb, 5> kLevelColours{
+    {{235, 160, 40}, {125, 195, 240}, {70, 185, 150}, {245, 235, 120}, {215, 160, 190}}};
+
+// The triangles that a clipmap draws in all directions, one mesh per level, finest first.
+std::vector<TriangleMesh> rings(const Heightfield& field) {
+  Clipmap clipmap(heights_in_memory(field), kWindow);
+  View view;
+  view.eye = {0.5F * field.extent_x(), 0, 0.5F * field.extent_z()};
+  view.eye.y = field.sample(view.eye.x, view.eye.z) + 2;
+  view.vertical_fov = 2;
+  view.width = view.height = 100;
+  view.far = 10 * field.extent_x();
+  std::vector<TriangleMesh> levels(static_cast<std::size_t>(clipmap.levels()));
+  std::set<std::tuple<int, std::uint32_t>> drawn;
+  for (int k = 0; k < 16; ++k) {  // a block may be culled in all but one direction
+    const float heading = 6.2831853F * static_cast<float>(k) / 16;
+    view.target = view.eye + glm::vec3(std::cos(heading), -0.3F, std::sin(heading));
+    const Frame& frame = clipmap.update(view);
+    for (const Batch& batch : frame.batches) {
+      if (!drawn.insert({batch.level, batch.first_index}).second) continue;
+      TriangleMesh& mesh = levels[batch.level];
+      for (std::uint32_t i = 0; i < batch.index_count; ++i) {
+        mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+        mesh.positions.push_back(
+            vertex_position(frame, batch, batch.base_vertex + frame.indices[batch.first_index + i]));
+      }
+    }
+  }
+  std::erase_if(levels, [](const TriangleMesh& mesh) { return mesh.indices.empty(); });
+  for (TriangleMesh& mesh : levels) compute_normals(mesh);
+  return levels;
+}
+
+Scene scene_of(const std::vector<TriangleMesh>& levels, bool lit) {
+  Scene scene;
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    const Rgb colour = kLevelColours[l % kLevelColours.size()];
+    SceneMesh mesh{.mesh = &levels[l],
+                   .shading = lit ? Shading::kLit : Shading::kFlat,
+                   .fill = colour,
+                   .wire_width = 1.0F,
+                   .wire_color = {50, 50, 55},
+                   .wire_opacity = 0.75F};
+    if (lit) mesh.colors.assign(levels[l].positions.size(), colour);
+    scene.meshes.push_back(std::move(mesh));
+  }
+  return scene;
+}
+
+Sheet draw_rings(Drawing& drawing) {
+  constexpr double kMargin = 16, kTitle = 28, kKey = 44;
+  const TerrainSource source = open_terrain("hills", drawing.seed());
+  const Heightfield field = crop(*source.heights, 100, 100, 225, 225);
+  const std::vector<TriangleMesh> levels = rings(field);
+  GlContext& gl = drawing.gl();
+  const auto pixels = [](double units) { return static_cast<int>(Sheet::kPixels * units); };
+
+  View plan;  // from so far that it is nearly parallel
+  plan.target = {0.5F * field.extent_x(), 0, 0.5F * field.extent_z()};
+  plan.eye = plan.target + glm::vec3(0, 60 * field.extent_x(), 0);
+  plan.up = {0, 0, -1};
+  plan.vertical_fov = 2 * std::atan(0.5F * field.extent_x() / plan.eye.y) * 1.02F;
+  plan.width = plan.height = pixels(kSide);
+  const Scene flat = scene_of(levels, false), lit = scene_of(levels, true);
+  const View aslant = overview(bounds_of(lit), pixels(kLong), pixels(kSide), {0.35F, 0.6F, 1.0F});
+
+  Sheet sheet(3 * kMargin + kSide + kLong, kTitle + kSide + kKey + kMargin);
+  sheet.text(kMargin, kTitle - 8, "in plan", 16);
+  sheet.picture(kMargin, kTitle, kSide, kSide, render_scene(gl, flat, plan));
+  sheet.text(2 * kMargin + kSide, kTitle - 8, "aslant", 16);
+  sheet.picture(2 * kMargin + kSide, kTitle, kLong, kSide, render_scene(gl, lit, aslant));
+  sheet.dot({kMargin + kSide / 2, kTitle + kSide / 2}, 5, {0, 0, 0});
+  double x = kMargin;
+  const double y = kTitle + kSide + 18;
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    sheet.box(x, y, 22, 16, kLevelColours[l % kLevelColours.size()]);
+    sheet.text(
+        x + 28, y + 13,
+        fmt::format("level {}: a vertex every {:.0f} m", l, std::ldexp(field.cell_x, static_cast<int>(l))),
+        14);
+    x += 208;
+  }
+  sheet.dot({x + 8, y + 8}, 5, {0, 0, 0});
+  sheet.text(x + 20, y + 13, "eye", 14);
+  return sheet;
+}
+
+Sheet draw_height_map(Drawing& drawing) {
+  constexpr int kColumns = 64, kFiner = 10;
+  constexpr double kPicture = 0.5 * kColumns * kFiner;  // units: every sample a whole number of pixels
+  Progress silent;
+  const TerrainSource source = open_terrain("caves", drawing.seed());
+  const auto built = build_at_resolution("layered_stack", source, kColumns, silent);
+  const auto& stack = dynamic_cast<const LayeredStack&>(*built);
+  const Heightfield columns = column_heights(stack, ColumnHeight::kTop);
+  const Heightfield whole = height_map(stack, ColumnHeight::kTop, kFiner);
+  const Heightfield map = crop(whole, 0, 0, kColumns * kFiner, kColumns * kFiner);
+  const Light smooth(map), blocky(columns, smooth);
+  const auto grey = [](float) { return Rgb{225, 225, 225}; };
+  const auto size = [](const Heightfield& field) {
+    return fmt::format("{} × {} samples, {:.2g} m apart", field.width, field.depth, field.cell_x);
+  };
+  return titled_sheet(2, kPicture, 8,
+                      {{heightmap_image(columns), "tops of the stacks: " + size(columns)},
+                       {heightmap_image(map), "interpolated: " + size(map)},
+                       {shaded_map(columns, blocky, grey), "tops of the stacks, shaded"},
+                       {shaded_map(map, smooth, grey), "interpolated, shaded"}});
+}
+
+constexpr std::array<figures::Figure, 2> kFigures{{
+    {14, "F14",
+     "the rings of a geometry clipmap with windows of 31 × 31 vertices around the eye; each level has half "
+     "as "
+     "many vertices per metre as the next inner one, and is drawn outside of it",
+     draw_rings},
+    {22, "F22",
+     "the height map made from the stacks of a cave terrain, black lowest and white highest: one sample per "
+     "stack, and bilinearly interpolated at ten samples per stack",
+     draw_height_map},
+}};
+constexpr std::array kNames = names_of(kFigures);
+const std::array kSpecs{choice("figure", kNames, "figure of the paper")};
+
+std::vector<Case> cases(const RunOptions&) { return cases_by("figure", kSpecs); }
+
+void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
+  draw_figure(kFigures, "hybrid", at, options, recorder);
+}
+
+}  // namespace
+
+extern const Experiment kClipmapFigures{
+    "hybrid.clipmap-figures", "Figures 14 and 22: the clipmap and its height map", kSpecs, cases, draw};
+
+}  // namespace terrabench::hybrid

@@ -1,0 +1,28 @@
+// Ground for the experiments that join near and far (§3.5): the implicit surface near the eye, and the height
+// map of the same stacks beyond.
+#pragma once
+
+#include <memory>
+
+#include "lod/lod.h"
+#include "representations/implicit/implicit_surface.h"
+#include "representations/layered_stack/height_map.h"
+#include "terrain/source.h"
+
+namespace terrabench::hybrid {
+
+struct NearGround {
+  std::unique_ptr<ImplicitSurface> surface;
+  Heightfield heights;
+
+  LodGround lod() const { return {heights, surface.get()}; }
+};
+
+// Stacks with `columns` along the longer side, and `finer` heights per column.
+NearGround near_ground(const TerrainSource&, int columns, int finer, Progress&);
+
+// At walking height over a place, in the air, looking along `heading` (radians) and a little down. `step` is
+// the least height above what is solid, metres.
+View standing_on(const NearGround&, glm::vec2 place, float heading, float step);
+
+}  // namespace terrabench::hybrid
