@@ -9,6 +9,9 @@
   ENTRY(hybrid, kTable2)              \
   ENTRY(hybrid, kCaves)               \
   ENTRY(hybrid, kNoiseStages)         \
+  ENTRY(hybrid, kTable3)              \
+  ENTRY(hybrid, kSlope)               \
+  ENTRY(hybrid, kBary)                \
   ENTRY(ght, kGenerators)             \
   ENTRY(ght, kStages)                 \
   ENTRY(ght, kEventFigures)           \
