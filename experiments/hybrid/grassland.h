@@ -17,7 +17,4 @@ Heightfield grassland(std::uint64_t seed, int cells, float cliffs);
 // With normals, and with x and z moved by 100 m: at the origin the paper's random numbers are all 0.
 TriangleMesh grassland_mesh(const Heightfield&);
 
-// The billboards of Table 3.
-inline constexpr std::int64_t kTable3Billboards[] = {83'920, 167'840, 251'760};
-
 }  // namespace terrabench::hybrid
