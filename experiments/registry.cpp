@@ -16,6 +16,9 @@
   ENTRY(hybrid, kSumHeights)          \
   ENTRY(hybrid, kStitch)              \
   ENTRY(hybrid, kLessGeometry)        \
+  ENTRY(hybrid, kTable3)              \
+  ENTRY(hybrid, kSlope)               \
+  ENTRY(hybrid, kBary)                \
   ENTRY(ght, kGenerators)             \
   ENTRY(ght, kStages)                 \
   ENTRY(ght, kEventFigures)           \

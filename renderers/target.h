@@ -20,6 +20,8 @@ class RenderTarget {
   void resize(int width, int height);
   // Makes it the target of draw calls, with the viewport over the whole picture.
   void bind() const;
+  // Averages the samples, as a frame that is shown needs; the two below do so themselves.
+  void average() const;
   // Averages the samples and reads the picture back.
   Image read() const;
   // Averages the samples and copies the picture into the window's back buffer of width × height pixels.
@@ -29,8 +31,6 @@ class RenderTarget {
   int height() const { return height_; }
 
  private:
-  void average() const;
-
   int width_, height_;
   Renderbuffer color_, depth_, averaged_color_;
   Framebuffer drawn_, averaged_;

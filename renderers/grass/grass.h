@@ -46,7 +46,7 @@ struct GrassLook {
   glm::vec3 sun{-0.5F, 0.7F, -0.5F};            // towards the light; any length above 0
   glm::vec3 sun_colour{1.9F, 1.75F, 1.45F};     // on a surface that faces it
   glm::vec3 sky_colour{0.45F, 0.55F, 0.70F};    // on a surface that faces up
-  glm::vec3 fog_colour{0.55F, 0.68F, 0.85F};    // far away
+  glm::vec3 fog_colour{0.54F, 0.67F, 0.85F};    // far away
   glm::vec3 fog_sun_colour{1.0F, 0.85F, 0.6F};  // far away towards the sun
   float fog_density = 0;                        // per metre; 0: none
   // Points p with dot(plane, (p, 1)) < 0 are not drawn. The caller enables GL_CLIP_DISTANCE0; llvmpipe clips

@@ -1,0 +1,205 @@
+// Grass of "hybrid" (§3.3): Table 3, the slope angle, and points by barycentric coordinates.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "experiments/cases.h"
+#include "experiments/experiment.h"
+#include "experiments/hybrid/grassland.h"
+#include "lod/meters/image_error.h"
+#include "renderers/frame_timer.h"
+#include "renderers/grass/grass_scene.h"
+
+namespace terrabench::hybrid {
+namespace {
+
+// The names of kGrassTechniques, in that order.
+constexpr std::array<std::string_view, 3> kTechniques = {"geometry-shader", "instancing", "indirect"};
+
+const std::array kTable3Specs{
+    choice("technique", kTechniques, "how the billboards are drawn"),
+    ParameterSpec{"billboards", std::int64_t{83'920}, "",
+                  "grass billboards, two per strand; twice and three times as many are drawn, too", 2,
+                  2 * (GrassGrowth::kMostStrands / 3)},
+    ParameterSpec{"frames", std::int64_t{200}, "frames", "frames to time, of each number of billboards", 1,
+                  100'000},
+    ParameterSpec{"warm_up", std::int64_t{5}, "frames", "frames before them, of each number", 0, 100'000},
+    ParameterSpec{"width", std::int64_t{800}, "pixels", "of the picture", 16, 8192},
+    ParameterSpec{"height", std::int64_t{600}, "pixels", "of the picture", 16, 8192},
+    ParameterSpec{"cells", std::int64_t{128}, "cells", "of the ground, along a side", 8, 2048},
+};
+
+std::vector<Case> table3_cases(const RunOptions& options) {
+  if (options.profile == Profile::kPaper) return cases_by("technique", kTable3Specs);
+  return cases_by("technique", kTable3Specs, {{"frames", std::int64_t{3}}, {"warm_up", std::int64_t{1}}});
+}
+
+// All grass is in view, so that every technique draws every billboard.
+View whole(const TriangleMesh& mesh, int width, int height) {
+  return overview(bounds_of(mesh), width, height, {0.35F, 0.45F, 1.0F});
+}
+
+void measure_table3(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const Heightfield field = grassland(options.seed, at.integer("cells"), 0.7F);
+  recorder.terrain("grassland", checksum(field));
+  const TriangleMesh mesh = grassland_mesh(field);
+  const View view = whole(mesh, at.integer("width"), at.integer("height"));
+  const auto technique = kGrassTechniques[at.parameters.choice("technique")];
+  const auto gl = open_context(options.renderer, view.width, view.height);
+
+  constexpr int kCounts = 3;
+  std::vector<std::unique_ptr<GrassScene>> scenes;
+  for (int k = 1; k <= kCounts; ++k) {
+    const GrassGrowth growth{.strands = k * (at.parameters.integer("billboards") / 2)};
+    scenes.push_back(std::make_unique<GrassScene>(*gl, grass_ground(mesh), growth));
+    recorder.add(fmt::format("billboards_{}n", k), "",
+                 static_cast<double>(scenes.back()->count_billboards(view, technique)));
+  }
+  recorder.add(
+      "ssim_to_geometry_shader", "",
+      ssim(scenes[0]->picture(view, technique), scenes[0]->picture(view, GrassTechnique::kGeometryShader)));
+
+  // The numbers take turns frame by frame, so that other work of the machine slows all of them alike.
+  const int warm_up = kCounts * at.integer("warm_up"), frames = kCounts * at.integer("frames");
+  progress.begin("frames", warm_up + frames);
+  const std::vector<double> seconds = time_frames(frame_clock(*gl), warm_up, frames, [&](int frame) {
+    GrassScene& scene = *scenes[static_cast<std::size_t>(frame % kCounts)];
+    scene.look.seconds = static_cast<float>(frame / kCounts) / 60;
+    scene.draw(view, technique);
+    progress.advance();
+  });
+  for (std::size_t i = 0; i < seconds.size(); ++i) {
+    const std::size_t k = i % kCounts + 1;
+    recorder.add(fmt::format("frame_time_{}n", k), "s", seconds[i]);
+    recorder.add(fmt::format("frame_rate_{}n", k), "1/s", 1 / std::max(seconds[i], 1e-9));
+  }
+  recorder.add("growing_triangles", "", static_cast<double>(scenes[2]->patch().growing_triangles()));
+  recorder.add("bytes_3n", "B", static_cast<double>(scenes[2]->patch().bytes()));
+}
+
+constexpr std::array kSlopeSpecs{
+    ParameterSpec{"limit", 45.0, "degrees", "steepest ground that grass grows on", 0, 180},
+};
+
+std::vector<Case> slope_cases(const RunOptions&) {
+  std::vector<Case> cases;
+  for (const double limit : {15.0, 30.0, 45.0, 60.0, 75.0}) {
+    cases.push_back({fmt::format("limit={:g}", limit), {kSlopeSpecs, {{"limit", limit}}}});
+  }
+  return cases;
+}
+
+// Where the two readings of the angle differ most, over all inclinations from level to upright.
+struct Difference {
+  double degrees = 0, at = 0;  // the true angle there
+};
+Difference largest_difference() {
+  constexpr int kSteps = 900'000;
+  Difference most;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double y = static_cast<double>(i) / kSteps;
+    const double real = slope_angle(y, SlopeAngle::kTrue);
+    const double difference = std::abs(real - slope_angle(y, SlopeAngle::kPrinted));
+    if (difference > most.degrees) most = {difference, real};
+  }
+  return most;
+}
+
+void measure_slope(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
+  const Difference most = largest_difference();
+  recorder.add("largest_difference", "degrees", most.degrees);
+  recorder.add("true_angle_there", "degrees", most.at);
+  recorder.add("printed_for_level_ground", "degrees", slope_angle(1, SlopeAngle::kPrinted));
+  recorder.add("printed_for_a_wall", "degrees", slope_angle(0, SlopeAngle::kPrinted));
+
+  const Heightfield field = grassland(options.seed, 128, 0.9F);
+  recorder.terrain("grassland with cliffs", checksum(field));
+  const TriangleMesh mesh = grassland_mesh(field);
+  const View view = whole(mesh, 320, 240);
+  const auto gl = open_context(options.renderer, view.width, view.height);
+  const auto limit = static_cast<float>(at.parameters.number("limit"));
+  const auto count = [&](SlopeAngle reading) {
+    GrassGrowth growth{.steepest = limit, .slope = reading};
+    // One strand on every triangle that may have grass.
+    growth.strands = static_cast<std::int64_t>(plan_grass(grass_ground(mesh), growth).growing());
+    GrassScene scene(*gl, grass_ground(mesh), growth);
+    return static_cast<double>(scene.count_billboards(view, GrassTechnique::kGeometryShader));
+  };
+  recorder.add("billboards_printed", "", count(SlopeAngle::kPrinted));
+  recorder.add("billboards_by_true_angle", "", count(SlopeAngle::kTrue));
+  recorder.add("billboards_everywhere", "", static_cast<double>(2 * mesh.triangles()));
+}
+
+constexpr std::array<std::string_view, 3> kPoints = {"sum", "product", "cross-product"};
+const std::array kBarySpecs{
+    choice("point", kPoints, "how the weighted corners are combined"),
+    ParameterSpec{"strands", std::int64_t{41'960}, "strands", "on all the ground", 1,
+                  GrassGrowth::kMostStrands},
+};
+
+std::vector<Case> bary_cases(const RunOptions&) {
+  std::vector<Case> cases;
+  for (const std::string_view point : kPoints) {
+    cases.push_back({std::string(point), {kBarySpecs, {{"point", std::string(point)}}}});
+  }
+  return cases;
+}
+
+// A point's distance from a triangle, in metres.
+double distance_to(const glm::dvec3& p, const std::array<glm::dvec3, 3>& corner) {
+  const glm::dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+  bool inside = true;
+  double nearest = glm::distance(p, corner[0]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const glm::dvec3 from = corner[k], along = corner[(k + 1) % 3] - from;
+    inside = inside && glm::dot(glm::cross(along, p - from), normal) >= 0;
+    const double share = std::clamp(glm::dot(p - from, along) / glm::dot(along, along), 0.0, 1.0);
+    nearest = std::min(nearest, glm::distance(p, from + share * along));
+  }
+  return inside ? std::abs(glm::dot(p - corner[0], normal)) / glm::length(normal) : nearest;
+}
+
+void measure_bary(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
+  const Heightfield field = grassland(options.seed, 64, 0.7F);
+  recorder.terrain("grassland", checksum(field));
+  const TriangleMesh mesh = grassland_mesh(field);
+  const GrassGrowth growth{.strands = at.parameters.integer("strands"),
+                           .point = static_cast<PointReading>(at.parameters.choice("point"))};
+  const auto gl = open_context(options.renderer, 16, 16);
+  GrassScene scene(*gl, grass_ground(mesh), growth);
+  const std::vector<GrassStrand> strands = scene.strands();
+  const GrassPlan plan = plan_grass(grass_ground(mesh), growth);
+
+  // Rounding of 32-bit coordinates moves a root by less than this.
+  constexpr double kRounding = 1e-3;  // metres
+  std::vector<double> distances;
+  std::size_t on_triangle = 0;
+  for (std::size_t t = 0; t < plan.growing(); ++t) {
+    const glm::uvec4& triangle = plan.triangles[t];
+    const std::array<glm::dvec3, 3> corners{mesh.positions[triangle.x], mesh.positions[triangle.y],
+                                            mesh.positions[triangle.z]};
+    for (std::uint32_t k = triangle.w; k < plan.triangles[t + 1].w; ++k) {
+      distances.push_back(distance_to(glm::dvec3(strands[k].root), corners));
+      on_triangle += distances.back() <= kRounding ? 1 : 0;
+    }
+  }
+  std::sort(distances.begin(), distances.end());
+  recorder.add("share_on_the_triangle", "",
+               static_cast<double>(on_triangle) / static_cast<double>(distances.size()));
+  recorder.add("median_distance", "m", distances[distances.size() / 2]);
+  recorder.add("largest_distance", "m", distances.back());
+}
+
+}  // namespace
+
+extern const Experiment kTable3{"hybrid.table3", "Table 3: frame time of grass billboards", kTable3Specs,
+                                table3_cases, measure_table3};
+extern const Experiment kSlope{"hybrid.slope", "Grass: the slope angle, as printed and true", kSlopeSpecs,
+                               slope_cases, measure_slope};
+extern const Experiment kBary{"hybrid.bary", "Grass: points of a triangle, as printed and as a sum",
+                              kBarySpecs, bary_cases, measure_bary};
+
+}  // namespace terrabench::hybrid
