@@ -33,6 +33,26 @@ float surface_height(const Solid& solid, float x, float z) {
   return std::clamp(from + (static_cast<float>(highest_solid(column)) + 1.5F) * fine, low, low + tall);
 }
 
+// The median of each sample's neighbourhood of 3 × 3. Where an overhang ends, single samples can stand far
+// above all around them: as heights they would be needles and thin walls.
+Heightfield without_spikes(const Heightfield& field) {
+  Heightfield smooth = field;
+  tbb::parallel_for(0, field.depth, [&](int j) {
+    for (int i = 0; i < field.width; ++i) {
+      std::array<float, 9> around{};
+      std::size_t count = 0;
+      for (int z = std::max(j - 1, 0); z <= std::min(j + 1, field.depth - 1); ++z) {
+        for (int x = std::max(i - 1, 0); x <= std::min(i + 1, field.width - 1); ++x)
+          around[count++] = field.at(x, z);
+      }
+      const auto middle = around.begin() + static_cast<std::ptrdiff_t>(count / 2);
+      std::nth_element(around.begin(), middle, around.begin() + static_cast<std::ptrdiff_t>(count));
+      smooth.at(i, j) = *middle;
+    }
+  });
+  return smooth;
+}
+
 }  // namespace
 
 Heightfield surface_heights(const Solid& solid, int samples, Progress& progress) {
@@ -52,8 +72,8 @@ Heightfield surface_heights(const Solid& solid, int samples, Progress& progress)
 }
 
 Heightfield scene_heights(const TerrainSource& source, int samples, Progress& progress) {
-  Heightfield field =
-      source.solid ? surface_heights(*source.solid, samples, progress) : fill_no_data(*source.heights);
+  Heightfield field = source.solid ? without_spikes(surface_heights(*source.solid, samples, progress))
+                                   : fill_no_data(*source.heights);
   check_ground(field);
   return field;
 }

@@ -17,8 +17,8 @@ namespace terrabench {
 // O(samples²), parallel.
 Heightfield surface_heights(const Solid&, int samples, Progress&);
 
-// The source's heights, with holes filled, or those of its solid's surface. Throws as fill_no_data() and
-// check_ground() do.
+// The source's heights, with holes filled, or those of its solid's surface, without single spikes. Throws
+// bad_input for ground without any heights and usage_error for fewer than 2 × 2 samples.
 Heightfield scene_heights(const TerrainSource&, int samples, Progress&);
 
 // The box around a field. O(samples).

@@ -183,8 +183,8 @@ void Drawing::water_pass(Pass which) {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   begin(pass);
   glFrontFace(reflects ? GL_CW : GL_CCW);
-  glEnable(GL_CLIP_DISTANCE0);
   gl_.draw_sky(false);
+  glEnable(GL_CLIP_DISTANCE0);
   ground(pass);
   glDisable(GL_CLIP_DISTANCE0);
   glFrontFace(GL_CCW);

@@ -108,11 +108,13 @@ void LandscapeGl::write(const SceneBlock& content) {
 
 void LandscapeGl::draw_sky(bool shown) {
   glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);  // front is the other side in a mirrored pass
   glProgramUniform1i(sky.id(), uniform(sky, "shown"), shown ? 1 : 0);
   glUseProgram(sky.id());
   glBindVertexArray(nothing.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glEnable(GL_DEPTH_TEST);
+  glEnable(GL_CULL_FACE);
 }
 
 void LandscapeGl::draw_ground(Pass pass) {

@@ -124,10 +124,10 @@ Node material_noise(Graph& g, int material, std::uint64_t seed) {
           g.scale_offset(g.billow({.seed = seed + 1, .frequency = 9, .octaves = 5, .gain = 0.6F}), 0.7F, 0),
           fbm(4, 6, 0.6F, 2));
     case 3:  // rock: cracks through layers
-      return g.add(g.scale_offset(g.translate_domain(ridges(4, 6, 0.55F, 1),
+      return g.add(g.scale_offset(g.translate_domain(ridges(7, 6, 0.6F, 1),
                                                      g.scale_offset(fbm(5, 4, 0.5F, 2), 0.15F, 0)),
                                   -0.9F, 0),
-                   fbm(6, 7, 0.62F, 3));
+                   fbm(11, 7, 0.68F, 3));
     default:  // snow: soft drifts
       return g.add(fbm(3, 5, 0.45F, 1), g.scale_offset(fbm(40, 3, 0.6F, 2), 0.15F, 0));
   }

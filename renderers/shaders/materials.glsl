@@ -80,7 +80,7 @@ void add(inout Surface sum, Surface one, float share) {
 Surface surface_at(vec3 world, vec3 n) {
   vec3 p = world / ground.w, dx = dFdx(p), dy = dFdy(p);
   // Borders between bands wander with the noise.
-  const float kWander = 2.2;
+  const float kWander = 1.5;
   float wander = textureLod(material_maps, vec3(p.xz * 0.037, 1.0), 3.0).a - 0.5 +
                  0.6 * (textureLod(material_maps, vec3(p.zx * 0.21, 3.0), 2.0).r - 0.5);
   float height = world.y + kWander * wander * ground.x;

@@ -27,7 +27,7 @@ TEST_F(CommandLine, HelpAndVersionExitGood) {
   const Outcome help = call("$T --help");
   EXPECT_EQ(help.code, 0);
   EXPECT_THAT(help.text, HasSubstr("Exit codes"));
-  for (const char* command : {"list", "run", "check", "report", "compare", "represent", "info"}) {
+  for (const char* command : {"list", "run", "check", "report", "compare", "represent", "render", "info"}) {
     EXPECT_EQ(call(std::string("$T ") + command + " --help").code, 0) << command;
   }
   EXPECT_EQ(call("$T --version").code, 0);

@@ -161,6 +161,27 @@ TEST_F(Landscape, TheReflectionIsTheMirroredScene) {
   }
 }
 
+// Level water without waves that reflects all light shows the sky above, upside down.
+TEST_F(Landscape, WaterReflectsTheSky) {
+  LandscapeStyle mirror = style({{"fresnel_normal", 1.0},
+                                 {"distortion", 0.0},
+                                 {"wave_slope", 0.0},
+                                 {"highlight", 0.0},
+                                 {"haze", 0.001},
+                                 {"fog", 1000.0},
+                                 {"border", 0.0}});
+  const View level = view({320, 0.5F, 300}, {320, 0.5F, 0});
+  LandscapeRenderer renderer(*context_, mirror);
+  renderer.draw({}, level);  // no ground
+  const Image image = renderer.image();
+  for (int x = 5; x < 320; x += 30) {
+    for (int y = 5; y < 95; y += 10) {
+      const Rgb above = image.pixel(x, y), below = image.pixel(x, 199 - y);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(above[c], below[c], 4) << x << ' ' << y;
+    }
+  }
+}
+
 // An eye under water looks up at a bright surface and across into the water's colour.
 TEST_F(Landscape, AnEyeUnderWaterSeesTheWatersColour) {
   const Image across = draw(view({320, -12, 400}, {320, -13, 200}), style());

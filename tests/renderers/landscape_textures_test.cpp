@@ -100,7 +100,7 @@ TEST(Probe, ComputesThePrintedFormulas) {
   EXPECT_NEAR(reflected[2], 0.02 + 0.98 * std::pow(1 - std::sin(0.5), 5), 1e-5);
   EXPECT_EQ(reflected[2], reflected[3]);
   const glm::vec4 slopes[] = {{0.5F, 0, 0, 0}, {0.5F, 1, 0, 0}};
-  EXPECT_NEAR(evaluate(*context, Probe::kSlope, slopes)[0], 60, 1e-3);
+  EXPECT_NEAR(evaluate(*context, Probe::kSlope, slopes)[0], 60, 0.01);  // GPUs approximate acos
   EXPECT_NEAR(evaluate(*context, Probe::kSlope, slopes)[1], 45, 1e-4);
 }
 
