@@ -85,7 +85,7 @@ class Writer {
                          [](const Judgement& j) { return !j.complaint.empty(); });
     const std::size_t all = results_.judgements.size();
     if (failing.empty()) {
-      text_ += fmt::format("Profile {}: {} claims, no verdict changed\n", results_.profile, all);
+      text_ += fmt::format("Profile {}: {} claims, every verdict as expected\n", results_.profile, all);
       return;
     }
     text_ +=

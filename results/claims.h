@@ -51,11 +51,12 @@ struct Condition {
 
 struct Claim {
   std::string id, where, statement;
-  char claim_class = 'E';        // key `class`: E exact, T tolerance, S shape, F figure, Q qualitative
-  std::vector<double> reported;  // as printed in the paper
-  std::string unit, tolerance, note;
-  std::vector<std::string> profiles;     // those that measure it
-  std::vector<Condition> conditions;     // all must hold
+  char claim_class = 'E';             // key `class`: E exact, T tolerance, S shape, F figure, Q qualitative.
+                                      // Only S changes a verdict's name; F the report's layout
+  std::vector<double> reported;       // as printed in the paper
+  std::string unit, note, tolerance;  // tolerance: in words, for readers; the ranges in check decide
+  std::vector<std::string> profiles;  // those that measure it
+  std::vector<Condition> conditions;  // all must hold
   Verdict known = Verdict::kReproduced;  // expected
   std::string pending, not_comparable;   // the reason; both empty if the claim is measured
 };

@@ -33,7 +33,7 @@ Outcome outcome(bool holds) { return holds ? Outcome::kHolds : Outcome::kFails; 
 // How far a value misses a bound, relative to the bound unless that is 0.
 std::string missed_by(double value, double bound) {
   const double distance = value - bound;
-  if (!std::isfinite(distance)) return "without measure";
+  if (!std::isfinite(distance)) return "at no finite distance";
   const std::string_view side = distance < 0 ? "below" : "above";
   return bound == 0 ? fmt::format("{:.3g} {}", std::abs(distance), side)
                     : fmt::format("{:.3g} % {}", 100 * std::abs(distance / bound), side);
@@ -110,7 +110,7 @@ Finding compare(const Condition& condition, const std::vector<Quantity>& quantit
 }
 
 // Whether the records must come from one machine and build: for ratios, growth, and orders of times.
-bool compares_times(const Condition& condition, const std::vector<Quantity>& quantities) {
+bool needs_one_machine(const Condition& condition, const std::vector<Quantity>& quantities) {
   if (condition.kind == Kind::kRatio || condition.kind == Kind::kGrowth) return true;
   return condition.kind == Kind::kOrder && std::any_of(quantities.begin(), quantities.end(),
                                                        [](const Quantity& q) { return is_timing(q.unit); });
@@ -162,7 +162,7 @@ class Reader {
       const std::string name = name_cases_ ? operand.case_name + " " + spoken : spoken;
       quantities.push_back({metric->samples, name, metric->unit, std::move(spoken)});
     }
-    if (compares_times(condition, quantities)) note_incomparable(records);
+    if (needs_one_machine(condition, quantities)) note_incomparable(records);
     return compare(condition, quantities);
   }
 

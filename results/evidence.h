@@ -22,7 +22,7 @@ struct Evidence {
   std::vector<Finding> findings;  // one per condition of the claim, in their order
   std::vector<std::string> runs;  // ids of the runs whose records were read
   bool altered = false;           // one of these records was altered by hand
-  bool incomparable = false;      // a condition compares times from different machines or builds
+  bool incomparable = false;      // a ratio, growth or order of times mixes machines or builds
 };
 
 // Reads the records of one profile. Medians decide; a 95 % interval is reported beside each.

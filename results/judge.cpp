@@ -46,7 +46,7 @@ void judge_measured(Judgement& judgement, const Store& store, const std::string&
     judgement.complaint = "compares what was measured on different machines or builds";
   } else if (judgement.verdict != claim.known) {
     judgement.complaint =
-        fmt::format("known as '{}', found '{}'", name(claim.known), name(judgement.verdict));
+        fmt::format("expected verdict '{}', computed '{}'", name(claim.known), name(judgement.verdict));
   }
 }
 

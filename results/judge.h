@@ -2,8 +2,8 @@
 // 1. A claim (claims.h, read from experiments/*/claims.toml) has conditions on metrics of named cases.
 // 2. gather_evidence (evidence.h) reads these metrics from the records and evaluates each condition.
 // 3. judge() makes one verdict from the findings: missing if one could not be evaluated, differs if one
-//    fails, else reproduced ("shape" for claims of class S). A claim is not run if the profile of the newest
-//    record does not measure it.
+//    fails, else reproduced ("shape" for claims of class S). Not run if the profile of the newest record does
+//    not measure it. A claim with a reason in 'pending' or 'not_comparable' has that verdict unmeasured.
 // 4. Complaints, with which `terrabench check` exits with 1: a verdict other than the claim's known one, a
 //    record altered by hand, a comparison between different machines or builds.
 #pragma once

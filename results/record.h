@@ -48,7 +48,7 @@ bool comparable(const Provenance&, const Provenance&);
 // One case of one experiment, measured.
 struct Record {
   std::string experiment, case_name, profile;
-  std::vector<std::string> overrides = {};  // "name=value" given by --set; claims then do not use the record
+  std::vector<std::string> overrides = {};  // "name=value" of --set; also in case_name, so no claim reads it
   std::string run;                          // Provenance::id
   std::uint64_t seed = 0;
   std::string terrain, terrain_checksum;  // what was measured on

@@ -31,7 +31,7 @@ int longest(const HeightSource& source) {
   return std::max(samples.x, samples.y);
 }
 
-// At most the m that covers the ground from any eye over it: a larger window only adds triangles beyond the
+// Limits m to what covers the ground from any eye position: a larger window only adds triangles beyond the
 // border.
 int m_of(const HeightSource& source, int window) {
   const int covering =
@@ -39,7 +39,7 @@ int m_of(const HeightSource& source, int window) {
   return std::clamp((window + 1) / 4, kSmallestM, covering);
 }
 
-// The number of levels whose coarsest window reaches at least `samples` from wherever the eye is in it.
+// The number of levels whose coarsest window reaches at least `samples` from any position of the eye in it.
 int level_count(double samples, int n) {
   int levels = 1;
   while (std::ldexp(n / 2 - 1, levels - 1) < samples) ++levels;
@@ -186,8 +186,9 @@ const Frame& Clipmap::update(const View& view) {
 
   for (int l = finest; l < levels(); ++l) {
     const int spacing = 1 << l;
-    // The corner is even, and the eye is 2m - 2 to 2m samples of the level from it. Hence the next finer
-    // window begins m - 1 or m samples inside this one.
+    // In samples of this level: the corner is even, the eye 2m - 2 to 2m from it on each axis, near the
+    // middle of n = 4m - 1. The next finer corner is floor(eye) - m + 1, hence m - 1 or m samples from this
+    // corner.
     move_window(l, {2 * (lattice_floor(eye.x, 2 * spacing) - pattern_.m + 1),
                     2 * (lattice_floor(eye.y, 2 * spacing) - pattern_.m + 1)});
     if (l == 0 && !hole_cut_) update_blocks(l);
@@ -213,9 +214,9 @@ const Frame& Clipmap::update(const View& view) {
   return frame_;
 }
 
-// `rise`: the eye's height as a share of the height at which the level is left out. Only the finest level
-// reaches the range from ½ to 1; there the transition grows inwards until it covers the whole window, so that
-// no vertex jumps when the level is left out.
+// `rise`: the eye's height as a share of the height at which the level is left out. Only the finest drawn
+// level has a rise over ½; from ½ to 1 its transition widens inwards until it covers the whole window, so
+// that no vertex jumps when the level is left out.
 void Clipmap::set_transition(int l, float rise) {
   ClipLevel& level = clip_levels_[l];
   if (l + 1 == levels()) return;
@@ -241,7 +242,7 @@ void Clipmap::move_window(int l, glm::ivec2 corner) {
       read_strip(l, by.x > 0 ? corner.x + n - by.x : corner.x, corner.y, std::abs(by.x), n);
     }
     if (by.y != 0) {
-      // Without the samples that the columns already contain.
+      // Skips the corner that was read with the columns.
       const int a = by.x < 0 ? corner.x - by.x : corner.x;
       read_strip(l, a, by.y > 0 ? corner.y + n - by.y : corner.y, n - std::abs(by.x), std::abs(by.y));
     }

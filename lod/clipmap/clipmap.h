@@ -1,15 +1,17 @@
 // Geometry clipmaps (Losasso & Hoppe 2004, whose sections are cited below; the hybrid paper uses them, §3.2):
 // nested windows of n × n samples around the eye, each twice as coarse as the one inside it. Windows are
 // stored toroidally, so that a move of the eye reads only the strips that entered a window.
+// Lattice coordinates number a level's own samples: (a, b) is sample (a·2^level, b·2^level) of the terrain. A
+// window has n = 4m - 1 samples per side; a row of its array has the next power of two (terrain/frame.h).
 //
 // One update(): find the finest level by the eye's height; move each window, read its new strips and update
 // its blocks' height ranges; set the transitions; append a batch for each block that is not culled.
 //
-// Where the paper leaves a choice: a level is every second sample of the finer one, not filtered, so that a
-// vertex has one height in all levels. A window follows the eye in steps of two of its samples. A level is
-// left out while the eye's height over the ground exceeds 0.4 of its window's extent (§3.2). The transition
-// is a tenth of the window wide (§3.3). Blocks are culled by their present heights. Over bounded ground,
-// blocks are cut at the border, beyond which triangles have no plan area.
+// Where it departs from the paper or the paper leaves a choice: a level is every second sample of the finer
+// one, not filtered, so that a vertex has one height in all levels. A window follows the eye in steps of two
+// of its samples. A level is left out while the eye's height over the ground exceeds 0.4 of its window's
+// extent (§3.2). The transition is a tenth of the window wide (§3.3). Blocks are culled by their present
+// heights. Over bounded ground, blocks are cut at the border, beyond which triangles have no plan area.
 //
 // Endless ground (endless_heights.h) gets as many levels as reach the far plane (at most 2^26 samples away),
 // so that no edge comes into view. Its origin can be moved along with the eye, so that coordinates stay small

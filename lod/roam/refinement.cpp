@@ -16,7 +16,7 @@ using roam::ViewedCorner;
 
 namespace {
 
-constexpr double kBucketShare = 1 / (1 + 1.0 / 16);  // from a bucket's upper to its lower end
+constexpr double kBucketShare = 1 / (1 + 1.0 / 16);  // lower / upper end of the widest bucket
 constexpr std::size_t kPrefetch = 16;                // prefetch distance, in nodes
 
 }  // namespace
@@ -35,7 +35,7 @@ void Roam::refine() {
   for (std::size_t step = 1;; ++step) {
     constexpr std::size_t kStepsPerClockReading = 32;
     if (step % kStepsPerClockReading == 0 && out_of_time()) return;
-    if (full(0)) queue_split_diamonds();  // they may be the lowest
+    if (full(0)) queue_split_diamonds();  // a diamond split in this frame may be the lowest
     const int lowest = merges_.lowest(), highest = splits_.highest();
     if (lowest >= 0 && (lowest < kMaxErrorBucket || full(0))) {
       force_merge(merges_.first(lowest));
@@ -64,8 +64,8 @@ bool Roam::out_of_time() const {
   return spent.count() >= options_.milliseconds;
 }
 
-// Splits coarser base neighbours until the triangle forms a diamond, then splits that diamond. A split of the
-// base neighbour makes one of its children the new base neighbour.
+// While the triangle forms no diamond, its base neighbour is one level coarser: splits that neighbour, one of
+// whose children becomes the new base neighbour. Then splits the diamond.
 void Roam::force_split(std::uint32_t id) {
   while (mesh_.nodes()[id].leaf() && !mesh_.forms_diamond(id)) force_split(mesh_.nodes()[id].base);
   // Splitting a degenerate neighbour may already have split this triangle.
@@ -90,7 +90,7 @@ void Roam::split_diamond(std::uint32_t id) {
   const ViewedCorner middle = view_.corner(mesh_.apex(nodes[nodes[id].child]));
   const ViewedCorner left = view_.corner(at_left), right = view_.corner(at_right);
   add_children(id, view_.corner(at_apex), left, right, middle);
-  if (const std::uint32_t base = both[1]; base != kNone) {
+  if (const std::uint32_t base = both[1]; base != kNone) {  // seen from it, left and right change places
     add_children(base, view_.corner(mesh_.apex(nodes[base])), right, left, middle);
   }
   split_diamonds_.push_back(diamond_of(id));
@@ -110,8 +110,8 @@ void Roam::withdraw_parents(const Halves& both) {
   }
 }
 
-// Degenerate triangles occur only where the grid's sides are not 2^n + 1 samples. A merge would include them,
-// so the diamond is ranked with them now; otherwise split and merge would alternate forever.
+// Degenerate triangles occur only where the lattice is not exact (lattice.h). A merge would include them, so
+// the diamond is ranked with them now; otherwise split and merge would alternate forever.
 void Roam::split_degenerate_children(const Halves& both) {
   const std::vector<Node>& nodes = mesh_.nodes();
   bool any = false;

@@ -3,7 +3,8 @@
 // merge, so that each frame starts from the mesh of the last.
 //
 // The screen-space error of every visible sample stays at or below the knob, unless the limit on triangles or
-// on time stops refinement first; then the remaining error is even over the mesh, to a bucket (1/16 octave).
+// on time stops refinement first. At the limit on triangles, the error of a new mesh is even, to a bucket
+// (1/16 octave); while the camera moves, a diamond whose priority falls may be merged late (`exact_from_`).
 // The mesh never has cracks. The same views give the same triangles, unless time is limited. A frame costs
 // O(changes · log samples), plus the triangles on the view's border and those with expired priorities.
 //
@@ -15,17 +16,18 @@
 //
 // Glossary:
 //   wedgie       the prism around a triangle that contains its samples and its descendants' wedgies
-//   diamond      two triangles with a common hypotenuse, or one at the border; identified by the smaller of
-//   their node numbers distortion   upper bound of a wedgie's screen-space error, in pixels priority     a
-//   leaf's distortion, or the largest that a merge would bring back, as a multiple of
-//                max_error; kept as the number of its bucket
+//   diamond      two triangles with a common hypotenuse, or one at the border; has the smaller node's number
+//   distortion   upper bound of a wedgie's screen-space error, in pixels
+//   priority     of a leaf: its distortion; of a diamond: the largest distortion that its merge would bring
+//                back. A multiple of max_error, kept as the number of its bucket
 //   rank         to compute a priority and enter the leaf or diamond into its queue
 //   label        which planes of the view a wedgie lies inside (CullLabel)
 //   bisect, join what Mesh does to the two triangles of a diamond, without regard to the queues
 //   split, merge what Roam does to a diamond: the mesh, the queues, the culling labels, the draw list
 //   force_split  splits coarser neighbours first, until the triangle is half of a diamond
 //   force_merge  merges degenerate children first
-//   degenerate   of a triangle: its corners are collinear in plan, so it must always be split
+//   degenerate   of a triangle: its corners are collinear in plan, so it must always be split. Only where
+//                Lattice::exact is false; skip it at a first reading
 //   deferred     not ranked again before the camera has moved so far that the rank may matter
 #pragma once
 
@@ -67,7 +69,7 @@ class Roam : public Lod {
   // Priority buckets: 16 per octave, from 2^-8 of max_error up. One bucket starts exactly at max_error, so
   // that no triangle within a bucket's width of it is split or kept by mistake.
   static constexpr int kPerOctave = 16;
-  static constexpr int kMaxErrorBucket = 8 * kPerOctave + 1;
+  static constexpr int kMaxErrorBucket = 8 * kPerOctave + 1;  // + 1: bucket 0 holds everything below 2^-8
   static constexpr int kBuckets = 40 * kPerOctave;
   // A bucket's number plus this is a float's exponent and four bits of its mantissa.
   static constexpr int kFirstBucket = (127 << 4) - kMaxErrorBucket;
@@ -138,8 +140,9 @@ class Roam : public Lod {
   std::vector<Batch> batches_;
   std::vector<DirtyRange> uploads_;
   Frame frame_;
-  // From this bucket up, priorities are recomputed as soon as the camera's motion may have changed them by a
-  // bucket. Below it, they may be out of date, but none has risen to this bucket.
+  // When deferred priorities are computed again. Leaves from this bucket up: as soon as the motion may have
+  // changed them by 1/16. Leaves below: before they may have risen to it. Diamonds: before they may have
+  // fallen 1/16 below it. That is this bucket as it was when they were ranked; it may have risen since.
   int exact_from_ = kMaxErrorBucket;
   std::size_t changes_ = 0;
   std::chrono::steady_clock::time_point start_;

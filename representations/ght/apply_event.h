@@ -1,6 +1,6 @@
 // Applying an event to a tree (Alonso, Joan-Arinyo & Solano, §3.2, figure 12). The paper's four steps are
-// here: IdentifyHmap is identify_host(); CreateHeightmaps and ApplyEvent are record(), one function per
-// event, in a file of its own; AttachNewHeightmaps is Edit::commit(). Costs are of the region touched.
+// here: IdentifyHmap is identify_host(); CreateHeightmaps and ApplyEvent are record(), one per event in
+// a file of its own; AttachNewHeightmaps is Edit::commit(). Costs are proportional to the region touched.
 #pragma once
 
 #include "representations/ght/model.h"
@@ -15,7 +15,7 @@ class Edit;
 void apply_event(Model& model, const events::Event& event, std::size_t number);
 
 // The deepest outdoor heightmap that contains the whole of a convex region in plan (counter-clockwise seen
-// from above) and has a height or a link in every cell there; of several the latest. Otherwise the root.
+// from above), with a height or link in every cell there; of equally deep ones the latest; the root if none.
 NodeId identify_host(const Model& model, std::span<const glm::dvec2> region);
 
 // Record what an event does to the tree; see edit.h. New heightmaps: linear erosion 4, radial erosion 1,

@@ -204,7 +204,7 @@ RemovedPart cut_out_shape(Edit& edit, const Shape& shape) {
     for (const CellId c : around) collector.add_around(c, part);
     collector.sort_and_check(part);
   }
-  edit.refuse("does not leave one ring of ground around it", kMove);
+  edit.refuse("touches ground that is not bounded by one closed loop", kMove);
 }
 
 }  // namespace

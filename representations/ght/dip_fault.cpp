@@ -28,6 +28,7 @@ struct DipFaultMaps {
   int folded = 0;                 // rows of the right block under the overhang; 0 for a normal fault
   GroundedHeightmap left{}, right{}, scarp{};
 
+  int folded_scarp() const { return folded > 0 ? scarp_rows : 0; }  // of an overhang, all but the left lip
   bool at_end(int column) const { return column == 0 || column == columns; }
   double u(int column) const { return line.length * column / columns; }
 };
@@ -57,7 +58,7 @@ int rows_under_overhang(const Edit& edit, const DipFaultMaps& maps) {
   const double tolerance = 1e-3 * edit.grid().spacing(), step = (maps.extent - maps.lip) / maps.rows;
   const int rows = static_cast<int>(std::floor((-2 * maps.lip + tolerance) / step)) + 1;
   if (rows > maps.rows) {
-    edit.refuse("hangs over all of the sunk block", "give a larger 'extent' or a smaller 'throw'");
+    edit.refuse("overhangs the whole downthrown block", "give a larger 'extent' or a smaller 'throw'");
   }
   return rows;
 }
@@ -76,7 +77,7 @@ DipFaultMaps append_maps(Edit& edit, const events::DipFault& e) {
   if (e.inverse) maps.folded = rows_under_overhang(edit, maps);
   maps.left = append_block(edit, maps, 1);
   maps.right = append_block(edit, maps, -1);
-  // An overhanging scarp cannot be the host of later events, which kIndoor states.
+  // kIndoor keeps an overhanging scarp out of the index of hosts: no later event can be applied to it.
   maps.scarp = append_scarp(edit, maps, e.inverse ? Area::kIndoor : Area::kOutdoor);
   return maps;
 }
@@ -89,17 +90,23 @@ float height_on_ground(const Edit& edit, const events::Line& line, const Grounde
   return edit.ground(line.plan(line.local({p.x, p.z}))) - static_cast<float>(p.y);
 }
 
-// A cell at a lip links to the scarp, which comes later in the tree and holds the heights of both lips. In
-// the two end columns the overhang has no width: the right block's cells under it and the scarp's cells all
+// In the two end columns an overhang has no width: the right block's cells under it and the scarp's cells all
 // link to the left lip.
+void fold_end_columns(Edit& edit, const DipFaultMaps& maps) {
+  for (const int i : {0, maps.columns}) {
+    const CellId lip = maps.scarp.cell(i, maps.scarp_rows);
+    for (int j = 0; j < maps.folded; ++j) edit.set_link(maps.right.cell(i, j), lip);
+    for (int j = 0; j < maps.folded_scarp(); ++j) edit.set_link(maps.scarp.cell(i, j), lip);
+  }
+}
+
+// A cell at a lip links to the scarp, which comes later in the tree and holds the heights of both lips.
 void fill_block(Edit& edit, const DipFaultMaps& maps, int sign) {
   const GroundedHeightmap& block = sign > 0 ? maps.left : maps.right;
   for (int i = 0; i <= maps.columns; ++i) {
-    for (int j = 0; j <= maps.rows; ++j) {
+    for (int j = sign < 0 && maps.at_end(i) ? maps.folded : 0; j <= maps.rows; ++j) {
       const CellId c = block.cell(i, j);
-      if (maps.at_end(i) && sign < 0 && j < maps.folded) {
-        edit.set_link(c, maps.scarp.cell(i, maps.scarp_rows));
-      } else if (j == 0) {
+      if (j == 0) {
         edit.set_link(c, maps.scarp.cell(i, sign < 0 ? 0 : maps.scarp_rows));
       } else if (maps.at_end(i)) {
         edit.set_height(c, height_on_ground(edit, maps.line, block, i, j));
@@ -112,14 +119,10 @@ void fill_block(Edit& edit, const DipFaultMaps& maps, int sign) {
 
 void fill_scarp(Edit& edit, const DipFaultMaps& maps) {
   for (int i = 0; i <= maps.columns; ++i) {
-    for (int j = 0; j <= maps.scarp_rows; ++j) {
-      const CellId c = maps.scarp.cell(i, j);
-      if (maps.at_end(i) && maps.folded > 0 && j < maps.scarp_rows) {
-        edit.set_link(c, maps.scarp.cell(i, maps.scarp_rows));
-      } else {
-        edit.set_height(c, maps.at_end(i) ? height_on_ground(edit, maps.line, maps.scarp, i, j)
-                                          : edit.ground(maps.line.plan({maps.u(i), 0})));
-      }
+    for (int j = maps.at_end(i) ? maps.folded_scarp() : 0; j <= maps.scarp_rows; ++j) {
+      edit.set_height(maps.scarp.cell(i, j), maps.at_end(i)
+                                                 ? height_on_ground(edit, maps.line, maps.scarp, i, j)
+                                                 : edit.ground(maps.line.plan({maps.u(i), 0})));
     }
   }
 }
@@ -131,6 +134,7 @@ void add_profile(const DipFaultMaps& maps, int column, std::vector<CellId>& cell
   for (int j = 0; j <= maps.rows; ++j) cells.push_back(maps.left.cell(column, j));
 }
 
+// Boundary cells, counter-clockwise seen from above: right edge, far end, left edge, near end.
 std::vector<CellId> outline(const DipFaultMaps& maps) {
   std::vector<CellId> cells, back;
   for (int i = 0; i <= maps.columns; ++i) cells.push_back(maps.right.cell(i, maps.rows));
@@ -147,8 +151,9 @@ void record(Edit& edit, const events::DipFault& e) {
   const events::Line line = e.line();
   // Step 1: cut out.
   const RemovedPart old = cut_out_with_margin(edit, {line, 0, line.length, -e.extent, e.extent});
-  // Step 2: new heightmaps. Their links come before their quadrilaterals, which follow links.
+  // Step 2: new heightmaps. Set links first: quads() replaces each link by its target.
   const DipFaultMaps maps = append_maps(edit, e);
+  fold_end_columns(edit, maps);
   for (const int sign : {1, -1}) fill_block(edit, maps, sign);
   fill_scarp(edit, maps);
   edit.quads(maps.left, false);

@@ -1,10 +1,9 @@
 // One event's change to a grounded heightmap tree, all of it or nothing. Every event is a function that
-// records the same four steps in an Edit:
+// records the same four steps in an Edit (ours; for the paper's four, figure 12, see apply_event.h):
 //   1. cut out: the part of the surface that the event touches is removed, up to a simple loop of cells;
 //   2. new heightmaps are appended to the tree and their quadrilaterals become faces;
 //   3. the outline of the new heightmaps lists their boundary cells;
-//   4. join: triangles close the ring between loop and outline, and superseded cells become links to new
-//   ones.
+//   4. join: triangles close the ring between loop and outline; superseded cells become links to new ones.
 // The ring's triangles are the paper's boundary links (Alonso, Joan-Arinyo & Solano, §3.2: "each cell in the
 // boundary of a new heightmap is linked to the neighbor cell in another heightmap"). Their corners are cells
 // of the old and of the new heightmaps, so the surface stays closed, whatever earlier events left there.

@@ -12,8 +12,9 @@
 //   LateralFault                     §3.2, figure 13         lateral_fault.cpp
 //   Carving (tunnel and cave)        §3.2, figures 15, 16    carving.cpp, carving_walls.cpp
 //
-// To follow one event, read edit.h, then record() at the end of the event's file, along_line.cpp for events
-// along a line, and edit.cpp from close_ring() on. The event's formula is in terrain/events/event.h.
+// To follow one event, such as a dip fault: its formula in terrain/events/event.h (DipFault), edit.h, its
+// file (dip_fault.cpp) from record() at the end, then edit.cpp from close_ring() on. apply_event() finds the
+// host, calls record() and then commit(). The helpers are in along_line.h and cut_out.h and can wait.
 #pragma once
 
 #include <memory>

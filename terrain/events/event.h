@@ -90,7 +90,7 @@ struct DipFault {
   double dip = 60;            // degrees, of the scarp from the horizontal
 
   Line line() const { return {from, to}; }
-  double offset() const { return rise / tangent_of_degrees(dip); }  // o; validate() keeps o/2 < extent
+  double offset() const { return rise / tangent_of_degrees(dip); }  // o, the heave; validate(): o/2 < extent
 };
 
 // The ground slides along the line, the left block forwards and the right one backwards, each by half the

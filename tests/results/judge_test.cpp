@@ -111,7 +111,8 @@ TEST_F(OneClaim, DifferenceSaysByHowMuch) {
   EXPECT_THAT(text("{equal = [\"e/c/m\", 100]}"), HasSubstr("≠ 100 (10 % above)"));
   EXPECT_THAT(text("{order = [\"e/c/m\", \"e/c/n\"]}"), HasSubstr("≥ n 100 B (10 % above)"));
   EXPECT_THAT(text("{within = [\"e/c/m\"], range = [-1, 0]}"), HasSubstr("but 110 above"));
-  EXPECT_THAT(text("{ratio = [\"e/c/m\", \"e/c/zero\"], range = [0, 1]}"), HasSubstr("without measure"));
+  EXPECT_THAT(text("{ratio = [\"e/c/m\", \"e/c/zero\"], range = [0, 1]}"),
+              HasSubstr("at no finite distance"));
 }
 
 // The short form: the figure that decides, what it must be, its name.
