@@ -1,90 +1,20 @@
 #include "renderers/frame_renderer.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
+#include <optional>
 #include <utility>
 
+#include "renderers/frame_buffers.h"
 #include "renderers/gl.h"
+#include "renderers/shader_parts.h"
 #include "renderers/target.h"
-#include "terrain/error.h"
 
 namespace terrabench {
 namespace {
-
-// Laid out as in shaders/frame.vert.
-struct BatchRecord {
-  std::int32_t level;
-  std::uint32_t first_triangle;
-  std::uint32_t corner;
-  std::uint32_t morph;
-};
-struct LevelRecord {
-  glm::ivec2 corner;
-  glm::vec2 eye;
-  float from, to;
-  std::int32_t spacing, unused;
-};
-struct DrawCommand {
-  std::uint32_t count, instances, first_index;
-  std::int32_t base_vertex;
-  std::uint32_t base_instance;
-};
-static_assert(sizeof(BatchRecord) + sizeof(DrawCommand) == kBytesPerBatch);
-static_assert(sizeof(LevelRecord) == kBytesPerClipLevel);
-static_assert(sizeof(PatchMorph) == 5 * sizeof(float));
-
-// A buffer that is written in parts and grows to (1 + slack) times the needed size. On growth the GPU copies
-// the contents, so that nothing is sent twice.
-class GrowingBuffer {
- public:
-  explicit GrowingBuffer(double slack = 0.5) : slack_(slack) {}
-  GLuint id() const { return buffer_.id(); }
-  std::size_t written() const { return written_; }  // bytes in total
-  void reserve(std::size_t bytes) {
-    if (bytes <= capacity_) return;
-    const std::size_t capacity = bytes + static_cast<std::size_t>(static_cast<double>(bytes) * slack_);
-    Buffer larger;
-    glNamedBufferStorage(larger.id(), static_cast<GLsizeiptr>(capacity), nullptr, GL_DYNAMIC_STORAGE_BIT);
-    check_gl("reserving memory for the terrain");
-    if (capacity_ > 0) {
-      glCopyNamedBufferSubData(buffer_.id(), larger.id(), 0, 0, static_cast<GLsizeiptr>(capacity_));
-    }
-    buffer_ = std::move(larger);
-    capacity_ = capacity;
-  }
-  void write(std::size_t at, const void* data, std::size_t bytes) {
-    if (bytes == 0) return;
-    glNamedBufferSubData(buffer_.id(), static_cast<GLintptr>(at), static_cast<GLsizeiptr>(bytes), data);
-    written_ += bytes;
-  }
-  template <class T>
-  void replace(const std::vector<T>& content) {
-    reserve(content.size() * sizeof(T));
-    write(0, content.data(), content.size() * sizeof(T));
-  }
-
- private:
-  Buffer buffer_;
-  double slack_;
-  std::size_t capacity_ = 0, written_ = 0;
-};
-
-void check_room(std::size_t bytes) {
-  GLint64 most = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-  if (bytes > static_cast<std::size_t>(most)) {
-    throw environment_error(
-        fmt::format("heights need {} MiB, but this OpenGL's storage blocks hold at most {} MiB", bytes >> 20,
-                    most >> 20),
-        "", "draw a smaller terrain, or use a method that stores only a part of it (clipmap)");
-  }
-}
 
 // During its life, triangles seen from below are culled. They would be visible only at ridges, where rounding
 // can let the slope behind win a depth test.
@@ -95,128 +25,36 @@ struct CullUndersides {
 
 glm::vec3 as_shares(const Rgb& color) { return glm::vec3(color[0], color[1], color[2]) / 255.0F; }
 
-}  // namespace
+// The programs for a frame's heights and meshes that give the same fragments. That for meshes is linked when
+// a frame first has some.
+class Programs {
+ public:
+  explicit Programs(const char* fragment, const char* geometry = nullptr)
+      : fragment_(fragment), geometry_(geometry), heights_(link({"frame_heights.glsl", "frame.vert"})) {}
 
-struct FrameRenderer::Gl {
-  Program plain = link_program(shader_file("frame.vert"), shader_file("relief.frag"));
-  Program wired =
-      link_program(shader_file("frame.vert"), shader_file("relief.frag"), &shader_file("wire.geom"));
-  Program numbers = link_program(shader_file("frame.vert"), shader_file("triangle_number.frag"));
-  Texture1d ramp = make_ramp_texture();
-  VertexArray array;
-  GrowingBuffer indices, batches, levels, commands, morphs;
-  GrowingBuffer heights{0};  // grows only when a clipmap adds levels
-  bool fresh = true;
-  std::vector<BatchRecord> batch_records;
-  std::vector<LevelRecord> level_records;
-  std::vector<DrawCommand> draw_commands;
+  const Program& heights() const { return heights_; }
+  const Program& meshes() {
+    if (!meshes_) meshes_.emplace(link({"frame_mesh.vert"}));
+    return *meshes_;
+  }
 
-  Gl();
-  void upload(const Frame&);
-  void upload_all(const Frame&);
-  void upload(const Frame&, const DirtyRange&);
-  void describe(const Frame&);
-  void set(const Program&, const Frame&, const View&);
-  void set_style(const Program&, const View&, const FrameStyle&);
-  void draw(const Program&, GLenum nearer);
+ private:
+  Program link(ShaderParts vertex) const {
+    return geometry_ == nullptr ? link_parts(vertex, {fragment_})
+                                : link_parts(vertex, {fragment_}, {geometry_});
+  }
+
+  const char *fragment_, *geometry_;
+  Program heights_;
+  std::optional<Program> meshes_;
 };
 
-FrameRenderer::Gl::Gl() {
-  // The batch's number reaches the vertices as a per-instance attribute, read from base_instance of the
-  // command.
-  glVertexArrayAttribIFormat(array.id(), 0, 1, GL_UNSIGNED_INT, 0);
-  glVertexArrayAttribBinding(array.id(), 0, 0);
-  glVertexArrayBindingDivisor(array.id(), 0, 1);
-  glEnableVertexArrayAttrib(array.id(), 0);
-  // Bound in every frame, even without clip levels or morphs, so it must not be empty.
-  levels.reserve(sizeof(LevelRecord));
-  morphs.reserve(sizeof(PatchMorph));
+void set_matrix(const Program& program, const glm::mat4& world_to_clip) {
+  glProgramUniformMatrix4fv(program.id(), uniform(program, "world_to_clip"), 1, GL_FALSE,
+                            glm::value_ptr(world_to_clip));
 }
 
-void FrameRenderer::Gl::upload_all(const Frame& frame) {
-  indices.write(0, frame.indices.data(), frame.indices.size_bytes());
-  heights.write(0, frame.grid.heights.data(), frame.grid.heights.size_bytes());
-  morphs.write(0, frame.morphs.data(), frame.morphs.size_bytes());
-  std::size_t at = 0;
-  for (const ClipLevel& level : frame.clip_levels) {
-    heights.write(at, level.heights.data(), level.heights.size_bytes());
-    at += level.heights.size_bytes();
-  }
-}
-
-void FrameRenderer::Gl::upload(const Frame& frame, const DirtyRange& range) {
-  constexpr std::size_t kWord = 4;
-  switch (range.target) {
-    case DirtyRange::Target::kIndices:
-      indices.write(range.first * kWord, &frame.indices[range.first], range.count * kWord);
-      break;
-    case DirtyRange::Target::kHeights:
-      heights.write(range.first * kWord, &frame.grid.heights[range.first], range.count * kWord);
-      break;
-    case DirtyRange::Target::kMorphs:
-      morphs.write(range.first * sizeof(PatchMorph), &frame.morphs[range.first], range.bytes());
-      break;
-    case DirtyRange::Target::kMesh:
-      break;  // meshes are uploaded by id
-    case DirtyRange::Target::kClipLevel:
-      const ClipLevel& level = frame.clip_levels[range.level];
-      for (std::size_t row = range.z; row < std::size_t{range.z} + range.depth; ++row) {
-        const std::size_t at = row * level.side + range.x;
-        const std::size_t before = std::size_t{range.level} * level.heights.size();
-        heights.write((before + at) * kWord, &level.heights[at], range.width * kWord);
-      }
-  }
-}
-
-void FrameRenderer::Gl::upload(const Frame& frame) {
-  std::size_t height_bytes = frame.grid.heights.size_bytes();
-  for (const ClipLevel& level : frame.clip_levels) height_bytes += level.heights.size_bytes();
-  check_room(height_bytes);
-  indices.reserve(frame.indices.size_bytes());
-  heights.reserve(height_bytes);
-  morphs.reserve(frame.morphs.size_bytes());
-  if (std::exchange(fresh, false)) {
-    upload_all(frame);
-  } else {
-    for (const DirtyRange& range : frame.uploads) upload(frame, range);
-  }
-}
-
-void FrameRenderer::Gl::describe(const Frame& frame) {
-  batch_records.clear();
-  draw_commands.clear();
-  std::uint32_t triangle = 0;
-  for (const Batch& batch : frame.batches) {
-    const auto number = static_cast<std::uint32_t>(draw_commands.size());
-    batch_records.push_back({batch.level, triangle, batch.base_vertex, batch.morph});
-    draw_commands.push_back(
-        {batch.index_count, 1, batch.first_index, static_cast<std::int32_t>(batch.base_vertex), number});
-    triangle += batch.index_count / 3;
-  }
-  level_records.clear();
-  for (const ClipLevel& level : frame.clip_levels) {
-    level_records.push_back({level.corner, level.eye, level.from, level.to, level.spacing, 0});
-  }
-  batches.replace(batch_records);
-  levels.replace(level_records);
-  commands.replace(draw_commands);
-}
-
-void FrameRenderer::Gl::set(const Program& program, const Frame& frame, const View& view) {
-  const GLuint id = program.id();
-  const glm::mat4 to_clip = world_to_clip(view);
-  glProgramUniformMatrix4fv(id, uniform(program, "world_to_clip"), 1, GL_FALSE, glm::value_ptr(to_clip));
-  glProgramUniform2i(id, uniform(program, "samples"), frame.grid.width, frame.grid.depth);
-  glProgramUniform2f(id, uniform(program, "cell"), frame.cell_x, frame.cell_z);
-  glProgramUniform1i(id, uniform(program, "side"),
-                     frame.clip_levels.empty() ? 0 : frame.clip_levels.front().side);
-  glProgramUniform2i(id, uniform(program, "first"), frame.first.x, frame.first.y);
-  glProgramUniform2i(id, uniform(program, "last"), frame.last.x, frame.last.y);
-  glProgramUniform2i(id, uniform(program, "origin"), frame.origin.x, frame.origin.y);
-  glProgramUniform1i(id, uniform(program, "patch_side"), frame.patch_side);
-}
-
-void FrameRenderer::Gl::set_style(const Program& program, const View& view, const FrameStyle& style) {
+void set_style(const Program& program, const View& view, const FrameStyle& style) {
   const GLuint id = program.id();
   const auto set3 = [&](const char* name, const glm::vec3& value) {
     glProgramUniform3fv(id, uniform(program, name), 1, glm::value_ptr(value));
@@ -240,31 +78,34 @@ void FrameRenderer::Gl::set_style(const Program& program, const View& view, cons
     glProgramUniform1i(id, uniform(program, "all_edges"), 1);
     glProgramUniform1i(id, uniform(program, "drawn"), 1);
   }
-  glBindTextureUnit(0, ramp.id());
 }
 
-void FrameRenderer::Gl::draw(const Program& program, GLenum nearer) {
-  if (draw_commands.empty()) return;
+// Draws what was uploaded; `prepare` sets each program's uniforms.
+template <class Prepare>
+void draw_all(FrameBuffers& buffers, Programs& programs, GLenum nearer, const Prepare& prepare) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(nearer);
-  glUseProgram(program.id());
-  glVertexArrayElementBuffer(array.id(), indices.id());
-  glVertexArrayVertexBuffer(array.id(), 0, commands.id(), offsetof(DrawCommand, base_instance),
-                            sizeof(DrawCommand));
-  glBindVertexArray(array.id());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, heights.id());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, batches.id());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, levels.id());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, morphs.id());
-  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
-  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr,
-                              static_cast<GLsizei>(draw_commands.size()), 0);
-  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
-  glBindVertexArray(0);
+  if (buffers.has_heights()) {
+    prepare(programs.heights());
+    glUseProgram(programs.heights().id());
+    buffers.draw_heights();
+  }
+  if (buffers.has_meshes()) {
+    prepare(programs.meshes());
+    glUseProgram(programs.meshes().id());
+    buffers.draw_meshes();
+  }
   glUseProgram(0);
   glDisable(GL_DEPTH_TEST);
-  check_gl("drawing the terrain");
 }
+
+}  // namespace
+
+struct FrameRenderer::Gl {
+  Programs plain{"relief.frag"}, wired{"relief.frag", "wire.geom"}, numbers{"triangle_number.frag"};
+  Texture1d ramp = make_ramp_texture();
+  FrameBuffers buffers;
+};
 
 FrameRenderer::FrameRenderer(GlContext& context) : context_(context) {
   context_.make_current();
@@ -282,12 +123,13 @@ void FrameRenderer::draw(const Frame& frame, const View& view, const FrameStyle&
   glClearColor(background.r, background.g, background.b, 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   const CullUndersides culling;
-  gl_->upload(frame);
-  gl_->describe(frame);
-  const Program& program = style.wire_width > 0 ? gl_->wired : gl_->plain;
-  gl_->set(program, frame, view);
-  gl_->set_style(program, view, style);
-  gl_->draw(program, GL_LEQUAL);
+  gl_->buffers.upload(frame);
+  glBindTextureUnit(0, gl_->ramp.id());
+  draw_all(gl_->buffers, style.wire_width > 0 ? gl_->wired : gl_->plain, GL_LEQUAL,
+           [&](const Program& program) {
+             set_matrix(program, world_to_clip(view));
+             set_style(program, view, style);
+           });
 }
 
 void FrameRenderer::finish() {
@@ -319,13 +161,9 @@ std::vector<std::uint32_t> FrameRenderer::triangle_numbers(const Frame& frame, c
   const GLfloat far = 0;
   glClearNamedFramebufferuiv(framebuffer.id(), GL_COLOR, 0, &none);
   glClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &far);
-  gl_->upload(frame);
-  gl_->describe(frame);
-  gl_->set(gl_->numbers, frame, view);
-  glProgramUniformMatrix4fv(gl_->numbers.id(), uniform(gl_->numbers, "world_to_clip"), 1, GL_FALSE,
-                            &clip[0][0]);
+  gl_->buffers.upload(frame);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  gl_->draw(gl_->numbers, GL_GEQUAL);
+  draw_all(gl_->buffers, gl_->numbers, GL_GEQUAL, [&](const Program& program) { set_matrix(program, clip); });
   glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
 
   std::vector<std::uint32_t> numbers(static_cast<std::size_t>(view.width) * view.height);
@@ -341,13 +179,6 @@ std::vector<std::uint32_t> FrameRenderer::triangle_numbers(const Frame& frame, c
   return numbers;
 }
 
-std::size_t FrameRenderer::bytes_uploaded() const {
-  std::size_t bytes = 0;
-  for (const GrowingBuffer* buffer :
-       {&gl_->indices, &gl_->heights, &gl_->morphs, &gl_->batches, &gl_->levels, &gl_->commands}) {
-    bytes += buffer->written();
-  }
-  return bytes;
-}
+std::size_t FrameRenderer::bytes_uploaded() const { return gl_->buffers.bytes_uploaded(); }
 
 }  // namespace terrabench

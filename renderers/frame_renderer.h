@@ -23,8 +23,8 @@ struct FrameStyle {
   float wire_opacity = 0.55F;
 };
 
-// For the frames of one method, each drawn once and in order. Facets are lit flat, so that the triangles are
-// visible. The context must outlive it.
+// For the frames of one method, each drawn once and in order: heights and meshes. Facets are lit flat, so
+// that that the triangles are visible. The context must outlive it.
 class FrameRenderer {
  public:
   explicit FrameRenderer(GlContext&);

@@ -1,0 +1,101 @@
+// The GPU's copy of the frames of one level-of-detail method (terrain/frame.h): heights, indices and batches
+// as buffers that grow, updated by the frames' dirty ranges, and meshes by their id. What draws them chooses
+// the program: vertex shaders for heights begin with frame_heights.glsl; those for meshes take position,
+// normal and first triangle at locations 0, 1 and 2.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "renderers/gl.h"
+#include "terrain/frame.h"
+
+namespace terrabench {
+
+// A buffer that is written in parts and grows to (1 + slack) times the needed size. On growth the GPU copies
+// the contents, so that nothing is sent twice.
+class GrowingBuffer {
+ public:
+  explicit GrowingBuffer(double slack = 0.5) : slack_(slack) {}
+  GLuint id() const { return buffer_.id(); }
+  std::size_t written() const { return written_; }  // bytes in total
+  void reserve(std::size_t bytes);
+  void write(std::size_t at, const void* data, std::size_t bytes);
+  template <class T>
+  void replace(const std::vector<T>& content) {
+    reserve(content.size() * sizeof(T));
+    write(0, content.data(), content.size() * sizeof(T));
+  }
+
+ private:
+  Buffer buffer_;
+  double slack_;
+  std::size_t capacity_ = 0, written_ = 0;
+};
+
+// A context must be current in all functions.
+class FrameBuffers {
+ public:
+  FrameBuffers();
+
+  // Takes over each frame of the method, once and in order; the first is uploaded whole. Meshes are uploaded
+  // when their id is first listed and freed when it is not. Throws environment_error when the heights do not
+  // fit into OpenGL's buffers. O(dirty ranges + batches + meshes).
+  void upload(const Frame&);
+
+  // Draw what was uploaded with the program in use; depth test, culling and uniforms are the caller's.
+  void draw_heights();
+  void draw_meshes();
+  bool has_heights() const { return !draw_commands_.empty(); }
+  bool has_meshes() const { return !drawn_meshes_.empty(); }
+
+  // All bytes written to the GPU's buffers, without a few hundred bytes of uniforms per frame.
+  std::size_t bytes_uploaded() const;
+
+ private:
+  // Laid out as in shaders/frame_heights.glsl.
+  struct BatchRecord {
+    std::int32_t level;
+    std::uint32_t first_triangle;
+    std::uint32_t corner;
+    std::uint32_t morph;
+  };
+  struct LevelRecord {
+    glm::ivec2 corner;
+    glm::vec2 eye;
+    float from, to;
+    std::int32_t spacing, unused;
+  };
+  struct DrawCommand {
+    std::uint32_t count, instances, first_index;
+    std::int32_t base_vertex;
+    std::uint32_t base_instance;
+  };
+  struct Mesh {
+    Buffer positions, normals, indices;
+    GLsizei index_count;
+    std::uint32_t first_triangle;
+    std::uint64_t listed;  // number of the last frame that listed it
+  };
+
+  void upload_all(const Frame&);
+  void upload(const Frame&, const DirtyRange&);
+  void upload_meshes(const Frame&, std::uint32_t first_triangle);
+  std::uint32_t describe(const Frame&);
+
+  VertexArray heights_array_, mesh_array_;
+  GrowingBuffer indices_, batches_, levels_, commands_, morphs_;
+  GrowingBuffer heights_{0};  // grows only when a clipmap adds levels
+  GrowingBuffer ground_;      // the uniform block
+  std::uint64_t frames_ = 0;
+  std::size_t mesh_bytes_ = 0;  // uploaded in total
+  std::vector<BatchRecord> batch_records_;
+  std::vector<LevelRecord> level_records_;
+  std::vector<DrawCommand> draw_commands_;
+  std::unordered_map<std::uint64_t, Mesh> meshes_;
+  std::vector<std::uint64_t> drawn_meshes_;  // ids, in the frame's order
+};
+
+}  // namespace terrabench
