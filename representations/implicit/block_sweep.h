@@ -61,7 +61,8 @@ struct BlockTask {
   // block are foreign. Open: the surface ends at the block's border.
   glm::ivec2 begin, end;
   bool closed = false;
-  // Metres from a point to where its gradient is measured; 0: the lattice's cell, which costs nothing.
+  // Normals come from differences of the field this far from a vertex, metres, six samples each; 0: from the
+  // lattice's samples, linear between them.
   float gradient_step = 0;
 };
 
@@ -113,20 +114,28 @@ class BlockSweep {
 
  private:
   std::size_t slot(int j) const { return static_cast<std::size_t>(j - task_.begin.y + 1) % 4; }
-  float value(int i, int j, int n) const {
-    return values_[(slot(j) * width_ + static_cast<std::size_t>(i - task_.begin.x + 1)) * ys_.size() +
-                   static_cast<std::size_t>(n)];
+  // The values of column (i, j).
+  const float* column(int i, int j) const {
+    return &values_[(slot(j) * width_ + static_cast<std::size_t>(i - task_.begin.x + 1)) * ys_.size()];
   }
   bool outside(glm::ivec3 point) const;
-  glm::vec3 gradient(glm::ivec3 point) const;  // (i, n, j)
+  glm::vec3 gradient(glm::ivec3 point) const;  // from the samples; (i, n, j)
+  glm::vec3 gradient_at(glm::vec3) const;
   void choose_levels();
   void load(int j);
   void set_bits(int j);
+  glm::vec3 place(glm::ivec3 point) const {
+    return {xs_[static_cast<std::size_t>(point.x - task_.begin.x + 1)],
+            ys_[static_cast<std::size_t>(point.y)],
+            zs_[static_cast<std::size_t>(point.z - task_.begin.y + 1)]};
+  }
 
   BlockTask task_;
   int z_ = 0, points_ = 0, first_y_ = 0;
   std::size_t width_ = 0, words_ = 0;
-  std::vector<float> xs_, ys_;
+  std::vector<float> xs_, ys_, zs_;  // positions, from one before the block on
+  // 1 / (distance between a point's neighbours), alike.
+  std::array<std::vector<float>, 3> per_metre_;
   std::vector<float> values_;        // four planes
   std::vector<std::uint64_t> bits_;  // four planes
   std::unique_ptr<FieldPlanes> planes_;

@@ -13,6 +13,11 @@ namespace {
 // cache; along z a block has to read the kernel's width once more.
 constexpr int kBlockWidth = 32, kBlockDepth = 128;
 
+template <class T>
+void release(std::vector<T>& array) {  // assigning {} would keep the memory
+  std::vector<T>().swap(array);
+}
+
 // Empties the blocks.
 TriangleMesh join(std::vector<SurfaceBlock>& blocks) {
   std::vector<std::size_t> first(blocks.size());
@@ -33,7 +38,7 @@ TriangleMesh join(std::vector<SurfaceBlock>& blocks) {
     for (const auto& [key, vertex] : blocks[b].border) {
       shared.emplace_back(key, static_cast<std::uint32_t>(first[b] + vertex));
     }
-    blocks[b].border = {};
+    release(blocks[b].border);
   }
   std::sort(shared.begin(), shared.end());
   // One array at a time, each freed in the blocks when it is joined: the peak is the mesh and half as much.
@@ -42,7 +47,7 @@ TriangleMesh join(std::vector<SurfaceBlock>& blocks) {
     joined.reserve(size);
     for (SurfaceBlock& block : blocks) {
       joined.insert(joined.end(), (block.*part).begin(), (block.*part).end());
-      block.*part = {};
+      release(block.*part);
     }
   };
   append(mesh.positions, &SurfaceBlock::positions, vertices);
@@ -59,7 +64,8 @@ TriangleMesh join(std::vector<SurfaceBlock>& blocks) {
                                  ? static_cast<std::uint32_t>(block.foreign[index & ~SurfaceBlock::kForeign])
                                  : static_cast<std::uint32_t>(first[b] + index));
     }
-    block = {};
+    release(block.foreign);
+    release(block.indices);
   }
   return mesh;
 }

@@ -110,7 +110,8 @@ void ImplicitSurface::spans(Columns where, SpanSink& out) const {
         any = false;
       };
       const auto crossing = [&](std::size_t k) {  // between k and k + 1, as the mesh has it
-        return y[k] + values[k] / (values[k] - values[k + 1]) * (y[k + 1] - y[k]);
+        const float t = values[k] / (values[k] - values[k + 1]);
+        return (1 - t) * y[k] + t * y[k + 1];
       };
       for (std::size_t k = 0; k < y.size(); ++k) {
         if (!(values[k] > 0)) continue;

@@ -81,26 +81,22 @@ class MarchingCubes {
   void make_triangles(int j) {
     const std::array<CellCase, 256>& cases = cell_cases();
     for (int i = task_.begin.x; i < task_.end.x; ++i) {
+      // Where the vertices on the twelve edges of the column's cells are, as cell_cases() numbers edges.
+      std::array<const std::uint32_t*, 12> vertices;
+      for (std::size_t o = 0; o < 4; ++o) {
+        const int first = static_cast<int>(o & 1), second = static_cast<int>(o >> 1);
+        vertices[o] = &along_x_[(j + second) & 1][at(i, first)];
+        vertices[4 + o] = &along_y_[(j + second) & 1][at(i + first, 0)];
+        vertices[8 + o] = &along_z_[at(i + first, second)];
+      }
       BlockSweep::for_each_bit(
           first_, last_, [&](std::size_t w) { return sweep_.crossed_cells(i, j, w); },
           [&](int n) {
             const CellCase& cell = cases[static_cast<std::size_t>(sweep_.cell_case(i, j, n))];
-            for (std::size_t c = 0; c < 3U * cell.triangles; ++c) {
-              out_.indices.push_back(vertex(cell.corners[c], i, j, n));
-            }
+            const std::size_t size = out_.indices.size(), corners = 3U * cell.triangles;
+            out_.indices.resize(size + corners);
+            for (std::size_t c = 0; c < corners; ++c) out_.indices[size + c] = vertices[cell.corners[c]][n];
           });
-    }
-  }
-
-  std::uint32_t vertex(int edge, int i, int j, int n) const {
-    const int low = edge & 1, high = edge >> 1 & 1;
-    switch (edge >> 2) {
-      case 0:
-        return along_x_[(j + high) & 1][at(i, n + low)];
-      case 1:
-        return along_y_[(j + high) & 1][at(i + low, n)];
-      default:
-        return along_z_[at(i + low, n + high)];
     }
   }
 

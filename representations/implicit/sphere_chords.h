@@ -1,6 +1,7 @@
 // The volume of a sphere over the columns around its centre, as functions of height: the sphere kernel's
-// table. The centre lies at one of kPhases × kPhases places within its column. The chords of 16 × 16 vertical
-// lines per column are summed; all volumes are integers, and mirrored columns have equal ones.
+// table. The centre lies at one of kPhases × kPhases places within its column. The chords of
+// 16 × 16 or more vertical lines per column are summed; all volumes are integers, and mirrored columns have
+// equal ones.
 #pragma once
 
 #include <cstddef>

@@ -123,15 +123,14 @@ void StackField::cube_volumes(double x, double z, std::span<const double> v, std
 // A column contributes, per end of its solid runs, the sphere's volume over it below that end. Within the
 // radius of the end this comes from the table; centres farther away see all or nothing of it, which `steps`
 // adds: the part from number k on is steps[0] + … + steps[k].
-double StackField::sphere_volumes(double x, double z, std::span<const float> y,
-                                  std::span<double> volume) const {
+double StackField::sphere_volumes(double x, double z, std::span<const float> y, std::span<double> volume,
+                                  std::span<double> steps) const {
   const ColumnGrid& grid = stack_.grid();
   constexpr int kPhases = SphereChords::kPhases, kSteps = SphereChords::kSteps;
   const std::int64_t at_x = rounded((x - grid.origin_x) / grid.cell_x * kPhases),
                      at_z = rounded((z - grid.origin_z) / grid.cell_z * kPhases);
   const std::int64_t i0 = floor_div(at_x, kPhases), j0 = floor_div(at_z, kPhases);
   const int phase_x = static_cast<int>(at_x - i0 * kPhases), phase_z = static_cast<int>(at_z - j0 * kPhases);
-  std::vector<double> steps(y.size() + 1, 0.0);
   const auto add = [&](std::span<const std::int32_t> chords, double end, double sign) {
     const auto first =
         static_cast<std::size_t>(std::upper_bound(y.begin(), y.end(), end - radius_) - y.begin());
@@ -176,24 +175,30 @@ double StackField::sphere_volumes(double x, double z, std::span<const float> y,
 }
 
 void StackField::line(double x, double z, std::span<const float> y, std::span<float> out) const {
-  std::vector<double> volume(y.size(), 0.0);
+  std::vector<double> volume(y.size(), 0.0), scratch(y.size() + 1, 0.0);
   double support = support_;
   if (kernel_ == Kernel::kCube) {
-    std::vector<double> v(y.size());
-    for (std::size_t k = 0; k < y.size(); ++k) v[k] = unit_y(y[k]);
-    cube_volumes(x, z, v, volume);
+    for (std::size_t k = 0; k < y.size(); ++k) scratch[k] = unit_y(y[k]);
+    cube_volumes(x, z, std::span(scratch).first(y.size()), volume);
   } else {
-    support = sphere_volumes(x, z, y, volume);
+    support = sphere_volumes(x, z, y, volume, scratch);
   }
   for (std::size_t k = 0; k < y.size(); ++k) {
     out[k] = static_cast<float>((2 * volume[k] - support) / support);
   }
 }
 
+// As line(), without heap memory.
 float StackField::at(glm::vec3 p) const {
-  float value = 0;
-  line(p.x, p.z, std::span(&p.y, 1), std::span(&value, 1));
-  return value;
+  double volume = 0, support = support_;
+  if (kernel_ == Kernel::kCube) {
+    const double v = unit_y(p.y);
+    cube_volumes(p.x, p.z, std::span(&v, 1), std::span(&volume, 1));
+  } else {
+    std::array<double, 2> steps{};
+    support = sphere_volumes(p.x, p.z, std::span(&p.y, 1), std::span(&volume, 1), steps);
+  }
+  return static_cast<float>((2 * volume - support) / support);
 }
 
 SampledField::Heights StackField::heights(glm::dvec2 low, glm::dvec2 high) const {

@@ -53,8 +53,9 @@ class StackField final : public SampledField {
   std::int64_t unit_z(double z) const;
   double unit_y(double y) const;
   void cube_volumes(double x, double z, std::span<const double> v, std::span<double> volume) const;
-  // Returns the volume of the whole sphere.
-  double sphere_volumes(double x, double z, std::span<const float> y, std::span<double> volume) const;
+  // Both add to `volume`. Returns the volume of the whole sphere; `steps`: one zero more than y.
+  double sphere_volumes(double x, double z, std::span<const float> y, std::span<double> volume,
+                        std::span<double> steps) const;
 
   const LayeredStack& stack_;
   Kernel kernel_;

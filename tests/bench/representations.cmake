@@ -1,3 +1,10 @@
 terrabench_benchmark(stack_bench SOURCES stack_bench.cpp LIBRARIES representations)
 terrabench_benchmark(drill_bench SOURCES drill_bench.cpp LIBRARIES representations)
 terrabench_benchmark(ght_bench SOURCES ght_bench.cpp LIBRARIES representations)
+# The peer of the implicit surface's marching cubes.
+find_package(VTK QUIET COMPONENTS CommonCore CommonDataModel FiltersCore)
+terrabench_benchmark(implicit_bench SOURCES implicit_bench.cpp LIBRARIES representations TBB::tbb)
+if(TARGET VTK::FiltersCore)
+  target_link_libraries(implicit_bench PRIVATE VTK::CommonCore VTK::CommonDataModel VTK::FiltersCore)
+  target_compile_definitions(implicit_bench PRIVATE TERRABENCH_FLYING_EDGES)
+endif()
