@@ -66,7 +66,8 @@ Scene scene_of(const std::vector<TriangleMesh>& levels, bool lit) {
                    .fill = colour,
                    .wire_width = 1.0F,
                    .wire_color = {50, 50, 55},
-                   .wire_opacity = 0.75F};
+                   // Wires of fine levels lie so close that they would hide the colour.
+                   .wire_opacity = std::min(0.3F + 0.2F * static_cast<float>(l), 0.8F)};
     if (lit) mesh.colors.assign(levels[l].positions.size(), colour);
     scene.meshes.push_back(std::move(mesh));
   }
