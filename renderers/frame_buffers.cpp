@@ -167,6 +167,7 @@ void FrameBuffers::upload_meshes(const Frame& frame, std::uint32_t first_triangl
       mesh_bytes_ += mesh.positions.size_bytes() + mesh.normals.size_bytes() + mesh.indices.size_bytes();
     }
     at->second.listed = frames_;
+    if (!mesh.drawn) continue;
     at->second.first_triangle = first_triangle;
     drawn_meshes_.push_back(mesh.id);
     first_triangle += static_cast<std::uint32_t>(mesh.indices.size() / 3);

@@ -132,9 +132,7 @@ FrameStats count(std::span<const Batch> batches, std::span<const DirtyRange> upl
                    .changes = changes};
   for (const Batch& batch : batches) stats.triangles += batch.index_count / 3;
   for (const FrameMesh& mesh : meshes) {
-    if (!mesh.drawn) continue;
-    stats.triangles += mesh.triangles();
-    stats.bytes_commands += kBytesPerBatch;
+    if (mesh.drawn) stats.triangles += mesh.triangles();
   }
   for (const DirtyRange& range : uploads) stats.bytes_uploaded += range.bytes();
   return stats;

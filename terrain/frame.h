@@ -89,8 +89,8 @@ struct DirtyRange {
   std::size_t bytes() const;
 };
 
-// Bytes sent to the GPU with every frame, changed or not: per batch and per mesh that is drawn a draw command
-// of 20 bytes and a record of 16, and per clip level its position and transition.
+// Bytes sent to the GPU with every frame, changed or not: per batch a draw command of 20 bytes and a record
+// of 16, and per clip level its position and transition.
 inline constexpr std::size_t kBytesPerBatch = 36;
 inline constexpr std::size_t kBytesPerClipLevel = 32;
 

@@ -21,7 +21,7 @@ namespace {
 
 using namespace figures;
 
-constexpr int kWindow = 31;                 // samples
+constexpr int kWindow = 23;                 // samples
 constexpr double kSide = 480, kLong = 640;  // of the pictures, units
 // Okabe and Ito's colours, which readers with colour blindness can tell apart; light, so that wires show.
 constexpr std::array<Rgb, 5> kLevelColours{
@@ -66,7 +66,8 @@ Scene scene_of(const std::vector<TriangleMesh>& levels, bool lit) {
                    .fill = colour,
                    .wire_width = 1.0F,
                    .wire_color = {50, 50, 55},
-                   .wire_opacity = 0.75F};
+                   // Wires of fine levels lie so close that they would hide the colour.
+                   .wire_opacity = std::min(0.3F + 0.2F * static_cast<float>(l), 0.8F)};
     if (lit) mesh.colors.assign(levels[l].positions.size(), colour);
     scene.meshes.push_back(std::move(mesh));
   }
@@ -76,7 +77,7 @@ Scene scene_of(const std::vector<TriangleMesh>& levels, bool lit) {
 Sheet draw_rings(Drawing& drawing) {
   constexpr double kMargin = 16, kTitle = 28, kKey = 44;
   const TerrainSource source = open_terrain("hills", drawing.seed());
-  const Heightfield field = crop(*source.heights, 100, 100, 225, 225);
+  const Heightfield field = crop(*source.heights, 100, 100, 161, 161);
   const std::vector<TriangleMesh> levels = rings(field);
   GlContext& gl = drawing.gl();
   const auto pixels = [](double units) { return static_cast<int>(Sheet::kPixels * units); };
@@ -102,9 +103,9 @@ Sheet draw_rings(Drawing& drawing) {
     sheet.box(x, y, 22, 16, kLevelColours[l % kLevelColours.size()]);
     sheet.text(
         x + 28, y + 13,
-        fmt::format("level {}: a vertex every {:.0f} m", l, std::ldexp(field.cell_x, static_cast<int>(l))),
+        fmt::format("level {}, vertices {:.0f} m apart", l, std::ldexp(field.cell_x, static_cast<int>(l))),
         14);
-    x += 208;
+    x += 246;
   }
   sheet.dot({x + 8, y + 8}, 5, {0, 0, 0});
   sheet.text(x + 20, y + 13, "eye", 14);
@@ -121,27 +122,28 @@ Sheet draw_height_map(Drawing& drawing) {
   const Heightfield columns = column_heights(stack, ColumnHeight::kTop);
   const Heightfield whole = height_map(stack, ColumnHeight::kTop, kFiner);
   const Heightfield map = crop(whole, 0, 0, kColumns * kFiner, kColumns * kFiner);
-  const Light smooth(map), blocky(columns, smooth);
-  const auto grey = [](float) { return Rgb{225, 225, 225}; };
+  const auto window = [&](const Heightfield& field, int scale) {
+    return heightmap_image(crop(field, 28 * scale, 20 * scale, 16 * scale, 16 * scale));
+  };
   const auto size = [](const Heightfield& field) {
-    return fmt::format("{} × {} samples, {:.2g} m apart", field.width, field.depth, field.cell_x);
+    return fmt::format("{} × {}, {:.1f} m apart", field.width, field.depth, field.cell_x);
   };
   return titled_sheet(2, kPicture, 8,
-                      {{heightmap_image(columns), "tops of the stacks: " + size(columns)},
+                      {{heightmap_image(columns), "stacks: " + size(columns)},
                        {heightmap_image(map), "interpolated: " + size(map)},
-                       {shaded_map(columns, blocky, grey), "tops of the stacks, shaded"},
-                       {shaded_map(map, smooth, grey), "interpolated, shaded"}});
+                       {window(columns, 1), "stacks: a window of 16 × 16"},
+                       {window(map, kFiner), "interpolated: the same window"}});
 }
 
 constexpr std::array<figures::Figure, 2> kFigures{{
     {14, "F14",
-     "the rings of a geometry clipmap with windows of 31 × 31 vertices around the eye; each level has half "
+     "the rings of a geometry clipmap with windows of 23 × 23 vertices around the eye; each level has half "
      "as "
      "many vertices per metre as the next inner one, and is drawn outside of it",
      draw_rings},
     {22, "F22",
      "the height map made from the stacks of a cave terrain, black lowest and white highest: one sample per "
-     "stack, and bilinearly interpolated at ten samples per stack",
+     "stack, and bilinearly interpolated at ten samples per stack; the windows below have greys of their own",
      draw_height_map},
 }};
 constexpr std::array kNames = names_of(kFigures);

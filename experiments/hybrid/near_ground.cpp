@@ -2,16 +2,36 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "experiments/build_at.h"
+#include <vector>
 
 namespace terrabench::hybrid {
 
+namespace {
+
+// Fills the lowest level: tunnels of a cave terrain may reach its floor, below which the ground continues.
+void add_bedrock(LayeredStack& stack) {
+  const ColumnGrid& grid = stack.grid();
+  std::vector<float> x, z;
+  for (int j = 0; j < grid.depth; ++j) {
+    for (int i = 0; i < grid.width; ++i) {
+      x.push_back(grid.centre_x(i));
+      z.push_back(grid.centre_z(j));
+    }
+  }
+  const std::vector<Span> lowest(x.size(), {grid.edge_y(0), grid.edge_y(1), Material::kBedrock});
+  stack.edit({x, z}, lowest);
+}
+
+}  // namespace
+
 NearGround near_ground(const TerrainSource& source, int columns, int finer, Progress& progress) {
-  auto built = build_at_resolution("implicit", source, columns, progress);
+  Parameters parameters(representation("layered_stack").parameters);
+  parameters.set("resolution", std::int64_t{columns});
+  auto stack = LayeredStack::build_stack(source, parameters, progress);
+  add_bedrock(*stack);
   NearGround ground;
-  ground.surface.reset(&dynamic_cast<ImplicitSurface&>(*built));
-  (void)built.release();
+  ground.surface =
+      std::make_unique<ImplicitSurface>(std::move(stack), Kernel::kCube, 0, 0, Extractor::kMarchingCubes);
   ground.heights = height_map(ground.surface->stack(), ColumnHeight::kTop, finer);
   return ground;
 }

@@ -18,7 +18,7 @@ struct NearGround {
   LodGround lod() const { return {heights, surface.get()}; }
 };
 
-// Stacks with `columns` along the longer side, and `finer` heights per column.
+// Stacks with `columns` along the longer side, solid at the bottom, and `finer` heights per column.
 NearGround near_ground(const TerrainSource&, int columns, int finer, Progress&);
 
 // At walking height over a place, in the air, looking along `heading` (radians) and a little down. `step` is

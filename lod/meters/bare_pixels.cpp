@@ -19,10 +19,12 @@ namespace {
 
 struct ScreenCorner {
   double x, y;
+  bool operator==(const ScreenCorner&) const = default;
 };
 
 // Twice the signed area of p, q and the point; of either order of p and q the same but for the sign, to the
-// bit. Never 0: the point counts as displaced by an infinitesimal to the right and a smaller one down.
+// bit. 0 only for p = q: the point counts as displaced by an infinitesimal to the right and a smaller one
+// down.
 double side(ScreenCorner p, ScreenCorner q, double x, double y) {
   const bool swap = std::tie(q.x, q.y) < std::tie(p.x, p.y);
   if (swap) std::swap(p, q);
@@ -67,6 +69,7 @@ class Crossings {
   }
 
   void draw(ScreenCorner a, ScreenCorner b, ScreenCorner c) {
+    if (a == b || b == c || c == a) return;
     // Clamped before the conversion: beside a near plane a triangle may reach any number of pixels.
     const auto pixel = [](double at, int size) {
       return static_cast<int>(std::floor(std::clamp(at, 0.0, size - 1.0)));
@@ -92,22 +95,105 @@ class Crossings {
   std::vector<int> sums_;
 };
 
-// The least and largest sum that a line of sight may have.
-std::array<int, 2> expected(const Heightfield& ground, const glm::dvec3& eye, const glm::dvec3& direction,
-                            double focal) {
-  double way = std::numeric_limits<double>::infinity();
-  const glm::dvec3 extent(ground.extent_x(), 0, ground.extent_z());
-  for (const int axis : {0, 2}) {
-    if (direction[axis] > 0) way = std::min(way, (extent[axis] - eye[axis]) / direction[axis]);
-    if (direction[axis] < 0) way = std::min(way, -eye[axis] / direction[axis]);
+// The least and largest height of the drawn border near each sample of it. Coarse levels draw the border with
+// fewer vertices, the farthest `reach` samples apart, so that it lies between the heights within that reach.
+class Border {
+ public:
+  Border(const Heightfield& ground, const std::vector<glm::vec3>& corners) : ground_(ground) {
+    const int x_reach = reach(corners, 0, ground.extent_z(), ground.cell_x),
+              z_reach = reach(corners, 2, ground.extent_x(), ground.cell_z);
+    for (const int end : {0, 1}) {
+      rows_[end] =
+          ranges(ground.width, x_reach, [&](int i) { return ground.at(i, end * (ground.depth - 1)); });
+      columns_[end] =
+          ranges(ground.depth, z_reach, [&](int j) { return ground.at(end * (ground.width - 1), j); });
+    }
   }
-  if (std::isinf(way)) return direction.y < 0 ? std::array{1, 1} : std::array{0, 0};
-  const glm::dvec3 end = eye + way * direction;
-  const float border = ground.sample(std::clamp(static_cast<float>(end.x), 0.0F, ground.extent_x()),
-                                     std::clamp(static_cast<float>(end.z), 0.0F, ground.extent_z()));
-  const double margin = 2 * way / focal;
-  return {end.y < border - margin ? 1 : 0, end.y > border + margin ? 0 : 1};
-}
+
+  // The sums that a line of sight may have: 1 when it leaves the ground's extent below the border.
+  std::array<int, 2> sums(const glm::dvec3& eye, const glm::dvec3& direction) const {
+    double way = std::numeric_limits<double>::infinity();
+    int through = 0;  // axis
+    const glm::dvec3 extent(ground_.extent_x(), 0, ground_.extent_z());
+    for (const int axis : {0, 2}) {
+      if (direction[axis] == 0) continue;
+      const double here = ((direction[axis] > 0 ? extent[axis] : 0) - eye[axis]) / direction[axis];
+      if (here < way) std::tie(way, through) = std::tuple(here, axis);
+    }
+    if (std::isinf(way)) return direction.y < 0 ? std::array{1, 1} : std::array{0, 0};
+    const glm::dvec3 end = eye + way * direction;
+    const std::vector<Range>& side = (through == 0 ? columns_ : rows_)[direction[through] > 0 ? 1 : 0];
+    const double at = through == 0 ? end.z / ground_.cell_z : end.x / ground_.cell_x;
+    const auto k = static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(side.size() - 1)));
+    return {end.y < side[k].low ? 1 : 0, end.y > side[k].high ? 0 : 1};
+  }
+
+ private:
+  struct Range {
+    float low, high;
+  };
+
+  // The longest edge along the two borders in direction of the axis, samples.
+  static int reach(const std::vector<glm::vec3>& corners, int axis, float far, float cell) {
+    const int across = 2 - axis;
+    float longest = cell;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const glm::vec3 &p = corners[k], &q = corners[k % 3 == 2 ? k - 2 : k + 1];
+      const bool on_border = p[across] == q[across] && (p[across] <= 0 || p[across] >= far);
+      if (on_border) longest = std::max(longest, std::abs(q[axis] - p[axis]));
+    }
+    return static_cast<int>(std::ceil(longest / cell));
+  }
+
+  template <class HeightOf>
+  static std::vector<Range> ranges(int samples, int reach, const HeightOf& height) {
+    std::vector<Range> all;
+    for (int i = 0; i < samples; ++i) {
+      Range range{height(i), height(i)};
+      for (int k = std::max(i - reach, 0); k <= std::min(i + reach + 1, samples - 1); ++k) {
+        range = {std::min(range.low, height(k)), std::max(range.high, height(k))};
+      }
+      all.push_back(range);
+    }
+    return all;
+  }
+
+  const Heightfield& ground_;
+  std::array<std::vector<Range>, 2> rows_, columns_;  // north and south; west and east
+};
+
+// What a pixel's sum must be. Near the border both: there the pixels' centres decide by rounding.
+class Expected {
+ public:
+  Expected(const Border& border, const View& view, const Projector& project)
+      : width_(view.width + 2 * kNear),
+        sums_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(view.height + 2 * kNear)) {
+    tbb::parallel_for(0, view.height + 2 * kNear, [&](int y) {
+      for (int x = 0; x < width_; ++x) {
+        sums_[index(x, y)] = border.sums(view.eye, project.direction(x - kNear + 0.5, y - kNear + 0.5));
+      }
+    });
+  }
+
+  // The least and the largest.
+  std::array<int, 2> at(int x, int y) const {
+    std::array<int, 2> range{1, 0};
+    for (int v = y; v <= y + 2 * kNear; ++v) {
+      for (int u = x; u <= x + 2 * kNear; ++u) {
+        const auto& [least, largest] = sums_[index(u, v)];
+        range = {std::min(range[0], least), std::max(range[1], largest)};
+      }
+    }
+    return range;
+  }
+
+ private:
+  static constexpr int kNear = 2;  // pixels
+  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width_ + x; }
+
+  int width_;
+  std::vector<std::array<int, 2>> sums_;  // with a margin around the picture
+};
 
 }  // namespace
 
@@ -124,11 +210,11 @@ BarePixels find_bare_pixels(const Frame& frame, const Heightfield& ground, const
   });
   tbb::parallel_for(std::size_t{0}, corners.size() / 3,
                     [&](std::size_t t) { crossings.draw(&corners[3 * t]); });
+  const Expected expected(Border(ground, corners), view, crossings.project());
   std::atomic<std::size_t> bare = 0, covered = 0;
   tbb::parallel_for(0, view.height, [&](int y) {
     for (int x = 0; x < view.width; ++x) {
-      const auto [least, largest] = expected(
-          ground, view.eye, crossings.project().direction(x + 0.5, y + 0.5), crossings.project().focal());
+      const auto [least, largest] = expected.at(x, y);
       bare += crossings.at(x, y) < least ? 1U : 0U;
       covered += crossings.at(x, y) > largest ? 1U : 0U;
     }

@@ -24,7 +24,8 @@ struct BarePixels {
 };
 
 // For a frame over ground of this extent, of whose heights only those along the border are read. Within two
-// pixels of the border, both sums are right. The far plane should lie beyond the ground. O(triangles + pixels
+// pixels of the border, and where a coarse level may draw it higher or lower than the heights, both sums are
+// right. The far plane should lie beyond the ground. O(triangles + pixels
 // they cover), in parallel. Throws usage_error when the eye is not over the extent.
 BarePixels find_bare_pixels(const Frame&, const Heightfield& ground, const View&);
 

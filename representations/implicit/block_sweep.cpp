@@ -172,7 +172,7 @@ BlockSweep::Crossing BlockSweep::crossing(int axis, int i, int j, int n) const {
   const glm::vec3 slope =
       task_.gradient_step > 0 ? gradient_at(at.position) : (1 - t) * gradient(low) + t * gradient(high);
   const float square = glm::dot(slope, slope);
-  at.normal = square > 0 ? slope * (-1 / std::sqrt(square)) : outward;
+  at.normal = square > 0 ? slope / -std::sqrt(square) : outward;
   return at;
 }
 

@@ -21,7 +21,7 @@ TEST(ImplicitCases, FlatGroundStaysWhereItIs) {
         ASSERT_GT(surface.positions.size(), 0U);
         for (std::size_t v = 0; v < surface.positions.size(); ++v) {
           EXPECT_EQ(surface.positions[v].y, 12);
-          EXPECT_EQ(surface.normals[v], glm::vec3(0, 1, 0));
+          EXPECT_EQ(surface.normals[v], glm::vec3(0, 1, 0)) << v;
         }
       }
     }

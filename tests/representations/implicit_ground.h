@@ -2,8 +2,6 @@
 #pragma once
 
 #include <map>
-#include <set>
-#include <tuple>
 
 #include "representations/implicit/implicit_surface.h"
 #include "tests/representations/ground.h"
@@ -83,18 +81,6 @@ inline std::vector<std::pair<std::uint32_t, std::uint32_t>> open_edges(const Tri
     if (count == 1) open.push_back(edge);
   }
   return open;
-}
-
-// The mesh's open edges in the plane where the coordinate along `axis` is `at`, but for those that have
-// shrunk to a point, which lie in any plane through it.
-inline std::multiset<std::pair<Vertex, Vertex>> rim(const TriangleMesh& mesh, int axis, float at) {
-  std::multiset<std::pair<Vertex, Vertex>> found;
-  for (const auto& [a, b] : open_edges(mesh)) {
-    if (mesh.positions[a][axis] != at || mesh.positions[b][axis] != at) continue;
-    if (mesh.positions[a] == mesh.positions[b]) continue;
-    found.insert(std::minmax(vertex_of(mesh, a), vertex_of(mesh, b)));
-  }
-  return found;
 }
 
 inline bool same_mesh(const TriangleMesh& a, const TriangleMesh& b) {

@@ -1,6 +1,7 @@
 // The surfaces of both extractors: closed, where the field says, the same in chunks and after edits.
 #include <glm/geometric.hpp>
 #include <map>
+#include <set>
 
 #include "representations/implicit/cell_cases.h"
 #include "tests/representations/implicit_ground.h"
@@ -102,9 +103,11 @@ TEST_P(EveryExtractor, WallsAndFloorCloseTheTerrainAtItsBorder) {
     EXPECT_EQ(box.high.z, built->bounds().high.z);
     EXPECT_EQ(euler_characteristic(mesh), 2);
     // Waves are 6 m long: large cells lose much of them.
-    double expected = 0;
-    for (int c = 0; c < 40 * 164; ++c) expected += built->stack().column(c % 40, c / 40).tops[0];
     const ColumnGrid& grid = built->stack().grid();
+    double expected = 0;
+    for (int c = 0; c < grid.width * grid.depth; ++c) {
+      expected += built->stack().column(c % grid.width, c / grid.width).tops[0];
+    }
     expected *= grid.step * grid.cell_x * grid.cell_z;
     EXPECT_NEAR(volume(mesh), expected, (cell < 1 ? 0.01 : 0.06) * expected) << cell;
   }
@@ -158,7 +161,7 @@ TEST(ImplicitSurface, SpansEndOnTheMesh) {
       }
     }
   }
-  EXPECT_GT(found, 3000U);
+  EXPECT_GT(found, 1000U);
 }
 
 TEST_P(EveryExtractor, NormalsFollowTheFieldsGradient) {
