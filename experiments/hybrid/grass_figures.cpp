@@ -43,12 +43,15 @@ TriangleMesh patch_of_ground(std::uint64_t seed, int cells) {
   return grassland_mesh(crop(whole, 12, 20, cells + 1, cells + 1));
 }
 
-constexpr int kWide = 1000, kHigh = 640;  // pixels of a panel
+constexpr int kWide = 1000, kHigh = 640, kLow = 460;  // pixels of a panel
 
-View view_of(const TriangleMesh& mesh, int width, int height, glm::vec3 from) {
-  Bounds box = bounds_of(mesh);
-  box.high.y += 0.6F;  // of grass
-  return overview(box, width, height, from);
+// The view of the whole mesh, enlarged `zoom` times; the picture's middle moves down by `lift` metres.
+View view_of(const TriangleMesh& mesh, int width, int height, glm::vec3 from, float zoom, float lift = 0) {
+  View view = overview(bounds_of(mesh), width, height, from);
+  view.vertical_fov = 2 * std::atan(std::tan(view.vertical_fov / 2) / zoom);
+  view.target.y += lift;
+  view.eye.y += lift;
+  return view;
 }
 
 Sheet draw_guides(Drawing& drawing) {
@@ -59,7 +62,7 @@ Sheet draw_guides(Drawing& drawing) {
     scene.lines.push_back(line(mesh.positions[v], mesh.positions[v] + 1.2F * mesh.normals[v], kGuide, 4));
   }
   const Image image =
-      render_scene(drawing.gl(), scene, view_of(mesh, 2 * kWide, kHigh + 260, {0.5F, 0.5F, 1.0F}));
+      render_scene(drawing.gl(), scene, view_of(mesh, 1600, 760, {0.4F, 0.6F, 1.0F}, 1.25F, 0.4F));
   return panel_sheet({{{image, "A guide strand of 1.2 m at every vertex, along its normal"}}});
 }
 
@@ -90,8 +93,8 @@ Sheet draw_interpolated(Drawing& drawing) {
   }
   many.meshes.push_back(wires(mesh));
   add_strands(many, grow(drawing, mesh, 12 * static_cast<std::int64_t>(mesh.triangles())), 1.5F);
-  const View near = view_of(one, kWide, kHigh + 60, {0.1F, 0.75F, 1.0F});
-  const View far = view_of(mesh, kWide, kHigh + 60, {0.5F, 0.5F, 1.0F});
+  const View near = view_of(one, kWide, kHigh, {0.1F, 0.75F, 1.0F}, 0.8F, 0.4F);
+  const View far = view_of(mesh, kWide, kHigh, {0.4F, 0.6F, 1.0F}, 1.1F, 0.4F);
   return panel_sheet(
       {{{render_scene(drawing.gl(), single, near), "One triangle: 3 guides (orange), 90 strands (green)"},
         {render_scene(drawing.gl(), many, far), "12 strands on each triangle of the ground of figure 15"}}});
@@ -107,10 +110,11 @@ figures::SheetPoint on_picture(const View& view, const glm::vec3& p) {
 // A strand's two billboards as planes, with the three directions that span them.
 Sheet draw_diagram(Drawing& drawing) {
   TriangleMesh ground;
-  ground.positions = {{99.2F, 0, 100.9F}, {100.9F, 0, 100.5F}, {100, 0.12F, 99.1F}};
+  ground.positions = {{99.2F, 0, 100.9F}, {101.0F, 0, 100.6F}, {100, 0.12F, 99.1F}};
   ground.indices = {0, 1, 2};
   compute_normals(ground);
-  const GrassGrowth growth{.strands = 1, .height = 1, .width = 1, .height_variation = 0, .texture_metres = 8};
+  const GrassGrowth growth{
+      .strands = 1, .height = 0.9F, .width = 0.8F, .height_variation = 0, .texture_metres = 8};
   GrassScene grass(drawing.gl(), grass_ground(ground), growth);
   const GrassStrand strand = grass.strands().front();
   const glm::vec3 across = glm::normalize(glm::cross(strand.up, strand.side)), up = strand.height * strand.up;
@@ -127,12 +131,8 @@ Sheet draw_diagram(Drawing& drawing) {
     scene.lines.push_back(line(root, root + 1.7F * half, colour, 5));
   }
   scene.lines.push_back(line(strand.root, strand.root + 1.25F * up, {13, 13, 15}, 5));
-  View view = view_of(ground, kWide, kHigh + 160, {0.55F, 0.62F, 1.0F});
-  view.target = strand.root + 0.45F * up;
-  view.eye = view.target + 3.0F * glm::normalize(glm::vec3(0.55F, 0.62F, 1.0F));
+  View view = view_of(ground, kWide, kHigh + 60, {0.55F, 0.62F, 1.0F}, 0.85F, 0.35F);
   const Image planes = render_scene(drawing.gl(), scene, view);
-  view.near = 0.1F;
-  view.far = 50;
   const Image drawn = grass.picture(view, GrassTechnique::kGeometryShader);
 
   Sheet sheet = panel_sheet(
@@ -144,9 +144,9 @@ Sheet draw_diagram(Drawing& drawing) {
   };
   label(strand.root + 1.25F * up, 8, 4, "normal N");
   label(strand.root + 0.85F * strand.width * strand.side, 8, 12, "along AB");
-  label(strand.root + 0.85F * strand.width * across, -30, 24, "N × AB");
+  label(strand.root + 0.85F * strand.width * across, 6, -10, "N × AB");
   const char* const corners[] = {"A", "B", "C"};
-  for (std::size_t v = 0; v < 3; ++v) label(ground.positions[v], v == 0 ? -18 : 8, 5, corners[v]);
+  for (std::size_t v = 0; v < 3; ++v) label(ground.positions[v], v == 0 ? -18 : 10, 6, corners[v]);
   return sheet;
 }
 
@@ -171,10 +171,10 @@ Sheet draw_billboards(Drawing& drawing) {
   constexpr std::int64_t kStrands = 3 * 41'960;
   GrassScene scene(drawing.gl(), grass_ground(mesh),
                    {.strands = kStrands, .steepest = 40, .height = 0.45F, .width = 0.5F});
-  scene.look.fog_density = 0.006F;
   const auto draw = [&](const View& view) { return scene.picture(view, GrassTechnique::kGeometryShader); };
-  const Image whole = draw(view_of(mesh, kWide, kHigh, {0.4F, 0.45F, 1.0F}));
-  const Image near = draw(standing(field, {34, 60}, {28, 30}, kWide, kHigh));
+  const Image whole = draw(view_of(mesh, kWide, kLow, {0.4F, 0.45F, 1.0F}, 1));
+  scene.look.fog_density = 0.006F;
+  const Image near = draw(standing(field, {34, 60}, {28, 30}, kWide, kLow));
   return panel_sheet({{{whole, fmt::format("{} billboards on 64 m × 64 m",
                                            format_number(static_cast<double>(2 * kStrands)))},
                        {near, "The same, 2.2 m above the ground"}}});
@@ -183,7 +183,7 @@ Sheet draw_billboards(Drawing& drawing) {
 Sheet draw_limit(Drawing& drawing) {
   const Heightfield field = grassland(drawing.seed(), 160, 0.95F);
   const TriangleMesh mesh = grassland_mesh(field);
-  const View view = view_of(mesh, kWide, kHigh, {0.45F, 0.5F, 1.0F});
+  const View view = view_of(mesh, kWide, kLow, {0.45F, 0.5F, 1.0F}, 1);
   const auto panel = [&](float limit, SlopeAngle slope, std::string_view words) {
     GrassGrowth growth{.steepest = limit, .slope = slope, .height = 0.5F, .width = 0.5F};
     const std::size_t growing = plan_grass(grass_ground(mesh), growth).growing();
