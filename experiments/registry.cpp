@@ -21,6 +21,7 @@
   ENTRY(hybrid, kTable3)              \
   ENTRY(hybrid, kSlope)               \
   ENTRY(hybrid, kBary)                \
+  ENTRY(hybrid, kGrassFigures)        \
   ENTRY(ght, kGenerators)             \
   ENTRY(ght, kStages)                 \
   ENTRY(ght, kEventFigures)           \

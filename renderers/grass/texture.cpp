@@ -50,7 +50,7 @@ std::vector<Blade> grow_tuft(std::mt19937& random) {
 using Layer = std::vector<glm::vec4>;  // colour times opacity, 0 to 255, and opacity, 0 to 1
 
 Layer paint(const std::vector<Blade>& tuft) {
-  constexpr int kSamples = 4;  // along each axis of a texel
+  constexpr int kSamples = 2;  // along each axis of a texel
   Layer layer(static_cast<std::size_t>(kGrassTexels) * kGrassTexels, glm::vec4(0));
   for (int j = 0; j < kGrassTexels * kSamples; ++j) {
     const float y = (static_cast<float>(j) + 0.5F) / (kGrassTexels * kSamples);

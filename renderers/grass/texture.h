@@ -7,7 +7,7 @@
 namespace terrabench {
 
 inline constexpr int kGrassLayers = 4;
-inline constexpr int kGrassTexels = 128;  // side of the largest level, a power of two
+inline constexpr int kGrassTexels = 256;  // side of the largest level, a power of two
 
 // One level of the layers: sRGB and opacity of each texel, rows from the roots upwards.
 struct GrassTexels {

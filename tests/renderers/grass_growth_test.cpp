@@ -152,7 +152,7 @@ TEST(GrassPlan, RefusesWhatCannotGrow) {
 
 TEST(GrassTexture, KeepsItsCoverInTheDistance) {
   const std::vector<GrassTexels> levels = paint_grass();
-  ASSERT_EQ(levels.size(), 8U);
+  ASSERT_EQ(levels.size(), 9U);
   EXPECT_EQ(levels.back().side, 1);
   const auto cover = [&](const GrassTexels& level, int layer) {
     const std::size_t texels = static_cast<std::size_t>(level.side) * level.side;

@@ -1,0 +1,52 @@
+// --renderer, as a user gives it.
+#include <gmock/gmock.h>
+
+#include "tests/experiments/command_line.h"
+
+namespace terrabench {
+namespace {
+
+using ::testing::HasSubstr;
+
+class RendererOption : public CommandLine {
+ protected:
+  static std::string represent(const std::string& renderer) {
+    return "$T represent jacksboro --as heightmap --resample 32 32 --render out.png --renderer " + renderer;
+  }
+};
+
+TEST_F(RendererOption, DrawsWithTheContextNamed) {
+  for (const char* const name : {"osmesa", "egl", "auto"}) {
+    std::filesystem::remove(folder_ / "out.png");
+    const Outcome outcome = call(represent(name));
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    EXPECT_THAT(outcome.text, HasSubstr("OpenGL 4.")) << name;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "out.png")) << name;
+  }
+}
+
+TEST_F(RendererOption, SuggestsTheNearestName) {
+  for (const std::string& command :
+       {represent("elg"), std::string("$T run hybrid.noise-stages --renderer elg --out out")}) {
+    const Outcome outcome = call(command);
+    EXPECT_EQ(outcome.code, 2) << outcome.text;
+    EXPECT_THAT(outcome.text, HasSubstr("did you mean 'egl'?"));
+  }
+}
+
+TEST_F(RendererOption, WithoutADisplaySaysWhatToDo) {
+  const Outcome outcome = call("unset DISPLAY; " + represent("glfw"));
+  EXPECT_EQ(outcome.code, 4) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("DISPLAY"));
+  EXPECT_THAT(outcome.text, HasSubstr("xvfb-run"));
+}
+
+TEST_F(RendererOption, IsInTheProvenance) {
+  const Outcome outcome = call(
+      "$T run hybrid.noise-stages --shard 1/11 --set pixels=16 --renderer egl --out out && "
+      "grep -c '\"gl_renderer\":\".*OpenGL 4' out/measurements.jsonl");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+}
+
+}  // namespace
+}  // namespace terrabench
