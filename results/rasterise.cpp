@@ -17,7 +17,8 @@ extern char** environ;
 
 namespace terrabench {
 
-void svg_to_png(const std::filesystem::path& svg, const std::filesystem::path& png, int width) {
+void svg_to_png(const std::filesystem::path& svg, const std::filesystem::path& png, int width,
+                Colours colours) {
   std::string program = "rsvg-convert", size = std::to_string(width), in = svg.string(), out = png.string();
   std::string width_option = "--width", output_option = "--output";
   char* const arguments[] = {program.data(), width_option.data(), size.data(), output_option.data(),
@@ -39,7 +40,7 @@ void svg_to_png(const std::filesystem::path& svg, const std::filesystem::path& p
                             program, "install Debian's librsvg2-bin, which turns plots into PNG");
   }
   if (status == 0) {
-    write_png(png, with_few_colours(read_png(png)));
+    if (colours == Colours::kFew) write_png(png, with_few_colours(read_png(png)));
     return;
   }
   std::error_code ignored;
@@ -48,12 +49,12 @@ void svg_to_png(const std::filesystem::path& svg, const std::filesystem::path& p
                           "check the free space on the disk and the folder's permissions");
 }
 
-void svg_text_to_png(std::string_view svg, const std::filesystem::path& png, int width) {
+void svg_text_to_png(std::string_view svg, const std::filesystem::path& png, int width, Colours colours) {
   const std::filesystem::path file = png.string() + fmt::format(".{}.tmp", getpid());
   write_file(file, svg);
   std::error_code ignored;
   try {
-    svg_to_png(file, png, width);
+    svg_to_png(file, png, width, colours);
   } catch (...) {
     std::filesystem::remove(file, ignored);
     throw;

@@ -6,10 +6,15 @@
 
 namespace terrabench {
 
-// Writes a picture `width` pixels wide, with at most 256 colours, on white. Throws environment_error when
-// rsvg-convert is missing or fails; then no picture is left.
-void svg_to_png(const std::filesystem::path& svg, const std::filesystem::path& png, int width);
+// Drawings need few colours and become small files; in rendered landscapes few would make bands.
+enum class Colours { kFew, kAll };
+
+// Writes a picture `width` pixels wide, with at most 256 colours if few, on white. Throws environment_error
+// when rsvg-convert is missing or fails; then no picture is left.
+void svg_to_png(const std::filesystem::path& svg, const std::filesystem::path& png, int width,
+                Colours = Colours::kFew);
 // The same for an SVG text; its temporary file is removed.
-void svg_text_to_png(std::string_view svg, const std::filesystem::path& png, int width);
+void svg_text_to_png(std::string_view svg, const std::filesystem::path& png, int width,
+                     Colours = Colours::kFew);
 
 }  // namespace terrabench

@@ -152,6 +152,8 @@ std::string Sheet::svg() const {
       width_, height_, body_);
 }
 
-void Sheet::write(const std::filesystem::path& png) const { svg_text_to_png(svg(), png, kPixels * width_); }
+void Sheet::write(const std::filesystem::path& png) const {
+  svg_text_to_png(svg(), png, kPixels * width_, colours_);
+}
 
 }  // namespace terrabench::figures

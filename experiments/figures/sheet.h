@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "results/rasterise.h"
 #include "terrain/image.h"
 
 namespace terrabench::figures {
@@ -49,6 +50,8 @@ class Sheet {
   void colour_bar(double x, double y, double width, const std::function<Rgb(double)>& colour,
                   std::span<const Tick> ticks);
   std::string svg() const;
+  // For sheets with rendered landscapes, whose smooth skies need all colours; other sheets have at most 256.
+  void keep_all_colours() { colours_ = Colours::kAll; }
   // Writes a PNG. Throws environment_error.
   void write(const std::filesystem::path& png) const;
 
@@ -59,6 +62,7 @@ class Sheet {
   void rays(SheetPoint centre, double radius, int count, double first, Rgb colour);
 
   int width_, height_;
+  Colours colours_ = Colours::kFew;
   std::string body_;
 };
 

@@ -19,6 +19,8 @@ namespace {
 
 using namespace figures;
 
+constexpr glm::ivec2 kLarge{1000, 560}, kSmall{493, 278};  // pixels
+
 using Settings = std::initializer_list<std::pair<std::string_view, Value>>;
 
 // The noise terrain, drawn by the clipmap.
@@ -32,21 +34,18 @@ class Land {
   }
 
   LandscapeStyle style(Settings settings) const {
-    Parameters parameters(landscape_parameters(), settings);
+    Parameters parameters(landscape_parameters(), {{"water", 0.45}});
+    for (const auto& [name, value] : settings) parameters.set(name, value);
     return make_style(parameters, bounds_of(field_));
   }
-  // Eye and target lie at heights above the water or the ground, whichever is higher.
-  View view(glm::vec3 eye, glm::vec3 target, int width, int height) const {
-    const LandscapeStyle usual = style({});
+  // Eye and target lie at heights above the water.
+  View view(glm::vec3 eye, glm::vec3 target, glm::ivec2 size) const {
+    const glm::vec3 water(0, style({}).water_level, 0);
     View view;
-    const auto raised = [&](glm::vec3 p) {
-      p.y += std::max(field_.sample(p.x, p.z), usual.water_level);
-      return p;
-    };
-    view.eye = raised(eye);
-    view.target = raised(target);
-    view.width = width;
-    view.height = height;
+    view.eye = eye + water;
+    view.target = target + water;
+    view.width = size.x;
+    view.height = size.y;
     view.vertical_fov = 0.8F;
     view.near = 0.3F;
     view.far = 4 * field_.extent_x();
@@ -106,14 +105,24 @@ Sheet draw_dudv(Drawing& drawing) {
                       {{normals, "normal map of the same size"}, {grey(1), "dv, black −1, white 1"}}});
 }
 
+Sheet landscape_sheet(const PanelRows& rows) {
+  Sheet sheet = panel_sheet(rows);
+  sheet.keep_all_colours();
+  return sheet;
+}
+
+View resized(View view, glm::ivec2 size) {
+  view.width = size.x;
+  view.height = size.y;
+  return view;
+}
+
 Sheet draw_water(Drawing& drawing) {
   Land land(drawing);
-  const View large = land.view({500, 9, 1010}, {640, 2, 700}, 1280, 720);
-  View small = large;
-  small.width = 632;
-  small.height = 356;
+  const View large = land.view({900, 12, 1300}, {760, -6, 900}, kLarge), small = resized(large, kSmall);
   const Value off = 0.0;
-  const Image mirror = land.draw(small, {{"fresnel_normal", 1.0}, {"distortion", off}, {"wave_slope", off}});
+  const Image mirror = land.draw(
+      small, {{"fresnel_normal", 1.0}, {"distortion", off}, {"wave_slope", off}, {"highlight", off}});
   const Image glass = land.draw(small, {{"fresnel_normal", off},
                                         {"fresnel_power", 20.0},
                                         {"distortion", off},
@@ -121,33 +130,26 @@ Sheet draw_water(Drawing& drawing) {
                                         {"highlight", off}});
   const Image still = land.draw(small, {{"distortion", off}, {"wave_slope", off}, {"highlight", off}});
   const Image warped = land.draw(small, {{"wave_slope", off}, {"highlight", off}});
-  return panel_sheet({{{land.draw(large, {}, 2),
-                        "water with reflection, refraction, du/dv map, moving normal map "
-                        "and highlights"}},
-                      {{mirror, "reflection alone"}, {glass, "refraction alone"}},
-                      {{still, "mixed by the Fresnel term"}, {warped, "warped by the du/dv map"}}});
+  return landscape_sheet({{{land.draw(large, {}, 2), "all parts, with a moving normal map and highlights"}},
+                          {{mirror, "reflection alone"}, {glass, "refraction alone"}},
+                          {{still, "mixed by the Fresnel term"}, {warped, "warped by the du/dv map"}}});
 }
 
 Sheet draw_fog(Drawing& drawing) {
+  constexpr double kAzimuth = 33, kHeight = 8;
   Land land(drawing);
-  // The sun stands low in the south-west.
-  const Settings settings{{"sun_azimuth", 225.0}, {"sun_height", 9.0}, {"fog", 0.28},
-                          {"fog_sun", 0.85},      {"border", 0.2},     {"cloud_cover", 0.3}};
-  const View towards = land.view({860, 60, 640}, {560, 30, 940}, 1280, 640);
-  const View away = land.view({600, 60, 900}, {900, 30, 600}, 632, 356);
-  View plain = towards;
-  plain.width = 632;
-  plain.height = 356;
-  const Image lit = land.draw(towards, settings);
-  const Image other = land.draw(away, settings);
-  const Image grey = land.draw(plain, {{"sun_azimuth", 225.0},
-                                       {"sun_height", 9.0},
-                                       {"fog", 0.28},
-                                       {"fog_sun", 0.0},
-                                       {"border", 0.2},
-                                       {"cloud_cover", 0.3}});
-  return panel_sheet({{{lit, "towards the sun"}},
-                      {{grey, "towards the sun, fog of one colour"}, {other, "away from the sun"}}});
+  const auto draw = [&](const View& view, double strength) {
+    return land.draw(view, {{"sun_azimuth", kAzimuth},
+                            {"sun_height", kHeight},
+                            {"fog", 0.3},
+                            {"fog_sun", strength},
+                            {"cloud_cover", 0.3}});
+  };
+  const View towards = land.view({300, 45, 1200}, {600, 25, 740}, kLarge);
+  const View away = land.view({1150, 60, 300}, {850, 35, 760}, kSmall);
+  return landscape_sheet({{{draw(towards, 0.85), "towards the sun"}},
+                          {{draw(resized(towards, kSmall), 0), "towards the sun, fog of one colour"},
+                           {draw(away, 0.85), "away from the sun"}}});
 }
 
 // `turn`: by which the map is moved along the horizon.
@@ -169,20 +171,17 @@ Sheet draw_sky_noise(Drawing& drawing) {
 
 Sheet draw_clouds(Drawing& drawing) {
   Land land(drawing);
-  const View large = land.view({768, 70, 900}, {700, 150, 500}, 1280, 720);
-  View small = large;
-  small.width = 632;
-  small.height = 356;
-  return panel_sheet({{{land.draw(large, {}), "clouds over the noise terrain"}},
-                      {{land.draw(small, {}, 20), "20 s later"},
-                       {land.draw(small, {{"cloud_cover", 0.75}}), "three quarters of the sky clouded"}}});
+  const View large = land.view({300, 30, 1200}, {560, 110, 740}, kLarge), small = resized(large, kSmall);
+  return landscape_sheet({{{land.draw(large, {}), "clouds over the noise terrain"}},
+                          {{land.draw(small, {}, 20), "20 s later"},
+                           {land.draw(small, {{"cloud_cover", 0.75}}), "with more clouds"}}});
 }
 
 constexpr std::array<Figure, 5> kFigures{{
     {20, "F20", "the du/dv map of the water, from the gradient of seamless noise, and its normal map",
      draw_dudv},
     {21, "F21", "the water as rendered, and its parts: the noise terrain, drawn by the clipmap", draw_water},
-    {23, "F23", "fog that takes the sun's colour towards the sun, 9° above the horizon", draw_fog},
+    {23, "F23", "fog that takes the sun's colour towards the sun, 8° above the horizon", draw_fog},
     {24, "F24", "the noise map of the sky, on a dome of clouds around the eye", draw_sky_noise},
     {25, "F25",
      "clouds: the share t = (cos(iπ) + 1) ÷ 2 of sky colour where the noise map is i, moving with time",

@@ -15,12 +15,12 @@ float fog_share(float metres) {
   return 1.0 - exp(-thick * thick);
 }
 
-// The noise map's intensity in direction d, 0 to 1. The map is wound around the vertical axis; its rows run from
-// the zenith to the horizon.
-float cloud_intensity(vec3 d) {
+// The noise map in direction d as thickness of cloud: from 0, where there is none, 1 and more is full cloud. The map
+// is wound around the vertical axis; its rows run from the zenith to the horizon.
+float cloud_thickness(vec3 d) {
   vec2 at = vec2(atan(d.x, -d.z) / (2.0 * kPi) + cloud_color.w, acos(clamp(d.y, 0.0, 1.0)) / (0.5 * kPi));
   float noise = textureLod(sky_noise, at, 0.0).r;
-  return clamp((noise - cloud_range.x) / (cloud_range.y - cloud_range.x), 0.0, 1.0);
+  return (noise - cloud_range.x) / (cloud_range.y - cloud_range.x);
 }
 
 vec3 clear_sky(vec3 d) {
@@ -30,15 +30,15 @@ vec3 clear_sky(vec3 d) {
 }
 
 vec3 sky_towards(vec3 d) {
-  float intensity = cloud_intensity(d), share = sky_share(intensity);
+  float thickness = cloud_thickness(d), share = sky_share(clamp(thickness, 0.0, 1.0));
   // Cloud is bright where it thins out towards the sun, and darker where it thickens.
   float towards = max(dot(d, sun.xyz), 0.0);
-  float thinner = intensity - cloud_intensity(normalize(d + 0.035 * sun.xyz));
-  float bright = clamp(0.86 - 0.22 * intensity + 0.55 * thinner, 0.45, 1.12);
+  float thinner = thickness - cloud_thickness(normalize(d + 0.035 * sun.xyz));
+  float bright = clamp(0.90 - 0.20 * max(thickness, 0.0) + 0.55 * thinner, 0.45, 1.12);
   vec3 cloud = cloud_color.rgb * mix(sky_light.rgb / max(sky_light.b, 1e-3), vec3(1.0), 0.75) * bright +
                sun_light.rgb * 0.06 * pow(towards, 5.0);
   vec3 sky = share * clear_sky(d) + (1.0 - share) * cloud;
-  float disc = smoothstep(0.99985, 0.99992, dot(d, sun.xyz));
+  float disc = smoothstep(0.99993, 0.99998, dot(d, sun.xyz)) + 0.12 * pow(towards, 1200.0);
   sky += 4.0 * sun_light.rgb * disc * share * share;
   float haze = 1.0 - smoothstep(0.0, sky_low.w, d.y);
   return mix(sky, fog_towards(d), haze * haze);

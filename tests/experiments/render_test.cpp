@@ -106,8 +106,8 @@ TEST_F(Render, SaysWhatIsWrong) {
   expect("hills.tif --scene --frames 3", 2, "--path");
   expect("hills.tif --scene --frames 0 --path fly", 2, "--frames");
   expect("hills.tif --scene --eye 300 5 300", 2, "under the ground");
-  expect("hills.tif --scene --eye 300 90 300 --look-at 300 90 300", 2, "invalid view");
-  expect("hills.tif --scene --eye nan 90 300 --look-at 300 90 300", 2, "invalid view");
+  expect("hills.tif --scene --eye 300 90 300 --look-at 300 90 300", 2, "must be finite and differ");
+  expect("hills.tif --scene --eye nan 90 300 --look-at 300 90 300", 2, "must be finite");
   expect("hills.tif --scene --path fly --eye 300 90 300", 2, "--path");
   expect("hills.tif --scene --renderer nonsense", 2, "nonsense");
   expect("missing.tif --scene", 3, "missing.tif");
