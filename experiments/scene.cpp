@@ -129,8 +129,14 @@ void check_eye(const View& view, const Frame& frame, const TerrainSource& source
 ScenePainter::ScenePainter(GlContext& context, Lod& lod, const LandscapeStyle& style)
     : lod_(lod), renderer_(context, style) {}
 
+void ScenePainter::grow(const Parameters& grass, const LandscapeStyle& style) {
+  grass_.emplace(grass, style);
+  renderer_.also = [this](const PassView& pass) { grass_->draw(pass); };
+}
+
 const Frame& ScenePainter::update(const View& view) {
   frame_ = &lod_.update(surroundings(view));
+  if (grass_) grass_->update(*frame_, view);
   return *frame_;
 }
 

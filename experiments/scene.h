@@ -3,8 +3,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string_view>
 
+#include "experiments/grass_cover.h"
 #include "lod/lod.h"
 #include "renderers/landscape/landscape.h"
 #include "terrain/heightfield.h"
@@ -37,6 +39,8 @@ class ScenePainter {
  public:
   ScenePainter(GlContext& context, Lod& lod, const LandscapeStyle& style);
   LandscapeRenderer& renderer() { return renderer_; }
+  // Grass, of grass_parameters(), on the near meshes of the following frames. The style must outlive this.
+  void grow(const Parameters& grass, const LandscapeStyle& style);
   // The frame for the view and its surroundings.
   const Frame& update(const View&);
   // Draws the frame of the last update(), once; or only uploads it, so that the next picture is the same as
@@ -47,6 +51,7 @@ class ScenePainter {
  private:
   Lod& lod_;
   LandscapeRenderer renderer_;
+  std::optional<GrassCover> grass_;
   const Frame* frame_ = nullptr;
 };
 

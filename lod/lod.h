@@ -52,6 +52,7 @@ struct Knob {
 struct LodTraits {
   bool conforming = true;     // promises no cracks
   bool bounds_error = false;  // promises a screen-space error of at most the knob, in pixels
+  bool near_surface = false;  // draws LodGround::near_surface
 };
 
 struct LodType {

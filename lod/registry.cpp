@@ -44,7 +44,7 @@ std::span<const LodType> lods() {
       {"hybrid",
        "chunks of a near surface around the eye, in a clipmap with a hole of their outline",
        "hybrid §3.5",
-       {},
+       {.near_surface = true},
        Hybrid::knob(),
        Hybrid::parameters(),
        Hybrid::build},

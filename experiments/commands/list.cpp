@@ -6,6 +6,7 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/experiment.h"
+#include "experiments/grass_cover.h"
 #include "lod/lod.h"
 #include "renderers/landscape/style.h"
 #include "representations/representation.h"
@@ -108,7 +109,10 @@ Json list_scene() {
   return Json::array(
       {{{"name", "landscape"},
         {"summary", "how `terrabench render --scene` draws: light, sky, fog, materials and water"},
-        {"parameters", parameters_json(landscape_parameters())}}});
+        {"parameters", parameters_json(landscape_parameters())}},
+       {{"name", "grass"},
+        {"summary", "grass on the near surface that `--lod hybrid` draws"},
+        {"parameters", parameters_json(grass_parameters())}}});
 }
 
 struct Listing {

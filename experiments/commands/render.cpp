@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "experiments/commands/commands.h"
+#include "experiments/near_ground.h"
 #include "experiments/scene.h"
 #include "lod/camera/camera_path.h"
 #include "renderers/frame_renderer.h"
@@ -38,16 +39,22 @@ glm::ivec2 parse_size(const std::string& text) {
 
 // The values of --set, each for the landscape or the method, whichever has it.
 struct Settings {
-  Parameters look, method;
+  Parameters look, grass, method;
 };
 
 Settings parse_settings(const RenderArguments& a, const LodType& type) {
-  Settings settings{Parameters(landscape_parameters()), Parameters(type.parameters)};
-  std::vector<ParameterSpec> all(landscape_parameters().begin(), landscape_parameters().end());
-  all.insert(all.end(), type.parameters.begin(), type.parameters.end());
+  Settings settings{Parameters(landscape_parameters()), Parameters(grass_parameters()),
+                    Parameters(type.parameters)};
+  std::vector<ParameterSpec> all;
+  for (const auto specs : {landscape_parameters(), grass_parameters(), type.parameters}) {
+    all.insert(all.end(), specs.begin(), specs.end());
+  }
   for (const std::string& assignment : split_assignments(a.assignments, all)) {
-    const bool of_method = settings.method.has(assignment.substr(0, assignment.find('=')));
-    (of_method ? settings.method : settings.look).set_from_text(assignment);
+    const std::string name = assignment.substr(0, assignment.find('='));
+    Parameters& of = settings.method.has(name)  ? settings.method
+                     : settings.grass.has(name) ? settings.grass
+                                                : settings.look;
+    of.set_from_text(assignment);
   }
   return settings;
 }
@@ -124,7 +131,7 @@ std::string describe(const RenderArguments& a, const TerrainSource& source, cons
       "size = \"{}x{}\"\nlod = \"{}\"\ndetail = \"{}\"\nsamples = {}\nseconds = {}\n",
       source.name, source.checksum, a.scene, a.path, a.frames, shots[0].view.width, shots[0].view.height,
       a.lod, a.detail.empty() ? "usual" : fmt::format("{}", a.detail[0]), a.samples, a.seconds);
-  for (const Parameters* parameters : {&settings.look, &settings.method}) {
+  for (const Parameters* parameters : {&settings.look, &settings.grass, &settings.method}) {
     for (std::size_t k = 0; k < parameters->specs().size(); ++k) {
       text += fmt::format("{} = \"{}\"\n", parameters->specs()[k].name, to_string(parameters->value(k)));
     }
@@ -145,10 +152,12 @@ void claim_folder(const fs::path& folder, const std::string& description) {
 // Draws frames as a landscape or as shaded relief.
 class Painter {
  public:
-  Painter(const RenderArguments& a, GlContext& context, Lod& lod, const LandscapeStyle& style)
+  Painter(const RenderArguments& a, GlContext& context, Lod& lod, const LandscapeStyle& style,
+          const Parameters& grass)
       : lod_(lod), style_(style) {
     if (a.scene) {
       scene_.emplace(context, lod, style);
+      scene_->grow(grass, style);
     } else {
       relief_.emplace(context);
     }
@@ -177,6 +186,12 @@ class Painter {
   std::optional<ScenePainter> scene_;
   std::optional<FrameRenderer> relief_;
 };
+
+// Heights, and for a method that draws one, the near surface of a solid.
+NearGround render_ground(const TerrainSource& source, const LodType& type, int samples, Progress& progress) {
+  if (source.solid && type.traits.near_surface) return near_ground(source, samples - 1, 1, progress);
+  return {nullptr, scene_heights(source, samples, progress)};
+}
 
 std::size_t paint(const RenderArguments& a, const std::vector<Shot>& shots, Painter& painter,
                   const TerrainSource& source, const Heightfield& field, Progress& progress) {
@@ -208,14 +223,15 @@ ExitCode render_command(const RenderArguments& a) {
   Progress progress(isatty(STDERR_FILENO) != 0 ? Progress::Output::kTerminal : Progress::Output::kLines);
 
   const TerrainSource source = open_terrain(a.terrain, a.seed);
-  const Heightfield field = scene_heights(source, a.samples, progress);
+  const NearGround ground = render_ground(source, type, a.samples, progress);
+  const Heightfield& field = ground.heights;
   const LandscapeStyle style = make_style(settings.look, bounds_of(field));
   const std::vector<Shot> shots = plan_shots(a, style, field);
-  const auto method = type.build(field, settings.method, progress);
+  const auto method = type.build(ground.lod(), settings.method, progress);
   if (!a.detail.empty()) method->tune(a.detail[0]);
   const auto context = open_context(a.renderer, shots[0].view.width, shots[0].view.height);
   if (a.frames > 1) claim_folder(a.out, describe(a, source, settings, shots));
-  Painter painter(a, *context, *method, style);
+  Painter painter(a, *context, *method, style, settings.grass);
   const std::size_t kept = paint(a, shots, painter, source, field, progress);
 
   fmt::print("terrain     {}, checksum {}\n", source.name, source.checksum);

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "experiments/experiment.h"
-#include "experiments/hybrid/near_ground.h"
+#include "experiments/near_ground.h"
 #include "lod/camera/camera_path.h"
 #include "lod/hybrid/hybrid.h"
 #include "lod/meters/bare_pixels.h"

@@ -127,7 +127,9 @@ void Drawing::begin(PassView& pass) {
 
 void Drawing::ground(const PassView& pass) {
   gl_.draw_ground(pass.pass);
-  if (owner_.also) owner_.also(pass);
+  if (!owner_.also) return;
+  owner_.also(pass);
+  gl_.bind();
 }
 
 void Drawing::shadows() {

@@ -99,6 +99,10 @@ void LandscapeGl::make_targets(const View& view, const LandscapeStyle& style) {
 
 void LandscapeGl::write(const SceneBlock& content) {
   block.write(0, &content, sizeof content);
+  bind();
+}
+
+void LandscapeGl::bind() {
   glBindBufferBase(GL_UNIFORM_BUFFER, kSceneBinding, block.id());
   glBindTextureUnit(kMaterialMaps, materials.id());
   glBindTextureUnit(kSkyNoise, sky_noise->id());

@@ -21,6 +21,7 @@ struct LandscapeGl {
   void make_targets(const View&, const LandscapeStyle&);
 
   void write(const SceneBlock&);
+  void bind();  // the block and the maps that all passes share
   void draw_sky(bool shown);
   void draw_ground(Pass);  // whose programs differ: depth alone, light, or the display's colours
   void draw_water(float reach);

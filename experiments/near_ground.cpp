@@ -1,10 +1,10 @@
-#include "experiments/hybrid/near_ground.h"
+#include "experiments/near_ground.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-namespace terrabench::hybrid {
+namespace terrabench {
 
 namespace {
 
@@ -51,4 +51,4 @@ View standing_on(const NearGround& ground, glm::vec2 place, float heading, float
   return view;
 }
 
-}  // namespace terrabench::hybrid
+}  // namespace terrabench

@@ -1,4 +1,4 @@
-// Ground for the experiments that join near and far (§3.5): the implicit surface near the eye, and the height
+// Ground for what joins near and far (hybrid paper, §3.5): the implicit surface near the eye, and the height
 // map of the same stacks beyond.
 #pragma once
 
@@ -9,10 +9,10 @@
 #include "representations/layered_stack/height_map.h"
 #include "terrain/source.h"
 
-namespace terrabench::hybrid {
+namespace terrabench {
 
 struct NearGround {
-  std::unique_ptr<ImplicitSurface> surface;
+  std::unique_ptr<ImplicitSurface> surface;  // null for ground of heights alone
   Heightfield heights;
 
   LodGround lod() const { return {heights, surface.get()}; }
@@ -25,4 +25,4 @@ NearGround near_ground(const TerrainSource&, int columns, int finer, Progress&);
 // the least height above what is solid, metres.
 View standing_on(const NearGround&, glm::vec2 place, float heading, float step);
 
-}  // namespace terrabench::hybrid
+}  // namespace terrabench
