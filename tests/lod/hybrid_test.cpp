@@ -58,7 +58,7 @@ std::string name_of_fit(const ::testing::TestParamInfo<std::size_t>& info) { ret
 
 TEST_P(HybridFit, IsClosedToTheBitFromEverywhere) {
   std::size_t with_mesh = 0;
-  for (const glm::vec2 place : random_places(field_, 30, 5)) {
+  for (const glm::vec2 place : random_places(field_, 15, 5)) {
     const Frame& frame = from_above_.update(everything_from(place.x, place.y));
     ASSERT_EQ(openings_inside(field_, frame), 0U) << place.x << " " << place.y;
     with_mesh += frame.meshes.empty() ? 0 : 1;
@@ -68,15 +68,15 @@ TEST_P(HybridFit, IsClosedToTheBitFromEverywhere) {
 
 TEST_P(HybridFit, IsClosedToTheBitInMotion) {
   from_above_.tune(63);
-  for (int k = 0; k < 60; ++k) {
-    const float along = static_cast<float>(k) / 59;
+  for (int k = 0; k < 40; ++k) {
+    const float along = static_cast<float>(k) / 39;
     const glm::vec2 at = glm::mix(glm::vec2(3, 90), glm::vec2(94, 11), along);
     ASSERT_EQ(openings_inside(field_, from_above_.update(everything_from(at.x, at.y))), 0U) << k;
   }
 }
 
 TEST_P(HybridFit, TheHoleHoldsTheNearSurfaceAlone) {
-  for (const glm::vec2 place : random_places(field_, 20, 6)) {
+  for (const glm::vec2 place : random_places(field_, 10, 6)) {
     const Frame& frame = from_above_.update(everything_from(place.x, place.y));
     const glm::vec2 low = from_above_.near_outline().low, high = from_above_.near_outline().high;
     double far_area = 0, near_area = 0;
@@ -111,7 +111,7 @@ TEST_P(HybridFit, TheHoleHoldsTheNearSurfaceAlone) {
 }
 
 TEST_P(HybridFit, PassesTheMeters) {
-  for (const glm::vec2 place : random_places(field_, 10, 7)) {
+  for (const glm::vec2 place : random_places(field_, 8, 7)) {
     for (const float heading : {0.0F, 2.0F, 4.0F}) {
       const View view = standing(field_, place.x, place.y, heading, 3);
       if (meso_.solid(view.eye) > -0.3F) continue;  // inside the arch

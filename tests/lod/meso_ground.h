@@ -89,14 +89,10 @@ class MesoGround final : public MeshChunks {
   TriangleMesh chunk(glm::ivec2 at, int) const override {
     ++built_;
     if (fail_at == at) throw std::runtime_error("this chunk cannot be built");
-    Tetrahedra march{*this, {}, {}};
-    const glm::ivec2 first = at * options_.cells;
     const int levels = static_cast<int>(40 / options_.cell);
-    for (int k = 0; k < options_.cells; ++k) {
-      for (int i = 0; i < options_.cells; ++i) {
-        for (int l = 0; l < levels; ++l) march.cell({first.x + i, l, first.y + k});
-      }
-    }
+    Tetrahedra march(*this, {at.x * options_.cells, 0, at.y * options_.cells},
+                     {options_.cells, levels, options_.cells});
+    march.run();
     return march.mesh;
   }
 
@@ -117,12 +113,40 @@ class MesoGround final : public MeshChunks {
             options_.low.y + static_cast<float>(at.z) * options_.cell};
   }
 
+  // The surface over a box of cells.
   struct Tetrahedra {
+    Tetrahedra(const MesoGround& of, glm::ivec3 from, glm::ivec3 size)
+        : ground(of), first(from), cells(size) {
+      for (int k = 0; k <= cells.z; ++k) {
+        for (int l = 0; l <= cells.y; ++l) {
+          for (int i = 0; i <= cells.x; ++i) {
+            values.push_back(ground.solid(ground.place(first + glm::ivec3(i, l, k))));
+          }
+        }
+      }
+    }
+    void run() {
+      for (int k = 0; k < cells.z; ++k) {
+        for (int l = 0; l < cells.y; ++l) {
+          for (int i = 0; i < cells.x; ++i) cell(first + glm::ivec3(i, l, k));
+        }
+      }
+    }
+
     const MesoGround& ground;
+    glm::ivec3 first, cells;
+    std::vector<float> values;
     TriangleMesh mesh;
     std::map<std::array<int, 6>, std::uint32_t> edges;
 
+    float value(glm::ivec3 at) const {
+      const glm::ivec3 local = at - first;
+      return values[static_cast<std::size_t>((local.z * (cells.y + 1) + local.y) * (cells.x + 1) + local.x)];
+    }
     void cell(glm::ivec3 low) {
+      int solid = 0;
+      for (int c = 0; c < 8; ++c) solid += value(low + glm::ivec3(c & 1, c >> 1 & 1, c >> 2)) > 0;
+      if (solid == 0 || solid == 8) return;
       // Kuhn's six tetrahedra around the diagonal; neighbours share the diagonals of their faces.
       static constexpr int kOrders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
       for (const auto& order : kOrders) {
@@ -135,7 +159,7 @@ class MesoGround final : public MeshChunks {
     }
     void tetrahedron(const std::array<glm::ivec3, 4>& corners) {
       std::vector<glm::ivec3> in, out;
-      for (const glm::ivec3& c : corners) (ground.solid(ground.place(c)) > 0 ? in : out).push_back(c);
+      for (const glm::ivec3& c : corners) (value(c) > 0 ? in : out).push_back(c);
       const auto edge = [&](std::size_t i, std::size_t o) { return vertex(in[i], out[o]); };
       if (in.empty() || out.empty()) return;
       if (in.size() == 1) add(edge(0, 0), edge(0, 1), edge(0, 2), in[0], out[0]);
@@ -152,7 +176,7 @@ class MesoGround final : public MeshChunks {
                                                  static_cast<std::uint32_t>(mesh.positions.size()));
       if (fresh) {
         const glm::vec3 p = ground.place(a), q = ground.place(b);
-        const float at_p = ground.solid(p), at_q = ground.solid(q);
+        const float at_p = value(a), at_q = value(b);
         mesh.positions.push_back(glm::mix(p, q, std::clamp(at_p / (at_p - at_q), 0.05F, 0.95F)));
         mesh.normals.push_back({0, 1, 0});
       }
