@@ -32,7 +32,9 @@ vec3 guide(Corner at) {
   return at.normal * growth.height * (1.0 + growth.variation * share);
 }
 
-// `number` counts a triangle's strands from 1: with 0 the first number would be 0 on every triangle.
+// The paper multiplies by its "total created strands". Read as the strands of the triangle created so far, this one
+// included: with the total of all, every strand of a triangle would stand at one point, and from 0 the first would
+// stand at a corner.
 vec3 barycentric(Corner a, float number) {
   float first = grass_random(a.position.xz / growth.texture_metres * number);
   float second = grass_random((a.position.xz + 1.0) * number);
