@@ -229,6 +229,8 @@ ExitCode render_command(const RenderArguments& a) {
   const std::vector<Shot> shots = plan_shots(a, style, field);
   const auto method = type.build(ground.lod(), settings.method, progress);
   if (!a.detail.empty()) method->tune(a.detail[0]);
+  // Before the renderer's textures are computed, which takes a second or more.
+  check_eye(shots[0].view, method->update(shots[0].view), source, field);
   const auto context = open_context(a.renderer, shots[0].view.width, shots[0].view.height);
   if (a.frames > 1) claim_folder(a.out, describe(a, source, settings, shots));
   Painter painter(a, *context, *method, style, settings.grass);
