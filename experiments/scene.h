@@ -41,6 +41,7 @@ class ScenePainter {
   LandscapeRenderer& renderer() { return renderer_; }
   // Grass, of grass_parameters(), on the near meshes of the following frames. The style must outlive this.
   void grow(const Parameters& grass, const LandscapeStyle& style);
+  std::int64_t strands() const { return grass_ ? grass_->strands() : 0; }
   // The frame for the view and its surroundings.
   const Frame& update(const View&);
   // Draws the frame of the last update(), once; or only uploads it, so that the next picture is the same as
