@@ -12,6 +12,7 @@
   ENTRY(hybrid, kFresnel)             \
   ENTRY(hybrid, kSky)                 \
   ENTRY(hybrid, kLandscape)           \
+  ENTRY(hybrid, kHero)                \
   ENTRY(ght, kGenerators)             \
   ENTRY(ght, kStages)                 \
   ENTRY(ght, kEventFigures)           \
