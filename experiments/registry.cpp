@@ -22,6 +22,7 @@
   ENTRY(hybrid, kSlope)               \
   ENTRY(hybrid, kBary)                \
   ENTRY(hybrid, kGrassFigures)        \
+  ENTRY(hybrid, kHero)                \
   ENTRY(ght, kGenerators)             \
   ENTRY(ght, kStages)                 \
   ENTRY(ght, kEventFigures)           \

@@ -12,7 +12,8 @@
 namespace terrabench {
 namespace {
 
-constexpr int kSteps = 64;  // samples of a column, and again of the step that holds its surface
+constexpr int kSteps = 64;      // samples of a column
+constexpr int kFineSteps = 16;  // and again of the step that holds its surface
 
 // The highest sample that is solid, or -1.
 int highest_solid(std::span<const Material> column) {
@@ -24,13 +25,14 @@ int highest_solid(std::span<const Material> column) {
 
 float surface_height(const Solid& solid, float x, float z) {
   const float low = solid.bounds.low.y, tall = solid.bounds.size().y;
-  const float step = tall / kSteps, fine = step / kSteps;
+  const float step = tall / kSteps, fine = step / kFineSteps;
   std::array<Material, kSteps> column{};
   solid.column({x, z, low + 0.5F * step, step}, column);
   const int highest = highest_solid(column);
   const float from = low + (static_cast<float>(highest) + 0.5F) * step;  // solid, or below the ground
-  solid.column({x, z, from + fine, fine}, column);
-  return std::clamp(from + (static_cast<float>(highest_solid(column)) + 1.5F) * fine, low, low + tall);
+  const std::span<Material> above = std::span(column).first(kFineSteps);
+  solid.column({x, z, from + fine, fine}, above);
+  return std::clamp(from + (static_cast<float>(highest_solid(above)) + 1.5F) * fine, low, low + tall);
 }
 
 // The median of each sample's neighbourhood of 3 × 3. Where an overhang ends, single samples can stand far

@@ -15,7 +15,7 @@
 namespace terrabench {
 
 // The height of the highest surface of a solid over samples × samples points of its bounds in plan; the floor
-// of the bounds where a column is empty, since ground continues below. Within 1/4096 of the bounds' height.
+// of the bounds where a column is empty, since ground continues below. Within 1/1024 of the bounds' height.
 // O(samples²), parallel.
 Heightfield surface_heights(const Solid&, int samples, Progress&);
 

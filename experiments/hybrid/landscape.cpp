@@ -30,7 +30,7 @@ class Land {
     Progress silent;
     field_ = scene_heights(wide_ground({}), kSamples, silent);
     lod_ = lod("clipmap").build(field_, Parameters(lod("clipmap").parameters), silent);
-    lod_->tune(511);
+    lod_->tune(255);
   }
 
   LandscapeStyle style(Settings settings) const {
@@ -62,7 +62,7 @@ class Land {
   }
 
  private:
-  static constexpr int kSamples = 1025;
+  static constexpr int kSamples = 769;
 
   GlContext& gl_;
   Heightfield field_;
