@@ -216,6 +216,7 @@ void measure_surface(const Case& at, const TerrainSource& source, const Implicit
                         to_mesh = distance_to(open_surface(*fine, kFiner * begin, kFiner * end),
                                               open_surface(surface, begin - 1, end + 1), cell);
   recorder.add("hausdorff", "cells", std::max(from_mesh.largest, to_mesh.largest) / cell);
+  recorder.add("common_distance", "cells", std::max(from_mesh.common, to_mesh.common) / cell);
   recorder.add("mean_distance", "cells", std::max(from_mesh.mean, to_mesh.mean) / cell);
 }
 

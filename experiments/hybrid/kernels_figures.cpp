@@ -58,7 +58,7 @@ struct Marked {
 };
 constexpr std::array<Marked, 4> kMarked{{{"A", {5, 4, 10}, 11.6, 4},
                                          {"B", {5, 8, 10}, 5, 12.2},
-                                         {"C", {26, 13, 10}, 26, 11.4},
+                                         {"C", {26, 13, 10}, 26, 9},
                                          {"D", {26, 22, 10}, 26, 26.2}}};
 
 std::string value_text(float value) {

@@ -126,6 +126,9 @@ SurfaceDistance distance_to(const TriangleMesh& from, const TriangleMesh& to, fl
     found.mean += distance;
   }
   found.mean /= static_cast<double>(distances.size());
+  const auto rank = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() * 99 / 100);
+  std::nth_element(distances.begin(), rank, distances.end());
+  found.common = *rank;
   return found;
 }
 

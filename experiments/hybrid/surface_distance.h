@@ -6,7 +6,8 @@
 namespace terrabench::hybrid {
 
 struct SurfaceDistance {
-  double largest = 0, mean = 0;  // metres; the mean is over the points, not by area
+  // Metres, over the points, not by area. `common`: 99 % of the points are nearer.
+  double largest = 0, common = 0, mean = 0;
 };
 
 // From the vertices and the triangles' centroids of `from` to the nearest point of a triangle of `to`,
