@@ -21,7 +21,7 @@ const std::array kSpecs{
     choice("measure", kMeasures, "the field's values, or the surface"),
     choice("kernel", kKernelNames, "support of the convolution"),
     choice("extractor", kExtractorNames, "of the surface"),
-    ParameterSpec{"n", std::int64_t{128}, "cells", "cells along each side of the cube", 16, 1024},
+    ParameterSpec{"n", std::int64_t{128}, "cells", "cells along each side of the cube", 64, 1024},
     ParameterSpec{"radius", 2.0, "columns", "of the kernel", 0.5, 16},
     ParameterSpec{"positions", std::int64_t{20000}, "", "random positions on the terrain", 100, 10000000},
 };
@@ -145,12 +145,18 @@ void measure_values(const Case& at, const ImplicitSurface& surface, std::uint64_
     const glm::dvec3 p = glm::dvec3(unit(random), unit(random), unit(random)) *
                          glm::dvec3(grid.width, grid.levels, grid.depth);
     const double value = surface.field().at(surface.bounds().low + glm::vec3(p * grid.cell_x));
-    // The field rounds positions by up to 1/16 of a column: leave out supports that end as close to a voxel.
+    // The field rounds positions by up to 1/16 of a column: leave out supports that end as close to a voxel,
+    // and those of which only the cube around them, or what lies outside the cube inside them, is mixed.
     const int kind = voxels.uniform(p, radius + 0.125);
-    (kind > 0 ? full : kind < 0 ? empty : partial).add(value);
+    const double inside = surface.field().kernel() == Kernel::kCube ? radius : radius / std::sqrt(3.0);
+    if (kind != 0) {
+      (kind > 0 ? full : empty).add(value);
+    } else if (voxels.uniform(p, inside - 0.125) == 0) {
+      partial.add(value);
+    }
   }
   const int reach = static_cast<int>(std::ceil(radius)) + 1;
-  for (int k = 0; k < 500; ++k) {
+  for (int k = 0; k < 100; ++k) {
     const glm::ivec3 corner(static_cast<int>(unit(random) * grid.width),
                             static_cast<int>(unit(random) * grid.levels),
                             static_cast<int>(unit(random) * grid.depth));
@@ -163,11 +169,13 @@ void measure_values(const Case& at, const ImplicitSurface& surface, std::uint64_
   half.record(recorder, "half");
 }
 
-// The surface without walls, in chunks that meet but do not share vertices.
-TriangleMesh open_surface(const ImplicitSurface& surface) {
+// The surface over the chunks from begin to end, without walls; the chunks do not share vertices.
+TriangleMesh open_surface(const ImplicitSurface& surface, glm::ivec2 begin, glm::ivec2 end) {
   TriangleMesh all;
-  for (int j = 0; j < surface.chunks().y; ++j) {
-    for (int i = 0; i < surface.chunks().x; ++i) {
+  begin = glm::max(begin, glm::ivec2(0));
+  end = glm::min(end, surface.chunks());
+  for (int j = begin.y; j < end.y; ++j) {
+    for (int i = begin.x; i < end.x; ++i) {
       const TriangleMesh chunk = surface.chunk({i, j}, 0);
       const auto first = static_cast<std::uint32_t>(all.positions.size());
       all.positions.insert(all.positions.end(), chunk.positions.begin(), chunk.positions.end());
@@ -194,16 +202,21 @@ void measure_surface(const Case& at, const TerrainSource& source, const Implicit
     recorder.add("open_edges", "", static_cast<double>(edges.open));
     recorder.add("non_manifold_edges", "", static_cast<double>(edges.non_manifold));
   }
-  // Marching cubes at a quarter of the cell stands for the zero set.
+  // Marching cubes at a quarter of the cell stands for the zero set, over the middle of the terrain: two
+  // chunks along each side. The nearest point may lie one chunk outside.
   const float cell = surface.lattice().cell;
   Case exact = at;
   exact.parameters.set("extractor", std::string("marching_cubes"));
   const auto fine = build(source, exact, at.parameters.integer("n"), surface.field().radius(),
                           static_cast<double>(cell) / kFiner, progress);
-  const TriangleMesh mesh = open_surface(surface), zero_set = open_surface(*fine);
-  const SurfaceDistance from_mesh = distance_to(mesh, zero_set, cell / kFiner),
-                        to_mesh = distance_to(zero_set, mesh, cell);
+  const glm::ivec2 begin = surface.chunks() / 2 - 1, end = begin + 2;
+  const SurfaceDistance from_mesh = distance_to(open_surface(surface, begin, end),
+                                                open_surface(*fine, kFiner * begin - 1, kFiner * end + 1),
+                                                cell / kFiner),
+                        to_mesh = distance_to(open_surface(*fine, kFiner * begin, kFiner * end),
+                                              open_surface(surface, begin - 1, end + 1), cell);
   recorder.add("hausdorff", "cells", std::max(from_mesh.largest, to_mesh.largest) / cell);
+  recorder.add("common_distance", "cells", std::max(from_mesh.common, to_mesh.common) / cell);
   recorder.add("mean_distance", "cells", std::max(from_mesh.mean, to_mesh.mean) / cell);
 }
 

@@ -50,13 +50,16 @@ std::unique_ptr<ImplicitSurface> smoothed(Kernel kernel) {
       dynamic_cast<ImplicitSurface*>(type.build(arch(), parameters, progress).release()));
 }
 
-// A point whose support is full, half full or empty, and one between.
+// A point whose support is full, half full or empty, and one between; where its words stand in the section.
 struct Marked {
   const char* name;
   glm::vec3 at;
+  double words_x, words_y;
 };
-constexpr std::array<Marked, 4> kMarked{
-    {{"A", {5, 4, 10}}, {"B", {5, 8, 10}}, {"C", {26, 13, 10}}, {"D", {26, 22, 10}}}};
+constexpr std::array<Marked, 4> kMarked{{{"A", {5, 4, 10}, 11.6, 4},
+                                         {"B", {5, 8, 10}, 5, 12.2},
+                                         {"C", {26, 13, 10}, 26, 9},
+                                         {"D", {26, 22, 10}, 26, 26.2}}};
 
 std::string value_text(float value) {
   if (value == 0) return "0";
@@ -172,17 +175,21 @@ void draw_marks(Sheet& sheet, Kernel kernel, const ImplicitSurface& surface, con
         outline.push_back(place(x + kRadius * std::cos(turn), y + kRadius * std::sin(turn)));
       }
     }
+    sheet.line(outline, {.colour = {255, 255, 255}, .thickness = 3, .opacity = 0.85});
     sheet.line(outline, {.colour = kInk, .thickness = 1.6, .dashes = "5 3"});
+    sheet.dot(place(x, y), 4.6, {255, 255, 255});
     sheet.dot(place(x, y), 3.2, kInk);
-    const SheetPoint at = place(x + kRadius + 0.4, y);
-    sheet.text(at.x, at.y + 5, fmt::format("{}: f = {}", mark.name, value_text(surface.field().at(mark.at))),
-               13, "start", mark.name[0] == 'A' ? Rgb{255, 255, 255} : kInk);
+    const SheetPoint words = place(mark.words_x, mark.words_y);
+    constexpr double kHalfWidth = 43;
+    sheet.box(words.x - kHalfWidth, words.y - 9, 2 * kHalfWidth, 18, {255, 255, 255});
+    sheet.text(words.x, words.y + 5,
+               fmt::format("{}: f = {}", mark.name, value_text(surface.field().at(mark.at))), 13, "middle");
   }
 }
 
 Sheet draw_kernel(Drawing& drawing, Kernel kernel) {
   const std::unique_ptr<ImplicitSurface> surface = smoothed(kernel);
-  constexpr double kGap = 16, kTitle = 26, kView = 380, kViewHeight = 280, kScale = 11;
+  constexpr double kGap = 16, kTitle = 26, kView = 380, kViewHeight = 280, kScale = 14;
   constexpr double kSectionWidth = kWidth * kScale, kSectionHeight = kHeight * kScale;
   Sheet sheet(kView + kSectionWidth + 3 * kGap, 2 * (kViewHeight + kTitle) + 2 * kGap);
   const auto view = [&](double y, std::string_view words, const Image& image) {
@@ -204,7 +211,7 @@ Sheet draw_kernel(Drawing& drawing, Kernel kernel) {
 
   const double x0 = kView + 2 * kGap, y0 = kTitle;
   sheet.text(x0, y0 - 8, "c) Section through the middle: the field f, and f = 0 (black line)", 14);
-  sheet.picture(x0, y0, kSectionWidth, kSectionHeight, section(*surface, 8));
+  sheet.picture(x0, y0, kSectionWidth, kSectionHeight, section(*surface, 14));
   const auto place = [&](double x, double y) {
     return SheetPoint{x0 + x * kScale, y0 + (kHeight - y) * kScale};
   };
@@ -223,7 +230,7 @@ Sheet draw_kernel(Drawing& drawing, Kernel kernel) {
 constexpr auto kFigures = std::to_array<Figure>({
     {1, "F1", "the sphere kernel on an arch; the field is +1 in full support, 0 in half-full and −1 in empty",
      [](Drawing& drawing) { return draw_kernel(drawing, Kernel::kSphere); }},
-    {2, "F2", "the cube kernel on the same arch: sharper edges, at less cost",
+    {2, "F2", "the cube kernel on the same arch; its surface bends less evenly than the sphere's",
      [](Drawing& drawing) { return draw_kernel(drawing, Kernel::kCube); }},
 });
 constexpr std::array kNames = names_of(kFigures);

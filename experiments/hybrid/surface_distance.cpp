@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -110,22 +109,26 @@ class Cubes {
 
 SurfaceDistance distance_to(const TriangleMesh& from, const TriangleMesh& to, float cell) {
   const Cubes cubes(to, cell);
-  std::vector<std::array<float, 7>> distances(from.triangles());
-  tbb::parallel_for(std::size_t{0}, from.triangles(), [&](std::size_t t) {
-    const glm::vec3 a = from.positions[from.indices[3 * t]], b = from.positions[from.indices[3 * t + 1]],
-                    c = from.positions[from.indices[3 * t + 2]];
-    const std::array<glm::vec3, 7> points{
-        a, b, c, (a + b) / 2.0F, (b + c) / 2.0F, (c + a) / 2.0F, (a + b + c) / 3.0F};
-    for (std::size_t k = 0; k < points.size(); ++k) distances[t][k] = cubes.distance(points[k]);
+  const std::size_t vertices = from.positions.size();
+  std::vector<float> distances(vertices + from.triangles());
+  tbb::parallel_for(std::size_t{0}, distances.size(), [&](std::size_t k) {
+    if (k < vertices) {
+      distances[k] = cubes.distance(from.positions[k]);
+      return;
+    }
+    const std::uint32_t* corners = &from.indices[3 * (k - vertices)];
+    distances[k] = cubes.distance(
+        (from.positions[corners[0]] + from.positions[corners[1]] + from.positions[corners[2]]) / 3.0F);
   });
   SurfaceDistance found;
-  for (const std::array<float, 7>& each : distances) {
-    for (const float distance : each) {
-      found.largest = std::max<double>(found.largest, distance);
-      found.mean += distance;
-    }
+  for (const float distance : distances) {
+    found.largest = std::max<double>(found.largest, distance);
+    found.mean += distance;
   }
-  found.mean /= 7.0 * static_cast<double>(distances.size());
+  found.mean /= static_cast<double>(distances.size());
+  const auto rank = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() * 99 / 100);
+  std::nth_element(distances.begin(), rank, distances.end());
+  found.common = *rank;
   return found;
 }
 
