@@ -106,7 +106,8 @@ TEST_F(Landscape, AMissingNormalMapIsFound) {
 }
 
 TEST_F(Landscape, SwappedClipPlanesAreFound) {
-  const Image flawed = draw(over_water(), style(), [](PassView& pass) { pass.clip_plane = -pass.clip_plane; });
+  const Image flawed =
+      draw(over_water(), style(), [](PassView& pass) { pass.clip_plane = -pass.clip_plane; });
   EXPECT_LT(ssim(flawed, reference("water", flawed)), kSimilar - 0.02);
 }
 
