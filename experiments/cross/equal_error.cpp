@@ -140,11 +140,12 @@ void measure_cost(const Flight& flight, const Contender& method, double knob, Re
     triangles.push_back(static_cast<double>(frame.stats.triangles));
     uploaded += static_cast<double>(frame.stats.bytes_sent());
   }
+  const std::size_t counted = lod->memory().total();  // first: waits for threads that still allocate
   const std::int64_t held = heap.held();
   recorder.add("build_time", "s", build_time);
   recorder.add("first_update_time", "s", first_update_time);
   recorder.add("first_uploaded", "B", first_uploaded);
-  recorder.add("bytes_held", "B", lod->memory().total());
+  recorder.add("bytes_held", "B", counted);
   recorder.add("heap_growth", "B", held);
   recorder.add("uploaded", "B", uploaded / static_cast<double>(times.size()));
   for (const double t : times) recorder.add("update_time", "s", t);

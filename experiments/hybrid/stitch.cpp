@@ -90,7 +90,7 @@ void measure_stitch(const Case& at, const RunOptions& options, Recorder& recorde
   const std::vector<View> all = walking ? walk(ground) : at_rest(ground, at.integer("views"), options.seed);
   Hybrid lod(ground.lod(),
              {.radius = at.integer("radius"), .interpolate = at.parameters.flag("interpolate")});
-  lod.tune(Hybrid::knob().coarsest);
+  lod.tune(lod.least_window());
   lod.update(all.front());
   const std::size_t late_at_first = lod.late();
   OpenEdges worst;
@@ -172,7 +172,7 @@ void measure_geometry(const Case& at, const RunOptions& options, Recorder& recor
   const NearGround ground = near_ground(source, at.integer("n"), at.integer("finer"), progress);
   const std::vector<ChunkSize> everywhere = sizes_of(*ground.surface, progress);
   Hybrid lod(ground.lod(), {.radius = at.integer("radius")});
-  lod.tune(Hybrid::knob().coarsest);
+  lod.tune(lod.least_window());
   const std::vector<View> all = walk(ground);
   const std::size_t every =
       std::max<std::size_t>(all.size() / static_cast<std::size_t>(at.integer("views")), 1);

@@ -55,7 +55,7 @@ Hybrid::Hybrid(const LodGround& ground, const HybridOptions& options)
         fmt::format("band must be 1 to {} samples, a chunk's side, got {}", layout_.side, options.band),
         "band", "choose a narrower band or larger chunks");
   }
-  const int window = Clipmap::window_of(reach());
+  const int window = least_window();
   if (options.radius < 0 || options.radius > kLargestRadius || Clipmap::reach_of(window) < reach()) {
     throw usage_error(fmt::format("radius must be 0 to {} chunks and at most {} samples, got {} chunks of {}",
                                   kLargestRadius, Clipmap::reach_of(window), options.radius, layout_.side),
@@ -72,8 +72,10 @@ int Hybrid::reach() const {
   return std::min((options_.radius + 1) * layout_.side, std::max(heights_.width, heights_.depth));
 }
 
-void Hybrid::tune(double window) {
-  far_->tune(std::max(setting(knob(), window), static_cast<double>(Clipmap::window_of(reach()))));
+// -1: none fits. A window that covers the ground has no transition that could get in their way.
+int Hybrid::radius_in_window() const {
+  if (far_->levels() == 1) return options_.radius;
+  return std::min(options_.radius, Clipmap::reach_of(far_->window()) / layout_.side - 1);
 }
 
 // The eye's place over the ground, clamped to it, in chunks.
@@ -114,7 +116,8 @@ const Frame& Hybrid::update(const View& view) {
   changes_ = 0;
   const glm::dvec2 eye = eye_in_chunks(view);
   const double height = height_over_ground(view, eye);
-  const Square near = height <= near_height() ? chunks_around(eye, options_.radius) : Square{};
+  const int radius = radius_in_window();
+  const Square near = height <= near_height() && radius >= 0 ? chunks_around(eye, radius) : Square{};
   outline_ = outline_of(near);
   collect(near);
   far_->set_hole(outline_.low, outline_.high);
@@ -125,7 +128,7 @@ const Frame& Hybrid::update(const View& view) {
   frame_.meshes = meshes_;
   frame_.uploads = uploads_;
   frame_.stats = count(far.batches, uploads_, far.stats.changes + changes_, far.clip_levels.size(), meshes_);
-  if (height <= kAheadHeight * near_height()) queue_ahead(chunks_around(eye, options_.radius + 1), eye);
+  if (height <= kAheadHeight * near_height()) queue_ahead(chunks_around(eye, radius + 1), eye);
   return frame_;
 }
 

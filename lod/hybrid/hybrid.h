@@ -49,8 +49,10 @@ class Hybrid : public Lod {
   // Throws what building a chunk throws, and bad_input for a near surface with openings at its rim. An edit
   // of the near surface shows in the next update.
   const Frame& update(const View&) override;
-  // A window too small for the near chunks is enlarged.
-  void tune(double window) override;
+  // Near chunks that a small window cannot hold are not drawn, beginning with the outermost.
+  void tune(double window) override { far_->tune(window); }
+  // The smallest window that holds all near chunks.
+  int least_window() const { return Clipmap::window_of(reach()); }
   Memory memory() const override;
 
   // Waits until no background thread reads the near surface. To be called before an edit of it.
@@ -71,6 +73,7 @@ class Hybrid : public Lod {
   double height_over_ground(const View&, glm::dvec2 eye) const;
   Square chunks_around(glm::dvec2 eye, int radius) const;
   hybrid::Outline outline_of(const Square&) const;
+  int radius_in_window() const;
   double near_height() const;
   void collect(const Square& near);
   void join(hybrid::Chunk&);

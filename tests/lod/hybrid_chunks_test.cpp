@@ -211,6 +211,18 @@ TEST_F(HybridChunks, ANearSurfaceWithOpeningsAtTheRimIsRefused) {
   EXPECT_EQ(failure_of({field_, &nothing}, {}), ExitCode::kBadInput);
 }
 
+TEST_F(HybridChunks, ASmallWindowHoldsFewer) {
+  Hybrid lod({field_, &meso_}, {.radius = 2});
+  const View view = standing(field_, 40, 40, 0);
+  EXPECT_EQ(lod.update(view).meshes.size(), 25U);
+  lod.tune(63);
+  EXPECT_EQ(lod.update(view).meshes.size(), 1U);
+  lod.tune(15);
+  EXPECT_EQ(lod.update(view).meshes.size(), 0U);
+  lod.tune(lod.least_window());
+  EXPECT_EQ(lod.update(view).meshes.size(), 25U);
+}
+
 TEST_F(HybridChunks, EyesAnywhereAreDrawn) {
   Hybrid lod({field_, &meso_}, {.radius = 1});
   for (const glm::vec3 eye : {glm::vec3(48, -500, 48), glm::vec3(48, -8, 48), glm::vec3(-1e6F, 5, 40),
