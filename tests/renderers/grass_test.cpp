@@ -119,7 +119,8 @@ TEST_F(Grass, StandsOnItsTriangleWithTheSumOnly) {
 
 TEST_F(Grass, StrandsFollowTheirGuides) {
   TriangleMesh level = testing::ground(1, 1, [](float, float) { return 0.0F; });
-  for (glm::vec3& p : level.positions) p += glm::vec3(3.7F, 0, 5.1F);  // at the origin all random numbers are 0
+  for (glm::vec3& p : level.positions)
+    p += glm::vec3(3.7F, 0, 5.1F);  // at the origin all random numbers are 0
   GrassPatch patch(grass_ground(level), {.strands = 2000, .height = 0.5F, .height_variation = 0.2F});
   glm::dvec3 mean(0);
   std::set<std::pair<float, float>> places;
