@@ -150,8 +150,9 @@ class Writer {
                wrapped(tally(results_.of(*paper)), kIndent, width_).substr(kIndent);
     }
     const bool passed = results_.passed();
-    text_ += fmt::format("{}{}{}: {}\n", paint(passed ? kGreen : kRed), passed ? "PASS" : "FAIL",
-                         paint(kPlain), tally(results_.judgements));
+    constexpr std::size_t kVerdict = 6;
+    text_ += fmt::format("{}{}{}: {}", paint(passed ? kGreen : kRed), passed ? "PASS" : "FAIL", paint(kPlain),
+                         wrapped(tally(results_.judgements), kVerdict, width_).substr(kVerdict));
     if (!results_.faults.empty()) {
       text_ += fmt::format("{} faults: the results cannot be trusted, measure again into a new folder\n",
                            results_.faults.size());
