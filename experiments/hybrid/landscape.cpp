@@ -19,7 +19,7 @@ namespace {
 
 using namespace figures;
 
-constexpr glm::ivec2 kLarge{1000, 560}, kSmall{493, 278};  // pixels
+constexpr glm::ivec2 kLarge{1000, 560}, kSmall{486, 272};  // pixels
 
 using Settings = std::initializer_list<std::pair<std::string_view, Value>>;
 
