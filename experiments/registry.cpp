@@ -5,6 +5,8 @@
 
 // One line per experiment, in the order in which they run and are listed: the paper's namespace, the value.
 #define TERRABENCH_EXPERIMENTS(ENTRY) \
+  ENTRY(hybrid, kKernels)             \
+  ENTRY(hybrid, kImplicit)            \
   ENTRY(hybrid, kTable1)              \
   ENTRY(hybrid, kTable2)              \
   ENTRY(hybrid, kCaves)               \

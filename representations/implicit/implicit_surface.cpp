@@ -132,6 +132,42 @@ void ImplicitSurface::spans(Columns where, SpanSink& out) const {
   }
 }
 
+void ImplicitSurface::materials(Points where, std::span<Material> out) const {
+  const ColumnLookup lookup(stack_->grid());
+  const int levels = lattice_.cells.y;
+  std::vector<float> y, values;
+  for (int k = 0; k <= levels; ++k) y.push_back(lattice_.position(1, k));
+  values.resize(y.size());
+  const auto same_line = [&](std::size_t a, std::size_t b) {
+    return where.x[a] == where.x[b] && where.z[a] == where.z[b];
+  };
+  bool whole = false;  // whether `values` holds the whole line of the position
+  for (std::size_t p = 0; p < where.size(); ++p) {
+    out[p] = Material::kAir;
+    whole = whole && same_line(p - 1, p);
+    int i, j;
+    const float at = where.y[p];
+    if (!(at >= y.front() && at < y.back()) || !lookup.column(where.x[p], where.z[p], i, j)) continue;
+    auto k = static_cast<std::size_t>(
+        std::clamp(static_cast<int>((at - y.front()) / lattice_.cell), 0, levels - 1));
+    if (at < y[k]) --k;
+    if (at >= y[k + 1]) ++k;
+    if (!whole) {
+      whole = p + 1 < where.size() && same_line(p, p + 1);
+      const std::size_t first = whole ? 0 : k, count = whole ? y.size() : 2;
+      field_.line(where.x[p], where.z[p], std::span(y).subspan(first, count),
+                  std::span(values).subspan(first, count));
+    }
+    const float below = values[k], above = values[k + 1];
+    bool solid = below > 0;
+    if (solid != (above > 0)) {
+      const float t = below / (below - above), crossing = (1 - t) * y[k] + t * y[k + 1];
+      solid = solid == (at < crossing);
+    }
+    if (solid) out[p] = Material::kBedrock;
+  }
+}
+
 void ImplicitSurface::edit(Columns where, std::span<const Span> what) {
   stack_->edit(where, what);
   const ColumnLookup lookup(stack_->grid());

@@ -6,8 +6,9 @@
 // them along y. What is thinner than the kernel's radius may vanish, and corners are rounded: this is no
 // lossless structure, and materials come back as bedrock.
 //
-// mesh() is closed: by the box of bounds() along the sides and the floor. chunk() has the surface alone,
-// without these walls. Where the field is exactly 0 at a lattice point, triangles without area are possible.
+// mesh() is closed: by the box of bounds() along the sides and the floor, whose upper edges share vertices
+// and normals with the surface. chunk() has the surface alone, without these walls. Where the field is
+// exactly 0 at a lattice point, triangles without area are possible.
 #pragma once
 
 #include <memory>
@@ -36,6 +37,8 @@ class ImplicitSurface final : public Representation, public MeshChunks {
 
   // O(columns of the kernel's support · levels of the lattice) per line.
   void spans(Columns where, SpanSink& out) const override;
+  // Samples two points of the lattice's line per position, or a whole line where positions share it.
+  void materials(Points where, std::span<Material> out) const override;
   // Edits the stacks; versions grow of all chunks that the kernel around the columns reaches.
   void edit(Columns where, std::span<const Span> what) override;
   TriangleMesh mesh(MeshDetail) const override;

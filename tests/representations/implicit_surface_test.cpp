@@ -164,6 +164,25 @@ TEST(ImplicitSurface, SpansEndOnTheMesh) {
   EXPECT_GT(found, 1000U);
 }
 
+TEST(ImplicitSurface, MaterialsFollowSpans) {
+  for (const std::string_view kernel : kKernelNames) {
+    const auto built = implicit(caves(), {.resolution = 30, .kernel = kernel, .cell = 0.021});
+    Cloud cloud(built->bounds(), 3000, 5);
+    for (std::size_t p = 0; p < cloud.x.size(); ++p) {  // every second line has five points
+      if (p % 10 < 5) {
+        cloud.x[p] = cloud.x[p - p % 10];
+        cloud.z[p] = cloud.z[p - p % 10];
+      }
+      if (p % 7 == 0) cloud.y[p] = built->lattice().position(1, static_cast<int>(p % 48));
+    }
+    std::vector<Material> quick(cloud.x.size()), slow(cloud.x.size());
+    built->materials(cloud.points(), quick);
+    built->Representation::materials(cloud.points(), slow);
+    EXPECT_EQ(quick, slow);
+    EXPECT_GT(std::count(quick.begin(), quick.end(), Material::kBedrock), 300);
+  }
+}
+
 TEST_P(EveryExtractor, NormalsFollowTheFieldsGradient) {
   const auto built = implicit(caves(), {.resolution = 64, .extractor = GetParam(), .radius = 0.05});
   const float step = built->lattice().cell;
