@@ -31,6 +31,9 @@ class Refinement {
     return stencils_[static_cast<std::size_t>(level)];
   }  // to level + 1
 
+  // Gives the last level away and frees everything else.
+  Topology release_last() &&;
+
  private:
   std::vector<Topology> topologies_;
   std::vector<Stencils> stencils_;
@@ -54,7 +57,8 @@ LevelPoints next_points(const Refinement&, int level, const LevelPoints&, const 
 FaceMesh subdivide(const FaceMesh&, std::span<const PlacementRule>, const RefinementOptions& = {},
                    std::uint32_t level = 0);
 
-// The mesh of the last level with the given points; symbols as above. `symbols` are those of level 0.
-FaceMesh make_mesh(const Refinement&, LevelPoints, std::span<const std::uint32_t> symbols);
+// The mesh of the last level with the given points; symbols as above. `symbols` are those of level 0. Frees
+// the refinement's tables before it allocates; to keep them, pass a copy.
+FaceMesh make_mesh(Refinement&&, LevelPoints, std::span<const std::uint32_t> symbols);
 
 }  // namespace terrabench::subdivision
