@@ -135,7 +135,7 @@ FaceMesh subdivide(const FaceMesh& base, std::span<const PlacementRule> rules,
   }
   RefinementOptions own = options;
   const bool sharp = !base.creases.empty() || !base.sharp_vertices.empty();
-  if (sharp || any_displacement(rules)) own.keep = Keep::kEverything;
+  own.keep = sharp || any_displacement(rules) ? Keep::kEverything : Keep::kStencils;
   Refinement refinement(base, static_cast<int>(rules.size()), own);
   LevelPoints points{base.positions, base.texture};
   for (int i = 0; i < refinement.levels(); ++i) {

@@ -53,7 +53,8 @@ LevelPoints next_points(const Refinement&, int level, const LevelPoints&, const 
 
 // One refinement per rule. The result carries the creases that are still sharp; each face has its parent's
 // symbol. With `level` as the number of refinements that came before, a schedule that alternates refinement
-// and growing draws new random numbers at every step. Throws as above.
+// and growing draws new random numbers at every step. Keeps what the rules need, whatever options.keep says.
+// Throws as above, and bad_input for texture coordinates or symbols of the wrong number.
 FaceMesh subdivide(const FaceMesh&, std::span<const PlacementRule>, const RefinementOptions& = {},
                    std::uint32_t level = 0);
 
