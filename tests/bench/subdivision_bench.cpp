@@ -206,10 +206,14 @@ void openmesh(benchmark::State& state) {
 
 void sizes(benchmark::internal::Benchmark* bench) {
   bench->Args({200, 2})->Args({100, 4})->Args({1600, 1})->Args({50, 6});
-  bench->Unit(benchmark::kMillisecond)->UseRealTime();
+  bench->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
 }
 void small_sizes(benchmark::internal::Benchmark* bench) {
-  bench->Args({200, 2})->Args({100, 4})->Unit(benchmark::kMillisecond)->UseRealTime();
+  bench->Args({200, 2})
+      ->Args({100, 4})
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime()
+      ->MeasureProcessCPUTime();
 }
 
 BENCHMARK(positions)->Apply(sizes);
