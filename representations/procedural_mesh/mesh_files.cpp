@@ -9,6 +9,7 @@
 #include <OpenMesh/Core/IO/reader/PLYReader.hh>
 #include <OpenMesh/Core/IO/writer/OBJWriter.hh>
 #include <OpenMesh/Core/IO/writer/PLYWriter.hh>
+#include <OpenMesh/Core/Mesh/BaseKernel.hh>
 #include <OpenMesh/Core/System/omstream.hh>
 #include <algorithm>
 #include <cctype>
@@ -149,6 +150,7 @@ class Exporter final : public om::IO::BaseExporter {
   std::size_t n_faces() const override { return mesh_.faces(); }
   std::size_t n_edges() const override { return 0; }
   bool has_vertex_texcoords() const override { return !mesh_.texture.empty(); }
+  const om::BaseKernel* kernel() override { return &no_properties_; }  // asked by the PLY writer
 
   // What a FaceMesh does not hold.
   om::Vec3f normal(VertexHandle) const override { return om::Vec3f(0); }
@@ -189,6 +191,7 @@ class Exporter final : public om::IO::BaseExporter {
 
  private:
   const FaceMesh& mesh_;
+  om::BaseKernel no_properties_;
 };
 
 std::string extension_of(const std::filesystem::path& path) {
