@@ -135,6 +135,7 @@ class Exporter final : public om::IO::BaseExporter {
   om::Vec3d pointd(VertexHandle v) const override { return om::Vec3d(point(v)); }
   bool is_point_double() const override { return false; }
   om::Vec2f texcoord(VertexHandle v) const override {
+    if (mesh_.texture.empty()) return om::Vec2f(0);  // the OBJ writer asks even then
     const glm::vec2 t = mesh_.texture[static_cast<std::size_t>(v.idx())];
     return {t.x, t.y};
   }
