@@ -17,6 +17,12 @@ struct Crease {
   int sharpness = 0;
 };
 
+// A vertex that stays where it is for this many refinements.
+struct SharpVertex {
+  std::uint32_t vertex = 0;
+  int sharpness = 0;
+};
+
 struct FaceMesh {
   std::vector<glm::vec3> positions;         // metres
   std::vector<glm::vec2> texture;           // texture coordinates per vertex, or empty
@@ -24,6 +30,7 @@ struct FaceMesh {
   std::vector<std::uint32_t> corners;       // vertices of the faces, face by face
   std::vector<std::uint32_t> symbols;       // of a PL-system, per face, or empty; 0: none
   std::vector<Crease> creases;
+  std::vector<SharpVertex> sharp_vertices;
 
   std::size_t faces() const { return first_corner.empty() ? 0 : first_corner.size() - 1; }
 };
