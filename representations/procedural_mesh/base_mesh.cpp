@@ -48,7 +48,7 @@ Primitive plane(glm::dvec2 size, std::uint32_t cells_x, std::uint32_t cells_z) {
   return p;
 }
 
-Primitive cube(const glm::dvec3& size, std::uint32_t cells) {
+Primitive cube(const glm::dvec3& size, const glm::uvec3& cells) {
   Primitive p;
   p.mesh.first_corner.push_back(0);
   std::map<std::array<std::uint32_t, 3>, std::uint32_t> vertices;
@@ -56,8 +56,9 @@ Primitive cube(const glm::dvec3& size, std::uint32_t cells) {
     const auto [found, is_new] = vertices.emplace(at, static_cast<std::uint32_t>(vertices.size()));
     if (is_new) {
       glm::dvec3 q;
-      for (int k = 0; k < 3; ++k)
-        q[k] = (static_cast<double>(at[static_cast<std::size_t>(k)]) / cells - 0.5) * size[k];
+      for (int k = 0; k < 3; ++k) {
+        q[k] = (static_cast<double>(at[static_cast<std::size_t>(k)]) / cells[k] - 0.5) * size[k];
+      }
       p.mesh.positions.emplace_back(q);
       p.mesh.texture.push_back(around_axis(q, size.y));
     }
@@ -70,13 +71,16 @@ Primitive cube(const glm::dvec3& size, std::uint32_t cells) {
   } kFaces[] = {{1, false}, {1, true}, {0, false}, {0, true}, {2, false}, {2, true}};
   for (const auto& [axis, far] : kFaces) {
     const std::size_t a = (axis + 1) % 3, b = (axis + 2) % 3;
-    for (std::uint32_t j = 0; j < cells; ++j) {
-      for (std::uint32_t i = 0; i < cells; ++i) {
+    const auto count = [&](std::size_t k) { return cells[static_cast<int>(k)]; };
+    // Seen from the other side, the axes swap.
+    const std::size_t first = far ? a : b, second = far ? b : a;
+    for (std::uint32_t j = 0; j < count(second); ++j) {
+      for (std::uint32_t i = 0; i < count(first); ++i) {
         const auto at = [&](std::uint32_t x, std::uint32_t y) {
           std::array<std::uint32_t, 3> q{};
-          q[axis] = far ? cells : 0;
-          q[a] = far ? x : y;
-          q[b] = far ? y : x;
+          q[axis] = far ? count(axis) : 0;
+          q[first] = x;
+          q[second] = y;
           return vertex(q);
         };
         const Part part = axis != 1 ? Part::kSides : far ? Part::kTop : Part::kBottom;
@@ -88,7 +92,7 @@ Primitive cube(const glm::dvec3& size, std::uint32_t cells) {
 }
 
 Primitive sphere(double radius, std::uint32_t cells) {
-  Primitive p = cube(glm::dvec3(2), cells);
+  Primitive p = cube(glm::dvec3(2), glm::uvec3(cells));
   for (std::size_t v = 0; v < p.mesh.positions.size(); ++v) {
     // Equal angles between the lines of the cube give cells of more equal size.
     const glm::dvec3 q = glm::dvec3(p.mesh.positions[v]) * (std::numbers::pi / 4);

@@ -1,6 +1,7 @@
 // The meshes from which models start: named primitives, and a check of those that are given face by face.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <string>
 
 #include "representations/procedural_mesh/face_mesh.h"

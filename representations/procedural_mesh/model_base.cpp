@@ -32,6 +32,19 @@ std::uint32_t count(Table& table, std::string_view key, std::int64_t otherwise, 
   return static_cast<std::uint32_t>(table.integer_or(key, otherwise, least, most));
 }
 
+// One number, or one per axis.
+glm::uvec3 cells_of(Table& table, const std::string& file) {
+  const toml::node* const node = table.find("cells");
+  if (node == nullptr || !node->is_array()) return glm::uvec3(count(table, "cells", 1, 1, 256));
+  const glm::dvec3 cells = table.vector_or("cells", glm::dvec3(1));
+  for (int k = 0; k < 3; ++k) {
+    if (cells[k] != std::floor(cells[k]) || cells[k] < 1 || cells[k] > 256) {
+      fail_at(*node, file, "'cells' must be integers from 1 to 256", "correct the value");
+    }
+  }
+  return glm::uvec3(cells);
+}
+
 FaceMesh explicit_mesh(Table& table, const ModelReader& models) {
   FaceMesh mesh;
   const std::string& file = models.file;
@@ -67,7 +80,7 @@ Primitive primitive(Table& table, const ModelReader& models) {
     const std::uint32_t cells = count(table, "cells", 1, 1, kMostCells);
     return plane({size.x, size.z}, cells, cells);
   }
-  if (shape == "cube") return cube(size_of(table, file), count(table, "cells", 1, 1, 256));
+  if (shape == "cube") return cube(size_of(table, file), cells_of(table, file));
   if (shape == "sphere") return sphere(positive(table, "radius", 1, file), count(table, "cells", 1, 1, 256));
   if (shape == "prism") {
     const double radius = positive(table, "radius", 1, file);

@@ -122,6 +122,10 @@ class RuleReader {
     optional("tropism", result.tropism);
     optional("scale", result.scale);
     optional("radius", result.radius);
+    if (const toml::node* const stretch = table.find("stretch")) {
+      const toml::array& pair = list_of(*stretch, file_, "stretch", 2);
+      result.stretch = {models_.expression(pair[0], names_), models_.expression(pair[1], names_)};
+    }
     result.texture = texture(table);
     result.crease = static_cast<int>(table.integer_or("crease", 0, 0, 100));
     if (const toml::node* const sides = table.find("sides"); sides != nullptr && sides->is_array()) {

@@ -57,8 +57,8 @@ FaceShape face_shape(std::span<const std::uint32_t> corners, std::span<const glm
 }
 
 void turn(Frame& frame, const glm::dvec3& degrees) {
-  if (degrees.x != 0) rotate_pair(frame.y, frame.z, degrees.x);
   if (degrees.y != 0) rotate_pair(frame.z, frame.x, degrees.y);
+  if (degrees.x != 0) rotate_pair(frame.y, frame.z, degrees.x);
   if (degrees.z != 0) rotate_pair(frame.x, frame.y, degrees.z);
 }
 

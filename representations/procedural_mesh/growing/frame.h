@@ -27,7 +27,7 @@ struct FaceShape {
 // Of a polygon with 3 or more corners; `positions` are all vertices. O(corners).
 FaceShape face_shape(std::span<const std::uint32_t> corners, std::span<const glm::vec3> positions);
 
-// Turns the frame about its own axes, first x, then y, then z; degrees, counter-clockwise.
+// Turns the frame about its own axes, first y, then x, then z; degrees, counter-clockwise.
 void turn(Frame&, const glm::dvec3& degrees);
 
 // Turns z towards `up`, a unit vector, by at most |degrees|; with degrees < 0 towards -up. Does nothing where

@@ -46,16 +46,17 @@ struct TextureAt {
 };
 
 // A cross-section of an extruded template: one vertex per corner of the base. The frame of the section before
-// is turned about its x, y and z axes, in this order, then towards the world's up (`tropism`), then moved
-// along its axes; the section lies in its x,y plane.
+// is turned about its y axis, then x, then z (turn[1], turn[0], turn[2]), then towards the world's up
+// (`tropism`), then moved along its axes; the section lies in its x,y plane.
 struct Section {
   std::array<Expression, 3> turn, move;  // degrees, metres
   Expression tropism;  // degrees by which z turns to the world's up at most; negative: to the ground
   Expression scale;    // of the section before; not given: 1
   Expression radius;   // makes the section a regular polygon instead
-  std::vector<TextureAt> texture;   // none, or one per corner
-  std::vector<SymbolChoice> sides;  // of the faces below the section: one for all, or one per corner
-  int crease = 0;                   // sharpness of the section's edges
+  std::array<Expression, 2> stretch;  // of this section alone along x and y; not given: 1
+  std::vector<TextureAt> texture;     // none, or one per corner
+  std::vector<SymbolChoice> sides;    // of the faces below the section: one for all, or one per corner
+  int crease = 0;                     // sharpness of the section's edges
 };
 
 // A vertex beyond the base: a weighted sum of the base's corners plus an offset in the base's frame.
