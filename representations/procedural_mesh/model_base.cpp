@@ -1,6 +1,7 @@
 // The base mesh of a model: the table [base].
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "representations/procedural_mesh/base_mesh.h"
