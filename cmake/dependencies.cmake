@@ -10,6 +10,7 @@ list(APPEND CMAKE_MODULE_PATH /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenV
 find_dependency(OpenVDB)
 find_dependency(GDAL CONFIG)
 find_dependency(PNG)
+find_dependency(OpenMesh CONFIG)
 find_dependency(nlohmann_json)
 find_dependency(VTK COMPONENTS CommonCore CommonDataModel RenderingCore RenderingContext2D RenderingFreeType ChartsCore)
 find_dependency(PkgConfig)

@@ -86,31 +86,38 @@ LevelPoints next_points(const Refinement& refinement, int level, const LevelPoin
   return out;
 }
 
-FaceMesh make_mesh(const Refinement& refinement, LevelPoints points, std::span<const std::uint32_t> symbols) {
-  const Topology& base = refinement.topology(0);
-  const Topology& t = refinement.topology(refinement.levels());
+Topology Refinement::release_last() && {
+  Topology last = std::move(topologies_.back());
+  topologies_ = {};
+  stencils_ = {};
+  return last;
+}
+
+FaceMesh make_mesh(Refinement&& refinement, LevelPoints points, std::span<const std::uint32_t> symbols) {
   FaceMesh mesh;
-  mesh.positions = std::move(points.positions);
-  mesh.texture = std::move(points.texture);
-  mesh.corners = t.corners;
-  mesh.first_corner = t.first_corner;
-  if (mesh.first_corner.empty()) {
-    mesh.first_corner.resize(std::size_t{t.faces()} + 1);
-    for (std::size_t f = 0; f < mesh.first_corner.size(); ++f) {
-      mesh.first_corner[f] = static_cast<std::uint32_t>(f * 4);
-    }
-  }
+  const int levels = refinement.levels();
   if (!symbols.empty()) {
     // The faces of the last level lie in the order of the base's corners, 4^(levels - 1) per corner.
-    const int shift = 2 * (refinement.levels() - 1);
-    mesh.symbols.resize(t.faces());
-    with_corners(base, [&](const auto& walk) {
-      for (std::uint32_t f = 0; f < t.faces(); ++f) {
-        mesh.symbols[f] = symbols[refinement.levels() == 0 ? f : walk.face(f >> shift)];
+    const int shift = 2 * (levels - 1);
+    mesh.symbols.resize(refinement.topology(levels).faces());
+    with_corners(refinement.topology(0), [&](const auto& walk) {
+      for (std::uint32_t f = 0; f < mesh.symbols.size(); ++f) {
+        mesh.symbols[f] = symbols[levels == 0 ? f : walk.face(f >> shift)];
       }
     });
   }
+  Topology t = std::move(refinement).release_last();
   if (!t.sharpness.empty()) carry_sharpness(t, mesh);
+  const std::size_t faces = t.faces();
+  mesh.positions = std::move(points.positions);
+  mesh.texture = std::move(points.texture);
+  mesh.corners = std::move(t.corners);
+  mesh.first_corner = std::move(t.first_corner);
+  t = {};
+  if (mesh.first_corner.empty()) {
+    mesh.first_corner.resize(faces + 1);
+    for (std::size_t f = 0; f <= faces; ++f) mesh.first_corner[f] = static_cast<std::uint32_t>(f * 4);
+  }
   return mesh;
 }
 
@@ -128,14 +135,14 @@ FaceMesh subdivide(const FaceMesh& base, std::span<const PlacementRule> rules,
   }
   RefinementOptions own = options;
   const bool sharp = !base.creases.empty() || !base.sharp_vertices.empty();
-  if (sharp || any_displacement(rules)) own.keep = Keep::kEverything;
-  const Refinement refinement(base, static_cast<int>(rules.size()), own);
+  own.keep = sharp || any_displacement(rules) ? Keep::kEverything : Keep::kStencils;
+  Refinement refinement(base, static_cast<int>(rules.size()), own);
   LevelPoints points{base.positions, base.texture};
   for (int i = 0; i < refinement.levels(); ++i) {
     const auto step = static_cast<std::uint32_t>(i);
     points = next_points(refinement, i, points, rules[step], level + step + 1);
   }
-  return make_mesh(refinement, std::move(points), base.symbols);
+  return make_mesh(std::move(refinement), std::move(points), base.symbols);
 }
 
 }  // namespace terrabench::subdivision

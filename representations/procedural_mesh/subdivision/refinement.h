@@ -31,6 +31,9 @@ class Refinement {
     return stencils_[static_cast<std::size_t>(level)];
   }  // to level + 1
 
+  // Gives the last level away and frees everything else.
+  Topology release_last() &&;
+
  private:
   std::vector<Topology> topologies_;
   std::vector<Stencils> stencils_;
@@ -50,11 +53,13 @@ LevelPoints next_points(const Refinement&, int level, const LevelPoints&, const 
 
 // One refinement per rule. The result carries the creases that are still sharp; each face has its parent's
 // symbol. With `level` as the number of refinements that came before, a schedule that alternates refinement
-// and growing draws new random numbers at every step. Throws as above.
+// and growing draws new random numbers at every step. Keeps what the rules need, whatever options.keep says.
+// Throws as above, and bad_input for texture coordinates or symbols of the wrong number.
 FaceMesh subdivide(const FaceMesh&, std::span<const PlacementRule>, const RefinementOptions& = {},
                    std::uint32_t level = 0);
 
-// The mesh of the last level with the given points; symbols as above. `symbols` are those of level 0.
-FaceMesh make_mesh(const Refinement&, LevelPoints, std::span<const std::uint32_t> symbols);
+// The mesh of the last level with the given points; symbols as above. `symbols` are those of level 0. Frees
+// the refinement's tables before it allocates; to keep them, pass a copy.
+FaceMesh make_mesh(Refinement&&, LevelPoints, std::span<const std::uint32_t> symbols);
 
 }  // namespace terrabench::subdivision
