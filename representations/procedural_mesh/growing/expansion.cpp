@@ -72,7 +72,10 @@ class Expander {
   }
 
   void corner(std::uint32_t vertex) { mesh_.corners[to_.corner++] = vertex; }
-  void end_face() { mesh_.first_corner[++to_.face] = to_.corner; }
+  // The first corner of the next expansion's faces is not ours to write: another thread may read it.
+  void end_face() {
+    if (++to_.face < e_.end_face) mesh_.first_corner[to_.face] = to_.corner;
+  }
 
   // Of corner i, in the section's plane, before scaling.
   glm::dvec2 outline(std::uint32_t i, bool regular) const {

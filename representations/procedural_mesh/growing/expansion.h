@@ -64,6 +64,7 @@ struct Expansion {
   const FaceState& state;
   const Rule& rule;
   Slots to;
+  std::uint32_t end_face = 0;  // to.face plus the number of faces; first_corner[to.face] is written already
   NewArguments& arguments;
   CornerTexture* base_texture = nullptr;  // room for one per corner; vertex kNoVertex: not given
 };

@@ -142,6 +142,8 @@ void Wave::lay_out(std::size_t first, std::size_t last) {
   mesh.positions.resize(vertices);
   mesh.texture.resize(vertices);
   mesh.first_corner.resize(faces + 1);
+  for (std::size_t i = first; i < last; ++i) mesh.first_corner[chosen_[i].to.face] = chosen_[i].to.corner;
+  mesh.first_corner[faces] = static_cast<std::uint32_t>(corners);
   mesh.corners.resize(corners);
   mesh.symbols.resize(faces);
   mesh.creases.resize(creases);
@@ -155,8 +157,8 @@ void Wave::lay_out(std::size_t first, std::size_t last) {
 void Wave::expand_one(Chosen& chosen) {
   FaceMesh& mesh = grown_.mesh;
   const FaceState& state = grown_.states[chosen.active.state];
-  chosen.failure = expand({system_, grown_, chosen.active.face, state, *chosen.rule, chosen.to, arguments_,
-                           base_texture_.data() + chosen.first_base_texture});
+  chosen.failure = expand({system_, grown_, chosen.active.face, state, *chosen.rule, chosen.to,
+                           chosen.end_face, arguments_, base_texture_.data() + chosen.first_base_texture});
   if (chosen.failure.kind != Failure::kNone) return;
   for (std::uint32_t f = chosen.to.face; f < chosen.end_face; ++f) {
     const FaceShape shape = face_shape(
