@@ -176,11 +176,16 @@ class Check {
       while (parent[c] != c) c = parent[c] = parent[parent[c]];
       return c;
     };
+    const auto join = [&](std::uint32_t c, std::uint32_t d) {
+      const std::uint32_t x = root(c), y = root(d);
+      parent[std::max(x, y)] = std::min(x, y);
+    };
     for (const Half& h : halves_) {
       const std::uint32_t c = h.corner, d = twin_[c];
-      if (d == kNone || mesh_.corners[c] != mesh_.corners[next_[d]]) continue;
-      const std::uint32_t x = root(c), y = root(next_[d]);
-      parent[std::max(x, y)] = std::min(x, y);
+      if (d == kNone) continue;
+      const bool same_direction = mesh_.corners[c] == mesh_.corners[d];
+      join(c, same_direction ? d : next_[d]);
+      join(next_[c], same_direction ? next_[d] : d);
     }
     std::vector<std::uint32_t> fan(mesh_.positions.size(), kNone);
     std::vector<bool> told(mesh_.positions.size());

@@ -9,6 +9,7 @@
 #include <OpenMesh/Core/IO/reader/PLYReader.hh>
 #include <OpenMesh/Core/IO/writer/OBJWriter.hh>
 #include <OpenMesh/Core/IO/writer/PLYWriter.hh>
+#include <OpenMesh/Core/Mesh/BaseKernel.hh>
 #include <OpenMesh/Core/System/omstream.hh>
 #include <algorithm>
 #include <cctype>
@@ -134,6 +135,7 @@ class Exporter final : public om::IO::BaseExporter {
   om::Vec3d pointd(VertexHandle v) const override { return om::Vec3d(point(v)); }
   bool is_point_double() const override { return false; }
   om::Vec2f texcoord(VertexHandle v) const override {
+    if (mesh_.texture.empty()) return om::Vec2f(0);  // the OBJ writer asks even then
     const glm::vec2 t = mesh_.texture[static_cast<std::size_t>(v.idx())];
     return {t.x, t.y};
   }
@@ -149,36 +151,37 @@ class Exporter final : public om::IO::BaseExporter {
   std::size_t n_faces() const override { return mesh_.faces(); }
   std::size_t n_edges() const override { return 0; }
   bool has_vertex_texcoords() const override { return !mesh_.texture.empty(); }
+  const om::BaseKernel* kernel() override { return &no_properties_; }  // asked by the PLY writer
 
   // What a FaceMesh does not hold.
-  om::Vec3f normal(VertexHandle) const override { return {}; }
-  om::Vec3d normald(VertexHandle) const override { return {}; }
+  om::Vec3f normal(VertexHandle) const override { return om::Vec3f(0); }
+  om::Vec3d normald(VertexHandle) const override { return om::Vec3d(0); }
   bool is_normal_double() const override { return false; }
-  om::Vec3uc color(VertexHandle) const override { return {}; }
-  om::Vec4uc colorA(VertexHandle) const override { return {}; }
-  om::Vec3ui colori(VertexHandle) const override { return {}; }
-  om::Vec4ui colorAi(VertexHandle) const override { return {}; }
-  om::Vec3f colorf(VertexHandle) const override { return {}; }
-  om::Vec4f colorAf(VertexHandle) const override { return {}; }
-  om::Vec2f texcoord(HalfedgeHandle) const override { return {}; }
+  om::Vec3uc color(VertexHandle) const override { return om::Vec3uc(0); }
+  om::Vec4uc colorA(VertexHandle) const override { return om::Vec4uc(0); }
+  om::Vec3ui colori(VertexHandle) const override { return om::Vec3ui(0); }
+  om::Vec4ui colorAi(VertexHandle) const override { return om::Vec4ui(0); }
+  om::Vec3f colorf(VertexHandle) const override { return om::Vec3f(0); }
+  om::Vec4f colorAf(VertexHandle) const override { return om::Vec4f(0); }
+  om::Vec2f texcoord(HalfedgeHandle) const override { return om::Vec2f(0); }
   StatusInfo status(VertexHandle) const override { return {}; }
   HalfedgeHandle getHeh(FaceHandle, VertexHandle) const override { return HalfedgeHandle(); }
   unsigned int get_face_texcoords(std::vector<om::Vec2f>&) const override { return 0; }
-  om::Vec3f normal(FaceHandle) const override { return {}; }
-  om::Vec3d normald(FaceHandle) const override { return {}; }
-  om::Vec3uc color(FaceHandle) const override { return {}; }
-  om::Vec4uc colorA(FaceHandle) const override { return {}; }
-  om::Vec3ui colori(FaceHandle) const override { return {}; }
-  om::Vec4ui colorAi(FaceHandle) const override { return {}; }
-  om::Vec3f colorf(FaceHandle) const override { return {}; }
-  om::Vec4f colorAf(FaceHandle) const override { return {}; }
+  om::Vec3f normal(FaceHandle) const override { return om::Vec3f(0); }
+  om::Vec3d normald(FaceHandle) const override { return om::Vec3d(0); }
+  om::Vec3uc color(FaceHandle) const override { return om::Vec3uc(0); }
+  om::Vec4uc colorA(FaceHandle) const override { return om::Vec4uc(0); }
+  om::Vec3ui colori(FaceHandle) const override { return om::Vec3ui(0); }
+  om::Vec4ui colorAi(FaceHandle) const override { return om::Vec4ui(0); }
+  om::Vec3f colorf(FaceHandle) const override { return om::Vec3f(0); }
+  om::Vec4f colorAf(FaceHandle) const override { return om::Vec4f(0); }
   StatusInfo status(FaceHandle) const override { return {}; }
-  om::Vec3uc color(EdgeHandle) const override { return {}; }
-  om::Vec4uc colorA(EdgeHandle) const override { return {}; }
-  om::Vec3ui colori(EdgeHandle) const override { return {}; }
-  om::Vec4ui colorAi(EdgeHandle) const override { return {}; }
-  om::Vec3f colorf(EdgeHandle) const override { return {}; }
-  om::Vec4f colorAf(EdgeHandle) const override { return {}; }
+  om::Vec3uc color(EdgeHandle) const override { return om::Vec3uc(0); }
+  om::Vec4uc colorA(EdgeHandle) const override { return om::Vec4uc(0); }
+  om::Vec3ui colori(EdgeHandle) const override { return om::Vec3ui(0); }
+  om::Vec4ui colorAi(EdgeHandle) const override { return om::Vec4ui(0); }
+  om::Vec3f colorf(EdgeHandle) const override { return om::Vec3f(0); }
+  om::Vec4f colorAf(EdgeHandle) const override { return om::Vec4f(0); }
   StatusInfo status(EdgeHandle) const override { return {}; }
   int get_halfedge_id(VertexHandle) override { return -1; }
   int get_halfedge_id(FaceHandle) override { return -1; }
@@ -189,6 +192,7 @@ class Exporter final : public om::IO::BaseExporter {
 
  private:
   const FaceMesh& mesh_;
+  om::BaseKernel no_properties_;
 };
 
 std::string extension_of(const std::filesystem::path& path) {

@@ -206,12 +206,8 @@ void openmesh(benchmark::State& state) {
 
 void sizes(benchmark::internal::Benchmark* bench) {
   bench->Args({200, 2})->Args({100, 4})->Args({1600, 1})->Args({50, 6});
-  bench->Unit(benchmark::kMillisecond)->UseRealTime();
+  bench->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
 }
-void small_sizes(benchmark::internal::Benchmark* bench) {
-  bench->Args({200, 2})->Args({100, 4})->Unit(benchmark::kMillisecond)->UseRealTime();
-}
-
 BENCHMARK(positions)->Apply(sizes);
 BENCHMARK(opensubdiv_positions<Osd::CpuEvaluator>)->Apply(sizes);
 BENCHMARK(opensubdiv_positions<Osd::OmpEvaluator>)->Apply(sizes);
@@ -220,6 +216,6 @@ BENCHMARK(tables)->Apply(sizes);
 BENCHMARK(opensubdiv_topology)->Apply(sizes);
 BENCHMARK(opensubdiv_tables)->Apply(sizes);
 BENCHMARK(whole)->Apply(sizes);
-BENCHMARK(openmesh)->Apply(small_sizes);
+BENCHMARK(openmesh)->Apply(sizes);
 
 }  // namespace

@@ -115,7 +115,7 @@ TEST(MeshFiles, SurviveDamage) {
   for (const char* name : {"a.ply", "ascii.ply", "a.obj"}) {
     write_mesh(folder / name, textured(pyramid(5)), name[1] == 's' ? PlyForm::kAscii : PlyForm::kBinary);
     const std::string good = read_file(folder / name);
-    for (int round = 0; round < 1000; ++round) {
+    for (int round = 0; round < 200; ++round) {
       std::string bytes = good;
       for (std::uint32_t i = 0; i < 1 + random() % 3; ++i) {
         bytes[random() % bytes.size()] =
@@ -130,7 +130,7 @@ TEST(MeshFiles, SurviveDamage) {
       }
     }
   }
-  EXPECT_GT(refused, 1000U);
+  EXPECT_GT(refused, 200U);
 }
 
 }  // namespace

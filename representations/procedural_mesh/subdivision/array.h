@@ -29,4 +29,10 @@ struct UninitialisedAllocator : std::allocator<T> {
 template <class T>
 using Array = std::vector<T, UninitialisedAllocator<T>>;
 
+// Frees the block of a vector; assigning {} would keep it.
+template <class Vector>
+void release(Vector& v) {
+  Vector().swap(v);
+}
+
 }  // namespace terrabench::subdivision

@@ -147,7 +147,7 @@ std::uint32_t child_vertices(const Topology& t) {
 }
 
 Topology refine(const Topology& t, Detail detail) {
-  assert(t.corners.size() < (std::size_t{1} << 28));
+  assert(t.corners.size() <= (std::size_t{1} << 28));
   Topology child;
   child.vertices = child_vertices(t);
   with_corners(t, [&](const auto& walk) {

@@ -43,7 +43,7 @@ constexpr RingWeights ring_weights(std::uint32_t count) {
   return {(n - 2) / n, 1 / (n * n)};
 }
 
-// Both need a topology with everything, and fewer than 2^30 corners in the finer mesh (checked by an
+// Both need a topology with everything, and at most 2^30 corners in the finer mesh (checked by an
 // assertion; Refinement throws). O(corners) on all threads, the same for any number of them.
 Topology refine(const Topology&, Detail);
 Stencils make_stencils(const Topology&);

@@ -22,11 +22,11 @@ void check_size(std::uint64_t corners, int levels, std::uint64_t most) {
 
 // Frees what only the next refinement needed.
 void keep_corners(Topology& t) {
-  t.corner_edge = {};
-  t.edges = {};
-  t.sharpness = {};
-  t.first_use = {};
-  t.uses = {};
+  release(t.corner_edge);
+  release(t.edges);
+  release(t.sharpness);
+  release(t.first_use);
+  release(t.uses);
 }
 
 bool any_displacement(std::span<const PlacementRule> rules) {
@@ -88,8 +88,8 @@ LevelPoints next_points(const Refinement& refinement, int level, const LevelPoin
 
 Topology Refinement::release_last() && {
   Topology last = std::move(topologies_.back());
-  topologies_ = {};
-  stencils_ = {};
+  release(topologies_);
+  release(stencils_);
   return last;
 }
 

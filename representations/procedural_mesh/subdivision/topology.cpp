@@ -219,8 +219,8 @@ Topology make_topology(const FaceMesh& mesh, Boundary boundary) {
   set_creases(t, walk, mesh.creases);
   set_sharp_points(t, walk, mesh, boundary);
   if (quads) {
-    t.first_corner = {};
-    t.corner_face = {};
+    release(t.first_corner);
+    release(t.corner_face);
   }
   return t;
 }
