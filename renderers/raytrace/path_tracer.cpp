@@ -122,7 +122,6 @@ Ray PathTracer::ray_from(const Surface& s, const glm::vec3& direction) const {
 }
 
 glm::vec3 PathTracer::background(const glm::vec3& direction) const {
-  if (scene_.background) return *scene_.background;
   const glm::vec3 sky = sky_.radiance(direction);
   const float cosine = glm::dot(direction, sun_.z), spread2 = sun_spread_ * sun_spread_;
   if (!has_sun_ || spread2 == 0 || cosine <= 0 || 1 - cosine * cosine > spread2 * cosine * cosine) return sky;

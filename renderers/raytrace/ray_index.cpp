@@ -253,6 +253,6 @@ std::uint64_t RayIndex::bytes() const {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(0, embree_->bytes.load()));
 }
 
-std::string RayIndex::library() { return fmt::format("Embree {}", RTC_VERSION_STRING); }
+std::string RayIndex::embree_version() { return RTC_VERSION_STRING; }
 
 }  // namespace terrabench

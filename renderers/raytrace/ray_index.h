@@ -58,8 +58,8 @@ class RayIndex {
   // A batch, in parallel. Both spans have the same size.
   void closest(std::span<const Ray>, std::span<RayHit>) const;
 
-  std::uint64_t bytes() const;   // held by Embree
-  static std::string library();  // "Embree 3.13.5"
+  std::uint64_t bytes() const;          // held by Embree
+  static std::string embree_version();  // "3.13.5"
 
  private:
   struct Embree;

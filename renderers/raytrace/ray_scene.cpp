@@ -74,8 +74,8 @@ std::uint32_t RayScene::add_placed(RayMesh mesh) {
 
 void check_scene(const RayScene& scene) {
   check_daylight(scene.light);
-  if (scene.background && !is_light(*scene.background)) {
-    throw bad_input("the background is negative or not finite", "scene", "give three values of at least 0");
+  if (scene.background && !is_share(*scene.background)) {
+    throw bad_input("the background's colour is out of range", "scene", "give three values of 0 to 1");
   }
   for (std::size_t m = 0; m < scene.meshes.size(); ++m) check_mesh(scene.meshes[m], m);
 }

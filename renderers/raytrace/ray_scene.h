@@ -54,7 +54,8 @@ struct RayScene {
   std::vector<RayMesh> meshes{};
   std::vector<MeshPlacement> instances{};  // a mesh without any is not drawn
   Daylight light{};
-  std::optional<glm::vec3> background{};  // what the eye sees instead of the sky, such as white for print
+  // The picture's colour where the eye would see the sky, 0 to 1; no light. Such as white for print.
+  std::optional<glm::vec3> background{};
 
   // Adds a mesh and returns its number; adds one that stands where its positions are.
   std::uint32_t add(RayMesh mesh);

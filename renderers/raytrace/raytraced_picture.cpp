@@ -28,7 +28,7 @@ float distance_to_line(const glm::vec2& at, const glm::vec3& a, const glm::vec3&
 const View& with_memory(const View& view) {
   const auto pixels = static_cast<std::uint64_t>(std::max(view.width, 0)) *
                       static_cast<std::uint64_t>(std::max(view.height, 0));
-  require_memory(pixels * 20, "a ray-traced picture", "choose a smaller picture");
+  require_memory(pixels * 24, "a ray-traced picture", "choose a smaller picture");
   return view;
 }
 
@@ -51,6 +51,7 @@ RaytracedPicture::RaytracedPicture(const RayScene& scene, const View& view, cons
   }
   const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   sums_.resize(pixels);
+  counted_.resize(pixels);
   depth_.resize(pixels, std::numeric_limits<float>::infinity());
   objects_.resize(pixels);
 }
@@ -83,8 +84,12 @@ void RaytracedPicture::trace(Tile& tile, int until) {
         depth_[at] = hit.distance;
         objects_[at] = hit.placement + 1;  // RayHit::kNone + 1 is 0
       }
-      glm::vec3 sum = sums_[at];
-      for (int k = tile.samples; k < until; ++k) sum += sample(x, y, k);
+      glm::vec3 sum = sums_[at], radiance;
+      for (int k = tile.samples; k < until; ++k) {
+        if (!sample(x, y, k, radiance)) continue;
+        sum += radiance;
+        ++counted_[at];
+      }
       if (!std::isfinite(sum.x + sum.y + sum.z)) {
         throw bad_input("the radiance is not finite", fmt::format("pixel ({}, {})", x, y),
                         "check what the materials' functions return there");
@@ -95,17 +100,21 @@ void RaytracedPicture::trace(Tile& tile, int until) {
   tile.samples = std::max(tile.samples, until);
 }
 
-glm::vec3 RaytracedPicture::sample(int x, int y, int number) const {
+bool RaytracedPicture::sample(int x, int y, int number, glm::vec3& radiance) const {
   const auto cell = static_cast<std::uint32_t>(pixel(x, y));
   SampleSequence samples(cell, static_cast<std::uint32_t>(number), settings_.seed);
   const glm::vec2 at = glm::vec2(x, y) + samples.next();
   const Ray ray = camera_.ray(at);
   const RayHit hit = tracer_.closest(ray);
-  const float opacity = has_wires_ && hit.hit() ? wire_opacity(at, hit) : 0;
-  if (opacity == 0) return tracer_.radiance(ray, hit, samples);
   const RayScene& scene = tracer_.scene();
-  const glm::vec3 wire = scene.meshes[scene.instances[hit.placement].mesh].wire_color;
-  return opacity == 1 ? wire : glm::mix(tracer_.radiance(ray, hit, samples), wire, opacity);
+  if (!hit.hit() && scene.background) return false;
+  const float opacity = has_wires_ && hit.hit() ? wire_opacity(at, hit) : 0;
+  radiance = opacity < 1 ? tracer_.radiance(ray, hit, samples) : glm::vec3(0);
+  if (opacity > 0) {
+    const glm::vec3 wire = scene.meshes[scene.instances[hit.placement].mesh].wire_color;
+    radiance = glm::mix(radiance, wire, opacity);
+  }
+  return true;
 }
 
 // Of the wire at this place, or 0. A wire has half its width on each of the triangles at an edge.
@@ -142,15 +151,19 @@ const RaytracedPicture::Tile& RaytracedPicture::tile_at(int x, int y) const {
 }
 
 glm::vec3 RaytracedPicture::radiance(int x, int y) const {
-  return sums_[pixel(x, y)] / static_cast<float>(std::max(1, tile_at(x, y).samples));
+  const std::size_t at = pixel(x, y);
+  return sums_[at] / static_cast<float>(std::max(1U, counted_[at]));
 }
 
 Image RaytracedPicture::image(const ToneMapping& mapping) const {
   Image image(width_, height_, {0, 0, 0});
+  const glm::vec3 background = tracer_.scene().background.value_or(glm::vec3(0));
   tbb::parallel_for(0, height_, [&](int y) {
     for (int x = 0; x < width_; ++x) {
-      const glm::vec3 color = to_srgb(tone_mapped(radiance(x, y), mapping));
-      const glm::vec3 bytes = glm::floor(color * 255.0F + 0.5F);
+      const auto samples = static_cast<float>(std::max(1, tile_at(x, y).samples));
+      const float covered = static_cast<float>(counted_[pixel(x, y)]) / samples;
+      const glm::vec3 color = glm::mix(background, tone_mapped(radiance(x, y), mapping), covered);
+      const glm::vec3 bytes = glm::floor(to_srgb(color) * 255.0F + 0.5F);
       image.set(x, y,
                 {static_cast<std::uint8_t>(bytes.x), static_cast<std::uint8_t>(bytes.y),
                  static_cast<std::uint8_t>(bytes.z)});

@@ -20,7 +20,7 @@ namespace terrabench {
 class RaytracedPicture {
  public:
   // Throws as PathTracer and RayCamera do, environment_error for lack of memory. The scene must outlive it.
-  // 20 bytes per pixel.
+  // 24 bytes per pixel.
   RaytracedPicture(const RayScene&, const View&, const RaytraceSettings& = {}, Progress* = nullptr);
 
   // Until every pixel has so many samples; settings.samples if 0. In parallel, tile by tile, in passes over
@@ -30,8 +30,9 @@ class RaytracedPicture {
   void accumulate(int samples = 0, Progress* = nullptr);
 
   int samples() const;  // of the pixel that has the fewest
-  // The mean of the samples; black for none.
+  // The mean of the samples that do not show the scene's background; black for none.
   glm::vec3 radiance(int x, int y) const;
+  // Surfaces and sky are tone mapped, the background is not.
   Image image(const ToneMapping& = {}) const;
   // Metres from the eye to what lies in the middle of the pixel; infinite for the sky.
   float depth(int x, int y) const { return depth_[pixel(x, y)]; }
@@ -51,7 +52,8 @@ class RaytracedPicture {
   std::size_t pixel(int x, int y) const { return static_cast<std::size_t>(y) * width_ + x; }
   const Tile& tile_at(int x, int y) const;
   void trace(Tile&, int until);
-  glm::vec3 sample(int x, int y, int number) const;
+  // False for one that shows the background.
+  bool sample(int x, int y, int number, glm::vec3& radiance) const;
   float wire_opacity(const glm::vec2& at, const RayHit&) const;
 
   RayCamera camera_;
@@ -60,7 +62,8 @@ class RaytracedPicture {
   int width_, height_, tiles_across_;
   bool has_wires_;
   std::vector<Tile> tiles_;
-  std::vector<glm::vec3> sums_;
+  std::vector<glm::vec3> sums_;         // per pixel
+  std::vector<std::uint32_t> counted_;  // samples in the sum
   std::vector<float> depth_;
   std::vector<std::uint32_t> objects_;
 };

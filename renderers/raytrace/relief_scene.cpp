@@ -1,0 +1,35 @@
+#include "renderers/raytrace/relief_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "renderers/ramp.h"
+
+namespace terrabench {
+namespace {
+
+constexpr glm::vec3 kRock{0.36F, 0.33F, 0.30F};
+// The ramp's colours are for the picture's surface; as reflectances they would be brighter than any ground.
+constexpr float kGroundShare = 0.8F;
+
+}  // namespace
+
+RayScene relief_scene(const TriangleMesh& mesh, float lowest, float highest) {
+  RayScene scene;
+  scene.background = glm::vec3(1);
+  // From the north-west as in the other reliefs, lower, so that shadows show the relief.
+  scene.light.sun = glm::normalize(glm::vec3(-0.75F, 0.62F, -0.1F));
+  scene.light.sun_irradiance = 3.4F * sun_color(scene.light.turbidity, scene.light.sun.y);
+  scene.light.sky_irradiance = 1.1F;
+  const float range = std::max(highest - lowest, 1e-6F);
+  scene.add_placed({.mesh = &mesh, .material_at = [lowest, range](const SurfacePoint& p) {
+                      const glm::vec3 ground = kGroundShare * ramp_color((p.position.y - lowest) / range);
+                      const float level = glm::smoothstep(0.25F, 0.6F, std::abs(p.normal.y));
+                      return RayMaterial{.albedo = glm::mix(kRock, ground, level)};
+                    }});
+  return scene;
+}
+
+}  // namespace terrabench
