@@ -10,7 +10,7 @@
 namespace terrabench {
 namespace {
 
-constexpr glm::vec3 kRock{0.36F, 0.33F, 0.30F};
+constexpr glm::vec3 kRock{0.42F, 0.38F, 0.33F};
 // The ramp's colours are for the picture's surface; as reflectances they would be brighter than any ground.
 constexpr float kGroundShare = 0.8F;
 
@@ -19,9 +19,10 @@ constexpr float kGroundShare = 0.8F;
 RayScene relief_scene(const TriangleMesh& mesh, float lowest, float highest) {
   RayScene scene;
   scene.background = glm::vec3(1);
-  // From the north-west as in the other reliefs, lower, so that shadows show the relief.
-  scene.light.sun = glm::normalize(glm::vec3(-0.75F, 0.62F, -0.1F));
-  scene.light.sun_irradiance = 3.4F * sun_color(scene.light.turbidity, scene.light.sun.y);
+  // From the left and in front of overview()'s eye, so that one side of a block is lit and the other is not,
+  // and low, so that shadows show the relief.
+  scene.light.sun = glm::normalize(glm::vec3(-0.85F, 0.6F, 0.35F));
+  scene.light.sun_irradiance = 4.6F * sun_color(scene.light.turbidity, scene.light.sun.y);
   scene.light.sky_irradiance = 1.1F;
   const float range = std::max(highest - lowest, 1e-6F);
   scene.add_placed({.mesh = &mesh, .material_at = [lowest, range](const SurfacePoint& p) {
