@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "terrain/error.h"
@@ -17,6 +18,9 @@ struct ListArguments {
 };
 ExitCode list_command(const ListArguments&);
 
+// The renderer that traces rays instead of opening an OpenGL context.
+inline constexpr std::string_view kRaytrace = "raytrace";
+
 struct RepresentArguments {
   std::string terrain, as;
   std::vector<std::string> assignments;
@@ -26,7 +30,8 @@ struct RepresentArguments {
   std::vector<int> resample;  // width, depth
   bool fill = false;          // fill no-data holes
   int view_width = 1600, view_height = 1000;
-  std::string renderer = "osmesa";
+  std::string renderer = "osmesa";  // or kRaytrace
+  int samples = 64;                 // per pixel, of ray tracing
   std::uint64_t seed = 1;
 };
 ExitCode represent_command(const RepresentArguments&);

@@ -4,6 +4,8 @@
 #include "experiments/commands/commands.h"
 #include "experiments/fidelity.h"
 #include "experiments/stopwatch.h"
+#include "renderers/raytrace/raytraced_picture.h"
+#include "renderers/raytrace/relief_scene.h"
 #include "renderers/relief.h"
 #include "representations/drill/drill_codec.h"
 #include "representations/drill/drill_terrain.h"
@@ -60,9 +62,17 @@ void print_fidelity(const Fidelity& fidelity) {
   fmt::print("\n");
 }
 
-void draw(const RepresentArguments& a, const Representation& built, Bounds bounds) {
+void draw(const RepresentArguments& a, const Representation& built, Bounds bounds, Progress& progress) {
   const TriangleMesh mesh = built.mesh({});
   const View view = overview(bounds_of(mesh), a.view_width, a.view_height);
+  if (a.renderer == kRaytrace) {
+    const RayScene scene = relief_scene(mesh, bounds.low.y, bounds.high.y);
+    const Stopwatch watch;
+    write_png(a.render, raytrace(scene, view, {.samples = a.samples}, {}, &progress));
+    fmt::print("rendered    {} ({} triangles, Embree {}, {} samples per pixel in {:.3g} s)\n", a.render,
+               mesh.triangles(), RayIndex::embree_version(), a.samples, watch.seconds());
+    return;
+  }
   const auto context = open_context(a.renderer, view.width, view.height);
   write_png(a.render,
             render_relief(*context, mesh, view, {.lowest = bounds.low.y, .highest = bounds.high.y}));
@@ -133,7 +143,7 @@ ExitCode represent_command(const RepresentArguments& a) {
     fmt::print("saved       {} ({})\n", a.save, format_quantity(static_cast<double>(bytes), "B"));
   }
   if (!a.write_flow.empty()) write_flow(a.write_flow, source, progress);
-  if (!a.render.empty()) draw(a, *built, source.bounds());
+  if (!a.render.empty()) draw(a, *built, source.bounds(), progress);
   fmt::print("allocator   {} freed\n",
              format_quantity(static_cast<double>(destroy_and_count(std::move(built))), "B"));
   return ExitCode::kGood;
