@@ -41,7 +41,7 @@ GrassCover::GrassCover(const Parameters& p, const LandscapeStyle& style)
   growth_.by_area = growth_.turned = true;
 }
 
-GrassPatch GrassCover::grow(const FrameMesh& mesh) const {
+GrassPatch GrassCover::grow(const FrameMesh& mesh, std::int64_t most) const {
   const float low =
       style_.has_water ? std::max(style_.water_level, style_.band_tops[0]) : style_.band_tops[0];
   const float high = style_.band_tops[1];
@@ -57,7 +57,8 @@ GrassPatch GrassCover::grow(const FrameMesh& mesh) const {
     indices.insert(indices.end(), {mesh.indices[3 * t], mesh.indices[3 * t + 1], mesh.indices[3 * t + 2]});
   }
   GrassGrowth growth = growth_;
-  growth.strands = std::min(kMostStrands, static_cast<std::int64_t>(std::llround(density_ * area)));
+  growth.strands =
+      static_cast<std::int64_t>(std::llround(std::min(density_ * area, static_cast<double>(most))));
   return {{mesh.positions, mesh.normals, indices}, growth};
 }
 
@@ -73,7 +74,8 @@ void GrassCover::update(const Frame& frame, const View& view) {
     if (auto known = patches_.extract(mesh.id)) {
       patches.insert(std::move(known));
     } else {
-      patches.emplace(mesh.id, grow(mesh));
+      const auto meshes = static_cast<std::int64_t>(frame.meshes.size());
+      patches.emplace(mesh.id, grow(mesh, std::min(kMostStrands / meshes, GrassGrowth::kMostStrands)));
     }
   }
   patches_ = std::move(patches);

@@ -23,18 +23,18 @@ class GrassCover {
   GrassCover(const Parameters&, const LandscapeStyle&);
 
   // Grows grass on meshes that the last frame did not list, and drops that of meshes which this one does not
-  // list. A mesh grows at most kMostStrands strands, fewer per square metre if it is that large.
-  // O(triangles of new meshes).
+  // list. All meshes together grow about kMostStrands strands at most: each its share, fewer per square metre
+  // if they are that large. O(triangles of new meshes).
   void update(const Frame&, const View&);
   // LandscapeRenderer::also: draws in the picture and in reflections.
   void draw(const PassView&);
 
   std::int64_t strands() const;
 
-  static constexpr std::int64_t kMostStrands = 400'000;
+  static constexpr std::int64_t kMostStrands = 8'000'000;  // 384 MB
 
  private:
-  GrassPatch grow(const FrameMesh&) const;
+  GrassPatch grow(const FrameMesh&, std::int64_t most) const;
 
   const LandscapeStyle& style_;
   double density_;

@@ -214,7 +214,7 @@ void add_render(CLI::App& app, Arguments& a) {
   command->add_option("--fov", r.field_of_view, "Vertical field of view in degrees")
       ->check(CLI::Range(1.0, 170.0));
   command->add_option("--seconds", r.seconds, "Time of clouds and waves in the first picture")
-      ->check(CLI::Range(-1e9, 1e9));
+      ->check(CLI::Range(-1e5, 1e5));
   command->add_option("--samples", r.samples, "Height samples along each side of a solid terrain")
       ->check(CLI::Range(2, 16385))
       ->capture_default_str();
@@ -225,7 +225,7 @@ void add_render(CLI::App& app, Arguments& a) {
       ->add_option("--out", r.out,
                    "PNG to write, or a folder for several frames: pictures that it holds are kept")
       ->capture_default_str();
-  command->add_option("--renderer", r.renderer, "OpenGL context: osmesa")->capture_default_str();
+  add_renderer(*command, r.renderer);
   command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
       ->check(CLI::Range(1, 4096));
   command->add_option("--seed", r.seed, "Seed of procedural terrains")->capture_default_str();

@@ -111,6 +111,9 @@ void check_eye(const View& view, const Frame& frame, const TerrainSource& source
     const bool inside =
         glm::all(glm::lessThanEqual(box.low, eye)) && glm::all(glm::lessThanEqual(eye, box.high));
     if (inside) source.solid->column({eye.x, eye.z, eye.y, 1}, here);
+    const bool over_plan =
+        eye.x >= box.low.x && eye.x <= box.high.x && eye.z >= box.low.z && eye.z <= box.high.z;
+    if (over_plan && eye.y < box.low.y) here[0] = Material::kBedrock;  // ground continues below
     if (here[0] != Material::kAir) {
       throw usage_error(fmt::format("the eye ({:.6g}, {:.6g}, {:.6g}) is inside rock", eye.x, eye.y, eye.z),
                         "render", advice);
@@ -129,7 +132,7 @@ void check_eye(const View& view, const Frame& frame, const TerrainSource& source
 }
 
 ScenePainter::ScenePainter(GlContext& context, Lod& lod, const LandscapeStyle& style)
-    : lod_(lod), renderer_(context, style) {}
+    : context_(context), lod_(lod), renderer_(context, style) {}
 
 void ScenePainter::grow(const Parameters& grass, const LandscapeStyle& style) {
   grass_.emplace(grass, style);

@@ -38,6 +38,9 @@ void check_eye(const View&, const Frame&, const TerrainSource&, const Heightfiel
 class ScenePainter {
  public:
   ScenePainter(GlContext& context, Lod& lod, const LandscapeStyle& style);
+  ~ScenePainter() { context_.make_current_to_delete(); }
+  ScenePainter(const ScenePainter&) = delete;
+  ScenePainter& operator=(const ScenePainter&) = delete;
   LandscapeRenderer& renderer() { return renderer_; }
   // Grass, of grass_parameters(), on the near meshes of the following frames. The style must outlive this.
   void grow(const Parameters& grass, const LandscapeStyle& style);
@@ -50,6 +53,7 @@ class ScenePainter {
   void skip();
 
  private:
+  GlContext& context_;
   Lod& lod_;
   LandscapeRenderer renderer_;
   std::optional<GrassCover> grass_;

@@ -33,7 +33,8 @@ class Lod {
 
 // What a method is built from: heights and, where the ground has more than one surface over a place, the near
 // surface as chunks of a mesh. Methods for heights alone ignore the chunks. Points to both, which must
-// outlive the method.
+// outlive the method. Before an edit of the surface, call Lod::memory(), which waits for work in the
+// background.
 struct LodGround {
   LodGround(const Heightfield& of, const MeshChunks* surface = nullptr)  // NOLINT: heights are ground
       : heights(of), near_surface(surface) {}

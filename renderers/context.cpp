@@ -60,6 +60,14 @@ void GlContext::make_current() {
   current = this;
 }
 
+void GlContext::make_current_to_delete() noexcept {
+  try {
+    make_current();
+  } catch (const Error&) {
+    // Lost: the thread has no current context now.
+  }
+}
+
 void GlContext::leave_current() noexcept {
   if (current != nullptr) current->release();
   current = nullptr;
@@ -71,11 +79,7 @@ void GlContext::open_target(int width, int height) {
 }
 
 void GlContext::close_target() noexcept {
-  try {
-    make_current();
-  } catch (const Error&) {
-    // The context was lost, and the picture with it. No context is current now, so deleting does nothing.
-  }
+  make_current_to_delete();
   target_.reset();
   release();
   if (current == this) current = nullptr;

@@ -11,6 +11,9 @@ namespace terrabench {
 
 class RenderTarget;
 
+// Of a context's picture, pixels: the largest texture that every OpenGL 4.5 offers.
+inline constexpr int kLargestPictureSide = 16384;
+
 // Used and destroyed on the thread that opened it.
 class GlContext {
  public:
@@ -22,6 +25,9 @@ class GlContext {
   void make_current();
   virtual void present() {}  // shows the picture, where there is a window; never waits for the display
 
+  // Before objects of this context are deleted: makes it current, or, if it was lost, leaves the thread
+  // without a current context, so that deleting them does nothing.
+  void make_current_to_delete() noexcept;
   // Leaves the thread without a current context.
   static void leave_current() noexcept;
 

@@ -112,7 +112,7 @@ FrameRenderer::FrameRenderer(GlContext& context) : context_(context) {
   gl_ = std::make_unique<Gl>();
 }
 
-FrameRenderer::~FrameRenderer() { context_.make_current(); }
+FrameRenderer::~FrameRenderer() { context_.make_current_to_delete(); }
 
 void FrameRenderer::draw(const Frame& frame, const View& view, const FrameStyle& style) {
   context_.make_current();

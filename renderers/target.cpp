@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "renderers/context.h"
 #include "terrain/error.h"
 #include "terrain/memory.h"
 
@@ -12,7 +13,7 @@ namespace terrabench {
 namespace {
 
 void check_size(int width, int height) {
-  constexpr int kLargest = RenderTarget::kLargestSide;
+  constexpr int kLargest = kLargestPictureSide;
   if (width < 1 || height < 1 || width > kLargest || height > kLargest) {
     throw usage_error(fmt::format("invalid picture size {} × {}", width, height), "",
                       fmt::format("each side must be 1 to {} pixels", kLargest));

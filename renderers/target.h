@@ -10,7 +10,6 @@ namespace terrabench {
 class RenderTarget {
  public:
   static constexpr int kSamples = 4;
-  static constexpr int kLargestSide = 16384;
 
   // Throws usage_error for a side outside 1…16384, environment_error when there is not enough memory.
   RenderTarget(int width, int height);

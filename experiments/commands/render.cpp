@@ -30,9 +30,10 @@ struct Shot {
 glm::ivec2 parse_size(const std::string& text) {
   int width = 0, height = 0;
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 1 || height < 1) {
+  if (std::sscanf(text.c_str(), "%9dx%9d%c", &width, &height, &rest) != 2 || width < 1 || height < 1 ||
+      std::max(width, height) > kLargestPictureSide) {
     throw usage_error(fmt::format("invalid size '{}': expected WIDTHxHEIGHT, such as 1600x1000", text),
-                      "--size", "give both sides in pixels");
+                      "--size", fmt::format("give both sides in pixels, each 1 to {}", kLargestPictureSide));
   }
   return {width, height};
 }
@@ -125,12 +126,20 @@ void check_arguments(const RenderArguments& a) {
 
 // What the pictures of a folder depend on, kept in it, so that a later run continues only its own sequence.
 std::string describe(const RenderArguments& a, const TerrainSource& source, const Settings& settings,
-                     const std::vector<Shot>& shots) {
+                     const std::vector<Shot>& shots, const GlContext& context) {
+  std::string views;
+  for (const Shot& shot : shots) {
+    const View& v = shot.view;
+    views += fmt::format("{} {} {} {} {} {} {} {} {} ", v.eye.x, v.eye.y, v.eye.z, v.target.x, v.target.y,
+                         v.target.z, v.vertical_fov, v.near, v.far);
+  }
   std::string text = fmt::format(
       "terrain = \"{}\"\nchecksum = \"{}\"\nscene = {}\npath = \"{}\"\nframes = {}\n"
-      "size = \"{}x{}\"\nlod = \"{}\"\ndetail = \"{}\"\nsamples = {}\nseconds = {}\n",
+      "size = \"{}x{}\"\nlod = \"{}\"\ndetail = \"{}\"\nsamples = {}\nseconds = {}\n"
+      "views = \"{}\"\nrenderer = \"{}\"\n",
       source.name, source.checksum, a.scene, a.path, a.frames, shots[0].view.width, shots[0].view.height,
-      a.lod, a.detail.empty() ? "usual" : fmt::format("{}", a.detail[0]), a.samples, a.seconds);
+      a.lod, a.detail.empty() ? "usual" : fmt::format("{}", a.detail[0]), a.samples, a.seconds,
+      checksum(views), context.renderer());
   for (const Parameters* parameters : {&settings.look, &settings.grass, &settings.method}) {
     for (std::size_t k = 0; k < parameters->specs().size(); ++k) {
       text += fmt::format("{} = \"{}\"\n", parameters->specs()[k].name, to_string(parameters->value(k)));
@@ -139,12 +148,18 @@ std::string describe(const RenderArguments& a, const TerrainSource& source, cons
   return text;
 }
 
-void claim_folder(const fs::path& folder, const std::string& description) {
+void claim_folder(const fs::path& folder, const std::string& description, const std::vector<Shot>& shots) {
   const fs::path file = folder / "render.toml";
   if (fs::exists(file)) {
     if (read_file(file) == description) return;
     throw usage_error("the folder holds pictures that were rendered with other settings", folder.string(),
                       "choose another --out, or delete the folder");
+  }
+  for (const Shot& shot : shots) {
+    if (fs::exists(shot.file)) {
+      throw usage_error("the folder holds pictures of another program", shot.file.string(),
+                        "choose another --out, or delete the folder");
+    }
   }
   write_file(file, description);
 }
@@ -232,7 +247,7 @@ ExitCode render_command(const RenderArguments& a) {
   // Before the renderer's textures are computed, which takes a second or more.
   check_eye(shots[0].view, method->update(shots[0].view), source, field);
   const auto context = open_context(a.renderer, shots[0].view.width, shots[0].view.height);
-  if (a.frames > 1) claim_folder(a.out, describe(a, source, settings, shots));
+  if (a.frames > 1) claim_folder(a.out, describe(a, source, settings, shots, *context), shots);
   Painter painter(a, *context, *method, style, settings.grass);
   const std::size_t kept = paint(a, shots, painter, source, field, progress);
 

@@ -42,6 +42,15 @@ View whole(const TriangleMesh& mesh, int width, int height) {
   return overview(bounds_of(mesh), width, height, {0.35F, 0.45F, 1.0F});
 }
 
+// Of two pictures of one size.
+double share_of_differing_pixels(const Image& a, const Image& b) {
+  int differing = 0;
+  for (int y = 0; y < a.height; ++y) {
+    for (int x = 0; x < a.width; ++x) differing += a.pixel(x, y) != b.pixel(x, y) ? 1 : 0;
+  }
+  return differing / (static_cast<double>(a.width) * a.height);
+}
+
 void measure_table3(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const Heightfield field = grassland(options.seed, at.integer("cells"), 0.7F);
   recorder.terrain("grassland", checksum(field));
@@ -51,12 +60,15 @@ void measure_table3(const Case& at, const RunOptions& options, Recorder& recorde
   const auto gl = open_context(options.renderer, view.width, view.height);
 
   constexpr int kCounts = 3;
+  const Image bare = GrassScene(*gl, grass_ground(mesh), {}).picture(view, technique);
   std::vector<std::unique_ptr<GrassScene>> scenes;
   for (int k = 1; k <= kCounts; ++k) {
     const GrassGrowth growth{.strands = k * (at.parameters.integer("billboards") / 2)};
     scenes.push_back(std::make_unique<GrassScene>(*gl, grass_ground(mesh), growth));
     recorder.add(fmt::format("billboards_{}n", k), "",
                  static_cast<double>(scenes.back()->count_billboards(view, technique)));
+    recorder.add(fmt::format("covered_{}n", k), "",
+                 share_of_differing_pixels(scenes.back()->picture(view, technique), bare));
   }
   recorder.add(
       "ssim_to_geometry_shader", "",

@@ -98,11 +98,12 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
   recorder.add("triangles", "", static_cast<double>(painter.update(view).stats.triangles));
   recorder.add("strands", "", static_cast<double>(painter.strands()));
-  write_png(recorder.figure("hybrid.hero", "png",
-                            "The noise terrain of the paper: an arch over water, in a landscape that ends in "
-                            "the sky. The ground near the eye is an implicit surface with grass, the ground "
-                            "beyond a clipmap"),
-            painter.draw(view, 3));
+  write_png(
+      recorder.figure("hybrid.hero", "png",
+                      "Noise terrain made as in the paper: an arch over water, in a landscape that ends in "
+                      "the sky. The ground near the eye is an implicit surface with grass, the ground "
+                      "beyond a clipmap"),
+      painter.draw(view, 3));
   const std::vector<double> times =
       time_frames(frame_clock(*context), 2, at.integer("frames"),
                   [&](int frame) { painter.renderer().draw(painter.update(view), view, 3 + frame / 60.0); });

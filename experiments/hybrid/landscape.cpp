@@ -123,7 +123,9 @@ Sheet draw_water(Drawing& drawing) {
   const Value off = 0.0;
   const Image mirror = land.draw(
       small, {{"fresnel_normal", 1.0}, {"distortion", off}, {"wave_slope", off}, {"highlight", off}});
-  const Image glass = land.draw(small, {{"fresnel_normal", off},
+  // The printed reading reflects next to nothing in any view here.
+  const Image glass = land.draw(small, {{"fresnel", std::string("light")},
+                                        {"fresnel_normal", off},
                                         {"fresnel_power", 20.0},
                                         {"distortion", off},
                                         {"wave_slope", off},

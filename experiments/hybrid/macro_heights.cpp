@@ -32,7 +32,8 @@ std::vector<Case> cases(const RunOptions& options) {
 // What lies over each column, asked of the representation and not of the map's own code.
 struct Tops {
   std::vector<float> top;      // metres
-  std::vector<char> has_cave;  // air below the top
+  std::vector<float> air;      // metres of it below the top
+  std::vector<char> has_cave;  // some air below the top
 };
 
 Tops tops_of(const LayeredStack& stack) {
@@ -52,7 +53,8 @@ Tops tops_of(const LayeredStack& stack) {
     float solid = 0;
     for (const Span& span : spans) solid += span.top - span.bottom;
     tops.top.push_back(spans.empty() ? grid.edge_y(0) : spans.back().top);
-    tops.has_cave.push_back(tops.top.back() - grid.edge_y(0) - solid > 0.5F * static_cast<float>(grid.step));
+    tops.air.push_back(tops.top.back() - grid.edge_y(0) - solid);
+    tops.has_cave.push_back(tops.air.back() > 0.5F * static_cast<float>(grid.step));
   }
   return tops;
 }
@@ -101,7 +103,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const float tolerance = 0.5F * static_cast<float>(stack.grid().step);
   std::vector<char> sunk;
   std::size_t caves = 0, sunk_columns = 0, raised = 0, sunk_beside_caves = 0;
-  float deepest = 0;
+  float deepest = 0, error = 0;
   for (std::size_t c = 0; c < tops.top.size(); ++c) {
     const float depth = tops.top[c] - map.heights[c];
     sunk.push_back(depth > tolerance);
@@ -110,6 +112,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     raised += depth < -tolerance;
     sunk_beside_caves += sunk.back() != 0 && tops.has_cave[c] == 0;
     deepest = std::max(deepest, depth);
+    error = std::max(error, std::abs(depth - (reading == ColumnHeight::kSum ? tops.air[c] : 0.0F)));
   }
   recorder.add("columns_with_caves", "", static_cast<double>(caves));
   recorder.add("sunk_columns", "", static_cast<double>(sunk_columns));
@@ -117,6 +120,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("raised_columns", "", static_cast<double>(raised));
   recorder.add("dents", "", static_cast<double>(count_groups(sunk, map.width)));
   recorder.add("deepest_dent", "m", deepest);
+  recorder.add("largest_error", "m", error);
   recorder.add("largest_step", "m", largest_step(map));
   recorder.add("largest_step_interpolated", "m",
                largest_step(height_map(stack, reading, at.integer("finer"))));

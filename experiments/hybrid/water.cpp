@@ -1,5 +1,7 @@
 // The Fresnel term of "hybrid" (§3.4), "from the dot product of the normal of the water and light reflection
-// vector": what water reflects at grazing and at normal view, in three readings of that vector.
+// vector": what water reflects at grazing and at normal view, in three readings of that vector, and in three
+// of the term: Schlick's approximation, which the landscape uses, the product itself, and one minus the
+// product.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -11,12 +13,14 @@
 namespace terrabench::hybrid {
 namespace {
 
-// Numbered as FresnelReading.
-constexpr std::array<std::string_view, 3> kReadings{"view", "reflected", "light"};
+// The first three are numbered as FresnelReading.
+constexpr std::array<std::string_view, 5> kReadings{"view", "reflected", "light", "product",
+                                                    "one-minus-product"};
 const std::array kSpecs{
     choice("reading", kReadings,
            "the vector whose product with the water's normal is taken: towards the eye; the line of sight "
-           "reflected by the water; the sun's light reflected by the water, as printed"),
+           "reflected by the water; the sun's light reflected by the water, as printed; or with the vector "
+           "towards the eye the product itself as the term, and one minus the product"),
     ParameterSpec{"grazing", 88.0, "°", "angle between the view and the normal that counts as grazing", 45,
                   89.9},
     ParameterSpec{"sun_height", 35.0, "°", "height of the sun", 0, 90},
@@ -47,7 +51,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kFresnel{"hybrid.fresnel", "§3.4: reflectance of water in three readings", kSpecs,
+extern const Experiment kFresnel{"hybrid.fresnel", "§3.4: reflectance of water in five readings", kSpecs,
                                  cases, measure};
 
 }  // namespace terrabench::hybrid

@@ -114,7 +114,7 @@ GLFWwindow* create_window(const Library& glfw, int width, int height, bool visib
   // A hidden window needs no pixels of its own.
   constexpr int kHidden = 16;
   const auto side = [&](int wanted) {
-    return visible ? std::clamp(wanted, 1, RenderTarget::kLargestSide) : kHidden;
+    return visible ? std::clamp(wanted, 1, kLargestPictureSide) : kHidden;
   };
   return glfw.create(side(width), side(height), "terrabench", nullptr, nullptr);
 }

@@ -246,7 +246,7 @@ LandscapeRenderer::LandscapeRenderer(GlContext& context, const LandscapeStyle& s
   gl_ = std::make_unique<LandscapeGl>(style);
 }
 
-LandscapeRenderer::~LandscapeRenderer() { context_.make_current(); }
+LandscapeRenderer::~LandscapeRenderer() { context_.make_current_to_delete(); }
 
 void LandscapeRenderer::restyle(const LandscapeStyle& style) {
   context_.make_current();

@@ -59,10 +59,10 @@ const ParameterSpec kSpecs[] = {
     number("border", 0.12, "",
            "width over which the ground's border blends into the sky, share of the extent", 0, 0.5),
 
-    share("sand", 0.03, "height up to which sand lies, as a share of the relief above the water"),
-    share("grass", 0.45, "height up to which grass grows, likewise"),
-    share("earth", 0.62, "height up to which earth lies, likewise"),
-    share("rock", 0.86, "height up to which rock lies, likewise; snow above"),
+    share("sand_top", 0.03, "height up to which sand lies, as a share of the relief above the water"),
+    share("grass_top", 0.45, "height up to which grass grows, likewise"),
+    share("earth_top", 0.62, "height up to which earth lies, likewise"),
+    share("rock_top", 0.86, "height up to which rock lies, likewise; snow above"),
     share("band_blend", 0.06, "height over which two bands blend, likewise"),
     choice("slope_rule", kSlopeRules, "the angle of ground: true, acos(n_y), or as printed, (1 - n_y)·90°"),
     number("steep", 38, "°", "angle from which ground is rock", 0, 180),
@@ -138,7 +138,7 @@ void set_sky(LandscapeStyle& style, const Parameters& p) {
 }
 
 void set_materials(LandscapeStyle& style, const Parameters& p, float base, float relief) {
-  constexpr std::array<std::string_view, 4> kBands{"sand", "grass", "earth", "rock"};
+  constexpr std::array<std::string_view, 4> kBands{"sand_top", "grass_top", "earth_top", "rock_top"};
   float below = base;
   for (std::size_t band = 0; band < kBands.size(); ++band) {
     below = std::max(below, base + relief * number_of(p, kBands[band]));
