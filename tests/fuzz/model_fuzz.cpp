@@ -34,7 +34,7 @@ std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
     const std::string_view text = terrabench::growing::model_text(name);
     seeds.emplace_back(text.begin(), text.end());
   }
-  constexpr std::string_view kSmall = R"(seed = 1
+  constexpr std::string_view kSmall = R"toml(seed = 1
 [constants]
 c = [1, 2, 3]
 d = "2*3"
@@ -74,7 +74,7 @@ bound = 0.5
 displace = [{ along = [0, 1, 0], unit = "metre", amount = "0.1*noise(x, y, z)" }, { along = "tangent", amount = 0.1 }]
 [[step]]
 grow = "all"
-)";
+)toml";
   seeds.emplace_back(kSmall.begin(), kSmall.end());
   return seeds;
 }
