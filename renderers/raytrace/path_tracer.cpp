@@ -18,6 +18,10 @@ namespace {
 // keep a ray that starts there from hitting the triangle itself.
 constexpr float kOffset = 64 * 0x1p-23F;
 
+// Least roughness of what is seen by reflection. Light that a smooth mirror concentrates would be found by
+// few of the paths, as bright specks (Kaplanyan & Dachsbacher 2013).
+constexpr float kIndirectRoughness = 0.6F;
+
 const RayScene& checked(const RayScene& scene, const RaytraceSettings& settings) {
   if (settings.samples < 1 || settings.samples > 65536) {
     throw usage_error(fmt::format("invalid number of samples {}", settings.samples), "ray tracing",
@@ -153,7 +157,8 @@ glm::vec3 PathTracer::radiance(const Ray& from_eye, const RayHit& first, SampleS
   for (int bounce = 0;; ++bounce) {
     const Surface s = surface(ray, hit);
     if (settings_.mode == RaytraceMode::kAmbientOcclusion) return occlusion(s, samples);
-    const RayMaterial made_of = material(s, hit);
+    RayMaterial made_of = material(s, hit);
+    if (bounce > 0) made_of.roughness = std::max(made_of.roughness, kIndirectRoughness);
     light += weight * made_of.emission;
     if (bounce > settings_.bounces) return light;
     const Scattering scattering(made_of, s.facet, s.normal, -ray.direction);

@@ -23,7 +23,7 @@ struct RayMaterial {
   float translucency = 0;  // 0 to 1: the share of diffuse light that leaves on the other side, as of leaves
   float specular = 0;      // 0 to 1: mirrored share straight from the front; 0.04 for paint or wet rock
   float metal = 0;         // 0 to 1: 1 mirrors with the albedo's colour and has no diffuse light
-  float roughness = 0.5F;  // 0 to 1: of the mirroring (GGX, alpha = roughness²)
+  float roughness = 0.5F;  // 0 to 1: of the mirroring (GGX, alpha = roughness²); at least 0.6 in reflections
   glm::vec3 emission{0};   // radiance of its own, as in sky.h
 };
 
