@@ -55,9 +55,9 @@ std::vector<std::string> model_names();
 std::string_view model_text(std::string_view name);  // throws unknown_name
 
 struct ExpandOptions {
-  std::vector<std::string> leave_out;                // names of steps
-  std::size_t most_steps = SIZE_MAX;                 // of the schedule; the rest is left out
-  std::function<void(const GrownMesh&)> after_step;  // also called for the base
+  std::vector<std::string> leave_out{};                // names of steps
+  std::size_t most_steps = SIZE_MAX;                   // of the schedule; the rest is left out
+  std::function<void(const GrownMesh&)> after_step{};  // also called for the base
 };
 
 // Runs the schedule. The same for any number of threads. Throws bad_input as grow() does, and where a
