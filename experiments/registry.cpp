@@ -50,6 +50,9 @@
   ENTRY(mrbsp, kLand)                 \
   ENTRY(mrbsp, kRoughness)            \
   ENTRY(mrbsp, kDrawing)              \
+  ENTRY(meshgrow, kStandard)          \
+  ENTRY(meshgrow, kSpectrum)          \
+  ENTRY(meshgrow, kLimit)             \
   ENTRY(cross, kLodEqualError)        \
   ENTRY(relief, kRelief)              \
   ENTRY(cross, kLodDisk)              \
