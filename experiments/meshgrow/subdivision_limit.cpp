@@ -2,8 +2,8 @@
 // surface is then known exactly, and each further mesh is four times nearer to it.
 //
 // A vertex with n faces moves to its limit by the eigenvalues of one vertex and its ring that belong to
-// rotationally symmetric vectors: the largest below 1 is (4n - 7 + √(5n² - 30n + 49)) / 8n, which is 1/4 for
-// n = 4 alone (Ball and Storry 1988). So extraordinary vertices are recorded apart.
+// rotationally symmetric vectors: the largest below 1 is (3n - 7 + √(5n² - 30n + 49)) / 8n, which is 1/4 for
+// n = 4 alone. So extraordinary vertices are recorded apart.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -58,7 +58,7 @@ Distances distances(const std::vector<glm::dvec3>& points, const std::vector<glm
   return result;
 }
 
-double eigenvalue(double n) { return (4 * n - 7 + std::sqrt(5 * n * n - 30 * n + 49)) / (8 * n); }
+double eigenvalue(double n) { return (3 * n - 7 + std::sqrt(5 * n * n - 30 * n + 49)) / (8 * n); }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   using namespace subdivision;

@@ -37,13 +37,22 @@ glm::vec3 on_circle(double turn, double radius, double height) {
   return {radius * std::cos(angle), height, -radius * std::sin(angle)};  // counter-clockwise from above
 }
 
+// Without the vertices that only the top has.
 FaceMesh without_top(const growing::Primitive& box) {
   const PlainMesh all = plain(box.mesh);
+  std::vector<glm::vec3> points;
   std::vector<std::vector<std::uint32_t>> faces;
+  std::map<std::uint32_t, std::uint32_t> kept;
   for (std::size_t f = 0; f < all.faces.size(); ++f) {
-    if (box.parts[f] != growing::Part::kTop) faces.push_back(all.faces[f]);
+    if (box.parts[f] == growing::Part::kTop) continue;
+    auto& face = faces.emplace_back();
+    for (const std::uint32_t v : all.faces[f]) {
+      const auto [at, added] = kept.try_emplace(v, static_cast<std::uint32_t>(points.size()));
+      if (added) points.push_back(box.mesh.positions[v]);
+      face.push_back(at->second);
+    }
   }
-  return face_mesh(box.mesh.positions, faces);
+  return face_mesh(points, faces);
 }
 
 FaceMesh fan() {

@@ -37,7 +37,7 @@ const std::array kSpecs{
 };
 
 std::vector<Case> cases(const RunOptions& options) {
-  const std::int64_t levels = options.profile == Profile::kPaper ? 9 : 7;
+  const std::int64_t levels = options.profile == Profile::kPaper ? 8 : 7;
   std::vector<Case> cases;
   for (const double power : {0.5, 1.0, 1.5}) {
     cases.push_back({fmt::format("power={}", power), {kSpecs, {{"power", power}, {"levels", levels}}}});
