@@ -50,6 +50,9 @@
   ENTRY(mrbsp, kLand)                 \
   ENTRY(mrbsp, kRoughness)            \
   ENTRY(mrbsp, kDrawing)              \
+  ENTRY(meshgrow, kModels)            \
+  ENTRY(meshgrow, kFork)              \
+  ENTRY(meshgrow, kGrowingFigures)    \
   ENTRY(cross, kLodEqualError)        \
   ENTRY(relief, kRelief)              \
   ENTRY(cross, kLodDisk)              \
