@@ -52,6 +52,7 @@
   ENTRY(mrbsp, kDrawing)              \
   ENTRY(meshgrow, kModels)            \
   ENTRY(meshgrow, kFork)              \
+  ENTRY(meshgrow, kRefinement)        \
   ENTRY(meshgrow, kGrowingFigures)    \
   ENTRY(cross, kLodEqualError)        \
   ENTRY(relief, kRelief)              \

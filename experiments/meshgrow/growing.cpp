@@ -51,7 +51,7 @@ double bytes_of(const FaceMesh& mesh) {
 
 // A vertex in the middle of an edge of one face alone: what the checks must find.
 FaceMesh with_t_vertex(FaceMesh mesh) {
-  const std::size_t face = mesh.faces() / 2;
+  const std::size_t face = mesh.faces() / 3;  // not at the boundary of an open surface
   const std::size_t corner = mesh.first_corner[face];
   const glm::vec3 a = mesh.positions[mesh.corners[corner]], b = mesh.positions[mesh.corners[corner + 1]];
   mesh.corners.insert(mesh.corners.begin() + static_cast<std::ptrdiff_t>(corner) + 1,

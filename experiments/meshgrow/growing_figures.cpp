@@ -67,14 +67,23 @@ std::vector<GrownMesh> stages_of(const Model& model) {
   return stages;
 }
 
-Bounds box_of(const FaceMesh& mesh) {
+// Of the mesh's box, whose corners the mesh does not reach; so nearer than an overview.
+View view_of(const FaceMesh& mesh, int width, int height, const glm::vec3& from) {
   TriangleMesh points;
   points.positions = mesh.positions;
-  return bounds_of(points);
+  View view = overview(bounds_of(points), width, height, from);
+  view.vertical_fov *= 0.84F;
+  return view;
 }
 
 bool grows(const Model& model, const GrownMesh& mesh, std::uint32_t face) {
   return model.system.symbols[mesh.mesh.symbols[face]].grows();
+}
+
+// Whether a face is seen at an angle at which words on it can be read.
+bool faces_eye(const FaceMesh& mesh, std::uint32_t face, const View& view) {
+  const FaceShape shape = face_shape(corners_of(mesh, face), mesh.positions);
+  return glm::dot(shape.frame.z, glm::normalize(glm::dvec3(view.eye) - shape.frame.origin)) > 0.25;
 }
 
 // Faces that grow next are dark.
@@ -86,7 +95,7 @@ Image stage_picture(Drawing& drawing, const Model& model, const GrownMesh& mesh,
 Sheet draw_steps(Drawing& drawing) {
   const Model model = parse_model(kCubesAndTent, "figure 6");
   const std::vector<GrownMesh> stages = stages_of(model);
-  const View view = overview(box_of(stages.back().mesh), 500, 600, {0.75F, 0.7F, 1.0F});
+  const View view = view_of(stages.back().mesh, 500, 560, {0.92F, 0.75F, 0.45F});
   constexpr std::array<std::string_view, 4> kWords{"start: A is replaced by a cube",
                                                    "step 1: B is replaced by a tent",
                                                    "step 2: each C is replaced by a cube", "step 3"};
@@ -102,7 +111,7 @@ Sheet draw_steps(Drawing& drawing) {
     const OverPicture over(stage.mesh, view, corner);
     for (std::uint32_t face = 0; face < stage.mesh.faces(); ++face) {
       const glm::vec3 middle = middle_of(stage.mesh, face);
-      if (!over.visible(middle)) continue;
+      if (!over.visible(middle) || !faces_eye(stage.mesh, face, view)) continue;
       const SheetPoint at = over.at(middle);
       const Rgb ink = grows(model, stage, face) ? Rgb{255, 255, 255} : kInk;
       sheet.text(at.x, at.y + 6, model.system.symbols[stage.mesh.symbols[face]].name, 17, "middle", ink);
@@ -166,8 +175,8 @@ Sheet draw_frame(Drawing& drawing) {
   const std::vector<GrownMesh> stages = stages_of(model);
   const GrownMesh &before = stages[2], &after = stages[3];
   constexpr double kGap = 14, kAxis = 0.62;
-  const glm::vec3 from(1.0F, 0.75F, 0.35F);
-  const View view = overview(box_of(after.mesh), 560, 620, from);
+  const glm::vec3 from(1.0F, 0.6F, 0.05F);
+  const View view = view_of(after.mesh, 560, 620, from);
   const double width = view.width / 2.0, height = view.height / 2.0;
   Sheet sheet(3 * (width + kGap) + kGap, height + kGap + 30);
   const auto words = [&](int column, std::string_view text) {
@@ -186,8 +195,8 @@ Sheet draw_frame(Drawing& drawing) {
   words(0, "a) The face to be expanded, and its frame");
 
   const FaceMesh cube = template_of(before, after, base);
-  View near = overview(box_of(cube), 560, 620, {0.6F, 0.4F, 1.0F});
-  near.vertical_fov *= 1.5F;
+  View near = view_of(cube, 560, 620, {0.6F, 0.4F, 1.0F});
+  near.vertical_fov *= 1.7F;
   sheet.picture(second.x, second.y, width, height,
                 face_picture(drawing.gl(), cube, near, [](std::uint32_t) { return kPlain; }));
   Frame local;  // drawn with z upwards
@@ -207,7 +216,7 @@ Sheet draw_coordinates(Drawing& drawing) {
   const Model model = parse_model(model_text("fork_ridges"), "fork_ridges");
   const Fork fork = find_fork(model, "branch");
   const FaceMesh& mesh = fork.after.mesh;
-  const View view = overview(box_of(mesh), 1100, 1240, {0.45F, 0.35F, 1.0F});
+  const View view = view_of(mesh, 1100, 1240, {0.12F, 0.4F, 1.0F});
   const double width = view.width / 2.0, height = view.height / 2.0;
   constexpr double kGap = 14;
   Sheet sheet(width + 2 * kGap, height + 2 * kGap + 28);
@@ -235,15 +244,20 @@ Sheet draw_coordinates(Drawing& drawing) {
       const auto at = shared(vertex);
       const SheetPoint place = over.at(p);
       if (at == fork.shared.end()) {
-        add_label(sheet, place, fmt::format("{:.2g}", mesh.texture[vertex].x), 13, front ? kInk : kHidden,
-                  11);
-      } else {
-        sheet.dot(place, 4, kRed);
-        add_label(sheet, {place.x, place.y + (front ? 15 : -15)},
-                  fmt::format("u{} = ({:.1f} + {:.1f})/2 = {}", at == fork.shared.begin() ? "₁" : "₂",
-                              at->alone[0], at->alone[1], at->u),
-                  14, kRed, 82);
+        const std::string words = fmt::format("{:.2g}", mesh.texture[vertex].x);
+        add_label(sheet, place, words, 13, front ? kInk : kHidden, words.size() > 1 ? 11 : 6);
+        continue;
       }
+      // Words beside the trunk, on the vertex's side of the other one.
+      const auto& other = fork.shared[at == fork.shared.begin() ? 1 : 0];
+      const bool left = place.x < over.at(mesh.positions[other.vertex]).x;
+      const SheetPoint words{left ? kGap + 72 : kGap + width - 72, place.y + 130};
+      sheet.stroke(place, {words.x, words.y - 10}, kRed, 1);
+      sheet.dot(place, 4, kRed);
+      sheet.text(words.x, words.y + 5,
+                 fmt::format("u{} = ({:.1f} + {:.1f})/2 = {}", at == fork.shared.begin() ? "₁" : "₂",
+                             at->alone[0], at->alone[1], at->u),
+                 14, "middle", kRed);
     }
   }
   sheet.text(kGap + width / 2, height + 2 * kGap + 10, "grey numbers and dashed edges: behind the surface",
@@ -264,7 +278,7 @@ Image traced(const FaceMesh& mesh, bool smooth, const View& view) {
   }
   RayScene scene;
   scene.add_placed(std::move(bark));
-  scene.light.sun = {-0.6F, 0.75F, 0.7F};
+  scene.light.sun = {-0.25F, 0.8F, 1.0F};
   scene.background = glm::vec3(1);
   return raytrace(scene, view, {.samples = 32});
 }
@@ -277,7 +291,7 @@ Sheet draw_trunk(Drawing&) {
   ExpandOptions growth;
   growth.leave_out = {"smooth"};
   const GrownMesh grown = expand(model, growth), smooth = expand(model);
-  const View view = overview(box_of(grown.mesh), kTracedWidth, kTracedHeight, kTrunkFrom);
+  const View view = view_of(grown.mesh, kTracedWidth, kTracedHeight, kTrunkFrom);
   return panel_sheet({{{traced(grown.mesh, false, view), fmt::format("grown: {} faces", grown.mesh.faces())},
                        {traced(smooth.mesh, true, view),
                         fmt::format("smoothed three times: {} faces", smooth.mesh.faces())}}});
@@ -289,7 +303,7 @@ Sheet draw_ridges(Drawing&) {
   for (const auto& [name, words] : {std::pair{"fork_ridges", "ridges along u"},
                                     std::pair{"fork_ridges_random", "with random displacements"}}) {
     const GrownMesh mesh = expand(parse_model(model_text(name), name));
-    if (panels.empty()) view = overview(box_of(mesh.mesh), kTracedWidth, kTracedHeight, kTrunkFrom);
+    if (panels.empty()) view = view_of(mesh.mesh, kTracedWidth, kTracedHeight, kTrunkFrom);
     panels.push_back({traced(mesh.mesh, true, view), words});
   }
   return panel_sheet({panels});
