@@ -54,6 +54,11 @@
   ENTRY(meshgrow, kStandard)           \
   ENTRY(meshgrow, kSpectrum)           \
   ENTRY(meshgrow, kLimit)              \
+  ENTRY(meshgrow, kModels)             \
+  ENTRY(meshgrow, kFork)               \
+  ENTRY(meshgrow, kRefinement)         \
+  ENTRY(meshgrow, kGrowingFigures)     \
+  ENTRY(meshgrow, kLod)                \
   ENTRY(cross, kLodEqualError)         \
   ENTRY(relief, kRelief)               \
   ENTRY(cross, kLodDisk)               \
