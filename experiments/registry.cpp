@@ -50,6 +50,8 @@
   ENTRY(mrbsp, kLand)                 \
   ENTRY(mrbsp, kRoughness)            \
   ENTRY(mrbsp, kDrawing)              \
+  ENTRY(meshgrow, kModels)            \
+  ENTRY(meshgrow, kLod)               \
   ENTRY(cross, kLodEqualError)        \
   ENTRY(relief, kRelief)              \
   ENTRY(cross, kLodDisk)              \
