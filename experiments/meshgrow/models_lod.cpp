@@ -30,9 +30,6 @@ constexpr std::array kLevels{
     Level{"fork/full", "fork_ridges_random", ""},
     Level{"fork/no-ridges", "fork_ridges_random", "ridges"},
     Level{"fork/grown", "fork_ridges_random", "ridges,smooth"},
-    Level{"candle-holder/full", "candle_holder", ""},
-    Level{"candle-holder/no-rust", "candle_holder", "rust"},
-    Level{"candle-holder/grown", "candle_holder", "rust,smooth"},
 };
 
 const std::array kSpecs{
@@ -50,8 +47,8 @@ std::vector<Case> cases(const RunOptions& options) {
     added.parameters.set("model", std::string(level.model));
     added.parameters.set("left_out", std::string(level.left_out));
     if (options.profile == Profile::kPaper) continue;
-    added.parameters.set("height", std::int64_t{192});
-    added.parameters.set("samples", std::int64_t{32});
+    added.parameters.set("height", std::int64_t{160});
+    added.parameters.set("samples", std::int64_t{24});
   }
   return cases;
 }
