@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,12 @@ struct RepresentArguments {
   std::vector<int> crop;      // i, j, width, depth
   std::vector<int> resample;  // width, depth
   bool fill = false;          // fill no-data holes
+  struct Stroke {
+    bool dig;            // otherwise adds bedrock
+    std::string sphere;  // "X,Y,Z,RADIUS", metres
+  };
+  std::vector<Stroke> strokes;  // edits of what was built, in order
+  std::optional<double> erode;  // then thermal erosion to this talus angle, degrees
   int view_width = 1600, view_height = 1000;
   std::string renderer = "osmesa";
   std::uint64_t seed = 1;
