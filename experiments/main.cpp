@@ -176,6 +176,26 @@ void add_represent(CLI::App& app, Arguments& a) {
       ->expected(4);
   command->add_option("--resample", a.represent.resample, "New width and depth in samples")->expected(2);
   command->add_flag("--fill", a.represent.fill, "Fill samples without data from the samples around them");
+  // Called at each occurrence, so that --dig and --add keep their common order.
+  const auto stroke = [&](const char* option, bool dig, const char* help) {
+    command
+        ->add_option_function<std::string>(
+            option,
+            [&a, dig](const std::string& sphere) {
+              a.represent.strokes.push_back({dig, sphere});
+            },
+            help)
+        ->type_name("X,Y,Z,RADIUS")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
+        ->trigger_on_parse();
+  };
+  stroke("--dig", true, "Dig a sphere (metres, Y up) out of what was built; may be repeated");
+  stroke("--add", false, "Add a sphere of bedrock; may be repeated, in order with --dig");
+  command
+      ->add_option("--erode", a.represent.erode,
+                   "After --dig and --add, let material slide until no slope exceeds this talus angle "
+                   "(layered_stack and implicit)")
+      ->type_name("DEGREES");
   add_renderer(*command, a.represent.renderer, true);
   command
       ->add_option("--samples", a.represent.samples,

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,12 @@ struct RepresentArguments {
   std::vector<int> crop;      // i, j, width, depth
   std::vector<int> resample;  // width, depth
   bool fill = false;          // fill no-data holes
+  struct Stroke {
+    bool dig;            // otherwise adds bedrock
+    std::string sphere;  // "X,Y,Z,RADIUS", metres
+  };
+  std::vector<Stroke> strokes;  // edits of what was built, in order
+  std::optional<double> erode;  // then thermal erosion to this talus angle, degrees
   int view_width = 1600, view_height = 1000;
   std::string renderer = "osmesa";  // or kRaytrace
   int samples = 64;                 // per pixel, of ray tracing
