@@ -58,6 +58,7 @@
   ENTRY(meshgrow, kFork)               \
   ENTRY(meshgrow, kRefinement)         \
   ENTRY(meshgrow, kGrowingFigures)     \
+  ENTRY(meshgrow, kModelFigures)       \
   ENTRY(meshgrow, kLod)                \
   ENTRY(cross, kLodEqualError)         \
   ENTRY(relief, kRelief)               \

@@ -164,7 +164,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kModels{"meshgrow.models", "§7: the models, ray traced (figures 11 to 16)", kSpecs,
-                                cases, measure};
+extern const Experiment kModelFigures{
+    "meshgrow.model-figures", "§7: the models, ray traced (figures 11 to 16)", kSpecs, cases, measure};
 
 }  // namespace terrabench::meshgrow
