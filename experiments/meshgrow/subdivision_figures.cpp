@@ -175,13 +175,13 @@ Sheet draw_frame(Drawing& drawing) {
   const FaceMesh mesh = hill(9);
   const LocalSurface surface =
       local_surface(make_topology(mesh), mesh.positions, mesh.texture, FrameRule{}, true);
-  const std::uint32_t v = nearest(mesh, {0.6F, 0.9F, 0.7F});
+  const std::uint32_t v = nearest(mesh, {0.5F, 0.9F, 0.1F});
   const glm::vec3 p = mesh.positions[v], n = surface.normals[v], t = surface.tangents[v],
                   b = glm::cross(n, t);
   const Drawn hill_mesh = drawn(mesh);
   Scene scene;
   scene.meshes.push_back(lit(hill_mesh, 1.4F));
-  const View view = overview({{-1.6F, 0, -1.4F}, {1.8F, 1.6F, 1.9F}}, 1200, 860, {0.5F, 0.75F, 1.0F});
+  const View view = overview({{-2, 0, -2}, {2, 1.6F, 2}}, 1200, 860, {1.0F, 0.7F, 0.3F});
   const float s = 1.6F * surface.scales[v];
   const glm::vec3 foot = p + 0.02F * n;
   const std::array<std::tuple<glm::vec3, Rgb, std::string_view>, 3> axes{
