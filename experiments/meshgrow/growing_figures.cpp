@@ -67,13 +67,11 @@ std::vector<GrownMesh> stages_of(const Model& model) {
   return stages;
 }
 
-// Of the mesh's box, whose corners the mesh does not reach; so nearer than an overview.
+// Of the mesh's whole box.
 View view_of(const FaceMesh& mesh, int width, int height, const glm::vec3& from) {
   TriangleMesh points;
   points.positions = mesh.positions;
-  View view = overview(bounds_of(points), width, height, from);
-  view.vertical_fov *= 0.84F;
-  return view;
+  return overview(bounds_of(points), width, height, from);
 }
 
 bool grows(const Model& model, const GrownMesh& mesh, std::uint32_t face) {
@@ -83,7 +81,7 @@ bool grows(const Model& model, const GrownMesh& mesh, std::uint32_t face) {
 // Whether a face is seen at an angle at which words on it can be read.
 bool faces_eye(const FaceMesh& mesh, std::uint32_t face, const View& view) {
   const FaceShape shape = face_shape(corners_of(mesh, face), mesh.positions);
-  return glm::dot(shape.frame.z, glm::normalize(glm::dvec3(view.eye) - shape.frame.origin)) > 0.25;
+  return glm::dot(shape.frame.z, glm::normalize(glm::dvec3(view.eye) - shape.frame.origin)) > 0.12;
 }
 
 // Faces that grow next are dark.
@@ -175,7 +173,7 @@ Sheet draw_frame(Drawing& drawing) {
   const std::vector<GrownMesh> stages = stages_of(model);
   const GrownMesh &before = stages[2], &after = stages[3];
   constexpr double kGap = 14, kAxis = 0.62;
-  const glm::vec3 from(1.0F, 0.6F, 0.05F);
+  const glm::vec3 from(1.0F, 0.75F, 0.35F);
   const View view = view_of(after.mesh, 560, 620, from);
   const double width = view.width / 2.0, height = view.height / 2.0;
   Sheet sheet(3 * (width + kGap) + kGap, height + kGap + 30);
@@ -196,7 +194,7 @@ Sheet draw_frame(Drawing& drawing) {
 
   const FaceMesh cube = template_of(before, after, base);
   View near = view_of(cube, 560, 620, {0.6F, 0.4F, 1.0F});
-  near.vertical_fov *= 1.7F;
+  near.vertical_fov *= 1.5F;
   sheet.picture(second.x, second.y, width, height,
                 face_picture(drawing.gl(), cube, near, [](std::uint32_t) { return kPlain; }));
   Frame local;  // drawn with z upwards
@@ -251,7 +249,7 @@ Sheet draw_coordinates(Drawing& drawing) {
       // Words beside the trunk, on the vertex's side of the other one.
       const auto& other = fork.shared[at == fork.shared.begin() ? 1 : 0];
       const bool left = place.x < over.at(mesh.positions[other.vertex]).x;
-      const SheetPoint words{left ? kGap + 72 : kGap + width - 72, place.y + 130};
+      const SheetPoint words{left ? kGap + 92 : kGap + width - 92, place.y + 130};
       sheet.stroke(place, {words.x, words.y - 10}, kRed, 1);
       sheet.dot(place, 4, kRed);
       sheet.text(words.x, words.y + 5,
