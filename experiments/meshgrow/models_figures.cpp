@@ -66,7 +66,7 @@ constexpr std::array kFigures{
                 "bush_tupelo",
                 "a branch with dense foliage",
                 {0.4F, 0.38F, 1.0F},
-                0.95F,
+                0.78F,
                 {0.42F, 0.44F, 0.34F},
                 false},
     ModelFigure{"F16",
