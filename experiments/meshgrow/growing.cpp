@@ -51,7 +51,15 @@ double bytes_of(const FaceMesh& mesh) {
 
 // A vertex in the middle of an edge of one face alone: what the checks must find.
 FaceMesh with_t_vertex(FaceMesh mesh) {
-  const std::size_t face = mesh.faces() / 3;  // not at the boundary of an open surface
+  // Not at the boundary of an open surface, and not in an edge that is shorter than the check's tolerance.
+  const auto length = [&](std::size_t f) {
+    const std::uint32_t* const corners = &mesh.corners[mesh.first_corner[f]];
+    return glm::distance(mesh.positions[corners[0]], mesh.positions[corners[1]]);
+  };
+  std::size_t face = mesh.faces() / 3;
+  for (std::size_t f = face; f < 2 * mesh.faces() / 3; ++f) {
+    if (length(f) > 2 * length(face)) face = f;
+  }
   const std::size_t corner = mesh.first_corner[face];
   const glm::vec3 a = mesh.positions[mesh.corners[corner]], b = mesh.positions[mesh.corners[corner + 1]];
   mesh.corners.insert(mesh.corners.begin() + static_cast<std::ptrdiff_t>(corner) + 1,

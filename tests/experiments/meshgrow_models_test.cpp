@@ -13,7 +13,7 @@
 namespace terrabench::meshgrow {
 namespace {
 
-TEST(MeshgrowModels, PolygonsKeepTheirEdgesAsWires) {
+TEST(MeshgrowModelFigures, PolygonsKeepTheirEdgesAsWires) {
   FaceMesh faces;  // a kite, whose diagonal from corner 1 to 3 is the shorter one, and a triangle
   faces.positions = {{0, 0, 0}, {2, 0, 1}, {6, 0, 0}, {2, 0, -1}, {7, 0, -3}};
   faces.first_corner = {0, 4, 7};
@@ -26,7 +26,7 @@ TEST(MeshgrowModels, PolygonsKeepTheirEdgesAsWires) {
   for (const glm::vec3& normal : mesh.mesh.normals) EXPECT_NEAR(glm::length(normal), 1, 1e-5F);
 }
 
-TEST(MeshgrowModels, LeavingOutTheSpikesRemovesThemAlone) {
+TEST(MeshgrowModelFigures, LeavingOutTheSpikesRemovesThemAlone) {
   const growing::Model model = growing::parse_model(growing::model_text("cactus"), "cactus");
   const auto symbols = [&](const growing::ExpandOptions& options) {
     std::multiset<std::string> names;
@@ -42,7 +42,7 @@ TEST(MeshgrowModels, LeavingOutTheSpikesRemovesThemAlone) {
   EXPECT_GT(symbols(without).count("skin"), 1000U);
 }
 
-TEST(MeshgrowModels, EveryLevelLeavesOutStepsOfAPaintedModel) {
+TEST(MeshgrowModelFigures, EveryLevelLeavesOutStepsOfAPaintedModel) {
   for (const Case& at : experiment("meshgrow.lod").cases({})) {
     const std::string name = at.parameters.text("model");
     EXPECT_EQ(painted(name).model, name);
