@@ -31,7 +31,8 @@ constexpr const char* kFooter =
     "130 interrupted, 141 the reader of the output closed the pipe.\n"
     "Examples:\n"
     "  terrabench run 'hybrid.*' --profile quick --out out && terrabench check out && terrabench report out\n"
-    "  terrabench represent mountain.tif --as layered_stack --save mountain.tb --render mountain.png";
+    "  terrabench represent mountain.tif --as layered_stack --save mountain.tb --render mountain.png\n"
+    "  terrabench represent caves --as implicit --render caves.png --renderer raytrace --samples 128";
 
 void on_signal(int) {
   // A second signal ends the process at once: the work may not check for the first.
@@ -62,13 +63,17 @@ struct Arguments {
   int threads = 0;
 };
 
-void add_renderer(CLI::App& command, std::string& renderer) {
-  const auto names = context_names();
-  command
-      .add_option(
-          "--renderer", renderer,
-          "OpenGL context: osmesa (software), egl (the first GPU, otherwise software), glfw (a hidden "
-          "window on an X display), auto (egl if there is a GPU, otherwise osmesa)")
+// `raytrace`: whether the command also takes the renderer that traces rays.
+void add_renderer(CLI::App& command, std::string& renderer, bool raytrace = false) {
+  std::vector<std::string_view> names(context_names().begin(), context_names().end());
+  std::string help =
+      "OpenGL context: osmesa (software), egl (the first GPU, otherwise software), glfw (a hidden "
+      "window on an X display), auto (egl if there is a GPU, otherwise osmesa)";
+  if (raytrace) {
+    names.push_back(kRaytrace);
+    help += "; or raytrace (Embree: sun, sky and soft shadows, no OpenGL)";
+  }
+  command.add_option("--renderer", renderer, help)
       ->check(CLI::Validator(
           [names](const std::string& value) {
             const bool known = std::find(names.begin(), names.end(), value) != names.end();
@@ -164,14 +169,39 @@ void add_represent(CLI::App& app, Arguments& a) {
   budget("--max-rmse", "max_rmse",
          "For drill: choose the parameters so that the RMSE is at most this many metres");
   command->add_option("--save", a.represent.save, "Write the representation to this file");
-  command->add_option("--render", a.represent.render, "Write a shaded relief to this PNG");
+  command->add_option("--render", a.represent.render, "Write a shaded or ray-traced relief to this PNG");
   command->add_option("--write-flow", a.represent.write_flow,
                       "Write flow accumulation to this GeoTIFF, and directions beside it");
   command->add_option("--crop", a.represent.crop, "Part to use, in samples: column, row, width, depth")
       ->expected(4);
   command->add_option("--resample", a.represent.resample, "New width and depth in samples")->expected(2);
   command->add_flag("--fill", a.represent.fill, "Fill samples without data from the samples around them");
-  add_renderer(*command, a.represent.renderer);
+  // Called at each occurrence, so that --dig and --add keep their common order.
+  const auto stroke = [&](const char* option, bool dig, const char* help) {
+    command
+        ->add_option_function<std::string>(
+            option,
+            [&a, dig](const std::string& sphere) {
+              a.represent.strokes.push_back({dig, sphere});
+            },
+            help)
+        ->type_name("X,Y,Z,RADIUS")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
+        ->trigger_on_parse();
+  };
+  stroke("--dig", true, "Dig a sphere (metres, Y up) out of what was built; may be repeated");
+  stroke("--add", false, "Add a sphere of bedrock; may be repeated, in order with --dig");
+  command
+      ->add_option("--erode", a.represent.erode,
+                   "After --dig and --add, let material slide until no slope exceeds this talus angle "
+                   "(layered_stack and implicit)")
+      ->type_name("DEGREES");
+  add_renderer(*command, a.represent.renderer, true);
+  command
+      ->add_option("--samples", a.represent.samples,
+                   "For --renderer raytrace: samples per pixel; noise halves with four times as many")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
   command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
       ->check(CLI::Range(1, 4096));
   command->add_option("--seed", a.represent.seed, "Seed of procedural terrains")->capture_default_str();

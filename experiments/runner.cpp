@@ -8,6 +8,7 @@
 
 #include "experiments/stopwatch.h"
 #include "renderers/context.h"
+#include "renderers/raytrace/ray_index.h"
 #include "results/glob.h"
 #include "results/provenance.h"
 #include "results/store.h"
@@ -105,7 +106,7 @@ void run(const RunPlan& plan) {
                                                     .gl_renderer = renderer_name(plan.options.renderer),
                                                     .simd = std::string(noise::simd_name()),
                                                     .threads = plan.threads,
-                                                    .libraries = {}});
+                                                    .libraries = {{"Embree", RayIndex::embree_version()}}});
   for (const std::string& warning : provenance.timing_warnings) fmt::print(stderr, "warning: {}\n", warning);
   store.begin_run(provenance);
   const bool terminal = isatty(STDERR_FILENO) != 0;

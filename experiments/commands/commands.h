@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "terrain/error.h"
@@ -17,6 +19,9 @@ struct ListArguments {
 };
 ExitCode list_command(const ListArguments&);
 
+// The renderer that traces rays instead of opening an OpenGL context.
+inline constexpr std::string_view kRaytrace = "raytrace";
+
 struct RepresentArguments {
   std::string terrain, as;
   std::vector<std::string> assignments;
@@ -25,8 +30,15 @@ struct RepresentArguments {
   std::vector<int> crop;      // i, j, width, depth
   std::vector<int> resample;  // width, depth
   bool fill = false;          // fill no-data holes
+  struct Stroke {
+    bool dig;            // otherwise adds bedrock
+    std::string sphere;  // "X,Y,Z,RADIUS", metres
+  };
+  std::vector<Stroke> strokes;  // edits of what was built, in order
+  std::optional<double> erode;  // then thermal erosion to this talus angle, degrees
   int view_width = 1600, view_height = 1000;
-  std::string renderer = "osmesa";
+  std::string renderer = "osmesa";  // or kRaytrace
+  int samples = 64;                 // per pixel, of ray tracing
   std::uint64_t seed = 1;
 };
 ExitCode represent_command(const RepresentArguments&);

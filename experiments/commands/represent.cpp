@@ -1,12 +1,21 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
+#include <charconv>
+#include <cmath>
+
 #include "experiments/commands/commands.h"
 #include "experiments/fidelity.h"
 #include "experiments/stopwatch.h"
+#include "renderers/raytrace/raytraced_picture.h"
+#include "renderers/raytrace/relief_scene.h"
 #include "renderers/relief.h"
 #include "representations/drill/drill_codec.h"
 #include "representations/drill/drill_terrain.h"
+#include "representations/edit_tools.h"
+#include "representations/implicit/implicit_surface.h"
+#include "representations/layered_stack/thermal_erosion.h"
 #include "representations/representation.h"
 #include "results/format.h"
 #include "terrain/hydrology/channels.h"
@@ -60,9 +69,17 @@ void print_fidelity(const Fidelity& fidelity) {
   fmt::print("\n");
 }
 
-void draw(const RepresentArguments& a, const Representation& built, Bounds bounds) {
+void draw(const RepresentArguments& a, const Representation& built, Bounds bounds, Progress& progress) {
   const TriangleMesh mesh = built.mesh({});
   const View view = overview(bounds_of(mesh), a.view_width, a.view_height);
+  if (a.renderer == kRaytrace) {
+    const RayScene scene = relief_scene(mesh, bounds.low.y, bounds.high.y);
+    const Stopwatch watch;
+    write_png(a.render, raytrace(scene, view, {.samples = a.samples}, {}, &progress));
+    fmt::print("rendered    {} ({} triangles, Embree {}, {} samples per pixel in {:.3g} s)\n", a.render,
+               mesh.triangles(), RayIndex::embree_version(), a.samples, watch.seconds());
+    return;
+  }
   const auto context = open_context(a.renderer, view.width, view.height);
   write_png(a.render,
             render_relief(*context, mesh, view, {.lowest = bounds.low.y, .highest = bounds.high.y}));
@@ -96,6 +113,62 @@ void write_flow(const std::filesystem::path& path, const TerrainSource& source, 
   fmt::print("flow        {}, directions {}\n", path.string(), directions.string());
 }
 
+Sphere parse_sphere(const RepresentArguments::Stroke& stroke) {
+  std::array<float, 4> numbers{};
+  const std::string& text = stroke.sphere;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  bool good = true;
+  for (std::size_t n = 0; n < numbers.size() && good; ++n) {
+    if (n > 0) good = at != end && *at++ == ',';
+    const auto [rest, error] = std::from_chars(at, end, numbers[n]);
+    good = good && error == std::errc() && std::isfinite(numbers[n]);
+    at = rest;
+  }
+  if (!good || at != end || !(numbers[3] > 0)) {
+    throw usage_error(fmt::format("invalid sphere '{}'", text), stroke.dig ? "--dig" : "--add",
+                      "give X,Y,Z,RADIUS in metres without spaces, such as 120,35.5,80,12: finite numbers "
+                      "and a radius above 0");
+  }
+  return {{numbers[0], numbers[1], numbers[2]}, numbers[3]};
+}
+
+// Before work that may take minutes.
+std::vector<Sphere> check_edits(const RepresentArguments& a, const RepresentationType& type) {
+  std::vector<Sphere> spheres;
+  for (const auto& stroke : a.strokes) spheres.push_back(parse_sphere(stroke));
+  if (!spheres.empty() && !type.traits.editable) {
+    throw usage_error(fmt::format("'{}' cannot be edited", type.name), a.strokes[0].dig ? "--dig" : "--add",
+                      "`terrabench list representations` names those that can");
+  }
+  if (a.erode && type.name != "layered_stack" && type.name != "implicit") {
+    throw usage_error(fmt::format("'{}' cannot be eroded", type.name), "--erode",
+                      "choose --as layered_stack or implicit");
+  }
+  if (a.erode && !(*a.erode >= 0 && *a.erode < 90)) {
+    throw usage_error(fmt::format("a talus angle of {} degrees", *a.erode), "--erode",
+                      "choose an angle from 0 to below 90; sand rests at about 35");
+  }
+  return spheres;
+}
+
+void edit(const RepresentArguments& a, std::span<const Sphere> spheres, Representation& built,
+          Progress& progress) {
+  for (std::size_t s = 0; s < spheres.size(); ++s) {
+    const bool dig = a.strokes[s].dig;
+    const std::size_t columns = fill_sphere(built, spheres[s], dig ? Material::kAir : Material::kBedrock);
+    fmt::print("{}       {}: {} columns{}\n", dig ? "dug  " : "added", a.strokes[s].sphere, columns,
+               columns == 0 ? "; the sphere lies between all columns: make it larger" : "");
+  }
+  if (!a.erode) return;
+  const auto* const surface = dynamic_cast<const ImplicitSurface*>(&built);
+  const LayeredStack& stack = surface ? surface->stack() : dynamic_cast<const LayeredStack&>(built);
+  const ThermalErosion erosion = erode_thermally(stack, built, {.talus = *a.erode}, progress);
+  progress.end();
+  fmt::print("eroded      to {} degrees in {} steps, {} columns changed{}\n", *a.erode, erosion.steps,
+             erosion.columns, erosion.settled ? "" : "; material would still move");
+}
+
 }  // namespace
 
 ExitCode represent_command(const RepresentArguments& a) {
@@ -104,6 +177,7 @@ ExitCode represent_command(const RepresentArguments& a) {
   for (const std::string& assignment : split_assignments(a.assignments, type.parameters)) {
     parameters.set_from_text(assignment);
   }
+  const std::vector<Sphere> spheres = check_edits(a, type);
   Progress progress(isatty(STDERR_FILENO) != 0 ? Progress::Output::kTerminal : Progress::Output::kLines);
 
   const TerrainSource source = names_dem_file(a.terrain) ? open_file(a, progress) : open_named(a);
@@ -117,14 +191,15 @@ ExitCode represent_command(const RepresentArguments& a) {
   const Fidelity fidelity = measure_fidelity(*built, source, progress);
   progress.end();
 
-  const Memory memory = built->memory();
   fmt::print("terrain     {}, checksum {}\n", source.name, source.checksum);
   for (const std::string& note : source.notes) fmt::print("note        {}\n", note);
   fmt::print("built as    {} in {:.3g} s\n", type.name, seconds);
+  print_fidelity(fidelity);
+  edit(a, spheres, *built, progress);
+  const Memory memory = built->memory();
   fmt::print("memory      {} (payload {}, index {}, slack {})\n",
              format_quantity(static_cast<double>(memory.total()), "B"), memory.payload, memory.index,
              memory.slack);
-  print_fidelity(fidelity);
   if (const auto* const drills = dynamic_cast<const DrillTerrain*>(built.get())) {
     print_drills(*drills, parameters);
   }
@@ -133,7 +208,7 @@ ExitCode represent_command(const RepresentArguments& a) {
     fmt::print("saved       {} ({})\n", a.save, format_quantity(static_cast<double>(bytes), "B"));
   }
   if (!a.write_flow.empty()) write_flow(a.write_flow, source, progress);
-  if (!a.render.empty()) draw(a, *built, source.bounds());
+  if (!a.render.empty()) draw(a, *built, source.bounds(), progress);
   fmt::print("allocator   {} freed\n",
              format_quantity(static_cast<double>(destroy_and_count(std::move(built))), "B"));
   return ExitCode::kGood;

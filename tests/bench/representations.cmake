@@ -8,3 +8,7 @@ if(TARGET VTK::FiltersCore)
   target_link_libraries(implicit_bench PRIVATE VTK::CommonCore VTK::CommonDataModel VTK::FiltersCore)
   target_compile_definitions(implicit_bench PRIVATE TERRABENCH_FLYING_EDGES)
 endif()
+# The peers of refinement. OpenSubdiv is in Debian without its TBB evaluator; its OpenMP one uses all threads.
+find_library(OPENSUBDIV_LIBRARY osdCPU REQUIRED)
+terrabench_benchmark(subdivision_bench SOURCES subdivision_bench.cpp
+                     LIBRARIES representations TBB::tbb ${OPENSUBDIV_LIBRARY} OpenMeshCore)

@@ -1,6 +1,7 @@
 // --renderer, as a user gives it.
 #include <gmock/gmock.h>
 
+#include "terrain/image.h"
 #include "tests/experiments/command_line.h"
 
 namespace terrabench {
@@ -23,6 +24,26 @@ TEST_F(RendererOption, DrawsWithTheContextNamed) {
     EXPECT_THAT(outcome.text, HasSubstr("OpenGL 4.")) << name;
     EXPECT_TRUE(std::filesystem::exists(folder_ / "out.png")) << name;
   }
+}
+
+TEST_F(RendererOption, TracesRaysWithAsManySamplesAsAsked) {
+  const std::string trace = "$T represent jacksboro --as heightmap --resample 32 32 --renderer raytrace ";
+  const Outcome outcome = call(trace + "--render out.png --samples 2");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("Embree 3."));
+  EXPECT_THAT(outcome.text, HasSubstr("2 samples per pixel"));
+  const Image picture = read_png(folder_ / "out.png");
+  EXPECT_EQ(picture.pixel(0, 0), (Rgb{255, 255, 255}));
+  EXPECT_NE(picture.pixel(picture.width / 2, picture.height / 2), (Rgb{255, 255, 255}));
+  EXPECT_EQ(call(trace + "--render out.png --samples 0").code, 2);
+  EXPECT_EQ(call("$T run hybrid.noise-stages --renderer raytrace --out out").code, 2);
+}
+
+TEST_F(RendererOption, NamesTheRayTracerInTheProvenance) {
+  const Outcome outcome = call(
+      "$T run hybrid.noise-stages --shard 1/11 --set pixels=16 --out out && "
+      "grep -c 'Embree.*3\\.' out/measurements.jsonl");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
 }
 
 TEST_F(RendererOption, SuggestsTheNearestName) {

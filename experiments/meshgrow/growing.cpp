@@ -1,0 +1,159 @@
+// §4, §6 and §7 of "meshgrow": whether every mesh on the way is well formed, bytes of the models and of their
+// meshes, time of the expansion; and the texture coordinates at a fork (§5, figure 9).
+#include <fmt/format.h>
+
+#include <array>
+
+#include "experiments/cases.h"
+#include "experiments/experiment.h"
+#include "experiments/meshgrow/growing_steps.h"
+#include "experiments/stopwatch.h"
+#include "representations/procedural_mesh/mesh_checks.h"
+
+namespace terrabench::meshgrow {
+namespace {
+
+using namespace growing;
+
+struct Drawn {
+  std::string_view name;
+  bool open = false;  // whether the surface is meant to have a boundary
+};
+constexpr auto kDrawn = std::to_array<Drawn>({{"fractal_plane", true},
+                                              {"fractal_sphere"},
+                                              {"forking_trunk"},
+                                              {"fork_ridges"},
+                                              {"fork_ridges_random"},
+                                              {"chair"},
+                                              {"cactus"},
+                                              {"cactus_smooth"},
+                                              {"branch_aspen"},
+                                              {"bush_tupelo"},
+                                              {"candle_holder"}});
+constexpr std::array kNames = names_of(kDrawn);
+const std::array kSpecs{choice("model", kNames, "model of the paper"),
+                        ParameterSpec{"runs", std::int64_t{5}, "", "expansions that are timed", 1, 1000}};
+
+std::vector<Case> cases(const RunOptions& options) {
+  return cases_by("model", kSpecs, {{"runs", std::int64_t{options.profile == Profile::kPaper ? 15 : 5}}});
+}
+
+Model read_model(const Case& at) {
+  const std::string& name = at.parameters.text("model");
+  return parse_model(model_text(name), name);
+}
+
+double bytes_of(const FaceMesh& mesh) {
+  return static_cast<double>(mesh.positions.size() * sizeof(glm::vec3) +
+                             mesh.texture.size() * sizeof(glm::vec2) +
+                             (mesh.corners.size() + mesh.first_corner.size()) * sizeof(std::uint32_t));
+}
+
+// A vertex in the middle of an edge of one face alone: what the checks must find.
+FaceMesh with_t_vertex(FaceMesh mesh) {
+  // Not at the boundary of an open surface, and not in an edge that is shorter than the check's tolerance.
+  const auto length = [&](std::size_t f) {
+    const std::uint32_t* const corners = &mesh.corners[mesh.first_corner[f]];
+    return glm::distance(mesh.positions[corners[0]], mesh.positions[corners[1]]);
+  };
+  std::size_t face = mesh.faces() / 3;
+  for (std::size_t f = face; f < 2 * mesh.faces() / 3; ++f) {
+    if (length(f) > 2 * length(face)) face = f;
+  }
+  const std::size_t corner = mesh.first_corner[face];
+  const glm::vec3 a = mesh.positions[mesh.corners[corner]], b = mesh.positions[mesh.corners[corner + 1]];
+  mesh.corners.insert(mesh.corners.begin() + static_cast<std::ptrdiff_t>(corner) + 1,
+                      static_cast<std::uint32_t>(mesh.positions.size()));
+  mesh.positions.push_back(0.5F * (a + b));
+  if (!mesh.texture.empty()) mesh.texture.emplace_back(0);
+  for (std::size_t f = face + 1; f < mesh.first_corner.size(); ++f) ++mesh.first_corner[f];
+  return mesh;
+}
+
+// Checks every mesh on the way. An open surface keeps the boundary of its base, each of whose edges a
+// subdivision divides into two.
+void measure_faults(const Model& model, bool open, const GrownMesh& whole, Recorder& recorder) {
+  std::array<std::size_t, static_cast<std::size_t>(MeshFault::kCount)> counts{};
+  std::size_t steps = 0, meant = 0, checked = 0;
+  const GrownMesh last = expand_in_steps(model, [&](const GrownMesh&, const GrownMesh& after, int levels) {
+    MeshReport report = check_mesh(after.mesh, {.boundary_meant = open});
+    if (steps == 0) meant = report.boundary_edges;
+    const std::size_t expected = open ? meant << static_cast<unsigned>(levels) : 0;
+    if (open && report.boundary_edges != expected)
+      ++counts[static_cast<std::size_t>(MeshFault::kUnmeantBoundary)];
+    for (std::size_t k = 0; k < counts.size(); ++k) counts[k] += report.counts[k];
+    ++steps;
+    checked += after.mesh.faces();
+  });
+  std::size_t all = 0;
+  for (std::size_t k = 0; k < counts.size(); ++k) all += counts[k];
+  const auto count = [&](MeshFault fault) {
+    return static_cast<double>(counts[static_cast<std::size_t>(fault)]);
+  };
+  recorder.add("meshes_checked", "", static_cast<double>(steps));
+  recorder.add("faces_checked", "", static_cast<double>(checked));
+  recorder.add("faults", "", static_cast<double>(all));
+  recorder.add("t_vertices", "", count(MeshFault::kTVertex));
+  recorder.add("degenerate_faces", "",
+               count(MeshFault::kFewCorners) + count(MeshFault::kRepeatedVertex) +
+                   count(MeshFault::kZeroArea) + count(MeshFault::kZeroEdge) + count(MeshFault::kNotFinite));
+  recorder.add(
+      "non_manifold", "",
+      count(MeshFault::kManyFaces) + count(MeshFault::kDirectedTwice) + count(MeshFault::kSeveralFans));
+  recorder.add("unmeant_boundaries", "", count(MeshFault::kUnmeantBoundary));
+  recorder.add("meant_boundary_edges", "", static_cast<double>(meant));
+  // Whether the meshes that were checked are those that the expansion makes.
+  const bool same = last.mesh.positions == whole.mesh.positions && last.mesh.corners == whole.mesh.corners &&
+                    last.mesh.texture == whole.mesh.texture;
+  recorder.add("differs_from_expansion", "", same ? 0 : 1);
+  const MeshReport damaged = check_mesh(with_t_vertex(last.mesh), {.boundary_meant = open});
+  recorder.add("t_vertices_when_damaged", "", static_cast<double>(damaged[MeshFault::kTVertex]));
+}
+
+void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress&) {
+  GrownMesh whole;
+  double best = std::numeric_limits<double>::infinity();
+  for (int run = 0; run < at.integer("runs"); ++run) {
+    const double time = seconds([&] { whole = expand(read_model(at)); });  // with reading its text
+    recorder.add("time", "s", time);
+    best = std::min(best, time);
+  }
+  const Model model = read_model(at);
+  recorder.add("best_time", "s", best);
+  recorder.add("faces", "", static_cast<double>(whole.mesh.faces()));
+  recorder.add("faces_per_second", "1/s", static_cast<double>(whole.mesh.faces()) / best);
+  // A polygon of n corners is n - 2 triangles.
+  const auto triangles = static_cast<double>(whole.mesh.corners.size() - 2 * whole.mesh.faces());
+  recorder.add("triangles", "", triangles);
+  recorder.add("triangles_per_second", "1/s", triangles / best);
+  recorder.add("model_bytes", "B", static_cast<double>(model.bytes));
+  recorder.add("mesh_bytes", "B", bytes_of(whole.mesh));
+  recorder.add("bytes_ratio", "", bytes_of(whole.mesh) / static_cast<double>(model.bytes));
+  measure_faults(model, kDrawn[at.parameters.choice("model")].open, whole, recorder);
+}
+
+constexpr std::array<std::string_view, 3> kForks{"fork_ridges", "fork_ridges_random", "forking_trunk"};
+const std::array kForkSpecs{choice("model", kForks, "a model whose trunk forks")};
+std::vector<Case> fork_cases(const RunOptions&) { return cases_by("model", kForkSpecs); }
+
+void measure_fork(const Case& at, const RunOptions&, Recorder& recorder, Progress&) {
+  const Fork fork = find_fork(read_model(at), "branch");
+  recorder.add("branches", "", static_cast<double>(fork.faces.size()));
+  recorder.add("shared_vertices", "", static_cast<double>(fork.shared.size()));
+  recorder.add("other_vertices", "", fork.others);
+  recorder.add("others_changed", "", fork.others_changed);
+  for (std::size_t k = 0; k < fork.shared.size(); ++k) {
+    recorder.add(fmt::format("u{}", k + 1), "", fork.shared[k].u);
+    recorder.add(fmt::format("u{}_low", k + 1), "", fork.shared[k].alone[0]);
+    recorder.add(fmt::format("u{}_high", k + 1), "", fork.shared[k].alone[1]);
+  }
+}
+
+}  // namespace
+
+extern const Experiment kModels{
+    "meshgrow.models", "§4, §7: every model at every step, its bytes and its time", kSpecs, cases, measure};
+extern const Experiment kFork{"meshgrow.fork", "Figure 9: texture coordinates at a fork", kForkSpecs,
+                              fork_cases, measure_fork};
+
+}  // namespace terrabench::meshgrow

@@ -1,0 +1,345 @@
+// Figures 6 to 10 of "meshgrow": growing steps, the frame on a face, and the trunk that forks.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <glm/common.hpp>
+
+#include "experiments/cases.h"
+#include "experiments/figures/figure.h"
+#include "experiments/meshgrow/growing_pictures.h"
+#include "experiments/meshgrow/growing_steps.h"
+#include "renderers/raytrace/raytraced_picture.h"
+
+namespace terrabench::meshgrow {
+namespace {
+
+using namespace figures;
+using namespace growing;
+
+constexpr Rgb kInk{20, 20, 24}, kHidden{130, 130, 138}, kPlain{238, 238, 236}, kNext{96, 96, 100};
+constexpr Rgb kRed{190, 30, 30}, kGreen{0, 120, 50}, kBlue{0, 70, 180};
+
+// As in the paper's figure 6: a face becomes a cube, then a tent, whose roofs become cubes.
+constexpr std::string_view kCubesAndTent = R"(
+[symbols]
+A = []
+B = []
+C = []
+t = []
+s = []
+
+[base]
+shape = "prism"
+sides = 4
+radius = 0.7071
+height = 0.8
+symbol = "s"
+top = "A"
+
+[[rule]]
+symbol = "A"
+sections = [{ move = 0.9, sides = "s" }]
+cap = "B"
+
+[[rule]]
+symbol = "B"
+corners = 4
+vertices = [{ mix = [0.5, 0, 0, 0.5], move = [0, 0, 0.5] }, { mix = [0, 0.5, 0.5, 0], move = [0, 0, 0.5] }]
+faces = [[0, 1, 5, 4], [1, 2, 5], [4, 5, 2, 3], [3, 0, 4]]
+symbols = ["C", "s", "C", "s"]
+
+[[rule]]
+symbol = "C"
+sections = [{ move = 0.9, sides = "s" }]
+cap = "t"
+
+[[step]]
+grow = "all"
+)";
+
+// The base and the mesh after each growing step of the schedule's first part.
+std::vector<GrownMesh> stages_of(const Model& model) {
+  std::vector<GrownMesh> stages;
+  expand_in_steps(model, [&](const GrownMesh&, const GrownMesh& after, int subdivisions) {
+    if (subdivisions == 0) stages.push_back(after);
+  });
+  return stages;
+}
+
+// Of the mesh's whole box.
+View view_of(const FaceMesh& mesh, int width, int height, const glm::vec3& from) {
+  TriangleMesh points;
+  points.positions = mesh.positions;
+  return overview(bounds_of(points), width, height, from);
+}
+
+bool grows(const Model& model, const GrownMesh& mesh, std::uint32_t face) {
+  return model.system.symbols[mesh.mesh.symbols[face]].grows();
+}
+
+// Whether a face is seen at an angle at which words on it can be read.
+bool faces_eye(const FaceMesh& mesh, std::uint32_t face, const View& view) {
+  const FaceShape shape = face_shape(corners_of(mesh, face), mesh.positions);
+  return glm::dot(shape.frame.z, glm::normalize(glm::dvec3(view.eye) - shape.frame.origin)) > 0.12;
+}
+
+// Faces that grow next are dark.
+Image stage_picture(Drawing& drawing, const Model& model, const GrownMesh& mesh, const View& view) {
+  return face_picture(drawing.gl(), mesh.mesh, view,
+                      [&](std::uint32_t face) { return grows(model, mesh, face) ? kNext : kPlain; });
+}
+
+Sheet draw_steps(Drawing& drawing) {
+  const Model model = parse_model(kCubesAndTent, "figure 6");
+  const std::vector<GrownMesh> stages = stages_of(model);
+  const View view = view_of(stages.back().mesh, 500, 560, {0.92F, 0.75F, 0.45F});
+  constexpr std::array<std::string_view, 4> kWords{"start: A is replaced by a cube",
+                                                   "step 1: B is replaced by a tent",
+                                                   "step 2: each C is replaced by a cube", "step 3"};
+  constexpr double kGap = 12, kWords0 = 30;
+  const double width = view.width / 2.0, height = view.height / 2.0;
+  Sheet sheet(static_cast<double>(stages.size()) * (width + kGap) + kGap, height + kGap + kWords0);
+  for (std::size_t k = 0; k < stages.size(); ++k) {
+    const GrownMesh& stage = stages[k];
+    const SheetPoint corner{kGap + static_cast<double>(k) * (width + kGap), kGap};
+    sheet.picture(corner.x, corner.y, width, height, stage_picture(drawing, model, stage, view));
+    sheet.text(corner.x + width / 2, corner.y + height + 16, kWords[std::min(k, kWords.size() - 1)], 13,
+               "middle");
+    const OverPicture over(stage.mesh, view, corner);
+    for (std::uint32_t face = 0; face < stage.mesh.faces(); ++face) {
+      const glm::vec3 middle = middle_of(stage.mesh, face);
+      if (!over.visible(middle) || !faces_eye(stage.mesh, face, view)) continue;
+      const SheetPoint at = over.at(middle);
+      const Rgb ink = grows(model, stage, face) ? Rgb{255, 255, 255} : kInk;
+      sheet.text(at.x, at.y + 6, model.system.symbols[stage.mesh.symbols[face]].name, 17, "middle", ink);
+    }
+  }
+  return sheet;
+}
+
+// The axes of a frame, `length` metres long.
+void add_axes(Sheet& sheet, const OverPicture& over, const Frame& frame, double length, bool names) {
+  const std::pair<glm::dvec3, Rgb> axes[] = {{frame.x, kRed}, {frame.y, kGreen}, {frame.z, kBlue}};
+  const SheetPoint from = over.at(frame.origin);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const SheetPoint to = over.at(frame.origin + length * axes[k].first);
+    sheet.stroke(from, to, {255, 255, 255}, 4.5);
+    add_arrow(sheet, from, to, axes[k].second, 2.4, 8);
+    if (!names) continue;
+    const SheetPoint words = over.at(frame.origin + 1.22 * length * axes[k].first);
+    add_label(sheet, words, std::string_view("xyz").substr(k, 1), 15, axes[k].second, 6);
+  }
+  sheet.dot(from, 3.4, kInk);
+}
+
+// The faces that the expansion of the first growing face of `before` added, in that face's frame, with z up;
+// the base, which vanishes, is the first face.
+FaceMesh template_of(const GrownMesh& before, const GrownMesh& after, std::uint32_t base) {
+  const Frame& frame = before.states.front().shape.frame;
+  const auto first = static_cast<std::uint32_t>(before.mesh.positions.size());
+  const auto corners = corners_of(before.mesh, base);
+  const std::uint32_t end = first + static_cast<std::uint32_t>(corners.size());
+  FaceMesh mesh;
+  for (const glm::vec3& p : after.mesh.positions) {
+    const glm::dvec3 local = frame.to_local(p);
+    mesh.positions.emplace_back(local.x, local.z, -local.y);
+  }
+  mesh.first_corner = {0};
+  const auto add = [&](std::span<const std::uint32_t> face) {
+    mesh.corners.insert(mesh.corners.end(), face.begin(), face.end());
+    mesh.first_corner.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
+  };
+  add(std::vector<std::uint32_t>(corners.rbegin(), corners.rend()));
+  for (std::uint32_t face = 0; face < after.mesh.faces(); ++face) {
+    const auto at = corners_of(after.mesh, face);
+    if (std::any_of(at.begin(), at.end(), [&](std::uint32_t v) { return v >= first && v < end; })) add(at);
+  }
+  // Only what the faces use, so that the box fits.
+  std::vector<std::uint32_t> used(mesh.corners.begin(), mesh.corners.end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  std::vector<glm::vec3> kept;
+  for (const std::uint32_t vertex : used) kept.push_back(mesh.positions[vertex]);
+  for (std::uint32_t& corner : mesh.corners) {
+    corner = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), corner) - used.begin());
+  }
+  mesh.positions = kept;
+  return mesh;
+}
+
+Sheet draw_frame(Drawing& drawing) {
+  const Model model = parse_model(kCubesAndTent, "figure 6");
+  const std::vector<GrownMesh> stages = stages_of(model);
+  const GrownMesh &before = stages[2], &after = stages[3];
+  constexpr double kGap = 14, kAxis = 0.62;
+  const glm::vec3 from(1.0F, 0.75F, 0.35F);
+  const View view = view_of(after.mesh, 560, 620, from);
+  const double width = view.width / 2.0, height = view.height / 2.0;
+  Sheet sheet(3 * (width + kGap) + kGap, height + kGap + 30);
+  const auto words = [&](int column, std::string_view text) {
+    sheet.text(kGap + column * (width + kGap) + width / 2, kGap + height + 16, text, 13, "middle");
+  };
+  std::uint32_t base = 0;
+  while (!grows(model, before, base)) ++base;
+  const Frame frame = before.states.front().shape.frame;
+
+  const SheetPoint first{kGap, kGap}, second{kGap + width + kGap, kGap},
+      third{kGap + 2 * (width + kGap), kGap};
+  sheet.picture(first.x, first.y, width, height,
+                face_picture(drawing.gl(), before.mesh, view,
+                             [&](std::uint32_t face) { return face == base ? kNext : kPlain; }));
+  add_axes(sheet, OverPicture(before.mesh, view, first), frame, kAxis, true);
+  words(0, "a) The face to be expanded, and its frame");
+
+  const FaceMesh cube = template_of(before, after, base);
+  View near = view_of(cube, 560, 620, {0.6F, 0.4F, 1.0F});
+  near.vertical_fov *= 1.5F;
+  sheet.picture(second.x, second.y, width, height,
+                face_picture(drawing.gl(), cube, near, [](std::uint32_t) { return kPlain; }));
+  Frame local;  // drawn with z upwards
+  local.y = {0, 0, -1};
+  local.z = {0, 1, 0};
+  add_axes(sheet, OverPicture(cube, near, second), local, kAxis, true);
+  words(1, "b) The replacement mesh on its first face");
+
+  sheet.picture(third.x, third.y, width, height,
+                face_picture(drawing.gl(), after.mesh, view, [&](std::uint32_t) { return kPlain; }));
+  add_axes(sheet, OverPicture(after.mesh, view, third), frame, kAxis, false);
+  words(2, "c) The replacement attached in this frame");
+  return sheet;
+}
+
+Sheet draw_coordinates(Drawing& drawing) {
+  const Model model = parse_model(model_text("fork_ridges"), "fork_ridges");
+  const Fork fork = find_fork(model, "branch");
+  const FaceMesh& mesh = fork.after.mesh;
+  const View view = view_of(mesh, 1100, 1240, {0.12F, 0.4F, 1.0F});
+  const double width = view.width / 2.0, height = view.height / 2.0;
+  constexpr double kGap = 14;
+  Sheet sheet(width + 2 * kGap, height + 2 * kGap + 28);
+  const SheetPoint corner{kGap, kGap};
+  sheet.picture(corner.x, corner.y, width, height,
+                face_picture(drawing.gl(), mesh, view, [](std::uint32_t) { return kPlain; }));
+  const OverPicture over(mesh, view, corner);
+  // Hidden edges, each drawn once.
+  for (std::uint32_t face = 0; face < mesh.faces(); ++face) {
+    const auto corners = corners_of(mesh, face);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const glm::vec3 a = mesh.positions[corners[k]], b = mesh.positions[corners[(k + 1) % corners.size()]];
+      if (corners[k] > corners[(k + 1) % corners.size()] || over.visible(0.5F * (a + b))) continue;
+      const SheetPoint ends[] = {over.at(a), over.at(b)};
+      sheet.line(ends, {.colour = kHidden, .thickness = 1, .dashes = "4 4"});
+    }
+  }
+  const auto shared = [&](std::uint32_t vertex) {
+    return std::find_if(fork.shared.begin(), fork.shared.end(), [&](auto& s) { return s.vertex == vertex; });
+  };
+  for (const bool front : {false, true}) {
+    for (std::uint32_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
+      const glm::vec3 p = mesh.positions[vertex];
+      if (over.visible(p) != front) continue;
+      const auto at = shared(vertex);
+      const SheetPoint place = over.at(p);
+      if (at == fork.shared.end()) {
+        const std::string words = fmt::format("{:.2g}", mesh.texture[vertex].x);
+        add_label(sheet, place, words, 13, front ? kInk : kHidden, words.size() > 1 ? 11 : 6);
+        continue;
+      }
+      // Words beside the trunk, on the vertex's side of the other one.
+      const auto& other = fork.shared[at == fork.shared.begin() ? 1 : 0];
+      const bool left = place.x < over.at(mesh.positions[other.vertex]).x;
+      const SheetPoint words{left ? kGap + 92 : kGap + width - 92, place.y + 130};
+      sheet.stroke(place, {words.x, words.y - 10}, kRed, 1);
+      sheet.dot(place, 4, kRed);
+      sheet.text(words.x, words.y + 5,
+                 fmt::format("u{} = ({:.1f} + {:.1f})/2 = {}", at == fork.shared.begin() ? "₁" : "₂",
+                             at->alone[0], at->alone[1], at->u),
+                 14, "middle", kRed);
+    }
+  }
+  sheet.text(kGap + width / 2, height + 2 * kGap + 10, "grey numbers and dashed edges: behind the surface",
+             13, "middle");
+  return sheet;
+}
+
+// A white background, bark in daylight.
+Image traced(const FaceMesh& mesh, bool smooth, const View& view) {
+  Fans fans = fans_of(mesh);
+  if (smooth) compute_normals(fans.mesh);
+  RayMesh bark;
+  bark.mesh = &fans.mesh;
+  bark.material.albedo = {0.5F, 0.42F, 0.33F};
+  if (!smooth) {
+    bark.wire_width = 2;
+    bark.wires = fans.wires;
+  }
+  RayScene scene;
+  scene.add_placed(std::move(bark));
+  scene.light.sun = {-0.25F, 0.8F, 1.0F};
+  scene.background = glm::vec3(1);
+  return raytrace(scene, view, {.samples = 32});
+}
+
+constexpr glm::vec3 kTrunkFrom(0.55F, 0.25F, 1.0F);
+constexpr int kTracedWidth = 560, kTracedHeight = 700;
+
+Sheet draw_trunk(Drawing&) {
+  const Model model = parse_model(model_text("forking_trunk"), "forking_trunk");
+  ExpandOptions growth;
+  growth.leave_out = {"smooth"};
+  const GrownMesh grown = expand(model, growth), smooth = expand(model);
+  const View view = view_of(grown.mesh, kTracedWidth, kTracedHeight, kTrunkFrom);
+  return panel_sheet({{{traced(grown.mesh, false, view), fmt::format("grown: {} faces", grown.mesh.faces())},
+                       {traced(smooth.mesh, true, view),
+                        fmt::format("smoothed three times: {} faces", smooth.mesh.faces())}}});
+}
+
+Sheet draw_ridges(Drawing&) {
+  std::vector<Panel> panels;
+  View view;
+  for (const auto& [name, words] : {std::pair{"fork_ridges", "ridges along u"},
+                                    std::pair{"fork_ridges_random", "with random displacements"}}) {
+    const GrownMesh mesh = expand(parse_model(model_text(name), name));
+    if (panels.empty()) view = view_of(mesh.mesh, kTracedWidth, kTracedHeight, kTrunkFrom);
+    panels.push_back({traced(mesh.mesh, true, view), words});
+  }
+  return panel_sheet({panels});
+}
+
+constexpr auto kFigures = std::to_array<Figure>({
+    {6, "F6",
+     "growing steps; each face shows its symbol, and the dark grey faces are replaced in the next step (s "
+     "and "
+     "t have no rule)",
+     draw_steps},
+    {7, "F7",
+     "the reference frame on a face that is expanded: at the face's centre, z along its normal, x along its "
+     "first edge; the replacement's first face is laid on it",
+     draw_frame},
+    {8, "F8", "a forking trunk: the mesh after growing, and after three smoothing subdivisions", draw_trunk},
+    {9, "F9",
+     "u-coordinates of the grown mesh at a fork; the two vertices that both branches share get the averages "
+     "u₁ and u₂",
+     draw_coordinates},
+    {10, "F10",
+     "ridges: displacement by a cosine of the u-coordinate in the last two subdivisions; right, with noise "
+     "and "
+     "random displacements",
+     draw_ridges},
+});
+constexpr std::array kNames = names_of(kFigures);
+const std::array kSpecs{choice("figure", kNames, "figure of the paper")};
+
+std::vector<Case> cases(const RunOptions&) { return cases_by("figure", kSpecs); }
+
+void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
+  draw_figure(kFigures, "meshgrow", at, options, recorder);
+}
+
+}  // namespace
+
+extern const Experiment kGrowingFigures{
+    "meshgrow.growing-figures", "Figures 6 to 10: growing, and a trunk that forks", kSpecs, cases, draw};
+
+}  // namespace terrabench::meshgrow

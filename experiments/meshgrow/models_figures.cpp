@@ -1,0 +1,170 @@
+// Figures 11 to 16 of "meshgrow": the models of §7, ray traced (§6).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+#include "experiments/cases.h"
+#include "experiments/experiment.h"
+#include "experiments/figures/figure.h"
+#include "experiments/meshgrow/models.h"
+#include "renderers/raytrace/raytraced_picture.h"
+
+namespace terrabench::meshgrow {
+namespace {
+
+struct ModelFigure {
+  std::string_view name;
+  int number;
+  std::string_view model, caption;
+  glm::vec3 from;    // direction towards the eye
+  float aspect;      // width of the picture per height
+  glm::vec3 ground;  // albedo
+  bool wires;        // with the mesh before the subdivision beside it
+};
+
+constexpr std::array kFigures{
+    ModelFigure{"F11",
+                11,
+                "chair",
+                "a chair with folds in the cushion",
+                {0.85F, 0.42F, 0.62F},
+                0.85F,
+                {0.55F, 0.53F, 0.5F},
+                true},
+    ModelFigure{"F12",
+                12,
+                "cactus",
+                "a cactus, grown by alternating growing and subdivision steps",
+                {0.3F, 0.38F, 1.0F},
+                0.85F,
+                {0.62F, 0.5F, 0.34F},
+                true},
+    ModelFigure{"F13",
+                13,
+                "fork_ridges_random",
+                "the ridges on a forking branch",
+                {0.25F, 0.38F, 1.0F},
+                0.8F,
+                {0.4F, 0.42F, 0.34F},
+                true},
+    ModelFigure{"F14",
+                14,
+                "branch_aspen",
+                "a branch of a tree, by the parameters of Weber and Penn",
+                {0.4F, 0.38F, 1.0F},
+                0.85F,
+                {0.42F, 0.44F, 0.34F},
+                false},
+    ModelFigure{"F15",
+                15,
+                "bush_tupelo",
+                "a branch with dense foliage",
+                {0.4F, 0.38F, 1.0F},
+                0.78F,
+                {0.42F, 0.44F, 0.34F},
+                false},
+    ModelFigure{"F16",
+                16,
+                "candle_holder",
+                "a wrought-iron candle holder with rust stains",
+                {0.35F, 0.38F, 1.0F},
+                0.8F,
+                {0.55F, 0.53F, 0.5F},
+                true},
+};
+constexpr auto kFigureNames = names_of(kFigures);
+
+const std::array kSpecs{
+    choice("figure", kFigureNames, "number in the paper"),
+    ParameterSpec{"height", std::int64_t{1000}, "pixels", "of the picture", 32, 8192},
+    ParameterSpec{"samples", std::int64_t{128}, "", "paths per pixel", 1, 65536},
+    ParameterSpec{"bounces", std::int64_t{3}, "", "reflections between surfaces", 0, 64},
+};
+
+std::vector<Case> cases(const RunOptions& options) {
+  if (options.profile == Profile::kPaper) return cases_by("figure", kSpecs);
+  return cases_by(
+      "figure", kSpecs,
+      {{"height", std::int64_t{420}}, {"samples", std::int64_t{12}}, {"bounces", std::int64_t{2}}});
+}
+
+// overview() frames the box; this frames the mesh in it, seen along the same direction.
+View close_view(const TriangleMesh& mesh, View view) {
+  constexpr float kMargin = 1.1F;
+  for (int step = 0; step < 6; ++step) {
+    const glm::mat4 to_clip = world_to_clip(view);
+    glm::vec2 low(1e9F), high(-1e9F);
+    for (const glm::vec3& position : mesh.positions) {
+      const glm::vec4 at = to_clip * glm::vec4(position, 1);
+      low = glm::min(low, glm::vec2(at) / at.w);
+      high = glm::max(high, glm::vec2(at) / at.w);
+    }
+    const glm::vec3 back = view.eye - view.target, from = glm::normalize(back);
+    const glm::vec3 right = glm::normalize(glm::cross(view.up, from)), above = glm::cross(from, right);
+    const float slope_y = std::tan(0.5F * view.vertical_fov) * glm::length(back);
+    const float slope_x = slope_y * static_cast<float>(view.width) / static_cast<float>(view.height);
+    const glm::vec2 middle = 0.5F * (low + high), half = 0.5F * (high - low);
+    view.target += middle.x * slope_x * right + middle.y * slope_y * above;
+    view.eye = view.target + kMargin * std::max(half.x, half.y) * back;
+  }
+  return view;
+}
+
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const ModelFigure& figure = kFigures[at.parameters.choice("figure")];
+  const growing::Model model =
+      growing::parse_model(growing::model_text(figure.model), std::string(figure.model));
+  const ModelMesh mesh = triangles_of(growing::expand(model).mesh);
+  const Bounds box = bounds_of(mesh.mesh);
+  const int height = at.integer("height");
+  const View view = close_view(
+      mesh.mesh,
+      overview(box, static_cast<int>(figure.aspect * static_cast<float>(height)), height, figure.from));
+
+  RaytraceSettings settings{.samples = at.integer("samples"),
+                            .bounces = at.integer("bounces"),
+                            .seed = static_cast<std::uint32_t>(options.seed)};
+  RayScene scene;
+  scene.light = model_daylight();
+  scene.add_placed(in_materials(mesh, painted(figure.model), model.system));
+  const TriangleMesh ground = ground_plane(box);
+  scene.add_placed({.mesh = &ground, .material = {.albedo = figure.ground, .roughness = 1}});
+  std::vector<figures::Panel> panels{
+      {raytrace(scene, view, settings, {}, &progress), fmt::format("{} triangles", mesh.mesh.triangles())}};
+
+  if (figure.wires) {
+    growing::ExpandOptions first;
+    first.most_steps = 1;
+    const ModelMesh grown = triangles_of(growing::expand(model, first).mesh);
+    settings.samples = std::max(settings.samples / 2, 4);
+    RayScene wires;
+    wires.light.sky = SkyKind::kUniform;
+    wires.light.zenith = glm::vec3(0.75F);
+    wires.light.sun_irradiance = glm::vec3(0);
+    wires.background = glm::vec3(1);
+    wires.add_placed({.mesh = &grown.mesh,
+                      .material = {.albedo = glm::vec3(0.85F)},
+                      .wire_width = 1.6F,
+                      .wires = grown.wires});
+    panels.push_back({raytrace(wires, view, settings, {}, &progress), "before subdivision"});
+  }
+  recorder.add("figure", "", figure.number);
+  recorder.add("triangles", "", static_cast<double>(mesh.mesh.triangles()));
+  figures::Sheet sheet = figures::panel_sheet({std::move(panels)});
+  sheet.keep_all_colours();
+  sheet.write(recorder.figure(fmt::format("meshgrow.{}", figure.name), "png",
+                              fmt::format("Figure {} of the paper: {}", figure.number, figure.caption)));
+}
+
+}  // namespace
+
+extern const Experiment kModelFigures{
+    "meshgrow.model-figures", "§7: the models, ray traced (figures 11 to 16)", kSpecs, cases, measure};
+
+}  // namespace terrabench::meshgrow

@@ -1,0 +1,131 @@
+// §6 of "meshgrow": levels of detail by leaving out subdivision steps that make fine detail, and growing
+// steps such as the spikes of the cactus. The pictures of each level are compared with those of the whole
+// model, from near and from far.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "experiments/experiment.h"
+#include "experiments/meshgrow/models.h"
+#include "renderers/raytrace/raytraced_picture.h"
+
+namespace terrabench::meshgrow {
+namespace {
+
+struct Level {
+  std::string_view name, model, left_out;  // left_out: names of steps, separated by commas
+};
+// Each level of a model leaves out more than the one before.
+constexpr std::array kLevels{
+    Level{"cactus/full", "cactus", ""},
+    Level{"cactus/no-spikes", "cactus", "spikes"},
+    Level{"cactus/no-ribs", "cactus", "spikes,ribs"},
+    Level{"cactus/grown", "cactus", "spikes,ribs,smooth"},
+    Level{"chair/full", "chair", ""},
+    Level{"chair/no-finish", "chair", "finish"},
+    Level{"chair/no-folds", "chair", "finish,folds"},
+    Level{"chair/grown", "chair", "finish,folds,smooth"},
+    Level{"fork/full", "fork_ridges_random", ""},
+    Level{"fork/no-ridges", "fork_ridges_random", "ridges"},
+    Level{"fork/grown", "fork_ridges_random", "ridges,smooth"},
+};
+
+const std::array kSpecs{
+    ParameterSpec{"model", std::string("cactus"), "", "name of the model"},
+    ParameterSpec{"left_out", std::string(), "", "names of the steps that are left out, separated by commas"},
+    ParameterSpec{"height", std::int64_t{512}, "pixels", "of the square pictures", 16, 4096},
+    ParameterSpec{"samples", std::int64_t{128}, "", "paths per pixel", 1, 65536},
+    ParameterSpec{"far", 8.0, "", "distance of the far view, in distances of the near one", 1.5, 1000},
+};
+
+std::vector<Case> cases(const RunOptions& options) {
+  std::vector<Case> cases;
+  for (const Level& level : kLevels) {
+    Case& added = cases.emplace_back(Case{std::string(level.name), Parameters(kSpecs)});
+    added.parameters.set("model", std::string(level.model));
+    added.parameters.set("left_out", std::string(level.left_out));
+    if (options.profile == Profile::kPaper) continue;
+    added.parameters.set("height", std::int64_t{160});
+    added.parameters.set("samples", std::int64_t{24});
+  }
+  return cases;
+}
+
+std::vector<std::string> names_in(std::string_view list) {
+  std::vector<std::string> names;
+  while (!list.empty()) {
+    const std::size_t comma = std::min(list.find(','), list.size());
+    names.emplace_back(list.substr(0, comma));
+    list.remove_prefix(std::min(comma + 1, list.size()));
+  }
+  return names;
+}
+
+struct Shown {
+  Image image;
+  std::vector<bool> covered;  // per pixel: its middle shows the model
+};
+
+Shown show(const ModelMesh& mesh, const PaintedModel& look, const growing::Model& model, const View& view,
+           const RaytraceSettings& settings) {
+  RayScene scene;
+  scene.light = model_daylight();
+  scene.background = glm::vec3(0.6F);
+  scene.add_placed(in_materials(mesh, look, model.system));
+  RaytracedPicture picture(scene, view, settings);
+  picture.accumulate();
+  Shown shown{picture.image(), {}};
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = 0; x < view.width; ++x) shown.covered.push_back(picture.object(x, y) != 0);
+  }
+  return shown;
+}
+
+// Root mean square difference of the channels, 0 to 255, over the pixels that show either model: a smaller
+// model in the picture does not have a smaller error for that alone.
+double difference(const Shown& a, const Shown& b) {
+  double sum = 0;
+  std::size_t pixels = 0;
+  for (std::size_t k = 0; k < a.covered.size(); ++k) {
+    if (!a.covered[k] && !b.covered[k]) continue;
+    ++pixels;
+    for (std::size_t c = 3 * k; c < 3 * k + 3; ++c) {
+      const double step = int{a.image.rgb[c]} - int{b.image.rgb[c]};
+      sum += step * step;
+    }
+  }
+  return pixels == 0 ? 0 : std::sqrt(sum / (3.0 * static_cast<double>(pixels)));
+}
+
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
+  const std::string name = at.parameters.text("model");
+  const growing::Model model = growing::parse_model(growing::model_text(name), name);
+  growing::ExpandOptions without;
+  without.leave_out = names_in(at.parameters.text("left_out"));
+  const ModelMesh full = triangles_of(growing::expand(model).mesh);
+  const ModelMesh level = triangles_of(growing::expand(model, without).mesh);
+  recorder.add("triangles", "", static_cast<double>(level.mesh.triangles()));
+  recorder.add("share_of_triangles", "",
+               static_cast<double>(level.mesh.triangles()) / static_cast<double>(full.mesh.triangles()));
+  const RaytraceSettings settings{
+      .samples = at.integer("samples"), .bounces = 1, .seed = static_cast<std::uint32_t>(options.seed)};
+  const int height = at.integer("height");
+  View view = overview(bounds_of(full.mesh), height, height, {0.45F, 0.3F, 1.0F});
+  const PaintedModel& look = painted(name);
+  for (const bool far : {false, true}) {
+    if (far)
+      view.eye = view.target + static_cast<float>(at.parameters.number("far")) * (view.eye - view.target);
+    recorder.add(
+        far ? "far_error" : "near_error", "",
+        difference(show(full, look, model, view, settings), show(level, look, model, view, settings)));
+  }
+}
+
+}  // namespace
+
+extern const Experiment kLod{"meshgrow.lod", "§6: models without their fine steps, from near and from far",
+                             kSpecs, cases, measure};
+
+}  // namespace terrabench::meshgrow

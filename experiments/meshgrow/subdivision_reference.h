@@ -1,0 +1,42 @@
+// Catmull–Clark subdivision as textbooks state it (Catmull and Clark 1978), with adjacency lists and in
+// double precision, and the small meshes on which it is compared with the library's. Shares no code with
+// representations/procedural_mesh/subdivision.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "representations/procedural_mesh/face_mesh.h"
+
+namespace terrabench::meshgrow {
+
+struct PlainMesh {
+  std::vector<glm::dvec3> points;
+  std::vector<std::vector<std::uint32_t>> faces;  // vertices, counter-clockwise
+};
+PlainMesh plain(const FaceMesh&);
+
+// One step. Boundary edges are creases, and a boundary vertex with one face is rounded off. The corner of
+// each face becomes one quadrilateral: (its vertex, the edge to the next, the face, the edge from the one
+// before). The first points are those of the vertices. O(corners log corners).
+PlainMesh catmull_clark(const PlainMesh&);
+
+// Closed: cube, tetrahedron, prism (two pentagons), sphere (of a cube's faces). Bounded: box (a cube without
+// its top), fan (six quadrilaterals at a vertex), patch (five faces of 3, 4 and 5 corners at a vertex).
+inline constexpr std::array<std::string_view, 7> kShapes{"cube", "tetrahedron", "prism", "sphere",
+                                                         "box",  "fan",         "patch"};
+FaceMesh shape(std::string_view name);
+
+// How far the faces of `ours` are from those of `reference`, face by face and corner by corner.
+struct Comparison {
+  std::size_t mismatches = 0;  // faces, corners or vertices without a partner of their own
+  double largest = 0;          // distance between partners, as a share of the reference's diagonal
+};
+Comparison compare(std::span<const std::uint32_t> quads, std::span<const glm::dvec3> points,
+                   const PlainMesh& reference);
+
+}  // namespace terrabench::meshgrow

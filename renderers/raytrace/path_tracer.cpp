@@ -1,0 +1,179 @@
+#include "renderers/raytrace/path_tracer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/matrix.hpp>
+
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+// A position computed on a triangle is off by a few units in the last place of its coordinates; 64 of them
+// keep a ray that starts there from hitting the triangle itself.
+constexpr float kOffset = 64 * 0x1p-23F;
+
+// Least roughness of what is seen by reflection. Light that a smooth mirror concentrates would be found by
+// few of the paths, as bright specks (Kaplanyan & Dachsbacher 2013).
+constexpr float kIndirectRoughness = 0.6F;
+
+const RayScene& checked(const RayScene& scene, const RaytraceSettings& settings) {
+  if (settings.samples < 1 || settings.samples > 65536) {
+    throw usage_error(fmt::format("invalid number of samples {}", settings.samples), "ray tracing",
+                      "it must be 1 to 65536");
+  }
+  if (settings.bounces < 0 || settings.bounces > 64) {
+    throw usage_error(fmt::format("invalid number of bounces {}", settings.bounces), "ray tracing",
+                      "it must be 0 to 64");
+  }
+  if (!(settings.occlusion_distance > 0)) {
+    throw usage_error("the distance of ambient occlusion is not above 0", "ray tracing",
+                      "give it in metres, or leave it out");
+  }
+  check_scene(scene);
+  return scene;
+}
+
+RayIndex index_of(const RayScene& scene, std::uint64_t budget, Progress* progress) {
+  std::vector<const TriangleMesh*> meshes;
+  for (const RayMesh& mesh : scene.meshes) meshes.push_back(mesh.mesh);
+  return {meshes, scene.instances, budget, progress};
+}
+
+// Materials of a function may emit: that is known only where it is called.
+bool may_emit(const RayScene& scene) {
+  return std::any_of(scene.meshes.begin(), scene.meshes.end(), [](const RayMesh& mesh) {
+    return mesh.material_at || mesh.material.emission != glm::vec3(0);
+  });
+}
+
+glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
+  const float length = glm::length(v);
+  return length > 0 && std::isfinite(length) ? v / length : otherwise;
+}
+
+template <class T>
+T interpolate(std::span<const T> values, const std::uint32_t* corners, const RayHit& hit) {
+  return (1 - hit.u - hit.v) * values[corners[0]] + hit.u * values[corners[1]] + hit.v * values[corners[2]];
+}
+
+}  // namespace
+
+PathTracer::PathTracer(const RayScene& scene, const RaytraceSettings& settings, Progress* progress)
+    : scene_(checked(scene, settings)),
+      settings_(settings),
+      index_(index_of(scene, settings.budget, progress)),
+      sky_(scene.light),
+      sun_(glm::normalize(scene.light.sun)),
+      sun_spread_(std::tan(scene.light.sun_radius)),
+      has_sun_(scene.light.sun_irradiance != glm::vec3(0)),
+      emits_(may_emit(scene)) {}
+
+PathTracer::Surface PathTracer::surface(const Ray& ray, const RayHit& hit) const {
+  const MeshPlacement& placement = scene_.instances[hit.placement];
+  const TriangleMesh& mesh = *scene_.meshes[placement.mesh].mesh;
+  const std::uint32_t* const corners = &mesh.indices[3 * std::size_t{hit.triangle}];
+  const glm::vec3 a = mesh.positions[corners[0]];
+  const glm::vec3 ab = mesh.positions[corners[1]] - a, ac = mesh.positions[corners[2]] - a;
+  Surface s;
+  s.point.mesh = placement.mesh;
+  s.point.instance = hit.placement;
+  s.point.triangle = hit.triangle;
+  s.point.local = s.point.position = a + hit.u * ab + hit.v * ac;
+  s.facet = glm::cross(ab, ac);
+  s.normal =
+      mesh.normals.empty() ? s.facet : interpolate(std::span<const glm::vec3>(mesh.normals), corners, hit);
+  if (placement.to_world != glm::mat4(1)) {
+    const glm::mat3 linear(placement.to_world);
+    // Scaled first: the product of two edges of a small triangle is close to float's limits.
+    const glm::mat3 of_normals = glm::transpose(glm::inverse(linear));
+    s.point.position = glm::vec3(placement.to_world * glm::vec4(s.point.local, 1));
+    s.facet = of_normals * unit_or(s.facet, {0, 1, 0});
+    s.normal = of_normals * s.normal;
+  }
+  s.facet = unit_or(s.facet, -ray.direction);
+  s.normal = unit_or(s.normal, s.facet);
+  s.point.normal = s.normal;
+  if (glm::dot(s.facet, ray.direction) > 0) s.facet = -s.facet;
+  if (glm::dot(s.normal, s.facet) < 0) s.normal = -s.normal;
+  const glm::vec3 size = glm::max(glm::abs(s.point.position), glm::abs(ab));
+  s.offset = kOffset * std::max({size.x, size.y, size.z});
+  return s;
+}
+
+RayMaterial PathTracer::material(const Surface& s, const RayHit& hit) const {
+  const RayMesh& mesh = scene_.meshes[s.point.mesh];
+  const std::uint32_t* const corners = &mesh.mesh->indices[3 * std::size_t{hit.triangle}];
+  if (mesh.material_at) {
+    SurfacePoint point = s.point;
+    if (!mesh.texture.empty()) point.texture = interpolate(mesh.texture, corners, hit);
+    return mesh.material_at(point);
+  }
+  RayMaterial material = mesh.material;
+  if (!mesh.face_albedo.empty()) material.albedo = mesh.face_albedo[hit.triangle];
+  if (!mesh.vertex_albedo.empty()) material.albedo = interpolate(mesh.vertex_albedo, corners, hit);
+  return material;
+}
+
+Ray PathTracer::ray_from(const Surface& s, const glm::vec3& direction) const {
+  const float side = glm::dot(direction, s.facet) > 0 ? s.offset : -s.offset;
+  return {.origin = s.point.position + side * s.facet, .direction = direction};
+}
+
+glm::vec3 PathTracer::background(const glm::vec3& direction) const {
+  const glm::vec3 sky = sky_.radiance(direction);
+  const float cosine = glm::dot(direction, sun_.z), spread2 = sun_spread_ * sun_spread_;
+  if (!has_sun_ || spread2 == 0 || cosine <= 0 || 1 - cosine * cosine > spread2 * cosine * cosine) return sky;
+  return sky + scene_.light.sun_irradiance / (glm::pi<float>() * spread2);
+}
+
+glm::vec3 PathTracer::sunlight(const Surface& s, const Scattering& scattering,
+                               SampleSequence& samples) const {
+  if (!has_sun_) return glm::vec3(0);
+  const glm::vec2 at = sun_spread_ * disc_point(samples.next());
+  const glm::vec3 to_sun = glm::normalize(sun_.to_world({at.x, at.y, 1}));
+  const glm::vec3 light = scene_.light.sun_irradiance * scattering.toward(to_sun);
+  return light == glm::vec3(0) || index_.occluded(ray_from(s, to_sun)) ? glm::vec3(0) : light;
+}
+
+glm::vec3 PathTracer::occlusion(const Surface& s, SampleSequence& samples) const {
+  const glm::vec3 direction = UnitFrame(s.normal).to_world(cosine_direction(samples.next()));
+  if (glm::dot(direction, s.facet) <= 0) return glm::vec3(0);
+  Ray ray = ray_from(s, direction);
+  ray.far = settings_.occlusion_distance;
+  return glm::vec3(index_.occluded(ray) ? 0.0F : 1.0F);
+}
+
+glm::vec3 PathTracer::radiance(const Ray& from_eye, const RayHit& first, SampleSequence& samples) const {
+  if (!first.hit()) return background(from_eye.direction);
+  glm::vec3 light(0), weight(1);
+  Ray ray = from_eye;
+  RayHit hit = first;
+  for (int bounce = 0;; ++bounce) {
+    const Surface s = surface(ray, hit);
+    if (settings_.mode == RaytraceMode::kAmbientOcclusion) return occlusion(s, samples);
+    RayMaterial made_of = material(s, hit);
+    if (bounce > 0) made_of.roughness = std::max(made_of.roughness, kIndirectRoughness);
+    light += weight * made_of.emission;
+    if (bounce > settings_.bounces) return light;
+    const Scattering scattering(made_of, s.facet, s.normal, -ray.direction);
+    light += weight * sunlight(s, scattering, samples);
+    glm::vec3 direction, part;
+    const float lobe = scattering.has_lobes() ? samples.next().x : 0;
+    if (!scattering.sample(lobe, samples.next(), direction, part)) return light;
+    weight *= part;
+    ray = ray_from(s, direction);
+    if (bounce == settings_.bounces && !emits_) {  // only the sky is left to be found
+      return index_.occluded(ray) ? light : light + weight * sky_.radiance(direction);
+    }
+    hit = index_.closest(ray);
+    if (!hit.hit()) return light + weight * sky_.radiance(direction);
+  }
+}
+
+}  // namespace terrabench

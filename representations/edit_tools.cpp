@@ -1,0 +1,113 @@
+#include "representations/edit_tools.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "representations/implicit/implicit_surface.h"
+#include "representations/layered_stack/layered_stack.h"
+#include "representations/voxel/dense_grid.h"
+#include "representations/voxel/voxel.h"
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+struct Disc {
+  double x, z, radius;
+};
+
+void check_radius(double radius) {
+  if (!(radius > 0 && std::isfinite(radius))) {
+    throw usage_error(fmt::format("a radius of {} m", radius), "edit tool",
+                      "give a positive, finite number of metres");
+  }
+}
+
+void check_reach(const Bounds& bounds, const Disc& disc, double bottom, double top) {
+  const double dx = disc.x - std::clamp<double>(disc.x, bounds.low.x, bounds.high.x),
+               dz = disc.z - std::clamp<double>(disc.z, bounds.low.z, bounds.high.z);
+  if (std::hypot(dx, dz) < disc.radius && bottom < bounds.high.y && top > bounds.low.y) return;
+  throw usage_error(fmt::format("the shape around ({}, {}) m, from {} to {} m, lies outside the terrain",
+                                disc.x, disc.z, bottom, top),
+                    "edit tool",
+                    fmt::format("the terrain reaches from ({}, {}, {}) to ({}, {}, {}) m", bounds.low.x,
+                                bounds.low.y, bounds.low.z, bounds.high.x, bounds.high.y, bounds.high.z));
+}
+
+// Indices of the cells whose centres lie within `radius` of `centre` along one axis.
+LevelRange within(double origin, double cell, int count, double centre, double radius) {
+  const auto index = [&](double at) {
+    return static_cast<int>(std::clamp(std::floor((at - origin) / cell + 0.5), 0.0, 1.0 * count));
+  };
+  return {index(centre - radius), index(centre + radius)};
+}
+
+// Edits each column whose axis lies within the disc with the span that span_at(distance²) gives.
+template <class SpanAt>
+std::size_t edit_disc(Representation& edited, const Disc& disc, const SpanAt& span_at) {
+  const ColumnGrid& grid = edited_columns(edited);
+  const LevelRange columns = within(grid.origin_x, grid.cell_x, grid.width, disc.x, disc.radius),
+                   rows = within(grid.origin_z, grid.cell_z, grid.depth, disc.z, disc.radius);
+  std::vector<float> x, z;
+  std::vector<Span> spans;
+  for (int j = rows.begin; j < rows.end; ++j) {
+    for (int i = columns.begin; i < columns.end; ++i) {
+      const double dx = grid.centre_x(i) - disc.x, dz = grid.centre_z(j) - disc.z;
+      const double squared = dx * dx + dz * dz;
+      if (!(squared < disc.radius * disc.radius)) continue;
+      const Span span = span_at(squared);
+      if (!(span.bottom < span.top)) continue;  // thinner than floats tell apart
+      x.push_back(grid.centre_x(i));
+      z.push_back(grid.centre_z(j));
+      spans.push_back(span);
+    }
+  }
+  edited.edit({x, z}, spans);
+  return spans.size();
+}
+
+}  // namespace
+
+const ColumnGrid& edited_columns(const Representation& edited) {
+  if (const auto* const stack = dynamic_cast<const LayeredStack*>(&edited)) return stack->grid();
+  if (const auto* const surface = dynamic_cast<const ImplicitSurface*>(&edited))
+    return surface->stack().grid();
+  if (const auto* const voxels = dynamic_cast<const Voxel*>(&edited)) return voxels->grid();
+  if (const auto* const cells = dynamic_cast<const DenseGrid*>(&edited)) return cells->grid();
+  throw usage_error("this representation cannot be edited", "edit tool",
+                    "`terrabench list representations` names those that can");
+}
+
+std::size_t fill_sphere(Representation& edited, const Sphere& sphere, Material material) {
+  edited_columns(edited);
+  const glm::vec3 c = sphere.centre;
+  check_radius(sphere.radius);
+  if (!std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z)) {
+    throw usage_error(fmt::format("a sphere at ({}, {}, {})", c.x, c.y, c.z), "edit tool",
+                      "give finite positions in metres");
+  }
+  const double y = c.y, radius = sphere.radius;
+  const Disc disc{c.x, c.z, radius};
+  check_reach(edited.bounds(), disc, y - radius, y + radius);
+  return edit_disc(edited, disc, [&](double squared) {
+    const double half = std::sqrt(radius * radius - squared);
+    return Span{static_cast<float>(y - half), static_cast<float>(y + half), material};
+  });
+}
+
+std::size_t fill_cylinder(Representation& edited, const Cylinder& cylinder, Material material) {
+  edited_columns(edited);
+  check_radius(cylinder.radius);
+  if (!std::isfinite(cylinder.x) || !std::isfinite(cylinder.z) || !(cylinder.bottom < cylinder.top)) {
+    throw usage_error(fmt::format("a cylinder at ({}, {}) from {} to {} m", cylinder.x, cylinder.z,
+                                  cylinder.bottom, cylinder.top),
+                      "edit tool", "give a finite position in metres, and a bottom under the top");
+  }
+  const Disc disc{cylinder.x, cylinder.z, cylinder.radius};
+  check_reach(edited.bounds(), disc, cylinder.bottom, cylinder.top);
+  return edit_disc(edited, disc, [&](double) { return Span{cylinder.bottom, cylinder.top, material}; });
+}
+
+}  // namespace terrabench

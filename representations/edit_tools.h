@@ -1,0 +1,34 @@
+// Tools that dig and fill with simple shapes, on top of Representation::edit(), for any method with the trait
+// `editable` (the edits that the hybrid paper leaves to future work). They touch only the columns within the
+// radius: O(columns under the tool), plus what the method's own edit costs.
+#pragma once
+
+#include <cstddef>
+
+#include "representations/column_grid.h"
+#include "representations/representation.h"
+
+namespace terrabench {
+
+struct Sphere {
+  glm::vec3 centre{0};  // metres
+  float radius = 0;     // metres
+};
+
+struct Cylinder {  // upright
+  float x = 0, z = 0, radius = 0;
+  float bottom = 0, top = 0;  // metres; infinite ends reach the terrain's bounds
+};
+
+// The columns on which edits of the representation act. Throws usage_error unless it can be edited.
+const ColumnGrid& edited_columns(const Representation&);
+
+// Fills the shape with a material; air digs. A column whose axis meets the shape changes between the two
+// points where it does, rounded as edit() rounds. Returns the number of such columns, which is 0 for a shape
+// that passes between all axes. Throws usage_error, before any change, for a representation that cannot be
+// edited, a radius or position that is not finite, a radius ≤ 0, a cylinder with bottom ≥ top, and a shape
+// that does not reach into the terrain's bounds.
+std::size_t fill_sphere(Representation&, const Sphere&, Material);
+std::size_t fill_cylinder(Representation&, const Cylinder&, Material);
+
+}  // namespace terrabench

@@ -1,0 +1,34 @@
+// The meshes from which models start: named primitives, and a check of those that are given face by face.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <string>
+
+#include "representations/procedural_mesh/face_mesh.h"
+
+namespace terrabench::growing {
+
+// Which symbol a face of a primitive gets.
+enum class Part : std::uint8_t { kTop, kBottom, kSides };
+
+struct Primitive {
+  FaceMesh mesh;  // with texture coordinates
+  std::vector<Part> parts;
+};
+
+// All are centred on the origin. Texture coordinates: on planes, x and z from 0 to 1; elsewhere u goes around
+// the y axis from 0 to 1 and back, so that it has no seam, and v from the bottom, 0, to the top, 1.
+Primitive plane(glm::dvec2 size, std::uint32_t cells_x, std::uint32_t cells_z);  // looks up
+// Faces of the bottom come first, then the top, then the sides at low and high x, then z.
+Primitive cube(const glm::dvec3& size, const glm::uvec3& cells);
+Primitive sphere(double radius, std::uint32_t cells);  // a cube's, moved to the sphere
+// A polygon as bottom, another as top, and one quadrilateral per side; cells: along the height.
+Primitive prism(std::uint32_t sides, double bottom_radius, double top_radius, double height,
+                std::uint32_t cells);
+
+// Throws bad_input if a face has fewer than 3 corners, one of them twice, no area, or a vertex that does not
+// exist; if an edge has more than two faces, or two in the same direction; if a vertex joins two fans of
+// faces, or has no face. `where` begins the message's place. O(corners log corners).
+void check_base(const FaceMesh&, const std::string& where);
+
+}  // namespace terrabench::growing

@@ -1,0 +1,139 @@
+// Arithmetic expressions of models: parameters, conditions and displacements of "meshgrow" (Tobler,
+// Maierhofer and Wilkie, §3 and §4). A text is compiled once to code for a stack machine and evaluated many
+// times.
+//
+//   expression = either ["?" expression ":" expression]
+//   either = both {"||" both}          both = comparison {"&&" comparison}
+//   comparison = sum [("<" | "<=" | ">" | ">=" | "==" | "!=") sum]
+//   sum = product {("+" | "-") product}          product = unary {("*" | "/" | "%") unary}
+//   unary = ("-" | "!") unary | power          power = primary ["^" unary]
+//   primary = number | name | name "[" expression "]" | name "(" [expression {"," expression}] ")"
+//           | "(" expression ")"
+//
+// Angles are degrees. Truth is any number but 0; comparisons give 1 or 0. a % b has the sign of b. What is
+// not chosen by "?", "&&" or "||" is not evaluated. random() is in [0, 1), random(a, b) in [a, b): a function
+// of Scope::random and of where in the text it stands, so that results depend on no order and on no thread.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace terrabench::growing {
+
+// Where a text begins in a file; both count from 1.
+struct Place {
+  std::uint32_t line = 1, column = 1;
+};
+
+// What names mean. Names, such as "size", are slots of Values::variables; constants are numbers or tables.
+class Names {
+ public:
+  // Throws bad_input at `place` where the name is taken or not an identifier.
+  std::uint32_t add_variable(std::string_view name, const std::string& file, Place place);
+  void add_table(std::string_view name, std::vector<double> values, const std::string& file, Place place);
+
+  struct Entry {
+    std::string name;
+    bool table;
+    std::uint32_t first, count;  // the slot, or where the table lies in tables()
+  };
+  const Entry* find(std::string_view name) const;
+  std::uint32_t variables() const { return variables_; }
+  std::span<const double> tables() const { return tables_; }
+  std::vector<std::string_view> known() const;
+
+ private:
+  void check(std::string_view name, const std::string& file, Place place) const;
+  std::vector<Entry> entries_;
+  std::vector<double> tables_;
+  std::uint32_t variables_ = 0;
+};
+
+struct Operation {
+  std::uint16_t code = 0, arguments = 0;
+  std::uint32_t where = 0;  // slot, first entry of a table, jump target or number of a random()
+  double value = 0;         // a number; the size of a table
+};
+
+struct Expression {
+  std::vector<Operation> code;  // empty: not given
+  Place place;
+  bool given() const { return !code.empty(); }
+};
+
+// An expression that is one number.
+Expression constant(double value, Place place = {});
+
+struct Values {
+  std::span<const double> variables, tables;
+  std::uint64_t random = 0;
+};
+
+// The value, or NaN where any operation on the way divides by zero, overflows, leaves a function's domain or
+// a table's range. O(operations), no allocation.
+double evaluate(const Expression&, const Values&);
+
+// Most operations of one expression, and most levels of nesting.
+inline constexpr std::size_t kMostOperations = 4096;
+inline constexpr int kMostNesting = 100;
+// Depth of the stack that any accepted expression needs at most.
+inline constexpr int kMostStack = 256;
+
+// Reads text that holds expressions, from left to right. Every failure throws bad_input with file, line and
+// column, and what was expected.
+class Reader {
+ public:
+  // `random_number` numbers the random()s of a model.
+  Reader(std::string_view text, const std::string& file, Place place, const Names& names,
+         std::uint32_t& random_number)
+      : text_(text), file_(file), place_(place), names_(names), random_number_(random_number) {}
+
+  Expression expression();
+  Expression condition();         // what may stand before "?": an `either`
+  std::string_view identifier();  // empty where there is none
+  bool take(std::string_view symbol);
+  void expect(std::string_view symbol);
+  bool at_end();
+  void expect_end();
+  std::size_t position() const { return at_; }
+  void go_to(std::size_t position) { at_ = position; }
+  Place place() const { return {place_.line, place_.column + static_cast<std::uint32_t>(at_)}; }
+  [[noreturn]] void fail(std::string_view what, std::string_view advice) const;
+
+ private:
+  void choice();
+  void either();
+  void both();
+  void comparison();
+  void sum();
+  void product();
+  void unary();
+  void primary();
+  void number();
+  void function(std::string_view name, std::size_t begin);
+  std::uint32_t emit(Operation, int pushes);
+  void finish(Expression&);
+  void skip_space();
+
+  std::string_view text_;
+  const std::string& file_;
+  Place place_;
+  const Names& names_;
+  std::uint32_t& random_number_;
+  std::size_t at_ = 0;
+  std::vector<Operation> code_;
+  int nesting_ = 0, stack_ = 0;
+};
+
+// The whole text as one expression.
+Expression compile(std::string_view text, const std::string& file, Place place, const Names& names,
+                   std::uint32_t& random_number);
+
+// Gradient noise in [-1, 1], 0 at points with whole coordinates (Perlin 2002): what noise(x, y, z) gives.
+double gradient_noise(double x, double y, double z);
+
+}  // namespace terrabench::growing

@@ -1,0 +1,136 @@
+// Mesh-based parametric L-systems (Tobler, Maierhofer and Wilkie, §4 and §5): each face of a mesh carries a
+// symbol with parameters, and a rule replaces such a face by a template mesh whose faces carry symbols again.
+//
+// A template is a complete mesh. Its first face, the base, is laid on the face that the rule expands: corner
+// i on corner i, the frames of both faces aligned. Both faces vanish. The base is therefore listed in the
+// order of the expanded face: counter-clockwise seen from outside the growing mesh, that is from inside the
+// template.
+//
+// Frame of a face: origin at the mean of its corners, z along its normal, x along its edge from corner 0 to
+// corner 1 (made perpendicular to z), y = z × x. Axes have unit length: templates are in metres.
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "representations/procedural_mesh/face_mesh.h"
+#include "representations/procedural_mesh/growing/expression.h"
+
+namespace terrabench::growing {
+
+inline constexpr std::uint32_t kNoSymbol = 0;
+
+struct Symbol {
+  std::string name;
+  std::vector<std::string> parameters;
+  std::uint32_t first_rule = 0, rules = 0;  // in RuleSystem::rules
+  bool grows() const { return rules > 0; }
+};
+
+// A symbol with arguments, chosen by conditions: the first whose condition is not 0. The last has none.
+struct SymbolChoice {
+  struct Option {
+    Expression condition;
+    std::uint32_t symbol = kNoSymbol;
+    std::vector<Expression> arguments;
+  };
+  std::vector<Option> options;
+};
+
+// Texture coordinates of a vertex; not given: they are left as they are, or (0, 0).
+struct TextureAt {
+  Expression u, v;
+  bool given() const { return u.given(); }
+};
+
+// A cross-section of an extruded template: one vertex per corner of the base. The frame of the section before
+// is turned about its y axis, then x, then z (turn[1], turn[0], turn[2]), then towards the world's up
+// (`tropism`), then moved along its axes; the section lies in its x,y plane.
+struct Section {
+  std::array<Expression, 3> turn, move;  // degrees, metres
+  Expression tropism;  // degrees by which z turns to the world's up at most; negative: to the ground
+  Expression scale;    // of the section before; not given: 1
+  Expression radius;   // makes the section a regular polygon instead
+  std::array<Expression, 2> stretch;  // of this section alone along x and y; not given: 1
+  std::vector<TextureAt> texture;     // none, or one per corner
+  std::vector<SymbolChoice> sides;    // of the faces below the section: one for all, or one per corner
+  int crease = 0;                     // sharpness of the section's edges
+};
+
+// A vertex beyond the base: a weighted sum of the base's corners plus an offset in the base's frame.
+struct TemplateVertex {
+  std::vector<Expression> weights;  // one per corner, or empty: the origin of the frame
+  std::array<Expression, 3> offset;
+};
+
+struct Template {
+  std::uint32_t corners = 0;  // of the base; 0: any, for extruded templates
+  // Either sections and a cap,
+  std::vector<Section> sections;
+  SymbolChoice cap;
+  std::vector<TextureAt> base_texture;  // none, or one per corner
+  // or a mesh: vertices 0 … corners - 1 are those of the base.
+  std::vector<TemplateVertex> vertices;
+  std::vector<std::uint32_t> first_corner, face_corners;
+  std::vector<SymbolChoice> faces;
+  std::vector<TextureAt> texture;  // none, or one per vertex, the base's first
+  std::vector<Crease> creases;
+  bool extruded() const { return !sections.empty(); }
+};
+
+struct Rule {
+  std::uint32_t symbol = kNoSymbol;
+  Expression when, probability;    // not given: always, 1
+  std::vector<Expression> locals;  // stored in slots first_local, first_local + 1, …
+  std::uint32_t first_local = 0, slots = 0;
+  Template replacement;
+  Place place;
+};
+
+// Slots that every rule's expressions share, in this order. All lengths are metres.
+inline constexpr std::string_view kSharedNames[] = {
+    "px",     // origin of the face's frame
+    "py",     //
+    "pz",     //
+    "up_x",   // the world's up in the face's frame; up_z: how far the face looks upwards
+    "up_y",   //
+    "up_z",   //
+    "size",   // mean distance of two opposite corners, the paper's local scale factor (§3)
+    "area",   // of the face
+    "sides",  // corners of the face
+    "side",   // while the symbol of a side face is made: its number, from 0
+    "step",   // growing steps before this one
+};
+enum SharedSlot : std::uint8_t {
+  kPx,
+  kPy,
+  kPz,
+  kUpX,
+  kUpY,
+  kUpZ,
+  kSize,
+  kArea,
+  kSides,
+  kSide,
+  kStep,
+  kShared
+};
+inline constexpr std::size_t kMostSlots = 128;
+
+struct RuleSystem {
+  std::string file;             // for messages
+  std::vector<Symbol> symbols;  // symbol 0 has no name
+  std::vector<Rule> rules;      // those of a symbol lie together
+  std::vector<double> tables;   // constants that expressions index
+  std::uint64_t seed = 0;
+};
+
+// Checks what a mesh template of a rule needs so that growing keeps a mesh well formed (§4): no degenerate
+// face; every edge of the base is used once, in its direction; every other edge by two faces in opposite
+// directions and not between two corners of the base; the faces around every vertex form one fan. Then an
+// expansion adds no T-vertex, no hole and no non-manifold edge. Throws bad_input with the rule's place.
+void check_template(const Template&, const std::string& file, Place place);
+
+}  // namespace terrabench::growing

@@ -1,0 +1,60 @@
+// One growing step over the faces that may grow; used by grow() alone. New elements are appended to the
+// arrays of the mesh in groups of bounded size, so that only a group's arguments exist twice.
+#pragma once
+
+#include "representations/procedural_mesh/growing/expansion.h"
+
+namespace terrabench::growing {
+
+struct Active {
+  std::uint32_t face = 0, state = 0, parameters = 0;  // parameters: how many
+};
+
+class Wave {
+ public:
+  Wave(const RuleSystem&, GrownMesh&, const GrowOptions&);
+
+  // Replaces the active faces that have a rule. Afterwards `active` holds the new faces that may grow and the
+  // old ones that may still grow later; faces that cannot grow before this call of grow() ends go to
+  // `resting`. Returns the number of faces replaced.
+  std::size_t run(std::vector<Active>& active, std::vector<Active>& resting);
+
+  const std::vector<bool>& replaced() const { return replaced_; }
+
+ private:
+  struct Chosen {
+    Active active;
+    const Rule* rule = nullptr;
+    Slots to;
+    std::uint32_t end_face = 0;
+    std::uint32_t first_base_texture = 0;
+    Failure failure;
+  };
+  void choose(const std::vector<Active>& active);
+  const Rule* rule_for(const Active&, Failure&) const;
+  void lay_out(std::size_t first, std::size_t last);
+  void expand_group(std::size_t first, std::size_t last);
+  void expand_one(Chosen&);
+  void keep_states(std::size_t first, std::size_t last, std::vector<Active>& next,
+                   std::vector<Active>& resting);
+  void average_texture();
+  bool selected(std::uint32_t symbol) const { return only_.empty() || only_[symbol]; }
+  [[noreturn]] void fail(const Failure&, const Active&) const;
+
+  const RuleSystem& system_;
+  GrownMesh& grown_;
+  const std::vector<bool>& only_;
+  const Limits limits_;
+  std::vector<bool> replaced_;  // per face
+  std::size_t removed_ = 0;
+  std::vector<bool> retries_;  // per symbol: whether its rules may apply later to a face that they left alone
+  std::uint32_t stride_ = 0;   // most parameters of a symbol
+  std::vector<Chosen> chosen_;
+  NewArguments arguments_;
+  std::vector<FaceShape> shapes_;  // of the group's new faces
+  std::vector<CornerTexture> base_texture_;
+  std::vector<glm::dvec2> sums_;
+  std::vector<std::uint32_t> shares_;
+};
+
+}  // namespace terrabench::growing

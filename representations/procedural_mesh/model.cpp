@@ -1,0 +1,160 @@
+#include "representations/procedural_mesh/model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "representations/procedural_mesh/model_reader.h"
+#include "terrain/embedded.h"
+#include "terrain/error.h"
+
+namespace terrabench {
+
+std::span<const EmbeddedFile> embedded_models();
+
+namespace growing {
+namespace {
+
+constexpr std::size_t kMostParameters = 64;
+
+// Numbers, lists of numbers, or expressions of the constants before.
+void read_constants(ModelReader& models, const toml::node* node) {
+  if (node == nullptr) return;
+  for (const auto& [name, value] : Table(*node, models.file, "constants").entries()) {
+    std::vector<double> numbers;
+    if (const toml::array* const list = value->as_array()) {
+      for (const toml::node& entry : *list) numbers.push_back(number_of(entry, models.file, name));
+      if (numbers.empty())
+        fail_at(*value, models.file, fmt::format("'{}' is empty", name), "give it a number");
+    } else {
+      const Expression e = models.expression(*value, models.constants);
+      numbers.push_back(evaluate(e, {{}, models.constants.tables(), models.model.system.seed}));
+      if (!std::isfinite(numbers[0]))
+        fail_at(*value, models.file, fmt::format("'{}' is not finite", name), "correct it");
+    }
+    models.constants.add_table(name, std::move(numbers), models.file, place_of(*value));
+  }
+}
+
+void read_symbols(ModelReader& models, const toml::node* node) {
+  models.model.system.symbols.push_back({"none", {}});
+  if (node == nullptr) return;
+  for (const auto& [name, value] : Table(*node, models.file, "symbols").entries()) {
+    Names names(models.constants);  // refuses what is no name, and names in use
+    names.add_variable(name, models.file, place_of(*value));
+    if (name == "none") fail_at(*value, models.file, "the symbol 'none' is built in", "choose another name");
+    Symbol symbol;
+    symbol.name = name;
+    for (const toml::node& parameter : list_of(*value, models.file, name, 0)) {
+      symbol.parameters.push_back(text_of(parameter, models.file, name));
+      names.add_variable(symbol.parameters.back(), models.file, place_of(parameter));
+    }
+    if (symbol.parameters.size() > kMostParameters) {
+      fail_at(*value, models.file, fmt::format("a symbol must have at most {} parameters", kMostParameters),
+              "remove some");
+    }
+    models.model.system.symbols.push_back(std::move(symbol));
+  }
+}
+
+void read_limits(ModelReader& models, const toml::node* node) {
+  if (node == nullptr) return;
+  Table table(*node, models.file, "limits");
+  Limits& limits = models.model.limits;
+  limits.faces = static_cast<std::size_t>(
+      table.integer_or("faces", static_cast<std::int64_t>(limits.faces), 1, 100'000'000));
+  limits.steps = static_cast<std::uint32_t>(table.integer_or("steps", limits.steps, 1, 1'000'000));
+  table.done();
+}
+
+}  // namespace
+
+Model parse_model(std::string_view text, const std::string& origin) {
+  if (text.size() > kMostModelBytes) {
+    throw bad_input(fmt::format("a model must have at most {} bytes, got {}", kMostModelBytes, text.size()),
+                    origin, "remove rules or vertices");
+  }
+  const toml::table file = parse_toml(text, origin, "correct the file; see docs/models.md");
+  Table table(file, origin, "model");
+  Model model;
+  model.bytes = text.size();
+  model.system.file = origin;
+  model.title = table.text_or("title", "");
+  model.system.seed = static_cast<std::uint64_t>(table.integer_or("seed", 0, 0, INT64_MAX));
+  ModelReader models{model, model.system.file};
+  read_limits(models, table.find("limits"));
+  read_constants(models, table.find("constants"));
+  read_symbols(models, table.find("symbols"));
+  read_rules(models, table.find("rule"));
+  read_base(models, table.get("base"));
+  read_steps(models, table.find("step"));
+  table.done();
+  const std::span<const double> tables = models.constants.tables();
+  model.system.tables.assign(tables.begin(), tables.end());
+  if (model.base.faces() > model.limits.faces) {
+    throw bad_input(
+        fmt::format("the base mesh has {} faces, more than {}", model.base.faces(), model.limits.faces),
+        origin, "raise the limit of faces");
+  }
+  return model;
+}
+
+std::vector<std::string> model_names() {
+  std::vector<std::string> names;
+  for (const EmbeddedFile& file : embedded_models()) {
+    names.push_back(std::filesystem::path(file.name).stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string_view model_text(std::string_view name) {
+  for (const EmbeddedFile& file : embedded_models()) {
+    if (std::filesystem::path(file.name).stem().string() == name) return file.text;
+  }
+  const std::vector<std::string> names = model_names();
+  throw unknown_name("model", name, std::vector<std::string_view>(names.begin(), names.end()));
+}
+
+namespace {
+
+void check_subdivision(const Model& model, const Step& step, const GrownMesh& mesh) {
+  // Each level has one face per corner of the level before.
+  if (mesh.mesh.corners.size() <= model.limits.faces) return;
+  throw bad_input(fmt::format("the subdivision gives {} faces, more than {}", mesh.mesh.corners.size(),
+                              model.limits.faces),
+                  fmt::format("{}:{}:{}", model.system.file, step.place.line, step.place.column),
+                  "subdivide less, or raise the limit of faces");
+}
+
+}  // namespace
+
+GrownMesh expand(const Model& model, const ExpandOptions& options) {
+  GrownMesh mesh = plant(model.system, model.base, model.arguments);
+  const auto report = [&] {
+    if (options.after_step) options.after_step(mesh);
+  };
+  report();
+  std::uint32_t level = 0;
+  for (std::size_t s = 0; s < std::min(options.most_steps, model.steps.size()); ++s) {
+    const Step& step = model.steps[s];
+    const auto& out = options.leave_out;
+    if (!step.name.empty() && std::find(out.begin(), out.end(), step.name) != out.end()) continue;
+    if (step.levels == 0) {
+      grow(model.system, mesh, step.growth);
+      report();
+      continue;
+    }
+    for (std::uint32_t i = 0; i < step.levels; ++i) {
+      check_subdivision(model, step, mesh);
+      mesh = subdivide(model, step, mesh, ++level);
+      report();
+    }
+  }
+  return mesh;
+}
+
+}  // namespace growing
+}  // namespace terrabench

@@ -1,0 +1,83 @@
+// Vertex placement ("meshgrow" §3): the second half of a subdivision step. A rule is a value; each level of a
+// schedule has its own. The standard rule alone gives Catmull–Clark; displacements added to it along the
+// local normal and in proportion to the local scale factor give fractal surfaces, along one direction height
+// fields, and in the local frame (figures 3 and 4) everything else.
+#pragma once
+
+#include <functional>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <vector>
+
+#include "representations/procedural_mesh/subdivision/local_surface.h"
+
+namespace terrabench::subdivision {
+
+// Consecutive vertices of the mesh M(n+1), placed but not yet displaced. `texture` may be empty; the others
+// have one length.
+struct VertexBatch {
+  std::uint32_t level = 0;  // n + 1
+  std::uint32_t first = 0;  // the index of the first vertex
+  std::span<const glm::vec3> positions;
+  std::span<const glm::vec2> texture;
+  std::span<const glm::vec3> normals;
+  std::span<const float> scales;
+};
+
+// A number per vertex: offset + amplitude · value.
+struct Signal {
+  enum class Kind : std::uint8_t {
+    kConstant,      // 1
+    kUniform,       // random in [-1, 1), of (seed, level, vertex)
+    kNormal,        // random with variance 1, likewise
+    kNoise,         // gradient noise at the position: `frequency` in cells per metre
+    kTextureNoise,  // gradient noise at (u, v): `frequency` x and y in cells per unit
+    kTextureWave,   // cos 2π(frequency.x u + frequency.y v)
+    kFunction       // `function`, which is called for batches by several threads at once
+  };
+  Kind kind = Kind::kConstant;
+  float amplitude = 1, offset = 0;
+  std::uint64_t seed = 0;
+  glm::vec3 frequency{1};
+  int octaves = 1;  // of noise, 1 … 24; each has twice the frequency and `gain` times the weight
+  float gain = 0.5F;
+  std::function<void(const VertexBatch&, std::span<float>)> function{};
+};
+
+enum class Axis : std::uint8_t { kNormal, kTangent, kBitangent, kFixed };
+enum class Where : std::uint8_t { kEveryVertex, kNewVertices };  // new: of faces and edges
+
+struct Displacement {
+  Axis axis = Axis::kNormal;
+  glm::vec3 direction{0, 1, 0};  // of kFixed; need not have unit length
+  bool by_scale = true;          // times the local scale factor; otherwise in metres
+  Where where = Where::kEveryVertex;
+  Signal amount{};
+};
+
+enum class Base : std::uint8_t { kStandard, kLinear };  // linear: vertices stay, means on edges and faces
+
+struct PlacementRule {
+  Base base = Base::kStandard;
+  Base texture = Base::kStandard;             // of the texture coordinates
+  FrameRule frame{};                          // of M(n+1) before displacement
+  std::vector<Displacement> displacements{};  // they add up
+  // The longest sum of displacements, in local scale factors: longer ones are shortened to it.
+  float bound = std::numeric_limits<float>::infinity();
+};
+
+// Throws usage_error, naming the displacement by its index, for a number that is not finite, octaves outside
+// 1 … 24, a bound below 0, a function signal without function, and texture signals without coordinates.
+void check_rule(const PlacementRule&, bool has_texture);
+
+// Whether displace() has anything to do.
+inline bool displaces(const PlacementRule& rule) { return !rule.displacements.empty(); }
+
+// Adds the rule's displacements to the positions of M(level). All of them see the positions as given. The
+// topology, that of M(level), needs `uses`; `old_vertices` is the number of vertices of M(level - 1). The
+// rule was checked. Throws bad_input when a displaced position is not finite. O(corners) on all threads.
+void displace(const PlacementRule&, const Topology&, std::uint32_t level, std::uint32_t old_vertices,
+              std::span<const glm::vec2> texture, std::span<glm::vec3> positions);
+
+}  // namespace terrabench::subdivision

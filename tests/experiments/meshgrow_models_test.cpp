@@ -1,0 +1,56 @@
+// The models of "meshgrow" as triangles, and the levels that leave out steps.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <set>
+#include <string>
+
+#include "experiments/experiment.h"
+#include "experiments/meshgrow/models.h"
+#include "terrain/error.h"
+
+namespace terrabench::meshgrow {
+namespace {
+
+TEST(MeshgrowModelFigures, PolygonsKeepTheirEdgesAsWires) {
+  FaceMesh faces;  // a kite, whose diagonal from corner 1 to 3 is the shorter one, and a triangle
+  faces.positions = {{0, 0, 0}, {2, 0, 1}, {6, 0, 0}, {2, 0, -1}, {7, 0, -3}};
+  faces.first_corner = {0, 4, 7};
+  faces.corners = {0, 1, 2, 3, 3, 2, 4};
+  faces.symbols = {5, 6};
+  const ModelMesh mesh = triangles_of(faces);
+  EXPECT_EQ(mesh.mesh.indices, (std::vector<std::uint32_t>{1, 2, 3, 1, 3, 0, 3, 2, 4}));
+  EXPECT_EQ(mesh.symbols, (std::vector<std::uint32_t>{5, 5, 6}));
+  EXPECT_EQ(mesh.wires, (std::vector<std::uint8_t>{3, 6, 7}));  // not the edge from 3 to 1
+  for (const glm::vec3& normal : mesh.mesh.normals) EXPECT_NEAR(glm::length(normal), 1, 1e-5F);
+}
+
+TEST(MeshgrowModelFigures, LeavingOutTheSpikesRemovesThemAlone) {
+  const growing::Model model = growing::parse_model(growing::model_text("cactus"), "cactus");
+  const auto symbols = [&](const growing::ExpandOptions& options) {
+    std::multiset<std::string> names;
+    for (const std::uint32_t symbol : triangles_of(growing::expand(model, options).mesh).symbols) {
+      names.insert(model.system.symbols[symbol].name);
+    }
+    return names;
+  };
+  growing::ExpandOptions without;
+  without.leave_out = {"spikes"};
+  EXPECT_GT(symbols({}).count("spike"), 1000U);
+  EXPECT_EQ(symbols(without).count("spike"), 0U);
+  EXPECT_GT(symbols(without).count("skin"), 1000U);
+}
+
+TEST(MeshgrowModelFigures, EveryLevelLeavesOutStepsOfAPaintedModel) {
+  for (const Case& at : experiment("meshgrow.lod").cases({})) {
+    const std::string name = at.parameters.text("model");
+    EXPECT_EQ(painted(name).model, name);
+    const std::string left_out = at.parameters.text("left_out");
+    EXPECT_EQ(left_out.empty(), at.name.ends_with("/full")) << at.name;
+  }
+  EXPECT_THROW(painted("oak"), Error);
+}
+
+}  // namespace
+}  // namespace terrabench::meshgrow

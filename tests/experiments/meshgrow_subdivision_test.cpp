@@ -1,0 +1,33 @@
+// The plain reference of "meshgrow": that it is Catmull–Clark on a mesh known by hand, and that differences
+// show.
+#include <gtest/gtest.h>
+
+#include "experiments/meshgrow/subdivision_reference.h"
+
+namespace terrabench::meshgrow {
+namespace {
+
+TEST(PlainCatmullClark, MovesTheCornerOfACubeToFiveNinths) {
+  const PlainMesh cube = plain(shape("cube")), finer = catmull_clark(cube);
+  ASSERT_EQ(finer.points.size(), 26U);
+  ASSERT_EQ(finer.faces.size(), 24U);
+  for (std::size_t v = 0; v < 8; ++v) {
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(finer.points[v][k], cube.points[v][k] * 5 / 9, 1e-15);
+  }
+}
+
+TEST(PlainCatmullClark, ComparisonSeesMovedPointsAndOtherFaces) {
+  const PlainMesh finer = catmull_clark(plain(shape("box")));
+  std::vector<std::uint32_t> quads;
+  for (const auto& face : finer.faces) quads.insert(quads.end(), face.begin(), face.end());
+  std::vector<glm::dvec3> points = finer.points;
+  EXPECT_EQ(compare(quads, points, finer).mismatches, 0U);
+  EXPECT_EQ(compare(quads, points, finer).largest, 0);
+  points[3].x += 0.01;
+  EXPECT_GT(compare(quads, points, finer).largest, 1e-3);
+  std::swap(quads[0], quads[1]);
+  EXPECT_GT(compare(quads, finer.points, finer).mismatches, 0U);
+}
+
+}  // namespace
+}  // namespace terrabench::meshgrow

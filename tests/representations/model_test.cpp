@@ -1,0 +1,142 @@
+// Models as text: those of the paper, and every kind of bad input.
+#include "representations/procedural_mesh/model.h"
+
+#include <fmt/format.h>
+
+#include "tests/representations/growing_models.h"
+
+namespace terrabench::growing {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST(Models, OfThePaperAreSmallAndWellFormedAtEveryStep) {
+  const std::vector<std::string> names = model_names();
+  EXPECT_GE(names.size(), 11U);
+  for (const std::string& name : names) {
+    const Model model = parse_model(model_text(name), name);
+    EXPECT_LT(model.bytes, 8192U) << name;
+    EXPECT_FALSE(model.title.empty()) << name;
+    const bool closed = name != "fractal_plane";
+    const GrownMesh mesh = expand(
+        model, {.after_step = [&](const GrownMesh& m) { EXPECT_EQ(faults(m.mesh, closed), "") << name; }});
+    EXPECT_GT(mesh.mesh.faces(), 1000U) << name;
+  }
+}
+
+TEST(Models, CactusWithSpikesIsTheSmoothOneBeforeItsSpikes) {
+  const GrownMesh smooth = expand(parse_model(model_text("cactus_smooth"), "smooth"));
+  const Model cactus = parse_model(model_text("cactus"), "cactus");
+  const GrownMesh without = expand(cactus, {.leave_out = {"spikes"}});
+  EXPECT_EQ(without.mesh.positions, smooth.mesh.positions);
+  EXPECT_EQ(without.mesh.corners, smooth.mesh.corners);
+  const GrownMesh with = expand(cactus);
+  EXPECT_GT(with.mesh.faces(), 2 * smooth.mesh.faces());
+  // Spikes leave the vertices of the skin where they are.
+  EXPECT_TRUE(
+      std::equal(smooth.mesh.positions.begin(), smooth.mesh.positions.end(), with.mesh.positions.begin()));
+}
+
+TEST(Models, TwoSpeciesDifferInLeavesPerTwig) {
+  for (const char* const name : {"branch_aspen", "bush_tupelo"}) {
+    const GrownMesh tree = expand(parse_model(model_text(name), name));
+    std::size_t leaves = 0;
+    for (const std::uint32_t symbol : tree.mesh.symbols) leaves += symbol == 4;
+    EXPECT_GT(leaves, tree.mesh.faces() / 3) << name;
+  }
+}
+
+const std::string kRule = "[[rule]]\nsymbol = \"a\"\n";
+const std::string kExtrude = "sections = [{ move = 1 }]\n";
+const std::string kHead = kSymbols + kCubeBase;  // 6 lines
+
+TEST(Models, BadInputIsRefusedWithLineAndColumn) {
+  const auto refused = [](const std::string& text) { return error_of(text); };
+  EXPECT_THAT(refused(""), HasSubstr("'base' is missing"));
+  EXPECT_THAT(refused("[base"), StartsWith("m:1"));
+  EXPECT_THAT(refused(kHead + kRule), AllOf(StartsWith("m:7:"), HasSubstr("a rule without a template")));
+  EXPECT_THAT(refused(kHead + kRule + "faces = [[0, 1, 2]]\n"), HasSubstr("a rule without base"));
+  EXPECT_THAT(refused(kHead + "[[rule]]\nsymbol = \"z\"\n" + kExtrude),
+              AllOf(StartsWith("m:8:10"), HasSubstr("unknown symbol 'z'")));
+  EXPECT_THAT(refused(kHead + kRule + kExtrude + "cap = \"zz\"\n"),
+              AllOf(StartsWith("m:10:8"), HasSubstr("unknown symbol 'zz'")));
+  EXPECT_THAT(refused(kHead + kRule + kExtrude + "cap = \"b\"\n"), HasSubstr("'b' has 1 parameters, got 0"));
+  EXPECT_THAT(refused(kHead + kRule + kExtrude + "wehn = 1\n"),
+              AllOf(StartsWith("m:10:"), HasSubstr("'wehn'")));
+  EXPECT_THAT(refused(kHead + "[[step]]\n"), HasSubstr("either grow or subdivide"));
+  EXPECT_THAT(refused(kHead + "[[step]]\ngrow = \"al\"\n"), StartsWith("m:8:8"));
+  EXPECT_THAT(refused("seed = -1\n" + kHead), StartsWith("m:1:8"));
+  EXPECT_THAT(refused(std::string(2 << 20, ' ')), HasSubstr("at most"));
+}
+
+TEST(Models, NumbersThatAreNotFiniteAreRefusedWhereTheyAreWritten) {
+  const std::string grow = "[[step]]\ngrow = 1\n";
+  EXPECT_THAT(
+      error_of(kHead + kRule + "sections = [{ move = \"1/(px - px)\" }]\n" + grow),
+      AllOf(StartsWith("m:9:23: the value is not a finite number"), HasSubstr("'a' grows in step 1")));
+  EXPECT_THAT(error_of(kHead + kRule + kExtrude + "cap = \"b(log(px - px - 1))\"\n" + grow),
+              StartsWith("m:10:10"));
+  EXPECT_THAT(error_of(kHead + kRule + "when = \"0/0\"\n" + kExtrude + grow), StartsWith("m:9:9"));
+  EXPECT_THAT(error_of("[constants]\nc = \"1/0\"\n" + kHead), StartsWith("m:2:5"));
+  EXPECT_THAT(error_of(kHead + "[[step]]\nsubdivide = 1\ndisplace = { amount = \"1/0\" }\n"),
+              StartsWith("m:9:24: the value is not a finite number"));
+}
+
+TEST(Models, TemplatesThatDoNotFitAreRefused) {
+  const auto faces = [](const std::string& text) {
+    return error_of(kHead + kRule + "corners = 4\nvertices = [[0, 0, 1], [0, 0.1, 1]]\nfaces = " + text +
+                    "\n");
+  };
+  EXPECT_THAT(faces("[[0,1,4],[1,2,4],[2,3,4]]"), HasSubstr("does not fit its face"));
+  EXPECT_THAT(faces("[[0,4,1],[1,2,4],[2,3,5],[3,0,5]]"), HasSubstr("used twice"));
+  EXPECT_THAT(faces("[[0,1,4],[1,2,4],[2,3,4],[3,0,4]]"), HasSubstr("vertex 5 belongs to no face"));
+  EXPECT_THAT(faces("[[0,1,4],[1,2,4],[2,3,4],[3,0,5]]"), HasSubstr("has one face only"));
+  EXPECT_THAT(faces("[[0,1,2],[0,2,3]]"), HasSubstr("joins two corners of the base"));
+  EXPECT_THAT(faces("[[0,1,4,4],[1,2,4],[2,3,4],[3,0,4]]"), HasSubstr("a corner twice"));
+  EXPECT_THAT(faces("[[0,1,9]]"), HasSubstr("names vertex 9 of 6"));
+  EXPECT_THAT(faces("[[0,1]]"), HasSubstr("fewer than 3"));
+  const std::string three =
+      "[[rule]]\nsymbol = \"a\"\ncorners = 3\nvertices = [[0, 0, 1]]\nfaces = [[0,1,3],[1,2,3],[2,0,3]]\n";
+  EXPECT_THAT(error_of(kHead + three + "[[step]]\ngrow = 1\n"), HasSubstr("another number of corners"));
+  EXPECT_THAT(error_of(kHead + kRule + "sections = [{ move = 1, scale = 0 }]\n[[step]]\ngrow = 1\n"),
+              HasSubstr("degenerate face"));
+  EXPECT_THAT(error_of(kHead + kRule + "sections = [{ move = 0 }]\n[[step]]\ngrow = 1\n"),
+              HasSubstr("degenerate face"));
+}
+
+TEST(Models, GrowthWithoutEndStopsAtTheLimits) {
+  EXPECT_THAT(
+      error_of(kHead + kRule + kExtrude + "cap = \"a\"\n[[step]]\ngrow = \"all\"\n[limits]\nsteps = 100\n"),
+      HasSubstr("still grows after 100 steps"));
+  const std::string all = "[symbols]\na = []\n[base]\nshape = \"cube\"\nsymbol = \"a\"\n" + kRule +
+                          "sections = [{ move = 1, sides = \"a\" }]\ncap = \"a\"\n";
+  EXPECT_THAT(error_of("[limits]\nfaces = 50000\n" + all + "[[step]]\ngrow = \"all\"\n"),
+              HasSubstr("beyond 50000 faces"));
+  EXPECT_THAT(error_of("[base]\nshape = \"cube\"\n[[step]]\nsubdivide = 14\n"),
+              HasSubstr("more than 10000000"));
+  EXPECT_THAT(error_of("[limits]\nfaces = 10\n[base]\nshape = \"plane\"\ncells = 9\n"),
+              HasSubstr("more than 10"));
+}
+
+TEST(Models, BaseMeshesMustBeWellFormed) {
+  const auto base = [](const std::string& faces) {
+    return error_of("[base]\nvertices = [[0,0,0],[1,0,0],[1,1,0],[0,1,0],[2,0,0],[2,1,1],[0,0,0]]\nfaces = " +
+                    faces + "\n");
+  };
+  EXPECT_THAT(base("[[0,1,2],[0,1,3]]"), HasSubstr("the edge from 0 to 1"));
+  EXPECT_THAT(base("[[0,1,9]]"), HasSubstr("names vertex 9 of 7"));
+  EXPECT_THAT(base("[[0,1,1]]"), HasSubstr("a corner twice"));
+  EXPECT_THAT(base("[[0,1]]"), HasSubstr("has 2 corners"));
+  EXPECT_THAT(base("[[0,1,4]]"), HasSubstr("has no area"));
+  EXPECT_THAT(base("[[0,1,2]]"), HasSubstr("belongs to no face"));
+  EXPECT_THAT(base("[]"), HasSubstr("no face"));
+  EXPECT_THAT(
+      error_of("[base]\nvertices = [[0,0,0],[1,0,0],[0,1,0],[-1,0,0],[0,-1,0]]\nfaces = [[0,1,2],[0,3,4]]\n"),
+      HasSubstr("joins two fans"));
+  EXPECT_THAT(error_of("[base]\nshape = \"ball\"\n"), HasSubstr("unknown shape 'ball'"));
+  EXPECT_THAT(error_of("[base]\nshape = \"cube\"\nsize = [1, 0, 1]\n"), HasSubstr("above 0"));
+}
+
+}  // namespace
+}  // namespace terrabench::growing
