@@ -36,7 +36,7 @@ const std::array kSpecs{
     ParameterSpec{"model", std::string("cactus"), "", "name of the model"},
     ParameterSpec{"left_out", std::string(), "", "names of the steps that are left out, separated by commas"},
     ParameterSpec{"height", std::int64_t{512}, "pixels", "of the square pictures", 16, 4096},
-    ParameterSpec{"samples", std::int64_t{128}, "", "paths per pixel", 1, 65536},
+    ParameterSpec{"samples", std::int64_t{24}, "", "paths per pixel", 1, 65536},
     ParameterSpec{"far", 8.0, "", "distance of the far view, in distances of the near one", 1.5, 1000},
 };
 
