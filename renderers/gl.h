@@ -112,7 +112,8 @@ Program link_program(const ShaderFile& vertex, const ShaderFile& fragment,
                      const ShaderFile* geometry = nullptr);
 Program link_compute(const ShaderFile&);
 
-// The location of a uniform, which the program must use.
+// The location of a uniform; -1, at which OpenGL ignores values, where the driver has removed the uniform
+// because the picture does not depend on it. So an ink for wires may be set in a program without wires.
 GLint uniform(const Program&, const char* name);
 
 // The colour ramp of heights (ramp.h) as a texture.
