@@ -9,8 +9,12 @@
 //
 // The lips L and r lie half the rise above and below 0. A cell's height over its plane is that of the old
 // ground: for a block at the point that moves to the cell, for the scarp at the nearest point of the line.
-// At distance |d| ≤ R from the line, points move across it by (1 − |d| / R) · offset / 2 and up or down by
-// (1 − |d| / R) · rise / 2.
+// At distance |d| ≤ R from the line, points move by (1 − |d| / R) · offset / 2 away from it (inverse: towards
+// and beyond it), and up or down by (1 − |d| / R) · rise / 2.
+//
+// The tree afterwards: the host has three more children (left, right, scarp). Block cells at a lip are links
+// to the scarp. Old cells inside the cut, of whatever heightmap, are links to the nearest cell of a block.
+// Faces cover the three heightmaps and the ring around them. Read from record(), at the end.
 #include <algorithm>
 #include <cmath>
 
@@ -82,16 +86,22 @@ DipFaultMaps append_maps(Edit& edit, const events::DipFault& e) {
   return maps;
 }
 
-// The height that puts a cell on the ground as it was before the event. Cells at both ends of the line have
-// it, so that the blocks join the ground around them.
+// What the cells hold:
+//                          inner columns                        the two end columns, at_end()
+//   block, row 0           link to the scarp's lip              link to the scarp's lip
+//   block, other rows      ground at the point that moves here  ground at the cell: joins what is around
+//   scarp                  ground at the line                   ground at the cell
+// An overhang has no width in the end columns: there the right block's cells under it (the `folded` rows) and
+// the scarp's cells below the left lip link to the left lip.
+
+// Height over its plane of a cell that stays on the ground as it was before the event.
 float height_on_ground(const Edit& edit, const events::Line& line, const GroundedHeightmap& map, int column,
                        int row) {
   const glm::dvec3 p = map.plane.at(column, row, 0);
+  // plan(local(p)) is p, rounded; recorded bytes depend on that rounding.
   return edit.ground(line.plan(line.local({p.x, p.z}))) - static_cast<float>(p.y);
 }
 
-// In the two end columns an overhang has no width: the right block's cells under it and the scarp's cells all
-// link to the left lip.
 void fold_end_columns(Edit& edit, const DipFaultMaps& maps) {
   for (const int i : {0, maps.columns}) {
     const CellId lip = maps.scarp.cell(i, maps.scarp_rows);
@@ -100,11 +110,12 @@ void fold_end_columns(Edit& edit, const DipFaultMaps& maps) {
   }
 }
 
-// A cell at a lip links to the scarp, which comes later in the tree and holds the heights of both lips.
+// Links lead to later cells only, so row 0 links to the scarp, which holds the heights of both lips.
 void fill_block(Edit& edit, const DipFaultMaps& maps, int sign) {
   const GroundedHeightmap& block = sign > 0 ? maps.left : maps.right;
   for (int i = 0; i <= maps.columns; ++i) {
-    for (int j = sign < 0 && maps.at_end(i) ? maps.folded : 0; j <= maps.rows; ++j) {
+    const int first = sign < 0 && maps.at_end(i) ? maps.folded : 0;  // skips what fold_end_columns() linked
+    for (int j = first; j <= maps.rows; ++j) {
       const CellId c = block.cell(i, j);
       if (j == 0) {
         edit.set_link(c, maps.scarp.cell(i, sign < 0 ? 0 : maps.scarp_rows));
@@ -159,7 +170,8 @@ void record(Edit& edit, const events::DipFault& e) {
   edit.quads(maps.left, false);
   edit.quads(maps.right, true);
   edit.quads(maps.scarp, false);
-  // Steps 3 and 4: outline and join. apply_event() then commits.
+  // Steps 3 and 4: outline and join; old cells are superseded by the nearest ones. apply_event() then
+  // commits.
   join_to_ground(edit, line, old, outline(maps), [&](glm::dvec2 p) {
     return (p.y >= 0 ? maps.left : maps.right)
         .cell(nearest_step(p.x / line.length, maps.columns),
