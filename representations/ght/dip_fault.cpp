@@ -32,7 +32,6 @@ struct DipFaultMaps {
   int folded = 0;                 // rows of the right block under the overhang; 0 for a normal fault
   GroundedHeightmap left{}, right{}, scarp{};
 
-  int folded_scarp() const { return folded > 0 ? scarp_rows : 0; }  // of an overhang, all but the left lip
   bool at_end(int column) const { return column == 0 || column == columns; }
   double u(int column) const { return line.length * column / columns; }
 };
@@ -91,8 +90,7 @@ DipFaultMaps append_maps(Edit& edit, const events::DipFault& e) {
 //   block, row 0           link to the scarp's lip              link to the scarp's lip
 //   block, other rows      ground at the point that moves here  ground at the cell: joins what is around
 //   scarp                  ground at the line                   ground at the cell
-// An overhang has no width in the end columns: there the right block's cells under it (the `folded` rows) and
-// the scarp's cells below the left lip link to the left lip.
+// Last, fold_end_columns() changes what an overhang has in the end columns.
 
 // Height over its plane of a cell that stays on the ground as it was before the event.
 float height_on_ground(const Edit& edit, const events::Line& line, const GroundedHeightmap& map, int column,
@@ -102,39 +100,36 @@ float height_on_ground(const Edit& edit, const events::Line& line, const Grounde
   return edit.ground(line.plan(line.local({p.x, p.z}))) - static_cast<float>(p.y);
 }
 
-void fold_end_columns(Edit& edit, const DipFaultMaps& maps) {
-  for (const int i : {0, maps.columns}) {
-    const CellId lip = maps.scarp.cell(i, maps.scarp_rows);
-    for (int j = 0; j < maps.folded; ++j) edit.set_link(maps.right.cell(i, j), lip);
-    for (int j = 0; j < maps.folded_scarp(); ++j) edit.set_link(maps.scarp.cell(i, j), lip);
-  }
-}
-
 // Links lead to later cells only, so row 0 links to the scarp, which holds the heights of both lips.
 void fill_block(Edit& edit, const DipFaultMaps& maps, int sign) {
   const GroundedHeightmap& block = sign > 0 ? maps.left : maps.right;
   for (int i = 0; i <= maps.columns; ++i) {
-    const int first = sign < 0 && maps.at_end(i) ? maps.folded : 0;  // skips what fold_end_columns() linked
-    for (int j = first; j <= maps.rows; ++j) {
-      const CellId c = block.cell(i, j);
-      if (j == 0) {
-        edit.set_link(c, maps.scarp.cell(i, sign < 0 ? 0 : maps.scarp_rows));
-      } else if (maps.at_end(i)) {
-        edit.set_height(c, height_on_ground(edit, maps.line, block, i, j));
-      } else {
-        edit.set_height(c, edit.ground(maps.line.plan({maps.u(i), sign * maps.extent * j / maps.rows})));
-      }
+    edit.set_link(block.cell(i, 0), maps.scarp.cell(i, sign < 0 ? 0 : maps.scarp_rows));
+    for (int j = 1; j <= maps.rows; ++j) {
+      const double d = sign * maps.extent * j / maps.rows;
+      edit.set_height(block.cell(i, j), maps.at_end(i) ? height_on_ground(edit, maps.line, block, i, j)
+                                                       : edit.ground(maps.line.plan({maps.u(i), d})));
     }
   }
 }
 
 void fill_scarp(Edit& edit, const DipFaultMaps& maps) {
   for (int i = 0; i <= maps.columns; ++i) {
-    for (int j = maps.at_end(i) ? maps.folded_scarp() : 0; j <= maps.scarp_rows; ++j) {
+    for (int j = 0; j <= maps.scarp_rows; ++j) {
       edit.set_height(maps.scarp.cell(i, j), maps.at_end(i)
                                                  ? height_on_ground(edit, maps.line, maps.scarp, i, j)
                                                  : edit.ground(maps.line.plan({maps.u(i), 0})));
     }
+  }
+}
+
+// An overhang has no width in the end columns: there the right block's cells under it and the scarp's cells
+// below the left lip become links to the left lip.
+void fold_end_columns(Edit& edit, const DipFaultMaps& maps) {
+  for (const int i : {0, maps.columns}) {
+    const CellId lip = maps.scarp.cell(i, maps.scarp_rows);
+    for (int j = 0; j < maps.folded; ++j) edit.set_link(maps.right.cell(i, j), lip);
+    for (int j = 0; j < maps.scarp_rows; ++j) edit.set_link(maps.scarp.cell(i, j), lip);
   }
 }
 
@@ -164,9 +159,9 @@ void record(Edit& edit, const events::DipFault& e) {
   const RemovedPart old = cut_out_with_margin(edit, {line, 0, line.length, -e.extent, e.extent});
   // Step 2: new heightmaps. Set links first: quads() replaces each link by its target.
   const DipFaultMaps maps = append_maps(edit, e);
-  fold_end_columns(edit, maps);
   for (const int sign : {1, -1}) fill_block(edit, maps, sign);
   fill_scarp(edit, maps);
+  if (e.inverse) fold_end_columns(edit, maps);
   edit.quads(maps.left, false);
   edit.quads(maps.right, true);
   edit.quads(maps.scarp, false);
