@@ -26,7 +26,7 @@ namespace {
 
 struct DipFaultMaps {
   events::Line line;
-  double extent, rise;            // of the event, metres
+  double extent;                  // of the event, metres
   double lip;                     // d of the left block's lip, negative if inverse; the right one's is -lip
   int columns, rows, scarp_rows;  // steps along the line, outwards in a block, and from lip to lip
   int folded = 0;                 // rows of the right block under the overhang; 0 for a normal fault
@@ -36,23 +36,14 @@ struct DipFaultMaps {
   double u(int column) const { return line.length * column / columns; }
 };
 
-// `sign`: 1 for the left block, -1 for the right one. Rows run from the lip, moved up or down by half the
-// rise, to the edge at `extent`, which stays. Columns run along the line.
-GroundedHeightmap append_block(Edit& edit, const DipFaultMaps& maps, int sign) {
-  const int rows = maps.rows;
+// A heightmap whose columns run along the line and whose rows run from `from` to `to`, both (d, y).
+GroundedHeightmap append_rows(Edit& edit, const DipFaultMaps& maps, glm::dvec2 from, glm::dvec2 to, int rows,
+                              Area area = Area::kOutdoor) {
+  const glm::dvec2 step = (to - from) / static_cast<double>(rows);
   return append_along(edit, maps.line, maps.columns, rows,
-                      {.origin = {0, sign * maps.lip, sign * maps.rise / 2},
+                      {.origin = {0, from.x, from.y},
                        .column = {maps.line.length / maps.columns, 0, 0},
-                       .row = {0, sign * (maps.extent - maps.lip) / rows, -sign * maps.rise / 2 / rows}});
-}
-
-// Rows run from the right block's lip to the left one's.
-GroundedHeightmap append_scarp(Edit& edit, const DipFaultMaps& maps, Area area) {
-  const int rows = maps.scarp_rows;
-  return append_along(edit, maps.line, maps.columns, rows,
-                      {.origin = {0, -maps.lip, -maps.rise / 2},
-                       .column = {maps.line.length / maps.columns, 0, 0},
-                       .row = {0, 2 * maps.lip / rows, maps.rise / rows}},
+                       .row = {0, step.x, step.y}},
                       area);
 }
 
@@ -72,16 +63,17 @@ DipFaultMaps append_maps(Edit& edit, const events::DipFault& e) {
   const double lip = (e.inverse ? -0.5 : 0.5) * e.offset();
   DipFaultMaps maps{line,
                     e.extent,
-                    e.rise,
                     lip,
                     std::max(2, steps(line.length, grid)),
                     steps(std::hypot(std::max(e.extent, e.extent - lip), e.rise / 2), grid),
                     steps(std::hypot(e.offset(), e.rise), grid)};
   if (e.inverse) maps.folded = rows_under_overhang(edit, maps);
-  maps.left = append_block(edit, maps, 1);
-  maps.right = append_block(edit, maps, -1);
+  const glm::dvec2 left_lip(lip, e.rise / 2), right_lip = -left_lip;
+  maps.left = append_rows(edit, maps, left_lip, {e.extent, 0}, maps.rows);
+  maps.right = append_rows(edit, maps, right_lip, {-e.extent, 0}, maps.rows);
   // kIndoor keeps an overhanging scarp out of the index of hosts: no later event can be applied to it.
-  maps.scarp = append_scarp(edit, maps, e.inverse ? Area::kIndoor : Area::kOutdoor);
+  maps.scarp = append_rows(edit, maps, right_lip, left_lip, maps.scarp_rows,
+                           e.inverse ? Area::kIndoor : Area::kOutdoor);
   return maps;
 }
 
@@ -100,7 +92,8 @@ float height_on_ground(const Edit& edit, const events::Line& line, const Grounde
   return edit.ground(line.plan(line.local({p.x, p.z}))) - static_cast<float>(p.y);
 }
 
-// Links lead to later cells only, so row 0 links to the scarp, which holds the heights of both lips.
+// `sign`: 1 for the left block, -1 for the right one. Links lead to later cells only, so row 0 links to the
+// scarp, which holds the heights of both lips.
 void fill_block(Edit& edit, const DipFaultMaps& maps, int sign) {
   const GroundedHeightmap& block = sign > 0 ? maps.left : maps.right;
   for (int i = 0; i <= maps.columns; ++i) {
