@@ -7,10 +7,9 @@
 //   d=R __--''     \       __-- d=-R          d=R __--''    /    __-- d=-R
 //                   r__--''                               r__--''
 //
-// The lips L and r lie half the rise above and below 0. A cell's height over its plane is that of the old
-// ground: for a block at the point that moves to the cell, for the scarp at the nearest point of the line.
-// At distance |d| ≤ R from the line, points move by (1 − |d| / R) · offset / 2 away from it (inverse: towards
-// and beyond it), and up or down by (1 − |d| / R) · rise / 2.
+// The lips L and r lie half the rise above and below 0. At distance |d| ≤ R from the line, points move by
+// (1 − |d| / R) · offset / 2 away from it (inverse: towards and beyond it), and up or down by
+// (1 − |d| / R) · rise / 2.
 //
 // The tree afterwards: the host has three more children (left, right, scarp). Block cells at a lip are links
 // to the scarp. Old cells inside the cut, of whatever heightmap, are links to the nearest cell of a block.
@@ -77,7 +76,7 @@ DipFaultMaps append_maps(Edit& edit, const events::DipFault& e) {
   return maps;
 }
 
-// What the cells hold:
+// What the cells hold, a link or a height over the plane, which is the height of the old ground somewhere:
 //                          inner columns                        the two end columns, at_end()
 //   block, row 0           link to the scarp's lip              link to the scarp's lip
 //   block, other rows      ground at the point that moves here  ground at the cell: joins what is around
