@@ -1,12 +1,12 @@
+// To follow one condition, read from the end: Reader::read(), read_metrics() (operands to samples), compare()
+// (kind to median or ratio, and whether it holds). How findings are worded can wait: findings_text.cpp.
 #include "results/evidence.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
-#include "results/format.h"
-#include "results/statistics.h"
+#include "results/findings_text.h"
 #include "terrain/error.h"
 #include "terrain/image.h"
 
@@ -16,97 +16,24 @@ namespace {
 using Kind = Condition::Kind;
 using Outcome = Finding::Outcome;
 
-// An operand with its samples. A number has no name.
-struct Quantity {
-  std::vector<double> samples;
-  std::string name, unit;
-  std::string metric;  // the name without the case
-
-  std::string show(double value) const {
-    const std::string text = format_quantity(value, unit);
-    return name.empty() ? text : name + " " + text;
-  }
-};
-
-Outcome outcome(bool holds) { return holds ? Outcome::kHolds : Outcome::kFails; }
-
-// How far a value misses a bound, relative to the bound unless that is 0.
-std::string missed_by(double value, double bound) {
-  const double distance = value - bound;
-  if (!std::isfinite(distance)) return "at no finite distance";
-  const std::string_view side = distance < 0 ? "below" : "above";
-  return bound == 0 ? fmt::format("{:.3g} {}", std::abs(distance), side)
-                    : fmt::format("{:.3g} % {}", 100 * std::abs(distance / bound), side);
-}
-
-// The median alone decides the outcome. Remark for the reader if the 95 % interval leaves it uncertain.
-std::string_view doubt(const Summary& s, double low, double high) {
-  const bool holds = s.median >= low && s.median <= high;
-  if (holds) {
-    return s.low < low || s.high > high ? "; uncertain: the 95 % interval reaches outside" : "";
-  }
-  if (s.low <= high && s.high >= low) return "; uncertain: the 95 % interval reaches in";
-  return s.high - s.low > high - low ? "; uncertain: the 95 % interval is wider than the range" : "";
-}
-
-// within, ratio, growth.
-Finding compare_range(const Condition& condition, const Summary& s, const std::string& what,
-                      const std::string& metric, std::string_view unit) {
-  const bool holds = s.median >= condition.low && s.median <= condition.high;
-  Finding found{outcome(holds), "", format_quantity(s.median, unit),
-                fmt::format("[{}, {}]", format_exact(condition.low), format_exact(condition.high)), metric};
-  found.text = what + " " + found.value;
-  if (s.low != s.high) found.text += fmt::format(" [{}, {}]", format_number(s.low), format_number(s.high));
-  found.text += fmt::format(", {} {}", holds ? "in" : "not in", found.expected);
-  if (!holds) {
-    found.text += " but " + missed_by(s.median, s.median < condition.low ? condition.low : condition.high);
-  }
-  found.text += doubt(s, condition.low, condition.high);
-  return found;
-}
-
-// equal, order. The finding shows the first neighbouring pair that fails; if all hold, the first pair.
-Finding compare_chain(bool equal, const std::vector<Quantity>& quantities) {
-  const std::string_view sign = equal ? "=" : "<", broken = equal ? "≠" : "≥";
-  double before = summarise(quantities[0].samples).median;
-  Finding found{Outcome::kHolds, quantities[0].show(before), "", "", ""};
-  for (std::size_t i = 1; i < quantities.size(); ++i) {
-    const double median = summarise(quantities[i].samples).median;
-    const bool holds = equal ? before == median : before < median;
-    found.text += fmt::format(" {} {}", holds ? sign : broken, quantities[i].show(median));
-    if (!holds && before != median) found.text += fmt::format(" ({})", missed_by(before, median));
-    if (i == 1 || (!holds && found.outcome == Outcome::kHolds)) {
-      // Of the pair, a plain number is the bound; without one, the second operand is.
-      const bool bound_first = quantities[i - 1].name.empty();
-      const Quantity &bound = quantities[bound_first ? i - 1 : i],
-                     &measured = quantities[bound_first ? i : i - 1];
-      found.value = format_quantity(bound_first ? median : before, measured.unit);
-      found.expected = fmt::format("{} {}", bound_first && !equal ? ">" : sign,
-                                   format_quantity(bound_first ? before : median, bound.unit));
-      found.quantity = measured.metric;
-    }
-    if (!holds) found.outcome = Outcome::kFails;
-    before = median;
-  }
-  return found;
-}
-
+// Decides whether the condition holds; findings_text.cpp words it. Medians decide.
 Finding compare(const Condition& condition, const std::vector<Quantity>& quantities) {
-  const Quantity &first = quantities[0], &second = quantities.back();
-  switch (condition.kind) {
-    case Kind::kWithin:
-      return compare_range(condition, summarise(first.samples), first.name, first.metric, first.unit);
-    case Kind::kRatio:
-      return compare_range(condition, summarise_ratio(first.samples, second.samples),
-                           fmt::format("{} ÷ {}", first.name, second.name),
-                           fmt::format("{} ÷ {}", first.metric, second.metric), "");
-    case Kind::kGrowth:
-      return compare_range(condition, summarise_ratio(second.samples, first.samples),
-                           fmt::format("{} grows by the factor", second.name), "growth of " + second.metric,
-                           "");
-    default:
-      return compare_chain(condition.kind == Kind::kEqual, quantities);
+  const std::vector<double>&first = quantities[0].samples, &second = quantities.back().samples;
+  const auto in_range = [&](const Summary& s) {
+    return word_range(condition, quantities, s, s.median >= condition.low && s.median <= condition.high);
+  };
+  if (condition.kind == Kind::kWithin) return in_range(summarise(first));
+  if (condition.kind == Kind::kRatio) return in_range(summarise_ratio(first, second));
+  if (condition.kind == Kind::kGrowth) return in_range(summarise_ratio(second, first));
+  const bool equal = condition.kind == Kind::kEqual;  // else order: read() keeps figures apart
+  std::vector<double> medians;
+  std::vector<bool> holds;  // for each median but the first: with the one before it
+  for (const Quantity& q : quantities) {
+    const double median = summarise(q.samples).median;
+    if (!medians.empty()) holds.push_back(equal ? medians.back() == median : medians.back() < median);
+    medians.push_back(median);
   }
+  return word_chain(equal, quantities, medians, holds);
 }
 
 // Whether the records must come from one machine and build: for ratios, growth, and orders of times.
@@ -122,15 +49,7 @@ class Reader {
   Reader(const Store& store, const std::string& profile) : store_(store), profile_(profile) {}
 
   Evidence read(const Claim& claim) {
-    // Operands that all read one case are shown without its name.
-    const Operand* first = nullptr;
-    for (const Condition& condition : claim.conditions) {
-      for (const Operand& operand : condition.operands) {
-        if (operand.is_number()) continue;
-        if (first == nullptr) first = &operand;
-        name_cases_ = name_cases_ || operand.case_name != first->case_name;
-      }
-    }
+    name_cases_ = names_cases(claim);
     for (const Condition& condition : claim.conditions) {
       evidence_.findings.push_back(condition.kind == Kind::kFigure ? read_figure(condition.figure)
                                                                    : read_metrics(condition));
@@ -149,18 +68,10 @@ class Reader {
       }
       const Record* const record = store_.find(operand.experiment, operand.case_name, profile_);
       const Metric* const metric = record == nullptr ? nullptr : record->find(operand.metric);
-      std::string spoken = operand.metric;
-      std::replace(spoken.begin(), spoken.end(), '_', ' ');
-      if (metric == nullptr) {
-        return {
-            Outcome::kMissing,
-            fmt::format("no {} of {} {} was measured", operand.metric, operand.experiment, operand.case_name),
-            "not measured", "", spoken};
-      }
+      if (metric == nullptr) return word_missing(operand);
       note_read(*record);
       records.push_back(record);
-      const std::string name = name_cases_ ? operand.case_name + " " + spoken : spoken;
-      quantities.push_back({metric->samples, name, metric->unit, std::move(spoken)});
+      quantities.push_back(quantity(operand, *metric, name_cases_));
     }
     if (needs_one_machine(condition, quantities)) note_incomparable(records);
     return compare(condition, quantities);

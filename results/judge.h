@@ -1,11 +1,14 @@
 // The verdict on every claim, computed from claims and records and nothing else:
 // 1. A claim (claims.h, read from experiments/*/claims.toml) has conditions on metrics of named cases.
-// 2. gather_evidence (evidence.h) reads these metrics from the records and evaluates each condition.
-// 3. judge() makes one verdict from the findings: missing if one could not be evaluated, differs if one
-//    fails, else reproduced ("shape" for claims of class S). Not run if the profile of the newest record does
-//    not measure it. A claim with a reason in 'pending' or 'not_comparable' has that verdict unmeasured.
-// 4. Complaints, with which `terrabench check` exits with 1: a verdict other than the claim's known one, a
-//    record altered by hand, a comparison between different machines or builds.
+// 2. gather_evidence (evidence.h) reads these metrics from the records and evaluates each condition. Only
+//    records of the newest record's profile count, of each case the newest.
+// 3. judge_measured() makes one verdict from the findings: missing if one could not be evaluated, differs if
+//    one fails, else reproduced ("shape" for claims of class S). Without evidence, judge_claim(): pending or
+//    not comparable if the claim gives a reason for it, not run if that profile does not measure the claim.
+// 4. Complaints, with which `terrabench check` exits with 1, only on claims that went through
+//    judge_measured(): a verdict other than the claim's known one, a record altered by hand, a comparison
+//    between different machines or builds.
+// To follow one verdict: judge_claim() and judge_measured() in judge.cpp, then evidence.cpp from its end.
 #pragma once
 
 #include <filesystem>
@@ -21,9 +24,9 @@ namespace terrabench {
 struct Judgement {
   const Paper* paper = nullptr;
   const Claim* claim = nullptr;
-  Verdict verdict = Verdict::kPending;
-  std::string measured;  // the findings in full; or why nothing was measured
-  Finding deciding;      // the first finding that fails, else the first; empty if nothing was measured
+  Verdict verdict = Verdict::kPending;  // until judge_claim() finds another
+  std::string measured;                 // the findings in full; or why nothing was measured
+  Finding deciding;  // the first finding that fails, else the first; empty if nothing was measured
   std::vector<std::string> runs;  // ids of the runs that it rests on
   std::string complaint;          // why `check` fails at this claim; empty when it does not
 };

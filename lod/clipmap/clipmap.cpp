@@ -1,3 +1,9 @@
+// Where this departs from Losasso & Hoppe 2004, or they leave a choice: a level is every second sample
+// of the finer one, not filtered, so that a vertex has one height in all levels. A window follows the eye in
+// steps of two of its samples. A level is left out while the eye's height over the ground exceeds 0.4 of its
+// window's extent (§3.2). The transition is a tenth of the window wide (§3.3). Blocks are culled by their
+// present heights. Over bounded ground, blocks are cut at the border, beyond which triangles have no plan
+// area.
 #include "lod/clipmap/clipmap.h"
 
 #include <fmt/format.h>
@@ -100,7 +106,7 @@ void Clipmap::add_level() {
   uploads_.reserve(storage_.size() * 8 + 1);
 }
 
-// Over endless ground, adds levels until the coarsest window reaches beyond what can be seen.
+// Over endless ground, adds levels until the coarsest window reaches the far plane, so that no edge is seen.
 void Clipmap::add_levels_in_sight(const View& view) {
   if (source_->bounded()) return;
   const double cell = std::min(source_->cell_x(), source_->cell_z());
@@ -179,11 +185,12 @@ const Frame& Clipmap::update(const View& view) {
   add_levels_in_sight(view);
   const float height = view.eye.y - ground_below_eye(eye);
   const float cell = std::max(source_->cell_x(), source_->cell_z());
-  int finest = 0;
+  int finest = 0;  // the finest level that is drawn
   while (!has_hole() && finest + 1 < levels() &&
          height > kHighestEye * static_cast<float>(pattern_.n << finest) * cell)
     ++finest;
 
+  // Levels below `finest` are not drawn and stay where they were; move_window() catches up when they return.
   for (int l = finest; l < levels(); ++l) {
     const int spacing = 1 << l;
     // In samples of this level: the corner is even, the eye 2m - 2 to 2m from it on each axis, near the
@@ -214,18 +221,6 @@ const Frame& Clipmap::update(const View& view) {
   return frame_;
 }
 
-// `rise`: the eye's height as a share of the height at which the level is left out. Only the finest drawn
-// level has a rise over ½; from ½ to 1 its transition widens inwards until it covers the whole window, so
-// that no vertex jumps when the level is left out.
-void Clipmap::set_transition(int l, float rise) {
-  ClipLevel& level = clip_levels_[l];
-  if (l + 1 == levels()) return;
-  level.to = static_cast<float>(2 * pattern_.m - 2);  // the eye's least distance from the border, samples
-  level.from = level.to - transition_width(pattern_.n) / std::clamp(2 - 2 * rise, kLeastDivisor, 1.0F);
-  // One sample more, so that rounding cannot move vertices at the rim of the hole.
-  if (l == 0 && has_hole()) level.from = std::max(level.from, hole_reach_ + 1);
-}
-
 // Reads the samples that entered the window; samples that stay keep their place in the array.
 void Clipmap::move_window(int l, glm::ivec2 corner) {
   ClipLevel& level = clip_levels_[l];
@@ -242,7 +237,8 @@ void Clipmap::move_window(int l, glm::ivec2 corner) {
       read_strip(l, by.x > 0 ? corner.x + n - by.x : corner.x, corner.y, std::abs(by.x), n);
     }
     if (by.y != 0) {
-      // Skips the corner that was read with the columns.
+      // Skips the corner that was read with the columns: at the low end if the window moved to lower x, where
+      // the rows begin later; else at the high end, where they end earlier.
       const int a = by.x < 0 ? corner.x - by.x : corner.x;
       read_strip(l, a, by.y > 0 ? corner.y + n - by.y : corner.y, n - std::abs(by.x), std::abs(by.y));
     }
@@ -251,26 +247,40 @@ void Clipmap::move_window(int l, glm::ivec2 corner) {
 }
 
 // Reads lattice samples [a, a + columns) × [b, b + rows), in up to four parts where the array wraps around.
+// Sample (a, b) has its place at (a mod side, b mod side); side is a power of two, so & mask is that modulus
+// for negative coordinates too.
 void Clipmap::read_strip(int l, int a, int b, int columns, int rows) {
   const int side = pattern_.side, mask = side - 1;
   for (int j = 0; j < rows;) {
     const int z = (b + j) & mask;
-    const int height = std::min(rows - j, side - z);
+    const int depth = std::min(rows - j, side - z);
     for (int i = 0; i < columns;) {
       const int x = (a + i) & mask;
       const int width = std::min(columns - i, side - x);
-      source_->read(l, a + i, b + j, width, height,
+      source_->read(l, a + i, b + j, width, depth,
                     &storage_[l].heights[static_cast<std::size_t>(z) * side + x], side);
       uploads_.push_back({.target = DirtyRange::Target::kClipLevel,
                           .level = static_cast<std::uint16_t>(l),
                           .x = static_cast<std::uint16_t>(x),
                           .z = static_cast<std::uint16_t>(z),
                           .width = static_cast<std::uint16_t>(width),
-                          .depth = static_cast<std::uint16_t>(height)});
+                          .depth = static_cast<std::uint16_t>(depth)});
       i += width;
     }
-    j += height;
+    j += depth;
   }
+}
+
+// `rise`: the eye's height as a share of the height at which the level is left out. Only the finest drawn
+// level has a rise over ½; from ½ to 1 its transition widens inwards until it covers the whole window, so
+// that no vertex jumps when the level is left out.
+void Clipmap::set_transition(int l, float rise) {
+  ClipLevel& level = clip_levels_[l];
+  if (l + 1 == levels()) return;
+  level.to = static_cast<float>(2 * pattern_.m - 2);  // the eye's least distance from the border, samples
+  level.from = level.to - transition_width(pattern_.n) / std::clamp(2 - 2 * rise, kLeastDivisor, 1.0F);
+  // One sample more, so that rounding cannot move vertices at the rim of the hole.
+  if (l == 0 && has_hole()) level.from = std::max(level.from, hole_reach_ + 1);
 }
 
 // Finds each block's height range and the index ranges that lie on the ground. The height range includes one

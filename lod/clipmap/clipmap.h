@@ -1,21 +1,13 @@
-// Geometry clipmaps (Losasso & Hoppe 2004, whose sections are cited below; the hybrid paper uses them, §3.2):
-// nested windows of n × n samples around the eye, each twice as coarse as the one inside it. Windows are
-// stored toroidally, so that a move of the eye reads only the strips that entered a window.
+// Geometry clipmaps (Losasso & Hoppe 2004; the hybrid paper uses them, §3.2): nested windows of n × n samples
+// around the eye, each twice as coarse as the one inside it. Windows are stored toroidally, so that a move of
+// the eye reads only the strips that entered a window.
 // Lattice coordinates number a level's own samples: (a, b) is sample (a·2^level, b·2^level) of the terrain. A
 // window has n = 4m - 1 samples per side; a row of its array has the next power of two (terrain/frame.h).
 //
 // One update(): find the finest level by the eye's height; move each window, read its new strips and update
 // its blocks' height ranges; set the transitions; append a batch for each block that is not culled.
-//
-// Where it departs from the paper or the paper leaves a choice: a level is every second sample of the finer
-// one, not filtered, so that a vertex has one height in all levels. A window follows the eye in steps of two
-// of its samples. A level is left out while the eye's height over the ground exceeds 0.4 of its window's
-// extent (§3.2). The transition is a tenth of the window wide (§3.3). Blocks are culled by their present
-// heights. Over bounded ground, blocks are cut at the border, beyond which triangles have no plan area.
-//
-// Endless ground (endless_heights.h) gets as many levels as reach the far plane (at most 2^26 samples away),
-// so that no edge comes into view. Its origin can be moved along with the eye, so that coordinates stay small
-// enough for a float everywhere; this is free, since windows are placed by whole samples.
+// To follow a move of the eye: ClipLevel (terrain/frame.h), then update(), move_window() and read_strip(),
+// which stand together in clipmap.cpp. What can wait: holes, endless ground, transitions and the pattern.
 //
 // update(): O(n) per window that moved by a step, and O(levels) to cull and draw. Memory: 4 bytes per sample
 // of each window; the terrain's size affects only the number of levels.
@@ -45,7 +37,8 @@ class Clipmap : public Lod {
   Memory memory() const override;
 
   // From the next update() on, views and frames count metres from this sample. Throws usage_error when the
-  // sample is not on the ground.
+  // sample is not on the ground. Over endless ground (endless_heights.h), move it along with the eye, so that
+  // coordinates stay small enough for a float; this is free, since windows are placed by whole samples.
   void move_origin(glm::ivec2 sample);
   glm::ivec2 origin() const { return origin_; }
 

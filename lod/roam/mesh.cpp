@@ -101,6 +101,7 @@ std::uint32_t Mesh::take_pair() {
   return pair;
 }
 
+// Bisects both halves, then links each half's children to the other's; bisect() links the rest.
 void Mesh::bisect_diamond(std::uint32_t id) {
   assert(nodes_[id].leaf() && forms_diamond(id) && splittable(nodes_[id]));
   const std::uint32_t base = nodes_[id].base;
@@ -142,6 +143,21 @@ void Mesh::bisect(std::uint32_t id) {
   ++leaves_;
 }
 
+// Replaces the neighbour's link to `from` by one to `to`. Across a leg, the neighbour is of the same level
+// (the edge is its leg: left or right) or one finer (the edge is its hypotenuse: base).
+void Mesh::relink(std::uint32_t neighbour, std::uint32_t from, std::uint32_t to) {
+  if (neighbour == kNone) return;
+  Node& node = nodes_[neighbour];
+  if (node.left == from) {
+    node.left = to;
+  } else if (node.right == from) {
+    node.right = to;
+  } else {
+    assert(node.base == from);
+    node.base = to;
+  }
+}
+
 void Mesh::join_diamond(std::uint32_t id) {
   const std::uint32_t base = nodes_[id].base;
   join(id);
@@ -161,20 +177,6 @@ void Mesh::join(std::uint32_t id) {
   nodes_[pair].in_use = nodes_[pair + 1].in_use = false;
   free_pair_ = pair;
   --leaves_;
-}
-
-// Replaces the neighbour's link to `from` by one to `to`.
-void Mesh::relink(std::uint32_t neighbour, std::uint32_t from, std::uint32_t to) {
-  if (neighbour == kNone) return;
-  Node& node = nodes_[neighbour];
-  if (node.left == from) {
-    node.left = to;
-  } else if (node.right == from) {
-    node.right = to;
-  } else {
-    assert(node.base == from);
-    node.base = to;
-  }
 }
 
 void Mesh::prefetch_bisection(const Node& node) const {

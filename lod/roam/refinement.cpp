@@ -1,5 +1,6 @@
-// The refinement of the mesh (Duchaineau et al. 1997, §5): the loop that splits and merges until the queues
-// agree, one split, one merge, and the priorities by which the queues are ordered.
+// The refinement of the mesh (Duchaineau et al. 1997, §5). First, in call order: the loop that splits and
+// merges until the queues agree, one split, and what ends the frame. Then one merge, helpers of both, what is
+// incidental (cost, degenerate triangles, clock, prefetching), and the priorities that order the queues.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -49,19 +50,13 @@ void Roam::refine() {
       prefetch_next_splits(id);
       force_split(id);
     } else if (!split_diamonds_.empty()) {
-      queue_split_diamonds();
+      queue_split_diamonds();  // no room: one of them may be the lowest
     } else if (lowest >= 0 && lowest < highest && swaps++ < most_swaps) {
       force_merge(merges_.first(lowest));
     } else {
       return;
     }
   }
-}
-
-bool Roam::out_of_time() const {
-  if (options_.milliseconds <= 0) return false;
-  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start_;
-  return spent.count() >= options_.milliseconds;
 }
 
 // While the triangle forms no diamond, its base neighbour is one level coarser: splits that neighbour, one of
@@ -72,9 +67,10 @@ void Roam::force_split(std::uint32_t id) {
   if (mesh_.nodes()[id].leaf()) split_diamond(id);
 }
 
-// Takes both halves out of the split queue and the draw list, bisects them, ranks the four children,
-// schedules the diamond for the merge queue, and takes the parents' diamonds out of it. The
-// children enter the draw list in finish_ranked_leaves().
+// In this order: takes both halves out of the split queue and the draw list (before they cease to be leaves:
+// unqueue() chooses the queue by that); bisects them; labels and ranks the children; notes the diamond in
+// split_diamonds_, from where queue_split_diamonds() enters it into the merge queue; takes the parents'
+// diamonds out of that queue. The children enter the draw list in finish_ranked_leaves().
 void Roam::split_diamond(std::uint32_t id) {
   std::vector<Node>& nodes = mesh_.nodes();
   const Halves both = halves(id);
@@ -98,35 +94,8 @@ void Roam::split_diamond(std::uint32_t id) {
   split_degenerate_children(both);
 }
 
-// A parent's diamond cannot merge while a child is split that is not degenerate. It is still in the merge
-// queue only if this is the first such child.
-void Roam::withdraw_parents(const Halves& both) {
-  std::vector<Node>& nodes = mesh_.nodes();
-  for (const std::uint32_t half : both) {
-    if (half == kNone) continue;
-    const std::uint32_t parent = nodes[half].parent;
-    if (parent == kNone || mesh_.degenerate(nodes[half])) continue;
-    if (++nodes[parent].split_children == 1) unqueue(diamond_of(parent));
-  }
-}
-
-// Degenerate triangles occur only where the lattice is not exact (lattice.h). A merge would include them, so
-// the diamond is ranked with them now; otherwise split and merge would alternate forever.
-void Roam::split_degenerate_children(const Halves& both) {
-  const std::vector<Node>& nodes = mesh_.nodes();
-  bool any = false;
-  for (const std::uint32_t half : both) {
-    if (half == kNone) continue;
-    for (const std::uint32_t child : {nodes[half].child, nodes[half].child + 1}) {
-      if (!mesh_.degenerate(nodes[child])) continue;
-      any = true;
-      if (nodes[child].leaf()) force_split(child);
-    }
-  }
-  if (any) requeue_diamond(both[0]);
-}
-
-// Culls and ranks the two children of a triangle, given by its corners and the middle of its hypotenuse.
+// Labels and ranks the two children of a triangle, given by its corners and the middle of its hypotenuse.
+// rank_leaf() enters each into the split queue and into ranked_leaves_.
 void Roam::add_children(std::uint32_t id, const ViewedCorner& apex, const ViewedCorner& left,
                         const ViewedCorner& right, const ViewedCorner& middle) {
   const Node& parent = mesh_.nodes()[id];
@@ -139,36 +108,46 @@ void Roam::add_children(std::uint32_t id, const ViewedCorner& apex, const Viewed
   add(parent.child + 1, right, apex);
 }
 
-// Upper bound of the triangles that force_split() adds.
-std::size_t Roam::cost_of_split(std::uint32_t id) const {
-  const int finest = mesh_.lattice().finest_level();
-  // Splitting a degenerate child may force a further chain of neighbours, two triangles per level, whose
-  // splits may do the same. Four chains are a safe bound (roam_cost_test.cpp).
-  std::size_t cost = !mesh_.lattice().exact && mesh_.nodes()[id].level >= finest - 2
-                         ? 8 * (static_cast<std::size_t>(finest) + 1)
-                         : 0;
-  for (;; id = mesh_.nodes()[id].base) {
-    cost += mesh_.nodes()[id].base == kNone ? 1 : 2;
-    if (mesh_.forms_diamond(id)) return cost;
+// A parent's diamond cannot merge while a child is split that is not degenerate. It is still in the merge
+// queue only if this is the first such child.
+void Roam::withdraw_parents(const Halves& both) {
+  std::vector<Node>& nodes = mesh_.nodes();
+  for (const std::uint32_t half : both) {
+    if (half == kNone) continue;
+    const std::uint32_t parent = nodes[half].parent;
+    if (parent == kNone || mesh_.degenerate(nodes[half])) continue;
+    if (++nodes[parent].split_children == 1) unqueue(diamond_of(parent));
   }
 }
 
-// Splits are limited by memory latency. Prefetches what the next three leaves of the queue will read, one
-// step of indirection per split.
-void Roam::prefetch_next_splits(std::uint32_t id) const {
+// Most diamonds split in a frame have children split in the same frame and cannot merge, so they enter the
+// merge queue only when merging is considered, and after refine().
+void Roam::queue_split_diamonds() {
   const std::vector<Node>& nodes = mesh_.nodes();
-  const auto after = [&](std::uint32_t leaf) { return leaf == kNone ? kNone : nodes[leaf].queue.after; };
-  const std::uint32_t first = after(id), second = after(first), third = after(second);
-  mesh_.prefetch(third);
-  if (second != kNone) {
-    const Node& node = nodes[second];
-    for (const std::uint32_t other : {node.left, node.right, node.base, node.parent}) mesh_.prefetch(other);
-    mesh_.prefetch_bisection(node);
+  for (std::size_t k = 0; k < split_diamonds_.size(); ++k) {
+    if (k + 2 * kPrefetch < split_diamonds_.size()) mesh_.prefetch(split_diamonds_[k + 2 * kPrefetch]);
+    if (k + kPrefetch < split_diamonds_.size()) mesh_.prefetch(nodes[split_diamonds_[k + kPrefetch]].base);
+    const std::uint32_t id = split_diamonds_[k];
+    const Node& node = nodes[id];
+    if (node.in_use && !node.leaf()) requeue_diamond(id);
   }
-  if (first != kNone && nodes[first].base != kNone) {
-    const Node& base = nodes[nodes[first].base];
-    for (const std::uint32_t other : {base.left, base.right, base.parent}) mesh_.prefetch(other);
+  split_diamonds_.clear();
+}
+
+// Most leaves made in a frame are split in the same frame, so only those left at the end of update() are
+// drawn and deferred.
+void Roam::finish_ranked_leaves() {
+  std::vector<Node>& nodes = mesh_.nodes();
+  for (std::size_t k = ranked_leaves_.size(); k-- > 0;) {
+    if (k >= kPrefetch) mesh_.prefetch(ranked_leaves_[k - kPrefetch]);
+    const std::uint32_t id = ranked_leaves_[k];
+    const Node& node = nodes[id];
+    if (!node.in_use || !node.leaf()) continue;
+    update_drawn(id);
+    if (node.bucket == roam::kNoList || node.deferral_list != roam::kNoList) continue;
+    deferred_.defer(nodes, id, node.validity);
   }
+  ranked_leaves_.clear();
 }
 
 // Merges the diamonds of degenerate children, then the diamond itself.
@@ -228,9 +207,64 @@ void Roam::requeue_diamond(std::uint32_t id) {
   if (mergeable(diamond)) rank_diamond(diamond);
 }
 
+// From its queue, which the mesh tells, and from its deferral list. In neither of them: no effect.
 void Roam::unqueue(std::uint32_t id) {
   (mesh_.nodes()[id].leaf() ? splits_ : merges_).remove(mesh_.nodes(), id);
   deferred_.remove(mesh_.nodes(), id);
+}
+
+// Upper bound of the triangles that force_split() adds.
+std::size_t Roam::cost_of_split(std::uint32_t id) const {
+  const int finest = mesh_.lattice().finest_level();
+  // Splitting a degenerate child may force a further chain of neighbours, two triangles per level, whose
+  // splits may do the same. Four chains are a safe bound (roam_cost_test.cpp).
+  std::size_t cost = !mesh_.lattice().exact && mesh_.nodes()[id].level >= finest - 2
+                         ? 8 * (static_cast<std::size_t>(finest) + 1)
+                         : 0;
+  for (;; id = mesh_.nodes()[id].base) {
+    cost += mesh_.nodes()[id].base == kNone ? 1 : 2;
+    if (mesh_.forms_diamond(id)) return cost;
+  }
+}
+
+// Degenerate triangles occur only where the lattice is not exact (lattice.h). A merge would include them, so
+// the diamond is ranked with them now; otherwise split and merge would alternate forever.
+void Roam::split_degenerate_children(const Halves& both) {
+  const std::vector<Node>& nodes = mesh_.nodes();
+  bool any = false;
+  for (const std::uint32_t half : both) {
+    if (half == kNone) continue;
+    for (const std::uint32_t child : {nodes[half].child, nodes[half].child + 1}) {
+      if (!mesh_.degenerate(nodes[child])) continue;
+      any = true;
+      if (nodes[child].leaf()) force_split(child);
+    }
+  }
+  if (any) requeue_diamond(both[0]);
+}
+
+bool Roam::out_of_time() const {
+  if (options_.milliseconds <= 0) return false;
+  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start_;
+  return spent.count() >= options_.milliseconds;
+}
+
+// Splits are limited by memory latency. Prefetches what the next three leaves of the queue will read, one
+// step of indirection per split.
+void Roam::prefetch_next_splits(std::uint32_t id) const {
+  const std::vector<Node>& nodes = mesh_.nodes();
+  const auto after = [&](std::uint32_t leaf) { return leaf == kNone ? kNone : nodes[leaf].queue.after; };
+  const std::uint32_t first = after(id), second = after(first), third = after(second);
+  mesh_.prefetch(third);
+  if (second != kNone) {
+    const Node& node = nodes[second];
+    for (const std::uint32_t other : {node.left, node.right, node.base, node.parent}) mesh_.prefetch(other);
+    mesh_.prefetch_bisection(node);
+  }
+  if (first != kNone && nodes[first].base != kNone) {
+    const Node& base = nodes[nodes[first].base];
+    for (const std::uint32_t other : {base.left, base.right, base.parent}) mesh_.prefetch(other);
+  }
 }
 
 std::uint16_t Roam::bucket_of(double ratio) {
@@ -328,36 +362,6 @@ void Roam::rerank_all() {
   for (std::uint32_t id = 0; id < made; ++id) {
     if (mesh_.nodes()[id].in_use) rerank(id);
   }
-}
-
-// Most diamonds split in a frame have children split in the same frame and cannot merge, so they enter the
-// merge queue only when merging is considered.
-void Roam::queue_split_diamonds() {
-  const std::vector<Node>& nodes = mesh_.nodes();
-  for (std::size_t k = 0; k < split_diamonds_.size(); ++k) {
-    if (k + 2 * kPrefetch < split_diamonds_.size()) mesh_.prefetch(split_diamonds_[k + 2 * kPrefetch]);
-    if (k + kPrefetch < split_diamonds_.size()) mesh_.prefetch(nodes[split_diamonds_[k + kPrefetch]].base);
-    const std::uint32_t id = split_diamonds_[k];
-    const Node& node = nodes[id];
-    if (node.in_use && !node.leaf()) requeue_diamond(id);
-  }
-  split_diamonds_.clear();
-}
-
-// Most leaves made in a frame are split in the same frame, so only those left at its end are drawn and
-// deferred.
-void Roam::finish_ranked_leaves() {
-  std::vector<Node>& nodes = mesh_.nodes();
-  for (std::size_t k = ranked_leaves_.size(); k-- > 0;) {
-    if (k >= kPrefetch) mesh_.prefetch(ranked_leaves_[k - kPrefetch]);
-    const std::uint32_t id = ranked_leaves_[k];
-    const Node& node = nodes[id];
-    if (!node.in_use || !node.leaf()) continue;
-    update_drawn(id);
-    if (node.bucket == roam::kNoList || node.deferral_list != roam::kNoList) continue;
-    deferred_.defer(nodes, id, node.validity);
-  }
-  ranked_leaves_.clear();
 }
 
 // Keeps exact_from_ a little below the bucket where the two queues meet. Returns whether it had to be

@@ -28,8 +28,9 @@ GroundedHeightmap append_along(Edit& edit, const events::Line& line, int columns
 // Step 1 of an Edit, with a margin around the event so that the ring has a width.
 RemovedPart cut_out_with_margin(Edit& edit, TurnedRectangle shape);
 
-// Step 4. `outline` lists boundary cells in order, counter-clockwise; links and repetitions are allowed.
-// `nearest` gives the new cell for a point of the old ground, as (u, d).
+// Step 4. Closes the ring and supersedes every old cell inside it by `nearest`, which gives the new cell for
+// a point of the old ground, as (u, d). `outline` lists boundary cells in order, counter-clockwise; links and
+// repetitions are allowed.
 void join_to_ground(Edit& edit, const events::Line& line, const RemovedPart& old, std::vector<CellId> outline,
                     const std::function<CellId(glm::dvec2)>& nearest);
 

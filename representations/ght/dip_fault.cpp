@@ -7,10 +7,13 @@
 //   d=R __--''     \       __-- d=-R          d=R __--''    /    __-- d=-R
 //                   r__--''                               r__--''
 //
-// The lips L and r lie half the rise above and below 0. A cell's height over its plane is that of the old
-// ground: for a block at the point that moves to the cell, for the scarp at the nearest point of the line.
-// At distance |d| ≤ R from the line, points move across it by (1 − |d| / R) · offset / 2 and up or down by
+// The lips L and r lie half the rise above and below 0. At distance |d| ≤ R from the line, points move by
+// (1 − |d| / R) · offset / 2 away from it (inverse: towards and beyond it), and up or down by
 // (1 − |d| / R) · rise / 2.
+//
+// The tree afterwards: the host has three more children (left, right, scarp). Block cells at a lip are links
+// to the scarp. Old cells inside the cut, of whatever heightmap, are links to the nearest cell of a block.
+// Faces cover the three heightmaps and the ring around them. Read from record(), at the end.
 #include <algorithm>
 #include <cmath>
 
@@ -22,34 +25,24 @@ namespace {
 
 struct DipFaultMaps {
   events::Line line;
-  double extent, rise;            // of the event, metres
+  double extent;                  // of the event, metres
   double lip;                     // d of the left block's lip, negative if inverse; the right one's is -lip
   int columns, rows, scarp_rows;  // steps along the line, outwards in a block, and from lip to lip
   int folded = 0;                 // rows of the right block under the overhang; 0 for a normal fault
   GroundedHeightmap left{}, right{}, scarp{};
 
-  int folded_scarp() const { return folded > 0 ? scarp_rows : 0; }  // of an overhang, all but the left lip
   bool at_end(int column) const { return column == 0 || column == columns; }
   double u(int column) const { return line.length * column / columns; }
 };
 
-// `sign`: 1 for the left block, -1 for the right one. Rows run from the lip, moved up or down by half the
-// rise, to the edge at `extent`, which stays. Columns run along the line.
-GroundedHeightmap append_block(Edit& edit, const DipFaultMaps& maps, int sign) {
-  const int rows = maps.rows;
+// A heightmap whose columns run along the line and whose rows run from `from` to `to`, both (d, y).
+GroundedHeightmap append_rows(Edit& edit, const DipFaultMaps& maps, glm::dvec2 from, glm::dvec2 to, int rows,
+                              Area area = Area::kOutdoor) {
+  const glm::dvec2 step = (to - from) / static_cast<double>(rows);
   return append_along(edit, maps.line, maps.columns, rows,
-                      {.origin = {0, sign * maps.lip, sign * maps.rise / 2},
+                      {.origin = {0, from.x, from.y},
                        .column = {maps.line.length / maps.columns, 0, 0},
-                       .row = {0, sign * (maps.extent - maps.lip) / rows, -sign * maps.rise / 2 / rows}});
-}
-
-// Rows run from the right block's lip to the left one's.
-GroundedHeightmap append_scarp(Edit& edit, const DipFaultMaps& maps, Area area) {
-  const int rows = maps.scarp_rows;
-  return append_along(edit, maps.line, maps.columns, rows,
-                      {.origin = {0, -maps.lip, -maps.rise / 2},
-                       .column = {maps.line.length / maps.columns, 0, 0},
-                       .row = {0, 2 * maps.lip / rows, maps.rise / rows}},
+                       .row = {0, step.x, step.y}},
                       area);
 }
 
@@ -69,61 +62,66 @@ DipFaultMaps append_maps(Edit& edit, const events::DipFault& e) {
   const double lip = (e.inverse ? -0.5 : 0.5) * e.offset();
   DipFaultMaps maps{line,
                     e.extent,
-                    e.rise,
                     lip,
                     std::max(2, steps(line.length, grid)),
                     steps(std::hypot(std::max(e.extent, e.extent - lip), e.rise / 2), grid),
                     steps(std::hypot(e.offset(), e.rise), grid)};
   if (e.inverse) maps.folded = rows_under_overhang(edit, maps);
-  maps.left = append_block(edit, maps, 1);
-  maps.right = append_block(edit, maps, -1);
+  const glm::dvec2 left_lip(lip, e.rise / 2), right_lip = -left_lip;
+  maps.left = append_rows(edit, maps, left_lip, {e.extent, 0}, maps.rows);
+  maps.right = append_rows(edit, maps, right_lip, {-e.extent, 0}, maps.rows);
   // kIndoor keeps an overhanging scarp out of the index of hosts: no later event can be applied to it.
-  maps.scarp = append_scarp(edit, maps, e.inverse ? Area::kIndoor : Area::kOutdoor);
+  maps.scarp = append_rows(edit, maps, right_lip, left_lip, maps.scarp_rows,
+                           e.inverse ? Area::kIndoor : Area::kOutdoor);
   return maps;
 }
 
-// The height that puts a cell on the ground as it was before the event. Cells at both ends of the line have
-// it, so that the blocks join the ground around them.
+// What the cells hold, a link or a height over the plane, which is the height of the old ground somewhere:
+//                          inner columns                        the two end columns, at_end()
+//   block, row 0           link to the scarp's lip              link to the scarp's lip
+//   block, other rows      ground at the point that moves here  ground at the cell: joins what is around
+//   scarp                  ground at the line                   ground at the cell
+// Last, fold_end_columns() changes what an overhang has in the end columns.
+
+// Height over its plane of a cell that stays on the ground as it was before the event.
 float height_on_ground(const Edit& edit, const events::Line& line, const GroundedHeightmap& map, int column,
                        int row) {
   const glm::dvec3 p = map.plane.at(column, row, 0);
+  // plan(local(p)) is p, rounded; recorded bytes depend on that rounding.
   return edit.ground(line.plan(line.local({p.x, p.z}))) - static_cast<float>(p.y);
 }
 
-// In the two end columns an overhang has no width: the right block's cells under it and the scarp's cells all
-// link to the left lip.
-void fold_end_columns(Edit& edit, const DipFaultMaps& maps) {
-  for (const int i : {0, maps.columns}) {
-    const CellId lip = maps.scarp.cell(i, maps.scarp_rows);
-    for (int j = 0; j < maps.folded; ++j) edit.set_link(maps.right.cell(i, j), lip);
-    for (int j = 0; j < maps.folded_scarp(); ++j) edit.set_link(maps.scarp.cell(i, j), lip);
-  }
-}
-
-// A cell at a lip links to the scarp, which comes later in the tree and holds the heights of both lips.
+// `sign`: 1 for the left block, -1 for the right one. Links lead to later cells only, so row 0 links to the
+// scarp, which holds the heights of both lips.
 void fill_block(Edit& edit, const DipFaultMaps& maps, int sign) {
   const GroundedHeightmap& block = sign > 0 ? maps.left : maps.right;
   for (int i = 0; i <= maps.columns; ++i) {
-    for (int j = sign < 0 && maps.at_end(i) ? maps.folded : 0; j <= maps.rows; ++j) {
-      const CellId c = block.cell(i, j);
-      if (j == 0) {
-        edit.set_link(c, maps.scarp.cell(i, sign < 0 ? 0 : maps.scarp_rows));
-      } else if (maps.at_end(i)) {
-        edit.set_height(c, height_on_ground(edit, maps.line, block, i, j));
-      } else {
-        edit.set_height(c, edit.ground(maps.line.plan({maps.u(i), sign * maps.extent * j / maps.rows})));
-      }
+    edit.set_link(block.cell(i, 0), maps.scarp.cell(i, sign < 0 ? 0 : maps.scarp_rows));
+    for (int j = 1; j <= maps.rows; ++j) {
+      const double d = sign * maps.extent * j / maps.rows;
+      edit.set_height(block.cell(i, j), maps.at_end(i) ? height_on_ground(edit, maps.line, block, i, j)
+                                                       : edit.ground(maps.line.plan({maps.u(i), d})));
     }
   }
 }
 
 void fill_scarp(Edit& edit, const DipFaultMaps& maps) {
   for (int i = 0; i <= maps.columns; ++i) {
-    for (int j = maps.at_end(i) ? maps.folded_scarp() : 0; j <= maps.scarp_rows; ++j) {
+    for (int j = 0; j <= maps.scarp_rows; ++j) {
       edit.set_height(maps.scarp.cell(i, j), maps.at_end(i)
                                                  ? height_on_ground(edit, maps.line, maps.scarp, i, j)
                                                  : edit.ground(maps.line.plan({maps.u(i), 0})));
     }
+  }
+}
+
+// An overhang has no width in the end columns: there the right block's cells under it and the scarp's cells
+// below the left lip become links to the left lip.
+void fold_end_columns(Edit& edit, const DipFaultMaps& maps) {
+  for (const int i : {0, maps.columns}) {
+    const CellId lip = maps.scarp.cell(i, maps.scarp_rows);
+    for (int j = 0; j < maps.folded; ++j) edit.set_link(maps.right.cell(i, j), lip);
+    for (int j = 0; j < maps.scarp_rows; ++j) edit.set_link(maps.scarp.cell(i, j), lip);
   }
 }
 
@@ -153,13 +151,14 @@ void record(Edit& edit, const events::DipFault& e) {
   const RemovedPart old = cut_out_with_margin(edit, {line, 0, line.length, -e.extent, e.extent});
   // Step 2: new heightmaps. Set links first: quads() replaces each link by its target.
   const DipFaultMaps maps = append_maps(edit, e);
-  fold_end_columns(edit, maps);
   for (const int sign : {1, -1}) fill_block(edit, maps, sign);
   fill_scarp(edit, maps);
+  if (e.inverse) fold_end_columns(edit, maps);
   edit.quads(maps.left, false);
   edit.quads(maps.right, true);
   edit.quads(maps.scarp, false);
-  // Steps 3 and 4: outline and join. apply_event() then commits.
+  // Steps 3 and 4: outline and join; old cells are superseded by the nearest ones. apply_event() then
+  // commits.
   join_to_ground(edit, line, old, outline(maps), [&](glm::dvec2 p) {
     return (p.y >= 0 ? maps.left : maps.right)
         .cell(nearest_step(p.x / line.length, maps.columns),

@@ -147,6 +147,7 @@ void Edit::check_faces() const {
   }
 }
 
+// First allocates, then applies.
 void Edit::commit(events::Kind kind) {
   Tree& tree = model_.tree;
   check_faces();
@@ -167,8 +168,9 @@ void Edit::commit(events::Kind kind) {
     highest = std::max(highest, y);
   }
 
-  // Nothing fails from here on. Faces are found by the places of their cells, so they are removed before the
-  // cells change.
+  // Nothing fails from here on. The new nodes are in the tree already; of the tree, only the superseded cells
+  // and the list of events (append(Applied)) change here, the rest is surface and index. Faces are found by
+  // the places of their cells, so they are removed before the cells change.
   for (const FaceId f : removed_) model_.surface.remove(tree, f);
   for (const auto& [old, by] : superseded_) tree.set_link(old, by);
   for (const Square s : covered_) model_.surface.set_covered(s, true);

@@ -12,9 +12,10 @@
 //   LateralFault                     §3.2, figure 13         lateral_fault.cpp
 //   Carving (tunnel and cave)        §3.2, figures 15, 16    carving.cpp, carving_walls.cpp
 //
-// To follow one event, such as a dip fault: its formula in terrain/events/event.h (DipFault), edit.h, its
-// file (dip_fault.cpp) from record() at the end, then edit.cpp from close_ring() on. apply_event() finds the
-// host, calls record() and then commit(). The helpers are in along_line.h and cut_out.h and can wait.
+// To follow one event, such as a dip fault: the opening comment of edit.h; the event's file (dip_fault.cpp),
+// its opening comment and then from record() at the end; join_to_ground() in along_line.cpp; the second half
+// of Edit::commit() in edit.cpp. apply_event() finds the host, calls record() and then commit(). What can
+// wait: the formula as data (terrain/events/event.h), cut_out.h, the triangles of the ring (close_ring()).
 #pragma once
 
 #include <memory>
