@@ -17,6 +17,7 @@
 #include "renderers/context.h"
 #include "terrain/error.h"
 #include "terrain/progress.h"
+#include "terrain/sources/dem/network.h"
 
 namespace terrabench {
 namespace {
@@ -291,6 +292,8 @@ int main_program(int argc, char** argv) {
   app.footer(kFooter);
   app.require_subcommand(1);
   app.set_version_flag("--version", TERRABENCH_VERSION);
+  app.add_flag_callback("--allow-network", allow_network,
+                        "Let DEMs that name files on the network, such as /vsicurl/ in a .vrt, fetch them");
   Arguments arguments;
   arguments.run.command.assign(argv, argv + argc);
   add_list(app, arguments);
