@@ -17,6 +17,7 @@
 #include "renderers/context.h"
 #include "terrain/error.h"
 #include "terrain/progress.h"
+#include "terrain/sources/dem/network.h"
 
 namespace terrabench {
 namespace {
@@ -58,6 +59,7 @@ struct Arguments {
   RenderArguments render;
   CheckArguments check;
   CompareArguments compare;
+  MergeArguments merge;
   std::filesystem::path report = "out", info;
   std::string profile = "quick", shard = "1/1";
   int threads = 0;
@@ -135,6 +137,15 @@ void add_results(CLI::App& app, Arguments& a) {
   compare->add_option("a", a.compare.before, "Results folder")->required();
   compare->add_option("b", a.compare.after, "Results folder")->required();
   compare->add_flag("--json", a.compare.json, "Print JSON");
+  auto* merge = app.add_subcommand(
+      "merge",
+      "Join results folders, such as those of `run --shard`, into one. Refuses altered lines, changed "
+      "pictures "
+      "and mixed revisions before it writes anything; after an interruption, give the same command again. "
+      "Exits with 1 if a case was measured twice and its exact figures differ");
+  merge->add_option("out", a.merge.out, "Folder to write; what it holds counts as the first folder")
+      ->required();
+  merge->add_option("in", a.merge.folders, "Results folders")->required();
 }
 
 void add_represent(CLI::App& app, Arguments& a) {
@@ -262,6 +273,7 @@ ExitCode dispatch(const CLI::App& app, Arguments& a) {
   if (app.got_subcommand("check")) return check_command(a.check);
   if (app.got_subcommand("report")) return report_command(a.report);
   if (app.got_subcommand("compare")) return compare_command(a.compare);
+  if (app.got_subcommand("merge")) return merge_command(a.merge);
   if (app.got_subcommand("info")) return info_command(a.info);
   install_signals();
   if (app.got_subcommand("represent")) return represent_command(a.represent);
@@ -280,6 +292,8 @@ int main_program(int argc, char** argv) {
   app.footer(kFooter);
   app.require_subcommand(1);
   app.set_version_flag("--version", TERRABENCH_VERSION);
+  app.add_flag_callback("--allow-network", allow_network,
+                        "Let DEMs that name files on the network, such as /vsicurl/ in a .vrt, fetch them");
   Arguments arguments;
   arguments.run.command.assign(argv, argv + argc);
   add_list(app, arguments);

@@ -75,6 +75,12 @@ struct CompareArguments {
 };
 ExitCode compare_command(const CompareArguments&);
 
+struct MergeArguments {
+  std::filesystem::path out;
+  std::vector<std::filesystem::path> folders;
+};
+ExitCode merge_command(const MergeArguments&);
+
 ExitCode report_command(const std::filesystem::path& folder);
 
 // Describes a DEM, a saved structure or a results folder, which it distinguishes by content.

@@ -1,4 +1,4 @@
-// check, report and compare: the subcommands that only read measurements.
+// check, report, compare and merge: the subcommands that measure nothing.
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -8,6 +8,7 @@
 #include "experiments/commands/commands.h"
 #include "results/check_output.h"
 #include "results/compare.h"
+#include "results/merge.h"
 #include "results/report.h"
 #include "terrain/files.h"
 
@@ -37,6 +38,12 @@ ExitCode compare_command(const CompareArguments& arguments) {
   fmt::print(
       "{}", arguments.json ? compare_json(comparison) : compare_text(comparison, isatty(STDOUT_FILENO) != 0));
   return comparison.passed() ? ExitCode::kGood : ExitCode::kClaimFallsShort;
+}
+
+ExitCode merge_command(const MergeArguments& arguments) {
+  const Merged merged = merge(arguments.out, arguments.folders);
+  fmt::print("{}", merge_text(merged));
+  return merged.passed() ? ExitCode::kGood : ExitCode::kClaimFallsShort;
 }
 
 }  // namespace terrabench

@@ -37,9 +37,9 @@ struct Dem {
 };
 
 // `path` is anything that GDAL opens, /vsizip/… and inline VRT included; drivers that fetch from the network
-// are disabled. Throws bad_input for unusable files and usage_error for options that do not fit the file.
-// Prints nothing. Safe to call from several threads at once. O(pixels of the
-// window).
+// are disabled, and so are virtual files on other machines (network.h). Throws bad_input for unusable files
+// and usage_error for options that do not fit the file. Prints nothing. Safe to call from several threads at
+// once. O(pixels of the window).
 Dem read_dem(const std::string& path, const DemOptions& options = {}, Progress* progress = nullptr);
 
 // Float32, compressed without loss, with georeference and no-data value. Written whole or not at all. Throws

@@ -8,6 +8,8 @@
 #include <mutex>
 #include <string_view>
 
+#include "terrain/sources/dem/network.h"
+
 namespace terrabench {
 namespace {
 
@@ -48,6 +50,7 @@ void register_drivers() {
     manager->DeregisterDriver(driver);
     GDALDestroyDriver(driver);
   }
+  guard_network();
   if (CPLGetConfigOption("GDAL_CACHEMAX", nullptr) == nullptr) GDALSetCacheMax64(kBlockCache);
 }
 

@@ -1,0 +1,203 @@
+#include "results/merge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "results/format.h"
+#include "results/record_json.h"
+#include "results/statistics.h"
+#include "results/store.h"
+#include "terrain/error.h"
+#include "terrain/files.h"
+
+namespace terrabench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kLargestPicture = std::uint64_t{1} << 28;
+
+// A record with the store that it comes from.
+struct Source {
+  const Store* store;
+  const Record* record;
+
+  const Provenance& run() const { return *store->run(record->run); }
+  std::string where() const { return store->where(*record); }
+};
+
+// A shard may hold a run without a record: there can be more shards than cases.
+Store open_shard(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder / "measurements.jsonl", error)) return Store(folder);
+  throw bad_input("holds no measurements", folder.string(),
+                  "name folders that `terrabench run --out` has written");
+}
+
+std::string revision(const Provenance& run) {
+  return run.git_revision + (run.git_dirty ? " with uncommitted changes" : "");
+}
+
+void check_trustworthy(const Store& store) {
+  if (!store.faults().empty()) {
+    throw bad_input(store.faults().front(), "", "measure these cases again, or leave the folder out");
+  }
+  for (const Record& record : store.records()) {
+    for (const RecordedFigure& figure : record.figures) {
+      if (store.intact(figure)) continue;
+      throw bad_input(fmt::format("{} is missing or not the picture that was drawn", figure.file),
+                      store.where(record), "measure the case again with `terrabench run --resume`");
+    }
+  }
+}
+
+void check_revision(const Source& first, const Source& other) {
+  if (revision(first.run()) == revision(other.run())) return;
+  throw bad_input(fmt::format("measured by revision {}, but {} by revision {}", revision(other.run()),
+                              first.where(), revision(first.run())),
+                  other.where(), "merge folders of one revision only");
+}
+
+void check_same_case(const Source& kept, const Source& other) {
+  const auto sorted = [](auto parameters) {
+    std::ranges::sort(parameters);
+    return parameters;
+  };
+  const Record &a = *kept.record, &b = *other.record;
+  const char* const what = a.seed != b.seed                               ? "seed"
+                           : a.terrain_checksum != b.terrain_checksum     ? "terrain"
+                           : sorted(a.parameters) != sorted(b.parameters) ? "parameters"
+                                                                          : nullptr;
+  if (what == nullptr) return;
+  throw bad_input(
+      fmt::format("{} {} has another {} than in {}", b.experiment, b.case_name, what, kept.where()),
+      other.where(), "merge folders of one sweep only");
+}
+
+// Exact figures hold on any machine, so two measurements of a case must agree in them.
+void compare_exact(const Source& kept, const Source& other, std::vector<std::string>& contradictions) {
+  for (const Metric& metric : kept.record->metrics) {
+    const Metric* const match = other.record->find(metric.name);
+    if (match == nullptr || is_timing(metric.unit) || metric.samples == match->samples) continue;
+    contradictions.push_back(fmt::format(
+        "{} {} {}: {} in {}, {} in {}", kept.record->experiment, kept.record->case_name, metric.name,
+        format_quantity(summarise(metric.samples).median, metric.unit), kept.store->folder().string(),
+        format_quantity(summarise(match->samples).median, match->unit), other.store->folder().string()));
+  }
+}
+
+// The records of the merged folder, in order, each once.
+struct Plan {
+  std::vector<Source> records;
+  std::map<std::string, std::string> pictures;  // file → checksum
+};
+
+void add_record(const Source& source,
+                std::map<std::tuple<std::string, std::string, std::string>, Source>& cases, Plan& plan,
+                Merged& out) {
+  const Record& record = *source.record;
+  const auto [it, added] = cases.try_emplace({record.experiment, record.case_name, record.profile}, source);
+  if (!added) {
+    const Source& kept = it->second;
+    if (to_line(*kept.record) == to_line(record))
+      return;  // a copy of it, such as from a merge that was killed
+    check_same_case(kept, source);
+    compare_exact(kept, source, out.contradictions);
+    ++out.repeated;
+    return;
+  }
+  plan.records.push_back(source);
+  for (const RecordedFigure& figure : record.figures) {
+    const auto [picture, first] = plan.pictures.try_emplace(figure.file, figure.checksum);
+    if (first || picture->second == figure.checksum) continue;
+    throw bad_input(fmt::format("{} is another picture than in a folder before", figure.file), source.where(),
+                    "merge folders of one sweep only");
+  }
+}
+
+void copy_record(const Source& source, Store& out) {
+  for (const RecordedFigure& figure : source.record->figures) {
+    if (out.intact(figure)) continue;
+    write_file(out.folder() / figure.file, read_file(source.store->folder() / figure.file, kLargestPicture));
+  }
+  if (out.run(source.record->run) == nullptr) out.begin_run(source.run());
+  out.append(*source.record);
+}
+
+std::size_t count_machines(const std::vector<Source>& records) {
+  std::vector<const Provenance*> kinds;
+  for (const Source& source : records) {
+    const Provenance& run = source.run();
+    if (std::ranges::none_of(kinds, [&](const Provenance* kind) { return comparable(*kind, run); })) {
+      kinds.push_back(&run);
+    }
+  }
+  return kinds.size();
+}
+
+}  // namespace
+
+Merged merge(const fs::path& out, std::span<const fs::path> folders) {
+  std::error_code error;
+  for (const fs::path& folder : folders) {
+    if (!fs::equivalent(out, folder, error)) continue;
+    throw usage_error("the output folder is also an input", out.string(),
+                      "name it once, first: it may already hold results");
+  }
+  Store target(out);
+  std::vector<Store> inputs;
+  inputs.reserve(folders.size());
+  for (const fs::path& folder : folders) inputs.push_back(open_shard(folder));
+
+  // Pointers into `target` would not survive its appends, so it is read twice.
+  const Store present(out);
+  std::vector<const Store*> stores{&present};
+  for (const Store& store : inputs) stores.push_back(&store);
+  Merged result;
+  Plan plan;
+  std::map<std::tuple<std::string, std::string, std::string>, Source> cases;
+  for (const Store* const store : stores) {
+    check_trustworthy(*store);
+    result.warnings.insert(result.warnings.end(), store->warnings().begin(), store->warnings().end());
+    for (const Record& record : store->records()) {
+      add_record({store, &record}, cases, plan, result);
+      check_revision(plan.records.front(), {store, &record});
+    }
+  }
+  result.machines = count_machines(plan.records);
+  for (const Source& source : plan.records) {
+    if (source.store == &present) {
+      ++result.present;
+    } else {
+      copy_record(source, target);
+      ++result.copied;
+    }
+  }
+  return result;
+}
+
+std::string merge_text(const Merged& merged) {
+  std::string text;
+  for (const std::string& warning : merged.warnings) text += fmt::format("warning: {}\n", warning);
+  text += fmt::format("{} records copied, {} were there\n", merged.copied, merged.present);
+  if (merged.machines > 1) {
+    text += fmt::format(
+        "measured on {} machines or builds: `check` judges orders and ratios of times only within one\n",
+        merged.machines);
+  }
+  if (merged.repeated > 0) {
+    text += fmt::format("{} cases were measured more than once; the first folder's record is kept\n",
+                        merged.repeated);
+  }
+  for (const std::string& line : merged.contradictions) text += fmt::format("differs: {}\n", line);
+  if (!merged.passed()) {
+    text += fmt::format("{} exact figures differ between folders: they should be the same on any machine\n",
+                        merged.contradictions.size());
+  }
+  return text;
+}
+
+}  // namespace terrabench

@@ -1,0 +1,185 @@
+#include "results/merge.h"
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <random>
+
+#include "results/record_json.h"
+#include "terrain/error.h"
+#include "tests/results/fake_results.h"
+
+namespace terrabench {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class MergeTest : public FolderTest {
+ protected:
+  // Cases `first` to `last`, each with a count, a time and a picture.
+  void write_shard(const std::string& name, int first, int last, const Provenance& run = fake_provenance(),
+                   double bytes = 100) {
+    Store store(folder_ / name);
+    store.begin_run(run);
+    for (int i = first; i <= last; ++i) {
+      Record record = fake_record(run, "e", fmt(i));
+      add(record, "bytes", "B", {bytes + i});
+      add(record, "seconds", "s", {0.5, 0.25 * i});
+      const std::string picture = "figures/" + fmt(i) + ".png", pixels = "picture of " + fmt(i);
+      write_file(folder_ / name / picture, pixels);
+      record.figures.push_back({fmt(i), picture, "A picture", checksum(pixels)});
+      store.append(record);
+    }
+  }
+  static std::string fmt(int i) { return "n=" + std::to_string(i); }
+  Merged merge_into(const std::string& out, const std::vector<std::string>& names) {
+    std::vector<std::filesystem::path> folders;
+    for (const std::string& name : names) folders.push_back(folder_ / name);
+    return merge(folder_ / out, folders);
+  }
+  std::string error_of(const std::vector<std::string>& names) {
+    try {
+      merge_into("out", names);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::vector<std::string> cases(const std::string& name) {
+    std::vector<std::string> out;
+    const Store store = Store::open(folder_ / name);
+    EXPECT_TRUE(store.faults().empty() && store.warnings().empty());
+    for (const Record& record : store.records()) {
+      out.push_back(record.case_name);
+      for (const RecordedFigure& figure : record.figures) EXPECT_TRUE(store.intact(figure)) << figure.file;
+    }
+    return out;
+  }
+  bool nothing_written() const { return !std::filesystem::exists(folder_ / "out"); }
+};
+
+Provenance run_of(const std::string& revision, const std::string& cpu) {
+  Provenance run = fake_provenance();
+  run.git_revision = revision;
+  run.cpu = cpu;
+  run.id = digest(run);
+  return run;
+}
+
+TEST_F(MergeTest, JoinsShardsWithTheirPictures) {
+  write_shard("a", 1, 3);
+  write_shard("b", 4, 5);
+  const Merged merged = merge_into("out", {"a", "b"});
+  EXPECT_EQ(merged.copied, 5U);
+  EXPECT_EQ(merged.machines, 1U);
+  EXPECT_TRUE(merged.passed());
+  EXPECT_THAT(cases("out"), ElementsAre("n=1", "n=2", "n=3", "n=4", "n=5"));
+  const Store out = Store::open(folder_ / "out");
+  EXPECT_EQ(out.find("e", "n=4", "quick")->find("seconds")->samples, (std::vector{0.5, 1.0}));
+}
+
+TEST_F(MergeTest, DoneAgainChangesNothing) {
+  write_shard("a", 1, 3);
+  merge_into("out", {"a"});
+  const std::string before = read_file(folder_ / "out/measurements.jsonl");
+  const Merged again = merge_into("out", {"a"});
+  EXPECT_EQ(again.copied, 0U);
+  EXPECT_EQ(again.present, 3U);
+  EXPECT_EQ(again.repeated, 0U);
+  EXPECT_EQ(read_file(folder_ / "out/measurements.jsonl"), before);
+}
+
+TEST_F(MergeTest, TakesAShardWithoutCases) {
+  write_shard("a", 1, 2);
+  write_shard("empty", 1, 0);
+  EXPECT_EQ(merge_into("out", {"empty", "a"}).copied, 2U);
+}
+
+TEST_F(MergeTest, RefusesMixedRevisionsAndSaysWhich) {
+  write_shard("a", 1, 2);
+  write_shard("b", 3, 4, run_of("0123abc", fake_provenance().cpu));
+  const std::string error = error_of({"a", "b"});
+  EXPECT_THAT(error, HasSubstr("0123abc"));
+  EXPECT_THAT(error, HasSubstr(fake_provenance().git_revision));
+  EXPECT_THAT(error, HasSubstr("b/measurements.jsonl:2"));
+  EXPECT_TRUE(nothing_written());
+}
+
+TEST_F(MergeTest, RefusesAlteredLinesAndChangedPictures) {
+  write_shard("a", 1, 2);
+  edit(folder_ / "a/measurements.jsonl", "102", "103");
+  EXPECT_THAT(error_of({"a"}), HasSubstr("a/measurements.jsonl:3: altered"));
+  write_shard("b", 1, 2);
+  write_file(folder_ / "b/figures/n=2.png", std::string_view("another picture"));
+  EXPECT_THAT(error_of({"b"}), HasSubstr("figures/n=2.png"));
+  std::filesystem::remove(folder_ / "b/figures/n=2.png");
+  EXPECT_THAT(error_of({"b"}), HasSubstr("b/measurements.jsonl:3"));
+  EXPECT_TRUE(nothing_written());
+}
+
+TEST_F(MergeTest, ComparesExactFiguresOfACaseMeasuredTwice) {
+  const Provenance other = run_of(fake_provenance().git_revision, "another CPU");
+  write_shard("a", 1, 2);
+  write_shard("same", 2, 3, other);
+  write_shard("differs", 2, 2, other, 200);
+  const Merged same = merge_into("out", {"a", "same"});
+  EXPECT_TRUE(same.passed());
+  EXPECT_EQ(same.repeated, 1U);
+  EXPECT_EQ(same.machines, 2U);
+  EXPECT_THAT(merge_text(same), HasSubstr("2 machines"));
+  const Merged differs = merge_into("out2", {"a", "differs"});
+  EXPECT_FALSE(differs.passed());
+  ASSERT_EQ(differs.contradictions.size(), 1U) << "times may differ";
+  EXPECT_THAT(differs.contradictions[0], HasSubstr("e n=2 bytes: 102 B in"));
+  EXPECT_EQ(Store::open(folder_ / "out2").find("e", "n=2", "quick")->find("bytes")->samples[0], 102);
+}
+
+TEST_F(MergeTest, RefusesAnotherSeed) {
+  write_shard("a", 1, 1);
+  const Provenance run = fake_provenance();
+  Store store(folder_ / "b");
+  store.begin_run(run);
+  Record record = fake_record(run, "e", "n=1");
+  record.seed = 7;
+  store.append(record);
+  EXPECT_THAT(error_of({"a", "b"}), HasSubstr("another seed"));
+}
+
+TEST_F(MergeTest, RefusesWhatIsNoResultsFolder) {
+  EXPECT_THAT(error_of({"nowhere"}), HasSubstr("holds no measurements"));
+  write_shard("out", 1, 1);
+  EXPECT_THAT(error_of({"out"}), HasSubstr("also an input"));
+}
+
+// Whenever a merge is killed, what it wrote is whole, and the same command completes it.
+TEST_F(MergeTest, SurvivesKills) {
+  write_shard("a", 1, 6);
+  write_shard("b", 7, 12);
+  std::mt19937 random(1);
+  int killed = 0;
+  for (int i = 0; i < 24; ++i) {
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      merge_into("out", {"a", "b"});
+      _exit(0);
+    }
+    usleep(random() % 3000);
+    kill(child, SIGKILL);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    killed += WIFSIGNALED(status) ? 1 : 0;
+    if (i % 8 == 7) {
+      merge_into("out", {"a", "b"});
+      EXPECT_EQ(cases("out").size(), 12U);
+      std::filesystem::remove_all(folder_ / "out");
+    }
+  }
+  EXPECT_GT(killed, 0);
+}
+
+}  // namespace
+}  // namespace terrabench
