@@ -16,7 +16,7 @@ namespace {
 using Kind = Condition::Kind;
 using Outcome = Finding::Outcome;
 
-// Decides whether the condition holds; findings_text.cpp words it. Medians decide.
+// Decides whether the condition holds; word_range() and word_chain() make a finding of that. Medians decide.
 Finding compare(const Condition& condition, const std::vector<Quantity>& quantities) {
   const std::vector<double>&first = quantities[0].samples, &second = quantities.back().samples;
   const auto in_range = [&](const Summary& s) {

@@ -117,6 +117,11 @@ void Mesh::bisect_diamond(std::uint32_t id) {
   nodes_[across + 1].left = here;
 }
 
+//   left ---- m ---- right    pair:     apex m, its left corner the old apex, its right corner the old left
+//       \     |     /         pair + 1: apex m, its left corner the old right, its right corner the old apex
+//         \   |   /
+//           apex
+//
 // The new apex is the middle of the hypotenuse. A leg becomes a child's hypotenuse, so the neighbour at the
 // leg becomes the child's base neighbour; headings turn by 5 and 3 eighths of a turn.
 void Mesh::bisect(std::uint32_t id) {

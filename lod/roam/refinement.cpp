@@ -95,7 +95,8 @@ void Roam::split_diamond(std::uint32_t id) {
 }
 
 // Labels and ranks the two children of a triangle, given by its corners and the middle of its hypotenuse.
-// rank_leaf() enters each into the split queue and into ranked_leaves_.
+// rank_leaf() enters each into ranked_leaves_ and, unless it has no error, into the split queue, in the
+// bucket of its error in pixels / max_error.
 void Roam::add_children(std::uint32_t id, const ViewedCorner& apex, const ViewedCorner& left,
                         const ViewedCorner& right, const ViewedCorner& middle) {
   const Node& parent = mesh_.nodes()[id];

@@ -8,11 +8,12 @@
 // The mesh never has cracks. The same views give the same triangles, unless time is limited. A frame costs
 // O(changes · log samples), plus the triangles on the view's border and those with expired priorities.
 //
-// To follow one split: the comment of Node (node.h); refinement.cpp from its start, of refine() the branch
-// that splits the highest leaf, then force_split(), split_diamond(), add_children() and withdraw_parents();
-// and in mesh.cpp bisect_diamond(). After refine(), update() fills the merge queue (queue_split_diamonds()),
-// then draws and defers the leaves that remain (finish_ranked_leaves()). What can wait: these two, the limits
-// and merges in refine(), lattice, wedgies, deferral, prefetching and everything degenerate.
+// To follow one split (of the glossary: diamond, priority, bisect, split, force_split): the comment of Node
+// (node.h); refinement.cpp from its start, of refine() the branch that splits the highest leaf, then
+// force_split(), split_diamond(), add_children() and withdraw_parents(); and in mesh.cpp bisect_diamond().
+// After refine(), update() fills the merge queue (queue_split_diamonds()), then draws and defers the leaves
+// that remain (finish_ranked_leaves()). What can wait: these two, the limits and merges in refine(), lattice,
+// wedgies, deferral, prefetching and everything degenerate.
 //
 // Glossary:
 //   wedgie       the prism around a triangle that contains its samples and its descendants' wedgies

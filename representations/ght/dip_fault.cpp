@@ -1,6 +1,7 @@
 // Normal and inverse faults (Alonso, Joan-Arinyo & Solano, §3.2, figure 13): three heightmaps, two blocks
 // that tilt, the left one up and the right one down, and the scarp between their lips (the edges along the
-// line). Their planes, cut across the line, which points into the page; R is `extent`, d runs left:
+// line). Their planes, cut across the line, which points into the page; R is `extent`, `rise` the throw,
+// `offset` = rise / tan(dip) the heave, d runs left:
 //
 //           normal: an open scarp             inverse: the left block overhangs the right
 //             __--L                                     __--''L
@@ -149,7 +150,8 @@ void record(Edit& edit, const events::DipFault& e) {
   const events::Line line = e.line();
   // Step 1: cut out.
   const RemovedPart old = cut_out_with_margin(edit, {line, 0, line.length, -e.extent, e.extent});
-  // Step 2: new heightmaps. Set links first: quads() replaces each link by its target.
+  // Step 2: new heightmaps. Set links first: quads() replaces each link by its target. `true`: mirrored,
+  // because the right block's rows run to the other side.
   const DipFaultMaps maps = append_maps(edit, e);
   for (const int sign : {1, -1}) fill_block(edit, maps, sign);
   fill_scarp(edit, maps);

@@ -10,8 +10,8 @@
 //
 // Square: between four of the root's samples; plain (two triangles) or covered by faces. Face: a triangle
 // between any three cells. Cell: a height, a link to a later cell, or void. Loop: the cells around the
-// removed part. Outline: the boundary cells of the new heightmaps. apply_event() chooses the host, creates
-// the Edit, calls record() and then commit().
+// removed part. Outline: the boundary cells of the new heightmaps. Host: the parent of the new heightmaps.
+// apply_event() finds it, creates the Edit, calls record() and then commit().
 //
 // Before commit(), an Edit only appends nodes to the tree. The destructor removes them unless commit()
 // succeeded; the tree is then as it was, to the bit. commit() first allocates all that it needs, then changes

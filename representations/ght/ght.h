@@ -14,8 +14,8 @@
 //
 // To follow one event, such as a dip fault: the opening comment of edit.h; the event's file (dip_fault.cpp),
 // its opening comment and then from record() at the end; join_to_ground() in along_line.cpp; the second half
-// of Edit::commit() in edit.cpp. apply_event() finds the host, calls record() and then commit(). What can
-// wait: the formula as data (terrain/events/event.h), cut_out.h, the triangles of the ring (close_ring()).
+// of Edit::commit() in edit.cpp. What can wait: the formula as data (terrain/events/event.h), cut_out.h, the
+// triangles of the ring (close_ring()).
 #pragma once
 
 #include <memory>
