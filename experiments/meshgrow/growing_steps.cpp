@@ -31,11 +31,8 @@ GrownMesh expand_in_steps(const Model& model, const AtStep& visit) {
     once.steps = 1;
     once.to_the_end = false;
     for (std::uint32_t k = 0; step.growth.to_the_end || k < step.growth.steps; ++k) {
-      GrownMesh before = mesh;
-      if (grow(model.system, mesh, once) == 0) {
-        mesh = std::move(before);
-        break;
-      }
+      const GrownMesh before = mesh;
+      if (grow(model.system, mesh, once) == 0) break;  // which counts as a step in expand(), too
       visit(before, mesh, subdivisions);
     }
   }

@@ -51,7 +51,7 @@ RayMaterial fork(std::string_view, const SurfacePoint& at) {
   return {.albedo = glm::clamp(spots * bark, 0.0F, 1.0F), .roughness = 1};
 }
 
-bool is_leaf(std::string_view symbol) { return symbol == "green" || symbol == "leaf"; }
+bool is_leaf(std::string_view symbol) { return symbol == "green"; }
 
 RayMaterial leaf(const SurfacePoint& at, const glm::vec3& dark, const glm::vec3& light) {
   const float mix = std::clamp(0.5F + 0.9F * noise(2.3F * at.local), 0.0F, 1.0F);

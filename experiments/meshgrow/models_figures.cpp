@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 
 #include "experiments/cases.h"
 #include "experiments/experiment.h"
@@ -22,10 +23,11 @@ struct ModelFigure {
   std::string_view name;
   int number;
   std::string_view model, caption;
-  glm::vec3 from;    // direction towards the eye
-  float aspect;      // width of the picture per height
-  glm::vec3 ground;  // albedo
-  bool wires;        // with the mesh before the subdivision beside it
+  glm::vec3 from;                   // direction towards the eye
+  float aspect;                     // width of the picture per height
+  std::optional<glm::vec3> ground;  // albedo; none: the model stands before white
+  // What the second picture shows: the mesh before the subdivision, or the model without its leaves.
+  enum class Beside : std::uint8_t { kWires, kBare } beside;
 };
 
 constexpr std::array kFigures{
@@ -35,48 +37,52 @@ constexpr std::array kFigures{
                 "a chair with folds in the cushion",
                 {0.85F, 0.42F, 0.62F},
                 0.85F,
-                {0.55F, 0.53F, 0.5F},
-                true},
+                glm::vec3(0.55F, 0.53F, 0.5F),
+                ModelFigure::Beside::kWires},
     ModelFigure{"F12",
                 12,
                 "cactus",
                 "a cactus, grown by alternating growing and subdivision steps",
                 {0.3F, 0.38F, 1.0F},
                 0.85F,
-                {0.62F, 0.5F, 0.34F},
-                true},
+                glm::vec3(0.62F, 0.5F, 0.34F),
+                ModelFigure::Beside::kWires},
     ModelFigure{"F13",
                 13,
                 "fork_ridges_random",
                 "the ridges on a forking branch",
                 {0.25F, 0.38F, 1.0F},
                 0.8F,
-                {0.4F, 0.42F, 0.34F},
-                true},
-    ModelFigure{"F14",
-                14,
-                "branch_aspen",
-                "a branch of a tree, by the parameters of Weber and Penn",
-                {0.4F, 0.38F, 1.0F},
-                0.85F,
-                {0.42F, 0.44F, 0.34F},
-                false},
-    ModelFigure{"F15",
-                15,
-                "bush_tupelo",
-                "a branch with dense foliage",
-                {0.4F, 0.38F, 1.0F},
-                0.78F,
-                {0.42F, 0.44F, 0.34F},
-                false},
+                glm::vec3(0.4F, 0.42F, 0.34F),
+                ModelFigure::Beside::kWires},
+    ModelFigure{
+        "F14",
+        14,
+        "branch_aspen",
+        "a branch of a tree, with a piece of the trunk: quaking aspen, by the parameters of Weber and "
+        "Penn",
+        {0.1F, 0.1F, 1.0F},
+        1.0F,
+        std::nullopt,
+        ModelFigure::Beside::kBare},
+    ModelFigure{
+        "F15",
+        15,
+        "bush_tupelo",
+        "a branch with dense foliage, the bush of §6: a young black tupelo, by the parameters of Weber "
+        "and Penn",
+        {0.4F, 0.38F, 1.0F},
+        0.78F,
+        glm::vec3(0.42F, 0.44F, 0.34F),
+        ModelFigure::Beside::kBare},
     ModelFigure{"F16",
                 16,
                 "candle_holder",
                 "a wrought-iron candle holder with rust stains",
                 {0.35F, 0.38F, 1.0F},
                 0.8F,
-                {0.55F, 0.53F, 0.5F},
-                true},
+                glm::vec3(0.55F, 0.53F, 0.5F),
+                ModelFigure::Beside::kWires},
 };
 constexpr auto kFigureNames = names_of(kFigures);
 
@@ -116,6 +122,50 @@ View close_view(const TriangleMesh& mesh, View view) {
   return view;
 }
 
+// A picture of one state of a figure's model, all by the same camera.
+class Picture {
+ public:
+  Picture(const ModelFigure& figure, const View& view, const Bounds& box, const RaytraceSettings& settings,
+          Progress& progress)
+      : figure_(figure), view_(view), ground_(ground_plane(box)), settings_(settings), progress_(progress) {}
+
+  figures::Panel in_daylight(const ModelMesh& mesh, const growing::RuleSystem& system,
+                             std::string_view words) const {
+    RayScene scene;
+    scene.light = model_daylight();
+    scene.add_placed(in_materials(mesh, painted(figure_.model), system));
+    if (figure_.ground) {
+      scene.add_placed({.mesh = &ground_, .material = {.albedo = *figure_.ground, .roughness = 1}});
+    } else {
+      scene.background = glm::vec3(1);
+    }
+    return {raytrace(scene, view_, settings_, {}, &progress_),
+            fmt::format("{}{} triangles", words, mesh.mesh.triangles())};
+  }
+
+  figures::Panel in_wires(const ModelMesh& mesh) const {
+    RaytraceSettings settings = settings_;
+    settings.samples = std::max(settings.samples / 2, 4);
+    RayScene scene;
+    scene.light.sky = SkyKind::kUniform;
+    scene.light.zenith = glm::vec3(0.75F);
+    scene.light.sun_irradiance = glm::vec3(0);
+    scene.background = glm::vec3(1);
+    scene.add_placed({.mesh = &mesh.mesh,
+                      .material = {.albedo = glm::vec3(0.85F)},
+                      .wire_width = 1.6F,
+                      .wires = mesh.wires});
+    return {raytrace(scene, view_, settings, {}, &progress_), "before subdivision"};
+  }
+
+ private:
+  const ModelFigure& figure_;
+  View view_;
+  TriangleMesh ground_;
+  RaytraceSettings settings_;
+  Progress& progress_;
+};
+
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const ModelFigure& figure = kFigures[at.parameters.choice("figure")];
   const growing::Model model =
@@ -126,33 +176,22 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const View view = close_view(
       mesh.mesh,
       overview(box, static_cast<int>(figure.aspect * static_cast<float>(height)), height, figure.from));
+  const Picture picture(figure, view, box,
+                        {.samples = at.integer("samples"),
+                         .bounces = at.integer("bounces"),
+                         .seed = static_cast<std::uint32_t>(options.seed)},
+                        progress);
 
-  RaytraceSettings settings{.samples = at.integer("samples"),
-                            .bounces = at.integer("bounces"),
-                            .seed = static_cast<std::uint32_t>(options.seed)};
-  RayScene scene;
-  scene.light = model_daylight();
-  scene.add_placed(in_materials(mesh, painted(figure.model), model.system));
-  const TriangleMesh ground = ground_plane(box);
-  scene.add_placed({.mesh = &ground, .material = {.albedo = figure.ground, .roughness = 1}});
-  std::vector<figures::Panel> panels{
-      {raytrace(scene, view, settings, {}, &progress), fmt::format("{} triangles", mesh.mesh.triangles())}};
-
-  if (figure.wires) {
+  std::vector<figures::Panel> panels{picture.in_daylight(mesh, model.system, "")};
+  if (figure.beside == ModelFigure::Beside::kWires) {
     growing::ExpandOptions first;
     first.most_steps = 1;
-    const ModelMesh grown = triangles_of(growing::expand(model, first).mesh);
-    settings.samples = std::max(settings.samples / 2, 4);
-    RayScene wires;
-    wires.light.sky = SkyKind::kUniform;
-    wires.light.zenith = glm::vec3(0.75F);
-    wires.light.sun_irradiance = glm::vec3(0);
-    wires.background = glm::vec3(1);
-    wires.add_placed({.mesh = &grown.mesh,
-                      .material = {.albedo = glm::vec3(0.85F)},
-                      .wire_width = 1.6F,
-                      .wires = grown.wires});
-    panels.push_back({raytrace(wires, view, settings, {}, &progress), "before subdivision"});
+    panels.push_back(picture.in_wires(triangles_of(growing::expand(model, first).mesh)));
+  } else {
+    growing::ExpandOptions bare;
+    bare.leave_out = {"leaves"};
+    panels.push_back(picture.in_daylight(triangles_of(growing::expand(model, bare).mesh), model.system,
+                                         "without leaves: "));
   }
   recorder.add("figure", "", figure.number);
   recorder.add("triangles", "", static_cast<double>(mesh.mesh.triangles()));

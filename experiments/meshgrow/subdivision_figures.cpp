@@ -10,6 +10,7 @@
 
 #include "experiments/cases.h"
 #include "experiments/figures/figure.h"
+#include "experiments/meshgrow/growing_pictures.h"
 #include "experiments/meshgrow/subdivision_reference.h"
 #include "renderers/scene.h"
 #include "representations/procedural_mesh/base_mesh.h"
@@ -141,9 +142,10 @@ Sheet draw_fractal(Drawing& drawing) {
       const Drawn mesh = drawn(fractal(base, steps, sphere ? 0.14F : 0.16F, drawing.seed() + 3));
       Scene scene;
       scene.meshes.push_back(lit(mesh, steps < 3 ? 1.6F : 0));
+      if (sphere) scene.sun = {-0.5F, 0.7F, 0.6F};  // seen from the south, it shows the lit side
       const Bounds box =
-          sphere ? Bounds{glm::vec3(-1.2F), glm::vec3(1.2F)} : Bounds{{-2, -0.5F, -2}, {2, 0.6F, 2}};
-      const View view = overview(box, 560, sphere ? 540 : 400, {0.35F, 0.6F, 1.0F});
+          sphere ? Bounds{glm::vec3(-0.95F), glm::vec3(0.95F)} : Bounds{{-2, -0.5F, -2}, {2, 0.6F, 2}};
+      const View view = overview(box, 560, sphere ? 480 : 360, {0.35F, 0.6F, 1.0F});
       rows[sphere ? 1 : 0].push_back(
           {render_scene(drawing.gl(), scene, view), steps == 0   ? std::string("base mesh")
                                                     : steps == 1 ? std::string("after 1 step")
@@ -181,7 +183,7 @@ Sheet draw_frame(Drawing& drawing) {
   const Drawn hill_mesh = drawn(mesh);
   Scene scene;
   scene.meshes.push_back(lit(hill_mesh, 1.4F));
-  const View view = overview({{-2, 0, -2}, {2, 1.6F, 2}}, 1200, 860, {1.0F, 0.7F, 0.3F});
+  const View view = overview({{-2, 0, -2}, {2, 1.1F, 2}}, 1200, 800, {1.0F, 0.7F, 0.3F});
   const float s = 1.6F * surface.scales[v];
   const glm::vec3 foot = p + 0.02F * n;
   const std::array<std::tuple<glm::vec3, Rgb, std::string_view>, 3> axes{
@@ -193,8 +195,9 @@ Sheet draw_frame(Drawing& drawing) {
   Sheet sheet(image.width / 2.0, image.height / 2.0);
   sheet.picture(0, 0, image.width / 2.0, image.height / 2.0, image);
   for (const auto& [axis, colour, words] : axes) {
-    const SheetPoint at = place_of(view, foot + 1.12F * s * axis);
-    sheet.text(at.x + 4, at.y + 5, words, 18, "start", colour);
+    const SheetPoint at = place_of(view, foot + 1.2F * s * axis);
+    const double half = 4.9 * static_cast<double>(words.size());
+    add_label(sheet, {at.x + (axis == b ? half : 0), at.y}, words, 18, colour, half);
   }
   sheet.dot(place_of(view, foot), 5, kInk);
   return sheet;

@@ -70,6 +70,22 @@ TEST(Growing, TropismBendsTowardsTheWorldsUpAndStopsThere) {
   }
 }
 
+TEST(Growing, StretchMayDifferFromCornerToCorner) {
+  const GrownMesh mesh = grown(kSymbols + kCubeBase +
+                               "[[rule]]\nsymbol = \"a\"\nsections = [{ move = 2, radius = 1, stretch = [\"1 "
+                               "+ side\", \"1 + 2*side\"] },\n"
+                               "{ move = 1 }]\ncap = \"b(0)\"\n[[step]]\ngrow = 1\n");
+  ASSERT_EQ(mesh.mesh.positions.size(), 16U);
+  const double side = std::sqrt(0.5);
+  for (int i = 0; i < 4; ++i) {
+    const glm::vec3 stretched = mesh.mesh.positions[8 + i], after = mesh.mesh.positions[12 + i];
+    // The cube's top has its first edge along z or x; the second section is not stretched.
+    const double x = side * (1 + i), y = side * (1 + 2 * i);
+    EXPECT_NEAR(std::hypot(stretched.x, stretched.z), std::hypot(x, y), 1e-5) << i;
+    EXPECT_NEAR(std::hypot(after.x, after.z), 1, 1e-5) << i;
+  }
+}
+
 TEST(Growing, RulesAreTakenWithTheirProbabilities) {
   const GrownMesh mesh = grown(
       "seed = 3\n[symbols]\na = []\nb = []\nc = []\n[base]\nshape = \"plane\"\ncells = 64\nsymbol = \"a\"\n"

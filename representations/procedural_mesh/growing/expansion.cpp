@@ -123,13 +123,14 @@ class Expander {
   }
 
   void ring(const Section& section, const Frame& frame, bool regular, double scale, std::uint32_t below) {
-    const glm::dvec2 stretch(value_.optional(section.stretch[0], 1), value_.optional(section.stretch[1], 1));
     for (std::uint32_t i = 0; i < n_; ++i, ++to_.vertex) {
+      value_.set(kSide, i);
+      const glm::dvec2 stretch(value_.optional(section.stretch[0], 1),
+                               value_.optional(section.stretch[1], 1));
       const glm::dvec2 at = outline(i, regular) * (scale * stretch);
       mesh_.positions[to_.vertex] = glm::vec3(frame.to_world({at, 0}));
       mesh_.texture[to_.vertex] = mesh_.texture[below == kNoVertex ? base_[i] : below + i];
       if (section.texture.empty()) continue;
-      value_.set(kSide, i);
       mesh_.texture[to_.vertex] =
           texture(section.texture.size() == 1 ? section.texture[0] : section.texture[i]);
     }

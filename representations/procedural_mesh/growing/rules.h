@@ -53,7 +53,7 @@ struct Section {
   Expression tropism;  // degrees by which z turns to the world's up at most; negative: to the ground
   Expression scale;    // of the section before; not given: 1
   Expression radius;   // makes the section a regular polygon instead
-  std::array<Expression, 2> stretch;  // of this section alone along x and y; not given: 1
+  std::array<Expression, 2> stretch;  // of this section alone along x and y, per corner; not given: 1
   std::vector<TextureAt> texture;     // none, or one per corner
   std::vector<SymbolChoice> sides;    // of the faces below the section: one for all, or one per corner
   int crease = 0;                     // sharpness of the section's edges
