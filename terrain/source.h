@@ -18,7 +18,6 @@ namespace terrabench {
 namespace events {
 struct Sculpture;
 }
-struct MeshDescription;
 
 // Exactly one of the two is set.
 struct TerrainSource {
@@ -30,8 +29,6 @@ struct TerrainSource {
   // The events that the solid was evaluated from, for structures that can apply them themselves; null for
   // other solids and for heights.
   std::shared_ptr<const events::Sculpture> events;
-  // What the solid was expanded from, for structures that can expand it themselves; null for others.
-  std::shared_ptr<const MeshDescription> mesh;
 
   // For heights: the ground's floor lies one cell under the lowest sample, so that every column has
   // substance.

@@ -14,32 +14,16 @@ namespace {
 
 constexpr float kFoot = 0.02F;  // of the model's height
 
-void fill_column(const ProceduralMesh& mesh, const ColumnSamples& at, std::span<Material> out) {
-  thread_local SpanSink sink;
-  sink.clear();
-  mesh.spans({{&at.x, 1}, {&at.z, 1}}, sink);
-  const std::span<const Span> spans = sink.column(0);
-  auto span = spans.begin();
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const float y = at.y0 + static_cast<float>(i) * at.dy;
-    while (span != spans.end() && y >= span->top) ++span;
-    out[i] = span != spans.end() && y >= span->bottom ? Material::kBedrock : Material::kAir;
-  }
-}
-
 TerrainSource source_of(MeshDescription description, const std::string& name) {
-  TerrainSource source;
-  source.name = name;
-  source.mesh = std::make_shared<const MeshDescription>(description);
   const auto mesh = std::make_shared<const ProceduralMesh>(std::move(description), name);
   ByteSink content;
-  source.mesh->save(content);
+  mesh->save(content);
+  TerrainSource source;
+  source.name = name;
   source.checksum = checksum(content.bytes());
   source.notes.push_back(fmt::format("expanded {} B into {} triangles", content.bytes().size(),
                                      mesh->columns().triangles().size()));
-  source.solid =
-      Solid{mesh->bounds(), source.checksum,
-            [mesh](const ColumnSamples& at, std::span<Material> out) { fill_column(*mesh, at, out); }};
+  source.solid = Solid{mesh->bounds(), source.checksum, MeshColumns{mesh}};
   return source;
 }
 

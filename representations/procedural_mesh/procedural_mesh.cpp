@@ -69,7 +69,16 @@ void take_topmost(const TerrainSource& source, const Parameters& parameters, Mes
   out.ground_bounds = grid.bounds;
 }
 
-double mean_edge(const FaceMesh& mesh) {
+// Metres between neighbouring vertices: of the plane, or on average of the model's edges.
+float spacing_of(const MeshDescription& description, const FaceMesh& mesh) {
+  if (description.has_ground()) {
+    const auto between = [](const std::vector<float>& at) {
+      return at.size() < 2 ? 0 : (at.back() - at.front()) / static_cast<float>(at.size() - 1);
+    };
+    const int left_out =
+        std::min(description.leave_out, usable_levels(description.ground, description.levels));
+    return std::ldexp(std::max(between(description.ground.x), between(description.ground.z)), left_out);
+  }
   double sum = 0;
   for (std::size_t f = 0; f < mesh.faces(); ++f) {
     for (std::uint32_t c = mesh.first_corner[f]; c < mesh.first_corner[f + 1]; ++c) {
@@ -77,7 +86,7 @@ double mean_edge(const FaceMesh& mesh) {
       sum += glm::distance(mesh.positions[mesh.corners[c]], mesh.positions[mesh.corners[next]]);
     }
   }
-  return sum / static_cast<double>(std::max<std::size_t>(1, mesh.corners.size()));
+  return static_cast<float>(sum / static_cast<double>(std::max<std::size_t>(1, mesh.corners.size())));
 }
 
 Bounds bounds_of_model(const TriangleColumns& columns) {
@@ -111,14 +120,15 @@ std::span<const ParameterSpec> ProceduralMesh::parameters() {
 std::unique_ptr<Representation> ProceduralMesh::build(const TerrainSource& source,
                                                       const Parameters& parameters, Progress& progress) {
   MeshDescription description;
-  if (source.mesh) {
-    description = *source.mesh;
+  const auto* const from = source.solid ? source.solid->column.target<MeshColumns>() : nullptr;
+  if (from != nullptr) {
+    description = from->mesh->description();
   } else if (source.heights) {
     take_heights(source, parameters, description);
   } else {
     take_topmost(source, parameters, description, progress);
   }
-  if (!source.mesh) description.levels = static_cast<int>(parameters.integer("levels"));
+  if (from == nullptr) description.levels = static_cast<int>(parameters.integer("levels"));
   description.leave_out = static_cast<int>(parameters.integer("leave_out"));
   progress.begin("procedural mesh", 1);
   auto built = std::make_unique<ProceduralMesh>(std::move(description), source.name);
@@ -131,7 +141,7 @@ ProceduralMesh::ProceduralMesh(MeshDescription description, const std::string& o
   description_.model.shrink_to_fit();
   description_.ground.heights.shrink_to_fit();
   FaceMesh polygons = expand(description_, origin);
-  spacing_ = static_cast<float>(mean_edge(polygons));
+  spacing_ = spacing_of(description_, polygons);
   std::vector<Triangle> triangles = triangulate(polygons);
   columns_ = TriangleColumns(std::move(polygons.positions), std::move(triangles));
   if (description_.model.empty()) return;
@@ -167,6 +177,19 @@ TriangleMesh ProceduralMesh::mesh(MeshDetail detail) const {
   FaceMesh polygons = expand(description_, "model", static_cast<int>(std::min(coarser, double{kMostLevels})));
   std::vector<Triangle> triangles = triangulate(polygons);
   return close_down(std::move(polygons.positions), std::move(triangles), bounds_.low.y);
+}
+
+void MeshColumns::operator()(const ColumnSamples& at, std::span<Material> out) const {
+  thread_local SpanSink sink;
+  sink.clear();
+  mesh->spans({{&at.x, 1}, {&at.z, 1}}, sink);
+  const std::span<const Span> spans = sink.column(0);
+  auto span = spans.begin();
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const float y = at.y0 + static_cast<float>(i) * at.dy;
+    while (span != spans.end() && y >= span->top) ++span;
+    out[i] = span != spans.end() && y >= span->bottom ? Material::kBedrock : Material::kAir;
+  }
 }
 
 std::size_t ProceduralMesh::description_bytes() const {

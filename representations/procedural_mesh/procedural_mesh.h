@@ -14,6 +14,7 @@
 // quadrilateral besides the description. A column query is O(triangles near it).
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -74,7 +75,14 @@ class ProceduralMesh final : public Representation {
   MeshDescription description_;
   TriangleColumns columns_;
   Bounds bounds_;
-  float spacing_ = 0;  // mean length of edges, metres
+  float spacing_ = 0;  // metres between neighbouring vertices
+};
+
+// A procedural mesh as the solid of a terrain source, from which any representation may be built. build()
+// recognises it and expands its description again.
+struct MeshColumns {
+  std::shared_ptr<const ProceduralMesh> mesh;
+  void operator()(const ColumnSamples&, std::span<Material>) const;
 };
 
 }  // namespace terrabench

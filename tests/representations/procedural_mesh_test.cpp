@@ -63,7 +63,7 @@ TEST(ProceduralMesh, OfACubeIsExactEverywhereOnItsEdgesToo) {
 
 TEST(ProceduralMesh, OfASphereConvergesToTheSphere) {
   double before = 0;
-  for (int levels = 2; levels <= 6; ++levels) {
+  for (int levels = 2; levels <= 5; ++levels) {
     const ProceduralMesh built = model_of(sphere(levels));
     double largest = 0;
     std::mt19937 random(2);
@@ -124,9 +124,9 @@ INSTANTIATE_TEST_SUITE_P(Models, NamedModels,
                          [](const auto& at) { return std::string(at.param); });
 
 TEST_P(NamedModels, CrossAsEveryTriangleTriedDoes) {
-  const ProceduralMesh built = model_of(std::string(growing::model_text(GetParam())), 1);
+  const ProceduralMesh built = model_of(std::string(growing::model_text(GetParam())), 2);
   const Bounds bounds = built.bounds();
-  const Cloud cloud(bounds, 400, 5);
+  const Cloud cloud(bounds, 200, 5);
   const bool open = std::string_view(GetParam()) == "fractal_plane";
   std::vector<Crossing> got;
   int compared = 0, several = 0;
@@ -153,21 +153,23 @@ TEST_P(NamedModels, CrossAsEveryTriangleTriedDoes) {
     ++compared;
     several += got.size() > 2;
   }
-  EXPECT_GT(compared, 380);
-  EXPECT_GT(several, open ? -1 : 2);
+  EXPECT_GT(compared, 190);
+  if (std::string_view(GetParam()) == "chair") {
+    EXPECT_GT(several, 10) << "the seat over the legs";
+  }
 }
 
 TEST_P(NamedModels, AreWatertightAndAnswerAlikeInAllWays) {
   const std::string text(growing::model_text(GetParam()));
-  const ProceduralMesh built = model_of(text);
+  const ProceduralMesh built = model_of(text, 1);
   EXPECT_TRUE(check_edges(built.mesh({})).watertight());
   const Cloud cloud(built.bounds(), 2000, 7);
   std::vector<Material> points(cloud.x.size());
   built.materials(cloud.points(), points);
-  const TerrainSource source = model_source(text, "model");
+  const MeshColumns solid{std::make_shared<const ProceduralMesh>(model_of(text, 1))};
   for (std::size_t p = 0; p < points.size(); ++p) {
     Material alone{7};
-    source.solid->column({cloud.x[p], cloud.z[p], cloud.y[p], 1}, {&alone, 1});
+    solid({cloud.x[p], cloud.z[p], cloud.y[p], 1}, {&alone, 1});
     ASSERT_EQ(alone, points[p]);
   }
   ByteSink bytes;
@@ -176,7 +178,7 @@ TEST_P(NamedModels, AreWatertightAndAnswerAlikeInAllWays) {
   const auto copy = reloaded("procedural_mesh", built);
   EXPECT_TRUE(same_spans(spans_of(*copy, {cloud.x, cloud.z}), spans_of(built, {cloud.x, cloud.z})));
   const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
-  const ProceduralMesh alone = model_of(text);
+  const ProceduralMesh alone = model_of(text, 1);
   EXPECT_TRUE(same_spans(spans_of(alone, {cloud.x, cloud.z}), spans_of(built, {cloud.x, cloud.z})));
   EXPECT_EQ(alone.mesh({}).indices, built.mesh({}).indices);
 }
@@ -257,11 +259,13 @@ TEST(ProceduralMesh, StandsOnGroundAndIsUnitedWithIt) {
   const std::vector<Span> beside = column(*built, 11, 8);
   ASSERT_EQ(beside.size(), 2U);
   EXPECT_EQ(beside[0], (Span{6, 7, Material::kBedrock}));
-  EXPECT_NEAR(beside[1].bottom, 9 - std::sqrt(3), 0.05);
-  EXPECT_NEAR(beside[1].top, 9 + std::sqrt(3), 0.05);
+  // Its foot, a fiftieth of its height, lies in the ground.
+  EXPECT_NEAR(beside[1].bottom, 9 - std::sqrt(3), 0.08 + 0.03);
+  EXPECT_NEAR(beside[1].top, 9 + std::sqrt(3), 0.08 + 0.03);
   const std::vector<Span> foot = column(*built, 10, 8);
   ASSERT_EQ(foot.size(), 1U) << "the ball touches the ground";
-  EXPECT_NEAR(foot[0].top, 11, 1e-3);
+  EXPECT_GT(foot[0].top, 11 - 0.08);
+  EXPECT_LT(foot[0].top, 11);
 }
 
 TEST(ProceduralMesh, LeavesNoGapUnderAFootOnASlope) {
@@ -324,7 +328,10 @@ TEST(ProceduralMesh, RefusesWhatHasNoInside) {
   EXPECT_THAT(error_of([&] { model_on_ground(kCube, "m", flat, ModelPlace{1, 1, -1}); }), HasSubstr("scale"));
   EXPECT_THAT(error_of([&] { model_on_ground(kCube, "m", caves(), std::nullopt); }), HasSubstr("solid"));
   EXPECT_THAT(error_of([&] { model_source("[base", "m"); }), HasSubstr("m:1"));
-  EXPECT_THAT(error_of([&] { model_source("[base]\nshape = \"cube\"\n[[step]]\nsubdivide = 14\n", "m"); }),
+  EXPECT_THAT(error_of([&] {
+                model_source("[limits]\nfaces = 100\n[base]\nshape = \"cube\"\n[[step]]\nsubdivide = 14\n",
+                             "m");
+              }),
               HasSubstr("more than"));
 }
 
