@@ -215,8 +215,8 @@ void add_represent(CLI::App& app, Arguments& a) {
   command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
       ->check(CLI::Range(1, 4096));
   command->add_option("--seed", a.represent.seed, "Seed of procedural terrains")->capture_default_str();
-  auto* info =
-      app.add_subcommand("info", "Describe a DEM, a drawing, a saved representation or a results folder");
+  auto* info = app.add_subcommand(
+      "info", "Describe a DEM, a drawing, a model, a saved representation or a results folder");
   info->add_option("file", a.info, "File or folder, or drawing:FILE.png")->required();
 }
 

@@ -39,8 +39,10 @@ bool names_model(const std::string& name) {
   if (is_built_in(name)) return true;
   check_name(name);
   std::error_code error;
-  return name.ends_with(".toml") && std::filesystem::is_regular_file(name, error) &&
-         is_model_text(read_file(name, growing::kMostModelBytes));
+  if (!name.ends_with(".toml") || !std::filesystem::is_regular_file(name, error)) return false;
+  // Scripts of events may be longer than models.
+  const std::uintmax_t bytes = std::filesystem::file_size(name, error);
+  return !error && bytes <= growing::kMostModelBytes && is_model_text(read_file(name));
 }
 
 std::string open_model_text(const std::string& name) {

@@ -164,6 +164,7 @@ void ProceduralMesh::spans(Columns where, SpanSink& out) const {
   std::vector<Crossing> crossings;
   crossings.reserve(64);
   for (std::size_t c = 0; c < where.size(); ++c) {
+    if (c % TriangleColumns::kTogether == 0) columns_.prefetch(where.x.subspan(c), where.z.subspan(c));
     columns_.crossings(where.x[c], where.z[c], crossings);
     add_spans(crossings, bounds_.low.y, out);
     out.end_column();

@@ -10,7 +10,7 @@
 // triangles per cell between them; a single row or column of samples has no area and is empty, and so is a
 // sample all of whose cells lack a height.
 //
-// The file is the description alone, and is expanded again by load(). In memory both are held: about 60 B per
+// The file is the description alone, and is expanded again by load(). In memory both are held: about 55 B per
 // quadrilateral besides the description. A column query is O(triangles near it).
 #pragma once
 

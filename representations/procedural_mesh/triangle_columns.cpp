@@ -5,6 +5,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -159,6 +160,31 @@ void TriangleColumns::crossings(float x, float z, std::vector<Crossing>& out) co
   if (out.size() < 2) return;
   std::sort(out.begin(), out.end(), [](const Crossing& a, const Crossing& b) {
     return a.y != b.y ? a.y < b.y : a.weight > b.weight;
+  });
+}
+
+void TriangleColumns::prefetch(std::span<const float> x, std::span<const float> z) const {
+  constexpr std::uint32_t kMostTriangles = 4;  // of one line; the processor follows longer lists by itself
+  if (triangles_.empty()) return;
+  std::array<std::size_t, kTogether> bins;
+  const std::size_t lines = std::min(x.size(), kTogether);
+  for (std::size_t l = 0; l < lines; ++l) {
+    // Lines outside read bin 0.
+    const bool inside = x_.covers(x[l]) && z_.covers(z[l]);
+    bins[l] = inside ? static_cast<std::size_t>(z_.bin(z[l])) * x_.bins + x_.bin(x[l]) : 0;
+    __builtin_prefetch(&first_[bins[l]]);
+  }
+  const auto each = [&](const auto& action) {
+    for (std::size_t l = 0; l < lines; ++l) {
+      const std::uint32_t begin = first_[bins[l]], end = first_[bins[l] + 1];
+      for (std::uint32_t at = begin; at < std::min(end, begin + kMostTriangles); ++at) action(at);
+    }
+  };
+  each([&](std::uint32_t at) { __builtin_prefetch(&inside_[at]); });
+  each([&](std::uint32_t at) { __builtin_prefetch(&triangles_[inside_[at]]); });
+  each([&](std::uint32_t at) {
+    const Triangle& t = triangles_[inside_[at]];
+    for (int k = 0; k < 3; ++k) __builtin_prefetch(&positions_[t[k]]);
   });
 }
 

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "terrain/memory.h"
@@ -35,6 +36,11 @@ class TriangleColumns {
   // Replaces `out` by the crossings of the line at (x, z), sorted upward; at one height the entering ones
   // come first. The same for every number of threads. Thread-safe. O(triangles in the line's bin).
   void crossings(float x, float z, std::vector<Crossing>& out) const;
+
+  // Asks the memory for what crossings() will read at these lines, at most kTogether, so that their misses
+  // overlap.
+  static constexpr std::size_t kTogether = 16;
+  void prefetch(std::span<const float> x, std::span<const float> z) const;
 
   const std::vector<glm::vec3>& positions() const { return positions_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
