@@ -86,11 +86,11 @@ void add_renderer(CLI::App& command, std::string& renderer, bool raytrace = fals
 }
 
 void add_list(CLI::App& app, Arguments& a) {
-  auto* command = app.add_subcommand(
-      "list",
-      "List representations, lods, experiments, claims, terrains and the scene, with their parameters");
+  auto* command = app.add_subcommand("list",
+                                     "List representations, lods, experiments, claims, terrains, models and "
+                                     "the scene, with their parameters");
   command->add_option("what", a.list.what,
-                      "representations, lods, experiments, claims, terrains or scene (default: all)");
+                      "representations, lods, experiments, claims, terrains, models or scene (default: all)");
   command->add_flag("--json", a.list.json, "Print JSON");
 }
 
@@ -152,9 +152,18 @@ void add_represent(CLI::App& app, Arguments& a) {
   auto* command = app.add_subcommand("represent",
                                      "Build one representation; print its bytes and error, save it, draw it");
   command
-      ->add_option("terrain", a.represent.terrain,
-                   "A name from `terrabench list terrains`, the path of a DEM, or drawing:FILE.png")
+      ->add_option(
+          "terrain", a.represent.terrain,
+          "A name from `terrabench list terrains` or `list models`, the path of a DEM or of a model, "
+          "or drawing:FILE.png")
       ->required();
+  command->add_option(
+      "--ground", a.represent.ground,
+      "Let a model stand on this terrain, a height field; --crop, --resample and --fill are for it");
+  command
+      ->add_option("--place", a.represent.place,
+                   "Where on the ground a model stands, and how many times its size (default: the middle, 1)")
+      ->type_name("X,Z[,SCALE]");
   command->add_option("--as", a.represent.as, "A name from `terrabench list representations`")->required();
   command->add_option("--set", a.represent.assignments,
                       "Parameters of the representation, name=value or name=value,name=value");
@@ -179,7 +188,8 @@ void add_represent(CLI::App& app, Arguments& a) {
          "For drill: choose the parameters so that it takes at most this many bytes");
   budget("--max-rmse", "max_rmse",
          "For drill: choose the parameters so that the RMSE is at most this many metres");
-  command->add_option("--save", a.represent.save, "Write the representation to this file");
+  command->add_option("--save", a.represent.save,
+                      "Write the representation to this file; as polygons if it ends in .ply or .obj");
   command->add_option("--render", a.represent.render, "Write a shaded or ray-traced relief to this PNG");
   command->add_option("--write-flow", a.represent.write_flow,
                       "Write flow accumulation to this GeoTIFF, and directions beside it");
@@ -216,8 +226,8 @@ void add_represent(CLI::App& app, Arguments& a) {
   command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
       ->check(CLI::Range(1, 4096));
   command->add_option("--seed", a.represent.seed, "Seed of procedural terrains")->capture_default_str();
-  auto* info =
-      app.add_subcommand("info", "Describe a DEM, a drawing, a saved representation or a results folder");
+  auto* info = app.add_subcommand(
+      "info", "Describe a DEM, a drawing, a model, a saved representation or a results folder");
   info->add_option("file", a.info, "File or folder, or drawing:FILE.png")->required();
 }
 

@@ -4,6 +4,7 @@
 #include "representations/heightmap/heightmap.h"
 #include "representations/implicit/implicit_surface.h"
 #include "representations/layered_stack/layered_stack.h"
+#include "representations/procedural_mesh/procedural_mesh.h"
 #include "representations/representation.h"
 #include "representations/voxel/dense_grid.h"
 #include "representations/voxel/voxel.h"
@@ -62,6 +63,13 @@ std::span<const RepresentationType> representations() {
        Ght::parameters(),
        Ght::build,
        Ght::load},
+      {"procedural_mesh",
+       "a subdivision surface displaced by heights, or a model that grows by rules",
+       "meshgrow §3–5",
+       {.overhangs = true, .lossless = true},
+       ProceduralMesh::parameters(),
+       ProceduralMesh::build,
+       ProceduralMesh::load},
   };
   return kTypes;
 }

@@ -14,7 +14,7 @@
 namespace terrabench {
 
 struct ListArguments {
-  std::string what;  // representations, lods, experiments, claims, terrains, scene; empty: all
+  std::string what;  // representations, lods, experiments, claims, terrains, models, scene; empty: all
   bool json = false;
 };
 ExitCode list_command(const ListArguments&);
@@ -24,6 +24,7 @@ inline constexpr std::string_view kRaytrace = "raytrace";
 
 struct RepresentArguments {
   std::string terrain, as;
+  std::string ground, place;  // where a model stands, "X,Z" or "X,Z,SCALE"; empty: nowhere, and the middle
   std::vector<std::string> assignments;
   std::string save, render;   // files to write; empty: none
   std::string write_flow;     // likewise: flow accumulation; directions go into a second file beside it

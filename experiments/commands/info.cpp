@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include "experiments/commands/commands.h"
+#include "experiments/named_model.h"
 #include "representations/ght/ght.h"
 #include "representations/ght/invariants.h"
+#include "representations/procedural_mesh/model_terrain.h"
 #include "representations/representation.h"
 #include "results/format.h"
 #include "results/store.h"
@@ -83,6 +85,15 @@ void describe_script(const std::filesystem::path& path) {
   print_tree(*built);
 }
 
+// A model of mesh growing, expanded.
+void describe_model(const std::string& path) {
+  const TerrainSource source = model_source(open_model_text(path), path);
+  fmt::print("{}: model of mesh growing\n", path);
+  for (const std::string& note : source.notes) fmt::print("note        {}\n", note);
+  fmt::print("checksum    {}\n", source.checksum);
+  print_bounds(source.bounds());
+}
+
 void describe_results(const std::filesystem::path& folder) {
   const Store store = Store::open(folder);
   fmt::print("{}: results, {} cases, profile {}\n", folder.string(), store.records().size(),
@@ -106,7 +117,11 @@ ExitCode info_command(const std::filesystem::path& path) {
   } else if (is_saved_representation(path)) {
     describe_representation(path);
   } else if (path.extension() == events::kExtension && std::filesystem::exists(status)) {
-    describe_script(path);
+    if (names_model(path.string())) {
+      describe_model(path.string());
+    } else {
+      describe_script(path);
+    }
   } else {
     describe_dem(path);  // its error names what is wrong with any other path
   }

@@ -9,6 +9,7 @@
 #include "experiments/grass_cover.h"
 #include "lod/lod.h"
 #include "renderers/landscape/style.h"
+#include "representations/procedural_mesh/model.h"
 #include "representations/representation.h"
 #include "results/claims.h"
 #include "terrain/source.h"
@@ -105,6 +106,15 @@ Json list_terrains() {
   return list;
 }
 
+Json list_models() {
+  Json list = Json::array();
+  for (const std::string& name : growing::model_names()) {
+    const growing::Model model = growing::parse_model(growing::model_text(name), name);
+    list.push_back({{"name", name}, {"summary", model.title}, {"bytes", model.bytes}});
+  }
+  return list;
+}
+
 Json list_scene() {
   return Json::array(
       {{{"name", "landscape"},
@@ -125,6 +135,7 @@ constexpr std::array kListings{
     Listing{"experiments", list_experiments},
     Listing{"claims", list_claims},
     Listing{"terrains", list_terrains},
+    Listing{"models", list_models},
     Listing{"scene", list_scene},
 };
 

@@ -7,6 +7,7 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/fidelity.h"
+#include "experiments/named_model.h"
 #include "experiments/stopwatch.h"
 #include "renderers/raytrace/raytraced_picture.h"
 #include "renderers/raytrace/relief_scene.h"
@@ -16,6 +17,9 @@
 #include "representations/edit_tools.h"
 #include "representations/implicit/implicit_surface.h"
 #include "representations/layered_stack/thermal_erosion.h"
+#include "representations/procedural_mesh/mesh_files.h"
+#include "representations/procedural_mesh/model_terrain.h"
+#include "representations/procedural_mesh/procedural_mesh.h"
 #include "representations/representation.h"
 #include "results/format.h"
 #include "terrain/hydrology/channels.h"
@@ -26,7 +30,7 @@ namespace terrabench {
 namespace {
 
 // Crops and resamples a file while reading it, so that only the result must fit into memory.
-TerrainSource open_file(const RepresentArguments& a, Progress& progress) {
+TerrainSource open_file(const RepresentArguments& a, const std::string& name, Progress& progress) {
   DemOptions options;
   if (!a.crop.empty()) options.window = {a.crop[0], a.crop[1], a.crop[2], a.crop[3]};
   if (!a.resample.empty()) {
@@ -34,28 +38,83 @@ TerrainSource open_file(const RepresentArguments& a, Progress& progress) {
     options.depth = a.resample[1];
   }
   options.fill_no_data = a.fill;
-  Dem dem = read_dem(a.terrain, options, &progress);
+  Dem dem = read_dem(name, options, &progress);
   TerrainSource source;
-  source.name = a.terrain;
+  source.name = name;
   source.checksum = checksum(dem.heights);
   source.notes = std::move(dem.notes);
   source.heights = std::move(dem.heights);
   return source;
 }
 
-TerrainSource open_named(const RepresentArguments& a) {
-  TerrainSource source = open_terrain(a.terrain, a.seed);
-  const bool shaped = !a.crop.empty() || !a.resample.empty() || a.fill;
-  if (!shaped) return source;
-  if (!source.heights) {
-    throw usage_error("this terrain is a solid, not a height field", "--crop, --resample, --fill",
-                      "leave them out, or set the representation's resolution");
-  }
+bool shaped(const RepresentArguments& a) { return !a.crop.empty() || !a.resample.empty() || a.fill; }
+
+Error solid_is_not_shaped() {
+  return usage_error("this terrain is a solid, not a height field", "--crop, --resample, --fill",
+                     "leave them out, or set the representation's resolution");
+}
+
+TerrainSource open_named(const RepresentArguments& a, const std::string& name) {
+  TerrainSource source = open_terrain(name, a.seed);
+  if (!shaped(a)) return source;
+  if (!source.heights) throw solid_is_not_shaped();
   if (!a.crop.empty()) source.heights = crop(*source.heights, a.crop[0], a.crop[1], a.crop[2], a.crop[3]);
   if (!a.resample.empty()) source.heights = resample(*source.heights, a.resample[0], a.resample[1]);
   if (a.fill) source.heights = fill_no_data(*source.heights);
   source.checksum = checksum(*source.heights);
   return source;
+}
+
+TerrainSource open_ground(const RepresentArguments& a, const std::string& name, Progress& progress) {
+  return names_dem_file(name) ? open_file(a, name, progress) : open_named(a, name);
+}
+
+// Numbers between commas, without anything else: whether there were `least` to all.size(). What is left out
+// stays.
+bool parse_numbers(const std::string& text, std::span<float> all, std::size_t least) {
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  std::size_t count = 0;
+  while (count < all.size()) {
+    const auto [rest, error] = std::from_chars(at, end, all[count]);
+    if (error != std::errc() || !std::isfinite(all[count])) return false;
+    at = rest;
+    ++count;
+    if (at == end || *at != ',') break;
+    ++at;
+  }
+  return at == end && *(end - 1) != ',' && count >= least;
+}
+
+std::optional<ModelPlace> parse_place(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  std::array<float, 3> numbers{0, 0, 1};
+  if (!parse_numbers(text, numbers, 2) || !(numbers[2] > 0)) {
+    throw usage_error(
+        fmt::format("invalid place '{}'", text), "--place",
+        "give X,Z or X,Z,SCALE without spaces, such as 120,80,2.5: metres, and a scale above 0");
+  }
+  return ModelPlace{numbers[0], numbers[1], numbers[2]};
+}
+
+// A terrain, a model, or a model on a terrain.
+TerrainSource open_source(const RepresentArguments& a, Progress& progress) {
+  const bool model = names_model(a.terrain);
+  const std::optional<ModelPlace> place = parse_place(a.place);
+  if (a.ground.empty() && place) {
+    throw usage_error("a place on no ground", "--place", "name the ground with --ground");
+  }
+  if (!a.ground.empty() && !model) {
+    throw usage_error(fmt::format("'{}' is a terrain itself", a.terrain), "--ground",
+                      "leave it out, or name a model of `terrabench list models`");
+  }
+  if (!model) return open_ground(a, a.terrain, progress);
+  const std::string text = open_model_text(a.terrain);
+  if (!a.ground.empty()) {
+    return model_on_ground(text, a.terrain, open_ground(a, a.ground, progress), place);
+  }
+  if (shaped(a)) throw solid_is_not_shaped();
+  return model_source(text, a.terrain);
 }
 
 void print_fidelity(const Fidelity& fidelity) {
@@ -103,6 +162,41 @@ void print_drills(const DrillTerrain& built, const Parameters& parameters) {
   }
 }
 
+// What the program holds of a description of so many bytes.
+void print_expansion(const ProceduralMesh& built) {
+  fmt::print("expanded    {} triangles, {}, from a description of {}\n", built.columns().triangles().size(),
+             format_quantity(static_cast<double>(built.expanded_bytes()), "B"),
+             format_quantity(static_cast<double>(built.description_bytes()), "B"));
+}
+
+FaceMesh polygons_of(const Representation& built) {
+  if (const auto* const mesh = dynamic_cast<const ProceduralMesh*>(&built)) return mesh->polygons();
+  TriangleMesh triangles = built.mesh({});
+  FaceMesh mesh;
+  mesh.positions = std::move(triangles.positions);
+  mesh.corners = std::move(triangles.indices);
+  for (std::size_t c = 0; c <= mesh.corners.size(); c += 3) {
+    mesh.first_corner.push_back(static_cast<std::uint32_t>(c));
+  }
+  return mesh;
+}
+
+// By the name's extension as polygons for other programs, otherwise in the structure's own form.
+void save(const std::string& path, const RepresentationType& type, const Representation& built) {
+  if (!path.ends_with(".ply") && !path.ends_with(".obj")) {
+    const std::size_t bytes = save_representation(path, type, built);
+    fmt::print("saved       {} ({})\n", path, format_quantity(static_cast<double>(bytes), "B"));
+    return;
+  }
+  const FaceMesh mesh = polygons_of(built);
+  if (mesh.faces() == 0) {
+    throw usage_error("there are no faces to write", path, "save it under another extension");
+  }
+  write_mesh(path, mesh);
+  fmt::print("saved       {} ({} faces, {})\n", path, mesh.faces(),
+             format_quantity(static_cast<double>(std::filesystem::file_size(path)), "B"));
+}
+
 // Rasters for other programs: how many pixels drain through each pixel, and in which direction.
 void write_flow(const std::filesystem::path& path, const TerrainSource& source, Progress& progress) {
   const FlowNetwork network = route_flow(*source.heights, &progress);
@@ -115,18 +209,8 @@ void write_flow(const std::filesystem::path& path, const TerrainSource& source, 
 
 Sphere parse_sphere(const RepresentArguments::Stroke& stroke) {
   std::array<float, 4> numbers{};
-  const std::string& text = stroke.sphere;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  bool good = true;
-  for (std::size_t n = 0; n < numbers.size() && good; ++n) {
-    if (n > 0) good = at != end && *at++ == ',';
-    const auto [rest, error] = std::from_chars(at, end, numbers[n]);
-    good = good && error == std::errc() && std::isfinite(numbers[n]);
-    at = rest;
-  }
-  if (!good || at != end || !(numbers[3] > 0)) {
-    throw usage_error(fmt::format("invalid sphere '{}'", text), stroke.dig ? "--dig" : "--add",
+  if (!parse_numbers(stroke.sphere, numbers, numbers.size()) || !(numbers[3] > 0)) {
+    throw usage_error(fmt::format("invalid sphere '{}'", stroke.sphere), stroke.dig ? "--dig" : "--add",
                       "give X,Y,Z,RADIUS in metres without spaces, such as 120,35.5,80,12: finite numbers "
                       "and a radius above 0");
   }
@@ -180,7 +264,7 @@ ExitCode represent_command(const RepresentArguments& a) {
   const std::vector<Sphere> spheres = check_edits(a, type);
   Progress progress(isatty(STDERR_FILENO) != 0 ? Progress::Output::kTerminal : Progress::Output::kLines);
 
-  const TerrainSource source = names_dem_file(a.terrain) ? open_file(a, progress) : open_named(a);
+  const TerrainSource source = open_source(a, progress);
   if (!a.write_flow.empty() && !source.heights) {  // checked before work that may take minutes
     throw usage_error("this terrain is a solid; flow needs a height field", "--write-flow",
                       "leave it out, or name a height field");
@@ -203,10 +287,8 @@ ExitCode represent_command(const RepresentArguments& a) {
   if (const auto* const drills = dynamic_cast<const DrillTerrain*>(built.get())) {
     print_drills(*drills, parameters);
   }
-  if (!a.save.empty()) {
-    const std::size_t bytes = save_representation(a.save, type, *built);
-    fmt::print("saved       {} ({})\n", a.save, format_quantity(static_cast<double>(bytes), "B"));
-  }
+  if (const auto* const mesh = dynamic_cast<const ProceduralMesh*>(built.get())) print_expansion(*mesh);
+  if (!a.save.empty()) save(a.save, type, *built);
   if (!a.write_flow.empty()) write_flow(a.write_flow, source, progress);
   if (!a.render.empty()) draw(a, *built, source.bounds(), progress);
   fmt::print("allocator   {} freed\n",

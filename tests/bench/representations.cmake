@@ -12,3 +12,4 @@ endif()
 find_library(OPENSUBDIV_LIBRARY osdCPU REQUIRED)
 terrabench_benchmark(subdivision_bench SOURCES subdivision_bench.cpp
                      LIBRARIES representations TBB::tbb ${OPENSUBDIV_LIBRARY} OpenMeshCore)
+terrabench_benchmark(procedural_mesh_bench SOURCES procedural_mesh_bench.cpp LIBRARIES representations)

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <span>
 
+#include "representations/procedural_mesh/model_terrain.h"
 #include "representations/representation.h"
 #include "terrain/error.h"
 #include "tests/fuzz/fuzz.h"
@@ -71,14 +72,19 @@ std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
                         }
                       }};
   heights.heights = Heightfield{3, 2, 10, 20, {1, 2, 3, 4, Heightfield::kNoData, 6}, {}};
+  // A saved model holds its text, which is expanded while loading: a small one, so that most damage stays
+  // small.
+  TerrainSource model =
+      model_on_ground("[limits]\nfaces = 500\n[base]\nshape = \"cube\"\n[[step]]\nsubdivide = 1\n", "model",
+                      source_of("ground", Heightfield::zeros(3, 3, 2, 2)), std::nullopt);
   std::vector<std::vector<std::uint8_t>> seeds;
   Progress progress;
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
   for (std::size_t t = 0; t < representations().size(); ++t) {
     const RepresentationType& type = representations()[t];
-    for (const TerrainSource* source : {&boxes, &heights}) {
+    for (const TerrainSource* source : {&boxes, &heights, &model}) {
       Parameters parameters(type.parameters);
-      parameters.set("resolution", std::int64_t{source->solid ? 40 : 0});
+      parameters.set("resolution", std::int64_t{source == &boxes ? 40 : source == &model ? 8 : 0});
       for (const char* name : {"w", "tau"}) {
         if (parameters.has(name)) parameters.set(name, std::int64_t{1});
       }

@@ -1,0 +1,148 @@
+// The description of a procedural mesh: its file, and its expansion into polygons.
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "representations/column_grid.h"
+#include "representations/procedural_mesh/model.h"
+#include "representations/procedural_mesh/procedural_mesh.h"
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+constexpr std::uint32_t kGround = 1, kModel = 2;
+constexpr std::size_t kMostFaces = std::size_t{1} << 24;  // of a model
+constexpr int kMostLines = ColumnGrid::kMaxColumns + 2;   // a solid's texture has a border
+
+bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+void check_lines(const std::vector<float>& at, const ByteSource& in) {
+  if (!std::all_of(at.begin(), at.end(), [](float v) { return std::isfinite(v); }) ||
+      !std::is_sorted(at.begin(), at.end())) {
+    in.fail("the lines of samples are not numbers in ascending order");
+  }
+}
+
+void load_ground(ByteSource& in, MeshDescription& out) {
+  const int width = in.get<int>(), depth = in.get<int>();
+  if (width < 1 || depth < 1 || width > kMostLines || depth > kMostLines) {
+    in.fail("the ground's sizes are impossible");
+  }
+  out.levels = in.get<int>();
+  if (out.levels < 0 || out.levels > 16) in.fail("the number of subdivisions is impossible");
+  out.ground.x = in.get_array<float>(static_cast<std::uint64_t>(width));
+  out.ground.z = in.get_array<float>(static_cast<std::uint64_t>(depth));
+  check_lines(out.ground.x, in);
+  check_lines(out.ground.z, in);
+  out.ground.heights =
+      in.get_array<float>(static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(depth));
+  out.ground_bounds = in.get<Bounds>();
+  const Bounds& bounds = out.ground_bounds;
+  if (!(finite(bounds.low) && finite(bounds.high) && glm::min(bounds.low, bounds.high) == bounds.low)) {
+    in.fail("the bounds are impossible");
+  }
+  const auto outside = [&](float height) { return height < bounds.low.y || height > bounds.high.y; };
+  if (std::any_of(out.ground.heights.begin(), out.ground.heights.end(), outside)) {
+    in.fail("a height lies outside the bounds");
+  }
+}
+
+// Fewer subdivisions at the end of the schedule.
+void leave_out_last(growing::Model& model, int levels) {
+  while (levels > 0 && !model.steps.empty() && model.steps.back().levels > 0) {
+    growing::Step& last = model.steps.back();
+    const std::uint32_t fewer = std::min(last.levels, static_cast<std::uint32_t>(levels));
+    levels -= static_cast<int>(fewer);
+    last.levels -= fewer;
+    if (last.levels == 0) model.steps.pop_back();  // it would be a growing step
+  }
+}
+
+FaceMesh expand_model(const MeshDescription& description, const std::string& origin, int leave_out) {
+  growing::Model model = growing::parse_model({description.model.data(), description.model.size()}, origin);
+  model.limits.faces = std::min(model.limits.faces, kMostFaces);
+  for (growing::Step& step : model.steps) step.growth.limits = model.limits;
+  if (model.base.faces() > kMostFaces) {
+    throw bad_input("the base mesh has too many faces for a terrain", origin, "use at most 2^24");
+  }
+  leave_out_last(model, leave_out);
+  FaceMesh mesh = growing::expand(model).mesh;
+  for (glm::vec3& p : mesh.positions) {
+    p = p * description.scale + description.offset;
+    if (!finite(p)) throw bad_input("the model's vertices lie beyond all numbers", origin, "scale it less");
+  }
+  return mesh;
+}
+
+void append(FaceMesh& to, const FaceMesh& from) {
+  const auto vertices = static_cast<std::uint32_t>(to.positions.size()),
+             corners = static_cast<std::uint32_t>(to.corners.size());
+  const bool texture =
+      to.texture.size() == to.positions.size() && from.texture.size() == from.positions.size();
+  to.positions.insert(to.positions.end(), from.positions.begin(), from.positions.end());
+  if (texture) {
+    to.texture.insert(to.texture.end(), from.texture.begin(), from.texture.end());
+  } else {
+    to.texture.clear();
+  }
+  for (const std::uint32_t v : from.corners) to.corners.push_back(vertices + v);
+  for (std::size_t f = 1; f < from.first_corner.size(); ++f) {
+    to.first_corner.push_back(corners + from.first_corner[f]);
+  }
+}
+
+}  // namespace
+
+void MeshDescription::save(ByteSink& out) const {
+  out.put((has_ground() ? kGround : 0) | (model.empty() ? 0 : kModel));
+  if (has_ground()) {
+    out.put(static_cast<int>(ground.x.size()));
+    out.put(static_cast<int>(ground.z.size()));
+    out.put(levels);
+    for (const auto* values : {&ground.x, &ground.z, &ground.heights}) {
+      out.put_array(std::span<const float>(*values));
+    }
+    out.put(ground_bounds);
+  }
+  if (!model.empty()) {
+    out.put_text({model.data(), model.size()});
+    out.put(scale);
+    out.put(offset);
+  }
+  out.put(leave_out);
+}
+
+MeshDescription MeshDescription::load(ByteSource& in) {
+  MeshDescription description;
+  const auto parts = in.get<std::uint32_t>();
+  if (parts == 0 || parts > (kGround | kModel)) in.fail("neither a ground nor a model");
+  if ((parts & kGround) != 0) load_ground(in, description);
+  if ((parts & kModel) != 0) {
+    const std::string text = in.get_text();
+    if (text.empty()) in.fail("the model is empty");
+    description.model.assign(text.begin(), text.end());
+    description.scale = in.get<float>();
+    description.offset = in.get<glm::vec3>();
+    if (!(description.scale > 0 && std::isfinite(description.scale) && finite(description.offset))) {
+      in.fail("the model's place is impossible");
+    }
+  }
+  description.leave_out = in.get<int>();
+  if (description.leave_out < 0 || description.leave_out > 16) in.fail("the level of detail is impossible");
+  return description;
+}
+
+FaceMesh expand(const MeshDescription& description, const std::string& origin, int leave_out) {
+  leave_out += description.leave_out;
+  FaceMesh mesh;
+  if (description.has_ground()) mesh = displaced_plane(description.ground, description.levels, leave_out);
+  if (description.model.empty()) return mesh;
+  FaceMesh model = expand_model(description, origin, leave_out);
+  if (!description.has_ground()) return model;
+  if (mesh.first_corner.empty()) mesh.first_corner.push_back(0);
+  append(mesh, model);
+  return mesh;
+}
+
+}  // namespace terrabench
