@@ -1,0 +1,37 @@
+#include "renderers/raytrace/coherent/part_scene.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "terrain/error.h"
+
+namespace terrabench {
+
+RayPart::RayPart(TriangleMesh triangles, std::vector<glm::vec2> coordinates,
+                 std::vector<std::uint32_t> of_triangles)
+    : mesh(std::move(triangles)),
+      texture(std::move(coordinates)),
+      tags(std::move(of_triangles)),
+      index(mesh) {
+  const bool good = (texture.empty() || texture.size() == mesh.positions.size()) &&
+                    (tags.empty() || tags.size() == mesh.triangles());
+  if (good) return;
+  throw bad_input(fmt::format("{} texture coordinates for {} positions, {} tags for {} triangles",
+                              texture.size(), mesh.positions.size(), tags.size(), mesh.triangles()),
+                  "a part", "give one for each, or none");
+}
+
+Memory RayPart::memory() const {
+  Memory memory = payload_memory(mesh.positions);
+  memory += payload_memory(mesh.normals);
+  memory += payload_memory(texture);
+  memory += index_memory(mesh.indices);
+  memory += index_memory(tags);
+  memory.index += heap_bytes(this);
+  return memory;
+}
+
+std::size_t RayPart::bytes() const { return memory().total() + index.bytes(); }
+
+}  // namespace terrabench
