@@ -30,13 +30,13 @@ struct Plant {
 const std::vector<Plant>& forest_plants() {
   static const std::vector<Plant> all{
       {"branch_aspen",
-       0.62,
+       0.6,
        {{}, {.leave_out = {"smooth"}}, thinned(3, 14, 0.22), thinned(3, 6, 0.35), thinned(2, 25, 0.69)}},
       {"bush_tupelo",
-       0.14,
+       0.06,
        {{}, {.leave_out = {"smooth"}}, thinned(3, 20, 0.51), thinned(3, 8, 0.64), thinned(2, 8, 1.9)}},
       {"fork_ridges_random",
-       0.24,
+       0.34,
        {{},
         {.fewer_subdivisions = 1},
         {.leave_out = {"ridges"}},
@@ -137,6 +137,7 @@ RayMaterial Forest::material(const SurfacePoint& at) const {
 
 LazyForest::LazyForest(const Forest& forest, std::vector<std::uint8_t> levels, std::size_t cache_bytes)
     : forest_(forest), levels_(std::move(levels)), cache_(cache_bytes), seen_(levels_.size()) {
+  RayPart::index_objects();  // measured while this thread is alone
   const growing::PlantedScene& plants = forest.plants();
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     parts_.parts.push_back({plants.box(i), growing::to_world(plants.instances()[i])});

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "terrain/error.h"
@@ -13,7 +14,7 @@ RayPart::RayPart(TriangleMesh triangles, std::vector<glm::vec2> coordinates,
     : mesh(std::move(triangles)),
       texture(std::move(coordinates)),
       tags(std::move(of_triangles)),
-      index(mesh) {
+      index(RayIndex::on_shared_device(mesh)) {
   const bool good = (texture.empty() || texture.size() == mesh.positions.size()) &&
                     (tags.empty() || tags.size() == mesh.triangles());
   if (good) return;
@@ -28,8 +29,21 @@ Memory RayPart::memory() const {
   memory += payload_memory(texture);
   memory += index_memory(mesh.indices);
   memory += index_memory(tags);
-  memory.index += heap_bytes(this);
+  memory.index += heap_bytes(this) + index_objects();
   return memory;
+}
+
+std::size_t RayPart::index_objects() {
+  static const std::size_t bytes = [] {
+    TriangleMesh one;
+    one.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+    one.indices = {0, 1, 2};
+    const RayIndex first = RayIndex::on_shared_device(one);  // what Embree allocates once
+    const HeapScope heap;
+    const RayIndex second = RayIndex::on_shared_device(one);
+    return static_cast<std::size_t>(std::max<std::int64_t>(heap.held(), 0));
+  }();
+  return bytes;
 }
 
 std::size_t RayPart::bytes() const { return memory().total() + index.bytes(); }
