@@ -87,6 +87,7 @@ TEST(Claims, EveryClaimOfThePapersIsThere) {
                                        "meshgrow.size",
                                        "meshgrow.time",
                                        "meshgrow.lod",
+                                       "meshgrow.lazy",
                                        "cross.representations",
                                        "cross.lod-equal-error",
                                        "cross.scale"};
