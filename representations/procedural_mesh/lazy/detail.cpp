@@ -11,7 +11,7 @@
 namespace terrabench::growing {
 namespace {
 
-constexpr std::uint64_t kSamples = 8;  // seeds whose expansions a margin is measured on
+constexpr std::uint64_t kSamples = 4;  // seeds whose expansions a margin is measured on
 
 // Where a line and column, from 1, lie in the text. Constants are numbers, so no character before one on its
 // line takes more than a byte unless a comment or string does, which ends the line or is no number.

@@ -29,7 +29,7 @@ struct DetailModel {
   std::string name;
   std::vector<Model> levels;
   // Metres by which the subdivision steps of a level may move vertices out of the box of the mesh before
-  // them: twice the most that the expansions of 8 seeds show, and 0 without displacements.
+  // them: twice the most that the expansions of 4 seeds show, and 0 without displacements.
   std::vector<float> margins;
   std::vector<std::uint32_t> growth;  // per level, the first level with the same growing steps and constants
 };
