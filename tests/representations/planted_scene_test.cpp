@@ -184,6 +184,16 @@ TEST(PlantedScene, RefusesLevelsThatTheModelDoesNotHave) {
   EXPECT_THROW(make({.fewer_subdivisions = 1}), Error);  // its last step grows
   EXPECT_THROW(make({.constants = {{"Leaves", 3}}}), Error);
   EXPECT_THROW(make_detail_model(model_text("cactus"), "cactus", {}), Error);
+  const auto set_leaves = [](const std::string& constants, double to) {
+    const std::array levels{DetailLevel{.constants = {{"Leaves", to}}}};
+    make_detail_model(constants + "\n[base]\nshape = \"prism\"\nsides = 4\nradius = 1\nheight = 1\n", "m",
+                      levels);
+  };
+  EXPECT_NO_THROW(set_leaves("[constants]\na = 1\nLeaves = 8 # of a twig", 3));
+  EXPECT_NO_THROW(set_leaves("constants = { a = 2, Leaves = 8.5, b = 3 }", 3.25));
+  EXPECT_THROW(set_leaves("[constants]\nLeaves = \"2*4\"", 3), Error);  // an expression
+  EXPECT_THROW(set_leaves("[constants]\nLeaves = [8, 9]", 3), Error);
+  EXPECT_THROW(set_leaves("[constants]\nLeaves = 8", NAN), Error);
   // From coarse to fine.
   const std::array wrong{kForkLevels[1], kForkLevels[0]};
   const std::string name = "fork_ridges_random";

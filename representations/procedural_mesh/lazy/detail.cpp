@@ -13,32 +13,44 @@ namespace {
 
 constexpr std::uint64_t kSamples = 4;  // seeds whose expansions a margin is measured on
 
-// Where a line and column, from 1, lie in the text. Constants are numbers, so no character before one on its
-// line takes more than a byte unless a comment or string does, which ends the line or is no number.
+// Where a line and column, from 1, lie in a text whose line has only ASCII characters before it.
 std::size_t offset_of(std::string_view text, toml::source_position at) {
   std::size_t offset = 0;
   for (toml::source_index line = 1; line < at.line; ++line) offset = text.find('\n', offset) + 1;
   return offset + at.column - 1;
 }
 
-// The values are exchanged in the text: the order of a model's definitions matters, and a TOML table does not
+const toml::node* find_constant(const toml::table& file, const std::string& name) {
+  const toml::table* const constants = file["constants"].as_table();
+  const toml::node* const value = constants == nullptr ? nullptr : constants->get(name);
+  if (value != nullptr && value->is_number()) return value;
+  std::vector<std::string_view> names;
+  if (constants != nullptr) {
+    for (const auto& [key, other] : *constants) {
+      if (other.is_number()) names.push_back(key.str());
+    }
+  }
+  throw unknown_name("constant", name, names);
+}
+
+// The value is exchanged in the text: the order of a model's definitions matters, and a TOML table does not
 // keep it.
 std::string with_constant(std::string text, const std::string& name, const ConstantChange& change) {
-  const toml::table file = parse_toml(text, name, "correct the file; see docs/models.md");
-  const toml::table* const constants = file["constants"].as_table();
-  const toml::node* const value = constants == nullptr ? nullptr : constants->get(change.name);
-  if (value == nullptr || !value->is_number()) {
-    std::vector<std::string_view> names;
-    if (constants != nullptr) {
-      for (const auto& [key, other] : *constants) {
-        if (other.is_number()) names.push_back(key.str());
-      }
+  constexpr std::string_view kAdvice = "correct the file; see docs/models.md";
+  {
+    const toml::table file = parse_toml(text, name, kAdvice);
+    const toml::source_region place = find_constant(file, change.name)->source();
+    const std::size_t begin = offset_of(text, place.begin), end = offset_of(text, place.end);
+    if (!(begin <= end && end <= text.size())) {
+      throw bad_input(fmt::format("the constant '{}' is not in a line of its own", change.name), name,
+                      "put it into one");
     }
-    throw unknown_name("constant", change.name, names);
+    text.replace(begin, end - begin, fmt::format("{}", change.value));
   }
-  const std::size_t begin = offset_of(text, value->source().begin),
-                    end = offset_of(text, value->source().end);
-  return text.replace(begin, end - begin, fmt::format("{}", change.value));
+  const toml::table changed = parse_toml(text, name, kAdvice);
+  if (find_constant(changed, change.name)->value<double>() == change.value) return text;
+  throw bad_input(fmt::format("the constant '{}' cannot be set to {}", change.name, change.value), name,
+                  "write it in a line of its own, and give it a finite value");
 }
 
 void leave_out(Model& model, const std::vector<std::string>& names) {
