@@ -43,7 +43,7 @@ struct Variant {
 };
 constexpr std::array kVariants{Variant{"cache=1024", 1024, 0}, Variant{"cache=512", 512, 0},
                                Variant{"cache=256", 256, 0}, Variant{"threads=1", 1024, 1}};
-constexpr std::array kSpacings{0.0, 1.5, 6.0};
+constexpr std::array kSpacings{0.0, 0.5, 1.5, 6.0};
 
 std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
@@ -227,14 +227,25 @@ Image eager(const Forest& forest, const View& view, const Case& at, std::uint64_
   return picture.image();
 }
 
-// Root mean square difference of the channels, 0 to 255.
-double difference(const Image& a, const Image& b) {
+// Root mean square difference of the channels, 0 to 255, of the means of blocks of pixels: of single pixels
+// (block = 1), or without the noise and the places of single leaves.
+double difference(const Image& a, const Image& b, int block) {
   double sum = 0;
-  for (std::size_t k = 0; k < a.rgb.size(); ++k) {
-    const double step = int{a.rgb[k]} - int{b.rgb[k]};
-    sum += step * step;
+  int count = 0;
+  for (int y = 0; y + block <= a.height; y += block) {
+    for (int x = 0; x + block <= a.width; x += block, count += 3) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        int step = 0;
+        for (int k = 0; k < block * block; ++k) {
+          const int at_x = x + k % block, at_y = y + k / block;
+          step += int{a.pixel(at_x, at_y)[c]} - int{b.pixel(at_x, at_y)[c]};
+        }
+        const double mean = static_cast<double>(step) / (block * block);
+        sum += mean * mean;
+      }
+    }
   }
-  return std::sqrt(sum / static_cast<double>(a.rgb.size()));
+  return count == 0 ? 0 : std::sqrt(sum / count);
 }
 
 void measure_error(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
@@ -245,8 +256,11 @@ void measure_error(const Case& at, const RunOptions& options, Recorder& recorder
                   static_cast<std::size_t>(at.parameters.integer("cache")) << 20U);
   const CoherentPicture picture = traced(lazy, view, at, options, progress);
   const Image truth = eager(forest, view, at, options.seed);
-  recorder.add("error", "", difference(picture.image(), truth));
-  recorder.add("noise", "", difference(truth, eager(forest, view, at, options.seed + 1)));
+  const Image image = picture.image(), other = eager(forest, view, at, options.seed + 1);
+  recorder.add("error", "", difference(image, truth, 1));
+  recorder.add("block_error", "", difference(image, truth, 8));
+  recorder.add("noise", "", difference(truth, other, 1));
+  recorder.add("block_noise", "", difference(truth, other, 8));
   record(lazy.expanded(), forest, recorder);
 }
 

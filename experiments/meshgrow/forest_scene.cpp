@@ -130,7 +130,7 @@ RayMaterial Forest::material(const SurfacePoint& at) const {
   const auto hue = [&](std::uint64_t k) {
     return static_cast<float>(growing::share(instance.seed, 100 + k));
   };
-  const glm::vec3 tint{0.8F + 0.5F * hue(0), 0.85F + 0.25F * hue(1), 0.8F + 0.25F * hue(2)};
+  const glm::vec3 tint{0.8F + 0.35F * hue(0), 0.85F + 0.25F * hue(1), 0.8F + 0.25F * hue(2)};
   material.albedo = glm::clamp(material.albedo * tint, 0.0F, 1.0F);
   return material;
 }
