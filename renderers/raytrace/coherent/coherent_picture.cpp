@@ -39,7 +39,7 @@ class Tracer {
         sun_spread_(std::tan(scene.light.sun_radius)),
         has_sun_(scene.light.sun_irradiance != glm::vec3(0)) {}
 
-  // The mean radiance of the pixels of a tile, and what their first samples see.
+  // Adds the light of all samples to the tile's pixels, and notes what their first samples see.
   void tile(glm::ivec2 from, glm::ivec2 to, CoherentPicture& picture);
 
  private:

@@ -35,8 +35,8 @@ class PartQueries {
   std::size_t bytes() const;
 
  private:
-  // Lets each ray visit parts until visit(part, placement, ray number) says that it has gone far enough:
-  // it returns how far the ray still looks, below 0 to end.
+  // Lets each ray visit the parts on its way: visit(part opened, its number, the ray's number, how far it
+  // looks) returns how far the ray looks from then on, below 0 to end it.
   template <class Visit>
   void run(std::span<const Ray> rays, const Visit& visit) const;
 

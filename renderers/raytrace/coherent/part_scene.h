@@ -4,7 +4,6 @@
 
 #include <functional>
 #include <glm/mat4x4.hpp>
-#include <optional>
 #include <vector>
 
 #include "renderers/raytrace/ray_scene.h"

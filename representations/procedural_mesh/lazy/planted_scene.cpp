@@ -109,9 +109,9 @@ std::vector<Instance> scatter(const Planting& planting,
   tbb::parallel_for(std::size_t{0}, instances.size(), [&](std::size_t i) {
     const std::uint64_t key = combine(planting.seed, i);
     Instance& instance = instances[i];
-    // The last row of the grid may be short.
+    const std::size_t row = i / across;  // the last row may be short
     instance.position.x = static_cast<float>((static_cast<double>(i % across) + share(key, 0)) * cell);
-    instance.position.z = static_cast<float>((static_cast<double>(i / across) + share(key, 1)) * cell);
+    instance.position.z = static_cast<float>((static_cast<double>(row) + share(key, 1)) * cell);
     instance.position.y = height(instance.position.x, instance.position.z);
     instance.turn = static_cast<float>(2 * std::numbers::pi * share(key, 2));
     instance.scale = std::lerp(planting.least_scale, planting.most_scale, static_cast<float>(share(key, 3)));
