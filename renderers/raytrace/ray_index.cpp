@@ -10,14 +10,50 @@
 #include <cmath>
 #include <cstring>
 #include <glm/matrix.hpp>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 #include "terrain/error.h"
 
 namespace terrabench {
+namespace {
+
+RTCDevice new_device() {
+  RTCDevice device = rtcNewDevice(nullptr);
+  if (device != nullptr) return device;
+  throw environment_error(
+      fmt::format("no ray tracing device (Embree error {})", static_cast<int>(rtcGetDeviceError(nullptr))),
+      "Embree",
+      "this needs a processor with SSE2 and Debian's libembree3-3; otherwise use --renderer osmesa");
+}
+
+// The device of all indices that share one, from the first to the last of them.
+struct SharedDevice {
+  RTCDevice device = new_device();
+  SharedDevice() = default;
+  ~SharedDevice() { rtcReleaseDevice(device); }
+  SharedDevice(const SharedDevice&) = delete;
+  SharedDevice& operator=(const SharedDevice&) = delete;
+
+  static std::shared_ptr<SharedDevice> get(RTCMemoryMonitorFunction monitor) {
+    static std::mutex mutex;
+    static std::weak_ptr<SharedDevice> last;
+    const std::lock_guard lock(mutex);
+    std::shared_ptr<SharedDevice> device = last.lock();
+    if (device == nullptr) {
+      last = device = std::make_shared<SharedDevice>();
+      rtcSetDeviceMemoryMonitorFunction(device->device, monitor, nullptr);
+    }
+    return device;
+  }
+};
+
+}  // namespace
 
 // Owns what Embree holds. Geometries attached to the top scene have their placement's number as their id.
 struct RayIndex::Embree {
+  std::shared_ptr<SharedDevice> shared;  // null: the device is its own
   RTCDevice device = nullptr;
   RTCScene top = nullptr;
   std::vector<RTCScene> prototypes;     // per mesh; null if no placement moves it
@@ -26,6 +62,7 @@ struct RayIndex::Embree {
   std::int64_t budget = 0;  // bytes; 0: no bound
 
   Embree(std::size_t meshes, std::uint64_t most);
+  Embree(std::size_t meshes, std::shared_ptr<SharedDevice>);
   ~Embree();
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;
@@ -42,20 +79,23 @@ struct RayIndex::Embree {
     const std::int64_t held = embree.bytes.fetch_add(bytes, std::memory_order_relaxed) + bytes;
     return bytes <= 0 || embree.budget == 0 || held <= embree.budget;
   }
+  // The index that this thread builds on the shared device, whose monitor does not know the index.
+  static thread_local Embree* building;
+  static bool count_shared(void* /*self*/, ssize_t bytes, bool post) {
+    return building == nullptr || count(building, bytes, post);
+  }
   static bool keep_building(void* /*self*/, double /*done*/) { return !Progress::interrupted(); }
 };
 
+thread_local RayIndex::Embree* RayIndex::Embree::building = nullptr;
+
 RayIndex::Embree::Embree(std::size_t meshes, std::uint64_t most)
-    : prototypes(meshes), geometries(meshes), budget(static_cast<std::int64_t>(most)) {
-  device = rtcNewDevice(nullptr);
-  if (device == nullptr) {
-    throw environment_error(
-        fmt::format("no ray tracing device (Embree error {})", static_cast<int>(rtcGetDeviceError(nullptr))),
-        "Embree",
-        "this needs a processor with SSE2 and Debian's libembree3-3; otherwise use --renderer osmesa");
-  }
+    : device(new_device()), prototypes(meshes), geometries(meshes), budget(static_cast<std::int64_t>(most)) {
   rtcSetDeviceMemoryMonitorFunction(device, count, this);
 }
+
+RayIndex::Embree::Embree(std::size_t meshes, std::shared_ptr<SharedDevice> with)
+    : shared(std::move(with)), device(shared->device), prototypes(meshes), geometries(meshes) {}
 
 RayIndex::Embree::~Embree() {
   if (top != nullptr) rtcReleaseScene(top);
@@ -65,7 +105,7 @@ RayIndex::Embree::~Embree() {
   for (RTCGeometry geometry : geometries) {
     if (geometry != nullptr) rtcReleaseGeometry(geometry);
   }
-  if (device != nullptr) rtcReleaseDevice(device);
+  if (shared == nullptr) rtcReleaseDevice(device);
 }
 
 void RayIndex::Embree::check() const {
@@ -215,6 +255,21 @@ RayIndex::RayIndex(std::span<const TriangleMesh* const> meshes, std::span<const 
 RayIndex::RayIndex(const TriangleMesh& mesh, Progress* progress)
     : RayIndex(std::array{&mesh}, std::array{MeshPlacement{}}, 0, progress) {}
 
+RayIndex RayIndex::on_shared_device(const TriangleMesh& mesh) {
+  check_mesh(mesh, "mesh 0");
+  RayIndex result;
+  result.embree_ = std::make_unique<Embree>(1, SharedDevice::get(Embree::count_shared));
+  Embree& embree = *result.embree_;
+  Embree::building = &embree;
+  const std::shared_ptr<void> done(nullptr, [](void*) { Embree::building = nullptr; });
+  embree.index(0, mesh, false);
+  embree.top = embree.new_scene();
+  embree.place(0, {});
+  embree.commit(embree.top);
+  return result;
+}
+
+RayIndex::RayIndex() = default;
 RayIndex::~RayIndex() = default;
 RayIndex::RayIndex(RayIndex&&) noexcept = default;
 RayIndex& RayIndex::operator=(RayIndex&&) noexcept = default;

@@ -47,6 +47,9 @@ class RayIndex {
   RayIndex(std::span<const TriangleMesh* const> meshes, std::span<const MeshPlacement> placements,
            std::uint64_t budget = 0, Progress* = nullptr);
   explicit RayIndex(const TriangleMesh&, Progress* = nullptr);  // one mesh, placed where it is
+  // The same for one of very many indices that exist at once. Each other index has a device of its own, and
+  // Embree keeps a thread-local key per device, of which a process has 1024. Threads may call it at once.
+  static RayIndex on_shared_device(const TriangleMesh&);
   ~RayIndex();
   RayIndex(RayIndex&&) noexcept;
   RayIndex& operator=(RayIndex&&) noexcept;
@@ -62,6 +65,7 @@ class RayIndex {
   static std::string embree_version();  // "3.13.5"
 
  private:
+  RayIndex();
   struct Embree;
   std::unique_ptr<Embree> embree_;
 };

@@ -1,0 +1,277 @@
+// §6 and §8 of "meshgrow", which the paper leaves to future work: a forest whose full expansion would have
+// more than 10⁹ faces is ray traced while only those of its plants are expanded, to the level that the view
+// needs, that rays reach, in a cache of bounded bytes. Pictures are compared across sizes of the cache and
+// numbers of threads, and those of a small forest with its full expansion, traced by the eager path tracer.
+#include <fmt/format.h>
+#include <malloc.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <optional>
+
+#include "experiments/experiment.h"
+#include "experiments/figures/figure.h"
+#include "experiments/meshgrow/forest_scene.h"
+#include "experiments/stopwatch.h"
+#include "renderers/raytrace/raytraced_picture.h"
+
+namespace terrabench::meshgrow {
+namespace {
+
+constexpr std::string_view kKinds[] = {"lazy", "error"};
+
+const std::array kSpecs{
+    choice("kind", kKinds, "of the measurement: of lazy expansion, or of its error against full expansion"),
+    ParameterSpec{"instances", std::int64_t{19600}, "", "plants in the forest", 0, 10'000'000},
+    ParameterSpec{"spacing", 1.5, "pixels", "a level has one face per square of this side; 0: finest", 0,
+                  100},
+    ParameterSpec{"cache", std::int64_t{512}, "MiB", "bound of the parts in memory", 1, 1 << 20},
+    ParameterSpec{"threads", std::int64_t{0}, "", "that trace and expand; 0: all", 0, 1024},
+    ParameterSpec{"width", std::int64_t{240}, "pixels", "of the picture", 8, 8192},
+    ParameterSpec{"samples", std::int64_t{2}, "", "paths per pixel", 1, 65536},
+    ParameterSpec{"figure", false, "", "whether the picture is kept"},
+};
+
+struct Variant {
+  std::string_view name;
+  std::int64_t cache, threads;
+};
+constexpr std::array kVariants{Variant{"cache=1024", 1024, 0}, Variant{"cache=512", 512, 0},
+                               Variant{"cache=256", 256, 0}, Variant{"threads=1", 1024, 1}};
+constexpr std::array kSpacings{0.0, 0.5, 1.5, 6.0};
+
+std::vector<Case> cases(const RunOptions& options) {
+  const bool paper = options.profile == Profile::kPaper;
+  std::vector<Case> cases;
+  const auto add = [&](std::string name) -> Parameters& {
+    Parameters& parameters = cases.emplace_back(Case{std::move(name), Parameters(kSpecs)}).parameters;
+    if (!paper) {
+      parameters.set("instances", std::int64_t{400});
+      parameters.set("width", std::int64_t{96});
+    }
+    return parameters;
+  };
+  Parameters& picture = add("picture");
+  picture.set("figure", true);
+  picture.set("cache", std::int64_t{768});
+  picture.set("width", std::int64_t{paper ? 960 : 240});
+  picture.set("samples", std::int64_t{paper ? 8 : 2});
+  for (const Variant& variant : kVariants) {
+    Parameters& parameters = add(std::string(variant.name));
+    parameters.set("cache", paper ? variant.cache : variant.cache / 8);
+    parameters.set("threads", variant.threads);
+  }
+  for (const double spacing : kSpacings) {
+    Parameters& parameters = add(fmt::format("spacing={}", spacing));
+    parameters.set("kind", std::string("error"));
+    parameters.set("spacing", spacing);
+    parameters.set("instances", std::int64_t{paper ? 36 : 9});
+    parameters.set("samples", std::int64_t{paper ? 32 : 16});
+    parameters.set("cache", std::int64_t{1024});
+  }
+  return cases;
+}
+
+// Cases on the same forest share it: planting foresees every instance.
+std::shared_ptr<const Forest> forest_of(const ForestSettings& settings, Progress& progress) {
+  static std::mutex mutex;
+  static std::pair<std::pair<std::uint64_t, std::uint64_t>, std::shared_ptr<const Forest>> last;
+  const std::lock_guard lock(mutex);
+  const std::pair key{settings.instances, settings.seed};
+  if (last.second == nullptr || last.first != key) {
+    last.second.reset();
+    last = {key, std::make_shared<const Forest>(settings, &progress)};
+  }
+  return last.second;
+}
+
+// From above the first trees over the forest, or the whole of a small one.
+View forest_view(const Forest& forest, int width) {
+  const float side = forest.side(), x = 0.5F * side;
+  const int height = std::max(8, width * 9 / 16);
+  const float ground = forest.height(x, 0.98F * side);
+  View view;
+  view.eye = {x, ground + 7, side + 6};
+  view.target = {0.47F * side, ground + 1.5F, side - 22};
+  view.vertical_fov = 0.75F;
+  view.width = width;
+  view.height = height;
+  view.near = 0.1F;
+  view.far = 10 * side + 100;
+  return view;
+}
+
+double checksum(const CoherentPicture& picture) {
+  std::uint64_t sum = 0xCBF29CE484222325U;
+  for (const glm::vec3& pixel : picture.radiance) {
+    for (int c = 0; c < 3; ++c) sum = (sum ^ std::bit_cast<std::uint32_t>(pixel[c])) * 0x100000001B3U;
+  }
+  return static_cast<double>(sum >> 12);  // 52 bits, which a double holds
+}
+
+// The peak of resident memory starts again from what is resident now, where the system allows it.
+void reset_peak_resident() {
+  malloc_trim(0);
+  std::ofstream("/proc/self/clear_refs") << "5";
+}
+double peak_resident() {
+  std::ifstream status("/proc/self/status");
+  unsigned long long kibibytes = 0;
+  for (std::string line; std::getline(status, line);) {
+    if (std::sscanf(line.c_str(), "VmHWM: %llu kB", &kibibytes) == 1) return 1024.0 * kibibytes;
+  }
+  throw environment_error("the system does not report peak resident memory", "/proc/self/status",
+                          "measure on Linux");
+}
+
+CoherentPicture traced(const LazyForest& lazy, const View& view, const Case& at, const RunOptions& options,
+                       Progress& progress) {
+  const CoherentSettings settings{.samples = at.integer("samples"),
+                                  .bounces = 1,
+                                  .seed = static_cast<std::uint32_t>(options.seed),
+                                  .tile = at.integer("samples") > 4 ? 96 : 192};
+  const int threads = at.integer("threads");
+  std::optional<tbb::global_control> more;
+  if (threads > 0) {
+    more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  }
+  CoherentPicture picture;
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  arena.execute([&] { picture = trace_coherent(lazy.parts(), view, settings, &progress); });
+  return picture;
+}
+
+void record(const Expanded& expanded, const Forest& forest, Recorder& recorder) {
+  const auto total = static_cast<double>(forest.plants().total_faces());
+  recorder.add("instances", "", static_cast<double>(forest.plants().instances().size()));
+  recorder.add("faces_total", "", total);
+  recorder.add("instances_expanded", "", static_cast<double>(expanded.parts));
+  recorder.add("faces_expanded", "", static_cast<double>(expanded.faces));
+  recorder.add("faces_expanded_again", "", static_cast<double>(expanded.again));
+  recorder.add("share_expanded", "", total > 0 ? static_cast<double>(expanded.faces) / total : 0);
+  recorder.add("parts_outside_bounds", "", static_cast<double>(expanded.outside));
+  recorder.add("cache_hits", "", static_cast<double>(expanded.cache.hits));
+  recorder.add("cache_misses", "", static_cast<double>(expanded.cache.misses));
+  recorder.add("cache_evictions", "", static_cast<double>(expanded.cache.evictions));
+  recorder.add("cache_peak", "B", static_cast<double>(expanded.cache.peak_bytes));
+}
+
+void measure_lazy(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  Stopwatch planting;
+  const auto instances = static_cast<std::uint64_t>(at.parameters.integer("instances"));
+  const auto forest = forest_of({.instances = instances, .seed = options.seed}, progress);
+  recorder.add("planting_seconds", "s", planting.seconds());
+  const View view = forest_view(*forest, at.integer("width"));
+  const auto bound = static_cast<std::size_t>(at.parameters.integer("cache")) << 20U;
+
+  reset_peak_resident();
+  HeapCounter::reset_peak();
+  const HeapScope heap;
+  LazyForest lazy(*forest, forest->plants().choose_levels(view, {at.parameters.number("spacing")}), bound);
+  Stopwatch tracing;
+  const CoherentPicture picture = traced(lazy, view, at, options, progress);
+  recorder.add("seconds", "s", tracing.seconds());
+  recorder.add("heap_peak", "B", static_cast<double>(HeapCounter::peak()));
+  recorder.add("resident_peak", "B", peak_resident());
+  const Memory memory = lazy.memory();
+  const double pictures = 16.0 * static_cast<double>(picture.radiance.size());
+  recorder.add("heap_held", "B", static_cast<double>(heap.held()) - pictures);
+  recorder.add("memory", "B", static_cast<double>(memory.total()));
+  recorder.add("embree_held", "B", static_cast<double>(lazy.embree_bytes()));
+  recorder.add("cache_bound", "B", static_cast<double>(bound));
+  recorder.add("faces_chosen", "", static_cast<double>(lazy.faces_chosen()));
+  record(lazy.expanded(), *forest, recorder);
+  recorder.add("checksum", "", checksum(picture));
+  if (!at.parameters.flag("figure")) return;
+  figures::Sheet sheet = figures::panel_sheet(
+      {{{picture.image(), fmt::format("{} plants", forest->plants().instances().size())}}});
+  sheet.keep_all_colours();
+  sheet.write(
+      recorder.figure("meshgrow.lazy-forest", "png",
+                      fmt::format("A forest of {} plants of {} faces in total, of which {} were expanded",
+                                  forest->plants().instances().size(), forest->plants().total_faces(),
+                                  lazy.expanded().faces)));
+}
+
+// All instances at their finest level in one scene of the eager path tracer.
+Image eager(const Forest& forest, const View& view, const Case& at, std::uint64_t seed) {
+  const growing::PlantedScene& plants = forest.plants();
+  std::vector<ModelMesh> meshes(plants.instances().size());
+  RayScene scene;
+  scene.light = model_daylight();
+  for (std::uint32_t i = 0; i < meshes.size(); ++i) {
+    meshes[i] = triangles_of(plants.expand(i, 0).mesh);
+    const auto material = [&forest, &mesh = meshes[i], i](SurfacePoint point) {
+      point.instance = i;
+      point.mesh = mesh.symbols[point.triangle];
+      return forest.material(point);
+    };
+    const std::uint32_t mesh =
+        scene.add({.mesh = &meshes[i].mesh, .texture = meshes[i].texture, .material_at = material});
+    scene.instances.push_back({mesh, growing::to_world(plants.instances()[i])});
+  }
+  const auto soil = [&](SurfacePoint point) {
+    point.instance = static_cast<std::uint32_t>(meshes.size());
+    return forest.material(point);
+  };
+  scene.add_placed({.mesh = &forest.ground().mesh, .material_at = soil});
+  RaytracedPicture picture(
+      scene, view,
+      {.samples = at.integer("samples"), .bounces = 1, .seed = static_cast<std::uint32_t>(seed)});
+  picture.accumulate();
+  return picture.image();
+}
+
+// Root mean square difference of the channels, 0 to 255, of the means of blocks of pixels: of single pixels
+// (block = 1), or without the noise and the places of single leaves.
+double difference(const Image& a, const Image& b, int block) {
+  double sum = 0;
+  int count = 0;
+  for (int y = 0; y + block <= a.height; y += block) {
+    for (int x = 0; x + block <= a.width; x += block, count += 3) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        int step = 0;
+        for (int k = 0; k < block * block; ++k) {
+          const int at_x = x + k % block, at_y = y + k / block;
+          step += int{a.pixel(at_x, at_y)[c]} - int{b.pixel(at_x, at_y)[c]};
+        }
+        const double mean = static_cast<double>(step) / (block * block);
+        sum += mean * mean;
+      }
+    }
+  }
+  return count == 0 ? 0 : std::sqrt(sum / count);
+}
+
+void measure_error(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const auto instances = static_cast<std::uint64_t>(at.parameters.integer("instances"));
+  const Forest forest({.instances = instances, .seed = options.seed});
+  const View view = forest_view(forest, at.integer("width"));
+  LazyForest lazy(forest, forest.plants().choose_levels(view, {at.parameters.number("spacing")}),
+                  static_cast<std::size_t>(at.parameters.integer("cache")) << 20U);
+  const CoherentPicture picture = traced(lazy, view, at, options, progress);
+  const Image truth = eager(forest, view, at, options.seed);
+  const Image image = picture.image(), other = eager(forest, view, at, options.seed + 1);
+  recorder.add("error", "", difference(image, truth, 1));
+  recorder.add("block_error", "", difference(image, truth, 8));
+  recorder.add("noise", "", difference(truth, other, 1));
+  recorder.add("block_noise", "", difference(truth, other, 8));
+  record(lazy.expanded(), forest, recorder);
+}
+
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  (at.parameters.choice("kind") == 0 ? measure_lazy : measure_error)(at, options, recorder, progress);
+}
+
+}  // namespace
+
+extern const Experiment kForest{"meshgrow.forest",
+                                "§6, §8: a forest of 10⁹ faces, expanded only where rays reach it", kSpecs,
+                                cases, measure};
+
+}  // namespace terrabench::meshgrow

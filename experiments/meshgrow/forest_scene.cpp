@@ -1,0 +1,207 @@
+#include "experiments/meshgrow/forest_scene.h"
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "representations/procedural_mesh/growing/expression.h"
+#include "representations/procedural_mesh/growing/hashing.h"
+
+namespace terrabench::meshgrow {
+namespace {
+
+using growing::DetailLevel;
+
+// Fewer leaves are larger, so that their area stays about the same.
+DetailLevel thinned(double levels, double leaves, double scale) {
+  return {.leave_out = {"smooth"},
+          .constants = {{"Levels", levels}, {"Leaves", leaves}, {"LeafScale", scale}}};
+}
+
+struct Plant {
+  std::string_view model;
+  double share;  // of the instances
+  std::vector<DetailLevel> levels;
+};
+const std::vector<Plant>& forest_plants() {
+  static const std::vector<Plant> all{
+      {"branch_aspen",
+       0.6,
+       {{}, {.leave_out = {"smooth"}}, thinned(3, 14, 0.22), thinned(3, 6, 0.35), thinned(2, 25, 0.69)}},
+      {"bush_tupelo",
+       0.06,
+       {{}, {.leave_out = {"smooth"}}, thinned(3, 20, 0.51), thinned(3, 8, 0.64), thinned(2, 8, 1.9)}},
+      {"fork_ridges_random",
+       0.34,
+       {{},
+        {.fewer_subdivisions = 1},
+        {.leave_out = {"ridges"}},
+        {.leave_out = {"ridges"}, .fewer_subdivisions = 1},
+        {.leave_out = {"ridges"}, .fewer_subdivisions = 2},
+        {.leave_out = {"ridges", "smooth"}}}},
+  };
+  return all;
+}
+
+std::vector<growing::DetailModel> detail_models() {
+  std::vector<growing::DetailModel> models;
+  for (const Plant& plant : forest_plants()) {
+    models.push_back(
+        growing::make_detail_model(growing::model_text(plant.model), std::string(plant.model), plant.levels));
+  }
+  return models;
+}
+
+// The fractal plane, as wide as the forest and a margin around it, with flat hills.
+std::unique_ptr<RayPart> fractal_ground(float side) {
+  constexpr float kMargin = 0.15F, kRelief = 0.35F;  // shares of the side; of the model's heights
+  const std::string name = "fractal_plane";
+  const growing::Model model = growing::parse_model(growing::model_text(name), name);
+  ModelMesh ground = triangles_of(growing::expand(model).mesh);
+  const Bounds box = bounds_of(ground.mesh);
+  const float scale = (1 + 2 * kMargin) * side / std::max(box.size().x, box.size().z);
+  const glm::vec3 low = box.low;
+  for (glm::vec3& p : ground.mesh.positions) {
+    p = (p - glm::vec3(low.x, 0, low.z)) * glm::vec3(scale, scale * kRelief, scale) -
+        glm::vec3(kMargin * side, 0, kMargin * side);
+  }
+  compute_normals(ground.mesh);
+  return std::make_unique<RayPart>(std::move(ground.mesh), std::vector<glm::vec2>{},
+                                   std::vector<std::uint32_t>{});
+}
+
+float side_of(const ForestSettings& settings) {
+  return static_cast<float>(std::sqrt(static_cast<double>(settings.instances) * settings.area));
+}
+
+float noise(const glm::vec3& p) { return static_cast<float>(growing::gradient_noise(p.x, p.y, p.z)); }
+
+RayMaterial soil(const SurfacePoint& at) {
+  const glm::vec3& p = at.position;
+  const float patches = std::clamp(0.5F + noise(0.21F * p) + 0.6F * noise(0.9F * p), 0.0F, 1.0F);
+  const float grain = 1 + 0.3F * noise(7.0F * p) + 0.2F * noise(23.0F * p);
+  const glm::vec3 color = glm::mix(glm::vec3(0.2F, 0.15F, 0.09F), glm::vec3(0.16F, 0.2F, 0.07F), patches);
+  return {.albedo = glm::clamp(grain * color, 0.0F, 1.0F), .roughness = 1};
+}
+
+}  // namespace
+
+Forest::Forest(const ForestSettings& settings, Progress* progress)
+    : side_(side_of(settings)),
+      ground_(fractal_ground(std::max(side_, 1.0F))),
+      ground_box_(bounds_of(ground_->mesh)),
+      plants_(
+          detail_models(),
+          [&] {
+            growing::Planting planting;
+            planting.count = settings.instances;
+            planting.side = std::max(side_, 1.0F);
+            planting.seed = settings.seed;
+            for (const Plant& plant : forest_plants()) planting.shares.push_back(plant.share);
+            // Roots reach a little into the ground.
+            return growing::scatter(planting, [&](float x, float z) { return height(x, z) - 0.02F; });
+          }(),
+          progress) {
+  ground_box_.low -= 0.01F;
+  ground_box_.high += 0.01F;
+}
+
+float Forest::height(float x, float z) const {
+  const float top = ground_box_.high.y + 1;
+  const RayHit hit = ground_->index.closest({.origin = {x, top, z}, .direction = {0, -1, 0}});
+  return hit.hit() ? top - hit.distance : 0;
+}
+
+RayMaterial Forest::material(const SurfacePoint& at) const {
+  if (at.instance >= plants_.instances().size()) return soil(at);
+  const growing::Instance& instance = plants_.instances()[at.instance];
+  const growing::DetailModel& model = plants_.models()[instance.model];
+  static const std::vector<const PaintedModel*> looks = [] {
+    std::vector<const PaintedModel*> all;
+    for (const Plant& plant : forest_plants()) all.push_back(&painted(plant.model));
+    return all;
+  }();
+  RayMaterial material = looks[instance.model]->material(model.levels[0].system.symbols[at.mesh].name, at);
+  // Plants differ a little in colour.
+  const auto hue = [&](std::uint64_t k) {
+    return static_cast<float>(growing::share(instance.seed, 100 + k));
+  };
+  const glm::vec3 tint{0.8F + 0.35F * hue(0), 0.85F + 0.25F * hue(1), 0.8F + 0.25F * hue(2)};
+  material.albedo = glm::clamp(material.albedo * tint, 0.0F, 1.0F);
+  return material;
+}
+
+LazyForest::LazyForest(const Forest& forest, std::vector<std::uint8_t> levels, std::size_t cache_bytes)
+    : forest_(forest), levels_(std::move(levels)), cache_(cache_bytes), seen_(levels_.size()) {
+  RayPart::index_objects();  // measured while this thread is alone
+  const growing::PlantedScene& plants = forest.plants();
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    parts_.parts.push_back({plants.box(i), growing::to_world(plants.instances()[i])});
+  }
+  parts_.parts.push_back({forest.ground_box()});
+  parts_.light = model_daylight();
+  parts_.open = [this](std::uint32_t part, const std::function<void(const RayPart&)>& use) {
+    open(part, use);
+  };
+  parts_.material = [this](const SurfacePoint& at) { return forest_.material(at); };
+}
+
+void LazyForest::open(std::uint32_t part, const std::function<void(const RayPart&)>& use) {
+  if (part >= levels_.size()) {
+    use(forest_.ground());
+    return;
+  }
+  cache_.with(
+      part, [&] { return make(part); }, use);
+}
+
+std::unique_ptr<RayPart> LazyForest::make(std::uint32_t instance) {
+  std::unique_ptr<RayPart> part;
+  // Isolated: a thread that waits for the end of a parallel loop in here must not begin another task, which
+  // may wait for this very part.
+  tbb::this_task_arena::isolate([&] {
+    const FaceMesh faces = forest_.plants().expand(instance, levels_[instance]).mesh;
+    ModelMesh triangles = triangles_of(faces);
+    if (growing::beyond(growing::box_of(faces.positions), forest_.plants().local_box(instance)) > 0)
+      ++outside_;
+    if (seen_[instance].exchange(1) == 0) {
+      ++distinct_;
+      faces_ += faces.faces();
+    } else {
+      again_ += faces.faces();
+    }
+    triangles.mesh.indices.shrink_to_fit();
+    triangles.symbols.shrink_to_fit();
+    part = std::make_unique<RayPart>(std::move(triangles.mesh), std::move(triangles.texture),
+                                     std::move(triangles.symbols));
+  });
+  return part;
+}
+
+Expanded LazyForest::expanded() const { return {distinct_, faces_, again_, outside_, cache_.counts()}; }
+
+std::uint64_t LazyForest::faces_chosen() const {
+  std::uint64_t faces = 0;
+  for (std::size_t i = 0; i < levels_.size(); ++i) faces += forest_.plants().faces(i, levels_[i]);
+  return faces;
+}
+
+Memory LazyForest::memory() const {
+  Memory memory = payload_memory(levels_);
+  memory += index_memory(parts_.parts);
+  memory.index += heap_bytes(seen_.data());
+  cache_.each([&](const RayPart& part) { memory += part.memory(); });
+  return memory;
+}
+
+std::uint64_t LazyForest::embree_bytes() const {
+  std::uint64_t bytes = 0;
+  cache_.each([&](const RayPart& part) { bytes += part.index.bytes(); });
+  return bytes;
+}
+
+}  // namespace terrabench::meshgrow

@@ -1,0 +1,71 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "experiments/meshgrow/forest_scene.h"
+#include "terrain/error.h"
+
+namespace terrabench::meshgrow {
+namespace {
+
+View small_view(const Forest& forest) {
+  View view;
+  view.eye = {0.5F * forest.side(), forest.height(0.5F * forest.side(), forest.side()) + 3,
+              forest.side() + 9};
+  view.target = {0.5F * forest.side(), view.eye.y - 1, 0};
+  view.width = 32;
+  view.height = 24;
+  view.far = 1000;
+  return view;
+}
+
+TEST(LazyForest, ACacheForOnePartAtATimeGivesTheSamePicture) {
+  const Forest forest({.instances = 7});
+  const View view = small_view(forest);
+  const std::vector<std::uint8_t> levels = forest.plants().choose_levels(view, {.spacing = 2});
+  const HeapScope heap;
+  LazyForest large(forest, levels, std::size_t{1} << 30);
+  const CoherentPicture picture = trace_coherent(large.parts(), view, {.samples = 2, .bounces = 1});
+  const Expanded all = large.expanded();
+  EXPECT_EQ(all.cache.evictions, 0U);
+  EXPECT_EQ(all.cache.misses, all.parts);
+  EXPECT_EQ(all.again, 0U);
+  EXPECT_EQ(all.outside, 0U);
+  EXPECT_GT(all.parts, 2U);
+  EXPECT_LE(all.faces, large.faces_chosen());
+  EXPECT_LT(all.faces, forest.plants().total_faces());
+  // The allocator holds what memory() says, and the picture.
+  const double held = static_cast<double>(heap.held()) - 16.0 * static_cast<double>(picture.radiance.size());
+  EXPECT_NEAR(static_cast<double>(large.memory().total()), held, 0.02 * held);
+
+  // The largest part alone, as a cache for everything would hold it.
+  std::size_t largest = 0;
+  for (std::uint32_t i = 0; i < levels.size(); ++i) {
+    large.parts().open(i, [&](const RayPart& part) { largest = std::max(largest, part.bytes()); });
+  }
+  // Embree's bytes for a part may differ a little from one time to the next.
+  LazyForest small(forest, levels, largest + largest / 50);
+  const CoherentPicture again = trace_coherent(small.parts(), view, {.samples = 2, .bounces = 1});
+  EXPECT_EQ(picture.radiance, again.radiance);
+  EXPECT_GT(small.expanded().cache.evictions, 0U);
+  EXPECT_LE(small.expanded().cache.peak_bytes, largest + largest / 50);
+  EXPECT_EQ(small.expanded().parts, all.parts);
+  EXPECT_EQ(small.expanded().faces, all.faces);
+
+  LazyForest none(forest, levels, 1000);
+  EXPECT_THROW(trace_coherent(none.parts(), view, {.samples = 1, .bounces = 0}), Error);
+}
+
+TEST(LazyForest, ZeroInstancesShowTheGround) {
+  const Forest forest({.instances = 0});
+  EXPECT_EQ(forest.plants().total_faces(), 0U);
+  LazyForest lazy(forest, {}, 1 << 20);
+  const CoherentPicture picture =
+      trace_coherent(lazy.parts(), small_view(forest), {.samples = 1, .bounces = 0});
+  EXPECT_GT(std::count(picture.objects.begin(), picture.objects.end(), 1U), 0);
+  EXPECT_EQ(lazy.expanded().parts, 0U);
+  EXPECT_THROW(Forest({.instances = 1'000'000'000}), Error);
+}
+
+}  // namespace
+}  // namespace terrabench::meshgrow
