@@ -34,7 +34,7 @@ const std::vector<Plant>& forest_plants() {
        {{}, {.leave_out = {"smooth"}}, thinned(3, 14, 0.22), thinned(3, 6, 0.35), thinned(2, 25, 0.69)}},
       {"bush_tupelo",
        0.06,
-       {{}, {.leave_out = {"smooth"}}, thinned(3, 20, 0.51), thinned(3, 8, 0.64), thinned(2, 8, 1.9)}},
+       {{}, {.leave_out = {"smooth"}}, thinned(3, 3, 0.42), thinned(3, 1, 0.73), thinned(2, 8, 1.1)}},
       {"fork_ridges_random",
        0.34,
        {{},
