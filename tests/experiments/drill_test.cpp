@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/drill/factorial.h"
+#include "experiments/drill/analysis.h"
 #include "experiments/drill/ground.h"
 #include "experiments/figures/maps.h"
 
@@ -11,8 +11,8 @@ namespace terrabench::drill {
 namespace {
 
 // Outcomes of the 54 settings with the RMSE that `error` gives.
-template <class ErrorOf>
-std::vector<Outcome> outcomes(const ErrorOf& error) {
+template <class Error>
+std::vector<Outcome> outcomes(const Error& error) {
   std::vector<Outcome> all;
   for (const std::uint32_t tau : kTaus) {
     for (const int w : kWidths) {
