@@ -156,7 +156,7 @@ figures::Sheet cross_sections_sheet(const Study& study, std::uint32_t pixel) {
                 {.colour = figures::direction_colour(turn), .thickness = 0.8, .opacity = 0.85});
   }
   const auto fitted = [&](double rises_to) {
-    const Profile fit = fit_profile(joined, floor, rises_to);
+    const FittedProfile fit = fit_profile(joined, floor, rises_to);
     return [=](int r) { return floor + fit.slope * r + fit.curvature * r * r; };
   };
   const figures::Stroke single{.colour = figures::direction_colour(0), .thickness = 1.2},

@@ -14,14 +14,12 @@
 namespace terrabench::drill {
 namespace {
 
-const std::array kSpecs{variant_parameter()};
-
 struct Measure {
   std::string_view prefix;
   ErrorOf of;
 };
 
-// The least-cost reading of AHD (the mean in plan) is the one that figures 3 and 4 show.
+// The reading of AHD that needs the fewest assumptions, the mean in plan. Figures 3 and 4 show it.
 const Measure kRmse{"rmse_", [](const Outcome&o) { return o.rmse; }},
     kAhd{"ahd_mean_plane_", [](const Outcome&o) { return o.ahd[0]; }};
 static_assert(kReadings[0].average == ChannelAverage::kMean && kReadings[0].space == ChannelSpace::kPlane);
@@ -59,7 +57,7 @@ void record_at(const std::vector<Outcome>& outcomes, int k, Recorder& recorder) 
 }
 
 void draw(const Study& study, const std::vector<Outcome>& outcomes, Recorder& recorder) {
-  if (&study.variant == &kVariants[0]) {
+  if (study.variant.is_first()) {
     draw_channels(study, recorder);
     draw_cross_sections(study, recorder);
   }
@@ -84,9 +82,10 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   record_at(outcomes, 20, recorder);  // §2.3: windows of 2k + 1 samples
   record_at(outcomes, 10, recorder);  // §3: k is the size of the matrix, so that k = 20 reaches 10 samples
 
+  if (variant.steepest) return;  // the paper's figures show its own networks
   const FlowNetwork network = variant.route(*source.heights);
   const std::string ground = figures::ground_suffix(at.terrain, kMainGround);
-  const std::string fit = &variant == &kVariants[0] ? "" : fmt::format(".{}", variant.name);
+  const std::string fit = variant.is_first() ? "" : fmt::format(".{}", variant.name);
   draw({*source.heights, network, variant, source.name, fit + ground}, outcomes, recorder);
 }
 
@@ -94,8 +93,8 @@ std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const std::string& ground : grounds(options)) {
     for (const Variant& variant : kVariants) {
-      const std::string last = &variant == &kVariants[0] ? "" : fmt::format("/{}", variant.name);
-      cases.push_back({ground + last, {kSpecs, {{"variant", std::string(variant.name)}}}, ground});
+      cases.push_back(
+          {with_variant(ground, variant), {fit_specs(), {{"variant", std::string(variant.name)}}}, ground});
     }
   }
   return cases;
@@ -103,7 +102,7 @@ std::vector<Case> cases(const RunOptions& options) {
 
 }  // namespace
 
-extern const Experiment kEffects{"drill.effects", "§3.1: best sets, main effects, figures 1-4", kSpecs, cases,
-                                 measure};
+extern const Experiment kEffects{"drill.effects", "§3.1: best sets, main effects, figures 1-4", fit_specs(),
+                                 cases, measure};
 
 }  // namespace terrabench::drill

@@ -6,7 +6,6 @@
 #include <map>
 
 #include "experiments/drill/ground.h"
-#include "experiments/experiment.h"
 #include "representations/drill/pits.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/hydrology/channels.h"
@@ -37,6 +36,26 @@ ParameterSpec variant_parameter() {
 }
 
 const Variant& variant_of(const Parameters& parameters) { return kVariants[parameters.choice("variant")]; }
+
+std::span<const ParameterSpec> fit_specs() {
+  static const std::array specs{variant_parameter()};
+  return specs;
+}
+
+std::string with_variant(std::string_view ground, const Variant& variant) {
+  return variant.is_first() ? std::string(ground) : fmt::format("{}/{}", ground, variant.name);
+}
+
+std::vector<Case> fit_cases(const RunOptions& options) {
+  std::vector<Case> cases;
+  for (const std::string& ground : grounds(options)) {
+    for (const Variant& variant : kFits) {
+      cases.push_back(
+          {with_variant(ground, variant), {fit_specs(), {{"variant", std::string(variant.name)}}}, ground});
+    }
+  }
+  return cases;
+}
 
 FlowNetwork Variant::route(const Heightfield& ground) const {
   return steepest ? route_steepest(ground) : route_flow(ground);
@@ -131,7 +150,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     const Heightfield regenerated = regenerate(drills);
     const Outcome outcome = compare(ground, network, drills, regenerated, setting, variant);
     const auto add = [&](std::string_view metric, double value) {
-      const std::string prefix = &variant == &kFits.front() ? "" : fmt::format("{}_", variant.name);
+      const std::string prefix = variant.is_first() ? "" : fmt::format("{}_", variant.name);
       recorder.add(prefix + std::string(metric), "", value);
     };
     add("drills", static_cast<double>(drills.count()));

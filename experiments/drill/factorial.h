@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/experiment.h"
 #include "representations/drill/extract.h"
 #include "terrain/heightfield.h"
 #include "terrain/hydrology/flow.h"
@@ -30,6 +31,7 @@ struct Variant {
   bool steepest;  // networks by route_steepest() in place of route_flow()
 
   FlowNetwork route(const Heightfield& ground) const;
+  bool is_first() const;  // monotone shapes on least-cost networks
 };
 inline constexpr std::array kVariants{
     Variant{"monotone", "monotone shapes", Monotone::kEverywhere, false},
@@ -37,11 +39,19 @@ inline constexpr std::array kVariants{
     Variant{"d8", "monotone shapes, networks by steepest descent", Monotone::kEverywhere, true},
 };
 inline constexpr std::array<std::string_view, kVariants.size()> kVariantNames{"monotone", "printed", "d8"};
+inline bool Variant::is_first() const { return name == kVariantNames[0]; }
 // The two fits: the first two variants.
 inline constexpr std::span<const Variant> kFits = std::span<const Variant>(kVariants).first(2);
 
 ParameterSpec variant_parameter();
 const Variant& variant_of(const Parameters&);
+
+// For experiments that measure both fits: the parameter, and a case per ground and fit, named after the
+// ground and, for the printed fit, "GROUND/printed".
+std::span<const ParameterSpec> fit_specs();
+std::vector<Case> fit_cases(const RunOptions&);
+// `ground`, or with "/printed" or the like behind it for another than the first variant.
+std::string with_variant(std::string_view ground, const Variant&);
 
 struct Setting {
   std::uint32_t tau = 25;
