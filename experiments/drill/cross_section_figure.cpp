@@ -165,10 +165,10 @@ figures::Sheet cross_sections_sheet(const Study& study, std::uint32_t pixel) {
   chart.curve([&](int r) { return r == 0 ? floor : joined[static_cast<std::size_t>(r) - 1]; }, joint);
   chart.curve(fitted(kRisesEverywhere), dashed);
   chart.curve(fitted(kRisesNowhere), dotted);
-  chart.key(-40, "a cross-section", single);
-  chart.key(92, "their union", joint);
-  chart.key(202, "fit, monotone", dashed);
-  chart.key(326, "fit as printed", dotted);
+  chart.key(-120, "a cross-section", single);
+  chart.key(30, "their union", joint);
+  chart.key(160, "fit, monotone", dashed);
+  chart.key(300, "fit as printed", dotted);
   return sheet;
 }
 
