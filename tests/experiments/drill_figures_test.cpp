@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -22,7 +23,7 @@ namespace {
 
 // A ground of hills, and its mirror image: the same heights in other places.
 struct Grounds {
-  Heightfield one = crop(noise_hills(150, 3), 0, 0, 150, 120), other = one;
+  Heightfield one = crop(noise_hills(110, 3), 0, 0, 110, 90), other = one;
   FlowNetwork network, other_network;
   Grounds() {
     for (int j = 0; j < one.depth; ++j) {
@@ -47,18 +48,20 @@ SheetReader read(figures::Sheet sheet) {
 
 // The place of a colour in the palette of elevations, whatever the light: shading only scales colours.
 double elevation_of(const Rgb& colour) {
-  constexpr int kSteps = 200;
-  double best = 0, closest = -1;
-  const double length = std::hypot(colour[0], colour[1], colour[2]);
-  for (int step = 0; step <= kSteps; ++step) {
-    const Rgb at = figures::elevation_colour(static_cast<double>(step) / kSteps);
-    const double cosine = (at[0] * colour[0] + at[1] * colour[1] + at[2] * colour[2]) /
-                          (length * std::hypot(at[0], at[1], at[2]));
-    if (cosine <= closest) continue;
-    closest = cosine;
-    best = static_cast<double>(step) / kSteps;
-  }
-  return best;
+  constexpr std::size_t kSteps = 100;
+  static const auto directions = [] {
+    std::array<std::array<double, 3>, kSteps + 1> all{};
+    for (std::size_t step = 0; step <= kSteps; ++step) {
+      const Rgb at = figures::elevation_colour(static_cast<double>(step) / kSteps);
+      const double length = std::hypot(at[0], at[1], at[2]);
+      all[step] = {at[0] / length, at[1] / length, at[2] / length};
+    }
+    return all;
+  }();
+  const auto cosine = [&](const auto& d) { return d[0] * colour[0] + d[1] * colour[1] + d[2] * colour[2]; };
+  const auto best = std::max_element(directions.begin(), directions.end(),
+                                     [&](const auto& a, const auto& b) { return cosine(a) < cosine(b); });
+  return static_cast<double>(best - directions.begin()) / kSteps;
 }
 
 Rgb sample(const SheetReader& shown, const SheetReader::Picture& picture, const Heightfield& field, int i,
@@ -92,7 +95,7 @@ std::string words_over(const SheetReader& shown, const SheetReader::Picture& pic
 // Figure 1 of `study`, judged against a ground and its channels: what is wrong with it.
 std::vector<std::string> faults_of_channels(const SheetReader& shown, const Study& study) {
   std::vector<std::string> faults;
-  if (shown.rows() != std::vector{2, 2}) return {"not two rows of two panels"};
+  if (shown.rows() != std::vector{2, 2, 1}) return {"not two rows of two panels and a key"};
   const std::uint32_t taus[] = {25, 50, 100, 200};
   for (std::size_t panel = 0; panel < 4; ++panel) {
     const SheetReader::Picture& picture = shown.pictures[panel];
@@ -125,15 +128,6 @@ TEST(DrillFigures, ChannelsOverTheRelief) {
   EXPECT_GE(faults_of_channels(read(channels_sheet(grounds().mirrored())), grounds().study()).size(), 8U);
   const Study mixed{grounds().one, grounds().other_network, kVariants[0], "hills", ""};
   EXPECT_GE(faults_of_channels(read(channels_sheet(mixed)), grounds().study()).size(), 4U);
-}
-
-TEST(DrillFigures, TheHighestIsWhiteThenBrownGreenAndBlue) {
-  EXPECT_EQ(figures::elevation_colour(1), (Rgb{255, 255, 255}));
-  const Rgb brown = figures::elevation_colour(2.0 / 3), green = figures::elevation_colour(1.0 / 3),
-            blue = figures::elevation_colour(0);
-  EXPECT_TRUE(brown[0] > brown[1] && brown[1] > brown[2]);
-  EXPECT_TRUE(green[1] > green[0] && green[1] > green[2]);
-  EXPECT_TRUE(blue[2] > blue[1] && blue[1] > blue[0]);
 }
 
 // A polyline of a sheet.
@@ -222,7 +216,7 @@ std::vector<std::string> faults_of_sections(const figures::Sheet& sheet, const H
     return found;
   };
   const auto rays =
-      of([](const Drawn& l) { return l.thickness == 1.2 && l.points.size() == 2 && l.points[0].x < 450; });
+      of([](const Drawn& l) { return l.thickness == 1.2 && l.points.size() == 2 && l.points[0].y < 480; });
   const auto sections = of([](const Drawn& l) { return l.opacity == 0.85; });
   const auto joint = of([](const Drawn& l) { return l.thickness == 4 && l.points.size() > 2; });
   const auto printed = of([](const Drawn& l) { return l.dashes == "2,4" && l.points.size() > 2; });
@@ -233,8 +227,7 @@ std::vector<std::string> faults_of_sections(const figures::Sheet& sheet, const H
   if (colours.size() < 100) faults.push_back("rays share colours");
   // The scale of the elevations, from two labels of the axis, each 4 units below its line.
   std::map<double, double> labels;  // y to elevation
-  const SheetReader shown(sheet);
-  for (const SheetReader::Words& words : shown.words) {
+  for (const SheetReader::Words& words : SheetReader(sheet, false).words) {
     char* end = nullptr;
     const double value = std::strtod(words.text.c_str(), &end);
     if (*end == 0 && words.x < 520 && words.x > 500) labels[words.y - 4] = value;
@@ -263,7 +256,7 @@ TEST(DrillFigures, CrossSectionsTheirUnionAndFit) {
   ASSERT_GT(pixel, 0U);
   const figures::Sheet sheet = cross_sections_sheet(study, pixel);
   EXPECT_EQ(faults_of_sections(sheet, study.ground, pixel), std::vector<std::string>{});
-  EXPECT_EQ(SheetReader(sheet).pictures.size(), 1U);
+  EXPECT_EQ(SheetReader(sheet, false).pictures.size(), 2U);  // the map and its key
   // The sections of the next pixel, and of the same pixel on another ground.
   EXPECT_NE(faults_of_sections(cross_sections_sheet(study, pixel + 1), study.ground, pixel),
             std::vector<std::string>{});
@@ -281,7 +274,9 @@ std::vector<std::string> faults_of_best(const BestSheets& sheets, const Study& s
                                         const Outcome& ahd) {
   std::vector<std::string> faults;
   const SheetReader terrains = read(sheets.terrains), differences = read(sheets.differences);
-  if (terrains.rows() != std::vector{2} || differences.rows() != std::vector{2}) return {"not two panels"};
+  if (terrains.rows() != std::vector{2, 1} || differences.rows() != std::vector{2, 1}) {
+    return {"not two panels and a key"};
+  }
   for (std::size_t panel = 0; panel < 2; ++panel) {
     const Outcome& outcome = panel == 0 ? rmse : ahd;
     const Heightfield regenerated =
@@ -324,9 +319,9 @@ TEST(DrillFigures, TerrainsOfLeastErrorAndTheirDifference) {
     const Outcome rmse = outcome_at(study, {25, 10, 10}), ahd = outcome_at(study, {100, 5, 5});
     EXPECT_GT(ahd.untouched, 0.01);
     EXPECT_EQ(faults_of_best(best_sheets(study, rmse, ahd), study, rmse, ahd), std::vector<std::string>{});
+    if (!variant.is_first()) continue;
     EXPECT_GE(faults_of_best(best_sheets(study, ahd, rmse), study, rmse, ahd).size(), 6U);
-    const Study other{grounds().other, grounds().other_network, variant, "hills", ""};
-    EXPECT_GE(faults_of_best(best_sheets(other, rmse, ahd), study, rmse, ahd).size(), 4U);
+    EXPECT_GE(faults_of_best(best_sheets(grounds().mirrored(), rmse, ahd), study, rmse, ahd).size(), 4U);
   }
 }
 

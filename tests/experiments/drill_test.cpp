@@ -228,6 +228,16 @@ double luminance(const Rgb& colour, Eyes eyes) {
   return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
 }
 
+// As the caption of figure 1 says.
+TEST(DrillColours, TheHighestIsWhiteThenBrownGreenAndBlue) {
+  EXPECT_EQ(figures::elevation_colour(1), (Rgb{255, 255, 255}));
+  const Rgb brown = figures::elevation_colour(2.0 / 3), green = figures::elevation_colour(1.0 / 3),
+            blue = figures::elevation_colour(0);
+  EXPECT_TRUE(brown[0] > brown[1] && brown[1] > brown[2]);
+  EXPECT_TRUE(green[1] > green[0] && green[1] > green[2]);
+  EXPECT_TRUE(blue[2] > blue[1] && blue[1] > blue[0]);
+}
+
 TEST(DrillColours, ChannelsStandOutOnEveryElevationForAllEyes) {
   for (const Eyes eyes : {Eyes::kAll, Eyes::kProtan, Eyes::kDeutan}) {
     for (double t = 0; t <= 1; t += 0.05) {
