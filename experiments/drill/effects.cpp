@@ -50,10 +50,10 @@ void record_at(const std::vector<Outcome>& outcomes, int k, Recorder& recorder) 
   for (const Outcome& o : outcomes) {
     if (o.setting.w == 10 && o.setting.k == k) at = std::min(at, o.rmse);
   }
-  recorder.add(fmt::format("rmse_at_w10_k{}", k), "", at);
+  add_share(recorder, fmt::format("rmse_at_w10_k{}", k), at);
   // Flat ground has no error to divide by.
   const double best = least(outcomes, kRmse.of).rmse;
-  if (best > 0) recorder.add(fmt::format("rmse_at_w10_k{}_to_least", k), "", at / best);
+  if (best > 0) add_share(recorder, fmt::format("rmse_at_w10_k{}_to_least", k), at / best);
 }
 
 void draw(const Study& study, const std::vector<Outcome>& outcomes, Recorder& recorder) {

@@ -77,7 +77,7 @@ void record(const Extended& result, Recorder& recorder) {
   recorder.add("k", "samples", result.k);
   recorder.add("drill_bytes", "B", result.bytes);
   recorder.add("rmse", "m", result.error.rmse);
-  recorder.add("rmse_normalised", "", result.error.normalised());
+  add_share(recorder, "rmse_normalised", result.error.normalised());
   recorder.add("untouched", "pixels", result.untouched);
   recorder.add("pits", "", result.pits);
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cassert>
+#include <cmath>
 #include <map>
 
 #include "experiments/drill/ground.h"
@@ -36,6 +37,10 @@ ParameterSpec variant_parameter() {
 }
 
 const Variant& variant_of(const Parameters& parameters) { return kVariants[parameters.choice("variant")]; }
+
+void add_share(Recorder& recorder, std::string_view metric, double value) {
+  if (std::isfinite(value)) recorder.add(metric, "", value);
+}
 
 std::span<const ParameterSpec> fit_specs() {
   static const std::array specs{variant_parameter()};
@@ -151,7 +156,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     const Outcome outcome = compare(ground, network, drills, regenerated, setting, variant);
     const auto add = [&](std::string_view metric, double value) {
       const std::string prefix = variant.is_first() ? "" : fmt::format("{}_", variant.name);
-      recorder.add(prefix + std::string(metric), "", value);
+      add_share(recorder, prefix + std::string(metric), value);
     };
     add("drills", static_cast<double>(drills.count()));
     add("rmse_normalised", outcome.rmse);
@@ -165,7 +170,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   DrillOptions in_window = options_for(setting);
   in_window.monotone = Monotone::kWindow;
   const Heightfield weaker = regenerate(extract_drills(ground, network, in_window, &progress));
-  recorder.add("rmse_monotone_in_window", "", elevation_error(ground, weaker).normalised());
+  add_share(recorder, "rmse_monotone_in_window", elevation_error(ground, weaker).normalised());
 }
 
 }  // namespace

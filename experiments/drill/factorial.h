@@ -53,6 +53,10 @@ std::vector<Case> fit_cases(const RunOptions&);
 // `ground`, or with "/printed" or the like behind it for another than the first variant.
 std::string with_variant(std::string_view ground, const Variant&);
 
+// Records a metric without unit if it is finite: errors of a flat ground have no range to divide by, and of
+// two networks one may be empty.
+void add_share(Recorder&, std::string_view metric, double value);
+
 struct Setting {
   std::uint32_t tau = 25;
   int w = 10, k = 20;

@@ -148,8 +148,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const Heightfield legal = regenerate(extract_drills(ground, network, extract, &progress));
   record_pits("monotone_profiles", legal, recorder);
   record_edges(drills, ground, recorder);
-  recorder.add("rmse_normalised", "", elevation_error(ground, regenerated).normalised());
-  recorder.add("rmse_monotone_profiles", "", elevation_error(ground, legal).normalised());
+  add_share(recorder, "rmse_normalised", elevation_error(ground, regenerated).normalised());
+  add_share(recorder, "rmse_monotone_profiles", elevation_error(ground, legal).normalised());
 }
 
 }  // namespace

@@ -137,7 +137,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("drills_per_160000", "", static_cast<double>(stored.drills) * 160000 / samples);
   recorder.add("values_to_samples", "", 4 * static_cast<double>(stored.drills) / samples);
   recorder.add("rmse", "m", stored.error.rmse);
-  recorder.add("rmse_normalised", "", stored.error.normalised());
+  add_share(recorder, "rmse_normalised", stored.error.normalised());
   recorder.add("drill_bytes", "B", stored.bytes);
   const auto add = [&](std::string_view metric, const CompressedSize& size) {
     recorder.add(fmt::format("{}_bytes", metric), "B", size.bytes);

@@ -136,14 +136,14 @@ void record_lines(const Times& times, const std::vector<Drills>& drills, Recorde
 void record_ratios(const Times& times, Recorder& recorder) {
   const double routing = median(times.routing), shapes = median(times.extraction[kPaperTau]);
   const double wide = median(times.regeneration), narrow = median(times.regeneration_matrix);
-  recorder.add("shapes_to_regeneration", "", shapes / wide);
-  recorder.add("shapes_to_regeneration_matrix", "", shapes / narrow);
-  recorder.add("all_to_regeneration", "", (routing + shapes) / wide);
-  recorder.add("all_to_regeneration_matrix", "", (routing + shapes) / narrow);
+  add_share(recorder, "shapes_to_regeneration", shapes / wide);
+  add_share(recorder, "shapes_to_regeneration_matrix", shapes / narrow);
+  add_share(recorder, "all_to_regeneration", (routing + shapes) / wide);
+  add_share(recorder, "all_to_regeneration_matrix", (routing + shapes) / narrow);
   const double unions = median(times.unions), fitting = median(times.fitting),
                all = routing + unions + fitting;
-  recorder.add("fitting_share", "", fitting / all);
-  recorder.add("union_and_fitting_share", "", (unions + fitting) / all);
+  add_share(recorder, "fitting_share", fitting / all);
+  add_share(recorder, "union_and_fitting_share", (unions + fitting) / all);
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {

@@ -115,6 +115,18 @@ TEST(DrillAnalysis, RecordsSharesOfGoodSetsAndSetsAboveOne) {
   EXPECT_EQ(value("x_best_tau"), 25);
 }
 
+TEST(DrillAnalysis, RecordsNothingElseWhereAnErrorIsInfinite) {
+  auto all = outcomes([](const Setting& s) { return s.k; });
+  all[7].rmse = std::numeric_limits<double>::infinity();
+  Record record;
+  Recorder recorder(record, "out");
+  record_error(all, "", rmse, recorder);
+  ASSERT_EQ(record.metrics.size(), 1U);
+  EXPECT_EQ(record.find("infinite_sets")->samples.at(0), 1);
+  add_share(recorder, "share", all[7].rmse);
+  EXPECT_EQ(record.metrics.size(), 1U);
+}
+
 TEST(DrillFactorial, ReadsEquationThreeInTwelveWays) {
   std::set<std::string> names;
   for (const Reading& reading : kReadings) names.insert(reading.name());
