@@ -35,6 +35,7 @@
   ENTRY(drill, kChannels)              \
   ENTRY(drill, kFactorial)             \
   ENTRY(drill, kEffects)               \
+  ENTRY(drill, kAhdReadings)           \
   ENTRY(drill, kTime)                  \
   ENTRY(drill, kGrowth)                \
   ENTRY(drill, kSize)                  \

@@ -1,11 +1,11 @@
-// The 54 outcomes on one ground: best parameter sets, main effects, figures.
+// The 54 outcomes on one ground, for each way to read §2: best parameter sets, main effects, figures 1 to 4.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
+#include "experiments/drill/analysis.h"
 #include "experiments/drill/figures.h"
 #include "experiments/drill/ground.h"
 #include "experiments/experiment.h"
@@ -15,156 +15,94 @@ namespace terrabench::drill {
 namespace {
 
 struct Measure {
-  std::string name;
+  std::string_view prefix;
   ErrorOf of;
 };
 
-const Measure kMeasures[] = {
-    {"rmse", [](const Outcome& o) { return o.rmse; }},
-    {"ahd_plane", [](const Outcome& o) { return o.ahd[0]; }},
-    {"ahd_space", [](const Outcome& o) { return o.ahd[1]; }},
-    {"ahd_sample", [](const Outcome& o) { return o.ahd[2]; }},
-};
-static_assert(kReadings[0] == ChannelReading::kPlane && kReadings[1] == ChannelReading::kSpace &&
-              kReadings[2] == ChannelReading::kSample);
+// The reading of AHD that needs the fewest assumptions, the mean in plan. Figures 3 and 4 show it.
+const Measure kRmse{"rmse_", [](const Outcome&o) { return o.rmse; }},
+    kAhd{"ahd_mean_plane_", [](const Outcome&o) { return o.ahd[0]; }};
+static_assert(kReadings[0].average == ChannelAverage::kMean && kReadings[0].space == ChannelSpace::kPlane);
 
-const Outcome& least(const std::vector<Outcome>& outcomes, const Measure& measure) {
-  return *std::min_element(outcomes.begin(), outcomes.end(),
-                           [&](const Outcome& a, const Outcome& b) { return measure.of(a) < measure.of(b); });
+ErrorOf reading(ChannelAverage average, ChannelSpace space) {
+  std::size_t at = 0;
+  while (kReadings[at].average != average || kReadings[at].space != space) ++at;
+  return [at](const Outcome& o) { return o.ahd[at]; };
 }
 
-void record_measure(const std::vector<Outcome>& outcomes, const Measure& measure, Recorder& recorder) {
-  const auto add = [&](std::string_view what, double value) {
-    recorder.add(fmt::format("{}_{}", measure.name, what), "", value);
+// Whether a reading of AHD gives all that §3.1 says of it: half of the good sets in its range, values above
+// 1, and a mean that rises with τ.
+bool gives_all(const std::vector<Outcome>& outcomes, const ErrorOf& error) {
+  const auto share = [&](const std::vector<Outcome>& of, double low, double high) {
+    return static_cast<double>(std::count_if(
+               of.begin(), of.end(), [&](const Outcome& o) { return error(o) >= low && error(o) <= high; })) /
+           static_cast<double>(of.size());
   };
-  const Outcome& best = least(outcomes, measure);
-  add("least", measure.of(best));
-  add("best_tau", best.setting.tau);
-  add("best_w", best.setting.w);
-  add("best_k", best.setting.k);
-  const auto add_effects = [&](const Effects& effects, std::string_view where) {
-    add(fmt::format("effect_tau{}", where), effects.tau);
-    add(fmt::format("effect_w{}", where), effects.w);
-    add(fmt::format("effect_k{}", where), effects.k);
-    add(fmt::format("effect_interactions{}", where), effects.interactions);
-  };
-  const Effects effects = main_effects(outcomes, measure.of);
-  add_effects(effects, "");
-  // The paper calls parameters good that create no outliers. With the least k much of the ground stays
-  // plateau, which dominates the variance.
-  std::vector<Outcome> good;
-  std::copy_if(outcomes.begin(), outcomes.end(), std::back_inserter(good),
-               [](const Outcome& o) { return o.setting.k > kInfluences.front(); });
-  add_effects(main_effects(good, measure.of), "_without_outliers");
-  for (std::size_t t = 0; t < kTaus.size(); ++t) {
-    add(fmt::format("mean_at_tau_{}", kTaus[t]), effects.mean_at_tau[t]);
-  }
+  const auto means = main_effects(outcomes, error).mean_at_tau;
+  return share(without_outliers(outcomes, error), kPaperLeast, kPaperMost) >= 0.5 &&
+         share(outcomes, std::nextafter(1.0, 2.0), std::numeric_limits<double>::max()) > 0 &&
+         means[0] < means[1] && means[1] < means[2];
 }
 
-constexpr double kCellWidth = 70, kCellHeight = 36, kLeft = 62, kTop = 64, kBelow = 62, kGap = 20;
-constexpr double kMatrixWidth = kCellWidth * kInfluences.size(), kMatrixHeight = kCellHeight * kTaus.size();
-
-// How errors are printed: multiplied by `times`, with `digits` after the point.
-struct Figures {
-  double times;
-  int digits;
-  std::string of(double error) const { return fmt::format("{:.{}f}", times * error, digits); }
-};
-
-// A logarithmic scale, since the few large errors, of windows that leave plateau uncovered, would hide the
-// rest.
-struct Scale {
-  double low, high;
-  double at(double error) const { return high > low ? std::log(error / low) / std::log(high / low) : 0; }
-};
-
-void add_matrix(figures::Sheet& sheet, double x0, double y0, int w, const std::vector<Outcome>& outcomes,
-                ErrorOf error, const Scale& scale, const Figures& figures) {
-  sheet.text(x0, y0 - 8, fmt::format("w = {}", w), 14);
+// The error at the paper's w and a k. The paper gives τ only as the densest network: the least over τ.
+void record_at(const std::vector<Outcome>& outcomes, int k, Recorder& recorder) {
+  double at = std::numeric_limits<double>::infinity();
   for (const Outcome& o : outcomes) {
-    if (o.setting.w != w) continue;
-    const auto column = std::find(kInfluences.begin(), kInfluences.end(), o.setting.k) - kInfluences.begin();
-    const auto row = std::find(kTaus.begin(), kTaus.end(), o.setting.tau) - kTaus.begin();
-    const double x = x0 + static_cast<double>(column) * kCellWidth,
-                 y = y0 + static_cast<double>(row) * kCellHeight;
-    const Rgb colour = figures::error_colour(scale.at(error(o)));
-    sheet.box(x, y, kCellWidth - 1, kCellHeight - 1, colour);
-    sheet.text(x + kCellWidth / 2, y + kCellHeight / 2 + 5, figures.of(error(o)), 13, "middle",
-               figures::ink_on(colour));
+    if (o.setting.w == 10 && o.setting.k == k) at = std::min(at, o.rmse);
   }
-  for (std::size_t t = 0; t < kTaus.size(); ++t) {
-    sheet.text(x0 - 6, y0 + (static_cast<double>(t) + 0.62) * kCellHeight, fmt::format("τ = {}", kTaus[t]),
-               12, "end");
-  }
-  for (std::size_t k = 0; k < kInfluences.size(); ++k) {
-    sheet.text(x0 + (static_cast<double>(k) + 0.5) * kCellWidth, y0 + kMatrixHeight + 16,
-               fmt::format("k = {}", kInfluences[k]), 12, "middle");
-  }
+  add_share(recorder, fmt::format("rmse_at_w10_k{}", k), at);
+  // Flat ground has no error to divide by.
+  const double best = least(outcomes, kRmse.of).rmse;
+  if (best > 0) add_share(recorder, fmt::format("rmse_at_w10_k{}_to_least", k), at / best);
 }
 
-void add_column(figures::Sheet& sheet, int column, std::string_view title,
-                const std::vector<Outcome>& outcomes, ErrorOf error, const Figures& figures) {
-  const double x = kLeft + column * (kLeft + kMatrixWidth + kGap);
-  const auto [least, most] =
-      std::minmax_element(outcomes.begin(), outcomes.end(),
-                          [&](const Outcome& a, const Outcome& b) { return error(a) < error(b); });
-  const Scale scale{std::max(error(*least), 1e-12), std::max(error(*most), 1e-12)};
-  sheet.text(x + kMatrixWidth / 2, 22, title, 15, "middle");
-  double y = kTop;
-  for (const int w : kWidths) {
-    add_matrix(sheet, x, y, w, outcomes, error, scale, figures);
-    y += kMatrixHeight + kBelow;
+void draw(const Study& study, const std::vector<Outcome>& outcomes, Recorder& recorder) {
+  if (study.variant.is_first()) {
+    draw_channels(study, recorder);
+    draw_cross_sections(study, recorder);
   }
-  const figures::Sheet::Tick ticks[] = {{0, figures.of(scale.low)},
-                                        {0.5, figures.of(std::sqrt(scale.low * scale.high))},
-                                        {1, figures.of(scale.high)}};
-  sheet.colour_bar(x, y - 24, kMatrixWidth - 1, figures::error_colour, ticks);
-}
-
-// Figure 4: the error of the 54 parameter sets.
-void draw_matrices(const Study& study, const std::vector<Outcome>& outcomes, Recorder& recorder) {
-  figures::Sheet sheet(2 * (kLeft + kMatrixWidth + kGap),
-                       kTop + kWidths.size() * (kMatrixHeight + kBelow) + 18);
-  add_column(sheet, 0, "RMSE ÷ range of elevations", outcomes, [](const Outcome& o) { return o.rmse; },
-             {1, 4});
-  add_column(sheet, 1, "1000 × AHD in plan ÷ diagonal", outcomes, [](const Outcome& o) { return o.ahd[0]; },
-             {1000, 3});
-  sheet.write(
-      recorder.figure("drill.F4" + study.suffix, "png",
-                      fmt::format("The paper's figure 4: normalised errors of the 54 parameter sets on {}, "
-                                  "RMSE left and AHD right, one matrix per width w. Colours are logarithmic, "
-                                  "from the least of each metric (blue) to the largest (red).",
-                                  study.name)));
+  draw_best(study, least(outcomes, kRmse.of), least(outcomes, kAhd.of), recorder);
+  draw_error_matrices(study, outcomes, recorder);
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
-  const FlowNetwork network = route_flow(*source.heights, &progress);
-  const std::vector<Outcome> outcomes = factorial(*source.heights, network, progress);
+  const Variant& variant = variant_of(at.parameters);
+  const std::vector<Outcome>& outcomes = factorial_of(source, variant, progress);
 
-  recorder.add("runs", "", outcomes.size());
-  for (const Measure& measure : kMeasures) record_measure(outcomes, measure, recorder);
-  // The paper gives w and k of its best set, but τ only as the densest network; hence the least error over τ.
-  double at_paper_best = std::numeric_limits<double>::infinity();
-  for (const Outcome& o : outcomes) {
-    if (o.setting.w == 10 && o.setting.k == 20) at_paper_best = std::min(at_paper_best, o.rmse);
-  }
-  recorder.add("rmse_at_w10_k20", "", at_paper_best);
-  // Flat ground has no error to divide by.
-  if (const double best = least(outcomes, kMeasures[0]).rmse; best > 0) {
-    recorder.add("rmse_at_w10_k20_to_least", "", at_paper_best / best);
-  }
+  record_error(outcomes, kRmse.prefix, kRmse.of, recorder);
+  record_error(outcomes, kAhd.prefix, kAhd.of, recorder);
+  using enum ChannelAverage;
+  using enum ChannelSpace;
+  record_error(outcomes, "ahd_largest_plane_", reading(kLargest, kPlane), recorder);
+  record_error(outcomes, "ahd_mean_space_samples_", reading(kMean, kSpaceSamples), recorder);
+  std::size_t complete = 0;
+  for (const Reading& each : kReadings) complete += gives_all(outcomes, reading(each.average, each.space));
+  recorder.add("readings_that_give_all", "", static_cast<double>(complete));
+  record_at(outcomes, 20, recorder);  // §2.3: windows of 2k + 1 samples
+  record_at(outcomes, 10, recorder);  // §3: k is the size of the matrix, so that k = 20 reaches 10 samples
 
-  const Study study{*source.heights, network, source.name, figures::ground_suffix(at.terrain, kMainGround)};
-  draw_channels(study, recorder);
-  draw_cross_sections(study, recorder);
-  draw_best(study, least(outcomes, kMeasures[0]), least(outcomes, kMeasures[1]), recorder);
-  draw_matrices(study, outcomes, recorder);
+  if (variant.steepest) return;  // the paper's figures show its own networks
+  const FlowNetwork network = variant.route(*source.heights);
+  const std::string ground = figures::ground_suffix(at.terrain, kMainGround);
+  const std::string fit = variant.is_first() ? "" : fmt::format(".{}", variant.name);
+  draw({*source.heights, network, variant, source.name, fit + ground}, outcomes, recorder);
+}
+
+std::vector<Case> cases(const RunOptions& options) {
+  std::vector<Case> cases;
+  for (const std::string& ground : grounds(options)) {
+    for (const Variant& variant : kVariants) {
+      cases.push_back(
+          {with_variant(ground, variant), {fit_specs(), {{"variant", std::string(variant.name)}}}, ground});
+    }
+  }
+  return cases;
 }
 
 }  // namespace
 
-extern const Experiment kEffects{
-    "drill.effects", "§3.1: best sets, main effects, figures 1-4", {}, ground_cases, measure};
+extern const Experiment kEffects{"drill.effects", "§3.1: best sets, main effects, figures 1-4", fit_specs(),
+                                 cases, measure};
 
 }  // namespace terrabench::drill

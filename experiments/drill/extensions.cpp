@@ -18,7 +18,8 @@
 namespace terrabench::drill {
 namespace {
 
-constexpr std::array kSpecs{
+const std::array kSpecs{
+    variant_parameter(),
     ParameterSpec{"tau", std::int64_t{25}, "pixels", "least flow of a channel", 1, 1e9},
     ParameterSpec{"adaptive_k", false, "", "a separate influence per drill, up to 30"},
     ParameterSpec{"interpolate_untouched", false, "", "interpolate pixels that no drill touches"},
@@ -26,14 +27,17 @@ constexpr std::array kSpecs{
     ParameterSpec{"choose", false, "", "tau, w and k chosen for the bytes of the paper's setting"},
 };
 
-struct Variant {
+// What is added to the paper's own method.
+struct Extension {
   std::string_view name;
   bool adaptive_k, interpolate, monotone_profiles, choose = false;
 };
-constexpr std::array kVariants{
-    Variant{"as-printed", false, false, false},      Variant{"own-influence", true, false, false},
-    Variant{"interpolated", false, true, false},     Variant{"own-influence-interpolated", true, true, false},
-    Variant{"falling-channels", false, false, true},
+constexpr std::array kAll{
+    Extension{"one-influence", false, false, false},
+    Extension{"own-influence", true, false, false},
+    Extension{"interpolated", false, true, false},
+    Extension{"own-influence-interpolated", true, true, false},
+    Extension{"falling-channels", false, false, true},
 };
 
 struct Extended {
@@ -73,57 +77,74 @@ void record(const Extended& result, Recorder& recorder) {
   recorder.add("k", "samples", result.k);
   recorder.add("drill_bytes", "B", result.bytes);
   recorder.add("rmse", "m", result.error.rmse);
-  recorder.add("rmse_normalised", "", result.error.normalised());
+  add_share(recorder, "rmse_normalised", result.error.normalised());
   recorder.add("untouched", "pixels", result.untouched);
   recorder.add("pits", "", result.pits);
 }
 
-// The printed setting, and parameters chosen for the same number of bytes.
-void record_choice(const Heightfield& ground, const FlowNetwork& network, std::uint32_t tau,
+// The best single k, and parameters chosen for the same number of bytes.
+void record_choice(const Heightfield& ground, const FlowNetwork& network, const DrillOptions& options,
                    Recorder& recorder, Progress& progress) {
-  const Extended printed = extended(ground, network, {.tau = tau});
-  const DrillChoice choice =
-      choose_parameters(ground, network, {.bytes = printed.bytes, .rmse = 0}, {}, &progress);
-  recorder.add("budget", "B", printed.bytes);
+  const Extended one = extended(ground, network, options);
+  const DrillChoice choice = choose_parameters(ground, network, {.bytes = one.bytes, .rmse = 0},
+                                               {.monotone = options.monotone}, &progress);
+  recorder.add("budget", "B", one.bytes);
   recorder.add("drill_bytes", "B", choice.bytes);
   recorder.add("chosen_tau", "pixels", choice.options.tau);
   recorder.add("chosen_w", "samples", choice.options.w);
   recorder.add("k", "samples", choice.options.k);
   recorder.add("rmse", "m", choice.rmse);
-  recorder.add("rmse_unchosen", "m", printed.error.rmse);
+  recorder.add("rmse_unchosen", "m", one.error.rmse);
+}
+
+// Interpolation can only gain where the best single k leaves samples untouched.
+void record_gain(const Extended& interpolated, const Extended& one, Recorder& recorder) {
+  recorder.add("untouched_without", "pixels", static_cast<double>(one.untouched));
+  recorder.add("untouched_without_gain", "pixels",
+               interpolated.error.rmse < one.error.rmse ? 0 : static_cast<double>(one.untouched));
+}
+
+void add_cases(const std::string& ground, const Variant& variant, std::vector<Case>& cases) {
+  for (const std::uint32_t tau : kTaus) {
+    const auto add = [&](const Extension& extension) {
+      cases.push_back({fmt::format("{}/tau={}/{}", with_variant(ground, variant), tau, extension.name),
+                       {kSpecs,
+                        {{"variant", std::string(variant.name)},
+                         {"tau", std::int64_t{tau}},
+                         {"adaptive_k", extension.adaptive_k},
+                         {"interpolate_untouched", extension.interpolate},
+                         {"monotone_profiles", extension.monotone_profiles},
+                         {"choose", extension.choose}}},
+                       ground});
+    };
+    for (const Extension& extension : kAll) add(extension);
+    if (tau == kTaus[1]) add({"chosen", false, false, false, true});
+  }
 }
 
 std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const std::string& ground : grounds(options)) {
-    for (const std::uint32_t tau : kTaus) {
-      const auto add = [&](const Variant& variant) {
-        cases.push_back({fmt::format("{}/tau={}/{}", ground, tau, variant.name),
-                         {kSpecs,
-                          {{"tau", std::int64_t{tau}},
-                           {"adaptive_k", variant.adaptive_k},
-                           {"interpolate_untouched", variant.interpolate},
-                           {"monotone_profiles", variant.monotone_profiles},
-                           {"choose", variant.choose}}},
-                         ground});
-      };
-      for (const Variant& variant : kVariants) add(variant);
-      if (tau == kTaus[1]) add({"chosen", false, false, false, true});
-    }
+    for (const Variant& variant : kFits) add_cases(ground, variant, cases);
   }
   return cases;
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
-  const FlowNetwork network = route_flow(*source.heights, &progress);
-  const auto tau = static_cast<std::uint32_t>(at.parameters.integer("tau"));
-  if (at.parameters.flag("choose")) return record_choice(*source.heights, network, tau, recorder, progress);
-  const DrillOptions extract{.tau = tau,
-                             .monotone_profiles = at.parameters.flag("monotone_profiles"),
-                             .adaptive_k = at.parameters.flag("adaptive_k"),
-                             .interpolate_untouched = at.parameters.flag("interpolate_untouched")};
-  record(extended(*source.heights, network, extract), recorder);
+  const Heightfield& ground = *source.heights;
+  const Variant& variant = variant_of(at.parameters);
+  const FlowNetwork network = variant.route(ground);
+  const DrillOptions one{.tau = static_cast<std::uint32_t>(at.parameters.integer("tau")),
+                         .monotone = variant.monotone};
+  if (at.parameters.flag("choose")) return record_choice(ground, network, one, recorder, progress);
+  DrillOptions extract = one;
+  extract.monotone_profiles = at.parameters.flag("monotone_profiles");
+  extract.adaptive_k = at.parameters.flag("adaptive_k");
+  extract.interpolate_untouched = at.parameters.flag("interpolate_untouched");
+  const Extended result = extended(ground, network, extract);
+  record(result, recorder);
+  if (extract.interpolate_untouched) record_gain(result, extended(ground, network, one), recorder);
 }
 
 }  // namespace

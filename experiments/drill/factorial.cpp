@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
+#include <cmath>
+#include <map>
+
 #include "experiments/drill/ground.h"
-#include "experiments/experiment.h"
 #include "representations/drill/pits.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/hydrology/channels.h"
+#include "terrain/hydrology/steepest.h"
 #include "terrain/metrics/elevation_error.h"
 
 namespace terrabench::drill {
@@ -18,82 +22,107 @@ constexpr std::array kSpecs{
     ParameterSpec{"k", std::int64_t{20}, "samples", "influence of a drill", 0, 255},
 };
 
-// The error under the options of another reading of "monotone".
-double error_under(const DrillOptions& options, const Heightfield& ground, const FlowNetwork& network,
-                   Progress& progress) {
-  const Drills drills = extract_drills(ground, network, options, &progress);
-  return elevation_error(ground, regenerate(drills)).normalised();
+double untouched_share(const Drills& drills, const Heightfield& regenerated) {
+  std::size_t holes = 0;
+  for (const HoleRun& hole : drills.holes) holes += hole.count;
+  const std::size_t pixels = drills.pixels() - holes;
+  if (pixels == 0) return 0;
+  return static_cast<double>(count_untouched(drills, regenerated.heights)) / static_cast<double>(pixels);
 }
 
 }  // namespace
 
-DrillOptions options_for(const Setting& setting) {
-  return {.tau = setting.tau, .w = setting.w, .k = setting.k};
+ParameterSpec variant_parameter() {
+  return choice("variant", kVariantNames, "the reading of §2: monotone or printed shapes, or d8 networks");
 }
 
-Outcome compare(const Heightfield& ground, const FlowNetwork& network, const Heightfield& regenerated,
-                const Setting& setting) {
+const Variant& variant_of(const Parameters& parameters) { return kVariants[parameters.choice("variant")]; }
+
+void add_share(Recorder& recorder, std::string_view metric, double value) {
+  if (std::isfinite(value)) recorder.add(metric, "", value);
+}
+
+std::span<const ParameterSpec> fit_specs() {
+  static const std::array specs{variant_parameter()};
+  return specs;
+}
+
+std::string with_variant(std::string_view ground, const Variant& variant) {
+  return variant.is_first() ? std::string(ground) : fmt::format("{}/{}", ground, variant.name);
+}
+
+std::vector<Case> fit_cases(const RunOptions& options) {
+  std::vector<Case> cases;
+  for (const std::string& ground : grounds(options)) {
+    for (const Variant& variant : kFits) {
+      cases.push_back(
+          {with_variant(ground, variant), {fit_specs(), {{"variant", std::string(variant.name)}}}, ground});
+    }
+  }
+  return cases;
+}
+
+FlowNetwork Variant::route(const Heightfield& ground) const {
+  return steepest ? route_steepest(ground) : route_flow(ground);
+}
+
+DrillOptions options_for(const Setting& setting, const Variant& variant) {
+  return {.tau = setting.tau, .w = setting.w, .k = setting.k, .monotone = variant.monotone};
+}
+
+std::string Reading::name() const {
+  return fmt::format("{}-{}", terrabench::name(average), terrabench::name(space));
+}
+
+Outcome compare(const Heightfield& ground, const FlowNetwork& network, const Drills& drills,
+                const Heightfield& regenerated, const Setting& setting, const Variant& variant) {
   Outcome outcome;
   outcome.setting = setting;
   const ElevationError error = elevation_error(ground, regenerated);
   outcome.rmse_metres = error.rmse;
   outcome.rmse = error.normalised();
+  outcome.drills = drills.count();
+  outcome.untouched = untouched_share(drills, regenerated);
   const auto channels = channel_pixels(network, setting.tau);
-  const auto others = channel_pixels(route_flow(regenerated), setting.tau);
-  for (std::size_t r = 0; r < kReadings.size(); ++r) {
-    outcome.ahd[r] = channel_distance(ground, channels, regenerated, others, kReadings[r]).normalised();
+  const auto others = channel_pixels(variant.route(regenerated), setting.tau);
+  constexpr std::size_t kSpaces = 4;  // the readings of one average
+  static_assert(kReadings.size() == 3 * kSpaces);
+  for (std::size_t s = 0; s < kSpaces; ++s) {
+    const ChannelDistance distance =
+        channel_distance(ground, channels, regenerated, others, kReadings[s].space);
+    for (std::size_t r = s; r < kReadings.size(); r += kSpaces) {
+      assert(kReadings[r].space == kReadings[s].space);
+      outcome.ahd[r] = distance.normalised(kReadings[r].average);
+    }
   }
   return outcome;
 }
 
-Effects main_effects(const std::vector<Outcome>& outcomes, ErrorOf error) {
-  double mean = 0, total = 0;
-  for (const Outcome& o : outcomes) mean += error(o);
-  mean /= static_cast<double>(outcomes.size());
-  for (const Outcome& o : outcomes) total += (error(o) - mean) * (error(o) - mean);
-  if (total == 0) return {};
-  // The sum of squares of the level means about the grand mean, as a share of the total.
-  const auto between = [&](const auto& levels, auto factor, double* means) {
-    double squares = 0;
-    for (std::size_t l = 0; l < levels.size(); ++l) {
-      double sum = 0, count = 0;
-      for (const Outcome& o : outcomes) {
-        if (o.setting.*factor != levels[l]) continue;
-        sum += error(o);
-        ++count;
-      }
-      if (count == 0) continue;
-      if (means != nullptr) means[l] = sum / count;
-      squares += count * (sum / count - mean) * (sum / count - mean);
-    }
-    return squares / total;
-  };
-  Effects effects;
-  effects.tau = between(kTaus, &Setting::tau, effects.mean_at_tau.data());
-  effects.w = between(kWidths, &Setting::w, nullptr);
-  effects.k = between(kInfluences, &Setting::k, nullptr);
-  effects.interactions = 1 - effects.tau - effects.w - effects.k;
-  return effects;
-}
-
-std::vector<Outcome> factorial(const Heightfield& ground, const FlowNetwork& network, Progress& progress) {
+std::vector<Outcome> factorial(const Heightfield& ground, const FlowNetwork& network, const Variant& variant,
+                               Progress& progress) {
   std::vector<Outcome> outcomes;
   for (const std::uint32_t tau : kTaus) {
     for (const int w : kWidths) {
       // The shapes do not depend on k.
-      Drills drills = extract_drills(ground, network, options_for({tau, w, kInfluences.front()}), &progress);
+      Drills drills =
+          extract_drills(ground, network, options_for({tau, w, kInfluences.front()}, variant), &progress);
       progress.begin(fmt::format("regenerating at tau={}, w={}", tau, w), kInfluences.size());
       for (const int k : kInfluences) {
         drills.k = k;
-        const Heightfield regenerated = regenerate(drills);
-        Outcome& outcome = outcomes.emplace_back(compare(ground, network, regenerated, {tau, w, k}));
-        outcome.drills = drills.count();
-        outcome.untouched = count_untouched(drills, regenerated.heights);
+        outcomes.push_back(compare(ground, network, drills, regenerate(drills), {tau, w, k}, variant));
         progress.advance();
       }
     }
   }
   return outcomes;
+}
+
+const std::vector<Outcome>& factorial_of(const TerrainSource& source, const Variant& variant,
+                                         Progress& progress) {
+  static std::map<std::pair<std::string, std::string_view>, std::vector<Outcome>> kept;  // 12 kB each
+  const auto key = std::pair(source.checksum, variant.name);
+  if (const auto at = kept.find(key); at != kept.end()) return at->second;
+  return kept[key] = factorial(*source.heights, variant.route(*source.heights), variant, progress);
 }
 
 namespace {
@@ -121,26 +150,27 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const Setting setting{static_cast<std::uint32_t>(at.parameters.integer("tau")), at.integer("w"),
                         at.integer("k")};
   const FlowNetwork network = route_flow(ground, &progress);
-  const Drills drills = extract_drills(ground, network, options_for(setting), &progress);
-  const Heightfield regenerated = regenerate(drills);
-  const Outcome outcome = compare(ground, network, regenerated, setting);
-
-  recorder.add("drills", "", drills.count());
-  recorder.add("rmse", "m", outcome.rmse_metres);
-  recorder.add("rmse_normalised", "", outcome.rmse);
-  for (std::size_t r = 0; r < kReadings.size(); ++r) {
-    recorder.add(fmt::format("ahd_{}", name(kReadings[r])), "", outcome.ahd[r]);
+  for (const Variant& variant : kFits) {
+    const Drills drills = extract_drills(ground, network, options_for(setting, variant), &progress);
+    const Heightfield regenerated = regenerate(drills);
+    const Outcome outcome = compare(ground, network, drills, regenerated, setting, variant);
+    const auto add = [&](std::string_view metric, double value) {
+      const std::string prefix = variant.is_first() ? "" : fmt::format("{}_", variant.name);
+      add_share(recorder, prefix + std::string(metric), value);
+    };
+    add("drills", static_cast<double>(drills.count()));
+    add("rmse_normalised", outcome.rmse);
+    for (std::size_t r = 0; r < kReadings.size(); ++r) {
+      add(fmt::format("ahd_{}", kReadings[r].name()), outcome.ahd[r]);
+    }
+    add("untouched_share", outcome.untouched);
+    add("pits", static_cast<double>(count_pits(regenerated).count));
   }
-  // Two weaker readings of "monotone" than ours: shapes may fall outward.
-  DrillOptions weaker = options_for(setting);
-  weaker.monotone = Monotone::kWindow;
-  recorder.add("rmse_monotone_in_window", "", error_under(weaker, ground, network, progress));
-  weaker.monotone = Monotone::kNowhere;
-  recorder.add("rmse_not_monotone", "", error_under(weaker, ground, network, progress));
-  recorder.add("untouched_share", "",
-               static_cast<double>(count_untouched(drills, regenerated.heights)) /
-                   static_cast<double>(regenerated.heights.size()));
-  recorder.add("pits", "", count_pits(regenerated).count);
+  // A third reading of "monotone", between the two: shapes may fall beyond the window.
+  DrillOptions in_window = options_for(setting);
+  in_window.monotone = Monotone::kWindow;
+  const Heightfield weaker = regenerate(extract_drills(ground, network, in_window, &progress));
+  add_share(recorder, "rmse_monotone_in_window", elevation_error(ground, weaker).normalised());
 }
 
 }  // namespace

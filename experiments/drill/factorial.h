@@ -1,14 +1,20 @@
-// The factorial of the drill paper's §3: 3 thresholds × 3 cross-sections × 6 influences. The paper names only
-// τ = 25, 100 and "above 100", w = 10 and k = 20; the other levels are our choice.
+// The factorial of the drill paper's §3: 3 thresholds × 3 cross-sections × 6 influences, for each way to read
+// the paper. The paper names only τ = 25, 100 and "above 100", w = 10 and k = 20; the other levels are our
+// choice.
 #pragma once
 
 #include <array>
+#include <functional>
+#include <string>
 #include <vector>
 
+#include "experiments/experiment.h"
 #include "representations/drill/extract.h"
 #include "terrain/heightfield.h"
 #include "terrain/hydrology/flow.h"
 #include "terrain/metrics/channel_distance.h"
+#include "terrain/parameters.h"
+#include "terrain/source.h"
 
 namespace terrabench::drill {
 
@@ -16,38 +22,85 @@ inline constexpr std::array<std::uint32_t, 3> kTaus{25, 100, 200};
 inline constexpr std::array<int, 3> kWidths{5, 10, 20};
 inline constexpr std::array<int, 6> kInfluences{5, 10, 15, 20, 25, 30};
 
+// The paper contradicts itself about shapes: §2.2 constrains the fit at the centre only, §4 calls shapes
+// monotonically increasing. Its network is a hybrid of least-cost search and of plain steepest descent.
+struct Variant {
+  std::string_view name;   // the value of the parameter "variant"
+  std::string_view words;  // for captions
+  Monotone monotone;
+  bool steepest;  // networks by route_steepest() in place of route_flow()
+
+  FlowNetwork route(const Heightfield& ground) const;
+  bool is_first() const;  // monotone shapes on least-cost networks
+};
+inline constexpr std::array kVariants{
+    Variant{"monotone", "monotone shapes", Monotone::kEverywhere, false},
+    Variant{"printed", "shapes fitted as printed", Monotone::kNowhere, false},
+    Variant{"d8", "monotone shapes, networks by steepest descent", Monotone::kEverywhere, true},
+};
+inline constexpr std::array<std::string_view, kVariants.size()> kVariantNames{"monotone", "printed", "d8"};
+inline bool Variant::is_first() const { return name == kVariantNames[0]; }
+// The two fits: the first two variants.
+inline constexpr std::span<const Variant> kFits = std::span<const Variant>(kVariants).first(2);
+
+ParameterSpec variant_parameter();
+const Variant& variant_of(const Parameters&);
+
+// For experiments that measure both fits: the parameter, and a case per ground and fit, named after the
+// ground and, for the printed fit, "GROUND/printed".
+std::span<const ParameterSpec> fit_specs();
+std::vector<Case> fit_cases(const RunOptions&);
+// `ground`, or with "/printed" or the like behind it for another than the first variant.
+std::string with_variant(std::string_view ground, const Variant&);
+
+// Records a metric without unit if it is finite: errors of a flat ground have no range to divide by, and of
+// two networks one may be empty.
+void add_share(Recorder&, std::string_view metric, double value);
+
 struct Setting {
   std::uint32_t tau = 25;
   int w = 10, k = 20;
+  bool operator==(const Setting&) const = default;
 };
-DrillOptions options_for(const Setting&);
+DrillOptions options_for(const Setting&, const Variant& = kVariants[0]);
 
-inline constexpr std::array kReadings{ChannelReading::kPlane, ChannelReading::kSpace,
-                                      ChannelReading::kSample};
+// The ways to read equation 3 and its divisor.
+struct Reading {
+  ChannelAverage average;
+  ChannelSpace space;
+  std::string name() const;  // such as "mean-plane"
+};
+inline constexpr std::array kReadings = [] {
+  std::array<Reading, 12> all{};
+  std::size_t at = 0;
+  for (const auto average : {ChannelAverage::kMean, ChannelAverage::kLargest, ChannelAverage::kSum}) {
+    for (const auto space : {ChannelSpace::kPlane, ChannelSpace::kPlaneSamples, ChannelSpace::kSpace,
+                             ChannelSpace::kSpaceSamples}) {
+      all[at++] = {average, space};
+    }
+  }
+  return all;
+}();
 
 // The results of one setting. Errors are normalised as in §3.1.
 struct Outcome {
   Setting setting;
   double rmse_metres = 0, rmse = 0;
-  std::array<double, kReadings.size()> ahd{};
-  std::size_t drills = 0, untouched = 0;
+  std::array<double, kReadings.size()> ahd{};  // infinite where one of the networks is empty
+  std::size_t drills = 0;
+  double untouched = 0;  // share of the samples with data that no drill touches
 };
+using ErrorOf = std::function<double(const Outcome&)>;
 
-// The errors of a regenerated terrain.
-Outcome compare(const Heightfield& ground, const FlowNetwork& network, const Heightfield& regenerated,
-                const Setting& setting);
-
-// How the variance of an error over outcomes splits up (analysis of variance with one observation per cell):
-// the share that the mean per level of each factor explains; interactions explain the rest.
-struct Effects {
-  double tau = 0, w = 0, k = 0, interactions = 0;  // shares, sum 1; all 0 when nothing varies
-  std::array<double, 3> mean_at_tau{};
-};
-using ErrorOf = double (*)(const Outcome&);
-// `outcomes`: those of factorial(), or all combinations of some of its levels.
-Effects main_effects(const std::vector<Outcome>& outcomes, ErrorOf error);
+// The errors of the terrain that drills regenerate. `network` is variant.route(ground).
+Outcome compare(const Heightfield& ground, const FlowNetwork& network, const Drills& drills,
+                const Heightfield& regenerated, const Setting& setting, const Variant& variant);
 
 // All 54, extracting once per τ and w. k varies fastest, then w, then τ.
-std::vector<Outcome> factorial(const Heightfield& ground, const FlowNetwork& network, Progress& progress);
+std::vector<Outcome> factorial(const Heightfield& ground, const FlowNetwork& network, const Variant& variant,
+                               Progress& progress);
+// The same, kept until the program ends: many cases read the same 54. Not thread-safe.
+const std::vector<Outcome>& factorial_of(const TerrainSource& source, const Variant& variant,
+                                         Progress& progress);
 
 }  // namespace terrabench::drill

@@ -1,23 +1,41 @@
-// The drill paper's figures 1 to 3, in its layout, and maps of the error of regeneration.
+// The drill paper's figures in its layout, and maps of the error of regeneration.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "experiments/drill/factorial.h"
+#include "experiments/figures/sheet.h"
 #include "experiments/recorder.h"
 
 namespace terrabench::drill {
 
 struct Study {
   const Heightfield& ground;
-  const FlowNetwork& network;
+  const FlowNetwork& network;  // variant.route(ground)
+  const Variant& variant;
   std::string name;    // for captions
-  std::string suffix;  // of figure ids; empty for the main ground
+  std::string suffix;  // of figure ids; empty for the main ground under monotone shapes
 };
 
-void draw_channels(const Study&, Recorder&);        // figure 1
-void draw_cross_sections(const Study&, Recorder&);  // figure 2
-// Figure 3, and the difference from the ground as a figure of its own.
+// Figure 1: four panels with every channel pixel at a threshold each.
+figures::Sheet channels_sheet(const Study&);
+// Figure 2: the rays of one channel pixel, a path in a clear valley, their union and the fits. The ground is
+// more than 2 · 20 samples wide and deep.
+std::uint32_t example_pixel(const Study&);
+figures::Sheet cross_sections_sheet(const Study&, std::uint32_t pixel);
+// Figure 3, and the difference of its terrains from the ground.
+struct BestSheets {
+  figures::Sheet terrains, differences;
+};
+BestSheets best_sheets(const Study&, const Outcome& least_rmse, const Outcome& least_ahd);
+// Figure 4.
+figures::Sheet error_matrices_sheet(const std::vector<Outcome>&);
+
+// Draw and record them.
+void draw_channels(const Study&, Recorder&);
+void draw_cross_sections(const Study&, Recorder&);  // nothing on a smaller ground
 void draw_best(const Study&, const Outcome& least_rmse, const Outcome& least_ahd, Recorder&);
+void draw_error_matrices(const Study&, const std::vector<Outcome>&, Recorder&);
 
 }  // namespace terrabench::drill

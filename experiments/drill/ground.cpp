@@ -18,10 +18,4 @@ std::vector<std::string> grounds(const RunOptions& options) {
   return terrabench::grounds(options, {main, "jacksboro", "noise-ridges", "noise-hills"});
 }
 
-std::vector<Case> ground_cases(const RunOptions& options) {
-  std::vector<Case> cases;
-  for (const std::string& ground : grounds(options)) cases.push_back({ground, {}, ground});
-  return cases;
-}
-
 }  // namespace terrabench::drill

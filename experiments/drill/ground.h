@@ -15,7 +15,4 @@ TerrainSource open_ground(std::string_view name, std::uint64_t seed);
 // Those that the options name; otherwise the main ground, and in the paper profile three more.
 std::vector<std::string> grounds(const RunOptions& options);
 
-// One case without parameters for each of these.
-std::vector<Case> ground_cases(const RunOptions& options);
-
 }  // namespace terrabench::drill

@@ -112,7 +112,7 @@ Heightfield difference(const Heightfield& ground, const Heightfield& other) {
 
 }  // namespace
 
-void draw_channels(const Study& study, Recorder& recorder) {
+figures::Sheet channels_sheet(const Study& study) {
   const Layout layout(study.ground, 2);
   const HeightRange range = height_range(study.ground);
   const Heightfield fitted = layout.fitted(study.ground);
@@ -132,29 +132,34 @@ void draw_channels(const Study& study, Recorder& recorder) {
   const double next = add_swatch(sheet, kGap, layout.legend(), figures::kChannel, "channel");
   add_elevations(sheet, next, layout.legend(), range);
   add_scale(sheet, layout, study.ground);
-  sheet.write(
+  return sheet;
+}
+
+void draw_channels(const Study& study, Recorder& recorder) {
+  channels_sheet(study).write(
       recorder.figure("drill.F1" + study.suffix, "png",
                       fmt::format("The paper's figure 1: channel networks at four thresholds τ over the "
-                                  "shaded relief of {}, {} × {} samples. Each channel pixel is drawn.",
+                                  "shaded relief of {}, {} × {} samples. Each channel pixel is drawn. "
+                                  "Elevations run from blue, the lowest, over green and brown to white.",
                                   study.name, study.ground.width, study.ground.depth)));
 }
 
-void draw_best(const Study& study, const Outcome& least_rmse, const Outcome& least_ahd, Recorder& recorder) {
+BestSheets best_sheets(const Study& study, const Outcome& least_rmse, const Outcome& least_ahd) {
   const Layout layout(study.ground, 1);
   const HeightRange range = height_range(study.ground);
   const Heightfield ground = layout.fitted(study.ground);
   const figures::Light light(ground);
   const double most = 4 * std::max(least_rmse.rmse_metres, 1e-3);
-  figures::Sheet sheet = layout.sheet(), maps = layout.sheet();
+  BestSheets sheets{layout.sheet(), layout.sheet()};
+  figures::Sheet &sheet = sheets.terrains, &maps = sheets.differences;
   for (int panel = 0; panel < 2; ++panel) {
     const Outcome& outcome = panel == 0 ? least_rmse : least_ahd;
-    const Drills drills = extract_drills(study.ground, study.network, options_for(outcome.setting));
+    const Drills drills =
+        extract_drills(study.ground, study.network, options_for(outcome.setting, study.variant));
     const Heightfield regenerated = regenerate(drills), fitted = layout.fitted(regenerated);
-    const double untouched = static_cast<double>(count_untouched(drills, regenerated.heights)) /
-                             static_cast<double>(regenerated.heights.size() - range.no_data);
     const auto elevations = colour_between(range);
     const std::string title = title_of(panel == 0 ? "RMSE" : "AHD", outcome);
-    layout.place(sheet, panel, fmt::format("{}; {:.1f} % untouched", title, 100 * untouched),
+    layout.place(sheet, panel, fmt::format("{}; {:.1f} % untouched", title, 100 * outcome.untouched),
                  figures::shaded_map(fitted, figures::Light(fitted, light), [&](float height) {
                    return is_touched(height, drills) ? elevations(height) : figures::kUntouched;
                  }));
@@ -167,20 +172,25 @@ void draw_best(const Study& study, const Outcome& least_rmse, const Outcome& lea
   const double next = add_swatch(sheet, kGap, layout.legend(), figures::kUntouched, "no drill reaches");
   add_elevations(sheet, next, layout.legend(), range);
   add_scale(sheet, layout, study.ground);
-  sheet.write(recorder.figure(
-      "drill.F3" + study.suffix, "png",
-      fmt::format("The paper's figure 3: {} regenerated with the parameters of least RMSE (a) and of least "
-                  "AHD in plan (b). Where no drill reaches, the plateau remains.",
-                  study.name)));
-
   figures::add_colour_key(maps, kGap, layout.legend(), "regenerated minus original, m", 240, 260,
                           figures::difference_colour,
                           {fmt::format("−{:.0f} or less", most), "0", fmt::format("{:.0f} or more", most)});
   add_scale(maps, layout, study.ground);
-  maps.write(recorder.figure("drill.difference" + study.suffix, "png",
-                             fmt::format("The difference of figure 3's two terrains from {}, over its shaded "
-                                         "relief: blue too low, red too high",
-                                         study.name)));
+  return sheets;
+}
+
+void draw_best(const Study& study, const Outcome& least_rmse, const Outcome& least_ahd, Recorder& recorder) {
+  const BestSheets sheets = best_sheets(study, least_rmse, least_ahd);
+  sheets.terrains.write(recorder.figure(
+      "drill.F3" + study.suffix, "png",
+      fmt::format("The paper's figure 3: {} regenerated with the parameters of least RMSE (a) and of least "
+                  "AHD, the mean in plan (b), {}. Where no drill reaches, the plateau remains.",
+                  study.name, study.variant.words)));
+  sheets.differences.write(
+      recorder.figure("drill.difference" + study.suffix, "png",
+                      fmt::format("The difference of figure 3's two terrains from {}, over its shaded "
+                                  "relief: blue too low, red too high",
+                                  study.name)));
 }
 
 }  // namespace terrabench::drill

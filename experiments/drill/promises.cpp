@@ -1,10 +1,13 @@
-// The drill paper's statements about regeneration: equation 1 never raises a pixel and does not depend on the
-// order of drills; pits are counted.
+// The drill paper's statements about regeneration, for both fits: equation 1 never raises a pixel and does
+// not depend on the order of drills; shapes that fall outward, pits and steps at the edges of windows are
+// measured.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
 
+#include "experiments/drill/edges.h"
+#include "experiments/drill/factorial.h"
 #include "experiments/drill/ground.h"
 #include "experiments/experiment.h"
 #include "representations/drill/extract.h"
@@ -112,11 +115,23 @@ void record_pits(std::string_view of, const Heightfield& terrain, Recorder& reco
   recorder.add(std::string("pit_pixels_") + std::string(of), "", pits.pixels);
 }
 
+void record_edges(const Drills& drills, const Heightfield& ground, Recorder& recorder) {
+  const Steps own = steps(ground);
+  const EdgeSteps edges = edge_steps(drills);
+  recorder.add("ground_largest_step", "m", own.largest);
+  recorder.add("ground_mean_step", "m", own.mean);
+  recorder.add("pairs_across_edges", "", static_cast<double>(edges.across.pairs));
+  recorder.add("edge_largest_step", "m", edges.across.largest);
+  recorder.add("edge_mean_step", "m", edges.across.mean);
+  recorder.add("inside_largest_step", "m", edges.inside.largest);
+  recorder.add("inside_mean_step", "m", edges.inside.mean);
+}
+
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   const FlowNetwork network = route_flow(ground, &progress);
-  DrillOptions extract{.k = 20};
+  DrillOptions extract = options_for({.k = 20}, variant_of(at.parameters));
   const Drills drills = extract_drills(ground, network, extract, &progress);
   const Heightfield regenerated = regenerate(drills);
   record_orders(drills, regenerated, options.seed, recorder, progress);
@@ -132,13 +147,14 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   extract.monotone_profiles = true;
   const Heightfield legal = regenerate(extract_drills(ground, network, extract, &progress));
   record_pits("monotone_profiles", legal, recorder);
-  recorder.add("rmse_normalised", "", elevation_error(ground, regenerated).normalised());
-  recorder.add("rmse_monotone_profiles", "", elevation_error(ground, legal).normalised());
+  record_edges(drills, ground, recorder);
+  add_share(recorder, "rmse_normalised", elevation_error(ground, regenerated).normalised());
+  add_share(recorder, "rmse_monotone_profiles", elevation_error(ground, legal).normalised());
 }
 
 }  // namespace
 
-extern const Experiment kPromises{
-    "drill.promises", "§2.3 and §4: order of drills, pits", {}, ground_cases, measure};
+extern const Experiment kPromises{"drill.promises", "§2.3 and §4: order of drills, pits, edges", fit_specs(),
+                                  fit_cases, measure};
 
 }  // namespace terrabench::drill

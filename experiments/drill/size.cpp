@@ -33,8 +33,9 @@ struct Stored {
 };
 
 // The least error over the factorial's k, with drills rounded as in their file.
-Stored store(const Heightfield& ground, const FlowNetwork& network, std::uint32_t tau) {
-  Drills drills = extract_drills(ground, network, {.tau = tau});
+Stored store(const Heightfield& ground, const FlowNetwork& network, const Variant& variant,
+             std::uint32_t tau) {
+  Drills drills = extract_drills(ground, network, options_for({.tau = tau}, variant));
   quantise(drills, automatic_quantum(ground));
   ByteSink bytes;
   encode_drills(drills, bytes);
@@ -93,7 +94,7 @@ void draw_rate_distortion(const TerrainSource& source, const FlowNetwork& networ
   PlotSeries& drills = plot.series.emplace_back();
   drills.label = "drills";
   for (const std::uint32_t tau : kThresholds) {
-    const Stored stored = store(ground, network, tau);
+    const Stored stored = store(ground, network, kVariants[0], tau);
     add_point(drills, stored.bytes, samples, stored.error.rmse);
     progress.advance();
   }
@@ -124,17 +125,19 @@ void draw_rate_distortion(const TerrainSource& source, const FlowNetwork& networ
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
-  const FlowNetwork network = route_flow(ground, &progress);
+  const Variant& variant = variant_of(at.parameters);
+  const FlowNetwork network = variant.route(ground);
   const auto samples = static_cast<double>(ground.heights.size());
-  const Stored stored = store(
-      ground, network, threshold_for(network, static_cast<std::size_t>(std::lround(kPaperShare * samples))));
+  const Stored stored =
+      store(ground, network, variant,
+            threshold_for(network, static_cast<std::size_t>(std::lround(kPaperShare * samples))));
   recorder.add("tau", "pixels", stored.tau);
   recorder.add("k", "samples", stored.k);
   recorder.add("drills", "", stored.drills);
   recorder.add("drills_per_160000", "", static_cast<double>(stored.drills) * 160000 / samples);
   recorder.add("values_to_samples", "", 4 * static_cast<double>(stored.drills) / samples);
   recorder.add("rmse", "m", stored.error.rmse);
-  recorder.add("rmse_normalised", "", stored.error.normalised());
+  add_share(recorder, "rmse_normalised", stored.error.normalised());
   recorder.add("drill_bytes", "B", stored.bytes);
   const auto add = [&](std::string_view metric, const CompressedSize& size) {
     recorder.add(fmt::format("{}_bytes", metric), "B", size.bytes);
@@ -149,11 +152,13 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   add("jpeg2000", compressed_size_at(filled, RasterCodec::kJpeg2000, rmse));
   add("lerc", compressed_size_at(filled, RasterCodec::kLerc, rmse));
   add("lerc_deflate", compressed_size_at(filled, RasterCodec::kLercDeflate, rmse));
-  draw_rate_distortion(source, network, figures::ground_suffix(at.terrain, kMainGround), recorder, progress);
+  if (variant.is_first())
+    draw_rate_distortion(source, network, figures::ground_suffix(at.terrain, kMainGround), recorder,
+                         progress);
 }
 
 }  // namespace
 
-extern const Experiment kSize{"drill.size", "§4.1: values and bytes", {}, ground_cases, measure};
+extern const Experiment kSize{"drill.size", "§4.1: values and bytes", fit_specs(), fit_cases, measure};
 
 }  // namespace terrabench::drill

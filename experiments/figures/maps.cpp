@@ -29,7 +29,7 @@ Rgb along(const std::array<std::uint32_t, N>& stops, double t) {
 }  // namespace
 
 Rgb elevation_colour(double t) {
-  static constexpr std::array kStops{0xFFFDE8U, 0xFEECB2U, 0xF8CE84U, 0xE5A662U, 0xC27C4CU};
+  static constexpr std::array kStops{0x5B9CD6U, 0x86BE74U, 0xCBA06AU, 0xFFFFFFU};
   return along(kStops, t);
 }
 

@@ -17,7 +17,8 @@ namespace terrabench::figures {
 // Marks on maps coloured by elevation: channel pixels, and samples that no drill reaches.
 inline constexpr Rgb kChannel{0, 56, 168}, kUntouched{120, 120, 128};
 
-// Cream at t = 0, the lowest height, to brown at 1, the highest; light enough for lines and shading on top.
+// Blue at t = 0, the lowest height, over green and brown to white at 1, the highest, as in figure 1 of
+// "drill"; light enough for lines and shading on top.
 Rgb elevation_colour(double t);
 // Blue at t = 0 (too low), white at ½ (equal), red at 1 (too high). ColorBrewer's RdBu.
 Rgb difference_colour(double t);

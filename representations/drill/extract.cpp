@@ -53,7 +53,7 @@ void shape_drills(const CrossSections& sections, double rises_to, Drills& drills
     for (std::size_t i = step * kDrillsPerTask; i < std::min(count, (step + 1) * kDrillsPerTask); ++i) {
       sections.join(drills.pixel[i], joined);
       const float centre = drills.elevation[i];
-      const Profile profile = fit_profile(joined, centre, rises_to);
+      const FittedProfile profile = fit_profile(joined, centre, rises_to);
       // A drill that sees no ground around it digs its own pixel only: the plateau is one sample away.
       drills.slope[i] = profile.determined ? profile.slope : drills.plateau - centre;
       drills.curvature[i] = profile.curvature;

@@ -28,13 +28,13 @@ Sums sum(std::span<const float> joined, float centre) {
   return s;
 }
 
-Profile profile(double slope, double curvature) {
+FittedProfile profile(double slope, double curvature) {
   return {static_cast<float>(slope), static_cast<float>(curvature), true};
 }
 
 }  // namespace
 
-Profile fit_profile(std::span<const float> joined, float centre, double rises_to) {
+FittedProfile fit_profile(std::span<const float> joined, float centre, double rises_to) {
   const Sums s = sum(joined, centre);
   if (s.samples == 0) return {};
   const double determinant = s.r2 * s.r4 - s.r3 * s.r3;

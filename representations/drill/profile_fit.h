@@ -6,7 +6,7 @@
 
 namespace terrabench {
 
-struct Profile {
+struct FittedProfile {
   float slope = 0, curvature = 0;
   bool determined = false;  // false when the union holds no sample
 };
@@ -17,6 +17,6 @@ inline constexpr double kRisesNowhere = 0, kRisesEverywhere = std::numeric_limit
 // Least squares of slope·r + curvature·r² against joined[r - 1] - centre for r = 1 … w, so that the curve
 // passes through the centre, under the constraint that it does not fall up to r = `rises_to`. Distances
 // without a sample are ignored; with a single sample the curve is a line. O(w).
-Profile fit_profile(std::span<const float> joined, float centre, double rises_to);
+FittedProfile fit_profile(std::span<const float> joined, float centre, double rises_to);
 
 }  // namespace terrabench

@@ -2,17 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
 
-#include "experiments/drill/factorial.h"
+#include "experiments/drill/analysis.h"
+#include "experiments/drill/edges.h"
 #include "experiments/drill/ground.h"
 #include "experiments/figures/maps.h"
+#include "representations/drill/regenerate.h"
+#include "terrain/hydrology/channels.h"
 
 namespace terrabench::drill {
 namespace {
 
 // Outcomes of the 54 settings with the RMSE that `error` gives.
-template <class ErrorOf>
-std::vector<Outcome> outcomes(const ErrorOf& error) {
+template <class Error>
+std::vector<Outcome> outcomes(const Error& error) {
   std::vector<Outcome> all;
   for (const std::uint32_t tau : kTaus) {
     for (const int w : kWidths) {
@@ -67,6 +72,124 @@ TEST(DrillEffects, SomeLevelsAloneAndNoVarianceAtAll) {
   EXPECT_EQ(none.tau + none.w + none.k + none.interactions, 0);
 }
 
+TEST(DrillAnalysis, OutliersLieBeyondTheUpperFence) {
+  // Of 54 values the quartiles are those at 13.25 and 39.75: 14.25 and 40.75 when values count from 1.
+  std::vector<Outcome> all;
+  for (int i = 1; i <= 54; ++i) all.emplace_back().rmse = i;
+  EXPECT_EQ(without_outliers(all, rmse).size(), 54U);
+  all.back().rmse = 40.75 + 1.5 * 26.5;  // on the fence
+  EXPECT_EQ(without_outliers(all, rmse).size(), 54U);
+  all.back().rmse += 1e-6;
+  EXPECT_EQ(without_outliers(all, rmse).size(), 53U);
+}
+
+TEST(DrillAnalysis, CountsTheCasesThatRise) {
+  const Cases all = rising_with_tau(outcomes([](const Setting& s) { return s.tau; }), rmse);
+  EXPECT_EQ(all.rising, 18);
+  EXPECT_EQ(all.all, 18);
+  EXPECT_EQ(rising_with_tau(outcomes([](const Setting&) { return 1; }), rmse).rising, 0);
+  // Rises to 100 and falls to 200, at w = 5 alone.
+  const auto some = outcomes([](const Setting& s) { return s.w == 5 && s.tau == 200 ? 0.0 : s.tau; });
+  EXPECT_EQ(rising_with_tau(some, rmse).rising, 12);
+}
+
+TEST(DrillAnalysis, CountsDifferentFiniteValues) {
+  EXPECT_EQ(distinct(outcomes([](const Setting& s) { return s.tau + 1000 * s.w; }), rmse), 9U);
+  auto all = outcomes([](const Setting& s) { return s.k; });
+  all[0].rmse = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(distinct(all, rmse), 6U);
+}
+
+TEST(DrillAnalysis, RecordsSharesOfGoodSetsAndSetsAboveOne) {
+  // 18 sets at 0.02, 18 at 0.026 and 18 at 1.5: no outliers.
+  const auto all = outcomes([](const Setting& s) { return s.tau == 25 ? 0.02 : s.tau == 100 ? 0.026 : 1.5; });
+  Record record;
+  Recorder recorder(record, "out");
+  record_error(all, "x_", rmse, recorder);
+  const auto value = [&](std::string_view metric) { return record.find(metric)->samples.at(0); };
+  EXPECT_EQ(value("x_sets_in_range"), 18);
+  EXPECT_EQ(value("x_good_sets"), 54);
+  EXPECT_DOUBLE_EQ(value("x_good_in_range"), 1.0 / 3);
+  EXPECT_EQ(value("x_sets_above_1"), 18);
+  EXPECT_EQ(value("x_cases_rising_with_tau"), 18);
+  EXPECT_EQ(value("x_best_tau"), 25);
+}
+
+TEST(DrillAnalysis, RecordsNothingElseWhereAnErrorIsInfinite) {
+  auto all = outcomes([](const Setting& s) { return s.k; });
+  all[7].rmse = std::numeric_limits<double>::infinity();
+  Record record;
+  Recorder recorder(record, "out");
+  record_error(all, "", rmse, recorder);
+  ASSERT_EQ(record.metrics.size(), 1U);
+  EXPECT_EQ(record.find("infinite_sets")->samples.at(0), 1);
+  add_share(recorder, "share", all[7].rmse);
+  EXPECT_EQ(record.metrics.size(), 1U);
+}
+
+TEST(DrillFactorial, ReadsEquationThreeInTwelveWays) {
+  std::set<std::string> names;
+  for (const Reading& reading : kReadings) names.insert(reading.name());
+  EXPECT_EQ(names.size(), 12U);
+  EXPECT_EQ(kReadings[0].name(), "mean-plane");
+  const Heightfield ground = crop(noise_hills(90, 3), 0, 0, 90, 70);
+  for (const Variant& variant : kVariants) {
+    const FlowNetwork network = variant.route(ground);
+    const Setting setting{25, 5, 6};
+    const Drills drills = extract_drills(ground, network, options_for(setting, variant));
+    const Heightfield regenerated = regenerate(drills);
+    const Outcome outcome = compare(ground, network, drills, regenerated, setting, variant);
+    for (std::size_t r = 0; r < kReadings.size(); ++r) {
+      const ChannelDistance distance =
+          channel_distance(ground, channel_pixels(network, 25), regenerated,
+                           channel_pixels(variant.route(regenerated), 25), kReadings[r].space);
+      EXPECT_EQ(outcome.ahd[r], distance.normalised(kReadings[r].average)) << kReadings[r].name();
+    }
+    std::size_t plateau = 0;
+    for (const float h : regenerated.heights) plateau += h >= height_range(ground).highest;
+    EXPECT_DOUBLE_EQ(outcome.untouched, static_cast<double>(plateau) / (90 * 70));
+    EXPECT_EQ(outcome.drills, channel_pixels(network, 25).size());
+  }
+}
+
+TEST(DrillFactorial, AllReadingsAndVariantsAreCases) {
+  const std::vector<Case> cases = experiment("drill.readings").cases({});
+  EXPECT_EQ(cases.size(), 36U);
+  for (const Case& at : cases)
+    EXPECT_EQ(kReadings[at.parameters.choice("reading")].name(), at.parameters.text("reading"));
+}
+
+// One drill that rises by 2 m per sample in a window of 5 × 5 on a plateau of 100 m.
+Drills one_drill() {
+  Drills drills;
+  drills.width = drills.depth = 9;
+  drills.plateau = 100;
+  drills.k = 2;
+  drills.pixel = {40};  // the centre
+  drills.direction = {FlowNetwork::kOutlet};
+  drills.elevation = {50};
+  drills.slope = {2};
+  drills.curvature = {0};
+  return drills;
+}
+
+TEST(DrillEdges, AreWhereAWindowEnds) {
+  const EdgeSteps edges = edge_steps(one_drill());
+  EXPECT_EQ(edges.across.pairs, 20U);  // 5 per side
+  EXPECT_EQ(edges.across.pairs + edges.inside.pairs, 2U * 9 * 8);
+  EXPECT_FLOAT_EQ(static_cast<float>(edges.across.largest), 46);  // beside the middle of a side
+  EXPECT_FLOAT_EQ(static_cast<float>(edges.inside.largest), 2);
+  EXPECT_EQ(edges.across.largest, steps(regenerate(one_drill())).largest);
+}
+
+TEST(DrillEdges, AHigherPlateauMakesHigherSteps) {
+  Drills drills = one_drill();
+  drills.plateau = 200;
+  EXPECT_GT(edge_steps(drills).across.largest, edge_steps(one_drill()).across.largest + 99);
+  drills.k = 8;  // the window covers all: no border
+  EXPECT_EQ(edge_steps(drills).across.pairs, 0U);
+}
+
 TEST(DrillGround, NoiseIsWholeMetresAndItsSeeds) {
   for (const char* const name : {"noise-ridges", "noise-hills"}) {
     const TerrainSource one = open_ground(name, 1), again = open_ground(name, 1), two = open_ground(name, 2);
@@ -115,6 +238,16 @@ double luminance(const Rgb& colour, Eyes eyes) {
     c[2] = blue;
   }
   return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+}
+
+// As the caption of figure 1 says.
+TEST(DrillColours, TheHighestIsWhiteThenBrownGreenAndBlue) {
+  EXPECT_EQ(figures::elevation_colour(1), (Rgb{255, 255, 255}));
+  const Rgb brown = figures::elevation_colour(2.0 / 3), green = figures::elevation_colour(1.0 / 3),
+            blue = figures::elevation_colour(0);
+  EXPECT_TRUE(brown[0] > brown[1] && brown[1] > brown[2]);
+  EXPECT_TRUE(green[1] > green[0] && green[1] > green[2]);
+  EXPECT_TRUE(blue[2] > blue[1] && blue[1] > blue[0]);
 }
 
 TEST(DrillColours, ChannelsStandOutOnEveryElevationForAllEyes) {

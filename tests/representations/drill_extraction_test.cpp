@@ -124,7 +124,7 @@ TEST(ProfileFit, IsTheLeastSquaresUnderItsBounds) {
     }
     if (samples.size() < 2) continue;
     for (const double rises_to : {kRisesNowhere, kRisesEverywhere, static_cast<double>(w) * 1.5}) {
-      const Profile fit = fit_profile(joined, 300, rises_to);
+      const FittedProfile fit = fit_profile(joined, 300, rises_to);
       ASSERT_TRUE(fit.determined);
       const double error = squared_error(samples, fit.slope, fit.curvature);
       const double expected = least_error(samples, rises_to);
@@ -141,7 +141,7 @@ TEST(ProfileFit, FollowsAnExactParabola) {
   std::vector<float> joined;
   for (int r = 1; r <= 10; ++r) joined.push_back(static_cast<float>(100 + 4 * r + 0.5 * r * r));
   for (const double rises_to : {kRisesNowhere, kRisesEverywhere, 14.0}) {
-    const Profile fit = fit_profile(joined, 100, rises_to);
+    const FittedProfile fit = fit_profile(joined, 100, rises_to);
     EXPECT_NEAR(fit.slope, 4, 1e-4);
     EXPECT_NEAR(fit.curvature, 0.5, 1e-5);
   }
@@ -149,7 +149,7 @@ TEST(ProfileFit, FollowsAnExactParabola) {
 
 TEST(ProfileFit, OfOneSampleIsALineAndOfNoneIsUndetermined) {
   const std::vector<float> one = {CrossSections::kNothing, 130}, none(4, CrossSections::kNothing);
-  const Profile line = fit_profile(one, 100, kRisesEverywhere);
+  const FittedProfile line = fit_profile(one, 100, kRisesEverywhere);
   EXPECT_FLOAT_EQ(line.slope, 15);
   EXPECT_EQ(line.curvature, 0);
   EXPECT_FALSE(fit_profile(none, 100, kRisesEverywhere).determined);

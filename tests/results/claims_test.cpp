@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "terrain/error.h"
@@ -62,6 +63,17 @@ TEST(Claims, EveryClaimOfThePapersIsThere) {
                                        "drill.channels.25",
                                        "drill.maxflow",
                                        "drill.error",
+                                       "drill.ahd.monotone.largest-plane",
+                                       "drill.ahd.readings",
+                                       "drill.ahd.above-one",
+                                       "drill.best.matrix",
+                                       "drill.every-case",
+                                       "drill.time.tau",
+                                       "drill.time.ratio",
+                                       "drill.untouched",
+                                       "drill.bottleneck",
+                                       "drill.edges",
+                                       "drill.extensions",
                                        "drill.best",
                                        "drill.tau",
                                        "drill.size",
@@ -103,6 +115,14 @@ TEST(Claims, EveryClaimOfThePapersIsThere) {
   for (int i = 1; i <= 16; ++i) figures("meshgrow", {i});
   figures("ght", {1, 5, 6, 7, 8, 9, 10, 13, 15, 17, 18, 19, 20, 21, 22, 23, 24});
   figures("drill", {1, 2, 3, 4});
+  // The fit as printed has each row that depends on the fit once more.
+  for (const char* row : {"factorial", "error.rmse",     "error.ahd",  "best",       "best.matrix",
+                          "tau.rmse",  "tau.rmse-order", "every-case", "tau.time",   "size",
+                          "time",      "time.tau",       "time.ratio", "bottleneck", "local-minima",
+                          "edges",     "untouched",      "extensions", "plateau",    "F3",
+                          "F4"}) {
+    expected.push_back(fmt::format("drill.printed.{}", row));
+  }
   figures("mrbsp", {1, 2});
   // A claim with several figures may be split: drill.error into drill.error.rmse and drill.error.ahd.
   for (const std::string& id : expected) {
@@ -145,6 +165,12 @@ TEST(Claims, TheLargestSizeAndFurtherGroundsAreMeasuredInThePaperProfileOnly) {
   }
 }
 
+// Which of 36 readings of one equation matches: a row each on the paper's ground, tables on the others.
+bool is_reading(const Claim& claim) {
+  return std::ranges::any_of(std::array{"drill.ahd.monotone.", "drill.ahd.printed.", "drill.ahd.d8."},
+                             [&](const char* reading) { return claim.id.starts_with(reading); });
+}
+
 TEST(Claims, EveryClaimOfTheDrillPaperIsJudgedOnFourGrounds) {
   const std::span<const Paper> all = papers();
   const auto drill = std::find_if(all.begin(), all.end(), [](const Paper& p) { return p.id == "drill"; });
@@ -152,7 +178,8 @@ TEST(Claims, EveryClaimOfTheDrillPaperIsJudgedOnFourGrounds) {
   std::set<std::string> ids;
   for (const Claim& claim : drill->claims) ids.insert(claim.id);
   for (const Claim& claim : drill->claims) {
-    if (on_further_ground(claim) || claim.id == "drill.time.growth") continue;  // has grounds of its own
+    if (on_further_ground(claim) || is_reading(claim)) continue;
+    if (claim.id == "drill.time.growth") continue;  // has grounds of its own
     for (const char* const ground : kDrillGrounds) EXPECT_TRUE(ids.contains(claim.id + ground)) << claim.id;
   }
 }

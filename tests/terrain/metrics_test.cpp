@@ -132,19 +132,22 @@ TEST(ChannelDistance, IsEquationThreeInEachReading) {
   const Heightfield a = random_grid(60, 41, 1), b = random_grid(60, 41, 2);
   const auto in_a = random_pixels(a.heights.size(), 0.04, 5), in_b = random_pixels(a.heights.size(), 0.01, 6);
   struct Expected {
-    ChannelReading reading;
+    ChannelSpace space;
     double cell_x, cell_z;
     bool elevation;
   };
-  for (const Expected& e : {Expected{ChannelReading::kPlane, 3, 4.5, false},
-                            {ChannelReading::kSpace, 3, 4.5, true},
-                            {ChannelReading::kSample, 1, 1, true}}) {
-    const ChannelDistance distance = channel_distance(a, in_a, b, in_b, e.reading);
-    EXPECT_NEAR(distance.from_original, slow_mean(a, in_a, b, in_b, e.cell_x, e.cell_z, e.elevation), 1e-9);
-    EXPECT_NEAR(distance.from_other, slow_mean(b, in_b, a, in_a, e.cell_x, e.cell_z, e.elevation), 1e-9);
-    EXPECT_EQ(distance.averaged_hausdorff(), std::max(distance.from_original, distance.from_other));
+  for (const Expected& e : {Expected{ChannelSpace::kPlane, 3, 4.5, false},
+                            {ChannelSpace::kPlaneSamples, 1, 1, false},
+                            {ChannelSpace::kSpace, 3, 4.5, true},
+                            {ChannelSpace::kSpaceSamples, 1, 1, true}}) {
+    const ChannelDistance distance = channel_distance(a, in_a, b, in_b, e.space);
+    EXPECT_NEAR(distance.from_original.mean, slow_mean(a, in_a, b, in_b, e.cell_x, e.cell_z, e.elevation),
+                1e-9);
+    EXPECT_NEAR(distance.from_other.mean, slow_mean(b, in_b, a, in_a, e.cell_x, e.cell_z, e.elevation), 1e-9);
+    EXPECT_EQ(distance.hausdorff(), std::max(distance.from_original.mean, distance.from_other.mean));
     EXPECT_DOUBLE_EQ(distance.corners, std::hypot(59 * e.cell_x, 40 * e.cell_z));
-    EXPECT_DOUBLE_EQ(distance.normalised(), distance.averaged_hausdorff() / distance.corners);
+    EXPECT_DOUBLE_EQ(distance.normalised(), distance.hausdorff() / distance.corners);
+    EXPECT_NEAR(distance.from_other.sum, distance.from_other.mean * static_cast<double>(in_b.size()), 1e-6);
   }
 }
 
@@ -154,20 +157,37 @@ TEST(ChannelDistance, TakesTheLargerMeanWhicheverWayItRuns) {
   const std::vector<std::uint32_t> one{0}, two{0, 10};
   for (const bool swapped : {false, true}) {
     const ChannelDistance distance =
-        channel_distance(field, swapped ? two : one, field, swapped ? one : two, ChannelReading::kPlane);
-    EXPECT_DOUBLE_EQ(distance.averaged_hausdorff(), 5);
+        channel_distance(field, swapped ? two : one, field, swapped ? one : two, ChannelSpace::kPlane);
+    EXPECT_DOUBLE_EQ(distance.hausdorff(), 5);
     EXPECT_DOUBLE_EQ(distance.normalised(), 0.5);
   }
+}
+
+// Of three channel pixels one is met, one is 1 and one 9 samples away; the other network's single pixel is
+// met.
+TEST(ChannelDistance, TheLargestAndTheSumBesideTheMean) {
+  Heightfield field = random_grid(11, 1, 1);
+  field.cell_x = 2;
+  const std::vector<std::uint32_t> many{0, 1, 9}, one{0};
+  using enum ChannelAverage;
+  const ChannelDistance metres = channel_distance(field, many, field, one, ChannelSpace::kPlane);
+  EXPECT_DOUBLE_EQ(metres.hausdorff(kLargest), 18);
+  EXPECT_DOUBLE_EQ(metres.hausdorff(kSum), 20);
+  EXPECT_DOUBLE_EQ(metres.hausdorff(kMean), 20.0 / 3);
+  EXPECT_DOUBLE_EQ(metres.normalised(kLargest), 0.9);
+  const ChannelDistance samples = channel_distance(field, one, field, many, ChannelSpace::kPlaneSamples);
+  EXPECT_DOUBLE_EQ(samples.hausdorff(kLargest), 9);
+  EXPECT_DOUBLE_EQ(samples.normalised(kSum), 1);
 }
 
 TEST(ChannelDistance, EqualNetworksAndEmptyOnes) {
   const Heightfield field = random_grid(20, 20, 1);
   const auto channels = random_pixels(400, 0.1, 2);
-  for (const auto reading : {ChannelReading::kPlane, ChannelReading::kSpace, ChannelReading::kSample}) {
-    EXPECT_EQ(channel_distance(field, channels, field, channels, reading).normalised(), 0);
-    EXPECT_EQ(channel_distance(field, {}, field, {}, reading).normalised(), 0);
-    EXPECT_TRUE(std::isinf(channel_distance(field, channels, field, {}, reading).normalised()));
-    EXPECT_TRUE(std::isinf(channel_distance(field, {}, field, channels, reading).normalised()));
+  for (const auto space : {ChannelSpace::kPlane, ChannelSpace::kSpace, ChannelSpace::kSpaceSamples}) {
+    EXPECT_EQ(channel_distance(field, channels, field, channels, space).normalised(), 0);
+    EXPECT_EQ(channel_distance(field, {}, field, {}, space).normalised(), 0);
+    EXPECT_TRUE(std::isinf(channel_distance(field, channels, field, {}, space).normalised()));
+    EXPECT_TRUE(std::isinf(channel_distance(field, {}, field, channels, space).normalised()));
   }
 }
 
@@ -175,15 +195,15 @@ TEST(Metrics, SameForAnyNumberOfThreads) {
   const Heightfield a = random_grid(200, 150, 1), b = random_grid(200, 150, 2);
   const auto in_a = random_pixels(a.heights.size(), 0.2, 5), in_b = random_pixels(a.heights.size(), 0.2, 6);
   const double rmse = elevation_error(a, b).rmse;
-  const double plane = channel_distance(a, in_a, b, in_b, ChannelReading::kPlane).averaged_hausdorff();
-  const double space = channel_distance(a, in_a, b, in_b, ChannelReading::kSpace).averaged_hausdorff();
+  const double plane = channel_distance(a, in_a, b, in_b, ChannelSpace::kPlane).hausdorff();
+  const double space = channel_distance(a, in_a, b, in_b, ChannelSpace::kSpace).hausdorff();
   for (const int threads : {1, 3}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
     tbb::task_arena(threads).execute([&] {
       EXPECT_EQ(elevation_error(a, b).rmse, rmse);
-      EXPECT_EQ(channel_distance(a, in_a, b, in_b, ChannelReading::kPlane).averaged_hausdorff(), plane);
-      EXPECT_EQ(channel_distance(a, in_a, b, in_b, ChannelReading::kSpace).averaged_hausdorff(), space);
+      EXPECT_EQ(channel_distance(a, in_a, b, in_b, ChannelSpace::kPlane).hausdorff(), plane);
+      EXPECT_EQ(channel_distance(a, in_a, b, in_b, ChannelSpace::kSpace).hausdorff(), space);
     });
   }
 }

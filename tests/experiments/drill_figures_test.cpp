@@ -1,0 +1,394 @@
+// The figures of "drill": that they show what they say, read back from the pictures themselves. For each, a
+// figure with other content must be found out.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "experiments/drill/analysis.h"
+#include "experiments/drill/figures.h"
+#include "experiments/drill/ground.h"
+#include "experiments/figures/maps.h"
+#include "representations/drill/regenerate.h"
+#include "terrain/hydrology/channels.h"
+#include "tests/experiments/sheet_reader.h"
+
+namespace terrabench::drill {
+namespace {
+
+// A ground of hills, and its mirror image: the same heights in other places.
+struct Grounds {
+  Heightfield one = crop(noise_hills(110, 3), 0, 0, 110, 90), other = one;
+  FlowNetwork network, other_network;
+  Grounds() {
+    for (int j = 0; j < one.depth; ++j) {
+      for (int i = 0; i < one.width; ++i) other.at(i, j) = one.at(one.width - 1 - i, j);
+    }
+    network = route_flow(one);
+    other_network = route_flow(other);
+  }
+  Study study() const { return {one, network, kVariants[0], "hills", ""}; }
+  Study mirrored() const { return {other, other_network, kVariants[0], "hills", ""}; }
+};
+
+const Grounds& grounds() {
+  static const Grounds both;
+  return both;
+}
+
+SheetReader read(figures::Sheet sheet) {
+  sheet.keep_all_colours();
+  return SheetReader(sheet);
+}
+
+// The place of a colour in the palette of elevations, whatever the light: shading only scales colours.
+double elevation_of(const Rgb& colour) {
+  constexpr std::size_t kSteps = 100;
+  static const auto directions = [] {
+    std::array<std::array<double, 3>, kSteps + 1> all{};
+    for (std::size_t step = 0; step <= kSteps; ++step) {
+      const Rgb at = figures::elevation_colour(static_cast<double>(step) / kSteps);
+      const double length = std::hypot(at[0], at[1], at[2]);
+      all[step] = {at[0] / length, at[1] / length, at[2] / length};
+    }
+    return all;
+  }();
+  const auto cosine = [&](const auto& d) { return d[0] * colour[0] + d[1] * colour[1] + d[2] * colour[2]; };
+  const auto best = std::max_element(directions.begin(), directions.end(),
+                                     [&](const auto& a, const auto& b) { return cosine(a) < cosine(b); });
+  return static_cast<double>(best - directions.begin()) / kSteps;
+}
+
+Rgb sample(const SheetReader& shown, const SheetReader::Picture& picture, const Heightfield& field, int i,
+           int j) {
+  return shown.pixel(picture, (i + 0.5) / field.width, (j + 0.5) / field.depth);
+}
+
+// The share of samples whose colour does not tell their height within a tenth of `range`; channels aside.
+double wrong_heights(const SheetReader& shown, const SheetReader::Picture& picture, const Heightfield& field,
+                     const HeightRange& range) {
+  int wrong = 0, read = 0;
+  for (int j = 0; j < field.depth; ++j) {
+    for (int i = 0; i < field.width; ++i) {
+      const Rgb colour = sample(shown, picture, field, i, j);
+      if (colour == figures::kChannel) continue;
+      const double t = std::clamp((field.at(i, j) - range.lowest) / (range.highest - range.lowest), 0.F, 1.F);
+      wrong += std::abs(elevation_of(colour) - t) > 0.1;
+      ++read;
+    }
+  }
+  return static_cast<double>(wrong) / read;
+}
+
+std::string words_over(const SheetReader& shown, const SheetReader::Picture& picture) {
+  for (const SheetReader::Words& words : shown.words) {
+    if (words.x == picture.x && words.y < picture.y && words.y > picture.y - 20) return words.text;
+  }
+  return "";
+}
+
+// Figure 1 of `study`, judged against a ground and its channels: what is wrong with it.
+std::vector<std::string> faults_of_channels(const SheetReader& shown, const Study& study) {
+  std::vector<std::string> faults;
+  if (shown.rows() != std::vector{2, 2, 1}) return {"not two rows of two panels and a key"};
+  const std::uint32_t taus[] = {25, 50, 100, 200};
+  for (std::size_t panel = 0; panel < 4; ++panel) {
+    const SheetReader::Picture& picture = shown.pictures[panel];
+    std::size_t channels = 0, misplaced = 0;
+    for (int j = 0; j < study.ground.depth; ++j) {
+      for (int i = 0; i < study.ground.width; ++i) {
+        const auto at = static_cast<std::size_t>(j * study.ground.width + i);
+        const bool channel = study.network.accumulation[at] >= taus[panel];
+        channels += channel;
+        misplaced += channel != (sample(shown, picture, study.ground, i, j) == figures::kChannel);
+      }
+    }
+    if (misplaced > 0) faults.push_back(fmt::format("τ = {}: {} pixels misplaced", taus[panel], misplaced));
+    std::string title = words_over(shown, picture);
+    std::erase(title, ',');
+    if (title.find(fmt::format("τ = {}: {} channel pixels", taus[panel], channels)) == std::string::npos) {
+      faults.push_back("title: " + title);
+    }
+    if (wrong_heights(shown, picture, study.ground, height_range(study.ground)) > 0.01) {
+      faults.push_back("heights");
+    }
+  }
+  return faults;
+}
+
+TEST(DrillFigures, ChannelsOverTheRelief) {
+  const SheetReader shown = read(channels_sheet(grounds().study()));
+  EXPECT_EQ(faults_of_channels(shown, grounds().study()), std::vector<std::string>{});
+  // Another ground; and the right ground with the channels of the other.
+  EXPECT_GE(faults_of_channels(read(channels_sheet(grounds().mirrored())), grounds().study()).size(), 8U);
+  const Study mixed{grounds().one, grounds().other_network, kVariants[0], "hills", ""};
+  EXPECT_GE(faults_of_channels(read(channels_sheet(mixed)), grounds().study()).size(), 4U);
+}
+
+// A polyline of a sheet.
+struct Drawn {
+  double thickness = 0, opacity = 1;
+  std::string colour, dashes;
+  std::vector<figures::SheetPoint> points;
+};
+
+std::vector<Drawn> lines_of(const figures::Sheet& sheet) {
+  std::vector<Drawn> lines;
+  std::istringstream svg(sheet.svg());
+  for (std::string text; std::getline(svg, text);) {
+    if (!text.starts_with("<polyline")) continue;
+    const auto value = [&](const std::string& key) {
+      const std::size_t at = text.find(" " + key + "=\"");
+      if (at == std::string::npos) return std::string();
+      const std::size_t begin = at + key.size() + 3;
+      return text.substr(begin, text.find('"', begin) - begin);
+    };
+    Drawn line{std::stod(value("stroke-width")),
+               std::stod(value("stroke-opacity")),
+               value("stroke"),
+               value("stroke-dasharray"),
+               {}};
+    std::istringstream points(value("points"));
+    for (std::string point; points >> point;) {
+      line.points.push_back({std::stod(point), std::stod(point.substr(point.find(',') + 1))});
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+// The highest of the 120 rays at each distance from a pixel, by the bilinear formula.
+std::vector<double> union_at(const Heightfield& field, std::uint32_t pixel, int w) {
+  const int i = static_cast<int>(pixel) % field.width, j = static_cast<int>(pixel) / field.width;
+  std::vector<double> highest(static_cast<std::size_t>(w) + 1, -1e30);
+  highest[0] = field.at(i, j);
+  for (int r = 1; r <= w; ++r) {
+    for (int ray = 0; ray < 120; ++ray) {
+      const double angle = ray * std::numbers::pi / 60;
+      const double x = i + r * std::cos(angle), z = j + r * std::sin(angle);
+      const int x0 = static_cast<int>(std::floor(x + 1e-9)), z0 = static_cast<int>(std::floor(z + 1e-9));
+      const double dx = x - x0, dz = z - z0;
+      const double north = field.at(x0, z0) * (1 - dx) + field.at(x0 + 1, z0) * dx;
+      const double south = field.at(x0, z0 + 1) * (1 - dx) + field.at(x0 + 1, z0 + 1) * dx;
+      highest[static_cast<std::size_t>(r)] =
+          std::max(highest[static_cast<std::size_t>(r)], north * (1 - dz) + south * dz);
+    }
+  }
+  return highest;
+}
+
+// The least squares parabola through the first height.
+std::vector<double> parabola(const std::vector<double>& heights) {
+  double r2 = 0, r3 = 0, r4 = 0, ry = 0, r2y = 0;
+  for (std::size_t i = 1; i < heights.size(); ++i) {
+    const auto r = static_cast<double>(i);
+    const double y = heights[i] - heights[0];
+    r2 += r * r;
+    r3 += r * r * r;
+    r4 += r * r * r * r;
+    ry += r * y;
+    r2y += r * r * y;
+  }
+  const double determinant = r2 * r4 - r3 * r3, slope = (ry * r4 - r2y * r3) / determinant,
+               curvature = (r2y * r2 - ry * r3) / determinant;
+  std::vector<double> fitted;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    const auto r = static_cast<double>(i);
+    fitted.push_back(heights[0] + slope * r + curvature * r * r);
+  }
+  return fitted;
+}
+
+// Figure 2 at a pixel of a ground: what is wrong with it.
+std::vector<std::string> faults_of_sections(const figures::Sheet& sheet, const Heightfield& ground,
+                                            std::uint32_t pixel) {
+  constexpr int kW = 20;
+  std::vector<std::string> faults;
+  const std::vector<Drawn> lines = lines_of(sheet);
+  const auto of = [&](const auto& test) {
+    std::vector<Drawn> found;
+    std::copy_if(lines.begin(), lines.end(), std::back_inserter(found), test);
+    return found;
+  };
+  const auto rays =
+      of([](const Drawn& l) { return l.thickness == 1.2 && l.points.size() == 2 && l.points[0].y < 480; });
+  const auto sections = of([](const Drawn& l) { return l.opacity == 0.85; });
+  const auto joint = of([](const Drawn& l) { return l.thickness == 4 && l.points.size() > 2; });
+  const auto printed = of([](const Drawn& l) { return l.dashes == "2,4" && l.points.size() > 2; });
+  if (rays.size() != 120 || sections.size() != 120) faults.push_back("not 120 rays and cross-sections");
+  if (joint.size() != 1 || printed.size() != 1) return {"no union or no fit"};
+  std::set<std::string> colours;
+  for (const Drawn& ray : rays) colours.insert(ray.colour);
+  if (colours.size() < 100) faults.push_back("rays share colours");
+  // The scale of the elevations, from two labels of the axis, each 4 units below its line.
+  std::map<double, double> labels;  // y to elevation
+  for (const SheetReader::Words& words : SheetReader(sheet, false).words) {
+    char* end = nullptr;
+    const double value = std::strtod(words.text.c_str(), &end);
+    if (*end == 0 && words.x < 520 && words.x > 500) labels[words.y - 4] = value;
+  }
+  if (labels.size() < 2) return {"no labels"};
+  const auto [top, high] = *labels.begin();
+  const auto [bottom, low] = *labels.rbegin();
+  const auto level = [&, top = top, high = high, bottom = bottom, low = low](double y) {
+    return high + (y - top) / (bottom - top) * (low - high);
+  };
+  const double within = (high - low) / 5000;  // points are given to a hundredth of a unit
+  const std::vector<double> highest = union_at(ground, pixel, kW), fitted = parabola(highest);
+  for (std::size_t r = 0; r < joint[0].points.size(); ++r) {
+    if (std::abs(level(joint[0].points[r].y) - highest[r]) > within) return {"union"};
+  }
+  if (joint[0].points.size() != highest.size()) faults.push_back("length of the union");
+  for (std::size_t r = 0; r + 1 < printed[0].points.size(); ++r) {
+    if (std::abs(level(printed[0].points[r].y) - fitted[r]) > within) return {"fit as printed"};
+  }
+  return faults;
+}
+
+TEST(DrillFigures, CrossSectionsTheirUnionAndFit) {
+  const Study study = grounds().study();
+  const std::uint32_t pixel = example_pixel(study);
+  ASSERT_GT(pixel, 0U);
+  const figures::Sheet sheet = cross_sections_sheet(study, pixel);
+  EXPECT_EQ(faults_of_sections(sheet, study.ground, pixel), std::vector<std::string>{});
+  EXPECT_EQ(SheetReader(sheet, false).pictures.size(), 2U);  // the map and its key
+  // The sections of the next pixel, and of the same pixel on another ground.
+  EXPECT_NE(faults_of_sections(cross_sections_sheet(study, pixel + 1), study.ground, pixel),
+            std::vector<std::string>{});
+  EXPECT_NE(faults_of_sections(cross_sections_sheet(grounds().mirrored(), pixel), study.ground, pixel),
+            std::vector<std::string>{});
+}
+
+Outcome outcome_at(const Study& study, const Setting& setting) {
+  const Drills drills = extract_drills(study.ground, study.network, options_for(setting, study.variant));
+  return compare(study.ground, study.network, drills, regenerate(drills), setting, study.variant);
+}
+
+// Figure 3 and the differences for two outcomes of a ground: what is wrong with them.
+std::vector<std::string> faults_of_best(const BestSheets& sheets, const Study& study, const Outcome& rmse,
+                                        const Outcome& ahd) {
+  std::vector<std::string> faults;
+  const SheetReader terrains = read(sheets.terrains), differences = read(sheets.differences);
+  if (terrains.rows() != std::vector{2, 1} || differences.rows() != std::vector{2, 1}) {
+    return {"not two panels and a key"};
+  }
+  for (std::size_t panel = 0; panel < 2; ++panel) {
+    const Outcome& outcome = panel == 0 ? rmse : ahd;
+    const Heightfield regenerated =
+        regenerate(extract_drills(study.ground, study.network, options_for(outcome.setting, study.variant)));
+    std::size_t plateau = 0, wrong_sign = 0;
+    const float highest = height_range(study.ground).highest;
+    for (const float h : regenerated.heights) plateau += h >= highest;
+    const double untouched =
+        100.0 * static_cast<double>(plateau) / static_cast<double>(regenerated.heights.size());
+    const std::string title =
+        fmt::format("({}) least {}: τ = {}, w = {}, k = {}; ", panel == 0 ? "a" : "b",
+                    panel == 0 ? "RMSE" : "AHD", outcome.setting.tau, outcome.setting.w, outcome.setting.k);
+    if (words_over(terrains, terrains.pictures[panel]) !=
+        fmt::format("{}{:.1f} % untouched", title, untouched)) {
+      faults.push_back("title of the terrain");
+    }
+    if (words_over(differences, differences.pictures[panel]) !=
+        fmt::format("{}RMSE {:.1f} m", title, outcome.rmse_metres)) {
+      faults.push_back("title of the difference");
+    }
+    if (wrong_heights(terrains, terrains.pictures[panel], regenerated, height_range(study.ground)) > 0.01) {
+      faults.push_back("heights");
+    }
+    for (int j = 0; j < study.ground.depth; ++j) {
+      for (int i = 0; i < study.ground.width; ++i) {
+        const double difference = regenerated.at(i, j) - study.ground.at(i, j);
+        if (std::abs(difference) < rmse.rmse_metres) continue;
+        const Rgb colour = sample(differences, differences.pictures[panel], study.ground, i, j);
+        wrong_sign += (difference > 0) != (colour[0] > colour[2]);
+      }
+    }
+    if (wrong_sign > 0) faults.push_back("signs of the difference");
+  }
+  return faults;
+}
+
+TEST(DrillFigures, TerrainsOfLeastErrorAndTheirDifference) {
+  for (const Variant& variant : kFits) {
+    Study study{grounds().one, grounds().network, variant, "hills", ""};
+    const Outcome rmse = outcome_at(study, {25, 10, 10}), ahd = outcome_at(study, {100, 5, 5});
+    EXPECT_GT(ahd.untouched, 0.01);
+    EXPECT_EQ(faults_of_best(best_sheets(study, rmse, ahd), study, rmse, ahd), std::vector<std::string>{});
+    if (!variant.is_first()) continue;
+    EXPECT_GE(faults_of_best(best_sheets(study, ahd, rmse), study, rmse, ahd).size(), 6U);
+    EXPECT_GE(faults_of_best(best_sheets(grounds().mirrored(), rmse, ahd), study, rmse, ahd).size(), 4U);
+  }
+}
+
+// Errors that no other set has, so that numbers tell their places.
+std::vector<Outcome> numbered_outcomes() {
+  std::vector<Outcome> outcomes;
+  double number = 1;
+  for (const std::uint32_t tau : kTaus) {
+    for (const int w : kWidths) {
+      for (const int k : kInfluences) {
+        Outcome& outcome = outcomes.emplace_back();
+        outcome.setting = {tau, w, k};
+        outcome.rmse = 0.0101 * number;
+        outcome.ahd[0] = 0.0001001 * (100 - number);
+        ++number;
+      }
+    }
+  }
+  return outcomes;
+}
+
+// Figure 4 of these outcomes: the cells whose number is wrong, in both columns; -1 when cells are missing.
+int wrong_cells(const figures::Sheet& sheet, std::vector<Outcome> outcomes) {
+  // In the order of reading: a matrix per w, a row per τ, a column per k.
+  std::stable_sort(outcomes.begin(), outcomes.end(), [](const Outcome& a, const Outcome& b) {
+    return std::tie(a.setting.w, a.setting.tau, a.setting.k) <
+           std::tie(b.setting.w, b.setting.tau, b.setting.k);
+  });
+  const SheetReader shown(sheet);
+  const double middle = shown.image.width / 4.0, bottom = shown.image.height / 2.0 - 40;
+  int wrong = 0;
+  for (const bool left : {true, false}) {
+    std::vector<SheetReader::Words> cells;
+    for (const SheetReader::Words& words : shown.words) {
+      char* end = nullptr;
+      std::strtod(words.text.c_str(), &end);
+      if (*end == 0 && (words.x < middle) == left && words.y < bottom) cells.push_back(words);
+    }
+    if (cells.size() != outcomes.size()) return -1;
+    std::sort(cells.begin(), cells.end(),
+              [](const auto& a, const auto& b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); });
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const Outcome& o = outcomes[c];
+      wrong +=
+          cells[c].text != (left ? fmt::format("{:.4f}", o.rmse) : fmt::format("{:.3f}", 1000 * o.ahd[0]));
+    }
+    // The least is blue, the largest red.
+    const auto colour_of = [&](const SheetReader::Words& cell) {
+      return shown.image.pixel(static_cast<int>(2 * cell.x) - 60, static_cast<int>(2 * cell.y) - 30);
+    };
+    const auto by_value = [](const auto& a, const auto& b) { return std::stod(a.text) < std::stod(b.text); };
+    const Rgb least = colour_of(*std::min_element(cells.begin(), cells.end(), by_value)),
+              most = colour_of(*std::max_element(cells.begin(), cells.end(), by_value));
+    wrong += !(least[2] > least[0] + 80) + !(most[0] > most[2] + 80);
+  }
+  return wrong;
+}
+
+TEST(DrillFigures, MatricesHoldTheErrorsOfTheirSets) {
+  const std::vector<Outcome> outcomes = numbered_outcomes();
+  EXPECT_EQ(wrong_cells(error_matrices_sheet(outcomes), outcomes), 0);
+  std::vector<Outcome> swapped = outcomes;
+  std::swap(swapped[3].rmse, swapped[40].rmse);
+  EXPECT_EQ(wrong_cells(error_matrices_sheet(swapped), outcomes), 2);
+  std::swap(swapped[0].ahd, swapped[1].ahd);
+  EXPECT_GE(wrong_cells(error_matrices_sheet(swapped), outcomes), 4);
+}
+
+}  // namespace
+}  // namespace terrabench::drill
