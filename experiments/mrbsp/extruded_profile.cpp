@@ -56,12 +56,9 @@ Heightfield extrude(std::span<const float> profile) {
   return strip;
 }
 
-visibility::ChangeTable find_changes(const Heightfield& strip, bool conservative, Progress& progress) {
+visibility::ChangeTable find_changes(const Heightfield& strip, visibility::Mode mode, Progress& progress) {
   const visibility::Options options{
-      .mode = conservative ? visibility::Mode::kConservative : visibility::Mode::kSampled,
-      .cells = kProfileCells,
-      .coarseness = kStripDepth - kStripCoarseDepth,
-      .eye_height = 0};
+      .mode = mode, .cells = kProfileCells, .coarseness = kStripDepth - kStripCoarseDepth, .eye_height = 0};
   const BisectionTree tree = BisectionTree::over(strip.width, strip.depth, kStripDepth);
   return changes_of(find_sets(grid_of(strip), tree, options, progress));
 }

@@ -31,7 +31,7 @@ std::span<const float> table1_profile();
 Heightfield extrude(std::span<const float> profile);
 
 // Changes in visibility for eyes on the ground, by triangles as long as the coarse segments.
-visibility::ChangeTable find_changes(const Heightfield& strip, bool conservative, Progress&);
+visibility::ChangeTable find_changes(const Heightfield& strip, visibility::Mode, Progress&);
 
 // The segments whose visibility changes from one cell to the next, ascending.
 struct ProfileStep {

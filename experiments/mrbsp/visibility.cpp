@@ -19,8 +19,8 @@ namespace terrabench::mrbsp {
 namespace {
 
 constexpr std::int64_t kCoarseness = 6;  // of most cases
-constexpr std::array kSpecs{
-    ParameterSpec{"conservative", false, "", "sets that miss nothing instead of the paper's sampling"},
+const std::array kSpecs{
+    choice("sets", visibility::kModeNames, "how the visible sets are computed"),
     ParameterSpec{"cells", std::int64_t{16}, "cells", "largest number along the longer side", 1, 256},
     ParameterSpec{"coarseness", kCoarseness, "levels", "between the finest triangles and those of visibility",
                   0, 14},
@@ -89,23 +89,27 @@ void look_around(const Heightfield& ground, const glm::vec3& eye, Mrbsp& full, F
 std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   const bool paper = options.profile == Profile::kPaper;
-  const auto add = [&](const std::string& ground, bool conservative, std::int64_t cells,
+  const auto add = [&](const std::string& ground, visibility::Mode sets, std::int64_t cells,
                        std::int64_t coarseness) {
-    const std::string_view sets = conservative ? "conservative" : "sampled";
-    std::string name = fmt::format("{}/{}/cells={}", ground, sets, cells);
+    std::string name = fmt::format("{}/{}/cells={}", ground, name_of(sets), cells);
     if (coarseness != kCoarseness) name += fmt::format("/coarseness={}", coarseness);
-    cases.push_back({std::move(name),
-                     {kSpecs, {{"conservative", conservative}, {"cells", cells}, {"coarseness", coarseness}}},
-                     ground});
+    cases.push_back(
+        {std::move(name),
+         {kSpecs, {{"sets", std::string(name_of(sets))}, {"cells", cells}, {"coarseness", coarseness}}},
+         ground});
   };
+  using visibility::Mode;
   for (const std::string& ground : grounds(options, paper)) {
-    for (const bool conservative : {false, true}) {
+    for (const Mode sets : {Mode::kSampled, Mode::kConservative}) {
       for (const int cells : {16, 32, 64}) {
-        if (cells == 16 || !conservative || paper) add(ground, conservative, cells, kCoarseness);
+        if (cells == 16 || sets == Mode::kSampled || paper) add(ground, sets, cells, kCoarseness);
       }
     }
+    for (const Mode sets : {Mode::kVertices, Mode::kFacing, Mode::kInterior}) {
+      add(ground, sets, 16, kCoarseness);
+    }
     // At the paper's depth of 16, an even coarseness gives squares that are one level coarser.
-    for (const int coarseness : {4, 8}) add(ground, false, 16, coarseness);
+    for (const int coarseness : {4, 8}) add(ground, Mode::kSampled, 16, coarseness);
   }
   return cases;
 }
@@ -115,8 +119,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const Heightfield& ground = *source.heights;
   Mrbsp full(ground, {.depth = depth_over(ground)}, progress);
   full.tune(kFinest);
-  const visibility::Options how{.mode = at.parameters.flag("conservative") ? visibility::Mode::kConservative
-                                                                           : visibility::Mode::kSampled,
+  const visibility::Options how{.mode = static_cast<visibility::Mode>(at.parameters.choice("sets")),
                                 .cells = at.integer("cells"),
                                 .coarseness = at.integer("coarseness")};
   const Stopwatch watch;

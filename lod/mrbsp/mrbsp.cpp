@@ -48,7 +48,7 @@ std::unique_ptr<Lod> Mrbsp::build(const LodGround& from, const Parameters& param
   const MrbspOptions options = options_of(parameters);
   const std::string& file = parameters.text("visibility_file");
   if (!file.empty() && !options.visibility) {
-    throw usage_error("a file needs visibility=sampled or visibility=conservative", "visibility_file",
+    throw usage_error("a file needs sets to hold, such as visibility=sampled", "visibility_file",
                       "set visibility, or leave the file out");
   }
   return std::make_unique<Mrbsp>(ground, options, progress, file);
