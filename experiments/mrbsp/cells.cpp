@@ -22,7 +22,7 @@ std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const std::string& ground :
        paper ? grounds(options, true) : terrabench::grounds(options, {"real-257"})) {
-    cases.push_back({ground, {kSpecs, {{"views", std::int64_t{paper ? 24 : 8}}}}, ground});
+    cases.push_back({ground, {kSpecs, {{"views", std::int64_t{paper ? 12 : 8}}}}, ground});
   }
   return cases;
 }

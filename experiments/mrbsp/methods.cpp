@@ -10,17 +10,35 @@
 
 namespace terrabench::mrbsp {
 
-Methods::Methods(const Heightfield& ground, visibility::Mode mode, Progress& progress) {
-  const MrbspOptions options{.depth = depth_over(ground), .conforming = false};  // as printed
-  MrbspOptions with_visibility = options;
-  with_visibility.visibility = true;
-  with_visibility.visible.mode = mode;
+namespace {
+
+MrbspOptions as_printed(const Heightfield& ground) {
+  return {.depth = depth_over(ground), .conforming = false};
+}
+
+visibility::ChangeTable sets_over(const Heightfield& ground, visibility::Mode mode, Progress& progress) {
+  MrbspOptions options = as_printed(ground);
+  options.visibility = true;
+  options.visible.mode = mode;
+  return Mrbsp(ground, options, progress).visibility();
+}
+
+}  // namespace
+
+Methods::Methods(const Heightfield& ground, visibility::Mode mode, Progress& progress)
+    : Methods(ground, sets_over(ground, mode, progress), progress) {}
+
+Methods::Methods(const Heightfield& ground, const visibility::ChangeTable& sets, Progress& progress) {
+  const MrbspOptions options = as_printed(ground);
   lods.reserve(kMethods);
-  lods.emplace_back(ground, options, progress);
-  lods.emplace_back(ground, options, progress);
-  lods.emplace_back(ground, with_visibility, progress);
-  lods.emplace_back(ground, options, lods[kVis].visibility(), progress);
-  for (Mrbsp& lod : lods) lod.tune(kFinest);
+  for (std::size_t m = 0; m < kMethods; ++m) {
+    if (m == kVis || m == kBoth) {
+      lods.emplace_back(ground, options, sets, progress);
+    } else {
+      lods.emplace_back(ground, options, progress);
+    }
+    lods.back().tune(kFinest);
+  }
 }
 
 void Methods::tune(double size) {

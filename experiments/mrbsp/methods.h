@@ -18,6 +18,7 @@ struct Methods {
   std::vector<Mrbsp> lods;  // by Method
 
   Methods(const Heightfield&, visibility::Mode mode, Progress&);
+  Methods(const Heightfield&, const visibility::ChangeTable&, Progress&);  // with sets found before
   void tune(double size);  // of level of detail; the others draw the finest triangles
 };
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <memory>
 
 #include "experiments/experiment.h"
 #include "experiments/mrbsp/methods.h"
@@ -20,6 +22,24 @@ const std::array kSpecs{
 };
 constexpr int kViews = 240;
 constexpr double kEqualPictures = 100;  // dB, in place of infinity
+
+// The difference from brute force over all pictures of a method.
+struct Difference {
+  double squares = 0;  // sum of mean squared errors, as a share of white's square
+  double ssim = 0, least_ssim = 1;
+  std::size_t pictures = 0;
+
+  void add(const Image& brute, const Image& image) {
+    const double similarity = terrabench::ssim(brute, image);
+    squares += std::pow(10, -psnr(brute, image) / 10);
+    ssim += similarity;
+    least_ssim = std::min(least_ssim, similarity);
+    ++pictures;
+  }
+  double pooled_psnr() const {
+    return std::min(-10 * std::log10(squares / static_cast<double>(pictures)), kEqualPictures);
+  }
+};
 
 std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
@@ -52,6 +72,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const HeightRange range = height_range(ground);
   const FrameStyle style{.lowest = range.lowest, .highest = range.highest};
   const std::vector<View> views = some_of(all, static_cast<std::size_t>(at.parameters.integer("views")));
+  std::array<Difference, kMethods> differences;
   progress.begin("comparing pictures", views.size());
   for (View view : views) {
     view.near = kWalkersNear;
@@ -59,17 +80,24 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     for (std::size_t m = 0; m < kMethods; ++m) {
       renderers[m]->draw(methods.lods[m].update(view), view, style);
       const Image image = renderers[m]->image();
-      if (m == kBrute) {
-        brute = image;
-        continue;
-      }
-      recorder.add(fmt::format("psnr_{}", kMethodNames[m]), "dB",
-                   std::min(psnr(brute, image), kEqualPictures));
-      recorder.add(fmt::format("ssim_{}", kMethodNames[m]), "", ssim(brute, image));
+      if (m == kBrute) brute = image;
+      differences[m].add(brute, image);
     }
     progress.advance();
   }
   progress.end();
+  const double drawn_by_brute = mean_triangles(methods.lods[kBrute], all);
+  for (const Method m : {kLod, kVis, kBoth}) {
+    const Difference& difference = differences[m];
+    const auto add = [&](std::string_view metric, std::string_view unit, double value) {
+      recorder.add(fmt::format("{}_{}", metric, kMethodNames[m]), unit, value);
+    };
+    add("psnr", "dB", difference.pooled_psnr());
+    add("mean_ssim", "", difference.ssim / static_cast<double>(difference.pictures));
+    add("least_ssim", "", difference.least_ssim);
+    add("share", "", mean_triangles(methods.lods[m], all) / drawn_by_brute);
+  }
+  recorder.add("pictures", "", views.size());
 }
 
 }  // namespace

@@ -8,8 +8,9 @@
 #include <unordered_set>
 
 #include "experiments/experiment.h"
-#include "experiments/mrbsp/ground.h"
+#include "experiments/mrbsp/extruded_profile.h"
 #include "experiments/mrbsp/lost_pixels.h"
+#include "experiments/mrbsp/methods.h"
 #include "experiments/stopwatch.h"
 #include "lod/mrbsp/visibility/coarse_squares.h"
 #include "lod/mrbsp/visibility/codec.h"
@@ -25,7 +26,7 @@ const std::array kSpecs{
     ParameterSpec{"coarseness", kCoarseness, "levels", "between the finest triangles and those of visibility",
                   0, 14},
 };
-constexpr int kPixels = 512;
+constexpr int kPixels = 512, kViews = 240;
 
 struct Misses {
   std::size_t seen = 0, missed = 0, pixels = 0, missed_pixels = 0, eyes = 0;
@@ -114,30 +115,24 @@ std::vector<Case> cases(const RunOptions& options) {
   return cases;
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
-  const Heightfield& ground = *source.heights;
-  Mrbsp full(ground, {.depth = depth_over(ground)}, progress);
-  full.tune(kFinest);
-  const visibility::Options how{.mode = static_cast<visibility::Mode>(at.parameters.choice("sets")),
-                                .cells = at.integer("cells"),
-                                .coarseness = at.integer("coarseness")};
-  const Stopwatch watch;
-  const visibility::Sets sets = find_sets(grid_of(ground), full.tree(), how, progress);
-  recorder.add("preprocessing_time", "s", watch.seconds());
-  std::size_t visible = 0;
-  for (int cell = 0; cell < sets.cells.count(); ++cell) visible += sets.count(cell);
-  recorder.add("cells", "", sets.cells.count());
-  recorder.add("coarse_triangles", "", std::uint64_t{1} << sets.depth);
-  recorder.add("visible_share", "",
-               static_cast<double>(visible) / sets.cells.count() / std::exp2(sets.depth));
-  const visibility::EncodedSizes bytes = encoded_sizes(changes_of(sets));
-  recorder.add("bytes_changes", "B", bytes.changes);
-  recorder.add("bytes_lists", "B", bytes.lists);
-  recorder.add("bytes_bits", "B", bytes.bits);
-  recorder.add("changes_to_lists", "", static_cast<double>(bytes.changes) / static_cast<double>(bytes.lists));
-  recorder.add("changes_to_bits", "", static_cast<double>(bytes.changes) / static_cast<double>(bytes.bits));
+// What tables 1 and 2 become with these sets.
+void record_tables(const Heightfield& ground, const visibility::ChangeTable& changes, Recorder& recorder,
+                   Progress& progress) {
+  const Heightfield strip = extrude(table1_profile());
+  recorder.add(
+      "table1_lines_that_differ", "",
+      lines_unlike_table1(profile_steps(strip, find_changes(strip, changes.mode, progress), progress)));
+  const std::vector<View> views = walk(ground, kViews);
+  Methods methods(ground, changes, progress);
+  methods.tune(fitted_size(methods, views));
+  const double brute = mean_triangles(methods.lods[kBrute], views);
+  recorder.add("table2_share_vis", "", mean_triangles(methods.lods[kVis], views) / brute);
+  recorder.add("table2_share_both", "", mean_triangles(methods.lods[kBoth], views) / brute);
+}
 
+// Pictures from random eyes against the sets.
+void record_misses(const Heightfield& ground, Mrbsp& full, const visibility::Sets& sets,
+                   const RunOptions& options, Recorder& recorder, Progress& progress) {
   const auto context = open_context(options.renderer, kPixels, kPixels);
   FrameRenderer renderer(*context);
   const visibility::CoarseSquares squares(full.tree(), sets.depth);
@@ -159,6 +154,35 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("missed_share", "", share(misses.missed, misses.seen));
   recorder.add("missed_pixel_share", "", share(misses.missed_pixels, misses.pixels));
   recorder.add("missed_pixel_share_most", "", misses.worst_eye);
+}
+
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
+  const Heightfield& ground = *source.heights;
+  Mrbsp full(ground, {.depth = depth_over(ground)}, progress);
+  full.tune(kFinest);
+  const visibility::Options how{.mode = static_cast<visibility::Mode>(at.parameters.choice("sets")),
+                                .cells = at.integer("cells"),
+                                .coarseness = at.integer("coarseness")};
+  const Stopwatch watch;
+  const visibility::Sets sets = find_sets(grid_of(ground), full.tree(), how, progress);
+  recorder.add("preprocessing_time", "s", watch.seconds());
+  std::size_t visible = 0;
+  for (int cell = 0; cell < sets.cells.count(); ++cell) visible += sets.count(cell);
+  recorder.add("cells", "", sets.cells.count());
+  recorder.add("coarse_triangles", "", std::uint64_t{1} << sets.depth);
+  recorder.add("visible_share", "",
+               static_cast<double>(visible) / sets.cells.count() / std::exp2(sets.depth));
+  const visibility::ChangeTable changes = changes_of(sets);
+  const visibility::EncodedSizes bytes = encoded_sizes(changes);
+  recorder.add("bytes_changes", "B", bytes.changes);
+  recorder.add("bytes_lists", "B", bytes.lists);
+  recorder.add("bytes_bits", "B", bytes.bits);
+  recorder.add("changes_to_lists", "", static_cast<double>(bytes.changes) / static_cast<double>(bytes.lists));
+  recorder.add("changes_to_bits", "", static_cast<double>(bytes.changes) / static_cast<double>(bytes.bits));
+
+  record_tables(ground, changes, recorder, progress);
+  record_misses(ground, full, sets, options, recorder, progress);
 }
 
 }  // namespace

@@ -176,8 +176,8 @@ std::vector<Case> cases(const RunOptions& options) {
     // Drawing a frame takes a hundred times as long as counting its triangles.
     const bool real = ground == "real-257";
     const int pictures = paper ? kViews : ground == "rough-257" ? 0 : 80;
-    add("printed", 1, visibility::Mode::kSampled, paper ? 24 : real ? 8 : 0, 0);
-    add("fitted", 0, visibility::Mode::kSampled, paper ? 24 : real ? 8 : 0, pictures);
+    add("printed", 1, visibility::Mode::kSampled, paper ? 12 : real ? 8 : 0, 0);
+    add("fitted", 0, visibility::Mode::kSampled, paper ? 12 : real ? 8 : 0, pictures);
     for (const visibility::Mode sets : {visibility::Mode::kVertices, visibility::Mode::kFacing,
                                         visibility::Mode::kInterior, visibility::Mode::kConservative}) {
       const bool always = real || sets == visibility::Mode::kConservative;
