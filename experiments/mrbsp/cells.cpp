@@ -47,7 +47,13 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     recorder.add(fmt::format("share_{}", kCells[k]), "", mean_triangles(lods[k + 1], all) / brute);
   }
   const std::vector<View> views = some_of(all, static_cast<std::size_t>(at.parameters.integer("views")));
-  for (const RoundTimes& round : time_rounds(lods, ground, views, at.integer("rounds"), options, progress)) {
+  const std::vector<RoundTimes> rounds =
+      time_rounds(lods, ground, views, at.integer("rounds"), options, progress);
+  const std::vector<double> least = least_times(rounds);
+  for (std::size_t k = 0; k < kCells.size(); ++k) {
+    recorder.add(fmt::format("least_time_share_{}", kCells[k]), "", least[k + 1] / least[0]);
+  }
+  for (const RoundTimes& round : rounds) {
     for (std::size_t k = 0; k < kCells.size(); ++k) {
       recorder.add(fmt::format("frame_time_{}", kCells[k]), "s",
                    round.of(k + 1) / static_cast<double>(views.size()));

@@ -7,6 +7,7 @@
 #include "experiments/figures/sheet.h"
 #include "experiments/mrbsp/extruded_profile.h"
 #include "lod/mrbsp/mrbsp.h"
+#include "results/plot.h"
 #include "terrain/image.h"
 #include "terrain/view.h"
 
@@ -22,6 +23,11 @@ figures::Sheet lod_sheet(const Heightfield&, Mrbsp&, const View&, const RunOptio
 // steps in either.
 figures::Sheet profile_sheet(std::span<const float> profile, std::span<const ProfileStep>);
 figures::Sheet table_sheet(std::span<const PrintedStep>, std::span<const ProfileStep>);
+
+// Apparent size of triangles against distance on level ground of side² samples (threshold.cpp): the formula
+// as printed, then the one for areas. Labels give the slopes.
+Heightfield level_ground(int side);
+Plot threshold_plot(const Heightfield& level, Progress&);
 
 // A drawing and the land made from it (landscape.cpp). Throws as open_context() does.
 figures::Sheet landscape_sheet(const Image& drawing, const Heightfield& land, const RunOptions&);

@@ -114,4 +114,18 @@ std::vector<RoundTimes> time_rounds(std::vector<Mrbsp>& lods, const Heightfield&
   return all;
 }
 
+std::vector<double> least_times(const std::vector<RoundTimes>& rounds) {
+  std::vector<double> sums;
+  for (std::size_t m = 0; !rounds.empty() && m < rounds[0].frames.size(); ++m) {
+    double sum = 0;
+    for (std::size_t v = 0; v < rounds[0].frames[m].size(); ++v) {
+      double least = rounds[0].frames[m][v];
+      for (const RoundTimes& round : rounds) least = std::min(least, round.frames[m][v]);
+      sum += least;
+    }
+    sums.push_back(sum);
+  }
+  return sums;
+}
+
 }  // namespace terrabench::mrbsp

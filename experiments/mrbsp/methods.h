@@ -42,4 +42,8 @@ struct RoundTimes {
 std::vector<RoundTimes> time_rounds(std::vector<Mrbsp>& lods, const Heightfield&, const std::vector<View>&,
                                     int rounds, const RunOptions&, Progress&);
 
+// By method: all views, each in its fastest round. Other work of the machine only ever makes a frame slower,
+// so this is the least disturbed time.
+std::vector<double> least_times(const std::vector<RoundTimes>&);
+
 }  // namespace terrabench::mrbsp

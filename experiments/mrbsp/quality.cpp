@@ -49,12 +49,12 @@ std::vector<Case> cases(const RunOptions& options) {
       cases.push_back(
           {fmt::format("{}/{}", ground, name),
            {kSpecs,
-            {{"size", size}, {"views", std::int64_t{paper ? 40 : 10}}, {"sets", std::string(name_of(sets))}}},
+            {{"size", size}, {"views", std::int64_t{paper ? 20 : 10}}, {"sets", std::string(name_of(sets))}}},
            ground});
     };
     add("printed", 1, visibility::Mode::kSampled);
     add("fitted", 0, visibility::Mode::kSampled);
-    if (paper) add("interior", 0, visibility::Mode::kInterior);
+    if (ground == "real-257") add("interior", 0, visibility::Mode::kInterior);
   }
   return cases;
 }

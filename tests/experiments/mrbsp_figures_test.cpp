@@ -203,6 +203,39 @@ TEST(MrbspFigures, Figure1NumbersVerticesByTheirThresholds) {
   EXPECT_GT(read().wrong, 10);
 }
 
+// Faults of a plot of apparent sizes: a triangle at depth M - log2(D/S) has legs that grow with the root of
+// D, so their apparent length falls with the root; for areas it stays. Each label gives its points' slope.
+int threshold_faults(const Plot& plot) {
+  int faults = plot.series.size() != 2;
+  for (std::size_t k = 0; k < plot.series.size(); ++k) {
+    const std::vector<PlotPoint>& points = plot.series[k].points;
+    if (points.size() < 8) return faults + 1;
+    double sx = 0, sy = 0, sxx = 0, sxy = 0;  // least squares of the logarithms
+    for (const PlotPoint& p : points) {
+      const double x = std::log(p.x), y = std::log(p.y);
+      sx += x, sy += y, sxx += x * x, sxy += x * y;
+    }
+    const auto n = static_cast<double>(points.size());
+    const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+    faults += std::abs(slope - (k == 0 ? -0.5 : 0.0)) > 0.05;
+    const std::string printed = fmt::format("slope {}{:.2f}", slope < -0.005 ? "−" : "", std::abs(slope));
+    faults += !plot.series[k].label.ends_with(printed);
+    faults += plot.series[k].label.starts_with("M − 2") != (k == 1);
+  }
+  return faults;
+}
+
+TEST(MrbspFigures, ThresholdsAreLabelledWithTheirSlopes) {
+  Progress progress;
+  Plot plot = threshold_plot(level_ground(1025), progress);
+  EXPECT_EQ(threshold_faults(plot), 0);
+  Plot exchanged = plot;
+  std::swap(exchanged.series[0].points, exchanged.series[1].points);
+  EXPECT_GT(threshold_faults(exchanged), 0);
+  for (PlotPoint& p : plot.series[0].points) p.y = plot.series[1].points[0].y;
+  EXPECT_GT(threshold_faults(plot), 0);
+}
+
 // The largest difference between the left panel and the drawing, in greys.
 int drawing_fault(const SheetReader& shown, const Image& drawing) {
   int worst = 0;

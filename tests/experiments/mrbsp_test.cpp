@@ -8,6 +8,7 @@
 #include "experiments/mrbsp/extruded_profile.h"
 #include "experiments/mrbsp/ground.h"
 #include "experiments/mrbsp/lost_pixels.h"
+#include "experiments/mrbsp/methods.h"
 #include "lod/mrbsp/surface_height.h"
 #include "lod/mrbsp/visibility/coarse_squares.h"
 #include "terrain/error.h"
@@ -91,6 +92,14 @@ TEST_F(MrbspExperiments, ConservativeSetsLeaveNoPictureOpen) {
       }
     }
   }
+}
+
+TEST(LeastTimes, TakesEachViewInItsFastestRound) {
+  const std::vector<RoundTimes> rounds{{.frames = {{1, 5}, {9, 9}}, .choices = {}},
+                                       {.frames = {{3, 2}, {8, 10}}, .choices = {}}};
+  EXPECT_EQ(least_times(rounds), (std::vector<double>{3, 17}));
+  EXPECT_EQ(rounds[1].of(0), 5);
+  EXPECT_TRUE(least_times({}).empty());
 }
 
 TEST(LostPixels, KeysTellTrianglesOfLargeGroundApart) {
