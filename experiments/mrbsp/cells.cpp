@@ -11,8 +11,8 @@ namespace terrabench::mrbsp {
 namespace {
 
 constexpr std::array kSpecs{
-    ParameterSpec{"views", std::int64_t{24}, "views", "evenly spaced over the walk of table 2", 1, 240},
-    ParameterSpec{"rounds", std::int64_t{12}, "rounds", "times that each view is drawn", 1, 100},
+    ParameterSpec{"views", std::int64_t{36}, "views", "evenly spaced over the walk of table 2", 1, 240},
+    ParameterSpec{"rounds", std::int64_t{4}, "rounds", "times that each view is drawn", 1, 100},
 };
 constexpr std::array kCells{4, 8, 16, 32, 64};  // along each side of the ground
 constexpr int kViews = 240;
@@ -22,7 +22,7 @@ std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const std::string& ground :
        paper ? grounds(options, true) : terrabench::grounds(options, {"real-257"})) {
-    cases.push_back({ground, {kSpecs, {{"views", std::int64_t{paper ? 12 : 8}}}}, ground});
+    cases.push_back({ground, Parameters(kSpecs), ground});
   }
   return cases;
 }

@@ -26,7 +26,9 @@ const std::array kSpecs{
     choice("sets", visibility::kModeNames, "how the visible sets are computed"),
 };
 
-constexpr int kViews = 240, kRounds = 12;
+constexpr int kViews = 240, kRounds = 4;
+// Few views would not represent the walk: of 12, LOD and VIS draw almost the same number of triangles.
+constexpr int kTimedViews = 36;
 // A view with a larger share of lost pixels shows an anomaly: at 800 × 600, a patch of 70 × 70 pixels.
 constexpr double kApparent = 0.01;
 
@@ -181,8 +183,8 @@ std::vector<Case> cases(const RunOptions& options) {
     // Drawing a frame takes a hundred times as long as counting its triangles.
     const bool real = ground == "real-257";
     const int pictures = paper ? kViews : ground == "rough-257" ? 0 : 80;
-    add("printed", 1, visibility::Mode::kSampled, paper ? 12 : real ? 8 : 0, 0);
-    add("fitted", 0, visibility::Mode::kSampled, paper ? 12 : real ? 8 : 0, pictures);
+    add("printed", 1, visibility::Mode::kSampled, paper || real ? kTimedViews : 0, 0);
+    add("fitted", 0, visibility::Mode::kSampled, paper || real ? kTimedViews : 0, pictures);
     for (const visibility::Mode sets : {visibility::Mode::kVertices, visibility::Mode::kFacing,
                                         visibility::Mode::kInterior, visibility::Mode::kConservative}) {
       // Of the other readings, a third of the pictures.
