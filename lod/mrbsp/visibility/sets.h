@@ -8,7 +8,8 @@
 //   store     codec.h               a change table as text, as bytes, as a file
 //   use       flags.h               one flag per node, toggled as the observer moves (Mrbsp::update())
 //
-// Cost: cells × coarse triangles × length of a line of sight, in parallel over cells.
+// Cost: cells × coarse triangles × length of a line of sight, in parallel over cells; from all samples
+// (kVertices) samples in place of cells.
 #pragma once
 
 #include <algorithm>
