@@ -47,6 +47,8 @@
   ENTRY(mrbsp, kHoles)                 \
   ENTRY(mrbsp, kLodFigure)             \
   ENTRY(mrbsp, kVisibility)            \
+  ENTRY(mrbsp, kCellSizes)             \
+  ENTRY(mrbsp, kQuality)               \
   ENTRY(mrbsp, kProfile)               \
   ENTRY(mrbsp, kLand)                  \
   ENTRY(mrbsp, kRoughness)             \

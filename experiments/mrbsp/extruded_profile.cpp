@@ -17,6 +17,22 @@ constexpr int kFineSegments = 1 << kFineDigits, kCoarseSegments = 1 << kCoarseDi
 // Two triangles form an upright square at odd depths of the tree.
 constexpr int kStripDepth = 2 * kFineDigits + 1, kStripCoarseDepth = 2 * kCoarseDigits + 1;
 
+// Table 1 as printed, with its ellipsis.
+constexpr std::array<PrintedStep, 3> kTable1{{{"a-b", "11", "1100, 1101, 1110, 1111"},
+                                              {"d-e", "00, 01, 10, 11", "0000, 0001, 0010, 0011, ..."},
+                                              {"g-h", "00", "0000, 0001, 0010, 0011"}}};
+
+// Whether the step agrees with the table. Steps that the table does not list must change nothing.
+bool is_printed(const std::string& name, const ProfileStep& step) {
+  const auto line =
+      std::find_if(kTable1.begin(), kTable1.end(), [&](const PrintedStep& l) { return l.name == name; });
+  if (line == kTable1.end()) return step.coarse.empty() && step.fine.empty();
+  const std::string fine = segment_labels(step.fine, kFineDigits);
+  const std::string_view printed = line->fine.substr(0, line->fine.find("..."));
+  const bool same_fine = printed == line->fine ? fine == printed : fine.starts_with(printed);
+  return step.whole && same_fine && segment_labels(step.coarse, kCoarseDigits) == line->coarse;
+}
+
 using Segments = std::set<std::uint32_t>;
 
 // The fine segments drawn for an observer on the ground in the middle of the cell.
@@ -56,12 +72,9 @@ Heightfield extrude(std::span<const float> profile) {
   return strip;
 }
 
-visibility::ChangeTable find_changes(const Heightfield& strip, bool conservative, Progress& progress) {
+visibility::ChangeTable find_changes(const Heightfield& strip, visibility::Mode mode, Progress& progress) {
   const visibility::Options options{
-      .mode = conservative ? visibility::Mode::kConservative : visibility::Mode::kSampled,
-      .cells = kProfileCells,
-      .coarseness = kStripDepth - kStripCoarseDepth,
-      .eye_height = 0};
+      .mode = mode, .cells = kProfileCells, .coarseness = kStripDepth - kStripCoarseDepth, .eye_height = 0};
   const BisectionTree tree = BisectionTree::over(strip.width, strip.depth, kStripDepth);
   return changes_of(find_sets(grid_of(strip), tree, options, progress));
 }
@@ -91,6 +104,14 @@ std::vector<ProfileStep> profile_steps(const Heightfield& strip, const visibilit
     before = std::move(after);
   }
   return steps;
+}
+
+std::span<const PrintedStep> table1() { return kTable1; }
+
+int lines_unlike_table1(std::span<const ProfileStep> steps) {
+  int differing = 0;
+  for (std::size_t k = 0; k < steps.size(); ++k) differing += !is_printed(step_name(k), steps[k]);
+  return differing;
 }
 
 }  // namespace terrabench::mrbsp

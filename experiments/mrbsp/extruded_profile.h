@@ -12,7 +12,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,7 +30,7 @@ std::span<const float> table1_profile();
 Heightfield extrude(std::span<const float> profile);
 
 // Changes in visibility for eyes on the ground, by triangles as long as the coarse segments.
-visibility::ChangeTable find_changes(const Heightfield& strip, bool conservative, Progress&);
+visibility::ChangeTable find_changes(const Heightfield& strip, visibility::Mode, Progress&);
 
 // The segments whose visibility changes from one cell to the next, ascending.
 struct ProfileStep {
@@ -41,20 +40,16 @@ struct ProfileStep {
 };
 std::vector<ProfileStep> profile_steps(const Heightfield& strip, const visibility::ChangeTable&, Progress&);
 
-// profile_figures.cpp: figure 2 and table 1 as pictures.
-
-// "00, 01" for segments 0 and 1 of two digits; "d-e" for the step from the fourth cell.
-std::string segment_labels(std::span<const std::uint32_t> segments, int digits);
-std::string step_name(std::size_t step);
-
-void draw_profile(std::span<const float> profile, std::span<const ProfileStep>,
-                  const std::filesystem::path& png);
-
 // A row of table 1 as printed.
 struct PrintedStep {
   std::string_view name, coarse, fine;
 };
-// Printed and computed rows side by side, for all steps in either.
-void draw_table(std::span<const PrintedStep>, std::span<const ProfileStep>, const std::filesystem::path& png);
+std::span<const PrintedStep> table1();
+// Number of steps that are not as in the table. Steps that it does not list must change nothing.
+int lines_unlike_table1(std::span<const ProfileStep>);
+
+// "00, 01" for segments 0 and 1 of two digits; "d-e" for the step from the fourth cell.
+std::string segment_labels(std::span<const std::uint32_t> segments, int digits);
+std::string step_name(std::size_t step);
 
 }  // namespace terrabench::mrbsp

@@ -67,7 +67,10 @@ std::vector<Case> roughness_cases(const RunOptions&) {
 }
 
 void measure_roughness(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  std::array<double, 3> sums{};  // none, sampled, conservative
+  using visibility::Mode;
+  constexpr std::array kWays{Mode::kSampled, Mode::kConservative, Mode::kInterior};
+  double without = 0;
+  std::array<double, kWays.size()> with{};
   for (int k = 0; k < kSeeds; ++k) {
     const Heightfield ground =
         fractal::diamond_square({.seed = options.seed + static_cast<std::uint64_t>(k),
@@ -76,23 +79,24 @@ void measure_roughness(const Case& at, const RunOptions& options, Recorder& reco
                                  .hurst = static_cast<float>(at.parameters.number("hurst"))});
     if (k == 0) recorder.terrain("diamond-square", checksum(ground));
     const std::vector<View> views = walk(ground, kViews);
-    for (std::size_t way = 0; way < sums.size(); ++way) {
-      Mrbsp lod(
-          ground,
-          {.depth = kDepth,
-           .conforming = false,
-           .visibility = way > 0,
-           .visible = {.mode = way == 2 ? visibility::Mode::kConservative : visibility::Mode::kSampled}},
-          progress);
+    MrbspOptions how{.depth = kDepth, .conforming = false};
+    const auto mean_drawn = [&] {
+      Mrbsp lod(ground, how, progress);
       lod.tune(kFinest);
-      sums[way] += mean_triangles(lod, views) / kSeeds;
+      return mean_triangles(lod, views);
+    };
+    without += mean_drawn() / kSeeds;
+    how.visibility = true;
+    for (std::size_t way = 0; way < kWays.size(); ++way) {
+      how.visible.mode = kWays[way];
+      with[way] += mean_drawn() / kSeeds;
     }
   }
-  recorder.add("triangles_brute", "", sums[0]);
-  recorder.add("triangles_vis", "", sums[1]);
-  recorder.add("triangles_vis_conservative", "", sums[2]);
-  recorder.add("gain", "", sums[0] / sums[1]);
-  recorder.add("gain_conservative", "", sums[0] / sums[2]);
+  recorder.add("triangles_brute", "", without);
+  for (std::size_t way = 0; way < kWays.size(); ++way) {
+    recorder.add(fmt::format("triangles_{}", name_of(kWays[way])), "", with[way]);
+    recorder.add(fmt::format("gain_{}", name_of(kWays[way])), "", without / with[way]);
+  }
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "experiments/experiment.h"
 #include "experiments/figures/ground.h"
 #include "experiments/figures/maps.h"
+#include "experiments/mrbsp/figures.h"
 #include "experiments/mrbsp/ground.h"
 #include "renderers/ramp.h"
 #include "renderers/scene.h"
@@ -84,43 +85,6 @@ Rgb ramp_rgb(double t) {
   return {static_cast<std::uint8_t>(c.x), static_cast<std::uint8_t>(c.y), static_cast<std::uint8_t>(c.z)};
 }
 
-void draw(const Image& picture, const Heightfield& field, const RunOptions& options, Recorder& recorder) {
-  constexpr double kPicture = 340, kWide = 620, kMargin = 20;
-  const HeightRange range = height_range(field);
-  const auto surface = [&](int i, int j) {
-    return glm::vec3(static_cast<float>(i) * field.cell_x, field.at(i, j),
-                     static_cast<float>(j) * field.cell_z);
-  };
-  const TriangleMesh walls = figures::block_sides(field.width, field.depth, surface, range.lowest);
-  TriangleMesh mesh = figures::ground_mesh(field);
-  compute_normals(mesh);
-  const auto context = open_context(options.renderer, 64, 64);
-  Scene scene;
-  scene.lowest = 0;
-  scene.highest = range.highest;
-  scene.meshes = {{.mesh = &mesh},
-                  {.mesh = &walls, .colors = std::vector<Rgb>(walls.positions.size(), {196, 180, 158})}};
-  const float east = field.extent_x(), south = field.extent_z();
-  scene.planes = {{.corners = {{0, 0, 0}, {0, 0, south}, {east, 0, south}, {east, 0, 0}},
-                   .fill_opacity = 0.75F,
-                   .line_width = 1}};
-  const View view = overview(bounds_of(mesh), static_cast<int>(2 * kWide), static_cast<int>(2 * kPicture));
-  figures::Sheet sheet(kPicture + kWide + 3 * kMargin, kPicture + 2 * kMargin + 40);
-  sheet.picture(kMargin, kMargin, kPicture, kPicture, picture);
-  sheet.picture(kPicture + 2 * kMargin, kMargin, kWide, kPicture, render_scene(*context, scene, view));
-  sheet.text(kMargin + kPicture / 2, kPicture + kMargin + 24, "drawing: black is sea, white a peak", 15,
-             "middle");
-  const double land = kPicture + 2 * kMargin, below = kPicture + kMargin + 24;
-  sheet.text(land + 20, below, fmt::format("land, {:.1f} km across, with the sea", field.extent_x() / 1000),
-             15);
-  figures::add_colour_key(
-      sheet, land + kWide - 250, below - 11, "height, m", 70, 160, ramp_rgb,
-      {"0", fmt::format("{:.0f}", range.highest / 2), fmt::format("{:.0f}", range.highest)});
-  sheet.write(recorder.figure("mrbsp.landscape", "png",
-                              "The paper's section 1: a drawing of grey clouds with lightened ridges and a "
-                              "river and a lake in black, and the ground made from it"));
-}
-
 std::vector<Case> cases(const RunOptions&) { return {Case{"drawing", Parameters(kSpecs), ""}}; }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
@@ -153,10 +117,48 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     if (passes == 0) recorder.add("mountain_samples", "", smoothed.mountains);
   }
   recorder.add("mountain_samples_moved", "", moved);
-  draw(picture, land, options, recorder);
+  landscape_sheet(picture, land, options)
+      .write(recorder.figure("mrbsp.landscape", "png",
+                             "The paper's section 1: a drawing of grey clouds with lightened ridges and a "
+                             "river and a lake in black, and the ground made from it"));
 }
 
 }  // namespace
+
+figures::Sheet landscape_sheet(const Image& picture, const Heightfield& field, const RunOptions& options) {
+  constexpr double kPicture = 340, kWide = 620, kMargin = 20;
+  const HeightRange range = height_range(field);
+  const auto surface = [&](int i, int j) {
+    return glm::vec3(static_cast<float>(i) * field.cell_x, field.at(i, j),
+                     static_cast<float>(j) * field.cell_z);
+  };
+  const TriangleMesh walls = figures::block_sides(field.width, field.depth, surface, range.lowest);
+  TriangleMesh mesh = figures::ground_mesh(field);
+  compute_normals(mesh);
+  const auto context = open_context(options.renderer, 64, 64);
+  Scene scene;
+  scene.lowest = 0;
+  scene.highest = range.highest;
+  scene.meshes = {{.mesh = &mesh},
+                  {.mesh = &walls, .colors = std::vector<Rgb>(walls.positions.size(), {196, 180, 158})}};
+  const float east = field.extent_x(), south = field.extent_z();
+  scene.planes = {{.corners = {{0, 0, 0}, {0, 0, south}, {east, 0, south}, {east, 0, 0}},
+                   .fill_opacity = 0.75F,
+                   .line_width = 1}};
+  const View view = overview(bounds_of(mesh), static_cast<int>(2 * kWide), static_cast<int>(2 * kPicture));
+  figures::Sheet sheet(kPicture + kWide + 3 * kMargin, kPicture + 2 * kMargin + 40);
+  sheet.picture(kMargin, kMargin, kPicture, kPicture, picture);
+  sheet.picture(kPicture + 2 * kMargin, kMargin, kWide, kPicture, render_scene(*context, scene, view));
+  sheet.text(kMargin + kPicture / 2, kPicture + kMargin + 24, "drawing: black is sea, white a peak", 15,
+             "middle");
+  const double land = kPicture + 2 * kMargin, below = kPicture + kMargin + 24;
+  sheet.text(land + 20, below, fmt::format("land, {:.1f} km across, with the sea", field.extent_x() / 1000),
+             15);
+  figures::add_colour_key(
+      sheet, land + kWide - 250, below - 11, "height, m", 70, 160, ramp_rgb,
+      {"0", fmt::format("{:.0f}", range.highest / 2), fmt::format("{:.0f}", range.highest)});
+  return sheet;
+}
 
 extern const Experiment kDrawing{"mrbsp.drawing", "§1: land from drawings", kSpecs, cases, measure};
 

@@ -8,7 +8,7 @@
 #include <unordered_map>
 
 #include "experiments/experiment.h"
-#include "experiments/figures/sheet.h"
+#include "experiments/mrbsp/figures.h"
 #include "experiments/mrbsp/ground.h"
 #include "renderers/frame_renderer.h"
 #include "renderers/scene.h"
@@ -28,7 +28,7 @@ class LodFigure {
   LodFigure(const Heightfield& ground, Mrbsp& lod, const View& view)
       : lod_(lod), view_(view), clip_(world_to_clip(view)), frame_(lod.update(view)), ground_(ground) {}
 
-  void draw(const RunOptions& options, const std::filesystem::path& file) {
+  Sheet draw(const RunOptions& options) {
     const auto context = open_context(options.renderer, view_.width, view_.height);
     numbers_ = FrameRenderer(*context).triangle_numbers(frame_, view_);
     const HeightRange range = height_range(ground_);
@@ -42,7 +42,7 @@ class LodFigure {
     sheet.picture(0, 0, kWidth, kHeight, with_few_colours(image));
     mark_split(sheet);
     label_vertices(sheet);
-    sheet.write(file);
+    return sheet;
   }
 
  private:
@@ -153,6 +153,19 @@ void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progres
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   Mrbsp lod(ground, {.depth = depth_over(ground), .conforming = false}, progress);
+  const View view = lod_view(ground, lod);
+  recorder.add("triangles", "", lod.update(view).stats.triangles);
+  lod_sheet(ground, lod, view, options)
+      .write(recorder.figure("mrbsp.F1", "png",
+                             "Figure 1 of the paper, on real mountains: the triangles of level of detail, "
+                             "with the threshold at each vertex that has room for it; T is a triangle that "
+                             "the one-vertex rule splits (dashed) because the vertex at its right angle "
+                             "alone has a lower threshold"));
+}
+
+}  // namespace
+
+View lod_view(const Heightfield& ground, const Mrbsp& lod) {
   View view;
   view.width = kWidth * Sheet::kPixels;
   view.height = kHeight * Sheet::kPixels;
@@ -161,17 +174,12 @@ void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progres
   view.eye = {x, ground.sample(x, z) + 5 * lod.short_side(), z};
   view.target = view.eye + glm::vec3(0.75F, -0.32F, -0.66F);
   view.far = 2 * (ground.extent_x() + ground.extent_z());
-  recorder.add("triangles", "", lod.update(view).stats.triangles);
-  LodFigure(ground, lod, view)
-      .draw(options, recorder.figure(
-                         "mrbsp.F1", "png",
-                         "Figure 1 of the paper, on real mountains: the triangles of level of detail, with "
-                         "the threshold at each vertex that has room for it; T is a triangle that the "
-                         "one-vertex rule splits (dashed) because the vertex at its right angle alone has "
-                         "a lower threshold"));
+  return view;
 }
 
-}  // namespace
+Sheet lod_sheet(const Heightfield& ground, Mrbsp& lod, const View& view, const RunOptions& options) {
+  return LodFigure(ground, lod, view).draw(options);
+}
 
 extern const Experiment kLodFigure{
     "mrbsp.lod-figure", "Figure 1: thresholds at the vertices", {}, cases, draw};

@@ -1,39 +1,17 @@
 // Table 1 and figure 2: the two-dimensional example of visibility.
-#include <algorithm>
-#include <array>
+#include <fmt/format.h>
+
 #include <random>
 
 #include "experiments/experiment.h"
-#include "experiments/mrbsp/extruded_profile.h"
+#include "experiments/mrbsp/figures.h"
 #include "lod/mrbsp/visibility/codec.h"
 
 namespace terrabench::mrbsp {
 namespace {
 
-// As printed, with the table's ellipsis.
-constexpr std::array<PrintedStep, 3> kTable1{{{"a-b", "11", "1100, 1101, 1110, 1111"},
-                                              {"d-e", "00, 01, 10, 11", "0000, 0001, 0010, 0011, ..."},
-                                              {"g-h", "00", "0000, 0001, 0010, 0011"}}};
-
-// Whether the step agrees with the table. Steps that the table does not list must change nothing.
-bool is_printed(const std::string& name, const ProfileStep& step) {
-  const auto line =
-      std::find_if(kTable1.begin(), kTable1.end(), [&](const PrintedStep& l) { return l.name == name; });
-  if (line == kTable1.end()) return step.coarse.empty() && step.fine.empty();
-  const std::string fine = segment_labels(step.fine, kFineDigits);
-  const std::string_view printed = line->fine.substr(0, line->fine.find("..."));
-  const bool same_fine = printed == line->fine ? fine == printed : fine.starts_with(printed);
-  return step.whole && same_fine && segment_labels(step.coarse, kCoarseDigits) == line->coarse;
-}
-
-int differing_steps(std::span<const ProfileStep> steps) {
-  int differing = 0;
-  for (std::size_t k = 0; k < steps.size(); ++k) differing += !is_printed(step_name(k), steps[k]);
-  return differing;
-}
-
 // The share of random profiles with heights within `metres` of ours that give the same table.
-double share_alike(float metres, std::uint64_t seed, Progress& progress) {
+double share_alike(float metres, visibility::Mode mode, std::uint64_t seed, Progress& progress) {
   constexpr int kProfiles = 100;
   std::mt19937_64 random(seed);
   int alike = 0;
@@ -41,7 +19,7 @@ double share_alike(float metres, std::uint64_t seed, Progress& progress) {
     std::vector<float> heights(table1_profile().begin(), table1_profile().end());
     for (float& h : heights) h += metres * (static_cast<float>(random() >> 40) / 8388608.0F - 1);
     const Heightfield strip = extrude(heights);
-    alike += differing_steps(profile_steps(strip, find_changes(strip, false, progress), progress)) == 0;
+    alike += lines_unlike_table1(profile_steps(strip, find_changes(strip, mode, progress), progress)) == 0;
   }
   return static_cast<double>(alike) / kProfiles;
 }
@@ -49,30 +27,36 @@ double share_alike(float metres, std::uint64_t seed, Progress& progress) {
 std::vector<Case> cases(const RunOptions&) { return {Case{"profile", Parameters(), ""}}; }
 
 void measure(const Case&, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  using visibility::Mode;
   const Heightfield strip = extrude(table1_profile());
   recorder.terrain("profile", checksum(strip));
-  const visibility::ChangeTable table = find_changes(strip, false, progress);
+  for (std::size_t m = 0; m < visibility::kModeNames.size(); ++m) {
+    const auto mode = static_cast<Mode>(m);
+    const std::vector<ProfileStep> found =
+        profile_steps(strip, find_changes(strip, mode, progress), progress);
+    recorder.add(fmt::format("differing_lines_{}", name_of(mode)), "", lines_unlike_table1(found));
+    recorder.add(fmt::format("alike_within_half_a_metre_{}", name_of(mode)), "",
+                 share_alike(0.5F, mode, options.seed, progress));
+  }
+  // The first reading of the sampling that gives the table.
+  const visibility::ChangeTable table = find_changes(strip, Mode::kFacing, progress);
   const std::vector<ProfileStep> steps = profile_steps(strip, table, progress);
-  recorder.add("differing_lines", "", differing_steps(steps));
   std::size_t changes = 0;
   for (const ProfileStep& step : steps) changes += step.coarse.size();
   recorder.add("changes", "", changes);
   // Saved and loaded again.
   const visibility::ChangeTable again = visibility::decode_text(encode_text(table), "table 1");
   recorder.add("lost_in_the_file", "", again == table ? 0 : 1);
-  const visibility::ChangeTable safe = find_changes(strip, true, progress);
-  recorder.add("differing_lines_conservative", "", differing_steps(profile_steps(strip, safe, progress)));
-  recorder.add("alike_within_half_a_metre", "", share_alike(0.5F, options.seed, progress));
-  draw_profile(table1_profile(), steps,
-               recorder.figure("mrbsp.F2", "png",
-                               "Figure 2 of the paper: fine segments (black) and coarse ones (grey) with "
-                               "their numbers in the tree, and cells. Cells next to a change of visibility "
-                               "are dark, with the coarse segments that change"));
-  draw_table(kTable1, steps,
-             recorder.figure("mrbsp.T1", "png",
+  profile_sheet(table1_profile(), steps)
+      .write(recorder.figure("mrbsp.F2", "png",
+                             "Figure 2 of the paper: fine segments (black) and coarse ones (grey) with "
+                             "their numbers in the tree, and cells. Cells next to a change of visibility "
+                             "are dark, with the coarse segments that change"));
+  table_sheet(table1(), steps)
+      .write(recorder.figure("mrbsp.T1", "png",
                              "Table 1 of the paper, cell-to-cell changes in visibility, and the changes that "
-                             "our sampled visibility finds on figure 2's profile extruded sideways: coarse "
-                             "changes as stored, fine ones as drawn"));
+                             "we compute on figure 2's profile extruded sideways, by triangles that face an "
+                             "eye at a corner of the cell: coarse changes as stored, fine ones as drawn"));
 }
 
 }  // namespace

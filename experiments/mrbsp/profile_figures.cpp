@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "experiments/figures/sheet.h"
-#include "experiments/mrbsp/extruded_profile.h"
+#include "experiments/mrbsp/figures.h"
 #include "lod/mrbsp/visibility/codec.h"
 
 namespace terrabench::mrbsp {
@@ -107,13 +106,11 @@ std::string step_name(std::size_t step) {
   return cell_name(cells, {cell, 0}) + "-" + cell_name(cells, {cell + 1, 0});
 }
 
-void draw_profile(std::span<const float> profile, std::span<const ProfileStep> steps,
-                  const std::filesystem::path& png) {
-  ProfileDrawing(profile, steps).draw().write(png);
+Sheet profile_sheet(std::span<const float> profile, std::span<const ProfileStep> steps) {
+  return ProfileDrawing(profile, steps).draw();
 }
 
-void draw_table(std::span<const PrintedStep> printed, std::span<const ProfileStep> steps,
-                const std::filesystem::path& png) {
+Sheet table_sheet(std::span<const PrintedStep> printed, std::span<const ProfileStep> steps) {
   constexpr std::array kColumns{20.0, 100.0, 240.0, 380.0, 590.0};
   constexpr double kRow = 24, kRight = 980;
   constexpr std::size_t kPerLine = 8;  // fine segments
@@ -155,7 +152,7 @@ void draw_table(std::span<const PrintedStep> printed, std::span<const ProfileSte
     }
   }
   rule(y + 4);
-  sheet.write(png);
+  return sheet;
 }
 
 }  // namespace terrabench::mrbsp

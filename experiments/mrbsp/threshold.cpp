@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "experiments/experiment.h"
+#include "experiments/mrbsp/figures.h"
 #include "experiments/mrbsp/ground.h"
-#include "results/plot.h"
 #include "results/rasterise.h"
 
 namespace terrabench::mrbsp {
@@ -62,31 +62,22 @@ std::vector<PlotPoint> apparent_sizes(const Heightfield& ground, bool area, Prog
   return points;
 }
 
+std::string slope_text(double slope) {
+  return fmt::format("{}{:.2f}", slope < -0.005 ? "−" : "", std::abs(slope));
+}
+
 std::vector<Case> cases(const RunOptions&) { return {Case{"level", Parameters(kSpecs), ""}}; }
 
 void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress& progress) {
-  Heightfield ground;
-  ground.width = ground.depth = at.integer("n");
-  ground.cell_x = ground.cell_z = 30;
-  ground.heights.assign(static_cast<std::size_t>(ground.width) * ground.depth, 0.0F);
+  const Heightfield ground = level_ground(at.integer("n"));
   recorder.terrain("level", checksum(ground));
-  Plot plot{
-      .title = "Apparent size of triangles against distance",
-      .x = {.label = "distance of the furthest corner", .unit = "short sides of the finest", .log = true},
-      .y = {.label = "apparent short side", .unit = "pixels", .log = true},
-      .series = {}};
-  for (const bool area : {false, true}) {
-    const std::vector<PlotPoint> points = apparent_sizes(ground, area, progress);
-    const std::string name = area ? "area" : "printed";
-    const double slope = power_law(points).value_or(0);
-    recorder.add("slope_" + name, "", slope);
-    const std::string_view sign = slope < -0.005 ? "−" : "";
+  const Plot plot = threshold_plot(ground, progress);
+  for (std::size_t k = 0; k < plot.series.size(); ++k) {
+    const std::vector<PlotPoint>& points = plot.series[k].points;
+    const std::string name = k == 0 ? "printed" : "area";
+    recorder.add("slope_" + name, "", power_law(points).value_or(0));
     recorder.add("size_near_" + name, "pixels", points.front().y);
     recorder.add("size_far_" + name, "pixels", points.back().y);
-    plot.series.push_back(
-        {.label = fmt::format("{}, slope {}{:.2f}", area ? "M − 2 log₂(D/S)" : "M − log₂(D/S), as printed",
-                              sign, std::abs(slope)),
-         .points = points});
   }
   svg_text_to_png(
       plot_svg(plot),
@@ -100,6 +91,30 @@ void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress& pr
 }
 
 }  // namespace
+
+Heightfield level_ground(int side) {
+  Heightfield ground;
+  ground.width = ground.depth = side;
+  ground.cell_x = ground.cell_z = 30;
+  ground.heights.assign(static_cast<std::size_t>(side) * side, 0.0F);
+  return ground;
+}
+
+Plot threshold_plot(const Heightfield& level, Progress& progress) {
+  Plot plot{
+      .title = "Apparent size of triangles against distance",
+      .x = {.label = "distance of the furthest corner", .unit = "short sides of the finest", .log = true},
+      .y = {.label = "apparent short side", .unit = "pixels", .log = true},
+      .series = {}};
+  for (const bool area : {false, true}) {
+    std::vector<PlotPoint> points = apparent_sizes(level, area, progress);
+    const std::string slope = slope_text(power_law(points).value_or(0));
+    plot.series.push_back(
+        {.label = fmt::format("{}, slope {}", area ? "M − 2 log₂(D/S)" : "M − log₂(D/S), as printed", slope),
+         .points = std::move(points)});
+  }
+  return plot;
+}
 
 extern const Experiment kThreshold{"mrbsp.threshold", "§3: apparent size of triangles against distance",
                                    kSpecs, cases, measure};

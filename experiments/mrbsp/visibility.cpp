@@ -8,8 +8,9 @@
 #include <unordered_set>
 
 #include "experiments/experiment.h"
-#include "experiments/mrbsp/ground.h"
+#include "experiments/mrbsp/extruded_profile.h"
 #include "experiments/mrbsp/lost_pixels.h"
+#include "experiments/mrbsp/methods.h"
 #include "experiments/stopwatch.h"
 #include "lod/mrbsp/visibility/coarse_squares.h"
 #include "lod/mrbsp/visibility/codec.h"
@@ -19,13 +20,13 @@ namespace terrabench::mrbsp {
 namespace {
 
 constexpr std::int64_t kCoarseness = 6;  // of most cases
-constexpr std::array kSpecs{
-    ParameterSpec{"conservative", false, "", "sets that miss nothing instead of the paper's sampling"},
+const std::array kSpecs{
+    choice("sets", visibility::kModeNames, "how the visible sets are computed"),
     ParameterSpec{"cells", std::int64_t{16}, "cells", "largest number along the longer side", 1, 256},
     ParameterSpec{"coarseness", kCoarseness, "levels", "between the finest triangles and those of visibility",
                   0, 14},
 };
-constexpr int kPixels = 512;
+constexpr int kPixels = 512, kViews = 240;
 
 struct Misses {
   std::size_t seen = 0, missed = 0, pixels = 0, missed_pixels = 0, eyes = 0;
@@ -89,52 +90,49 @@ void look_around(const Heightfield& ground, const glm::vec3& eye, Mrbsp& full, F
 std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   const bool paper = options.profile == Profile::kPaper;
-  const auto add = [&](const std::string& ground, bool conservative, std::int64_t cells,
+  const auto add = [&](const std::string& ground, visibility::Mode sets, std::int64_t cells,
                        std::int64_t coarseness) {
-    const std::string_view sets = conservative ? "conservative" : "sampled";
-    std::string name = fmt::format("{}/{}/cells={}", ground, sets, cells);
+    std::string name = fmt::format("{}/{}/cells={}", ground, name_of(sets), cells);
     if (coarseness != kCoarseness) name += fmt::format("/coarseness={}", coarseness);
-    cases.push_back({std::move(name),
-                     {kSpecs, {{"conservative", conservative}, {"cells", cells}, {"coarseness", coarseness}}},
-                     ground});
+    cases.push_back(
+        {std::move(name),
+         {kSpecs, {{"sets", std::string(name_of(sets))}, {"cells", cells}, {"coarseness", coarseness}}},
+         ground});
   };
+  using visibility::Mode;
   for (const std::string& ground : grounds(options, paper)) {
-    for (const bool conservative : {false, true}) {
+    for (const Mode sets : {Mode::kSampled, Mode::kConservative}) {
       for (const int cells : {16, 32, 64}) {
-        if (cells == 16 || !conservative || paper) add(ground, conservative, cells, kCoarseness);
+        if (cells == 16 || sets == Mode::kSampled || paper) add(ground, sets, cells, kCoarseness);
       }
     }
+    for (const Mode sets : {Mode::kVertices, Mode::kFacing, Mode::kInterior}) {
+      add(ground, sets, 16, kCoarseness);
+    }
     // At the paper's depth of 16, an even coarseness gives squares that are one level coarser.
-    for (const int coarseness : {4, 8}) add(ground, false, 16, coarseness);
+    for (const int coarseness : {4, 8}) add(ground, Mode::kSampled, 16, coarseness);
   }
   return cases;
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
-  const Heightfield& ground = *source.heights;
-  Mrbsp full(ground, {.depth = depth_over(ground)}, progress);
-  full.tune(kFinest);
-  const visibility::Options how{.mode = at.parameters.flag("conservative") ? visibility::Mode::kConservative
-                                                                           : visibility::Mode::kSampled,
-                                .cells = at.integer("cells"),
-                                .coarseness = at.integer("coarseness")};
-  const Stopwatch watch;
-  const visibility::Sets sets = find_sets(grid_of(ground), full.tree(), how, progress);
-  recorder.add("preprocessing_time", "s", watch.seconds());
-  std::size_t visible = 0;
-  for (int cell = 0; cell < sets.cells.count(); ++cell) visible += sets.count(cell);
-  recorder.add("cells", "", sets.cells.count());
-  recorder.add("coarse_triangles", "", std::uint64_t{1} << sets.depth);
-  recorder.add("visible_share", "",
-               static_cast<double>(visible) / sets.cells.count() / std::exp2(sets.depth));
-  const visibility::EncodedSizes bytes = encoded_sizes(changes_of(sets));
-  recorder.add("bytes_changes", "B", bytes.changes);
-  recorder.add("bytes_lists", "B", bytes.lists);
-  recorder.add("bytes_bits", "B", bytes.bits);
-  recorder.add("changes_to_lists", "", static_cast<double>(bytes.changes) / static_cast<double>(bytes.lists));
-  recorder.add("changes_to_bits", "", static_cast<double>(bytes.changes) / static_cast<double>(bytes.bits));
+// What tables 1 and 2 become with these sets.
+void record_tables(const Heightfield& ground, const visibility::ChangeTable& changes, Recorder& recorder,
+                   Progress& progress) {
+  const Heightfield strip = extrude(table1_profile());
+  recorder.add(
+      "table1_lines_that_differ", "",
+      lines_unlike_table1(profile_steps(strip, find_changes(strip, changes.mode, progress), progress)));
+  const std::vector<View> views = walk(ground, kViews);
+  Methods methods(ground, changes, progress);
+  methods.tune(fitted_size(methods, views));
+  const double brute = mean_triangles(methods.lods[kBrute], views);
+  recorder.add("table2_share_vis", "", mean_triangles(methods.lods[kVis], views) / brute);
+  recorder.add("table2_share_both", "", mean_triangles(methods.lods[kBoth], views) / brute);
+}
 
+// Pictures from random eyes against the sets.
+void record_misses(const Heightfield& ground, Mrbsp& full, const visibility::Sets& sets,
+                   const RunOptions& options, Recorder& recorder, Progress& progress) {
   const auto context = open_context(options.renderer, kPixels, kPixels);
   FrameRenderer renderer(*context);
   const visibility::CoarseSquares squares(full.tree(), sets.depth);
@@ -156,6 +154,35 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("missed_share", "", share(misses.missed, misses.seen));
   recorder.add("missed_pixel_share", "", share(misses.missed_pixels, misses.pixels));
   recorder.add("missed_pixel_share_most", "", misses.worst_eye);
+}
+
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
+  const Heightfield& ground = *source.heights;
+  Mrbsp full(ground, {.depth = depth_over(ground)}, progress);
+  full.tune(kFinest);
+  const visibility::Options how{.mode = static_cast<visibility::Mode>(at.parameters.choice("sets")),
+                                .cells = at.integer("cells"),
+                                .coarseness = at.integer("coarseness")};
+  const Stopwatch watch;
+  const visibility::Sets sets = find_sets(grid_of(ground), full.tree(), how, progress);
+  recorder.add("preprocessing_time", "s", watch.seconds());
+  std::size_t visible = 0;
+  for (int cell = 0; cell < sets.cells.count(); ++cell) visible += sets.count(cell);
+  recorder.add("cells", "", sets.cells.count());
+  recorder.add("coarse_triangles", "", std::uint64_t{1} << sets.depth);
+  recorder.add("visible_share", "",
+               static_cast<double>(visible) / sets.cells.count() / std::exp2(sets.depth));
+  const visibility::ChangeTable changes = changes_of(sets);
+  const visibility::EncodedSizes bytes = encoded_sizes(changes);
+  recorder.add("bytes_changes", "B", bytes.changes);
+  recorder.add("bytes_lists", "B", bytes.lists);
+  recorder.add("bytes_bits", "B", bytes.bits);
+  recorder.add("changes_to_lists", "", static_cast<double>(bytes.changes) / static_cast<double>(bytes.lists));
+  recorder.add("changes_to_bits", "", static_cast<double>(bytes.changes) / static_cast<double>(bytes.bits));
+
+  record_tables(ground, changes, recorder, progress);
+  record_misses(ground, full, sets, options, recorder, progress);
 }
 
 }  // namespace

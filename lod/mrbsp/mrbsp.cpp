@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <iterator>
 
 #include "lod/mrbsp/height_points.h"
 #include "lod/mrbsp/surface_height.h"
@@ -17,7 +18,9 @@ namespace {
 
 constexpr std::string_view kThresholds[] = {"printed", "area"}, kHoles[] = {"conforming", "printed"},
                            kHeights[] = {"samples", "nearest"},
-                           kVisibility[] = {"off", kModeNames[0], kModeNames[1]};
+                           kVisibility[] = {"off",         kModeNames[0], kModeNames[1],
+                                            kModeNames[2], kModeNames[3], kModeNames[4]};
+static_assert(std::size(kVisibility) == kModeNames.size() + 1);
 
 MrbspOptions options_of(const Parameters& parameters) {
   MrbspOptions options;
@@ -48,7 +51,7 @@ std::unique_ptr<Lod> Mrbsp::build(const LodGround& from, const Parameters& param
   const MrbspOptions options = options_of(parameters);
   const std::string& file = parameters.text("visibility_file");
   if (!file.empty() && !options.visibility) {
-    throw usage_error("a file needs visibility=sampled or visibility=conservative", "visibility_file",
+    throw usage_error("a file needs sets to hold, such as visibility=sampled", "visibility_file",
                       "set visibility, or leave the file out");
   }
   return std::make_unique<Mrbsp>(ground, options, progress, file);
@@ -62,7 +65,9 @@ std::span<const ParameterSpec> Mrbsp::parameters() {
       choice("holes", kHoles, "printed: the paper's one-vertex rule; conforming: no holes"),
       choice("heights", kHeights, "samples, or interpolated from the three nearest samples"),
       {"cull", true, "", "skip triangles outside the view frustum"},
-      choice("visibility", kVisibility, "skip triangles that the ground hides"),
+      choice("visibility", kVisibility,
+             "skip triangles that the ground hides; sampled: as printed; vertices, facing, interior: other "
+             "readings of the paper; conservative: misses nothing"),
       {"cells", std::int64_t{16}, "cells", "upper limit of visibility cells along the longer side", 1, 1024},
       {"coarseness", std::int64_t{6}, "levels",
        "from the finest triangles up to the coarse ones of visibility", 0, BisectionTree::kDeepest},

@@ -282,7 +282,7 @@ TEST(Mrbsp, EveryCombinationBuildsFromParametersAndCountsItsBytes) {
   for (const char* const threshold : {"threshold=printed", "threshold=area"}) {
     for (const char* const holes : {"holes=printed", "holes=conforming"}) {
       for (const char* const visibility :
-           {"visibility=off", "visibility=sampled", "visibility=conservative"}) {
+           {"visibility=off", "visibility=sampled", "visibility=facing", "visibility=conservative"}) {
         for (const char* const heights : {"heights=samples", "heights=nearest"}) {
           Parameters parameters(Mrbsp::parameters());
           for (const char* const text : {threshold, holes, visibility, heights, "cells=4"}) {

@@ -53,7 +53,7 @@ TEST(VisibilityCodec, TextNamesStepsAndWhatTheyToggle) {
   see(0, 0, {0b11});
   see(7, 7, {0b00});
   EXPECT_EQ(encode_text(changes_of(sets)),
-            "terrabench-visibility 2\ncells 8 1\nside 2\ndepth 2\neye-height 1.8\n"
+            "terrabench-visibility 3\ncells 8 1\nside 2\ndepth 2\neye-height 1.8\n"
             "surface aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa\nsets sampled\nstart 00, 01, 11\n"
             "a-b 11\n"
             "d-e 00, 01, 10, 11\n"
@@ -71,19 +71,19 @@ TEST(VisibilityCodec, CellsAreNamedByColumnAndRow) {
 
 TEST(VisibilityCodec, TextNamesTheLineAtFault) {
   const std::string surface = "surface 0123456789abcdef0123456789abcdef\n";
-  const std::string front = "terrabench-visibility 2\ncells 2 2\nside 2\ndepth 2\neye-height 1.8\n";
+  const std::string front = "terrabench-visibility 3\ncells 2 2\nside 2\ndepth 2\neye-height 1.8\n";
   const std::string head = front + surface + "sets conservative\n";
   EXPECT_NO_THROW((void)decode_text(head + "start 01\na1-b1 11\na2-b2 11\n", "f"));
   for (const auto& [text, line] : std::vector<std::pair<std::string, std::string>>{
            {"", "line 0"},
            {"something else\n", "line 1"},
-           {"terrabench-visibility 2\ncells 2\n", "line 2"},
-           {"terrabench-visibility 2\ncells 2 2 2\n", "line 2"},
-           {"terrabench-visibility 2\ncells 2 99999999999\n", "line 2"},
-           {"terrabench-visibility 2\ncells 2 2\nside 3\ndepth 2\neye-height 1\n" + surface, "line 6"},
-           {"terrabench-visibility 2\ncells 9999 9999\nside 2\ndepth 2\neye-height 1\n" + surface, "line 6"},
-           {"terrabench-visibility 2\ncells 2 2\nside 2\ndepth 99\neye-height 1\n" + surface, "line 6"},
-           {"terrabench-visibility 2\ncells 2 2\nside 2\ndepth 2\neye-height nan\n" + surface, "line 6"},
+           {"terrabench-visibility 3\ncells 2\n", "line 2"},
+           {"terrabench-visibility 3\ncells 2 2 2\n", "line 2"},
+           {"terrabench-visibility 3\ncells 2 99999999999\n", "line 2"},
+           {"terrabench-visibility 3\ncells 2 2\nside 3\ndepth 2\neye-height 1\n" + surface, "line 6"},
+           {"terrabench-visibility 3\ncells 9999 9999\nside 2\ndepth 2\neye-height 1\n" + surface, "line 6"},
+           {"terrabench-visibility 3\ncells 2 2\nside 2\ndepth 99\neye-height 1\n" + surface, "line 6"},
+           {"terrabench-visibility 3\ncells 2 2\nside 2\ndepth 2\neye-height nan\n" + surface, "line 6"},
            {front + "start 01\n", "line 6"},
            {front + "surface 0123\n", "line 6"},
            {front + "surface 0123456789ABCDEF0123456789ABCDEF\n", "line 6"},
@@ -132,7 +132,7 @@ TEST(VisibilityCodec, WhatCannotBeIsRefusedWhateverItsChecksum) {
   refused(24, {31});                            // depth
   refused(28, {0, 0, 0xC0, 0x7F});              // eye height: NaN
   refused(32, {'g'});                           // not a digit of a checksum
-  refused(64, {2});                             // kind of sets
+  refused(64, {5});                             // kind of sets
   refused(65, {0xFF, 0xFF, 0xFF, 0xFF, 0xFF});  // a count
   std::vector<std::byte> longer = good;
   longer.insert(longer.end() - 32, std::byte{0});

@@ -9,6 +9,7 @@
 
 #include "lod/lod.h"
 #include "lod/mrbsp/mrbsp.h"
+#include "lod/mrbsp/surface_height.h"
 #include "lod/mrbsp/visibility/line_of_sight.h"
 #include "tests/lod/visible_ground.h"
 #include "tests/terrain/errors.h"
@@ -119,19 +120,90 @@ TEST(VisibleSets, ConservativeMissesNothingAndHidesSomething) {
   }
 }
 
+constexpr Mode kModes[] = {Mode::kSampled, Mode::kConservative, Mode::kVertices, Mode::kFacing,
+                           Mode::kInterior};
+
 TEST(VisibleSets, SampledMissesLittleAndHidesMore) {
   const Heightfield field = rough_ground(33, 33);
   const BisectionTree tree(5, 11);
   const Sets safe = visible_over(field, tree, few_cells(8, 2));
-  const Sets sampled = visible_over(field, tree, few_cells(8, 2, Mode::kSampled));
-  EXPECT_LT(share_visible(sampled), share_visible(safe));
-  const Tally tally = cast_rays(field, tree, sampled, 60, 60);
-  EXPECT_LT(static_cast<double>(tally.missed), 0.04 * static_cast<double>(tally.seen)) << tally.missed;
+  for (const auto& [mode, most] : {std::pair{Mode::kVertices, 0.005},
+                                   {Mode::kSampled, 0.01},
+                                   {Mode::kFacing, 0.04},
+                                   {Mode::kInterior, 0.04}}) {
+    const Sets sampled = visible_over(field, tree, few_cells(8, 2, mode));
+    EXPECT_LT(share_visible(sampled), share_visible(safe)) << name_of(mode);
+    const Tally tally = cast_rays(field, tree, sampled, 60, 60);
+    EXPECT_LT(static_cast<double>(tally.missed), most * static_cast<double>(tally.seen))
+        << name_of(mode) << ": " << tally.missed << " of " << tally.seen;
+  }
+}
+
+bool is_subset(const Sets& part, const Sets& whole) {
+  for (std::size_t w = 0; w < part.bits.size(); ++w) {
+    if ((part.bits[w] & ~whole.bits[w]) != 0) return false;
+  }
+  return true;
+}
+
+TEST(VisibleSets, ReadingsOfTheSamplingNest) {
+  const Heightfield field = rough_ground(41, 33);
+  const BisectionTree tree = BisectionTree::over(41, 33);
+  const auto sets = [&](Mode mode) { return visible_over(field, tree, few_cells(8, 6, mode)); };
+  const Sets facing = sets(Mode::kFacing), sampled = sets(Mode::kSampled), all = sets(Mode::kVertices);
+  EXPECT_TRUE(is_subset(facing, sampled));
+  EXPECT_TRUE(is_subset(sampled, all));
+  EXPECT_LT(share_visible(facing), share_visible(sampled));
+  EXPECT_LT(share_visible(sampled), share_visible(all));
+}
+
+// Sampled sets from their definition: rays at all facets of the coarse surface.
+TEST(VisibleSets, SampledHoldsWhatTheCornersSee) {
+  const Heightfield field = rough_ground(33, 30);
+  const BisectionTree tree = BisectionTree::over(33, 30), coarse(5, 7);
+  const GroundGrid grid = grid_of(field);
+  const CoarseSquares squares(tree, 7);
+  const LineOfSight surface(grid, squares);  // for the height of the coarse surface alone
+  const auto ground = facets(field, coarse);
+  for (const Mode mode : {Mode::kSampled, Mode::kFacing}) {
+    const Sets sets = visible_over(field, tree, few_cells(4, 4, mode));
+    ASSERT_EQ(sets.depth, 7);
+    std::size_t visible = 0;
+    for (int cell = 0; cell < sets.cells.count(); ++cell) {
+      const int side = sets.cells.side;
+      const glm::ivec2 low(cell % sets.cells.columns * side, cell / sets.cells.columns * side);
+      const glm::ivec2 high = glm::min(low + side, glm::ivec2(field.width - 1, field.depth - 1));
+      std::vector<glm::dvec3> eyes;
+      for (const int x : {low.x, high.x}) {
+        for (const int z : {low.y, high.y}) {
+          constexpr float kIn = LineOfSight::kInset;
+          const float u = x == low.x ? x + kIn : x - kIn, v = z == low.y ? z + kIn : z - kIn;
+          const float y = std::max(sample_height(grid, u, v), surface.height(u, v)) + sets.eye_height;
+          eyes.emplace_back(u * field.cell_x, y, v * field.cell_z);
+        }
+      }
+      for (const Facet& f : ground) {
+        const glm::dvec3 a(f.a), b(f.b), c(f.c), normal = glm::cross(b - a, c - a);
+        const glm::dvec3 middle = (a + b + c) / 3.0;
+        const glm::dvec2 at(middle.x / field.cell_x, middle.z / field.cell_z);
+        bool seen = at.x > low.x && at.x < high.x && at.y > low.y && at.y < high.y;  // under the cell
+        for (const glm::dvec3& eye : eyes) {
+          if (mode == Mode::kFacing && glm::dot(normal, eye - a) <= 0) continue;
+          seen = seen || is_free(ground, eye, a) || is_free(ground, eye, b) || is_free(ground, eye, c);
+        }
+        visible += seen;
+        EXPECT_EQ(sets.sees(cell, static_cast<std::uint32_t>(f.node - (NodeNumber{1} << 7))), seen)
+            << name_of(mode) << ", cell " << cell << ", triangle " << f.node;
+      }
+    }
+    EXPECT_GT(visible, ground.size() * sets.cells.count() / 10);
+    EXPECT_LT(visible, ground.size() * sets.cells.count() * 9 / 10);
+  }
 }
 
 TEST(VisibleSets, OnFlatLandEverythingIsSeen) {
   const Heightfield field = rough_ground(33, 33, 0);
-  for (const Mode mode : {Mode::kConservative, Mode::kSampled}) {
+  for (const Mode mode : kModes) {
     EXPECT_EQ(share_visible(visible_over(field, BisectionTree(5, 11), few_cells(4, 6, mode))), 1.0);
   }
 }
@@ -140,22 +212,23 @@ TEST(VisibleSets, AWallHidesWhatStandsBehindIt) {
   Heightfield field = rough_ground(33, 33, 0);
   for (int j = 0; j < 33; ++j) field.at(16, j) = 500;
   const BisectionTree tree(5, 11);
-  for (const Mode mode : {Mode::kConservative, Mode::kSampled}) {
+  for (const Mode mode : kModes) {
     const Sets sets = visible_over(field, tree, few_cells(4, 4, mode));
+    const bool faces = mode == Mode::kFacing || mode == Mode::kInterior;
     for (int row = 0; row < 4; ++row) {
       for (std::uint32_t e = 0; e < 1U << sets.depth; ++e) {
         const PlanTriangle t = tree.triangle((NodeNumber{1} << sets.depth) + e);
         const auto [low, high] = std::minmax({t.apex.x, t.left.x, t.right.x});
-        // A triangle that touches the wall is as high as the wall, so conservative sets may contain those
-        // behind it.
+        // A triangle that touches the wall is as high as the wall. Conservative sets may contain those behind
+        // it, and an eye that need not be faced sees their vertices on the wall.
         if (high <= 16) {
           EXPECT_TRUE(sets.sees(row * 4, e));
-        } else if (low > 16 || mode == Mode::kSampled) {
+        } else if (low > 16 || faces) {
           EXPECT_FALSE(sets.sees(row * 4, e));
         }
         if (low >= 16) {
           EXPECT_TRUE(sets.sees(row * 4 + 3, e));
-        } else if (high < 16 || mode == Mode::kSampled) {
+        } else if (high < 16 || faces) {
           EXPECT_FALSE(sets.sees(row * 4 + 3, e));
         }
       }
@@ -166,7 +239,7 @@ TEST(VisibleSets, AWallHidesWhatStandsBehindIt) {
 TEST(VisibleSets, IsTheSameForAnyNumberOfThreads) {
   const Heightfield field = rough_ground(65, 50);
   const BisectionTree tree = BisectionTree::over(65, 50);
-  for (const Mode mode : {Mode::kConservative, Mode::kSampled}) {
+  for (const Mode mode : kModes) {
     const Options options = few_cells(16, 6, mode);
     const Sets many = visible_over(field, tree, options);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);

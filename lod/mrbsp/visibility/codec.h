@@ -4,13 +4,13 @@
 // something changes, with the hierarchical numbers of the coarse triangles. Changes of finer triangles are
 // not stored: they are the subtrees.
 //
-//   terrabench-visibility 2
+//   terrabench-visibility 3
 //   cells 8 1              columns and rows
 //   side 2                 samples along the side of a cell
 //   depth 2                of the coarse triangles: digits per number
 //   eye-height 0           metres
 //   surface 0123…          the ground it was computed for: ground_checksum()
-//   sets sampled           or conservative
+//   sets sampled           or another of kModeNames
 //   start 00, 01, 11       the set of the first cell
 //   a-b 11                 toggled between a and its right neighbour b
 //   d-e 00, 01, 10, 11

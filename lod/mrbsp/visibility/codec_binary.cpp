@@ -10,7 +10,7 @@ namespace terrabench::mrbsp::visibility {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'T', 'e', 'r', 'r', 'a', 'V', 'i', 's'};
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kChecksumBytes = 32;
 constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 30;
 

@@ -10,7 +10,7 @@
 namespace terrabench::mrbsp::visibility {
 namespace {
 
-constexpr std::string_view kFirstLine = "terrabench-visibility 2";
+constexpr std::string_view kFirstLine = "terrabench-visibility 3";
 
 std::string column_name(int column) {
   std::string name;

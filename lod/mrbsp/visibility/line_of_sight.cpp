@@ -1,6 +1,6 @@
 #include "lod/mrbsp/visibility/line_of_sight.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -9,18 +9,25 @@
 
 namespace terrabench::mrbsp::visibility {
 
-float LineOfSight::sample(int i, int j) const {
-  i = std::min(i, ground_.width - 1);
-  j = std::min(j, ground_.depth - 1);
-  return ground_.heights[static_cast<std::size_t>(j) * ground_.width + i];
+LineOfSight::LineOfSight(const GroundGrid& ground, const CoarseSquares& squares)
+    : ground_(ground), squares_(squares) {
+  const int side = squares.side();
+  count_ = {(ground.width - 2) / side + 1, (ground.depth - 2) / side + 1};
+  for (int x = 0; x <= count_.x; ++x) along_x_.push_back(std::min<float>(x * side, ground.width - 1));
+  for (int z = 0; z <= count_.y; ++z) along_z_.push_back(std::min<float>(z * side, ground.depth - 1));
+  heights_.reserve(along_x_.size() * along_z_.size());
+  for (const float z : along_z_) {
+    const float* const row = ground.heights.data() + static_cast<std::size_t>(z) * ground.width;
+    for (const float x : along_x_) heights_.push_back(row[static_cast<int>(x)]);
+  }
 }
 
 LineOfSight::Square LineOfSight::square(glm::ivec2 index) const {
-  const int side = squares_.side();
-  const glm::ivec2 low = index * side;
-  const glm::ivec2 high = glm::min(low + side, glm::ivec2(ground_.width - 1, ground_.depth - 1));
-  return {glm::vec2(low),        glm::vec2(high - low),  sample(low.x, low.y),        sample(high.x, low.y),
-          sample(low.x, high.y), sample(high.x, high.y), CoarseSquares::rising(index)};
+  const auto x = static_cast<std::size_t>(index.x), z = static_cast<std::size_t>(index.y);
+  const glm::vec2 low(along_x_[x], along_z_[z]), high(along_x_[x + 1], along_z_[z + 1]);
+  const float* const near = heights_.data() + vertex(index);
+  const float* const far = near + count_.x + 1;
+  return {low, high - low, near[0], near[1], far[0], far[1], CoarseSquares::rising(index)};
 }
 
 float LineOfSight::Square::height(float u, float v) const {
@@ -32,10 +39,8 @@ float LineOfSight::Square::height(float u, float v) const {
 }
 
 glm::ivec2 LineOfSight::index_at(float x, float z) const {
-  const auto along = [&](float at, int samples) {
-    return std::clamp(static_cast<int>(at) / squares_.side(), 0, (samples - 2) / squares_.side());
-  };
-  return {along(x, ground_.width), along(z, ground_.depth)};
+  const glm::ivec2 index(static_cast<int>(x) / squares_.side(), static_cast<int>(z) / squares_.side());
+  return glm::clamp(index, glm::ivec2(0), count_ - 1);
 }
 
 float LineOfSight::height(float x, float z) const {
@@ -59,7 +64,7 @@ bool LineOfSight::clear(const glm::vec3& from, const glm::vec3& to) const {
   };
   // Each piece of the line lies over one square, whose surface is linear on either side of the diagonal. So
   // it is enough to test the ends of the piece and its crossing of the diagonal.
-  const glm::ivec2 last = index_at(static_cast<float>(ground_.width), static_cast<float>(ground_.depth));
+  const glm::ivec2 last = count_ - 1;
   for (float t0 = 0; t0 < 1;) {
     const float tx = next_crossing(0), tz = next_crossing(1);
     const float t1 = std::clamp(std::min(tx, tz), t0, 1.0F);
@@ -84,59 +89,66 @@ bool LineOfSight::clear(const glm::vec3& from, const glm::vec3& to) const {
   return true;
 }
 
-void LineOfSight::add_seen(const Square& p, glm::ivec2 index, std::span<const glm::vec3> eyes, int cell,
+void LineOfSight::add_under(const CellArea& area, int cell, Sets& sets) const {
+  const glm::ivec2 first = area.low / squares_.side(), last = (area.high - 1) / squares_.side();
+  for (int z = first.y; z <= last.y; ++z) {
+    for (int x = first.x; x <= last.x; ++x) {
+      for (int half = 0; half < 2; ++half) sets.add(cell, squares_.element({x, z}, half));
+    }
+  }
+}
+
+void LineOfSight::add_seen(const glm::vec3& eye, bool facing, int cell, std::vector<Line>& lines,
                            Sets& sets) const {
-  const std::array<glm::vec3, 4> corners{{{p.low.x, p.y00, p.low.y},
-                                          {p.low.x + p.size.x, p.y10, p.low.y},
-                                          {p.low.x, p.y01, p.low.y + p.size.y},
-                                          {p.low.x + p.size.x, p.y11, p.low.y + p.size.y}}};
-  // Corners of the halves, counter-clockwise from above.
-  static constexpr int kHalves[2][2][3] = {{{0, 2, 1}, {3, 1, 2}}, {{2, 3, 0}, {1, 0, 3}}};
-  for (int half = 0; half < 2; ++half) {
-    const int* const corner = kHalves[p.rising ? 1 : 0][half];
-    const glm::vec3& a = corners[corner[0]];
-    const glm::vec3 normal = glm::cross(corners[corner[1]] - a, corners[corner[2]] - a);
-    const std::uint32_t element = squares_.element(index, half);
-    for (const glm::vec3& eye : eyes) {
-      if (!(glm::dot(normal, eye - a) > 0)) continue;
-      const auto seen = [&](int k) { return clear(eye, corners[corner[k]]); };
-      if (seen(0) || seen(1) || seen(2)) {
-        sets.add(cell, element);
-        break;
+  // Vertices of the halves, counter-clockwise from above.
+  static constexpr glm::ivec2 kHalves[2][2][3] = {{{{0, 0}, {0, 1}, {1, 0}}, {{1, 1}, {1, 0}, {0, 1}}},
+                                                  {{{0, 1}, {1, 1}, {0, 0}}, {{1, 0}, {0, 0}, {1, 1}}}};
+  std::fill(lines.begin(), lines.end(), Line::kUnknown);
+  const auto sees = [&](glm::ivec2 at) {
+    Line& line = lines[vertex(at)];
+    if (line == Line::kUnknown) line = clear(eye, vertex_position(at)) ? Line::kClear : Line::kBlocked;
+    return line == Line::kClear;
+  };
+  const auto faces = [&](glm::ivec2 a, glm::ivec2 b, glm::ivec2 c) {
+    const glm::vec3 from = vertex_position(a);
+    const glm::vec3 normal = glm::cross(vertex_position(b) - from, vertex_position(c) - from);
+    return glm::dot(normal, eye - from) > 0;
+  };
+  for (int z = 0; z < count_.y; ++z) {
+    for (int x = 0; x < count_.x; ++x) {
+      const glm::ivec2 at(x, z);
+      for (int half = 0; half < 2; ++half) {
+        const std::uint32_t element = squares_.element(at, half);
+        if (sets.sees(cell, element)) continue;
+        const glm::ivec2* const corner = kHalves[CoarseSquares::rising(at) ? 1 : 0][half];
+        const glm::ivec2 a = at + corner[0], b = at + corner[1], c = at + corner[2];
+        if ((!facing || faces(a, b, c)) && (sees(a) || sees(b) || sees(c))) sets.add(cell, element);
       }
     }
   }
 }
 
-std::vector<glm::vec3> LineOfSight::eyes_in(glm::ivec2 low, glm::ivec2 high, int eyes_per_side,
-                                            float eye_height) const {
-  std::vector<glm::vec3> eyes;
-  eyes.reserve(static_cast<std::size_t>(eyes_per_side) * eyes_per_side);
-  for (int b = 0; b < eyes_per_side; ++b) {
-    for (int a = 0; a < eyes_per_side; ++a) {
-      const glm::vec2 share = (glm::vec2(a, b) + 0.5F) / static_cast<float>(eyes_per_side);
-      const glm::vec2 place = glm::vec2(low) + share * glm::vec2(high - low);
-      const float fine = sample_height(ground_, place.x, place.y);
-      eyes.emplace_back(place.x, std::max(fine, height(place.x, place.y)) + eye_height, place.y);
-    }
-  }
-  return eyes;
-}
-
-void LineOfSight::find(int cell, int eyes_per_side, Sets& sets) const {
+void LineOfSight::find(int cell, const Sampling& sampling, Sets& sets) const {
   const CellGrid& cells = sets.cells;
-  const glm::ivec2 low = glm::ivec2(cell % cells.columns, cell / cells.columns) * cells.side;
-  const glm::ivec2 high = glm::min(low + cells.side, glm::ivec2(ground_.width - 1, ground_.depth - 1));
-  const std::vector<glm::vec3> eyes = eyes_in(low, high, eyes_per_side, sets.eye_height);
-  const glm::ivec2 last = index_at(static_cast<float>(ground_.width), static_cast<float>(ground_.depth));
-  for (int z = 0; z <= last.y; ++z) {
-    for (int x = 0; x <= last.x; ++x) {
-      const Square p = square({x, z});
-      add_seen(p, {x, z}, eyes, cell, sets);
-      const bool under_cell =
-          p.low.x < static_cast<float>(high.x) && p.low.x + p.size.x > static_cast<float>(low.x) &&
-          p.low.y < static_cast<float>(high.y) && p.low.y + p.size.y > static_cast<float>(low.y);
-      for (int half = 0; under_cell && half < 2; ++half) sets.add(cell, squares_.element({x, z}, half));
+  CellArea area;
+  area.low = glm::ivec2(cell % cells.columns, cell / cells.columns) * cells.side;
+  area.high = glm::min(area.low + cells.side, glm::ivec2(ground_.width - 1, ground_.depth - 1));
+  add_under(area, cell, sets);
+  glm::ivec2 eyes(2);
+  if (sampling.eyes == Eyes::kInside) eyes = glm::ivec2(sampling.per_side);
+  if (sampling.eyes == Eyes::kSamples) eyes = area.high - area.low + 1;
+  const auto place = [&](int axis, int k) {
+    const auto low = static_cast<float>(area.low[axis]), high = static_cast<float>(area.high[axis]);
+    const auto count = static_cast<float>(eyes[axis]), at = static_cast<float>(k);
+    if (sampling.eyes == Eyes::kInside) return low + (at + 0.5F) / count * (high - low);
+    return std::clamp(low + at / (count - 1) * (high - low), low + kInset, high - kInset);
+  };
+  std::vector<Line> lines(heights_.size());
+  for (int b = 0; b < eyes.y; ++b) {
+    for (int a = 0; a < eyes.x; ++a) {
+      const float x = place(0, a), z = place(1, b);
+      const float ground = std::max(sample_height(ground_, x, z), height(x, z));
+      add_seen({x, ground + sets.eye_height, z}, sampling.facing, cell, lines, sets);
     }
   }
 }

@@ -34,6 +34,19 @@ void check(const Options& options) {
   check_range("eye_height", options.eye_height, 0.0F, 1e6F);
 }
 
+Sampling sampling_of(const Options& options) {
+  switch (options.mode) {
+    case Mode::kVertices:
+      return {.eyes = Eyes::kSamples};
+    case Mode::kFacing:
+      return {.facing = true};
+    case Mode::kInterior:
+      return {.eyes = Eyes::kInside, .facing = true, .per_side = options.eyes};
+    default:
+      return {};
+  }
+}
+
 }  // namespace
 
 GroundChecksum ground_checksum(const GroundGrid& ground, const BisectionTree& tree) {
@@ -86,17 +99,13 @@ Sets find_sets(const GroundGrid& ground, const BisectionTree& tree, const Option
     });
     progress.end();
   };
-  switch (options.mode) {
-    case Mode::kSampled: {
-      const LineOfSight lines(ground, squares);
-      each_cell([&](int cell) { lines.find(cell, options.eyes, sets); });
-      break;
-    }
-    case Mode::kConservative: {
-      const AreaOcclusion areas(ground, tree, sets.cells, options.eye_height);
-      each_cell([&](int cell) { areas.find(squares, cell, sets); });
-      break;
-    }
+  if (options.mode == Mode::kConservative) {
+    const AreaOcclusion areas(ground, tree, sets.cells, options.eye_height);
+    each_cell([&](int cell) { areas.find(squares, cell, sets); });
+  } else {
+    const LineOfSight lines(ground, squares);
+    const Sampling sampling = sampling_of(options);
+    each_cell([&](int cell) { lines.find(cell, sampling, sets); });
   }
   return sets;
 }

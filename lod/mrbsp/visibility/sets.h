@@ -8,7 +8,8 @@
 //   store     codec.h               a change table as text, as bytes, as a file
 //   use       flags.h               one flag per node, toggled as the observer moves (Mrbsp::update())
 //
-// Cost: cells × coarse triangles × length of a line of sight, in parallel over cells.
+// Cost: cells × coarse triangles × length of a line of sight, in parallel over cells; from all samples
+// (kVertices) samples in place of cells.
 #pragma once
 
 #include <algorithm>
@@ -26,17 +27,22 @@ namespace terrabench::mrbsp::visibility {
 
 // How the sets are computed.
 enum class Mode : std::uint8_t {
-  kSampled,       // the paper's vertex-to-vertex sampling over the coarse surface; may miss triangles
+  kSampled,       // as printed: from the corners of the cell to the vertices of the coarse triangles
   kConservative,  // area to area over the full surface; misses none for an eye that is not below the surface
+  kVertices,      // as kSampled, from all samples in the cell
+  kFacing,        // as kSampled, for triangles that face the eye
+  kInterior,      // as kFacing, from places inside the cell
 };
-inline constexpr std::array<std::string_view, 2> kModeNames{"sampled", "conservative"};
+// All but kConservative sample the coarse surface (line_of_sight.h) and may miss visible triangles.
+inline constexpr std::array<std::string_view, 5> kModeNames{"sampled", "conservative", "vertices", "facing",
+                                                            "interior"};
 inline std::string_view name_of(Mode mode) { return kModeNames[static_cast<std::size_t>(mode)]; }
 
 struct Options {
   Mode mode = Mode::kConservative;
   int cells = 16;           // most cells along the longer side of the ground, 1 to 1024
   int coarseness = 6;       // levels from the finest to the coarse triangles; 1 more if the depth is even
-  int eyes = 2;             // sampled only: eyes along each side of a cell, evenly spaced, 1 to 64
+  int eyes = 2;             // kInterior only: eyes along each side of a cell, evenly spaced, 1 to 64
   float eye_height = 1.8F;  // metres above the ground, 0 to 1e6
 };
 

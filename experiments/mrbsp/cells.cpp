@@ -1,0 +1,70 @@
+// §4: smaller cells make a frame faster, since their sets are closer to what is visible. All sizes of cells
+// are timed in turns, with the same views.
+#include <fmt/format.h>
+
+#include <array>
+
+#include "experiments/experiment.h"
+#include "experiments/mrbsp/methods.h"
+
+namespace terrabench::mrbsp {
+namespace {
+
+constexpr std::array kSpecs{
+    ParameterSpec{"views", std::int64_t{36}, "views", "evenly spaced over the walk of table 2", 1, 240},
+    ParameterSpec{"rounds", std::int64_t{4}, "rounds", "times that each view is drawn", 1, 100},
+};
+constexpr std::array kCells{4, 8, 16, 32, 64};  // along each side of the ground
+constexpr int kViews = 240;
+
+std::vector<Case> cases(const RunOptions& options) {
+  const bool paper = options.profile == Profile::kPaper;
+  std::vector<Case> cases;
+  for (const std::string& ground :
+       paper ? grounds(options, true) : terrabench::grounds(options, {"real-257"})) {
+    cases.push_back({ground, Parameters(kSpecs), ground});
+  }
+  return cases;
+}
+
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
+  const Heightfield& ground = *source.heights;
+  MrbspOptions how{.depth = depth_over(ground), .conforming = false};
+  std::vector<Mrbsp> lods;  // brute force, then by number of cells
+  lods.reserve(1 + kCells.size());
+  lods.emplace_back(ground, how, progress);
+  how.visibility = true;
+  how.visible.mode = visibility::Mode::kSampled;
+  for (const int cells : kCells) {
+    how.visible.cells = cells;
+    lods.emplace_back(ground, how, progress);
+  }
+  const std::vector<View> all = walk(ground, kViews);
+  for (Mrbsp& lod : lods) lod.tune(kFinest);
+  const double brute = mean_triangles(lods[0], all);
+  for (std::size_t k = 0; k < kCells.size(); ++k) {
+    recorder.add(fmt::format("share_{}", kCells[k]), "", mean_triangles(lods[k + 1], all) / brute);
+  }
+  const std::vector<View> views = some_of(all, static_cast<std::size_t>(at.parameters.integer("views")));
+  const std::vector<RoundTimes> rounds =
+      time_rounds(lods, ground, views, at.integer("rounds"), options, progress);
+  const std::vector<double> least = least_times(rounds);
+  for (std::size_t k = 0; k < kCells.size(); ++k) {
+    recorder.add(fmt::format("least_time_share_{}", kCells[k]), "", least[k + 1] / least[0]);
+  }
+  for (const RoundTimes& round : rounds) {
+    for (std::size_t k = 0; k < kCells.size(); ++k) {
+      recorder.add(fmt::format("frame_time_{}", kCells[k]), "s",
+                   round.of(k + 1) / static_cast<double>(views.size()));
+      recorder.add(fmt::format("time_share_{}", kCells[k]), "", round.of(k + 1) / round.of(0));
+    }
+  }
+}
+
+}  // namespace
+
+extern const Experiment kCellSizes{"mrbsp.cells", "§4: time per frame against the size of the cells", kSpecs,
+                                   cases, measure};
+
+}  // namespace terrabench::mrbsp

@@ -1,0 +1,49 @@
+// The four methods of table 2 over one ground, and how their frames are timed.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "experiments/experiment.h"
+#include "experiments/mrbsp/ground.h"
+
+namespace terrabench::mrbsp {
+
+enum Method : std::size_t { kBrute, kLod, kVis, kBoth, kMethods };
+inline constexpr std::array<std::string_view, kMethods> kMethodNames{"brute", "lod", "vis", "both"};
+
+// Level of detail with the rules as printed; visible sets by `mode`.
+struct Methods {
+  std::vector<Mrbsp> lods;  // by Method
+
+  Methods(const Heightfield&, visibility::Mode mode, Progress&);
+  Methods(const Heightfield&, const visibility::ChangeTable&, Progress&);  // with sets found before
+  void tune(double size);  // of level of detail; the others draw the finest triangles
+};
+
+// The size at which level of detail alone draws the paper's share of brute force, 41.6 %.
+double fitted_size(Methods&, const std::vector<View>&);
+
+// `count` views, evenly spaced; at most all of them.
+std::vector<View> some_of(const std::vector<View>& views, std::size_t count);
+
+// Seconds of one round, by method and view.
+struct RoundTimes {
+  std::vector<std::vector<double>> frames;  // choice of triangles and drawing
+  std::vector<std::vector<double>> choices;
+  double of(std::size_t method) const;  // all frames
+  double choosing_of(std::size_t method) const;
+};
+// Draws every view with every method, `rounds` times. Methods alternate at every view, so that a slow period
+// of the machine affects all alike; every second round reverses their order, so that none always follows the
+// same other one and inherits its caches. Compare methods within a round: a whole round may be slow without
+// changing its ratios.
+std::vector<RoundTimes> time_rounds(std::vector<Mrbsp>& lods, const Heightfield&, const std::vector<View>&,
+                                    int rounds, const RunOptions&, Progress&);
+
+// By method: all views, each in its fastest round. Other work of the machine only ever makes a frame slower,
+// so this is the least disturbed time.
+std::vector<double> least_times(const std::vector<RoundTimes>&);
+
+}  // namespace terrabench::mrbsp
