@@ -158,6 +158,13 @@ void Edit::commit(events::Kind kind) {
     if (indexed(node)) tiles += NodeIndex::tiles(model_.range(node));
   }
   model_.index.prepare(tiles);
+  std::vector<CellId> gone;
+  gone.reserve(superseded_.size());
+  for (const auto& [old, by] : superseded_) gone.push_back(old);
+  std::sort(gone.begin(), gone.end());
+  const auto first_new = static_cast<NodeId>(nodes_before_);
+  const RimChange rim = rim_change(model_, covered_, removed_, gone, faces_, first_new);
+  model_.links.prepare(rim.most);
   tree.reserve_event();
   float lowest = HUGE_VALF, highest = -HUGE_VALF;
   for (CellId c = tree.nodes()[nodes_before_].first; c < tree.cells(); ++c) {
@@ -174,6 +181,7 @@ void Edit::commit(events::Kind kind) {
   for (const Square s : covered_) model_.surface.set_covered(s, true);
   for (const Square s : plain_) model_.surface.set_covered(s, false);
   for (const Face& face : faces_) model_.surface.add(tree, face);
+  relink(model_, rim, gone, faces_, first_new);
   for (std::size_t n = nodes_before_; n < tree.nodes().size(); ++n) {
     const GroundedHeightmap& node = tree.nodes()[n];
     if (indexed(node)) model_.index.add(model_.range(node), static_cast<NodeId>(n));

@@ -4,9 +4,8 @@
 //   2. new heightmaps are appended to the tree and their quadrilaterals become faces;
 //   3. the outline of the new heightmaps lists their boundary cells;
 //   4. join: triangles close the ring between loop and outline; superseded cells become links to new ones.
-// The ring's triangles are the paper's boundary links (Alonso, Joan-Arinyo & Solano, §3.2: "each cell in the
-// boundary of a new heightmap is linked to the neighbor cell in another heightmap"). Their corners are cells
-// of the old and of the new heightmaps, so the surface stays closed, whatever earlier events left there.
+// The ring's corners are cells of the old and of the new heightmaps, so the surface stays closed, whatever
+// earlier events left there. commit() stores the boundary links that its edges are (boundary_links.h).
 //
 // Square: between four of the root's samples; plain (two triangles) or covered by faces. Face: a triangle
 // between any three cells. Cell: a height, a link to a later cell, or void. Loop: the cells around the

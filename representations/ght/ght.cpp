@@ -136,6 +136,7 @@ void Ght::spans(Columns where, SpanSink& out) const {
 Memory Ght::memory() const {
   Memory memory = model_.tree.memory();
   memory += model_.surface.memory();
+  memory += model_.links.memory();
   memory += model_.index.memory();
   memory.index += heap_bytes(this);
   return memory;

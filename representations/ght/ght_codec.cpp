@@ -1,5 +1,6 @@
 // The tree's own file form: grid, nodes, cells and their kinds, events, faces, and the squares that they
-// cover. Loading builds the indices again, and checks that every query can safely read the tree.
+// cover. Loading makes the boundary links and the indices again, which follow from these, and checks that
+// every query can safely read the tree.
 #include <algorithm>
 #include <cmath>
 
@@ -272,6 +273,7 @@ std::unique_ptr<Representation> Ght::load(ByteSource& in) {
       in.fail("a node is too wide for its cells");
     if (node.area == Area::kOutdoor) model.index_node(n);
   }
+  link_all(model);
   return loaded;
 }
 
