@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "representations/ght/triangulate.h"
 
@@ -92,14 +93,29 @@ SquareRange ComposedSurface::range(glm::dvec2 low, glm::dvec2 high) const {
           clip(last.x + kSlip, grid_.width - 1), clip(last.y + kSlip, grid_.depth - 1)};
 }
 
-SquareRange ComposedSurface::range(const Tree& tree, const Face& face) const {
-  glm::dvec2 low(HUGE_VAL), high(-HUGE_VAL);
+ComposedSurface::Corners ComposedSurface::corners_of(const Tree& tree, const Face& face) {
+  Corners box{glm::dvec2(HUGE_VAL), glm::dvec2(-HUGE_VAL)};
   for (const CellId c : face) {
     const glm::dvec2 p = tree.plan(c);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    box.low = glm::min(box.low, p);
+    box.high = glm::max(box.high, p);
   }
-  return range(low, high);
+  return box;
+}
+
+SquareRange ComposedSurface::range(const Tree& tree, const Face& face) const {
+  const Corners box = corners_of(tree, face);
+  return range(box.low, box.high);
+}
+
+// One step wider than the face on each side, which is more than rounding amounts to.
+std::uint32_t ComposedSurface::box_in(Square s, const Corners& face) const {
+  const auto step = [](double at, double wider) {
+    return static_cast<std::uint32_t>(std::clamp(std::floor(at * kBoxSteps) + wider, 0.0, kBoxSteps - 1));
+  };
+  const glm::dvec2 at(s.i, s.j), low = grid_.samples_to(face.low) - at,
+                                 high = grid_.samples_to(face.high) - at;
+  return step(low.x, -1) | step(high.x, 1) << 8U | step(low.y, -1) << 16U | step(high.y, 1) << 24U;
 }
 
 float ComposedSurface::plain_height(const Tree& tree, float x, float z, Square s) {
@@ -115,13 +131,23 @@ float ComposedSurface::plain_height(const Tree& tree, float x, float z, Square s
 void ComposedSurface::crossings(const Tree& tree, float x, float z, Square s,
                                 std::vector<Crossing>& out) const {
   if (plain(tree, s)) out.push_back({plain_height(tree, x, z, s), 1});
-  over(s, [&](FaceId f) {
+  const std::uint32_t tile = tile_of_[tile_index(s)];
+  if (tile == kNone) return;
+  const auto step = [](double at) {
+    return static_cast<std::uint32_t>(std::clamp(at * kBoxSteps, 0.0, kBoxSteps - 1));
+  };
+  const std::uint32_t i = step((x - grid_.origin_x) * per_x_ - s.i),
+                      j = step((z - grid_.origin_z) * per_z_ - s.j);
+  for (std::uint32_t e = tiles_[tile].first[slot(s)]; e != kNone; e = entries_[e].next) {
+    const std::uint32_t box = entries_[e].box;
+    if (i < (box & 255U) || i > (box >> 8U & 255U) || j < (box >> 16U & 255U) || j > box >> 24U) continue;
+    const Face& face = faces_[entries_[e].face];
     std::array<glm::vec3, 3> p;
-    for (std::size_t k = 0; k < 3; ++k) p[k] = tree.position(faces_[f][k]);
+    for (std::size_t k = 0; k < 3; ++k) p[k] = tree.position(face[k]);
     const int turn = side(p[0], p[1], x, z);
-    if (turn == 0 || side(p[1], p[2], x, z) != turn || side(p[2], p[0], x, z) != turn) return;
+    if (turn == 0 || side(p[1], p[2], x, z) != turn || side(p[2], p[0], x, z) != turn) continue;
     out.push_back({height_at(p, x, z), turn});
-  });
+  }
 }
 
 float ComposedSurface::top(const Tree& tree, glm::dvec2 plan) const {
@@ -186,7 +212,8 @@ FaceId ComposedSurface::add(const Tree& tree, const Face& face) noexcept {
     faces_[f] = face;
   }
   ++face_count_;
-  range(tree, face).each([&](Square s) {
+  const Corners corners = corners_of(tree, face);
+  range(corners.low, corners.high).each([&](Square s) {
     std::uint32_t e = free_entry_;
     if (e == kNone) {
       e = static_cast<std::uint32_t>(entries_.size());
@@ -195,7 +222,7 @@ FaceId ComposedSurface::add(const Tree& tree, const Face& face) noexcept {
       free_entry_ = entries_[e].next;
     }
     std::uint32_t& first = tile(s).first[slot(s)];
-    entries_[e] = {f, first};
+    entries_[e] = {f, first, box_in(s, corners)};
     first = e;
     ++entry_count_;
   });

@@ -2,7 +2,8 @@
 // follow from the boundary links of neighbouring cells (§3.2). Here a square between four samples of the root
 // is either `plain`, two triangles between the cells at its samples, or covered by `faces`, triangles between
 // any cells. Tunnel walls and overhanging scarps consist of faces too. An index, present only in tiles with
-// faces, finds them by square.
+// faces, finds them by square; each entry holds the face's box within the square, so that a line reads the
+// corners of few faces besides those that it crosses.
 //
 // A vertical line costs O(faces over its square), and O(1) on a plain square.
 #pragma once
@@ -129,7 +130,15 @@ class ComposedSurface {
   struct Entry {
     FaceId face;
     std::uint32_t next;
+    std::uint32_t box;  // of the face within the square, one byte per side: a line elsewhere misses the face
   };
+  // The side of a box counts in steps of 1/256 of a square.
+  static constexpr double kBoxSteps = 256;
+  struct Corners {  // of a face, in plan
+    glm::dvec2 low, high;
+  };
+  static Corners corners_of(const Tree& tree, const Face& face);
+  std::uint32_t box_in(Square s, const Corners& face) const;
 
   std::size_t tile_index(Square s) const {
     return static_cast<std::size_t>(s.j / kSide) * tiles_x_ + static_cast<std::size_t>(s.i / kSide);
