@@ -1,7 +1,6 @@
 #include "representations/ght/boundary_links.h"
 
 #include <algorithm>
-#include <bit>
 #include <glm/geometric.hpp>
 
 #include "representations/ght/model.h"
@@ -20,6 +19,11 @@ bool at_rim(const Tree& tree, const GroundedHeightmap& node, int i, int j) {
     return a < 0 || b < 0 || a >= node.columns || b >= node.rows ||
            tree.kind(node.cell(a, b)) != CellKind::kHeight;
   });
+}
+
+void sort_unique(std::vector<CellId>& cells) {
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
 }
 
 class Linker {
@@ -114,7 +118,7 @@ class Linker {
 
 std::size_t BoundaryLinks::slot_of(CellId c) const {
   std::size_t at = home(c);
-  while (slots_[at].cell != kNone && slots_[at].cell != c) at = (at + 1) & (slots_.size() - 1);
+  while (slots_[at].cell != kNone && slots_[at].cell != c) at = next(at);
   return at;
 }
 
@@ -123,7 +127,7 @@ CellId BoundaryLinks::of(CellId c) const { return slots_.empty() ? kNone : slots
 void BoundaryLinks::prepare(std::size_t more) {
   const std::size_t least = (size_ + more) * 4 / 3 + 1;
   if (more == 0 || least <= slots_.size()) return;
-  std::vector<Slot> old(std::max(kLeastSlots, std::bit_ceil(least)));
+  std::vector<Slot> old(std::max({kLeastSlots, least, slots_.size() * 3 / 2}));
   old.swap(slots_);
   for (const Slot& slot : old) {
     if (slot.cell != kNone) slots_[slot_of(slot.cell)] = slot;
@@ -141,10 +145,9 @@ void BoundaryLinks::erase(CellId c) noexcept {
   std::size_t hole = slot_of(c);
   if (slots_[hole].cell == kNone) return;
   --size_;
-  const std::size_t mask = slots_.size() - 1;
   // Later cells move back, so that no search stops at the hole before it reaches them.
-  for (std::size_t at = (hole + 1) & mask; slots_[at].cell != kNone; at = (at + 1) & mask) {
-    if (((at - home(slots_[at].cell)) & mask) < ((at - hole) & mask)) continue;
+  for (std::size_t at = next(hole); slots_[at].cell != kNone; at = next(at)) {
+    if (steps(home(slots_[at].cell), at) < steps(hole, at)) continue;
     slots_[hole] = slots_[at];
     hole = at;
   }
@@ -163,17 +166,20 @@ RimChange rim_change(const Model& model, std::span<const Square> covered, std::s
     const Face& face = model.surface.face(f);
     corners.insert(corners.end(), face.begin(), face.end());
   }
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  sort_unique(corners);
   RimChange change;
   std::set_difference(corners.begin(), corners.end(), superseded.begin(), superseded.end(),
                       std::back_inserter(change.rim));
-  change.most = change.rim.size();
+  std::vector<CellId>& linked = corners;
+  linked = change.rim;
   for (const Face& face : added) {
     for (std::size_t k = 0; k < 3; ++k) {
-      change.most += tree.node_of(face[k]) != tree.node_of(face[(k + 1) % 3]) ? 2 : 0;
+      const CellId a = face[k], b = face[(k + 1) % 3];
+      if (tree.node_of(a) != tree.node_of(b)) linked.insert(linked.end(), {a, b});
     }
   }
+  sort_unique(linked);
+  change.most = linked.size();
   for (NodeId n = first_new; n < tree.nodes().size(); ++n) {
     const GroundedHeightmap& node = tree.nodes()[n];
     if (!node.aligned) continue;

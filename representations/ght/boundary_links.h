@@ -46,11 +46,16 @@ class BoundaryLinks {
 
   std::size_t home(CellId c) const {
     constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15U;  // spreads consecutive cells
-    return static_cast<std::size_t>((c * kGolden) >> 32U) & (slots_.size() - 1);
+    return static_cast<std::size_t>(((c * kGolden) >> 32U) * slots_.size() >> 32U);
+  }
+  std::size_t next(std::size_t slot) const { return slot + 1 == slots_.size() ? 0 : slot + 1; }
+  // How far on from one slot to another.
+  std::size_t steps(std::size_t from, std::size_t to) const {
+    return to >= from ? to - from : to + slots_.size() - from;
   }
   std::size_t slot_of(CellId c) const;  // of the cell, or the empty one where it belongs
 
-  std::vector<Slot> slots_;  // a power of two; collisions move on to the next slot
+  std::vector<Slot> slots_;  // collisions move on to the next one
   std::size_t size_ = 0;
 };
 

@@ -202,7 +202,7 @@ void ComposedSurface::set_covered(Square s, bool covered) noexcept {
   word = covered ? word | bit : word & ~bit;
 }
 
-FaceId ComposedSurface::add(const Tree& tree, const Face& face) noexcept {
+FaceId ComposedSurface::number(const Face& face) noexcept {
   FaceId f = free_face_;
   if (f == kNone) {
     f = static_cast<FaceId>(faces_.size());
@@ -212,21 +212,47 @@ FaceId ComposedSurface::add(const Tree& tree, const Face& face) noexcept {
     faces_[f] = face;
   }
   ++face_count_;
-  const Corners corners = corners_of(tree, face);
-  range(corners.low, corners.high).each([&](Square s) {
-    std::uint32_t e = free_entry_;
-    if (e == kNone) {
-      e = static_cast<std::uint32_t>(entries_.size());
-      entries_.push_back({});
-    } else {
-      free_entry_ = entries_[e].next;
-    }
-    std::uint32_t& first = tile(s).first[slot(s)];
-    entries_[e] = {f, first, box_in(s, corners)};
-    first = e;
-    ++entry_count_;
-  });
   return f;
+}
+
+void ComposedSurface::enter(Square s, FaceId face, std::uint32_t box) noexcept {
+  std::uint32_t e = free_entry_;
+  if (e == kNone) {
+    e = static_cast<std::uint32_t>(entries_.size());
+    entries_.push_back({});
+  } else {
+    free_entry_ = entries_[e].next;
+  }
+  std::uint32_t& first = tile(s).first[slot(s)];
+  entries_[e] = {face, first, box};
+  first = e;
+  ++entry_count_;
+}
+
+FaceId ComposedSurface::add(const Tree& tree, const Face& face) noexcept {
+  const FaceId f = number(face);
+  const Corners corners = corners_of(tree, face);
+  range(corners.low, corners.high).each([&](Square s) { enter(s, f, box_in(s, corners)); });
+  return f;
+}
+
+std::vector<ComposedSurface::Placed> ComposedSurface::place(const Tree& tree,
+                                                            std::span<const Face> faces) const {
+  std::vector<Placed> placed;
+  for (std::uint32_t k = 0; k < faces.size(); ++k) {
+    const Corners corners = corners_of(tree, faces[k]);
+    range(corners.low, corners.high).each([&](Square s) { placed.push_back({s, k, box_in(s, corners)}); });
+  }
+  std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
+    return a.square != b.square ? a.square < b.square : a.face < b.face;
+  });
+  return placed;
+}
+
+void ComposedSurface::add(std::span<const Face> faces, std::span<const Placed> placed,
+                          std::span<FaceId> ids) noexcept {
+  for (std::size_t k = 0; k < faces.size(); ++k) ids[k] = number(faces[k]);
+  for (const Placed& p : placed) enter(p.square, ids[p.face], p.box);
 }
 
 void ComposedSurface::remove(const Tree& tree, FaceId f) noexcept {

@@ -113,6 +113,13 @@ class ComposedSurface {
   void prepare(const Tree& tree, std::span<const Square> covered, std::span<const Face> added);
   void set_covered(Square s, bool covered) noexcept;
   FaceId add(const Tree& tree, const Face& face) noexcept;
+  // Adds all faces, with the entries of each square side by side, so that a line reads them in order.
+  struct Placed {
+    Square square;
+    std::uint32_t face, box;  // number in the list
+  };
+  std::vector<Placed> place(const Tree& tree, std::span<const Face> faces) const;  // may throw
+  void add(std::span<const Face> faces, std::span<const Placed> placed, std::span<FaceId> ids) noexcept;
   void remove(const Tree& tree, FaceId face) noexcept;
 
   Memory memory() const;
@@ -147,6 +154,8 @@ class ComposedSurface {
     return static_cast<std::uint32_t>(s.j % kSide * kSide + s.i % kSide);
   }
   Tile& tile(Square s) noexcept;
+  FaceId number(const Face& face) noexcept;
+  void enter(Square s, FaceId face, std::uint32_t box) noexcept;
 
   SampleGrid grid_;
   double per_x_ = 1, per_z_ = 1;  // 1 / spacing

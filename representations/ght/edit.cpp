@@ -151,6 +151,8 @@ void Edit::commit(events::Kind kind) {
   Tree& tree = model_.tree;
   check_faces();
   model_.surface.prepare(tree, covered_, faces_);
+  const std::vector<ComposedSurface::Placed> placed = model_.surface.place(tree, faces_);
+  std::vector<FaceId> ids(faces_.size());
   const auto indexed = [](const GroundedHeightmap& node) { return node.area == Area::kOutdoor; };
   std::size_t tiles = 0;
   for (std::size_t n = nodes_before_; n < tree.nodes().size(); ++n) {
@@ -180,7 +182,7 @@ void Edit::commit(events::Kind kind) {
   for (const auto& [old, by] : superseded_) tree.set_link(old, by);
   for (const Square s : covered_) model_.surface.set_covered(s, true);
   for (const Square s : plain_) model_.surface.set_covered(s, false);
-  for (const Face& face : faces_) model_.surface.add(tree, face);
+  model_.surface.add(faces_, placed, ids);
   relink(model_, rim, gone, faces_, first_new);
   for (std::size_t n = nodes_before_; n < tree.nodes().size(); ++n) {
     const GroundedHeightmap& node = tree.nodes()[n];

@@ -32,7 +32,8 @@ inline constexpr std::string_view kMove = "move the event, or make it smaller";
 
 class Edit {
  public:
-  // New nodes become children of `host`. `where` names the event in errors.
+  // New nodes become children of `host`, which must contain the event's region. `where` names the event in
+  // errors.
   Edit(Model& model, NodeId host, std::string where)
       : model_(model), host_(host), where_(std::move(where)), nodes_before_(model.tree.nodes().size()) {}
   ~Edit() {
@@ -46,6 +47,8 @@ class Edit {
   const SampleGrid& grid() const { return model_.tree.grid(); }
   // Throws bad_input that names the event.
   [[noreturn]] void refuse(std::string_view what, std::string_view advice) const;
+  // For an event whose region is known only after its first steps: before any heightmap is appended.
+  void set_host(NodeId host) { host_ = host; }
   // Height of the ground before the event; refuses ground without data.
   float ground(glm::dvec2 plan) const;
 

@@ -240,10 +240,11 @@ ComposedSurface ComposedSurface::load(ByteSource& in, const Tree& tree) {
   }
   std::size_t entries = 0;
   for (const Face& face : faces) entries += surface.range(tree, face).count();
-  require_memory(entries * (sizeof(Entry) + sizeof(Face)), "grounded heightmap tree");
+  require_memory(entries * (sizeof(Entry) + sizeof(Placed) + sizeof(Face)), "grounded heightmap tree");
   surface.prepare(tree, covered, faces);
   for (const Square s : covered) surface.set_covered(s, true);
-  for (const Face& face : faces) surface.add(tree, face);
+  std::vector<FaceId> ids(faces.size());
+  surface.add(faces, surface.place(tree, faces), ids);
   return surface;
 }
 
