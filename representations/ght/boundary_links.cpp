@@ -21,6 +21,16 @@ bool at_rim(const Tree& tree, const GroundedHeightmap& node, int i, int j) {
   });
 }
 
+// The number of samples around one whose cells are not the root's, which may get a link.
+std::size_t linkable_around(const Tree& tree, Square sample) {
+  const SampleGrid& grid = tree.grid();
+  return static_cast<std::size_t>(std::count_if(std::begin(kJoined), std::end(kJoined), [&](Square by) {
+    const int i = sample.i + by.i, j = sample.j + by.j;
+    return i >= 0 && j >= 0 && i < grid.width && j < grid.depth &&
+           tree.at_sample(i, j) >= tree.nodes()[0].cells();
+  }));
+}
+
 void sort_unique(std::vector<CellId>& cells) {
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
@@ -185,7 +195,7 @@ RimChange rim_change(const Model& model, std::span<const Square> covered, std::s
     if (!node.aligned) continue;
     for (int j = 0; j < node.rows; ++j) {
       for (int i = 0; i < node.columns; ++i) {
-        if (at_rim(tree, node, i, j)) change.most += 1 + std::size(kJoined);
+        if (at_rim(tree, node, i, j)) change.most += 1 + linkable_around(tree, {node.i0 + i, node.j0 + j});
       }
     }
   }
