@@ -15,6 +15,7 @@ namespace {
 using namespace events;
 
 constexpr double kMargin = 2.5;  // cells between a sane event and the terrain's border
+constexpr double kCover = 1.5;   // cells of ground over both ends of a sane carving
 
 double within(double low, double high, double share) { return low + (high - low) * share; }
 
@@ -92,9 +93,14 @@ std::optional<Event> sane_carving(Dice& dice, const Site& site, bool cave, std::
     const double fall = cave ? dice.between(0, 0.5) * glm::length(along) : 0;  // from `from` to the middle
     carving.from = {top.x - along.x, y + fall, top.y - along.y};
     carving.to = {top.x + along.x, y - fall, top.y + along.y};
-    carving.section = regular_section(4 + static_cast<int>(dice.next() % 5), radius);
+    const int sides = 4 + static_cast<int>(dice.next() % 5);
+    carving.section = regular_section(sides, radius / std::cos(std::numbers::pi / sides));
     carving.roughness = 0.03 * radius;
     carving.seed = dice.next();
+    const auto covered = [&](glm::dvec3 end) {
+      return height(site, {end.x, end.z}) - end.y > 1.4 * radius + kCover * cell;
+    };
+    if (!covered(carving.from) || !covered(carving.to)) continue;
     if (!comes_out_once(site, carving, 0, -1)) continue;
     if (!cave && !comes_out_once(site, carving, carving.line().length, 1)) continue;
     if (is_defined(site, before, carving)) return carving;
@@ -232,6 +238,10 @@ Refusal why_refused(const Site& site, const Event& event, std::span<const Event>
   if (says("border")) return Refusal::kBorder;
   if (says("lies over itself") || says("overhang")) return Refusal::kOverhang;
   if (says("mouth of a tunnel") || says("breaks into") || says("another tunnel")) return Refusal::kCarving;
+  if (says("two sample spacings wide") || says("one sample spacing under") ||
+      says("one sample spacing of it")) {
+    return Refusal::kThin;
+  }
   if (says("a mouth that is not") || says("two mouths")) return Refusal::kMouth;
   return Refusal::kOther;
 }

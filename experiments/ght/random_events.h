@@ -13,7 +13,8 @@ namespace terrabench::ght {
 events::Event wild_event(Dice& dice, const Site& site);
 
 // An event as the paper draws them: half to one and a quarter times the site's size long, two cells and more
-// inside the terrain, and one that is defined on this ground. A carving is redrawn until the definition
+// inside the terrain, and one that is defined on this ground; a carving is at least two cells wide and has
+// more than a cell of ground over both its ends. A carving is redrawn until the definition
 // (terrain/events/evaluate.h) allows it after `before`; where the site has no place for one, the result is a
 // radial erosion.
 events::Event sane_event(Dice& dice, const Site& site, const Ght& tree,
@@ -25,11 +26,12 @@ enum class Refusal : std::uint8_t {
   kBorder,      // within two sample spacings of the terrain's border
   kOverhang,    // over the overhang of an inverse fault, where no heightmap has one height
   kCarving,     // over or within one sample spacing of a tunnel or cave
+  kThin,        // a carving less than two cells wide, or with less than a cell of ground over it
   kMouth,       // a carving's own mouth is not one simple hole
   kOther,
 };
-inline constexpr std::string_view kRefusals[] = {"impossible", "border", "overhang",
-                                                 "carving",    "mouth",  "other"};
+inline constexpr std::string_view kRefusals[] = {"impossible", "border", "overhang", "carving",
+                                                 "thin",       "mouth",  "other"};
 // From the error that the tree gave. O(events) and, for a carving, O(its length).
 Refusal why_refused(const Site& site, const events::Event& event, std::span<const events::Event> before,
                     std::string_view error);

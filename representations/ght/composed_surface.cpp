@@ -128,6 +128,15 @@ float ComposedSurface::plain_height(const Tree& tree, float x, float z, Square s
                                 : (u + v - 1) * height(s.i + 1, s.j + 1) + (1 - v) * ne + (1 - u) * sw);
 }
 
+void ComposedSurface::prefetch(Square s, int step) const {
+  const std::uint32_t& tile = tile_of_[tile_index(s)];
+  if (step == 0) return __builtin_prefetch(&tile);
+  if (tile == kNone) return;
+  const std::uint32_t& first = tiles_[tile].first[slot(s)];
+  if (step == 1) return __builtin_prefetch(&first);
+  if (first != kNone) __builtin_prefetch(&entries_[first]);
+}
+
 void ComposedSurface::crossings(const Tree& tree, float x, float z, Square s,
                                 std::vector<Crossing>& out) const {
   if (plain(tree, s)) out.push_back({plain_height(tree, x, z, s), 1});

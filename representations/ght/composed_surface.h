@@ -101,6 +101,10 @@ class ComposedSurface {
   SquareRange range(const Tree& tree, const Face& face) const;
   SquareRange range(glm::dvec2 low, glm::dvec2 high) const;  // (x, z)
 
+  // Asks the processor for what crossings() will read, one step of the way each: the square's tile (0), its
+  // first entry (1), and that entry (2). A batch of lines does each step for all of them, so that their reads
+  // overlap.
+  void prefetch(Square s, int step) const;
   // Appends the crossings of the vertical line at (x, z) in square s, unordered. A line through the common
   // edge of two faces crosses one of them.
   void crossings(const Tree& tree, float x, float z, Square s, std::vector<Crossing>& out) const;
