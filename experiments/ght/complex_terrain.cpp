@@ -53,6 +53,9 @@ std::vector<std::byte> bytes_of(const Ght& tree) {
 std::vector<Case> cases(const RunOptions&) {
   std::vector<Case> cases = cases_by("events", kSpecs);
   cases[1].parameters.set("n", std::int64_t{1024});
+  cases.push_back(cases[0]);
+  cases[2].name = "sequence-513";
+  cases[2].parameters.set("n", std::int64_t{512});
   return cases;
 }
 

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "experiments/cases.h"
-#include "experiments/ght/site.h"
+#include "experiments/ght/random_events.h"
 #include "representations/ght/invariants.h"
 #include "terrain/error.h"
 
@@ -12,12 +12,12 @@ namespace {
 
 using namespace events;
 
-constexpr std::array<std::string_view, 5> kSequences{"single-events", "two-tunnels", "sequence", "rain",
-                                                     "random"};
+constexpr std::array<std::string_view, 6> kSequences{"single-events", "two-tunnels", "sequence",
+                                                     "rain",          "random",      "random-wild"};
 const std::array kSpecs{
     choice("events", kSequences, "the events that are played"),
     ParameterSpec{"particles", std::int64_t{200}, "", "in the rain", 1, 100000},
-    ParameterSpec{"sequences", std::int64_t{100}, "", "random sequences of up to 12 events", 1, 100000},
+    ParameterSpec{"sequences", std::int64_t{100}, "", "random sequences of 12 attempted events", 1, 100000},
 };
 
 // Squares per event. Random sequences have smaller terrains: more sequences in the time, and crowded events.
@@ -39,12 +39,28 @@ class Inspection {
     } catch (const Error& error) {
       if (error.code() != ExitCode::kBadInput) throw;
       ++refused_;
+      error_ = error.what();
       return false;
     }
     ++applied_;
     broken_ += broken_invariants(tree.model()).size();
     unlinked_ += unlinked_boundary_cells(tree.model());
     return true;
+  }
+  // Tries a random event after those that the tree took; appends it to them if the tree takes it too.
+  void try_random(Ght& tree, const Site& site, const Event& event, std::vector<Event>& before) {
+    ++tried_[static_cast<std::size_t>(kind(event))];
+    const bool meets = meets_fold(site, tree, event, before);
+    meeting_ += meets;
+    if (play(tree, event)) {
+      ++taken_[static_cast<std::size_t>(kind(event))];
+      before.push_back(event);
+      return;
+    }
+    const Refusal why = why_refused(site, event, before, error_);
+    ++why_[static_cast<std::size_t>(why)];
+    const bool explained = why == Refusal::kImpossible || why == Refusal::kBorder || meets;
+    unexplained_ += !explained;
   }
   // Once per sequence: the counts made here, and the edges of the closed mesh.
   void finish(const Ght& tree) {
@@ -54,14 +70,18 @@ class Inspection {
     const EdgeReport edges = check_edges(tree.mesh({}));
     open_ += edges.open + edges.non_manifold + edges.misoriented;
     const Census all = census(tree.model());
-    boundary_links_ += all.boundary_links;
+    const LinkReport links = check_boundary_links(tree.model());
+    boundary_links_ += links.stored;
+    derived_links_ += links.derived;
+    wrong_links_ += links.wrong;
     deepest_ = std::max(deepest_, all.deepest);
   }
   void write() const {
     using Count = std::pair<const char*, std::size_t>;
     for (const auto& [name, count] :
          {Count{"events", applied_}, Count{"refused_events", refused_},
-          Count{"boundary_links", boundary_links_}, Count{"deepest_node", deepest_},
+          Count{"boundary_links", boundary_links_}, Count{"derived_links", derived_links_},
+          Count{"wrong_links", wrong_links_}, Count{"deepest_node", deepest_},
           Count{"dangling_links", dangling_}, Count{"unlinked_boundary_cells", unlinked_},
           Count{"voids_seen", voids_seen_}, Count{"open_edges", open_},
           Count{"broken_invariants", broken_}}) {
@@ -69,77 +89,55 @@ class Inspection {
     }
   }
 
+  // Of random events: those tried and taken by kind, and the reasons of the others.
+  void write_refusals() const {
+    for (std::size_t k = 0; k < tried_.size(); ++k) {
+      std::string what(event_names()[k]);
+      std::replace(what.begin(), what.end(), '-', '_');
+      recorder_.add("tried_" + what, "", tried_[k]);
+      recorder_.add("taken_" + what, "", taken_[k]);
+    }
+    std::size_t refused = 0;
+    for (std::size_t k = 0; k < why_.size(); ++k) {
+      recorder_.add("refused_" + std::string(kRefusals[k]), "", why_[k]);
+      refused += why_[k];
+    }
+    const std::size_t by_tree = refused - why_[static_cast<std::size_t>(Refusal::kImpossible)],
+                      possible = applied_ + by_tree;
+    recorder_.add("possible_events", "", possible);
+    recorder_.add("refused_share", "", static_cast<double>(by_tree) / static_cast<double>(possible));
+    recorder_.add("meeting_share", "",
+                  static_cast<double>(meeting_) / static_cast<double>(applied_ + refused));
+    recorder_.add("unexplained_refusals", "", unexplained_);
+    recorder_.add("unexplained_share", "", static_cast<double>(unexplained_) / static_cast<double>(possible));
+  }
+
  private:
   Recorder& recorder_;
   std::size_t applied_ = 0, refused_ = 0, broken_ = 0, unlinked_ = 0, open_ = 0, boundary_links_ = 0,
-              dangling_ = 0, voids_seen_ = 0;
+              dangling_ = 0, voids_seen_ = 0, derived_links_ = 0, wrong_links_ = 0;
+  std::string error_;  // of the last refusal
+  std::array<std::size_t, kKinds> tried_{}, taken_{};
+  std::array<std::size_t, std::size(kRefusals)> why_{};
+  std::size_t unexplained_ = 0;
+  std::size_t meeting_ = 0;  // events near an overhang or carving, taken or not
   std::uint32_t deepest_ = 0;
 };
 
-// An event of any kind anywhere; carvings go through the higher ground.
-Event random_event(Dice& dice, const Site& site) {
-  // One number per statement: compilers differ in the order in which they evaluate arguments.
-  const auto point = [&] {
-    const double x = dice.between(0.1, 0.9);
-    return site.extent() * glm::dvec2(x, dice.between(0.1, 0.9));
-  };
-  const auto height = [&](glm::dvec2 p) {
-    return site.ground.sample(static_cast<float>(p.x), static_cast<float>(p.y));
-  };
-  const double cell = site.ground.cell_x;
-  const auto kind = static_cast<Kind>(dice.next() % kKinds);
-  const glm::dvec2 from = point(), to = point();
-  const double first = dice.between(0, 1), second = dice.between(0, 1), third = dice.between(0, 1);
-  const auto within = [](double low, double high, double share) { return low + (high - low) * share; };
-  switch (kind) {
-    case Kind::kLinearErosion:
-      return LinearErosion{from, to, within(0.5, 4, first) * cell, within(20, 50, second)};
-    case Kind::kRadialErosion:
-      return RadialErosion{{from.x, height(from), from.y},
-                           glm::dvec3(within(2, 9, first), within(1, 5, second), within(2, 9, third)) * cell};
-    case Kind::kLateralFault:
-      return LateralFault{from, to, within(3, 12, first) * cell, within(0.5, 8, second) * cell};
-    case Kind::kNormalFault:
-    case Kind::kInverseFault:
-      return DipFault{
-          kind == Kind::kInverseFault, from, to, within(4, 14, first) * cell, within(0.5, 4, second) * cell,
-          within(40, 85, third)};
-    default:
-      break;
-  }
-  glm::dvec2 top = from;
-  for (int k = 0; k < 20; ++k) {
-    const glm::dvec2 other = point();
-    if (height(other) > height(top)) top = other;
-  }
-  const double angle = 2 * std::numbers::pi * first, radius = within(1.3, 2, second) * cell,
-               y = height(top) - within(1.2, 2.5, third) * radius - cell;
-  const glm::dvec2 along = dice.between(1, 4) * cell * glm::dvec2(std::cos(angle), std::sin(angle));
-  Carving carving;
-  carving.cave = kind == Kind::kCave;
-  carving.from = {top.x - along.x, y, top.y - along.y};
-  carving.to = {top.x + along.x, y, top.y + along.y};
-  const auto sides = 3 + static_cast<int>(dice.next() % 8);
-  for (int k = 0; k < sides; ++k) {
-    const double turn = 2 * std::numbers::pi * (k + 0.5) / sides;
-    carving.section.push_back(1.3 * radius * glm::dvec2(std::cos(turn), std::sin(turn)));
-  }
-  carving.roughness = 0.03 * radius;
-  carving.seed = dice.next();
-  return carving;
-}
-
-void play_random(int sequences, std::uint64_t seed, Inspection& inspection, Progress& progress) {
+// Twelve attempts per terrain: as many events as in the planned sequence, if none is refused.
+void play_random(int sequences, std::uint64_t seed, bool wild, Inspection& inspection, Progress& progress) {
+  constexpr int kAttempts = 12;
   progress.begin("random sequences", static_cast<std::size_t>(sequences));
   for (int s = 0; s < sequences; ++s) {
     const std::uint64_t each = seed * 1000003 + static_cast<std::uint64_t>(s);
     Dice dice(each);
     const Site site = make_site(kEventsAlong * kRandomSize, kRandomSize, each);
     Ght tree = plain_tree(site.ground);
-    constexpr int kEvents = 12, kAttempts = 40;
-    int done = 0;
-    for (int k = 0; k < kAttempts && done < kEvents; ++k)
-      done += inspection.play(tree, random_event(dice, site));
+    std::vector<Event> taken;
+    for (int k = 0; k < kAttempts; ++k) {
+      const Event event = wild ? wild_event(dice, site) : sane_event(dice, site, tree, taken);
+      inspection.try_random(tree, site, event, taken);
+    }
     inspection.finish(tree);
     progress.advance();
   }
@@ -204,7 +202,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     for (int k = at.integer("particles"); k > 0; --k) inspection.play(tree, rain.next(tree));
     inspection.finish(tree);
   } else {
-    play_random(at.integer("sequences"), options.seed, inspection, progress);
+    play_random(at.integer("sequences"), options.seed, what == "random-wild", inspection, progress);
+    inspection.write_refusals();
   }
   inspection.write();
 }

@@ -7,6 +7,7 @@
 
 #include "experiments/cases.h"
 #include "experiments/ght/site.h"
+#include "representations/ght/invariants.h"
 #include "terrain/error.h"
 
 namespace terrabench::ght {
@@ -65,6 +66,36 @@ void measure_carving(const Site& site, bool cave, Recorder& recorder) {
   }
 }
 
+// A cave of four sides.
+events::Carving square_cave(glm::dvec3 from, glm::dvec3 to) {
+  events::Carving cave;
+  cave.cave = true;
+  cave.from = from;
+  cave.to = to;
+  cave.section = {{-1.3, -1.3}, {1.3, -1.3}, {1.3, 1.3}, {-1.3, 1.3}};
+  return cave;
+}
+
+// On a plain with a fault 14 m high, a metre per sample: a cave in the fault's wall, and one down from the
+// floor of that cave, whose error must name what is in its way.
+void measure_hosts(Recorder& recorder) {
+  constexpr int kSide = 65;
+  const Heightfield plain{kSide, kSide, 1, 1, std::vector<float>(kSide * kSide, 20.0F), {}};
+  Ght tree = plain_tree(plain);
+  tree.apply(events::DipFault{false, {12, 32}, {52, 32}, 24, 14, 55});
+  const std::size_t before = tree.model().tree.nodes().size();
+  tree.apply(square_cave({32, 20, 28}, {32, 20, 18}));
+  record(tree.model().tree, before, "in_wall", recorder);
+  recorder.add("broken_in_wall", "", broken_invariants(tree.model()).size());
+  bool named = false;
+  try {
+    tree.apply(square_cave({32, 17, 23}, {32, 14, 17}));
+  } catch (const Error& error) {
+    named = std::string_view(error.what()).find("another tunnel or cave") != std::string_view::npos;
+  }
+  recorder.add("cave_floor_refused_by_name", "", named ? 1 : 0);
+}
+
 std::vector<Case> cases(const RunOptions&) { return cases_by("event", kSpecs); }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
@@ -74,6 +105,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const auto kind = static_cast<Kind>(at.parameters.choice("event"));
   if (is_carving(kind)) {
     measure_carving(site, kind == Kind::kCave, recorder);
+    if (kind == Kind::kCave) measure_hosts(recorder);
   } else {
     measure_geotectonic(site, kind, recorder);
   }

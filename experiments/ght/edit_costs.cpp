@@ -32,11 +32,14 @@ const std::array kReachSpecs{
 constexpr int kMostSamples = 7;
 constexpr double kSecondsOfSamples = 0.1;
 
-// Calls sample(), which returns seconds.
+// Calls sample(), which returns seconds. Returns their median.
 template <class Sample>
-void sample_times(const Sample& sample) {
+double sample_times(const Sample& sample) {
+  std::vector<double> times;
   double sum = 0;
-  for (int k = 0; k < kMostSamples && sum < kSecondsOfSamples; ++k) sum += sample();
+  while (times.size() < kMostSamples && sum < kSecondsOfSamples) sum += times.emplace_back(sample());
+  std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
+  return times[times.size() / 2];
 }
 
 double used(const Memory& memory) { return static_cast<double>(memory.payload + memory.index); }
@@ -116,10 +119,10 @@ class Peer {
     structure_ = method.build(source, Parameters(method.parameters), progress);
   }
 
-  void measure(const Strokes& strokes, std::span<const double> tree_lengths, double cell,
+  void measure(const Strokes& strokes, std::span<const double> tree_lengths, double tree_time, double cell,
                std::string_view suffix, Recorder& recorder) {
     bool first = true;
-    sample_times([&] {
+    const double median = sample_times([&] {
       const double before = used(structure_->memory());
       const double time = processor_seconds([&] { strokes.edit.paint(*structure_); });
       recorder.add(fmt::format("{}_time{}", name_, suffix), "s", time);
@@ -138,6 +141,7 @@ class Peer {
       strokes.undo.paint(*structure_);
       return time;
     });
+    recorder.add(fmt::format("ght_per_{}_time{}", name_, suffix), "", tree_time / median);
   }
 
  private:
@@ -163,7 +167,7 @@ class Comparison {
     std::vector<double> lengths;
     const Strokes strokes = strokes_of(site_, event);
     recorder_.add(fmt::format("columns{}", suffix), "", strokes.x.size());
-    sample_times([&] {
+    const double tree_time = sample_times([&] {
       const auto held = std::make_unique<Ght>(tree_);  // on the heap, as memory() counts the tree's own block
       Ght& tree = *held;
       // The tree's arrays start without spare capacity. The first event pays for their growth, so it is timed
@@ -181,7 +185,8 @@ class Comparison {
       }
       return time;
     });
-    for (Peer& peer : peers_) peer.measure(strokes, lengths, site_.ground.cell_x, suffix, recorder_);
+    for (Peer& peer : peers_)
+      peer.measure(strokes, lengths, tree_time, site_.ground.cell_x, suffix, recorder_);
   }
 
  private:

@@ -43,14 +43,88 @@ struct Hollow {
   std::size_t manifold = 0;   // columns with more than two
   double air = 0;             // metres below the top, summed over all columns
 
-  // intervals(k) is the bottom and top of the k-th of `count` intervals, from below.
+  // intervals(k) is the bottom and top of the k-th of `count` intervals, from below. Returns the air between.
   template <class Intervals>
-  void column(const Intervals& intervals, std::size_t count) {
+  double column(const Intervals& intervals, std::size_t count) {
+    const double before = air;
     overhangs += count > 1;
     manifold += count > 2;
     most = std::max(most, count);
     for (std::size_t k = 1; k < count; ++k) air += intervals(k).first - intervals(k - 1).second;
+    return air - before;
   }
+};
+
+// What the tree has of the overhangs that the evaluation has, column by column.
+//
+// The tree is exact to one sample spacing, so an overhang, such as the edge of a mouth on a slope that the
+// carving grazes, may be missing where it is narrower. The core is what is wider: overhanging columns without
+// a column of one interval within one spacing. Strays are the tree's overhanging columns that are further
+// than one spacing from all of the evaluation's.
+struct Core {
+  std::size_t columns = 0, missed = 0, strays = 0;
+  double air = 0, evaluated_air = 0;  // in the core, metres summed over its columns
+};
+
+class Comparison {
+ public:
+  Comparison(int columns, int per_cell)
+      : columns_(columns), reach_(per_cell), tree_(cells()), truth_(cells()) {}
+
+  void column(int i, int j, double tree_air, double evaluated_air) {
+    tree_[at(i, j)] = static_cast<float>(tree_air);
+    truth_[at(i, j)] = static_cast<float>(evaluated_air);
+  }
+  Core core() const {
+    // Columns with a column of one interval near, and with an overhang near, in the evaluation.
+    const std::vector<char> open = near([&](std::size_t k) { return truth_[k] == 0; }),
+                            hollow = near([&](std::size_t k) { return truth_[k] > 0; });
+    Core found;
+    for (std::size_t k = 0; k < cells(); ++k) {
+      found.strays += tree_[k] > 0 && hollow[k] == 0;
+      if (open[k] != 0) continue;
+      ++found.columns;
+      found.missed += tree_[k] == 0;
+      found.air += tree_[k];
+      found.evaluated_air += truth_[k];
+    }
+    return found;
+  }
+
+ private:
+  std::size_t cells() const {
+    return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(columns_);
+  }
+  std::size_t at(int i, int j) const {
+    return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i);
+  }
+  // Whether a column within one spacing along each axis has the property: along rows, then along columns.
+  template <class Has>
+  std::vector<char> near(const Has& has) const {
+    std::vector<char> row(cells(), 0), all(cells(), 0);
+    const auto spread = [&](auto from, std::vector<char>& to, bool along_rows) {
+      for (int a = 0; a < columns_; ++a) {
+        int last = -reach_ - 1;  // the last column that has it, from either end
+        for (int b = 0; b < columns_; ++b) {
+          const std::size_t k = along_rows ? at(b, a) : at(a, b);
+          if (from(k)) last = b;
+          if (b - last <= reach_) to[k] = 1;
+        }
+        last = columns_ + reach_;
+        for (int b = columns_ - 1; b >= 0; --b) {
+          const std::size_t k = along_rows ? at(b, a) : at(a, b);
+          if (from(k)) last = b;
+          if (last - b <= reach_) to[k] = 1;
+        }
+      }
+    };
+    spread(has, row, true);
+    spread([&](std::size_t k) { return row[k] != 0; }, all, false);
+    return all;
+  }
+
+  int columns_, reach_;
+  std::vector<float> tree_, truth_;  // air below the top of each column, metres
 };
 
 std::vector<Case> cases(const RunOptions& options) {
@@ -75,6 +149,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   std::vector<float> x(static_cast<std::size_t>(columns)), z(x.size());
   std::vector<Stretch> stretches;
   SpanSink sink;
+  Comparison comparison(columns, per_cell);
   for (int j = 0; j < columns; ++j) {
     for (int i = 0; i < columns; ++i) x[i] = static_cast<float>((i + 0.5) * step);
     std::fill(z.begin(), z.end(), static_cast<float>((j + 0.5) * step));
@@ -82,15 +157,17 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     tree.spans({x, z}, sink);
     for (std::size_t i = 0; i < x.size(); ++i) {
       const std::span<const Span> spans = sink.column(i);
-      found.column([&](std::size_t k) { return std::pair<double, double>(spans[k].bottom, spans[k].top); },
-                   spans.size());
+      const double tree_air = found.column(
+          [&](std::size_t k) { return std::pair<double, double>(spans[k].bottom, spans[k].top); },
+          spans.size());
       evaluation.column({x[i], z[i]}, stretches);
-      truth.column(
+      const double evaluated_air = truth.column(
           [&](std::size_t k) {
             const Stretch& s = stretches[stretches.size() - 1 - k];
             return std::pair(s.bottom, s.top);
           },
           stretches.size());
+      comparison.column(static_cast<int>(i), j, tree_air, evaluated_air);
     }
   }
   const double all = static_cast<double>(columns) * columns;
@@ -105,6 +182,12 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("evaluated_most_intervals", "", truth.most);
   recorder.add("evaluated_overhang_columns", "", truth.overhangs);
   recorder.add("evaluated_lost_volume", "m³", truth.air * step * step);
+  const Core core = comparison.core();
+  recorder.add("core_columns", "", core.columns);
+  recorder.add("core_missed", "", core.missed);
+  recorder.add("stray_columns", "", core.strays);
+  recorder.add("core_volume", "m³", core.air * step * step);
+  recorder.add("evaluated_core_volume", "m³", core.evaluated_air * step * step);
 }
 
 }  // namespace

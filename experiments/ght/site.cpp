@@ -62,9 +62,22 @@ bool try_apply(Ght& tree, const Site& site, const Event& event) {
   }
 }
 
-// Whether the carving leaves the ground only once beyond its end at u: after its roof has first come out, the
-// ground must not rise half a cell above the roof again before the whole section is out. If it did, the exact
-// shape would have another piece of roof, but the tree's walls end at the first exit.
+// Places for carvings, the highest first.
+std::vector<glm::dvec2> high_places(const Site& site) {
+  constexpr int kPlaces = 24;
+  std::vector<glm::dvec2> places;
+  for (int j = 4; j <= kPlaces - 4; ++j) {
+    for (int i = 4; i <= kPlaces - 4; ++i) {
+      places.push_back(site.corner + site.extent() / kPlaces * glm::dvec2(i, j));
+    }
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [&](glm::dvec2 a, glm::dvec2 b) { return height(site, a) > height(site, b); });
+  return places;
+}
+
+}  // namespace
+
 bool comes_out_once(const Site& site, const Carving& carving, double u, double outwards) {
   constexpr int kAcross = 8;
   const Line line = carving.line();
@@ -84,22 +97,6 @@ bool comes_out_once(const Site& site, const Carving& carving, double u, double o
     if (all_out) return true;
   }
 }
-
-// Places for carvings, the highest first.
-std::vector<glm::dvec2> high_places(const Site& site) {
-  constexpr int kPlaces = 24;
-  std::vector<glm::dvec2> places;
-  for (int j = 4; j <= kPlaces - 4; ++j) {
-    for (int i = 4; i <= kPlaces - 4; ++i) {
-      places.push_back(site.corner + site.extent() / kPlaces * glm::dvec2(i, j));
-    }
-  }
-  std::stable_sort(places.begin(), places.end(),
-                   [&](glm::dvec2 a, glm::dvec2 b) { return height(site, a) > height(site, b); });
-  return places;
-}
-
-}  // namespace
 
 Site make_site(int side, int size, std::uint64_t seed) {
   fractal::DiamondSquareOptions options{.seed = seed, .side = kEventsAlong * size + 1};

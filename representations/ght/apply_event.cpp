@@ -86,7 +86,7 @@ void apply_event(Model& model, const events::Event& event, std::size_t number) {
   events::validate(event, {grid.x(grid.width - 1), grid.z(grid.depth - 1)}, number);
   constexpr std::string_view kNoMemory = "does not fit into memory", kFewer = "apply fewer or smaller events";
   try {
-    // Carvings are applied to the root only (§3.2).
+    // The region that a carving opens depends on the ground; append_walls() finds its host.
     const bool carving = std::holds_alternative<events::Carving>(event);
     Edit edit(model, carving ? 0 : identify_host(model, events::outline(event)), where);
     std::visit([&](const auto& e) { record(edit, e); }, event);

@@ -1,5 +1,7 @@
 // Tunnels and caves (Alonso, Joan-Arinyo & Solano, §3.2, figures 15 and 16): walls (carving_walls.h), a
-// border heightmap at each mouth, and for a cave one that closes its end. All are children of the root.
+// border heightmap at each mouth, and for a cave one that closes its end. The paper carves the root only ("so
+// far we only support them on the XZ plane"); here the host is the deepest heightmap that holds all mouths,
+// such as the wall of a fault.
 //
 // The steps of an Edit come in another order here: the walls are the first new heightmaps, their rim at a
 // mouth is the outline, the ground over it is cut out, and the links close the ring between the two. So a

@@ -5,6 +5,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "representations/ght/apply_event.h"
+#include "representations/ght/cut_out.h"
 #include "terrain/events/section.h"
 
 namespace terrabench::ght {
@@ -189,11 +191,27 @@ void check_clearance(const Edit& edit, const CarvingWalls& walls) {
                                         [](const Crossing& a, const Crossing& b) { return a.y < b.y; });
       for (auto c = crossed.begin(); c != crossed.end(); ++c) {
         if (c == top || c->y < low || c->y > high) continue;
-        edit.refuse("comes within one sample spacing of another tunnel or cave, or of an overhang",
+        edit.refuse(model.carved && !has_overhangs(model.tree)
+                        ? "comes within one sample spacing of another tunnel or cave"
+                    : !model.carved
+                        ? "comes within one sample spacing of an overhang"
+                        : "comes within one sample spacing of another tunnel or cave, or of an overhang",
                     "move it away");
       }
     });
   }
+}
+
+// The rectangle in plan of the ground that a carving opens: a cave's mouth, or both mouths of a tunnel and
+// what lies between.
+TurnedRectangle opened_region(const CarvingWalls& walls) {
+  const int first = walls.row0 - 1;
+  const int last =
+      walls.event.cave ? *std::max_element(walls.low_row.begin(), walls.low_row.end()) : walls.row1 + 1;
+  events::SectionRange reach = events::section_reach(walls.event, first * walls.step);
+  const events::SectionRange other = events::section_reach(walls.event, last * walls.step);
+  reach = {std::min(reach.low, other.low), std::max(reach.high, other.high)};
+  return {walls.line, first * walls.step, last * walls.step, -reach.high, -reach.low};
 }
 
 // Heights are measured inwards from the flat side.
@@ -242,6 +260,7 @@ CarvingWalls append_walls(Edit& edit, const events::Carving& event) {
   check_cover(edit, walls);
   find_ends(edit, walls);
   check_clearance(edit, walls);
+  edit.set_host(identify_host(edit.model(), opened_region(walls).corners()));
   const std::size_t sides = event.section.size();
   for (std::size_t k = 0; k < sides; ++k) walls.sides.push_back(append_side(edit, walls, k));
   for (std::size_t k = 0; k < sides; ++k) fill_side(edit, walls, k);

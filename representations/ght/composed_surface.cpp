@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "representations/ght/triangulate.h"
 
@@ -92,14 +93,29 @@ SquareRange ComposedSurface::range(glm::dvec2 low, glm::dvec2 high) const {
           clip(last.x + kSlip, grid_.width - 1), clip(last.y + kSlip, grid_.depth - 1)};
 }
 
-SquareRange ComposedSurface::range(const Tree& tree, const Face& face) const {
-  glm::dvec2 low(HUGE_VAL), high(-HUGE_VAL);
+ComposedSurface::Corners ComposedSurface::corners_of(const Tree& tree, const Face& face) {
+  Corners box{glm::dvec2(HUGE_VAL), glm::dvec2(-HUGE_VAL)};
   for (const CellId c : face) {
     const glm::dvec2 p = tree.plan(c);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    box.low = glm::min(box.low, p);
+    box.high = glm::max(box.high, p);
   }
-  return range(low, high);
+  return box;
+}
+
+SquareRange ComposedSurface::range(const Tree& tree, const Face& face) const {
+  const Corners box = corners_of(tree, face);
+  return range(box.low, box.high);
+}
+
+// One step wider than the face on each side, which is more than rounding amounts to.
+std::uint32_t ComposedSurface::box_in(Square s, const Corners& face) const {
+  const auto step = [](double at, double wider) {
+    return static_cast<std::uint32_t>(std::clamp(std::floor(at * kBoxSteps) + wider, 0.0, kBoxSteps - 1));
+  };
+  const glm::dvec2 at(s.i, s.j), low = grid_.samples_to(face.low) - at,
+                                 high = grid_.samples_to(face.high) - at;
+  return step(low.x, -1) | step(high.x, 1) << 8U | step(low.y, -1) << 16U | step(high.y, 1) << 24U;
 }
 
 float ComposedSurface::plain_height(const Tree& tree, float x, float z, Square s) {
@@ -112,16 +128,35 @@ float ComposedSurface::plain_height(const Tree& tree, float x, float z, Square s
                                 : (u + v - 1) * height(s.i + 1, s.j + 1) + (1 - v) * ne + (1 - u) * sw);
 }
 
+void ComposedSurface::prefetch(Square s, int step) const {
+  const std::uint32_t& tile = tile_of_[tile_index(s)];
+  if (step == 0) return __builtin_prefetch(&tile);
+  if (tile == kNone) return;
+  const std::uint32_t& first = tiles_[tile].first[slot(s)];
+  if (step == 1) return __builtin_prefetch(&first);
+  if (first != kNone) __builtin_prefetch(&entries_[first]);
+}
+
 void ComposedSurface::crossings(const Tree& tree, float x, float z, Square s,
                                 std::vector<Crossing>& out) const {
   if (plain(tree, s)) out.push_back({plain_height(tree, x, z, s), 1});
-  over(s, [&](FaceId f) {
+  const std::uint32_t tile = tile_of_[tile_index(s)];
+  if (tile == kNone) return;
+  const auto step = [](double at) {
+    return static_cast<std::uint32_t>(std::clamp(at * kBoxSteps, 0.0, kBoxSteps - 1));
+  };
+  const std::uint32_t i = step((x - grid_.origin_x) * per_x_ - s.i),
+                      j = step((z - grid_.origin_z) * per_z_ - s.j);
+  for (std::uint32_t e = tiles_[tile].first[slot(s)]; e != kNone; e = entries_[e].next) {
+    const std::uint32_t box = entries_[e].box;
+    if (i < (box & 255U) || i > (box >> 8U & 255U) || j < (box >> 16U & 255U) || j > box >> 24U) continue;
+    const Face& face = faces_[entries_[e].face];
     std::array<glm::vec3, 3> p;
-    for (std::size_t k = 0; k < 3; ++k) p[k] = tree.position(faces_[f][k]);
+    for (std::size_t k = 0; k < 3; ++k) p[k] = tree.position(face[k]);
     const int turn = side(p[0], p[1], x, z);
-    if (turn == 0 || side(p[1], p[2], x, z) != turn || side(p[2], p[0], x, z) != turn) return;
+    if (turn == 0 || side(p[1], p[2], x, z) != turn || side(p[2], p[0], x, z) != turn) continue;
     out.push_back({height_at(p, x, z), turn});
-  });
+  }
 }
 
 float ComposedSurface::top(const Tree& tree, glm::dvec2 plan) const {
@@ -176,7 +211,7 @@ void ComposedSurface::set_covered(Square s, bool covered) noexcept {
   word = covered ? word | bit : word & ~bit;
 }
 
-FaceId ComposedSurface::add(const Tree& tree, const Face& face) noexcept {
+FaceId ComposedSurface::number(const Face& face) noexcept {
   FaceId f = free_face_;
   if (f == kNone) {
     f = static_cast<FaceId>(faces_.size());
@@ -186,20 +221,47 @@ FaceId ComposedSurface::add(const Tree& tree, const Face& face) noexcept {
     faces_[f] = face;
   }
   ++face_count_;
-  range(tree, face).each([&](Square s) {
-    std::uint32_t e = free_entry_;
-    if (e == kNone) {
-      e = static_cast<std::uint32_t>(entries_.size());
-      entries_.push_back({});
-    } else {
-      free_entry_ = entries_[e].next;
-    }
-    std::uint32_t& first = tile(s).first[slot(s)];
-    entries_[e] = {f, first};
-    first = e;
-    ++entry_count_;
-  });
   return f;
+}
+
+void ComposedSurface::enter(Square s, FaceId face, std::uint32_t box) noexcept {
+  std::uint32_t e = free_entry_;
+  if (e == kNone) {
+    e = static_cast<std::uint32_t>(entries_.size());
+    entries_.push_back({});
+  } else {
+    free_entry_ = entries_[e].next;
+  }
+  std::uint32_t& first = tile(s).first[slot(s)];
+  entries_[e] = {face, first, box};
+  first = e;
+  ++entry_count_;
+}
+
+FaceId ComposedSurface::add(const Tree& tree, const Face& face) noexcept {
+  const FaceId f = number(face);
+  const Corners corners = corners_of(tree, face);
+  range(corners.low, corners.high).each([&](Square s) { enter(s, f, box_in(s, corners)); });
+  return f;
+}
+
+std::vector<ComposedSurface::Placed> ComposedSurface::place(const Tree& tree,
+                                                            std::span<const Face> faces) const {
+  std::vector<Placed> placed;
+  for (std::uint32_t k = 0; k < faces.size(); ++k) {
+    const Corners corners = corners_of(tree, faces[k]);
+    range(corners.low, corners.high).each([&](Square s) { placed.push_back({s, k, box_in(s, corners)}); });
+  }
+  std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
+    return a.square != b.square ? a.square < b.square : a.face < b.face;
+  });
+  return placed;
+}
+
+void ComposedSurface::add(std::span<const Face> faces, std::span<const Placed> placed,
+                          std::span<FaceId> ids) noexcept {
+  for (std::size_t k = 0; k < faces.size(); ++k) ids[k] = number(faces[k]);
+  for (const Placed& p : placed) enter(p.square, ids[p.face], p.box);
 }
 
 void ComposedSurface::remove(const Tree& tree, FaceId f) noexcept {

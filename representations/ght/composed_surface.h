@@ -2,7 +2,8 @@
 // follow from the boundary links of neighbouring cells (§3.2). Here a square between four samples of the root
 // is either `plain`, two triangles between the cells at its samples, or covered by `faces`, triangles between
 // any cells. Tunnel walls and overhanging scarps consist of faces too. An index, present only in tiles with
-// faces, finds them by square.
+// faces, finds them by square; each entry holds the face's box within the square, so that a line reads the
+// corners of few faces besides those that it crosses.
 //
 // A vertical line costs O(faces over its square), and O(1) on a plain square.
 #pragma once
@@ -100,6 +101,10 @@ class ComposedSurface {
   SquareRange range(const Tree& tree, const Face& face) const;
   SquareRange range(glm::dvec2 low, glm::dvec2 high) const;  // (x, z)
 
+  // Asks the processor for what crossings() will read, one step of the way each: the square's tile (0), its
+  // first entry (1), and that entry (2). A batch of lines does each step for all of them, so that their reads
+  // overlap.
+  void prefetch(Square s, int step) const;
   // Appends the crossings of the vertical line at (x, z) in square s, unordered. A line through the common
   // edge of two faces crosses one of them.
   void crossings(const Tree& tree, float x, float z, Square s, std::vector<Crossing>& out) const;
@@ -112,6 +117,13 @@ class ComposedSurface {
   void prepare(const Tree& tree, std::span<const Square> covered, std::span<const Face> added);
   void set_covered(Square s, bool covered) noexcept;
   FaceId add(const Tree& tree, const Face& face) noexcept;
+  // Adds all faces, with the entries of each square side by side, so that a line reads them in order.
+  struct Placed {
+    Square square;
+    std::uint32_t face, box;  // number in the list
+  };
+  std::vector<Placed> place(const Tree& tree, std::span<const Face> faces) const;  // may throw
+  void add(std::span<const Face> faces, std::span<const Placed> placed, std::span<FaceId> ids) noexcept;
   void remove(const Tree& tree, FaceId face) noexcept;
 
   Memory memory() const;
@@ -129,7 +141,15 @@ class ComposedSurface {
   struct Entry {
     FaceId face;
     std::uint32_t next;
+    std::uint32_t box;  // of the face within the square, one byte per side: a line elsewhere misses the face
   };
+  // The side of a box counts in steps of 1/256 of a square.
+  static constexpr double kBoxSteps = 256;
+  struct Corners {  // of a face, in plan
+    glm::dvec2 low, high;
+  };
+  static Corners corners_of(const Tree& tree, const Face& face);
+  std::uint32_t box_in(Square s, const Corners& face) const;
 
   std::size_t tile_index(Square s) const {
     return static_cast<std::size_t>(s.j / kSide) * tiles_x_ + static_cast<std::size_t>(s.i / kSide);
@@ -138,6 +158,8 @@ class ComposedSurface {
     return static_cast<std::uint32_t>(s.j % kSide * kSide + s.i % kSide);
   }
   Tile& tile(Square s) noexcept;
+  FaceId number(const Face& face) noexcept;
+  void enter(Square s, FaceId face, std::uint32_t box) noexcept;
 
   SampleGrid grid_;
   double per_x_ = 1, per_z_ = 1;  // 1 / spacing

@@ -152,6 +152,8 @@ void Edit::commit(events::Kind kind) {
   Tree& tree = model_.tree;
   check_faces();
   model_.surface.prepare(tree, covered_, faces_);
+  const std::vector<ComposedSurface::Placed> placed = model_.surface.place(tree, faces_);
+  std::vector<FaceId> ids(faces_.size());
   const auto indexed = [](const GroundedHeightmap& node) { return node.area == Area::kOutdoor; };
   std::size_t tiles = 0;
   for (std::size_t n = nodes_before_; n < tree.nodes().size(); ++n) {
@@ -159,6 +161,13 @@ void Edit::commit(events::Kind kind) {
     if (indexed(node)) tiles += NodeIndex::tiles(model_.range(node));
   }
   model_.index.prepare(tiles);
+  std::vector<CellId> gone;
+  gone.reserve(superseded_.size());
+  for (const auto& [old, by] : superseded_) gone.push_back(old);
+  std::sort(gone.begin(), gone.end());
+  const auto first_new = static_cast<NodeId>(nodes_before_);
+  const RimChange rim = rim_change(model_, covered_, removed_, gone, faces_, first_new);
+  model_.links.prepare(rim.most);
   tree.reserve_event();
   float lowest = HUGE_VALF, highest = -HUGE_VALF;
   for (CellId c = tree.nodes()[nodes_before_].first; c < tree.cells(); ++c) {
@@ -175,7 +184,8 @@ void Edit::commit(events::Kind kind) {
   for (const auto& [old, by] : superseded_) tree.set_link(old, by);
   for (const Square s : covered_) model_.surface.set_covered(s, true);
   for (const Square s : plain_) model_.surface.set_covered(s, false);
-  for (const Face& face : faces_) model_.surface.add(tree, face);
+  model_.surface.add(faces_, placed, ids);
+  relink(model_, rim, gone, faces_, first_new);
   for (std::size_t n = nodes_before_; n < tree.nodes().size(); ++n) {
     const GroundedHeightmap& node = tree.nodes()[n];
     if (indexed(node)) model_.index.add(model_.range(node), static_cast<NodeId>(n));

@@ -4,9 +4,8 @@
 //   2. new heightmaps are appended to the tree and their quadrilaterals become faces;
 //   3. the outline of the new heightmaps lists their boundary cells;
 //   4. join: triangles close the ring between loop and outline; superseded cells become links to new ones.
-// The ring's triangles are the paper's boundary links (Alonso, Joan-Arinyo & Solano, §3.2: "each cell in the
-// boundary of a new heightmap is linked to the neighbor cell in another heightmap"). Their corners are cells
-// of the old and of the new heightmaps, so the surface stays closed, whatever earlier events left there.
+// The ring's corners are cells of the old and of the new heightmaps, so the surface stays closed, whatever
+// earlier events left there. commit() stores the boundary links that its edges are (boundary_links.h).
 //
 // Square: between four of the root's samples; plain (two triangles) or covered by faces. Face: a triangle
 // between any three cells. Cell: a height, a link to a later cell, or void. Loop: the cells around the
@@ -33,7 +32,8 @@ inline constexpr std::string_view kMove = "move the event, or make it smaller";
 
 class Edit {
  public:
-  // New nodes become children of `host`. `where` names the event in errors.
+  // New nodes become children of `host`, which must contain the event's region. `where` names the event in
+  // errors.
   Edit(Model& model, NodeId host, std::string where)
       : model_(model), host_(host), where_(std::move(where)), nodes_before_(model.tree.nodes().size()) {}
   ~Edit() {
@@ -47,6 +47,8 @@ class Edit {
   const SampleGrid& grid() const { return model_.tree.grid(); }
   // Throws bad_input that names the event.
   [[noreturn]] void refuse(std::string_view what, std::string_view advice) const;
+  // For an event whose region is known only after its first steps: before any heightmap is appended.
+  void set_host(NodeId host) { host_ = host; }
   // Height of the ground before the event; refuses ground without data.
   float ground(glm::dvec2 plan) const;
 

@@ -1,6 +1,7 @@
 #include "representations/ght/ght.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "representations/column_grid.h"
@@ -77,6 +78,24 @@ void add_spans(std::span<const Crossing> crossings, float floor, std::vector<Spa
   for (std::size_t i = found.size(); i > 0; --i) out.add(found[i - 1]);
 }
 
+constexpr std::size_t kAhead = 16;  // columns whose reads from memory overlap
+
+// The squares of the columns from `first` on, with i = -1 outside the terrain, and their data on the way from
+// memory.
+void find_squares(const Model& model, Columns where, std::size_t first, std::array<Square, kAhead>& squares) {
+  const std::size_t count = std::min(kAhead, where.size() - first);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!model.surface.find(where.x[first + k], where.z[first + k], squares[k])) squares[k] = {-1, -1};
+  }
+  for (const int step : {0, 1, 2}) {
+    for (std::size_t k = 0; k < count; ++k) {
+      if (squares[k].i < 0) continue;
+      model.surface.prefetch(squares[k], step);
+      if (step == 0) model.tree.prefetch(model.tree.root_cell(squares[k].i, squares[k].j));
+    }
+  }
+}
+
 }  // namespace
 
 std::span<const ParameterSpec> Ght::parameters() {
@@ -111,10 +130,12 @@ void Ght::spans(Columns where, SpanSink& out) const {
   const ComposedSurface& surface = model_.surface;
   std::vector<Crossing> crossings;
   std::vector<Span> found;
+  std::array<Square, kAhead> squares;
   for (std::size_t c = 0; c < where.size(); ++c) {
+    if (c % kAhead == 0) find_squares(model_, where, c, squares);
     const float x = where.x[c], z = where.z[c];
-    Square s;
-    if (surface.find(x, z, s)) {
+    const Square s = squares[c % kAhead];
+    if (s.i >= 0) {
       if (surface.simple(s)) {
         if (!ComposedSurface::hole(tree, s)) {
           const float top = ComposedSurface::plain_height(tree, x, z, s);
@@ -136,6 +157,7 @@ void Ght::spans(Columns where, SpanSink& out) const {
 Memory Ght::memory() const {
   Memory memory = model_.tree.memory();
   memory += model_.surface.memory();
+  memory += model_.links.memory();
   memory += model_.index.memory();
   memory.index += heap_bytes(this);
   return memory;

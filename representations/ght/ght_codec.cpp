@@ -1,5 +1,6 @@
 // The tree's own file form: grid, nodes, cells and their kinds, events, faces, and the squares that they
-// cover. Loading builds the indices again, and checks that every query can safely read the tree.
+// cover. Loading makes the boundary links and the indices again, which follow from these, and checks that
+// every query can safely read the tree.
 #include <algorithm>
 #include <cmath>
 
@@ -239,10 +240,11 @@ ComposedSurface ComposedSurface::load(ByteSource& in, const Tree& tree) {
   }
   std::size_t entries = 0;
   for (const Face& face : faces) entries += surface.range(tree, face).count();
-  require_memory(entries * (sizeof(Entry) + sizeof(Face)), "grounded heightmap tree");
+  require_memory(entries * (sizeof(Entry) + sizeof(Placed) + sizeof(Face)), "grounded heightmap tree");
   surface.prepare(tree, covered, faces);
   for (const Square s : covered) surface.set_covered(s, true);
-  for (const Face& face : faces) surface.add(tree, face);
+  std::vector<FaceId> ids(faces.size());
+  surface.add(faces, surface.place(tree, faces), ids);
   return surface;
 }
 
@@ -272,6 +274,7 @@ std::unique_ptr<Representation> Ght::load(ByteSource& in) {
       in.fail("a node is too wide for its cells");
     if (node.area == Area::kOutdoor) model.index_node(n);
   }
+  link_all(model);
   return loaded;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <span>
 #include <utility>
 
@@ -35,6 +36,7 @@ class Inspector {
     edges();
     expect(unlinked_boundary_cells(model_),
            "boundary cells of a new heightmap without a link to another one");
+    expect(check_boundary_links(model_).wrong, "boundary links other than the surface's triangles have");
     return std::move(problems_);
   }
 
@@ -205,31 +207,48 @@ Census census(const Model& model) {
     const CellKind kind = tree.kind(c);
     ++(kind == CellKind::kHeight ? all.heights : kind == CellKind::kLink ? all.links : all.voids);
   }
-  std::vector<std::pair<CellId, CellId>> pairs;
-  model.surface.each_face([&](FaceId f) {
-    const Face& face = model.surface.face(f);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(face[k], face[(k + 1) % 3]);
-      if (tree.node_of(a) != tree.node_of(b)) pairs.emplace_back(a, b);
+  all.boundary_links = model.links.size();
+  return all;
+}
+
+LinkReport check_boundary_links(const Model& model) {
+  const Tree& tree = model.tree;
+  const auto distance = [&](CellId a, CellId b) {
+    const glm::dvec3 along = glm::dvec3(tree.position(b)) - glm::dvec3(tree.position(a));
+    return glm::dot(along, along);
+  };
+  std::vector<CellId> nearest(tree.cells(), kNone);
+  each_triangle(model, [&](const Face& face) {
+    for (const CellId c : face) {
+      if (c < tree.nodes()[0].cells()) continue;
+      for (const CellId other : face) {
+        if (tree.node_of(other) == tree.node_of(c)) continue;
+        CellId& best = nearest[c];
+        if (best == kNone || std::pair(distance(c, other), other) < std::pair(distance(c, best), best)) {
+          best = other;
+        }
+      }
     }
   });
-  std::sort(pairs.begin(), pairs.end());
-  all.boundary_links = static_cast<std::size_t>(std::unique(pairs.begin(), pairs.end()) - pairs.begin());
-  return all;
+  LinkReport report;
+  report.stored = model.links.size();
+  std::size_t found = 0;
+  for (CellId c = 0; c < tree.cells(); ++c) {
+    const CellId stored = model.links.of(c);
+    report.derived += nearest[c] != kNone;
+    report.wrong += nearest[c] != stored;
+    found += stored != kNone;
+  }
+  report.wrong += report.stored - found;  // links of cells that the tree does not have
+  return report;
 }
 
 std::size_t unlinked_boundary_cells(const Model& model) {
   const Tree& tree = model.tree;
   if (tree.events().empty()) return 0;
-  std::vector<char> seen(tree.cells(), 0), linked(tree.cells(), 0);
+  std::vector<char> seen(tree.cells(), 0);
   each_triangle(model, [&](const Face& face) {
-    const NodeId first = tree.node_of(face[0]);
-    const bool across = tree.node_of(face[1]) != first || tree.node_of(face[2]) != first;
-    for (const CellId c : face) {
-      seen[c] = 1;
-      if (!across) continue;
-      for (const CellId other : face) linked[c] |= tree.node_of(other) != tree.node_of(c);
-    }
+    for (const CellId c : face) seen[c] = 1;
   });
   std::size_t unlinked = 0;
   const Applied& last = tree.events().back();
@@ -242,7 +261,7 @@ std::size_t unlinked_boundary_cells(const Model& model) {
     for (int j = 0; j < node.rows; ++j) {
       for (int i = 0; i < node.columns; ++i) {
         const CellId c = node.cell(i, j);
-        if (seen[c] == 0 || linked[c] != 0) continue;
+        if (seen[c] == 0 || model.links.of(c) != kNone) continue;
         unlinked += beyond(i - 1, j) || beyond(i + 1, j) || beyond(i, j - 1) || beyond(i, j + 1);
       }
     }

@@ -15,16 +15,23 @@ struct Census {
 };
 Census census(const Model& model);
 
-// The number of boundary cells, in the heightmaps that the last event added, that no face joins to a cell of
-// another heightmap. The paper links them all (§3.2: "each cell in the boundary of a new heightmap is linked
-// to the neighbor cell in another heightmap"). A link is not stored: it is an edge of a face between cells of
-// two heightmaps (Census::boundary_links).
+// The stored boundary links against those that follow from the triangles of the surface: each cell of a
+// heightmap other than the root that a triangle joins to a cell of another heightmap links to the nearest
+// such cell (boundary_links.h). `wrong` counts cells whose link is missing, superfluous or another one.
+struct LinkReport {
+  std::size_t stored = 0, derived = 0, wrong = 0;
+};
+LinkReport check_boundary_links(const Model& model);
+
+// The number of boundary cells, in the heightmaps that the last event added, that store no link. The paper
+// links them all (§3.2: "each cell in the boundary of a new heightmap is linked to the neighbor cell in
+// another heightmap").
 std::size_t unlinked_boundary_cells(const Model& model);
 
 // One line per kind of violation: links that dangle or do not reach the surface, an event with a wrong number
 // of heightmaps, nodes whose parent is not an earlier one, faces with corners without a height, plain squares
-// with a corner elsewhere, edges without an opposite one, boundary cells without a link. Empty for a valid
-// tree.
+// with a corner elsewhere, edges without an opposite one, boundary cells without a link, wrong boundary
+// links. Empty for a valid tree.
 std::vector<std::string> broken_invariants(const Model& model);
 
 }  // namespace terrabench::ght

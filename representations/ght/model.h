@@ -1,9 +1,10 @@
-// All that events change: the tree, the surface composed of its heightmaps, and an index of the heightmaps by
-// place.
+// All that events change: the tree, the surface composed of its heightmaps, the links between their boundary
+// cells, and an index of the heightmaps by place.
 #pragma once
 
 #include <vector>
 
+#include "representations/ght/boundary_links.h"
 #include "representations/ght/composed_surface.h"
 #include "representations/ght/tree.h"
 
@@ -42,6 +43,7 @@ class NodeIndex {
 struct Model {
   Tree tree;
   ComposedSurface surface;
+  BoundaryLinks links;
   NodeIndex index;               // of outdoor nodes except the root
   float floor = 0, ceiling = 0;  // below and above all ground, metres
   bool carved = false;           // whether there are tunnels or caves

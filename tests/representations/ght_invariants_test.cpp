@@ -96,5 +96,31 @@ TEST_F(PlantedFault, AnUnlinkedBoundaryCell) {
   EXPECT_EQ(unlinked_boundary_cells(model_), 3U);
 }
 
+// Each kind of wrong stored link is one difference.
+TEST_F(PlantedFault, AWrongBoundaryLink) {
+  const LinkReport right = check_boundary_links(model_);
+  EXPECT_EQ(right.wrong, 0U);
+  EXPECT_EQ(right.stored, right.derived);
+  EXPECT_GT(right.stored, 50U);
+  std::pair<CellId, CellId> some;
+  model_.links.each([&](CellId c, CellId to) { some = {c, to}; });
+
+  const auto [cell, target] = some;
+  model_.links.set(cell, target - 1);
+  expect_one("boundary links other than the surface's triangles have: 1");
+  model_.links.set(cell, target);
+  EXPECT_THAT(broken_invariants(model_), testing::IsEmpty());
+
+  model_.links.erase(cell);
+  EXPECT_EQ(check_boundary_links(model_).wrong, 1U);
+  EXPECT_EQ(check_boundary_links(model_).stored, right.stored - 1);
+  model_.links.set(cell, target);
+
+  model_.links.prepare(2);
+  model_.links.set(0, target);  // the root has none
+  model_.links.set(model_.tree.cells() + 5, target);
+  EXPECT_EQ(check_boundary_links(model_).wrong, 2U);
+}
+
 }  // namespace
 }  // namespace terrabench::test
