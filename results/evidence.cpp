@@ -119,7 +119,8 @@ bool needs_one_machine(const Condition& condition, const std::vector<Quantity>& 
 // Evaluates the conditions of one claim and notes which records they read.
 class Reader {
  public:
-  Reader(const Store& store, const std::string& profile) : store_(store), profile_(profile) {}
+  Reader(const Store& store, const std::string& profile, const Mutate& mutate)
+      : store_(store), profile_(profile), mutate_(mutate) {}
 
   Evidence read(const Claim& claim) {
     // Operands that all read one case are shown without its name.
@@ -163,7 +164,20 @@ class Reader {
       quantities.push_back({metric->samples, name, metric->unit, std::move(spoken)});
     }
     if (needs_one_machine(condition, quantities)) note_incomparable(records);
+    if (mutate_) mutate(quantities);
     return compare(condition, quantities);
+  }
+
+  void mutate(std::vector<Quantity>& quantities) const {
+    std::vector<std::vector<double>> samples;
+    for (const Quantity& q : quantities) {
+      if (!q.name.empty()) samples.push_back(q.samples);
+    }
+    mutate_(samples);
+    auto next = samples.begin();
+    for (Quantity& q : quantities) {
+      if (!q.name.empty()) q.samples = std::move(*next++);
+    }
   }
 
   Finding read_figure(const std::string& id) {
@@ -209,14 +223,16 @@ class Reader {
 
   const Store& store_;
   const std::string& profile_;
+  const Mutate& mutate_;
   bool name_cases_ = false;
   Evidence evidence_;
 };
 
 }  // namespace
 
-Evidence gather_evidence(const Claim& claim, const Store& store, const std::string& profile) {
-  return Reader(store, profile).read(claim);
+Evidence gather_evidence(const Claim& claim, const Store& store, const std::string& profile,
+                         const Mutate& mutate) {
+  return Reader(store, profile, mutate).read(claim);
 }
 
 }  // namespace terrabench
