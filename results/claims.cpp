@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::string_view kVerdicts[] = {
     "reproduced", "reproduced (shape)", "differs", "not comparable", "pending", "not run", "missing"};
+constexpr std::string_view kAbout[] = {"about the paper", "our own rules", "identities", "repeats"};
 constexpr std::string_view kAllProfiles[] = {"quick", "paper"};
 
 Operand operand_from(const TomlValue& node) {
@@ -71,6 +72,9 @@ Condition condition_from(const TomlValue& node) {
     condition.low = low.number("range");
     condition.high = high.number("range");
     if (condition.low > condition.high) entry.refuse("the range is empty");
+    if (condition.kind == Condition::Kind::kWithin && condition.low <= 0 && condition.high == 1) {
+      entry.refuse("the range holds every share: no method could fail it");
+    }
   }
   entry.refuse_unknown();
   return condition;
@@ -98,10 +102,30 @@ Verdict known_verdict(const TomlTable& entry, const std::string& known, const st
   return verdict;
 }
 
-Claim claim_from(const TomlValue& node) {
+About about_from(TomlTable& entry, About usual) {
+  if (!entry.has("about")) return usual;
+  constexpr std::pair<std::string_view, About> kKeys[] = {
+      {"paper", About::kPaper}, {"ours", About::kOurs}, {"identity", About::kIdentity}};
+  const std::string key = entry.text("about");
+  const auto* const at = std::ranges::find(kKeys, key, &std::pair<std::string_view, About>::first);
+  if (at == std::end(kKeys)) entry.refuse("'about' is one of paper, ours, identity");
+  return at->second;
+}
+
+void make_repeat(Claim& claim, const std::string& of) {
+  claim.about = About::kRepeat;
+  claim.repeats = of;
+}
+
+// `first`: the claim that an earlier member of this claim's `each` stands for; null if there is none.
+Claim claim_from(const TomlValue& node, About usual_about, const Claim* first) {
   TomlTable entry(node);
   Claim claim;
   claim.id = entry.text("id");
+  claim.about = about_from(entry, usual_about);
+  const bool each_is_a_row = entry.flag("each_is_a_row");
+  if (first != nullptr && !each_is_a_row) make_repeat(claim, first->id);
+  if (entry.has("repeats")) make_repeat(claim, entry.text("repeats"));
   claim.where = entry.text("where");
   claim.statement = entry.text("statement");
   const std::string type = entry.text("class");
@@ -127,6 +151,12 @@ Claim claim_from(const TomlValue& node) {
                         : claim.claim_class == 'S'    ? Verdict::kShape
                                                       : Verdict::kReproduced;
   claim.known = known_verdict(entry, entry.text_or("known", std::string(name(usual))), claim.note);
+  claim.matches = entry.text_or("matches", "");
+  claim.vague = entry.text_or("vague", "");
+  if (claim.known == Verdict::kDiffers && claim.matches.empty()) {
+    entry.refuse(
+        "a claim known to differ needs 'matches': the id of the claim that does hold, or a sentence");
+  }
   entry.refuse_unknown();
   return claim;
 }
@@ -137,7 +167,7 @@ struct FurtherGround {
   struct Known {
     std::string claim;
     Verdict verdict;
-    std::string note;  // empty: the claim's own
+    std::string note, matches;  // empty: the claim's own
   };
   std::string name;   // appended to the id of each claim and of its figures
   std::string of;     // the ground that the claims' conditions name: the case, or its first part
@@ -155,7 +185,12 @@ FurtherGround ground_from(const TomlValue& node, const std::vector<Claim>& claim
     const auto claim = std::ranges::find(claims, id, &Claim::id);
     if (claim == claims.end()) known.refuse(fmt::format("unknown claim '{}'", id));
     const std::string note = known.text_or("note", "");
-    ground.known.push_back({id, known_verdict(known, verdict, note.empty() ? claim->note : note), note});
+    const std::string matches = known.text_or("matches", "");
+    ground.known.push_back(
+        {id, known_verdict(known, verdict, note.empty() ? claim->note : note), note, matches});
+    if (ground.known.back().verdict == Verdict::kDiffers && matches.empty() && claim->matches.empty()) {
+      known.refuse("a claim known to differ needs 'matches'");
+    }
     known.refuse_unknown();
   }
   entry.refuse_unknown();
@@ -189,6 +224,7 @@ std::vector<Claim> on_further_grounds(const std::vector<Claim>& claims,
     for (const FurtherGround& ground : grounds) {
       Claim again = claim;
       if (!move_to(ground, again)) continue;
+      make_repeat(again, claim.repeats.empty() ? claim.id : claim.repeats);
       again.id += "." + ground.name;
       again.where += ", on " + ground.label;
       again.profiles = ground.profiles;
@@ -196,6 +232,7 @@ std::vector<Claim> on_further_grounds(const std::vector<Claim>& claims,
       if (known != ground.known.end()) {
         again.known = known->verdict;
         if (!known->note.empty()) again.note = known->note;
+        if (!known->matches.empty()) again.matches = known->matches;
       }
       all.push_back(std::move(again));
     }
@@ -222,9 +259,39 @@ void check_ids(const Paper& paper, const std::string& origin) {
   for (const PlotLayout& plot : paper.plots) check(plot.id);
 }
 
+// A repeat names a row of its own; `matches` names a claim that is known to hold, or is a sentence.
+void check_references(const Paper& paper, const std::string& origin) {
+  const auto fail = [&](const Claim& claim, std::string_view what) {
+    throw bad_input(fmt::format("{}: {}", claim.id, what), origin, "correct the claims file");
+  };
+  const auto claim_of = [&](const std::string& id) {
+    return std::ranges::find(paper.claims, id, &Claim::id);
+  };
+  for (const Claim& claim : paper.claims) {
+    if (!claim.repeats.empty()) {
+      const auto row = claim_of(claim.repeats);
+      if (row == paper.claims.end())
+        fail(claim, fmt::format("repeats the unknown claim '{}'", claim.repeats));
+      if (!row->repeats.empty()) fail(claim, fmt::format("repeats '{}', which is a repeat itself", row->id));
+    }
+    if (claim.matches.empty() || claim.matches.find(' ') != std::string::npos) continue;
+    const auto match = claim_of(claim.matches);
+    if (match == paper.claims.end()) {
+      fail(claim, fmt::format("'matches' is neither a claim's id nor a sentence: '{}'", claim.matches));
+    }
+    if (match->known > Verdict::kShape) fail(claim, fmt::format("'{}' is not known to hold", match->id));
+  }
+}
+
 }  // namespace
 
 std::string_view name(Verdict verdict) { return kVerdicts[static_cast<std::size_t>(verdict)]; }
+std::string_view name(About about) { return kAbout[static_cast<std::size_t>(about)]; }
+
+std::string Claim::reason() const {
+  const std::size_t end = note.find(". ");
+  return end == std::string::npos ? note : note.substr(0, end + 1);
+}
 
 Paper parse_claims(std::string_view text, const std::string& origin) {
   const toml::table table = parse_toml(text, origin, "correct the claims file");
@@ -233,7 +300,15 @@ Paper parse_claims(std::string_view text, const std::string& origin) {
   TomlTable entry({&table, &file, {}});
   entry.has("sets");
   Paper paper{entry.text("paper"), entry.text("title"), entry.text("source"), {}, {}, {}};
-  for (const TomlValue& claim : entry.list("claim")) paper.claims.push_back(claim_from(claim));
+  const About about = about_from(entry, About::kPaper);
+  const toml::node* of_last = nullptr;  // elements of one `each` follow each other
+  std::size_t first = 0;
+  for (const TomlValue& claim : entry.list("claim")) {
+    if (claim.node != of_last) first = paper.claims.size();
+    of_last = claim.node;
+    const bool again = first < paper.claims.size();
+    paper.claims.push_back(claim_from(claim, about, again ? &paper.claims[first] : nullptr));
+  }
   std::vector<FurtherGround> grounds;
   for (const TomlValue& ground : entry.list("ground")) grounds.push_back(ground_from(ground, paper.claims));
   paper.claims = on_further_grounds(paper.claims, grounds);
@@ -241,6 +316,7 @@ Paper parse_claims(std::string_view text, const std::string& origin) {
   for (const TomlValue& plot : entry.list("plot")) paper.plots.push_back(parse_plot(plot));
   entry.refuse_unknown();
   check_ids(paper, origin);
+  check_references(paper, origin);
   return paper;
 }
 

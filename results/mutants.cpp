@@ -64,7 +64,7 @@ class Trial {
  private:
   bool holds(const Mutate& change) const {
     const auto mutate = [&](std::span<Samples> metrics) {
-      for (Samples& samples : metrics) samples = {summarise(samples).median};
+      for (Samples& samples : metrics) samples = {median(samples)};
       if (!metrics.empty()) change(metrics);
     };
     return gather_evidence(one_, store_, store_.last_profile(), mutate).findings[0].outcome ==

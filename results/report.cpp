@@ -134,8 +134,9 @@ class Report {
 
   void add_summary() {
     Table table = summary_table(results_, papers_);
-    for (std::size_t i = 0; i < papers_.size(); ++i) {
-      table.rows[i][0].link = has_results(papers_[i]) ? "#" + papers_[i].id : "#pending";
+    for (std::vector<Cell>& row : table.rows) {
+      const auto paper = std::ranges::find(papers_, row[0].text, &Paper::title);
+      if (paper != papers_.end()) row[0].link = has_results(*paper) ? "#" + paper->id : "#pending";
     }
     add_table(std::move(table), {});
   }

@@ -149,7 +149,7 @@ void write_fake_results(const std::filesystem::path& folder, const std::string& 
       {"y-only", {0, 0, 0, 0.49}},
       {"x-and-y", {812, 1, 5, 0.49}},
       {"caves-no-attenuation", {950, 41, 230, 0.43}},
-      {"caves-attenuated", {700, 2, 8, 0.46}},
+      {"caves-attenuated", {700, 1, 5, 0.46}},
       {"caves-printed-product", {640, 9, 1202, 0.31}},
       {"caves-printed-product-no-attenuation", {640, 19, 10449, 0.21}}};
   for (const auto& [name, counts] : caves) {
