@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "results/embedded.h"
@@ -34,6 +35,24 @@ Operand operand_from(const TomlValue& node) {
   return operand;
 }
 
+void read_figure(TomlTable& entry, Condition& condition) {
+  condition.kind = Condition::Kind::kFigure;
+  condition.figure = entry.text("figure");
+  if (entry.has("panels")) {
+    const double panels = entry.get("panels").number("panels");
+    if (panels < 1 || panels > 1000 || panels != std::floor(panels)) entry.refuse("'panels' is a count");
+    condition.panels = static_cast<int>(panels);
+  }
+  for (const TomlValue& metric : entry.list("prints")) condition.operands.push_back(operand_from(metric));
+  if (entry.has("brightness")) condition.brightness.push_back(operand_from(entry.get("brightness")));
+  const auto is_number = [](const Operand& operand) { return operand.is_number(); };
+  if (std::ranges::any_of(condition.operands, is_number) ||
+      std::ranges::any_of(condition.brightness, is_number)) {
+    entry.refuse("a figure is compared with metrics, not with numbers");
+  }
+  entry.refuse_unknown();
+}
+
 Condition condition_from(const TomlValue& node) {
   using Kind = Condition::Kind;
   struct Form {
@@ -51,8 +70,7 @@ Condition condition_from(const TomlValue& node) {
   Condition condition;
   if (entry.has("figure")) {
     condition.kind = Kind::kFigure;
-    condition.figure = entry.text("figure");
-    entry.refuse_unknown();
+    read_figure(entry, condition);
     return condition;
   }
   const auto* const form =
@@ -205,11 +223,13 @@ bool move_to(const FurtherGround& ground, Claim& claim) {
       condition.figure += "." + ground.name;
       moved = true;
     }
-    for (Operand& operand : condition.operands) {
-      std::string& name = operand.case_name;
-      if (name != ground.of && !name.starts_with(ground.of + "/")) continue;
-      name.replace(0, ground.of.size(), ground.name);
-      moved = true;
+    for (std::vector<Operand>* const operands : {&condition.operands, &condition.brightness}) {
+      for (Operand& operand : *operands) {
+        std::string& name = operand.case_name;
+        if (name != ground.of && !name.starts_with(ground.of + "/")) continue;
+        name.replace(0, ground.of.size(), ground.name);
+        moved = true;
+      }
     }
   }
   return moved;

@@ -41,12 +41,18 @@ struct Condition {
     kWithin,  // within = [a]: a lies in the range
     kRatio,   // ratio = [a, b]: a ÷ b lies in the range
     kGrowth,  // growth = [a, b]: b ÷ a, the growth from a to b, lies in the range
-    kFigure,  // figure = ID: the picture is the one that was drawn, can be decoded and is not blank
+    kFigure,  // figure = ID: the picture is the one that was drawn, can be decoded and is not blank; its
+              // panels lie where its layout says, each shows something, and no two show the same
   };
   Kind kind = Kind::kEqual;
   std::vector<Operand> operands;
   double low = 0, high = 0;  // range, both ends included
   std::string figure;        // id
+  // Further for figures, all optional: panels = N; prints = [a, …]: metrics that the figure's words give;
+  // brightness = a: the mean of all pixels, 0 black to 1 white, within kBrightness. `prints` are operands.
+  int panels = 0;
+  std::vector<Operand> brightness;  // one or none
+  static constexpr double kBrightness = 0.005;
 };
 
 // What a row says something about. Rows of different kinds are counted apart: only those about the paper say

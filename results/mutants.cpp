@@ -93,6 +93,7 @@ std::string weakness(const Claim& claim, const Store& store) {
     if (survives(claim, store, mutant)) return fmt::format("holds if all that it reads is {}", name(mutant));
   }
   for (const Condition& condition : claim.conditions) {
+    if (condition.kind == Condition::Kind::kFigure) continue;
     const Trial trial(condition, store);
     std::size_t metric = 0;
     for (const Operand& operand : condition.operands) {

@@ -65,6 +65,23 @@ TEST_F(ReportTest, EveryLinkLeadsSomewhere) {
   EXPECT_GT(links, 50);
 }
 
+TEST_F(ReportTest, WhatDiffersStandsOnAPageOfItsOwn) {
+  write_fake_results(folder_, "paper");
+  write_report(folder_);
+  const std::string page = read_file(folder_ / "report/wrong-or-vague.html"),
+                    text = read_file(folder_ / "report/wrong-or-vague.md");
+  EXPECT_THAT(read_file(folder_ / "report/index.html"), HasSubstr("href=\"wrong-or-vague.html\""));
+  EXPECT_THAT(page, HasSubstr("href=\"index.html#hybrid-verdicts\""));
+  for (const std::string* const form : {&page, &text}) {
+    // The row, what is printed, what was measured, the reason, and the row of the reading that matches.
+    for (const char* part : {"hybrid.T2.ten", "10 ×", "grows by the factor", "the work grows with n³, by 8.",
+                             "hybrid.T2.256, reproduced (shape): ", "Left open"}) {
+      EXPECT_THAT(*form, HasSubstr(part));
+    }
+    EXPECT_THAT(*form, Not(HasSubstr("hybrid.T1.512")));
+  }
+}
+
 TEST_F(ReportTest, SameMeasurementsSameBytes) {
   write_fake_results(folder_, "quick");
   write_report(folder_);
