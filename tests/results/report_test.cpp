@@ -214,5 +214,15 @@ TEST_F(ReportTest, IsWrittenWholeOrNotAtAll) {
   EXPECT_EQ(files_of(folder_), before);
 }
 
+TEST(Readme, HasTheCountsOfTheRunThatIsKept) {
+  const std::filesystem::path root = TERRABENCH_SOURCE_DIR;
+  std::string counts = read_file(root / "results/reference/report/tables/summary.md");
+  for (std::size_t at = 0; (at = counts.find("](#", at)) != counts.npos; at += 3) {
+    counts.insert(at + 2, "results/reference/report/report.md");
+  }
+  EXPECT_THAT(read_file(root / "README.md"), HasSubstr("<!-- counts -->\n" + counts))
+      << "run scripts/readme-counts";
+}
+
 }  // namespace
 }  // namespace terrabench
