@@ -152,7 +152,9 @@ void write_fake_results(const std::filesystem::path& folder, const std::string& 
       {"caves-no-attenuation", {950, 41, 230, 0.43}},
       {"caves-attenuated", {700, 1, 5, 0.46}},
       {"caves-printed-product", {640, 9, 1202, 0.31}},
-      {"caves-printed-product-no-attenuation", {640, 19, 10449, 0.21}}};
+      {"caves-printed-product-no-attenuation", {640, 19, 10449, 0.21}},
+      {"x-and-y/n=128", {389, 1, 5, 0.49}},
+      {"caves-attenuated/n=128", {846, 3, 8, 0.46}}};
   for (const auto& [name, counts] : caves) {
     Record record = fake_record(run, "hybrid.caves", name, profile);
     add(record, "overhang_columns", "", {counts[0]});
