@@ -41,8 +41,8 @@ struct Condition {
     kWithin,  // within = [a]: a lies in the range
     kRatio,   // ratio = [a, b]: a ÷ b lies in the range
     kGrowth,  // growth = [a, b]: b ÷ a, the growth from a to b, lies in the range
-    kFigure,  // figure = ID: the picture is the one that was drawn, can be decoded and is not blank; its
-              // panels lie where its layout says, each shows something, and no two show the same
+    kFigure,  // figure = ID: the picture is the one that was drawn, can be decoded and is not blank; if
+              // `panels` are declared, each shows something and no two show the same
   };
   Kind kind = Kind::kEqual;
   std::vector<Operand> operands;

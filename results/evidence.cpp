@@ -225,11 +225,9 @@ class Reader {
     if (expected > 0 && layout.panels.size() != expected) {
       return fmt::format("has {} panels, not {}", layout.panels.size(), expected);
     }
-    // Small panels, such as those of a tree's nodes, may look the same: only declared ones must not.
+    // Small panels, such as those of a tree's nodes, may be of one colour or look the same: only declared
+    // panels must not.
     std::string fault = expected > 0 ? layout_fault(layout, image) : "";
-    for (const FigurePanel& panel : layout.panels) {
-      if (fault.empty()) fault = layout_fault({{panel}, {}}, image);
-    }
     for (const Operand& operand : condition.operands) {
       const std::optional<double> value = metric_of(operand);
       if (fault.empty() && (!value || !says(layout, *value))) {
