@@ -9,6 +9,7 @@
   ENTRY(hybrid, kImplicit)             \
   ENTRY(hybrid, kTable1)               \
   ENTRY(hybrid, kTable2)               \
+  ENTRY(hybrid, kQueryRates)           \
   ENTRY(hybrid, kCaves)                \
   ENTRY(hybrid, kNoiseStages)          \
   ENTRY(hybrid, kFresnel)              \

@@ -14,6 +14,7 @@
 #include "results/store.h"
 #include "terrain/error.h"
 #include "terrain/files.h"
+#include "terrain/image.h"
 #include "terrain/sources/noise/program.h"
 
 namespace terrabench {
@@ -27,6 +28,16 @@ std::string renderer_name(const std::string& context) {
     if (error.code() != ExitCode::kEnvironment) throw;
     return fmt::format("none ({})", error.what());
   }
+}
+
+// What the picture is and contains. One that was drawn without a sheet is a single panel.
+void describe(const std::filesystem::path& folder, RecordedFigure& figure) {
+  const std::filesystem::path file = folder / figure.file;
+  figure.checksum = checksum(read_file(file));
+  figure.layout = read_layout(file);
+  if (figure.layout) return;
+  const Image image = read_png(file);
+  figure.layout = FigureLayout{{{0, 0, image.width, image.height}}, {}};
 }
 
 std::vector<std::pair<std::string, Value>> values(const Parameters& parameters) {
@@ -137,8 +148,7 @@ void run(const RunPlan& plan) {
     const Stopwatch watch;
     planned.experiment->measure(planned.at, plan.options, recorder, progress);
     progress.end();
-    for (RecordedFigure& figure : record.figures)
-      figure.checksum = checksum(read_file(plan.folder / figure.file));
+    for (RecordedFigure& figure : record.figures) describe(plan.folder, figure);
     store.append(record);
     fmt::print(stderr, "[{}/{}] {} {}: {:.2f} s\n", number, cases.size(), record.experiment, record.case_name,
                watch.seconds());

@@ -6,11 +6,27 @@
 #include <nlohmann/json.hpp>
 
 #include "results/format.h"
+#include "results/tally.h"
 
 namespace terrabench {
 
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// {"about the paper": {"reproduced": 3}, …}
+Json counts_json(std::span<const Judgement> judgements) {
+  Json json = Json::object();
+  for (const auto& [about, counts] : tally(judgements)) {
+    Json& kind = json[std::string(name(about))];
+    for (const auto& [verdict, count] : counts) kind[std::string(name(verdict))] = count;
+  }
+  return json;
+}
+
+}  // namespace
+
 std::string check_json(const JudgedResults& results) {
-  using Json = nlohmann::ordered_json;
   Json rows = Json::array();
   for (const Judgement& judgement : results.judgements) {
     const Claim& claim = *judgement.claim;
@@ -19,18 +35,30 @@ std::string check_json(const JudgedResults& results) {
                     {"where", claim.where},
                     {"statement", claim.statement},
                     {"class", std::string(1, claim.claim_class)},
+                    {"counts_as", name(claim.about)},
+                    {"repeats", claim.repeats},
                     {"reported", claim.reported},
                     {"unit", claim.unit},
                     {"tolerance", claim.tolerance},
                     {"verdict", name(judgement.verdict)},
                     {"known", claim.pending.empty() ? name(claim.known) : name(Verdict::kPending)},
                     {"measured", judgement.measured},
+                    {"decided_by", judgement.deciding.text},
+                    {"reason", claim.known == Verdict::kDiffers ? claim.reason() : ""},
+                    {"matches", claim.matches},
                     {"note", claim.note},
                     {"complaint", judgement.complaint},
                     {"runs", judgement.runs}});
   }
+  Json papers = Json::object();
+  for (const Judgement& judgement : results.judgements) {
+    Json& counts = papers[judgement.paper->id];
+    if (counts.is_null()) counts = counts_json(results.of(*judgement.paper));
+  }
   const Json json = {{"profile", results.profile},
                      {"passed", results.passed()},
+                     {"counts", counts_json(results.judgements)},
+                     {"counts_by_paper", papers},
                      {"rows", rows},
                      {"warnings", results.warnings},
                      {"faults", results.faults}};

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 
 #include "results/check_output.h"
 #include "results/format.h"
+#include "results/tally.h"
 
 namespace terrabench {
 namespace {
@@ -47,17 +47,6 @@ std::string wrapped(std::string_view text, std::size_t indent, std::size_t width
   }
   flush();
   return out;
-}
-
-// "3 reproduced, 2 pending", in the verdicts' order.
-std::string tally(std::span<const Judgement> judgements) {
-  std::map<Verdict, int> counts;
-  for (const Judgement& judgement : judgements) ++counts[judgement.verdict];
-  std::string text;
-  for (const auto& [verdict, count] : counts) {
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name(verdict));
-  }
-  return text;
 }
 
 class Writer {
@@ -133,11 +122,21 @@ class Writer {
                            paint(kPlain), cut(rest, left));
       if (with_complaints) {
         text_ += wrapped(j.complaint, 4, width_);
-      } else if (look_.verbose) {
-        text_ += wrapped(j.claim->where + ": " + j.claim->statement, 4, width_) +
-                 wrapped("measured: " + j.measured, 4, width_);
+        continue;
       }
+      if (look_.verbose) {
+        text_ += wrapped(j.claim->where + ": " + j.claim->statement, 4, width_) +
+                 wrapped("measured: " + j.measured, 4, width_) +
+                 wrapped(fmt::format("counts as: {}", name(j.claim->about)), 4, width_);
+      }
+      if (look_.verbose || j.claim->about != About::kRepeat) write_reason(j);
     }
+  }
+
+  // Why a claim differs, and what matches instead.
+  void write_reason(const Judgement& j) {
+    if (j.verdict != Verdict::kDiffers || j.claim->matches.empty()) return;
+    text_ += wrapped(fmt::format("{} matches: {}", j.claim->reason(), j.claim->matches), 4, width_);
   }
 
   void write_summary() {
@@ -145,17 +144,23 @@ class Writer {
     for (const std::string& warning : results_.warnings) text_ += fmt::format("warning: {}\n", warning);
     text_ += "\nSummary\n";
     for (const Paper* const paper : papers_) {
-      constexpr std::size_t kIndent = 13;
-      text_ += fmt::format("  {:<9}  ", paper->id) +
-               wrapped(tally(results_.of(*paper)), kIndent, width_).substr(kIndent);
+      text_ += fmt::format("  {}\n", paper->id);
+      write_counts(results_.of(*paper), 4);
     }
     const bool passed = results_.passed();
-    constexpr std::size_t kVerdict = 6;
-    text_ += fmt::format("{}{}{}: {}", paint(passed ? kGreen : kRed), passed ? "PASS" : "FAIL", paint(kPlain),
-                         wrapped(tally(results_.judgements), kVerdict, width_).substr(kVerdict));
+    text_ += fmt::format("{}{}{}: {} claims\n", paint(passed ? kGreen : kRed), passed ? "PASS" : "FAIL",
+                         paint(kPlain), results_.judgements.size());
+    write_counts(results_.judgements, 2);
     if (!results_.faults.empty()) {
       text_ += fmt::format("{} faults: the results cannot be trusted, measure again into a new folder\n",
                            results_.faults.size());
+    }
+  }
+
+  // One line for each kind of row.
+  void write_counts(std::span<const Judgement> judgements, std::size_t indent) {
+    for (const auto& [about, counts] : tally(judgements)) {
+      text_ += wrapped(fmt::format("{}: {}", name(about), counts_text(counts)), indent, width_);
     }
   }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "results/embedded.h"
@@ -14,6 +15,7 @@ namespace {
 
 constexpr std::string_view kVerdicts[] = {
     "reproduced", "reproduced (shape)", "differs", "not comparable", "pending", "not run", "missing"};
+constexpr std::string_view kAbout[] = {"about the paper", "our own rules", "identities", "repeats"};
 constexpr std::string_view kAllProfiles[] = {"quick", "paper"};
 
 Operand operand_from(const TomlValue& node) {
@@ -33,6 +35,24 @@ Operand operand_from(const TomlValue& node) {
   return operand;
 }
 
+void read_figure(TomlTable& entry, Condition& condition) {
+  condition.kind = Condition::Kind::kFigure;
+  condition.figure = entry.text("figure");
+  if (entry.has("panels")) {
+    const double panels = entry.get("panels").number("panels");
+    if (panels < 1 || panels > 1000 || panels != std::floor(panels)) entry.refuse("'panels' is a count");
+    condition.panels = static_cast<int>(panels);
+  }
+  for (const TomlValue& metric : entry.list("prints")) condition.operands.push_back(operand_from(metric));
+  if (entry.has("brightness")) condition.brightness.push_back(operand_from(entry.get("brightness")));
+  const auto is_number = [](const Operand& operand) { return operand.is_number(); };
+  if (std::ranges::any_of(condition.operands, is_number) ||
+      std::ranges::any_of(condition.brightness, is_number)) {
+    entry.refuse("a figure is compared with metrics, not with numbers");
+  }
+  entry.refuse_unknown();
+}
+
 Condition condition_from(const TomlValue& node) {
   using Kind = Condition::Kind;
   struct Form {
@@ -50,8 +70,7 @@ Condition condition_from(const TomlValue& node) {
   Condition condition;
   if (entry.has("figure")) {
     condition.kind = Kind::kFigure;
-    condition.figure = entry.text("figure");
-    entry.refuse_unknown();
+    read_figure(entry, condition);
     return condition;
   }
   const auto* const form =
@@ -71,6 +90,9 @@ Condition condition_from(const TomlValue& node) {
     condition.low = low.number("range");
     condition.high = high.number("range");
     if (condition.low > condition.high) entry.refuse("the range is empty");
+    if (condition.kind == Condition::Kind::kWithin && condition.low <= 0 && condition.high == 1) {
+      entry.refuse("the range holds every share: no method could fail it");
+    }
   }
   entry.refuse_unknown();
   return condition;
@@ -98,10 +120,30 @@ Verdict known_verdict(const TomlTable& entry, const std::string& known, const st
   return verdict;
 }
 
-Claim claim_from(const TomlValue& node) {
+About about_from(TomlTable& entry, About usual) {
+  if (!entry.has("about")) return usual;
+  constexpr std::pair<std::string_view, About> kKeys[] = {
+      {"paper", About::kPaper}, {"ours", About::kOurs}, {"identity", About::kIdentity}};
+  const std::string key = entry.text("about");
+  const auto* const at = std::ranges::find(kKeys, key, &std::pair<std::string_view, About>::first);
+  if (at == std::end(kKeys)) entry.refuse("'about' is one of paper, ours, identity");
+  return at->second;
+}
+
+void make_repeat(Claim& claim, const std::string& of) {
+  claim.about = About::kRepeat;
+  claim.repeats = of;
+}
+
+// `first`: the claim that an earlier member of this claim's `each` stands for; null if there is none.
+Claim claim_from(const TomlValue& node, About usual_about, const Claim* first) {
   TomlTable entry(node);
   Claim claim;
   claim.id = entry.text("id");
+  claim.about = about_from(entry, usual_about);
+  const bool each_is_a_row = entry.flag("each_is_a_row");
+  if (first != nullptr && !each_is_a_row) make_repeat(claim, first->id);
+  if (entry.has("repeats")) make_repeat(claim, entry.text("repeats"));
   claim.where = entry.text("where");
   claim.statement = entry.text("statement");
   const std::string type = entry.text("class");
@@ -127,6 +169,12 @@ Claim claim_from(const TomlValue& node) {
                         : claim.claim_class == 'S'    ? Verdict::kShape
                                                       : Verdict::kReproduced;
   claim.known = known_verdict(entry, entry.text_or("known", std::string(name(usual))), claim.note);
+  claim.matches = entry.text_or("matches", "");
+  claim.vague = entry.text_or("vague", "");
+  if (claim.known == Verdict::kDiffers && claim.matches.empty()) {
+    entry.refuse(
+        "a claim known to differ needs 'matches': the id of the claim that does hold, or a sentence");
+  }
   entry.refuse_unknown();
   return claim;
 }
@@ -137,7 +185,7 @@ struct FurtherGround {
   struct Known {
     std::string claim;
     Verdict verdict;
-    std::string note;  // empty: the claim's own
+    std::string note, matches;  // empty: the claim's own
   };
   std::string name;   // appended to the id of each claim and of its figures
   std::string of;     // the ground that the claims' conditions name: the case, or its first part
@@ -155,7 +203,12 @@ FurtherGround ground_from(const TomlValue& node, const std::vector<Claim>& claim
     const auto claim = std::ranges::find(claims, id, &Claim::id);
     if (claim == claims.end()) known.refuse(fmt::format("unknown claim '{}'", id));
     const std::string note = known.text_or("note", "");
-    ground.known.push_back({id, known_verdict(known, verdict, note.empty() ? claim->note : note), note});
+    const std::string matches = known.text_or("matches", "");
+    ground.known.push_back(
+        {id, known_verdict(known, verdict, note.empty() ? claim->note : note), note, matches});
+    if (ground.known.back().verdict == Verdict::kDiffers && matches.empty() && claim->matches.empty()) {
+      known.refuse("a claim known to differ needs 'matches'");
+    }
     known.refuse_unknown();
   }
   entry.refuse_unknown();
@@ -170,11 +223,13 @@ bool move_to(const FurtherGround& ground, Claim& claim) {
       condition.figure += "." + ground.name;
       moved = true;
     }
-    for (Operand& operand : condition.operands) {
-      std::string& name = operand.case_name;
-      if (name != ground.of && !name.starts_with(ground.of + "/")) continue;
-      name.replace(0, ground.of.size(), ground.name);
-      moved = true;
+    for (std::vector<Operand>* const operands : {&condition.operands, &condition.brightness}) {
+      for (Operand& operand : *operands) {
+        std::string& name = operand.case_name;
+        if (name != ground.of && !name.starts_with(ground.of + "/")) continue;
+        name.replace(0, ground.of.size(), ground.name);
+        moved = true;
+      }
     }
   }
   return moved;
@@ -189,6 +244,7 @@ std::vector<Claim> on_further_grounds(const std::vector<Claim>& claims,
     for (const FurtherGround& ground : grounds) {
       Claim again = claim;
       if (!move_to(ground, again)) continue;
+      make_repeat(again, claim.repeats.empty() ? claim.id : claim.repeats);
       again.id += "." + ground.name;
       again.where += ", on " + ground.label;
       again.profiles = ground.profiles;
@@ -196,6 +252,7 @@ std::vector<Claim> on_further_grounds(const std::vector<Claim>& claims,
       if (known != ground.known.end()) {
         again.known = known->verdict;
         if (!known->note.empty()) again.note = known->note;
+        if (!known->matches.empty()) again.matches = known->matches;
       }
       all.push_back(std::move(again));
     }
@@ -222,9 +279,39 @@ void check_ids(const Paper& paper, const std::string& origin) {
   for (const PlotLayout& plot : paper.plots) check(plot.id);
 }
 
+// A repeat names a row of its own; `matches` names a claim that is known to hold, or is a sentence.
+void check_references(const Paper& paper, const std::string& origin) {
+  const auto fail = [&](const Claim& claim, std::string_view what) {
+    throw bad_input(fmt::format("{}: {}", claim.id, what), origin, "correct the claims file");
+  };
+  const auto claim_of = [&](const std::string& id) {
+    return std::ranges::find(paper.claims, id, &Claim::id);
+  };
+  for (const Claim& claim : paper.claims) {
+    if (!claim.repeats.empty()) {
+      const auto row = claim_of(claim.repeats);
+      if (row == paper.claims.end())
+        fail(claim, fmt::format("repeats the unknown claim '{}'", claim.repeats));
+      if (!row->repeats.empty()) fail(claim, fmt::format("repeats '{}', which is a repeat itself", row->id));
+    }
+    if (claim.matches.empty() || claim.matches.find(' ') != std::string::npos) continue;
+    const auto match = claim_of(claim.matches);
+    if (match == paper.claims.end()) {
+      fail(claim, fmt::format("'matches' is neither a claim's id nor a sentence: '{}'", claim.matches));
+    }
+    if (match->known > Verdict::kShape) fail(claim, fmt::format("'{}' is not known to hold", match->id));
+  }
+}
+
 }  // namespace
 
 std::string_view name(Verdict verdict) { return kVerdicts[static_cast<std::size_t>(verdict)]; }
+std::string_view name(About about) { return kAbout[static_cast<std::size_t>(about)]; }
+
+std::string Claim::reason() const {
+  const std::size_t end = note.find(". ");
+  return end == std::string::npos ? note : note.substr(0, end + 1);
+}
 
 Paper parse_claims(std::string_view text, const std::string& origin) {
   const toml::table table = parse_toml(text, origin, "correct the claims file");
@@ -233,7 +320,15 @@ Paper parse_claims(std::string_view text, const std::string& origin) {
   TomlTable entry({&table, &file, {}});
   entry.has("sets");
   Paper paper{entry.text("paper"), entry.text("title"), entry.text("source"), {}, {}, {}};
-  for (const TomlValue& claim : entry.list("claim")) paper.claims.push_back(claim_from(claim));
+  const About about = about_from(entry, About::kPaper);
+  const toml::node* of_last = nullptr;  // elements of one `each` follow each other
+  std::size_t first = 0;
+  for (const TomlValue& claim : entry.list("claim")) {
+    if (claim.node != of_last) first = paper.claims.size();
+    of_last = claim.node;
+    const bool again = first < paper.claims.size();
+    paper.claims.push_back(claim_from(claim, about, again ? &paper.claims[first] : nullptr));
+  }
   std::vector<FurtherGround> grounds;
   for (const TomlValue& ground : entry.list("ground")) grounds.push_back(ground_from(ground, paper.claims));
   paper.claims = on_further_grounds(paper.claims, grounds);
@@ -241,6 +336,7 @@ Paper parse_claims(std::string_view text, const std::string& origin) {
   for (const TomlValue& plot : entry.list("plot")) paper.plots.push_back(parse_plot(plot));
   entry.refuse_unknown();
   check_ids(paper, origin);
+  check_references(paper, origin);
   return paper;
 }
 

@@ -41,16 +41,36 @@ struct Condition {
     kWithin,  // within = [a]: a lies in the range
     kRatio,   // ratio = [a, b]: a ÷ b lies in the range
     kGrowth,  // growth = [a, b]: b ÷ a, the growth from a to b, lies in the range
-    kFigure,  // figure = ID: the picture is the one that was drawn, can be decoded and is not blank
+    kFigure,  // figure = ID: the picture is the one that was drawn, can be decoded and is not blank; if
+              // `panels` are declared, each shows something and no two show the same
   };
   Kind kind = Kind::kEqual;
   std::vector<Operand> operands;
   double low = 0, high = 0;  // range, both ends included
   std::string figure;        // id
+  // Further for figures, all optional: panels = N; prints = [a, …]: metrics that the figure's words give;
+  // brightness = a: the mean of all pixels, 0 black to 1 white, within kBrightness. `prints` are operands.
+  int panels = 0;
+  std::vector<Operand> brightness;  // one or none
+  static constexpr double kBrightness = 0.005;
 };
+
+// What a row says something about. Rows of different kinds are counted apart: only those about the paper say
+// how much of it is reproduced.
+enum class About {
+  kPaper,     // what the paper reports
+  kOurs,      // a rule of this program, or a comparison that no paper makes
+  kIdentity,  // follows from a definition by arithmetic: it fails only if the program miscounts
+  kRepeat,    // another row again, on further grounds or with other parameters: key `repeats`, a member of
+              // `each` after the first (unless `each_is_a_row`), or a [[ground]]
+};
+std::string_view name(About);
+inline constexpr About kAllAbout[] = {About::kPaper, About::kOurs, About::kIdentity, About::kRepeat};
 
 struct Claim {
   std::string id, where, statement;
+  About about = About::kPaper;
+  std::string repeats;                // id of the row that this one repeats; else empty
   char claim_class = 'E';             // key `class`: E exact, T tolerance, S shape, F figure, Q qualitative.
                                       // Only S changes a verdict's name; F the report's layout
   std::vector<double> reported;       // as printed in the paper
@@ -59,6 +79,12 @@ struct Claim {
   std::vector<Condition> conditions;  // all must hold
   Verdict known = Verdict::kReproduced;  // expected
   std::string pending, not_comparable;   // the reason; both empty if the claim is measured
+  // For claims known to differ: the id of the claim of the reading that matches, or a sentence that says that
+  // none does. The first sentence of `note` is the reason why it differs.
+  std::string matches;
+  std::string vague;  // what the paper leaves open, where this claim measures several readings; else empty
+
+  std::string reason() const;
 };
 
 struct Paper {

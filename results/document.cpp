@@ -24,7 +24,8 @@ struct HtmlWriter {
   }
   void operator()(const Paragraph& p) {
     text += fmt::format("<p{}>{}</p>\n", p.warning ? " class=\"warning\" role=\"alert\"" : "",
-                        escape_html(p.text));
+                        escape_html(p.text)) +
+            links(p.links);
   }
   void operator()(const Facts& facts) {
     text += "<dl>\n";
@@ -65,6 +66,7 @@ struct MarkdownWriter {
   }
   void operator()(const Paragraph& p) {
     text += fmt::format("{}{}\n\n", p.warning ? "> **Warning:** " : "", escape_markdown(p.text));
+    links(p.links);
   }
   void operator()(const Facts& facts) {
     for (const auto& [term, meaning] : facts.lines) {

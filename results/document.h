@@ -21,6 +21,7 @@ struct Heading {
 struct Paragraph {
   std::string text;
   bool warning = false;
+  std::vector<Link> links = {};  // on a line of their own
 };
 // Terms with their meanings, one per line.
 struct Facts {

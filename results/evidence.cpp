@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "results/findings_text.h"
 #include "terrain/error.h"
@@ -43,15 +45,23 @@ bool needs_one_machine(const Condition& condition, const std::vector<Quantity>& 
                                                        [](const Quantity& q) { return is_timing(q.unit); });
 }
 
+// The mean of all pixels' channels, 0 black to 1 white.
+double brightness(const Image& image) {
+  double sum = 0;
+  for (const std::uint8_t channel : image.rgb) sum += channel;
+  return sum / (255.0 * static_cast<double>(image.rgb.size()));
+}
+
 // Evaluates the conditions of one claim and notes which records they read.
 class Reader {
  public:
-  Reader(const Store& store, const std::string& profile) : store_(store), profile_(profile) {}
+  Reader(const Store& store, const std::string& profile, const Mutate& mutate)
+      : store_(store), profile_(profile), mutate_(mutate) {}
 
   Evidence read(const Claim& claim) {
     name_cases_ = names_cases(claim);
     for (const Condition& condition : claim.conditions) {
-      evidence_.findings.push_back(condition.kind == Kind::kFigure ? read_figure(condition.figure)
+      evidence_.findings.push_back(condition.kind == Kind::kFigure ? read_figure(condition)
                                                                    : read_metrics(condition));
     }
     return std::move(evidence_);
@@ -74,32 +84,85 @@ class Reader {
       quantities.push_back(quantity(operand, *metric, name_cases_));
     }
     if (needs_one_machine(condition, quantities)) note_incomparable(records);
+    if (mutate_) mutate(quantities);
     return compare(condition, quantities);
   }
 
-  Finding read_figure(const std::string& id) {
-    const auto [record, figure] = store_.find_figure(id, profile_);
+  void mutate(std::vector<Quantity>& quantities) const {
+    std::vector<std::vector<double>> samples;
+    for (const Quantity& q : quantities) {
+      if (!q.name.empty()) samples.push_back(q.samples);
+    }
+    mutate_(samples);
+    auto next = samples.begin();
+    for (Quantity& q : quantities) {
+      if (!q.name.empty()) q.samples = std::move(*next++);
+    }
+  }
+
+  Finding read_figure(const Condition& condition) {
+    const auto [record, figure] = store_.find_figure(condition.figure, profile_);
     if (figure == nullptr) return {Outcome::kMissing, "no picture was drawn", "not drawn", "", "picture"};
     note_read(*record);
-    const auto [holds, text] = inspect(*figure);
+    const auto [holds, text] = inspect(condition, *figure);
     return {outcome(holds), text, holds ? "drawn" : "not usable", "", "picture"};
   }
 
-  // Whether the picture is the one that was drawn and shows something.
-  std::pair<bool, std::string> inspect(const RecordedFigure& figure) const {
+  // Whether the picture is the one that was drawn, shows something, and contains what it should.
+  std::pair<bool, std::string> inspect(const Condition& condition, const RecordedFigure& figure) const {
     const std::string& name = figure.file;
     try {
       const Image image = read_png(store_.folder() / name);
       if (!store_.intact(figure)) return {false, name + " is not the picture that was drawn"};
-      for (std::size_t i = 3; i < image.rgb.size(); ++i) {
-        if (image.rgb[i] != image.rgb[i - 3]) {
-          return {true, fmt::format("drawn, {} × {} pixels", image.width, image.height)};
-        }
-      }
-      return {false, name + " is blank"};
+      const FigureLayout whole{{{0, 0, image.width, image.height}}, {}};
+      if (!layout_fault(whole, image).empty()) return {false, name + " is blank"};
+      std::string text = fmt::format("drawn, {} × {} pixels", image.width, image.height);
+      if (!figure.layout) return {true, text + ", layout not recorded"};
+      const std::string fault = content_fault(condition, *figure.layout, image);
+      if (!fault.empty()) return {false, fmt::format("{}: {}", name, fault)};
+      if (condition.panels > 0) text += fmt::format(", panels: {}", condition.panels);
+      if (!condition.operands.empty())
+        text += fmt::format(", metrics printed: {}", condition.operands.size());
+      if (!condition.brightness.empty()) text += ", brightness as measured";
+      return {true, text};
     } catch (const Error& error) {
       return {false, fmt::format("the picture cannot be used: {}", error.what())};
     }
+  }
+
+  // What the picture contains that it should not, or lacks; empty if nothing.
+  std::string content_fault(const Condition& condition, const FigureLayout& layout,
+                            const Image& image) const {
+    const std::size_t expected = static_cast<std::size_t>(condition.panels);
+    if (expected > 0 && layout.panels.size() != expected) {
+      return fmt::format("has {} panels, not {}", layout.panels.size(), expected);
+    }
+    // Small panels, such as those of a tree's nodes, may be of one colour or look the same: only declared
+    // panels must not.
+    std::string fault = expected > 0 ? layout_fault(layout, image) : "";
+    for (const Operand& operand : condition.operands) {
+      const std::optional<double> value = metric_of(operand);
+      if (fault.empty() && (!value || !says(layout, *value))) {
+        fault =
+            fmt::format("does not print {} of {} {}", operand.metric, operand.experiment, operand.case_name);
+      }
+    }
+    for (const Operand& operand : condition.brightness) {
+      const std::optional<double> value = metric_of(operand);
+      const double seen = brightness(image);
+      if (fault.empty() && (!value || std::abs(seen - *value) > Condition::kBrightness)) {
+        fault = fmt::format("its brightness is {:.3f}, not {} of {} {}", seen, operand.metric,
+                            operand.experiment, operand.case_name);
+      }
+    }
+    return fault;
+  }
+
+  std::optional<double> metric_of(const Operand& operand) const {
+    const Record* const record = store_.find(operand.experiment, operand.case_name, profile_);
+    const Metric* const metric = record == nullptr ? nullptr : record->find(operand.metric);
+    if (metric == nullptr) return std::nullopt;
+    return median(metric->samples);
   }
 
   void note_read(const Record& record) {
@@ -120,14 +183,16 @@ class Reader {
 
   const Store& store_;
   const std::string& profile_;
+  const Mutate& mutate_;
   bool name_cases_ = false;
   Evidence evidence_;
 };
 
 }  // namespace
 
-Evidence gather_evidence(const Claim& claim, const Store& store, const std::string& profile) {
-  return Reader(store, profile).read(claim);
+Evidence gather_evidence(const Claim& claim, const Store& store, const std::string& profile,
+                         const Mutate& mutate) {
+  return Reader(store, profile, mutate).read(claim);
 }
 
 }  // namespace terrabench

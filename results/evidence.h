@@ -2,6 +2,8 @@
 // verdict from it.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,7 +27,11 @@ struct Evidence {
   bool incomparable = false;      // a ratio, growth or order of times mixes machines or builds
 };
 
-// Reads the records of one profile. Medians decide; a 95 % interval is reported beside each.
-Evidence gather_evidence(const Claim&, const Store&, const std::string& profile);
+// Changes the samples of a condition's operands that are metrics, in their order (mutants.h).
+using Mutate = std::function<void(std::span<std::vector<double>> samples)>;
+
+// Reads the records of one profile. Medians decide; a 95 % interval is reported beside each. With `mutate`,
+// the evidence is what the claim would say of other measurements.
+Evidence gather_evidence(const Claim&, const Store&, const std::string& profile, const Mutate& mutate = {});
 
 }  // namespace terrabench

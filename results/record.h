@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "results/figure_layout.h"
 #include "terrain/parameters.h"
 
 namespace terrabench {
@@ -26,6 +28,7 @@ struct RecordedFigure {
   std::string file;           // figures/hybrid.F3.png
   std::string caption;        // names the paper's figure and what is seen
   std::string checksum = "";  // of the file's bytes, so that another picture in its place is noticed
+  std::optional<FigureLayout> layout = {};  // what it contains; older stores have none
 };
 
 // Where numbers came from: one per run of the program. Each record names its run.

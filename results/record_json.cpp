@@ -152,10 +152,31 @@ Metric metric_from(const Json& json, std::string& warning) {
   return metric;
 }
 
+// Panels as one flat list: x, y, width and height of each.
+FigureLayout layout_from(Fields& fields) {
+  FigureLayout layout;
+  std::vector<int> numbers;
+  for (const Json& number : fields.array("panels")) {
+    require(number.is_number_unsigned() && number.get<std::uint64_t>() < 1'000'000,
+            "a panel's place is not a natural number");
+    numbers.push_back(number.get<int>());
+  }
+  require(numbers.size() % 4 == 0 && numbers.size() <= 4000, "'panels' is damaged");
+  for (std::size_t i = 0; i < numbers.size(); i += 4) {
+    layout.panels.push_back({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]});
+  }
+  for (const Json& words : fields.array("words")) {
+    require(words.is_string(), "a figure's words are not text");
+    layout.words.push_back(words.get<std::string>());
+  }
+  return layout;
+}
+
 RecordedFigure figure_from(const Json& json, std::string& warning) {
   Fields fields(json, "a figure");
   RecordedFigure figure{fields.name("id"), fields.name("file"), fields.text("caption"),
                         fields.text("checksum")};
+  if (fields.has("panels")) figure.layout = layout_from(fields);
   const std::filesystem::path path(figure.file);
   require(path.is_relative() && std::find(path.begin(), path.end(), "..") == path.end(),
           fmt::format("figure '{}' lies outside the results folder", figure.id));
@@ -251,10 +272,16 @@ std::string to_line(const Record& record) {
     metrics.push_back({{"name", metric.name}, {"unit", metric.unit}, {"samples", metric.samples}});
   }
   for (const RecordedFigure& figure : record.figures) {
-    figures.push_back({{"id", figure.id},
-                       {"file", figure.file},
-                       {"caption", figure.caption},
-                       {"checksum", figure.checksum}});
+    Json& entry = figures.emplace_back(Json{{"id", figure.id},
+                                            {"file", figure.file},
+                                            {"caption", figure.caption},
+                                            {"checksum", figure.checksum}});
+    if (!figure.layout) continue;
+    entry["panels"] = Json::array();
+    for (const FigurePanel& p : figure.layout->panels) {
+      for (const int number : {p.x, p.y, p.width, p.height}) entry["panels"].push_back(number);
+    }
+    entry["words"] = figure.layout->words;
   }
   Json line({{"kind", "record"},
              {"experiment", record.experiment},

@@ -13,6 +13,7 @@
 #include "results/format.h"
 #include "results/further_cases.h"
 #include "results/judge.h"
+#include "results/paper_faults.h"
 #include "results/plot.h"
 #include "results/rasterise.h"
 #include "results/report_tables.h"
@@ -123,6 +124,19 @@ class Report {
       document_.push_back(Paragraph{fmt::format("{}: {}.", judgement.claim->id, judgement.complaint), true});
     }
     add_summary();
+    add_paper_faults();
+  }
+
+  void add_paper_faults() {
+    constexpr std::string_view kHtml = "wrong-or-vague.html", kMarkdown = "wrong-or-vague.md";
+    const Document page = paper_faults(results_, papers_, "index.html");
+    if (page.empty()) return;
+    write_file(out_ / kHtml, html(page));
+    write_file(out_ / kMarkdown, markdown(paper_faults(results_, papers_, "report.md")));
+    document_.push_back(Paragraph{
+        "Every difference with its reason and the reading that matches:",
+        false,
+        {{std::string(kPaperFaultsTitle), std::string(kHtml)}, {"as Markdown", std::string(kMarkdown)}}});
   }
 
   // Drops the folder's path: it is private, and changes when the folder is copied.
@@ -134,8 +148,9 @@ class Report {
 
   void add_summary() {
     Table table = summary_table(results_, papers_);
-    for (std::size_t i = 0; i < papers_.size(); ++i) {
-      table.rows[i][0].link = has_results(papers_[i]) ? "#" + papers_[i].id : "#pending";
+    for (std::vector<Cell>& row : table.rows) {
+      const auto paper = std::ranges::find(papers_, row[0].text, &Paper::title);
+      if (paper != papers_.end()) row[0].link = has_results(*paper) ? "#" + paper->id : "#pending";
     }
     add_table(std::move(table), {});
   }

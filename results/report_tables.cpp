@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "results/fill.h"
+#include "results/tally.h"
 
 namespace terrabench {
 namespace {
@@ -20,16 +21,24 @@ Table summary_table(const JudgedResults& results, std::span<const Paper> papers)
   constexpr Verdict kShown[] = {Verdict::kReproduced,    Verdict::kShape,   Verdict::kDiffers,
                                 Verdict::kNotComparable, Verdict::kMissing, Verdict::kNotRun,
                                 Verdict::kPending};
-  Table table{"summary", "Verdicts", "How many claims of each paper have which verdict.", {{"Paper"}}, {}};
+  Table table{
+      "summary",
+      "Verdicts",
+      "How many claims have which verdict. Rows about a paper, rows about rules of this program, rows "
+      "that hold by arithmetic alone, and repeats of a row on further grounds or with other parameters "
+      "are counted apart: only the first say how much of a paper is reproduced.",
+      {{"Paper"}, {"Rows"}},
+      {}};
   for (const Verdict verdict : kShown) table.columns.push_back({std::string(name(verdict)), "", true});
-  for (const Paper& paper : papers) {
-    std::vector<Cell> cells = {{paper.title}};
-    for (const Verdict verdict : kShown) {
-      const auto count = std::ranges::count(results.of(paper), verdict, &Judgement::verdict);
-      cells.push_back({std::to_string(count)});
-    }
+  const auto add = [&](const std::string& title, About about, VerdictCounts counts) {
+    std::vector<Cell> cells = {{title}, {std::string(name(about))}};
+    for (const Verdict verdict : kShown) cells.push_back({std::to_string(counts[verdict])});
     table.rows.push_back(std::move(cells));
+  };
+  for (const Paper& paper : papers) {
+    for (const auto& [about, counts] : tally(results.of(paper))) add(paper.title, about, counts);
   }
+  for (const auto& [about, counts] : tally(results.judgements)) add("All", about, counts);
   return table;
 }
 

@@ -9,7 +9,7 @@
 
 namespace terrabench {
 
-// How many claims of each paper have which verdict.
+// How many claims of each paper, and of all, have which verdict: one row for each kind of claim.
 Table summary_table(const JudgedResults&, std::span<const Paper>);
 // The claims of one paper, except pending ones, with what was measured; and the notes that belong to them.
 Table verdict_table(const JudgedResults&, const Paper&);

@@ -79,8 +79,14 @@ Summary with_interval(std::size_t count, double median, std::vector<double>& dra
 
 }  // namespace
 
+double median(std::span<const double> samples) {
+  assert(!samples.empty());
+  return median_of_sorted(sorted(samples));
+}
+
 Summary summarise(std::span<const double> samples) {
   assert(!samples.empty());
+  if (samples.size() == 1) return {1, samples[0], samples[0], samples[0]};
   Resampler resampler(samples);
   Random random;
   std::vector<double> draws(kResamples);
@@ -90,6 +96,10 @@ Summary summarise(std::span<const double> samples) {
 
 Summary summarise_ratio(std::span<const double> numerator, std::span<const double> denominator) {
   assert(!numerator.empty() && !denominator.empty());
+  if (numerator.size() == 1 && denominator.size() == 1) {
+    const double ratio = numerator[0] / denominator[0];
+    return {1, ratio, ratio, ratio};
+  }
   Resampler above(numerator), below(denominator);
   Random random;
   std::vector<double> draws(kResamples);

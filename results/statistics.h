@@ -14,6 +14,7 @@ struct Summary {
   std::size_t count = 0;
   double median = 0, low = 0, high = 0;
 };
+double median(std::span<const double> samples);      // at least one sample, all finite
 Summary summarise(std::span<const double> samples);  // at least one sample, all finite
 
 // median(numerator) / median(denominator) with its 95 % interval. Both need samples; a denominator that can

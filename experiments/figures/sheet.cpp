@@ -112,9 +112,18 @@ void Sheet::rays(SheetPoint centre, double radius, int count, double first, Rgb 
 void Sheet::text(double x, double y, std::string_view words, int size, std::string_view anchor, Rgb colour) {
   body_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\">{}</text>\n",
                        x, y, size, anchor, css(colour), escaped(words));
+  layout_.words.emplace_back(words);
 }
 
 void Sheet::picture(double x, double y, double width, double height, const Image& image) {
+  const auto pixels = [](double units) { return static_cast<int>(std::lround(kPixels * units)); };
+  const int left = std::max(0, pixels(x)), top = std::max(0, pixels(y));
+  layout_.panels.push_back({left, top, std::min(pixels(x + width), kPixels * width_) - left,
+                            std::min(pixels(y + height), kPixels * height_) - top});
+  this->image(x, y, width, height, image);
+}
+
+void Sheet::image(double x, double y, double width, double height, const Image& image) {
   const auto times = [](double units, int pixels) {
     return std::max(1, static_cast<int>(std::lround(kPixels * units / pixels)));
   };
@@ -136,7 +145,7 @@ void Sheet::colour_bar(double x, double y, double width, const std::function<Rgb
   constexpr Rgb kGrey{96, 96, 96};
   Image bar(static_cast<int>(kPixels * width), 1, {});
   for (int i = 0; i < bar.width; ++i) bar.set(i, 0, colour((i + 0.5) / bar.width));
-  picture(x, y, width, kHeight, bar);
+  image(x, y, width, kHeight, bar);
   for (const Tick& tick : ticks) {
     const double at = x + tick.at * width;
     line(std::array{SheetPoint{at, y + kHeight}, SheetPoint{at, y + kHeight + 4}}, {.colour = kGrey});
@@ -154,6 +163,7 @@ std::string Sheet::svg() const {
 
 void Sheet::write(const std::filesystem::path& png) const {
   svg_text_to_png(svg(), png, kPixels * width_, colours_);
+  write_layout(png, layout_);
 }
 
 }  // namespace terrabench::figures

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "results/figure_layout.h"
 #include "results/rasterise.h"
 #include "terrain/image.h"
 
@@ -41,6 +42,7 @@ class Sheet {
   void text(double x, double y, std::string_view words, int size, std::string_view anchor = "start",
             Rgb colour = {32, 32, 32});
   // Pixels become sharp rectangles, all of the same size if the image is enlarged by a whole number.
+  // Each is a panel of the figure's layout (results/figure_layout.h); the words are those of text().
   void picture(double x, double y, double width, double height, const Image& image);
   // The colours of 0 to 1 from left to right, with words below the bar at each tick.
   struct Tick {
@@ -52,10 +54,11 @@ class Sheet {
   std::string svg() const;
   // For sheets with rendered landscapes, whose smooth skies need all colours; other sheets have at most 256.
   void keep_all_colours() { colours_ = Colours::kAll; }
-  // Writes a PNG. Throws environment_error.
+  // Writes a PNG with its layout. Throws environment_error.
   void write(const std::filesystem::path& png) const;
 
  private:
+  void image(double x, double y, double width, double height, const Image& image);
   void circle(SheetPoint centre, double radius, Rgb colour, double thickness);
   // `count` strokes through the centre, evenly spaced over half a turn; the first is turned by `first` half
   // turns.
@@ -64,6 +67,7 @@ class Sheet {
   int width_, height_;
   Colours colours_ = Colours::kFew;
   std::string body_;
+  FigureLayout layout_;
 };
 
 // A picture with its words.

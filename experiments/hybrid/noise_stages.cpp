@@ -52,18 +52,20 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   });
 
   Image image(side, side, {});
-  double sum = 0;
+  double sum = 0, shown = 0;
   for (int row = 0; row < side; ++row) {
     for (int i = 0; i < side; ++i) {
       const float value = values[static_cast<std::size_t>(row) * side + i];
       sum += value;
       const float grey = std::clamp((value - stage.low) / (stage.high - stage.low), 0.0F, 1.0F);
+      shown += grey;
       const auto byte = static_cast<std::uint8_t>(std::lround(grey * 255));
       image.set(i, side - 1 - row, {byte, byte, byte});
     }
   }
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   recorder.add("mean", "", sum / static_cast<double>(values.size()));
+  recorder.add("mean_shown", "", shown / static_cast<double>(values.size()));  // of 0 black to 1 white
   recorder.add("least", "", *least);
   recorder.add("most", "", *most);
   write_png(recorder.figure(

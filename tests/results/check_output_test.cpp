@@ -69,7 +69,8 @@ TEST_F(CheckOutput, WhatChangedComesFirstAndTheSummaryLast) {
   const std::string good = check_text(passing(), {});
   EXPECT_THAT(good, StartsWith("Profile quick: "));
   EXPECT_THAT(lines(good).front(), HasSubstr("every verdict as expected"));
-  EXPECT_THAT(lines(good).back(), StartsWith("PASS: "));
+  EXPECT_THAT(good, ContainsRegex("\nPASS: [0-9]+ claims\n  about the paper: [0-9]+ reproduced"));
+  EXPECT_THAT(lines(good).back(), StartsWith("  repeats: "));
   std::filesystem::remove(file());
   const std::string bad = check_text(failing(), {});
   EXPECT_THAT(lines(bad).at(0), HasSubstr("1 of "));
@@ -98,6 +99,12 @@ TEST_F(CheckOutput, VerbosePrintsAllEvidence) {
   }
 }
 
+TEST_F(CheckOutput, WhatDiffersSaysWhyAndWhichReadingMatches) {
+  const std::string text = check_text(passing(), {.width = 200});
+  EXPECT_THAT(text, HasSubstr("and are not counted. matches: hybrid.T1.128\n"));
+  EXPECT_THAT(text, Not(HasSubstr("With them the layout"))) << "one sentence is enough here";
+}
+
 TEST_F(CheckOutput, ColourIsOptional) {
   const JudgedResults results = passing();
   EXPECT_THAT(check_text(results, {}), Not(HasSubstr("\x1b[")));
@@ -111,6 +118,17 @@ TEST_F(CheckOutput, JsonAndJunitHoldEveryClaim) {
   EXPECT_EQ(json["rows"].size(), results.judgements.size());
   EXPECT_EQ(json["rows"][0]["id"], "hybrid.T1.128");
   EXPECT_EQ(json["rows"][0]["reported"][0], 393216);
+  int all = 0;
+  for (const auto& kind : json["counts"]) {
+    for (const int count : kind) all += count;
+  }
+  EXPECT_EQ(all, static_cast<int>(results.judgements.size())) << "every claim is counted once";
+  EXPECT_EQ(json["counts_by_paper"]["hybrid"]["repeats"]["reproduced (shape)"], 1) << "hybrid.T2.128";
+  for (const auto& row : json["rows"]) {
+    if (row["id"] != "hybrid.T1.layout") continue;
+    EXPECT_EQ(row["matches"], "hybrid.T1.128");
+    EXPECT_THAT(row["reason"].get<std::string>(), StartsWith("The paper's 24 bytes"));
+  }
   const std::string junit = check_junit(results);
   EXPECT_EQ(count(junit, "<testcase "), results.judgements.size() + results.faults.size());
   EXPECT_EQ(count(junit, "<failure "), 2U) << "the claim and the altered line";

@@ -204,7 +204,7 @@ TEST(Claims, EachStandsForEveryMemberOfASet) {
       "[[claim]]\neach = [\"on\"]\nid = \"p.{on}\"\nwhere = \"{on.at}, "
       "{on}\"\nstatement = \"s\"\nclass = \"E\"\n"
       "check = [{equal = [\"e/{on}/{px}px/m\", 0]}, {each = [\"px\"], within = "
-      "[\"e/{on}/{px}/m\"], range = [0, 1]}]\n"
+      "[\"e/{on}/{px}/m\"], range = [0, 2]}]\n"
       "[[table]]\neach = [\"px\", \"on\"]\nid = \"t{px}{on}\"\ntitle = \"t\"\ncaption = "
       "\"c\"\nexperiment = \"e\"\n"
       "rows_title = \"r\"\nrows = [{label = \"all\", case = \"x\"}, {each = [\"other\"], "
@@ -213,6 +213,9 @@ TEST(Claims, EachStandsForEveryMemberOfASet) {
   const Paper paper = parse_claims(text, "x");
   ASSERT_EQ(paper.claims.size(), 2U);
   const Claim& there = paper.claims[1];
+  EXPECT_EQ(paper.claims[0].about, About::kPaper);
+  EXPECT_EQ(there.about, About::kRepeat) << "the first member of a set stands for the row";
+  EXPECT_EQ(there.repeats, "p.a");
   EXPECT_EQ(there.id, "p.b");
   EXPECT_EQ(there.where, "there, b");
   ASSERT_EQ(there.conditions.size(), 3U);
@@ -257,7 +260,7 @@ TEST(Claims, ClaimsAreRepeatedOnFurtherGrounds) {
       "note = \"n\"\ncheck = [{order = [1, \"e/a/m\", \"e/a/x/m\", \"e/ab/m\"]}, {figure = \"p.F\"}]\n"
       "[[claim]]\nid = \"p.2\"\nwhere = \"w\"\nstatement = \"s\"\nclass = \"E\"\npending = \"x\"\n"
       "[[ground]]\nname = \"b\"\nof = \"a\"\nlabel = \"hills\"\nprofiles = [\"paper\"]\n"
-      "known = [{claim = \"p.1\", verdict = \"differs\"}]\n"
+      "known = [{claim = \"p.1\", verdict = \"differs\", matches = \"None does.\"}]\n"
       "[[ground]]\nname = \"c\"\nof = \"a\"\nlabel = \"flats\"\n";
   const std::vector<Claim> claims = parse_claims(text, "x").claims;
   std::vector<std::string> ids;
@@ -273,9 +276,32 @@ TEST(Claims, ClaimsAreRepeatedOnFurtherGrounds) {
   EXPECT_EQ(claims[1].profiles, std::vector<std::string>{"paper"});
   EXPECT_EQ(claims[1].known, Verdict::kDiffers);
   EXPECT_EQ(claims[1].note, "n");
+  EXPECT_EQ(claims[1].matches, "None does.");
+  EXPECT_EQ(claims[0].about, About::kPaper);
+  EXPECT_EQ(claims[1].about, About::kRepeat);
+  EXPECT_EQ(claims[2].repeats, "p.1");
   EXPECT_EQ(claims[2].known, Verdict::kReproduced);
   EXPECT_EQ(claims[2].profiles.size(), 2U);
   EXPECT_EQ(claims[0].conditions[0].operands[1].case_name, "a");
+}
+
+TEST(Claims, RowsAreCountedAsWhatTheyAreAbout) {
+  const auto about = [](const std::string& file_key, const std::string& key) {
+    const std::string text = std::string(kHead) + file_key + std::string(kClaim) + "pending = \"x\"\n" + key;
+    return parse_claims(text, "x").claims.at(0).about;
+  };
+  EXPECT_EQ(about("", ""), About::kPaper);
+  EXPECT_EQ(about("", "about = \"ours\"\n"), About::kOurs);
+  EXPECT_EQ(about("", "about = \"identity\"\n"), About::kIdentity);
+  EXPECT_EQ(about("about = \"ours\"\n", ""), About::kOurs);
+  EXPECT_EQ(about("about = \"ours\"\n", "about = \"paper\"\n"), About::kPaper);
+  for (const Paper& paper : papers()) {
+    for (const Claim& claim : paper.claims) {
+      EXPECT_EQ(claim.about == About::kRepeat, !claim.repeats.empty()) << claim.id;
+      EXPECT_TRUE(paper.id != "cross" || claim.about != About::kPaper) << claim.id << " is ours";
+      EXPECT_TRUE(claim.known != Verdict::kDiffers || !claim.matches.empty()) << claim.id;
+    }
+  }
 }
 
 TEST(Claims, ReadsEveryKindOfCondition) {
@@ -323,6 +349,13 @@ TEST(Claims, RefusesWithFileAndLine) {
                    "invalid known verdict", 4);
   }
   expect_refused(claim + "check = [{figure = \"f\"}]\nknown = \"differs\"\n", "needs a 'note'", 4);
+  expect_refused(claim + "check = [{figure = \"f\"}]\nknown = \"differs\"\nnote = \"n\"\n", "needs 'matches'",
+                 4);
+  expect_refused(claim + "check = [{figure = \"f\"}]\nmatches = \"p.9\"\n", "neither a claim's id", 0);
+  expect_refused(claim + "pending = \"x\"\nrepeats = \"p.9\"\n", "unknown claim 'p.9'", 0);
+  expect_refused(claim + "pending = \"x\"\nrepeats = \"p.1\"\n", "a repeat itself", 0);
+  expect_refused(claim + "pending = \"x\"\nabout = \"you\"\n", "one of paper, ours, identity", 4);
+  expect_refused(claim + "check = [{within = [\"e/c/m\"], range = [0, 1]}]\n", "holds every share", 9);
   expect_refused(claim + "pending = \"x\"\n" + std::string(kClaim) + "pending = \"x\"\n", "used twice", 0);
   const std::string ground =
       claim + "check = [{figure = \"f\"}]\n[[ground]]\nname = \"b\"\nof = \"a\"\nlabel = \"l\"\n";

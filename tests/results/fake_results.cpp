@@ -112,7 +112,8 @@ void add(Record& record, std::string metric, std::string unit, std::vector<doubl
 namespace {
 
 bool is_faked(const Condition& condition) {
-  constexpr std::array kExperiments = {"hybrid.table1", "hybrid.table2", "hybrid.caves"};
+  constexpr std::array kExperiments = {"hybrid.table1", "hybrid.table2", "hybrid.caves",
+                                       "hybrid.noise-stages"};
   if (condition.kind == Condition::Kind::kFigure) {
     for (int k = 3; k <= 13; ++k) {
       if (condition.figure == fmt::format("hybrid.F{}", k)) return true;
@@ -149,9 +150,11 @@ void write_fake_results(const std::filesystem::path& folder, const std::string& 
       {"y-only", {0, 0, 0, 0.49}},
       {"x-and-y", {812, 1, 5, 0.49}},
       {"caves-no-attenuation", {950, 41, 230, 0.43}},
-      {"caves-attenuated", {700, 2, 8, 0.46}},
+      {"caves-attenuated", {700, 1, 5, 0.46}},
       {"caves-printed-product", {640, 9, 1202, 0.31}},
-      {"caves-printed-product-no-attenuation", {640, 19, 10449, 0.21}}};
+      {"caves-printed-product-no-attenuation", {640, 19, 10449, 0.21}},
+      {"x-and-y/n=128", {389, 1, 5, 0.49}},
+      {"caves-attenuated/n=128", {846, 3, 8, 0.46}}};
   for (const auto& [name, counts] : caves) {
     Record record = fake_record(run, "hybrid.caves", name, profile);
     add(record, "overhang_columns", "", {counts[0]});
@@ -160,8 +163,24 @@ void write_fake_results(const std::filesystem::path& folder, const std::string& 
     add(record, "solid_share", "", {counts[3]});
     store.append(record);
   }
+  // Mean, least and most of the slices of figures 3 to 13.
+  constexpr std::array<std::array<double, 3>, 11> kSlices{{{0.5, 0.001, 0.999},
+                                                           {0.5, 0, 1},
+                                                           {0.08, -0.26, 0.39},
+                                                           {0.03, -0.18, 0.18},
+                                                           {0.486, 0, 1},
+                                                           {0.492, 0, 1},
+                                                           {0.645, 0.155, 0.993},
+                                                           {0.651, 0, 1},
+                                                           {0.656, 0, 1},
+                                                           {0.433, 0, 1},
+                                                           {0.463, 0, 1}}};
   for (int figure = 3; figure <= 13; ++figure) {
     Record record = fake_record(run, "hybrid.noise-stages", fmt::format("F{}", figure), profile);
+    const std::array<double, 3>& slice = kSlices[static_cast<std::size_t>(figure - 3)];
+    add(record, "mean", "", {slice[0]});
+    add(record, "least", "", {slice[1]});
+    add(record, "most", "", {slice[2]});
     add_picture(record, folder, fmt::format("hybrid.F{}", figure), "Vertical slice of 64 m × 64 m.");
     store.append(record);
   }

@@ -173,7 +173,7 @@ TEST_F(OneClaim, MissingMeasurementFails) {
 
 TEST_F(OneClaim, KnownDifferenceDoesNotFailAndAnEndToItDoes) {
   metrics_ = {{"m", "", {2}}};
-  const std::string known = "known = \"differs\"\nnote = \"n\"\n";
+  const std::string known = "known = \"differs\"\nnote = \"n\"\nmatches = \"None does.\"\n";
   EXPECT_EQ(judge_one("{equal = [\"e/c/m\", 3]}", "E", known).complaint, "");
   EXPECT_NE(judge_one("{equal = [\"e/c/m\", 2]}", "E", known).complaint, "");
 }

@@ -65,6 +65,23 @@ TEST_F(ReportTest, EveryLinkLeadsSomewhere) {
   EXPECT_GT(links, 50);
 }
 
+TEST_F(ReportTest, WhatDiffersStandsOnAPageOfItsOwn) {
+  write_fake_results(folder_, "paper");
+  write_report(folder_);
+  const std::string page = read_file(folder_ / "report/wrong-or-vague.html"),
+                    text = read_file(folder_ / "report/wrong-or-vague.md");
+  EXPECT_THAT(read_file(folder_ / "report/index.html"), HasSubstr("href=\"wrong-or-vague.html\""));
+  EXPECT_THAT(page, HasSubstr("href=\"index.html#hybrid-verdicts\""));
+  for (const std::string* const form : {&page, &text}) {
+    // The row, what is printed, what was measured, the reason, and the row of the reading that matches.
+    for (const char* part : {"hybrid.T2.ten", "10 ×", "grows by the factor", "the work grows with n³, by 8.",
+                             "hybrid.T2.256, reproduced (shape): ", "Left open"}) {
+      EXPECT_THAT(*form, HasSubstr(part));
+    }
+    EXPECT_THAT(*form, Not(HasSubstr("hybrid.T1.512")));
+  }
+}
+
 TEST_F(ReportTest, SameMeasurementsSameBytes) {
   write_fake_results(folder_, "quick");
   write_report(folder_);
@@ -195,6 +212,16 @@ TEST_F(ReportTest, IsWrittenWholeOrNotAtAll) {
   EXPECT_THROW(write_report(folder_), Error);
   setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(files_of(folder_), before);
+}
+
+TEST(Readme, HasTheCountsOfTheRunThatIsKept) {
+  const std::filesystem::path root = TERRABENCH_SOURCE_DIR;
+  std::string counts = read_file(root / "results/reference/report/tables/summary.md");
+  for (std::size_t at = 0; (at = counts.find("](#", at)) != counts.npos; at += 3) {
+    counts.insert(at + 2, "results/reference/report/report.md");
+  }
+  EXPECT_THAT(read_file(root / "README.md"), HasSubstr("<!-- counts -->\n" + counts))
+      << "run scripts/readme-counts";
 }
 
 }  // namespace

@@ -1,0 +1,151 @@
+#include "results/figure_layout.h"
+
+#include <gmock/gmock.h>
+
+#include "results/judge.h"
+#include "results/record_json.h"
+#include "terrain/error.h"
+#include "tests/results/fake_results.h"
+
+namespace terrabench {
+namespace {
+
+using testing::HasSubstr;
+
+void fill(Image& image, const FigurePanel& p, int seed) {
+  for (int y = p.y; y < p.y + p.height; ++y) {
+    for (int x = p.x; x < p.x + p.width; ++x) {
+      const auto v = static_cast<std::uint8_t>((x - p.x) * 7 + (y - p.y) * seed);
+      image.set(x, y, {v, v, v});
+    }
+  }
+}
+
+// A figure of two panels with words, its record and its claim.
+class FigureLayoutTest : public FolderTest {
+ protected:
+  FigureLayoutTest() {
+    std::filesystem::create_directories(folder_ / "figures");
+    draw();
+  }
+  std::filesystem::path png() const { return folder_ / "figures/f.png"; }
+  void draw() {
+    image_ = Image(60, 30, {255, 255, 255});
+    for (std::size_t i = 0; i < layout_.panels.size(); ++i) {
+      fill(image_, layout_.panels[i], 5 * static_cast<int>(i) + 3);
+    }
+  }
+  // The verdict on the figure as it was drawn, with these conditions.
+  Judgement judged(const std::string& conditions, bool with_layout = true) {
+    write_png(png(), image_);
+    RecordedFigure figure{"p.F1", "figures/f.png", "", ""};
+    if (with_layout) {
+      write_layout(png(), layout_);
+      figure.layout = read_layout(png());
+    }
+    figure.checksum = checksum(read_file(png()));
+    std::filesystem::remove(file());
+    {
+      Store store(folder_);
+      const Provenance run = fake_provenance();
+      store.begin_run(run);
+      Record record = fake_record(run, "e", "c");
+      add(record, "error", "m", {0.01234});
+      add(record, "grey", "", {0.5});
+      record.figures = {figure};
+      store.append(record);
+    }
+    papers_ = {parse_claims(
+        "paper = \"p\"\ntitle = \"t\"\nsource = \"s\"\n[[claim]]\nid = \"p.1\"\nwhere = \"w\"\nstatement = "
+        "\"s\"\nclass = \"F\"\ncheck = [{figure = \"p.F1\"" +
+            conditions + "}]\n",
+        "x")};
+    return judge(Store::open(folder_), papers_).judgements.at(0);  // read back from the file
+  }
+  std::string fault(const std::string& conditions) {
+    const Judgement judgement = judged(conditions);
+    return judgement.verdict == Verdict::kDiffers ? judgement.measured : "holds: " + judgement.measured;
+  }
+
+  FigureLayout layout_{{{2, 2, 20, 20}, {30, 2, 20, 20}}, {"a: RMSE 0.0123 m", "b: 1,024 drills, −3 °C"}};
+  Image image_;
+  std::vector<Paper> papers_;
+};
+
+TEST_F(FigureLayoutTest, TravelsInThePictureAndInTheRecord) {
+  const Judgement judgement = judged(", panels = 2, prints = [\"e/c/error\"]");
+  EXPECT_EQ(judgement.verdict, Verdict::kReproduced) << judgement.measured;
+  EXPECT_THAT(judgement.measured, HasSubstr("panels: 2, metrics printed: 1"));
+  EXPECT_EQ(read_layout(png()), layout_);
+  EXPECT_EQ(Store::open(folder_).records().at(0).figures.at(0).layout, layout_);
+  EXPECT_EQ(read_png(png()).rgb, image_.rgb) << "the pixels are kept";
+}
+
+TEST_F(FigureLayoutTest, OlderRecordsHaveNoneAndSaySo) {
+  const Judgement judgement = judged(", panels = 7", false);
+  EXPECT_EQ(judgement.verdict, Verdict::kReproduced);
+  EXPECT_THAT(judgement.measured, HasSubstr("layout not recorded"));
+}
+
+TEST_F(FigureLayoutTest, AWrongGridOfPanelsFails) {
+  EXPECT_THAT(fault(", panels = 3"), HasSubstr("has 2 panels, not 3"));
+  layout_.panels[1].x = 45;
+  EXPECT_THAT(fault(", panels = 2"), HasSubstr("panel 2 lies outside the picture"));
+}
+
+TEST_F(FigureLayoutTest, AnEmptyOrRepeatedPanelFails) {
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 28; x < 60; ++x) image_.set(x, y, {9, 9, 9});
+  }
+  EXPECT_THAT(fault(", panels = 2"), HasSubstr("panel 2 is blank"));
+  EXPECT_THAT(fault(""), HasSubstr("holds: ")) << "where no layout is declared";
+  draw();
+  fill(image_, layout_.panels[1], 3);  // the seed of the first
+  EXPECT_THAT(fault(", panels = 2"), HasSubstr("panels 1 and 2 show the same"));
+}
+
+TEST_F(FigureLayoutTest, AChartThatPrintsAnotherNumberFails) {
+  layout_.words[0] = "a: RMSE 0.0124 m";
+  EXPECT_THAT(fault(", prints = [\"e/c/error\"]"), HasSubstr("does not print error of e c"));
+  EXPECT_THAT(fault(", prints = [\"e/c/absent\"]"), HasSubstr("does not print absent of e c"));
+}
+
+TEST_F(FigureLayoutTest, AMapOfOtherHeightsFails) {
+  layout_.panels = {{0, 0, 60, 30}};
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 60; ++x) image_.set(x, y, x % 2 == 0 ? Rgb{0, 0, 0} : Rgb{255, 255, 255});
+  }
+  EXPECT_THAT(fault(", brightness = \"e/c/grey\""), HasSubstr("holds: "));
+  for (int y = 0; y < 30; ++y) image_.set(0, y, {255, 255, 255});  // 1 of 60 columns
+  EXPECT_THAT(fault(", brightness = \"e/c/grey\""), HasSubstr("its brightness is 0.517"));
+}
+
+TEST_F(FigureLayoutTest, NumbersAreComparedToTheDigitsPrinted) {
+  for (const double value : {0.0123, 0.01234, 0.01226, 1024.0, 1024.4, -3.0}) {
+    EXPECT_TRUE(says(layout_, value)) << value;
+  }
+  for (const double value : {0.0124, 0.0122, 1025.0, 24.0, 3.0, 0.0})
+    EXPECT_FALSE(says(layout_, value)) << value;
+}
+
+TEST_F(FigureLayoutTest, DamagedLayoutsAreNone) {
+  write_file(png(), std::string_view("no picture"));
+  EXPECT_EQ(read_layout(png()), std::nullopt);
+  EXPECT_THROW(write_layout(png(), layout_), Error);
+  write_png(png(), image_);
+  EXPECT_EQ(read_layout(png()), std::nullopt) << "a picture that no sheet drew";
+  write_layout(png(), layout_);
+  const std::string whole = read_file(png());
+  for (std::size_t size = 0; size < whole.size(); size += 7) {
+    write_file(png(), whole.substr(0, size));
+    const auto read = read_layout(png());
+    EXPECT_TRUE(!read || *read == layout_) << size;
+  }
+  std::string wrong = whole;
+  wrong.replace(wrong.find("\"panels\""), 8, "\"pannels");
+  write_file(png(), wrong);
+  EXPECT_EQ(read_layout(png()), std::nullopt);
+}
+
+}  // namespace
+}  // namespace terrabench
