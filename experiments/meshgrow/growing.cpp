@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <set>
 
 #include "experiments/cases.h"
 #include "experiments/experiment.h"
@@ -50,16 +54,7 @@ double bytes_of(const FaceMesh& mesh) {
 }
 
 // A vertex in the middle of an edge of one face alone: what the checks must find.
-FaceMesh with_t_vertex(FaceMesh mesh) {
-  // Not at the boundary of an open surface, and not in an edge that is shorter than the check's tolerance.
-  const auto length = [&](std::size_t f) {
-    const std::uint32_t* const corners = &mesh.corners[mesh.first_corner[f]];
-    return glm::distance(mesh.positions[corners[0]], mesh.positions[corners[1]]);
-  };
-  std::size_t face = mesh.faces() / 3;
-  for (std::size_t f = face; f < 2 * mesh.faces() / 3; ++f) {
-    if (length(f) > 2 * length(face)) face = f;
-  }
+FaceMesh with_t_vertex(FaceMesh mesh, std::size_t face) {
   const std::size_t corner = mesh.first_corner[face];
   const glm::vec3 a = mesh.positions[mesh.corners[corner]], b = mesh.positions[mesh.corners[corner + 1]];
   mesh.corners.insert(mesh.corners.begin() + static_cast<std::ptrdiff_t>(corner) + 1,
@@ -68,6 +63,44 @@ FaceMesh with_t_vertex(FaceMesh mesh) {
   if (!mesh.texture.empty()) mesh.texture.emplace_back(0);
   for (std::size_t f = face + 1; f < mesh.first_corner.size(); ++f) ++mesh.first_corner[f];
   return mesh;
+}
+
+// One face per decade of the length of its first edge, the middle one of each, whose first edge has two
+// faces.
+std::vector<std::size_t> face_of_each_decade(const FaceMesh& mesh) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (std::size_t f = 0; f < mesh.faces(); ++f) {
+    const std::uint32_t first = mesh.first_corner[f], last = mesh.first_corner[f + 1];
+    for (std::uint32_t c = first; c < last; ++c) {
+      edges.emplace(mesh.corners[c], mesh.corners[c + 1 < last ? c + 1 : first]);
+    }
+  }
+  std::map<int, std::vector<std::size_t>> decades;
+  for (std::size_t f = 0; f < mesh.faces(); ++f) {
+    const std::uint32_t a = mesh.corners[mesh.first_corner[f]], b = mesh.corners[mesh.first_corner[f] + 1];
+    if (!edges.contains({b, a})) continue;  // the boundary of an open surface, where a vertex may lie
+    const double length = glm::distance(mesh.positions[a], mesh.positions[b]);
+    decades[static_cast<int>(std::floor(std::log10(length)))].push_back(f);
+  }
+  std::vector<std::size_t> faces;
+  for (const auto& [decade, of] : decades) faces.push_back(of[of.size() / 2]);
+  return faces;
+}
+
+// The check as a control: planted T-vertices, one at a time, in edges of every length that the mesh has.
+void measure_planted(const FaceMesh& mesh, bool open, Recorder& recorder) {
+  double planted = 0, found = 0, shortest = std::numeric_limits<double>::infinity();
+  for (const std::size_t face : face_of_each_decade(mesh)) {
+    const std::size_t corner = mesh.first_corner[face];
+    shortest = std::min<double>(shortest, glm::distance(mesh.positions[mesh.corners[corner]],
+                                                        mesh.positions[mesh.corners[corner + 1]]));
+    const MeshReport damaged = check_mesh(with_t_vertex(mesh, face), {.boundary_meant = open});
+    ++planted;
+    found += damaged[MeshFault::kTVertex] == 1 ? 1 : 0;
+  }
+  recorder.add("t_vertices_planted", "", planted);
+  recorder.add("planted_not_found", "", planted - found);
+  recorder.add("shortest_damaged_edge", "m", shortest);
 }
 
 // Checks every mesh on the way. An open surface keeps the boundary of its base, each of whose edges a
@@ -106,8 +139,7 @@ void measure_faults(const Model& model, bool open, const GrownMesh& whole, Recor
   const bool same = last.mesh.positions == whole.mesh.positions && last.mesh.corners == whole.mesh.corners &&
                     last.mesh.texture == whole.mesh.texture;
   recorder.add("differs_from_expansion", "", same ? 0 : 1);
-  const MeshReport damaged = check_mesh(with_t_vertex(last.mesh), {.boundary_meant = open});
-  recorder.add("t_vertices_when_damaged", "", static_cast<double>(damaged[MeshFault::kTVertex]));
+  measure_planted(last.mesh, open, recorder);
 }
 
 void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress&) {

@@ -1,12 +1,19 @@
 // The same refinement by ours, by OpenSubdiv and by OpenMesh: what §7's times of expansion are compared with.
+// Nothing is copied inside a timed call but what a library itself copies. Times on one thread are the
+// processor's, so that other work of the machine counts as little as possible; the shortest of several runs.
 #include <fmt/format.h>
 #include <opensubdiv/far/primvarRefiner.h>
+#include <opensubdiv/far/stencilTableFactory.h>
 #include <opensubdiv/far/topologyDescriptor.h>
+#include <opensubdiv/osd/cpuEvaluator.h>
+#include <opensubdiv/osd/ompEvaluator.h>
 
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Subdivider/Uniform/CatmullClarkT.hh>
+#include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <memory>
 
 #include "experiments/cases.h"
@@ -14,48 +21,50 @@
 #include "experiments/meshgrow/growing_steps.h"
 #include "experiments/stopwatch.h"
 #include "representations/procedural_mesh/subdivision/refinement.h"
+#include "terrain/memory.h"
 
 namespace terrabench::meshgrow {
 namespace {
 
 namespace Far = OpenSubdiv::Far;
+namespace Osd = OpenSubdiv::Osd;
 namespace Sdc = OpenSubdiv::Sdc;
 using Polygons = OpenMesh::PolyMesh_ArrayKernelT<>;
+using subdivision::Refinement;
+using Points = std::vector<glm::vec3>;
 
-constexpr std::array<std::string_view, 3> kSubdividers{"ours", "opensubdiv", "openmesh"};
 const std::array kSpecs{
-    choice("subdivider", kSubdividers, "that refines the grown forking trunk"),
-    ParameterSpec{"levels", std::int64_t{6}, "", "refinements", 1, 9},
-    ParameterSpec{"runs", std::int64_t{5}, "", "refinements that are timed", 1, 1000},
+    ParameterSpec{"levels", std::int64_t{6}, "", "refinements of the grown forking trunk", 1, 9},
+    ParameterSpec{"runs", std::int64_t{3}, "", "of each subdivider, in turn", 1, 1000},
 };
 
 std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
-  return cases_by("subdivider", kSpecs,
-                  {{"levels", std::int64_t{paper ? 7 : 6}}, {"runs", std::int64_t{paper ? 9 : 5}}});
+  std::vector<Case> cases;
+  for (const std::int64_t levels : {5, 6, 7}) {
+    cases.push_back({fmt::format("levels={}", levels), Parameters(kSpecs, {{"levels", levels}})});
+    cases.back().parameters.set("runs", std::int64_t{paper ? 9 : 3});
+  }
+  return cases;
 }
 
-// What a subdivider returns: its vertices in its own order, and its faces.
-struct Result {
-  std::vector<glm::vec3> positions;
-  std::size_t faces = 0;
+struct Shortest {
+  double time = std::numeric_limits<double>::infinity();
+  void add(double seconds) { time = std::min(time, seconds); }
 };
 
-Result refine_ours(const FaceMesh& base, int levels) {
-  const std::vector<subdivision::PlacementRule> rules(static_cast<std::size_t>(levels));
-  subdivision::RefinementOptions options;
-  options.keep = subdivision::Keep::kStencils;
-  FaceMesh mesh = subdivision::subdivide(base, rules, options);
-  return {std::move(mesh.positions), mesh.faces()};
+// Positions of all levels, in arrays that exist.
+void place_ours(const Refinement& refinement, std::vector<Points>& points) {
+  for (int l = 0; l < refinement.levels(); ++l) {
+    const auto at = static_cast<std::size_t>(l);
+    subdivision::place_standard<glm::vec3>(refinement.topology(l), refinement.stencils(l), points[at],
+                                           points[at + 1]);
+  }
 }
 
-struct Point {
-  glm::vec3 at{0};
-  void Clear() { at = glm::vec3(0); }
-  void AddWithWeight(const Point& p, float w) { at += p.at * w; }
-};
+using Refiner = std::unique_ptr<Far::TopologyRefiner>;
 
-Result refine_opensubdiv(const FaceMesh& base, int levels) {
+Refiner refiner_of(const FaceMesh& base, int levels) {
   std::vector<int> sizes, corners(base.corners.begin(), base.corners.end());
   for (std::uint32_t f = 0; f < base.faces(); ++f) {
     sizes.push_back(static_cast<int>(corners_of(base, f).size()));
@@ -68,24 +77,29 @@ Result refine_opensubdiv(const FaceMesh& base, int levels) {
   Sdc::Options options;
   options.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
   using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-  const std::unique_ptr<Far::TopologyRefiner> refiner(
-      Factory::Create(d, Factory::Options(Sdc::SCHEME_CATMARK, options)));
+  Refiner refiner(Factory::Create(d, Factory::Options(Sdc::SCHEME_CATMARK, options)));
   refiner->RefineUniform(Far::TopologyRefiner::UniformOptions(levels));
-  const Far::PrimvarRefiner primvar(*refiner);
-  std::vector<Point> points(base.positions.size());
-  for (std::size_t v = 0; v < points.size(); ++v) points[v].at = base.positions[v];
-  for (int level = 1; level <= levels; ++level) {
-    std::vector<Point> finer(static_cast<std::size_t>(refiner->GetLevel(level).GetNumVertices()));
-    primvar.Interpolate(level, points, finer);
-    points = std::move(finer);
-  }
-  Result result;
-  result.faces = static_cast<std::size_t>(refiner->GetLevel(levels).GetNumFaces());
-  for (const Point& point : points) result.positions.push_back(point.at);
-  return result;
+  return refiner;
 }
 
-Result refine_openmesh(const FaceMesh& base, int levels) {
+using Table = std::unique_ptr<const Far::StencilTable>;
+
+Table table_of(const Far::TopologyRefiner& refiner) {
+  Far::StencilTableFactory::Options options;
+  options.generateIntermediateLevels = false;  // the finest level from the base: one pass
+  options.generateOffsets = true;
+  return Table(Far::StencilTableFactory::Create(refiner, options));
+}
+
+template <class Evaluator>
+void evaluate(const Far::StencilTable& table, const Points& base, Points& out) {
+  const Osd::BufferDescriptor vec3(0, 3, 3);
+  Evaluator::EvalStencils(&base[0].x, vec3, &out[0].x, vec3, table.GetSizes().data(),
+                          table.GetOffsets().data(), table.GetControlIndices().data(),
+                          table.GetWeights().data(), 0, table.GetNumStencils());
+}
+
+Polygons polygons_of(const FaceMesh& base) {
   Polygons mesh;
   std::vector<Polygons::VertexHandle> handles;
   for (const glm::vec3& p : base.positions) handles.push_back(mesh.add_vertex({p.x, p.y, p.z}));
@@ -94,48 +108,114 @@ Result refine_openmesh(const FaceMesh& base, int levels) {
     for (const std::uint32_t corner : corners_of(base, f)) face.push_back(handles[corner]);
     mesh.add_face(face);
   }
-  OpenMesh::Subdivider::Uniform::CatmullClarkT<Polygons> subdivider;
-  subdivider.attach(mesh);
-  subdivider(static_cast<std::size_t>(levels));
-  subdivider.detach();
-  Result result;
-  result.faces = mesh.n_faces();
-  for (const auto vertex : mesh.vertices()) {
-    const auto p = mesh.point(vertex);
-    result.positions.emplace_back(p[0], p[1], p[2]);
-  }
-  return result;
+  return mesh;
 }
 
-glm::dvec3 mean_of(const Result& result) {
-  glm::dvec3 sum(0);
-  for (const glm::vec3& p : result.positions) sum += glm::dvec3(p);
-  return sum / static_cast<double>(result.positions.size());
+Points points_of(const Polygons& mesh) {
+  Points points;
+  points.reserve(mesh.n_vertices());
+  for (const auto vertex : mesh.vertices()) {
+    const auto p = mesh.point(vertex);
+    points.emplace_back(p[0], p[1], p[2]);
+  }
+  return points;
+}
+
+// Largest distance of the k-th vertices along each of three directions: 0 for the same points in any order,
+// and large where any share of them lies elsewhere.
+double difference(const Points& a, const Points& b) {
+  if (a.size() != b.size()) return std::numeric_limits<double>::infinity();
+  double worst = 0;
+  for (const glm::dvec3 direction :
+       {glm::dvec3(0.83, 0.31, 0.46), glm::dvec3(-0.27, 0.91, 0.31), glm::dvec3(0.39, -0.44, 0.81)}) {
+    const auto along = [&](const Points& points) {
+      std::vector<double> sorted;
+      sorted.reserve(points.size());
+      for (const glm::vec3& p : points) sorted.push_back(glm::dot(glm::dvec3(p), direction));
+      std::sort(sorted.begin(), sorted.end());
+      return sorted;
+    };
+    const std::vector<double> first = along(a), second = along(b);
+    for (std::size_t k = 0; k < first.size(); ++k) worst = std::max(worst, std::abs(first[k] - second[k]));
+  }
+  return worst;
+}
+
+// Ours, from face arrays to face arrays: on one thread, and the peak of its memory on all.
+void measure_whole(const FaceMesh& base, int levels, int runs, Recorder& recorder) {
+  const std::vector<subdivision::PlacementRule> rules(static_cast<std::size_t>(levels));
+  subdivision::RefinementOptions options;
+  options.keep = subdivision::Keep::kStencils;
+  Shortest ours, openmesh;
+  Points mine, theirs;
+  double bytes = 0, peak = 0;
+  for (int run = 0; run < runs; ++run) {
+    ours.add(processor_seconds([&] { mine = subdivision::subdivide(base, rules, options).positions; }));
+    Polygons mesh = polygons_of(base);
+    OpenMesh::Subdivider::Uniform::CatmullClarkT<Polygons> subdivider;
+    subdivider.attach(mesh);
+    openmesh.add(processor_seconds([&] { subdivider(static_cast<std::size_t>(levels)); }));
+    subdivider.detach();
+    if (run == 0) theirs = points_of(mesh);
+  }
+  {
+    const std::int64_t before = HeapCounter::live();
+    HeapCounter::reset_peak();
+    const FaceMesh mesh = subdivision::subdivide(base, rules, options);
+    peak = static_cast<double>(HeapCounter::peak() - before);
+    bytes = static_cast<double>(mesh.positions.size() * sizeof(glm::vec3) + mesh.corners.size() * 4);
+    recorder.add("faces", "", static_cast<double>(mesh.faces()));
+    recorder.add("triangles", "", 2 * static_cast<double>(mesh.faces()));
+    recorder.add("triangles_per_second", "1/s", 2 * static_cast<double>(mesh.faces()) / ours.time);
+    recorder.add("openmesh_triangles_per_second", "1/s",
+                 2 * static_cast<double>(mesh.faces()) / openmesh.time);
+  }
+  recorder.add("whole_time", "s", ours.time);
+  recorder.add("openmesh_time", "s", openmesh.time);
+  recorder.add("openmesh_over_ours", "", openmesh.time / ours.time);
+  recorder.add("openmesh_difference", "m", difference(mine, theirs));
+  recorder.add("peak_over_mesh", "", peak / bytes);
+}
+
+// Tables apart from positions that are computed with tables that exist.
+void measure_tables(const FaceMesh& base, int levels, int runs, Recorder& recorder) {
+  const subdivision::RefinementOptions least{.keep = subdivision::Keep::kStencils};
+  const Refiner refiner = refiner_of(base, levels);
+  const Table table = table_of(*refiner);
+  const Refinement refinement(base, levels, least);
+  std::vector<Points> points{base.positions};
+  for (int l = 1; l <= levels; ++l) points.emplace_back(refinement.topology(l).vertices);
+  Points theirs(static_cast<std::size_t>(table->GetNumStencils()));
+  Shortest tables, their_tables, one, their_one, all, their_all;
+  for (int run = 0; run < runs; ++run) {
+    tables.add(processor_seconds([&] { const Refinement again(base, levels, least); }));
+    their_tables.add(processor_seconds([&] { const Table again = table_of(*refiner_of(base, levels)); }));
+    one.add(processor_seconds([&] { place_ours(refinement, points); }));
+    their_one.add(processor_seconds([&] { evaluate<Osd::CpuEvaluator>(*table, base.positions, theirs); }));
+    all.add(seconds([&] { place_ours(refinement, points); }));
+    their_all.add(seconds([&] { evaluate<Osd::OmpEvaluator>(*table, base.positions, theirs); }));
+  }
+  recorder.add("vertices", "", static_cast<double>(theirs.size()));
+  recorder.add("tables_time", "s", tables.time);
+  recorder.add("opensubdiv_tables_time", "s", their_tables.time);
+  recorder.add("tables_over_opensubdiv", "", tables.time / their_tables.time);
+  recorder.add("positions_time", "s", one.time);
+  recorder.add("opensubdiv_positions_time", "s", their_one.time);
+  recorder.add("opensubdiv_over_ours", "", their_one.time / one.time);
+  recorder.add("parallel_positions_time", "s", all.time);
+  recorder.add("opensubdiv_parallel_positions_time", "s", their_all.time);
+  recorder.add("opensubdiv_over_ours_parallel", "", their_all.time / all.time);
+  recorder.add("opensubdiv_difference", "m", difference(points.back(), theirs));
 }
 
 void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress&) {
-  using Refine = Result (*)(const FaceMesh&, int);
-  constexpr std::array<Refine, kSubdividers.size()> kRefine{refine_ours, refine_opensubdiv, refine_openmesh};
   const growing::Model model = growing::parse_model(growing::model_text("forking_trunk"), "forking_trunk");
   growing::ExpandOptions growth;
   growth.leave_out = {"smooth"};
   const FaceMesh base = growing::expand(model, growth).mesh;
-  const int levels = at.integer("levels");
-  Result result;
-  double best = std::numeric_limits<double>::infinity();
-  for (int run = 0; run < at.integer("runs"); ++run) {
-    const double time = seconds([&] { result = kRefine[at.parameters.choice("subdivider")](base, levels); });
-    recorder.add("time", "s", time);
-    best = std::min(best, time);
-  }
-  const auto triangles = 2 * static_cast<double>(result.faces);
-  recorder.add("best_time", "s", best);
-  recorder.add("triangles", "", triangles);
-  recorder.add("vertices", "", static_cast<double>(result.positions.size()));
-  recorder.add("triangles_per_second", "1/s", triangles / best);
-  // The vertices' mean does not depend on their order.
-  recorder.add("mean_distance_to_ours", "m",
-               glm::distance(mean_of(result), mean_of(refine_ours(base, levels))));
+  const int levels = at.integer("levels"), runs = at.integer("runs");
+  measure_whole(base, levels, runs, recorder);
+  measure_tables(base, levels, runs, recorder);
 }
 
 }  // namespace

@@ -1,15 +1,20 @@
 // §3 of "meshgrow": after finitely many steps with random displacements, standard steps follow; the limit
-// surface is then known exactly, and each further mesh is four times nearer to it.
-//
-// A vertex with n faces moves to its limit by the eigenvalues of one vertex and its ring that belong to
-// rotationally symmetric vectors: the largest below 1 is (3n - 7 + √(5n² - 30n + 49)) / 8n, which is 1/4 for
-// n = 4 alone. So extraordinary vertices are recorded apart.
+// surface is then known exactly, and each further mesh is nearer to it. How much nearer depends on the
+// vertex, so the classes of vertices are recorded apart, by their number of faces:
+//  - a vertex that is followed through all steps approaches its limit by the largest eigenvalue below 1 of
+//  its
+//    ring's subdivision matrix that belongs to rotationally symmetric vectors: 1/4 for 4 faces alone;
+//  - its neighbours, which are other vertices at each step, slide along the surface by the subdominant
+//    eigenvalue, except beside regular vertices, where the limit reproduces linear functions at every vertex.
+// The eigenvalues come from the matrix itself, which is built here and shares no code with the library.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
+#include <numbers>
 
 #include "experiments/cases.h"
 #include "experiments/meshgrow/subdivision_reference.h"
@@ -20,45 +25,130 @@
 namespace terrabench::meshgrow {
 namespace {
 
+using subdivision::Topology;
+
 constexpr std::array<std::string_view, 3> kMeshes{"plane", "sphere", "prism"};
 const std::array kSpecs{
     choice("mesh", kMeshes,
            "base mesh: all vertices regular, or extraordinary ones with 3, or 3 and 5 faces"),
     ParameterSpec{"displaced", std::int64_t{2}, "", "steps with random displacements", 0, 5},
-    ParameterSpec{"steps", std::int64_t{5}, "", "standard steps after them", 2, 8},
+    ParameterSpec{"steps", std::int64_t{6}, "", "standard steps after them", 2, 8},
     ParameterSpec{"amplitude", 0.15, "scale factors", "largest displacement", 0, 1},
 };
 
-std::vector<Case> cases(const RunOptions& options) {
-  return cases_by("mesh", kSpecs, {{"steps", std::int64_t{options.profile == Profile::kPaper ? 6 : 5}}});
-}
+std::vector<Case> cases(const RunOptions&) { return cases_by("mesh", kSpecs); }
 
 FaceMesh base_of(std::string_view name) {
   if (name == "plane") return growing::plane({4, 4}, 4, 4).mesh;
   return shape(name);
 }
 
+// One step of a vertex with n faces and its ring: values[0] is the vertex, then the ends of its edges, then
+// the far corners of its faces, face k between edges k and k + 1.
+std::vector<double> step_of_ring(const std::vector<double>& values) {
+  const std::size_t n = (values.size() - 1) / 2;
+  const double v = values[0];
+  std::vector<double> next(values.size());
+  const auto edge = [&](std::size_t k) { return values[1 + k % n]; };
+  const auto face_point = [&](std::size_t k) {
+    return (v + edge(k) + edge(k + 1) + values[1 + n + k % n]) / 4;
+  };
+  double edges = 0, faces = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    edges += (v + edge(k)) / 2;
+    faces += face_point(k);
+    next[1 + k] = (v + edge(k) + face_point(k + n - 1) + face_point(k)) / 4;
+    next[1 + n + k] = face_point(k);
+  }
+  const auto count = static_cast<double>(n);
+  next[0] = (faces / count + 2 * edges / count + (count - 3) * v) / count;
+  return next;
+}
+
+// The largest eigenvalue below 1 among vectors that are constant around the vertex (turns = 0) or that turn
+// once around it (turns = 1), by the power method.
+double eigenvalue(std::size_t n, int turns) {
+  std::vector<double> x(1 + 2 * n);
+  x[0] = turns == 0 ? 1 : 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double angle = 2 * std::numbers::pi * turns / static_cast<double>(n);
+    x[1 + k] = turns == 0 ? 0.3 : std::cos(angle * static_cast<double>(k));
+    x[1 + n + k] = turns == 0 ? -0.2 : 1.5 * std::cos(angle * (static_cast<double>(k) + 0.5));
+  }
+  double factor = 0;
+  for (int i = 0; i < 100; ++i) {
+    if (turns == 0) {
+      // Differences to the vertex after the step: the constant vector, whose eigenvalue is 1, drops out.
+      for (std::size_t k = x.size(); k-- > 0;) x[k] -= x[0];
+    }
+    std::vector<double> y = step_of_ring(x);
+    if (turns == 0) {
+      for (std::size_t k = y.size(); k-- > 0;) y[k] -= y[0];
+    }
+    factor = y[1] / x[1];
+    const double scale = y[1];
+    for (double& value : y) value /= scale;
+    x = std::move(y);
+  }
+  return factor;
+}
+
 struct Distances {
   double rms = 0, largest = 0;
-  std::vector<double> extraordinary;
+  std::map<std::size_t, double> vertices, rings;  // root mean square by the number of faces
 };
 
-Distances distances(const std::vector<glm::dvec3>& points, const std::vector<glm::dvec3>& limits,
-                    const std::vector<std::uint32_t>& extraordinary) {
+struct RootMeanSquare {
+  double sum = 0, count = 0;
+  void add(double d) {
+    sum += d * d;
+    ++count;
+  }
+  double value() const { return std::sqrt(sum / count); }
+};
+
+// `followed`: the number of faces at each vertex of the first mesh, 0 for those at the boundary.
+Distances distances(const Topology& t, const std::vector<glm::dvec3>& points,
+                    const std::vector<glm::dvec3>& limits, const std::vector<std::size_t>& followed) {
   Distances result;
+  const auto distance = [&](std::size_t v) { return glm::length(points[v] - limits[v]); };
+  RootMeanSquare all;
   for (std::size_t v = 0; v < points.size(); ++v) {
-    const double d = glm::length(points[v] - limits[v]);
-    result.rms += d * d;
-    result.largest = std::max(result.largest, d);
+    all.add(distance(v));
+    result.largest = std::max(result.largest, distance(v));
   }
-  result.rms = std::sqrt(result.rms / static_cast<double>(points.size()));
-  for (const std::uint32_t v : extraordinary) {
-    result.extraordinary.push_back(glm::length(points[v] - limits[v]));
+  result.rms = all.value();
+  std::map<std::size_t, RootMeanSquare> vertices, rings;
+  for (std::uint32_t v = 0; v < followed.size(); ++v) {
+    if (followed[v] == 0) continue;
+    vertices[followed[v]].add(distance(v));
+    for (const std::uint32_t c : t.uses_of(v)) {  // all faces are quadrilaterals
+      rings[followed[v]].add(distance(t.corners[c % 4 == 3 ? c - 3 : c + 1]));
+    }
   }
+  for (const auto& [n, d] : vertices) result.vertices[n] = d.value();
+  for (const auto& [n, d] : rings) result.rings[n] = d.value();
   return result;
 }
 
-double eigenvalue(double n) { return (3 * n - 7 + std::sqrt(5 * n * n - 30 * n + 49)) / (8 * n); }
+void record_step(Recorder& recorder, int step, int last, const Distances& now, const Distances& before) {
+  recorder.add(fmt::format("rms_{}", step), "m", now.rms);
+  recorder.add(fmt::format("largest_{}", step), "m", now.largest);
+  if (step == 0) return;
+  recorder.add(fmt::format("rms_ratio_{}", step), "", now.rms / before.rms);
+  recorder.add(fmt::format("largest_ratio_{}", step), "", now.largest / before.largest);
+  for (const auto& [n, d] : now.vertices) {
+    const double vertex = d / before.vertices.at(n), ring = now.rings.at(n) / before.rings.at(n);
+    recorder.add(fmt::format("vertex_{}_ratio_{}", n, step), "", vertex);
+    recorder.add(fmt::format("ring_{}_ratio_{}", n, step), "", ring);
+    if (step != last) continue;
+    const double symmetric = eigenvalue(n, 0), subdominant = n == 4 ? 0.25 : eigenvalue(n, 1);
+    recorder.add(fmt::format("vertex_{}_eigenvalue", n), "", symmetric);
+    recorder.add(fmt::format("ring_{}_eigenvalue", n), "", subdominant);
+    recorder.add(fmt::format("vertex_{}_off_eigenvalue", n), "", std::abs(vertex - symmetric));
+    recorder.add(fmt::format("ring_{}_off_eigenvalue", n), "", std::abs(ring - subdominant));
+  }
+}
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   using namespace subdivision;
@@ -73,14 +163,12 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const int steps = at.integer("steps");
   const Refinement refinement(start, steps, corners_stay);
   std::vector<glm::dvec3> points(start.positions.begin(), start.positions.end()), limits(points.size());
-  std::vector<std::uint32_t> extraordinary;
-  std::vector<double> faces_at;
+  std::vector<std::size_t> followed;
   for (std::uint32_t v = 0; v < refinement.topology(0).vertices; ++v) {
-    const auto uses = refinement.topology(0).uses_of(v).size();
-    if (at.parameters.text("mesh") == "plane" || uses == 4)
-      continue;  // all inner vertices of the plane have 4
-    extraordinary.push_back(v);
-    faces_at.push_back(static_cast<double>(uses));
+    const std::size_t faces = refinement.topology(0).uses_of(v).size();
+    // All inner vertices of the plane have 4 faces. Without a displaced step, the prism has pentagons.
+    const bool inner = at.parameters.text("mesh") != "plane" || faces == 4;
+    followed.push_back(inner && !rules.empty() ? faces : 0);
   }
   std::vector<glm::dvec3> first_limits;
   Distances before;
@@ -92,23 +180,9 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     for (std::size_t v = 0; v < first_limits.size(); ++v) {
       drift = std::max(drift, glm::length(limits[v] - first_limits[v]));
     }
-    const Distances now = distances(points, limits, extraordinary);
-    recorder.add(fmt::format("rms_{}", step), "m", now.rms);
-    recorder.add(fmt::format("largest_{}", step), "m", now.largest);
-    if (step > 0) {
-      recorder.add(fmt::format("rms_ratio_{}", step), "", now.rms / before.rms);
-      recorder.add(fmt::format("largest_ratio_{}", step), "", now.largest / before.largest);
-    }
-    if (step == steps && !extraordinary.empty()) {
-      double off = 0;
-      for (std::size_t k = 0; k < extraordinary.size(); ++k) {
-        const double ratio = now.extraordinary[k] / before.extraordinary[k];
-        recorder.add(fmt::format("ratio_at_{}_faces", faces_at[k]), "", ratio);
-        off = std::max(off, std::abs(ratio - eigenvalue(faces_at[k])));
-      }
-      recorder.add("off_eigenvalue", "", off);
-    }
-    before = now;
+    Distances now = distances(refinement.topology(step), points, limits, followed);
+    record_step(recorder, step, steps, now, before);
+    before = std::move(now);
     if (step == steps) break;
     std::vector<glm::dvec3> finer(child_vertices(refinement.topology(step)));
     place_standard<glm::dvec3>(refinement.topology(step), refinement.stencils(step), points, finer);

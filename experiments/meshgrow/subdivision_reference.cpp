@@ -74,6 +74,37 @@ FaceMesh patch() {
   return face_mesh(points, {{0, 1, 6, 2}, {0, 2, 3}, {0, 3, 7, 4}, {0, 4, 8, 9, 5}, {0, 5, 10, 1}});
 }
 
+// The edges of a face, with these sharpnesses, cyclically; 0 gives none.
+void crease_face(FaceMesh& mesh, std::size_t face, std::initializer_list<int> sharpness) {
+  const std::uint32_t first = mesh.first_corner[face], n = mesh.first_corner[face + 1] - first;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const int s = sharpness.begin()[i % sharpness.size()];
+    if (s > 0) mesh.creases.push_back({mesh.corners[first + i], mesh.corners[first + (i + 1) % n], s});
+  }
+}
+
+FaceMesh creased(std::string_view name) {
+  FaceMesh mesh = shape(name == "creased-cube"  ? "cube"
+                        : name == "darts"       ? "sphere"
+                        : name == "creased-box" ? "box"
+                                                : "patch");
+  if (name == "creased-cube") {
+    crease_face(mesh, 0, {1, 2, 3, 10});
+  } else if (name == "darts") {
+    crease_face(mesh, 0, {2, 0, 0, 0});
+    crease_face(mesh, mesh.faces() / 2, {10, 3, 0, 0});
+    mesh.sharp_vertices = {{mesh.corners[mesh.first_corner[mesh.faces() - 1]], 2}};
+  } else if (name == "creased-box") {
+    crease_face(mesh, 0, {2, 10, 1, 0});
+    crease_face(mesh, mesh.faces() - 1, {0, 3, 0, 10});
+    mesh.sharp_vertices = {{mesh.corners[0], 1}};
+  } else {
+    mesh.creases = {{0, 2, 2}, {0, 3, 10}, {0, 5, 1}, {4, 0, 3}};
+    mesh.sharp_vertices = {{1, 3}};
+  }
+  return mesh;
+}
+
 }  // namespace
 
 PlainMesh plain(const FaceMesh& mesh) {
@@ -150,8 +181,11 @@ FaceMesh shape(std::string_view name) {
   if (name == "prism") return growing::prism(5, 1.2, 0.7, 2, 2).mesh;
   if (name == "sphere") return growing::sphere(1, 2).mesh;
   if (name == "box") return without_top(growing::cube({2, 1, 3}, {2, 1, 2}));
-  return name == "fan" ? fan() : patch();
+  if (name == "fan") return fan();
+  return name == "patch" ? patch() : creased(name);
 }
+
+bool has_creases(const FaceMesh& mesh) { return !mesh.creases.empty() || !mesh.sharp_vertices.empty(); }
 
 Comparison compare(std::span<const std::uint32_t> quads, std::span<const glm::dvec3> points,
                    const PlainMesh& reference) {

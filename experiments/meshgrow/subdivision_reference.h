@@ -27,8 +27,13 @@ PlainMesh catmull_clark(const PlainMesh&);
 
 // Closed: cube, tetrahedron, prism (two pentagons), sphere (of a cube's faces). Bounded: box (a cube without
 // its top), fan (six quadrilaterals at a vertex), patch (five faces of 3, 4 and 5 corners at a vertex).
-inline constexpr std::array<std::string_view, 7> kShapes{"cube", "tetrahedron", "prism", "sphere",
-                                                         "box",  "fan",         "patch"};
+// With creases and sharp vertices, which this reference does not know: creased-cube (sharpness 1 to 3 around
+// the top, and one for ever), darts (creases that end inside a sphere, or in a sharp vertex), creased-box
+// (creases that meet the boundary), creased-patch (creases of all kinds at vertices of 3 to 5 faces).
+inline constexpr std::array<std::string_view, 11> kShapes{
+    "cube",  "tetrahedron",  "prism", "sphere",      "box",          "fan",
+    "patch", "creased-cube", "darts", "creased-box", "creased-patch"};
+bool has_creases(const FaceMesh&);
 FaceMesh shape(std::string_view name);
 
 // How far the faces of `ours` are from those of `reference`, face by face and corner by corner.

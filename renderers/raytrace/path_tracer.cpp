@@ -101,8 +101,13 @@ PathTracer::Surface PathTracer::surface(const Ray& ray, const RayHit& hit) const
   s.point.normal = s.normal;
   if (glm::dot(s.facet, ray.direction) > 0) s.facet = -s.facet;
   if (glm::dot(s.normal, s.facet) < 0) s.normal = -s.normal;
-  const glm::vec3 size = glm::max(glm::abs(s.point.position), glm::abs(ab));
-  s.offset = kOffset * std::max({size.x, size.y, size.z});
+  // Rounding of the intersection grows with the coordinates of the triangle, in its own mesh and in the
+  // world.
+  const glm::vec3 own = glm::max(glm::abs(a), glm::max(glm::abs(ab), glm::abs(ac)));
+  const glm::vec3 world = glm::max(glm::abs(s.point.position), glm::abs(glm::vec3(placement.to_world[3])));
+  const glm::mat3 linear(placement.to_world);
+  const float scale = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
+  s.offset = kOffset * std::max({world.x, world.y, world.z, scale * own.x, scale * own.y, scale * own.z});
   return s;
 }
 

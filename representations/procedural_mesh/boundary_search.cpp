@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <limits>
 
 namespace terrabench {
 namespace {
@@ -88,7 +89,10 @@ std::vector<VertexInEdge> vertices_in_edges(std::span<const glm::vec3> positions
   for (const auto& edge : edges) {
     if (!finite(positions[edge.first]) || !finite(positions[edge.second])) continue;
     const glm::dvec3 a(positions[edge.first]), b(positions[edge.second]);
-    const double distance = static_cast<double>(tolerance) * glm::distance(a, b);
+    // Half a unit in the last place along each axis, for the result and for a sum or a product before it.
+    const glm::dvec3 largest = glm::max(glm::abs(a), glm::abs(b));
+    const double rounding = glm::length(largest) * static_cast<double>(std::numeric_limits<float>::epsilon());
+    const double distance = std::max(static_cast<double>(tolerance) * glm::distance(a, b), rounding);
     near.clear();
     tree.near(a, b, distance, near);
     std::sort(near.begin(), near.end());

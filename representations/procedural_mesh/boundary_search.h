@@ -16,9 +16,10 @@ struct VertexInEdge {
   VertexPair edge;
 };
 
-// The ends of the edges that are nearer to another edge than `tolerance` times its length, and as far from
-// that edge's ends; sorted by edge as given, then by vertex. Edges with an end that is not finite are
-// skipped. O(b log b) for b edges of similar lengths: a k-d tree of the ends is walked along each edge.
+// The ends of the edges that are nearer to another edge than `tolerance` times its length or the rounding of
+// a point that was computed inside it in single precision (the larger of both), and farther than that from
+// the edge's ends; sorted by edge as given, then by vertex. Edges with an end that is not finite are skipped.
+// O(b log b) for b edges of similar lengths: a k-d tree of the ends is walked along each edge.
 std::vector<VertexInEdge> vertices_in_edges(std::span<const glm::vec3> positions,
                                             std::span<const VertexPair> edges, float tolerance);
 

@@ -43,7 +43,8 @@ struct MeshCheckOptions {
   bool boundary_meant = true;  // otherwise every boundary edge is a fault
   // The edges, by their vertices, that may be a boundary when it is not meant elsewhere.
   std::span<const Crease> meant{};
-  // A vertex is inside an edge when it is nearer than this, as a share of the edge's length.
+  // A vertex is inside an edge when it is nearer than this, as a share of the edge's length, or than the
+  // rounding of single precision at the edge's place. Edges of a few roundings cannot be looked into.
   float tolerance = 1e-5F;
   // A face has no area when it is at most this share of its squared perimeter. A square has 1/16.
   float least_area = 1e-10F;

@@ -40,9 +40,12 @@ void read_constants(ModelReader& models, const toml::node* node) {
 
 void read_symbols(ModelReader& models, const toml::node* node) {
   models.model.system.symbols.push_back({"none", {}});
+  models.symbol_numbers.emplace("none", kNoSymbol);
   if (node == nullptr) return;
   for (const auto& [name, value] : Table(*node, models.file, "symbols").entries()) {
-    Names names(models.constants);  // refuses what is no name, and names in use
+    Names names(&models.constants);  // refuses what is no name, and names in use
+    for (const std::string_view shared : kSharedNames)
+      names.add_variable(shared, models.file, place_of(*node));
     names.add_variable(name, models.file, place_of(*value));
     if (name == "none") fail_at(*value, models.file, "the symbol 'none' is built in", "choose another name");
     Symbol symbol;
@@ -55,7 +58,17 @@ void read_symbols(ModelReader& models, const toml::node* node) {
       fail_at(*value, models.file, fmt::format("a symbol must have at most {} parameters", kMostParameters),
               "remove some");
     }
+    models.symbol_numbers.emplace(name, static_cast<std::uint32_t>(models.model.system.symbols.size()));
     models.model.system.symbols.push_back(std::move(symbol));
+  }
+  // Where a symbol may stand, a variable of its name could not be read.
+  for (const Symbol& symbol : models.model.system.symbols) {
+    for (const std::string& parameter : symbol.parameters) {
+      if (!models.symbol(parameter)) continue;
+      fail_at(*node, models.file,
+              fmt::format("the parameter '{}' of '{}' has the name of a symbol", parameter, symbol.name),
+              "choose another name");
+    }
   }
 }
 

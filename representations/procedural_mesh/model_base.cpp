@@ -73,21 +73,40 @@ FaceMesh explicit_mesh(Table& table, const ModelReader& models) {
   return mesh;
 }
 
+// Before a primitive takes memory.
+void require_faces(const Table& table, const ModelReader& models, std::uint64_t faces) {
+  if (faces <= models.model.limits.faces) return;
+  fail_at(table.node(), models.file,
+          fmt::format("the base mesh has {} faces, more than {}", faces, models.model.limits.faces),
+          "raise the limit of faces");
+}
+
 Primitive primitive(Table& table, const ModelReader& models) {
   const std::string& file = models.file;
   const std::string shape = table.text_or("shape", "mesh");
   if (shape == "plane") {
     const glm::dvec3 size = size_of(table, file);
     const std::uint32_t cells = count(table, "cells", 1, 1, kMostCells);
+    require_faces(table, models, std::uint64_t{cells} * cells);
     return plane({size.x, size.z}, cells, cells);
   }
-  if (shape == "cube") return cube(size_of(table, file), cells_of(table, file));
-  if (shape == "sphere") return sphere(positive(table, "radius", 1, file), count(table, "cells", 1, 1, 256));
+  if (shape == "cube") {
+    const glm::uvec3 cells = cells_of(table, file);
+    require_faces(table, models, 2ULL * (cells.x * cells.y + cells.y * cells.z + cells.z * cells.x));
+    return cube(size_of(table, file), cells);
+  }
+  if (shape == "sphere") {
+    const std::uint32_t cells = count(table, "cells", 1, 1, 256);
+    require_faces(table, models, 6ULL * cells * cells);
+    return sphere(positive(table, "radius", 1, file), cells);
+  }
   if (shape == "prism") {
     const double radius = positive(table, "radius", 1, file);
     const std::uint32_t sides = count(table, "sides", 4, 3, kMostSides);
+    const std::uint32_t cells = count(table, "cells", 1, 1, kMostCells);
+    require_faces(table, models, std::uint64_t{sides} * cells + 2);
     return prism(sides, radius, positive(table, "top_radius", radius, file),
-                 positive(table, "height", 1, file), count(table, "cells", 1, 1, kMostCells));
+                 positive(table, "height", 1, file), cells);
   }
   if (shape != "mesh") {
     fail_at(*table.find("shape"), file, fmt::format("unknown shape '{}'", shape),
@@ -110,19 +129,12 @@ void read_creases(Table& table, const ModelReader& models, FaceMesh& mesh) {
   }
   const toml::node* const list = table.find("creases");
   if (list == nullptr) return;
+  const EdgeSet edges(mesh.first_corner, mesh.corners);
   for (const toml::node& entry : list_of(*list, models.file, "creases", 0)) {
     const toml::array& crease = list_of(entry, models.file, "creases", 3);
     const std::uint32_t a = models.vertex_index(crease[0], "creases"),
                         b = models.vertex_index(crease[1], "creases");
-    bool edge = false;
-    for (std::uint32_t f = 0; f < mesh.faces(); ++f) {
-      for (std::uint32_t c = mesh.first_corner[f]; c < mesh.first_corner[f + 1]; ++c) {
-        const std::uint32_t next = c + 1 < mesh.first_corner[f + 1] ? c + 1 : mesh.first_corner[f];
-        edge = edge || (mesh.corners[c] == a && mesh.corners[next] == b) ||
-               (mesh.corners[c] == b && mesh.corners[next] == a);
-      }
-    }
-    if (!edge)
+    if (!edges.contains(a, b))
       fail_at(entry, models.file, fmt::format("no face has an edge from {} to {}", a, b), "name an edge");
     mesh.creases.push_back(
         {a, b, static_cast<int>(std::min(models.vertex_index(crease[2], "creases"), 100U))});
@@ -133,7 +145,7 @@ void read_creases(Table& table, const ModelReader& models, FaceMesh& mesh) {
 class BaseSymbols {
  public:
   BaseSymbols(ModelReader& models, Table& table, const Primitive& base)
-      : models_(models), base_(base), names_(models.constants), choices_(base.mesh.faces()) {
+      : models_(models), base_(base), names_(&models.constants), choices_(1), choice_of_(base.mesh.faces()) {
     names_.add_variable("side", models.file, place_of(table.node()));
     if (const toml::node* const all = table.find("symbol")) every(*all, [](Part) { return true; });
     constexpr std::pair<std::string_view, Part> kParts[] = {
@@ -144,13 +156,17 @@ class BaseSymbols {
     }
     if (const toml::node* const list = table.find("symbols")) {
       const toml::array& symbols = list_of(*list, models.file, "symbols", base.mesh.faces());
-      for (std::size_t f = 0; f < choices_.size(); ++f) choices_[f] = models.choice(symbols[f], names_);
+      for (std::size_t f = 0; f < choice_of_.size(); ++f) {
+        choice_of_[f] = static_cast<std::uint32_t>(choices_.size());
+        choices_.push_back(models.choice(symbols[f], names_));
+      }
     }
   }
 
   void assign() {
     Model& model = models_.model;
-    for (std::size_t f = 0; f < choices_.size(); ++f) {
+    for (const std::uint32_t choice : choice_of_) count_work(choices_[choice]);
+    for (std::size_t f = 0; f < choice_of_.size(); ++f) {
       const double side = static_cast<double>(f);
       const Values values{{&side, 1}, names_.tables(), f};
       const auto value = [&](const Expression& e) {
@@ -158,9 +174,10 @@ class BaseSymbols {
         if (std::isfinite(result)) return result;
         throw bad_input("the value is not a finite number",
                         fmt::format("{}:{}:{}", models_.file, e.place.line, e.place.column),
-                        "divide by no zero");
+                        "check the divisors");
       };
-      for (const SymbolChoice::Option& option : choices_[f].options) {
+      const SymbolChoice& choice = choices_[choice_of_[f]];
+      for (const SymbolChoice::Option& option : choice.options) {
         if (option.condition.given() && value(option.condition) == 0) continue;
         model.base.symbols[f] = option.symbol;
         for (const Expression& e : option.arguments) model.arguments[f].push_back(value(e));
@@ -170,18 +187,34 @@ class BaseSymbols {
   }
 
  private:
+  // Evaluating long expressions for very many faces must end in seconds.
+  void count_work(const SymbolChoice& choice) {
+    constexpr std::uint64_t kMostWork = std::uint64_t{1} << 29U;
+    for (const SymbolChoice::Option& option : choice.options) {
+      work_ += 1 + option.condition.code.size();
+      for (const Expression& e : option.arguments) work_ += 1 + e.code.size();
+      parameters_ += option.arguments.size();  // at most
+    }
+    if (work_ <= kMostWork && parameters_ <= models_.model.limits.elements()) return;
+    throw bad_input("the expressions of the base's symbols are too long for so many faces", models_.file,
+                    "shorten them, or use fewer faces");
+  }
+
   template <class Wanted>
   void every(const toml::node& node, const Wanted& wanted) {
-    const SymbolChoice choice = models_.choice(node, names_);
-    for (std::size_t f = 0; f < choices_.size(); ++f) {
-      if (wanted(base_.parts[f])) choices_[f] = choice;
+    const auto number = static_cast<std::uint32_t>(choices_.size());
+    choices_.push_back(models_.choice(node, names_));
+    for (std::size_t f = 0; f < choice_of_.size(); ++f) {
+      if (wanted(base_.parts[f])) choice_of_[f] = number;
     }
   }
 
   ModelReader& models_;
   const Primitive& base_;
   Names names_;
-  std::vector<SymbolChoice> choices_;
+  std::vector<SymbolChoice> choices_;     // the first: no symbol
+  std::vector<std::uint32_t> choice_of_;  // per face, in choices_
+  std::uint64_t work_ = 0, parameters_ = 0;
 };
 
 }  // namespace

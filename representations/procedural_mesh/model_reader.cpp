@@ -116,11 +116,25 @@ const toml::array& list_of(const toml::node& node, const std::string& file, std:
   return *list;
 }
 
-std::optional<std::uint32_t> ModelReader::symbol(std::string_view name) const {
-  for (std::uint32_t s = 0; s < model.system.symbols.size(); ++s) {
-    if (model.system.symbols[s].name == name) return s;
+EdgeSet::EdgeSet(std::span<const std::uint32_t> first_corner, std::span<const std::uint32_t> corners) {
+  edges_.reserve(corners.size());
+  for (std::size_t f = 0; f + 1 < first_corner.size(); ++f) {
+    const std::uint32_t first = first_corner[f], last = first_corner[f + 1];
+    for (std::uint32_t c = first; c < last; ++c) {
+      edges_.push_back(std::minmax({corners[c], corners[c + 1 < last ? c + 1 : first]}));
+    }
   }
-  return std::nullopt;
+  std::sort(edges_.begin(), edges_.end());
+}
+
+bool EdgeSet::contains(std::uint32_t a, std::uint32_t b) const {
+  const std::pair<std::uint32_t, std::uint32_t> edge = std::minmax({a, b});
+  return std::binary_search(edges_.begin(), edges_.end(), edge);
+}
+
+std::optional<std::uint32_t> ModelReader::symbol(std::string_view name) const {
+  const auto found = symbol_numbers.find(name);
+  return found == symbol_numbers.end() ? std::nullopt : std::optional(found->second);
 }
 
 namespace {
@@ -190,6 +204,15 @@ SymbolChoice ModelReader::choice(const toml::node& node, const Names& names) {
   result.options.push_back(read_symbol(*this, reader));
   reader.expect_end();
   return result;
+}
+
+void ModelReader::count_copies(const toml::node& node, std::size_t copies, std::size_t operations) {
+  constexpr std::size_t kMostCopied = std::size_t{1} << 22U;
+  // What an expression takes without any operation counts as four of them.
+  copied += std::min(copies, kMostCopied + 1) * (operations + 4);
+  if (copied <= kMostCopied) return;
+  fail_at(node, file, "an expression that is repeated too often, or too long for that",
+          "shorten the expressions, or use fewer faces");
 }
 
 std::uint32_t ModelReader::vertex_index(const toml::node& node, std::string_view what) const {

@@ -9,10 +9,19 @@
 namespace terrabench::growing {
 namespace {
 
+std::size_t operations_of(const SymbolChoice& choice) {
+  std::size_t count = 0;
+  for (const SymbolChoice::Option& option : choice.options) {
+    count += 4 + option.condition.code.size();
+    for (const Expression& e : option.arguments) count += 4 + e.code.size();
+  }
+  return count;
+}
+
 class RuleReader {
  public:
   RuleReader(ModelReader& models, const toml::node& node)
-      : models_(models), file_(models.file), names_(models.constants), table_(node, models.file, "rule") {}
+      : models_(models), file_(models.file), names_(&models.constants), table_(node, models.file, "rule") {}
 
   Rule run() {
     rule_.place = place_of(table_.node());
@@ -55,6 +64,9 @@ class RuleReader {
 
   void locals(const toml::node& node) {
     for (const auto& [name, value] : Table(node, file_, "let").entries()) {
+      if (models_.symbol(name)) {
+        fail_at(*value, file_, fmt::format("'{}' is a symbol", name), "choose another name");
+      }
       rule_.locals.push_back(models_.expression(*value, names_));
       if (names_.add_variable(name, file_, place_of(*value)) >= kMostSlots) {
         fail_at(*value, file_, fmt::format("a rule must have at most {} names", kMostSlots), "remove some");
@@ -99,6 +111,8 @@ class RuleReader {
       fail_at(table.node(), file_, "'u' needs 'v', and 'v' needs 'u'", "give both");
     const std::vector<Expression> us = per_corner(*u), vs = per_corner(*v);
     std::vector<TextureAt> result(std::max(us.size(), vs.size()));
+    const std::size_t written = us.size() == 1 ? us[0].code.size() : vs.size() == 1 ? vs[0].code.size() : 0;
+    if (us.size() != vs.size()) models_.count_copies(table.node(), result.size(), written);
     for (std::size_t i = 0; i < result.size(); ++i) {
       result[i] = {us.size() == 1 ? us[0] : us[i], vs.size() == 1 ? vs[0] : vs[i]};
     }
@@ -197,7 +211,9 @@ class RuleReader {
     if (symbols == nullptr) {
       t.faces.resize(faces);
     } else if (symbols->is_string()) {
-      t.faces.assign(faces, models_.choice(*symbols, names_));
+      const SymbolChoice choice = models_.choice(*symbols, names_);
+      models_.count_copies(*symbols, faces, operations_of(choice));
+      t.faces.assign(faces, choice);
     } else {
       for (const toml::node& symbol : list_of(*symbols, file_, "symbols", faces)) {
         t.faces.push_back(models_.choice(symbol, names_));
@@ -220,26 +236,15 @@ class RuleReader {
     Template& t = rule_.replacement;
     const toml::node* const node = table_.find("creases");
     if (node == nullptr) return;
+    const EdgeSet edges(t.first_corner, t.face_corners);
     for (const toml::node& crease : list_of(*node, file_, "creases", 0)) {
       const toml::array& three = list_of(crease, file_, "creases", 3);
       std::uint32_t v[3];
       for (std::size_t i = 0; i < 3; ++i) v[i] = models_.vertex_index(three[i], "creases");
-      bool edge = false;
-      for (std::size_t f = 0; f + 1 < t.first_corner.size(); ++f) edge = edge || has_edge(f, v[0], v[1]);
-      if (!edge)
+      if (!edges.contains(v[0], v[1]))
         fail_at(crease, file_, fmt::format("no face has an edge from {} to {}", v[0], v[1]), "name an edge");
       t.creases.push_back({v[0], v[1], static_cast<int>(std::min(v[2], 100U))});
     }
-  }
-
-  bool has_edge(std::size_t face, std::uint32_t a, std::uint32_t b) const {
-    const Template& t = rule_.replacement;
-    const std::uint32_t first = t.first_corner[face], n = t.first_corner[face + 1] - first;
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const std::uint32_t p = t.face_corners[first + i], q = t.face_corners[first + (i + 1) % n];
-      if ((p == a && q == b) || (p == b && q == a)) return true;
-    }
-    return false;
   }
 
   ModelReader& models_;

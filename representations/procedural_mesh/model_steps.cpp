@@ -54,7 +54,7 @@ void subdivision(ModelReader& models, Table& table, Step& step) {
   if (step.bound < 0) fail_at(*table.find("bound"), models.file, "'bound' must be 0 or more", "correct it");
   const toml::node* const displace = table.find("displace");
   if (displace == nullptr) return;
-  Names names(models.constants);
+  Names names(&models.constants);
   for (const std::string_view name : kVertexNames) names.add_variable(name, models.file, place_of(*displace));
   if (displace->is_array()) {
     for (const toml::node& entry : *displace->as_array()) {

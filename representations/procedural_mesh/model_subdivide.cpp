@@ -63,7 +63,7 @@ void refuse_failures(const Model& model, const Step& step, const Failures& failu
   for (std::size_t d = 0; d < failures.size(); ++d) {
     if (!failures[d]) continue;
     throw bad_input("the value is not a finite number", where(model, step.displacements[d].amount.place),
-                    "divide by no zero, and keep every value in its range");
+                    "check the divisors, and keep every value in its range");
   }
 }
 

@@ -2,6 +2,7 @@
 // show.
 #include <gtest/gtest.h>
 
+#include "experiments/meshgrow/subdivision_peer.h"
 #include "experiments/meshgrow/subdivision_reference.h"
 
 namespace terrabench::meshgrow {
@@ -27,6 +28,24 @@ TEST(PlainCatmullClark, ComparisonSeesMovedPointsAndOtherFaces) {
   EXPECT_GT(compare(quads, points, finer).largest, 1e-3);
   std::swap(quads[0], quads[1]);
   EXPECT_GT(compare(quads, finer.points, finer).mismatches, 0U);
+}
+
+TEST(OpenSubdivPeer, SeesACreaseThatTheOtherSideLacks) {
+  const FaceMesh creased = shape("creased-cube");
+  FaceMesh smooth = creased;
+  smooth.creases.clear();
+  constexpr auto kEdge = subdivision::Boundary::kEdge;
+  const subdivision::Refinement refinement(smooth, 2, {kEdge});
+  const std::vector<PeerLevel> same = opensubdiv_levels(smooth, refinement, kEdge),
+                               other = opensubdiv_levels(creased, refinement, kEdge);
+  ASSERT_EQ(same.size(), 3U);
+  ASSERT_EQ(other.size(), 3U);
+  EXPECT_EQ(same[2].mismatches, 0U);
+  double apart = 0;
+  for (std::size_t v = 0; v < same[2].points.size(); ++v) {
+    apart = std::max(apart, std::abs(same[2].points[v].x - other[2].points[v].x));
+  }
+  EXPECT_GT(apart, 0.1);
 }
 
 }  // namespace

@@ -104,6 +104,24 @@ TEST(MeshChecks, FindTVertices) {
   EXPECT_EQ(check_mesh(mesh)[MeshFault::kTVertex], 0U);
 }
 
+// The middle of an edge in single precision is off the edge by rounding, which is a large share of a short
+// one.
+TEST(MeshChecks, FindTVerticesInShortEdgesFarFromTheOrigin) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<float> uniform(-1, 1);
+  for (const float length : {1.0F, 0.1F, 0.01F, 1e-3F, 1e-4F}) {
+    for (int k = 0; k < 200; ++k) {
+      const glm::vec3 place = 4.0F * glm::vec3(uniform(random), uniform(random), uniform(random));
+      const glm::vec3 along = length * glm::normalize(glm::vec3(uniform(random), uniform(random), 1.5F));
+      const std::vector<glm::vec3> positions{place, place + along, 0.5F * (place + (place + along))};
+      const std::vector<VertexPair> edges{{0, 1}, {1, 2}, {2, 0}};
+      const std::vector<VertexInEdge> found = vertices_in_edges(positions, edges, 1e-5F);
+      ASSERT_EQ(found.size(), 1U) << length;
+      EXPECT_EQ(found[0].vertex, 2U);
+    }
+  }
+}
+
 TEST(MeshChecks, VerticesInEdgesAgreeWithTryingAll) {
   std::mt19937 random(4);
   std::uniform_real_distribution<float> uniform(-1, 1);
@@ -121,7 +139,10 @@ TEST(MeshChecks, VerticesInEdgesAgreeWithTryingAll) {
     std::vector<std::pair<std::uint32_t, VertexPair>> expected, found;
     for (const VertexPair& e : edges) {
       const glm::dvec3 a(positions[e.first]), b(positions[e.second]);
-      const double length = glm::distance(a, b), limit = static_cast<double>(tolerance) * length;
+      const double length = glm::distance(a, b),
+                   rounding = glm::length(glm::max(glm::abs(a), glm::abs(b))) *
+                              std::numeric_limits<float>::epsilon(),
+                   limit = std::max(static_cast<double>(tolerance) * length, rounding);
       for (std::uint32_t v = 0; v < positions.size(); ++v) {
         const glm::dvec3 p(positions[v]);
         const double t = std::clamp(glm::dot(p - a, b - a) / (length * length), 0.0, 1.0);

@@ -121,6 +121,71 @@ TEST(Models, GrowthWithoutEndStopsAtTheLimits) {
               HasSubstr("more than 10"));
 }
 
+TEST(Models, FacesThatAreReplacedDoNotPileUp) {
+  const std::string swap = "corners = 4\nfaces = [[0,1,2,3]]\nsymbols = \"a\"\n";
+  const std::string text = "[symbols]\na = []\n[base]\nshape = \"plane\"\ncells = 64\nsymbol = \"a\"\n" +
+                           kRule + swap + "[[step]]\ngrow = 200\n";
+  const GrownMesh mesh = expand(parse_model(text, "swap"));
+  EXPECT_EQ(mesh.mesh.faces(), 4096U);
+  EXPECT_EQ(mesh.states.size(), 4096U);
+  EXPECT_LT(mesh.mesh.corners.capacity(), std::size_t{200} * 4096 * 4 / 4);
+  // The first and the last face keep their places.
+  const FaceMesh plane = expand(parse_model("[base]\nshape = \"plane\"\ncells = 64\n", "plane")).mesh;
+  EXPECT_EQ(mesh.mesh.corners, plane.corners);
+}
+
+TEST(Models, GrowthThatOnlyReplacesItsFacesEnds) {
+  const std::string swap = "corners = 4\nfaces = [[0,1,2,3]]\nsymbols = \"a\"\n";
+  EXPECT_THAT(error_of("[limits]\nfaces = 4096\nsteps = 1000000\n[symbols]\na = []\n[base]\nshape = "
+                       "\"plane\"\ncells = 64\nsymbol = \"a\"\n" +
+                       kRule + swap + "[[step]]\ngrow = \"all\"\n"),
+              HasSubstr("with those that it replaces"));
+}
+
+TEST(Models, TheLimitOfFacesIsExact) {
+  const auto text = [](int most) {
+    return fmt::format(
+        "[limits]\nfaces = {}\n[symbols]\na = []\n[base]\nshape = \"plane\"\ncells = 4\n"
+        "symbol = \"a\"\n[[rule]]\nsymbol = \"a\"\nwhen = \"px > 0.3 && pz > 0.3\"\n"
+        "sections = [{{ move = 1 }}]\n[[step]]\ngrow = 1\n",
+        most);
+  };
+  EXPECT_EQ(expand(parse_model(text(20), "exact")).mesh.faces(), 20U);
+  EXPECT_THAT(error_of(text(19)), HasSubstr("beyond 19 faces"));
+}
+
+TEST(Models, CornersOfFacesAreLimited) {
+  // A disc of two faces with very many corners each, for every face.
+  std::string text = "[limits]\nfaces = 100000\n" +
+                     std::string("[symbols]\na = []\nb = []\n[base]\nshape = ") +
+                     "\"plane\"\ncells = 64\nsymbol = \"a\"\n[[rule]]\nsymbol = \"a\"\ncorners = 4\n";
+  std::string vertices, around;
+  for (int k = 0; k < 400; ++k) {
+    vertices += fmt::format("[{}, {}, 0.1],", 0.001 * k, 0.001 * k * k);
+    around += fmt::format("{},", 4 + k);
+  }
+  text += "vertices = [" + vertices + "]\nfaces = [[0, 1, " + around + "], [1, 2, 3, 0, ";
+  for (int k = 399; k >= 0; --k) text += fmt::format("{}, ", 4 + k);
+  text += "]]\n[[step]]\ngrow = 1\n";
+  EXPECT_THAT(error_of(text), HasSubstr("corners of faces"));
+}
+
+TEST(Models, LongExpressionsForManyFacesAreRefused) {
+  std::string sum = "1";
+  for (int k = 0; k < 2000; ++k) sum += "+1";
+  EXPECT_THAT(error_of("[symbols]\na = [\"p\"]\n[base]\nshape = \"plane\"\ncells = 1024\nsymbol = \"a(" +
+                       sum + ")\"\n"),
+              HasSubstr("too long for so many faces"));
+  EXPECT_THAT(error_of("[limits]\nfaces = 1000\n[base]\nshape = \"sphere\"\ncells = 256\n"),
+              HasSubstr("393216 faces, more than 1000"));
+}
+
+TEST(Models, NamesOfSymbolsAreNoVariables) {
+  EXPECT_THAT(error_of("[symbols]\nsize = []\n[base]\nshape = \"cube\"\n"), HasSubstr("already in use"));
+  EXPECT_THAT(error_of("[symbols]\na = [\"b\"]\nb = []\n[base]\nshape = \"cube\"\n"),
+              HasSubstr("has the name of a symbol"));
+}
+
 TEST(Models, BaseMeshesMustBeWellFormed) {
   const auto base = [](const std::string& faces) {
     return error_of("[base]\nvertices = [[0,0,0],[1,0,0],[1,1,0],[0,1,0],[2,0,0],[2,1,1],[0,0,0]]\nfaces = " +

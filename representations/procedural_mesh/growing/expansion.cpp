@@ -200,11 +200,10 @@ class Expander {
 
 Counts counts_of(const Template& t, std::uint32_t n) {
   if (!t.extruded()) {
-    return {static_cast<std::uint32_t>(t.vertices.size()), static_cast<std::uint32_t>(t.faces.size()),
-            static_cast<std::uint32_t>(t.face_corners.size()), static_cast<std::uint32_t>(t.creases.size())};
+    return {t.vertices.size(), t.faces.size(), t.face_corners.size(), t.creases.size()};
   }
-  const auto sections = static_cast<std::uint32_t>(t.sections.size());
-  const auto creased = static_cast<std::uint32_t>(
+  const std::size_t sections = t.sections.size();
+  const auto creased = static_cast<std::size_t>(
       std::count_if(t.sections.begin(), t.sections.end(), [](const Section& s) { return s.crease > 0; }));
   return {sections * n, sections * n + 1, sections * n * 4 + n, creased * n};
 }

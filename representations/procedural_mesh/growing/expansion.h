@@ -7,7 +7,7 @@ namespace terrabench::growing {
 
 // How much a rule adds to a face with n corners.
 struct Counts {
-  std::uint32_t vertices = 0, faces = 0, corners = 0, creases = 0;
+  std::size_t vertices = 0, faces = 0, corners = 0, creases = 0;
 };
 Counts counts_of(const Template&, std::uint32_t n);
 

@@ -12,11 +12,12 @@
 //
 // Angles are degrees. Truth is any number but 0; comparisons give 1 or 0. a % b has the sign of b. What is
 // not chosen by "?", "&&" or "||" is not evaluated. random() is in [0, 1), random(a, b) in [a, b): a function
-// of Scope::random and of where in the text it stands, so that results depend on no order and on no thread.
+// of Values::random and of where in the text it stands, so that results depend on no order and on no thread.
 #pragma once
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,8 +31,12 @@ struct Place {
 };
 
 // What names mean. Names, such as "size", are slots of Values::variables; constants are numbers or tables.
+// Looking a name up takes O(log names).
 class Names {
  public:
+  Names() = default;
+  // The names of `outer`, which must outlive this and not change, and variables of its own.
+  explicit Names(const Names* outer) : outer_(outer), variables_(outer->variables_) {}
   // Throws bad_input at `place` where the name is taken or not an identifier.
   std::uint32_t add_variable(std::string_view name, const std::string& file, Place place);
   void add_table(std::string_view name, std::vector<double> values, const std::string& file, Place place);
@@ -43,12 +48,14 @@ class Names {
   };
   const Entry* find(std::string_view name) const;
   std::uint32_t variables() const { return variables_; }
-  std::span<const double> tables() const { return tables_; }
+  std::span<const double> tables() const { return outer_ != nullptr ? outer_->tables() : tables_; }
   std::vector<std::string_view> known() const;
 
  private:
   void check(std::string_view name, const std::string& file, Place place) const;
-  std::vector<Entry> entries_;
+  const Names* outer_ = nullptr;
+  std::vector<Entry> entries_;  // in the order in which they were added
+  std::map<std::string, std::size_t, std::less<>> numbers_;
   std::vector<double> tables_;
   std::uint32_t variables_ = 0;
 };

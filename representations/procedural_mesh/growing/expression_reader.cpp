@@ -33,6 +33,7 @@ void Names::check(std::string_view name, const std::string& file, Place place) c
 
 std::uint32_t Names::add_variable(std::string_view name, const std::string& file, Place place) {
   check(name, file, place);
+  numbers_.emplace(name, entries_.size());
   entries_.push_back({std::string(name), false, variables_, 1});
   return variables_++;
 }
@@ -40,19 +41,21 @@ std::uint32_t Names::add_variable(std::string_view name, const std::string& file
 void Names::add_table(std::string_view name, std::vector<double> values, const std::string& file,
                       Place place) {
   check(name, file, place);
+  numbers_.emplace(name, entries_.size());
   entries_.push_back({std::string(name), true, static_cast<std::uint32_t>(tables_.size()),
                       static_cast<std::uint32_t>(values.size())});
   tables_.insert(tables_.end(), values.begin(), values.end());
 }
 
 const Names::Entry* Names::find(std::string_view name) const {
-  const auto found =
-      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.name == name; });
-  return found == entries_.end() ? nullptr : &*found;
+  const auto found = numbers_.find(name);
+  if (found != numbers_.end()) return &entries_[found->second];
+  return outer_ == nullptr ? nullptr : outer_->find(name);
 }
 
 std::vector<std::string_view> Names::known() const {
   std::vector<std::string_view> names;
+  if (outer_ != nullptr) names = outer_->known();
   for (const Entry& entry : entries_) names.push_back(entry.name);
   return names;
 }

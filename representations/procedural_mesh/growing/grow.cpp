@@ -14,36 +14,6 @@
 namespace terrabench::growing {
 namespace {
 
-// Removes the faces that were replaced and puts the states into the order of the faces.
-void compact(GrownMesh& grown, const std::vector<bool>& replaced, std::vector<Active>& growing) {
-  FaceMesh& mesh = grown.mesh;
-  std::sort(growing.begin(), growing.end(), [](const Active& a, const Active& b) { return a.face < b.face; });
-  std::uint32_t face = 0, corner = 0;
-  for (std::uint32_t f = 0; f < replaced.size(); ++f) {
-    if (replaced[f]) continue;
-    const std::uint32_t first = mesh.first_corner[f], last = mesh.first_corner[f + 1];
-    mesh.symbols[face] = mesh.symbols[f];
-    mesh.first_corner[face++] = corner;
-    for (std::uint32_t c = first; c < last; ++c) mesh.corners[corner++] = mesh.corners[c];
-  }
-  mesh.first_corner[face] = corner;
-  mesh.first_corner.resize(face + 1);
-  mesh.corners.resize(corner);
-  mesh.symbols.resize(face);
-  std::vector<FaceState> states;
-  std::vector<double> parameters;
-  states.reserve(growing.size());
-  for (const Active& active : growing) {
-    const FaceState& old = grown.states[active.state];
-    const auto from = grown.parameters.begin() + old.first_parameter;
-    states.push_back(old);
-    states.back().first_parameter = static_cast<std::uint32_t>(parameters.size());
-    parameters.insert(parameters.end(), from, from + active.parameters);
-  }
-  grown.states = std::move(states);
-  grown.parameters = std::move(parameters);
-}
-
 // The growing faces with their states, which lie in the same order.
 std::vector<Active> growing_faces(const RuleSystem& system, const GrownMesh& grown) {
   std::vector<Active> active;
@@ -97,9 +67,11 @@ std::size_t grow(const RuleSystem& system, GrownMesh& grown, const GrowOptions& 
     }
     expanded += wave.run(active, resting);
     ++grown.steps;
+    if (wave.should_drop()) wave.drop_replaced({&active, &resting});
   }
   resting.insert(resting.end(), active.begin(), active.end());
-  compact(grown, wave.replaced(), resting);
+  std::sort(resting.begin(), resting.end(), [](const Active& a, const Active& b) { return a.face < b.face; });
+  wave.drop_replaced({&resting});
   return expanded;
 }
 

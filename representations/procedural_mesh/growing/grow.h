@@ -29,6 +29,12 @@ struct GrownMesh {
 struct Limits {
   std::size_t faces = 10'000'000;  // of any mesh on the way
   std::uint32_t steps = 10'000;    // growing steps in total
+
+  // Most corners, vertices, creases, and parameters of growing faces; the faces that a step replaces, and as
+  // many again before they are dropped, come on top. All indices fit 32 bits for 100 million faces.
+  std::size_t elements() const { return 8 * faces + 65536; }
+  // Most faces that one call of grow() makes, those that it replaces again included: bounds its time.
+  std::size_t made() const { return 100 * faces + 1'000'000; }
 };
 
 // A mesh whose faces have not grown yet. `mesh.symbols` is per face; arguments[f] are those of its symbol.

@@ -121,7 +121,7 @@ inline constexpr std::size_t kMostSlots = 128;
 
 struct RuleSystem {
   std::string file;             // for messages
-  std::vector<Symbol> symbols;  // symbol 0 has no name
+  std::vector<Symbol> symbols;  // symbol 0 is "none"
   std::vector<Rule> rules;      // those of a symbol lie together
   std::vector<double> tables;   // constants that expressions index
   std::uint64_t seed = 0;

@@ -81,10 +81,9 @@ class Check {
   void fan(std::uint32_t v) const {
     std::size_t faces = 0;
     std::uint32_t start = v;
-    for (const auto& [edge, before] : next_) {
-      if (edge.first != v) continue;
+    for (auto at = next_.lower_bound({v, 0}); at != next_.end() && at->first.first == v; ++at) {
       ++faces;
-      if (start == v) start = edge.second;
+      if (start == v) start = at->first.second;
     }
     if (faces == 0) fail(fmt::format("vertex {} belongs to no face", v), "remove it");
     if (is_base(v)) start = (v + 1) % mesh_.corners;

@@ -13,7 +13,10 @@
 namespace terrabench::growing {
 namespace {
 
-constexpr std::size_t kGroup = 8192;         // faces that are expanded together
+constexpr std::size_t kGroup = 8192;         // most faces that are expanded together,
+constexpr std::size_t kGroupFaces = 262144;  // and new faces after which a group ends
+// Fewer faces or parameters that are no longer needed are never dropped before the end of grow().
+constexpr std::size_t kFewDead = 65536;
 constexpr std::uint64_t kChoice = 0xC401CE;  // what the random number that chooses a rule is for
 // A face is degenerate if its area is below this share of the square of its size; a needle 1e6 long passes.
 constexpr double kLeastArea = 1e-9;
@@ -54,7 +57,7 @@ void Wave::fail(const Failure& failure, const Active& active) const {
       "", "the value is not a finite number",
       "the template does not fit the face, which has another number of corners",
       "the rule makes a degenerate face"};
-  constexpr std::string_view kAdvice[] = {"", "divide by no zero, and keep every value in its range",
+  constexpr std::string_view kAdvice[] = {"", "check the divisors, and keep every value in its range",
                                           "give the symbol to faces with as many corners as the base has",
                                           "keep its corners apart"};
   const Symbol& symbol = system_.symbols[grown_.mesh.symbols[active.face]];
@@ -107,16 +110,31 @@ void Wave::choose(const std::vector<Active>& active) {
   }
 }
 
+void Wave::fail_beyond(std::size_t limit, std::string_view what) const {
+  throw bad_input(fmt::format("the model grows beyond {} {} in step {}", limit, what, grown_.steps + 1),
+                  system_.file, "let it grow less, or raise the limit of faces");
+}
+
+// Faces that were replaced do not count, but their number is bounded, too: see should_drop().
+void Wave::check_limits(const Counts& all, std::size_t replaced, std::size_t replaced_corners) const {
+  const std::size_t most = limits_.elements();
+  if (all.faces - replaced > limits_.faces) fail_beyond(limits_.faces, "faces");
+  if (all.corners - replaced_corners > most) fail_beyond(most, "corners of faces");
+  if (all.vertices > most) fail_beyond(most, "vertices");
+  if (all.creases > most) fail_beyond(most, "creases");
+}
+
 // Gives every expansion of a group its place in the arrays.
-void Wave::lay_out(std::size_t first, std::size_t last) {
-  FaceMesh& mesh = grown_.mesh;
-  std::size_t vertices = mesh.positions.size(), faces = mesh.faces(), corners = mesh.corners.size();
-  std::size_t creases = mesh.creases.size(), base_corners = base_texture_.size();
-  arguments_.first_face = static_cast<std::uint32_t>(faces);
-  for (std::size_t i = first; i < last; ++i) {
-    Chosen& chosen = chosen_[i];
-    chosen.to = {static_cast<std::uint32_t>(vertices), static_cast<std::uint32_t>(faces),
-                 static_cast<std::uint32_t>(corners), static_cast<std::uint32_t>(creases)};
+std::size_t Wave::lay_out(std::size_t first) {
+  const FaceMesh& mesh = grown_.mesh;
+  Counts all{mesh.positions.size(), mesh.faces(), mesh.corners.size(), mesh.creases.size()};
+  std::size_t base_corners = base_texture_.size(), replaced = removed_, replaced_corners = removed_corners_;
+  arguments_.first_face = static_cast<std::uint32_t>(all.faces);
+  std::size_t last = first;
+  while (last < chosen_.size() && last < first + kGroup && all.faces < arguments_.first_face + kGroupFaces) {
+    Chosen& chosen = chosen_[last++];
+    chosen.to = {static_cast<std::uint32_t>(all.vertices), static_cast<std::uint32_t>(all.faces),
+                 static_cast<std::uint32_t>(all.corners), static_cast<std::uint32_t>(all.creases)};
     chosen.end_face = chosen.to.face;
     if (chosen.rule == nullptr) continue;
     const std::uint32_t f = chosen.active.face;
@@ -128,30 +146,34 @@ void Wave::lay_out(std::size_t first, std::size_t last) {
     const Counts counts = counts_of(replacement, n);
     chosen.first_base_texture = static_cast<std::uint32_t>(base_corners);
     base_corners += n;
-    vertices += counts.vertices;
-    faces += counts.faces;
-    corners += counts.corners;
-    creases += counts.creases;
-    chosen.end_face = static_cast<std::uint32_t>(faces);
-    if (faces - removed_ - (i - first) > limits_.faces) {
-      throw bad_input(
-          fmt::format("the model grows beyond {} faces in step {}", limits_.faces, grown_.steps + 1),
-          system_.file, "let it grow less, or raise the limit of faces");
-    }
+    all.vertices += counts.vertices;
+    all.faces += counts.faces;
+    all.corners += counts.corners;
+    all.creases += counts.creases;
+    check_limits(all, ++replaced, replaced_corners += n);
+    chosen.end_face = static_cast<std::uint32_t>(all.faces);
   }
-  mesh.positions.resize(vertices);
-  mesh.texture.resize(vertices);
-  mesh.first_corner.resize(faces + 1);
+  made_ += all.faces - arguments_.first_face;
+  if (made_ > limits_.made()) fail_beyond(limits_.made(), "faces, with those that it replaces,");
+  reserve(all, base_corners, first, last);
+  return last;
+}
+
+void Wave::reserve(const Counts& all, std::size_t base_corners, std::size_t first, std::size_t last) {
+  FaceMesh& mesh = grown_.mesh;
+  mesh.positions.resize(all.vertices);
+  mesh.texture.resize(all.vertices);
+  mesh.first_corner.resize(all.faces + 1);
   for (std::size_t i = first; i < last; ++i) mesh.first_corner[chosen_[i].to.face] = chosen_[i].to.corner;
-  mesh.first_corner[faces] = static_cast<std::uint32_t>(corners);
-  mesh.corners.resize(corners);
-  mesh.symbols.resize(faces);
-  mesh.creases.resize(creases);
-  replaced_.resize(faces, false);
+  mesh.first_corner[all.faces] = static_cast<std::uint32_t>(all.corners);
+  mesh.corners.resize(all.corners);
+  mesh.symbols.resize(all.faces);
+  mesh.creases.resize(all.creases);
+  replaced_.resize(all.faces, false);
   base_texture_.resize(base_corners, {kNoVertex, {}});
   arguments_.stride = stride_;
-  arguments_.values.resize((faces - arguments_.first_face) * stride_);
-  shapes_.resize(faces - arguments_.first_face);
+  arguments_.values.resize((all.faces - arguments_.first_face) * stride_);
+  shapes_.resize(all.faces - arguments_.first_face);
 }
 
 void Wave::expand_one(Chosen& chosen) {
@@ -193,6 +215,8 @@ void Wave::keep_states(std::size_t first, std::size_t last, std::vector<Active>&
     }
     replaced_[chosen.active.face] = true;
     ++removed_;
+    const std::uint32_t* const corners = grown_.mesh.first_corner.data() + chosen.active.face;
+    removed_corners_ += corners[1] - corners[0];
     const std::uint64_t path = grown_.states[chosen.active.state].path;
     for (std::uint32_t f = chosen.to.face; f < chosen.end_face; ++f) {
       const std::uint32_t symbol = grown_.mesh.symbols[f];
@@ -201,6 +225,9 @@ void Wave::keep_states(std::size_t first, std::size_t last, std::vector<Active>&
       const double* const values =
           arguments_.values.data() + static_cast<std::size_t>(f - arguments_.first_face) * stride_;
       const auto state = static_cast<std::uint32_t>(grown_.states.size());
+      if (grown_.parameters.size() + parameters > 2 * limits_.elements()) {
+        fail_beyond(2 * limits_.elements(), "parameters of its faces");
+      }
       grown_.states.push_back({shapes_[f - arguments_.first_face], combine(path, f - chosen.to.face),
                                static_cast<std::uint32_t>(grown_.parameters.size())});
       grown_.parameters.insert(grown_.parameters.end(), values, values + parameters);
@@ -232,15 +259,65 @@ std::size_t Wave::run(std::vector<Active>& active, std::vector<Active>& resting)
   choose(active);
   std::vector<Active> next;
   const std::size_t removed_before = removed_;
-  for (std::size_t first = 0; first < chosen_.size(); first += kGroup) {
-    const std::size_t last = std::min(chosen_.size(), first + kGroup);
-    lay_out(first, last);
+  for (std::size_t first = 0, last = 0; first < chosen_.size(); first = last) {
+    last = lay_out(first);
     expand_group(first, last);
     keep_states(first, last, next, resting);
   }
   average_texture();
   active = std::move(next);
   return removed_ - removed_before;
+}
+
+bool Wave::should_drop() const {
+  const std::size_t live = grown_.mesh.faces() - removed_;
+  const std::size_t live_corners = grown_.mesh.corners.size() - removed_corners_;
+  return removed_ > std::max(live, kFewDead) || removed_corners_ > std::max(live_corners, kFewDead) ||
+         grown_.states.size() > std::max(2 * live, kFewDead) || grown_.parameters.size() > limits_.elements();
+}
+
+void Wave::drop_replaced(std::initializer_list<std::vector<Active>*> lists) {
+  FaceMesh& mesh = grown_.mesh;
+  std::vector<std::uint32_t> number(replaced_.size());
+  std::uint32_t face = 0, corner = 0;
+  for (std::uint32_t f = 0; f < replaced_.size(); ++f) {
+    number[f] = face;
+    if (replaced_[f]) continue;
+    const std::uint32_t first = mesh.first_corner[f], last = mesh.first_corner[f + 1];
+    mesh.symbols[face] = mesh.symbols[f];
+    mesh.first_corner[face++] = corner;
+    for (std::uint32_t c = first; c < last; ++c) mesh.corners[corner++] = mesh.corners[c];
+  }
+  mesh.first_corner[face] = corner;
+  mesh.first_corner.resize(face + 1);
+  mesh.corners.resize(corner);
+  mesh.symbols.resize(face);
+  std::size_t count = 0, needed = 0;
+  for (const std::vector<Active>* const list : lists) {
+    count += list->size();
+    for (const Active& active : *list) needed += active.parameters;
+  }
+  // After a subdivision the faces of one parent share its parameters; here each gets its own.
+  if (needed > limits_.elements()) fail_beyond(limits_.elements(), "parameters of its faces");
+  std::vector<FaceState> states;
+  std::vector<double> parameters;
+  states.reserve(count);
+  parameters.reserve(needed);
+  for (std::vector<Active>* const list : lists) {
+    for (Active& active : *list) {
+      const FaceState& old = grown_.states[active.state];
+      const auto from = grown_.parameters.begin() + old.first_parameter;
+      active.face = number[active.face];
+      active.state = static_cast<std::uint32_t>(states.size());
+      states.push_back(old);
+      states.back().first_parameter = static_cast<std::uint32_t>(parameters.size());
+      parameters.insert(parameters.end(), from, from + active.parameters);
+    }
+  }
+  grown_.states = std::move(states);
+  grown_.parameters = std::move(parameters);
+  replaced_.assign(face, false);
+  removed_ = removed_corners_ = 0;
 }
 
 }  // namespace terrabench::growing

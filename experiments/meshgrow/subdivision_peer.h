@@ -1,0 +1,28 @@
+// OpenSubdiv's Catmull–Clark refinement of the same meshes, vertex by vertex beside ours: what the special
+// case of the standard rule is compared with. Both constructions are followed level by level from the common
+// base mesh, so that partners are known and no search by position can pair the wrong ones.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "representations/procedural_mesh/face_mesh.h"
+#include "representations/procedural_mesh/subdivision/refinement.h"
+
+namespace terrabench::meshgrow {
+
+struct PeerLevel {
+  std::vector<glm::dvec3> points;   // theirs, in double precision
+  std::vector<std::uint32_t> ours;  // theirs for each of our vertices
+  // Our vertices, edges and corners of faces without a partner of their own, and numbers that differ.
+  std::size_t mismatches = 0;
+};
+
+// Levels 0 … refinement.levels(). `boundary` is the rule that the refinement was made with. Creases and sharp
+// vertices are those of `base`. A level
+// without partners is the last, with one mismatch. O(faces · valence).
+std::vector<PeerLevel> opensubdiv_levels(const FaceMesh& base, const subdivision::Refinement& refinement,
+                                         subdivision::Boundary boundary);
+
+}  // namespace terrabench::meshgrow
