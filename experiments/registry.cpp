@@ -61,6 +61,7 @@
   ENTRY(meshgrow, kModelFigures)       \
   ENTRY(meshgrow, kLod)                \
   ENTRY(cross, kLodEqualError)         \
+  ENTRY(cross, kScale)                 \
   ENTRY(relief, kRelief)               \
   ENTRY(cross, kLodDisk)               \
   ENTRY(cross, kLodEndless)

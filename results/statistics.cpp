@@ -103,7 +103,8 @@ Summary summarise_ratio(std::span<const double> numerator, std::span<const doubl
 }
 
 bool is_timing(std::string_view unit) {
-  constexpr std::array<std::string_view, 6> kUnits = {"s", "ms", "µs", "us", "ns", "Hz"};
+  // The last is that of an exponent: the slope of a time's logarithm.
+  constexpr std::array<std::string_view, 7> kUnits = {"s", "ms", "µs", "us", "ns", "Hz", "ln s"};
   return unit.ends_with("/s") || std::find(kUnits.begin(), kUnits.end(), unit) != kUnits.end();
 }
 
