@@ -61,10 +61,10 @@ const std::array kSpecs{
     ParameterSpec{"pixels", 2.0, "px", "screen-space error of the methods", 0.05, 200},
 };
 
-constexpr int kBatch = 4096, kQueries = 1 << 16;  // columns per call, and per sample
-constexpr double kQuerySeconds = 0.1;             // per sample, of slow structures
-constexpr int kNear = 128;                        // columns on each side of the window of near queries
-constexpr float kHighest = 1600;                  // metres, of the hills
+constexpr int kBatch = 1024, kQueries = 1 << 16, kQueryTurns = 3;  // columns per call, and per sample
+constexpr double kQuerySeconds = 0.05;                             // per sample, of slow structures
+constexpr int kNear = 32;         // columns on each side of the window of near queries, which caches hold
+constexpr float kHighest = 1600;  // metres, of the hills
 
 // Hills from 0 to kHighest metres exactly, so that no size has more levels than another: two corners are the
 // lowest and the highest sample.
@@ -122,6 +122,7 @@ void measure_structure(const Run& run, bool solid, const StructureTheory& theory
   SizePlan saving = run.plan("file", 0.25, {theory.bytes, theory.bytes});
   SizePlan meshing = run.plan("mesh", 0.25, {theory.mesh, std::max(theory.bytes, 1.0)});
   Cost build("build", "s", theory.build), bytes("bytes", "B", theory.bytes), file("file", "B", theory.bytes),
+      build_faults("build_faults", "faults", theory.build), mesh_faults("mesh_faults", "faults", theory.mesh),
       query("query", "s", theory.query), near("query_near", "s", theory.query),
       mesh("mesh", "s", theory.mesh);
   const TemporaryFolder folder;
@@ -137,14 +138,11 @@ void measure_structure(const Run& run, bool solid, const StructureTheory& theory
       source = solid ? open_terrain("caves", run.seed()) : hills_of_one_range(side, run.seed());
       Parameters parameters(type.parameters);
       if (solid) parameters.set("resolution", std::int64_t{side});
-      const int repeated = turns(std::pow(columns, theory.build)), warming = repeated > 1 ? 1 : 0;
-      for (int turn = -warming; turn < repeated; ++turn) {
-        built.reset();
-        const double taken = processor_seconds([&] { built = type.build(source, parameters, silent); });
-        if (turn >= 0) build.add(columns, taken);
-      }
+      add_turns(
+          build, build_faults, columns, turns(std::pow(columns, theory.build)), [&] { built.reset(); },
+          [&] { built = type.build(source, parameters, silent); });
       bytes.add(columns, static_cast<double>(built->memory().total()));
-      for (int turn = 0; turn < kMostTurns; ++turn) {
+      for (int turn = 0; turn < kQueryTurns; ++turn) {
         query.add(columns, seconds_per_query(*built, 1, random));
         near.add(columns,
                  seconds_per_query(*built, std::min(1.0, static_cast<double>(kNear) / side), random));
@@ -158,18 +156,22 @@ void measure_structure(const Run& run, bool solid, const StructureTheory& theory
       file.add(columns, static_cast<double>(save_representation(folder.path() / "saved", type, *built)));
     });
     run.measured(meshing, columns, [&] {
-      add_turns(mesh, columns, turns(std::pow(columns, theory.mesh)), [&] { built->mesh({}); });
+      TriangleMesh drawn;
+      add_turns(
+          mesh, mesh_faults, columns, turns(std::pow(columns, theory.mesh)), [&] { drawn = {}; },
+          [&] { drawn = built->mesh({}); });
     });
   }
   run.progress().end();
   for (const SizePlan* const plan : {&building, &saving, &meshing}) plan->record(run.recorder());
-  for (const Cost* const cost : {&build, &bytes, &file, &query, &near, &mesh}) cost->record(run.recorder());
+  for (const Cost* const cost : {&build, &build_faults, &bytes, &file, &query, &near, &mesh, &mesh_faults})
+    cost->record(run.recorder());
 }
 
 // Whole metres are sorted into buckets, in O(n); heights as they are need a heap, in O(n log n).
 void measure_flow(const Run& run, bool whole) {
   SizePlan plan = run.plan("route", 1, {1, 1});
-  Cost route("route", "s", 1, !whole);
+  Cost route("route", "s", 1, !whole), route_faults("route_faults", "faults", 1);
   const std::vector<int> sides = run.sides(false);
   run.progress().begin(whole ? "flow over whole metres" : "flow over unrounded heights", sides.size());
   for (const int side : sides) {
@@ -177,18 +179,22 @@ void measure_flow(const Run& run, bool whole) {
     run.measured(plan, columns, [&] {
       Heightfield ground = noise_hills(side, run.seed());
       if (whole) ground = whole_metres(std::move(ground));
-      add_turns(route, columns, turns(columns), [&] { route_flow(ground); });
+      FlowNetwork network;
+      add_turns(
+          route, route_faults, columns, turns(columns), [&] { network = {}; },
+          [&] { network = route_flow(ground); });
     });
     run.progress().advance();
   }
   run.progress().end();
   plan.record(run.recorder());
   route.record(run.recorder());
+  route_faults.record(run.recorder());
 }
 
 std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
-  const double seconds = paper ? 25 : 4;
+  const double seconds = paper ? 25 : 8;
   std::vector<Case> cases;
   const auto add = [&](std::string_view family, std::string_view method, std::int64_t smallest,
                        std::int64_t largest) {
@@ -200,9 +206,12 @@ std::vector<Case> cases(const RunOptions& options) {
                        {"largest", largest},
                        {"seconds", seconds}}}});
   };
-  for (const StructureTheory& one : kOverHeights) add("heights", one.name, 129, paper ? 16385 : 1025);
+  for (const StructureTheory& one : kOverHeights) {
+    const bool voxels = one.name.ends_with("voxel");  // take seconds from 1025² columns on
+    add("heights", one.name, 129, paper ? 16385 : voxels ? 513 : 1025);
+  }
   for (const StructureTheory& one : kOverSolids) add("solids", one.name, 32, paper ? 1024 : 128);
-  for (const std::string_view one : scaled_lods()) add("lods", one, 257, paper ? 8193 : 1025);
+  for (const std::string_view one : scaled_lods()) add("lods", one, 513, paper ? 8193 : 2049);
   for (const std::string_view one : {kWholeMetres, kUnrounded}) add("flow", one, 129, paper ? 16385 : 1025);
   return cases;
 }

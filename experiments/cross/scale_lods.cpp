@@ -49,11 +49,12 @@ std::vector<View> same_flight(const Heightfield& ground) {
 struct LodCosts {
   explicit LodCosts(const LodTheory& theory)
       : build("build", "s", theory.build),
+        build_faults("build_faults", "faults", theory.build),
         bytes("bytes", "B", theory.memory, theory.windows),
         update("update", "s", theory.update, theory.update == 0),
         uploaded("uploaded", "B", theory.update, theory.update == 0),
         triangles("triangles", "", theory.update, theory.update == 0) {}
-  Cost build, bytes, update, uploaded, triangles;
+  Cost build, build_faults, bytes, update, uploaded, triangles;
 };
 
 // Updates along the path, the mean of kFramesPerSample frames at a time: reading the clock takes a good part
@@ -96,13 +97,9 @@ void measure_lod(const Run& run, std::string_view name) {
       const Heightfield ground = noise_hills(side, run.seed());
       const std::vector<View> path = same_flight(ground);
       std::unique_ptr<Lod> built;
-      const int repeated = turns(columns), warming = repeated > 1 ? 1 : 0;
-      for (int turn = -warming; turn < repeated; ++turn) {
-        built.reset();
-        const double taken =
-            processor_seconds([&] { built = type.build(ground, Parameters(type.parameters), silent); });
-        if (turn >= 0) costs.build.add(columns, taken);
-      }
+      add_turns(
+          costs.build, costs.build_faults, columns, turns(columns), [&] { built.reset(); },
+          [&] { built = type.build(ground, Parameters(type.parameters), silent); });
       built->tune(tuned.knob);
       built->update(path.front());
       follow(*built, path, columns, costs);
@@ -113,7 +110,7 @@ void measure_lod(const Run& run, std::string_view name) {
   run.progress().end();
   plan.record(run.recorder());
   for (const Cost* const cost :
-       {&costs.build, &costs.bytes, &costs.update, &costs.uploaded, &costs.triangles}) {
+       {&costs.build, &costs.build_faults, &costs.bytes, &costs.update, &costs.uploaded, &costs.triangles}) {
     cost->record(run.recorder());
   }
 }

@@ -1,6 +1,8 @@
 // What the parts of the experiment cross.scale share: the sizes of a case and its budget.
 #pragma once
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -21,7 +23,7 @@ inline constexpr int kMostTurns = 5;
 
 // How often work on so many columns or voxels is repeated, beyond the first turn if there are several.
 inline int turns(double work) {
-  constexpr double kRepeatedWork = 1 << 21;
+  constexpr double kRepeatedWork = 1 << 18;
   return std::clamp(static_cast<int>(kRepeatedWork / work), 1, kMostTurns);
 }
 
@@ -80,13 +82,24 @@ class Run {
   std::int64_t base_;  // heap bytes before the case
 };
 
-// Processor seconds of each turn of the work on one thread, after one that is not counted if there are
-// several.
-template <class Work>
-void add_turns(Cost& cost, double columns, int repeated, const Work& work) {
+// Page faults of the calling thread so far that needed no disk: the first use of memory that the system gave.
+inline double page_faults() {
+  rusage used{};
+  getrusage(RUSAGE_THREAD, &used);
+  return static_cast<double>(used.ru_minflt);
+}
+
+// Processor seconds and page faults of each turn of the work on one thread, after one that is not counted if
+// there are several. Before each turn clear() frees what the last one made, uncounted.
+template <class Clear, class Work>
+void add_turns(Cost& cost, Cost& faults, double columns, int repeated, const Clear& clear, const Work& work) {
   for (int turn = repeated > 1 ? -1 : 0; turn < repeated; ++turn) {
+    clear();
+    const double before = page_faults();
     const double taken = processor_seconds(work);
-    if (turn >= 0) cost.add(columns, taken);
+    if (turn < 0) continue;
+    cost.add(columns, taken);
+    faults.add(columns, page_faults() - before);
   }
 }
 

@@ -93,7 +93,7 @@ double Cost::theory() const {
 void Cost::record(Recorder& recorder) const {
   if (columns_.empty()) return;
   // An exponent of times varies from run to run as they do.
-  const std::string_view unit = is_timing(unit_) ? "ln s" : "";
+  const std::string_view unit = is_timing(unit_) ? "exponent" : "";
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     recorder.add(name_, unit_, values_[i]);
     recorder.add(name_ + "_columns", "", columns_[i]);
