@@ -17,7 +17,9 @@ double student_t(std::size_t degrees) {
   // Cornish and Fisher's expansion around the normal distribution.
   constexpr double z = 1.959964;
   const auto n = static_cast<double>(degrees);
-  return z + (z * z * z + z) / (4 * n) + (5 * std::pow(z, 5) + 16 * z * z * z + 3 * z) / (96 * n * n);
+  return z + (std::pow(z, 3) + z) / (4 * n) +
+         (5 * std::pow(z, 5) + 16 * std::pow(z, 3) + 3 * z) / (96 * n * n) +
+         (3 * std::pow(z, 7) + 19 * std::pow(z, 5) + 17 * std::pow(z, 3) - 15 * z) / (384 * n * n * n);
 }
 
 std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const double> y) {

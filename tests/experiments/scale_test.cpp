@@ -41,7 +41,7 @@ TEST(Sides, DoubleOrClimbByHalfOctaves) {
 
 // A quarter of the time is left after two sizes that took 1 s and 4 s; the next would take 16 s.
 TEST(SizePlan, SkipsWhatTheTimeLeftDoesNotCover) {
-  SizePlan plan("build", {20, 1000}, {1, 1});
+  SizePlan plan("build", {20, 600}, {1, 1});
   ASSERT_TRUE(plan.admits(1));
   plan.measured(1, 1, 10);
   ASSERT_TRUE(plan.admits(4));
