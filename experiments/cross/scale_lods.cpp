@@ -16,15 +16,21 @@ namespace {
 // Every method reads its ground once. A clipmap and the hybrid hold and read windows, of which there are log
 // n. At a given error on the screen, the density of triangles falls with the square of the distance, so that
 // their number grows as log n (ROAM); by the rule printed in the MRBSP paper it falls with the distance, so
-// that their number grows as n^0.5. Brute force and geomipmaps visit every block or patch in view.
+// that their number grows as n^0.5. Brute force and geomipmaps visit every block or patch in view; the
+// patches are set to 16 cells, since by default they are larger on ground of more than 1025² samples.
 struct LodTheory {
   std::string_view name;
   double build, memory, update;  // update: also uploads and triangles
   bool windows = false;          // memory grows as log n
+  std::string_view options = {};
 };
 constexpr std::array kLods{
-    LodTheory{"brute_force", 1, 1, 1},   LodTheory{"roam", 1, 1, 0},         LodTheory{"geomipmap", 1, 1, 1},
-    LodTheory{"clipmap", 1, 0, 0, true}, LodTheory{"hybrid", 1, 0, 0, true}, LodTheory{"mrbsp", 1, 1, 0.5},
+    LodTheory{"brute_force", 1, 1, 1},
+    LodTheory{"roam", 1, 1, 0},
+    LodTheory{"geomipmap", 1, 1, 1, false, "geomipmap.patch=16"},
+    LodTheory{"clipmap", 1, 0, 0, true},
+    LodTheory{"hybrid", 1, 0, 0, true},
+    LodTheory{"mrbsp", 1, 1, 0.5},
 };
 
 constexpr std::string_view kPath = "low";
@@ -80,16 +86,16 @@ void follow(Lod& method, const std::vector<View>& path, double columns, LodCosts
 
 void measure_lod(const Run& run, std::string_view name) {
   const LodTheory& theory = entry(kLods, "level-of-detail method", name);
-  const LodType& type = lod(name);
+  const Contender method = contender(name, theory.options);
   const Tuned tuned = tune_to(
       flight_along({"hills", std::string(kPath), kTunedSide, kTunedFrames, run.seed()}, run.progress()),
-      contender(type.name, ""), run.at().parameters.number("pixels"), run.progress());
+      method, run.at().parameters.number("pixels"), run.progress());
   run.recorder().add("knob", "", tuned.knob);
   run.recorder().add("tuned_error", "px", tuned.error);
   SizePlan plan = run.plan("update", 1, {1, 1});
   LodCosts costs(theory);
   const std::vector<int> sides = run.sides(false);
-  run.progress().begin(fmt::format("{} on growing ground", type.name), sides.size());
+  run.progress().begin(fmt::format("{} on growing ground", name), sides.size());
   Progress silent;
   for (const int side : sides) {
     const double columns = squared(side);
@@ -99,7 +105,7 @@ void measure_lod(const Run& run, std::string_view name) {
       std::unique_ptr<Lod> built;
       add_turns(
           costs.build, costs.build_faults, columns, turns(columns), [&] { built.reset(); },
-          [&] { built = type.build(ground, Parameters(type.parameters), silent); });
+          [&] { built = method.build(ground, silent); });
       built->tune(tuned.knob);
       built->update(path.front());
       follow(*built, path, columns, costs);
