@@ -66,6 +66,7 @@
   ENTRY(meshgrow, kLod)                \
   ENTRY(meshgrow, kForest)             \
   ENTRY(cross, kLodEqualError)         \
+  ENTRY(cross, kScale)                 \
   ENTRY(relief, kRelief)               \
   ENTRY(cross, kLodDisk)               \
   ENTRY(cross, kLodEndless)

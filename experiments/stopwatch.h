@@ -24,19 +24,23 @@ double seconds(const Work& work) {
   return watch.seconds();
 }
 
+// Processor seconds of the calling thread and of the whole process.
+inline double processor_time(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+inline double thread_seconds() { return processor_time(CLOCK_THREAD_CPUTIME_ID); }
+inline double process_seconds() { return processor_time(CLOCK_PROCESS_CPUTIME_ID); }
+
 // Processor seconds that a piece of work takes on one thread, to which TBB is limited. Other work of the
 // machine is not counted.
 template <class Work>
 double processor_seconds(const Work& work) {
   const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
-  const auto now = [] {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  };
-  const double begin = now();
+  const double begin = thread_seconds();
   work();
-  return now() - begin;
+  return thread_seconds() - begin;
 }
 
 }  // namespace terrabench

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "results/format.h"
@@ -58,6 +59,38 @@ Cell growth_cell(const std::string& metric, const Record* before, const Record* 
   const Provenance* const later = store.run(record->run);
   if (earlier == nullptr || later == nullptr || !comparable(*earlier, *later)) return kNothing;
   return number_cell(summarise_ratio(to->samples, from->samples).median);
+}
+
+// The column with "<name>" in its metric replaced by the row's text; a row without it leaves no metric.
+TableLayout::Column for_row(TableLayout::Column column, const TableLayout::Row& row) {
+  const std::size_t open = column.metric.find('<'), close = column.metric.find('>', open);
+  if (close == std::string::npos) return column;
+  const auto value = row.values.find(std::string_view(column.metric).substr(open + 1, close - open - 1));
+  const std::string* const text =
+      value == row.values.end() ? nullptr : std::get_if<std::string>(&value->second);
+  column.metric = text == nullptr ? "" : column.metric.replace(open, close - open + 1, *text);
+  return column;
+}
+
+// Whether a row has something to show without a measurement: a value as printed, or a verdict.
+bool speaks_alone(const TableLayout& layout, const TableLayout::Row& row) {
+  return std::ranges::any_of(layout.columns, [&](const TableLayout::Column& column) {
+    return !column.key.empty() && row.values.contains(column.key);
+  });
+}
+
+// The points of a paired series, by x.
+std::vector<PlotPoint> paired_points(const Metric& metric, const Metric& across, double up, double right) {
+  std::map<double, std::vector<double>> at;
+  for (std::size_t i = 0; i < std::min(metric.samples.size(), across.samples.size()); ++i) {
+    at[across.samples[i] * right].push_back(metric.samples[i]);
+  }
+  std::vector<PlotPoint> points;
+  for (const auto& [x, samples] : at) {
+    const Summary s = summarise(samples);
+    points.push_back({x, s.median * up, s.low * up, s.high * up});
+  }
+  return points;
 }
 
 Cell cell_for(const TableLayout::Column& column, const TableLayout::Row& row, const Record* record,
@@ -115,10 +148,11 @@ FilledTable fill(const TableLayout& layout, const Store& store, const JudgedResu
   for (const TableLayout::Row& row : layout.rows) {
     const Record* const record = store.find(layout.experiment, row.case_name, results.profile);
     const Record* const above = std::exchange(before, record);
-    if (record == nullptr && row.values.empty()) continue;
+    if (record == nullptr && !speaks_alone(layout, row)) continue;
     if (record != nullptr) note_run(filled.runs, *record);
     std::vector<Cell> cells = {{row.label}};
-    for (const TableLayout::Column& column : layout.columns) {
+    for (const TableLayout::Column& general : layout.columns) {
+      const TableLayout::Column column = for_row(general, row);
       cells.push_back(column.kind == ColumnKind::kGrowth ? growth_cell(column.metric, above, record, store)
                                                          : cell_for(column, row, record, store, results));
     }
@@ -141,14 +175,18 @@ FilledPlot fill(const PlotLayout& layout, const Store& store, const std::string&
           record == nullptr || series.x_metric.empty() ? nullptr : record->find(series.x_metric);
       if (metric == nullptr || (across == nullptr && !series.x_metric.empty())) continue;
       note_run(filled.runs, *record);
-      const Summary s = summarise(metric->samples);
       const std::string where = store.where(*record);
       const double up = conversion(metric->unit, layout.y.unit, series.metric, where);
-      const double right = across == nullptr
-                               ? x
-                               : summarise(across->samples).median *
-                                     conversion(across->unit, layout.x.unit, series.x_metric, where);
-      line.points.push_back({right, s.median * up, s.low * up, s.high * up});
+      const double right =
+          across == nullptr ? 1 : conversion(across->unit, layout.x.unit, series.x_metric, where);
+      if (series.paired) {
+        const std::vector<PlotPoint> points = paired_points(*metric, *across, up, right);
+        line.points.insert(line.points.end(), points.begin(), points.end());
+        continue;
+      }
+      const Summary s = summarise(metric->samples);
+      const double at = across == nullptr ? x : summarise(across->samples).median * right;
+      line.points.push_back({at, s.median * up, s.low * up, s.high * up});
     }
     if (!series.slope) continue;
     if (const auto slope = power_law(line.points)) line.label += fmt::format(", slope {:.2f}", *slope);

@@ -66,6 +66,8 @@ PlotLayout::Series series_from(const TomlValue& node) {
     series.values.emplace_back(x.number("values"), y.number("values"));
   }
   series.x_metric = entry.text_or("x_metric", "");
+  series.paired = entry.flag("paired");
+  if (series.paired && series.x_metric.empty()) entry.refuse("a paired series needs an 'x_metric'");
   for (const TomlValue& point : entry.list("cases")) {
     if (!series.x_metric.empty()) {
       series.cases.emplace_back(0, point.text("cases"));

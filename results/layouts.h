@@ -22,8 +22,10 @@ struct TableLayout {
     enum class Kind { kReported, kMetric, kInterval, kGrowth, kSpeedUp, kVerdict };
     Kind kind = Kind::kMetric;
     std::string title, unit;
-    std::string key;     // of Row::values; kReported, kSpeedUp (reported ÷ measured), kVerdict
-    std::string metric;  // kMetric, kInterval, kGrowth (÷ the row before), kSpeedUp
+    std::string key;  // of Row::values; kReported, kSpeedUp (reported ÷ measured), kVerdict
+    // kMetric, kInterval, kGrowth (÷ the row before), kSpeedUp. "<name>" stands for the row's text of that
+    // name, so that the rows of one table may show different metrics.
+    std::string metric;
   };
   std::string id, title, caption, experiment, rows_title;
   std::vector<Row> rows;
@@ -35,6 +37,8 @@ struct PlotLayout {
   struct Series {
     std::string label, experiment, metric;
     std::string x_metric;  // of the same case, in place of the x of `cases`; empty: none
+    // The samples of metric and x_metric belong together, one by one: a point for each distinct x of a case.
+    bool paired = false;
     std::vector<std::pair<double, std::string>> cases;  // x, case
     std::vector<std::pair<double, double>> values;      // x, y as printed; used when cases is empty
     bool slope = false;                                 // fit a power law and say its exponent

@@ -23,6 +23,7 @@
 #include <filesystem>
 
 #include "results/format.h"
+#include "results/power_law.h"
 #include "results/svg_device.h"
 #include "terrain/error.h"
 
@@ -266,19 +267,13 @@ std::string plot_svg(const Plot& plot) {
 }
 
 std::optional<double> power_law(std::span<const PlotPoint> points) {
-  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  std::vector<double> x, y;
   for (const PlotPoint& point : points) {
-    if (!(point.x > 0 && point.y > 0)) continue;
-    const double x = std::log(point.x), y = std::log(point.y);
-    n += 1;
-    sx += x;
-    sy += y;
-    sxx += x * x;
-    sxy += x * y;
+    x.push_back(point.x);
+    y.push_back(point.y);
   }
-  const double spread = n * sxx - sx * sx;
-  if (n < 2 || spread <= 1e-12 * std::abs(n * sxx)) return std::nullopt;
-  return (n * sxy - sx * sy) / spread;
+  const std::optional<PowerLaw> law = fit_power_law(x, y);
+  return law ? std::optional(law->exponent) : std::nullopt;
 }
 
 }  // namespace terrabench

@@ -113,7 +113,9 @@ Summary summarise_ratio(std::span<const double> numerator, std::span<const doubl
 }
 
 bool is_timing(std::string_view unit) {
-  constexpr std::array<std::string_view, 6> kUnits = {"s", "ms", "µs", "us", "ns", "Hz"};
+  // "exponent" is the unit of an exponent: the slope of a time's logarithm.
+  constexpr std::array<std::string_view, 8> kUnits = {"s",  "ms", "µs",       "us",
+                                                      "ns", "Hz", "exponent", "faults"};
   return unit.ends_with("/s") || std::find(kUnits.begin(), kUnits.end(), unit) != kUnits.end();
 }
 

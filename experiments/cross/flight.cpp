@@ -61,6 +61,7 @@ std::vector<std::size_t> evenly(std::size_t count, std::size_t last) {
 
 TerrainSource open_ground(std::string_view name, int size, std::uint64_t seed) {
   if (name == "peak") return source_of(name, peak(size));
+  if (name == "hills") return source_of(name, noise_hills(size, seed));
   if (name != "fractal") return open_filled_heights(name, seed);
   return source_of(
       name, fractal::diamond_square(

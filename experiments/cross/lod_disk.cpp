@@ -21,6 +21,7 @@
 #include <thread>
 
 #include "experiments/cross/strips.h"
+#include "experiments/cross/temporary_folder.h"
 #include "experiments/experiment.h"
 #include "experiments/stopwatch.h"
 #include "lod/camera/camera_path.h"
@@ -45,29 +46,6 @@ const std::array kSpecs{
 };
 constexpr int kPlanSamples = 1025;  // largest side of the thinned copy of the ground that camera paths use
 constexpr float kEyeHeight = 1.8F;  // metres
-
-// An empty folder in the system's temporary folder, deleted with this object, also after an error or Ctrl-C.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "terrabench-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      throw environment_error(fmt::format("cannot make a folder: {}", std::strerror(errno)), name,
-                              "set TMPDIR to a folder with room for the ground");
-    }
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 // Writes side × side samples, 30 m apart, of diamond-square ground in whole metres, as SRTM has them. Returns
 // a digest of what determines every height. O(side²), in parallel; memory: a grid of 4097², and a row of

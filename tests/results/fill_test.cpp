@@ -47,7 +47,53 @@ TEST_F(LayoutTest, PointsStandAtAGivenXOrAtAMetricOfTheirCase) {
   EXPECT_EQ(measured[1].y, 20'000);
 }
 
+TEST_F(LayoutTest, APairedSeriesHasAPointForEachSizeOfItsCase) {
+  const Provenance run = fake_provenance();
+  Store store(folder_);
+  store.begin_run(run);
+  Record record = fake_record(run, "e", "c");
+  add(record, "time", "s", {4, 1, 6, 2, 5});
+  add(record, "error", "px", {20, 10, 20, 10, 20});
+  store.append(record);
+  const Paper paper = with_series(
+      R"({label = "l", experiment = "e", metric = "time", x_metric = "error", paired = true, slope = true, cases = ["c"]})");
+  const FilledPlot filled = fill(paper.plots.at(0), store, "quick");
+  const auto& points = filled.plot.series.at(0).points;
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_EQ(points[0].x, 10);
+  EXPECT_EQ(points[0].y, 1500);
+  EXPECT_EQ(points[1].x, 20);
+  EXPECT_EQ(points[1].y, 5000);
+  EXPECT_EQ(points[1].low, 4000);
+  EXPECT_EQ(filled.plot.series.at(0).label, "l, slope 1.74");
+}
+
+TEST_F(LayoutTest, RowsMayNameTheMetricOfAColumn) {
+  const Provenance run = fake_provenance();
+  Store store(folder_);
+  store.begin_run(run);
+  Record record = fake_record(run, "e", "c");
+  add(record, "build_slope", "", {1.5});
+  add(record, "query_slope", "", {0.25});
+  store.append(record);
+  const Paper paper = parse_claims(
+      "paper = \"p\"\ntitle = \"t\"\nsource = \"s\"\n"
+      "[[table]]\nid = \"p.t\"\ntitle = \"t\"\ncaption = \"c\"\nexperiment = \"e\"\nrows_title = \"r\"\n"
+      "rows = [{label = \"a\", case = \"c\", cost = \"build\"}, {label = \"b\", case = \"c\", cost = "
+      "\"query\"}, "
+      "{label = \"d\", case = \"c\"}, {label = \"not run\", case = \"x\", cost = \"build\"}]\n"
+      "columns = [{title = \"slope\", metric = \"<cost>_slope\"}]\n",
+      "test");
+  const Table table = fill(paper.tables.at(0), store, {"quick", {}, {}, {}}).table;
+  ASSERT_EQ(table.rows.size(), 3U) << "a row that only names a metric has nothing to show without its case";
+  EXPECT_EQ(table.rows[0][1].text, "1.5");
+  EXPECT_EQ(table.rows[1][1].text, "0.25");
+  EXPECT_EQ(table.rows[2][1].text, "–");
+}
+
 TEST(LayoutFile, CasesWithAMeasuredXAreNamesAlone) {
+  EXPECT_ANY_THROW(
+      with_series(R"({label = "l", experiment = "e", metric = "m", paired = true, cases = [[1, "c"]]})"));
   EXPECT_ANY_THROW(with_series(
       R"({label = "l", experiment = "e", metric = "m", x_metric = "error", cases = [[1, "c"]]})"));
   EXPECT_ANY_THROW(with_series(R"({label = "l", experiment = "e", metric = "m", cases = ["c"]})"));

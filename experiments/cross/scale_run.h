@@ -1,0 +1,121 @@
+// What the parts of the experiment cross.scale share: the sizes of a case and its budget.
+#pragma once
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "experiments/cross/scaling.h"
+#include "experiments/experiment.h"
+#include "experiments/stopwatch.h"
+#include "terrain/error.h"
+#include "terrain/memory.h"
+
+namespace terrabench::cross {
+
+inline constexpr int kMostTurns = 5;
+
+// How often work on so many columns or voxels is repeated, beyond the first turn if there are several.
+inline int turns(double work) {
+  constexpr double kRepeatedWork = 1 << 18;
+  return std::clamp(static_cast<int>(kRepeatedWork / work), 1, kMostTurns);
+}
+
+inline double squared(int side) { return static_cast<double>(side) * side; }
+
+// All the sizes of one case, with one budget per stage.
+class Run {
+ public:
+  Run(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress)
+      : at_(at), options_(options), recorder_(recorder), progress_(progress), base_(HeapCounter::live()) {}
+
+  SizePlan plan(std::string name, double share, Growth growth) const {
+    constexpr double kAvailable = 0.85;  // share of the memory left that is used
+    const double asked = at_.parameters.number("memory") * 1024 * 1024 * 1024;
+    const double left = kAvailable * static_cast<double>(available_memory());
+    return {std::move(name),
+            {share * at_.parameters.number("seconds"), static_cast<std::uint64_t>(std::min(asked, left))},
+            growth};
+  }
+
+  // Does the work at one size if the plan admits it. A structure may refuse a size, but not the first.
+  template <class Work>
+  bool measured(SizePlan& plan, double columns, const Work& work) const {
+    if (!plan.admits(columns)) return false;
+    HeapCounter::reset_peak();
+    const double begin = process_seconds();
+    try {
+      work();
+    } catch (const Error& error) {
+      if (error.code() == ExitCode::kInterrupted || plan.sizes() == 0) throw;
+      plan.refused(columns);
+      return false;
+    }
+    plan.measured(columns, process_seconds() - begin, HeapCounter::peak() - base_);
+    return true;
+  }
+
+  std::vector<int> sides(bool solid) const {
+    const int smallest = at_.integer("smallest"), largest = at_.integer("largest");
+    if (largest < smallest) {
+      throw usage_error("the largest ground is smaller than the smallest", "largest", "exchange the two");
+    }
+    return solid ? half_octave_sides(smallest, largest) : doubled_sides(smallest, largest);
+  }
+
+  const Case& at() const { return at_; }
+  std::uint64_t seed() const { return options_.seed; }
+  Recorder& recorder() const { return recorder_; }
+  Progress& progress() const { return progress_; }
+
+ private:
+  const Case& at_;
+  const RunOptions& options_;
+  Recorder& recorder_;
+  Progress& progress_;
+  std::int64_t base_;  // heap bytes before the case
+};
+
+// Page faults of the calling thread so far that needed no disk: the first use of memory that the system gave.
+inline double page_faults() {
+  rusage used{};
+  getrusage(RUSAGE_THREAD, &used);
+  return static_cast<double>(used.ru_minflt);
+}
+
+// Processor seconds and page faults of each turn of the work on one thread, after one that is not counted if
+// there are several. Before each turn clear() frees what the last one made, uncounted.
+template <class Clear, class Work>
+void add_turns(Cost& cost, Cost& faults, double columns, int repeated, const Clear& clear, const Work& work) {
+  for (int turn = repeated > 1 ? -1 : 0; turn < repeated; ++turn) {
+    clear();
+    const double before = page_faults();
+    const double taken = processor_seconds(work);
+    if (turn < 0) continue;
+    cost.add(columns, taken);
+    faults.add(columns, page_faults() - before);
+  }
+}
+
+// The entry of that name. Throws unknown_name.
+template <class Table>
+const auto& entry(const Table& table, std::string_view kind, std::string_view name) {
+  std::vector<std::string_view> known;
+  for (const auto& one : table) {
+    if (one.name == name) return one;
+    known.push_back(one.name);
+  }
+  throw unknown_name(kind, name, known);
+}
+
+// Level of detail along a path: scale_lods.cpp.
+void measure_lod(const Run&, std::string_view method);
+std::vector<std::string_view> scaled_lods();
+
+}  // namespace terrabench::cross

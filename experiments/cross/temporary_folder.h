@@ -1,0 +1,40 @@
+// A folder for files that an experiment measures and does not keep.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include "terrain/error.h"
+
+namespace terrabench::cross {
+
+// An empty folder in the system's temporary folder, deleted with this object, also after an error or Ctrl-C.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "terrabench-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) {
+      throw environment_error(fmt::format("cannot make a folder: {}", std::strerror(errno)), name,
+                              "set TMPDIR to a folder with room for the ground");
+    }
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace terrabench::cross

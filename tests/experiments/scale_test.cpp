@@ -1,0 +1,205 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "experiments/cross/scaling.h"
+#include "experiments/experiment.h"
+#include "lod/lod.h"
+#include "representations/representation.h"
+#include "results/claims.h"
+#include "terrain/error.h"
+
+namespace terrabench::cross {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+std::vector<double> samples(const Record& record, std::string_view metric) {
+  const Metric* const found = record.find(metric);
+  return found == nullptr ? std::vector<double>{} : found->samples;
+}
+
+template <class Part>
+Record recorded(const Part& part) {
+  Record record;
+  Recorder recorder(record, "");
+  part.record(recorder);
+  return record;
+}
+
+TEST(Sides, DoubleOrClimbByHalfOctaves) {
+  EXPECT_THAT(doubled_sides(129, 1025), ElementsAre(129, 257, 513, 1025));
+  EXPECT_THAT(doubled_sides(129, 1024), ElementsAre(129, 257, 513));
+  EXPECT_THAT(half_octave_sides(32, 128), ElementsAre(32, 48, 64, 96, 128));
+  EXPECT_THAT(half_octave_sides(9, 20), ElementsAre(9, 18));
+  EXPECT_THAT(doubled_sides(20, 10), IsEmpty());
+}
+
+// A quarter of the time is left after two sizes that took 1 s and 4 s; the next would take 16 s.
+TEST(SizePlan, SkipsWhatTheTimeLeftDoesNotCover) {
+  SizePlan plan("build", {20, 600}, {1, 1});
+  ASSERT_TRUE(plan.admits(1));
+  plan.measured(1, 1, 10);
+  ASSERT_TRUE(plan.admits(4));
+  plan.measured(4, 4, 40);
+  EXPECT_FALSE(plan.admits(16));
+  EXPECT_FALSE(plan.admits(64)) << "after a size that was skipped, the larger ones are skipped too";
+  const Record record = recorded(plan);
+  EXPECT_THAT(samples(record, "build_sizes"), ElementsAre(2));
+  EXPECT_THAT(samples(record, "build_skipped"), ElementsAre(2));
+  EXPECT_THAT(samples(record, "build_skipped_for_time"), ElementsAre(16));
+  EXPECT_THAT(samples(record, "build_skipped_for_memory"), ElementsAre(64));
+}
+
+TEST(SizePlan, AdmitsExactlyWhatTheBudgetCovers) {
+  SizePlan plan("build", {21, 160}, {1, 1});
+  for (const double columns : {1.0, 4.0, 16.0}) {
+    ASSERT_TRUE(plan.admits(columns));
+    plan.measured(columns, columns, static_cast<std::int64_t>(10 * columns));
+  }
+  EXPECT_THAT(recorded(plan).metrics.size(), 2U) << "nothing was skipped";
+}
+
+TEST(SizePlan, SkipsWhatMemoryDoesNotHold) {
+  SizePlan plan("mesh", {1e6, 639}, {1, 1.5});
+  ASSERT_TRUE(plan.admits(1));
+  plan.measured(1, 1, 10);
+  ASSERT_TRUE(plan.admits(4)) << "10 · 4^1.5 = 80";
+  plan.measured(4, 1, 80);
+  EXPECT_FALSE(plan.admits(16)) << "640";
+  EXPECT_THAT(samples(recorded(plan), "mesh_skipped_for_memory"), ElementsAre(16));
+}
+
+TEST(SizePlan, TheFirstSizeIsAlwaysMeasuredAndARefusalEndsThePlan) {
+  SizePlan plan("build", {0, 0}, {1, 1});
+  EXPECT_TRUE(plan.admits(100));
+  plan.measured(100, 1, 1);
+  SizePlan other("build", {1e6, 1 << 30}, {1, 1});
+  EXPECT_TRUE(other.admits(1));
+  other.measured(1, 1, 1);
+  EXPECT_TRUE(other.admits(4));
+  other.refused(4);
+  EXPECT_FALSE(other.admits(16));
+  EXPECT_THAT(samples(recorded(other), "build_skipped_as_refused"), ElementsAre(4, 16));
+}
+
+TEST(Cost, RecordsTheExponentThroughTheMediansBesideTheTheory) {
+  Cost cost("build", "s", 1);
+  for (const double columns : {1.0, 4.0, 16.0}) {
+    for (const double factor : {0.5, 1.0, 100.0}) cost.add(columns, factor * std::pow(columns, 1.25));
+  }
+  const Record record = recorded(cost);
+  EXPECT_THAT(samples(record, "build").size(), 9U);
+  EXPECT_THAT(samples(record, "build_columns"), ElementsAre(1, 1, 1, 4, 4, 4, 16, 16, 16));
+  EXPECT_NEAR(samples(record, "build_exponent").at(0), 1.25, 1e-9);
+  EXPECT_NEAR(samples(record, "build_excess").at(0), 0.25, 1e-9);
+  EXPECT_NEAR(samples(record, "build_low").at(0), 1.25, 1e-6);
+  EXPECT_NEAR(samples(record, "build_high").at(0), 1.25, 1e-6);
+  EXPECT_EQ(record.find("build_exponent")->unit, "exponent") << "varies from run to run";
+  EXPECT_THAT(samples(record, "build_largest"), ElementsAre(16));
+}
+
+TEST(Cost, OneSizeHasNoExponentAndTwoHaveNoInterval) {
+  Cost one("bytes", "B", 1);
+  one.add(4, 8);
+  EXPECT_EQ(recorded(one).find("bytes_exponent"), nullptr);
+  EXPECT_EQ(recorded(Cost("bytes", "B", 1)).metrics.size(), 0U);
+  one.add(16, 32);
+  const Record two = recorded(one);
+  EXPECT_NEAR(samples(two, "bytes_exponent").at(0), 1, 1e-12);
+  EXPECT_EQ(two.find("bytes_exponent")->unit, "");
+  EXPECT_EQ(two.find("bytes_low"), nullptr);
+}
+
+TEST(Cost, ALogarithmAddsWhatItAddsOverTheSizes) {
+  Cost cost("route", "s", 1, true);
+  for (const double n : {1e4, 1e6, 1e8}) cost.add(n, n * std::log(n));
+  EXPECT_NEAR(cost.theory(), 1 + std::log(2.0) / std::log(1e4), 1e-12);
+  EXPECT_NEAR(samples(recorded(cost), "route_excess").at(0), 0, 1e-3);
+}
+
+TEST(ScaleCases, NameEveryStructureAndMethodAndTheLedgerReadsThem) {
+  std::set<std::string> names;
+  for (const Case& at : experiment("cross.scale").cases({})) EXPECT_TRUE(names.insert(at.name).second);
+  for (const RepresentationType& type : representations()) {
+    EXPECT_TRUE(names.contains("heights/" + std::string(type.name))) << type.name;
+  }
+  for (const LodType& type : lods()) EXPECT_TRUE(names.contains("lods/" + std::string(type.name)));
+  std::size_t read = 0;
+  for (const Paper& paper : papers()) {
+    for (const TableLayout& table : paper.tables) {
+      if (table.experiment != "cross.scale") continue;
+      for (const TableLayout::Row& row : table.rows)
+        EXPECT_TRUE(names.contains(row.case_name)) << row.case_name;
+    }
+    for (const Claim& claim : paper.claims) {
+      for (const Condition& condition : claim.conditions) {
+        for (const Operand& operand : condition.operands) {
+          if (operand.experiment != "cross.scale") continue;
+          ++read;
+          EXPECT_TRUE(names.contains(operand.case_name)) << claim.id << " " << operand.case_name;
+        }
+      }
+    }
+  }
+  EXPECT_GT(read, 50U);
+}
+
+// The whole experiment on a few small sizes, and with budgets that leave out all but the first.
+Record measured(const char* name, std::initializer_list<std::pair<std::string_view, Value>> given) {
+  const Experiment& scale = experiment("cross.scale");
+  Case at;
+  for (const Case& one : scale.cases({})) {
+    if (one.name == name) at = one;
+  }
+  for (const auto& [parameter, value] : given) at.parameters.set(parameter, value);
+  Record record;
+  Recorder recorder(record, "");
+  Progress silent;
+  scale.measure(at, {}, recorder, silent);
+  return record;
+}
+
+TEST(Scale, BytesOfAHeightMapGrowWithItsColumns) {
+  const Record record =
+      measured("heights/heightmap",
+               {{"smallest", std::int64_t{65}}, {"largest", std::int64_t{257}}, {"seconds", 1e6}});
+  EXPECT_THAT(samples(record, "bytes_columns"), ElementsAre(65 * 65, 129 * 129, 257 * 257));
+  EXPECT_NEAR(samples(record, "bytes_exponent").at(0), 1, 0.02);
+  EXPECT_EQ(samples(record, "build_skipped").at(0), 0);
+  EXPECT_EQ(samples(record, "query_exponent").size(), 1U);
+}
+
+TEST(Scale, DenseVoxelsGrowWithTheirVoxelsAndSkippedSizesAreRecorded) {
+  const Record record =
+      measured("solids/dense_voxel",
+               {{"smallest", std::int64_t{16}}, {"largest", std::int64_t{32}}, {"seconds", 1e6}});
+  EXPECT_NEAR(samples(record, "bytes_exponent").at(0), 1.5, 0.02);
+  const Record brief = measured(
+      "solids/dense_voxel",
+      {{"smallest", std::int64_t{16}}, {"largest", std::int64_t{32}}, {"memory", 0.001}, {"seconds", 0.0}});
+  EXPECT_THAT(samples(brief, "build_sizes"), ElementsAre(1));
+  EXPECT_THAT(samples(brief, "build_skipped"), ElementsAre(2)) << "24 and 32 samples";
+}
+
+TEST(Scale, AWindowOnGrowingGroundHoldsTheSame) {
+  const Record record = measured("lods/clipmap", {{"smallest", std::int64_t{257}}, {"seconds", 1e6}});
+  EXPECT_NEAR(samples(record, "bytes_exponent").at(0), 0, 0.25);
+  const Record brute = measured("lods/brute_force", {{"smallest", std::int64_t{257}}, {"seconds", 1e6}});
+  EXPECT_GT(samples(brute, "triangles_exponent").at(0), 0.5);
+}
+
+TEST(Scale, RefusesWhatItDoesNotKnow) {
+  EXPECT_THROW(measured("flow/unrounded", {{"method", std::string("rounded")}}), Error);
+  EXPECT_THROW(measured("lods/roam", {{"method", std::string("rome")}}), Error);
+  EXPECT_THROW(
+      measured("heights/heightmap", {{"smallest", std::int64_t{1025}}, {"largest", std::int64_t{65}}}),
+      Error);
+}
+
+}  // namespace
+}  // namespace terrabench::cross
