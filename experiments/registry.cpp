@@ -60,6 +60,7 @@
   ENTRY(meshgrow, kGrowingFigures)     \
   ENTRY(meshgrow, kModelFigures)       \
   ENTRY(meshgrow, kLod)                \
+  ENTRY(cross, kRepresentations)       \
   ENTRY(cross, kLodEqualError)         \
   ENTRY(relief, kRelief)               \
   ENTRY(cross, kLodDisk)               \
