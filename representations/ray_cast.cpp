@@ -39,6 +39,7 @@ struct HeightGround {
   struct Corners {
     float nw, ne, sw, se;
     bool none() const { return std::isnan(nw + ne + sw + se); }
+    float highest() const { return std::max(std::max(nw, ne), std::max(sw, se)); }
   };
   Corners corners(int i, int j) const {
     i -= before_x;
@@ -55,7 +56,7 @@ struct HeightGround {
 
   float top(int i, int j) const {
     const Corners c = corners(i, j);
-    return c.none() ? kNothing : std::max(std::max(c.nw, c.ne), std::max(c.sw, c.se));
+    return c.none() ? kNothing : c.highest();
   }
 
   // The ray over a square whose sides are 1: its position, and its height over the planes of the square's two
@@ -95,8 +96,9 @@ struct HeightGround {
     return !c.none() && square(i, j, c, path).below(t);
   }
 
-  double change(int i, int j, const RayPath& path, Stretch at, bool inside) const {
+  double change(int i, int j, const RayPath& path, Stretch at, double lowest, bool inside) const {
     const Corners c = corners(i, j);
+    if (!inside && lowest > c.highest()) return kNone;
     if (c.none()) return inside ? at.begin : kNone;
     const Square s = square(i, j, c, path);
     const double first = s.past_diagonal(at.begin), last = s.past_diagonal(at.end);
@@ -187,8 +189,9 @@ struct SpanGround {
     return k < spans.size() && y >= spans[k].bottom;
   }
 
-  double change(int i, int j, const RayPath& path, Stretch at, bool inside) const {
+  double change(int i, int j, const RayPath& path, Stretch at, double lowest, bool inside) const {
     const auto spans = column(i, j);
+    if (!inside && (spans.empty() || lowest > spans.back().top)) return kNone;
     const double from = path.y(at.begin), to = path.y(at.end);
     const std::size_t k = above(spans, from);
     if ((k < spans.size() && from >= spans[k].bottom) != inside) return at.begin;

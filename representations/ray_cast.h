@@ -3,7 +3,7 @@
 //   heightmap, drill                     the two triangles of each square of samples, as mesh() draws them
 //   layered_stack, voxel, dense_voxel    blocks: each column's spans, as wide as the column
 //
-// Rays walk over the columns in plan (Amanatides & Woo 1987) and skip blocks of 2^l × 2^l columns whose
+// Rays walk over the columns in plan (Amanatides & Woo 1987) and skip blocks of 4^l × 4^l columns whose
 // highest solid point lies below them (maximum mipmaps; Tevs, Ihrke & Seidel 2008). No ray slips through an
 // edge between columns: whether it is in the solid is carried from column to column, and any change is a hit.
 // Other types are cast through their mesh: renderers/raytrace/ray_index.h.
@@ -33,7 +33,7 @@ class RayCaster {
 };
 
 // The representation must outlive the caster and not be edited. Null for types that have no caster of their
-// own. Takes a third of the bytes of the heights; for columns a copy of their spans. O(columns + spans).
+// own. Takes a fifteenth of the bytes of the heights; for columns a copy of their spans. O(columns + spans).
 std::unique_ptr<RayCaster> own_ray_caster(const Representation&);
 
 }  // namespace terrabench

@@ -26,27 +26,30 @@ struct PlanAxis {
   }
 };
 
-// The highest solid point of each square of 2^l × 2^l cells, l ≥ 1; -∞ where nothing is solid. Level 0 is the
-// ground's own.
+// The highest solid point of each square of 4^l × 4^l cells, l ≥ 1; -∞ where nothing is solid. Level 0 is the
+// ground's own. Squares of 2^l would be skipped earlier, but each level costs a branch that no predictor
+// foresees.
 class TopPyramid {
  public:
+  static constexpr int kShift = 2, kSide = 1 << kShift;
+
   // top(i, j): of a cell. O(cells)
   template <class Top>
   TopPyramid(int width, int depth, const Top& top) {
     const int side = std::max(width, depth);
-    levels_ = std::bit_width(static_cast<unsigned>(side - 1));
+    levels_ = (std::bit_width(static_cast<unsigned>(side - 1)) + kShift - 1) / kShift;
     starts_.assign(2, 0);
     widths_.assign(1, width);
     for (int level = 1, w = width, d = depth; level <= levels_; ++level) {
       const int below_w = w, below_d = d;
-      w = (w + 1) / 2;
-      d = (d + 1) / 2;
+      w = (w + kSide - 1) / kSide;
+      d = (d + kSide - 1) / kSide;
       widths_.push_back(w);
       for (int j = 0; j < d; ++j) {
         for (int i = 0; i < w; ++i) {
           float highest = -std::numeric_limits<float>::infinity();
-          for (int b = 2 * j; b < std::min(2 * j + 2, below_d); ++b) {
-            for (int a = 2 * i; a < std::min(2 * i + 2, below_w); ++a) {
+          for (int b = kSide * j; b < std::min(kSide * (j + 1), below_d); ++b) {
+            for (int a = kSide * i; a < std::min(kSide * (i + 1), below_w); ++a) {
               highest = std::max(highest, level == 1 ? top(a, b) : at(level - 1, a, b));
             }
           }
@@ -109,9 +112,10 @@ inline bool clip(double origin, double direction, double low, double high, Stret
 
 // Ground has
 //   PlanAxis x, z; double floor, highest;        the box that contains all that is solid
-//   TopPyramid tops; float top(i, j);            the highest solid point of a cell
+//   TopPyramid tops;
 //   bool solid(i, j, path, t);                   whether the ray is in the solid at t, as cell (i, j) says
-//   double change(i, j, path, stretch, inside);  where it first is not as `inside` says, or infinity
+//   double change(i, j, path, stretch, lowest, inside);  where it first is not as `inside` says, or infinity;
+//                                                `lowest`: the ray's least height on the stretch
 template <class Ground>
 class RayWalk {
  public:
@@ -142,46 +146,46 @@ class RayWalk {
   double walk() {
     constexpr double kNone = std::numeric_limits<double>::infinity();
     const double per_x = 1 / path_.direction.x, per_z = 1 / path_.direction.z;
-    int level = ground_.tops.levels();
-    double t = begin_;
+    int level = ground_.tops.levels() / 2;  // a guess, from which a ray in open air climbs
+    double t = begin_, y = path_.y(t);
     for (;;) {
-      const double to_x = leaves(ground_.x, i_ >> level, level, path_.origin.x, path_.direction.x, per_x);
-      const double to_z = leaves(ground_.z, j_ >> level, level, path_.origin.z, path_.direction.z, per_z);
+      const int shift = level * TopPyramid::kShift;
+      const double to_x = leaves(ground_.x, i_ >> shift, shift, path_.origin.x, path_.direction.x, per_x);
+      const double to_z = leaves(ground_.z, j_ >> shift, shift, path_.origin.z, path_.direction.z, per_z);
       const double end = std::max(t, std::min({to_x, to_z, end_}));
-      const double lowest = std::min(path_.y(t), path_.y(end));
-      const float top = level == 0 ? ground_.top(i_, j_) : ground_.tops.at(level, i_ >> level, j_ >> level);
-      if (inside_ || !(lowest > top)) {
-        if (level > 0) {
-          --level;
-          continue;
-        }
-        const double hit = ground_.change(i_, j_, path_, Stretch{t, end}, inside_);
+      const double end_y = path_.y(end), lowest = std::min(y, end_y);
+      if (level == 0) {
+        const double hit = ground_.change(i_, j_, path_, Stretch{t, end}, lowest, inside_);
         if (hit < kNone) return hit;
+      } else if (inside_ || !(lowest > ground_.tops.at(level, i_ >> shift, j_ >> shift))) {
+        --level;
+        continue;
       }
       if (end >= end_) return kNone;
       t = end;
-      const bool crossed = to_x <= to_z ? next(i_, path_.direction.x, level, ground_.z, j_, path_.z(t))
-                                        : next(j_, path_.direction.z, level, ground_.x, i_, path_.x(t));
+      y = end_y;
+      const bool climbs = to_x <= to_z ? next(i_, path_.direction.x, shift, ground_.z, j_, path_.z(t))
+                                       : next(j_, path_.direction.z, shift, ground_.x, i_, path_.x(t));
       if (i_ < 0 || j_ < 0 || i_ >= ground_.x.cells || j_ >= ground_.z.cells) return kNone;
-      if (crossed && level < ground_.tops.levels()) ++level;
+      if (climbs && level < ground_.tops.levels()) ++level;
     }
   }
 
-  // Where the ray passes the far side of a block.
-  static double leaves(const PlanAxis& axis, int block, int level, double origin, double direction,
+  // Where the ray passes the far side of a block of 2^shift cells.
+  static double leaves(const PlanAxis& axis, int block, int shift, double origin, double direction,
                        double per) {
     if (direction == 0) return std::numeric_limits<double>::infinity();
-    return (axis.plane((direction > 0 ? block + 1 : block) << level) - origin) * per;
+    return (axis.plane((direction > 0 ? block + 1 : block) << shift) - origin) * per;
   }
 
   // Steps to the next block along one axis, and finds the cell along the other, within the same block.
   // Whether the next block is in another block of the level above.
-  static bool next(int& cell, double direction, int level, const PlanAxis& other, int& other_cell,
+  static bool next(int& cell, double direction, int shift, const PlanAxis& other, int& other_cell,
                    double at) {
-    const int block = cell >> level, other_block = other_cell >> level;
-    cell = direction > 0 ? (block + 1) << level : (block << level) - 1;
-    other_cell = std::clamp(other.cell_at(at), other_block << level, ((other_block + 1) << level) - 1);
-    return (block ^ (cell >> level)) >> 1 != 0;
+    const int block = cell >> shift, other_block = other_cell >> shift;
+    cell = direction > 0 ? (block + 1) << shift : (block << shift) - 1;
+    other_cell = std::clamp(other.cell_at(at), other_block << shift, ((other_block + 1) << shift) - 1);
+    return (block ^ (cell >> shift)) >> TopPyramid::kShift != 0;
   }
 
   const Ground& ground_;
