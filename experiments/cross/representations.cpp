@@ -38,10 +38,7 @@ std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const std::string& terrain :
        grounds(options, {"jacksboro", "fractal", "caves", "canyon", "sequence"})) {
-    // The tunnels of the sequence are narrow: on fewer cells nothing under a roof is a cell away from all
-    // walls.
-    const bool narrow = terrain == "sequence";
-    const std::int64_t resolution = paper ? 256 : terrain == "caves" ? 64 : narrow ? 192 : 128;
+    const std::int64_t resolution = paper ? 256 : terrain == "caves" ? 64 : 128;
     for (const RepresentationType& type : representations()) {
       const auto add = [&](const std::string& suffix, double share) {
         cases.push_back({fmt::format("{}/{}{}", terrain, type.name, suffix),
@@ -50,7 +47,7 @@ std::vector<Case> cases(const RunOptions& options) {
                            {"share", share},
                            {"size", std::int64_t{paper ? 1025 : 257}},
                            {"resolution", resolution},
-                           {"lines", std::int64_t{paper || narrow ? 211 : 101}},
+                           {"lines", std::int64_t{paper ? 211 : 101}},
                            {"rays", std::int64_t{paper ? 1 << 17 : 1 << 13}}}},
                          terrain});
       };
