@@ -65,6 +65,7 @@
   ENTRY(meshgrow, kModelFigures)       \
   ENTRY(meshgrow, kLod)                \
   ENTRY(meshgrow, kForest)             \
+  ENTRY(cross, kRepresentations)       \
   ENTRY(cross, kLodEqualError)         \
   ENTRY(cross, kScale)                 \
   ENTRY(relief, kRelief)               \

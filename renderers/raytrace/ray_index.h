@@ -16,14 +16,9 @@
 
 #include "terrain/mesh.h"
 #include "terrain/progress.h"
+#include "terrain/ray.h"
 
 namespace terrabench {
-
-struct Ray {
-  glm::vec3 origin{0};     // metres
-  glm::vec3 direction{0};  // of any length but zero; distances are in its lengths
-  float near = 0, far = std::numeric_limits<float>::infinity();
-};
 
 struct RayHit {
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;

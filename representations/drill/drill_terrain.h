@@ -23,6 +23,7 @@ class DrillTerrain final : public Representation {
   static std::unique_ptr<Representation> load(ByteSource&);
 
   const Drills& drills() const { return drills_; }
+  const Heightmap& surface() const { return *surface_; }  // the regenerated terrain
 
   void spans(Columns where, SpanSink& out) const override { surface_->spans(where, out); }
   TriangleMesh mesh(MeshDetail detail) const override { return surface_->mesh(detail); }  // as Heightmap's

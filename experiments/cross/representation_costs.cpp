@@ -1,0 +1,214 @@
+#include "experiments/cross/representation_costs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "experiments/cross/scratch_file.h"
+#include "experiments/stopwatch.h"
+#include "representations/edit_tools.h"
+#include "representations/ght/ght.h"
+#include "terrain/error.h"
+
+namespace terrabench::cross {
+namespace {
+
+constexpr int kSamples = 3;
+constexpr double kLong = 1;  // seconds: what takes longer is measured once
+
+// Numbers in a range, the same on every machine.
+class Numbers {
+ public:
+  float between(float low, float high) {
+    return low + (high - low) * 0x1p-24F * static_cast<float>(random_() >> 8);
+  }
+  std::vector<float> many(std::size_t n, float low, float high) {
+    std::vector<float> all(n);
+    for (float& x : all) x = between(low, high);
+    return all;
+  }
+
+ private:
+  std::mt19937 random_{1};
+};
+
+// Adds what `work` takes to the metric, up to kSamples times.
+template <class Work>
+void add_times(Recorder& recorder, std::string_view metric, const Work& work) {
+  for (int k = 0; k < kSamples; ++k) {
+    const double time = seconds(work);
+    recorder.add(metric, "s", time);
+    if (time > kLong) return;
+  }
+}
+
+// Calls `batch(k)` until a tenth of a second of processor time is used; queries per second.
+template <class Batch>
+double rate(std::size_t queries, std::size_t batches, const Batch& batch) {
+  constexpr double kEnough = 0.1;
+  double time = 0;
+  std::size_t done = 0;
+  while (done < batches && (done == 0 || time < kEnough)) {
+    time += processor_seconds([&] { batch(done); });
+    ++done;
+  }
+  return static_cast<double>(done * queries) / time;
+}
+
+// Where the ground's highest line stands, and a radius of a sixteenth of the shorter side.
+Sphere place_of_edit(const GroundLines& lines) {
+  Sphere sphere;
+  float highest = -HUGE_VALF;
+  for (std::size_t c = 0; c < lines.parts.lines(); ++c) {
+    const auto line = lines.parts.line(c);
+    if (line.empty() || line.back().top <= highest) continue;
+    highest = line.back().top;
+    sphere.centre = {lines.x[c], highest, lines.z[c]};
+  }
+  const glm::vec3 size = lines.bounds.size();
+  sphere.radius = std::min(size.x, size.z) / 16;
+  return sphere;
+}
+
+TerrainSource without_sphere(const TerrainSource& source, const Sphere& sphere) {
+  TerrainSource dug = source;
+  dug.events = nullptr;
+  const float r2 = sphere.radius * sphere.radius;
+  if (dug.heights) {
+    Heightfield& field = *dug.heights;
+    for (int j = 0; j < field.depth; ++j) {
+      for (int i = 0; i < field.width; ++i) {
+        const float dx = static_cast<float>(i) * field.cell_x - sphere.centre.x,
+                    dz = static_cast<float>(j) * field.cell_z - sphere.centre.z;
+        const float rest = r2 - dx * dx - dz * dz;
+        if (rest > 0) field.at(i, j) = std::min(field.at(i, j), sphere.centre.y - std::sqrt(rest));
+      }
+    }
+    return dug;
+  }
+  dug.solid->column = [inner = source.solid->column, sphere, r2](const ColumnSamples& at,
+                                                                 std::span<Material> out) {
+    inner(at, out);
+    const float dx = at.x - sphere.centre.x, dz = at.z - sphere.centre.z;
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      const float dy = at.y0 + static_cast<float>(k) * at.dy - sphere.centre.y;
+      if (dx * dx + dy * dy + dz * dz < r2) out[k] = Material::kAir;
+    }
+  };
+  return dug;
+}
+
+bool apply_event(Ght& tree, const Sphere& sphere, Recorder& recorder) {
+  const glm::dvec3 radii(sphere.radius);
+  try {
+    recorder.add("dig_time", "s", seconds([&] {
+                   tree.apply(events::RadialErosion{glm::dvec3(sphere.centre), radii});
+                 }));
+    return true;
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kUsage) throw;
+    return false;  // trees of solids take no events, and some places allow none: built again
+  }
+}
+
+double bytes_of(const Representation& built) { return static_cast<double>(built.memory().total()); }
+
+}  // namespace
+
+void measure_build(const Scene& scene, const RepresentationType& type, Recorder& recorder,
+                   Progress& progress) {
+  std::unique_ptr<Representation> built;
+  scene.build(type, progress);  // makes thread pools and tables
+  add_times(recorder, "build_time", [&] {
+    built.reset();
+    built = scene.build(type, progress);
+  });
+  const Memory memory = built->memory();
+  recorder.add("payload", "B", memory.payload);
+  recorder.add("index", "B", memory.index);
+  recorder.add("slack", "B", memory.slack);
+  recorder.add("bytes", "B", memory.total());
+  recorder.add("heap_bytes", "B", static_cast<double>(destroy_and_count(std::move(built))));
+}
+
+void measure_file(const Scene& scene, const RepresentationType& type, const Representation& built,
+                  Recorder& recorder) {
+  const ScratchFile file;
+  std::size_t bytes = 0;
+  add_times(recorder, "save_time", [&] { bytes = save_representation(file.path(), type, built); });
+  recorder.add("file_bytes", "B", bytes);
+  recorder.add("file_of_heightmap", "",
+               static_cast<double>(bytes) / static_cast<double>(scene.heightmap_bytes));
+  std::unique_ptr<Representation> copy;
+  add_times(recorder, "load_time", [&] { copy = load_representation(file.path()).representation; });
+  constexpr std::size_t kMost = 4096;
+  const std::size_t n = std::min(kMost, scene.lines.x.size());
+  const Columns at{std::span(scene.lines.x).first(n), std::span(scene.lines.z).first(n)};
+  SpanSink own, loaded;
+  built.spans(at, own);
+  copy->spans(at, loaded);
+  std::size_t differ = 0;
+  for (std::size_t c = 0; c < n; ++c) differ += !std::ranges::equal(own.column(c), loaded.column(c));
+  recorder.add("loaded_differs", "", differ);
+}
+
+void measure_queries(const Scene& scene, const Representation& built, Recorder& recorder) {
+  constexpr std::size_t kBatch = 1024, kBatches = 256;
+  Numbers numbers;
+  const Bounds& bounds = scene.lines.bounds;
+  const std::vector<float> x = numbers.many(kBatch * kBatches, bounds.low.x, bounds.high.x),
+                           y = numbers.many(kBatch * kBatches, bounds.low.y, bounds.high.y),
+                           z = numbers.many(kBatch * kBatches, bounds.low.z, bounds.high.z);
+  const auto part = [](const std::vector<float>& all, std::size_t batch) {
+    return std::span(all).subspan(batch * kBatch, kBatch);
+  };
+  std::vector<Material> materials(kBatch);
+  SpanSink sink;
+  built.spans({part(x, 0), part(z, 0)}, sink);  // warms up
+  for (int k = 0; k < kSamples; ++k) {
+    recorder.add("points_per_second", "1/s", rate(kBatch, kBatches, [&](std::size_t b) {
+                   built.materials({part(x, b), part(y, b), part(z, b)}, materials);
+                 }));
+    recorder.add("columns_per_second", "1/s", rate(kBatch, kBatches, [&](std::size_t b) {
+                   sink.clear();
+                   built.spans({part(x, b), part(z, b)}, sink);
+                 }));
+  }
+}
+
+TriangleMesh measure_mesh(const Representation& built, Recorder& recorder) {
+  TriangleMesh mesh;
+  add_times(recorder, "mesh_time", [&] {
+    mesh = {};
+    mesh = built.mesh({});
+  });
+  recorder.add("triangles", "", mesh.triangles());
+  return mesh;
+}
+
+void measure_edit(const Scene& scene, const RepresentationType& type, Representation& built,
+                  Recorder& recorder, Progress& progress) {
+  const Sphere sphere = place_of_edit(scene.lines);
+  const double before = bytes_of(built);
+  double after = before;
+  bool rebuilt = false;
+  auto* const tree = dynamic_cast<Ght*>(&built);
+  if (type.traits.editable) {
+    recorder.add("dig_time", "s", seconds([&] { fill_sphere(built, sphere, Material::kAir); }));
+    after = bytes_of(built);
+    recorder.add("fill_time", "s", seconds([&] { fill_sphere(built, sphere, Material::kBedrock); }));
+  } else if (tree != nullptr && apply_event(*tree, sphere, recorder)) {
+    after = bytes_of(built);
+  } else {
+    rebuilt = true;
+    const TerrainSource dug = without_sphere(scene.source, sphere);
+    std::unique_ptr<Representation> again;
+    recorder.add("dig_time", "s",
+                 seconds([&] { again = type.build(dug, scene.parameters(type), progress); }));
+    after = bytes_of(*again);
+  }
+  recorder.add("rebuilt", "", rebuilt ? 1 : 0);
+  recorder.add("edit_bytes", "B", after - before);
+}
+
+}  // namespace terrabench::cross

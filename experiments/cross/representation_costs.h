@@ -1,0 +1,31 @@
+// What a representation costs, measured alike for all types from outside: bytes, files, queries, meshing,
+// rays and an edit.
+#pragma once
+
+#include "experiments/cross/scenes.h"
+#include "experiments/recorder.h"
+#include "terrain/mesh.h"
+
+namespace terrabench::cross {
+
+// Seconds to build (median of several), the bytes of each part, and the bytes that the allocator takes back.
+void measure_build(const Scene&, const RepresentationType&, Recorder&, Progress&);
+// Bytes on disk, seconds to save and to load, and how many of some thousand lines the loaded copy answers
+// differently.
+void measure_file(const Scene&, const RepresentationType&, const Representation&, Recorder&);
+// Points and columns per second of processor time, on one thread, at random places.
+void measure_queries(const Scene&, const Representation&, Recorder&);
+TriangleMesh measure_mesh(const Representation&, Recorder&);
+
+// A sphere dug where the ground is highest and filled again. Types that cannot be edited are built again from
+// the ground without the sphere (`rebuilt` = 1); a tree of heightmaps applies an event of its own instead,
+// which cannot be filled.
+void measure_edit(const Scene&, const RepresentationType&, Representation&, Recorder&, Progress&);
+
+// Rays per second of processor time, on one thread: from above, downward in random directions; and along the
+// ground, from 2 % of its height above it, within 6° of the horizontal. Cast as own_ray_caster() does, or
+// through the mesh; both are compared hit by hit. `agreement`: the share of rays for which the two hit the
+// same place within a cell, or both nothing.
+void measure_rays(const Scene&, const Representation&, const TriangleMesh&, int rays, Recorder&);
+
+}  // namespace terrabench::cross

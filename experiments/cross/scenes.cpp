@@ -1,0 +1,66 @@
+#include "experiments/cross/scenes.h"
+
+#include <algorithm>
+
+#include "experiments/cross/scratch_file.h"
+#include "experiments/ght/site.h"
+#include "terrain/events/event_file.h"
+#include "terrain/sources/fractal/diamond_square.h"
+
+namespace terrabench::cross {
+namespace {
+
+// The sequence of all kinds of event of the GHT paper's complex terrain, as ght.complex applies it.
+TerrainSource sequence(std::uint64_t seed) {
+  constexpr int kSide = 128;
+  const ght::Site site = ght::make_site(kSide, kSide / ght::kEventsAlong, seed);
+  return events::open_script(
+      events::to_text(events::Script{"diamond-square", seed, kSide + 1, ght::overlapping_events(site), {}}),
+      "sequence");
+}
+
+TerrainSource open(const SceneOptions& options) {
+  if (options.terrain == "sequence") return sequence(options.seed);
+  if (options.terrain == "fractal") {
+    return source_of("fractal", fractal::diamond_square({.seed = options.seed, .side = options.size}));
+  }
+  return open_terrain(options.terrain, options.seed);
+}
+
+}  // namespace
+
+Parameters Scene::parameters(const RepresentationType& type) const {
+  Parameters parameters(type.parameters);
+  if (source.solid && parameters.has("resolution"))
+    parameters.set("resolution", std::int64_t{options.resolution});
+  return parameters;
+}
+
+std::unique_ptr<Representation> Scene::build(const RepresentationType& type, Progress& progress) const {
+  return type.build(source, parameters(type), progress);
+}
+
+std::size_t file_bytes(const RepresentationType& type, const Representation& built) {
+  const ScratchFile file;
+  return save_representation(file.path(), type, built);
+}
+
+const Scene& scene(const SceneOptions& options, Progress& progress) {
+  static std::unique_ptr<Scene> kept;
+  if (kept && kept->options == options) return *kept;
+  kept.reset();
+  auto made = std::make_unique<Scene>();
+  made->options = options;
+  made->source = open(options);
+  made->lines = ground_lines(made->source, options.lines);
+  const glm::vec3 size = made->source.bounds().size();
+  made->cell = made->source.heights
+                   ? std::max(made->source.heights->cell_x, made->source.heights->cell_z)
+                   : std::max({size.x, size.y, size.z}) / static_cast<float>(options.resolution);
+  const RepresentationType& heightmap = representation("heightmap");
+  made->heightmap_bytes = made->build(heightmap, progress)->memory().total();
+  kept = std::move(made);
+  return *kept;
+}
+
+}  // namespace terrabench::cross

@@ -1,0 +1,41 @@
+// The grounds on which cross.representations compares all types, and what is read from them once.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "experiments/cross/ground_lines.h"
+#include "representations/representation.h"
+#include "terrain/progress.h"
+#include "terrain/source.h"
+
+namespace terrabench::cross {
+
+struct SceneOptions {
+  std::string terrain;  // fractal, sequence, or what open_terrain() takes
+  int size = 257;       // samples along the fractal; 2^n + 1
+  int resolution = 64;  // columns along a solid, the same for all types
+  int lines = 101;      // of ground_lines()
+  std::uint64_t seed = 1;
+  bool operator==(const SceneOptions&) const = default;
+};
+
+struct Scene {
+  SceneOptions options;
+  TerrainSource source;
+  GroundLines lines;
+  std::size_t heightmap_bytes = 0;  // of the ground as a heightmap in memory, at the scene's resolution
+  float cell = 1;                   // metres between columns at that resolution
+
+  Parameters parameters(const RepresentationType&) const;  // the same resolution for all
+  std::unique_ptr<Representation> build(const RepresentationType&, Progress&) const;
+};
+
+// Kept until another one is asked for.
+const Scene& scene(const SceneOptions&, Progress&);
+
+// Bytes of the file that save_representation() writes.
+std::size_t file_bytes(const RepresentationType&, const Representation&);
+
+}  // namespace terrabench::cross

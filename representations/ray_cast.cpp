@@ -1,0 +1,262 @@
+#include "representations/ray_cast.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "representations/drill/drill_terrain.h"
+#include "representations/heightmap/heightmap.h"
+#include "representations/layered_stack/layered_stack.h"
+#include "representations/ray_walk.h"
+#include "representations/voxel/dense_grid.h"
+#include "representations/voxel/voxel.h"
+
+namespace terrabench {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::infinity();
+constexpr float kNothing = -std::numeric_limits<float>::infinity();
+
+// The squares between a heightmap's samples, and half a cell of level ground where the bounds reach farther.
+struct HeightGround {
+  explicit HeightGround(const Heightmap& map)
+      : grid(map.grid()),
+        heights(map.heights()),
+        x(axis(grid.origin_x, grid.cell_x, grid.width, grid.bounds.low.x, grid.bounds.high.x, before_x)),
+        z(axis(grid.origin_z, grid.cell_z, grid.depth, grid.bounds.low.z, grid.bounds.high.z, before_z)),
+        floor(grid.bounds.low.y),
+        tops(x.cells, z.cells, [&](int i, int j) { return top(i, j); }) {
+    highest = tops.levels() == 0 ? top(0, 0) : tops.at(tops.levels(), 0, 0);
+  }
+
+  // As the planes between which Heightmap::mesh() puts its triangles.
+  static PlanAxis axis(double origin, double cell, int samples, double low, double high, int& before) {
+    before = origin > low ? 1 : 0;
+    const bool beyond = high - (origin + (samples - 1) * cell) > 0.25 * cell;
+    return {origin - before * cell, cell, low, high, std::max(1, samples - 1 + before + (beyond ? 1 : 0))};
+  }
+
+  // The heights at the corners of a square.
+  struct Corners {
+    float nw, ne, sw, se;
+    bool none() const { return std::isnan(nw + ne + sw + se); }
+    float highest() const { return std::max(std::max(nw, ne), std::max(sw, se)); }
+  };
+  Corners corners(int i, int j) const {
+    i -= before_x;
+    j -= before_z;
+    const int east = std::min(i + 1, grid.width - 1), south = std::min(j + 1, grid.depth - 1);
+    i = std::max(i, 0);
+    j = std::max(j, 0);
+    const float* const upper =
+        heights.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(grid.width);
+    const float* const lower =
+        heights.data() + static_cast<std::size_t>(south) * static_cast<std::size_t>(grid.width);
+    return {upper[i], upper[east], lower[i], lower[east]};
+  }
+
+  float top(int i, int j) const {
+    const Corners c = corners(i, j);
+    return c.none() ? kNothing : c.highest();
+  }
+
+  // The ray over a square whose sides are 1: its position, and its height over the planes of the square's two
+  // triangles, are linear in t. The triangles meet along the diagonal u + v = 1.
+  struct Square {
+    double u0, du, v0, dv, y0, dy;  // position at t: u0 + t · du
+    double nw, ne, sw, se;
+
+    double past_diagonal(double t) const { return u0 + t * du + (v0 + t * dv) - 1; }
+    // Above the north-western triangle, or the other.
+    double above(bool north_west, double t) const {
+      const double u = u0 + t * du, v = v0 + t * dv, y = y0 + t * dy;
+      return y - (north_west ? nw + u * (ne - nw) + v * (sw - nw)
+                             : se + (1 - u) * (sw - se) + (1 - v) * (ne - se));
+    }
+    bool below(double t) const { return above(past_diagonal(t) < 0, t) < 0; }
+  };
+  static double per_width(const PlanAxis& axis, int k) {
+    return k > 0 && k + 1 < axis.cells ? axis.per_cell : 1 / (axis.plane(k + 1) - axis.plane(k));
+  }
+  Square square(int i, int j, const Corners& c, const RayPath& path) const {
+    const double per_x = per_width(x, i), per_z = per_width(z, j);
+    return {(path.origin.x - x.plane(i)) * per_x,
+            path.direction.x * per_x,
+            (path.origin.z - z.plane(j)) * per_z,
+            path.direction.z * per_z,
+            path.origin.y,
+            path.direction.y,
+            c.nw,
+            c.ne,
+            c.sw,
+            c.se};
+  }
+
+  bool solid(int i, int j, const RayPath& path, double t) const {
+    const Corners c = corners(i, j);
+    return !c.none() && square(i, j, c, path).below(t);
+  }
+
+  double change(int i, int j, const RayPath& path, Stretch at, double lowest, bool inside) const {
+    const Corners c = corners(i, j);
+    if (!inside && lowest > c.highest()) return kNone;
+    if (c.none()) return inside ? at.begin : kNone;
+    const Square s = square(i, j, c, path);
+    const double first = s.past_diagonal(at.begin), last = s.past_diagonal(at.end);
+    if ((s.above(first < 0, at.begin) < 0) != inside) return at.begin;
+    if (first * last >= 0) return change(s, first + last < 0, at, inside);
+    const double middle = at.begin + (at.end - at.begin) * (first / (first - last));
+    const double hit = change(s, first < 0, {at.begin, middle}, inside);
+    return hit < kNone ? hit : change(s, last < 0, {middle, at.end}, inside);
+  }
+
+  static double change(const Square& s, bool north_west, Stretch at, bool inside) {
+    const double last = s.above(north_west, at.end);
+    if ((last < 0) == inside) return kNone;
+    const double first = s.above(north_west, at.begin);
+    if ((first < 0) != inside) return at.begin;
+    return std::clamp(at.begin + (at.end - at.begin) * (first / (first - last)), at.begin, at.end);
+  }
+
+  const HeightGrid& grid;
+  std::span<const float> heights;
+  int before_x = 0, before_z = 0;  // cells before the first sample
+  PlanAxis x, z;
+  double floor, highest = 0;
+  TopPyramid tops;
+};
+
+// Spans, those that touch joined. The spans of column c are [starts[c], starts[c + 1]).
+struct SpanGround {
+  struct Part {
+    float bottom, top;
+  };
+
+  SpanGround(const Representation& from, const ColumnGrid& grid)
+      : x{grid.origin_x, grid.cell_x, grid.bounds().low.x, grid.bounds().high.x, grid.width},
+        z{grid.origin_z, grid.cell_z, grid.bounds().low.z, grid.bounds().high.z, grid.depth},
+        floor(grid.bounds().low.y),
+        parts(read(from, grid)),
+        tops(grid.width, grid.depth, [&](int i, int j) { return top(i, j); }) {
+    highest = tops.levels() == 0 ? top(0, 0) : tops.at(tops.levels(), 0, 0);
+  }
+
+  std::vector<Part> read(const Representation& from, const ColumnGrid& grid) {
+    std::vector<Part> all;
+    starts.reserve(grid.columns() + 1);
+    starts.push_back(0);
+    std::vector<float> at_x(static_cast<std::size_t>(grid.width)), at_z(at_x.size());
+    for (int i = 0; i < grid.width; ++i) at_x[static_cast<std::size_t>(i)] = grid.centre_x(i);
+    SpanSink sink;
+    for (int j = 0; j < grid.depth; ++j) {
+      std::fill(at_z.begin(), at_z.end(), grid.centre_z(j));
+      sink.clear();
+      from.spans({at_x, at_z}, sink);
+      for (std::size_t i = 0; i < at_x.size(); ++i) {
+        for (const Span& span : sink.column(i)) {
+          if (all.size() > starts.back() && all.back().top == span.bottom) {
+            all.back().top = span.top;
+          } else {
+            all.push_back({span.bottom, span.top});
+          }
+        }
+        starts.push_back(static_cast<std::uint32_t>(all.size()));
+      }
+    }
+    all.shrink_to_fit();
+    return all;
+  }
+
+  std::span<const Part> column(int i, int j) const {
+    const std::size_t c =
+        static_cast<std::size_t>(j) * static_cast<std::size_t>(x.cells) + static_cast<std::size_t>(i);
+    return {parts.data() + starts[c], starts[c + 1] - starts[c]};
+  }
+  float top(int i, int j) const {
+    const auto spans = column(i, j);
+    return spans.empty() ? kNothing : spans.back().top;
+  }
+  // The first span that ends above y.
+  static std::size_t above(std::span<const Part> spans, double y) {
+    std::size_t k = 0;
+    while (k < spans.size() && !(y < spans[k].top)) ++k;
+    return k;
+  }
+
+  bool solid(int i, int j, const RayPath& path, double t) const {
+    const auto spans = column(i, j);
+    const double y = path.y(t);
+    const std::size_t k = above(spans, y);
+    return k < spans.size() && y >= spans[k].bottom;
+  }
+
+  double change(int i, int j, const RayPath& path, Stretch at, double lowest, bool inside) const {
+    const auto spans = column(i, j);
+    if (!inside && (spans.empty() || lowest > spans.back().top)) return kNone;
+    const double from = path.y(at.begin), to = path.y(at.end);
+    const std::size_t k = above(spans, from);
+    if ((k < spans.size() && from >= spans[k].bottom) != inside) return at.begin;
+    double face;
+    if (path.direction.y > 0) {
+      if (k == spans.size()) return kNone;
+      face = inside ? spans[k].top : spans[k].bottom;
+      if (to < face) return kNone;
+    } else {
+      if (inside ? k == spans.size() : k == 0) return kNone;
+      face = inside ? spans[k].bottom : spans[k - 1].top;
+      if (to >= face) return kNone;
+    }
+    return std::clamp((face - path.origin.y) / path.direction.y, at.begin, at.end);
+  }
+
+  PlanAxis x, z;
+  double floor, highest = 0;
+  std::vector<std::uint32_t> starts;
+  std::vector<Part> parts;
+  TopPyramid tops;
+};
+
+std::size_t own_bytes(const HeightGround& ground) { return ground.tops.bytes(); }
+std::size_t own_bytes(const SpanGround& ground) {
+  return ground.tops.bytes() + ground.starts.capacity() * sizeof ground.starts[0] +
+         ground.parts.capacity() * sizeof ground.parts[0];
+}
+
+template <class Ground>
+class Caster final : public RayCaster {
+ public:
+  template <class... From>
+  explicit Caster(const From&... from) : ground_(from...) {}
+
+  void closest(std::span<const Ray> rays, std::span<float> distances) const override {
+    constexpr std::size_t kGrain = 1024;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), kGrain), [&](const auto& range) {
+      for (std::size_t r = range.begin(); r < range.end(); ++r) {
+        distances[r] = static_cast<float>(RayWalk<Ground>(ground_, rays[r]).closest());
+      }
+    });
+  }
+  std::size_t bytes() const override { return sizeof *this + own_bytes(ground_); }
+
+ private:
+  Ground ground_;
+};
+
+}  // namespace
+
+std::unique_ptr<RayCaster> own_ray_caster(const Representation& of) {
+  const auto heights = [](const Heightmap& map) -> std::unique_ptr<RayCaster> {
+    if (map.grid().width < 2 || map.grid().depth < 2) return nullptr;  // no area
+    return std::make_unique<Caster<HeightGround>>(map);
+  };
+  const auto spans = [&](const ColumnGrid& grid) -> std::unique_ptr<RayCaster> {
+    return std::make_unique<Caster<SpanGround>>(of, grid);
+  };
+  if (const auto* const map = dynamic_cast<const Heightmap*>(&of)) return heights(*map);
+  if (const auto* const drills = dynamic_cast<const DrillTerrain*>(&of)) return heights(drills->surface());
+  if (const auto* const stack = dynamic_cast<const LayeredStack*>(&of)) return spans(stack->grid());
+  if (const auto* const voxels = dynamic_cast<const Voxel*>(&of)) return spans(voxels->grid());
+  if (const auto* const cells = dynamic_cast<const DenseGrid*>(&of)) return spans(cells->grid());
+  return nullptr;
+}
+
+}  // namespace terrabench

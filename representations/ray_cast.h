@@ -1,0 +1,39 @@
+// Closest hits of arbitrary rays on a representation, from its heights or spans and without a mesh.
+//
+//   heightmap, drill                     the two triangles of each square of samples, as mesh() draws them
+//   layered_stack, voxel, dense_voxel    blocks: each column's spans, as wide as the column
+//
+// Rays walk over the columns in plan (Amanatides & Woo 1987) and skip blocks of 4^l × 4^l columns whose
+// highest solid point lies below them (maximum mipmaps; Tevs, Ihrke & Seidel 2008). No ray slips through an
+// edge between columns: whether it is in the solid is carried from column to column, and any change is a hit.
+// Other types are cast through their mesh: renderers/raytrace/ray_index.h.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include "representations/representation.h"
+#include "terrain/ray.h"
+
+namespace terrabench {
+
+class RayCaster {
+ public:
+  virtual ~RayCaster() = default;
+
+  // The distance of each ray's first hit in [near, far], in lengths of its direction; infinite for none. The
+  // surface counts from both sides, and includes the walls and the floor that close mesh(). A ray that is not
+  // finite, or has no direction, hits nothing. Both spans have the same size. Parallel, thread-safe, equal
+  // for every number of threads. O(√columns) per ray at worst, O(log columns) where it passes well above the
+  // ground.
+  virtual void closest(std::span<const Ray>, std::span<float> distances) const = 0;
+  // Heap bytes held besides the representation's own.
+  virtual std::size_t bytes() const = 0;
+};
+
+// The representation must outlive the caster and not be edited. Null for types that have no caster of their
+// own. Takes a fifteenth of the bytes of the heights; for columns a copy of their spans. O(columns + spans).
+std::unique_ptr<RayCaster> own_ray_caster(const Representation&);
+
+}  // namespace terrabench
