@@ -15,7 +15,7 @@ namespace {
 using namespace events;
 
 constexpr double kMargin = 2.5;  // cells between a sane event and the terrain's border
-constexpr double kCover = 1.5;   // cells of ground over both ends of a sane carving
+constexpr double kCover = 1.5;   // cells of ground over both ends of a sane cave
 
 double within(double low, double high, double share) { return low + (high - low) * share; }
 
@@ -78,8 +78,8 @@ bool is_defined(const Site& site, std::span<const Event> before, const Event& ev
   }
 }
 
-// A carving under high ground. The axis of a cave falls inwards, so that it comes out of more slopes.
-std::optional<Event> sane_carving(Dice& dice, const Site& site, bool cave, std::span<const Event> before) {
+// A cave under high ground. Its axis falls inwards, so that it comes out of more slopes.
+std::optional<Event> sane_cave(Dice& dice, const Site& site, std::span<const Event> before) {
   constexpr int kTries = 60;
   const double cell = site.ground.cell_x;
   for (int attempt = 0; attempt < kTries; ++attempt) {
@@ -88,9 +88,9 @@ std::optional<Event> sane_carving(Dice& dice, const Site& site, bool cave, std::
     const double angle = dice.between(0, 2 * std::numbers::pi);
     const glm::dvec2 along = dice.between(2, 4) * cell * direction(angle);
     Carving carving;
-    carving.cave = cave;
+    carving.cave = true;
     const double y = height(site, top) - drop;
-    const double fall = cave ? dice.between(0, 0.5) * glm::length(along) : 0;  // from `from` to the middle
+    const double fall = dice.between(0, 0.5) * glm::length(along);  // from `from` to the middle
     carving.from = {top.x - along.x, y + fall, top.y - along.y};
     carving.to = {top.x + along.x, y - fall, top.y + along.y};
     const int sides = 4 + static_cast<int>(dice.next() % 5);
@@ -102,7 +102,36 @@ std::optional<Event> sane_carving(Dice& dice, const Site& site, bool cave, std::
     };
     if (!covered(carving.from) || !covered(carving.to)) continue;
     if (!comes_out_once(site, carving, 0, -1)) continue;
-    if (!cave && !comes_out_once(site, carving, carving.line().length, 1)) continue;
+    if (is_defined(site, before, carving)) return carving;
+  }
+  return std::nullopt;
+}
+
+// A level tunnel through a ridge. The relief is only some six cells high, so that few ridges have room: the
+// section is just larger than the tree's least one, the cover too, and there are many quick tries. They have
+// their own dice, so that the events after a tunnel do not depend on how many it took.
+std::optional<Event> sane_tunnel(Dice tries, const Site& site, std::span<const Event> before) {
+  constexpr int kTries = 4000;
+  constexpr double kTunnelCover = 1.1;  // cells of ground over both ends
+  const double cell = site.ground.cell_x, lowest = height_range(site.ground).lowest;
+  Carving carving;
+  for (int attempt = 0; attempt < kTries; ++attempt) {
+    const glm::dvec2 top = high_place(tries, site, 4);
+    const double radius = tries.between(1.05, 1.2) * cell;
+    const double y = height(site, top) - radius - tries.between(kTunnelCover, 1.8) * cell;
+    const double angle = tries.between(0, 2 * std::numbers::pi);
+    const glm::dvec2 along = tries.between(0.5, 2) * cell * direction(angle);
+    carving.from = {top.x - along.x, y, top.y - along.y};
+    carving.to = {top.x + along.x, y, top.y + along.y};
+    const int sides = 4 + static_cast<int>(tries.next() % 5);
+    carving.seed = tries.next();
+    const auto covered = [&](glm::dvec3 end) {
+      return height(site, {end.x, end.z}) - y > radius + kTunnelCover * cell;
+    };
+    if (y - radius <= lowest || !covered(carving.from) || !covered(carving.to)) continue;
+    carving.section = regular_section(sides, radius / std::cos(std::numbers::pi / sides));
+    if (!comes_out_once(site, carving, 0, -1)) continue;
+    if (!comes_out_once(site, carving, carving.line().length, 1)) continue;
     if (is_defined(site, before, carving)) return carving;
   }
   return std::nullopt;
@@ -227,7 +256,9 @@ Event wild_event(Dice& dice, const Site& site) {
 Event sane_event(Dice& dice, const Site& site, const Ght& tree, std::span<const Event> before) {
   const auto kind = static_cast<Kind>(dice.next() % kKinds);
   if (!is_carving(kind)) return sane_geotectonic(dice, site, tree, kind);
-  if (const auto carving = sane_carving(dice, site, kind == Kind::kCave, before)) return *carving;
+  const auto carving =
+      kind == Kind::kCave ? sane_cave(dice, site, before) : sane_tunnel(Dice(dice.next()), site, before);
+  if (carving) return *carving;
   return sane_geotectonic(dice, site, tree, Kind::kRadialErosion);
 }
 
