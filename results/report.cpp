@@ -148,9 +148,15 @@ class Report {
 
   void add_summary() {
     Table table = summary_table(results_, papers_);
+    const bool pending = !pending_table(results_).rows.empty();
     for (std::vector<Cell>& row : table.rows) {
       const auto paper = std::ranges::find(papers_, row[0].text, &Paper::title);
-      if (paper != papers_.end()) row[0].link = has_results(*paper) ? "#" + paper->id : "#pending";
+      if (paper == papers_.end()) continue;
+      if (has_results(*paper)) {
+        row[0].link = "#" + paper->id;
+      } else if (pending) {
+        row[0].link = "#pending";
+      }
     }
     add_table(std::move(table), {});
   }

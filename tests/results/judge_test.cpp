@@ -208,7 +208,6 @@ TEST_F(JudgeTest, WholeRunsPassInBothProfiles) {
     EXPECT_EQ(of(results, "hybrid.T1.128").verdict, Verdict::kReproduced);
     EXPECT_EQ(of(results, "hybrid.T2.256").verdict, Verdict::kShape);
     EXPECT_EQ(of(results, "hybrid.F13").verdict, Verdict::kReproduced);
-    EXPECT_EQ(of(results, "cross.scale").verdict, Verdict::kPending);
     const Verdict large = profile == std::string("paper") ? Verdict::kReproduced : Verdict::kNotRun;
     EXPECT_EQ(of(results, "hybrid.T1.512").verdict, large);
   }

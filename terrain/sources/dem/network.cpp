@@ -45,11 +45,12 @@ void allow_network() { network_allowed = true; }
 
 void guard_network() {
   if (network_allowed) return;
-  // Both live as long as GDAL's table of file systems, which owns the first and has forgotten the second.
-  auto* const refusing = new RefusingFileSystem;
-  static std::vector<VSIFilesystemHandler*> replaced;
+  // Never freed: GDAL's table of file systems refers to the first to the end of the process, and what it had
+  // before must stay reachable.
+  static auto* const refusing = new RefusingFileSystem;
+  static auto* const replaced = new std::vector<VSIFilesystemHandler*>;
   const auto replace = [&](const std::string& prefix) {
-    replaced.push_back(VSIFileManager::GetHandler(prefix.c_str()));
+    replaced->push_back(VSIFileManager::GetHandler(prefix.c_str()));
     VSIFileManager::InstallHandler(prefix, refusing);
   };
   const CPLStringList prefixes(VSIGetFileSystemsPrefixes());
