@@ -170,7 +170,7 @@ TEST(Claims, TheLargestSizeAndFurtherGroundsAreMeasuredInThePaperProfileOnly) {
                        claim->id == "drill.time.growth" || claim->id == "cross.lod-disk" ||
                        claim->id == "meshgrow.lazy.memory" || claim->id == "mrbsp.grow.lod.2049" ||
                        claim->id == "mrbsp.vis-safe.conservative.all" ||
-                       claim->id == "cross.scale.mesh.heights" ||
+                       claim->id == "cross.scale.mesh.heights" || claim->id.starts_with("mrbsp.lodtime") ||
                        claim->id == "cross.representations.ray-rate.large" ||
                        (claim->id.starts_with("mrbsp.T2.time") &&
                         (claim->id.ends_with(".drawn") || claim->id.ends_with(".fractal")));
