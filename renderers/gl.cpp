@@ -60,9 +60,7 @@ void check_gl(std::string_view where) {
                           "try a smaller picture or a coarser mesh");
 }
 
-GLint uniform(const Program& program, const char* name) {
-  return glGetUniformLocation(program.id(), name);
-}
+GLint uniform(const Program& program, const char* name) { return glGetUniformLocation(program.id(), name); }
 
 Texture1d make_ramp_texture() {
   constexpr int kColors = 256;

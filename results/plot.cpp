@@ -45,6 +45,10 @@ constexpr std::array<Style, 7> kStyles = {{{{0x00, 0x72, 0xB2}, vtkPlotPoints::C
                                            {{0xE6, 0x9F, 0x00}, vtkPlotPoints::PLUS},
                                            {{0x56, 0xB4, 0xE9}, vtkPlotPoints::CIRCLE},
                                            {{0x00, 0x00, 0x00}, vtkPlotPoints::SQUARE}}};
+// Of what was not measured here.
+constexpr std::array<Style, 3> kReported = {{{{0x60, 0x60, 0x60}, vtkPlotPoints::SQUARE},
+                                             {{0x98, 0x98, 0x98}, vtkPlotPoints::DIAMOND},
+                                             {{0xB8, 0xB8, 0xB8}, vtkPlotPoints::CIRCLE}}};
 
 // A line with error bars; the chart's coordinates are ours (already logarithms where the axis is
 // logarithmic).
@@ -176,7 +180,7 @@ void set_axis(vtkAxis* axis, const PlotAxis& what, const Scale& scale) {
   axis->GetGridPen()->SetWidth(1.0F);
 }
 
-void add_series(vtkChartXY* chart, const PlotSeries& series, std::size_t number, const Scale& x,
+void add_series(vtkChartXY* chart, const PlotSeries& series, const Style& style, const Scale& x,
                 const Scale& y) {
   vtkNew<vtkFloatArray> xs, ys;
   xs->SetName("x");
@@ -194,7 +198,6 @@ void add_series(vtkChartXY* chart, const PlotSeries& series, std::size_t number,
   table->AddColumn(xs);
   table->AddColumn(ys);
   vtkNew<ErrorBarLine> line;
-  const Style& style = kStyles[number % kStyles.size()];
   line->SetInputData(table, 0, 1);
   line->SetLabel("\u00a0" + series.label);  // VTK leaves no room between the legend's symbol and its text
   line->SetColor(style.colour[0], style.colour[1], style.colour[2], 255);
@@ -238,8 +241,11 @@ std::string plot_svg(const Plot& plot) {
   chart->SetSize(vtkRectf(0, 0, kWidth - 12, kHeight - 8));
   set_axis(chart->GetAxis(vtkAxis::BOTTOM), plot.x, x);
   set_axis(chart->GetAxis(vtkAxis::LEFT), plot.y, y);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!all[i].points.empty()) add_series(chart, all[i], i, x, y);
+  std::size_t measured = 0, reported = 0;
+  for (const PlotSeries& series : all) {
+    const Style& style =
+        series.reported ? kReported[reported++ % kReported.size()] : kStyles[measured++ % kStyles.size()];
+    if (!series.points.empty()) add_series(chart, series, style, x, y);
   }
   chart->SetShowLegend(true);
   set_font(chart->GetLegend()->GetLabelProperties(), false);

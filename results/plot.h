@@ -15,7 +15,7 @@ struct PlotPoint {
 struct PlotSeries {
   std::string label;
   std::vector<PlotPoint> points;  // any order
-  bool reported = false;          // printed in a paper, not measured; drawn dashed
+  bool reported = false;          // by a paper or a theory, not measured; drawn grey and dashed
 };
 
 struct PlotAxis {

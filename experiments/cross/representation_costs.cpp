@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "experiments/cross/scratch_file.h"
+#include "experiments/cross/temporary_folder.h"
 #include "experiments/stopwatch.h"
 #include "representations/edit_tools.h"
 #include "representations/ght/ght.h"
@@ -133,14 +133,15 @@ void measure_build(const Scene& scene, const RepresentationType& type, Recorder&
 
 void measure_file(const Scene& scene, const RepresentationType& type, const Representation& built,
                   Recorder& recorder) {
-  const ScratchFile file;
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "scratch";
   std::size_t bytes = 0;
-  add_times(recorder, "save_time", [&] { bytes = save_representation(file.path(), type, built); });
+  add_times(recorder, "save_time", [&] { bytes = save_representation(file, type, built); });
   recorder.add("file_bytes", "B", bytes);
   recorder.add("file_of_heightmap", "",
                static_cast<double>(bytes) / static_cast<double>(scene.heightmap_bytes));
   std::unique_ptr<Representation> copy;
-  add_times(recorder, "load_time", [&] { copy = load_representation(file.path()).representation; });
+  add_times(recorder, "load_time", [&] { copy = load_representation(file).representation; });
   constexpr std::size_t kMost = 4096;
   const std::size_t n = std::min(kMost, scene.lines.x.size());
   const Columns at{std::span(scene.lines.x).first(n), std::span(scene.lines.z).first(n)};

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "experiments/cross/scratch_file.h"
+#include "experiments/cross/temporary_folder.h"
 #include "experiments/ght/site.h"
 #include "terrain/events/event_file.h"
 #include "terrain/sources/fractal/diamond_square.h"
@@ -41,8 +41,9 @@ std::unique_ptr<Representation> Scene::build(const RepresentationType& type, Pro
 }
 
 std::size_t file_bytes(const RepresentationType& type, const Representation& built) {
-  const ScratchFile file;
-  return save_representation(file.path(), type, built);
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "scratch";
+  return save_representation(file, type, built);
 }
 
 const Scene& scene(const SceneOptions& options, Progress& progress) {

@@ -21,7 +21,7 @@ class TemporaryFolder {
     std::string name = (std::filesystem::temp_directory_path() / "terrabench-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) {
       throw environment_error(fmt::format("cannot make a folder: {}", std::strerror(errno)), name,
-                              "set TMPDIR to a folder with room for the ground");
+                              "free some space, or set TMPDIR to a folder that has it");
     }
     path_ = name;
   }

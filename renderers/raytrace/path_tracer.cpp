@@ -6,7 +6,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 #include <glm/matrix.hpp>
 
 #include "terrain/error.h"
@@ -17,10 +16,6 @@ namespace {
 // A position computed on a triangle is off by a few units in the last place of its coordinates; 64 of them
 // keep a ray that starts there from hitting the triangle itself.
 constexpr float kOffset = 64 * 0x1p-23F;
-
-// Least roughness of what is seen by reflection. Light that a smooth mirror concentrates would be found by
-// few of the paths, as bright specks (Kaplanyan & Dachsbacher 2013).
-constexpr float kIndirectRoughness = 0.6F;
 
 const RayScene& checked(const RayScene& scene, const RaytraceSettings& settings) {
   if (settings.samples < 1 || settings.samples > 65536) {
@@ -69,9 +64,7 @@ PathTracer::PathTracer(const RayScene& scene, const RaytraceSettings& settings, 
       settings_(settings),
       index_(index_of(scene, settings.budget, progress)),
       sky_(scene.light),
-      sun_(glm::normalize(scene.light.sun)),
-      sun_spread_(std::tan(scene.light.sun_radius)),
-      has_sun_(scene.light.sun_irradiance != glm::vec3(0)),
+      sun_(scene.light),
       emits_(may_emit(scene)) {}
 
 PathTracer::Surface PathTracer::surface(const Ray& ray, const RayHit& hit) const {
@@ -130,18 +123,10 @@ Ray PathTracer::ray_from(const Surface& s, const glm::vec3& direction) const {
   return {.origin = s.point.position + side * s.facet, .direction = direction};
 }
 
-glm::vec3 PathTracer::background(const glm::vec3& direction) const {
-  const glm::vec3 sky = sky_.radiance(direction);
-  const float cosine = glm::dot(direction, sun_.z), spread2 = sun_spread_ * sun_spread_;
-  if (!has_sun_ || spread2 == 0 || cosine <= 0 || 1 - cosine * cosine > spread2 * cosine * cosine) return sky;
-  return sky + scene_.light.sun_irradiance / (glm::pi<float>() * spread2);
-}
-
 glm::vec3 PathTracer::sunlight(const Surface& s, const Scattering& scattering,
                                SampleSequence& samples) const {
-  if (!has_sun_) return glm::vec3(0);
-  const glm::vec2 at = sun_spread_ * disc_point(samples.next());
-  const glm::vec3 to_sun = glm::normalize(sun_.to_world({at.x, at.y, 1}));
+  if (!sun_.shines()) return glm::vec3(0);
+  const glm::vec3 to_sun = sun_.direction(samples.next());
   const glm::vec3 light = scene_.light.sun_irradiance * scattering.toward(to_sun);
   return light == glm::vec3(0) || index_.occluded(ray_from(s, to_sun)) ? glm::vec3(0) : light;
 }
@@ -155,7 +140,7 @@ glm::vec3 PathTracer::occlusion(const Surface& s, SampleSequence& samples) const
 }
 
 glm::vec3 PathTracer::radiance(const Ray& from_eye, const RayHit& first, SampleSequence& samples) const {
-  if (!first.hit()) return background(from_eye.direction);
+  if (!first.hit()) return sky_.radiance(from_eye.direction) + sun_.radiance(from_eye.direction);
   glm::vec3 light(0), weight(1);
   Ray ray = from_eye;
   RayHit hit = first;

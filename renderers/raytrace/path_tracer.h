@@ -12,6 +12,7 @@
 #include "renderers/raytrace/sample_sequence.h"
 #include "renderers/raytrace/scattering.h"
 #include "renderers/raytrace/sky.h"
+#include "renderers/raytrace/sun.h"
 #include "terrain/progress.h"
 
 namespace terrabench {
@@ -53,7 +54,6 @@ class PathTracer {
   Surface surface(const Ray&, const RayHit&) const;
   RayMaterial material(const Surface&, const RayHit&) const;
   Ray ray_from(const Surface&, const glm::vec3& direction) const;
-  glm::vec3 background(const glm::vec3& direction) const;
   glm::vec3 sunlight(const Surface&, const Scattering&, SampleSequence&) const;
   glm::vec3 occlusion(const Surface&, SampleSequence&) const;
 
@@ -61,9 +61,8 @@ class PathTracer {
   RaytraceSettings settings_;
   RayIndex index_;
   Sky sky_;
-  UnitFrame sun_;     // z towards the sun
-  float sun_spread_;  // tangent of its radius
-  bool has_sun_, emits_;
+  Sun sun_;
+  bool emits_;
 };
 
 }  // namespace terrabench

@@ -167,11 +167,12 @@ void RayIndex::Embree::place(std::uint32_t id, const MeshPlacement& placement) {
 }
 
 // One thread builds: the order of triangles within a leaf, which decides between hits at equal distances,
-// must not depend on the number of threads. Several meshes are built at once.
+// must not depend on the number of threads. Several meshes are built at once. rtcJoinCommitScene() would build
+// in the device's own arena, with all threads.
 void RayIndex::Embree::commit(RTCScene scene) const {
   rtcSetSceneProgressMonitorFunction(scene, keep_building, nullptr);
   tbb::task_arena alone(1);
-  alone.execute([&] { rtcJoinCommitScene(scene); });
+  alone.execute([&] { rtcCommitScene(scene); });
   check();
 }
 

@@ -9,6 +9,10 @@
 
 namespace terrabench {
 
+// Least roughness of what is seen by reflection. Light that a smooth mirror concentrates would be found by
+// few of the paths, as bright specks (Kaplanyan & Dachsbacher 2013).
+inline constexpr float kIndirectRoughness = 0.6F;
+
 // A right-handed frame around a unit vector (Duff et al. 2017).
 struct UnitFrame {
   glm::vec3 x, y, z;

@@ -1,9 +1,13 @@
-// The plain reference of "meshgrow": that it is Catmull–Clark on a mesh known by hand, and that differences
-// show.
+// What the subdivision of "meshgrow" is compared with: the plain reference is Catmull–Clark on a mesh known
+// by hand, OpenSubdiv places every vertex of every shape where we do, and differences show in both.
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
 
 #include "experiments/meshgrow/subdivision_peer.h"
 #include "experiments/meshgrow/subdivision_reference.h"
+#include "tests/representations/face_shapes.h"
 
 namespace terrabench::meshgrow {
 namespace {
@@ -29,6 +33,41 @@ TEST(PlainCatmullClark, ComparisonSeesMovedPointsAndOtherFaces) {
   std::swap(quads[0], quads[1]);
   EXPECT_GT(compare(quads, finer.points, finer).mismatches, 0U);
 }
+
+double size_of(const FaceMesh& mesh) {
+  glm::vec3 low = mesh.positions[0], high = low;
+  for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  return glm::distance(low, high);
+}
+
+class OpenSubdivPeerTest : public testing::TestWithParam<subdivision::Boundary> {};
+
+TEST_P(OpenSubdivPeerTest, HasOurFacesAndPlacesEveryVertexWhereWeDo) {
+  constexpr int kLevels = 4;
+  for (const Shape& shape : shapes()) {
+    const subdivision::Refinement ours(shape.mesh, kLevels, {GetParam()});
+    const std::vector<PeerLevel> theirs = opensubdiv_levels(shape.mesh, ours, GetParam());
+    ASSERT_EQ(theirs.size(), kLevels + 1U) << shape.name;
+    subdivision::LevelPoints points{shape.mesh.positions, {}};
+    for (int l = 1; l <= kLevels; ++l) {
+      const PeerLevel& peer = theirs[static_cast<std::size_t>(l)];
+      points = subdivision::next_points(ours, l - 1, points, {}, 1);
+      ASSERT_EQ(points.positions.size(), peer.points.size()) << shape.name;
+      double worst = 0;
+      for (std::size_t v = 0; v < peer.points.size(); ++v) {
+        worst = std::max(worst, glm::distance(glm::dvec3(points.positions[v]), peer.points[peer.ours[v]]));
+      }
+      EXPECT_EQ(peer.mismatches, 0U) << shape.name << ", level " << l;
+      EXPECT_LT(worst, 1e-6 * size_of(shape.mesh)) << shape.name << ", level " << l;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Boundaries, OpenSubdivPeerTest,
+                         testing::Values(subdivision::Boundary::kEdge, subdivision::Boundary::kEdgeAndCorner),
+                         [](const auto& info) {
+                           return info.param == subdivision::Boundary::kEdge ? "Edge" : "EdgeAndCorner";
+                         });
 
 TEST(OpenSubdivPeer, SeesACreaseThatTheOtherSideLacks) {
   const FaceMesh creased = shape("creased-cube");

@@ -7,19 +7,17 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 
 #include "renderers/ramp.h"
 #include "renderers/raytrace/ray_camera.h"
 #include "renderers/raytrace/sample_sequence.h"
 #include "renderers/raytrace/scattering.h"
+#include "renderers/raytrace/sun.h"
 #include "terrain/error.h"
 #include "terrain/progress.h"
 
 namespace terrabench {
 namespace {
-
-constexpr float kIndirectRoughness = 0.6F;  // as in path_tracer.cpp
 
 struct Path {
   glm::vec3 light{0}, weight{1};
@@ -35,9 +33,7 @@ class Tracer {
         camera_(view),
         queries_(scene),
         sky_(scene.light),
-        sun_(glm::normalize(scene.light.sun)),
-        sun_spread_(std::tan(scene.light.sun_radius)),
-        has_sun_(scene.light.sun_irradiance != glm::vec3(0)) {}
+        sun_(scene.light) {}
 
   // Adds the light of all samples to the tile's pixels, and notes what their first samples see.
   void tile(glm::ivec2 from, glm::ivec2 to, CoherentPicture& picture);
@@ -47,16 +43,13 @@ class Tracer {
   void shade(std::size_t path, int bounce);
   void cast_shadows();
   void drop_ended();
-  glm::vec3 background(const glm::vec3& direction) const;
 
   const PartScene& scene_;
   const CoherentSettings& settings_;
   RayCamera camera_;
   PartQueries queries_;
   Sky sky_;
-  UnitFrame sun_;
-  float sun_spread_;
-  bool has_sun_;
+  Sun sun_;
 
   std::vector<Path> paths_;  // of the tile
   std::vector<std::uint32_t> active_;
@@ -69,13 +62,6 @@ class Tracer {
 Ray ray_from(const PartHit& s, const glm::vec3& direction) {
   const float side = glm::dot(direction, s.facet) > 0 ? s.offset : -s.offset;
   return {.origin = s.point.position + side * s.facet, .direction = direction};
-}
-
-glm::vec3 Tracer::background(const glm::vec3& direction) const {
-  const glm::vec3 sky = sky_.radiance(direction);
-  const float cosine = glm::dot(direction, sun_.z), spread2 = sun_spread_ * sun_spread_;
-  if (!has_sun_ || spread2 == 0 || cosine <= 0 || 1 - cosine * cosine > spread2 * cosine * cosine) return sky;
-  return sky + scene_.light.sun_irradiance / (glm::pi<float>() * spread2);
 }
 
 void Tracer::begin(glm::ivec2 from, glm::ivec2 to, int width) {
@@ -105,16 +91,16 @@ void Tracer::shade(std::size_t i, int bounce) {
   to_sun_[i] = {.far = -1};
   path.ended = true;
   if (!s.hit()) {
-    path.light += path.weight * (bounce == 0 ? background(ray.direction) : sky_.radiance(ray.direction));
+    const glm::vec3 sky = sky_.radiance(ray.direction);
+    path.light += path.weight * (bounce == 0 ? sky + sun_.radiance(ray.direction) : sky);
     return;
   }
   if (bounce > settings_.bounces) return;
   RayMaterial made_of = scene_.material(s.point);
   if (bounce > 0) made_of.roughness = std::max(made_of.roughness, kIndirectRoughness);
   const Scattering scattering(made_of, s.facet, s.point.normal, -ray.direction);
-  if (has_sun_) {
-    const glm::vec2 at = sun_spread_ * disc_point(path.samples.next());
-    const glm::vec3 direction = glm::normalize(sun_.to_world({at.x, at.y, 1}));
+  if (sun_.shines()) {
+    const glm::vec3 direction = sun_.direction(path.samples.next());
     sunlight_[i] = path.weight * scene_.light.sun_irradiance * scattering.toward(direction);
     if (sunlight_[i] != glm::vec3(0)) to_sun_[i] = ray_from(s, direction);
   }
