@@ -30,13 +30,16 @@
 namespace terrabench {
 namespace {
 
-constexpr int kWidth = 880, kHeight = 560, kFontSize = 17;
+constexpr int kWidth = 880, kFontSize = 17;
+// The legend stands above the axes, which keep their size: a row of the legend makes the picture higher.
+constexpr int kAxesHeight = 485, kLegendRow = 25;
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
 // Okabe & Ito (2008): distinguishable with every kind of colour vision, and in print.
 struct Style {
   std::array<unsigned char, 3> colour;
   int marker;
+  int line = vtkPen::SOLID_LINE;
 };
 constexpr std::array<Style, 7> kStyles = {{{{0x00, 0x72, 0xB2}, vtkPlotPoints::CIRCLE},
                                            {{0xD5, 0x5E, 0x00}, vtkPlotPoints::SQUARE},
@@ -46,9 +49,20 @@ constexpr std::array<Style, 7> kStyles = {{{{0x00, 0x72, 0xB2}, vtkPlotPoints::C
                                            {{0x56, 0xB4, 0xE9}, vtkPlotPoints::CIRCLE},
                                            {{0x00, 0x00, 0x00}, vtkPlotPoints::SQUARE}}};
 // Of what was not measured here.
-constexpr std::array<Style, 3> kReported = {{{{0x60, 0x60, 0x60}, vtkPlotPoints::SQUARE},
-                                             {{0x98, 0x98, 0x98}, vtkPlotPoints::DIAMOND},
-                                             {{0xB8, 0xB8, 0xB8}, vtkPlotPoints::CIRCLE}}};
+constexpr std::array<Style, 3> kReported = {{{{0x60, 0x60, 0x60}, vtkPlotPoints::SQUARE, vtkPen::DASH_LINE},
+                                             {{0x98, 0x98, 0x98}, vtkPlotPoints::DIAMOND, vtkPen::DASH_LINE},
+                                             {{0xB8, 0xB8, 0xB8}, vtkPlotPoints::CIRCLE, vtkPen::DASH_LINE}}};
+
+// The style of the measured series `number`: once all colours are used, they come again with another marker
+// and dotted.
+Style measured_style(std::size_t number) {
+  Style style = kStyles[number % kStyles.size()];
+  if (number >= kStyles.size()) {
+    style.marker = kStyles[(number / kStyles.size() + number) % 5].marker;
+    style.line = vtkPen::DASH_DOT_LINE;
+  }
+  return style;
+}
 
 // A line with error bars; the chart's coordinates are ours (already logarithms where the axis is
 // logarithmic).
@@ -202,7 +216,7 @@ void add_series(vtkChartXY* chart, const PlotSeries& series, const Style& style,
   line->SetLabel("\u00a0" + series.label);  // VTK leaves no room between the legend's symbol and its text
   line->SetColor(style.colour[0], style.colour[1], style.colour[2], 255);
   line->SetWidth(2.5F);
-  line->GetPen()->SetLineType(series.reported ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
+  line->GetPen()->SetLineType(style.line);
   line->SetMarkerStyle(style.marker);
   line->SetMarkerSize(11.0F);
   line->set_bars(std::move(bars), static_cast<float>((x.high - x.low) * 0.008));
@@ -236,15 +250,16 @@ std::string plot_svg(const Plot& plot) {
   if (xs.empty()) throw bad_input("there is no point to plot", plot.title, "measure the cases that it shows");
   const Scale x = scale_for(plot.x, xs, true, 0.06), y = scale_for(plot.y, ys, false, 0.08);
 
+  const int height = kAxesHeight + kLegendRow * static_cast<int>(all.size());
   vtkNew<vtkChartXY> chart;
   chart->SetAutoSize(false);
-  chart->SetSize(vtkRectf(0, 0, kWidth - 12, kHeight - 8));
+  chart->SetSize(vtkRectf(0, 0, kWidth - 12, static_cast<float>(height - 8)));
   set_axis(chart->GetAxis(vtkAxis::BOTTOM), plot.x, x);
   set_axis(chart->GetAxis(vtkAxis::LEFT), plot.y, y);
   std::size_t measured = 0, reported = 0;
   for (const PlotSeries& series : all) {
-    const Style& style =
-        series.reported ? kReported[reported++ % kReported.size()] : kStyles[measured++ % kStyles.size()];
+    const Style style =
+        series.reported ? kReported[reported++ % kReported.size()] : measured_style(measured++);
     if (!series.points.empty()) add_series(chart, series, style, x, y);
   }
   chart->SetShowLegend(true);
@@ -259,12 +274,12 @@ std::string plot_svg(const Plot& plot) {
 
   vtkNew<vtkContextScene> scene;
   scene->AddItem(chart);
-  scene->SetGeometry(kWidth, kHeight);
+  scene->SetGeometry(kWidth, height);
   vtkNew<SvgDevice> device;
   vtkNew<vtkContext2D> painter;
   // The first painting lays the chart out, the second draws it there.
   for (int pass = 0; pass < 2; ++pass) {
-    device->start(kWidth, kHeight);
+    device->start(kWidth, height);
     painter->Begin(device);
     scene->Paint(painter);
     painter->End();

@@ -54,6 +54,18 @@ TEST(PlotTest, LeavesOutWhatALogarithmicAxisCannotShow) {
   EXPECT_THROW(plot_svg(plot), Error);
 }
 
+TEST(PlotTest, MoreSeriesThanColoursStayDistinct) {
+  Plot plot = growth();
+  const PlotSeries measured = plot.series[1];
+  plot.series.assign(7, measured);
+  const std::string seven = plot_svg(plot);
+  EXPECT_THAT(seven, Not(HasSubstr("stroke-dasharray")));
+  plot.series.assign(8, measured);
+  const std::string eight = plot_svg(plot);
+  EXPECT_THAT(eight, HasSubstr("stroke-dasharray")) << "the eighth has the first one's colour";
+  EXPECT_EQ(count(eight, "<circle"), count(seven, "<circle")) << "and another marker";
+}
+
 TEST(PlotTest, OnePointAndHugeRangesStillHaveAnAxis) {
   Plot plot = growth();
   plot.series = {{"one", {{5, 7, 7, 7}}, false}};
