@@ -67,6 +67,7 @@
   ENTRY(meshgrow, kForest)             \
   ENTRY(cross, kRepresentations)       \
   ENTRY(cross, kLodEqualError)         \
+  ENTRY(cross, kLodRanks)              \
   ENTRY(cross, kScale)                 \
   ENTRY(relief, kRelief)               \
   ENTRY(cross, kLodDisk)               \

@@ -111,6 +111,7 @@ TEST(Claims, EveryClaimOfThePapersIsThere) {
                                        "meshgrow.lazy",
                                        "cross.representations",
                                        "cross.lod-equal-error",
+                                       "cross.lod-ranks",
                                        "cross.scale"};
   for (const int n : {128, 256, 512}) {
     for (const char* row : {"hybrid.T1", "hybrid.T1.voxels", "hybrid.T1.ratio", "hybrid.T2"}) {
