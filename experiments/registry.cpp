@@ -68,6 +68,7 @@
   ENTRY(cross, kRepresentations)       \
   ENTRY(cross, kLodEqualError)         \
   ENTRY(cross, kLodRanks)              \
+  ENTRY(cross, kLodJump)               \
   ENTRY(cross, kScale)                 \
   ENTRY(relief, kRelief)               \
   ENTRY(cross, kLodDisk)               \
