@@ -69,6 +69,7 @@
   ENTRY(cross, kLodEqualError)         \
   ENTRY(cross, kLodRanks)              \
   ENTRY(cross, kLodJump)               \
+  ENTRY(cross, kLodSeams)              \
   ENTRY(cross, kScale)                 \
   ENTRY(relief, kRelief)               \
   ENTRY(cross, kLodDisk)               \

@@ -61,6 +61,9 @@ struct LodType {
   LodTraits traits;
   Knob knob;
   std::span<const ParameterSpec> parameters;
+  // The parameter, as "name=value", that leaves open what the method otherwise closes between triangles of
+  // different detail, for measurements of what that closing is worth. Empty: it cannot be left out.
+  std::string_view unstitched;
   // Takes fields of any size from 2 × 2 samples. Throws usage_error for a smaller field or one with no-data
   // (see fill_no_data).
   std::unique_ptr<Lod> (*build)(const LodGround&, const Parameters&, Progress&);

@@ -29,8 +29,11 @@ class Clipmap : public Lod {
   static std::unique_ptr<Lod> build(const LodGround&, const Parameters&, Progress&);
   static Knob knob() { return {"window", "samples", 4095, 15, 255, true}; }
 
-  // `window`: samples per side, rounded to 4m - 1 ≥ 15 and limited to what covers the ground.
-  Clipmap(std::unique_ptr<HeightSource> source, int window);
+  static std::span<const ParameterSpec> parameters();
+
+  // `window`: samples per side, rounded to 4m - 1 ≥ 15 and limited to what covers the ground. `stitch`: false
+  // leaves gaps between the levels, without transitions; for measurements.
+  Clipmap(std::unique_ptr<HeightSource> source, int window, bool stitch = true);
 
   const Frame& update(const View&) override;
   void tune(double window) override;
@@ -81,6 +84,7 @@ class Clipmap : public Lod {
   void draw_block(int level, std::size_t number, const clipmap::Block&, const Frustum&);
 
   std::unique_ptr<HeightSource> source_;
+  bool stitch_;
   glm::ivec2 origin_{0};
   glm::ivec2 hole_low_{0}, hole_high_{0};  // samples
   float hole_reach_ = 0;                   // from the eye, samples, in this update

@@ -29,6 +29,7 @@ class GeoMipMap : public Lod {
     int side = 64;              // cells along a patch's side, a power of two
     bool level_camera = false;  // the paper's rule instead of the strict one
     bool morph = false;         // trilinear
+    bool stitch = true;         // false leaves gaps beside coarser patches; for measurements
   };
 
   // The field must outlive it.

@@ -34,6 +34,7 @@ struct HybridOptions {
   double height = 0;
   // False leaves the near surface as it is: the cut alone, with gaps along the rim. For measurements.
   bool interpolate = true;
+  bool stitch_far = true;  // of the clipmap; for measurements
 };
 
 class Hybrid : public Lod {
