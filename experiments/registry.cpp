@@ -70,6 +70,7 @@
   ENTRY(cross, kLodRanks)              \
   ENTRY(cross, kLodJump)               \
   ENTRY(cross, kLodSeams)              \
+  ENTRY(cross, kLodSurface)            \
   ENTRY(cross, kScale)                 \
   ENTRY(relief, kRelief)               \
   ENTRY(cross, kLodDisk)               \
