@@ -37,6 +37,8 @@ class Clipmap : public Lod {
 
   const Frame& update(const View&) override;
   void tune(double window) override;
+  // Reads these samples again at the next update(), in every window that holds some of them.
+  void edited(const SampleRect&) override;
   Memory memory() const override;
 
   // From the next update() on, views and frames count metres from this sample. Throws usage_error when the
@@ -77,6 +79,7 @@ class Clipmap : public Lod {
   void set_transition(int level, float rise);
   void move_window(int level, glm::ivec2 corner);
   void read_strip(int level, int a, int b, int columns, int rows);
+  void read_edit(int level, const SampleRect&);
   void update_blocks(int level);
   bool has_hole() const { return hole_low_ != hole_high_; }
   void check_hole(glm::dvec2 eye);
@@ -94,6 +97,7 @@ class Clipmap : public Lod {
   std::vector<LevelStorage> storage_;   // per level
   std::vector<Batch> batches_;
   std::vector<DirtyRange> uploads_;
+  std::vector<SampleRect> edits_;  // since the last update
   bool indices_uploaded_ = false;
   std::size_t moved_ = 0;  // windows, in this update
   Frame frame_;

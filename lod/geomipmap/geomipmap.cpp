@@ -80,6 +80,21 @@ GeoMipMap::GeoMipMap(const Heightfield& ground, const Options& options, Progress
   uploads_.reserve(3);
 }
 
+void GeoMipMap::edited(const SampleRect& rect) {
+  check_edit(rect, grid_.width, grid_.depth);
+  // Patches share their border samples.
+  const PatchGrid::PatchRect patches{
+      std::max(rect.low.x - 1, 0) / cut_.side, std::min(rect.high.x / cut_.side, cut_.across() - 1),
+      std::max(rect.low.y - 1, 0) / cut_.side, std::min(rect.high.y / cut_.side, cut_.down() - 1)};
+  tree_.measure(grid_, patches);
+  if (morphing_) {
+    morphing_->measure(grid_, cut_, patterns_, patches);
+  } else {
+    errors_->measure(grid_, cut_, tree_, patterns_, patches);
+  }
+  if (!first_) append_heights(grid_, rect, edits_);
+}
+
 void GeoMipMap::tune(double pixels) { pixels_ = setting(knob(), pixels); }
 
 const Frame& GeoMipMap::update(const View& view) {
@@ -185,7 +200,8 @@ void GeoMipMap::make_frame() {
       if (!options_.stitch) morphs_.back().sides.fill(morphs_.back().inside);
     }
   });
-  uploads_.clear();
+  uploads_.assign(edits_.begin(), edits_.end());
+  edits_.clear();
   const auto size = [](const auto& values) { return static_cast<std::uint32_t>(values.size()); };
   if (first_) {
     uploads_.push_back({.target = DirtyRange::Target::kIndices, .count = size(patterns_.indices())});
@@ -219,6 +235,7 @@ Memory GeoMipMap::memory() const {
   memory += index_memory(batches_);
   memory += index_memory(morphs_);
   memory += index_memory(uploads_);
+  memory += index_memory(edits_);
   return memory;
 }
 

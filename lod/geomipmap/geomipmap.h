@@ -40,6 +40,8 @@ class GeoMipMap : public Lod {
   GeoMipMap(const Heightfield&, const Options&, Progress&);
   const Frame& update(const View&) override;
   void tune(double pixels) override;
+  // Measures the patches again that contain an edited sample.
+  void edited(const SampleRect&) override;
   Memory memory() const override;
 
  private:
@@ -72,7 +74,7 @@ class GeoMipMap : public Lod {
   std::vector<std::uint32_t> queue_;  // slots whose level decreased
   std::vector<Batch> batches_;
   std::vector<PatchMorph> morphs_;
-  std::vector<DirtyRange> uploads_;
+  std::vector<DirtyRange> uploads_, edits_;  // edits_: for the next frame
   Frame frame_;
   bool first_ = true;
 };

@@ -7,7 +7,6 @@
 #include <glm/common.hpp>
 #include <tuple>
 
-#include "lod/hybrid/height_chunks.h"
 #include "terrain/error.h"
 #include "terrain/frustum.h"
 
@@ -70,6 +69,13 @@ Hybrid::Hybrid(const LodGround& ground, const HybridOptions& options)
                                    std::max(window, static_cast<int>(knob().fallback)), options.stitch_far);
   // One more ring of chunks, to be queued.
   store_ = std::make_unique<hybrid::ChunkStore>(*surface, 2 * (options.radius + 1) + 1);
+}
+
+void Hybrid::edited(const SampleRect& rect) {
+  far_->edited(rect);
+  store_->finish();
+  if (own_) own_->edited(rect.low, rect.high);
+  store_->forget_joins(layout_, rect.low, rect.high);
 }
 
 // Farthest that the near surface can reach from the eye, samples.
@@ -213,6 +219,7 @@ Memory Hybrid::memory() const {
   store_->finish();
   Memory memory;
   memory.index += heap_bytes(this) + heap_bytes(own_.get()) + heap_bytes(store_.get());
+  if (own_) memory += own_->memory();
   memory += store_->memory();
   memory += far_->memory();
   memory += index_memory(near_);

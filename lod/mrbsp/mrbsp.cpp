@@ -90,7 +90,7 @@ Mrbsp::Mrbsp(const Heightfield& ground, const MrbspOptions& options, Progress& p
 
 Mrbsp::Mrbsp(const Heightfield& ground, const MrbspOptions& options, ChangeTable visibility,
              Progress& progress)
-    : options_(options), tree_(BisectionTree::over(2, 2)) {
+    : ground_(ground), options_(options), tree_(BisectionTree::over(2, 2)) {
   check_ground(ground);
   if (options.three_nearest) {
     tree_ = tree_for_interpolation(ground, options.depth);
@@ -119,6 +119,20 @@ void Mrbsp::use_visibility(ChangeTable visibility) {
   options_.visibility = true;
   visibility_ = std::move(visibility);
   flags_ = mrbsp::visibility::Flags(visibility_);
+}
+
+void Mrbsp::edited(const SampleRect& rect) {
+  check_edit(rect, ground_.width, ground_.depth);
+  Progress silent;
+  SampleRect changed = rect;
+  if (options_.three_nearest) {
+    interpolated_ = interpolate_heights(height_points(ground_), tree_, silent);
+    grid_ = grid_of(interpolated_);
+    changed = {{0, 0}, {grid_.width - 1, grid_.depth - 1}};
+  }
+  bounds_.update(grid_, tree_, changed.low, changed.high);
+  if (!first_) append_heights(grid_, changed, edits_);
+  if (options_.visibility) use_visibility(changes_of(find_sets(grid_, tree_, options_.visible, silent)));
 }
 
 int Mrbsp::threshold(const glm::vec3& eye, const glm::vec3& vertex) const {
@@ -154,7 +168,8 @@ const Frame& Mrbsp::update(const View& view) {
 }
 
 void Mrbsp::publish(std::size_t toggled) {
-  uploads_.clear();
+  uploads_.assign(edits_.begin(), edits_.end());
+  edits_.clear();
   const auto differs = std::mismatch(next_.begin(), next_.end(), indices_.begin(), indices_.end()).first;
   const auto kept = static_cast<std::uint32_t>(differs - next_.begin());
   std::swap(indices_, next_);
@@ -181,10 +196,11 @@ void Mrbsp::publish(std::size_t toggled) {
 Memory Mrbsp::memory() const {
   Memory memory = payload_memory(interpolated_.heights);
   memory.index += heap_bytes(this);
-  for (const Memory& part : {bounds_.memory(), splits_ ? splits_->memory() : Memory{}, index_memory(pending_),
-                             payload_memory(visibility_.start), index_memory(visibility_.first),
-                             payload_memory(visibility_.changes), flags_.memory(), payload_memory(indices_),
-                             payload_memory(next_), index_memory(batches_), index_memory(uploads_)}) {
+  for (const Memory& part :
+       {bounds_.memory(), splits_ ? splits_->memory() : Memory{}, index_memory(pending_),
+        payload_memory(visibility_.start), index_memory(visibility_.first),
+        payload_memory(visibility_.changes), flags_.memory(), payload_memory(indices_), payload_memory(next_),
+        index_memory(batches_), index_memory(uploads_), index_memory(edits_)}) {
     memory += part;
   }
   return memory;

@@ -45,6 +45,9 @@ class Mrbsp : public Lod {
   Mrbsp(const Heightfield&, const MrbspOptions&, mrbsp::visibility::ChangeTable, Progress&);
   const Frame& update(const View&) override;
   void tune(double size) override { size_ = setting(knob(), size); }
+  // O(triangles that touch the samples), unless heights are interpolated, which are then computed anew, or
+  // hidden triangles are skipped: visible sets depend on all of the ground, and are found anew.
+  void edited(const SampleRect&) override;
   Memory memory() const override;
 
   const BisectionTree& tree() const { return tree_; }
@@ -61,6 +64,7 @@ class Mrbsp : public Lod {
   void use_visibility(mrbsp::visibility::ChangeTable);
   void publish(std::size_t toggled);
 
+  const Heightfield& ground_;
   MrbspOptions options_;
   Heightfield interpolated_;  // empty if the heights are the samples
   GroundGrid grid_;
@@ -74,7 +78,7 @@ class Mrbsp : public Lod {
   mrbsp::visibility::Flags flags_;
   std::vector<std::uint32_t> indices_, next_;
   std::vector<Batch> batches_;
-  std::vector<DirtyRange> uploads_;
+  std::vector<DirtyRange> uploads_, edits_;  // edits_: for the next frame
   Frame frame_;
   bool first_ = true;
 };
