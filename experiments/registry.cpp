@@ -71,6 +71,7 @@
   ENTRY(cross, kLodJump)               \
   ENTRY(cross, kLodSeams)              \
   ENTRY(cross, kLodSurface)            \
+  ENTRY(cross, kLodEdit)               \
   ENTRY(cross, kScale)                 \
   ENTRY(relief, kRelief)               \
   ENTRY(cross, kLodDisk)               \

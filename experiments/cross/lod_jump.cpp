@@ -28,9 +28,15 @@ bool no_worse(const Deviation& error, const Deviation& than) {
   return error.p99 <= than.p99 && error.largest <= than.largest && error.undrawn <= than.undrawn;
 }
 
+// Until the triangles are those of a fresh method, and until the error is no larger. A method that never
+// becomes equal, or as good, counts with one frame more than it was given.
+struct Frames {
+  std::size_t to_equal = 0, to_error = 0;
+};
+
 // From one metered frame to another.
-void jump(const TunedMethod& tuned, std::size_t from, std::size_t to, Recorder& recorder,
-          Progress& progress) {
+Frames jump(const TunedMethod& tuned, std::size_t from, std::size_t to, Recorder& recorder,
+            Progress& progress) {
   const Flight& flight = tuned.flight;
   const View& there = flight.views[flight.metered[to]];
   const std::unique_ptr<Lod> fresh = tuned.build(progress), lod = tuned.build(progress);
@@ -57,28 +63,33 @@ void jump(const TunedMethod& tuned, std::size_t from, std::size_t to, Recorder& 
     if (!equal && now.triangles == goal.triangles) equal = k;
     if (!as_good && no_worse(now.error, goal.error)) as_good = k;
   }
-  // A method that never becomes equal or as good counts with one frame more than it was given.
-  recorder.add("frames_to_equal", "", equal.value_or(kMostFrames + 1));
-  recorder.add("frames_to_error", "", as_good.value_or(kMostFrames + 1));
+  const Frames needed{equal.value_or(kMostFrames + 1), as_good.value_or(kMostFrames + 1)};
+  recorder.add("frames_to_equal", "", needed.to_equal);
+  recorder.add("frames_to_error", "", needed.to_error);
   recorder.add("triangles_differing", "", differing);
   recorder.add("first_error_p99", "px", first.p99);
   recorder.add("first_error_largest", "px", first.largest);
   recorder.add("fresh_error_p99", "px", goal.error.p99);
   recorder.add("fresh_error_largest", "px", goal.error.largest);
   recorder.add("fresh_triangles", "", goal.triangles.size());
+  return needed;
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TunedMethod tuned = tune_case(at, options, recorder, progress);
   const std::size_t frames = tuned.flight.metered.size(), jumps = std::min(kJumps, frames);
+  Frames most;
   progress.begin("jumping", jumps);
   for (std::size_t k = 0; k < jumps; ++k) {
     const std::size_t from = k * frames / jumps;
-    jump(tuned, from, (from + frames / 2) % frames, recorder, progress);
+    const Frames needed = jump(tuned, from, (from + frames / 2) % frames, recorder, progress);
+    most = {std::max(most.to_equal, needed.to_equal), std::max(most.to_error, needed.to_error)};
     progress.advance();
   }
   progress.end();
   recorder.add("jumps", "", jumps);
+  recorder.add("frames_to_equal_most", "", most.to_equal);
+  recorder.add("frames_to_error_most", "", most.to_error);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lod/camera/camera_path.h"
+#include "lod/clipmap/clipmap.h"
 #include "lod/meters/cracks.h"
 #include "lod/meters/triangle_set.h"
 #include "lod/mrbsp/mrbsp.h"
@@ -105,7 +106,6 @@ TEST_P(EditedMethod, DrawsWhatOneBuiltOnTheEditedGroundDraws) {
   }
 }
 
-// A zero edit of height must still draw the same; two edits before one update must both count.
 TEST_P(EditedMethod, TakesSeveralEditsAtOnceAndSomeBeforeTheFirstFrame) {
   const std::unique_ptr<Lod> lod = build();
   change(*lod, kInside, 9);
@@ -114,6 +114,21 @@ TEST_P(EditedMethod, TakesSeveralEditsAtOnceAndSomeBeforeTheFirstFrame) {
   change(*lod, kPoint, 30);
   const std::unique_ptr<Lod> fresh = build();
   for (const View& view : path_) ASSERT_EQ(TriangleSet(lod->update(view)), TriangleSet(fresh->update(view)));
+}
+
+// From high up, level: only the raised part is in view, and only if it is culled by its new height.
+TEST_P(EditedMethod, CullsByTheNewHeights) {
+  View view;
+  view.eye = {0, 400, 0};
+  view.target = {0.5F * field_.extent_x(), 400, 0.5F * field_.extent_z()};
+  view.vertical_fov = 0.5F;
+  const std::unique_ptr<Lod> lod = build();
+  const std::size_t before = lod->update(view).stats.triangles;
+  change(*lod, kInside, 400);
+  const std::unique_ptr<Lod> fresh = build();
+  const Frame& frame = lod->update(view);
+  EXPECT_EQ(TriangleSet(frame), TriangleSet(fresh->update(view)));
+  EXPECT_GT(frame.stats.triangles, before);
 }
 
 TEST_P(EditedMethod, UploadsAllThatChanged) {
@@ -151,6 +166,34 @@ TEST_P(EditedMethod, RefusesSamplesThatAreNotOnTheGround) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EditedMethod, ::testing::ValuesIn(variants()), name_of);
+
+// Beyond the ground's border, too.
+TEST(EditedClipmap, WindowsHoldWhatFreshOnesHold) {
+  Heightfield field = hilly(202, 173, 0.7F, 1, 5, 5);
+  Clipmap lod(heights_in_memory(field), 63);
+  View view = from_above(field);
+  view.eye = {3, 30, 4};
+  view.target = {60, 0, 60};
+  view.up = {0, 1, 0};
+  lod.update(view);
+  const SampleRect rect{{0, 0}, {20, 9}};
+  edit(field, rect, 6);
+  lod.edited(rect);
+  Clipmap fresh(heights_in_memory(field), 63);
+  const Frame &frame = lod.update(view), &anew = fresh.update(view);
+  ASSERT_EQ(frame.clip_levels.size(), anew.clip_levels.size());
+  for (std::size_t l = 0; l < frame.clip_levels.size(); ++l) {
+    const ClipLevel &ours = frame.clip_levels[l], &theirs = anew.clip_levels[l];
+    ASSERT_EQ(ours.corner, theirs.corner);
+    const int mask = ours.side - 1;
+    for (int z = ours.corner.y; z < ours.corner.y + lod.window(); ++z) {
+      for (int x = ours.corner.x; x < ours.corner.x + lod.window(); ++x) {
+        const std::size_t sample = static_cast<std::size_t>(z & mask) * ours.side + (x & mask);
+        ASSERT_EQ(ours.heights[sample], theirs.heights[sample]) << l << ": " << x << ' ' << z;
+      }
+    }
+  }
+}
 
 // Where all of the ground matters, everything is computed anew.
 TEST(EditedMrbsp, FindsInterpolatedHeightsAndHiddenTrianglesAnew) {
