@@ -59,7 +59,7 @@ std::span<const LodType> lods() {
        {},
        Mrbsp::knob(),
        Mrbsp::parameters(),
-       "holes=printed",
+       "holes=left",
        Mrbsp::build},
   };
   return kTypes;

@@ -16,7 +16,7 @@ using mrbsp::visibility::ChangeTable, mrbsp::visibility::ground_checksum, mrbsp:
 
 namespace {
 
-constexpr std::string_view kThresholds[] = {"printed", "area"}, kHoles[] = {"conforming", "printed"},
+constexpr std::string_view kThresholds[] = {"printed", "area"}, kHoles[] = {"conforming", "printed", "left"},
                            kHeights[] = {"samples", "nearest"},
                            kVisibility[] = {"off",         kModeNames[0], kModeNames[1],
                                             kModeNames[2], kModeNames[3], kModeNames[4]};
@@ -27,6 +27,7 @@ MrbspOptions options_of(const Parameters& parameters) {
   options.depth = static_cast<int>(parameters.integer("depth"));
   options.area_consistent = parameters.choice("threshold") == 1;
   options.conforming = parameters.choice("holes") == 0;
+  options.leave_holes = parameters.choice("holes") == 2;
   options.three_nearest = parameters.choice("heights") == 1;
   options.cull = parameters.flag("cull");
   const std::size_t visibility = parameters.choice("visibility");
@@ -62,7 +63,8 @@ std::span<const ParameterSpec> Mrbsp::parameters() {
       {"depth", std::int64_t{0}, "levels", "depth of the finest triangles; 0: down to every sample", 0,
        BisectionTree::kDeepest},
       choice("threshold", kThresholds, "LOD threshold: printed M - log2(D/S), area M - 2 log2(D/S)"),
-      choice("holes", kHoles, "printed: the paper's one-vertex rule; conforming: no holes"),
+      choice("holes", kHoles,
+             "printed: the paper's one-vertex rule; conforming: no holes; left: no rule, for measurements"),
       choice("heights", kHeights, "samples, or interpolated from the three nearest samples"),
       {"cull", true, "", "skip triangles outside the view frustum"},
       choice("visibility", kVisibility,
@@ -162,7 +164,8 @@ const Frame& Mrbsp::update(const View& view) {
   const Frustum frustum(view);
   next_.clear();
   const WalkEye eye{view.eye, options_.cull ? &frustum : nullptr, hide ? &flags_ : nullptr};
-  walk_tree({grid_, tree_, bounds_}, rule(), eye, {splits_ ? &*splits_ : nullptr, pending_}, next_);
+  walk_tree({grid_, tree_, bounds_}, rule(), eye,
+            {splits_ ? &*splits_ : nullptr, pending_, !options_.leave_holes}, next_);
   publish(toggled);
   return frame_;
 }

@@ -25,6 +25,7 @@ struct MrbspOptions {
   int depth = 0;                 // M; 0: down to every sample
   bool area_consistent = false;  // threshold M - 2·log2(D/S); false: the printed one
   bool conforming = true;        // no holes; false: the printed rule
+  bool leave_holes = false;      // neither rule, when not conforming; for measurements
   bool cull = true;              // skip triangles outside the view frustum
   bool three_nearest = false;    // heights by the paper's interpolation; false: the samples themselves
   bool visibility = false;       // skip triangles that the ground hides
