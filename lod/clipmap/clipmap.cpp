@@ -283,30 +283,6 @@ void Clipmap::read_strip(int l, int a, int b, int columns, int rows) {
   }
 }
 
-void Clipmap::edited(const SampleRect& rect) {
-  const glm::ivec2 first = source_->first(), samples = source_->last() - first + 1;
-  check_edit({rect.low - first, rect.high - first}, samples.x, samples.y);
-  edits_.push_back(rect);
-}
-
-// Beyond the ground's border, the windows repeat its samples.
-void Clipmap::read_edit(int l, const SampleRect& rect) {
-  if (!storage_[l].filled) return;
-  const int spacing = 1 << l;
-  const glm::ivec2 corner = clip_levels_[l].corner, end = corner + pattern_.n - 1;
-  glm::ivec2 low, high;
-  for (const int axis : {0, 1}) {
-    const bool from_border = rect.low[axis] == source_->first()[axis],
-               to_border = rect.high[axis] == source_->last()[axis];
-    low[axis] = from_border ? corner[axis] : std::max(corner[axis], ceiling(rect.low[axis], spacing));
-    high[axis] = to_border ? end[axis] : std::min(end[axis], lattice_floor(rect.high[axis], spacing));
-    if (low[axis] > high[axis]) return;
-  }
-  read_strip(l, low.x, low.y, high.x - low.x + 1, high.y - low.y + 1);
-  storage_[l].tile_bounds.refresh(clip_levels_[l], low, high);
-  update_blocks(l);
-}
-
 // `rise`: the eye's height as a share of the height at which the level is left out. Only the finest drawn
 // level has a rise over ½; from ½ to 1 its transition widens inwards until it covers the whole window, so
 // that no vertex jumps when the level is left out.
