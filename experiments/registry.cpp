@@ -67,6 +67,11 @@
   ENTRY(meshgrow, kForest)             \
   ENTRY(cross, kRepresentations)       \
   ENTRY(cross, kLodEqualError)         \
+  ENTRY(cross, kLodRanks)              \
+  ENTRY(cross, kLodJump)               \
+  ENTRY(cross, kLodSeams)              \
+  ENTRY(cross, kLodSurface)            \
+  ENTRY(cross, kLodEdit)               \
   ENTRY(cross, kScale)                 \
   ENTRY(relief, kRelief)               \
   ENTRY(cross, kLodDisk)               \

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "terrain/frame.h"
 #include "terrain/heightfield.h"
@@ -16,6 +17,11 @@
 
 namespace terrabench {
 
+// Samples `low` to `high`, both included.
+struct SampleRect {
+  glm::ivec2 low{0}, high{0};
+};
+
 class Lod {
  public:
   virtual ~Lod() = default;
@@ -26,6 +32,11 @@ class Lod {
   // Sets the method's knob (LodType::knob) to setting(), which throws for NaN; takes effect with the next
   // update().
   virtual void tune(double knob) = 0;
+  // The ground's heights at these samples have changed. From the next update() on, the method draws the same
+  // as one that is built on the changed ground, and that update's uploads contain the changed heights. Costs
+  // what depends on these samples alone, unless the method says otherwise. Before the change, call memory(),
+  // which waits for work in the background. Throws usage_error for samples that are not on the ground.
+  virtual void edited(const SampleRect&) = 0;
   // Every heap byte, the object itself included. Waits for work in the background, so that the answer holds
   // until the next update().
   virtual Memory memory() const = 0;
@@ -61,6 +72,9 @@ struct LodType {
   LodTraits traits;
   Knob knob;
   std::span<const ParameterSpec> parameters;
+  // The parameter, as "name=value", that leaves open what the method otherwise closes between triangles of
+  // different detail, for measurements of what that closing is worth. Empty: it cannot be left out.
+  std::string_view unstitched;
   // Takes fields of any size from 2 × 2 samples. Throws usage_error for a smaller field or one with no-data
   // (see fill_no_data).
   std::unique_ptr<Lod> (*build)(const LodGround&, const Parameters&, Progress&);
@@ -79,5 +93,9 @@ void check_view(const View&);
 void check_ground(const Heightfield&);
 // The grid of a field's samples.
 GroundGrid grid_of(const Heightfield&);
+// Throws usage_error unless low ≤ high and both are among width × depth samples.
+void check_edit(const SampleRect&, int width, int depth);
+// Appends the ranges of the grid's heights in the rectangle, row by row.
+void append_heights(const GroundGrid&, const SampleRect&, std::vector<DirtyRange>&);
 
 }  // namespace terrabench

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "experiments/cross/flight.h"
+#include "experiments/cross/path_cost.h"
 #include "experiments/figures/maps.h"
 #include "experiments/ground.h"
 #include "experiments/stopwatch.h"
@@ -18,8 +19,6 @@
 #include "lod/meters/screen_error.h"
 #include "renderers/frame_renderer.h"
 #include "results/format.h"
-#include "terrain/error.h"
-#include "terrain/memory.h"
 
 namespace terrabench::cross {
 namespace {
@@ -117,41 +116,19 @@ void draw_wires(Flight& flight, double pixels, const std::string& options, GlCon
                   flight.source.name, pixels, flight.route.path, flight.lowest, flight.highest)));
 }
 
-// Time and uploaded bytes over the whole path, with nothing between two updates. The first update, which
-// builds what later ones keep, is reported separately.
 void measure_cost(const Flight& flight, const Contender& method, double knob, Recorder& recorder,
                   Progress& progress) {
-  std::vector<double> times, triangles;
-  times.reserve(flight.views.size());
-  triangles.reserve(flight.views.size());
-  double uploaded = 0;
-  const HeapScope heap;
-  Stopwatch watch;
-  const std::unique_ptr<Lod> lod = method.build(flight.ground(), progress);
-  const double build_time = watch.seconds();
-  lod->tune(knob);
-  watch = {};
-  const std::size_t first_uploaded = lod->update(flight.views.front()).stats.bytes_sent();
-  const double first_update_time = watch.seconds();
-  for (std::size_t i = 1; i < flight.views.size(); ++i) {
-    watch = {};
-    const Frame& frame = lod->update(flight.views[i]);
-    times.push_back(watch.seconds());
-    triangles.push_back(static_cast<double>(frame.stats.triangles));
-    uploaded += static_cast<double>(frame.stats.bytes_sent());
-  }
-  const std::size_t counted = lod->memory().total();  // first: waits for threads that still allocate
-  const std::int64_t held = heap.held();
-  recorder.add("build_time", "s", build_time);
-  recorder.add("first_update_time", "s", first_update_time);
-  recorder.add("first_uploaded", "B", first_uploaded);
-  recorder.add("bytes_held", "B", counted);
-  recorder.add("heap_growth", "B", held);
-  recorder.add("uploaded", "B", uploaded / static_cast<double>(times.size()));
-  for (const double t : times) recorder.add("update_time", "s", t);
-  for (const double t : triangles) recorder.add("triangles", "", t);
-  std::sort(times.begin(), times.end());
-  recorder.add("update_time_p99", "s", times[(99 * times.size() + 99) / 100 - 1]);
+  PathCost cost = fly(flight, method, knob, progress);
+  recorder.add("build_time", "s", cost.build_time);
+  recorder.add("first_update_time", "s", cost.first_update_time);
+  recorder.add("first_uploaded", "B", cost.first_uploaded);
+  recorder.add("bytes_held", "B", cost.bytes_held);
+  recorder.add("heap_growth", "B", cost.heap_growth);
+  recorder.add("uploaded", "B", cost.uploaded);
+  for (const double t : cost.times) recorder.add("update_time", "s", t);
+  for (const double t : cost.triangles) recorder.add("triangles", "", t);
+  std::sort(cost.times.begin(), cost.times.end());
+  recorder.add("update_time_p99", "s", cost.times[(99 * cost.times.size() + 99) / 100 - 1]);
 }
 
 // Results over the metered frames.
@@ -244,21 +221,6 @@ void record(const Shown& shown, const Flight& flight, Recorder& recorder) {
     recorder.add("psnr", "dB", -10 * std::log10(noise / static_cast<double>(shown.noise.size())));
 }
 
-const Entrant& entrant(std::string_view name) {
-  static const std::vector<Entrant> kAllEntrants = entrants();
-  std::vector<std::string_view> known;
-  for (const Entrant& one : kAllEntrants) {
-    if (one.name == name) return one;
-    known.push_back(one.name);
-  }
-  throw unknown_name("level-of-detail method", name, known);
-}
-
-// The user's options follow the method's own, and so override them.
-std::string join(const std::string& own, const std::string& asked) {
-  return own.empty() || asked.empty() ? own + asked : own + "," + asked;
-}
-
 std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
   std::vector<Case> cases;
@@ -304,8 +266,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     draw_wires(flight, pixels, at.parameters.text("options"), *context, recorder, progress);
     return;
   }
-  const Entrant& entered = entrant(method);
-  const Contender measured = contender(entered.method, join(entered.options, at.parameters.text("options")));
+  const Contender measured = entered(method, at.parameters.text("options"));
   const Tuned tuned = tune_to(flight, measured, pixels, progress);
   recorder.add("knob", "", tuned.knob);
   recorder.add("tuned_error", "px", tuned.error);

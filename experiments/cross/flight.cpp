@@ -136,14 +136,38 @@ std::vector<Entrant> entrants() {
   return all;
 }
 
-Tuned tune_to(Flight& flight, const Contender& method, double pixels, Progress& progress) {
+Contender entered(std::string_view name, const std::string& options) {
+  static const std::vector<Entrant> kAll = entrants();
+  std::vector<std::string_view> known;
+  for (const Entrant& one : kAll) {
+    if (one.name == name)
+      return contender(one.method, one.options.empty() || options.empty() ? one.options + options
+                                                                          : one.options + "," + options);
+    known.push_back(one.name);
+  }
+  throw unknown_name("level-of-detail method", name, known);
+}
+
+double figure_of(const Distribution& errors, Criterion criterion) {
+  switch (criterion) {
+    case Criterion::kRms:
+      return errors.rms();
+    case Criterion::kLargest:
+      return errors.largest();
+    default:
+      return errors.quantile(0.99);
+  }
+}
+
+Tuned tune_to(Flight& flight, const Contender& method, double pixels, Progress& progress,
+              Criterion criterion) {
   const Knob& knob = method.type->knob;
   if (!method.tunable()) return {knob.fallback, 0, true};
   std::string name(method.type->name);
   for (std::size_t i = 0; i < method.options.specs().size(); ++i) {
     name += " " + to_string(method.options.value(i));
   }
-  const std::pair key(std::move(name), pixels);
+  const std::tuple key(std::move(name), criterion, pixels);
   if (const auto known = flight.tuned.find(key); known != flight.tuned.end()) return known->second;
   const Heightfield& ground = flight.ground();
   const std::unique_ptr<Lod> lod = method.build(ground, progress);
@@ -160,7 +184,7 @@ Tuned tune_to(Flight& flight, const Contender& method, double pixels, Progress& 
       screen_error(drawn, ground, flight.seen[k], &pool);
       progress.advance();
     }
-    return pool.quantile(0.99);
+    return figure_of(pool, criterion);
   };
   return flight.tuned[key] = search_knob(knob, pixels, error_at);
 }

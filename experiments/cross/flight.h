@@ -8,12 +8,13 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "experiments/cross/knob_search.h"
 #include "experiments/experiment.h"
 #include "lod/lod.h"
+#include "lod/meters/distribution.h"
 #include "lod/meters/seen_samples.h"
 #include "terrain/image.h"
 #include "terrain/source.h"
@@ -36,6 +37,10 @@ struct Route {
   bool operator==(const Route&) const = default;
 };
 
+// Which figure of the visible samples' screen-space errors is made equal.
+enum class Criterion { kP99, kRms, kLargest };
+double figure_of(const Distribution&, Criterion);
+
 struct Flight {
   Flight(const Route&, Progress&);
 
@@ -47,8 +52,8 @@ struct Flight {
   std::vector<View> views;           // every frame of the path
   std::vector<std::size_t> metered;  // indices of views, ascending, from 1
   std::vector<SeenSamples> seen;     // per metered view
-  // Results of tune_to() by method with its options, and pixels.
-  std::map<std::pair<std::string, double>, Tuned> tuned;
+  // Results of tune_to() by method with its options, criterion and pixels.
+  std::map<std::tuple<std::string, Criterion, double>, Tuned> tuned;
   std::vector<Image> pictures;  // of the full terrain, in the frames pictured(); see draw_reference()
 };
 
@@ -78,9 +83,12 @@ struct Entrant {
   std::string method, options;
 };
 std::vector<Entrant> entrants();
+// The entrant of this name, with the user's `options` after its own, which they override. Throws like
+// contender().
+Contender entered(std::string_view name, const std::string& options);
 
-// The coarsest setting of the knob whose 99th percentile of screen-space error stays at or below `pixels`
-// over every other metered frame. Does not depend on what was tuned before.
-Tuned tune_to(Flight&, const Contender&, double pixels, Progress&);
+// The coarsest setting of the knob with which the criterion's figure of the screen-space error stays at or
+// below `pixels` over every other metered frame. Does not depend on what was tuned before.
+Tuned tune_to(Flight&, const Contender&, double pixels, Progress&, Criterion = Criterion::kP99);
 
 }  // namespace terrabench::cross

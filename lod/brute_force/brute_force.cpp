@@ -16,23 +16,39 @@ BruteForce::BruteForce(const Heightfield& ground) : grid_(grid_of(ground)) {
   const auto blocks_along = [](int samples) { return (samples - 2) / kBlock + 1; };
   blocks_.reserve(static_cast<std::size_t>(blocks_along(grid_.width)) * blocks_along(grid_.depth));
   for (int j0 = 0; j0 < grid_.depth - 1; j0 += kBlock) {
-    for (int i0 = 0; i0 < grid_.width - 1; i0 += kBlock) add_block(ground, i0, j0);
+    for (int i0 = 0; i0 < grid_.width - 1; i0 += kBlock) add_block(i0, j0);
   }
   batches_.reserve(blocks_.size());
 }
 
-void BruteForce::add_block(const Heightfield& ground, int i0, int j0) {
+void BruteForce::add_block(int i0, int j0) {
   const int columns = std::min(kBlock, grid_.width - 1 - i0);
   const int rows = std::min(kBlock, grid_.depth - 1 - j0);
-  float lowest = ground.at(i0, j0), highest = lowest;
-  for (int j = j0; j <= j0 + rows; ++j) {
-    for (int i = i0; i <= i0 + columns; ++i) {
-      lowest = std::min(lowest, ground.at(i, j));
-      highest = std::max(highest, ground.at(i, j));
-    }
-  }
   const auto corner = static_cast<std::uint32_t>(j0) * static_cast<std::uint32_t>(grid_.width) + i0;
-  blocks_.push_back({corner, shape_of(columns, rows), lowest, highest});
+  blocks_.push_back({corner, shape_of(columns, rows), 0, 0});
+  measure(blocks_.back());
+}
+
+void BruteForce::measure(Block& block) const {
+  const Shape& shape = shapes_[block.shape];
+  block.lowest = block.highest = grid_.heights[block.corner];
+  for (int j = 0; j <= shape.rows; ++j) {
+    const float* const row = &grid_.heights[block.corner + static_cast<std::size_t>(j) * grid_.width];
+    const auto [low, high] = std::minmax_element(row, row + shape.columns + 1);
+    block.lowest = std::min(block.lowest, *low);
+    block.highest = std::max(block.highest, *high);
+  }
+}
+
+// Blocks share their border samples.
+void BruteForce::edited(const SampleRect& rect) {
+  check_edit(rect, grid_.width, grid_.depth);
+  const int across = (grid_.width - 2) / kBlock + 1, down = (grid_.depth - 2) / kBlock + 1;
+  for (int z = std::max(rect.low.y - 1, 0) / kBlock; z <= std::min(rect.high.y / kBlock, down - 1); ++z) {
+    for (int x = std::max(rect.low.x - 1, 0) / kBlock; x <= std::min(rect.high.x / kBlock, across - 1); ++x)
+      measure(blocks_[static_cast<std::size_t>(z) * across + x]);
+  }
+  if (!first_) append_heights(grid_, rect, edits_);
 }
 
 std::uint16_t BruteForce::shape_of(int columns, int rows) {
@@ -68,7 +84,8 @@ const Frame& BruteForce::update(const View& view) {
     if (frustum.see(box) == Sight::kOutside) continue;
     batches_.push_back({shape.first_index, shape.index_count, block.corner});
   }
-  uploads_.clear();
+  uploads_.assign(edits_.begin(), edits_.end());
+  edits_.clear();
   if (first_) {
     uploads_.push_back(
         {.target = DirtyRange::Target::kIndices, .count = static_cast<std::uint32_t>(indices_.size())});
@@ -93,6 +110,7 @@ Memory BruteForce::memory() const {
   memory += payload_memory(indices_);
   memory += index_memory(batches_);
   memory += index_memory(uploads_);
+  memory += index_memory(edits_);
   return memory;
 }
 

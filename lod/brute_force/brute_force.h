@@ -19,6 +19,7 @@ class BruteForce : public Lod {
   const Frame& update(const View&) override;
   // Has only one setting.
   void tune(double stride) override { (void)setting(knob(), stride); }
+  void edited(const SampleRect&) override;
   Memory memory() const override;
 
  private:
@@ -34,14 +35,15 @@ class BruteForce : public Lod {
     std::uint32_t first_index, index_count;
   };
   std::uint16_t shape_of(int columns, int rows);
-  void add_block(const Heightfield&, int i0, int j0);
+  void add_block(int i0, int j0);
+  void measure(Block&) const;
 
   GroundGrid grid_;
   std::vector<Shape> shapes_;  // at most four
   std::vector<Block> blocks_;
   std::vector<std::uint32_t> indices_;
   std::vector<Batch> batches_;
-  std::vector<DirtyRange> uploads_;
+  std::vector<DirtyRange> uploads_, edits_;  // edits_: for the next frame
   Frame frame_;
   bool first_ = true;
 };

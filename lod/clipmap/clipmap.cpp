@@ -68,13 +68,21 @@ int ceiling(int samples, int spacing) {
 
 }  // namespace
 
-std::unique_ptr<Lod> Clipmap::build(const LodGround& from, const Parameters&, Progress&) {
-  const Heightfield& ground = from.heights;
-  check_ground(ground);
-  return std::make_unique<Clipmap>(heights_in_memory(ground), static_cast<int>(knob().fallback));
+std::span<const ParameterSpec> Clipmap::parameters() {
+  static const ParameterSpec kSpecs[] = {
+      {"stitch", true, "", "join each level to the next coarser one; false leaves gaps between them"}};
+  return kSpecs;
 }
 
-Clipmap::Clipmap(std::unique_ptr<HeightSource> source, int window) : source_(std::move(source)) {
+std::unique_ptr<Lod> Clipmap::build(const LodGround& from, const Parameters& parameters, Progress&) {
+  const Heightfield& ground = from.heights;
+  check_ground(ground);
+  return std::make_unique<Clipmap>(heights_in_memory(ground), static_cast<int>(knob().fallback),
+                                   parameters.flag("stitch"));
+}
+
+Clipmap::Clipmap(std::unique_ptr<HeightSource> source, int window, bool stitch)
+    : source_(std::move(source)), stitch_(stitch) {
   reset(window);
 }
 
@@ -84,7 +92,7 @@ void Clipmap::tune(double window) {
 }
 
 void Clipmap::reset(int window) {
-  pattern_ = clipmap::make_window_pattern(m_of(*source_, window));
+  pattern_ = clipmap::make_window_pattern(m_of(*source_, window), stitch_);
   storage_.clear();
   clip_levels_.clear();
   const int levels = source_->bounded() ? level_count(longest(*source_), pattern_.n) : 1;
@@ -182,6 +190,10 @@ const Frame& Clipmap::update(const View& view) {
                         .count = static_cast<std::uint32_t>(pattern_.indices.size())});
     indices_uploaded_ = true;
   }
+  for (const SampleRect& rect : edits_) {
+    for (int l = 0; l < levels(); ++l) read_edit(l, rect);
+  }
+  edits_.clear();
   add_levels_in_sight(view);
   const float height = view.eye.y - ground_below_eye(eye);
   const float cell = std::max(source_->cell_x(), source_->cell_z());
@@ -276,7 +288,7 @@ void Clipmap::read_strip(int l, int a, int b, int columns, int rows) {
 // that no vertex jumps when the level is left out.
 void Clipmap::set_transition(int l, float rise) {
   ClipLevel& level = clip_levels_[l];
-  if (l + 1 == levels()) return;
+  if (l + 1 == levels() || !stitch_) return;
   level.to = static_cast<float>(2 * pattern_.m - 2);  // the eye's least distance from the border, samples
   level.from = level.to - transition_width(pattern_.n) / std::clamp(2 - 2 * rise, kLeastDivisor, 1.0F);
   // One sample more, so that rounding cannot move vertices at the rim of the hole.
@@ -364,6 +376,7 @@ Memory Clipmap::memory() const {
   memory += index_memory(clip_levels_);
   memory += index_memory(batches_);
   memory += index_memory(uploads_);
+  memory += index_memory(edits_);
   return memory;
 }
 

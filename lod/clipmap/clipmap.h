@@ -29,11 +29,16 @@ class Clipmap : public Lod {
   static std::unique_ptr<Lod> build(const LodGround&, const Parameters&, Progress&);
   static Knob knob() { return {"window", "samples", 4095, 15, 255, true}; }
 
-  // `window`: samples per side, rounded to 4m - 1 ≥ 15 and limited to what covers the ground.
-  Clipmap(std::unique_ptr<HeightSource> source, int window);
+  static std::span<const ParameterSpec> parameters();
+
+  // `window`: samples per side, rounded to 4m - 1 ≥ 15 and limited to what covers the ground. `stitch`: false
+  // leaves gaps between the levels, without transitions; for measurements.
+  Clipmap(std::unique_ptr<HeightSource> source, int window, bool stitch = true);
 
   const Frame& update(const View&) override;
   void tune(double window) override;
+  // Reads these samples again at the next update(), in every window that holds some of them.
+  void edited(const SampleRect&) override;
   Memory memory() const override;
 
   // From the next update() on, views and frames count metres from this sample. Throws usage_error when the
@@ -74,6 +79,7 @@ class Clipmap : public Lod {
   void set_transition(int level, float rise);
   void move_window(int level, glm::ivec2 corner);
   void read_strip(int level, int a, int b, int columns, int rows);
+  void read_edit(int level, const SampleRect&);
   void update_blocks(int level);
   bool has_hole() const { return hole_low_ != hole_high_; }
   void check_hole(glm::dvec2 eye);
@@ -81,6 +87,7 @@ class Clipmap : public Lod {
   void draw_block(int level, std::size_t number, const clipmap::Block&, const Frustum&);
 
   std::unique_ptr<HeightSource> source_;
+  bool stitch_;
   glm::ivec2 origin_{0};
   glm::ivec2 hole_low_{0}, hole_high_{0};  // samples
   float hole_reach_ = 0;                   // from the eye, samples, in this update
@@ -90,6 +97,7 @@ class Clipmap : public Lod {
   std::vector<LevelStorage> storage_;   // per level
   std::vector<Batch> batches_;
   std::vector<DirtyRange> uploads_;
+  std::vector<SampleRect> edits_;  // since the last update
   bool indices_uploaded_ = false;
   std::size_t moved_ = 0;  // windows, in this update
   Frame frame_;

@@ -55,6 +55,13 @@ void HeightBounds::update(const ClipLevel& level) {
   filled_ = true;
 }
 
+void HeightBounds::refresh(const ClipLevel& level, glm::ivec2 low, glm::ivec2 high) {
+  for (int z = tile_of(low.y); z <= tile_of(high.y); ++z) {
+    for (int x = tile_of(low.x); x <= tile_of(high.x); ++x)
+      tiles_[index(x, z)] = range_of(level, part(x, corner_.x, window_), part(z, corner_.y, window_));
+  }
+}
+
 HeightBounds::Range HeightBounds::range(glm::ivec2 low, glm::ivec2 high) const {
   Range range{INFINITY, -INFINITY};
   for (int z = tile_of(low.y); z <= tile_of(high.y); ++z) {

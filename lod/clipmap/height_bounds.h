@@ -18,6 +18,9 @@ class HeightBounds {
   // To be called after new samples were read. Reads samples corner … corner + window - 1 of the level.
   void update(const ClipLevel&);
 
+  // The samples low … high of the level, in the window of the last update(), have changed. O(their tiles)
+  void refresh(const ClipLevel&, glm::ivec2 low, glm::ivec2 high);
+
   struct Range {
     float lowest, highest;
   };

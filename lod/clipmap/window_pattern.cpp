@@ -10,7 +10,7 @@ namespace {
 
 class Builder {
  public:
-  explicit Builder(WindowPattern& pattern) : pattern_(pattern) {}
+  Builder(WindowPattern& pattern, bool conforming) : pattern_(pattern), conforming_(conforming) {}
 
   Block block(int x0, int z0, int x1, int z1) {
     const auto first = static_cast<std::uint32_t>(pattern_.indices.size());
@@ -36,6 +36,7 @@ class Builder {
   // fan. Along the far z border it is the upper neighbour: otherwise two vertices would move towards one
   // corner and leave a triangle without area.
   Vertex snap(Vertex v) const {
+    if (!conforming_) return v;
     const int last = pattern_.n - 1;
     if (v.b == 0) v.a &= ~1;
     if (v.b == last) v.a = (v.a + 1) & ~1;
@@ -51,6 +52,7 @@ class Builder {
   }
 
   WindowPattern& pattern_;
+  bool conforming_;
 };
 
 // Collects the index ranges of one block; joins adjacent ones.
@@ -130,13 +132,13 @@ void append_outside(const WindowPattern& pattern, const Block& block, glm::ivec2
   }
 }
 
-WindowPattern make_window_pattern(int m) {
+WindowPattern make_window_pattern(int m, bool conforming) {
   WindowPattern pattern;
   pattern.m = m;
   pattern.n = 4 * m - 1;
   pattern.side = static_cast<int>(std::bit_ceil(static_cast<unsigned>(pattern.n + 1)));
   const std::array cuts = {0, m - 1, 2 * m, 3 * m - 1, 4 * m - 2};
-  Builder build(pattern);
+  Builder build(pattern, conforming);
   for (int bz = 0; bz < 4; ++bz) {
     for (int bx = 0; bx < 4; ++bx) {
       const bool inner = (bx == 1 || bx == 2) && (bz == 1 || bz == 2);

@@ -33,8 +33,8 @@ struct WindowPattern {
   std::vector<Block> trims;
 };
 
-// m ≥ 2.
-WindowPattern make_window_pattern(int m);
+// m ≥ 2. `conforming`: false keeps the odd vertices of the outer border, with gaps to the coarser level.
+WindowPattern make_window_pattern(int m, bool conforming = true);
 
 // Appends the index ranges of the block's triangles that have plan area when vertices are clamped to
 // low … high, samples of the window, without the cells from sample hole_low to sample hole_high (equal: no

@@ -32,6 +32,7 @@ std::span<const ParameterSpec> GeoMipMap::parameters() {
       {"level_camera", false, "",
        "choose levels by the paper's rule for a level camera, which is not a strict bound"},
       {"morph", false, "", "morph between levels by distance (trilinear geomipmapping)"},
+      {"stitch", true, "", "join patches to coarser neighbours; false leaves gaps between them"},
   };
   return kSpecs;
 }
@@ -41,7 +42,7 @@ std::unique_ptr<Lod> GeoMipMap::build(const LodGround& from, const Parameters& p
   const Heightfield& ground = from.heights;
   check_ground(ground);
   Options options{static_cast<int>(parameters.integer("patch")), parameters.flag("level_camera"),
-                  parameters.flag("morph")};
+                  parameters.flag("morph"), parameters.flag("stitch")};
   if (options.side == 0) options.side = default_side(ground);
   if (options.side == 1 || !std::has_single_bit(static_cast<unsigned>(options.side))) {
     throw usage_error(fmt::format("patch must be a power of two, got {}", options.side), "patch",
@@ -77,6 +78,21 @@ GeoMipMap::GeoMipMap(const Heightfield& ground, const Options& options, Progress
   queue_.reserve(cut_.count());
   batches_.reserve(cut_.count());
   uploads_.reserve(3);
+}
+
+void GeoMipMap::edited(const SampleRect& rect) {
+  check_edit(rect, grid_.width, grid_.depth);
+  // Patches share their border samples.
+  const PatchGrid::PatchRect patches{
+      std::max(rect.low.x - 1, 0) / cut_.side, std::min(rect.high.x / cut_.side, cut_.across() - 1),
+      std::max(rect.low.y - 1, 0) / cut_.side, std::min(rect.high.y / cut_.side, cut_.down() - 1)};
+  tree_.measure(grid_, patches);
+  if (morphing_) {
+    morphing_->measure(grid_, cut_, patterns_, patches);
+  } else {
+    errors_->measure(grid_, cut_, tree_, patterns_, patches);
+  }
+  if (!first_) append_heights(grid_, rect, edits_);
 }
 
 void GeoMipMap::tune(double pixels) { pixels_ = setting(knob(), pixels); }
@@ -174,14 +190,18 @@ void GeoMipMap::make_frame() {
     changes += level != last_level_[k] ? 1 : 0;
     int seams = 0;
     for (const int side : {kNorth, kEast, kSouth, kWest}) {
-      seams |= level_[p.slot + offsets_[side]] > level ? 1 << side : 0;
+      seams |= options_.stitch && level_[p.slot + offsets_[side]] > level ? 1 << side : 0;
     }
     const IndexRange& pattern = patterns_.pattern(p.shape, level - 1, seams);
     batches_.push_back({pattern.first_index, pattern.index_count, p.corner,
                         static_cast<std::uint16_t>(level - 1), static_cast<std::uint32_t>(morphs_.size())});
-    if (morphing_) morphs_.push_back(morphing_->morph(p.slot));
+    if (morphing_) {
+      morphs_.push_back(morphing_->morph(p.slot));
+      if (!options_.stitch) morphs_.back().sides.fill(morphs_.back().inside);
+    }
   });
-  uploads_.clear();
+  uploads_.assign(edits_.begin(), edits_.end());
+  edits_.clear();
   const auto size = [](const auto& values) { return static_cast<std::uint32_t>(values.size()); };
   if (first_) {
     uploads_.push_back({.target = DirtyRange::Target::kIndices, .count = size(patterns_.indices())});
@@ -215,6 +235,7 @@ Memory GeoMipMap::memory() const {
   memory += index_memory(batches_);
   memory += index_memory(morphs_);
   memory += index_memory(uploads_);
+  memory += index_memory(edits_);
   return memory;
 }
 

@@ -29,6 +29,7 @@ class GeoMipMap : public Lod {
     int side = 64;              // cells along a patch's side, a power of two
     bool level_camera = false;  // the paper's rule instead of the strict one
     bool morph = false;         // trilinear
+    bool stitch = true;         // false leaves gaps beside coarser patches; for measurements
   };
 
   // The field must outlive it.
@@ -39,6 +40,8 @@ class GeoMipMap : public Lod {
   GeoMipMap(const Heightfield&, const Options&, Progress&);
   const Frame& update(const View&) override;
   void tune(double pixels) override;
+  // Measures the patches again that contain an edited sample.
+  void edited(const SampleRect&) override;
   Memory memory() const override;
 
  private:
@@ -71,7 +74,7 @@ class GeoMipMap : public Lod {
   std::vector<std::uint32_t> queue_;  // slots whose level decreased
   std::vector<Batch> batches_;
   std::vector<PatchMorph> morphs_;
-  std::vector<DirtyRange> uploads_;
+  std::vector<DirtyRange> uploads_, edits_;  // edits_: for the next frame
   Frame frame_;
   bool first_ = true;
 };

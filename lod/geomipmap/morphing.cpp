@@ -68,7 +68,14 @@ Morphing::Morphing(const GroundGrid& grid, const PatchGrid& cut, const PatchPatt
       queued_(cut.slots(), 0) {
   queue_.reserve(cut.count());
   progress.begin("measuring patches", static_cast<std::uint64_t>(cut.count()));
-  tbb::parallel_for(tbb::blocked_range2d<int>(0, cut.down(), 0, cut.across()), [&](const auto& range) {
+  measure(grid, cut, patterns, cut.all(), &progress);
+  progress.end();
+}
+
+void Morphing::measure(const GroundGrid& grid, const PatchGrid& cut, const PatchPatterns& patterns,
+                       const PatchGrid::PatchRect& patches, Progress* progress) {
+  const tbb::blocked_range2d<int> all(patches.z0, patches.z1 + 1, patches.x0, patches.x1 + 1);
+  tbb::parallel_for(all, [&](const auto& range) {
     for (int z = range.rows().begin(); z < range.rows().end(); ++z) {
       for (int x = range.cols().begin(); x < range.cols().end(); ++x) {
         const PatchGrid::Patch patch = cut.patch(x, z);
@@ -80,11 +87,10 @@ Morphing::Morphing(const GroundGrid& grid, const PatchGrid& cut, const PatchPatt
           for (int i = 0; i <= patch.columns; ++i) highest = std::max(highest, std::abs(row[i]));
         }
         rounding_[cut.slot(x, z)] = kHeightRounding * highest;
-        progress.advance();
+        if (progress != nullptr) progress->advance();
       }
     }
   });
-  progress.end();
 }
 
 void Morphing::measure(PatchRuler& ruler, std::uint32_t slot) {

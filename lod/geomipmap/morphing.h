@@ -39,6 +39,10 @@ class Morphing {
   // The patterns must be made with Split::kThroughOdd. O(samples · levels) time, in parallel.
   Morphing(const GroundGrid&, const PatchGrid&, const PatchPatterns&, int levels, Progress&);
 
+  // Measures these patches again.
+  void measure(const GroundGrid&, const PatchGrid&, const PatchPatterns&, const PatchGrid::PatchRect&,
+               Progress* = nullptr);
+
   // Chooses levels for the patches in view, `seen`; the error of patch k may be allowed[k] metres. Patches
   // out of view count as finer than all others. `last_seen`: the patches of the previous call.
   void choose(std::span<const PatchTree::Place>, std::span<const PatchTree::PatchRange> last_seen,

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "lod/geomipmap/patch_ruler.h"
-
 namespace terrabench {
 namespace {
 
@@ -41,21 +39,31 @@ PatchErrors::PatchErrors(const GroundGrid& grid, const PatchGrid& cut, const Pat
       seams_(cut.slots() * steps_ * 4, 0.0F) {
   progress.begin("measuring patches", static_cast<std::uint64_t>(cut.count()));
   tbb::parallel_for(std::size_t{0}, cut.count(), [&](std::size_t k) {
-    const PatchTree::Place& place = tree.places()[k];
-    const PatchRuler ruler(grid, cut, patterns, cut.patch(place.slot));
-    float* const of_seam = &seams_[place.slot * steps_ * 4];
-    errors_[k].fill(std::numeric_limits<float>::infinity());
-    float error = 0;
-    for (int level = 1; level < levels; ++level) {
-      error = std::max(error, whole(ruler, level));
-      errors_[k][static_cast<std::size_t>(level - 1)] = error;
-      for (const Side side : {kNorth, kEast, kSouth, kWest}) {
-        of_seam[4 * (level - 1) + side] = seam(ruler, level - 1, side);
-      }
-    }
+    measure({grid, cut, patterns, cut.patch(tree.places()[k].slot)}, tree, k);
     progress.advance();
   });
   progress.end();
+}
+
+void PatchErrors::measure(const PatchRuler& ruler, const PatchTree& tree, std::size_t patch) {
+  float* const of_seam = &seams_[tree.places()[patch].slot * steps_ * 4];
+  errors_[patch].fill(std::numeric_limits<float>::infinity());
+  float error = 0;
+  for (int level = 1; level <= static_cast<int>(steps_); ++level) {
+    error = std::max(error, whole(ruler, level));
+    errors_[patch][static_cast<std::size_t>(level - 1)] = error;
+    for (const Side side : {kNorth, kEast, kSouth, kWest}) {
+      of_seam[4 * (level - 1) + side] = seam(ruler, level - 1, side);
+    }
+  }
+}
+
+void PatchErrors::measure(const GroundGrid& grid, const PatchGrid& cut, const PatchTree& tree,
+                          const PatchPatterns& patterns, const PatchGrid::PatchRect& patches) {
+  tbb::parallel_for(patches.z0, patches.z1 + 1, [&](int z) {
+    for (int x = patches.x0; x <= patches.x1; ++x)
+      measure({grid, cut, patterns, cut.patch(x, z)}, tree, tree.number(x, z));
+  });
 }
 
 Memory PatchErrors::memory() const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lod/geomipmap/patch_patterns.h"
+#include "lod/geomipmap/patch_ruler.h"
 #include "lod/geomipmap/patch_tree.h"
 #include "terrain/frame.h"
 #include "terrain/memory.h"
@@ -22,6 +23,10 @@ class PatchErrors {
 
   PatchErrors(const GroundGrid&, const PatchGrid&, const PatchTree&, const PatchPatterns&, int levels,
               Progress&);
+
+  // Measures these patches again.
+  void measure(const GroundGrid&, const PatchGrid&, const PatchTree&, const PatchPatterns&,
+               const PatchGrid::PatchRect&);
 
   // The coarsest level whose error is at most `allowed` metres. `patch`: its number in the tree.
   int coarsest(std::size_t patch, float allowed) const {
@@ -37,6 +42,8 @@ class PatchErrors {
 
  private:
   using Levels = std::array<float, kMostLevels - 1>;  // from level 1 on; infinite beyond the coarsest
+
+  void measure(const PatchRuler&, const PatchTree&, std::size_t patch);
 
   std::size_t steps_;  // levels - 1
   std::vector<Levels> errors_;

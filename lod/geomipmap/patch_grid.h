@@ -26,6 +26,11 @@ struct PatchGrid {
     return {i0, j0, std::min(side, width - 1 - i0), std::min(side, depth - 1 - j0)};
   }
 
+  struct PatchRect {  // patches x0 to x1 and z0 to z1, both included
+    int x0, x1, z0, z1;
+  };
+  PatchRect all() const { return {0, across() - 1, 0, down() - 1}; }
+
   // Arrays by slot have a rim of one slot, so that each patch has four neighbours, at slot + offsets()[side].
   std::size_t slots() const { return static_cast<std::size_t>(across() + 2) * (down() + 2); }
   std::uint32_t slot(int at_x, int at_z) const {

@@ -17,7 +17,11 @@ PatchTree::PatchTree(const GroundGrid& grid, const PatchGrid& cut)
   quads_.resize(quads);
   places_.reserve(cut.count());
   number(static_cast<int>(layers_.size()) - 1, 0, 0);
-  measure(grid);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    boxes_.low[axis].resize(cut_.count());
+    boxes_.high[axis].resize(cut_.count());
+  }
+  measure(grid, cut_.all());
 }
 
 PatchTree::Quad& PatchTree::quad(int layer, int at_x, int at_z) {
@@ -43,33 +47,30 @@ void PatchTree::number(int layer, int at_x, int at_z) {
   quad(layer, at_x, at_z).patches = {first, next()};
 }
 
-void PatchTree::measure(const GroundGrid& grid) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    boxes_.low[axis].resize(cut_.count());
-    boxes_.high[axis].resize(cut_.count());
+void PatchTree::measure_patch(const GroundGrid& grid, int at_x, int at_z) {
+  const PatchGrid::Patch patch = cut_.patch(at_x, at_z);
+  Quad& leaf = quad(0, at_x, at_z);
+  leaf.lowest = leaf.highest = grid.heights[static_cast<std::size_t>(patch.j0) * grid.width + patch.i0];
+  for (int j = patch.j0; j <= patch.j0 + patch.rows; ++j) {
+    const float* const row = &grid.heights[static_cast<std::size_t>(j) * grid.width + patch.i0];
+    const auto [low, high] = std::minmax_element(row, row + patch.columns + 1);
+    leaf.lowest = std::min(leaf.lowest, *low);
+    leaf.highest = std::max(leaf.highest, *high);
   }
-  tbb::parallel_for(0, cut_.down(), [&](int z) {
-    for (int x = 0; x < cut_.across(); ++x) {
-      const PatchGrid::Patch patch = cut_.patch(x, z);
-      Quad& leaf = quad(0, x, z);
-      leaf.lowest = leaf.highest = grid.heights[static_cast<std::size_t>(patch.j0) * grid.width + patch.i0];
-      for (int j = patch.j0; j <= patch.j0 + patch.rows; ++j) {
-        const float* const row = &grid.heights[static_cast<std::size_t>(j) * grid.width + patch.i0];
-        const auto [low, high] = std::minmax_element(row, row + patch.columns + 1);
-        leaf.lowest = std::min(leaf.lowest, *low);
-        leaf.highest = std::max(leaf.highest, *high);
-      }
-      const Bounds bounds = box(0, x, z);
-      for (int axis = 0; axis < 3; ++axis) {
-        boxes_.low[static_cast<std::size_t>(axis)][leaf.patches.first] = bounds.low[axis];
-        boxes_.high[static_cast<std::size_t>(axis)][leaf.patches.first] = bounds.high[axis];
-      }
-    }
+  const Bounds bounds = box(0, at_x, at_z);
+  for (int axis = 0; axis < 3; ++axis) {
+    boxes_.low[static_cast<std::size_t>(axis)][leaf.patches.first] = bounds.low[axis];
+    boxes_.high[static_cast<std::size_t>(axis)][leaf.patches.first] = bounds.high[axis];
+  }
+}
+
+void PatchTree::measure(const GroundGrid& grid, const PatchGrid::PatchRect& patches) {
+  tbb::parallel_for(patches.z0, patches.z1 + 1, [&](int z) {
+    for (int x = patches.x0; x <= patches.x1; ++x) measure_patch(grid, x, z);
   });
   for (int layer = 1; layer < static_cast<int>(layers_.size()); ++layer) {
-    const Layer& here = layers_[static_cast<std::size_t>(layer)];
-    for (int z = 0; z < here.down; ++z) {
-      for (int x = 0; x < here.across; ++x) {
+    for (int z = patches.z0 >> layer; z <= patches.z1 >> layer; ++z) {
+      for (int x = patches.x0 >> layer; x <= patches.x1 >> layer; ++x) {
         Quad& all = quad(layer, x, z);
         const auto low = boxes_.low[1].begin(), high = boxes_.high[1].begin();
         all.lowest = *std::min_element(low + all.patches.first, low + all.patches.last);

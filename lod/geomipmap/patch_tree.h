@@ -26,7 +26,10 @@ class PatchTree {
     std::int32_t shape;    // PatchGrid::shape()
   };
   std::span<const Place> places() const { return places_; }  // by number
-  const Boxes& boxes() const { return boxes_; }              // by number
+  std::size_t number(int at_x, int at_z) const {
+    return quads_[static_cast<std::size_t>(at_z) * cut_.across() + at_x].patches.first;
+  }
+  const Boxes& boxes() const { return boxes_; }  // by number
 
   struct PatchRange {
     std::uint32_t first, last;  // numbers; `last` is one past the end
@@ -35,6 +38,8 @@ class PatchTree {
   void collect(const Frustum&, std::vector<PatchRange>& seen) const;
   // Upper bound of the ranges that collect() appends.
   std::size_t most_ranges() const { return (places_.size() + 1) / 2; }
+  // Measures the heights of these patches again.
+  void measure(const GroundGrid&, const PatchGrid::PatchRect&);
   Memory memory() const;
 
  private:
@@ -48,7 +53,7 @@ class PatchTree {
   };
   Quad& quad(int layer, int at_x, int at_z);
   void number(int layer, int at_x, int at_z);
-  void measure(const GroundGrid&);
+  void measure_patch(const GroundGrid&, int at_x, int at_z);
   Bounds box(int layer, int at_x, int at_z) const;
   void collect(int layer, int at_x, int at_z, unsigned planes, const Frustum&,
                std::vector<PatchRange>&) const;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <glm/vector_relational.hpp>
 #include <utility>
 
 namespace terrabench::hybrid {
@@ -89,6 +90,14 @@ Chunk& ChunkStore::get(glm::ivec2 at) {
     std::rethrow_exception(std::exchange(chunk.failure, nullptr));
   }
   return chunk;
+}
+
+void ChunkStore::forget_joins(const ChunkLayout& layout, glm::ivec2 low, glm::ivec2 high) {
+  for (Chunk& chunk : chunks_) {
+    const bool touches = glm::all(glm::lessThanEqual(layout.low(chunk.at), high)) &&
+                         glm::all(glm::greaterThanEqual(layout.high(chunk.at), low));
+    if (touches) chunk.id = 0;
+  }
 }
 
 void ChunkStore::finish() const {

@@ -15,6 +15,7 @@
 #include <memory>
 #include <vector>
 
+#include "lod/hybrid/chunk_layout.h"
 #include "lod/hybrid/rim.h"
 #include "terrain/memory.h"
 #include "terrain/mesh_chunks.h"
@@ -53,6 +54,9 @@ class ChunkStore {
   // The held chunk at the surface's present version: waits for it, or builds it if no thread has begun.
   // Valid until another takes its place. Throws what building it threw; the chunk is then empty.
   Chunk& get(glm::ivec2 at);
+
+  // Makes the held chunks that touch samples low … high count as not yet joined. Call finish() before.
+  void forget_joins(const ChunkLayout&, glm::ivec2 low, glm::ivec2 high);
 
   // Waits until no background thread reads the surface; queued chunks are built first.
   void finish() const;

@@ -18,6 +18,21 @@ glm::vec3 normal_of(const Heightfield& field, glm::ivec2 at) {
                                    -rise_z / ((high.y - low.y) * static_cast<double>(field.cell_z))));
 }
 
+HeightChunks::HeightChunks(const Heightfield& heights) : heights_(heights) {
+  const glm::ivec2 chunks = layout().chunks;
+  versions_.assign(static_cast<std::size_t>(chunks.x) * static_cast<std::size_t>(chunks.y), 0);
+}
+
+// A normal depends on the samples around its own.
+void HeightChunks::edited(glm::ivec2 low, glm::ivec2 high) {
+  const ChunkLayout layout = this->layout();
+  const glm::ivec2 from = glm::max(low - 2, 0) / kCells,
+                   to = glm::min((high + 1) / kCells, layout.chunks - 1);
+  for (int b = from.y; b <= to.y; ++b) {
+    for (int a = from.x; a <= to.x; ++a) ++versions_[number({a, b})];
+  }
+}
+
 Bounds HeightChunks::bounds() const {
   const HeightRange range = height_range(heights_);
   return {{0, range.lowest, 0}, {heights_.extent_x(), range.highest, heights_.extent_z()}};

@@ -2,13 +2,16 @@
 // of ground that has no other. Cells need not be square here; cell() is the one along x.
 #pragma once
 
+#include <vector>
+
 #include "lod/hybrid/chunk_layout.h"
+#include "terrain/memory.h"
 
 namespace terrabench::hybrid {
 
 class HeightChunks final : public MeshChunks {
  public:
-  explicit HeightChunks(const Heightfield& heights) : heights_(heights) {}  // must outlive it
+  explicit HeightChunks(const Heightfield& heights);  // must outlive it
 
   Bounds bounds() const override;  // O(samples)
   float cell() const override { return heights_.cell_x; }
@@ -16,14 +19,23 @@ class HeightChunks final : public MeshChunks {
   glm::ivec2 chunks() const override { return layout().chunks; }
   // O(cells). `detail` must be 0.
   TriangleMesh chunk(glm::ivec2 at, int detail) const override;
-  std::uint64_t version(glm::ivec2) const override { return 0; }
+  std::uint64_t version(glm::ivec2 at) const override { return versions_[number(at)]; }
+  // The heights at samples low … high have changed.
+  void edited(glm::ivec2 low, glm::ivec2 high);
+  Memory memory() const { return index_memory(versions_); }
 
   // The chunks cover the ground; the last ones may be narrower.
   ChunkLayout layout() const;
 
  private:
   static constexpr int kCells = 16;
+  std::size_t number(glm::ivec2 at) const {
+    return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(layout().chunks.x) +
+           static_cast<std::size_t>(at.x);
+  }
+
   const Heightfield& heights_;
+  std::vector<std::uint64_t> versions_;  // by chunk
 };
 
 // The place of a sample as renderers compute it (vertex_position()), and the surface's unit normal there by

@@ -7,7 +7,6 @@
 #include <glm/common.hpp>
 #include <tuple>
 
-#include "lod/hybrid/height_chunks.h"
 #include "terrain/error.h"
 #include "terrain/frustum.h"
 
@@ -27,15 +26,20 @@ std::span<const ParameterSpec> Hybrid::parameters() {
        "chunks queued per frame before they are needed; 0: none, so that frames may stall", 0, 1024},
       {"band", std::int64_t{8}, "samples",
        "width of the transition along the rim, from the near surface to the far heights", 1, 4096},
+      {"stitch", true, "",
+       "join the near surface to the far heights, and their levels to each other; false leaves gaps"},
   };
   return kSpecs;
 }
 
 std::unique_ptr<Lod> Hybrid::build(const LodGround& ground, const Parameters& parameters, Progress&) {
+  const bool stitch = parameters.flag("stitch");
   return std::make_unique<Hybrid>(ground,
                                   HybridOptions{.radius = static_cast<int>(parameters.integer("radius")),
                                                 .ahead = static_cast<int>(parameters.integer("ahead")),
-                                                .band = static_cast<int>(parameters.integer("band"))});
+                                                .band = static_cast<int>(parameters.integer("band")),
+                                                .interpolate = stitch,
+                                                .stitch_far = stitch});
 }
 
 Hybrid::Hybrid(const LodGround& ground, const HybridOptions& options)
@@ -62,9 +66,16 @@ Hybrid::Hybrid(const LodGround& ground, const HybridOptions& options)
                       "radius", "choose a smaller radius or smaller chunks");
   }
   far_ = std::make_unique<Clipmap>(heights_in_memory(heights_),
-                                   std::max(window, static_cast<int>(knob().fallback)));
+                                   std::max(window, static_cast<int>(knob().fallback)), options.stitch_far);
   // One more ring of chunks, to be queued.
   store_ = std::make_unique<hybrid::ChunkStore>(*surface, 2 * (options.radius + 1) + 1);
+}
+
+void Hybrid::edited(const SampleRect& rect) {
+  far_->edited(rect);
+  store_->finish();
+  if (own_) own_->edited(rect.low, rect.high);
+  store_->forget_joins(layout_, rect.low, rect.high);
 }
 
 // Farthest that the near surface can reach from the eye, samples.
@@ -208,6 +219,7 @@ Memory Hybrid::memory() const {
   store_->finish();
   Memory memory;
   memory.index += heap_bytes(this) + heap_bytes(own_.get()) + heap_bytes(store_.get());
+  if (own_) memory += own_->memory();
   memory += store_->memory();
   memory += far_->memory();
   memory += index_memory(near_);

@@ -22,6 +22,7 @@
 #include "lod/clipmap/clipmap.h"
 #include "lod/hybrid/chunk_layout.h"
 #include "lod/hybrid/chunk_store.h"
+#include "lod/hybrid/height_chunks.h"
 #include "lod/lod.h"
 
 namespace terrabench {
@@ -34,6 +35,7 @@ struct HybridOptions {
   double height = 0;
   // False leaves the near surface as it is: the cut alone, with gaps along the rim. For measurements.
   bool interpolate = true;
+  bool stitch_far = true;  // of the clipmap; for measurements
 };
 
 class Hybrid : public Lod {
@@ -51,6 +53,9 @@ class Hybrid : public Lod {
   const Frame& update(const View&) override;
   // Near chunks that a small window cannot hold are not drawn, beginning with the outermost.
   void tune(double window) override { far_->tune(window); }
+  // Of the heights: the near surface of ground that has another one is edited by its owner. Builds the near
+  // chunks again that contain an edited sample.
+  void edited(const SampleRect&) override;
   // The smallest window that holds all near chunks.
   int least_window() const { return Clipmap::window_of(reach()); }
   Memory memory() const override;
@@ -83,7 +88,7 @@ class Hybrid : public Lod {
 
   const Heightfield& heights_;
   HybridOptions options_;
-  std::unique_ptr<const MeshChunks> own_;  // when the ground has no near surface
+  std::unique_ptr<hybrid::HeightChunks> own_;  // when the ground has no near surface
   hybrid::ChunkLayout layout_;
   std::unique_ptr<Clipmap> far_;
   std::unique_ptr<hybrid::ChunkStore> store_;

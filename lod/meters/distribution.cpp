@@ -10,6 +10,7 @@ void Distribution::add(std::span<const float> pixels) {
   for (const float p : pixels) {
     ++counts_[std::bit_cast<std::uint32_t>(p) >> kShift];
     sum_ += static_cast<double>(p);
+    squares_ += static_cast<double>(p) * static_cast<double>(p);
     largest_ = std::max(largest_, p);
   }
   samples_ += pixels.size();

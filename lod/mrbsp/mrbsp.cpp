@@ -16,7 +16,7 @@ using mrbsp::visibility::ChangeTable, mrbsp::visibility::ground_checksum, mrbsp:
 
 namespace {
 
-constexpr std::string_view kThresholds[] = {"printed", "area"}, kHoles[] = {"conforming", "printed"},
+constexpr std::string_view kThresholds[] = {"printed", "area"}, kHoles[] = {"conforming", "printed", "left"},
                            kHeights[] = {"samples", "nearest"},
                            kVisibility[] = {"off",         kModeNames[0], kModeNames[1],
                                             kModeNames[2], kModeNames[3], kModeNames[4]};
@@ -27,6 +27,7 @@ MrbspOptions options_of(const Parameters& parameters) {
   options.depth = static_cast<int>(parameters.integer("depth"));
   options.area_consistent = parameters.choice("threshold") == 1;
   options.conforming = parameters.choice("holes") == 0;
+  options.leave_holes = parameters.choice("holes") == 2;
   options.three_nearest = parameters.choice("heights") == 1;
   options.cull = parameters.flag("cull");
   const std::size_t visibility = parameters.choice("visibility");
@@ -62,7 +63,8 @@ std::span<const ParameterSpec> Mrbsp::parameters() {
       {"depth", std::int64_t{0}, "levels", "depth of the finest triangles; 0: down to every sample", 0,
        BisectionTree::kDeepest},
       choice("threshold", kThresholds, "LOD threshold: printed M - log2(D/S), area M - 2 log2(D/S)"),
-      choice("holes", kHoles, "printed: the paper's one-vertex rule; conforming: no holes"),
+      choice("holes", kHoles,
+             "printed: the paper's one-vertex rule; conforming: no holes; left: no rule, for measurements"),
       choice("heights", kHeights, "samples, or interpolated from the three nearest samples"),
       {"cull", true, "", "skip triangles outside the view frustum"},
       choice("visibility", kVisibility,
@@ -90,7 +92,7 @@ Mrbsp::Mrbsp(const Heightfield& ground, const MrbspOptions& options, Progress& p
 
 Mrbsp::Mrbsp(const Heightfield& ground, const MrbspOptions& options, ChangeTable visibility,
              Progress& progress)
-    : options_(options), tree_(BisectionTree::over(2, 2)) {
+    : ground_(ground), options_(options), tree_(BisectionTree::over(2, 2)) {
   check_ground(ground);
   if (options.three_nearest) {
     tree_ = tree_for_interpolation(ground, options.depth);
@@ -121,6 +123,20 @@ void Mrbsp::use_visibility(ChangeTable visibility) {
   flags_ = mrbsp::visibility::Flags(visibility_);
 }
 
+void Mrbsp::edited(const SampleRect& rect) {
+  check_edit(rect, ground_.width, ground_.depth);
+  Progress silent;
+  SampleRect changed = rect;
+  if (options_.three_nearest) {
+    interpolated_ = interpolate_heights(height_points(ground_), tree_, silent);
+    grid_ = grid_of(interpolated_);
+    changed = {{0, 0}, {grid_.width - 1, grid_.depth - 1}};
+  }
+  bounds_.update(grid_, tree_, changed.low, changed.high);
+  if (!first_) append_heights(grid_, changed, edits_);
+  if (options_.visibility) use_visibility(changes_of(find_sets(grid_, tree_, options_.visible, silent)));
+}
+
 int Mrbsp::threshold(const glm::vec3& eye, const glm::vec3& vertex) const {
   return std::clamp(rule().threshold(eye, vertex), 1, tree_.depth());
 }
@@ -148,13 +164,15 @@ const Frame& Mrbsp::update(const View& view) {
   const Frustum frustum(view);
   next_.clear();
   const WalkEye eye{view.eye, options_.cull ? &frustum : nullptr, hide ? &flags_ : nullptr};
-  walk_tree({grid_, tree_, bounds_}, rule(), eye, {splits_ ? &*splits_ : nullptr, pending_}, next_);
+  walk_tree({grid_, tree_, bounds_}, rule(), eye,
+            {splits_ ? &*splits_ : nullptr, pending_, !options_.leave_holes}, next_);
   publish(toggled);
   return frame_;
 }
 
 void Mrbsp::publish(std::size_t toggled) {
-  uploads_.clear();
+  uploads_.assign(edits_.begin(), edits_.end());
+  edits_.clear();
   const auto differs = std::mismatch(next_.begin(), next_.end(), indices_.begin(), indices_.end()).first;
   const auto kept = static_cast<std::uint32_t>(differs - next_.begin());
   std::swap(indices_, next_);
@@ -181,10 +199,11 @@ void Mrbsp::publish(std::size_t toggled) {
 Memory Mrbsp::memory() const {
   Memory memory = payload_memory(interpolated_.heights);
   memory.index += heap_bytes(this);
-  for (const Memory& part : {bounds_.memory(), splits_ ? splits_->memory() : Memory{}, index_memory(pending_),
-                             payload_memory(visibility_.start), index_memory(visibility_.first),
-                             payload_memory(visibility_.changes), flags_.memory(), payload_memory(indices_),
-                             payload_memory(next_), index_memory(batches_), index_memory(uploads_)}) {
+  for (const Memory& part :
+       {bounds_.memory(), splits_ ? splits_->memory() : Memory{}, index_memory(pending_),
+        payload_memory(visibility_.start), index_memory(visibility_.first),
+        payload_memory(visibility_.changes), flags_.memory(), payload_memory(indices_), payload_memory(next_),
+        index_memory(batches_), index_memory(uploads_), index_memory(edits_)}) {
     memory += part;
   }
   return memory;

@@ -25,6 +25,7 @@ struct MrbspOptions {
   int depth = 0;                 // M; 0: down to every sample
   bool area_consistent = false;  // threshold M - 2·log2(D/S); false: the printed one
   bool conforming = true;        // no holes; false: the printed rule
+  bool leave_holes = false;      // neither rule, when not conforming; for measurements
   bool cull = true;              // skip triangles outside the view frustum
   bool three_nearest = false;    // heights by the paper's interpolation; false: the samples themselves
   bool visibility = false;       // skip triangles that the ground hides
@@ -45,6 +46,9 @@ class Mrbsp : public Lod {
   Mrbsp(const Heightfield&, const MrbspOptions&, mrbsp::visibility::ChangeTable, Progress&);
   const Frame& update(const View&) override;
   void tune(double size) override { size_ = setting(knob(), size); }
+  // O(triangles that touch the samples), unless heights are interpolated, which are then computed anew, or
+  // hidden triangles are skipped: visible sets depend on all of the ground, and are found anew.
+  void edited(const SampleRect&) override;
   Memory memory() const override;
 
   const BisectionTree& tree() const { return tree_; }
@@ -61,6 +65,7 @@ class Mrbsp : public Lod {
   void use_visibility(mrbsp::visibility::ChangeTable);
   void publish(std::size_t toggled);
 
+  const Heightfield& ground_;
   MrbspOptions options_;
   Heightfield interpolated_;  // empty if the heights are the samples
   GroundGrid grid_;
@@ -74,7 +79,7 @@ class Mrbsp : public Lod {
   mrbsp::visibility::Flags flags_;
   std::vector<std::uint32_t> indices_, next_;
   std::vector<Batch> batches_;
-  std::vector<DirtyRange> uploads_;
+  std::vector<DirtyRange> uploads_, edits_;  // edits_: for the next frame
   Frame frame_;
   bool first_ = true;
 };

@@ -20,6 +20,7 @@ class TreeWalk {
         flags_(eye.flags),
         splits_(scratch.splits),
         pending_(scratch.pending),
+        printed_rule_(scratch.printed_rule),
         out_(out),
         hidden_depth_(eye.flags != nullptr ? eye.flags->depth() : 0),
         depth_(ground.tree.depth()),
@@ -86,7 +87,8 @@ class TreeWalk {
       descend(centre, right, apex, depth + 1, 2 * node + 1, planes);
     } else if (splits_ != nullptr && depth < depth_) {
       pending_.push_back({packed(t.apex), packed(t.left), packed(t.right), node, planes});
-    } else if (depth < depth_ && may_open(apex.threshold, left.threshold, right.threshold, depth_)) {
+    } else if (printed_rule_ && depth < depth_ &&
+               may_open(apex.threshold, left.threshold, right.threshold, depth_)) {
       put(BisectionTree::child(t, 0));
       put(BisectionTree::child(t, 1));
     } else {
@@ -128,6 +130,7 @@ class TreeWalk {
   const mrbsp::visibility::Flags* flags_;
   SplitVertices* splits_;
   std::vector<PendingTriangle>& pending_;
+  bool printed_rule_;
   std::vector<std::uint32_t>& out_;
   int hidden_depth_;  // the flags end at this depth
   int depth_;

@@ -40,8 +40,9 @@ struct WalkEye {
 };
 // Buffers reused between frames; empty before and after a walk.
 struct WalkScratch {
-  SplitVertices* splits;  // null: the printed hole rule
+  SplitVertices* splits;  // null: not the conforming hole rule
   std::vector<PendingTriangle>& pending;
+  bool printed_rule = true;  // without `splits`; false: no hole rule
 };
 
 // Appends the vertices of the triangles to draw, three per triangle, to `out`.

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <limits>
 
 namespace terrabench {
@@ -22,8 +23,15 @@ class RangeFinder {
   RangeFinder(const GroundGrid& grid, const BisectionTree& tree, int depth, std::vector<Range>& ranges)
       : grid_(grid), tree_(tree), depth_(depth), ranges_(ranges) {}
 
+  // Finds only ranges of triangles that touch these samples; the others must be known.
+  void limit(glm::ivec2 low, glm::ivec2 high) {
+    low_ = low;
+    high_ = high;
+  }
+
   // Sets the ranges of the triangle and of its subtree.
   void find(const PlanTriangle& t, int depth, NodeNumber node) const {
+    if (!touches(t)) return;
     if (depth == depth_) {
       constexpr float kInfinity = std::numeric_limits<float>::infinity();
       Range range{kInfinity, -kInfinity};
@@ -39,6 +47,13 @@ class RangeFinder {
   }
 
  private:
+  // Vertices beyond the ground have the heights of its border.
+  bool touches(const PlanTriangle& t) const {
+    const glm::ivec2 last(grid_.width - 1, grid_.depth - 1);
+    const glm::ivec2 from = glm::min(glm::min(t.apex, glm::min(t.left, t.right)), last),
+                     to = glm::max(t.apex, glm::max(t.left, t.right));
+    return from.x <= high_.x && from.y <= high_.y && to.x >= low_.x && to.y >= low_.y;
+  }
   void include(glm::ivec2 at, Range& range) const {
     const float h = grid_.heights[static_cast<std::size_t>(std::min(at.y, grid_.depth - 1)) * grid_.width +
                                   std::min(at.x, grid_.width - 1)];
@@ -57,6 +72,7 @@ class RangeFinder {
   const BisectionTree& tree_;
   int depth_;
   std::vector<Range>& ranges_;
+  glm::ivec2 low_{0}, high_{std::numeric_limits<int>::max()};
 };
 
 }  // namespace
@@ -76,6 +92,14 @@ TriangleBounds::TriangleBounds(const GroundGrid& grid, const BisectionTree& tree
     ranges_[node] = join(ranges_[2 * node], ranges_[2 * node + 1]);
   }
   progress.end();
+}
+
+void TriangleBounds::update(const GroundGrid& grid, const BisectionTree& tree, glm::ivec2 low,
+                            glm::ivec2 high) {
+  RangeFinder finder(grid, tree, depth_, ranges_);
+  finder.limit(low, high);
+  for (const NodeNumber half : {NodeNumber{2}, NodeNumber{3}}) finder.find(tree.triangle(half), 1, half);
+  ranges_[1] = join(ranges_[2], ranges_[3]);
 }
 
 }  // namespace terrabench

@@ -20,6 +20,9 @@ class TriangleBounds {
   TriangleBounds() = default;
   TriangleBounds(const GroundGrid&, const BisectionTree&, Progress&);
 
+  // The heights at samples low … high have changed. O(triangles that touch them)
+  void update(const GroundGrid&, const BisectionTree&, glm::ivec2 low, glm::ivec2 high);
+
   // Bounds are stored down to this depth; deeper triangles are culled with their ancestor.
   int depth() const { return depth_; }
   // The range over the triangle's whole subtree.

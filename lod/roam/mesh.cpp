@@ -64,6 +64,17 @@ void Mesh::set_thickness(Node& node) const {
   node.thickness = wedgies_.thickness(m.u, m.v);
 }
 
+void Mesh::edited(glm::ivec2 low, glm::ivec2 high) {
+  const auto first = [](const std::vector<std::int32_t>& lines, int sample) {
+    return static_cast<int>(std::lower_bound(lines.begin(), lines.end(), sample) - lines.begin());
+  };
+  wedgies_.update(lattice_, grid_, first(lattice_.column, low.x), first(lattice_.row, low.y),
+                  first(lattice_.column, high.x + 1) - 1, first(lattice_.row, high.y + 1) - 1);
+  for (Node& node : nodes_) {
+    if (node.in_use) set_thickness(node);
+  }
+}
+
 // Each new leaf takes one pair of nodes.
 void Mesh::make_room(std::size_t leaves) {
   if (free_pairs() < leaves) add_pairs(std::max(nodes_.size() / 2, leaves - free_pairs()));

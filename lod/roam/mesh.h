@@ -22,6 +22,9 @@ class Mesh {
   // `expected_leaves`: room in the pool at first; it grows when more are made.
   Mesh(const GroundGrid&, std::size_t expected_leaves, Progress&);
 
+  // The heights at samples low … high have changed: bounds their triangles again. O(nodes + samples)
+  void edited(glm::ivec2 low, glm::ivec2 high);
+
   std::vector<Node>& nodes() { return nodes_; }
   const std::vector<Node>& nodes() const { return nodes_; }
   std::uint32_t roots() const { return 2U * static_cast<std::uint32_t>(lattice_.roots_x * lattice_.roots_z); }

@@ -60,6 +60,15 @@ void Roam::tune(double max_error) {
   retuned_ = true;
 }
 
+void Roam::edited(const SampleRect& rect) {
+  const GroundGrid& grid = mesh_.grid();
+  check_edit(rect, grid.width, grid.depth);
+  mesh_.edited(rect.low, rect.high);
+  extent_ = extent_of(grid);
+  retuned_ = true;
+  if (!first_) append_heights(grid, rect, edits_);
+}
+
 const Frame& Roam::update(const View& view) {
   check_view(view);
   start_ = std::chrono::steady_clock::now();
@@ -92,7 +101,8 @@ const Frame& Roam::update(const View& view) {
   } while (lower_exact_bucket());
   finish_ranked_leaves();
 
-  uploads_.clear();
+  uploads_.assign(edits_.begin(), edits_.end());
+  edits_.clear();
   drawn_.finish(mesh_.nodes(), uploads_);
   const GroundGrid& grid = mesh_.grid();
   if (first_) {
@@ -181,6 +191,7 @@ Memory Roam::memory() const {
   memory += index_memory(labels_valid_until_);
   memory += index_memory(batches_);
   memory += index_memory(uploads_);
+  memory += index_memory(edits_);
   return memory;
 }
 

@@ -62,6 +62,8 @@ class Roam : public Lod {
   Roam(const Heightfield&, const RoamOptions&, Progress&);
   const Frame& update(const View&) override;
   void tune(double max_error) override;
+  // The next update() computes all culling labels and priorities anew: O(triangles in the mesh).
+  void edited(const SampleRect&) override;
   Memory memory() const override;
 
  private:
@@ -139,7 +141,7 @@ class Roam : public Lod {
   std::vector<LabelValidity> labels_valid_until_;
   roam::Motion total_motion_;  // since all labels were last computed
   std::vector<Batch> batches_;
-  std::vector<DirtyRange> uploads_;
+  std::vector<DirtyRange> uploads_, edits_;  // edits_: for the next frame
   Frame frame_;
   // When deferred priorities are computed again. Leaves from this bucket up: as soon as the motion may have
   // changed them by 1/16. Leaves below: before they may have risen to it. Diamonds: before they may have

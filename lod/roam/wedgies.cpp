@@ -74,6 +74,23 @@ struct Wedgies::Builder {
             std::max(std::max(below(u - s, v), below(u + s, v)), std::max(below(u, v - s), below(u, v + s))));
   }
 
+  // All points of step size s from (u0, v0) to (u1, v1), both included; edges before centres, which need
+  // them.
+  void points(int s, int u0, int v0, int u1, int v1) {
+    const int first = (v0 + s - 1) / s, last = v1 / s;  // rows of edges
+    // The least place from `u0` on that is an odd or an even multiple of s.
+    const auto begin = [&](bool odd) {
+      return (u0 + (odd ? s : 2 * s) - 1) / (2 * s) * 2 * s + (odd ? s : 0);
+    };
+    tbb::parallel_for(first, last + 1, [&](int row) {
+      const bool along_x = row % 2 == 0;
+      for (int u = begin(along_x); u <= u1; u += 2 * s) edge(u, row * s, s, along_x);
+    });
+    tbb::parallel_for(first | 1, last + 1, 2, [&](int row) {
+      for (int u = begin(true); u <= u1; u += 2 * s) centre(u, row * s, s);
+    });
+  }
+
   void store(int u, int v, double bound) { wedgies.bounds_[wedgies.place(u, v)] = encode_up(bound); }
 };
 
@@ -84,20 +101,21 @@ Wedgies::Wedgies(const Lattice& lattice, const GroundGrid& grid, Progress& progr
     first_[k + 1] = first_[k] + 3 * squares(width - 1, k) * squares(depth - 1, k);
   }
   bounds_.resize(first_[lattice.side_log]);
-  Builder builder{lattice, grid, *this};
   progress.begin("bounding the triangle trees", static_cast<std::uint64_t>(lattice.side_log));
+  Builder builder{lattice, grid, *this};
   for (int s = 1; s < 1 << lattice.side_log; s *= 2) {
-    const int rows = (depth - 1) / s + 1;
-    tbb::parallel_for(0, rows, [&](int row) {
-      const bool along_x = row % 2 == 0;
-      for (int u = along_x ? s : 0; u < width; u += 2 * s) builder.edge(u, row * s, s, along_x);
-    });
-    tbb::parallel_for(0, rows / 2, [&](int row) {
-      for (int u = s; u < width; u += 2 * s) builder.centre(u, (2 * row + 1) * s, s);
-    });
+    builder.points(s, 0, 0, width - 1, depth - 1);
     progress.advance();
   }
   progress.end();
+}
+
+void Wedgies::update(const Lattice& lattice, const GroundGrid& grid, int u0, int v0, int u1, int v1) {
+  Builder builder{lattice, grid, *this};
+  for (int s = 1; s < 1 << lattice.side_log; s *= 2) {
+    builder.points(s, std::max(u0 - 3 * s, 0), std::max(v0 - 3 * s, 0),
+                   std::min(u1 + 3 * s, lattice.width() - 1), std::min(v1 + 3 * s, lattice.depth() - 1));
+  }
 }
 
 }  // namespace terrabench::roam

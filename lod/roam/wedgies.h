@@ -23,6 +23,10 @@ class Wedgies {
  public:
   Wedgies(const Lattice&, const GroundGrid&, Progress&);
 
+  // The heights under lattice points (u0, v0) … (u1, v1) have changed. Bounds nest, so that points up to 3s
+  // steps away are computed again at step size s: O(points changed + log of all points).
+  void update(const Lattice&, const GroundGrid&, int u0, int v0, int u1, int v1);
+
   // Thickness of the triangles that lattice point (u, v) splits, metres; 0 where all samples lie in their
   // planes.
   float thickness(int u, int v) const { return decode(bounds_[place(u, v)]); }

@@ -36,6 +36,14 @@ TEST(Distribution, QuantilesHoldAndAreCloseToTheExactOnes) {
   EXPECT_EQ(all.largest(), static_cast<double>(pixels.back()));
 }
 
+TEST(Distribution, RootMeanSquareIsThatOfAllSamplesTogether) {
+  Distribution all;
+  EXPECT_EQ(all.rms(), 0);
+  all.add(std::vector<float>{3.0F, 0.0F});
+  all.add(std::vector<float>{4.0F, 5.0F});
+  EXPECT_DOUBLE_EQ(all.rms(), std::sqrt((9.0 + 16 + 25) / 4));
+}
+
 TEST(Distribution, ZerosAreZero) {
   Distribution flat;
   flat.add(std::vector<float>(99, 0.0F));

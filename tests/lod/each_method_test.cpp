@@ -107,6 +107,29 @@ TEST_P(ConformingMethod, HasNoCracks) {
 INSTANTIATE_TEST_SUITE_P(Registry, ConformingMethod, ::testing::ValuesIn(with_trait(&LodTraits::conforming)),
                          name_of);
 
+// The types whose joins can be left out, with the option that leaves them out.
+std::vector<Variant> unstitched() {
+  std::vector<Variant> all;
+  for (const LodType& type : lods()) {
+    if (!type.unstitched.empty()) all.push_back({type.name});
+  }
+  return all;
+}
+
+class UnstitchedMethod : public EachMethod {};
+
+TEST_P(UnstitchedMethod, HasGaps) {
+  Parameters parameters(type_.parameters);
+  parameters.set_from_text(std::string(type_.unstitched));
+  const std::unique_ptr<Lod> lod = type_.build(field_, parameters, silent_);
+  std::size_t gaps = 0;
+  for (const View& view : path_)
+    gaps += find_cracks(lod->update(view), field_.width, field_.depth, view).gaps;
+  EXPECT_GT(gaps, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, UnstitchedMethod, ::testing::ValuesIn(unstitched()), name_of);
+
 class BoundingMethod : public EachMethod {};
 
 TEST_P(BoundingMethod, KeepsItsScreenSpaceError) {

@@ -280,7 +280,7 @@ TEST(Mrbsp, RefusesBadGroundAndParameters) {
 TEST(Mrbsp, EveryCombinationBuildsFromParametersAndCountsItsBytes) {
   const Heightfield field = rough_ground(70, 50);
   for (const char* const threshold : {"threshold=printed", "threshold=area"}) {
-    for (const char* const holes : {"holes=printed", "holes=conforming"}) {
+    for (const char* const holes : {"holes=printed", "holes=conforming", "holes=left"}) {
       for (const char* const visibility :
            {"visibility=off", "visibility=sampled", "visibility=facing", "visibility=conservative"}) {
         for (const char* const heights : {"heights=samples", "heights=nearest"}) {

@@ -111,6 +111,11 @@ TEST(Claims, EveryClaimOfThePapersIsThere) {
                                        "meshgrow.lazy",
                                        "cross.representations",
                                        "cross.lod-equal-error",
+                                       "cross.lod-ranks",
+                                       "cross.lod-jump",
+                                       "cross.lod-seams",
+                                       "cross.lod-surface",
+                                       "cross.lod-edit",
                                        "cross.scale"};
   for (const int n : {128, 256, 512}) {
     for (const char* row : {"hybrid.T1", "hybrid.T1.voxels", "hybrid.T1.ratio", "hybrid.T2"}) {
