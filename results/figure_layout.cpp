@@ -145,8 +145,11 @@ bool says(const FigureLayout& layout, double value) {
       double printed = std::strtod(digits.c_str(), nullptr);
       const bool negative = begin > 0 && (words[begin - 1] == '-' || words.substr(0, begin).ends_with("−"));
       if (negative) printed = -printed;
-      // Half a unit of the last digit, and a little for numbers that end in 5.
-      if (std::abs(printed - value) <= 0.5001 * std::pow(10.0, -decimals)) return true;
+      const double half = 0.5 * std::pow(10.0, -decimals);  // a unit of the last digit
+      const bool fine = half <= std::max(0.05 * std::abs(value), 0.005);
+      // A little more than half, for numbers that end in 5. The 0 of an axis does not say 0.27; 0.00 says
+      // 0.004.
+      if (printed == value || (fine && std::abs(printed - value) <= 1.0002 * half)) return true;
     }
   }
   return false;

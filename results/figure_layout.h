@@ -33,7 +33,7 @@ std::optional<FigureLayout> read_layout(const std::filesystem::path& png);
 // Why the picture does not look as the layout says; empty if it does: each panel lies within the picture and
 // shows something, and no two panels show the same. O(pixels + panels² · pixels of a panel)
 std::string layout_fault(const FigureLayout&, const Image&);
-// Whether a number in the words equals the value, to the digits that the words give.
+// Whether a number in the words equals the value: exactly, or to its digits if these round by 1/20 at most.
 bool says(const FigureLayout&, double value);
 
 }  // namespace terrabench

@@ -72,6 +72,7 @@ class ProfileChart {
       sheet.line(std::array{foot, figures::SheetPoint{foot.x, foot.y + 4}}, {.colour = kInk});
       sheet.text(foot.x, foot.y + 18, fmt::format("{}", distance), 12, "middle");
     }
+    sheet.panel(kX, kTop, kWidth, kHeight);
     sheet.line(std::array{at(0, high_), at(0, low_), at(kW, low_)}, {.colour = kInk});
     sheet.text(kX + kWidth / 2, kTop + kHeight + 38, "distance from the pixel, samples", 13, "middle");
     sheet.text(kX - 40, kTop - 12, "(b) elevation, m", 13);

@@ -30,6 +30,7 @@ struct Scale {
 void add_matrix(figures::Sheet& sheet, double x0, double y0, int w, const std::vector<Outcome>& outcomes,
                 const ErrorOf& error, const Scale& scale, const Figures& figures) {
   sheet.text(x0, y0 - 8, fmt::format("w = {}", w), 14);
+  sheet.panel(x0, y0, kMatrixWidth - 1, kMatrixHeight - 1);
   for (const Outcome& o : outcomes) {
     if (o.setting.w != w) continue;
     const auto column = std::find(kInfluences.begin(), kInfluences.end(), o.setting.k) - kInfluences.begin();

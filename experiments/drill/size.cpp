@@ -15,7 +15,6 @@
 #include "representations/drill/quantum.h"
 #include "representations/drill/regenerate.h"
 #include "results/plot.h"
-#include "results/rasterise.h"
 #include "terrain/metrics/elevation_error.h"
 #include "terrain/sources/dem/compressed_sizes.h"
 
@@ -110,8 +109,7 @@ void draw_rate_distortion(const TerrainSource& source, const FlowNetwork& networ
   }
   // All codecs store flat ground without error, which a logarithmic axis cannot show.
   if (height_range(ground).lowest == height_range(ground).highest) return;
-  svg_text_to_png(
-      plot_svg(plot),
+  figures::write_chart(
       recorder.figure(
           "drill.rate-distortion" + suffix, "png",
           fmt::format(
@@ -119,7 +117,7 @@ void draw_rate_distortion(const TerrainSource& source, const FlowNetwork& networ
               "best k at each of seven thresholds, and the same ground in other codecs. Only coded bytes "
               "count. Drills are entropy-coded, so LERC with DEFLATE is the fair comparison.",
               source.name)),
-      1200);
+      plot, 1200);
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {

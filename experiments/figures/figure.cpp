@@ -16,7 +16,7 @@ void draw_figure(std::span<const Figure> figures, std::string_view paper, const 
                  const RunOptions& options, Recorder& recorder) {
   const Figure& figure = figures[at.parameters.choice("figure")];
   recorder.add("figure", "", figure.number);
-  Drawing drawing(options);
+  Drawing drawing(options, &recorder);
   const Sheet sheet = figure.draw(drawing);
   sheet.write(recorder.figure(fmt::format("{}.{}", paper, figure.name), "png",
                               fmt::format("Figure {} of the paper: {}", figure.number, figure.caption)));

@@ -18,12 +18,19 @@ namespace terrabench::figures {
 // What a function that draws a figure may use.
 class Drawing {
  public:
-  explicit Drawing(const RunOptions& options) : options_(options) {}  // keeps a reference
+  // Keeps references. Without a recorder, what record() is given is lost.
+  explicit Drawing(const RunOptions& options, Recorder* recorder = nullptr)
+      : options_(options), recorder_(recorder) {}
   std::uint64_t seed() const { return options_.seed; }
   GlContext& gl();  // opened at the first call; throws as open_context() does
+  // A metric of the figure's case: a count that the figure prints, so that a check can compare the two.
+  void record(std::string_view metric, double value) {
+    if (recorder_ != nullptr) recorder_->add(metric, "", value);
+  }
 
  private:
   const RunOptions& options_;
+  Recorder* const recorder_;
   std::unique_ptr<GlContext> gl_;
 };
 

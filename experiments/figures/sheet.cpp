@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "results/rasterise.h"
 #include "terrain/files.h"
@@ -43,6 +44,17 @@ std::string base64(std::string_view bytes) {
     }
   }
   return text;
+}
+
+// The texts of an SVG as written by plot_svg(), in the order drawn. Entities stay: no number has one.
+std::vector<std::string> words_of(std::string_view svg) {
+  std::vector<std::string> words;
+  for (std::size_t at = svg.find("<text"); at != svg.npos; at = svg.find("<text", at)) {
+    const std::size_t begin = svg.find('>', at) + 1;
+    at = svg.find("</text>", begin);
+    words.emplace_back(svg.substr(begin, at - begin));
+  }
+  return words;
 }
 
 // By whole numbers, so that the SVG renderer has nothing to interpolate.
@@ -116,11 +128,15 @@ void Sheet::text(double x, double y, std::string_view words, int size, std::stri
 }
 
 void Sheet::picture(double x, double y, double width, double height, const Image& image) {
+  panel(x, y, width, height);
+  this->image(x, y, width, height, image);
+}
+
+void Sheet::panel(double x, double y, double width, double height) {
   const auto pixels = [](double units) { return static_cast<int>(std::lround(kPixels * units)); };
   const int left = std::max(0, pixels(x)), top = std::max(0, pixels(y));
   layout_.panels.push_back({left, top, std::min(pixels(x + width), kPixels * width_) - left,
                             std::min(pixels(y + height), kPixels * height_) - top});
-  this->image(x, y, width, height, image);
 }
 
 void Sheet::image(double x, double y, double width, double height, const Image& image) {
@@ -164,6 +180,18 @@ std::string Sheet::svg() const {
 void Sheet::write(const std::filesystem::path& png) const {
   svg_text_to_png(svg(), png, kPixels * width_, colours_);
   write_layout(png, layout_);
+}
+
+void write_picture(const std::filesystem::path& png, const Image& image) {
+  write_png(png, image);
+  write_layout(png, {{{0, 0, image.width, image.height}}, {}});
+}
+
+void write_chart(const std::filesystem::path& png, const Plot& plot, int width) {
+  const std::string svg = plot_svg(plot);
+  svg_text_to_png(svg, png, width);
+  const Image image = read_png(png);
+  write_layout(png, {{{0, 0, image.width, image.height}}, words_of(svg)});
 }
 
 }  // namespace terrabench::figures

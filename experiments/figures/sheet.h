@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "results/figure_layout.h"
+#include "results/plot.h"
 #include "results/rasterise.h"
 #include "terrain/image.h"
 
@@ -44,6 +45,8 @@ class Sheet {
   // Pixels become sharp rectangles, all of the same size if the image is enlarged by a whole number.
   // Each is a panel of the figure's layout (results/figure_layout.h); the words are those of text().
   void picture(double x, double y, double width, double height, const Image& image);
+  // Makes a part of the sheet that consists of lines, boxes and words a panel of the layout too.
+  void panel(double x, double y, double width, double height);
   // The colours of 0 to 1 from left to right, with words below the bar at each tick.
   struct Tick {
     double at;  // 0 to 1
@@ -69,6 +72,12 @@ class Sheet {
   std::string body_;
   FigureLayout layout_;
 };
+
+// Writes a picture without words: a figure of one panel. Throws environment_error.
+void write_picture(const std::filesystem::path& png, const Image&);
+// Writes a chart: a figure of one panel, with the words that the chart shows. `width` is in pixels. Throws
+// like plot_svg() and svg_text_to_png().
+void write_chart(const std::filesystem::path& png, const Plot&, int width);
 
 // A picture with its words.
 struct Panel {

@@ -105,6 +105,8 @@ Sheet draw_sequence(Drawing& drawing) {
   const Look look{{0.4F, 0.7F, 1.0F}, 1060, 630};
   const Ght fresh = open_tree("canyon", false), ght = open_tree("canyon");
   const std::size_t events = ght.model().tree.events().size(), nodes = ght.model().tree.nodes().size();
+  drawing.record("events", static_cast<double>(events));
+  drawing.record("heightmaps", static_cast<double>(nodes));
   return panel_sheet({{{wires_view(gl, fresh, look), "fresh terrain, wireframe"},
                        {solid_view(gl, fresh, look), "fresh terrain, solid"}},
                       {{wires_view(gl, ght, look), fmt::format("after {} events, wireframe", events)},
@@ -207,7 +209,9 @@ Sheet draw_rain(Drawing& drawing) {
                   {wires_view(gl, ght, window), "wireframe, a window of 65 × 65"},
                   {solid_view(gl, ght, look, falling(ght, rain)), "solid, the rain begins"}}};
   for (int k = 0; k < kParticles; ++k) ght.apply(rain.next(ght));
-  const std::string particles = format_number(static_cast<double>(ght.model().tree.events().size()));
+  const auto events = static_cast<double>(ght.model().tree.events().size());
+  drawing.record("particles", events);
+  const std::string particles = format_number(events);
   rows.push_back({{planes_view(gl, ght, look), fmt::format("after {} particles: ground planes", particles)},
                   {wires_view(gl, ght, window), "wireframe, the same window"},
                   {solid_view(gl, ght, look), "solid"}});

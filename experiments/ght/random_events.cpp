@@ -32,12 +32,21 @@ glm::dvec2 place(Dice& dice, const Site& site, double low, double high) {
   return site.extent() * glm::dvec2(x, dice.between(low, high));
 }
 
+// What earlier events have left.
+HeightAt current_ground(const Ght& tree) {
+  return [&tree](glm::dvec2 p) { return tree.model().surface.top(tree.model().tree, p); };
+}
+
 // The highest of `tries` places.
-glm::dvec2 high_place(Dice& dice, const Site& site, int tries) {
+glm::dvec2 high_place(Dice& dice, const Site& site, const HeightAt& ground, int tries) {
   glm::dvec2 top = place(dice, site, 0.1, 0.9);
+  double highest = ground(top);
   for (int k = 1; k < tries; ++k) {
     const glm::dvec2 other = place(dice, site, 0.1, 0.9);
-    if (height(site, other) > height(site, top)) top = other;
+    const double here = ground(other);
+    if (!(here > highest)) continue;
+    top = other;
+    highest = here;
   }
   return top;
 }
@@ -53,7 +62,8 @@ std::vector<glm::dvec2> regular_section(int sides, double radius) {
 
 Event wild_carving(Dice& dice, const Site& site, bool cave, glm::dvec3 shares) {
   const double cell = site.ground.cell_x;
-  const glm::dvec2 top = high_place(dice, site, 21);
+  const glm::dvec2 top = high_place(
+      dice, site, [&](glm::dvec2 p) { return height(site, p); }, 21);
   const double angle = 2 * std::numbers::pi * shares.x, radius = within(1.3, 2, shares.y) * cell,
                y = height(site, top) - within(1.2, 2.5, shares.z) * radius - cell;
   const glm::dvec2 along = dice.between(1, 4) * cell * direction(angle);
@@ -78,18 +88,20 @@ bool is_defined(const Site& site, std::span<const Event> before, const Event& ev
   }
 }
 
-// A cave under high ground. Its axis falls inwards, so that it comes out of more slopes.
-std::optional<Event> sane_cave(Dice& dice, const Site& site, std::span<const Event> before) {
+// A cave under high ground that earlier events have left. Its axis falls inwards, so that it comes out of
+// more slopes.
+std::optional<Event> sane_cave(Dice& dice, const Site& site, const Ght& tree, std::span<const Event> before) {
   constexpr int kTries = 60;
   const double cell = site.ground.cell_x;
+  const HeightAt ground = current_ground(tree);
   for (int attempt = 0; attempt < kTries; ++attempt) {
-    const glm::dvec2 top = high_place(dice, site, 8);
+    const glm::dvec2 top = high_place(dice, site, ground, 8);
     const double radius = dice.between(1.2, 1.6) * cell, drop = dice.between(1.5, 3) * radius + cell;
     const double angle = dice.between(0, 2 * std::numbers::pi);
     const glm::dvec2 along = dice.between(2, 4) * cell * direction(angle);
     Carving carving;
     carving.cave = true;
-    const double y = height(site, top) - drop;
+    const double y = ground(top) - drop;
     const double fall = dice.between(0, 0.5) * glm::length(along);  // from `from` to the middle
     carving.from = {top.x - along.x, y + fall, top.y - along.y};
     carving.to = {top.x + along.x, y - fall, top.y + along.y};
@@ -98,27 +110,29 @@ std::optional<Event> sane_cave(Dice& dice, const Site& site, std::span<const Eve
     carving.roughness = 0.03 * radius;
     carving.seed = dice.next();
     const auto covered = [&](glm::dvec3 end) {
-      return height(site, {end.x, end.z}) - end.y > 1.4 * radius + kCover * cell;
+      return ground({end.x, end.z}) - end.y > 1.4 * radius + kCover * cell;
     };
     if (!covered(carving.from) || !covered(carving.to)) continue;
-    if (!comes_out_once(site, carving, 0, -1)) continue;
+    if (!comes_out_once(ground, cell, carving, 0, -1)) continue;
     if (is_defined(site, before, carving)) return carving;
   }
   return std::nullopt;
 }
 
-// A level tunnel through a ridge. The relief is only some six cells high, so that few ridges have room: the
-// section is just larger than the tree's least one, the cover too, and there are many quick tries. They have
-// their own dice, so that the events after a tunnel do not depend on how many it took.
-std::optional<Event> sane_tunnel(Dice tries, const Site& site, std::span<const Event> before) {
+// A level tunnel through a ridge that earlier events have left. The relief is only some six cells high, so
+// that few ridges have room: the section is just larger than the tree's least one, and there are many quick
+// tries. They have their own dice, so that the events after a tunnel do not depend on how many it took.
+std::optional<Event> sane_tunnel(Dice tries, const Site& site, const Ght& tree,
+                                 std::span<const Event> before) {
   constexpr int kTries = 4000;
-  constexpr double kTunnelCover = 1.1;  // cells of ground over both ends
+  constexpr double kTunnelCover = 1.3;  // radii of ground over both ends
   const double cell = site.ground.cell_x, lowest = height_range(site.ground).lowest;
+  const HeightAt ground = current_ground(tree);
   Carving carving;
   for (int attempt = 0; attempt < kTries; ++attempt) {
-    const glm::dvec2 top = high_place(tries, site, 4);
+    const glm::dvec2 top = high_place(tries, site, ground, 4);
     const double radius = tries.between(1.05, 1.2) * cell;
-    const double y = height(site, top) - radius - tries.between(kTunnelCover, 1.8) * cell;
+    const double y = ground(top) - radius - tries.between(kTunnelCover, 1.8) * radius;
     const double angle = tries.between(0, 2 * std::numbers::pi);
     const glm::dvec2 along = tries.between(0.5, 2) * cell * direction(angle);
     carving.from = {top.x - along.x, y, top.y - along.y};
@@ -126,12 +140,12 @@ std::optional<Event> sane_tunnel(Dice tries, const Site& site, std::span<const E
     const int sides = 4 + static_cast<int>(tries.next() % 5);
     carving.seed = tries.next();
     const auto covered = [&](glm::dvec3 end) {
-      return height(site, {end.x, end.z}) - y > radius + kTunnelCover * cell;
+      return ground({end.x, end.z}) - y > (1 + kTunnelCover) * radius;
     };
-    if (y - radius <= lowest || !covered(carving.from) || !covered(carving.to)) continue;
+    if (!(y - radius > lowest) || !covered(carving.from) || !covered(carving.to)) continue;
     carving.section = regular_section(sides, radius / std::cos(std::numbers::pi / sides));
-    if (!comes_out_once(site, carving, 0, -1)) continue;
-    if (!comes_out_once(site, carving, carving.line().length, 1)) continue;
+    if (!comes_out_once(ground, cell, carving, 0, -1)) continue;
+    if (!comes_out_once(ground, cell, carving, carving.line().length, 1)) continue;
     if (is_defined(site, before, carving)) return carving;
   }
   return std::nullopt;
@@ -256,8 +270,8 @@ Event wild_event(Dice& dice, const Site& site) {
 Event sane_event(Dice& dice, const Site& site, const Ght& tree, std::span<const Event> before) {
   const auto kind = static_cast<Kind>(dice.next() % kKinds);
   if (!is_carving(kind)) return sane_geotectonic(dice, site, tree, kind);
-  const auto carving =
-      kind == Kind::kCave ? sane_cave(dice, site, before) : sane_tunnel(Dice(dice.next()), site, before);
+  const auto carving = kind == Kind::kCave ? sane_cave(dice, site, tree, before)
+                                           : sane_tunnel(Dice(dice.next()), site, tree, before);
   if (carving) return *carving;
   return sane_geotectonic(dice, site, tree, Kind::kRadialErosion);
 }

@@ -14,9 +14,9 @@ events::Event wild_event(Dice& dice, const Site& site);
 
 // An event as the paper draws them: half to one and a quarter times the site's size long, two cells and more
 // inside the terrain, and one that is defined on this ground; a carving is at least two cells wide and has
-// more than a cell of ground over both its ends. A carving is redrawn until the definition
-// (terrain/events/evaluate.h) allows it after `before`; where the site has no place for one, the result is a
-// radial erosion.
+// more than a cell of ground, as the events before have left it, over both its ends. A carving is redrawn
+// until the definition (terrain/events/evaluate.h) allows it after `before`; where the site has no place for
+// one, the result is a radial erosion.
 events::Event sane_event(Dice& dice, const Site& site, const Ght& tree,
                          std::span<const events::Event> before);
 

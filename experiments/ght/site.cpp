@@ -78,17 +78,17 @@ std::vector<glm::dvec2> high_places(const Site& site) {
 
 }  // namespace
 
-bool comes_out_once(const Site& site, const Carving& carving, double u, double outwards) {
+bool comes_out_once(const HeightAt& height, double cell, const Carving& carving, double u, double outwards) {
   constexpr int kAcross = 8;
   const Line line = carving.line();
-  const double cell = site.ground.cell_x, radius = section_reach(carving, u).high;
+  const double radius = section_reach(carving, u).high;
   std::array<bool, kAcross + 1> open{};
   for (;; u += outwards * cell / 2) {
     bool all_out = true;
     for (int k = 0; k <= kAcross; ++k) {
       const double a = radius * (2.0 * k / kAcross - 1);
       const glm::dvec2 plan = line.plan({u, -a});
-      const double over = height(site, plan) - carving.height(u);
+      const double over = height(plan) - carving.height(u);
       if (std::isnan(over)) return false;
       if (open[k] && over > radius + cell / 2) return false;
       open[k] = open[k] || over < radius;
@@ -155,6 +155,8 @@ std::optional<Event> carve(Ght& tree, const Site& site, bool cave, int sides) {
   }
   carving.roughness = rounded(0.02 * kRadius * site.size);
   carving.seed = 1;
+  const HeightAt ground = [&](glm::dvec2 plan) { return height(site, plan); };
+  const double cell = site.ground.cell_x;
   int tries = 2000;  // about a second
   for (const glm::dvec2 top : high_places(site)) {
     for (const double drop : {0.08, 0.1, 0.12, 0.15}) {
@@ -163,8 +165,8 @@ std::optional<Event> carve(Ght& tree, const Site& site, bool cave, int sides) {
         const double y = height(site, top) - drop * site.size;
         carving.from = rounded(glm::dvec3(top.x - along.x, y, top.y - along.y));
         carving.to = rounded(glm::dvec3(top.x + along.x, y, top.y + along.y));
-        if (!comes_out_once(site, carving, 0, -1)) continue;
-        if (!cave && !comes_out_once(site, carving, carving.line().length, 1)) continue;
+        if (!comes_out_once(ground, cell, carving, 0, -1)) continue;
+        if (!cave && !comes_out_once(ground, cell, carving, carving.line().length, 1)) continue;
         if (try_apply(tree, site, carving)) return carving;
         if (--tries == 0) return std::nullopt;
       }

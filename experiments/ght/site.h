@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <random>
@@ -45,10 +46,14 @@ std::optional<events::Event> carve(Ght& tree, const Site&, bool cave, int sides)
 // metres from the corner. Throws environment_error if the mountains have no place for it.
 events::Event single_event(const Site&, events::Kind);
 
+// Height of the ground at a place in plan; NaN outside the terrain and over holes.
+using HeightAt = std::function<double(glm::dvec2)>;
+
 // Whether the carving leaves the ground only once beyond its end at u: after its roof has first come out, the
 // ground must not rise half a cell above the roof again before the whole section is out. If it did, the exact
-// shape would have another piece of roof, but the tree's walls end at the first exit.
-bool comes_out_once(const Site& site, const events::Carving& carving, double u, double outwards);
+// shape would have another piece of roof, but the tree's walls end at the first exit. `cell` in metres.
+bool comes_out_once(const HeightAt& height, double cell, const events::Carving& carving, double u,
+                    double outwards);
 
 // Two tunnels (figure 21).
 std::vector<events::Event> two_tunnels(const Site&);

@@ -23,12 +23,16 @@ using namespace figures;
 constexpr Rgb kInk{20, 20, 24}, kSet{150, 150, 155}, kUnset{215, 215, 218}, kAccent{0, 90, 170},
     kSecond{190, 70, 20};
 constexpr double kMargin = 28, kLabel = 26;
+constexpr double kMark = 10;  // how far marks of points reach beyond the array
 
 // Points of an array of `side` × `side` on the sheet.
 struct ArrayPlace {
   double x, y, size;  // of the corner point, and of the whole array
   int side;
   SheetPoint at(double i, double j) const { return {x + size * i / (side - 1), y + size * j / (side - 1)}; }
+  void make_panel(Sheet& sheet) const {
+    sheet.panel(x - kMark, y - kMark, size + 2 * kMark, size + 2 * kMark);
+  }
 };
 
 // Thin lines between the points.
@@ -103,6 +107,7 @@ Sheet draw_midpoints(Drawing& drawing) {
     };
     std::vector<SheetPoint> points;
     for (std::size_t i = 0; i < heights.size(); ++i) points.push_back(place(i));
+    sheet.panel(x0, y0, kWidth, kHeight);
     sheet.stroke({x0, y0 + kHeight / 2}, {x0 + kWidth, y0 + kHeight / 2}, kUnset, 1);
     sheet.line(points, {.colour = kInk, .thickness = levels < 6 ? 2 : 1.2, .dashes = {}});
     if (levels < 6) {
@@ -132,7 +137,10 @@ Sheet draw_neighbourhoods(Drawing&) {
     }
     for (const auto& [i, j] : corners) sheet.dot(at.at(i, j), 7, kInk);
   };
-  for (int panel = 0; panel < 3; ++panel) draw_grid(sheet, array(panel));
+  for (int panel = 0; panel < 3; ++panel) {
+    draw_grid(sheet, array(panel));
+    array(panel).make_panel(sheet);
+  }
   outline(array(0), {{1, 1}, {3, 1}, {3, 3}, {1, 3}}, true);
   sheet.ring(array(0).at(2, 2), 7, kInk, 2);
   outline(array(1), {{2, 1}, {3, 2}, {2, 3}, {1, 2}}, true);
@@ -160,6 +168,7 @@ Sheet draw_diamond_square_steps(Drawing& drawing) {
     const double x = 1.5 * kMargin + (steps < 3 ? steps : steps - 2.5) * kStepX;
     const ArrayPlace array{x, kMargin + (steps < 3 ? 0 : kStepY), kSize, 5};
     draw_steps(sheet, array, {.seed = drawing.seed(), .side = 5}, steps);
+    array.make_panel(sheet);
     label(sheet, x + kSize / 2, array.at(0, 4).y + kMargin + 8, kWords[static_cast<std::size_t>(steps)]);
   }
   return sheet;
@@ -170,9 +179,12 @@ Sheet draw_straddling_diamond(Drawing& drawing) {
   const fractal::DiamondSquareOptions options{.seed = drawing.seed(), .side = 5};
   const Heightfield field = fractal::diamond_square(options),
                     before = fractal::diamond_square_after(options, 3);
+  drawing.record("height_west", field.at(0, 1));
+  drawing.record("height_east", field.at(4, 1));
   Sheet sheet(kSize + 10 * kMargin, kSize + 3 * kMargin);
   const ArrayPlace array{5 * kMargin, 1.5 * kMargin, kSize, 5};
   draw_grid(sheet, array);
+  array.make_panel(sheet);
   for (const auto& [border, inside] : {std::pair{0, 1}, {4, 3}}) {
     sheet.stroke(array.at(border, 0), array.at(inside, 1), kAccent, 2);
     sheet.stroke(array.at(inside, 1), array.at(border, 2), kAccent, 2);
@@ -202,6 +214,7 @@ Sheet draw_first_fault(Drawing& drawing) {
   const Heightfield field = fractal::fault_terrain(options);
   Sheet sheet(kSize + 4 * kMargin, kSize + kLabel + 4 * kMargin);
   const ArrayPlace array{2 * kMargin, 2 * kMargin, kSize, kSide};
+  array.make_panel(sheet);
   for (int j = 0; j < kSide; ++j) {
     for (int i = 0; i < kSide; ++i) {
       if (field.at(i, j) > 0) {

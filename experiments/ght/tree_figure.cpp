@@ -72,6 +72,8 @@ class TreeSheet {
       sheet.text(at.x + kBox / 2 + 5, at.y - 20, fmt::format("{}. {}", e + 1, words), 13, "start");
     }
     legend(sheet, kMargin + kRoot + 60, kMargin + 40);
+    sheet.text(kMargin + kRoot + 34, kMargin + 148,
+               fmt::format("{} heightmaps after {} events", tree_.nodes().size(), tree_.events().size()), 13);
     return sheet;
   }
 
@@ -145,6 +147,12 @@ class TreeSheet {
 
 }  // namespace
 
-Sheet draw_tree(figures::Drawing&) { return TreeSheet(open_tree("canyon").model().tree).draw(); }
+Sheet draw_tree(figures::Drawing& drawing) {
+  const Ght ght = open_tree("canyon");
+  const Tree& tree = ght.model().tree;
+  drawing.record("events", static_cast<double>(tree.events().size()));
+  drawing.record("heightmaps", static_cast<double>(tree.nodes().size()));
+  return TreeSheet(tree).draw();
+}
 
 }  // namespace terrabench::ght

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "experiments/experiment.h"
+#include "experiments/figures/sheet.h"
 #include "experiments/hybrid/noise_ground.h"
 #include "experiments/near_ground.h"
 #include "experiments/scene.h"
@@ -98,7 +99,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
   recorder.add("triangles", "", static_cast<double>(painter.update(view).stats.triangles));
   recorder.add("strands", "", static_cast<double>(painter.strands()));
-  write_png(
+  figures::write_picture(
       recorder.figure("hybrid.hero", "png",
                       "Noise terrain made as in the paper: an arch over water, in a landscape that ends in "
                       "the sky. The ground near the eye is an implicit surface with grass, the ground "

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "experiments/experiment.h"
+#include "experiments/figures/sheet.h"
 #include "terrain/files.h"
 #include "terrain/image.h"
 #include "terrain/sources/noise/cave_terrain.h"
@@ -68,11 +69,12 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("mean_shown", "", shown / static_cast<double>(values.size()));  // of 0 black to 1 white
   recorder.add("least", "", *least);
   recorder.add("most", "", *most);
-  write_png(recorder.figure(
-                fmt::format("hybrid.F{}", stage.figure), "png",
-                fmt::format("Figure {} of the paper: {}. Vertical slice of {} m × {} m, black {}, white {}",
-                            stage.figure, stage.name, terrain.extent, terrain.extent, stage.low, stage.high)),
-            image);
+  figures::write_picture(
+      recorder.figure(
+          fmt::format("hybrid.F{}", stage.figure), "png",
+          fmt::format("Figure {} of the paper: {}. Vertical slice of {} m × {} m, black {}, white {}",
+                      stage.figure, stage.name, terrain.extent, terrain.extent, stage.low, stage.high)),
+      image);
 }
 
 }  // namespace

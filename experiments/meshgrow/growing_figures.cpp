@@ -284,12 +284,14 @@ Image traced(const FaceMesh& mesh, bool smooth, const View& view) {
 constexpr glm::vec3 kTrunkFrom(0.55F, 0.25F, 1.0F);
 constexpr int kTracedWidth = 560, kTracedHeight = 700;
 
-Sheet draw_trunk(Drawing&) {
+Sheet draw_trunk(Drawing& drawing) {
   const Model model = parse_model(model_text("forking_trunk"), "forking_trunk");
   ExpandOptions growth;
   growth.leave_out = {"smooth"};
   const GrownMesh grown = expand(model, growth), smooth = expand(model);
   const View view = view_of(grown.mesh, kTracedWidth, kTracedHeight, kTrunkFrom);
+  drawing.record("grown_faces", static_cast<double>(grown.mesh.faces()));
+  drawing.record("smooth_faces", static_cast<double>(smooth.mesh.faces()));
   return panel_sheet({{{traced(grown.mesh, false, view), fmt::format("grown: {} faces", grown.mesh.faces())},
                        {traced(smooth.mesh, true, view),
                         fmt::format("smoothed three times: {} faces", smooth.mesh.faces())}}});

@@ -190,8 +190,9 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   } else {
     growing::ExpandOptions bare;
     bare.leave_out = {"leaves"};
-    panels.push_back(picture.in_daylight(triangles_of(growing::expand(model, bare).mesh), model.system,
-                                         "without leaves: "));
+    const ModelMesh without = triangles_of(growing::expand(model, bare).mesh);
+    recorder.add("bare_triangles", "", static_cast<double>(without.mesh.triangles()));
+    panels.push_back(picture.in_daylight(without, model.system, "without leaves: "));
   }
   recorder.add("figure", "", figure.number);
   recorder.add("triangles", "", static_cast<double>(mesh.mesh.triangles()));

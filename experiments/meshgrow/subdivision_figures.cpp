@@ -100,6 +100,7 @@ Sheet draw_step(Drawing&) {
   const std::array<std::string_view, 3> titles{"mesh M(n)", "mesh refinement", "vertex placement: M(n+1)"};
   for (int k = 0; k < 3; ++k) {
     sheet.text(kGap + k * (kSide + kGap) + kSide / 2, 20, titles[static_cast<std::size_t>(k)], 16, "middle");
+    sheet.panel(kGap + k * (kSide + kGap), kTitle, kSide, kSide);
   }
   const auto dots = [&](const std::vector<SheetPoint>& at, std::size_t count) {
     for (std::size_t v = 0; v < count; ++v) {

@@ -21,6 +21,7 @@ class ProfileDrawing {
       : profile_(profile), steps_(steps), sheet_(kSheet.x, kSheet.y) {}
 
   const Sheet& draw() {
+    sheet_.panel(0, 0, kSheet.x, kSheet.y);
     cells();
     // Coarse under fine, so that both show where they nearly coincide.
     outline(profile_.size() >> kCoarseDigits, {.colour = kCoarse, .thickness = 5}, 9);
@@ -132,6 +133,7 @@ Sheet table_sheet(std::span<const PrintedStep> printed, std::span<const ProfileS
     }
   }
   Sheet sheet(kRight + 20, 74 + kRow * static_cast<double>(lines.size()) + 20);
+  sheet.panel(0, 0, kRight + 20, 74 + kRow * static_cast<double>(lines.size()) + 20);
   const auto rule = [&](double y) {
     sheet.line(std::array{SheetPoint{kColumns[0], y}, SheetPoint{kRight, y}}, {.colour = kDark});
   };

@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "experiments/experiment.h"
+#include "experiments/figures/sheet.h"
 #include "experiments/mrbsp/figures.h"
 #include "experiments/mrbsp/ground.h"
-#include "results/rasterise.h"
 
 namespace terrabench::mrbsp {
 namespace {
@@ -79,15 +79,14 @@ void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress& pr
     recorder.add("size_near_" + name, "pixels", points.front().y);
     recorder.add("size_far_" + name, "pixels", points.back().y);
   }
-  svg_text_to_png(
-      plot_svg(plot),
+  figures::write_chart(
       recorder.figure("mrbsp.threshold", "png",
                       "The paper's section 3: apparent size of triangles against their distance, on level "
                       "ground, by the printed formula and by the one that accounts for halved areas. The "
                       "paper says that the size stays the same. S is 16 times the short side of the finest "
                       "triangles; 800 × 600 pixels, 40° wide. The steps come from whole levels and two bins "
                       "per doubling of distance"),
-      kPictureWidth);
+      plot, kPictureWidth);
 }
 
 }  // namespace

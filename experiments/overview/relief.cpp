@@ -6,6 +6,7 @@
 #include <array>
 
 #include "experiments/fidelity.h"
+#include "experiments/figures/sheet.h"
 #include "experiments/ground.h"
 #include "experiments/stopwatch.h"
 #include "representations/representation.h"
@@ -74,12 +75,13 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const Bounds ground = source.bounds();  // the same colours for every representation of it
   const Image image = render_relief(*context, mesh, view, {.lowest = ground.low.y, .highest = ground.high.y});
   const std::string id = fmt::format("relief.{}.{}", file_name(at.terrain), type.name);
-  write_png(recorder.figure(
-                id, "png",
-                fmt::format("{} as {}: {} triangles, from {:.0f} m (dark) to {:.0f} m (light), sun from the "
-                            "north-west, view from the south",
-                            source.name, type.name, mesh.triangles(), ground.low.y, ground.high.y)),
-            with_few_colours(image));
+  figures::write_picture(
+      recorder.figure(
+          id, "png",
+          fmt::format("{} as {}: {} triangles, from {:.0f} m (dark) to {:.0f} m (light), sun from the "
+                      "north-west, view from the south",
+                      source.name, type.name, mesh.triangles(), ground.low.y, ground.high.y)),
+      with_few_colours(image));
 }
 
 }  // namespace

@@ -124,6 +124,7 @@ std::vector<std::string> faults_of_channels(const SheetReader& shown, const Stud
 TEST(DrillFigures, ChannelsOverTheRelief) {
   const SheetReader shown = read(channels_sheet(grounds().study()));
   EXPECT_EQ(faults_of_channels(shown, grounds().study()), std::vector<std::string>{});
+  EXPECT_EQ(shown.fault_of_panels(declared_panels("drill.F1")), "");
   // Another ground; and the right ground with the channels of the other.
   EXPECT_GE(faults_of_channels(read(channels_sheet(grounds().mirrored())), grounds().study()).size(), 8U);
   const Study mixed{grounds().one, grounds().other_network, kVariants[0], "hills", ""};
@@ -257,6 +258,7 @@ TEST(DrillFigures, CrossSectionsTheirUnionAndFit) {
   const figures::Sheet sheet = cross_sections_sheet(study, pixel);
   EXPECT_EQ(faults_of_sections(sheet, study.ground, pixel), std::vector<std::string>{});
   EXPECT_EQ(SheetReader(sheet, false).pictures.size(), 2U);  // the map and its key
+  EXPECT_EQ(read(sheet).fault_of_panels(declared_panels("drill.F2")), "");
   // The sections of the next pixel, and of the same pixel on another ground.
   EXPECT_NE(faults_of_sections(cross_sections_sheet(study, pixel + 1), study.ground, pixel),
             std::vector<std::string>{});
@@ -318,7 +320,11 @@ TEST(DrillFigures, TerrainsOfLeastErrorAndTheirDifference) {
     Study study{grounds().one, grounds().network, variant, "hills", ""};
     const Outcome rmse = outcome_at(study, {25, 10, 10}), ahd = outcome_at(study, {100, 5, 5});
     EXPECT_GT(ahd.untouched, 0.01);
-    EXPECT_EQ(faults_of_best(best_sheets(study, rmse, ahd), study, rmse, ahd), std::vector<std::string>{});
+    const BestSheets best = best_sheets(study, rmse, ahd);
+    EXPECT_EQ(faults_of_best(best, study, rmse, ahd), std::vector<std::string>{});
+    EXPECT_EQ(read(best.terrains).fault_of_panels(declared_panels("drill.F3")), "");
+    EXPECT_EQ(read(best_sheets(study, rmse, rmse).terrains).fault_of_panels(2),
+              "panels 1 and 2 show the same");
     if (!variant.is_first()) continue;
     EXPECT_GE(faults_of_best(best_sheets(study, ahd, rmse), study, rmse, ahd).size(), 6U);
     EXPECT_GE(faults_of_best(best_sheets(grounds().mirrored(), rmse, ahd), study, rmse, ahd).size(), 4U);

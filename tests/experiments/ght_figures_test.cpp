@@ -64,6 +64,12 @@ TEST_P(GhtFigure, HasItsPanelsEachDrawnAndNamed) {
   const SheetReader::Picture whole{0, 0, shown.image.width / 2.0, shown.image.height / 2.0};
   EXPECT_GT(shown.share(whole, inked), 0.02);
   EXPECT_LT(shown.bytes, 700'000U);
+  if (const int panels = declared_panels(fmt::format("ght.F{}", figure.number)); panels > 0) {
+    EXPECT_EQ(shown.fault_of_panels(panels), "");
+    EXPECT_NE(shown.fault_of_panels(panels + 1), "");
+  } else {
+    EXPECT_EQ(figure.number, 23) << "a panel per node: some look the same";
+  }
   const auto rows = kRows.find(figure.number);
   if (rows == kRows.end()) return;
   EXPECT_EQ(shown.rows(), rows->second);
@@ -177,6 +183,31 @@ TEST(GhtFigures, WiresShowWhatEventsMade) {
   const auto yellow = [](const Rgb& c) { return c[0] > 225 && c[1] > 185 && c[2] < 40; };
   EXPECT_GT(rain.share(rain.pictures.at(2), yellow), 0.002);
   EXPECT_EQ(rain.share(rain.pictures.at(5), yellow), 0);
+}
+
+TEST(GhtFigures, RecordTheNumbersThatTheyPrint) {
+  const auto drawn = [](const char* which, const char* name) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "figures");
+    Record record;
+    record.profile = "quick";
+    Recorder recorder(record, folder.path());
+    Progress progress;
+    const std::vector<Case> cases = experiment(which).cases({});
+    experiment(which).measure(*std::ranges::find(cases, name, &Case::name), {}, recorder, progress);
+    record.figures.at(0).layout = read_layout(folder / record.figures[0].file);
+    return record;
+  };
+  const auto expect_said = [](const Record& record, const char* metric) {
+    const double value = record.find(metric)->samples.at(0);
+    EXPECT_TRUE(says(*record.figures[0].layout, value)) << metric << " " << value;
+    EXPECT_FALSE(says(*record.figures[0].layout, value + 5000)) << metric;
+  };
+  const Record six = drawn("ght.stages", "F6"), tree = drawn("ght.event-figures", "F23");
+  expect_said(six, "height_west");
+  expect_said(six, "height_east");
+  expect_said(tree, "events");
+  expect_said(tree, "heightmaps");
 }
 
 std::filesystem::path draw(const Case& at, const std::filesystem::path& folder) {

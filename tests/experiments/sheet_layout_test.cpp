@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <unistd.h>
 
 #include <array>
@@ -6,6 +6,7 @@
 #include "experiments/figures/sheet.h"
 #include "results/figure_layout.h"
 #include "terrain/image.h"
+#include "tests/terrain/temporary_folder.h"
 
 namespace terrabench::figures {
 namespace {
@@ -36,6 +37,54 @@ TEST(SheetLayout, HasThePicturesAndTheWordsButNoColourKeys) {
   EXPECT_EQ(layout_fault(*layout, image), "");
   EXPECT_EQ(image.pixel(50, 40), (Rgb{200, 0, 0})) << "the panel is where the layout says";
   EXPECT_EQ(image.pixel(110, 40), (Rgb{0, 0, 200}));
+}
+
+TEST(SheetLayout, DrawnPartsArePanelsToo) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "drawn.png";
+  const auto fault = [&](SheetPoint to) {
+    Sheet sheet(100, 60);
+    for (const double x : {10.0, 60.0}) sheet.panel(x, 10, 30, 30);
+    sheet.stroke({15, 15}, {35, 35}, {0, 0, 0}, 2);
+    sheet.stroke({65, 15}, to, {0, 0, 0}, 2);
+    sheet.write(file);
+    return layout_fault(*read_layout(file), read_png(file));
+  };
+  EXPECT_EQ(fault({85, 25}), "");
+  EXPECT_EQ(fault({65, 5}), "") << "part of the line lies above the panel";
+  EXPECT_EQ(fault({85, 35}), "panels 1 and 2 show the same");
+  EXPECT_EQ(fault({65, 15}), "panel 2 is blank");
+}
+
+TEST(SheetLayout, PicturesWithoutWordsAreOnePanel) {
+  const TemporaryFolder folder;
+  write_picture(folder / "picture.png", Image(7, 5, {1, 2, 3}));
+  EXPECT_EQ(read_layout(folder / "picture.png"), (FigureLayout{{{0, 0, 7, 5}}, {}}));
+  EXPECT_EQ(read_png(folder / "picture.png").pixel(6, 4), (Rgb{1, 2, 3}));
+}
+
+TEST(SheetLayout, ChartsSayTheNumbersOfTheirLegend) {
+  const std::string kSpace = "\u00A0";  // before the words of a legend
+  const TemporaryFolder folder;
+  Plot plot;
+  plot.title = "t";
+  plot.x.label = "a & b";
+  plot.y.label = "y";
+  plot.y.unit = "m";
+  plot.series.push_back({"slope −0.52", {{1, 3, 3, 3}, {2, 5, 5, 5}}, false});
+  plot.series.push_back({"slope 0.25", {{1, 4, 4, 4}, {2, 4, 4, 4}}, false});
+  write_chart(folder / "chart.png", plot, 600);
+  const FigureLayout layout = read_layout(folder / "chart.png").value();
+  const Image image = read_png(folder / "chart.png");
+  EXPECT_EQ(layout.panels, (std::vector<FigurePanel>{{0, 0, image.width, image.height}}));
+  EXPECT_EQ(layout_fault(layout, image), "");
+  const std::vector<std::string> shown = {"a &amp; b", "y [m]", kSpace + "slope −0.52",
+                                          kSpace + "slope 0.25"};
+  EXPECT_THAT(layout.words, ::testing::IsSupersetOf(shown));
+  EXPECT_TRUE(says(layout, -0.5156));
+  EXPECT_TRUE(says(layout, 0.2512));
+  EXPECT_FALSE(says(layout, -0.53)) << "a chart that prints another slope";
+  EXPECT_FALSE(says(layout, 0.27));
 }
 
 }  // namespace

@@ -4,12 +4,26 @@
 #include <cstdlib>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/figures/sheet.h"
+#include "results/claims.h"
 #include "tests/terrain/temporary_folder.h"
 
 namespace terrabench {
+
+// How many panels the claims declare for a figure; 0 for none.
+inline int declared_panels(std::string_view figure) {
+  for (const Paper& paper : papers()) {
+    for (const Claim& claim : paper.claims) {
+      for (const Condition& condition : claim.conditions) {
+        if (condition.figure == figure && condition.panels > 0) return condition.panels;
+      }
+    }
+  }
+  return 0;
+}
 
 class SheetReader {
  public:
@@ -39,9 +53,15 @@ class SheetReader {
     const TemporaryFolder folder;
     sheet.write(folder / "sheet.png");
     image = read_png(folder / "sheet.png");
+    layout = read_layout(folder / "sheet.png").value_or(FigureLayout());
     bytes = std::filesystem::file_size(folder / "sheet.png");
   }
 
+  // Why a check that declares this many panels would refuse the figure; empty if it would not.
+  std::string fault_of_panels(int declared) const {
+    const int found = static_cast<int>(layout.panels.size());
+    return found != declared ? std::to_string(found) + " panels" : layout_fault(layout, image);
+  }
   // The number of pictures in each row.
   std::vector<int> rows() const {
     std::vector<int> counts;
@@ -73,6 +93,7 @@ class SheetReader {
   std::vector<Picture> pictures;
   std::vector<Words> words;
   Image image;
+  FigureLayout layout;
   std::uintmax_t bytes = 0;  // of the file
 };
 

@@ -124,7 +124,9 @@ TEST_F(FigureLayoutTest, NumbersAreComparedToTheDigitsPrinted) {
   for (const double value : {0.0123, 0.01234, 0.01226, 1024.0, 1024.4, -3.0}) {
     EXPECT_TRUE(says(layout_, value)) << value;
   }
-  for (const double value : {0.0124, 0.0122, 1025.0, 24.0, 3.0, 0.0})
+  layout_.words.emplace_back("0 1 0.00");
+  for (const double value : {0.0, 1.0, -0.004}) EXPECT_TRUE(says(layout_, value)) << value;
+  for (const double value : {0.0124, 0.0122, 1025.0, 24.0, 3.0, 0.27, 0.9, 1.2})
     EXPECT_FALSE(says(layout_, value)) << value;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "results/check_output.h"
 #include "results/record_json.h"
 #include "terrain/error.h"
 #include "terrain/image.h"
@@ -73,6 +74,19 @@ TEST_F(OneClaim, OrderIsStrict) {
   EXPECT_EQ(verdict("{order = [1, \"e/c/m\", \"e/c/n\", 4]}"), Verdict::kReproduced);
   EXPECT_EQ(verdict("{order = [2, \"e/c/m\"]}"), Verdict::kDiffers);
   EXPECT_EQ(verdict("{order = [\"e/c/n\", \"e/c/m\"]}"), Verdict::kDiffers);
+}
+
+TEST_F(OneClaim, WithoutItsMethodIsPendingAndFailsNoCheck) {
+  write_fake_results(folder_, "quick");
+  papers_ = {
+      parse_claims("paper = \"p\"\ntitle = \"t\"\nsource = \"s\"\n[[claim]]\nid = \"p.1\"\nwhere = \"w\"\n"
+                   "statement = \"s\"\nclass = \"E\"\npending = \"the method is not built\"\n",
+                   "x")};
+  const JudgedResults results = judge(Store::open(folder_), papers_);
+  EXPECT_EQ(results.judgements.at(0).verdict, Verdict::kPending);
+  EXPECT_EQ(results.judgements[0].measured, "the method is not built");
+  EXPECT_TRUE(results.passed());
+  EXPECT_THAT(check_text(results, {}), HasSubstr("\npending\n  p.1\n"));
 }
 
 TEST_F(OneClaim, ShapeClaimsSayShape) {
