@@ -16,8 +16,10 @@
 namespace terrabench::cross {
 namespace {
 
-// Where the ground's highest line stands, and a radius of a sixteenth of the shorter side.
-Sphere place_of_edit(const GroundLines& lines) {
+// Where the ground's highest line stands, and a radius of a sixteenth of the shorter side; at most half the
+// relief, so that no type digs through its floor.
+Sphere place_of_edit(const Scene& scene) {
+  const GroundLines& lines = scene.lines;
   Sphere sphere;
   float highest = -HUGE_VALF;
   for (std::size_t c = 0; c < lines.parts.lines(); ++c) {
@@ -27,7 +29,7 @@ Sphere place_of_edit(const GroundLines& lines) {
     sphere.centre = {lines.x[c], highest, lines.z[c]};
   }
   const glm::vec3 size = lines.bounds.size();
-  sphere.radius = std::min(size.x, size.z) / 16;
+  sphere.radius = std::min({size.x / 16, size.z / 16, static_cast<float>(relief_of(scene)) / 2});
   return sphere;
 }
 
@@ -140,7 +142,7 @@ std::size_t new_triangles(const TriangleMesh& before, const TriangleMesh& after)
 
 void measure_edit(const Scene& scene, const RepresentationType& type, Representation& built,
                   const TriangleMesh& mesh, Recorder& recorder, Progress& progress) {
-  const Sphere sphere = place_of_edit(scene.lines);
+  const Sphere sphere = place_of_edit(scene);
   Edit edit(static_cast<double>(built.memory().total()), mesh, recorder);
   bool rebuilt = false;
   auto* const tree = dynamic_cast<Ght*>(&built);

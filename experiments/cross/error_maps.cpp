@@ -177,6 +177,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     recorder.add(name + "_file", "kB", static_cast<double>(map.file_bytes) / 1000);
     recorder.add(name + "_rmse", "m", map.rmse);
   }
+  const double width = static_cast<double>(surface.width) * surface.cell_x;
+  const bool far = width >= 1000;
   draw(maps, surface)
       .write(recorder.figure(
           "cross.error-maps" + figures::ground_suffix(at.terrain, "jacksboro"), "png",
@@ -188,7 +190,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
               "shown.",
               at.terrain, 100 * at.parameters.number("share"),
               at.parameters.number("share") * static_cast<double>(ground.heightmap_bytes) / 1000,
-              surface.width, surface.depth)));
+              surface.width, surface.depth, far ? width / 1000 : width, far ? "km" : "m")));
 }
 
 }  // namespace
