@@ -66,6 +66,7 @@
   ENTRY(meshgrow, kLod)                \
   ENTRY(meshgrow, kForest)             \
   ENTRY(cross, kRepresentations)       \
+  ENTRY(cross, kErrorMaps)             \
   ENTRY(cross, kLodEqualError)         \
   ENTRY(cross, kLodRanks)              \
   ENTRY(cross, kLodJump)               \

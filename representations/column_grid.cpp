@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "terrain/error.h"
+#include "terrain/resampling.h"
 
 namespace terrabench {
 namespace {
@@ -175,10 +176,12 @@ void check_heights(const Heightfield& field, std::string_view where) {
 std::optional<Heightfield> at_resolution(const Heightfield& field, std::int64_t resolution) {
   const int longest = std::max(field.width, field.depth);
   if (resolution == 0 || resolution == longest) return std::nullopt;
-  const auto scaled = [&](int n) {
-    return std::max(1, static_cast<int>((n * resolution + longest / 2) / longest));
+  const auto scaled = [&](std::int64_t n) {
+    if (n == 1) return 1;
+    const double cells = static_cast<double>(n - 1) * static_cast<double>(resolution - 1) / (longest - 1);
+    return 1 + std::max(n == longest ? 0 : 1, static_cast<int>(std::lround(cells)));
   };
-  return resample(field, scaled(field.width), scaled(field.depth));
+  return resample_gridline(field, scaled(field.width), scaled(field.depth));
 }
 
 void check_edit(Columns where, std::span<const Span> what) {

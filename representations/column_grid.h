@@ -110,7 +110,9 @@ inline constexpr int kDefaultResolution = 128;
 
 // Throws bad_input unless every height is finite or no-data, at least one is a height, and sizes make sense.
 void check_heights(const Heightfield&, std::string_view where);
-// The field resampled to `resolution` samples along its longer side; nothing when it has that many, or for 0.
+// The field's rectangle with `resolution` samples along its longer side (resample_gridline()), where cells
+// keep their shape as nearly as whole numbers allow; nothing when it has that many, or for 0. Throws
+// usage_error for 1 sample.
 std::optional<Heightfield> at_resolution(const Heightfield&, std::int64_t resolution);
 // Throws usage_error unless there is one span per column, each with bottom < top (infinite ends are allowed).
 void check_edit(Columns where, std::span<const Span> what);

@@ -217,6 +217,24 @@ void compare_cavities(const GroundLines& ground, const LineParts& built, float m
   }
 }
 
+Differences tops_and_volume(const Representation& built, const TerrainSource& source,
+                            const GroundLines& ground, const LineParts& parts) {
+  Differences found;
+  if (source.heights) {
+    compare_tops(built, *source.heights, found);
+  } else {
+    compare_tops(ground, parts, found);
+  }
+  double both = 0, either = 0;
+  for (std::size_t c = 0; c < parts.lines(); ++c) {
+    const double shared = overlap(ground.parts.line(c), parts.line(c));
+    both += shared;
+    either += length(ground.parts.line(c)) + length(parts.line(c)) - shared;
+  }
+  found.volume_iou = either > 0 ? both / either : 1;
+  return found;
+}
+
 }  // namespace
 
 void LineParts::add(Part part) {
@@ -309,22 +327,15 @@ LineParts lines_of(const Representation& built, const GroundLines& at) {
   });
 }
 
+Differences top_and_volume_differences(const Representation& built, const TerrainSource& source,
+                                       const GroundLines& ground) {
+  return tops_and_volume(built, source, ground, lines_of(built, ground));
+}
+
 Differences differences(const Representation& built, const TerrainSource& source, const GroundLines& ground,
                         float margin) {
   const LineParts parts = lines_of(built, ground);
-  Differences found;
-  if (source.heights) {
-    compare_tops(built, *source.heights, found);
-  } else {
-    compare_tops(ground, parts, found);
-  }
-  double both = 0, either = 0;
-  for (std::size_t c = 0; c < parts.lines(); ++c) {
-    const double shared = overlap(ground.parts.line(c), parts.line(c));
-    both += shared;
-    either += length(ground.parts.line(c)) + length(parts.line(c)) - shared;
-  }
-  found.volume_iou = either > 0 ? both / either : 1;
+  Differences found = tops_and_volume(built, source, ground, parts);
   compare_surfaces(ground, parts, found);
   compare_cavities(ground, parts, margin, found);
   return found;

@@ -65,6 +65,8 @@ struct Differences {
 
 // `margin` in metres.
 Differences differences(const Representation&, const TerrainSource&, const GroundLines&, float margin);
+// Only those of tops and volumes, which cost much less.
+Differences top_and_volume_differences(const Representation&, const TerrainSource&, const GroundLines&);
 
 // The parts of differences(), for tests.
 double overlap(std::span<const Part>, std::span<const Part>);  // metres

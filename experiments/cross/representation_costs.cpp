@@ -6,9 +6,6 @@
 
 #include "experiments/cross/temporary_folder.h"
 #include "experiments/stopwatch.h"
-#include "representations/edit_tools.h"
-#include "representations/ght/ght.h"
-#include "terrain/error.h"
 
 namespace terrabench::cross {
 namespace {
@@ -55,73 +52,16 @@ double rate(std::size_t queries, std::size_t batches, const Batch& batch) {
   return static_cast<double>(done * queries) / time;
 }
 
-// Where the ground's highest line stands, and a radius of a sixteenth of the shorter side.
-Sphere place_of_edit(const GroundLines& lines) {
-  Sphere sphere;
-  float highest = -HUGE_VALF;
-  for (std::size_t c = 0; c < lines.parts.lines(); ++c) {
-    const auto line = lines.parts.line(c);
-    if (line.empty() || line.back().top <= highest) continue;
-    highest = line.back().top;
-    sphere.centre = {lines.x[c], highest, lines.z[c]};
-  }
-  const glm::vec3 size = lines.bounds.size();
-  sphere.radius = std::min(size.x, size.z) / 16;
-  return sphere;
-}
-
-TerrainSource without_sphere(const TerrainSource& source, const Sphere& sphere) {
-  TerrainSource dug = source;
-  dug.events = nullptr;
-  const float r2 = sphere.radius * sphere.radius;
-  if (dug.heights) {
-    Heightfield& field = *dug.heights;
-    for (int j = 0; j < field.depth; ++j) {
-      for (int i = 0; i < field.width; ++i) {
-        const float dx = static_cast<float>(i) * field.cell_x - sphere.centre.x,
-                    dz = static_cast<float>(j) * field.cell_z - sphere.centre.z;
-        const float rest = r2 - dx * dx - dz * dz;
-        if (rest > 0) field.at(i, j) = std::min(field.at(i, j), sphere.centre.y - std::sqrt(rest));
-      }
-    }
-    return dug;
-  }
-  dug.solid->column = [inner = source.solid->column, sphere, r2](const ColumnSamples& at,
-                                                                 std::span<Material> out) {
-    inner(at, out);
-    const float dx = at.x - sphere.centre.x, dz = at.z - sphere.centre.z;
-    for (std::size_t k = 0; k < out.size(); ++k) {
-      const float dy = at.y0 + static_cast<float>(k) * at.dy - sphere.centre.y;
-      if (dx * dx + dy * dy + dz * dz < r2) out[k] = Material::kAir;
-    }
-  };
-  return dug;
-}
-
-bool apply_event(Ght& tree, const Sphere& sphere, Recorder& recorder) {
-  const glm::dvec3 radii(sphere.radius);
-  try {
-    recorder.add("dig_time", "s", seconds([&] {
-                   tree.apply(events::RadialErosion{glm::dvec3(sphere.centre), radii});
-                 }));
-    return true;
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kUsage) throw;
-    return false;  // trees of solids take no events, and some places allow none: built again
-  }
-}
-
-double bytes_of(const Representation& built) { return static_cast<double>(built.memory().total()); }
-
 }  // namespace
 
-void measure_build(const Scene& scene, const RepresentationType& type, Recorder& recorder,
-                   Progress& progress) {
-  std::unique_ptr<Representation> built;
-  scene.build(type, progress);  // makes thread pools and tables
+std::unique_ptr<Representation> measure_build(const Scene& scene, const RepresentationType& type,
+                                              const Parameters& parameters, Recorder& recorder,
+                                              Progress& progress) {
+  const auto build = [&] { return type.build(scene.source, parameters, progress); };
+  std::unique_ptr<Representation> built = build();  // makes thread pools and tables
   add_times(recorder, "build_time", [&] {
     built.reset();
-    built = scene.build(type, progress);
+    built = build();
   });
   const Memory memory = built->memory();
   recorder.add("payload", "B", memory.payload);
@@ -129,6 +69,7 @@ void measure_build(const Scene& scene, const RepresentationType& type, Recorder&
   recorder.add("slack", "B", memory.slack);
   recorder.add("bytes", "B", memory.total());
   recorder.add("heap_bytes", "B", static_cast<double>(destroy_and_count(std::move(built))));
+  return build();
 }
 
 void measure_file(const Scene& scene, const RepresentationType& type, const Representation& built,
@@ -185,31 +126,6 @@ TriangleMesh measure_mesh(const Representation& built, Recorder& recorder) {
   });
   recorder.add("triangles", "", mesh.triangles());
   return mesh;
-}
-
-void measure_edit(const Scene& scene, const RepresentationType& type, Representation& built,
-                  Recorder& recorder, Progress& progress) {
-  const Sphere sphere = place_of_edit(scene.lines);
-  const double before = bytes_of(built);
-  double after = before;
-  bool rebuilt = false;
-  auto* const tree = dynamic_cast<Ght*>(&built);
-  if (type.traits.editable) {
-    recorder.add("dig_time", "s", seconds([&] { fill_sphere(built, sphere, Material::kAir); }));
-    after = bytes_of(built);
-    recorder.add("fill_time", "s", seconds([&] { fill_sphere(built, sphere, Material::kBedrock); }));
-  } else if (tree != nullptr && apply_event(*tree, sphere, recorder)) {
-    after = bytes_of(built);
-  } else {
-    rebuilt = true;
-    const TerrainSource dug = without_sphere(scene.source, sphere);
-    std::unique_ptr<Representation> again;
-    recorder.add("dig_time", "s",
-                 seconds([&] { again = type.build(dug, scene.parameters(type), progress); }));
-    after = bytes_of(*again);
-  }
-  recorder.add("rebuilt", "", rebuilt ? 1 : 0);
-  recorder.add("edit_bytes", "B", after - before);
 }
 
 }  // namespace terrabench::cross

@@ -2,6 +2,8 @@
 // rays and an edit.
 #pragma once
 
+#include <memory>
+
 #include "experiments/cross/scenes.h"
 #include "experiments/recorder.h"
 #include "terrain/mesh.h"
@@ -9,7 +11,9 @@
 namespace terrabench::cross {
 
 // Seconds to build (median of several), the bytes of each part, and the bytes that the allocator takes back.
-void measure_build(const Scene&, const RepresentationType&, Recorder&, Progress&);
+// Returns what was built.
+std::unique_ptr<Representation> measure_build(const Scene&, const RepresentationType&, const Parameters&,
+                                              Recorder&, Progress&);
 // Bytes on disk, seconds to save and to load, and how many of some thousand lines the loaded copy answers
 // differently.
 void measure_file(const Scene&, const RepresentationType&, const Representation&, Recorder&);
@@ -17,10 +21,15 @@ void measure_file(const Scene&, const RepresentationType&, const Representation&
 void measure_queries(const Scene&, const Representation&, Recorder&);
 TriangleMesh measure_mesh(const Representation&, Recorder&);
 
-// A sphere dug where the ground is highest and filled again. Types that cannot be edited are built again from
-// the ground without the sphere (`rebuilt` = 1); a tree of heightmaps applies an event of its own instead,
-// which cannot be filled.
-void measure_edit(const Scene&, const RepresentationType&, Representation&, Recorder&, Progress&);
+// A sphere dug where the ground is highest and filled again: seconds, bytes added since before the edit, and
+// the triangles that must be meshed again (new_triangles()), of which `mesh` are those before. Types that
+// cannot be edited are built again from the ground without and then with the sphere (`rebuilt` = 1); a tree
+// of heightmaps applies an event of its own instead, which cannot be filled.
+void measure_edit(const Scene&, const RepresentationType&, Representation&, const TriangleMesh& mesh,
+                  Recorder&, Progress&);
+// The triangles of `after` that `before` does not have, by the bits of their corners: the least that anything
+// drawn must take over after the edit. O(n log n) of all triangles, 8 bytes each.
+std::size_t new_triangles(const TriangleMesh& before, const TriangleMesh& after);
 
 // Rays per second of processor time, on one thread: from above, downward in random directions; and along the
 // ground, from 2 % of its height above it, within 6° of the horizontal. Cast as own_ray_caster() does, or

@@ -1,5 +1,5 @@
-// Every type of representation on the same grounds, at the same resolution and at the same bytes: what each
-// costs, how closely it keeps the ground, and how fast it answers.
+// Every type of representation on the same grounds, at the same resolution, at the same bytes and at the same
+// error: what each costs, how closely it keeps the ground, and how fast it answers.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,12 +7,11 @@
 #include <cmath>
 #include <optional>
 
+#include "experiments/cross/fitting.h"
 #include "experiments/cross/representation_costs.h"
 #include "experiments/cross/scenes.h"
 #include "experiments/experiment.h"
 #include "experiments/ground.h"
-#include "experiments/stopwatch.h"
-#include "terrain/error.h"
 
 namespace terrabench::cross {
 namespace {
@@ -22,13 +21,16 @@ const std::array kSpecs{
                   "a name of `terrabench list representations`"},
     ParameterSpec{"share", 0.0, "",
                   "of the heightmap's bytes in memory, for the file; 0: the same resolution instead", 0, 1},
+    ParameterSpec{"error", 0.0, "",
+                  "of the ground's relief: the RMSE of the tops for which the type is tuned; 0: not tuned", 0,
+                  1},
     ParameterSpec{"size", std::int64_t{257}, "samples", "side of the fractal ground, 2^n + 1", 3, 8193},
     ParameterSpec{"resolution", std::int64_t{64}, "columns", "along solid ground", 2, 4096},
     ParameterSpec{"lines", std::int64_t{101}, "", "along the ground, on which volumes are compared", 2, 4001},
     ParameterSpec{"rays", std::int64_t{8192}, "", "of each kind", 1, 1 << 24},
 };
 
-constexpr std::array kShares{0.01, 0.05, 0.2};
+constexpr std::array kShares{0.01, 0.05, 0.2}, kErrors{0.001, 0.005, 0.02};
 // Cells between the core of a cavity and what is solid. The centre of the cell around a point is less than
 // 0.87 cells away, so that cells sampled at their centres keep a core as air.
 constexpr float kMargin = 1;
@@ -36,26 +38,24 @@ constexpr float kMargin = 1;
 std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
   std::vector<Case> cases;
-  for (const std::string& terrain :
-       grounds(options, {"jacksboro", "fractal", "caves", "canyon", "sequence"})) {
-    // One column more for the canyon: at 256 its tunnel does not fit the tree, which refuses the event.
-    const std::int64_t resolution = !paper                ? (terrain == "caves" ? 64 : 128)
-                                    : terrain == "canyon" ? 257
-                                                          : 256;
+  for (const std::string& terrain : grounds(options, own_grounds())) {
+    const std::int64_t resolution = solid_resolution(terrain, paper);
     for (const RepresentationType& type : representations()) {
-      const auto add = [&](const std::string& suffix, double share) {
+      const auto add = [&](const std::string& suffix, double share, double error) {
         cases.push_back({fmt::format("{}/{}{}", terrain, type.name, suffix),
                          {kSpecs,
                           {{"representation", std::string(type.name)},
                            {"share", share},
+                           {"error", error},
                            {"size", std::int64_t{paper ? 1025 : 257}},
                            {"resolution", resolution},
                            {"lines", std::int64_t{paper ? 211 : 101}},
                            {"rays", std::int64_t{paper ? 1 << 17 : 1 << 13}}}},
                          terrain});
       };
-      add("", 0);
-      for (const double share : kShares) add(fmt::format("/{:.0f}%", 100 * share), share);
+      add("", 0, 0);
+      for (const double share : kShares) add(fmt::format("/{:.0f}%", 100 * share), share, 0);
+      for (const double error : kErrors) add(fmt::format("/rmse={:g}%", 100 * error), 0, error);
     }
   }
   return cases;
@@ -79,77 +79,51 @@ void record(const Differences& found, const TerrainSource& source, Recorder& rec
   if (found.cores > 0) recorder.add("cores_lost", "", found.cores_filled / found.cores);
 }
 
-struct Fitted {
-  std::unique_ptr<Representation> built;
-  std::int64_t setting = 0;
-  std::size_t bytes = 0;  // of the file
-};
-
-// Null where the type refuses the setting.
-Fitted try_setting(const Scene& scene, const RepresentationType& type, std::string_view parameter,
-                   std::int64_t setting, Progress& progress) {
-  Parameters parameters = scene.parameters(type);
-  parameters.set(parameter, setting);
-  try {
-    Fitted made{type.build(scene.source, parameters, progress), setting, 0};
-    made.bytes = file_bytes(type, *made.built);
-    return made;
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kUsage) throw;
-    return {};
+// Every setting that was tried, for the plot of error against bytes.
+void record_trials(const Fitting& fitting, Recorder& recorder) {
+  for (const Trial& trial : fitting.trials()) {
+    recorder.add("tried_bytes", "B", static_cast<double>(trial.file_bytes));
+    recorder.add("tried_rmse", "m", trial.rmse);
+    recorder.add("tried_volume_error", "", trial.volume_error);
   }
-}
-
-// For types that choose their settings for a budget. The budget excludes the file's own head, which the first
-// attempt tells.
-Fitted fit_by_budget(const Scene& scene, const RepresentationType& type, double budget, Progress& progress) {
-  Fitted made = try_setting(scene, type, "budget_bytes", std::llround(budget), progress);
-  if (!made.built || static_cast<double>(made.bytes) <= budget) return made;
-  const double excess = static_cast<double>(made.bytes) - budget;
-  made = try_setting(scene, type, "budget_bytes", std::max(1LL, std::llround(budget - excess)), progress);
-  return static_cast<double>(made.bytes) <= budget ? std::move(made) : Fitted{};
-}
-
-// The finest resolution found whose file takes at most `budget` bytes, up to the ground's own. A resolution
-// at which the type cannot hold the ground counts as too coarse. Null if there is none.
-Fitted fit_by_resolution(const Scene& scene, const RepresentationType& type, double budget,
-                         Progress& progress) {
-  constexpr int kProbes = 8, kCoarsest = 4;
-  constexpr double kClose = 0.95;
-  const double finest = scene.source.heights
-                            ? std::max(scene.source.heights->width, scene.source.heights->depth)
-                            : scene.options.resolution;
-  Fitted best;
-  double low = kCoarsest, high = finest;
-  for (int k = 0; k < kProbes && static_cast<double>(best.bytes) < kClose * budget; ++k) {
-    const auto resolution = static_cast<std::int64_t>(k == 0 ? finest : std::sqrt(low * high));
-    if (k > 0 && static_cast<double>(resolution) <= low) break;
-    Fitted made = try_setting(scene, type, "resolution", resolution, progress);
-    const bool fits = static_cast<double>(made.bytes) <= budget;  // also what the type refuses
-    (fits ? low : high) = static_cast<double>(resolution);
-    if (fits && made.bytes > best.bytes) best = std::move(made);
-    if (k == 0 && fits) break;
-  }
-  return best;
-}
-
-Fitted fit(const Scene& scene, const RepresentationType& type, double budget, Progress& progress) {
-  const Parameters parameters(type.parameters);
-  if (parameters.has("budget_bytes")) return fit_by_budget(scene, type, budget, progress);
-  return parameters.has("resolution") ? fit_by_resolution(scene, type, budget, progress) : Fitted{};
 }
 
 void measure_at_bytes(const Scene& scene, const RepresentationType& type, double share, Recorder& recorder,
                       Progress& progress) {
   const double budget = share * static_cast<double>(scene.heightmap_bytes);
-  const Fitted fitted = fit(scene, type, budget, progress);
-  recorder.add("fits", "", fitted.built ? 1 : 0);
-  if (!fitted.built) return;
-  recorder.add("setting", "", static_cast<double>(fitted.setting));
-  recorder.add("file_bytes", "B", fitted.bytes);
-  recorder.add("of_budget", "", static_cast<double>(fitted.bytes) / budget);
-  recorder.add("bytes", "B", fitted.built->memory().total());
-  record(differences(*fitted.built, scene.source, scene.lines, kMargin * scene.cell), scene.source, recorder);
+  Fitting fitting(scene, type, progress);
+  const std::optional<Fitted> fitted = fitting.for_bytes(budget);
+  recorder.add("fits", "", fitted ? 1 : 0);
+  record_trials(fitting, recorder);
+  if (!fitted) return;
+  const auto built = type.build(scene.source, fitted->parameters, progress);
+  recorder.add("setting", "", static_cast<double>(fitted->trial.setting));
+  recorder.add("file_bytes", "B", fitted->trial.file_bytes);
+  recorder.add("of_budget", "", static_cast<double>(fitted->trial.file_bytes) / budget);
+  recorder.add("bytes", "B", built->memory().total());
+  record(differences(*built, scene.source, scene.lines, kMargin * scene.cell), scene.source, recorder);
+}
+
+void measure_at_error(const Scene& scene, const RepresentationType& type, double share, Recorder& recorder,
+                      Progress& progress) {
+  const double relief = relief_of(scene), asked = share * relief;
+  recorder.add("relief", "m", relief);
+  recorder.add("asked_rmse", "m", asked);
+  Fitting fitting(scene, type, progress);
+  const std::optional<Fitted> fitted = fitting.for_error(asked);
+  recorder.add("reached", "", fitted ? 1 : 0);
+  record_trials(fitting, recorder);
+  if (const auto trials = fitting.trials(); !trials.empty()) {
+    const Trial& best = *std::ranges::min_element(trials, {}, &Trial::rmse);
+    recorder.add("least_of_relief", "", best.rmse / relief);
+  }
+  if (!fitted) return;
+  if (fitted->trial.setting > 0) recorder.add("setting", "", static_cast<double>(fitted->trial.setting));
+  recorder.add("of_asked", "", fitted->trial.rmse / asked);
+  const auto built = measure_build(scene, type, fitted->parameters, recorder, progress);
+  measure_file(scene, type, *built, recorder);
+  measure_queries(scene, *built, recorder);
+  record(differences(*built, scene.source, scene.lines, kMargin * scene.cell), scene.source, recorder);
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
@@ -158,24 +132,27 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
             progress);
   recorder.terrain(ground.source);
   const RepresentationType& type = representation(at.parameters.text("representation"));
-  const double share = at.parameters.number("share");
-  if (share > 0) {
+  if (const double share = at.parameters.number("share"); share > 0) {
     measure_at_bytes(ground, type, share, recorder, progress);
     return;
   }
-  measure_build(ground, type, recorder, progress);
-  const std::unique_ptr<Representation> built = ground.build(type, progress);
+  if (const double share = at.parameters.number("error"); share > 0) {
+    measure_at_error(ground, type, share, recorder, progress);
+    return;
+  }
+  const auto built = measure_build(ground, type, ground.parameters(type), recorder, progress);
   measure_file(ground, type, *built, recorder);
   measure_queries(ground, *built, recorder);
   record(differences(*built, ground.source, ground.lines, kMargin * ground.cell), ground.source, recorder);
   const TriangleMesh mesh = measure_mesh(*built, recorder);
   measure_rays(ground, *built, mesh, at.integer("rays"), recorder);
-  measure_edit(ground, type, *built, recorder, progress);
+  measure_edit(ground, type, *built, mesh, recorder, progress);
 }
 
 }  // namespace
 
 extern const Experiment kRepresentations{
-    "cross.representations", "Representations on the same ground, at the same bytes", kSpecs, cases, measure};
+    "cross.representations", "Representations on the same ground, at the same bytes, at the same error",
+    kSpecs, cases, measure};
 
 }  // namespace terrabench::cross

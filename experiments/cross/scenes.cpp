@@ -1,6 +1,7 @@
 #include "experiments/cross/scenes.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "experiments/cross/temporary_folder.h"
 #include "experiments/ght/site.h"
@@ -40,10 +41,32 @@ std::unique_ptr<Representation> Scene::build(const RepresentationType& type, Pro
   return type.build(source, parameters(type), progress);
 }
 
+double relief_of(const Scene& scene) {
+  if (scene.source.heights) {
+    const HeightRange range = height_range(*scene.source.heights);
+    return static_cast<double>(range.highest) - range.lowest;
+  }
+  float lowest = HUGE_VALF, highest = -HUGE_VALF;
+  for (std::size_t c = 0; c < scene.lines.parts.lines(); ++c) {
+    const auto line = scene.lines.parts.line(c);
+    if (line.empty()) continue;
+    lowest = std::min(lowest, line.back().top);
+    highest = std::max(highest, line.back().top);
+  }
+  return static_cast<double>(highest) - lowest;
+}
+
 std::size_t file_bytes(const RepresentationType& type, const Representation& built) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "scratch";
   return save_representation(file, type, built);
+}
+
+std::vector<std::string> own_grounds() { return {"jacksboro", "fractal", "caves", "canyon", "sequence"}; }
+
+std::int64_t solid_resolution(std::string_view terrain, bool paper_profile) {
+  if (paper_profile) return 256;
+  return terrain == "caves" ? 64 : 128;
 }
 
 const Scene& scene(const SceneOptions& options, Progress& progress) {

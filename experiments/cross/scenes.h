@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "experiments/cross/ground_lines.h"
 #include "representations/representation.h"
@@ -31,6 +33,13 @@ struct Scene {
   Parameters parameters(const RepresentationType&) const;  // the same resolution for all
   std::unique_ptr<Representation> build(const RepresentationType&, Progress&) const;
 };
+
+// Metres from the lowest to the highest top of the ground's columns: samples of heights, lines of a solid.
+double relief_of(const Scene&);
+
+// The grounds on which types are compared unless others are named, and the columns along solid ground.
+std::vector<std::string> own_grounds();
+std::int64_t solid_resolution(std::string_view terrain, bool paper_profile);
 
 // Kept until another one is asked for.
 const Scene& scene(const SceneOptions&, Progress&);

@@ -81,6 +81,17 @@ TEST(KnobSearch, SaysWhatCannotBeReached) {
   EXPECT_EQ(better.knob, kPixels.coarsest);
 }
 
+TEST(KnobSearch, PassesOverSettingsThatAreRefused) {
+  int tried = 0;
+  const Tuned tuned = search_knob(kPixels, 4, [&](double knob) {
+    ++tried;
+    return knob > 0.7 ? HUGE_VAL : 0.3 * knob;
+  });
+  EXPECT_NEAR(tuned.knob, 0.7, 0.01);  // below the target, but nothing coarser is accepted
+  EXPECT_TRUE(tuned.reached);
+  EXPECT_LE(tried, 16);
+}
+
 TEST(Contender, TakesItsOwnOptionsAndRefusesGarbage) {
   const Contender area = contender("mrbsp", "geomipmap.patch=32,mrbsp.threshold=area,mrbsp.depth=7");
   EXPECT_EQ(area.options.text("threshold"), "area");

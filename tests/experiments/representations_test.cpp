@@ -1,10 +1,12 @@
 // The comparison of all representations: its cases, and what it measures on small ground.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 #include <string>
 
+#include "experiments/cross/representation_costs.h"
 #include "experiments/experiment.h"
 #include "representations/representation.h"
 #include "results/claims.h"
@@ -15,12 +17,13 @@ namespace {
 
 constexpr std::string_view kId = "cross.representations";
 
-Record measure(std::string_view type, const std::string& terrain, double share) {
+Record measure(std::string_view type, const std::string& terrain, double share, double error = 0) {
   const Experiment& compared = experiment(kId);
   const Case at{"small",
                 {compared.parameters,
                  {{"representation", std::string(type)},
                   {"share", share},
+                  {"error", error},
                   {"size", std::int64_t{65}},
                   {"resolution", std::int64_t{24}},
                   {"lines", std::int64_t{41}},
@@ -44,7 +47,7 @@ TEST(RepresentationCases, NameEveryTypeAndTheLedgerReadsThem) {
   for (const Case& at : experiment(kId).cases({})) EXPECT_TRUE(names.insert(at.name).second) << at.name;
   for (const RepresentationType& type : representations()) {
     const std::string own = "caves/" + std::string(type.name);
-    for (const char* const suffix : {"", "/1%", "/5%", "/20%"})
+    for (const char* const suffix : {"", "/1%", "/5%", "/20%", "/rmse=0.1%", "/rmse=0.5%", "/rmse=2%"})
       EXPECT_TRUE(names.contains(own + suffix)) << own;
   }
   std::size_t rows = 0, operands = 0;
@@ -121,6 +124,97 @@ TEST_P(Compared, TakesTheBytesAllowed) {
   EXPECT_LE(value(found, "of_budget"), 1);
   EXPECT_GT(value(found, "of_budget"), 0.4);
   EXPECT_GT(value(found, "rmse"), 0);
+}
+
+TEST_P(Compared, HasTheErrorAsked) {
+  const Record found = measure(GetParam(), "fractal", 0, 0.03);
+  EXPECT_EQ(value(found, "reached"), 1);
+  EXPECT_NEAR(value(found, "asked_rmse"), 0.03 * value(found, "relief"), 1e-6);
+  EXPECT_LE(value(found, "rmse"), value(found, "asked_rmse"));
+  EXPECT_GE(value(found, "rmse"), 0.6 * value(found, "asked_rmse"));  // 65 samples make coarse steps
+  EXPECT_NEAR(value(found, "of_asked"), value(found, "rmse") / value(found, "asked_rmse"), 1e-9);
+  EXPECT_LT(value(found, "file_bytes"), 65 * 65 * 4);
+  EXPECT_EQ(value(found, "bytes"), value(found, "heap_bytes"));
+  // What was tried brackets the error, unless the type chose by itself, and the file is one of those tried.
+  const Metric &bytes = *found.find("tried_bytes"), &errors = *found.find("tried_rmse");
+  ASSERT_EQ(bytes.samples.size(), errors.samples.size());
+  EXPECT_EQ(found.find("tried_volume_error")->samples.size(), errors.samples.size());
+  if (GetParam() != "drill") {
+    EXPECT_GT(std::ranges::max(errors.samples), value(found, "asked_rmse"));
+  }
+  EXPECT_GE(std::ranges::count(bytes.samples, value(found, "file_bytes")), 1);
+}
+
+TEST(ComparedAtErrors, ATypeThatCannotReachAnErrorHasNoFile) {
+  const Record found = measure("implicit", "fractal", 0, 1e-5);
+  EXPECT_EQ(value(found, "reached"), 0);
+  EXPECT_GT(value(found, "least_of_relief"), 1e-5);
+  for (const char* const metric : {"file_bytes", "bytes", "build_time", "rmse", "of_asked"}) {
+    EXPECT_EQ(found.find(metric), nullptr) << metric;
+  }
+}
+
+TEST_P(Compared, MeshesAgainOnlyWhatAnEditChanged) {
+  const Record found = measure(GetParam(), "fractal", 0);
+  const double all = value(found, "triangles");
+  EXPECT_GT(value(found, "dig_triangles"), 0);
+  EXPECT_LT(value(found, "dig_triangles"), 1.1 * all);
+  const bool event = GetParam() == "ght";  // cannot be filled
+  EXPECT_EQ(found.find("fill_triangles") == nullptr, event);
+  if (!event) {
+    EXPECT_GT(value(found, "fill_triangles"), 0);
+  }
+  if (GetParam() == "heightmap") {
+    // A circle of a sixteenth of the side: radius 4 cells, at the border half of it.
+    EXPECT_LT(value(found, "dig_triangles"), 2 * 10 * 10);
+    EXPECT_GT(value(found, "dig_triangles"), 2 * 5);
+  }
+}
+
+TEST(NewTriangles, AreThoseWithAnotherCorner) {
+  TriangleMesh before;
+  before.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {1, 0, 1}, {2, 0, 0}, {2, 0, 1}};
+  before.indices = {0, 2, 1, 1, 2, 3, 1, 3, 4, 4, 3, 5};
+  EXPECT_EQ(new_triangles(before, before), 0U);
+  EXPECT_EQ(new_triangles({}, before), 4U);
+  EXPECT_EQ(new_triangles(before, {}), 0U);
+  TriangleMesh after = before;
+  after.indices = {3, 4, 1, 2, 1, 0, 5, 4, 3, 3, 1, 2};  // from other corners on, in another order
+  EXPECT_EQ(new_triangles(before, after), 0U);
+  std::swap(after.indices[0], after.indices[1]);  // turned over
+  EXPECT_EQ(new_triangles(before, after), 1U);
+  after = before;
+  after.positions[4].y = 0x1p-20F;
+  EXPECT_EQ(new_triangles(before, after), 2U);
+}
+
+// Lines through the canyon's tunnel on which at least 100 m of air lie between two solid parts.
+std::size_t arched(const GroundLines& at, const LineParts& parts) {
+  std::size_t lines = 0;
+  for (std::size_t c = 0; c < parts.lines(); ++c) {
+    const bool inside = at.x[c] > 9300 && at.x[c] < 11000 && std::abs(at.z[c] - 5760) < 400;
+    const auto line = parts.line(c);
+    lines += inside && line.size() == 2 && line[1].bottom - line[0].top > 100;
+  }
+  return lines;
+}
+
+TEST(Canyon, HasAnArchInAllSolidTypesAtEverySize) {
+  Progress silent;
+  for (const int resolution : {128, 129, 256, 257}) {
+    const Scene& ground = scene({"canyon", 257, resolution, 149, 1}, silent);
+    const std::size_t expected = arched(ground.lines, ground.lines.parts);
+    EXPECT_GT(expected, 50U);
+    for (const RepresentationType& type : representations()) {
+      SCOPED_TRACE(fmt::format("{} at {}", type.name, resolution));
+      const std::size_t found = arched(ground.lines, lines_of(*ground.build(type, silent), ground.lines));
+      if (type.traits.overhangs && type.name != "procedural_mesh") {
+        EXPECT_NEAR(static_cast<double>(found), static_cast<double>(expected), 0.1 * expected);
+      } else {
+        EXPECT_EQ(found, 0U);
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -201,6 +202,58 @@ TEST(Resample, AHoleStaysAHoleOfItsSizeAndDoesNotPullHeights) {
 TEST(Resample, RefusesEmptySizes) {
   const Failure failure = failure_of([] { resample(noise(4, 4, 1), 0, 4); });
   EXPECT_EQ(failure.code, ExitCode::kUsage);
+}
+
+TEST(ResampleGridline, APlaneStaysThatPlaneAtAnySize) {
+  // Held to the float's rounding at every sample's own place, at the borders too.
+  const Heightfield plane = field_of(37, 23, [](int i, int j) { return 100 + 3.0F * i - 7.0F * j; });
+  for (const auto& [w, d] : {std::pair{2, 2}, {5, 3}, {19, 12}, {36, 22}, {38, 24}, {73, 45}, {200, 7}}) {
+    const Heightfield out = resample_gridline(plane, w, d);
+    ASSERT_EQ(out.heights.size(), static_cast<std::size_t>(w) * d);
+    EXPECT_NEAR(out.extent_x(), plane.extent_x(), 1e-3);
+    EXPECT_NEAR(out.extent_z(), plane.extent_z(), 1e-3);
+    for (int j = 0; j < d; ++j) {
+      for (int i = 0; i < w; ++i) {
+        const double x = static_cast<double>(i) * out.cell_x, z = static_cast<double>(j) * out.cell_z;
+        ASSERT_NEAR(out.at(i, j), 100 + 3 * x / 10 - 7 * z / 20, 2e-4) << w << "×" << d;
+      }
+    }
+  }
+}
+
+TEST(ResampleGridline, CoversTheWholeRectangleForAnyCell) {
+  for (int n = 2; n < 400; ++n) {
+    const Heightfield out = resample_gridline(test::random_ground(73, 2, 1, 0, 1, 83.3071F, 92.7665F), n, 2);
+    EXPECT_GE(out.extent_x(), 72 * 83.3071F) << n;
+    EXPECT_FLOAT_EQ(out.extent_x(), 72 * 83.3071F) << n;
+  }
+}
+
+TEST(ResampleGridline, KeepsTheSamplesThatBothGridsHave) {
+  const Heightfield field = noise(13, 9, 11, 0.2);
+  const Heightfield fine = resample_gridline(field, 37, 17), back = resample_gridline(fine, 13, 9);
+  EXPECT_EQ(std::memcmp(back.heights.data(), field.heights.data(), field.heights.size() * sizeof(float)), 0);
+}
+
+TEST(ResampleGridline, KeepsThePlaceOfItsSamplesOnTheEarth) {
+  Heightfield field = noise(13, 9, 7);
+  field.georeference.transform = {500, 10, 1, 900, 2, -20};
+  const Heightfield out = resample_gridline(field, 5, 3);
+  const auto place = [](const Heightfield& f, double i, double j) {
+    const auto& t = f.georeference.transform;
+    return std::array{t[0] + t[1] * (i + 0.5) + t[2] * (j + 0.5), t[3] + t[4] * (i + 0.5) + t[5] * (j + 0.5)};
+  };
+  for (const auto& [i, j] : {std::pair{0, 0}, {4, 2}, {2, 1}, {1, 2}}) {
+    const auto a = place(out, i, j), b = place(field, 3 * i, 4 * j);
+    EXPECT_NEAR(a[0], b[0], 1e-9);
+    EXPECT_NEAR(a[1], b[1], 1e-9);
+  }
+}
+
+TEST(ResampleGridline, RefusesSidesThatCannotCoverTheRectangle) {
+  EXPECT_EQ(failure_of([] { resample_gridline(noise(4, 4, 1), 1, 4); }).code, ExitCode::kUsage);
+  EXPECT_EQ(failure_of([] { resample_gridline(noise(4, 1, 1), 4, 2); }).code, ExitCode::kUsage);
+  EXPECT_EQ(resample_gridline(noise(4, 1, 1), 7, 1).heights.size(), 7U);
 }
 
 TEST(FillNoData, KeepsDataExactlyAndStaysWithinItsBounds) {

@@ -1,0 +1,48 @@
+// The figures of where each type of representation errs.
+#include <gtest/gtest.h>
+
+#include "experiments/experiment.h"
+#include "representations/representation.h"
+#include "results/figure_layout.h"
+#include "terrain/image.h"
+#include "tests/terrain/temporary_folder.h"
+
+namespace terrabench::cross {
+namespace {
+
+class ErrorMaps : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Grounds, ErrorMaps, testing::Values("fractal", "caves"),
+                         [](const auto& at) { return std::string(at.param); });
+
+TEST_P(ErrorMaps, ShowEveryTypeWithItsBytesAndItsError) {
+  const Experiment& maps = experiment("cross.error-maps");
+  const Case at{GetParam(),
+                {maps.parameters,
+                 {{"share", 0.3},
+                  {"size", std::int64_t{65}},
+                  {"resolution", std::int64_t{32}},
+                  {"lines", std::int64_t{80}}}},
+                GetParam()};
+  const TemporaryFolder folder;
+  Record record;
+  Recorder recorder(record, folder.path());
+  Progress progress;
+  maps.measure(at, {}, recorder, progress);
+  ASSERT_EQ(record.figures.size(), 1U);
+  const std::filesystem::path file = folder.path() / record.figures[0].file;
+  const auto layout = read_layout(file);
+  ASSERT_TRUE(layout);
+  EXPECT_EQ(layout->panels.size(), representations().size());
+  EXPECT_EQ(layout_fault(*layout, read_png(file)), "");
+  for (const RepresentationType& type : representations()) {
+    for (const char* const metric : {"_rmse", "_file"}) {
+      const Metric* const found = record.find(std::string(type.name) + metric);
+      ASSERT_NE(found, nullptr) << type.name;
+      EXPECT_GT(found->samples[0], 0) << type.name;
+      EXPECT_TRUE(says(*layout, found->samples[0])) << type.name << metric;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace terrabench::cross
