@@ -1,8 +1,9 @@
 // Joins results folders, such as those of the shards of one sweep, into one. Records and pictures are copied
 // as they are; each record keeps the run, and so the machine, that measured it.
 //
-// Everything is checked before anything is written. Each picture is copied before its record is appended, so
-// a merge that was killed is completed by the same command. O(records of all folders + bytes of pictures).
+// Everything is checked before anything is written. Pictures are copied first, then all records are written in
+// one step: whenever a merge is killed, the folder holds the old records or all of the new ones, and the same
+// command completes it. O(records of all folders + bytes of pictures).
 #pragma once
 
 #include <cstddef>
