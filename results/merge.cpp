@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "results/format.h"
+#include "results/provenance.h"
 #include "results/record_json.h"
 #include "results/statistics.h"
 #include "results/store.h"
@@ -82,10 +83,12 @@ void compare_exact(const Source& kept, const Source& other, std::vector<std::str
   for (const Metric& metric : kept.record->metrics) {
     const Metric* const match = other.record->find(metric.name);
     if (match == nullptr || is_timing(metric.unit) || metric.samples == match->samples) continue;
-    contradictions.push_back(fmt::format(
-        "{} {} {}: {} in {}, {} in {}", kept.record->experiment, kept.record->case_name, metric.name,
-        format_quantity(summarise(metric.samples).median, metric.unit), kept.store->folder().string(),
-        format_quantity(summarise(match->samples).median, match->unit), other.store->folder().string()));
+    contradictions.push_back(fmt::format("{} {} {}: {} in {} on {}; {} in {} on {}", kept.record->experiment,
+                                         kept.record->case_name, metric.name,
+                                         format_quantity(summarise(metric.samples).median, metric.unit),
+                                         kept.store->folder().string(), machine_name(kept.run()),
+                                         format_quantity(summarise(match->samples).median, match->unit),
+                                         other.store->folder().string(), machine_name(other.run())));
   }
 }
 

@@ -134,6 +134,8 @@ TEST_F(MergeTest, ComparesExactFiguresOfACaseMeasuredTwice) {
   EXPECT_FALSE(differs.passed());
   ASSERT_EQ(differs.contradictions.size(), 1U) << "times may differ";
   EXPECT_THAT(differs.contradictions[0], HasSubstr("e n=2 bytes: 102 B in"));
+  EXPECT_THAT(differs.contradictions[0], HasSubstr("on A processor <of & for> tests, 2 threads"));
+  EXPECT_THAT(differs.contradictions[0], HasSubstr("on another CPU, 2 threads"));
   EXPECT_EQ(Store::open(folder_ / "out2").find("e", "n=2", "quick")->find("bytes")->samples[0], 102);
 }
 
