@@ -61,7 +61,7 @@ struct Arguments {
   CompareArguments compare;
   MergeArguments merge;
   std::filesystem::path report = "out", info;
-  std::string profile = "quick", shard = "1/1";
+  std::string profile = "quick", shard = "1/1", cases = "all";
   int threads = 0;
 };
 
@@ -106,6 +106,19 @@ void add_run(CLI::App& app, Arguments& a) {
   command->add_option("--out", a.run.folder, "Results folder")->capture_default_str();
   command->add_flag("--resume", a.run.resume, "Skip cases that are already in the folder");
   command->add_option("--shard", a.shard, "i/n: measure only every n-th case, starting with the i-th")
+      ->capture_default_str();
+  command
+      ->add_option("--cases", a.cases,
+                   "all; timed: only cases of experiments that record times, which want the machine to "
+                   "themselves; untimed: only the others")
+      ->check(CLI::IsMember({"all", "timed", "untimed"}))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--jobs", a.run.jobs,
+          "Measure so many untimed cases beside each other, in processes that share the threads; then "
+          "the timed ones, one by one. Takes the memory of so many cases")
+      ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   add_renderer(*command, a.run.options.renderer);
   command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
@@ -290,6 +303,7 @@ ExitCode dispatch(const CLI::App& app, Arguments& a) {
   if (app.got_subcommand("render")) return render_command(a.render);
   parse_shard(a.shard, a.run);
   a.run.threads = a.threads;
+  a.run.part = a.cases == "timed" ? Part::kTimed : a.cases == "untimed" ? Part::kUntimed : Part::kAll;
   a.run.options.profile = a.profile == "paper" ? Profile::kPaper : Profile::kQuick;
   run(a.run);
   fmt::print("measurements: {}\nnext: terrabench check {}; terrabench report {}\n",

@@ -1,82 +1,84 @@
 #include <array>
 
 #include "experiments/experiment.h"
+#include "experiments/timing.h"
 #include "terrain/error.h"
 
-// One line per experiment, in the order in which they run and are listed: the paper's namespace, the value.
-#define TERRABENCH_EXPERIMENTS(ENTRY)  \
-  ENTRY(hybrid, kKernels)              \
-  ENTRY(hybrid, kImplicit)             \
-  ENTRY(hybrid, kTable1)               \
-  ENTRY(hybrid, kTable2)               \
-  ENTRY(hybrid, kQueryRates)           \
-  ENTRY(hybrid, kCaves)                \
-  ENTRY(hybrid, kNoiseStages)          \
-  ENTRY(hybrid, kFresnel)              \
-  ENTRY(hybrid, kSky)                  \
-  ENTRY(hybrid, kLandscape)            \
-  ENTRY(hybrid, kClipmapFigures)       \
-  ENTRY(hybrid, kSumHeights)           \
-  ENTRY(hybrid, kStitch)               \
-  ENTRY(hybrid, kLessGeometry)         \
-  ENTRY(hybrid, kTable3)               \
-  ENTRY(hybrid, kSlope)                \
-  ENTRY(hybrid, kBary)                 \
-  ENTRY(hybrid, kGrassFigures)         \
-  ENTRY(hybrid, kHero)                 \
-  ENTRY(ght, kGenerators)              \
-  ENTRY(ght, kStages)                  \
-  ENTRY(ght, kEventFigures)            \
-  ENTRY(ght, kCounts)                  \
-  ENTRY(ght, kContinuity)              \
-  ENTRY(ght, kOverhang)                \
-  ENTRY(ght, kEdits)                   \
-  ENTRY(ght, kReach)                   \
-  ENTRY(ght, kComplex)                 \
-  ENTRY(drill, kChannels)              \
-  ENTRY(drill, kFactorial)             \
-  ENTRY(drill, kEffects)               \
-  ENTRY(drill, kAhdReadings)           \
-  ENTRY(drill, kTime)                  \
-  ENTRY(drill, kGrowth)                \
-  ENTRY(drill, kSize)                  \
-  ENTRY(drill, kExtensions)            \
-  ENTRY(drill, kPromises)              \
-  ENTRY(mrbsp, kHeights)               \
-  ENTRY(mrbsp, kWalk)                  \
-  ENTRY(mrbsp, kThreshold)             \
-  ENTRY(mrbsp, kHoles)                 \
-  ENTRY(mrbsp, kLodFigure)             \
-  ENTRY(mrbsp, kVisibility)            \
-  ENTRY(mrbsp, kCellSizes)             \
-  ENTRY(mrbsp, kQuality)               \
-  ENTRY(mrbsp, kProfile)               \
-  ENTRY(mrbsp, kLand)                  \
-  ENTRY(mrbsp, kRoughness)             \
-  ENTRY(mrbsp, kDrawing)               \
-  ENTRY(meshgrow, kSubdivisionFigures) \
-  ENTRY(meshgrow, kStandard)           \
-  ENTRY(meshgrow, kSpectrum)           \
-  ENTRY(meshgrow, kLimit)              \
-  ENTRY(meshgrow, kModels)             \
-  ENTRY(meshgrow, kFork)               \
-  ENTRY(meshgrow, kRefinement)         \
-  ENTRY(meshgrow, kGrowingFigures)     \
-  ENTRY(meshgrow, kModelFigures)       \
-  ENTRY(meshgrow, kLod)                \
-  ENTRY(meshgrow, kForest)             \
-  ENTRY(cross, kRepresentations)       \
-  ENTRY(cross, kErrorMaps)             \
-  ENTRY(cross, kLodEqualError)         \
-  ENTRY(cross, kLodRanks)              \
-  ENTRY(cross, kLodJump)               \
-  ENTRY(cross, kLodSeams)              \
-  ENTRY(cross, kLodSurface)            \
-  ENTRY(cross, kLodEdit)               \
-  ENTRY(cross, kScale)                 \
-  ENTRY(relief, kRelief)               \
-  ENTRY(cross, kLodDisk)               \
-  ENTRY(cross, kLodEndless)
+// One line per experiment, in the order in which they run and are listed: whether any of its cases records a
+// time, the paper's namespace, the value.
+#define TERRABENCH_EXPERIMENTS(TIMED, UNTIMED) \
+  UNTIMED(hybrid, kKernels)                    \
+  TIMED(hybrid, kImplicit)                     \
+  TIMED(hybrid, kTable1)                       \
+  TIMED(hybrid, kTable2)                       \
+  TIMED(hybrid, kQueryRates)                   \
+  UNTIMED(hybrid, kCaves)                      \
+  UNTIMED(hybrid, kNoiseStages)                \
+  UNTIMED(hybrid, kFresnel)                    \
+  UNTIMED(hybrid, kSky)                        \
+  UNTIMED(hybrid, kLandscape)                  \
+  UNTIMED(hybrid, kClipmapFigures)             \
+  UNTIMED(hybrid, kSumHeights)                 \
+  UNTIMED(hybrid, kStitch)                     \
+  UNTIMED(hybrid, kLessGeometry)               \
+  TIMED(hybrid, kTable3)                       \
+  UNTIMED(hybrid, kSlope)                      \
+  UNTIMED(hybrid, kBary)                       \
+  UNTIMED(hybrid, kGrassFigures)               \
+  TIMED(hybrid, kHero)                         \
+  UNTIMED(ght, kGenerators)                    \
+  UNTIMED(ght, kStages)                        \
+  UNTIMED(ght, kEventFigures)                  \
+  UNTIMED(ght, kCounts)                        \
+  UNTIMED(ght, kContinuity)                    \
+  UNTIMED(ght, kOverhang)                      \
+  TIMED(ght, kEdits)                           \
+  TIMED(ght, kReach)                           \
+  TIMED(ght, kComplex)                         \
+  UNTIMED(drill, kChannels)                    \
+  UNTIMED(drill, kFactorial)                   \
+  UNTIMED(drill, kEffects)                     \
+  UNTIMED(drill, kAhdReadings)                 \
+  TIMED(drill, kTime)                          \
+  TIMED(drill, kGrowth)                        \
+  UNTIMED(drill, kSize)                        \
+  UNTIMED(drill, kExtensions)                  \
+  UNTIMED(drill, kPromises)                    \
+  UNTIMED(mrbsp, kHeights)                     \
+  TIMED(mrbsp, kWalk)                          \
+  UNTIMED(mrbsp, kThreshold)                   \
+  UNTIMED(mrbsp, kHoles)                       \
+  UNTIMED(mrbsp, kLodFigure)                   \
+  TIMED(mrbsp, kVisibility)                    \
+  TIMED(mrbsp, kCellSizes)                     \
+  UNTIMED(mrbsp, kQuality)                     \
+  UNTIMED(mrbsp, kProfile)                     \
+  UNTIMED(mrbsp, kLand)                        \
+  UNTIMED(mrbsp, kRoughness)                   \
+  UNTIMED(mrbsp, kDrawing)                     \
+  UNTIMED(meshgrow, kSubdivisionFigures)       \
+  UNTIMED(meshgrow, kStandard)                 \
+  UNTIMED(meshgrow, kSpectrum)                 \
+  UNTIMED(meshgrow, kLimit)                    \
+  TIMED(meshgrow, kModels)                     \
+  UNTIMED(meshgrow, kFork)                     \
+  TIMED(meshgrow, kRefinement)                 \
+  UNTIMED(meshgrow, kGrowingFigures)           \
+  UNTIMED(meshgrow, kModelFigures)             \
+  UNTIMED(meshgrow, kLod)                      \
+  TIMED(meshgrow, kForest)                     \
+  TIMED(cross, kRepresentations)               \
+  UNTIMED(cross, kErrorMaps)                   \
+  TIMED(cross, kLodEqualError)                 \
+  TIMED(cross, kLodRanks)                      \
+  TIMED(cross, kLodJump)                       \
+  UNTIMED(cross, kLodSeams)                    \
+  TIMED(cross, kLodSurface)                    \
+  TIMED(cross, kLodEdit)                       \
+  TIMED(cross, kScale)                         \
+  TIMED(relief, kRelief)                       \
+  TIMED(cross, kLodDisk)                       \
+  TIMED(cross, kLodEndless)
 
 namespace terrabench {
 
@@ -84,11 +86,11 @@ namespace terrabench {
   namespace paper {              \
   extern const Experiment value; \
   }
-TERRABENCH_EXPERIMENTS(DECLARE)
+TERRABENCH_EXPERIMENTS(DECLARE, DECLARE)
 
 std::span<const std::reference_wrapper<const Experiment>> experiments() {
 #define REFER(paper, value) std::cref(paper::value),
-  static const std::array all{TERRABENCH_EXPERIMENTS(REFER)};
+  static const std::array all{TERRABENCH_EXPERIMENTS(REFER, REFER)};
   return all;
 }
 
@@ -99,6 +101,12 @@ const Experiment& experiment(std::string_view id) {
     ids.push_back(each.id);
   }
   throw unknown_name("experiment", id, ids);
+}
+
+bool records_times(const Experiment& experiment) {
+#define IS(paper, value) &experiment == &paper::value ||
+#define NONE(paper, value)
+  return TERRABENCH_EXPERIMENTS(IS, NONE) false;
 }
 
 }  // namespace terrabench

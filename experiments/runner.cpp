@@ -1,16 +1,21 @@
 #include "experiments/runner.h"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 
+#include "experiments/processes.h"
 #include "experiments/stopwatch.h"
+#include "experiments/timing.h"
 #include "renderers/context.h"
 #include "renderers/raytrace/ray_index.h"
 #include "results/glob.h"
 #include "results/provenance.h"
+#include "results/record_json.h"
+#include "results/statistics.h"
 #include "results/store.h"
 #include "terrain/error.h"
 #include "terrain/files.h"
@@ -58,6 +63,65 @@ void check_terrain(const std::string& terrain) {
   }
 }
 
+Provenance provenance_of(const RunPlan& plan) {
+  return collect_provenance({.command = plan.command,
+                             .gl_renderer = renderer_name(plan.options.renderer),
+                             .simd = std::string(noise::simd_name()),
+                             .threads = plan.threads,
+                             .libraries = {{"Embree", RayIndex::embree_version()}}});
+}
+
+// The same without a thread or an OpenGL context in this process, so that it can be forked.
+Provenance provenance_from_process(const RunPlan& plan) {
+  const std::string line = call_in_process([&] { return to_line(provenance_of(plan)); });
+  return std::get<Provenance>(parse_line(line, "this run").content);
+}
+
+// What is known of a case before it is measured.
+Record begin_record(const RunPlan& plan, const PlannedCase& planned, const std::string& run) {
+  Record record;
+  record.experiment = planned.experiment->id;
+  record.case_name = planned.at.name;
+  record.overrides = planned.at.overrides;
+  record.profile = plan.options.profile == Profile::kPaper ? "paper" : "quick";
+  record.run = run;
+  record.seed = plan.options.seed;
+  record.parameters = values(planned.at.parameters);
+  return record;
+}
+
+bool is_measured(const Record& record, const Store& store, const Provenance& now) {
+  return store.find({.experiment = record.experiment,
+                     .case_name = record.case_name,
+                     .profile = record.profile,
+                     .parameters = record.parameters,
+                     .seed = record.seed,
+                     .terrain_checksum = std::nullopt},
+                    now) != nullptr;
+}
+
+// Otherwise the times of a case that ran beside others would be taken for those of one that ran alone.
+void check_untimed(const Record& record) {
+  for (const Metric& metric : record.metrics) {
+    if (!is_timing(metric.unit)) continue;
+    throw Error(ExitCode::kEnvironment,
+                fmt::format("records the time '{}', but is registered as UNTIMED", metric.name),
+                record.experiment, "register it as TIMED in experiments/registry.cpp");
+  }
+}
+
+void measure(const RunPlan& plan, const PlannedCase& planned, Record record, Progress::Output output,
+             Store& store) {
+  if (Progress::interrupted()) throw Error(ExitCode::kInterrupted, "interrupted", "run", "");
+  Progress progress(output);
+  Recorder recorder(record, plan.folder);
+  planned.experiment->measure(planned.at, plan.options, recorder, progress);
+  progress.end();
+  if (!records_times(*planned.experiment)) check_untimed(record);
+  for (RecordedFigure& figure : record.figures) describe(plan.folder, figure);
+  store.append(record);
+}
+
 void apply(const std::vector<std::string>& assignments, std::vector<PlannedCase>& cases) {
   for (const std::string& assignment : assignments) {
     const std::string name = assignment.substr(0, assignment.find('='));
@@ -103,6 +167,11 @@ std::vector<PlannedCase> plan_cases(const RunPlan& plan) {
     throw usage_error("none of these experiments takes a terrain", "--terrain",
                       "leave it out, or choose another experiment");
   }
+  if (plan.part != Part::kAll) {
+    std::erase_if(cases, [&](const PlannedCase& planned) {
+      return records_times(*planned.experiment) != (plan.part == Part::kTimed);
+    });
+  }
   std::vector<PlannedCase> mine;
   for (std::size_t i = plan.shard - 1; i < cases.size(); i += plan.shards)
     mine.push_back(std::move(cases[i]));
@@ -113,46 +182,35 @@ void run(const RunPlan& plan) {
   const std::vector<PlannedCase> cases = plan_cases(plan);
   Store store(plan.folder);
   for (const std::string& warning : store.warnings()) fmt::print(stderr, "warning: {}\n", warning);
-  const Provenance provenance = collect_provenance({.command = plan.command,
-                                                    .gl_renderer = renderer_name(plan.options.renderer),
-                                                    .simd = std::string(noise::simd_name()),
-                                                    .threads = plan.threads,
-                                                    .libraries = {{"Embree", RayIndex::embree_version()}}});
+  const Provenance provenance = plan.jobs > 1 ? provenance_from_process(plan) : provenance_of(plan);
   for (const std::string& warning : provenance.timing_warnings) fmt::print(stderr, "warning: {}\n", warning);
   store.begin_run(provenance);
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  std::size_t number = 0, skipped = 0;
-  for (const PlannedCase& planned : cases) {
-    ++number;
-    if (Progress::interrupted()) throw Error(ExitCode::kInterrupted, "interrupted", "run", "");
-    Record record;
-    record.experiment = planned.experiment->id;
-    record.case_name = planned.at.name;
-    record.overrides = planned.at.overrides;
-    record.profile = plan.options.profile == Profile::kPaper ? "paper" : "quick";
-    record.run = provenance.id;
-    record.seed = plan.options.seed;
-    record.parameters = values(planned.at.parameters);
-    if (plan.resume && store.find({.experiment = record.experiment,
-                                   .case_name = record.case_name,
-                                   .profile = record.profile,
-                                   .parameters = record.parameters,
-                                   .seed = record.seed,
-                                   .terrain_checksum = std::nullopt},
-                                  provenance) != nullptr) {
-      ++skipped;
-      continue;
-    }
-    Progress progress(terminal ? Progress::Output::kTerminal : Progress::Output::kLines);
-    Recorder recorder(record, plan.folder);
-    const Stopwatch watch;
-    planned.experiment->measure(planned.at, plan.options, recorder, progress);
-    progress.end();
-    for (RecordedFigure& figure : record.figures) describe(plan.folder, figure);
-    store.append(record);
-    fmt::print(stderr, "[{}/{}] {} {}: {:.2f} s\n", number, cases.size(), record.experiment, record.case_name,
-               watch.seconds());
+  std::vector<std::size_t> alone, beside;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (plan.resume && is_measured(begin_record(plan, cases[i], provenance.id), store, provenance)) continue;
+    (plan.jobs > 1 && !records_times(*cases[i].experiment) ? beside : alone).push_back(i);
   }
+  const auto title = [&](std::size_t i) {
+    return fmt::format("{} {}", cases[i].experiment->id, cases[i].at.name);
+  };
+  const auto measure_one = [&](std::size_t i, Progress::Output output) {
+    const Stopwatch watch;
+    measure(plan, cases[i], begin_record(plan, cases[i], provenance.id), output, store);
+    fmt::print(stderr, "[{}/{}] {}: {:.2f} s\n", i + 1, cases.size(), title(i), watch.seconds());
+  };
+  const auto share = static_cast<std::size_t>(std::max(1, provenance.threads / plan.jobs));
+  run_in_processes(
+      plan.jobs, beside.size(),
+      [&](std::size_t i) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, share);
+        measure_one(beside[i], Progress::Output::kSilent);
+      },
+      [&](std::size_t i) { return title(beside[i]); });
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  for (const std::size_t i : alone) {
+    measure_one(i, terminal ? Progress::Output::kTerminal : Progress::Output::kLines);
+  }
+  const std::size_t skipped = cases.size() - alone.size() - beside.size();
   if (skipped > 0)
     fmt::print(stderr, "{} of {} cases were already in the results folder\n", skipped, cases.size());
 }

@@ -1,4 +1,5 @@
-// Runs cases of experiments one after another and keeps each record as soon as it is measured.
+// Runs cases of experiments and keeps each record as soon as it is measured: one case after another, or those
+// that record no times beside each other.
 #pragma once
 
 #include <filesystem>
@@ -9,14 +10,18 @@
 
 namespace terrabench {
 
+enum class Part { kAll, kTimed, kUntimed };  // cases of which experiments: see timing.h
+
 struct RunPlan {
   std::vector<std::string> patterns;  // experiment ids or globs (* and ?); empty: all
   RunOptions options;
   std::vector<std::string> assignments;  // name=value,…, for every case that has such a parameter
   std::filesystem::path folder = "out";
-  bool resume = false;               // skip cases that the folder already holds
-  int shard = 1, shards = 1;         // measure only every shards-th case, from the shard-th
-  int threads = 0;                   // in use, for the provenance; 0: all
+  bool resume = false;  // skip cases that the folder already holds
+  Part part = Part::kAll;
+  int shard = 1, shards = 1;  // measure only every shards-th case of the part, from the shard-th
+  int threads = 0;            // in use, for the provenance; 0: all
+  int jobs = 1;               // cases without times beside each other, with threads ÷ jobs threads each
   std::vector<std::string> command;  // argv, for the provenance
 };
 
@@ -28,8 +33,9 @@ struct PlannedCase {
 };
 std::vector<PlannedCase> plan_cases(const RunPlan&);
 
-// Measures all planned cases and appends their records to folder/measurements.jsonl. Throws
-// Error(kInterrupted) on Ctrl-C; the records so far stay.
+// Measures all planned cases and appends their records to folder/measurements.jsonl, in the registry's order;
+// with jobs > 1 first those without times, beside each other in processes of their own, then the timed ones,
+// alone. Throws Error(kInterrupted) on Ctrl-C; the records so far stay.
 void run(const RunPlan&);
 
 }  // namespace terrabench

@@ -7,17 +7,19 @@
 #include <nlohmann/json.hpp>
 
 #include "results/format.h"
+#include "results/provenance.h"
 
 namespace terrabench {
 namespace {
 
-constexpr std::string_view kNames[] = {"same",       "rose",        "fell",      "differs",
-                                       "unresolved", "only before", "only after"};
+constexpr std::string_view kNames[] = {"same",       "rose",      "fell",        "differs",
+                                       "unresolved", "elsewhere", "only before", "only after"};
 
-Change change_of(const Metric& before, const Metric& after, const Summary& ratio) {
+Change change_of(const Metric& before, const Metric& after, const Summary& ratio, bool one_machine) {
   if (!is_timing(before.unit) || before.unit != after.unit) {
     return before.unit == after.unit && before.samples == after.samples ? Change::kSame : Change::kDiffers;
   }
+  if (!one_machine) return Change::kElsewhere;
   if (before.samples.size() < 2 || after.samples.size() < 2 || !std::isfinite(ratio.median)) {
     return Change::kUnresolved;
   }
@@ -40,18 +42,49 @@ void add_only(const Record& record, const Metric& metric, Change side, Compariso
   (side == Change::kOnlyBefore ? change.before : change.after) = summarise(metric.samples).median;
 }
 
-void add_both(const Record& record, const Record& other, const Metric& before, const Metric& after,
-              Comparison& out) {
+// A case that both folders hold, with the runs that measured it.
+struct Pair {
+  const Record &before, &after;
+  const Provenance *run_before, *run_after;  // null when unknown, a fault of the store
+
+  bool one_machine() const {
+    return run_before == nullptr || run_after == nullptr || same_machine(*run_before, *run_after);
+  }
+};
+
+void add_both(const Pair& pair, const Metric& before, const Metric& after, Comparison& out) {
   const Summary ratio = summarise_ratio(after.samples, before.samples);
-  MetricChange& change = out.metrics.emplace_back(described(record, before, change_of(before, after, ratio)));
+  const bool one_machine = pair.one_machine();
+  MetricChange& change =
+      out.metrics.emplace_back(described(pair.before, before, change_of(before, after, ratio, one_machine)));
   change.before = summarise(before.samples).median;
   change.after = summarise(after.samples).median;
   change.ratio = ratio;
-  change.same_ground = same_ground(record, other);
+  change.same_ground = same_ground(pair.before, pair.after);
+  if (one_machine) return;
+  change.machine_before = machine_name(*pair.run_before);
+  change.machine_after = machine_name(*pair.run_after);
 }
 
 bool one_sided(const MetricChange& m) {
   return m.change == Change::kOnlyBefore || m.change == Change::kOnlyAfter;
+}
+
+// What differs although only the machine should: exact figures, with both machines.
+std::string machines_text(const Comparison& comparison) {
+  std::string text;
+  std::size_t count = 0;
+  for (const MetricChange& m : comparison.metrics) {
+    if (m.machine_before.empty() || m.change != Change::kDiffers) continue;
+    ++count;
+    text += fmt::format("differs between machines: {} {} {}: {} on {}; {} on {}\n", m.experiment, m.case_name,
+                        m.metric, format_quantity(m.before, m.unit), m.machine_before,
+                        format_quantity(m.after, m.unit), m.machine_after);
+  }
+  if (count > 0) {
+    text += fmt::format("{} exact figures differ between machines: they should be the same on any\n", count);
+  }
+  return text;
 }
 
 }  // namespace
@@ -81,7 +114,7 @@ Comparison compare(const Store& before, const Store& after) {
       if (match == nullptr) {
         add_only(record, metric, Change::kOnlyBefore, out);
       } else {
-        add_both(record, *other, metric, *match, out);
+        add_both({record, *other, before.run(record.run), after.run(other->run)}, metric, *match, out);
       }
     }
   }
@@ -102,7 +135,8 @@ std::string compare_text(const Comparison& comparison, bool colour) {
                                           m.same_ground ? "" : ": seed, terrain or parameters differ");
     if (title != heading) text += title + "\n";
     heading = title;
-    const bool marked = m.change != Change::kSame && m.change != Change::kUnresolved;
+    const bool marked =
+        m.change != Change::kSame && m.change != Change::kUnresolved && m.change != Change::kElsewhere;
     const std::string_view paint = !colour || !marked ? "" : "\x1b[33m",
                            plain = paint.empty() ? "" : "\x1b[0m";
     text += fmt::format("  {} {:<26} {}{:<11}{}", marked ? '*' : ' ', m.metric, paint, name(m.change), plain);
@@ -112,7 +146,7 @@ std::string compare_text(const Comparison& comparison, bool colour) {
       continue;
     }
     text += fmt::format("  {} → {}", format_quantity(m.before, m.unit), format_quantity(m.after, m.unit));
-    if (m.before != 0 && m.change != Change::kUnresolved && is_timing(m.unit)) {
+    if (m.before != 0 && (m.change == Change::kSame || marked) && is_timing(m.unit)) {
       text += fmt::format("  × {:.3f} [{:.3f}, {:.3f}]", m.ratio.median, m.ratio.low, m.ratio.high);
     } else if (m.before != 0 && m.before != m.after) {
       text += fmt::format("  × {:.4f}", m.ratio.median);
@@ -125,6 +159,10 @@ std::string compare_text(const Comparison& comparison, bool colour) {
     if (count > 0) tally += fmt::format("{}{} {}", tally.empty() ? "" : ", ", count, kNames[i]);
   }
   text += fmt::format("\n{}\n", tally.empty() ? "no metrics to compare" : tally);
+  if (comparison.count(Change::kElsewhere) > 0) {
+    text += "elsewhere: times of different kinds of machine, which are not compared\n";
+  }
+  text += machines_text(comparison);
   for (const std::string& warning : comparison.warnings) text += fmt::format("warning: {}\n", warning);
   if (!comparison.faults.empty()) {
     text += fmt::format("{} faults: the results cannot be trusted\n", comparison.faults.size());
@@ -145,6 +183,7 @@ std::string compare_json(const Comparison& comparison) {
       entry["ratio"] = m.ratio.median;
       entry["interval"] = {m.ratio.low, m.ratio.high};
       entry["same_ground"] = m.same_ground;
+      if (!m.machine_before.empty()) entry["machines"] = {m.machine_before, m.machine_after};
     }
     list.push_back(std::move(entry));
   }

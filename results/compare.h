@@ -1,4 +1,5 @@
 // Compares two results folders metric by metric: what changed, and whether the change exceeds the noise.
+// Exact figures must be equal on any two machines, times are compared within one kind of machine.
 #pragma once
 
 #include <filesystem>
@@ -16,6 +17,7 @@ enum class Change {
   kFell,        // the ratio's interval lies below 1
   kDiffers,     // exact and not equal
   kUnresolved,  // a timing with only one sample in a folder, so without an interval
+  kElsewhere,   // a timing of another kind of machine, which says nothing about the code
   kOnlyBefore,
   kOnlyAfter,
 };
@@ -24,9 +26,10 @@ std::string_view name(Change);
 struct MetricChange {
   std::string experiment, case_name, profile, metric, unit;
   Change change = Change::kSame;
-  double before = 0, after = 0;  // medians
-  Summary ratio = {};            // after ÷ before, when both exist
-  bool same_ground = true;       // both have the same seed, parameters and terrain
+  double before = 0, after = 0;                         // medians
+  Summary ratio = {};                                   // after ÷ before, when both exist
+  bool same_ground = true;                              // both have the same seed, parameters and terrain
+  std::string machine_before = "", machine_after = "";  // machine_name(), where they are of different kinds
 };
 
 struct Comparison {

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "results/findings_text.h"
+#include "results/provenance.h"
 #include "terrain/error.h"
 #include "terrain/image.h"
 
@@ -38,11 +39,14 @@ Finding compare(const Condition& condition, const std::vector<Quantity>& quantit
   return word_chain(equal, quantities, medians, holds);
 }
 
-// Whether the records must come from one machine and build: for ratios, growth, and orders of times.
-bool needs_one_machine(const Condition& condition, const std::vector<Quantity>& quantities) {
-  if (condition.kind == Kind::kRatio || condition.kind == Kind::kGrowth) return true;
-  return condition.kind == Kind::kOrder && std::any_of(quantities.begin(), quantities.end(),
-                                                       [](const Quantity& q) { return is_timing(q.unit); });
+// Whether records of two runs may meet in the condition. Ratios, growth and orders of times need one machine
+// and build, those of counts and errors one revision.
+bool may_meet(const Condition& condition, const std::vector<Quantity>& quantities, const Provenance& a,
+              const Provenance& b) {
+  const bool relates = condition.kind == Kind::kRatio || condition.kind == Kind::kGrowth;
+  const bool timed = std::ranges::any_of(quantities, [](const Quantity& q) { return is_timing(q.unit); });
+  if (timed && (relates || condition.kind == Kind::kOrder)) return comparable(a, b);
+  return !relates || same_code(a, b);
 }
 
 // The mean of all pixels' channels, 0 black to 1 white.
@@ -83,7 +87,7 @@ class Reader {
       records.push_back(record);
       quantities.push_back(quantity(operand, *metric, name_cases_));
     }
-    if (needs_one_machine(condition, quantities)) note_incomparable(records);
+    note_incomparable(condition, quantities, records);
     if (mutate_) mutate(quantities);
     return compare(condition, quantities);
   }
@@ -171,13 +175,14 @@ class Reader {
     evidence_.altered = evidence_.altered || store_.altered(record);
   }
 
-  void note_incomparable(const std::vector<const Record*>& records) {
+  void note_incomparable(const Condition& condition, const std::vector<Quantity>& quantities,
+                         const std::vector<const Record*>& records) {
     const Provenance* first = nullptr;
     for (const Record* const record : records) {
       const Provenance* const run = store_.run(record->run);
       if (run == nullptr) continue;  // the store reports this as a fault
       if (first == nullptr) first = run;
-      evidence_.incomparable = evidence_.incomparable || !comparable(*first, *run);
+      evidence_.incomparable = evidence_.incomparable || !may_meet(condition, quantities, *first, *run);
     }
   }
 

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "results/format.h"
+#include "results/provenance.h"
 #include "results/record_json.h"
 #include "results/statistics.h"
 #include "results/store.h"
@@ -82,10 +83,12 @@ void compare_exact(const Source& kept, const Source& other, std::vector<std::str
   for (const Metric& metric : kept.record->metrics) {
     const Metric* const match = other.record->find(metric.name);
     if (match == nullptr || is_timing(metric.unit) || metric.samples == match->samples) continue;
-    contradictions.push_back(fmt::format(
-        "{} {} {}: {} in {}, {} in {}", kept.record->experiment, kept.record->case_name, metric.name,
-        format_quantity(summarise(metric.samples).median, metric.unit), kept.store->folder().string(),
-        format_quantity(summarise(match->samples).median, match->unit), other.store->folder().string()));
+    contradictions.push_back(fmt::format("{} {} {}: {} in {} on {}; {} in {} on {}", kept.record->experiment,
+                                         kept.record->case_name, metric.name,
+                                         format_quantity(summarise(metric.samples).median, metric.unit),
+                                         kept.store->folder().string(), machine_name(kept.run()),
+                                         format_quantity(summarise(match->samples).median, match->unit),
+                                         other.store->folder().string(), machine_name(other.run())));
   }
 }
 
@@ -118,13 +121,24 @@ void add_record(const Source& source,
   }
 }
 
-void copy_record(const Source& source, Store& out) {
-  for (const RecordedFigure& figure : source.record->figures) {
-    if (out.intact(figure)) continue;
-    write_file(out.folder() / figure.file, read_file(source.store->folder() / figure.file, kLargestPicture));
+// Pictures first: a record is only written once its pictures are there.
+void copy_records(const std::vector<Source>& sources, Store& out) {
+  std::vector<Provenance> runs;
+  std::vector<Record> records;
+  for (const Source& source : sources) {
+    if (source.store == &out) continue;
+    for (const RecordedFigure& figure : source.record->figures) {
+      if (out.intact(figure)) continue;
+      write_file(out.folder() / figure.file,
+                 read_file(source.store->folder() / figure.file, kLargestPicture));
+    }
+    const Provenance& run = source.run();
+    if (out.run(run.id) == nullptr && std::ranges::count(runs, run.id, &Provenance::id) == 0) {
+      runs.push_back(run);
+    }
+    records.push_back(*source.record);
   }
-  if (out.run(source.record->run) == nullptr) out.begin_run(source.run());
-  out.append(*source.record);
+  if (!records.empty()) out.append_all(runs, records);
 }
 
 std::size_t count_machines(const std::vector<Source>& records) {
@@ -151,10 +165,7 @@ Merged merge(const fs::path& out, std::span<const fs::path> folders) {
   std::vector<Store> inputs;
   inputs.reserve(folders.size());
   for (const fs::path& folder : folders) inputs.push_back(open_shard(folder));
-
-  // Pointers into `target` would not survive its appends, so it is read twice.
-  const Store present(out);
-  std::vector<const Store*> stores{&present};
+  std::vector<const Store*> stores{&target};
   for (const Store& store : inputs) stores.push_back(&store);
   Merged result;
   Plan plan;
@@ -168,14 +179,8 @@ Merged merge(const fs::path& out, std::span<const fs::path> folders) {
     }
   }
   result.machines = count_machines(plan.records);
-  for (const Source& source : plan.records) {
-    if (source.store == &present) {
-      ++result.present;
-    } else {
-      copy_record(source, target);
-      ++result.copied;
-    }
-  }
+  for (const Source& source : plan.records) ++(source.store == &target ? result.present : result.copied);
+  copy_records(plan.records, target);
   return result;
 }
 

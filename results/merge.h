@@ -1,8 +1,9 @@
 // Joins results folders, such as those of the shards of one sweep, into one. Records and pictures are copied
 // as they are; each record keeps the run, and so the machine, that measured it.
 //
-// Everything is checked before anything is written. Each picture is copied before its record is appended, so
-// a merge that was killed is completed by the same command. O(records of all folders + bytes of pictures).
+// Everything is checked before anything is written. Pictures are copied first, then all records are written
+// in one step: whenever a merge is killed, the folder holds the old records or all of the new ones, and the
+// same command completes it. O(records of all folders + bytes of pictures).
 #pragma once
 
 #include <cstddef>
@@ -19,7 +20,7 @@ struct Merged {
   std::size_t repeated = 0;  // further measurements of a case; the first folder's is kept
   std::size_t machines = 0;  // kinds of machine or build, between which times cannot be compared
   // Exact figures in which a repeated measurement differs from the one that is kept: "experiment case metric:
-  // 3 in FOLDER, 4 in FOLDER".
+  // 3 in FOLDER on MACHINE; 4 in FOLDER on MACHINE".
   std::vector<std::string> contradictions;
   std::vector<std::string> warnings;  // of reading the folders
 

@@ -96,11 +96,22 @@ std::string quote_command(const std::vector<std::string>& arguments) {
   return command;
 }
 
+bool same_machine(const Provenance& a, const Provenance& b) {
+  return a.cpu == b.cpu && a.threads == b.threads && a.simd == b.simd;
+}
+
+bool same_code(const Provenance& a, const Provenance& b) {
+  return a.git_revision == b.git_revision && a.git_dirty == b.git_dirty;
+}
+
+std::string machine_name(const Provenance& p) {
+  return fmt::format("{}, {} threads, {}, {}", p.cpu, p.threads, p.simd,
+                     p.gl_renderer.empty() ? "no pictures" : p.gl_renderer);
+}
+
 bool comparable(const Provenance& a, const Provenance& b) {
-  const auto identity = [](const Provenance& p) {
-    return std::tie(p.git_revision, p.git_dirty, p.compiler, p.flags, p.build_type, p.cpu, p.threads, p.simd);
-  };
-  return identity(a) == identity(b);
+  const auto build = [](const Provenance& p) { return std::tie(p.compiler, p.flags, p.build_type); };
+  return same_code(a, b) && same_machine(a, b) && build(a) == build(b);
 }
 
 Provenance collect_provenance(const RunFacts& facts) {

@@ -26,15 +26,18 @@ Error cannot_append(const std::filesystem::path& file, int error) {
                                : "check the folder's permissions, or choose another with --out");
 }
 
-// The file, locked against other processes that append to it.
+// The file, locked against other processes that append to it or replace it.
 class LockedFile {
  public:
   explicit LockedFile(const std::filesystem::path& path) : path_(path) {
-    descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-    if (descriptor_ < 0) throw cannot_append(path, errno);
-    // Without locks in the file system, lines still stay whole: each is one write.
-    while (flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
-    }
+    do {
+      if (descriptor_ >= 0) close(descriptor_);
+      descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+      if (descriptor_ < 0) throw cannot_append(path, errno);
+      // Without locks in the file system, lines still stay whole: each is one write.
+      while (flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
+      }
+    } while (was_replaced());
   }
   ~LockedFile() { close(descriptor_); }
   LockedFile(const LockedFile&) = delete;
@@ -78,6 +81,14 @@ class LockedFile {
   }
 
  private:
+  // Whether another process replaced the file by a new one while this one waited for its lock.
+  bool was_replaced() const {
+    struct stat held {
+    }, named{};
+    return fstat(descriptor_, &held) == 0 &&
+           (stat(path_.c_str(), &named) != 0 || held.st_ino != named.st_ino);
+  }
+
   std::filesystem::path path_;
   int descriptor_ = -1;
 };
@@ -173,10 +184,14 @@ void Store::keep(Record record, bool altered) {
   lines_.push_back(last_line_);
 }
 
-void Store::append_line(const std::string& line) const {
+void Store::create_folder() const {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error) throw cannot_append(file_, error.value());
+}
+
+void Store::append_line(const std::string& line) const {
+  create_folder();
   LockedFile file(file_);
   const std::string tail = file.unfinished_line();
   const bool finish = is_complete_json(tail);  // an editor may have removed the last newline
@@ -198,6 +213,25 @@ void Store::append(const Record& record) {
   append_line(line);
   ++last_line_;
   keep(std::get<Record>(std::move(parsed.content)), false);
+}
+
+void Store::append_all(std::span<const Provenance> runs, std::span<const Record> records) {
+  std::string lines;
+  for (const Provenance& run : runs) lines += to_line(run) + "\n";
+  for (const Record& record : records) lines += to_line(record) + "\n";
+  create_folder();
+  {
+    const LockedFile lock(file_);
+    std::string content = read_file(file_, kLargestFile);
+    const std::size_t end = content.rfind('\n') + 1;  // npos + 1 is 0
+    if (is_complete_json(std::string_view(content).substr(end))) {
+      content += '\n';
+    } else {
+      content.resize(end);
+    }
+    write_file(file_, content + lines);
+  }
+  *this = Store(folder_);
 }
 
 const Record* Store::find(std::string_view experiment, std::string_view case_name,

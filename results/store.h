@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -37,6 +38,9 @@ class Store {
   // append to one folder. The record's run must have begun before append().
   void begin_run(const Provenance&);
   void append(const Record&);
+  // Appends all of them in one step: whenever the process is killed, the file is the old one or the whole new
+  // one. Then reads the folder again: O(bytes of the file).
+  void append_all(std::span<const Provenance> runs, std::span<const Record> records);
 
   // The newest record of each case and profile, in the order in which the cases were first measured. Altered
   // records are among them: see altered().
@@ -72,6 +76,7 @@ class Store {
   std::size_t index(const Record& record) const {
     return static_cast<std::size_t>(&record - records_.data());
   }
+  void create_folder() const;
   void append_line(const std::string& line) const;
 
   std::filesystem::path folder_, file_;

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "results/provenance.h"
+#include "results/record_json.h"
 #include "terrain/error.h"
 #include "tests/results/fake_results.h"
 
@@ -14,9 +16,9 @@ using testing::HasSubstr;
 
 class CompareTest : public FolderTest {
  protected:
-  void write(const std::string& name, const std::vector<Metric>& metrics, std::uint64_t seed = 1) {
+  void write(const std::string& name, const std::vector<Metric>& metrics, std::uint64_t seed = 1,
+             const Provenance& run = fake_provenance()) {
     Store store(folder_ / name);
-    const Provenance run = fake_provenance();
     store.begin_run(run);
     Record record = fake_record(run, "e", "c");
     record.metrics = metrics;
@@ -82,6 +84,43 @@ TEST_F(CompareTest, RunAgainstItselfIsTheSame) {
   const Comparison c = compare(folder_ / "a", folder_ / "a");
   EXPECT_GT(c.metrics.size(), 20U);
   for (const MetricChange& m : c.metrics) EXPECT_EQ(m.change, Change::kSame) << m.case_name << m.metric;
+}
+
+// Times of two machines say nothing about the code; exact figures must be the same on both.
+TEST_F(CompareTest, ComparesExactFiguresAcrossMachinesAndTimesWithinOne) {
+  const Metric fast{"t", "s", {1.0, 1.1, 0.9}}, slow{"t", "s", {2.0, 2.1, 1.9}};
+  Provenance other = fake_provenance();
+  other.cpu = "Another processor";
+  other.id = digest(other);
+  write("a", {{"bytes", "B", {100}}, {"error", "m", {0.5}}, fast});
+  write("b", {{"bytes", "B", {100}}, {"error", "m", {0.75}}, slow}, 1, other);
+  const Comparison c = compare(folder_ / "a", folder_ / "b");
+  ASSERT_EQ(c.metrics.size(), 3U);
+  EXPECT_EQ(c.metrics[0].change, Change::kSame);
+  EXPECT_EQ(c.metrics[1].change, Change::kDiffers);
+  EXPECT_EQ(c.metrics[2].change, Change::kElsewhere);
+  EXPECT_FALSE(c.passed());
+  const std::string text = compare_text(c, false);
+  EXPECT_THAT(text, HasSubstr("differs between machines: e c error: 0.5 m on A processor <of & for> tests, 2 "
+                              "threads, AVX2, llvmpipe; 0.75 m on Another processor, 2 threads"));
+  EXPECT_THAT(text, HasSubstr("1 exact figures differ between machines"));
+  const auto json = nlohmann::json::parse(compare_json(c));
+  EXPECT_EQ(json["metrics"][1]["machines"][1], machine_name(other));
+  EXPECT_EQ(json["metrics"][2]["change"], "elsewhere");
+}
+
+TEST_F(CompareTest, OtherCodeOnTheSameMachineIsCompared) {
+  Provenance other = fake_provenance();
+  other.git_revision = "fedcba";
+  other.compiler = "Clang 15";
+  other.id = digest(other);
+  write("a", {{"t", "s", {1.0, 1.1, 0.9}}});
+  write("b", {{"t", "s", {2.0, 2.1, 1.9}}}, 1, other);
+  EXPECT_EQ(compare(folder_ / "a", folder_ / "b").metrics.at(0).change, Change::kRose);
+  other.threads = 1;
+  other.id = digest(other);
+  write("c", {{"t", "s", {2.0, 2.1, 1.9}}}, 1, other);
+  EXPECT_EQ(compare(folder_ / "a", folder_ / "c").metrics.at(0).change, Change::kElsewhere);
 }
 
 TEST_F(CompareTest, FaultsOfEitherSideAreSaidAndFail) {

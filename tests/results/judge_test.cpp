@@ -162,7 +162,11 @@ TEST_F(OneClaim, RatiosAcrossMachinesOrBuildsAreRefused) {
   EXPECT_THAT(complaint("{ratio = [\"e/d/t\", \"e/c/t\"], range = [6.5, 9.5]}"),
               HasSubstr("different machines or builds"));
   EXPECT_THAT(complaint("{order = [\"e/c/t\", \"e/d/t\"]}"), HasSubstr("different machines or builds"));
+  const std::string bytes = "{ratio = [\"e/c/bytes\", \"e/d/bytes\"], range = [1, 1]}";
   EXPECT_EQ(complaint("{equal = [\"e/c/bytes\", \"e/d/bytes\"]}"), "") << "bytes are the same everywhere";
+  EXPECT_EQ(complaint(bytes), "");
+  other.git_revision = "fedcba";
+  EXPECT_THAT(complaint(bytes), HasSubstr("different machines or builds")) << "but not of another revision";
   for (auto change : {+[](Provenance& p) { p.cpu = "another"; }, +[](Provenance& p) { p.flags = "-O0"; },
                       +[](Provenance& p) { p.simd = "none"; }, +[](Provenance& p) { p.compiler = "Clang"; },
                       +[](Provenance& p) { p.git_revision = "fedcba"; }}) {

@@ -134,6 +134,8 @@ TEST_F(MergeTest, ComparesExactFiguresOfACaseMeasuredTwice) {
   EXPECT_FALSE(differs.passed());
   ASSERT_EQ(differs.contradictions.size(), 1U) << "times may differ";
   EXPECT_THAT(differs.contradictions[0], HasSubstr("e n=2 bytes: 102 B in"));
+  EXPECT_THAT(differs.contradictions[0], HasSubstr("on A processor <of & for> tests, 2 threads"));
+  EXPECT_THAT(differs.contradictions[0], HasSubstr("on another CPU, 2 threads"));
   EXPECT_EQ(Store::open(folder_ / "out2").find("e", "n=2", "quick")->find("bytes")->samples[0], 102);
 }
 
@@ -154,28 +156,43 @@ TEST_F(MergeTest, RefusesWhatIsNoResultsFolder) {
   EXPECT_THAT(error_of({"out"}), HasSubstr("also an input"));
 }
 
-// Whenever a merge is killed, what it wrote is whole, and the same command completes it.
-TEST_F(MergeTest, SurvivesKills) {
-  write_shard("a", 1, 6);
-  write_shard("b", 7, 12);
+// Whenever a merge is killed, the folder holds its old records or all of the new ones, and the same command
+// completes it.
+TEST_F(MergeTest, KilledLeavesTheOldRecordsOrAllOfTheNew) {
+  write_shard("old", 1, 3);
+  write_shard("a", 4, 8);
+  write_shard("b", 9, 12);
+  const auto lines = [&](const std::string& name) {
+    return read_file(folder_ / name / "measurements.jsonl");
+  };
+  std::filesystem::copy(folder_ / "old", folder_ / "whole", std::filesystem::copy_options::recursive);
+  merge_into("whole", {"a", "b"});
+  const std::string before = lines("old"), after = lines("whole");
   std::mt19937 random(1);
   int killed = 0;
   for (int i = 0; i < 24; ++i) {
+    if (i % 4 == 0) {
+      std::filesystem::remove_all(folder_ / "out");
+      std::filesystem::copy(folder_ / "old", folder_ / "out", std::filesystem::copy_options::recursive);
+    }
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
       merge_into("out", {"a", "b"});
       _exit(0);
     }
-    usleep(random() % 3000);
+    usleep(random() % 6000);
     kill(child, SIGKILL);
     int status = 0;
     ASSERT_EQ(waitpid(child, &status, 0), child);
     killed += WIFSIGNALED(status) ? 1 : 0;
-    if (i % 8 == 7) {
+    const std::string now = lines("out");
+    EXPECT_TRUE(now == before || now == after) << now;
+    EXPECT_EQ(cases("out").size(), now == before ? 3U : 12U);
+    if (i % 4 == 3) {
       merge_into("out", {"a", "b"});
+      EXPECT_EQ(lines("out"), after);
       EXPECT_EQ(cases("out").size(), 12U);
-      std::filesystem::remove_all(folder_ / "out");
     }
   }
   EXPECT_GT(killed, 0);

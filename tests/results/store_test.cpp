@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <limits>
+#include <thread>
 
 #include "results/record_json.h"
 #include "terrain/error.h"
@@ -110,6 +111,45 @@ TEST_F(StoreTest, SurvivesACutAtEveryByte) {
     EXPECT_TRUE(healed.warnings().empty()) << size;
     EXPECT_EQ(healed.find("hybrid.table2", "n=128", "quick")->find("generation_time")->samples[0], 4) << size;
   }
+}
+
+TEST_F(StoreTest, AppendsAllInOneStepAfterACutLine) {
+  write_two(folder_);
+  const std::string whole = content();
+  const Provenance run = fake_provenance();
+  const std::vector records{timed(run, "n=256", 4), timed(run, "n=512", 5)};
+  for (const std::size_t missing : {0U, 1U, 30U}) {
+    write_file(file(), whole.substr(0, whole.size() - missing));
+    Store store(folder_);
+    store.append_all({}, records);
+    EXPECT_EQ(store.records().size(), missing == 30 ? 3U : 4U);
+    EXPECT_NE(store.find("hybrid.table2", "n=512", "quick"), nullptr);
+    EXPECT_TRUE(Store(folder_).warnings().empty()) << missing;
+  }
+  std::filesystem::remove_all(folder_);
+  Store(folder_).append_all(std::vector{run}, records);
+  EXPECT_EQ(Store::open(folder_).records().size(), 2U);
+}
+
+// A process that waited for the lock of a file that was replaced meanwhile must not append to the old one.
+TEST_F(StoreTest, LosesNothingWhenOneReplacesWhileOthersAppend) {
+  const Provenance run = fake_provenance();
+  Store(folder_).begin_run(run);
+  constexpr int kLines = 40;
+  const auto append = [&](const std::string& who, bool all) {
+    Store store(folder_);
+    for (int i = 0; i < kLines; ++i) {
+      const Record record = timed(run, who + std::to_string(i), i);
+      all ? store.append_all({}, std::vector{record}) : store.append(record);
+    }
+  };
+  std::thread a(append, "a", false), b(append, "b", false);
+  append("c", true);
+  a.join();
+  b.join();
+  const Store store = Store::open(folder_);
+  EXPECT_EQ(store.records().size(), 3U * kLines);
+  EXPECT_TRUE(store.warnings().empty());
 }
 
 // A kill cannot leave a whole line with another digest: somebody altered it and took the newline along.

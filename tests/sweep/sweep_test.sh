@@ -8,10 +8,11 @@ program=$1 snakefile=$2 folder=$3
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 export HOME=$folder XDG_CACHE_HOME=$folder/cache
 
-ids='hybrid.kernels hybrid.fresnel hybrid.sky'
+ids='hybrid.kernels hybrid.fresnel hybrid.table2' options='--set n=16'
 sweep() {
   snakemake --snakefile "$snakefile" --directory "$folder" --cores 2 --rerun-incomplete --retries 2 --quiet "$@" \
-    --config out=sweep program="$program" shards=4 ids="$ids" claims="hybrid.F1 hybrid.F2 hybrid.fresnel"
+    --config out=sweep program="$program" shards=4 ids="$ids" options="$options" \
+    claims="hybrid.F1 hybrid.F2 hybrid.fresnel"
 }
 
 sweep >killed.log 2>&1 &
@@ -23,7 +24,7 @@ sweep --unlock >/dev/null
 sweep
 
 # shellcheck disable=SC2086
-"$program" run $ids --out whole 2>/dev/null
+"$program" run $ids $options --out whole 2>/dev/null
 "$program" compare whole sweep/merged | tail -3
 records() { grep -c '"case"' "$1/measurements.jsonl"; }
 [[ $(records whole) == "$(records sweep/merged)" ]]

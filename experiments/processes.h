@@ -1,0 +1,23 @@
+// Runs independent tasks beside each other, each in one of a few forked processes: the tasks share no heap,
+// no OpenGL context and no thread pool, so what they count per process is what they would count alone.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace terrabench {
+
+// Calls task(0) … task(tasks - 1), each once, in `jobs` processes; a process takes the next task when it is
+// done with one. Call it before this process has threads: they do not live on in a forked one.
+//
+// An Error that a task throws is thrown here, once the tasks in progress are done; no further task is begun.
+// The same after a process was killed: environment_error, naming name(task). After Progress::interrupt() the
+// processes are interrupted too. When this process is killed, they are killed with it.
+void run_in_processes(int jobs, std::size_t tasks, const std::function<void(std::size_t)>& task,
+                      const std::function<std::string(std::size_t)>& name);
+
+// What `produce` returns, at most 64 KiB, in a process of its own: for work that starts threads.
+std::string call_in_process(const std::function<std::string()>& produce);
+
+}  // namespace terrabench

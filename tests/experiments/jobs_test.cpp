@@ -1,0 +1,77 @@
+// Which cases may run beside each other, and that they then record the same.
+#include <gmock/gmock.h>
+
+#include <csignal>
+
+#include "experiments/runner.h"
+#include "experiments/timing.h"
+#include "results/statistics.h"
+#include "results/store.h"
+#include "tests/experiments/command_line.h"
+
+namespace terrabench {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kRun =
+    "$T run hybrid.noise-stages hybrid.fresnel hybrid.table2 --set n=16,pixels=16 --threads 2 ";
+
+TEST(Timing, UntimedExperimentsRecordedNoTimeInTheReference) {
+  const Store reference = Store::open(TERRABENCH_SOURCE_DIR "/results/reference");
+  std::size_t timed = 0, untimed = 0;
+  for (const Record& record : reference.records()) {
+    if (records_times(experiment(record.experiment))) {
+      ++timed;
+      continue;
+    }
+    ++untimed;
+    for (const Metric& metric : record.metrics) {
+      EXPECT_FALSE(is_timing(metric.unit)) << record.experiment << " " << metric.name;
+    }
+  }
+  EXPECT_GT(timed, 100U);
+  EXPECT_GT(untimed, 100U);
+}
+
+TEST(Timing, PartsOfAPlanAreTheWholeAndShardsCountWithinAPart) {
+  RunPlan plan;
+  const std::size_t all = plan_cases(plan).size();
+  plan.part = Part::kTimed;
+  const std::size_t timed = plan_cases(plan).size();
+  for (const PlannedCase& planned : plan_cases(plan)) EXPECT_TRUE(records_times(*planned.experiment));
+  plan.part = Part::kUntimed;
+  const std::size_t untimed = plan_cases(plan).size();
+  for (const PlannedCase& planned : plan_cases(plan)) EXPECT_FALSE(records_times(*planned.experiment));
+  EXPECT_EQ(timed + untimed, all);
+  EXPECT_GT(timed, 0U);
+  plan.shards = 2;
+  EXPECT_EQ(plan_cases(plan).size(), (untimed + 1) / 2);
+}
+
+TEST_F(CommandLine, JobsRecordTheSameInOneRun) {
+  ASSERT_EQ(call(std::string(kRun) + "--out alone").code, 0);
+  const Outcome beside = call(std::string(kRun) + "--out beside --jobs 3");
+  ASSERT_EQ(beside.code, 0) << beside.text;
+  EXPECT_EQ(call("$T compare alone beside").code, 0);
+  const Store alone = Store::open(folder_ / "alone"), store = Store::open(folder_ / "beside");
+  ASSERT_EQ(store.records().size(), alone.records().size());
+  for (const Record& record : store.records()) {
+    EXPECT_EQ(record.run, store.records().front().run);
+    for (const RecordedFigure& figure : record.figures) EXPECT_TRUE(store.intact(figure)) << figure.file;
+  }
+  // The timed ones come last, since they wait until they are alone.
+  EXPECT_EQ(store.records().back().experiment, "hybrid.table2");
+  EXPECT_THAT(call(std::string(kRun) + "--out beside --jobs 2 --resume").text,
+              HasSubstr("cases were already in the results folder"));
+}
+
+TEST_F(CommandLine, FailureOfACaseBesideOthersEndsTheRunWithItsCode) {
+  ASSERT_EQ(call("mkdir -p out && touch out/figures").code, 0);
+  const Outcome failed = call(std::string(kRun) + "--out out --jobs 2");
+  EXPECT_EQ(failed.code, 4) << failed.text;
+  EXPECT_THAT(failed.text, HasSubstr("out/figures"));
+}
+
+}  // namespace
+}  // namespace terrabench

@@ -1,0 +1,95 @@
+#include "experiments/processes.h"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <set>
+
+#include "terrain/error.h"
+#include "terrain/files.h"
+
+namespace terrabench {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Processes : public ::testing::Test {
+ protected:
+  Processes() {
+    std::string name = (std::filesystem::temp_directory_path() / "terrabench_processes_XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+  }
+  ~Processes() override { std::filesystem::remove_all(folder_); }
+
+  // Leaves a file that says which process did the task.
+  void note(std::size_t task) const {
+    write_file(folder_ / std::to_string(task), std::string_view(std::to_string(getpid())));
+  }
+  std::size_t noted() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
+  }
+  // The Error of 100 tasks in 3 processes, the 8th of which fails.
+  Error error_of(const std::function<void()>& fail) const {
+    try {
+      run_in_processes(
+          3, 100,
+          [&](std::size_t i) {
+            if (i == 7) fail();
+            note(i);
+            usleep(2000);
+          },
+          [](std::size_t i) { return "task " + std::to_string(i); });
+    } catch (const Error& error) {
+      return error;
+    }
+    ADD_FAILURE() << "nothing was thrown";
+    return usage_error("", "", "");
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(Processes, DoEveryTaskOnceBesideEachOther) {
+  run_in_processes(
+      3, 20,
+      [&](std::size_t i) {
+        ASSERT_FALSE(std::filesystem::exists(folder_ / std::to_string(i)));
+        note(i);
+        usleep(5000);
+      },
+      [](std::size_t) { return ""; });
+  EXPECT_EQ(noted(), 20U);
+  std::set<std::string> processes;
+  for (int i = 0; i < 20; ++i) processes.insert(read_file(folder_ / std::to_string(i)));
+  EXPECT_EQ(processes.size(), 3U);
+  EXPECT_EQ(processes.count(std::to_string(getpid())), 0U);
+  run_in_processes(
+      4, 0, [&](std::size_t i) { note(i); }, [](std::size_t) { return ""; });
+  EXPECT_EQ(noted(), 20U);
+}
+
+TEST_F(Processes, AnErrorOfATaskEndsTheRest) {
+  const Error error = error_of([] { throw bad_input("the seventh is damaged", "file", "mend it"); });
+  EXPECT_EQ(error.code(), ExitCode::kBadInput);
+  EXPECT_STREQ(error.what(), "file: the seventh is damaged");
+  EXPECT_EQ(error.advice(), "mend it");
+  EXPECT_LT(noted(), 50U);
+}
+
+TEST_F(Processes, AKilledOneIsAnErrorThatNamesItsTask) {
+  const Error error = error_of([] { kill(getpid(), SIGKILL); });
+  EXPECT_EQ(error.code(), ExitCode::kEnvironment);
+  EXPECT_THAT(error.what(), HasSubstr("measured task 7 was ended by signal 9"));
+  EXPECT_LT(noted(), 50U);
+}
+
+TEST_F(Processes, ReturnText) {
+  EXPECT_EQ(call_in_process([] { return std::to_string(getppid()); }), std::to_string(getpid()));
+  EXPECT_EQ(call_in_process([] { return std::string(10000, 'x'); }).size(), 10000U);
+  EXPECT_THROW(call_in_process([]() -> std::string { throw usage_error("no", "", ""); }), Error);
+}
+
+}  // namespace
+}  // namespace terrabench

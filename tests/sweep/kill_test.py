@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+"""Usage: kill_test.py PROGRAM FOLDER [MOMENTS [SEED [OPTION OF terrabench run…]]]
+
+Kills runs and merges with SIGKILL at random moments, MOMENTS of each, and checks what is left:
+- every line of measurements.jsonl that was whole at the kill is still there, and at most the last line is torn;
+- `run --resume` exits with 0 and ends with the records and pictures of a run that was not killed;
+- a killed merge leaves the old measurements.jsonl or the whole new one, with all pictures.
+"""
+import json
+import random
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+PROGRAM, FOLDER = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+MOMENTS = int(sys.argv[3]) if len(sys.argv) > 3 else 10
+SEED = int(sys.argv[4]) if len(sys.argv) > 4 else 1
+OPTIONS = sys.argv[5:]
+CASES = ["hybrid.noise-stages", "hybrid.fresnel", "--set", "pixels=16"]
+
+
+def demand(holds, what):
+    if not holds:
+        sys.exit(f"FAILED: {what}")
+
+
+def terrabench(*arguments):
+    """Runs the program to its end; returns what it wrote to standard error."""
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+    demand(done.returncode == 0, f"{arguments}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
+    return done.stderr
+
+
+def kill_after(seconds, folder, *arguments):
+    """Starts the program and kills it; returns whether it still ran, and the whole lines just before."""
+    process = subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    time.sleep(seconds)
+    before = whole_lines(folder)
+    process.kill()
+    return process.wait() < 0, before
+
+
+def content(folder):
+    file = folder / "measurements.jsonl"
+    return file.read_bytes() if file.exists() else b""
+
+
+def whole_lines(folder):
+    text = content(folder)
+    return text[: text.rfind(b"\n") + 1]
+
+
+def results(folder):
+    """What identifies and what was measured, but for times: case → exact figures and checksums of its pictures."""
+    found = {}
+    for line in content(folder).splitlines():
+        record = json.loads(line)
+        if record["kind"] != "record":
+            continue
+        exact = {m["name"]: m["samples"] for m in record["metrics"] if m["unit"] != "s" and not m["unit"].endswith("/s")}
+        pictures = {f["file"]: f["checksum"] for f in record.get("figures", [])}
+        for file in pictures:
+            demand((folder / file).exists(), f"{folder}: {file} of {record['case']} is not there")
+        found[record["experiment"], record["case"]] = exact, pictures
+    return found
+
+
+def seconds_of(*arguments):
+    begin = time.monotonic()
+    terrabench(*arguments)
+    return time.monotonic() - begin
+
+
+def kill_runs(moments):
+    whole, killed, torn = FOLDER / "whole", FOLDER / "killed", 0
+    run = ["run", *CASES, *OPTIONS, "--out"]
+    seconds = seconds_of(*run, whole)
+    expected, hits, completed = results(whole), 0, 0
+    for number in range(MOMENTS):
+        hit, before = kill_after(moments.uniform(0, 1.1 * seconds), killed, *run, killed, "--resume")
+        hits += hit
+        demand(content(killed).startswith(before), f"moment {number}: a line that was whole is gone")
+        torn += content(killed) != whole_lines(killed)
+        for line in whole_lines(killed).splitlines():
+            json.loads(line)
+        # Sometimes it is killed again before it is complete.
+        if number % 3 == 2 or number == MOMENTS - 1:
+            said = terrabench(*run, killed, "--resume")
+            demand("altered" not in said, said)
+            demand(results(killed) == expected, f"moment {number}: the resumed run has other results")
+            terrabench("compare", whole, killed)
+            completed += 1
+            shutil.rmtree(killed)
+    demand(hits > 0, "every run ended before its kill")
+    print(f"runs: {MOMENTS} kills over {seconds:.1f} s, {hits} while it ran, {torn} left a torn line, "
+          f"{completed} times completed with the same {len(expected)} records")
+
+
+def kill_merges(moments):
+    old, new, out, shards = FOLDER / "old", FOLDER / "new", FOLDER / "out", []
+    for i in (1, 2, 3):
+        shards.append(FOLDER / f"shard{i}")
+        terrabench("run", *CASES, "--shard", f"{i}/3", "--out", shards[-1])
+    shutil.copytree(shards[0], old)
+    shutil.copytree(old, new)
+    seconds = seconds_of("merge", new, *shards[1:])
+    hits = came_through = 0
+    for number in range(MOMENTS):
+        shutil.rmtree(out, ignore_errors=True)
+        shutil.copytree(old, out)
+        hit, _ = kill_after(moments.uniform(0.2, 1.1) * seconds, out, "merge", out, *shards[1:])
+        hits += hit
+        left = content(out)
+        demand(left in (content(old), content(new)), f"moment {number}: neither the old nor the new records")
+        came_through += left == content(new)
+        results(out)
+        terrabench("merge", out, *shards[1:])
+        demand(content(out) == content(new), f"moment {number}: the repeated merge has other records")
+        demand(results(out) == results(FOLDER / "whole"), f"moment {number}: not the results of the unbroken run")
+    demand(hits > 0, "every merge ended before its kill")
+    print(f"merges: {MOMENTS} kills over {seconds:.2f} s, {hits} while it ran, {came_through} left the new records, "
+          f"{MOMENTS - came_through} the old")
+
+
+shutil.rmtree(FOLDER, ignore_errors=True)
+FOLDER.mkdir(parents=True)
+kill_runs(random.Random(SEED))
+kill_merges(random.Random(SEED))
