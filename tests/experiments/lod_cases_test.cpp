@@ -2,6 +2,7 @@
 // seams, the drawn against the true ground, and edits.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <set>
@@ -129,6 +130,19 @@ TEST_P(TunedCase, StandsAboveAndBelowTheGround) {
     EXPECT_LT(value(record, "collision_largest"), 1e-3);
   }
   EXPECT_GT(value(record, "queries"), 0);
+}
+
+// The index of the drawn surface is filled by all threads, in any order.
+TEST_P(TunedCase, StandsTheSameForAnyNumberOfThreads) {
+  const auto exact = [](int threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    std::vector<Metric> metrics = measure("cross.lod-surface").metrics;
+    std::erase_if(metrics, [](const Metric& m) { return is_timing(m.unit); });
+    return metrics;
+  };
+  const std::vector<Metric> one = exact(1), four = exact(4);
+  ASSERT_EQ(one.size(), four.size());
+  for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].samples, four[i].samples) << one[i].name;
 }
 
 TEST_P(TunedCase, DrawsAnEditAsIfBuiltAnew) {
