@@ -72,8 +72,9 @@ class TreeSheet {
       sheet.text(at.x + kBox / 2 + 5, at.y - 20, fmt::format("{}. {}", e + 1, words), 13, "start");
     }
     legend(sheet, kMargin + kRoot + 60, kMargin + 40);
-    sheet.text(kMargin + kRoot + 34, kMargin + 148,
-               fmt::format("{} heightmaps after {} events", tree_.nodes().size(), tree_.events().size()), 13);
+    sheet.text(kMargin + kRoot + 10, kMargin + 50,
+               fmt::format("{} heightmaps after {} events", tree_.nodes().size(), tree_.events().size()), 13,
+               "start", {90, 90, 90});
     return sheet;
   }
 

@@ -389,6 +389,18 @@ int wrong_cells(const figures::Sheet& sheet, std::vector<Outcome> outcomes) {
 TEST(DrillFigures, MatricesHoldTheErrorsOfTheirSets) {
   const std::vector<Outcome> outcomes = numbered_outcomes();
   EXPECT_EQ(wrong_cells(error_matrices_sheet(outcomes), outcomes), 0);
+  const int matrices = declared_panels("drill.F4");
+  EXPECT_EQ(read(error_matrices_sheet(outcomes)).fault_of_panels(matrices), "");
+  std::vector<Outcome> repeated = outcomes;  // the second width has the errors of the first
+  for (Outcome& o : repeated) {
+    if (o.setting.w != kWidths[1]) continue;
+    const auto first = std::ranges::find_if(outcomes, [&](const Outcome& other) {
+      return other.setting.w == kWidths[0] && other.setting.tau == o.setting.tau &&
+             other.setting.k == o.setting.k;
+    });
+    o.rmse = first->rmse;
+  }
+  EXPECT_EQ(read(error_matrices_sheet(repeated)).fault_of_panels(matrices), "panels 1 and 2 show the same");
   std::vector<Outcome> swapped = outcomes;
   std::swap(swapped[3].rmse, swapped[40].rmse);
   EXPECT_EQ(wrong_cells(error_matrices_sheet(swapped), outcomes), 2);

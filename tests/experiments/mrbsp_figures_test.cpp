@@ -66,7 +66,9 @@ int table_faults(const SheetReader& shown) {
 }
 
 TEST(MrbspFigures, Table1HasThePrintedRowsBesideTheComputed) {
-  EXPECT_EQ(table_faults(SheetReader(table_sheet(table1(), steps_of(table1_profile(), Mode::kFacing)))), 0);
+  const SheetReader shown(table_sheet(table1(), steps_of(table1_profile(), Mode::kFacing)));
+  EXPECT_EQ(table_faults(shown), 0);
+  EXPECT_EQ(shown.fault_of_panels(declared_panels("mrbsp.T1")), "");
   EXPECT_GT(table_faults(SheetReader(table_sheet(table1(), steps_of(table1_profile(), Mode::kSampled)))), 0);
   std::vector<float> low(table1_profile().begin(), table1_profile().end());
   low.front() = low.back() = 8.5F;
@@ -124,6 +126,7 @@ TEST(MrbspFigures, Figure2ShowsTheProfileItsNumbersAndTheCellsThatChange) {
   const std::vector<ProfileStep> steps = steps_of(table1_profile(), Mode::kFacing);
   const SheetReader shown(profile_sheet(table1_profile(), steps));
   EXPECT_EQ(profile_faults(shown, table1_profile()), 0);
+  EXPECT_EQ(shown.fault_of_panels(declared_panels("mrbsp.F2")), "");
   std::vector<float> other(table1_profile().begin(), table1_profile().end());
   other[6] += 2;
   EXPECT_GT(profile_faults(SheetReader(profile_sheet(other, steps)), table1_profile()), 0);
