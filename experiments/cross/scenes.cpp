@@ -30,10 +30,12 @@ TerrainSource open(const SceneOptions& options) {
 
 }  // namespace
 
-Parameters Scene::parameters(const RepresentationType& type) const {
+Parameters Scene::parameters(const RepresentationType& type, std::int64_t columns) const {
   Parameters parameters(type.parameters);
-  if (source.solid && parameters.has("resolution"))
-    parameters.set("resolution", std::int64_t{options.resolution});
+  if (columns == 0 && source.solid) columns = options.resolution;
+  if (columns > 0 && parameters.has("resolution")) {
+    parameters.set("resolution", columns + (source.events && parameters.has("events") ? 1 : 0));
+  }
   return parameters;
 }
 
