@@ -6,6 +6,7 @@
 
 #include "experiments/cross/knob_search.h"
 #include "terrain/error.h"
+#include "terrain/events/event.h"
 
 namespace terrabench::cross {
 namespace {
@@ -19,7 +20,9 @@ double longest_side(const Scene& scene) {
 
 Knob resolution_knob(const Scene& scene) {
   const double own = longest_side(scene), finest = scene.source.heights ? own : 2 * own;
-  return {"resolution", "", finest, kCoarsest, std::max<double>(kCoarsest, std::round(own / 4)), true};
+  // Other samples than a sculpture's own may have no room for its tunnels.
+  const double first = scene.source.events ? scene.source.events->ground.width - 1 : std::round(own / 4);
+  return {"resolution", "", finest, kCoarsest, std::max<double>(kCoarsest, first), true};
 }
 
 Parameters with(Parameters parameters, std::string_view name, std::int64_t setting) {

@@ -32,9 +32,10 @@ TerrainSource open(const SceneOptions& options) {
 
 Parameters Scene::parameters(const RepresentationType& type, std::int64_t columns) const {
   Parameters parameters(type.parameters);
-  if (columns == 0 && source.solid) columns = options.resolution;
+  const bool sculpted = source.events && parameters.has("events");
+  if (columns == 0 && source.solid && !sculpted) columns = options.resolution;
   if (columns > 0 && parameters.has("resolution")) {
-    parameters.set("resolution", columns + (source.events && parameters.has("events") ? 1 : 0));
+    parameters.set("resolution", columns + (sculpted ? 1 : 0));
   }
   return parameters;
 }

@@ -207,7 +207,8 @@ TEST(Canyon, HasAnArchInAllSolidTypesAtEverySize) {
     EXPECT_GT(expected, 50U);
     for (const RepresentationType& type : representations()) {
       SCOPED_TRACE(fmt::format("{} at {}", type.name, resolution));
-      const std::size_t found = arched(ground.lines, lines_of(*ground.build(type, silent), ground.lines));
+      const auto built = type.build(ground.source, ground.parameters(type, resolution), silent);
+      const std::size_t found = arched(ground.lines, lines_of(*built, ground.lines));
       if (type.traits.overhangs && type.name != "procedural_mesh") {
         EXPECT_NEAR(static_cast<double>(found), static_cast<double>(expected), 0.1 * expected);
       } else {
