@@ -6,6 +6,7 @@
 
 #include "experiments/cross/knob_search.h"
 #include "terrain/error.h"
+#include "terrain/events/event.h"
 
 namespace terrabench::cross {
 namespace {
@@ -19,7 +20,9 @@ double longest_side(const Scene& scene) {
 
 Knob resolution_knob(const Scene& scene) {
   const double own = longest_side(scene), finest = scene.source.heights ? own : 2 * own;
-  return {"resolution", "", finest, kCoarsest, std::max<double>(kCoarsest, std::round(own / 4)), true};
+  // Other samples than a sculpture's own may have no room for its tunnels.
+  const double first = scene.source.events ? scene.source.events->ground.width - 1 : std::round(own / 4);
+  return {"resolution", "", finest, kCoarsest, std::max<double>(kCoarsest, first), true};
 }
 
 Parameters with(Parameters parameters, std::string_view name, std::int64_t setting) {
@@ -68,7 +71,7 @@ std::optional<Fitted> Fitting::finest_within(double budget) {
   for (int k = 0; k < kProbes; ++k) {
     const auto resolution = static_cast<std::int64_t>(k == 0 ? high : std::sqrt(low * high));
     if (k > 0 && static_cast<double>(resolution) <= low) break;
-    const Parameters parameters = with(parameters_, "resolution", resolution);
+    const Parameters parameters = scene_.parameters(type_, resolution);
     const std::optional<Trial> trial = attempt(parameters, resolution);
     const bool fits = !trial || static_cast<double>(trial->file_bytes) <= budget;
     (fits ? low : high) = static_cast<double>(resolution);
@@ -98,7 +101,7 @@ std::optional<Fitted> Fitting::coarsest_for_error(double rmse) {
   std::optional<Fitted> best;
   const Tuned tuned = search_knob(resolution_knob(scene_), rmse, [&](double value) {
     const auto setting = static_cast<std::int64_t>(value);
-    const Parameters parameters = with(parameters_, "resolution", setting);
+    const Parameters parameters = scene_.parameters(type_, setting);
     const std::optional<Trial> trial = attempt(parameters, setting);
     if (!trial) return std::numeric_limits<double>::infinity();
     if (trial->rmse <= rmse && (!best || trial->file_bytes < best->trial.file_bytes)) {

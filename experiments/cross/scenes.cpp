@@ -30,10 +30,13 @@ TerrainSource open(const SceneOptions& options) {
 
 }  // namespace
 
-Parameters Scene::parameters(const RepresentationType& type) const {
+Parameters Scene::parameters(const RepresentationType& type, std::int64_t columns) const {
   Parameters parameters(type.parameters);
-  if (source.solid && parameters.has("resolution"))
-    parameters.set("resolution", std::int64_t{options.resolution});
+  const bool sculpted = source.events && parameters.has("events");
+  if (columns == 0 && source.solid && !sculpted) columns = options.resolution;
+  if (columns > 0 && parameters.has("resolution")) {
+    parameters.set("resolution", columns + (sculpted ? 1 : 0));
+  }
   return parameters;
 }
 

@@ -30,7 +30,9 @@ struct Scene {
   std::size_t heightmap_bytes = 0;  // of the ground as a heightmap in memory, at the scene's resolution
   float cell = 1;                   // metres between columns at that resolution
 
-  Parameters parameters(const RepresentationType&) const;  // the same resolution for all
+  // For so many columns along the ground; 0: those of the scene, the same for all types. The tree of a
+  // sculpture has its samples at the corners of the columns, one more along each side.
+  Parameters parameters(const RepresentationType&, std::int64_t columns = 0) const;
   std::unique_ptr<Representation> build(const RepresentationType&, Progress&) const;
 };
 
