@@ -30,13 +30,15 @@ std::string html_cell(const Cell& cell, const Column& column, bool heads_row) {
                                                            escape_html(cell.text));
   std::string style = cell.style;
   if (column.numeric) style += style.empty() ? "number" : " number";
-  const std::string attribute = style.empty() ? "" : fmt::format(" class=\"{}\"", escape_html(style));
+  std::string attribute = cell.anchor.empty() ? "" : fmt::format(" id=\"{}\"", escape_html(cell.anchor));
+  if (!style.empty()) attribute += fmt::format(" class=\"{}\"", escape_html(style));
   return heads_row ? fmt::format("<th scope=\"row\"{}>{}</th>", attribute, text)
                    : fmt::format("<td{}>{}</td>", attribute, text);
 }
 
 std::string markdown_cell(const Cell& cell) {
-  const std::string text = escape_markdown(cell.text);
+  std::string text = escape_markdown(cell.text);
+  if (!cell.anchor.empty()) text = fmt::format("<a id=\"{}\"></a>", escape_html(cell.anchor)) + text;
   return cell.link.empty() ? text : fmt::format("[{}]({})", text, cell.link);
 }
 

@@ -7,10 +7,11 @@
 namespace terrabench {
 
 struct Cell {
-  std::string text;        // as people read it
-  std::string raw = "";    // what CSV holds instead, such as all digits; empty: the text
-  std::string link = "";   // HTML and Markdown: where the text points; empty: nowhere
-  std::string style = "";  // HTML class of the cell
+  std::string text;         // as people read it
+  std::string raw = "";     // what CSV holds instead, such as all digits; empty: the text
+  std::string link = "";    // HTML and Markdown: where the text points; empty: nowhere
+  std::string style = "";   // HTML class of the cell
+  std::string anchor = "";  // HTML and Markdown: id of the cell, for links to it; empty: none
 };
 
 struct Column {
