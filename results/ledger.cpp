@@ -187,7 +187,7 @@ Document ledger(const Store& store, const JudgedResults& results, std::span<cons
     counts += fmt::format("{}{}: {}", counts.empty() ? "" : "; ", name(about), counts_text(verdicts));
   }
   return {Heading{1, "Ledger", "top"},
-          Paragraph{fmt::format("{} rows, judged from the measurements of profile “{}”. {}.",
+          Paragraph{fmt::format("{} rows, judged from the measurements of profile “{}”. Of these, {}.",
                                 results.judgements.size(), results.profile, counts),
                     false,
                     {{"Report", links.page}}},

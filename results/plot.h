@@ -29,9 +29,18 @@ struct Plot {
   std::vector<PlotSeries> series;
 };
 
+// Pixels. A picture of `width` pixels with letters of `font` pixels, printed 174 mm wide, has letters of
+// 493 pt × font ÷ width.
+struct PlotSize {
+  int width = 880, height = 560, font = 17;
+};
+// For print: a page's width (174 mm), a column's (84 mm); letters of 8 pt.
+PlotSize page_size(const Plot&);
+PlotSize column_size(const Plot&);
+
 // Points that a logarithmic axis cannot show are left out; throws bad_input when no point is left. Not
 // thread-safe (VTK's fonts are one object). The same plot gives the same bytes.
-std::string plot_svg(const Plot&);
+std::string plot_svg(const Plot&, const PlotSize& = {});
 
 // The exponent of the power law through the points (least squares of the logarithms); nothing for fewer than
 // two distinct positive x.

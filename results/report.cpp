@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "results/citation.h"
 #include "results/document.h"
 #include "results/fill.h"
 #include "results/format.h"
@@ -132,7 +133,9 @@ class Report {
 
   void add_paper(const Paper& paper) {
     document_.push_back(Heading{2, paper.title, paper.id});
-    document_.push_back(Paragraph{paper.source + "."});
+    const std::string reference = paper.reference ? reference_text(*paper.reference) : "";
+    document_.push_back(
+        Paragraph{reference + (reference.empty() || paper.source.empty() ? "" : " ") + paper.source});
     for (const TableLayout& layout : paper.tables) {
       FilledTable filled = fill(layout, store_, results_);
       if (!filled.runs.empty()) add_table(std::move(filled.table), run_links(filled.runs));

@@ -7,10 +7,6 @@
 namespace terrabench {
 namespace {
 
-std::string heading(const Column& column) {
-  return column.unit.empty() ? column.title : fmt::format("{} [{}]", column.title, column.unit);
-}
-
 // The results of `write` for all entries, with separators between them.
 template <class Entries, class Write>
 std::string line(const Entries& entries, std::string_view separator, Write write) {
@@ -44,6 +40,10 @@ std::string markdown_cell(const Cell& cell) {
 
 }  // namespace
 
+std::string heading(const Column& column) {
+  return column.unit.empty() ? column.title : fmt::format("{} [{}]", column.title, column.unit);
+}
+
 std::string html(const Table& table) {
   std::string text = fmt::format("<table id=\"{}\">\n<caption><strong>{}.</strong> {}</caption>\n<thead><tr>",
                                  escape_html(table.id), escape_html(table.title), escape_html(table.caption));
@@ -76,22 +76,6 @@ std::string csv(const Table& table) {
     text += line(row, ",", [](const Cell& c) { return escape_csv(c.raw.empty() ? c.text : c.raw); }) + "\r\n";
   }
   return text;
-}
-
-std::string latex(const Table& table) {
-  const auto row_of = [](const auto& entries, auto write) {
-    return "  " + line(entries, " & ", write) + " \\\\\n";
-  };
-  std::string text =
-      fmt::format("\\begin{{table}}\n  \\centering\n  \\caption{{{}. {}}}\n  \\label{{tab:{}}}\n",
-                  escape_latex(table.title), escape_latex(table.caption), table.id);
-  text +=
-      "  \\begin{tabular}{" + line(table.columns, "", [](const Column& c) { return c.numeric ? "r" : "l"; });
-  text +=
-      "}\n  \\toprule\n" + row_of(table.columns, [](const Column& c) { return escape_latex(heading(c)); });
-  text += "  \\midrule\n";
-  for (const auto& row : table.rows) text += row_of(row, [](const Cell& c) { return escape_latex(c.text); });
-  return text + "  \\bottomrule\n  \\end{tabular}\n\\end{table}\n";
 }
 
 }  // namespace terrabench
