@@ -351,6 +351,7 @@ Paper parse_claims(std::string_view text, const std::string& origin) {
   paper.claims = on_further_grounds(paper.claims, grounds);
   for (const TomlValue& table : entry.list("table")) paper.tables.push_back(parse_table(table));
   for (const TomlValue& plot : entry.list("plot")) paper.plots.push_back(parse_plot(plot));
+  entry.has("ranking");  // read by parse_rankings()
   entry.refuse_unknown();
   check_ids(paper, origin);
   check_references(paper, origin);

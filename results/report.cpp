@@ -15,6 +15,7 @@
 #include "results/new_folder.h"
 #include "results/paper_faults.h"
 #include "results/plot.h"
+#include "results/ranking.h"
 #include "results/rasterise.h"
 #include "results/report_tables.h"
 #include "terrain/error.h"
@@ -79,6 +80,23 @@ class Report {
                                   false,
                                   {{"Ledger", "ledger.html"}, {"as Markdown", "ledger.md"}}});
     add_paper_faults();
+    add_findings();
+  }
+
+  void add_findings() {
+    const std::vector<Ranking> rankings = rank(ranking_layouts(), store_, results_.profile);
+    Facts facts = findings(rankings);
+    if (facts.lines.empty()) return;
+    write_file(out_ / "findings.json", findings_json(rankings));
+    write_file(out_ / "findings.md", markdown({facts}));
+    document_.push_back(Heading{2, "Findings", "findings"});
+    document_.push_back(
+        Paragraph{"Who is best at what, written from the medians of the comparisons across the papers. In "
+                  "brackets after "
+                  "a factor stands its 95 % interval; methods whose interval holds 1 are called tied.",
+                  false,
+                  {{"JSON", "findings.json"}, {"Markdown", "findings.md"}}});
+    document_.push_back(std::move(facts));
   }
 
   void write_ledger() {
