@@ -151,6 +151,21 @@ std::string tick_label(double tick) {
   return fmt::format("{:.{}f}", tick, -static_cast<int>(std::floor(std::log10(size) + 1e-9)));
 }
 
+// The ticks of a horizontal axis of this many pixels whose labels keep clear of the label before.
+std::vector<double> spaced_ticks(const Scale& scale, double pixels, int font) {
+  constexpr double kDigit = 0.64;  // width of a DejaVu Sans digit, in font sizes
+  std::vector<double> kept;
+  double end = -pixels;
+  for (const double tick : scale.ticks) {
+    const double at = (scale.chart(tick) - scale.low) / (scale.high - scale.low) * pixels;
+    const double half = kDigit * font * static_cast<double>(tick_label(tick).size()) / 2;
+    if (at - half < end + font / 2.0) continue;
+    kept.push_back(tick);
+    end = at + half;
+  }
+  return kept;
+}
+
 void set_font(vtkTextProperty* property, int size) {
   if (std::filesystem::exists(kFont)) {
     property->SetFontFamily(VTK_FONT_FILE);
@@ -239,7 +254,10 @@ std::string plot_svg(const Plot& plot, const PlotSize& size) {
     }
   }
   if (xs.empty()) throw bad_input("there is no point to plot", plot.title, "measure the cases that it shows");
-  const Scale x = scale_for(plot.x, xs, true, 0.06), y = scale_for(plot.y, ys, false, 0.08);
+  Scale x = scale_for(plot.x, xs, true, 0.06);
+  const Scale y = scale_for(plot.y, ys, false, 0.08);
+  // Beside the labels and the title of the vertical axis.
+  x.ticks = spaced_ticks(x, size.width - 8 * size.font, size.font);
 
   vtkNew<vtkChartXY> chart;
   chart->SetAutoSize(false);
