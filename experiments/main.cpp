@@ -60,7 +60,8 @@ struct Arguments {
   CheckArguments check;
   CompareArguments compare;
   MergeArguments merge;
-  std::filesystem::path report = "out", info;
+  ReportArguments report;
+  std::filesystem::path info;
   std::string profile = "quick", shard = "1/1", cases = "all";
   int threads = 0;
 };
@@ -144,7 +145,13 @@ void add_results(CLI::App& app, Arguments& a) {
   check->add_option("--junit", a.check.junit, "Also write JUnit XML for a CI server");
   auto* report = app.add_subcommand(
       "report", "Write tables, plots and a web page from the measurements: DIR/report/index.html");
-  report->add_option("dir", a.report, "Results folder")->capture_default_str();
+  report->add_option("dir", a.report.folder, "Results folder")->capture_default_str();
+  report->add_option(
+      "--latex", a.report.latex,
+      "Write this folder instead: tables and figures for a paper, which `latexmk -pdf` compiles "
+      "(Debian: latexmk, texlive-latex-recommended, lmodern). Figures are PDF, a column (84 mm) "
+      "and a page (174 mm) wide");
+  app.add_subcommand("cite", "Print BibTeX of the papers and of this program");
   auto* compare = app.add_subcommand(
       "compare", "Compare two results folders, metric by metric, with confidence intervals");
   compare->add_option("a", a.compare.before, "Results folder")->required();
@@ -295,6 +302,7 @@ ExitCode dispatch(const CLI::App& app, Arguments& a) {
   if (app.got_subcommand("list")) return list_command(a.list);
   if (app.got_subcommand("check")) return check_command(a.check);
   if (app.got_subcommand("report")) return report_command(a.report);
+  if (app.got_subcommand("cite")) return cite_command();
   if (app.got_subcommand("compare")) return compare_command(a.compare);
   if (app.got_subcommand("merge")) return merge_command(a.merge);
   if (app.got_subcommand("info")) return info_command(a.info);

@@ -179,6 +179,21 @@ Claim claim_from(const TomlValue& node, About usual_about, const Claim* first) {
   return claim;
 }
 
+Reference reference_from(const TomlValue& node) {
+  TomlTable entry(node);
+  Reference reference;
+  for (const TomlValue& author : entry.list("authors")) reference.authors.push_back(author.text("authors"));
+  reference.title = entry.text_or("title", "");
+  reference.subject = entry.text_or("subject", "");
+  reference.institution = entry.text_or("institution", "");
+  if (entry.has("year")) reference.year = static_cast<int>(entry.get("year").number("year"));
+  if (reference.title.empty() == reference.subject.empty()) {
+    entry.refuse("a reference has either a 'title' or a 'subject'");
+  }
+  entry.refuse_unknown();
+  return reference;
+}
+
 // Another ground for claims: the same conditions, read from other cases.
 struct FurtherGround {
   // A claim whose known verdict on this ground is another than on the ground of the paper's claim.
@@ -319,7 +334,9 @@ Paper parse_claims(std::string_view text, const std::string& origin) {
   read_sets(table, file);
   TomlTable entry({&table, &file, {}});
   entry.has("sets");
-  Paper paper{entry.text("paper"), entry.text("title"), entry.text("source"), {}, {}, {}};
+  Paper paper{entry.text("paper"), entry.text("title"), {}, "", {}, {}, {}};
+  if (entry.has("reference")) paper.reference = reference_from(entry.get("reference"));
+  paper.source = paper.reference ? entry.text_or("source", "") : entry.text("source");
   const About about = about_from(entry, About::kPaper);
   const toml::node* of_last = nullptr;  // elements of one `each` follow each other
   std::size_t first = 0;
@@ -334,6 +351,7 @@ Paper parse_claims(std::string_view text, const std::string& origin) {
   paper.claims = on_further_grounds(paper.claims, grounds);
   for (const TomlValue& table : entry.list("table")) paper.tables.push_back(parse_table(table));
   for (const TomlValue& plot : entry.list("plot")) paper.plots.push_back(parse_plot(plot));
+  entry.has("ranking");  // read by parse_rankings()
   entry.refuse_unknown();
   check_ids(paper, origin);
   check_references(paper, origin);

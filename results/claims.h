@@ -3,6 +3,7 @@
 // is expected to have, written by hand; the verdicts of a run are computed by judge.h and not stored.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -87,8 +88,19 @@ struct Claim {
   std::string reason() const;
 };
 
+// Bibliographic data, only as far as the paper's text states them.
+struct Reference {
+  std::vector<std::string> authors;  // may be empty
+  std::string title;
+  std::string subject;      // in place of a title that the text does not state: what its abstract says it is
+  std::string institution;  // of the authors; may be empty
+  int year = 0;             // 0: not stated
+};
+
 struct Paper {
-  std::string id, title, source;  // source: authors, year, place of publication
+  std::string id, title;               // title: the name that pages and tables use
+  std::optional<Reference> reference;  // the comparison across the papers has none
+  std::string source;                  // what else there is to say; may be empty where there is a reference
   std::vector<Claim> claims;
   std::vector<TableLayout> tables;
   std::vector<PlotLayout> plots;

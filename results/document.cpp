@@ -19,6 +19,13 @@ struct HtmlWriter {
     }
     return text.empty() ? "" : fmt::format("<p class=\"links\">{}</p>\n", text);
   }
+  // Hidden until the script shows it: without scripts there is nothing to fill in, and all rows are shown.
+  static std::string filter_field(const Table& table) {
+    return fmt::format(
+        "<p class=\"filter\" data-table=\"{}\" hidden><label>Show rows with <input type=\"search\" "
+        "placeholder=\"all of these words\"></label> <output></output></p>\n",
+        escape_html(table.id));
+  }
   void operator()(const Heading& h) {
     text += fmt::format("<h{0} id=\"{1}\">{2}</h{0}>\n", h.level, escape_html(h.id), escape_html(h.text));
   }
@@ -35,7 +42,9 @@ struct HtmlWriter {
     text += "</dl>\n";
   }
   void operator()(const TableBlock& block) {
+    if (block.filter) text += filter_field(block.table);
     text += "<div class=\"table\">\n" + html(block.table) + links(block.links) + "</div>\n";
+    if (block.filter) text += fmt::format("<script>\n{}</script>\n", embedded_script()[0].text);
   }
   void operator()(const Gallery& gallery) {
     text += gallery.pictures.size() == 1 ? "<div class=\"wide\">\n" : "<div class=\"gallery\">\n";
@@ -75,8 +84,9 @@ struct MarkdownWriter {
     text += "\n";
   }
   void operator()(const TableBlock& block) {
-    text += fmt::format("**{}.** {}\n\n{}\n", escape_markdown(block.table.title),
-                        escape_markdown(block.table.caption), markdown(block.table));
+    text +=
+        fmt::format("<a id=\"{}\"></a>**{}.** {}\n\n{}\n", block.table.id, escape_markdown(block.table.title),
+                    escape_markdown(block.table.caption), markdown(block.table));
     links(block.links);
   }
   void operator()(const Gallery& gallery) {

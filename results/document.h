@@ -30,6 +30,7 @@ struct Facts {
 struct TableBlock {
   Table table;
   std::vector<Link> links;  // to its runs and its other file forms
+  bool filter = false;      // HTML: with a field that filters the rows by text
 };
 struct Picture {
   std::string title, caption, file;  // file: for HTML

@@ -11,5 +11,7 @@ namespace terrabench {
 std::span<const EmbeddedFile> embedded_claims();
 // results/report.css
 std::span<const EmbeddedFile> embedded_style();
+// results/filter.js
+std::span<const EmbeddedFile> embedded_script();
 
 }  // namespace terrabench

@@ -67,39 +67,6 @@ std::string escape_markdown(std::string_view text) {
   return replace(text, kMarkdown);
 }
 
-std::string escape_latex(std::string_view text) {
-  constexpr Replacement kLatex[] = {{"\\", "\\textbackslash{}"},
-                                    {"{", "\\{"},
-                                    {"}", "\\}"},
-                                    {"$", "\\$"},
-                                    {"&", "\\&"},
-                                    {"#", "\\#"},
-                                    {"%", "\\%"},
-                                    {"_", "\\_"},
-                                    {"~", "\\textasciitilde{}"},
-                                    {"^", "\\textasciicircum{}"},
-                                    {"<", "\\textless{}"},
-                                    {">", "\\textgreater{}"},
-                                    {"|", "\\textbar{}"},
-                                    {"²", "\\textsuperscript{2}"},
-                                    {"³", "\\textsuperscript{3}"},
-                                    {"×", "$\\times$"},
-                                    {"÷", "$\\div$"},
-                                    {"–", "--"},
-                                    {"—", "---"},
-                                    {"…", "\\ldots{}"},
-                                    {"≥", "$\\geq$"},
-                                    {"≤", "$\\leq$"},
-                                    {"≈", "$\\approx$"},
-                                    {"±", "$\\pm$"},
-                                    {"µ", "$\\mu$"},
-                                    {"α", "$\\alpha$"},
-                                    {"τ", "$\\tau$"},
-                                    {"−", "$-$"},
-                                    {"→", "$\\to$"}};
-  return replace(text, kLatex);
-}
-
 std::string escape_csv(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == text.npos) return std::string(text);
   std::string out = "\"";

@@ -16,6 +16,7 @@ std::string format_exact(double);
 
 std::string escape_html(std::string_view);  // also XML; control characters become spaces
 std::string escape_markdown(std::string_view);
+// For T1-encoded fonts. Characters that LaTeX lacks become [U+2713]; bytes that are not UTF-8 become "?".
 std::string escape_latex(std::string_view);
 std::string escape_csv(std::string_view);  // RFC 4180
 

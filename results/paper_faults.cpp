@@ -5,18 +5,10 @@
 #include <algorithm>
 
 #include "results/fill.h"
-#include "results/format.h"
+#include "results/report_tables.h"
 
 namespace terrabench {
 namespace {
-
-std::string reported(const Claim& claim) {
-  std::string text;
-  for (const double value : claim.reported) {
-    text += (text.empty() ? "" : ", ") + format_quantity(value, claim.unit);
-  }
-  return text.empty() ? "–" : text;
-}
 
 class Page {
  public:
@@ -34,8 +26,8 @@ class Page {
       const Claim& claim = *j.claim;
       if (j.verdict != Verdict::kDiffers || !is_own_row(j)) continue;
       table.rows.push_back({{claim.id, "", link(paper)},
-                            {claim.where + ": " + claim.statement},
-                            {reported(claim)},
+                            {where_and_statement(claim)},
+                            {reported_text(claim)},
                             {j.deciding.text + also_differing(paper, claim)},
                             {claim.reason()},
                             {matching(paper, claim)}});
@@ -53,7 +45,7 @@ class Page {
       const Claim& claim = *j.claim;
       if (claim.vague.empty() || claim.about == About::kRepeat || !was_measured(j.verdict)) continue;
       table.rows.push_back({{claim.id, "", link(paper)},
-                            {claim.where + ": " + claim.statement},
+                            {where_and_statement(claim)},
                             {claim.vague},
                             {claim.note.empty() ? j.measured : claim.note},
                             verdict_cell(j)});

@@ -30,31 +30,30 @@
 namespace terrabench {
 namespace {
 
-constexpr int kWidth = 880, kFontSize = 17;
-// The legend stands above the axes, which keep their size: a row of the legend makes the picture higher.
-constexpr int kAxesHeight = 485, kLegendRow = 25;
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
-// Okabe & Ito (2008): distinguishable with every kind of colour vision, and in print.
+// Okabe & Ito (2008): distinguishable with every kind of colour vision, and in print; the eighth is of Tol
+// (2021).
 struct Style {
   std::array<unsigned char, 3> colour;
   int marker;
   int line = vtkPen::SOLID_LINE;
 };
-constexpr std::array<Style, 7> kStyles = {{{{0x00, 0x72, 0xB2}, vtkPlotPoints::CIRCLE},
+constexpr std::array<Style, 8> kStyles = {{{{0x00, 0x72, 0xB2}, vtkPlotPoints::CIRCLE},
                                            {{0xD5, 0x5E, 0x00}, vtkPlotPoints::SQUARE},
                                            {{0x00, 0x9E, 0x73}, vtkPlotPoints::DIAMOND},
                                            {{0xCC, 0x79, 0xA7}, vtkPlotPoints::CROSS},
                                            {{0xE6, 0x9F, 0x00}, vtkPlotPoints::PLUS},
                                            {{0x56, 0xB4, 0xE9}, vtkPlotPoints::CIRCLE},
-                                           {{0x00, 0x00, 0x00}, vtkPlotPoints::SQUARE}}};
+                                           {{0x00, 0x00, 0x00}, vtkPlotPoints::SQUARE},
+                                           {{0x88, 0x22, 0x55}, vtkPlotPoints::DIAMOND}}};
 // Of what was not measured here.
 constexpr std::array<Style, 3> kReported = {{{{0x60, 0x60, 0x60}, vtkPlotPoints::SQUARE, vtkPen::DASH_LINE},
                                              {{0x98, 0x98, 0x98}, vtkPlotPoints::DIAMOND, vtkPen::DASH_LINE},
                                              {{0xB8, 0xB8, 0xB8}, vtkPlotPoints::CIRCLE, vtkPen::DASH_LINE}}};
 
 // The style of the measured series `number`: once all colours are used, they come again with another marker
-// and dotted.
+// and dashes.
 Style measured_style(std::size_t number) {
   Style style = kStyles[number % kStyles.size()];
   if (number >= kStyles.size()) {
@@ -164,18 +163,33 @@ std::string tick_label(double tick) {
   return fmt::format("{:.{}f}", tick, -static_cast<int>(std::floor(std::log10(size) + 1e-9)));
 }
 
-void set_font(vtkTextProperty* property, bool bold) {
+// The ticks of a horizontal axis of this many pixels whose labels keep clear of the label before.
+std::vector<double> spaced_ticks(const Scale& scale, double pixels, int font) {
+  constexpr double kDigit = 0.64;  // width of a DejaVu Sans digit, in font sizes
+  std::vector<double> kept;
+  double end = -pixels;
+  for (const double tick : scale.ticks) {
+    const double at = (scale.chart(tick) - scale.low) / (scale.high - scale.low) * pixels;
+    const double half = kDigit * font * static_cast<double>(tick_label(tick).size()) / 2;
+    if (at - half < end + font / 2.0) continue;
+    kept.push_back(tick);
+    end = at + half;
+  }
+  return kept;
+}
+
+void set_font(vtkTextProperty* property, int size) {
   if (std::filesystem::exists(kFont)) {
     property->SetFontFamily(VTK_FONT_FILE);
     property->SetFontFile(kFont);
   }
-  property->SetFontSize(kFontSize);
-  property->SetBold(bold);
+  property->SetFontSize(size);
+  property->SetBold(0);
   property->SetItalic(0);
   property->SetColor(0.1, 0.1, 0.1);
 }
 
-void set_axis(vtkAxis* axis, const PlotAxis& what, const Scale& scale) {
+void set_axis(vtkAxis* axis, const PlotAxis& what, const Scale& scale, int font) {
   axis->SetTitle(what.unit.empty() ? what.label : fmt::format("{} [{}]", what.label, what.unit));
   axis->SetBehavior(vtkAxis::FIXED);
   axis->SetRange(scale.low, scale.high);
@@ -186,8 +200,8 @@ void set_axis(vtkAxis* axis, const PlotAxis& what, const Scale& scale) {
     labels->InsertNextValue(tick_label(tick));
   }
   axis->SetCustomTickPositions(positions, labels);
-  set_font(axis->GetTitleProperties(), false);
-  set_font(axis->GetLabelProperties(), false);
+  set_font(axis->GetTitleProperties(), font);
+  set_font(axis->GetLabelProperties(), font);
   axis->GetPen()->SetColor(60, 60, 60);
   axis->GetPen()->SetWidth(1.4F);
   axis->GetGridPen()->SetColor(222, 222, 222);
@@ -236,7 +250,12 @@ std::vector<PlotSeries> showable(const Plot& plot) {
 
 }  // namespace
 
-std::string plot_svg(const Plot& plot) {
+// The legend stands above the chart, a line per series.
+PlotSize screen_size(const Plot& plot) { return {880, 485 + 25 * static_cast<int>(plot.series.size()), 17}; }
+PlotSize page_size(const Plot& plot) { return {880, 400 + 20 * static_cast<int>(plot.series.size()), 14}; }
+PlotSize column_size(const Plot& plot) { return {440, 310 + 20 * static_cast<int>(plot.series.size()), 15}; }
+
+std::string plot_svg(const Plot& plot, const PlotSize& size) {
   const std::vector<PlotSeries> all = showable(plot);
   std::vector<double> xs, ys;
   for (const PlotSeries& series : all) {
@@ -248,14 +267,16 @@ std::string plot_svg(const Plot& plot) {
     }
   }
   if (xs.empty()) throw bad_input("there is no point to plot", plot.title, "measure the cases that it shows");
-  const Scale x = scale_for(plot.x, xs, true, 0.06), y = scale_for(plot.y, ys, false, 0.08);
+  Scale x = scale_for(plot.x, xs, true, 0.06);
+  const Scale y = scale_for(plot.y, ys, false, 0.08);
+  // Beside the labels and the title of the vertical axis.
+  x.ticks = spaced_ticks(x, size.width - 8 * size.font, size.font);
 
-  const int height = kAxesHeight + kLegendRow * static_cast<int>(all.size());
   vtkNew<vtkChartXY> chart;
   chart->SetAutoSize(false);
-  chart->SetSize(vtkRectf(0, 0, kWidth - 12, static_cast<float>(height - 8)));
-  set_axis(chart->GetAxis(vtkAxis::BOTTOM), plot.x, x);
-  set_axis(chart->GetAxis(vtkAxis::LEFT), plot.y, y);
+  chart->SetSize(vtkRectf(0, 0, static_cast<float>(size.width) - 12, static_cast<float>(size.height) - 8));
+  set_axis(chart->GetAxis(vtkAxis::BOTTOM), plot.x, x, size.font);
+  set_axis(chart->GetAxis(vtkAxis::LEFT), plot.y, y, size.font);
   std::size_t measured = 0, reported = 0;
   for (const PlotSeries& series : all) {
     const Style style =
@@ -263,7 +284,7 @@ std::string plot_svg(const Plot& plot) {
     if (!series.points.empty()) add_series(chart, series, style, x, y);
   }
   chart->SetShowLegend(true);
-  set_font(chart->GetLegend()->GetLabelProperties(), false);
+  set_font(chart->GetLegend()->GetLabelProperties(), size.font);
   chart->GetLegend()->SetSymbolWidth(44);
   chart->GetLegend()->SetPadding(8);
   // Above the plot, where it covers nothing.
@@ -274,12 +295,12 @@ std::string plot_svg(const Plot& plot) {
 
   vtkNew<vtkContextScene> scene;
   scene->AddItem(chart);
-  scene->SetGeometry(kWidth, height);
+  scene->SetGeometry(size.width, size.height);
   vtkNew<SvgDevice> device;
   vtkNew<vtkContext2D> painter;
   // The first painting lays the chart out, the second draws it there.
   for (int pass = 0; pass < 2; ++pass) {
-    device->start(kWidth, height);
+    device->start(size.width, size.height);
     painter->Begin(device);
     scene->Paint(painter);
     painter->End();

@@ -29,9 +29,21 @@ struct Plot {
   std::vector<PlotSeries> series;
 };
 
+// Pixels. A picture of `width` pixels with letters of `font` pixels, printed 174 mm wide, has letters of
+// 493 pt × font ÷ width.
+struct PlotSize {
+  int width, height, font;
+};
+// For a page on a screen. The legend stands above the axes, which keep their size.
+PlotSize screen_size(const Plot&);
+// For print: a page's width (174 mm), a column's (84 mm); letters of 8 pt.
+PlotSize page_size(const Plot&);
+PlotSize column_size(const Plot&);
+
 // Points that a logarithmic axis cannot show are left out; throws bad_input when no point is left. Not
 // thread-safe (VTK's fonts are one object). The same plot gives the same bytes.
-std::string plot_svg(const Plot&);
+std::string plot_svg(const Plot&, const PlotSize&);
+inline std::string plot_svg(const Plot& plot) { return plot_svg(plot, screen_size(plot)); }
 
 // The exponent of the power law through the points (least squares of the logarithms); nothing for fewer than
 // two distinct positive x.

@@ -8,6 +8,8 @@
 
 #include <cerrno>
 #include <cstring>
+#include <string>
+#include <vector>
 
 #include "terrain/error.h"
 #include "terrain/files.h"
@@ -16,18 +18,22 @@
 extern char** environ;
 
 namespace terrabench {
+namespace {
 
-void svg_to_png(const std::filesystem::path& svg, const std::filesystem::path& png, int width,
-                Colours colours) {
-  std::string program = "rsvg-convert", size = std::to_string(width), in = svg.string(), out = png.string();
-  std::string width_option = "--width", output_option = "--output";
-  char* const arguments[] = {program.data(), width_option.data(), size.data(), output_option.data(),
-                             out.data(),     in.data(),           nullptr};
+// Runs rsvg-convert with these arguments, its output thrown away. Throws environment_error unless it
+// succeeds.
+void run_rsvg(std::vector<std::string> arguments) {
+  std::string program = "rsvg-convert", epoch = "SOURCE_DATE_EPOCH=0";  // the date in a PDF
+  std::vector<char*> argv = {program.data()}, variables = {epoch.data()};
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  for (char** variable = environ; *variable != nullptr; ++variable) variables.push_back(*variable);
+  variables.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
   pid_t child = 0;
-  const int error = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments, environ);
+  const int error = posix_spawnp(&child, program.c_str(), &actions, nullptr, argv.data(), variables.data());
   posix_spawn_file_actions_destroy(&actions);
   int status = 0;
   if (error == 0) {
@@ -37,29 +43,53 @@ void svg_to_png(const std::filesystem::path& svg, const std::filesystem::path& p
   // A C library may report a missing program only as the child's exit status 127.
   if (error != 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 127)) {
     throw environment_error(fmt::format("cannot be run: {}", std::strerror(error != 0 ? error : ENOENT)),
-                            program, "install Debian's librsvg2-bin, which turns plots into PNG");
+                            program, "install Debian's librsvg2-bin, which turns plots into PNG and PDF");
   }
-  if (status == 0) {
-    if (colours == Colours::kFew) write_png(png, with_few_colours(read_png(png)));
-    return;
+  if (status != 0) {
+    throw environment_error(fmt::format("failed with status {}", status), program + " " + arguments.back(),
+                            "check the free space on the disk and the folder's permissions");
   }
-  std::error_code ignored;
-  std::filesystem::remove(png, ignored);
-  throw environment_error(fmt::format("failed with status {}", status), program + " " + in,
-                          "check the free space on the disk and the folder's permissions");
 }
 
-void svg_text_to_png(std::string_view svg, const std::filesystem::path& png, int width, Colours colours) {
-  const std::filesystem::path file = png.string() + fmt::format(".{}.tmp", getpid());
+// Runs `convert` on a file with this text, which is removed afterwards; so is `result` if it fails.
+template <class Convert>
+void with_svg_file(std::string_view svg, const std::filesystem::path& result, Convert convert) {
+  const std::filesystem::path file = result.string() + fmt::format(".{}.tmp", getpid());
   write_file(file, svg);
   std::error_code ignored;
   try {
-    svg_to_png(file, png, width, colours);
+    convert(file);
   } catch (...) {
     std::filesystem::remove(file, ignored);
+    std::filesystem::remove(result, ignored);
     throw;
   }
   std::filesystem::remove(file, ignored);
+}
+
+}  // namespace
+
+void svg_to_png(const std::filesystem::path& svg, const std::filesystem::path& png, int width,
+                Colours colours) {
+  try {
+    run_rsvg({"--width", std::to_string(width), "--output", png.string(), svg.string()});
+    if (colours == Colours::kFew) write_png(png, with_few_colours(read_png(png)));
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(png, ignored);
+    throw;
+  }
+}
+
+void svg_text_to_png(std::string_view svg, const std::filesystem::path& png, int width, Colours colours) {
+  with_svg_file(svg, png, [&](const std::filesystem::path& file) { svg_to_png(file, png, width, colours); });
+}
+
+void svg_text_to_pdf(std::string_view svg, const std::filesystem::path& pdf, double millimetres) {
+  with_svg_file(svg, pdf, [&](const std::filesystem::path& file) {
+    run_rsvg({"--format", "pdf", "--width", fmt::format("{}mm", millimetres), "--keep-aspect-ratio",
+              "--output", pdf.string(), file.string()});
+  });
 }
 
 }  // namespace terrabench

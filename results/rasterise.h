@@ -1,4 +1,4 @@
-// SVG to PNG, through librsvg's rsvg-convert.
+// SVG to PNG and PDF, through librsvg's rsvg-convert.
 #pragma once
 
 #include <filesystem>
@@ -16,5 +16,9 @@ void svg_to_png(const std::filesystem::path& svg, const std::filesystem::path& p
 // The same for an SVG text; its temporary file is removed.
 void svg_text_to_png(std::string_view svg, const std::filesystem::path& png, int width,
                      Colours = Colours::kFew);
+
+// Writes a page of the picture's own shape, `millimetres` wide, with its fonts embedded; equal pictures give
+// equal bytes. Throws as above.
+void svg_text_to_pdf(std::string_view svg, const std::filesystem::path& pdf, double millimetres);
 
 }  // namespace terrabench

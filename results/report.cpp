@@ -1,20 +1,21 @@
 #include "results/report.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <set>
 
+#include "results/citation.h"
 #include "results/document.h"
 #include "results/fill.h"
 #include "results/format.h"
 #include "results/further_cases.h"
 #include "results/judge.h"
+#include "results/ledger.h"
+#include "results/new_folder.h"
 #include "results/paper_faults.h"
 #include "results/plot.h"
+#include "results/ranking.h"
 #include "results/rasterise.h"
 #include "results/report_tables.h"
 #include "terrain/error.h"
@@ -31,60 +32,10 @@ std::vector<Link> run_links(const std::vector<std::string>& runs) {
   return links;
 }
 
-std::string file_name(std::string_view id) {
-  std::string name(id);
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '-' && c != '_') c = '_';
-  }
-  return name.starts_with('.') ? "_" + name : name;
+bool is_report(const std::filesystem::path& folder) {
+  std::error_code error;
+  return std::filesystem::exists(folder / "index.html", error);
 }
-
-// The folder that the report is written into: a temporary folder beside the target. publish() renames it to
-// the target, so that the report appears whole or not at all; otherwise it is removed.
-class ReportFolder {
- public:
-  // Throws environment_error when the target holds files that are no report, or nothing can be written there.
-  explicit ReportFolder(std::filesystem::path target)
-      : target_(std::move(target)),
-        path_(target_.parent_path() / fmt::format(".{}.{}.tmp", target_.filename().string(), getpid())) {
-    std::error_code error;
-    if (std::filesystem::exists(target_, error) && !std::filesystem::exists(target_ / "index.html", error) &&
-        !std::filesystem::is_empty(target_, error)) {
-      throw environment_error("holds files that are not a report and would be replaced", target_.string(),
-                              "move them away");
-    }
-    std::filesystem::remove_all(path_, error);
-    std::filesystem::create_directories(path_, error);
-    if (error) {
-      throw environment_error(fmt::format("cannot write: {}", error.message()), path_.string(),
-                              "check the folder's permissions and the free space");
-    }
-  }
-  ~ReportFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ReportFolder(const ReportFolder&) = delete;
-  ReportFolder& operator=(const ReportFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  // Exchanges an earlier report with this one; the earlier one is removed with the temporary folder.
-  void publish() {
-    if (std::rename(path_.c_str(), target_.c_str()) == 0) return;
-    if (renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0) return;
-    // A file system without exchange: remove the old report first.
-    std::error_code error;
-    std::filesystem::remove_all(target_, error);
-    std::filesystem::rename(path_, target_, error);
-    if (error) {
-      throw environment_error(fmt::format("cannot write: {}", error.message()), target_.string(),
-                              "check the folder's permissions");
-    }
-  }
-
- private:
-  std::filesystem::path target_, path_;
-};
 
 class Report {
  public:
@@ -100,6 +51,7 @@ class Report {
     add_other_pictures();
     add_pending();
     add_provenance();
+    write_ledger();
     write_file(out_ / "index.html", html(document_));
     write_file(out_ / "report.md", markdown(document_));
   }
@@ -124,7 +76,35 @@ class Report {
       document_.push_back(Paragraph{fmt::format("{}: {}.", judgement.claim->id, judgement.complaint), true});
     }
     add_summary();
+    document_.push_back(Paragraph{"Every row with its figure and its run, in one table that can be filtered:",
+                                  false,
+                                  {{"Ledger", "ledger.html"}, {"as Markdown", "ledger.md"}}});
     add_paper_faults();
+    add_findings();
+  }
+
+  void add_findings() {
+    const std::vector<Ranking> rankings = rank(ranking_layouts(), store_, results_.profile);
+    Facts facts = findings(rankings);
+    if (facts.lines.empty()) return;
+    write_file(out_ / "findings.json", findings_json(rankings));
+    write_file(out_ / "findings.md", markdown({facts}));
+    document_.push_back(Heading{2, "Findings", "findings"});
+    document_.push_back(
+        Paragraph{"Who is best at what, written from the medians of the comparisons across the papers. In "
+                  "brackets after "
+                  "a factor stands its 95 % interval; methods whose interval holds 1 are called tied.",
+                  false,
+                  {{"JSON", "findings.json"}, {"Markdown", "findings.md"}}});
+    document_.push_back(std::move(facts));
+  }
+
+  void write_ledger() {
+    links_.page = "index.html";
+    write_file(out_ / "ledger.html", html(ledger(store_, results_, papers_, links_)));
+    write_file(out_ / "tables/ledger.csv", csv(ledger_table(store_, results_, papers_, links_)));
+    links_.page = "report.md";
+    write_file(out_ / "ledger.md", markdown(ledger(store_, results_, papers_, links_)));
   }
 
   void add_paper_faults() {
@@ -171,7 +151,9 @@ class Report {
 
   void add_paper(const Paper& paper) {
     document_.push_back(Heading{2, paper.title, paper.id});
-    document_.push_back(Paragraph{paper.source + "."});
+    const std::string reference = paper.reference ? reference_text(*paper.reference) : "";
+    document_.push_back(
+        Paragraph{reference + (reference.empty() || paper.source.empty() ? "" : " ") + paper.source});
     for (const TableLayout& layout : paper.tables) {
       FilledTable filled = fill(layout, store_, results_);
       if (!filled.runs.empty()) add_table(std::move(filled.table), run_links(filled.runs));
@@ -249,9 +231,9 @@ class Report {
     const std::filesystem::path from = store_.folder() / figure.file;
     std::error_code error;
     if (!std::filesystem::is_regular_file(from, error)) return;
-    // Under its file's name: two pictures may have one id. results/reference keeps its pictures only here.
-    const std::string to = "figures/" + file_name(from.filename().string());
+    const std::string to = picture_file(figure);
     write_file(out_ / to, read_file(from));
+    links_.targets.insert(to);
     gallery.pictures.push_back({std::move(title), std::move(caption), to, "", run_links({record.run})});
   }
 
@@ -269,6 +251,7 @@ class Report {
 
   void add_table(Table table, std::vector<Link> links) {
     const std::string stem = "tables/" + file_name(table.id);
+    links_.targets.insert("#" + table.id);
     write_file(out_ / (stem + ".csv"), csv(table));
     write_file(out_ / (stem + ".md"), markdown(table));
     write_file(out_ / (stem + ".tex"), latex(table));
@@ -304,6 +287,7 @@ class Report {
   const std::filesystem::path& out_;
   JudgedResults results_;
   Document document_;
+  LedgerLinks links_;              // filled while the report is written
   std::set<std::string> claimed_;  // ids of pictures that belong to a claim
 };
 
@@ -315,7 +299,7 @@ std::filesystem::path write_report(const std::filesystem::path& folder) {
 
 std::filesystem::path write_report(const Store& store, std::span<const Paper> papers) {
   const std::filesystem::path target = store.folder() / "report";
-  ReportFolder folder(target);
+  NewFolder folder(target, is_report, "report");
   Report(store, papers, folder.path()).write();
   folder.publish();
   return target / "index.html";

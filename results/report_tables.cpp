@@ -3,24 +3,41 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <filesystem>
 
 #include "results/fill.h"
+#include "results/format.h"
 #include "results/tally.h"
 
 namespace terrabench {
-namespace {
 
 std::string where_and_statement(const Claim& claim) { return claim.where + ": " + claim.statement; }
 
-}  // namespace
+std::string reported_text(const Claim& claim) {
+  std::string text;
+  for (const double value : claim.reported) {
+    text += (text.empty() ? "" : ", ") + format_quantity(value, claim.unit);
+  }
+  return text.empty() ? "–" : text;
+}
+
+std::string file_name(std::string_view id) {
+  std::string name(id);
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '-' && c != '_') c = '_';
+  }
+  return name.starts_with('.') ? "_" + name : name;
+}
+
+std::string picture_file(const RecordedFigure& figure) {
+  return "figures/" + file_name(std::filesystem::path(figure.file).filename().string());
+}
 
 std::string short_id(const std::string& run) { return run.substr(0, 8); }
 std::string run_anchor(const std::string& run) { return "run-" + short_id(run); }
 
 Table summary_table(const JudgedResults& results, std::span<const Paper> papers) {
-  constexpr Verdict kShown[] = {Verdict::kReproduced,    Verdict::kShape,   Verdict::kDiffers,
-                                Verdict::kNotComparable, Verdict::kMissing, Verdict::kNotRun,
-                                Verdict::kPending};
   Table table{
       "summary",
       "Verdicts",
@@ -29,10 +46,11 @@ Table summary_table(const JudgedResults& results, std::span<const Paper> papers)
       "are counted apart: only the first say how much of a paper is reproduced.",
       {{"Paper"}, {"Rows"}},
       {}};
-  for (const Verdict verdict : kShown) table.columns.push_back({std::string(name(verdict)), "", true});
+  for (const Verdict verdict : kVerdictColumns)
+    table.columns.push_back({std::string(name(verdict)), "", true});
   const auto add = [&](const std::string& title, About about, VerdictCounts counts) {
     std::vector<Cell> cells = {{title}, {std::string(name(about))}};
-    for (const Verdict verdict : kShown) cells.push_back({std::to_string(counts[verdict])});
+    for (const Verdict verdict : kVerdictColumns) cells.push_back({std::to_string(counts[verdict])});
     table.rows.push_back(std::move(cells));
   };
   for (const Paper& paper : papers) {

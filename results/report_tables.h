@@ -17,6 +17,16 @@ Facts claim_notes(const JudgedResults&, const Paper&);
 // The claims of all papers whose method is not built yet.
 Table pending_table(const JudgedResults&);
 
+// "Table 1: memory grows …"; what the paper prints, with its unit, or a dash.
+std::string where_and_statement(const Claim&);
+std::string reported_text(const Claim&);
+
+// The id as a file's name: other characters than letters, digits, '.', '-', '_' become '_'.
+std::string file_name(std::string_view id);
+// The report's copy of a picture, relative to the report's folder. Under its own name: two pictures may have
+// one id.
+std::string picture_file(const RecordedFigure&);
+
 // Where the numbers come from: one run, and every case of a profile with its seed, terrain and parameters.
 Facts run_facts(const Provenance&);
 Table input_table(const Store&, std::string_view profile);

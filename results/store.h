@@ -58,6 +58,7 @@ class Store {
   // For a record of records(): whether it was altered by hand, and "file:line".
   bool altered(const Record&) const;
   std::string where(const Record&) const;
+  std::size_t line(const Record& record) const { return lines_[index(record)]; }  // from 1
   // Whether the picture exists, byte for byte as recorded. Reads the file.
   bool intact(const RecordedFigure&) const;
   // The profile of the newest record; empty for an empty store.

@@ -7,10 +7,6 @@
 namespace terrabench {
 namespace {
 
-std::string heading(const Column& column) {
-  return column.unit.empty() ? column.title : fmt::format("{} [{}]", column.title, column.unit);
-}
-
 // The results of `write` for all entries, with separators between them.
 template <class Entries, class Write>
 std::string line(const Entries& entries, std::string_view separator, Write write) {
@@ -30,17 +26,23 @@ std::string html_cell(const Cell& cell, const Column& column, bool heads_row) {
                                                            escape_html(cell.text));
   std::string style = cell.style;
   if (column.numeric) style += style.empty() ? "number" : " number";
-  const std::string attribute = style.empty() ? "" : fmt::format(" class=\"{}\"", escape_html(style));
+  std::string attribute = cell.anchor.empty() ? "" : fmt::format(" id=\"{}\"", escape_html(cell.anchor));
+  if (!style.empty()) attribute += fmt::format(" class=\"{}\"", escape_html(style));
   return heads_row ? fmt::format("<th scope=\"row\"{}>{}</th>", attribute, text)
                    : fmt::format("<td{}>{}</td>", attribute, text);
 }
 
 std::string markdown_cell(const Cell& cell) {
-  const std::string text = escape_markdown(cell.text);
+  std::string text = escape_markdown(cell.text);
+  if (!cell.anchor.empty()) text = fmt::format("<a id=\"{}\"></a>", escape_html(cell.anchor)) + text;
   return cell.link.empty() ? text : fmt::format("[{}]({})", text, cell.link);
 }
 
 }  // namespace
+
+std::string heading(const Column& column) {
+  return column.unit.empty() ? column.title : fmt::format("{} [{}]", column.title, column.unit);
+}
 
 std::string html(const Table& table) {
   std::string text = fmt::format("<table id=\"{}\">\n<caption><strong>{}.</strong> {}</caption>\n<thead><tr>",
@@ -74,22 +76,6 @@ std::string csv(const Table& table) {
     text += line(row, ",", [](const Cell& c) { return escape_csv(c.raw.empty() ? c.text : c.raw); }) + "\r\n";
   }
   return text;
-}
-
-std::string latex(const Table& table) {
-  const auto row_of = [](const auto& entries, auto write) {
-    return "  " + line(entries, " & ", write) + " \\\\\n";
-  };
-  std::string text =
-      fmt::format("\\begin{{table}}\n  \\centering\n  \\caption{{{}. {}}}\n  \\label{{tab:{}}}\n",
-                  escape_latex(table.title), escape_latex(table.caption), table.id);
-  text +=
-      "  \\begin{tabular}{" + line(table.columns, "", [](const Column& c) { return c.numeric ? "r" : "l"; });
-  text +=
-      "}\n  \\toprule\n" + row_of(table.columns, [](const Column& c) { return escape_latex(heading(c)); });
-  text += "  \\midrule\n";
-  for (const auto& row : table.rows) text += row_of(row, [](const Cell& c) { return escape_latex(c.text); });
-  return text + "  \\bottomrule\n  \\end{tabular}\n\\end{table}\n";
 }
 
 }  // namespace terrabench

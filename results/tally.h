@@ -9,6 +9,11 @@
 
 namespace terrabench {
 
+// The order of verdicts in tables: first what was measured.
+inline constexpr Verdict kVerdictColumns[] = {Verdict::kReproduced,    Verdict::kShape,   Verdict::kDiffers,
+                                              Verdict::kNotComparable, Verdict::kMissing, Verdict::kNotRun,
+                                              Verdict::kPending};
+
 // Both without empty entries, in the order of their enumerations.
 using VerdictCounts = std::map<Verdict, int>;
 std::map<About, VerdictCounts> tally(std::span<const Judgement>);

@@ -82,7 +82,14 @@ struct MergeArguments {
 };
 ExitCode merge_command(const MergeArguments&);
 
-ExitCode report_command(const std::filesystem::path& folder);
+struct ReportArguments {
+  std::filesystem::path folder = "out";
+  std::filesystem::path latex;  // folder of a LaTeX bundle to write instead of the report; empty: none
+};
+ExitCode report_command(const ReportArguments&);
+
+// Prints BibTeX of the papers and of this program.
+ExitCode cite_command();
 
 // Describes a DEM, a saved structure or a results folder, which it distinguishes by content.
 ExitCode info_command(const std::filesystem::path&);

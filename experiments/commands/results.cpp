@@ -1,4 +1,4 @@
-// check, report, compare and merge: the subcommands that measure nothing.
+// check, report, cite, compare and merge: the subcommands that measure nothing.
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -7,7 +7,9 @@
 
 #include "experiments/commands/commands.h"
 #include "results/check_output.h"
+#include "results/citation.h"
 #include "results/compare.h"
+#include "results/latex_bundle.h"
 #include "results/merge.h"
 #include "results/report.h"
 #include "terrain/files.h"
@@ -28,8 +30,16 @@ ExitCode check_command(const CheckArguments& arguments) {
   return results.passed() ? ExitCode::kGood : ExitCode::kClaimFallsShort;
 }
 
-ExitCode report_command(const std::filesystem::path& folder) {
-  fmt::print("{}\n", write_report(folder).string());
+ExitCode report_command(const ReportArguments& arguments) {
+  const std::filesystem::path written = arguments.latex.empty()
+                                            ? write_report(arguments.folder)
+                                            : write_latex_bundle(arguments.folder, arguments.latex);
+  fmt::print("{}\n", written.string());
+  return ExitCode::kGood;
+}
+
+ExitCode cite_command() {
+  fmt::print("{}", bibtex(papers()));
   return ExitCode::kGood;
 }
 

@@ -27,7 +27,7 @@ TEST_F(CommandLine, HelpAndVersionExitGood) {
   const Outcome help = call("$T --help");
   EXPECT_EQ(help.code, 0);
   EXPECT_THAT(help.text, HasSubstr("Exit codes"));
-  for (const char* command : {"list", "run", "check", "report", "compare", "represent", "render", "info"}) {
+  for (const char* command : {"list", "run", "check", "report", "cite", "compare", "represent", "render", "info"}) {
     EXPECT_EQ(call(std::string("$T ") + command + " --help").code, 0) << command;
   }
   EXPECT_EQ(call("$T --version").code, 0);
@@ -252,6 +252,21 @@ TEST_F(CommandLine, APartialRunStillMakesAReport) {
   const Outcome report = call("$T report out");
   EXPECT_EQ(report.code, 0) << report.text;
   EXPECT_TRUE(fs::exists(folder_ / "out/report/index.html"));
+}
+
+TEST_F(CommandLine, CiteAndReportLatexServeAPaper) {
+  const Outcome cite = call("$T cite");
+  EXPECT_EQ(cite.code, 0);
+  EXPECT_THAT(cite.text, HasSubstr("@misc{paper:drill,"));
+  ASSERT_EQ(call("$T run hybrid.noise-stages --shard 1/4 --set pixels=32 --out out").code, 0);
+  const Outcome latex = call("$T report out --latex bundle/");
+  EXPECT_EQ(latex.code, 0) << latex.text;
+  EXPECT_THAT(latex.text, HasSubstr("bundle/main.tex"));
+  EXPECT_THAT(call("cat bundle/references.bib").text, HasSubstr(cite.text));
+  EXPECT_FALSE(fs::exists(folder_ / "out/report")) << "only the bundle is written";
+  EXPECT_EQ(call("$T report out --latex out").code, 4) << "the measurements are no bundle";
+  EXPECT_EQ(call("$T report out --latex bundle/main.tex").code, 4);
+  EXPECT_TRUE(fs::exists(folder_ / "out/measurements.jsonl"));
 }
 
 }  // namespace

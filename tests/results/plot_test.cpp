@@ -42,6 +42,29 @@ TEST(PlotTest, ShowsLabelsUnitsTicksAndEveryPoint) {
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
 }
 
+TEST(PlotTest, LabelsOfANarrowPlotKeepClearOfEachOther) {
+  Plot plot = growth();
+  plot.series = {{"a", {}, false}};
+  for (const double n : {16641, 66049, 263169, 1050625, 4198401, 16785409})
+    plot.series[0].points.push_back({n, 1, 1, 1});
+  const std::string wide = plot_svg(plot), narrow = plot_svg(plot, column_size(plot));
+  for (const char* const label : {">16,641<", ">66,049<", ">1,050,625<", ">16,785,409<"}) {
+    EXPECT_THAT(wide, HasSubstr(label));
+  }
+  EXPECT_THAT(narrow, HasSubstr(">16,641<"));
+  EXPECT_THAT(narrow, Not(HasSubstr(">66,049<")));
+  EXPECT_THAT(narrow, HasSubstr("width=\"440\""));
+}
+
+TEST(PlotTest, TheEighthSeriesDoesNotLookLikeTheFirst) {
+  Plot plot = growth();
+  plot.series.assign(7, {"a", {{1, 1, 1, 1}, {2, 2, 2, 2}}, false});
+  const std::string all = plot_svg(plot);
+  plot.series.push_back(plot.series[0]);
+  EXPECT_GT(count(seven, "#0072b2"), 0U);
+  EXPECT_EQ(count(plot_svg(plot), "#0072b2"), count(seven, "#0072b2"));
+}
+
 TEST(PlotTest, SamePlotSameBytes) { EXPECT_EQ(plot_svg(growth()), plot_svg(growth())); }
 
 TEST(PlotTest, LeavesOutWhatALogarithmicAxisCannotShow) {
@@ -57,13 +80,13 @@ TEST(PlotTest, LeavesOutWhatALogarithmicAxisCannotShow) {
 TEST(PlotTest, MoreSeriesThanColoursStayDistinct) {
   Plot plot = growth();
   const PlotSeries measured = plot.series[1];
-  plot.series.assign(7, measured);
-  const std::string seven = plot_svg(plot);
-  EXPECT_THAT(seven, Not(HasSubstr("stroke-dasharray")));
   plot.series.assign(8, measured);
-  const std::string eight = plot_svg(plot);
-  EXPECT_THAT(eight, HasSubstr("stroke-dasharray")) << "the eighth has the first one's colour";
-  EXPECT_EQ(count(eight, "<circle"), count(seven, "<circle")) << "and another marker";
+  const std::string all = plot_svg(plot);
+  EXPECT_THAT(all, Not(HasSubstr("stroke-dasharray")));
+  plot.series.assign(9, measured);
+  const std::string more = plot_svg(plot);
+  EXPECT_THAT(more, HasSubstr("stroke-dasharray")) << "the ninth has the first one's colour";
+  EXPECT_EQ(count(more, "<circle"), count(all, "<circle")) << "and another marker";
 }
 
 TEST(PlotTest, OnePointAndHugeRangesStillHaveAnAxis) {

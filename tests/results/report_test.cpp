@@ -224,5 +224,15 @@ TEST(Readme, HasTheCountsOfTheRunThatIsKept) {
       << "run scripts/readme-counts";
 }
 
+TEST(Readme, HasTheFindingsOfTheRunThatIsKept) {
+  const std::filesystem::path root = TERRABENCH_SOURCE_DIR,
+                              file = root / "results/reference/report/findings.md";
+  // A report from before there were findings has none.
+  const std::string findings = std::filesystem::exists(file) ? read_file(file) : "";
+  EXPECT_THAT(read_file(root / "README.md"),
+              HasSubstr("<!-- findings -->\n" + findings + "<!-- end of findings -->"))
+      << "run scripts/readme-counts";
+}
+
 }  // namespace
 }  // namespace terrabench

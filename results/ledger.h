@@ -1,0 +1,28 @@
+// The ledger: every claim with what the paper says, what was measured, the verdict and where the numbers come
+// from, as a page of its own. The report's other pages show parts of it in more detail.
+#pragma once
+
+#include <set>
+#include <span>
+#include <string>
+
+#include "results/document.h"
+#include "results/judge.h"
+#include "results/store.h"
+
+namespace terrabench {
+
+// Where rows may point, all relative to the report's folder.
+struct LedgerLinks {
+  std::string page;               // the report's main page
+  std::set<std::string> targets;  // what exists: "#id" on that page, and files
+};
+
+// One row per claim, in the papers' order; the id of a claim is the anchor of its row.
+Table ledger_table(const Store&, const JudgedResults&, std::span<const Paper>, const LedgerLinks&);
+// How many claims have which verdict, by kind (claims.h, About) and class.
+Table class_table(const JudgedResults&);
+// The page: both tables, the ledger with a field that filters its rows.
+Document ledger(const Store&, const JudgedResults&, std::span<const Paper>, const LedgerLinks&);
+
+}  // namespace terrabench

@@ -1,0 +1,65 @@
+// Who is best at what, in sentences made from the measurements: the [[ranking]] entries of the claims files.
+// Each compares the same metric of several cases, such as the bytes of every representation of one ground.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "results/document.h"
+#include "results/statistics.h"
+#include "results/store.h"
+
+namespace terrabench {
+
+struct RankingLayout {
+  struct Entry {
+    std::string label, case_name;
+  };
+  std::string id, task, where;  // task: "Fewest bytes in memory"; where: "on caves"
+  std::string experiment, metric;
+  std::string unit;   // that values are shown in
+  bool most = false;  // the best has the most, otherwise the least
+  // An entry takes part only if this metric lies in the range, where any entry has it. Empty: none. The text
+  // says so: "of types that keep four fifths of the air under roofs".
+  std::string needs, needs_text;
+  double needs_low = 0, needs_high = 0;
+  std::vector<Entry> entries;
+};
+
+// One layout, filled: the entries that take part, from best to worst.
+struct Ranking {
+  struct Place {
+    std::string label;
+    double value;    // median, in the layout's unit
+    Summary factor;  // how many times worse than the best, with its 95 % interval; 1 for the best
+  };
+  const RankingLayout* layout = nullptr;
+  std::vector<Place> places;
+  std::size_t tied = 1;               // places whose interval contains 1 belong to the best
+  bool single = false;                // a time that was measured once: no interval, no winner
+  bool incomparable = false;          // times of different machines or builds
+  std::vector<std::string> left_out;  // labels of entries that lack what is needed
+  std::vector<std::string> runs;
+
+  // "on caves: heightmap (262 kB), ahead of drills (341 kB) by a factor of 1.3"
+  std::string clause() const;
+};
+
+// Every [[ranking]] of a claims file. Throws bad_input with file and line.
+std::vector<RankingLayout> parse_rankings(std::string_view toml, const std::string& origin);
+// Of all claims files that are compiled in. Parsed once.
+std::span<const RankingLayout> ranking_layouts();
+
+// Nothing when fewer than two entries were measured. Throws bad_input for a unit that cannot be converted.
+std::optional<Ranking> rank(const RankingLayout&, const Store&, const std::string& profile);
+// All that were measured.
+std::vector<Ranking> rank(std::span<const RankingLayout>, const Store&, const std::string& profile);
+
+// A sentence per task, which joins the clauses of all its grounds. The rankings of a task follow each other.
+Facts findings(std::span<const Ranking>);
+std::string findings_json(std::span<const Ranking>);
+
+}  // namespace terrabench

@@ -1,0 +1,232 @@
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <cstdlib>
+
+#include "results/format.h"
+#include "results/latex_bundle.h"
+#include "results/plot.h"
+#include "results/rasterise.h"
+#include "results/table.h"
+#include "terrain/error.h"
+#include "tests/results/fake_results.h"
+
+namespace terrabench {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+bool installed(const std::string& program) {
+  return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+std::size_t count(std::string_view text, std::string_view part) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+Table sized(std::size_t rows, std::size_t columns, const std::string& cell, bool numeric = true) {
+  Table table{"t", "T", "c", {{"Name"}}, {}};
+  for (std::size_t i = 1; i < columns; ++i)
+    table.columns.push_back({"Column " + std::to_string(i), "m", numeric});
+  for (std::size_t i = 0; i < rows; ++i) {
+    table.rows.emplace_back(columns, Cell{cell});
+    table.rows.back()[0] = {"row" + std::to_string(i)};
+  }
+  return table;
+}
+
+constexpr std::string_view kAwkward =
+    "% _ & # $ { } ~ ^ \\ < > | \" ` τ ² ³ ⁻⁷ ₀ ≤ ≥ ≠ ± − – … “x” × ÷ · ° § è Ł √ π µ 中 --x";
+
+TEST(Latex, SpecialCharactersSurvive) {
+  EXPECT_EQ(escape_latex("50 % of a_b & τ² ≤ −3"),
+            "50 \\% of a\\_b \\& $\\tau$\\textsuperscript{2} $\\leq$ $-$3");
+  EXPECT_EQ(escape_latex("--set ---"), "-{}-set -{}-{}-");
+  EXPECT_EQ(escape_latex("Politècnica Łódź"), "Politècnica Łódź");
+  EXPECT_EQ(escape_latex("中 \xFF\xE4\xB8"), "[U+4E2D] ???");
+  EXPECT_EQ(escape_latex("a\nb\tc"), "a b c");
+  // Nothing that LaTeX could not read is left.
+  EXPECT_THAT(escape_latex(kAwkward), Not(HasSubstr("中")));
+}
+
+TEST(Latex, NumbersArePrintedAsNumbers) {
+  Table table{
+      "t", "T", "c", {{"A"}, {"B", "", true}}, {{{"[0, 1]"}, {"1.5e-07"}}, {{"a-3"}, {"-2,000 … 1e+20"}}}};
+  const std::string text = latex(table);
+  EXPECT_THAT(text, HasSubstr("$1.5\\times10^{-7}$"));
+  EXPECT_THAT(text, HasSubstr("$-$2,000 \\ldots{} $1\\times10^{20}$"));
+  EXPECT_THAT(text, HasSubstr("a-3"));
+  EXPECT_THAT(text, HasSubstr("  {}[0, 1] &")) << "a bracket after a row's end is an option of it";
+}
+
+TEST(Latex, ATableFitsThePage) {
+  EXPECT_THAT(latex(sized(5, 6, "1,234")), HasSubstr("\\footnotesize"));
+  EXPECT_THAT(latex(sized(5, 6, "1,234")), HasSubstr("\\begin{tabular}{@{}lrrrrr@{}}"));
+  EXPECT_THAT(latex(sized(5, 6, "1,234")), HasSubstr("Column\\\\1 [m]"));
+  // Wide and short: columns become rows.
+  const std::string turned = latex(sized(5, 30, "123,456"));
+  EXPECT_THAT(turned, HasSubstr("\\begin{tabular}{@{}lrrrrr@{}}"));
+  EXPECT_THAT(turned, HasSubstr("Column 29 [m] &"));
+  EXPECT_EQ(count(turned, "123,456"), 29U * 5);
+  // Wide and long: on its side.
+  EXPECT_THAT(latex(sized(40, 16, "123,456,789")), HasSubstr("\\begin{landscape}"));
+  // Long: broken across pages, its head repeated.
+  const std::string longer = latex(sized(100, 3, "1"));
+  EXPECT_THAT(longer, HasSubstr("\\begin{longtable}"));
+  EXPECT_EQ(count(longer, "Column\\\\1 [m]"), 2U);
+  // Text is broken into lines, ids too.
+  const std::string text = latex(sized(3, 3, std::string(20, 'a') + "." + std::string(30, 'b'), false));
+  EXPECT_EQ(count(text, "\\raggedright"), 2U);
+  EXPECT_THAT(text, HasSubstr("a.\\allowbreak{}b"));
+}
+
+class LatexBundle : public FolderTest {
+ protected:
+  std::filesystem::path bundle() const { return folder_ / "bundle"; }
+  std::map<std::string, std::string> files() const {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(bundle())) {
+      if (entry.is_regular_file()) files[entry.path().lexically_relative(bundle())] = read_file(entry.path());
+    }
+    return files;
+  }
+  // The error of writing the bundle; fails the test when there is none.
+  std::string refusal(ExitCode code) const {
+    try {
+      write_latex_bundle(folder_, bundle());
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), code);
+      return error.what();
+    }
+    ADD_FAILURE() << "no error";
+    return "";
+  }
+  std::size_t entries() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
+  }
+};
+
+TEST_F(LatexBundle, HoldsWhatMainNames) {
+  write_fake_results(folder_, "paper");
+  EXPECT_EQ(write_latex_bundle(folder_, bundle()), bundle() / "main.tex");
+  const auto all = files();
+  const std::string& main = all.at("main.tex");
+  std::size_t named = 2;  // main.tex, references.bib
+  for (const auto& [file, content] : all) {
+    if (file.starts_with("tables/")) {
+      EXPECT_THAT(main, HasSubstr("\\input{" + file + "}"));
+      EXPECT_THAT(content, HasSubstr("\\caption{"));
+      EXPECT_THAT(content, HasSubstr("\\label{tab:"));
+      ++named;
+    } else if (file.starts_with("figures/")) {
+      EXPECT_TRUE(content.starts_with("%PDF-")) << file;
+      EXPECT_EQ(count(main, "\\includegraphics{" + file + "}"), file.ends_with("-page.pdf") ? 0U : 1U);
+      ++named;
+    }
+  }
+  EXPECT_EQ(named, all.size());
+  for (const char* file : {"tables/hybrid.table1.tex", "tables/summary.tex", "tables/verdicts-hybrid.tex",
+                           "figures/hybrid.table2-growth.pdf", "figures/hybrid.table2-growth-page.pdf"}) {
+    EXPECT_TRUE(all.contains(file)) << file;
+  }
+  EXPECT_THAT(all.at("tables/hybrid.table1.tex"), HasSubstr("6,291,456"));
+  EXPECT_THAT(all.at("tables/verdicts-hybrid.tex"), HasSubstr("hybrid."));
+  EXPECT_THAT(all.at("references.bib"), HasSubstr("@misc{paper:hybrid,"));
+  EXPECT_THAT(main, HasSubstr("\\cite{paper:hybrid}"));
+}
+
+TEST_F(LatexBundle, SameMeasurementsSameBytesAndAnEarlierOneIsReplaced) {
+  write_fake_results(folder_, "quick");
+  write_latex_bundle(folder_, bundle());
+  const auto first = files();
+  write_file(bundle() / "main.pdf", std::string_view("compiled"));
+  write_latex_bundle(folder_, folder_ / "bundle/.");
+  EXPECT_EQ(files(), first);
+}
+
+TEST_F(LatexBundle, ReplacesNothingElse) {
+  write_fake_results(folder_, "quick");
+  const std::size_t before = entries();
+  write_file(bundle() / "main.tex", std::string_view("\\documentclass{thesis}"));
+  EXPECT_THAT(refusal(ExitCode::kEnvironment), HasSubstr("not a LaTeX bundle and would be replaced"));
+  EXPECT_EQ(read_file(bundle() / "main.tex"), "\\documentclass{thesis}");
+  std::filesystem::remove_all(bundle());
+  write_file(bundle(), std::string_view(""));
+  EXPECT_THAT(refusal(ExitCode::kEnvironment), HasSubstr("is not a folder"));
+  std::filesystem::remove(bundle());
+  EXPECT_EQ(entries(), before);
+}
+
+TEST_F(LatexBundle, WithoutMeasurementsThereIsNone) {
+  refusal(ExitCode::kBadInput);
+  EXPECT_EQ(entries(), 0U);
+}
+
+// A file size limit stands in for a full disk.
+TEST_F(LatexBundle, AFullDiskLeavesTheEarlierOne) {
+  write_fake_results(folder_, "quick");
+  write_latex_bundle(folder_, bundle());
+  const auto before = files();
+  const std::size_t entries_before = entries();
+  rlimit old{};
+  getrlimit(RLIMIT_FSIZE, &old);
+  auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{2000, old.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  refusal(ExitCode::kEnvironment);
+  setrlimit(RLIMIT_FSIZE, &old);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(files(), before);
+  EXPECT_EQ(entries(), entries_before);
+}
+
+TEST_F(LatexBundle, FiguresHaveTheirPrintSizeAndFonts) {
+  if (!installed("pdffonts") || !installed("pdfinfo"))
+    GTEST_SKIP() << "Debian's poppler-utils is not installed";
+  Plot plot{"p", {"x", "m", true}, {"y", "τ² ≤ 1", false}, {{"s", {{1, 2, 2, 2}, {10, 3, 3, 3}}}}};
+  const std::filesystem::path pdf = folder_ / "p.pdf", out = folder_ / "out";
+  svg_text_to_pdf(plot_svg(plot, column_size(plot)), pdf, 84);
+  ASSERT_EQ(std::system(("pdfinfo " + pdf.string() + " >" + out.string()).c_str()), 0);
+  EXPECT_THAT(read_file(out), HasSubstr("Page size:       238.11 x"));  // 84 mm in points of 1/72 inch
+  ASSERT_EQ(std::system(("pdffonts " + pdf.string() + " >" + out.string()).c_str()), 0);
+  const std::string fonts = read_file(out);
+  EXPECT_THAT(fonts, HasSubstr("DejaVuSans"));
+  // Name, type, encoding, embedded, subset, …
+  EXPECT_EQ(count(fonts, " yes yes yes "), count(fonts, "\n") - 2) << fonts;
+  EXPECT_EQ(entries(), 2U) << "only the PDF and this test's own file are left";
+}
+
+TEST_F(LatexBundle, Compiles) {
+  if (!installed("latexmk") || !installed("kpsewhich") ||
+      std::system("kpsewhich booktabs.sty lmodern.sty >/dev/null") != 0) {
+    GTEST_SKIP() << "Debian's latexmk, texlive-latex-recommended and lmodern are not all installed";
+  }
+  Store store(folder_);
+  const Provenance run = fake_provenance();
+  store.begin_run(run);
+  Record record = fake_record(run, "hybrid.table2", "n=64");
+  add(record, "generation_time", "s", {0.02});
+  store.append(record);
+  std::vector<Paper> one = {faked_papers()[0]};
+  one[0].title += kAwkward;
+  one[0].source = kAwkward;
+  one[0].tables[0].caption = kAwkward;
+  one[0].reference->authors = {"A & B_C %"};
+  for (Claim& claim : one[0].claims) claim.statement += kAwkward;
+  write_latex_bundle(store, one, bundle());
+  const std::string compile =
+      "cd " + bundle().string() +
+      " && latexmk -pdf -interaction=nonstopmode -halt-on-error main.tex >out.txt 2>&1";
+  EXPECT_EQ(std::system(compile.c_str()), 0) << read_file(bundle() / "out.txt");
+  EXPECT_TRUE(read_file(bundle() / "main.pdf").starts_with("%PDF-"));
+  const std::string log = read_file(bundle() / "main.log");
+  EXPECT_THAT(log, Not(HasSubstr("undefined references")));
+  EXPECT_THAT(log, Not(HasSubstr("Missing character")));
+}
+
+}  // namespace
+}  // namespace terrabench

@@ -1,0 +1,128 @@
+#include "results/ledger.h"
+
+#include <gmock/gmock.h>
+
+#include <numeric>
+
+#include "results/report.h"
+#include "tests/results/fake_results.h"
+
+namespace terrabench {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr std::size_t kPrinted = 2, kMeasured = 3, kTolerance = 4, kWhy = 8, kFigure = 9, kRun = 10;
+
+class LedgerTest : public FolderTest {
+ protected:
+  LedgerTest() { write_fake_results(folder_, "paper"); }
+
+  Table table(std::span<const Paper> of) const {
+    const Store store = Store::open(folder_);
+    return ledger_table(store, judge(store, of), of, {"index.html", {"#hybrid.table1"}});
+  }
+  // The row with this id; ends the test when there is none.
+  static const std::vector<Cell>& row(const Table& table, const std::string& id) {
+    const auto at = std::ranges::find_if(table.rows, [&](const auto& cells) { return cells[0].text == id; });
+    if (at == table.rows.end()) throw std::runtime_error("no row " + id);
+    return *at;
+  }
+};
+
+TEST_F(LedgerTest, EveryClaimHasARowWithAnAnchorAndNoCellIsEmptyWithoutCause) {
+  const Table ledger = table(papers());
+  std::size_t claims = 0;
+  for (const Paper& paper : papers()) {
+    for (const Claim& claim : paper.claims) {
+      ASSERT_EQ(ledger.rows[claims][0].text, claim.id);
+      EXPECT_EQ(ledger.rows[claims][0].anchor, claim.id);
+      const bool good = ledger.rows[claims][7].text.starts_with("reproduced");
+      EXPECT_EQ(ledger.rows[claims][kWhy].text.empty(), good) << claim.id;
+      EXPECT_FALSE(good && ledger.rows[claims][kTolerance].text.empty()) << claim.id;
+      ++claims;
+    }
+  }
+  EXPECT_EQ(ledger.rows.size(), claims);
+}
+
+TEST_F(LedgerTest, ARowSaysWhatWasPrintedAndMeasuredAndWhere) {
+  const Table ledger = table(papers());
+  const auto& exact = row(ledger, "hybrid.T1.512");
+  EXPECT_EQ(exact[kPrinted].text, "6,291,456 B");
+  EXPECT_THAT(exact[kMeasured].text, HasSubstr("6,291,456 B"));
+  EXPECT_EQ(exact[kFigure].link, "index.html#hybrid.table1");
+  const auto& differs = row(ledger, "hybrid.T2.ten");
+  EXPECT_THAT(differs[kWhy].text, HasSubstr("the work grows with n³, by 8. Matches: hybrid.T2.256"));
+  // The figure was drawn, but the links know of no such file.
+  EXPECT_EQ(row(ledger, "hybrid.F3")[kFigure].link, "");
+}
+
+TEST_F(LedgerTest, ARunNamesTheLinesThatWereRead) {
+  const Store store = Store::open(folder_);
+  const Record* const record = store.find("hybrid.table1", "n=512", "paper");
+  ASSERT_NE(record, nullptr);
+  const Cell run = row(table(papers()), "hybrid.T1.512")[kRun];
+  EXPECT_THAT(run.text, HasSubstr(std::to_string(store.line(*record))));
+  EXPECT_THAT(run.link, testing::StartsWith("index.html#run-"));
+  const std::string text = content();
+  std::size_t at = 0;
+  for (std::size_t line = 1; line < store.line(*record); ++line) at = text.find('\n', at) + 1;
+  EXPECT_THAT(text.substr(at, text.find('\n', at) - at), HasSubstr("\"n=512\""));
+}
+
+TEST_F(LedgerTest, CountsOfClassesAddUp) {
+  const Store store = Store::open(folder_);
+  const JudgedResults results = judge(store, papers());
+  const Table counts = class_table(results);
+  std::map<std::string, int> parts, sums;
+  for (const auto& row : counts.rows) {
+    int across = 0;
+    for (std::size_t i = 2; i + 1 < row.size(); ++i) across += std::stoi(row[i].text);
+    EXPECT_EQ(across, std::stoi(row.back().text));
+    (row[1].text == "all" ? sums : parts)[row[0].text] += across;
+  }
+  EXPECT_EQ(parts, sums);
+  const int all = std::accumulate(sums.begin(), sums.end(), 0, [](int n, auto& s) { return n + s.second; });
+  EXPECT_EQ(all, static_cast<int>(results.judgements.size()));
+  EXPECT_EQ(sums.size(), std::size(kAllAbout));
+}
+
+TEST_F(LedgerTest, EveryLinkOfThePageLeadsSomewhere) {
+  write_report(folder_);
+  const std::string page = read_file(folder_ / "report/ledger.html"),
+                    index = read_file(folder_ / "report/index.html");
+  EXPECT_THAT(index, HasSubstr("href=\"ledger.html\""));
+  int links = 0, pictures = 0;
+  constexpr std::string_view kHref = "href=\"";
+  for (std::size_t at = page.find(kHref); at != page.npos; at = page.find(kHref, at + 1), ++links) {
+    const std::size_t begin = at + kHref.size();
+    const std::string target = page.substr(begin, page.find('"', begin) - begin);
+    const std::size_t hash = target.find('#');
+    const std::string file = target.substr(0, hash);
+    EXPECT_TRUE(file.empty() || std::filesystem::is_regular_file(folder_ / "report" / file)) << target;
+    if (hash != target.npos) {
+      EXPECT_THAT(file.empty() ? page : index, HasSubstr("id=\"" + target.substr(hash + 1) + "\""));
+    }
+    pictures += target.starts_with("figures/") ? 1 : 0;
+  }
+  EXPECT_GT(links, 50);
+  EXPECT_EQ(pictures, 11);
+}
+
+// Without the script the field is hidden and no row is.
+TEST_F(LedgerTest, AllRowsAreShownWithoutTheScript) {
+  write_report(folder_);
+  const std::string page = read_file(folder_ / "report/ledger.html");
+  EXPECT_THAT(page, HasSubstr("data-table=\"ledger\" hidden>"));
+  EXPECT_THAT(page, HasSubstr("<table id=\"ledger\">"));
+  EXPECT_THAT(page, Not(HasSubstr("<tr hidden")));
+  EXPECT_THAT(page, Not(HasSubstr("http")));
+  EXPECT_THAT(read_file(folder_ / "report/tables/ledger.csv"), HasSubstr("\r\nhybrid.T1.512,"));
+  EXPECT_THAT(read_file(folder_ / "report/ledger.md"),
+              HasSubstr("| <a id=\"hybrid.T1.512\"></a>hybrid.T1.512"));
+}
+
+}  // namespace
+}  // namespace terrabench

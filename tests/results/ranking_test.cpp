@@ -1,0 +1,156 @@
+#include "results/ranking.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "results/record_json.h"
+#include "results/report.h"
+#include "terrain/error.h"
+#include "tests/results/fake_results.h"
+
+namespace terrabench {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr std::string_view kLayout = R"(
+[sets]
+ground = [{name = "hill", where = "on a hill"}, {name = "sea", where = "at sea"}]
+type = [{name = "a", label = "drills"}, {name = "b", label = "voxels"}, {name = "c", label = "stacks"}]
+
+[[ranking]]
+each = ["ground"]
+id = "time-{ground}"
+task = "Fastest"
+where = "{ground.where}"
+experiment = "x"
+metric = "time"
+unit = "ms"
+best = "least"
+needs = {metric = "lost", range = [0, 0.2], text = "of those that lose little"}
+entries = [{each = ["type"], label = "{type.label}", case = "{ground}/{type}"}]
+
+[[ranking]]
+id = "rate-hill"
+task = "Most queries"
+where = "on a hill"
+experiment = "x"
+metric = "bytes"
+unit = "kB"
+best = "most"
+entries = [{each = ["type"], label = "{type.label}", case = "hill/{type}"}]
+)";
+
+class RankingTest : public FolderTest {
+ protected:
+  RankingTest() : store_(folder_) { store_.begin_run(run_); }
+
+  void measure(const std::string& name, std::vector<double> seconds, double bytes = 1000, double lost = -1) {
+    Record record = fake_record(run_, "x", name);
+    add(record, "time", "s", std::move(seconds));
+    add(record, "bytes", "B", {bytes});
+    if (lost >= 0) add(record, "lost", "", {lost});
+    store_.append(record);
+  }
+  // The sentence of the n-th task.
+  std::string sentence(std::size_t n = 0) const {
+    const Facts facts = findings(rank(layouts_, store_, "quick"));
+    return n < facts.lines.size() ? facts.lines[n].first + ": " + facts.lines[n].second : "";
+  }
+
+  Provenance run_ = fake_provenance();
+  Store store_;
+  std::vector<RankingLayout> layouts_ = parse_rankings(kLayout, "test.toml");
+};
+
+TEST_F(RankingTest, SaysWhoWinsByHowMuchAndChangesWithTheFigures) {
+  measure("hill/a", {0.010, 0.010, 0.011});
+  measure("hill/b", {0.030, 0.030, 0.033});
+  measure("hill/c", {0.050, 0.050, 0.055});
+  EXPECT_EQ(sentence(),
+            "Fastest: Of those that lose little, on a hill: drills (10 ms), ahead of voxels (30 ms) by a "
+            "factor of 3 "
+            "[2.73, 3.3].");
+  measure("hill/c", {0.005, 0.005, 0.0055});
+  EXPECT_EQ(sentence(),
+            "Fastest: Of those that lose little, on a hill: stacks (5 ms), ahead of drills (10 ms) by a "
+            "factor of 2 "
+            "[1.82, 2.2].");
+}
+
+TEST_F(RankingTest, WithinTheIntervalItIsATie) {
+  measure("hill/a", {0.010, 0.012, 0.014});
+  measure("hill/b", {0.011, 0.013, 0.015});
+  measure("hill/c", {0.050, 0.050, 0.050});
+  EXPECT_THAT(sentence(),
+              HasSubstr("on a hill: drills (12 ms) and voxels (13 ms) are tied, within a factor of 1.08"));
+  // Exact figures tie only where they are equal.
+  EXPECT_EQ(sentence(1), "Most queries: On a hill: drills (1 kB), voxels (1 kB) and stacks (1 kB) are tied.");
+  measure("hill/c", {1}, 1001);
+  EXPECT_THAT(sentence(1), HasSubstr("stacks (1.001 kB), ahead of drills (1 kB) by a factor of 1."));
+}
+
+TEST_F(RankingTest, WhatLacksTheNeedIsLeftOut) {
+  measure("hill/a", {0.001}, 1, 0.9);
+  measure("hill/b", {0.030}, 1, 0.1);
+  measure("hill/c", {0.060}, 1, 0);
+  measure("sea/a", {0.001});  // nobody has the metric: all take part
+  measure("sea/b", {0.002});
+  EXPECT_EQ(
+      sentence(),
+      "Fastest: Of those that lose little, on a hill: undecided, as each was measured once: voxels (30 ms), "
+      "stacks (60 ms), a factor of 2; at sea: undecided, as each was measured once: drills (1 ms), voxels (2 "
+      "ms), a factor of 2.");
+  const auto json = nlohmann::json::parse(findings_json(rank(layouts_, store_, "quick")));
+  EXPECT_EQ(json[0]["left_out"], nlohmann::json({"drills"}));
+  EXPECT_EQ(json[0]["places"][0]["label"], "voxels");
+  EXPECT_EQ(json[0]["places"][1]["factor"], 2.0);
+  measure("hill/b", {0.030}, 1, 0.5);
+  EXPECT_THAT(sentence(), HasSubstr("on a hill: stacks (60 ms) alone; "));
+  measure("hill/c", {0.030}, 1, 0.5);
+  EXPECT_THAT(sentence(), HasSubstr("on a hill: none; "));
+}
+
+TEST_F(RankingTest, TimesOfDifferentMachinesAreNotCompared) {
+  measure("hill/a", {0.010});
+  run_.cpu = "another";
+  run_.id = digest(run_);
+  store_.begin_run(run_);
+  measure("hill/b", {0.030}, 2000);
+  EXPECT_THAT(sentence(), HasSubstr("on a hill: not compared"));
+  EXPECT_THAT(sentence(1), HasSubstr("voxels (2 kB), ahead of drills (1 kB) by a factor of 2."));
+}
+
+TEST_F(RankingTest, OneMethodAloneIsNoFinding) {
+  measure("hill/a", {0.010});
+  EXPECT_EQ(sentence(), "");
+  EXPECT_THROW(parse_rankings("[[ranking]]\nid = \"x\"\n", "bad.toml"), Error);
+}
+
+TEST(RankingLayouts, OfTheClaimsFilesAreWellFormed) {
+  std::set<std::string> ids;
+  for (const RankingLayout& layout : ranking_layouts()) {
+    EXPECT_TRUE(ids.insert(layout.id).second) << layout.id;
+    EXPECT_GE(layout.entries.size(), 2U) << layout.id;
+  }
+  EXPECT_EQ(ids.size(), 31U);
+}
+
+TEST_F(RankingTest, StandOnTheReportsFirstPage) {
+  const RankingLayout& layout = ranking_layouts()[0];
+  for (std::size_t i = 0; i < 2; ++i) {
+    Record record = fake_record(run_, layout.experiment, layout.entries[i].case_name);
+    add(record, layout.metric, "B", {1000.0 * static_cast<double>(i + 1)});
+    store_.append(record);
+  }
+  const std::string page = read_file(write_report(folder_));
+  EXPECT_THAT(page, HasSubstr(layout.entries[0].label + " (1 kB), ahead of"));
+  EXPECT_THAT(read_file(folder_ / "report/findings.md"), testing::StartsWith("- **" + layout.task + "**: "));
+  EXPECT_TRUE(nlohmann::json::accept(read_file(folder_ / "report/findings.json")));
+}
+
+}  // namespace
+}  // namespace terrabench
