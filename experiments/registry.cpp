@@ -68,6 +68,7 @@
   ENTRY(cross, kRepresentations)       \
   ENTRY(cross, kLodEqualError)         \
   ENTRY(cross, kScale)                 \
+  ENTRY(cross, kRoundTrip)             \
   ENTRY(relief, kRelief)               \
   ENTRY(cross, kLodDisk)               \
   ENTRY(cross, kLodEndless)
