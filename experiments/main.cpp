@@ -56,6 +56,7 @@ struct Arguments {
   ListArguments list;
   RunPlan run;
   RepresentArguments represent;
+  ExportArguments exported;
   RenderArguments render;
   CheckArguments check;
   CompareArguments compare;
@@ -209,7 +210,8 @@ void add_represent(CLI::App& app, Arguments& a) {
   budget("--max-rmse", "max_rmse",
          "For drill: choose the parameters so that the RMSE is at most this many metres");
   command->add_option("--save", a.represent.save,
-                      "Write the representation to this file; as polygons if it ends in .ply or .obj");
+                      "Write the representation to this file: .tb its own form, .tif heights, .ply or .obj "
+                      "polygons, .csv spans, .vdb a volume");
   command->add_option("--render", a.represent.render, "Write a shaded or ray-traced relief to this PNG");
   command->add_option("--write-flow", a.represent.write_flow,
                       "Write flow accumulation to this GeoTIFF, and directions beside it");
@@ -246,6 +248,15 @@ void add_represent(CLI::App& app, Arguments& a) {
   command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
       ->check(CLI::Range(1, 4096));
   command->add_option("--seed", a.represent.seed, "Seed of procedural terrains")->capture_default_str();
+  auto* exported = app.add_subcommand("export", "Write a saved representation for other programs");
+  exported->add_option("saved", a.exported.saved, "File that `represent --save NAME.tb` has written")
+      ->required();
+  exported
+      ->add_option("out", a.exported.out,
+                   "File to write: .tif heights, .ply or .obj polygons, .csv spans, .vdb a volume")
+      ->required();
+  exported->add_option("--like", a.exported.like,
+                       "The DEM that it was built from: write along its samples, with its reference system");
   auto* info = app.add_subcommand(
       "info", "Describe a DEM, a drawing, a model, a saved representation or a results folder");
   info->add_option("file", a.info, "File or folder, or drawing:FILE.png")->required();
@@ -308,6 +319,7 @@ ExitCode dispatch(const CLI::App& app, Arguments& a) {
   if (app.got_subcommand("info")) return info_command(a.info);
   install_signals();
   if (app.got_subcommand("represent")) return represent_command(a.represent);
+  if (app.got_subcommand("export")) return export_command(a.exported);
   if (app.got_subcommand("render")) return render_command(a.render);
   parse_shard(a.shard, a.run);
   a.run.threads = a.threads;

@@ -184,6 +184,18 @@ RecordedFigure figure_from(const Json& json, std::string& warning) {
   return figure;
 }
 
+// Records without the field are older than it.
+void check_schema(Fields& fields, const std::string& where) {
+  if (!fields.has("schema")) return;
+  const std::uint64_t schema = fields.natural("schema");
+  require(schema > 1, "'schema' is no version");
+  if (schema <= kSchema) return;
+  throw NewerSchema(
+      ExitCode::kBadInput,
+      fmt::format("written by a later terrabench: schema {}, and this one reads up to {}", schema, kSchema),
+      where, "use the version that wrote it, or a later one");
+}
+
 Record record_from(Fields& fields, std::string& warning) {
   Record record;
   record.experiment = fields.name("experiment");
@@ -240,13 +252,14 @@ Provenance provenance_from(Fields& fields) {
   return p;
 }
 
-Line line_from(std::string_view text) {
+Line line_from(std::string_view text, const std::string& where) {
   Json json = Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
     require(depth <= kDeepest, "is nested too deeply");
     return true;
   });
   Fields fields(json, "the line");
   Line line;
+  check_schema(fields, where);
   const std::string kind = fields.text("kind"), digest = fields.name("digest");
   if (kind == "record") {
     line.content = record_from(fields, line.warning);
@@ -284,6 +297,7 @@ std::string to_line(const Record& record) {
     entry["words"] = figure.layout->words;
   }
   Json line({{"kind", "record"},
+             {"schema", kSchema},
              {"experiment", record.experiment},
              {"case", record.case_name},
              {"profile", record.profile},
@@ -307,7 +321,7 @@ bool is_complete_json(std::string_view text) { return Json::accept(text); }
 Line parse_line(std::string_view text, const std::string& where) {
   std::string what;
   try {
-    return line_from(text);
+    return line_from(text, where);
   } catch (const Damaged& damaged) {
     what = damaged.what;
   } catch (const Json::exception& error) {

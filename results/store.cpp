@@ -161,6 +161,8 @@ void Store::read_line(std::string_view text) {
     } else {
       runs_.push_back(std::get<Provenance>(std::move(line.content)));
     }
+  } catch (const NewerSchema&) {
+    throw;
   } catch (const Error& error) {
     faults_.push_back(fmt::format("{}; the line is not used", error.what()));
     warnings_.push_back(faults_.back());

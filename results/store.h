@@ -28,7 +28,7 @@ class Store {
  public:
   // Reads the folder; a folder without measurements is an empty store. Drops damaged lines with a warning,
   // also a last line that was cut short, which the next append removes. Throws bad_input when the file cannot
-  // be read or all its lines are damaged.
+  // be read, all its lines are damaged, or one was written by a later version of the program.
   explicit Store(std::filesystem::path folder);
 
   // The same, but throws bad_input when there are no measurements.

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "representations/export/line_grid.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -43,6 +44,12 @@ struct RepresentArguments {
   std::uint64_t seed = 1;
 };
 ExitCode represent_command(const RepresentArguments&);
+
+struct ExportArguments {
+  std::filesystem::path saved, out;  // a saved representation, and the file to write of it
+  std::string like;                  // path of the DEM that it was built from; empty: none
+};
+ExitCode export_command(const ExportArguments&);
 
 struct RenderArguments {
   std::string terrain;
@@ -90,6 +97,10 @@ ExitCode report_command(const ReportArguments&);
 
 // Prints BibTeX of the papers and of this program.
 ExitCode cite_command();
+
+// Writes the file and says what it holds, as export_representation().
+void print_export(const std::filesystem::path&, const RepresentationType&, const Representation&,
+                  const LineGrid&, Progress&);
 
 // Describes a DEM, a saved structure or a results folder, which it distinguishes by content.
 ExitCode info_command(const std::filesystem::path&);

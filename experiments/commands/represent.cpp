@@ -15,9 +15,9 @@
 #include "representations/drill/drill_codec.h"
 #include "representations/drill/drill_terrain.h"
 #include "representations/edit_tools.h"
+#include "representations/export/export.h"
 #include "representations/implicit/implicit_surface.h"
 #include "representations/layered_stack/thermal_erosion.h"
-#include "representations/procedural_mesh/mesh_files.h"
 #include "representations/procedural_mesh/model_terrain.h"
 #include "representations/procedural_mesh/procedural_mesh.h"
 #include "representations/representation.h"
@@ -169,34 +169,6 @@ void print_expansion(const ProceduralMesh& built) {
              format_quantity(static_cast<double>(built.description_bytes()), "B"));
 }
 
-FaceMesh polygons_of(const Representation& built) {
-  if (const auto* const mesh = dynamic_cast<const ProceduralMesh*>(&built)) return mesh->polygons();
-  TriangleMesh triangles = built.mesh({});
-  FaceMesh mesh;
-  mesh.positions = std::move(triangles.positions);
-  mesh.corners = std::move(triangles.indices);
-  for (std::size_t c = 0; c <= mesh.corners.size(); c += 3) {
-    mesh.first_corner.push_back(static_cast<std::uint32_t>(c));
-  }
-  return mesh;
-}
-
-// By the name's extension as polygons for other programs, otherwise in the structure's own form.
-void save(const std::string& path, const RepresentationType& type, const Representation& built) {
-  if (!path.ends_with(".ply") && !path.ends_with(".obj")) {
-    const std::size_t bytes = save_representation(path, type, built);
-    fmt::print("saved       {} ({})\n", path, format_quantity(static_cast<double>(bytes), "B"));
-    return;
-  }
-  const FaceMesh mesh = polygons_of(built);
-  if (mesh.faces() == 0) {
-    throw usage_error("there are no faces to write", path, "save it under another extension");
-  }
-  write_mesh(path, mesh);
-  fmt::print("saved       {} ({} faces, {})\n", path, mesh.faces(),
-             format_quantity(static_cast<double>(std::filesystem::file_size(path)), "B"));
-}
-
 // Rasters for other programs: how many pixels drain through each pixel, and in which direction.
 void write_flow(const std::filesystem::path& path, const TerrainSource& source, Progress& progress) {
   const FlowNetwork network = route_flow(*source.heights, &progress);
@@ -262,6 +234,7 @@ ExitCode represent_command(const RepresentArguments& a) {
     parameters.set_from_text(assignment);
   }
   const std::vector<Sphere> spheres = check_edits(a, type);
+  if (!a.save.empty()) export_format(a.save, type);  // before work that may take minutes
   Progress progress(isatty(STDERR_FILENO) != 0 ? Progress::Output::kTerminal : Progress::Output::kLines);
 
   const TerrainSource source = open_source(a, progress);
@@ -288,7 +261,10 @@ ExitCode represent_command(const RepresentArguments& a) {
     print_drills(*drills, parameters);
   }
   if (const auto* const mesh = dynamic_cast<const ProceduralMesh*>(built.get())) print_expansion(*mesh);
-  if (!a.save.empty()) save(a.save, type, *built);
+  if (!a.save.empty()) {
+    print_export(a.save, type, *built, source.heights ? lines_of(*source.heights) : own_lines(*built),
+                 progress);
+  }
   if (!a.write_flow.empty()) write_flow(a.write_flow, source, progress);
   if (!a.render.empty()) draw(a, *built, source.bounds(), progress);
   fmt::print("allocator   {} freed\n",

@@ -14,12 +14,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <fstream>
 #include <mutex>
 #include <sstream>
 
 #include "representations/procedural_mesh/mesh_file_scan.h"
 #include "terrain/error.h"
 #include "terrain/files.h"
+#include "terrain/new_file.h"
 
 namespace terrabench {
 namespace {
@@ -255,13 +257,17 @@ void write_mesh(const std::filesystem::path& path, const FaceMesh& mesh, PlyForm
   om::IO::Options options;
   if (!mesh.texture.empty()) options += om::IO::Options::VertexTexCoord;
   if (extension == ".ply" && form == PlyForm::kBinary) options += om::IO::Options::Binary;
-  std::ostringstream out;
+  NewFile file(path);
+  std::ofstream out(file.temporary(), std::ios::binary);
   Exporter exporter(mesh);
   const OpenMeshUse use;
-  if (!om::IO::IOManager().write(out, extension, exporter, options, 9)) {
-    throw environment_error("OpenMesh could not write the mesh", path.string(), "try another format");
+  const bool written = om::IO::IOManager().write(out, extension, exporter, options, 9);
+  out.close();
+  if (!written || !out) {
+    throw environment_error("cannot write the mesh", path.string(),
+                            "check the folder's permissions and the space left on its disk");
   }
-  write_file(path, std::string_view(out.view()));
+  file.keep();
 }
 
 FaceMesh read_mesh(const std::filesystem::path& path, std::uint64_t limit) {

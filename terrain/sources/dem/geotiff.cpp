@@ -1,36 +1,23 @@
 #include <cpl_string.h>
-#include <fcntl.h>
-#include <fmt/format.h>
 #include <ogr_spatialref.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 
-#include "terrain/error.h"
+#include "terrain/new_file.h"
 #include "terrain/sources/dem/dem.h"
 #include "terrain/sources/dem/gdal_session.h"
 
 namespace terrabench {
 namespace {
 
-struct RemoveUnlessKept {
-  std::filesystem::path path;
-  ~RemoveUnlessKept() {
-    std::error_code ignored;
-    if (!path.empty()) std::filesystem::remove(path, ignored);
-  }
-};
-
-void describe(GDALDataset& dataset, const Heightfield& field, const std::string& unit) {
-  const Georeference& georeference = field.georeference;
+void describe(GDALDataset& dataset, const HeightRows& raster, const std::string& unit) {
+  const Georeference& georeference = raster.georeference;
   if (georeference.transform != std::array<double, 6>{}) {
     std::array<double, 6> transform = georeference.transform;
     dataset.SetGeoTransform(transform.data());
   } else {
     // Without a georeference the file still holds the size of the cells.
-    std::array<double, 6> transform{0, field.cell_x, 0, 0, 0, -field.cell_z};
+    std::array<double, 6> transform{0, raster.cell_x, 0, 0, 0, -raster.cell_z};
     dataset.SetGeoTransform(transform.data());
   }
   if (!georeference.crs.empty()) {
@@ -44,38 +31,30 @@ void describe(GDALDataset& dataset, const Heightfield& field, const std::string&
   band.SetUnitType(unit.c_str());
 }
 
-void write_rows(GDALRasterBand& band, const Heightfield& field, const GdalMessages& messages,
-                const std::filesystem::path& path) {
+void write_rows(GDALRasterBand& band, const HeightRows& raster, const GdalMessages& messages,
+                const std::filesystem::path& path, Progress* progress) {
   constexpr int kRows = 64;
-  for (int y = 0; y < field.depth; y += kRows) {
-    const int rows = std::min(kRows, field.depth - y);
-    // One signature for reading and writing: writing does not change the buffer.
-    auto* const from = const_cast<float*>(field.heights.data()) + static_cast<std::size_t>(y) * field.width;
-    const CPLErr error =
-        band.RasterIO(GF_Write, 0, y, field.width, rows, from, field.width, rows, GDT_Float32, 0, 0, nullptr);
+  std::vector<float> heights;
+  if (progress != nullptr)
+    progress->begin("writing " + path.string(), static_cast<std::uint64_t>(raster.depth));
+  for (int y = 0; y < raster.depth; y += kRows) {
+    const int rows = std::min(kRows, raster.depth - y);
+    heights.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(raster.width));
+    raster.fill(y, heights);
+    const CPLErr error = band.RasterIO(GF_Write, 0, y, raster.width, rows, heights.data(), raster.width, rows,
+                                       GDT_Float32, 0, 0, nullptr);
     if (error != CE_None || messages.failed()) throw cannot_write(path, messages.first_failure());
+    if (progress != nullptr) progress->advance(static_cast<std::uint64_t>(rows));
   }
-}
-
-void sync(const std::filesystem::path& path) {
-  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0 || fsync(descriptor) != 0) {
-    const int cause = errno;
-    if (descriptor >= 0) close(descriptor);
-    throw cannot_write(path, std::strerror(cause));
-  }
-  close(descriptor);
+  if (progress != nullptr) progress->end();
 }
 
 }  // namespace
 
-void write_geotiff(const std::filesystem::path& path, const Heightfield& field, const std::string& unit) {
+void write_geotiff(const std::filesystem::path& path, const HeightRows& raster, const std::string& unit,
+                   Progress* progress) {
   register_gdal();
-  std::error_code error;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
-  if (error) throw cannot_write(path, error.message());
-  // Declared before the dataset, so that it is destroyed after the dataset is closed.
-  RemoveUnlessKept temporary{path.string() + fmt::format(".{}.tmp", getpid())};
+  NewFile file(path);  // before the dataset, so that it is destroyed after the dataset is closed
   const GdalMessages messages;
   CPLStringList options;
   options.SetNameValue("COMPRESS", "DEFLATE");
@@ -83,17 +62,22 @@ void write_geotiff(const std::filesystem::path& path, const Heightfield& field, 
   options.SetNameValue("BIGTIFF", "IF_SAFER");
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   DatasetPointer dataset(
-      driver->Create(temporary.path.c_str(), field.width, field.depth, 1, GDT_Float32, options));
+      driver->Create(file.temporary().c_str(), raster.width, raster.depth, 1, GDT_Float32, options));
   if (dataset == nullptr) throw cannot_write(path, messages.first_failure());
-  describe(*dataset, field, unit);
-  write_rows(*dataset->GetRasterBand(1), field, messages, path);
+  describe(*dataset, raster, unit);
+  write_rows(*dataset->GetRasterBand(1), raster, messages, path, progress);
   // A full disk may be reported only when the last blocks and the directory are written.
   dataset.reset();
   if (messages.failed()) throw cannot_write(path, messages.first_failure());
-  sync(temporary.path);
-  std::filesystem::rename(temporary.path, path, error);
-  if (error) throw cannot_write(path, error.message());
-  temporary.path.clear();
+  file.keep();
+}
+
+void write_geotiff(const std::filesystem::path& path, const Heightfield& field, const std::string& unit) {
+  const auto fill = [&](int first, std::span<float> out) {
+    const auto from = static_cast<std::size_t>(first) * static_cast<std::size_t>(field.width);
+    std::copy_n(field.heights.begin() + static_cast<std::ptrdiff_t>(from), out.size(), out.begin());
+  };
+  write_geotiff(path, {field.width, field.depth, field.cell_x, field.cell_z, field.georeference, fill}, unit);
 }
 
 }  // namespace terrabench

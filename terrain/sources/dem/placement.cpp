@@ -114,6 +114,13 @@ DegreeLengths degree_lengths(double latitude, double semi_major, double inverse_
           kRadiansPerDegree * semi_major * (1 - e2) / (q * std::sqrt(q))};
 }
 
+bool same_reference_system(const std::string& a, const std::string& b) {
+  if (a == b) return true;
+  OGRSpatialReference first, second;
+  return first.importFromWkt(a.c_str()) == OGRERR_NONE && second.importFromWkt(b.c_str()) == OGRERR_NONE &&
+         first.IsSame(&second) != 0;
+}
+
 Placement place_raster(GDALDataset& dataset, const DemWindow& window, const std::string& where,
                        std::vector<std::string>& notes) {
   Placement placement;
