@@ -76,6 +76,7 @@
   TIMED(cross, kLodSurface)                    \
   TIMED(cross, kLodEdit)                       \
   TIMED(cross, kScale)                         \
+  UNTIMED(cross, kRoundTrip)                   \
   TIMED(relief, kRelief)                       \
   TIMED(cross, kLodDisk)                       \
   TIMED(cross, kLodEndless)

@@ -111,14 +111,11 @@ TEST(Claims, EveryClaimOfThePapersIsThere) {
                                        "meshgrow.lazy",
                                        "cross.representations",
                                        "cross.lod-equal-error",
-<<<<<<< HEAD
                                        "cross.lod-ranks",
                                        "cross.lod-jump",
                                        "cross.lod-seams",
                                        "cross.lod-surface",
                                        "cross.lod-edit",
-                                       "cross.scale"};
-=======
                                        "cross.scale",
                                        "cross.round-trip",
                                        "cross.round-trip.lossless",
@@ -126,7 +123,6 @@ TEST(Claims, EveryClaimOfThePapersIsThere) {
                                        "cross.round-trip.polygons",
                                        "cross.round-trip.approximate",
                                        "cross.round-trip.place"};
->>>>>>> h-export
   for (const int n : {128, 256, 512}) {
     for (const char* row : {"hybrid.T1", "hybrid.T1.voxels", "hybrid.T1.ratio", "hybrid.T2"}) {
       expected.push_back(fmt::format("{}.{}", row, n));
