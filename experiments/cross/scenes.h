@@ -31,7 +31,7 @@ struct Scene {
   float cell = 1;                   // metres between columns at that resolution
 
   // For so many columns along the ground; 0: those of the scene, the same for all types. The tree of a
-  // sculpture has its samples at the corners of the columns, one more along each side.
+  // sculpture has its samples at the corners of the columns, one more along each side, and for 0 its own.
   Parameters parameters(const RepresentationType&, std::int64_t columns = 0) const;
   std::unique_ptr<Representation> build(const RepresentationType&, Progress&) const;
 };
