@@ -107,7 +107,9 @@ void add_run(CLI::App& app, Arguments& a) {
                       "drawing:FILE.png (default: each experiment's own)");
   command->add_option("--out", a.run.folder, "Results folder")->capture_default_str();
   command->add_flag("--resume", a.run.resume, "Skip cases that are already in the folder");
-  command->add_option("--shard", a.shard, "i/n: measure only every n-th case, starting with the i-th")
+  command
+      ->add_option("--shard", a.shard,
+                   "i/n: measure only every n-th case, starting with the i-th (docs/sweeps.md)")
       ->capture_default_str();
   command
       ->add_option("--cases", a.cases,
@@ -153,17 +155,20 @@ void add_results(CLI::App& app, Arguments& a) {
       "(Debian: latexmk, texlive-latex-recommended, lmodern). Figures are PDF, a column (84 mm) "
       "and a page (174 mm) wide");
   app.add_subcommand("cite", "Print BibTeX of the papers and of this program");
-  auto* compare = app.add_subcommand(
-      "compare", "Compare two results folders, metric by metric, with confidence intervals");
+  auto* compare =
+      app.add_subcommand("compare",
+                         "Compare two results folders, metric by metric: exact figures on any machines, "
+                         "times within one kind of "
+                         "machine, with confidence intervals. Exits with 1 if exact figures differ");
   compare->add_option("a", a.compare.before, "Results folder")->required();
   compare->add_option("b", a.compare.after, "Results folder")->required();
   compare->add_flag("--json", a.compare.json, "Print JSON");
   auto* merge = app.add_subcommand(
       "merge",
-      "Join results folders, such as those of `run --shard`, into one. Refuses altered lines, changed "
-      "pictures "
-      "and mixed revisions before it writes anything; after an interruption, give the same command again. "
-      "Exits with 1 if a case was measured twice and its exact figures differ");
+      "Join results folders, such as those of `run --shard`, into one (docs/sweeps.md). Refuses altered "
+      "lines, "
+      "changed pictures and mixed revisions before it writes anything; after an interruption, give the same "
+      "command again. Exits with 1 if a case was measured twice and its exact figures differ");
   merge->add_option("out", a.merge.out, "Folder to write; what it holds counts as the first folder")
       ->required();
   merge->add_option("in", a.merge.folders, "Results folders")->required();

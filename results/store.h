@@ -1,8 +1,10 @@
 // A results folder: DIR/measurements.jsonl, with one line per run of the program and one per measured case.
-// Lines are only appended, so a killed run loses at most its current case. An append is one write and one
-// fsync.
+// Lines are only appended, so a killed run loses at most its current case. An append is one write; at most
+// once per second it is also synced to the disk, so a power failure loses what was measured in the seconds
+// before it.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -78,7 +80,7 @@ class Store {
     return static_cast<std::size_t>(&record - records_.data());
   }
   void create_folder() const;
-  void append_line(const std::string& line) const;
+  void append_line(const std::string& line);
 
   std::filesystem::path folder_, file_;
   std::vector<Record> records_;
@@ -87,6 +89,7 @@ class Store {
   std::size_t last_line_ = 0;       // number of the line that was read or appended last
   std::vector<Provenance> runs_;
   std::string last_profile_;
+  std::chrono::steady_clock::time_point synced_{};  // when this process last synced the file
   std::vector<std::string> warnings_, faults_;
 };
 
