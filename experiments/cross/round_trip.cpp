@@ -27,7 +27,7 @@ const std::array kSpecs{
 };
 
 std::vector<Case> cases(const RunOptions& options) {
-  const std::int64_t size = options.profile == Profile::kPaper ? 1024 : 97;
+  const std::int64_t size = options.profile == Profile::kPaper ? 193 : 97;
   std::vector<Case> cases;
   for (const std::string& terrain : grounds(options, {"jacksboro"})) {
     for (const RepresentationType& type : representations()) {
