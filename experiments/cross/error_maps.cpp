@@ -35,11 +35,9 @@ std::vector<Case> cases(const RunOptions& options) {
   for (const std::string& terrain : grounds(options, own_grounds())) {
     // In a file of 5 % of 64² heights, stacks and dense voxels have the same few columns and the same map.
     const std::int64_t resolution = solid_resolution(terrain, paper || terrain == "caves");
-    cases.push_back(
-        {terrain,
-         {kSpecs,
-          {{"size", std::int64_t{paper ? 1025 : 257}}, {"resolution", solid_resolution(terrain, paper)}}},
-         terrain});
+    cases.push_back({terrain,
+                     {kSpecs, {{"size", std::int64_t{paper ? 1025 : 257}}, {"resolution", resolution}}},
+                     terrain});
   }
   return cases;
 }
