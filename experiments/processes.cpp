@@ -94,11 +94,13 @@ void wait_for(std::vector<pid_t> processes, Shared& shared, std::size_t tasks,
       int status = 0;
       if (std::ranges::count(processes, process) == 0 || waitpid(process, &status, WNOHANG) == 0) continue;
       std::erase(processes, process);
-      if (!WIFSIGNALED(status)) continue;
+      // Interrupted, a process ends early, and run_in_processes() says so.
+      if ((WIFEXITED(status) && WEXITSTATUS(status) == 0) || Progress::interrupted()) continue;
       const auto index = std::ranges::find(numbered, process) - numbered.begin();
       keep_error(shared, tasks, ExitCode::kEnvironment,
-                 fmt::format("the process that measured {} was ended by signal {}",
-                             name(shared.current[index]), WTERMSIG(status)),
+                 fmt::format("the process that measured {} {} {}", name(shared.current[index]),
+                             WIFSIGNALED(status) ? "was ended by signal" : "ended with exit status",
+                             WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status)),
                  "if memory ran out, run fewer cases beside each other (--jobs); then go on with --resume");
     }
     if (Progress::interrupted() && !told) {
@@ -131,6 +133,7 @@ void run_in_processes(int jobs, std::size_t tasks, const std::function<void(std:
   }
   wait_for(std::move(processes), *shared, tasks, name);
   if (shared->failed) throw Error(shared->code, shared->what, "", shared->advice);
+  if (Progress::interrupted()) throw Error(ExitCode::kInterrupted, "interrupted", "", "");
 }
 
 std::string call_in_process(const std::function<std::string()>& produce) {

@@ -82,7 +82,7 @@ class Rows {
     return {"–"};
   }
 
-  // The newest run among those that were read, and the lines of measurements.jsonl that were.
+  // The run that was read last, and the lines of measurements.jsonl that were.
   Cell run(const Judgement& j) const {
     if (j.runs.empty()) return {"–"};
     std::set<std::size_t> lines;

@@ -36,7 +36,7 @@ class LockedFile {
   explicit LockedFile(const std::filesystem::path& path) : path_(path) {
     do {
       if (descriptor_ >= 0) close(descriptor_);
-      descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+      descriptor_ = ::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0644);
       if (descriptor_ < 0) throw cannot_append(path, errno);
       // Without locks in the file system, lines still stay whole: each is one write.
       while (flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {

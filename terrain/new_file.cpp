@@ -62,7 +62,8 @@ void NewFile::append(std::string_view content) {
 
 void NewFile::keep() {
   // Opened anew, since a library may have put another file in its place.
-  close(std::exchange(descriptor_, open(temporary_.c_str(), O_RDONLY | O_CLOEXEC)));
+  if (close(std::exchange(descriptor_, -1)) != 0) throw cannot_write(path_, errno);
+  descriptor_ = open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) throw cannot_write(path_, errno);
   // A full disk may be reported only here.
   if (fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) throw cannot_write(path_, errno);

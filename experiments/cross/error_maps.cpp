@@ -111,8 +111,9 @@ std::string_view label(const RepresentationType& type) {
 }
 
 std::string numbers(const Map& map) {
-  return fmt::format("{:.1f} kB{}, RMSE {:.{}f} m", static_cast<double>(map.file_bytes) / 1000,
-                     map.fits ? "" : "*", map.rmse, map.rmse < 10 ? 2 : 1);
+  const double kilobytes = static_cast<double>(map.file_bytes) / 1000;
+  return fmt::format("{:.{}f} kB{}, RMSE {:.{}f} m", kilobytes, kilobytes < 1 ? 2 : 1, map.fits ? "" : "*",
+                     map.rmse, map.rmse < 10 ? 2 : 1);
 }
 
 struct Marks {
@@ -187,7 +188,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
               "high, one scale for all. Each type has the finest setting whose file takes at most "
               "{:.0f} % of the bytes of the ground's heights, {:.0f} kB; a type that has no file so "
               "small is marked * and shown at the ground's own resolution. RMSE of the {} × {} columns "
-              "shown.",
+              "shown, {:.3g} {} across.",
               at.terrain, 100 * at.parameters.number("share"),
               at.parameters.number("share") * static_cast<double>(ground.heightmap_bytes) / 1000,
               surface.width, surface.depth, far ? width / 1000 : width, far ? "km" : "m")));

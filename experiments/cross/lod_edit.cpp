@@ -62,9 +62,10 @@ struct Edited {
   TriangleSet drawn;  // before the edit
 };
 
-// To be called when the ground has changed.
-void take_edit(Edited& edited, const SampleRect& rect, const View& view, const TunedMethod& tuned,
-               const Heightfield& ground, Recorder& recorder, Progress& progress) {
+// To be called when the ground has changed. Returns how many triangles only one of the method and a fresh one
+// draws.
+std::size_t take_edit(Edited& edited, const SampleRect& rect, const View& view, const TunedMethod& tuned,
+                      const Heightfield& ground, Recorder& recorder, Progress& progress) {
   Stopwatch watch;
   edited.lod.edited(rect);
   const Frame& frame = edited.lod.update(view);
@@ -79,7 +80,8 @@ void take_edit(Edited& edited, const SampleRect& rect, const View& view, const T
   const Frame& anew = fresh->update(view);
   recorder.add("rebuild_time", "s", watch.seconds());
   recorder.add("rebuild_uploaded", "B", anew.stats.bytes_uploaded);
-  recorder.add("triangles_differing", "", now.missing_in(TriangleSet(anew)));
+  const TriangleSet built(anew);
+  return now.missing_in(built) + built.missing_in(now);
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
@@ -94,6 +96,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const std::unique_ptr<Lod> lod = tuned.build(ground, progress);
   for (std::size_t i = last - std::min(last, kLead); i < last; ++i) lod->update(flight.views[i]);
   Edited edited{*lod, TriangleSet(lod->update(view))};
+  std::size_t most_differing = 0;
   for (int round = 0; round < kRounds; ++round) {
     for (const bool digs : {true, false}) {
       const Stopwatch watch;
@@ -101,9 +104,11 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
       recorder.add("rest_time", "s", watch.seconds());
       (void)lod->memory();  // waits for threads that read the ground
       digs ? dig(ground, rect) : fill(ground, flight.ground(), rect);
-      take_edit(edited, rect, view, tuned, ground, recorder, progress);
+      most_differing =
+          std::max(most_differing, take_edit(edited, rect, view, tuned, ground, recorder, progress));
     }
   }
+  recorder.add("triangles_differing_most", "", most_differing);
 }
 
 }  // namespace

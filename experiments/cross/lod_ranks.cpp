@@ -69,7 +69,8 @@ void measure_one(Flight& flight, const Contender& method, const Equalised& what,
   costs.triangles.push_back(std::accumulate(cost.triangles.begin(), cost.triangles.end(), 0.0) /
                             static_cast<double>(cost.triangles.size()));
   costs.uploaded.push_back(cost.uploaded);
-  costs.reached.push_back(tuned.reached);
+  // Brute force reaches any error, and its rank is no finding.
+  costs.reached.push_back(method.tunable() && tuned.reached);
   recorder.add(prefix + "knob", "", tuned.knob);
   recorder.add(prefix + "reached", "", tuned.reached ? 1 : 0);
   // Brute force has no error to equalise.

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kEvery = 3;
 
 struct Seams {
-  std::size_t frames = 0, pixels = 0, pixels_of = 0, gaps = 0, t_junctions = 0, triangles = 0;
+  std::size_t frames = 0, pixels = 0, covered = 0, pixels_of = 0, gaps = 0, t_junctions = 0, triangles = 0;
   double largest_gap = 0;  // pixels
 };
 
@@ -28,7 +28,9 @@ Seams seams_along(const Flight& flight, const Contender& method, double knob, Pr
     const View& view = flight.views[flight.metered[k]];
     const Frame& frame = lod->update(view);
     const CrackReport cracks = find_cracks(frame, flight.ground().width, flight.ground().depth, view);
-    seams.pixels += find_bare_pixels(frame, flight.ground(), view).total();
+    const BarePixels openings = find_bare_pixels(frame, flight.ground(), view);
+    seams.pixels += openings.bare;
+    seams.covered += openings.covered;
     seams.pixels_of += static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
     seams.gaps += cracks.gaps;
     seams.t_junctions += cracks.t_junctions;
@@ -44,6 +46,7 @@ Seams seams_along(const Flight& flight, const Contender& method, double knob, Pr
 void record(const Seams& seams, const std::string& prefix, Recorder& recorder) {
   recorder.add(prefix + "frames", "", seams.frames);
   recorder.add(prefix + "crack_pixels", "", seams.pixels);
+  recorder.add(prefix + "covered_pixels", "", seams.covered);
   recorder.add(prefix + "crack_share", "",
                static_cast<double>(seams.pixels) / static_cast<double>(seams.pixels_of));
   recorder.add(prefix + "gaps", "", seams.gaps);

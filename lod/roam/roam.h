@@ -62,7 +62,8 @@ class Roam : public Lod {
   Roam(const Heightfield&, const RoamOptions&, Progress&);
   const Frame& update(const View&) override;
   void tune(double max_error) override;
-  // The next update() computes all culling labels and priorities anew: O(triangles in the mesh).
+  // O(all samples + nodes): the ground's extent is found anew. The next update() computes all culling labels
+  // and priorities anew: O(triangles in the mesh).
   void edited(const SampleRect&) override;
   Memory memory() const override;
 

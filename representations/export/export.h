@@ -1,12 +1,11 @@
 // Files for other programs: every representation written as what it is. The format follows from the name's
 // extension, in upper or lower case.
 //
-//   .tb                 the structure's own form, which load_representation() reads       every type
-//   .tif, .tiff         GeoTIFF of the topmost surface along the lines (terrain/sources/dem/dem.h)    every
-//   type .ply, .obj          polygons (procedural_mesh/mesh_files.h)                           every type
-//   .csv                table of spans (span_table.h)                                     every type
-//   .vdb                fog volume (fog_volume.h)                                         types with
-//   overhangs
+//   .tb          every type        the structure's own form, which load_representation() reads
+//   .tif, .tiff  every type        GeoTIFF of the topmost surface along the lines (terrain/sources/dem/dem.h)
+//   .ply, .obj   every type        polygons (procedural_mesh/mesh_files.h)
+//   .csv         every type        table of spans (span_table.h)
+//   .vdb         with overhangs    fog volume (fog_volume.h)
 #pragma once
 
 #include <filesystem>

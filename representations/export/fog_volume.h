@@ -7,9 +7,8 @@
 //                    height.
 //   grid `material`  integers, in cells whose largest part is not bedrock (1): the number of that material.
 //                    Left out when all is bedrock.
-//   metadata         `units`; `columns` along x and z; `georeference` (GDAL's six numbers) and `crs` (WKT) of
-//   a raster with a pixel
-//                    around each column, where they are known.
+//   metadata         `units`; `columns` along x and z; where they are known, `georeference` (GDAL's six
+//                    numbers) and `crs` (WKT) of a raster with a pixel around each column.
 //
 // Index (x, y, z) is column i, level, column j; the grid's transform gives metres: x east, y up, z south.
 #pragma once

@@ -189,6 +189,9 @@ TEST_P(BadInput, GroundOfAnySizeIsDrawnOnce) {
 TEST_P(BadInput, LegalViewsOfAnyKindAreDrawnWithoutCracks) {
   const Heightfield field = hilly(150, 121, 0.4F);
   const std::unique_ptr<Lod> lod = build(field);
+  const bool promises_no_cracks =
+      type_.traits.conforming &&
+      fmt::format("{}={}", GetParam().parameter, GetParam().value) != type_.unstitched;
   for (const double knob : {type_.knob.finest, type_.knob.fallback, type_.knob.coarsest}) {
     lod->tune(knob);
     for (const Change& change : legal()) {
@@ -197,7 +200,7 @@ TEST_P(BadInput, LegalViewsOfAnyKindAreDrawnWithoutCracks) {
       change.apply(view);
       const Frame& frame = lod->update(view);
       EXPECT_EQ(outside(corners_of(frame), field), 0U);
-      EXPECT_TRUE(!type_.traits.conforming || find_cracks(frame, field.width, field.depth, view).tight());
+      EXPECT_TRUE(!promises_no_cracks || find_cracks(frame, field.width, field.depth, view).tight());
     }
   }
 }

@@ -13,6 +13,11 @@
 namespace terrabench::test {
 namespace {
 
+std::unique_ptr<Lod> clipmap_over(const Heightfield& field) {
+  const LodType& type = lod("clipmap");
+  return type.build(field, Parameters(type.parameters), silent());
+}
+
 struct Fit {
   const char* name;
   MesoOptions ground;
@@ -167,7 +172,7 @@ TEST(Hybrid, HighAboveTheGroundTheClipmapIsDrawnAlone) {
   view.eye.y += 200;
   view.target.y += 100;
   EXPECT_TRUE(lod.update(view).meshes.empty());
-  const auto clipmap = Clipmap::build(field, {}, silent());
+  const auto clipmap = clipmap_over(field);
   EXPECT_EQ(corners_of(lod.update(view)), corners_of(clipmap->update(view)));
 }
 
@@ -175,7 +180,7 @@ TEST(Hybrid, HighAboveTheGroundTheClipmapIsDrawnAlone) {
 TEST(Hybrid, OverHeightsItDrawsTheClipmapsSurface) {
   const Heightfield field = hilly(203, 170, 0.7F);
   Hybrid lod({field}, {});
-  const auto clipmap = Clipmap::build(field, {}, silent());
+  const auto clipmap = clipmap_over(field);
   for (const glm::vec2 place : random_places(field, 10, 3)) {
     const View view = standing(field, place.x, place.y, 1);
     const SurfaceRaster drawn(lod.update(view), field.width, field.depth);

@@ -112,7 +112,7 @@ TEST_F(RasteriseTest, MakesAPicture) {
   svg_to_png(folder_ / "plot.svg", folder_ / "plot.png", 880);
   const Image image = read_png(folder_ / "plot.png");
   EXPECT_EQ(image.width, 880);
-  EXPECT_EQ(image.height, 560);
+  EXPECT_EQ(image.height, screen_size(growth()).height);
   EXPECT_EQ(image.pixel(0, 0), (Rgb{255, 255, 255}));
 }
 
