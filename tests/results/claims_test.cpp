@@ -183,6 +183,7 @@ TEST(Claims, TheLargestSizeAndFurtherGroundsAreMeasuredInThePaperProfileOnly) {
                        claim->id == "mrbsp.vis-safe.conservative.all" ||
                        claim->id == "cross.scale.mesh.heights" || claim->id.starts_with("mrbsp.lodtime") ||
                        claim->id == "cross.representations.ray-rate.large" ||
+                       claim->id == "ght.refused.sane" ||  // a share of few events decides nothing
                        (claim->id.starts_with("mrbsp.T2.time") &&
                         (claim->id.ends_with(".drawn") || claim->id.ends_with(".fractal")));
     EXPECT_EQ(claim->profiles.size(), large || on_further_ground(*claim) ? 1U : 2U) << claim->id;
