@@ -3,6 +3,11 @@
 #include <algorithm>
 
 namespace terrabench::cross {
+namespace {
+
+bool clearly_less(double a, double b) { return a * (1 + kFlipMargin) <= b && a < b; }
+
+}  // namespace
 
 std::vector<int> ranks(std::span<const double> costs) {
   std::vector<int> ranks;
@@ -18,9 +23,8 @@ Flips count_flips(std::span<const std::optional<double>> one, std::span<const st
     for (std::size_t b = a + 1; b < one.size(); ++b) {
       if (!one[a] || !one[b] || !other[a] || !other[b]) continue;
       ++flips.pairs;
-      flips.flipped +=
-          (*one[a] < *one[b] && *other[a] > *other[b]) || (*one[a] > *one[b] && *other[a] < *other[b]) ? 1
-                                                                                                       : 0;
+      flips.flipped += (clearly_less(*one[a], *one[b]) && clearly_less(*other[b], *other[a])) ||
+                       (clearly_less(*one[b], *one[a]) && clearly_less(*other[a], *other[b]));
     }
   }
   return flips;

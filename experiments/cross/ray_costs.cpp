@@ -1,5 +1,5 @@
 // Rays on a representation, its own way and through its mesh.
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -13,7 +13,7 @@
 namespace terrabench::cross {
 namespace {
 
-constexpr int kSamples = 3;
+constexpr std::size_t kSamples = 3;
 
 class Numbers {
  public:
@@ -65,18 +65,17 @@ std::vector<Ray> rays_along_ground(const GroundLines& lines, std::size_t n) {
 }
 
 struct Shot {
-  double per_second = 0;
+  std::array<double, kSamples> seconds{};
   std::vector<float> distances;
 };
 
-// The fastest of several runs, on one thread.
+// Several times, on one thread.
 template <class Cast>
 Shot shoot(std::span<const Ray> rays, const Cast& cast) {
   Shot shot;
   shot.distances.resize(rays.size());
-  for (int k = 0; k < kSamples; ++k) {
-    const double time = processor_seconds([&] { cast(rays, std::span(shot.distances)); });
-    shot.per_second = std::max(shot.per_second, static_cast<double>(rays.size()) / time);
+  for (std::size_t k = 0; k < kSamples; ++k) {
+    shot.seconds[k] = processor_seconds([&] { cast(rays, std::span(shot.distances)); });
   }
   return shot;
 }
@@ -115,24 +114,28 @@ void measure_rays(const Scene& scene, const Representation& built, const Triangl
   }
   recorder.add("own_rays", "", own ? 1 : 0);
   std::size_t agree = 0, hits = 0;
-  double own_time = 0, embree_time = 0;  // of all rays
+  std::array<double, kSamples> own_seconds{}, embree_seconds{};  // of all rays
   for (const bool above : {true, false}) {
     const std::vector<Ray> rays = above ? rays_from_above(scene.lines, n) : rays_along_ground(scene.lines, n);
     const Shot embree = shoot(rays, index);
     const Shot shot = own ? shoot(rays, [&](auto all, auto out) { own->closest(all, out); }) : embree;
     for (const float distance : embree.distances) hits += std::isfinite(distance);
     agree += agreeing(shot.distances, embree.distances, scene.cell);
-    own_time += static_cast<double>(n) / shot.per_second;
-    embree_time += static_cast<double>(n) / embree.per_second;
-    recorder.add(above ? "rays_above" : "rays_along", "1/s", shot.per_second);
-    recorder.add(above ? "embree_above" : "embree_along", "1/s", embree.per_second);
+    for (std::size_t k = 0; k < kSamples; ++k) {
+      own_seconds[k] += shot.seconds[k];
+      embree_seconds[k] += embree.seconds[k];
+      recorder.add(above ? "rays_above" : "rays_along", "1/s", static_cast<double>(n) / shot.seconds[k]);
+      recorder.add(above ? "embree_above" : "embree_along", "1/s",
+                   static_cast<double>(n) / embree.seconds[k]);
+    }
   }
   recorder.add("ray_hits", "", static_cast<double>(hits) / static_cast<double>(2 * n));
   if (!own) return;
   recorder.add("ray_agreement", "", static_cast<double>(agree) / static_cast<double>(2 * n));
-  const double all = static_cast<double>(2 * n);
-  recorder.add("rays", "1/s", all / own_time);
-  recorder.add("embree_rays", "1/s", all / embree_time);
+  for (std::size_t k = 0; k < kSamples; ++k) {
+    recorder.add("rays", "1/s", static_cast<double>(2 * n) / own_seconds[k]);
+    recorder.add("embree_rays", "1/s", static_cast<double>(2 * n) / embree_seconds[k]);
+  }
 }
 
 }  // namespace terrabench::cross

@@ -24,11 +24,14 @@ TEST(Ranks, CountTheSmallerCosts) {
 
 TEST(Flips, CountPairsThatChangePlaces) {
   const std::optional<double> one[] = {1, 2, 3}, same[] = {10, 20, 30}, turned[] = {3, 2, 1},
-                              tied[] = {2, 2, 3}, lacking[] = {3, std::nullopt, 1};
+                              tied[] = {2, 2, 3}, lacking[] = {3, std::nullopt, 1}, close[] = {2.08, 2, 3},
+                              apart[] = {2.2, 2, 3};
   EXPECT_EQ(count_flips(one, same).flipped, 0U);
   EXPECT_EQ(count_flips(one, same).pairs, 3U);
   EXPECT_EQ(count_flips(one, turned).flipped, 3U);
   EXPECT_EQ(count_flips(one, tied).flipped, 0U);
+  EXPECT_EQ(count_flips(one, close).flipped, 0U);
+  EXPECT_EQ(count_flips(one, apart).flipped, 1U);
   EXPECT_EQ(count_flips(one, lacking).pairs, 1U);
   EXPECT_EQ(count_flips(one, lacking).flipped, 1U);
 }
