@@ -51,9 +51,10 @@ struct HtmlWriter {
     for (const Picture& picture : gallery.pictures) {
       const std::string file = escape_html(picture.file), title = escape_html(picture.title);
       text += fmt::format(
-          "<figure>\n<a href=\"{0}\"><img src=\"{0}\" alt=\"{1}: {2}\" loading=\"lazy\"></a>\n"
+          "<figure>\n<a href=\"{4}\"><img src=\"{0}\" alt=\"{1}: {2}\" loading=\"lazy\"></a>\n"
           "<figcaption><strong>{1}.</strong> {2}</figcaption>\n{3}</figure>\n",
-          file, title, escape_html(picture.caption), links(picture.links));
+          file, title, escape_html(picture.caption), links(picture.links),
+          picture.original.empty() ? file : escape_html(picture.original));
     }
     text += "</div>\n";
   }

@@ -36,6 +36,7 @@ struct Picture {
   std::string title, caption, file;  // file: for HTML
   std::string bitmap;                // for Markdown, when it differs
   std::vector<Link> links;
+  std::string original = {};  // at full size, where a click leads; empty: the file
 };
 // Pictures side by side where they fit; a single picture is wide.
 struct Gallery {

@@ -1,8 +1,10 @@
 #include "results/report.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for_each.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "results/citation.h"
@@ -15,6 +17,7 @@
 #include "results/new_folder.h"
 #include "results/paper_faults.h"
 #include "results/plot.h"
+#include "results/preview.h"
 #include "results/ranking.h"
 #include "results/rasterise.h"
 #include "results/report_tables.h"
@@ -24,7 +27,8 @@
 namespace terrabench {
 namespace {
 
-constexpr int kBitmapWidth = 1760;  // twice the plots' own size: sharp in print
+constexpr int kBitmapWidth = 1760;   // twice the plots' own size: sharp in print
+constexpr int kPreviewWidth = 1000;  // a little more than the page shows
 
 std::vector<Link> run_links(const std::vector<std::string>& runs) {
   std::vector<Link> links;
@@ -37,10 +41,34 @@ bool is_report(const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / "index.html", error);
 }
 
+// By file. Altered pictures have none: the page says at its top that they were altered.
+std::map<std::string, std::string> previews_of(const Store& store, const std::string& profile) {
+  std::map<std::string, std::string> previews;
+  for (const Record& record : store.records()) {
+    if (record.profile != profile) continue;
+    for (const RecordedFigure& figure : record.figures) {
+      if (store.intact(figure)) previews[figure.file];
+    }
+  }
+  tbb::parallel_for_each(previews, [&](auto& file_and_preview) {
+    auto& [file, preview] = file_and_preview;
+    try {
+      preview = webp_preview(read_png(store.folder() / file), kPreviewWidth);
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::kBadInput) throw;
+    }
+  });
+  return previews;
+}
+
 class Report {
  public:
   Report(const Store& store, std::span<const Paper> papers, const std::filesystem::path& out)
-      : store_(store), papers_(papers), out_(out), results_(judge(store, papers)) {}
+      : store_(store),
+        papers_(papers),
+        out_(out),
+        results_(judge(store, papers)),
+        previews_(previews_of(store, results_.profile)) {}
 
   void write() {
     introduce();
@@ -225,16 +253,17 @@ class Report {
     document_.push_back(std::move(gallery));
   }
 
-  // Copies the picture, so that the report folder can be moved alone.
+  // Shows a preview, so that the report folder can be moved alone, and leads to the original.
   void add_picture(Gallery& gallery, const Record& record, const RecordedFigure& figure, std::string title,
                    std::string caption) {
-    const std::filesystem::path from = store_.folder() / figure.file;
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(from, error)) return;
-    const std::string to = picture_file(figure);
-    write_file(out_ / to, read_file(from));
+    const auto preview = previews_.find(figure.file);
+    if (preview == previews_.end() || preview->second.empty()) return;
+    const std::string to = picture_file(figure), original = "../" + figure.file;
+    write_file(out_ / to, preview->second);
     links_.targets.insert(to);
-    gallery.pictures.push_back({std::move(title), std::move(caption), to, "", run_links({record.run})});
+    std::vector<Link> links = run_links({record.run});
+    links.push_back({"Full size", original});
+    gallery.pictures.push_back({std::move(title), std::move(caption), to, "", std::move(links), original});
   }
 
   void add_plot(const PlotLayout& layout) {
@@ -286,6 +315,7 @@ class Report {
   std::span<const Paper> papers_;
   const std::filesystem::path& out_;
   JudgedResults results_;
+  std::map<std::string, std::string> previews_;  // by a picture's file
   Document document_;
   LedgerLinks links_;              // filled while the report is written
   std::set<std::string> claimed_;  // ids of pictures that belong to a claim

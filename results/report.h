@@ -10,7 +10,8 @@
 
 namespace terrabench {
 
-// DIR/report/: index.html, report.md, tables/*.{csv,md,tex}, figures/*.{svg,png}. Replaces an earlier report
+// DIR/report/: index.html, report.md, tables/*.{csv,md,tex}, figures/: *.{svg,png} of plots and *.webp, small
+// copies of the pictures in DIR/figures/, to which the pages link. Replaces an earlier report
 // as a whole or not at all; equal measurements give equal bytes. Returns the path of index.html. Throws
 // bad_input when the folder holds no results, environment_error when the report cannot be written. Not
 // thread-safe.

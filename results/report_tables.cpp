@@ -31,7 +31,7 @@ std::string file_name(std::string_view id) {
 }
 
 std::string picture_file(const RecordedFigure& figure) {
-  return "figures/" + file_name(std::filesystem::path(figure.file).filename().string());
+  return "figures/" + file_name(std::filesystem::path(figure.file).stem().string()) + ".webp";
 }
 
 std::string short_id(const std::string& run) { return run.substr(0, 8); }

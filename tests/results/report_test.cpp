@@ -34,7 +34,7 @@ TEST_F(ReportTest, HoldsTablesPlotsFiguresAndProvenance) {
   for (const char* file : {"index.html", "report.md", "tables/hybrid.table1.csv", "tables/hybrid.table2.tex",
                            "tables/hybrid.verdicts.md", "figures/hybrid.table2-growth.svg",
                            "figures/hybrid.table2-growth.png", "figures/hybrid.table1-bytes.svg",
-                           "figures/hybrid.F3.png", "figures/relief.jacksboro.heightmap.png"}) {
+                           "figures/hybrid.F3.webp", "figures/relief.jacksboro.heightmap.webp"}) {
     EXPECT_TRUE(files.contains(file)) << file;
   }
   const std::string& page = files.at("index.html");
@@ -163,13 +163,23 @@ TEST_F(ReportTest, PicturesOfOneIdStandSideBySide) {
   for (const char* const name : {"one", "two"}) {
     Record record = fake_record(fake_provenance(), "x", name);
     const std::string file = std::string("figures/x.") + name + ".png";
-    write_file(folder_ / file, std::string_view(name));
-    record.figures = {{"x", file, name, checksum(name)}};
+    write_png(folder_ / file, Image(40, 20, {200, 40, 40}));
+    record.figures = {{"x", file, name, checksum(read_file(folder_ / file))}};
     store.append(record);
   }
   write_report(folder_);
-  EXPECT_EQ(read_file(folder_ / "report/figures/x.one.png"), "one");
-  EXPECT_EQ(read_file(folder_ / "report/figures/x.two.png"), "two");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "report/figures/x.one.webp"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "report/figures/x.two.webp"));
+}
+
+TEST_F(ReportTest, APictureThatCannotBeReadIsLeftOut) {
+  write_fake_results(folder_, "quick");
+  Store store(folder_);
+  Record record = fake_record(fake_provenance(), "x", "y");
+  write_file(folder_ / "figures/x.png", std::string_view("no picture"));
+  record.figures = {{"x", "figures/x.png", "No picture", checksum("no picture")}};
+  store.append(record);
+  EXPECT_THAT(read_file(write_report(folder_)), Not(HasSubstr("No picture")));
 }
 
 TEST_F(ReportTest, EmptyFolderIsBadInput) {
