@@ -13,14 +13,45 @@ using roam::Node;
 
 namespace {
 
-double extent_of(const GroundGrid& grid) {
-  // Positive floats compare like their bits; integer comparisons are vectorised.
-  std::uint32_t highest = 0;
-  for (const float height : grid.heights) {
-    highest = std::max(highest, std::bit_cast<std::uint32_t>(height) & 0x7FFFFFFFU);
+// Positive floats compare like their bits; integer comparisons are vectorised.
+std::uint32_t bits_of_size(float height) { return std::bit_cast<std::uint32_t>(height) & 0x7FFFFFFFU; }
+
+std::uint32_t furthest_height(std::span<const float> heights) {
+  std::uint32_t furthest = 0;
+  for (const float height : heights) furthest = std::max(furthest, bits_of_size(height));
+  return furthest;
+}
+
+// A sample as far from height 0 as any.
+glm::ivec2 furthest_sample(const GroundGrid& grid) {
+  const std::uint32_t furthest = furthest_height(grid.heights);
+  const auto at = std::ranges::find(grid.heights, furthest, bits_of_size) - grid.heights.begin();
+  return {at % grid.width, at / grid.width};
+}
+
+std::span<const float> row(const GroundGrid& grid, glm::ivec2 from, int samples) {
+  const std::size_t begin = static_cast<std::size_t>(from.y) * grid.width + static_cast<std::size_t>(from.x);
+  return grid.heights.subspan(begin, static_cast<std::size_t>(samples));
+}
+
+// The same after an edit, of which only the rectangle is searched unless the sample lies within.
+glm::ivec2 furthest_sample(const GroundGrid& grid, glm::ivec2 furthest, const SampleRect& edited) {
+  if (glm::all(glm::lessThanEqual(edited.low, furthest)) &&
+      glm::all(glm::lessThanEqual(furthest, edited.high)))
+    return furthest_sample(grid);
+  for (int z = edited.low.y; z <= edited.high.y; ++z) {
+    const auto heights = row(grid, {edited.low.x, z}, edited.high.x - edited.low.x + 1);
+    const std::uint32_t here = furthest_height(heights);
+    if (here <= bits_of_size(row(grid, furthest, 1)[0])) continue;
+    const auto at = std::ranges::find(heights, here, bits_of_size) - heights.begin();
+    furthest = {edited.low.x + static_cast<int>(at), z};
   }
+  return furthest;
+}
+
+double extent_of(const GroundGrid& grid, glm::ivec2 furthest) {
   return static_cast<double>(grid.width) * grid.cell_x + static_cast<double>(grid.depth) * grid.cell_z +
-         static_cast<double>(std::bit_cast<float>(highest));
+         std::abs(static_cast<double>(row(grid, furthest, 1)[0]));
 }
 
 }  // namespace
@@ -47,7 +78,8 @@ std::unique_ptr<Lod> Roam::build(const LodGround& from, const Parameters& parame
 Roam::Roam(const Heightfield& ground, const RoamOptions& options, Progress& progress)
     : mesh_(grid_of(ground), options.triangles, progress),
       options_(options),
-      extent_(extent_of(mesh_.grid())),
+      furthest_(furthest_sample(mesh_.grid())),
+      extent_(extent_of(mesh_.grid(), furthest_)),
       drawn_(mesh_.capacity()),
       ranked_leaves_(2 * mesh_.capacity()),
       labels_valid_until_(mesh_.nodes().size()),
@@ -64,7 +96,8 @@ void Roam::edited(const SampleRect& rect) {
   const GroundGrid& grid = mesh_.grid();
   check_edit(rect, grid.width, grid.depth);
   mesh_.edited(rect.low, rect.high);
-  extent_ = extent_of(grid);
+  furthest_ = furthest_sample(grid, furthest_, rect);
+  extent_ = extent_of(grid, furthest_);
   retuned_ = true;
   if (!first_) append_heights(grid, rect, edits_);
 }

@@ -18,6 +18,7 @@ struct RoamAudit {
   std::vector<std::string> problems{};
 
   static std::size_t leaves(const Roam& roam) { return roam.mesh_.leaves(); }
+  static double extent(const Roam& roam) { return roam.extent_; }
   static int exact_from(const Roam& roam) { return roam.exact_from_; }
   static int max_error_bucket() { return Roam::kMaxErrorBucket; }
   static int highest_leaf_bucket(const Roam& roam) { return roam.splits_.highest(); }

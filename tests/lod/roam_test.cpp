@@ -10,6 +10,7 @@
 
 #include "lod/camera/camera_path.h"
 #include "terrain/error.h"
+#include "tests/lod/roam_audit.h"
 #include "tests/lod/roam_ground.h"
 
 namespace terrabench::test {
@@ -41,6 +42,30 @@ TEST(Roam, KeepsItsErrorOnHighGround) {
     view.eye.y += 3000;
     view.target.y += 3000;
     expect_kept(roam, roam.update(view), field, view, 0.5);
+  }
+}
+
+// Its tolerance for rounding depends on the extent, and with it what is culled.
+TEST(Roam, KnowsTheExtentOfEditedGround) {
+  Heightfield field = ground(33, 21);
+  Roam roam(field, {.max_error = 1}, silent());
+  struct Edit {
+    glm::ivec2 at;
+    float height;
+  };
+  for (const Edit& edit : {Edit{{4, 5}, 5000},
+                           {{20, 11}, -7000},
+                           {{4, 5}, 0},
+                           {{20, 11}, 10},
+                           {{32, 20}, 10},
+                           {{0, 0}, 6000},
+                           {{30, 1}, 6000},
+                           {{0, 0}, 1},
+                           {{30, 1}, 1}}) {
+    SCOPED_TRACE(::testing::Message() << edit.at.x << ", " << edit.at.y << ": " << edit.height);
+    field.at(edit.at.x, edit.at.y) = edit.height;
+    roam.edited({edit.at, edit.at});
+    EXPECT_EQ(RoamAudit::extent(roam), RoamAudit::extent(Roam(field, {.max_error = 1}, silent())));
   }
 }
 
