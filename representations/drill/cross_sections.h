@@ -2,9 +2,9 @@
 // three degrees apart, sampled bilinearly at 1 … w samples from the pixel; the union takes the highest at
 // each distance, the narrowest channel that any ray sees.
 //
-// The offsets and weights are the same for every pixel: they are computed once, and rays run in SIMD lanes:
-// 480·w loads per pixel and no branch. Samples that need ground outside the terrain or without data are
-// omitted.
+// The offsets and weights are the same for every pixel: they are computed once, and rays run in SIMD lanes
+// without a branch. AVX2 and AVX-512 load two neighbours at once: 240·w loads per pixel. Samples that need
+// ground outside the terrain or without data are omitted.
 #pragma once
 
 #include <cstdint>
