@@ -210,6 +210,7 @@ void run(const RunPlan& plan) {
   for (const std::size_t i : alone) {
     measure_one(i, terminal ? Progress::Output::kTerminal : Progress::Output::kLines);
   }
+  store.sync();
   const std::size_t skipped = cases.size() - alone.size() - beside.size();
   if (skipped > 0)
     fmt::print(stderr, "{} of {} cases were already in the results folder\n", skipped, cases.size());

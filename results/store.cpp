@@ -66,6 +66,10 @@ class LockedFile {
     return tail;
   }
 
+  void sync() {
+    if (const int error = sync_error(); error != 0) throw cannot_append(path_, error);
+  }
+
   void cut_to(off_t size) {
     if (ftruncate(descriptor_, size) != 0) throw cannot_append(path_, errno);
   }
@@ -77,7 +81,7 @@ class LockedFile {
     const bool whole = written == static_cast<ssize_t>(text.size());
     // A full disk first shows as a short write.
     int error = whole ? 0 : written < 0 ? errno : ENOSPC;
-    if (whole && sync && fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) error = errno;
+    if (whole && sync) error = sync_error();
     if (error == 0) return;
     // If this fails too, the next append removes the half line.
     [[maybe_unused]] const int cut = ftruncate(descriptor_, before);
@@ -85,6 +89,9 @@ class LockedFile {
   }
 
  private:
+  // 0: synced, or the file system cannot.
+  int sync_error() { return fsync(descriptor_) == 0 || errno == EINVAL || errno == EROFS ? 0 : errno; }
+
   // Whether another process replaced the file by a new one while this one waited for its lock.
   bool was_replaced() const {
     struct stat held {
@@ -206,6 +213,11 @@ void Store::append_line(const std::string& line) {
   const bool sync = now - synced_ >= kSyncInterval;
   file.append((finish ? "\n" : "") + line + "\n", sync);
   if (sync) synced_ = now;
+}
+
+void Store::sync() {
+  create_folder();
+  LockedFile(file_).sync();
 }
 
 void Store::begin_run(const Provenance& provenance) {

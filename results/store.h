@@ -1,7 +1,7 @@
 // A results folder: DIR/measurements.jsonl, with one line per run of the program and one per measured case.
 // Lines are only appended, so a killed run loses at most its current case. An append is one write; at most
-// once per second it is also synced to the disk, so a power failure loses what was measured in the seconds
-// before it.
+// once per second, and at a run's end, it is also synced to the disk, so a power failure loses what was
+// measured in the seconds before it.
 #pragma once
 
 #include <chrono>
@@ -40,6 +40,7 @@ class Store {
   // append to one folder. The record's run must have begun before append().
   void begin_run(const Provenance&);
   void append(const Record&);
+  void sync();  // to the disk, as far as the file system can
   // Appends all of them in one step: whenever the process is killed, the file is the old one or the whole new
   // one. Then reads the folder again: O(bytes of the file).
   void append_all(std::span<const Provenance> runs, std::span<const Record> records);

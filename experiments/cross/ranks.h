@@ -11,7 +11,8 @@ namespace terrabench::cross {
 // The rank of each cost: 1 + the number of smaller costs, so that equal costs share a rank. O(n²).
 std::vector<int> ranks(std::span<const double> costs);
 
-// The least share by which one cost must exceed another for their order to count.
+// The least share by which one cost must exceed another for their order to count: settings come in steps, so
+// that methods are equal in error only to a few per cent.
 inline constexpr double kFlipMargin = 0.05;
 
 // Over all pairs of methods that have a cost in both orders.

@@ -105,18 +105,21 @@ void count_lost_pixels(Methods& methods, const std::vector<View>& views, const R
   recorder.add("pictures", "", views.size());
 }
 
-// Time to update the flags of visibility along the walk, relative to choosing triangles without them.
+// Processor time to update the flags of visibility along the walk, relative to choosing triangles without
+// them.
 void time_flags(Methods& methods, const Heightfield& ground, const std::vector<View>& views,
                 Recorder& recorder) {
   const visibility::ChangeTable& table = methods.lods[kVis].visibility();
   visibility::Flags flags(table);
-  double flag_time = 0, lod_time = 0;
+  std::vector<glm::ivec2> cells;
+  for (const View& view : views) cells.push_back(cell_below(table.cells, ground, view.eye));
   std::size_t toggled = 0;
-  for (const View& view : views) {
-    const glm::ivec2 cell = cell_below(table.cells, ground, view.eye);
-    flag_time += seconds([&] { toggled += flags.move_to(table, cell); });
-    lod_time += seconds([&] { methods.lods[kLod].update(view); });
-  }
+  const double flag_time = processor_seconds([&] {
+    for (const glm::ivec2 cell : cells) toggled += flags.move_to(table, cell);
+  });
+  const double lod_time = processor_seconds([&] {
+    for (const View& view : views) methods.lods[kLod].update(view);
+  });
   const auto frames = static_cast<double>(views.size());
   recorder.add("toggled_per_view", "", static_cast<double>(toggled) / frames);
   recorder.add("toggle_time", "s", flag_time / frames);

@@ -113,6 +113,7 @@ TEST_P(TunedCase, ShowsPixelsThroughOpenSeamsOnly) {
     EXPECT_EQ(record.find("open_crack_pixels"), nullptr);
   } else {
     EXPECT_GT(value(record, "open_gaps"), 0);
+    EXPECT_GT(value(record, "open_crack_pixels"), 0);
   }
 }
 
