@@ -25,7 +25,7 @@ std::string why(const Judgement& j) {
   if (j.verdict == Verdict::kReproduced || j.verdict == Verdict::kShape) return j.complaint;
   if (j.verdict != Verdict::kDiffers) return j.measured;
   // The note explains the known verdict, not one that nobody expected.
-  if (j.claim->known != Verdict::kDiffers) return j.complaint;
+  if (!j.complaint.empty()) return j.complaint;
   return fmt::format("{} Matches: {}", j.claim->reason(), j.claim->matches);
 }
 
@@ -46,13 +46,13 @@ class Rows {
   std::vector<Cell> row(const Judgement& j) const {
     const Claim& claim = *j.claim;
     return {{.text = claim.id, .anchor = claim.id},
+            verdict_cell(j),
             {where_and_statement(claim)},
             {reported_text(claim)},
             {ours(j)},
             {claim.tolerance.empty() ? j.deciding.expected : claim.tolerance},
             {class_name(claim.claim_class)},
             {std::string(name(claim.about))},
-            verdict_cell(j),
             {why(j)},
             figure(j),
             run(j)};
@@ -126,13 +126,13 @@ Table ledger_table(const Store& store, const JudgedResults& results, std::span<c
               "Claim, what the paper says in our words and what it prints, what was measured, and why the "
               "verdict is not “reproduced” where it is not. Lines are those of measurements.jsonl.",
               {{"Claim"},
+               {"Verdict"},
                {"The paper"},
                {"Printed"},
                {"Measured"},
                {"Tolerance"},
                {"Class"},
                {"Counts as"},
-               {"Verdict"},
                {"Why"},
                {"Figure or table"},
                {"Run"}},

@@ -7,8 +7,8 @@
 
 namespace terrabench {
 
-// A WebP file at most `width` pixels wide. Equal pictures give equal bytes. Throws environment_error when the
-// library fails, which it does for more than 16,383 rows. O(pixels).
+// A WebP file at most `width` pixels wide and 16,383 high. Equal pictures give equal bytes. Throws
+// environment_error when the library fails, for want of memory. O(pixels).
 std::string webp_preview(const Image&, int width);
 
 }  // namespace terrabench

@@ -1,15 +1,10 @@
 #include "results/ranking.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cctype>
-#include <cstdlib>
-#include <nlohmann/json.hpp>
 
 #include "results/embedded.h"
 #include "results/fill.h"
-#include "results/format.h"
+#include "results/provenance.h"
 #include "results/toml_reader.h"
 
 namespace terrabench {
@@ -73,61 +68,20 @@ std::vector<Candidate> candidates(const RankingLayout& layout, const Store& stor
   return all;
 }
 
-bool same_machine(const std::vector<Candidate>& all, const Store& store) {
+// Why the candidates' figures cannot be compared, as words that follow "as"; empty if they can.
+std::string why_not_compared(const std::vector<Candidate>& all, bool timing, const Store& store) {
   const Provenance* first = nullptr;
   for (const Candidate& c : all) {
     const Provenance* const run = store.run(c.record->run);
     if (run == nullptr) continue;  // the store reports this as a fault
-    if (first != nullptr && !comparable(*first, *run)) return false;
-    first = run;
+    if (first == nullptr) first = run;
+    if (timing && !comparable(*first, *run)) return "the times are of different machines or builds";
+    if (!timing && !same_code(*first, *run)) return "the figures are of different revisions";
   }
-  return true;
-}
-
-std::string joined(const std::vector<std::string>& parts, std::string_view last) {
-  std::string text;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (i > 0) text += i + 1 == parts.size() ? last : ", ";
-    text += parts[i];
-  }
-  return text;
-}
-
-// "1.3 [1.2, 1.4]"; the interval is left out where there is none.
-std::string factor_text(const Summary& factor) {
-  // Of 1.002, three digits would be 1.
-  const std::string median = fmt::format("{:.{}g}", factor.median, factor.median < 1.1 ? 4 : 3);
-  if (factor.low == factor.high) return median;
-  return fmt::format("{} [{:.3g}, {:.3g}]", median, factor.low, factor.high);
+  return "";
 }
 
 }  // namespace
-
-std::string Ranking::clause() const {
-  const auto with_value = [&](const Place& p) {
-    const double rounded = std::strtod(fmt::format("{:.4g}", p.value).c_str(), nullptr);
-    return fmt::format("{} ({})", p.label, format_quantity(rounded, layout->unit));
-  };
-  const std::string text = layout->where + ": ";
-  if (places.empty()) return text + "none";
-  if (incomparable) return text + "not compared, as the times are of different machines or builds";
-  if (tied > 1) {
-    std::vector<std::string> best;
-    for (std::size_t i = 0; i < tied; ++i) best.push_back(with_value(places[i]));
-    const Summary& last = places[tied - 1].factor;
-    return text +
-           fmt::format("{} are tied{}", joined(best, " and "),
-                       last.median != 1 ? fmt::format(", within a factor of {}", factor_text(last)) : "");
-  }
-  if (places.size() == 1) return text + with_value(places[0]) + " alone";
-  const std::string first = with_value(places[0]), second = with_value(places[1]),
-                    factor = factor_text(places[1].factor);
-  if (single) {
-    return text +
-           fmt::format("undecided, as each was measured once: {}, {}, a factor of {}", first, second, factor);
-  }
-  return text + fmt::format("{}, ahead of {} by a factor of {}", first, second, factor);
-}
 
 std::vector<RankingLayout> parse_rankings(std::string_view text, const std::string& origin) {
   const toml::table table = parse_toml(text, origin, "correct the claims file");
@@ -163,7 +117,7 @@ std::optional<Ranking> rank(const RankingLayout& layout, const Store& store, con
   });
   const Candidate& best = all[0];
   const bool timing = is_timing(best.metric->unit);
-  ranking.incomparable = timing && !same_machine(all, store);
+  ranking.not_compared = why_not_compared(all, timing, store);
   ranking.single =
       timing && all.size() > 1 && std::min(best.metric->samples.size(), all[1].metric->samples.size()) == 1;
   for (const Candidate& c : all) {
@@ -187,58 +141,6 @@ std::vector<Ranking> rank(std::span<const RankingLayout> layouts, const Store& s
       rankings.push_back(std::move(*ranking));
   }
   return rankings;
-}
-
-Facts findings(std::span<const Ranking> rankings) {
-  Facts facts;
-  const std::string* task = nullptr;
-  for (const Ranking& ranking : rankings) {
-    if (task == nullptr || *task != ranking.layout->task) {
-      task = &ranking.layout->task;
-      const std::string& needs = ranking.layout->needs_text;
-      facts.lines.emplace_back(*task, needs.empty() ? "" : needs + ", ");
-    } else {
-      facts.lines.back().second += "; ";
-    }
-    facts.lines.back().second += ranking.clause();
-  }
-  for (auto& [name, text] : facts.lines) {
-    text += ".";
-    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  }
-  return facts;
-}
-
-std::string findings_json(std::span<const Ranking> rankings) {
-  using Json = nlohmann::ordered_json;
-  Json list = Json::array();
-  for (const Ranking& ranking : rankings) {
-    const RankingLayout& layout = *ranking.layout;
-    Json places = Json::array();
-    for (const Ranking::Place& p : ranking.places) {
-      places.push_back({{"label", p.label},
-                        {"value", p.value},
-                        {"factor", p.factor.median},
-                        {"factor_low", p.factor.low},
-                        {"factor_high", p.factor.high}});
-    }
-    list.push_back({{"id", layout.id},
-                    {"task", layout.task},
-                    {"where", layout.where},
-                    {"experiment", layout.experiment},
-                    {"metric", layout.metric},
-                    {"unit", layout.unit},
-                    {"best", layout.most ? "most" : "least"},
-                    {"needs", layout.needs_text},
-                    {"left_out", ranking.left_out},
-                    {"places", places},
-                    {"tied", ranking.places.empty() ? 0 : ranking.tied},
-                    {"measured_once", ranking.single},
-                    {"comparable", !ranking.incomparable},
-                    {"finding", ranking.clause()},
-                    {"runs", ranking.runs}});
-  }
-  return list.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace terrabench

@@ -12,6 +12,7 @@
 #include "results/fill.h"
 #include "results/format.h"
 #include "results/further_cases.h"
+#include "results/further_grounds.h"
 #include "results/judge.h"
 #include "results/ledger.h"
 #include "results/new_folder.h"
@@ -41,19 +42,21 @@ bool is_report(const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / "index.html", error);
 }
 
-// By file. Altered pictures have none: the page says at its top that they were altered.
-std::map<std::string, std::string> previews_of(const Store& store, const std::string& profile) {
-  std::map<std::string, std::string> previews;
+// By checksum and file. Altered pictures have none: the page says at its top that they were altered.
+using Previews = std::map<std::pair<std::string, std::string>, std::string>;
+
+Previews previews_of(const Store& store, const std::string& profile) {
+  Previews previews;
   for (const Record& record : store.records()) {
     if (record.profile != profile) continue;
     for (const RecordedFigure& figure : record.figures) {
-      if (store.intact(figure)) previews[figure.file];
+      if (store.intact(figure)) previews[{figure.checksum, figure.file}];
     }
   }
-  tbb::parallel_for_each(previews, [&](auto& file_and_preview) {
-    auto& [file, preview] = file_and_preview;
+  tbb::parallel_for_each(previews, [&](auto& picture_and_preview) {
+    auto& [picture, preview] = picture_and_preview;
     try {
-      preview = webp_preview(read_png(store.folder() / file), kPreviewWidth);
+      preview = webp_preview(read_png(store.folder() / picture.second), kPreviewWidth);
     } catch (const Error& error) {
       if (error.code() != ExitCode::kBadInput) throw;
     }
@@ -109,6 +112,7 @@ class Report {
                                   {{"Ledger", "ledger.html"}, {"as Markdown", "ledger.md"}}});
     add_paper_faults();
     add_findings();
+    add_further_grounds();
   }
 
   void add_findings() {
@@ -116,7 +120,9 @@ class Report {
     Facts facts = findings(rankings);
     if (facts.lines.empty()) return;
     write_file(out_ / "findings.json", findings_json(rankings));
+    const Facts brief = in_short(rankings);
     write_file(out_ / "findings.md", markdown({facts}));
+    write_file(out_ / "findings-short.md", markdown({brief}));
     document_.push_back(Heading{2, "Findings", "findings"});
     document_.push_back(
         Paragraph{"Who is best at what, written from the medians of the comparisons across the papers. In "
@@ -124,7 +130,16 @@ class Report {
                   "a factor stands its 95 % interval; methods whose interval holds 1 are called tied.",
                   false,
                   {{"JSON", "findings.json"}, {"Markdown", "findings.md"}}});
+    document_.push_back(brief);
+    document_.push_back(Paragraph{"With the figures:"});
     document_.push_back(std::move(facts));
+  }
+
+  void add_further_grounds() {
+    std::vector<FilledTable> tables = tables_of_further_grounds(ranking_layouts(), store_, results_.profile);
+    if (tables.empty()) return;
+    document_.push_back(Heading{2, "Further grounds", "grounds"});
+    for (FilledTable& filled : tables) add_table(std::move(filled.table), run_links(filled.runs));
   }
 
   void write_ledger() {
@@ -253,12 +268,12 @@ class Report {
     document_.push_back(std::move(gallery));
   }
 
-  // Shows a preview, so that the report folder can be moved alone, and leads to the original.
+  // Shows a preview and leads to the original. Where the report folder is moved alone, its pictures stay.
   void add_picture(Gallery& gallery, const Record& record, const RecordedFigure& figure, std::string title,
                    std::string caption) {
-    const auto preview = previews_.find(figure.file);
+    const auto preview = previews_.find({figure.checksum, figure.file});
     if (preview == previews_.end() || preview->second.empty()) return;
-    const std::string to = picture_file(figure), original = "../" + figure.file;
+    const std::string to = picture_file(figure), original = "../" + url_path(figure.file);
     write_file(out_ / to, preview->second);
     links_.targets.insert(to);
     std::vector<Link> links = run_links({record.run});
@@ -315,7 +330,7 @@ class Report {
   std::span<const Paper> papers_;
   const std::filesystem::path& out_;
   JudgedResults results_;
-  std::map<std::string, std::string> previews_;  // by a picture's file
+  Previews previews_;
   Document document_;
   LedgerLinks links_;              // filled while the report is written
   std::set<std::string> claimed_;  // ids of pictures that belong to a claim

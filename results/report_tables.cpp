@@ -30,6 +30,17 @@ std::string file_name(std::string_view id) {
   return name.starts_with('.') ? "_" + name : name;
 }
 
+std::string url_path(std::string_view path) {
+  std::string url;
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = byte < 0x80 && (std::isalnum(byte) != 0 ||
+                                       std::string_view("-._~/").find(c) != std::string_view::npos);
+    url += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return url;
+}
+
 std::string picture_file(const RecordedFigure& figure) {
   return "figures/" + file_name(std::filesystem::path(figure.file).stem().string()) + ".webp";
 }

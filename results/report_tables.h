@@ -23,6 +23,8 @@ std::string reported_text(const Claim&);
 
 // The id as a file's name: other characters than letters, digits, '.', '-', '_' become '_'.
 std::string file_name(std::string_view id);
+// A relative path as part of a link: what is not a letter, a digit or one of "-._~/" is percent-encoded.
+std::string url_path(std::string_view path);
 // The report's copy of a picture, relative to the report's folder. Under its own name: two pictures may have
 // one id.
 std::string picture_file(const RecordedFigure&);

@@ -99,8 +99,8 @@ double end_of_colours(const std::vector<Map>& maps) {
 std::string_view label(const RepresentationType& type) {
   static constexpr std::pair<std::string_view, std::string_view> kLabels[] = {
       {"layered_stack", "layered stack"},
-      {"voxel", "voxels, OpenVDB"},
-      {"dense_voxel", "voxels, dense"},
+      {"voxel", "OpenVDB voxels"},
+      {"dense_voxel", "dense voxels"},
       {"implicit", "implicit surface"},
       {"drill", "drills"},
       {"ght", "grounded heightmap tree"},

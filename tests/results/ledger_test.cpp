@@ -13,7 +13,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr std::size_t kPrinted = 2, kMeasured = 3, kTolerance = 4, kWhy = 8, kFigure = 9, kRun = 10;
+constexpr std::size_t kVerdict = 1, kPrinted = 3, kMeasured = 4, kTolerance = 5, kWhy = 8, kFigure = 9,
+                      kRun = 10;
 
 class LedgerTest : public FolderTest {
  protected:
@@ -38,7 +39,7 @@ TEST_F(LedgerTest, EveryClaimHasARowWithAnAnchorAndNoCellIsEmptyWithoutCause) {
     for (const Claim& claim : paper.claims) {
       ASSERT_EQ(ledger.rows[claims][0].text, claim.id);
       EXPECT_EQ(ledger.rows[claims][0].anchor, claim.id);
-      const bool good = ledger.rows[claims][7].text.starts_with("reproduced");
+      const bool good = ledger.rows[claims][kVerdict].text.starts_with("reproduced");
       EXPECT_EQ(ledger.rows[claims][kWhy].text.empty(), good) << claim.id;
       EXPECT_FALSE(good && ledger.rows[claims][kTolerance].text.empty()) << claim.id;
       ++claims;

@@ -42,6 +42,12 @@ TEST(Preview, KeepsColoursAndTheShapeOfThePicture) {
   }
 }
 
+TEST(Preview, FitsTheFormatsMostRows) {
+  const Image small = decoded(webp_preview(Image(8, 20000, {1, 2, 3}), 100));
+  EXPECT_EQ(small.height, 16383);
+  EXPECT_EQ(small.width, 7);
+}
+
 TEST(Preview, NeverEnlarges) { EXPECT_EQ(decoded(webp_preview(halves(30, 20), 1000)).width, 30); }
 
 TEST(Preview, IsEqualForEqualPictures) {

@@ -81,6 +81,31 @@ TEST_F(RankingTest, SaysWhoWinsByHowMuchAndChangesWithTheFigures) {
             "[1.82, 2.2].");
 }
 
+TEST_F(RankingTest, InShortGroundsWithTheSameBestStandTogether) {
+  const auto line = [&] {
+    const auto [task, text] = in_short(rank(layouts_, store_, "quick")).lines.at(0);
+    EXPECT_EQ(task, "Fastest, of those that lose little");
+    return text;
+  };
+  measure("hill/a", {0.010, 0.010});
+  measure("hill/b", {0.030, 0.030});
+  measure("sea/a", {0.010, 0.010});
+  measure("sea/b", {0.040, 0.040});
+  EXPECT_EQ(line(), "drills on a hill and at sea (3 to 4 ×).");
+  measure("sea/b", {0.005, 0.005});
+  EXPECT_EQ(line(), "drills on a hill (3 ×); voxels at sea (2 ×).");
+  measure("sea/b", {0.010, 0.010});
+  EXPECT_EQ(line(), "drills on a hill (3 ×); drills and voxels tied at sea.");
+  measure("sea/b", {0.010});
+  EXPECT_EQ(line(), "drills on a hill (3 ×); undecided at sea.");
+  measure("sea/b", {0.010, 0.010}, 1000, 0.1);  // of those that lose little there is one at sea
+  EXPECT_EQ(line(), "drills on a hill (3 ×); voxels alone at sea.");
+  measure("sea/b", {0.010, 0.010}, 1000, 0.9);
+  EXPECT_EQ(line(), "drills on a hill (3 ×); none at sea.");
+  measure("hill/b", {0.010023, 0.010023});
+  EXPECT_EQ(line(), "drills on a hill (1.002 ×); none at sea.");
+}
+
 TEST_F(RankingTest, WithinTheIntervalItIsATie) {
   measure("hill/a", {0.010, 0.012, 0.014});
   measure("hill/b", {0.011, 0.013, 0.015});
@@ -122,6 +147,15 @@ TEST_F(RankingTest, TimesOfDifferentMachinesAreNotCompared) {
   measure("hill/b", {0.030}, 2000);
   EXPECT_THAT(sentence(), HasSubstr("on a hill: not compared"));
   EXPECT_THAT(sentence(1), HasSubstr("voxels (2 kB), ahead of drills (1 kB) by a factor of 2."));
+}
+
+TEST_F(RankingTest, CountsOfDifferentRevisionsAreNotCompared) {
+  measure("hill/a", {0.010});
+  run_.git_revision = std::string(40, 'f');
+  run_.id = digest(run_);
+  store_.begin_run(run_);
+  measure("hill/b", {0.030}, 2000);
+  EXPECT_THAT(sentence(1), HasSubstr("On a hill: not compared, as the figures are of different revisions"));
 }
 
 TEST_F(RankingTest, OneMethodAloneIsNoFinding) {
