@@ -35,14 +35,30 @@ Operand operand_from(const TomlValue& node) {
   return operand;
 }
 
+bool is_count(double number, int most) {
+  return number >= 1 && number <= most && number == std::floor(number);
+}
+
+void read_panels(TomlTable& entry, Condition& condition) {
+  if (entry.has("panels")) {
+    const double panels = entry.get("panels").number("panels");
+    if (!is_count(panels, 1000)) entry.refuse("'panels' is a count");
+    condition.panels = static_cast<int>(panels);
+  }
+  for (const TomlValue& node : entry.list("alike")) {
+    const double panel = node.number("alike");
+    const bool known = is_count(panel, condition.panels) &&
+                       std::ranges::count(condition.alike, static_cast<int>(panel)) == 0;
+    if (!known) entry.refuse("'alike' lists different numbers from 1 to 'panels'");
+    condition.alike.push_back(static_cast<int>(panel));
+  }
+  if (condition.alike.size() == 1) entry.refuse("'alike' lists two panels or more");
+}
+
 void read_figure(TomlTable& entry, Condition& condition) {
   condition.kind = Condition::Kind::kFigure;
   condition.figure = entry.text("figure");
-  if (entry.has("panels")) {
-    const double panels = entry.get("panels").number("panels");
-    if (panels < 1 || panels > 1000 || panels != std::floor(panels)) entry.refuse("'panels' is a count");
-    condition.panels = static_cast<int>(panels);
-  }
+  read_panels(entry, condition);
   for (const TomlValue& metric : entry.list("prints")) condition.operands.push_back(operand_from(metric));
   if (entry.has("brightness")) condition.brightness.push_back(operand_from(entry.get("brightness")));
   const auto is_number = [](const Operand& operand) { return operand.is_number(); };
@@ -101,7 +117,10 @@ Condition condition_from(const TomlValue& node) {
 // All profiles if the entry names none.
 std::vector<std::string> profiles_from(TomlTable& entry) {
   std::vector<std::string> profiles;
-  for (const TomlValue& profile : entry.list("profiles")) profiles.push_back(profile.text("profiles"));
+  for (const TomlValue& value : entry.list("profiles")) {
+    // A member of `each` that a profile does not measure leaves it empty.
+    if (const std::string profile = value.text("profiles"); !profile.empty()) profiles.push_back(profile);
+  }
   if (profiles.empty()) profiles.assign(std::begin(kAllProfiles), std::end(kAllProfiles));
   return profiles;
 }
@@ -157,6 +176,7 @@ Claim claim_from(const TomlValue& node, About usual_about, const Claim* first) {
   claim.note = entry.text_or("note", "");
   claim.pending = entry.text_or("pending", "");
   claim.not_comparable = entry.text_or("not_comparable", "");
+  claim.machine = entry.text_or("machine", "");
   claim.profiles = profiles_from(entry);
   for (const TomlValue& condition : entry.list("check"))
     claim.conditions.push_back(condition_from(condition));
@@ -324,6 +344,7 @@ std::string_view name(Verdict verdict) { return kVerdicts[static_cast<std::size_
 std::string_view name(About about) { return kAbout[static_cast<std::size_t>(about)]; }
 
 std::string Claim::reason() const {
+  if (!machine.empty()) return machine;
   const std::size_t end = note.find(". ");
   return end == std::string::npos ? note : note.substr(0, end + 1);
 }

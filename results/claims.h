@@ -43,15 +43,17 @@ struct Condition {
     kRatio,   // ratio = [a, b]: a ÷ b lies in the range
     kGrowth,  // growth = [a, b]: b ÷ a, the growth from a to b, lies in the range
     kFigure,  // figure = ID: the picture is the one that was drawn, can be decoded and is not blank; if
-              // `panels` are declared, each shows something and no two show the same
+              // `panels` are declared, each shows something and no two show the same, except those `alike`
   };
   Kind kind = Kind::kEqual;
   std::vector<Operand> operands;
   double low = 0, high = 0;  // range, both ends included
   std::string figure;        // id
-  // Further for figures, all optional: panels = N; prints = [a, …]: metrics that the figure's words give;
+  // Further for figures, all optional: panels = N; alike = [i, j, …]: panels, from 1, that may show the same
+  // because the methods they compare may do the same; prints = [a, …]: metrics that the figure's words give;
   // brightness = a: the mean of all pixels, 0 black to 1 white, within kBrightness. `prints` are operands.
   int panels = 0;
+  std::vector<int> alike;
   std::vector<Operand> brightness;  // one or none
   static constexpr double kBrightness = 0.005;
 };
@@ -79,9 +81,12 @@ struct Claim {
   std::vector<std::string> profiles;  // those that measure it
   std::vector<Condition> conditions;  // all must hold
   Verdict known = Verdict::kReproduced;  // expected
-  std::string pending, not_comparable;   // the reason; both empty if the claim is measured
+  // Why the verdict depends on the machine, where machines were seen on both sides of the tolerance: then it
+  // is computed and shown, and neither side is unexpected. Empty: it does not.
+  std::string machine;
+  std::string pending, not_comparable;  // the reason; both empty if the claim is measured
   // For claims known to differ: the id of the claim of the reading that matches, or a sentence that says that
-  // none does. The first sentence of `note` is the reason why it differs.
+  // none does. The reason why it differs is `machine`, otherwise the first sentence of `note`.
   std::string matches;
   std::string vague;  // what the paper leaves open, where this claim measures several readings; else empty
 

@@ -121,8 +121,10 @@ class Reader {
       const FigureLayout whole{{{0, 0, image.width, image.height}}, {}};
       if (!layout_fault(whole, image).empty()) return {false, name + " is blank"};
       std::string text = fmt::format("drawn, {} × {} pixels", image.width, image.height);
-      if (!figure.layout) return {true, text + ", layout not recorded"};
-      const std::string fault = content_fault(condition, *figure.layout, image);
+      const bool declared = condition.panels > 0 || !condition.operands.empty();
+      if (declared && !figure.layout)
+        return {false, name + " has no layout to compare with what is declared"};
+      const std::string fault = content_fault(condition, figure.layout.value_or(whole), image);
       if (!fault.empty()) return {false, fmt::format("{}: {}", name, fault)};
       if (condition.panels > 0) text += fmt::format(", panels: {}", condition.panels);
       if (!condition.operands.empty())
@@ -143,7 +145,7 @@ class Reader {
     }
     // Small panels, such as those of a tree's nodes, may be of one colour or look the same: only declared
     // panels must not.
-    std::string fault = expected > 0 ? layout_fault(layout, image) : "";
+    std::string fault = expected > 0 ? layout_fault(layout, image, condition.alike) : "";
     for (const Operand& operand : condition.operands) {
       const std::optional<double> value = metric_of(operand);
       if (fault.empty() && (!value || !says(layout, *value))) {

@@ -113,7 +113,10 @@ std::optional<FigureLayout> read_layout(const std::filesystem::path& png) {
   return std::nullopt;
 }
 
-std::string layout_fault(const FigureLayout& layout, const Image& image) {
+std::string layout_fault(const FigureLayout& layout, const Image& image, std::span<const int> alike) {
+  const auto may_be_alike = [&](std::size_t panel) {
+    return std::ranges::count(alike, static_cast<int>(panel) + 1) > 0;
+  };
   const std::vector<FigurePanel>& panels = layout.panels;
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const FigurePanel& p = panels[i];
@@ -123,6 +126,7 @@ std::string layout_fault(const FigureLayout& layout, const Image& image) {
     }
     if (blank(image, p)) return fmt::format("panel {} is blank", i + 1);
     for (std::size_t k = 0; k < i; ++k) {
+      if (may_be_alike(k) && may_be_alike(i)) continue;
       if (same(image, panels[k], p)) return fmt::format("panels {} and {} show the same", k + 1, i + 1);
     }
   }

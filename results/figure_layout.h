@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,9 @@ void write_layout(const std::filesystem::path& png, const FigureLayout&);
 std::optional<FigureLayout> read_layout(const std::filesystem::path& png);
 
 // Why the picture does not look as the layout says; empty if it does: each panel lies within the picture and
-// shows something, and no two panels show the same. O(pixels + panels² · pixels of a panel)
-std::string layout_fault(const FigureLayout&, const Image&);
+// shows something, and no two panels show the same, except those of `alike` (from 1).
+// O(pixels + panels² · pixels of a panel)
+std::string layout_fault(const FigureLayout&, const Image&, std::span<const int> alike = {});
 // Whether a number in the words equals the value: exactly, or to its digits if these round by 1/20 at most.
 bool says(const FigureLayout&, double value);
 

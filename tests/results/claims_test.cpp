@@ -183,6 +183,9 @@ TEST(Claims, TheLargestSizeAndFurtherGroundsAreMeasuredInThePaperProfileOnly) {
                        claim->id == "mrbsp.vis-safe.conservative.all" ||
                        claim->id == "cross.scale.mesh.heights" || claim->id.starts_with("mrbsp.lodtime") ||
                        claim->id == "cross.representations.ray-rate.large" ||
+                       // At the quick profile's size the peak is another ground, and voxels are too coarse.
+                       claim->id == "cross.lod-ranks.peak" || claim->id == "cross.lod-seams.peak" ||
+                       claim->id == "cross.representations.equal-error.caves" ||
                        claim->id == "ght.refused.sane" ||  // a share of few events decides nothing
                        (claim->id.starts_with("mrbsp.T2.time") &&
                         (claim->id.ends_with(".drawn") || claim->id.ends_with(".fractal")));

@@ -81,10 +81,13 @@ TEST_F(FigureLayoutTest, TravelsInThePictureAndInTheRecord) {
   EXPECT_EQ(read_png(png()).rgb, image_.rgb) << "the pixels are kept";
 }
 
-TEST_F(FigureLayoutTest, OlderRecordsHaveNoneAndSaySo) {
-  const Judgement judgement = judged(", panels = 7", false);
-  EXPECT_EQ(judgement.verdict, Verdict::kReproduced);
-  EXPECT_THAT(judgement.measured, HasSubstr("layout not recorded"));
+TEST_F(FigureLayoutTest, APictureWithoutALayoutCannotBeComparedWithWhatIsDeclared) {
+  for (const char* const declared : {", panels = 7", ", prints = [\"e/c/error\"]"}) {
+    const Judgement judgement = judged(declared, false);
+    EXPECT_EQ(judgement.verdict, Verdict::kDiffers);
+    EXPECT_THAT(judgement.measured, HasSubstr("has no layout"));
+  }
+  EXPECT_EQ(judged("", false).verdict, Verdict::kReproduced);
 }
 
 TEST_F(FigureLayoutTest, AWrongGridOfPanelsFails) {
@@ -102,6 +105,11 @@ TEST_F(FigureLayoutTest, AnEmptyOrRepeatedPanelFails) {
   draw();
   fill(image_, layout_.panels[1], 3);  // the seed of the first
   EXPECT_THAT(fault(", panels = 2"), HasSubstr("panels 1 and 2 show the same"));
+  EXPECT_EQ(fault(", panels = 2, alike = [1, 2]"), "");
+  for (const char* const wrong : {"panels = 2, alike = [2]", "panels = 2, alike = [1, 1]", "alike = [1, 2]",
+                                  "panels = 2, alike = [2, 3]", "panels = 2, alike = [0.5, 1]"}) {
+    EXPECT_THROW(judged(std::string(", ") + wrong), Error) << wrong;
+  }
 }
 
 TEST_F(FigureLayoutTest, AChartThatPrintsAnotherNumberFails) {

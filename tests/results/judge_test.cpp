@@ -196,6 +196,23 @@ TEST_F(OneClaim, KnownDifferenceDoesNotFailAndAnEndToItDoes) {
   EXPECT_NE(judge_one("{equal = [\"e/c/m\", 2]}", "E", known).complaint, "");
 }
 
+// Neither side of the tolerance is unexpected then, but what was not measured is.
+TEST_F(OneClaim, VerdictsThatDependOnTheMachineAreComputedAndExpected) {
+  metrics_ = {{"m", "", {2}}};
+  const std::string machine = "machine = \"Caches differ.\"\nprofiles = [\"quick\", \"\"]\n";
+  const Judgement differs = judge_one("{equal = [\"e/c/m\", 3]}", "E", machine);
+  EXPECT_EQ(differs.verdict, Verdict::kDiffers);
+  EXPECT_EQ(differs.complaint, "");
+  EXPECT_EQ(differs.claim->reason(), "Caches differ.");
+  EXPECT_EQ(differs.claim->profiles, std::vector<std::string>{"quick"});
+  const Judgement holds = judge_one("{equal = [\"e/c/m\", 2]}", "E", machine);
+  EXPECT_EQ(holds.verdict, Verdict::kReproduced);
+  EXPECT_EQ(holds.complaint, "");
+  const Judgement missing = judge_one("{equal = [\"e/c/other\", 2]}", "E", machine);
+  EXPECT_EQ(missing.verdict, Verdict::kMissing);
+  EXPECT_NE(missing.complaint, "");
+}
+
 TEST_F(OneClaim, FigureMustBeThereDecodeAndShowSomething) {
   const std::string check = "{figure = \"p.F1\"}";
   EXPECT_EQ(verdict(check, "F"), Verdict::kMissing);
