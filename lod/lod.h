@@ -68,7 +68,7 @@ struct LodTraits {
 };
 
 struct LodType {
-  std::string_view name, summary, paper;
+  std::string_view name, label, summary, paper;  // label: in figures
   LodTraits traits;
   Knob knob;
   std::span<const ParameterSpec> parameters;

@@ -98,7 +98,7 @@ struct Traits {
 };
 
 struct RepresentationType {
-  std::string_view name, summary, paper;
+  std::string_view name, label, summary, paper;  // label: in figures
   Traits traits;
   std::span<const ParameterSpec> parameters;
   // Keeps no reference to the source. Throws usage_error for a source that the type cannot represent.

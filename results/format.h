@@ -1,6 +1,7 @@
 // Formats numbers for people, and escapes text for each language that the report is written in.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -9,6 +10,7 @@ namespace terrabench {
 // Whole numbers in full with thousands separators, others with four significant digits: 393,216
 // 0.1423  1.5e-07.
 std::string format_number(double);
+inline std::string format_count(std::uint64_t n) { return format_number(static_cast<double>(n)); }
 // "393,216 B", "0.1423 s", "12" for no unit.
 std::string format_quantity(double, std::string_view unit);
 // The shortest digits that read back the same: for CSV.

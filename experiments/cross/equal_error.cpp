@@ -102,7 +102,8 @@ void draw_wires(Flight& flight, double pixels, const std::string& options, GlCon
     draw_ground(renderer, flight, frame, view, 1);
     const auto triangles = static_cast<double>(frame.stats.triangles);
     panels.push_back(
-        {renderer.image(), fmt::format("{}: {} triangles", type.name, format_number(triangles))});
+        {renderer.image(), fmt::format("({:c}) {}: {} triangles", 'a' + static_cast<int>(panels.size()),
+                                       type.label, format_number(triangles))});
     sky = std::min(sky, std::max(0, horizon(panels.back().image, FrameStyle{}.background) - kSky));
     recorder.add(fmt::format("{}_triangles", type.name), "", triangles);
   }

@@ -96,20 +96,6 @@ double end_of_colours(const std::vector<Map>& maps) {
   return power * (wish >= 5 * power ? 10 : wish >= 2 * power ? 5 : 2);
 }
 
-std::string_view label(const RepresentationType& type) {
-  static constexpr std::pair<std::string_view, std::string_view> kLabels[] = {
-      {"layered_stack", "layered stack"},
-      {"voxel", "OpenVDB voxels"},
-      {"dense_voxel", "dense voxels"},
-      {"implicit", "implicit surface"},
-      {"drill", "drills"},
-      {"ght", "grounded heightmap tree"},
-      {"procedural_mesh", "subdivision surface"}};
-  const auto* const found =
-      std::ranges::find(kLabels, type.name, [](const auto& pair) { return pair.first; });
-  return found == std::end(kLabels) ? type.name : found->second;
-}
-
 std::string numbers(const Map& map) {
   const double kilobytes = static_cast<double>(map.file_bytes) / 1000;
   return fmt::format("{:.{}f} kB{}, RMSE {:.{}f} m", kilobytes, kilobytes < 1 ? 2 : 1, map.fits ? "" : "*",
@@ -157,7 +143,7 @@ figures::Sheet draw(const std::vector<Map>& maps, const Heightfield& ground) {
         },
         0.45, 0.4);
     grid.place(sheet, k, numbers(map), image);
-    sheet.text(grid.x(k), grid.y(k) - 24, fmt::format("({:c}) {}", 'a' + k, label(*map.type)), 13);
+    sheet.text(grid.x(k), grid.y(k) - 24, fmt::format("({:c}) {}", 'a' + k, map.type->label), 13);
   }
   add_legend(sheet, grid.bottom() + 6, most, marks);
   return sheet;

@@ -19,6 +19,7 @@
 #include "experiments/meshgrow/forest_scene.h"
 #include "experiments/stopwatch.h"
 #include "renderers/raytrace/raytraced_picture.h"
+#include "results/format.h"
 
 namespace terrabench::meshgrow {
 namespace {
@@ -189,13 +190,13 @@ void measure_lazy(const Case& at, const RunOptions& options, Recorder& recorder,
   recorder.add("checksum", "", checksum(picture));
   if (!at.parameters.flag("figure")) return;
   figures::Sheet sheet = figures::panel_sheet(
-      {{{picture.image(), fmt::format("{} plants", forest->plants().instances().size())}}});
+      {{{picture.image(), fmt::format("{} plants", format_count(forest->plants().instances().size()))}}});
   sheet.keep_all_colours();
-  sheet.write(
-      recorder.figure("meshgrow.lazy-forest", "png",
-                      fmt::format("A forest of {} plants of {} faces in total, of which {} were expanded",
-                                  forest->plants().instances().size(), forest->plants().total_faces(),
-                                  lazy.expanded().faces)));
+  sheet.write(recorder.figure(
+      "meshgrow.lazy-forest", "png",
+      fmt::format("A forest of {} plants of {} faces in total, of which {} were expanded",
+                  format_count(forest->plants().instances().size()),
+                  format_count(forest->plants().total_faces()), format_count(lazy.expanded().faces))));
 }
 
 // All instances at their finest level in one scene of the eager path tracer.

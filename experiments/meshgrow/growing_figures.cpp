@@ -10,6 +10,7 @@
 #include "experiments/meshgrow/growing_pictures.h"
 #include "experiments/meshgrow/growing_steps.h"
 #include "renderers/raytrace/raytraced_picture.h"
+#include "results/format.h"
 
 namespace terrabench::meshgrow {
 namespace {
@@ -292,9 +293,10 @@ Sheet draw_trunk(Drawing& drawing) {
   const View view = view_of(grown.mesh, kTracedWidth, kTracedHeight, kTrunkFrom);
   drawing.record("grown_faces", static_cast<double>(grown.mesh.faces()));
   drawing.record("smooth_faces", static_cast<double>(smooth.mesh.faces()));
-  return panel_sheet({{{traced(grown.mesh, false, view), fmt::format("grown: {} faces", grown.mesh.faces())},
-                       {traced(smooth.mesh, true, view),
-                        fmt::format("smoothed three times: {} faces", smooth.mesh.faces())}}});
+  return panel_sheet(
+      {{{traced(grown.mesh, false, view), fmt::format("grown: {} faces", format_count(grown.mesh.faces()))},
+        {traced(smooth.mesh, true, view),
+         fmt::format("smoothed three times: {} faces", format_count(smooth.mesh.faces()))}}});
 }
 
 Sheet draw_ridges(Drawing&) {

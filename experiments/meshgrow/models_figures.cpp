@@ -15,6 +15,7 @@
 #include "experiments/figures/figure.h"
 #include "experiments/meshgrow/models.h"
 #include "renderers/raytrace/raytraced_picture.h"
+#include "results/format.h"
 
 namespace terrabench::meshgrow {
 namespace {
@@ -140,7 +141,7 @@ class Picture {
       scene.background = glm::vec3(1);
     }
     return {raytrace(scene, view_, settings_, {}, &progress_),
-            fmt::format("{}{} triangles", words, mesh.mesh.triangles())};
+            fmt::format("{}{} triangles", words, format_count(mesh.mesh.triangles()))};
   }
 
   figures::Panel in_wires(const ModelMesh& mesh) const {

@@ -10,6 +10,7 @@
 #include "experiments/ground.h"
 #include "experiments/stopwatch.h"
 #include "representations/representation.h"
+#include "results/format.h"
 #include "terrain/files.h"
 #include "terrain/view.h"
 
@@ -80,7 +81,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
           id, "png",
           fmt::format("{} as {}: {} triangles, from {:.0f} m (dark) to {:.0f} m (light), sun from the "
                       "north-west, view from the south",
-                      source.name, type.name, mesh.triangles(), ground.low.y, ground.high.y)),
+                      source.name, type.label, format_count(mesh.triangles()), ground.low.y, ground.high.y)),
       with_few_colours(image));
 }
 

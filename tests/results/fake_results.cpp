@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "results/record_json.h"
 #include "terrain/image.h"
@@ -24,11 +25,20 @@ Image gradient(int width, int height) {
   return image;
 }
 
+constexpr int kWidth = 320, kHeight = 200;
+
+double mean_brightness(const Image& image) {
+  return std::reduce(image.rgb.begin(), image.rgb.end(), 0.0) /
+         (255.0 * static_cast<double>(image.rgb.size()));
+}
+
+// A figure of one panel.
 void add_picture(Record& record, const std::filesystem::path& folder, const std::string& id,
                  std::string caption) {
   const std::string file = "figures/" + id + ".png";
-  write_png(folder / file, gradient(320, 200));
-  record.figures.push_back({id, file, std::move(caption), checksum(read_file(folder / file))});
+  write_png(folder / file, gradient(kWidth, kHeight));
+  record.figures.push_back({id, file, std::move(caption), checksum(read_file(folder / file)),
+                            FigureLayout{{{0, 0, kWidth, kHeight}}, {}}});
 }
 
 void add_tables(Store& store, const Provenance& run, const std::string& profile) {
@@ -181,6 +191,7 @@ void write_fake_results(const std::filesystem::path& folder, const std::string& 
     add(record, "mean", "", {slice[0]});
     add(record, "least", "", {slice[1]});
     add(record, "most", "", {slice[2]});
+    add(record, "mean_shown", "", {mean_brightness(gradient(kWidth, kHeight))});
     add_picture(record, folder, fmt::format("hybrid.F{}", figure), "Vertical slice of 64 m × 64 m.");
     store.append(record);
   }

@@ -105,7 +105,7 @@ TEST_F(FigureLayoutTest, AnEmptyOrRepeatedPanelFails) {
   draw();
   fill(image_, layout_.panels[1], 3);  // the seed of the first
   EXPECT_THAT(fault(", panels = 2"), HasSubstr("panels 1 and 2 show the same"));
-  EXPECT_EQ(fault(", panels = 2, alike = [1, 2]"), "");
+  EXPECT_THAT(fault(", panels = 2, alike = [1, 2]"), HasSubstr("holds: "));
   for (const char* const wrong : {"panels = 2, alike = [2]", "panels = 2, alike = [1, 1]", "alike = [1, 2]",
                                   "panels = 2, alike = [2, 3]", "panels = 2, alike = [0.5, 1]"}) {
     EXPECT_THROW(judged(std::string(", ") + wrong), Error) << wrong;
