@@ -13,6 +13,7 @@
 
 namespace terrabench {
 
+// Those up to kDiffers are computed from measurements.
 enum class Verdict {
   kReproduced,  // inside the claim's tolerance
   kShape,       // ratio, slope or order inside the tolerance; absolute values depend on the paper's machine

@@ -1,5 +1,6 @@
 // To follow one condition, read from the end: Reader::read(), read_metrics() (operands to samples), compare()
-// (kind to median or ratio, and whether it holds). How findings are worded can wait: findings_text.cpp.
+// (kind to median or ratio, and whether it holds). A Quantity is an operand's name, unit and samples. How
+// findings are worded can wait: findings_text.cpp.
 #include "results/evidence.h"
 
 #include <fmt/format.h>

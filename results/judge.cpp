@@ -57,17 +57,18 @@ void judge_measured(Judgement& judgement, const Store& store, const std::string&
 
 Judgement judge_claim(const Paper& paper, const Claim& claim, const Store& store,
                       const std::string& profile) {
-  Judgement judgement{&paper, &claim, Verdict::kPending, claim.pending, {}, {}, ""};
+  Judgement judgement{&paper, &claim, Verdict::kPending, {}, {}, {}, ""};
   if (!claim.not_comparable.empty()) {
     judgement.verdict = Verdict::kNotComparable;
     judgement.measured = claim.not_comparable;
-  } else if (claim.pending.empty()) {
-    if (std::ranges::count(claim.profiles, profile) > 0) {
-      judge_measured(judgement, store, profile);
-    } else {
-      judgement.verdict = Verdict::kNotRun;
-      judgement.measured = fmt::format("measured in profile {}", fmt::join(claim.profiles, ", "));
-    }
+  } else if (!claim.pending.empty()) {
+    judgement.verdict = Verdict::kPending;
+    judgement.measured = claim.pending;
+  } else if (std::ranges::count(claim.profiles, profile) == 0) {
+    judgement.verdict = Verdict::kNotRun;
+    judgement.measured = fmt::format("measured in profile {}", fmt::join(claim.profiles, ", "));
+  } else {
+    judge_measured(judgement, store, profile);
   }
   return judgement;
 }

@@ -28,8 +28,8 @@
 namespace terrabench {
 namespace {
 
-constexpr int kBitmapWidth = 1760;   // twice the plots' own size: sharp in print
-constexpr int kPreviewWidth = 1000;  // a little more than the page shows
+constexpr int kBitmapWidth = 1760;  // twice the plots' own size: sharp in print
+constexpr int kPreviewWidth = 896;  // as the page shows them: 56 rem
 
 std::vector<Link> run_links(const std::vector<std::string>& runs) {
   std::vector<Link> links;

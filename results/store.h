@@ -48,6 +48,7 @@ class Store {
   // The newest record of each case and profile, in the order in which the cases were first measured. Altered
   // records are among them: see altered().
   const std::vector<Record>& records() const { return records_; }
+  // A case with overridden parameters has a name of its own (Record::case_name).
   const Record* find(std::string_view experiment, std::string_view case_name, std::string_view profile) const;
   // The record with this key, if it is unaltered, its pictures are still those that it drew, and its run is
   // comparable with `now`.

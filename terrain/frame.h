@@ -21,9 +21,9 @@ struct GroundGrid {
   std::span<const float> heights;      // width·depth, metres; without no-data
 };
 
-// One level of a clipmap: a window of side × side samples, `spacing` samples of the full terrain apart,
-// stored toroidally: sample (a, b) of the level's own lattice is heights[(b mod side)·side + (a mod side)].
-// Vertex v is lattice sample corner + (v % side, v / side).
+// One level of a clipmap: an array of side × side samples that holds a window at most that large, `spacing`
+// samples of the full terrain apart, stored toroidally: sample (a, b) of the level's own lattice is
+// heights[(b mod side)·side + (a mod side)]. Vertex v is lattice sample corner + (v % side, v / side).
 struct ClipLevel {
   int side = 0;          // a power of two
   int spacing = 1;       // 2^level

@@ -205,9 +205,9 @@ const Frame& Clipmap::update(const View& view) {
   // Levels below `finest` are not drawn and stay where they were; move_window() catches up when they return.
   for (int l = finest; l < levels(); ++l) {
     const int spacing = 1 << l;
-    // In samples of this level: the corner is even, the eye 2m - 2 to 2m from it on each axis, near the
-    // middle of n = 4m - 1. The next finer corner is floor(eye) - m + 1, hence m - 1 or m samples from this
-    // corner.
+    // So that the next finer window always begins one of two samples from here on each axis. In samples of
+    // this level: the corner is even, the eye 2m - 2 to 2m from it, near the middle of n = 4m - 1. The next
+    // finer corner is floor(eye) - m + 1, hence m - 1 or m samples from this corner.
     move_window(l, {2 * (lattice_floor(eye.x, 2 * spacing) - pattern_.m + 1),
                     2 * (lattice_floor(eye.y, 2 * spacing) - pattern_.m + 1)});
     if (l == 0 && !hole_cut_) update_blocks(l);
@@ -330,8 +330,8 @@ void Clipmap::draw_level(int l, int finest, const Frustum& frustum) {
   }
   if (l == finest) return;
   // Where the finer window begins, 0 or 1 per axis beyond cell m - 1: see WindowPattern::trims.
-  const glm::ivec2 hole = clip_levels_[l - 1].corner / 2 - clip_levels_[l].corner - (pattern_.m - 1);
-  const auto trim = static_cast<std::size_t>(2 * (2 * hole.y + hole.x));
+  const glm::ivec2 finer = clip_levels_[l - 1].corner / 2 - clip_levels_[l].corner - (pattern_.m - 1);
+  const auto trim = static_cast<std::size_t>(2 * (2 * finer.y + finer.x));
   for (std::size_t k = trim; k < trim + 2; ++k) draw_block(l, number + k, pattern_.trims[k], frustum);
 }
 

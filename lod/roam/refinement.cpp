@@ -59,8 +59,9 @@ void Roam::refine() {
   }
 }
 
-// While the triangle forms no diamond, its base neighbour is one level coarser: splits that neighbour, one of
-// whose children becomes the new base neighbour. Then splits the diamond.
+// While the triangle forms no diamond (it has a base neighbour whose own base neighbour is another), that
+// neighbour is one level coarser: splits it, and one of its children becomes the new base neighbour. Then
+// splits the diamond.
 void Roam::force_split(std::uint32_t id) {
   while (mesh_.nodes()[id].leaf() && !mesh_.forms_diamond(id)) force_split(mesh_.nodes()[id].base);
   // Splitting a degenerate neighbour may already have split this triangle.
@@ -109,8 +110,8 @@ void Roam::add_children(std::uint32_t id, const ViewedCorner& apex, const Viewed
   add(parent.child + 1, right, apex);
 }
 
-// A parent's diamond cannot merge while a child is split that is not degenerate. It is still in the merge
-// queue only if this is the first such child.
+// A parent's diamond cannot merge while a child of either half is split that is not degenerate. Children are
+// counted per half; the queue's entry is the diamond's, so that the second half finds it gone.
 void Roam::withdraw_parents(const Halves& both) {
   std::vector<Node>& nodes = mesh_.nodes();
   for (const std::uint32_t half : both) {

@@ -11,9 +11,10 @@
 // To follow one split (of the glossary: diamond, priority, bisect, split, force_split): the comment of Node
 // (node.h); refinement.cpp from its start, of refine() the branch that splits the highest leaf, then
 // force_split(), split_diamond(), add_children() and withdraw_parents(); and in mesh.cpp bisect_diamond().
-// After refine(), update() fills the merge queue (queue_split_diamonds()), then draws and defers the leaves
-// that remain (finish_ranked_leaves()). What can wait: these two, the limits and merges in refine(), lattice,
-// wedgies, deferral, prefetching and everything degenerate.
+// After refine(), update() fills the merge queue (queue_split_diamonds()), repeats both while
+// lower_exact_bucket() says so, then draws and defers the leaves that remain (finish_ranked_leaves()). What
+// can wait: these three, the limits and merges in refine(), the validity in rank_leaf(), lattice, wedgies,
+// deferral, prefetching and everything degenerate.
 //
 // Glossary:
 //   wedgie       the prism around a triangle that contains its samples and its descendants' wedgies

@@ -1,3 +1,4 @@
+// Read from the end: apply_event(). What precedes it finds the host.
 #include "representations/ght/apply_event.h"
 
 #include <algorithm>

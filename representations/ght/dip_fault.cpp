@@ -14,7 +14,10 @@
 //
 // The tree afterwards: the host has three more children (left, right, scarp). Block cells at a lip are links
 // to the scarp. Old cells inside the cut, of whatever heightmap, are links to the nearest cell of a block.
-// Faces cover the three heightmaps and the ring around them. Read from record(), at the end.
+// Faces, which belong to the surface beside the tree, cover the three heightmaps and the ring around them. A
+// height cell holds the old ground's height over its heightmap's plane: the planes move, and the ground on
+// them with it. To follow one fault: record(), at the end of this file; the end of apply_event.cpp, which
+// calls it; edit.h; steps 2 and 4 in along_line.cpp; Edit::commit() in edit.cpp.
 #include <algorithm>
 #include <cmath>
 
@@ -77,7 +80,8 @@ DipFaultMaps append_maps(Edit& edit, const events::DipFault& e) {
   return maps;
 }
 
-// What the cells hold, a link or a height over the plane, which is the height of the old ground somewhere:
+// What the cells hold: a link, or the height of the old ground at the place that the table gives, over the
+// heightmap's plane:
 //                          inner columns                        the two end columns, at_end()
 //   block, row 0           link to the scarp's lip              link to the scarp's lip
 //   block, other rows      ground at the point that moves here  ground at the cell: joins what is around

@@ -5,12 +5,14 @@
 //   3. the outline of the new heightmaps lists their boundary cells;
 //   4. join: triangles close the ring between loop and outline; superseded cells become links to new ones.
 // The ring's corners are cells of the old and of the new heightmaps, so the surface stays closed, whatever
-// earlier events left there. commit() stores the boundary links that its edges are (boundary_links.h).
+// earlier events left there. commit() also records which cells now meet along the boundaries of heightmaps:
+// the boundary links of §3.2 (boundary_links.h), which are not link cells.
 //
 // Square: between four of the root's samples; plain (two triangles) or covered by faces. Face: a triangle
-// between any three cells. Cell: a height, a link to a later cell, or void. Loop: the cells around the
-// removed part. Outline: the boundary cells of the new heightmaps. Host: the parent of the new heightmaps.
-// apply_event() finds it, creates the Edit, calls record() and then commit().
+// between any three cells, kept in Model::surface, not in the tree. Cell: a height, a link to a later cell,
+// or void. Loop: the cells around the removed part. Outline: the boundary cells of the new heightmaps. Host:
+// the parent of the new heightmaps. apply_event() finds it, creates the Edit, calls record() and then
+// commit().
 //
 // Before commit(), an Edit only appends nodes to the tree. The destructor removes them unless commit()
 // succeeded; the tree is then as it was, to the bit. commit() first allocates all that it needs, then changes
