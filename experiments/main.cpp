@@ -149,11 +149,16 @@ void add_results(CLI::App& app, Arguments& a) {
   auto* report = app.add_subcommand(
       "report", "Write tables, plots and a web page from the measurements: DIR/report/index.html");
   report->add_option("dir", a.report.folder, "Results folder")->capture_default_str();
-  report->add_option(
+  auto* const latex = report->add_option(
       "--latex", a.report.latex,
       "Write this folder instead: tables and figures for a paper, which `latexmk -pdf` compiles "
       "(Debian: latexmk, texlive-latex-recommended, lmodern). Figures are PDF, a column (84 mm) "
       "and a page (174 mm) wide");
+  report
+      ->add_option("--reference", a.report.reference,
+                   "Compare which method is best on your ground with the grounds measured in this results "
+                   "folder, such as results/reference; by default with those in DIR")
+      ->excludes(latex);
   app.add_subcommand("cite", "Print BibTeX of the papers and of this program");
   auto* compare =
       app.add_subcommand("compare",

@@ -39,12 +39,12 @@ std::string_view further_ground(const Record& record, const RankingLayout& layou
 
 // How many metrics the layout's first measured entry shares with the same case on another ground, less those
 // that either lacks.
-int likeness(const RankingLayout& layout, const std::string& ground, const Store& store,
-             const std::string& profile) {
+int likeness(const RankingLayout& layout, const std::string& ground, const ProfileOfStore& measured,
+             const ProfileOfStore& named) {
   for (const RankingLayout::Entry& entry : layout.entries) {
-    const Record* const own = store.find(layout.experiment, entry.case_name, profile);
-    const Record* const other =
-        store.find(layout.experiment, ground + std::string(rest_of(entry.case_name)), profile);
+    const Record* const own = named.store.find(layout.experiment, entry.case_name, named.profile);
+    const Record* const other = measured.store.find(
+        layout.experiment, ground + std::string(rest_of(entry.case_name)), measured.profile);
     if (own == nullptr || other == nullptr || other->find(layout.metric) == nullptr) continue;
     const auto shared = static_cast<int>(std::ranges::count_if(
         own->metrics, [&](const Metric& metric) { return other->find(metric.name) != nullptr; }));
@@ -87,17 +87,19 @@ std::string beside_named(const Ranking& here, std::span<const Ranking> named) {
                             fmt::join(winners(ranking), ", "));
     }
   }
-  if (same.empty() && others.empty()) return "nothing decided in this folder";
+  if (same.empty() && others.empty()) return "nothing decided there";
   return same + (same.empty() || others.empty() ? "" : "; ") + others;
 }
 
 // `number`: of the ground, since two DEMs may have the same name.
-FilledTable empty_table(std::size_t number, std::string_view ground) {
+FilledTable empty_table(std::size_t number, std::string_view ground, bool same_folder) {
   return {{fmt::format("ground-{}-{}", number, file_name(ground)),
            fmt::format("Which method for {}", ground),
-           "For each task the best method on this ground, and by how much; in brackets after a factor stands "
-           "its 95 % interval. The last column compares with the grounds measured in the same folder: where "
-           "the same method is best, and which one is best elsewhere.",
+           fmt::format(
+               "For each task the best method on this ground, and by how much; in brackets after a "
+               "factor stands its 95 % interval. The last column compares with the grounds measured "
+               "in {}: where the same method is best, and which one is best elsewhere.",
+               same_folder ? "the same results folder" : "the results folder that was named for comparison"),
            {{"Task"}, {"Best on this ground"}, {"On the compared grounds"}},
            {}},
           {}};
@@ -115,21 +117,21 @@ void add_row(const Ranking& here, std::span<const Ranking> named, FilledTable& f
 
 }  // namespace
 
-std::vector<FurtherGround> further_grounds(std::span<const RankingLayout> layouts, const Store& store,
-                                           const std::string& profile) {
-  const std::set<std::string, std::less<>> named = named_grounds(layouts);
+std::vector<FurtherGround> further_grounds(std::span<const RankingLayout> layouts,
+                                           const ProfileOfStore& measured, const ProfileOfStore& named) {
+  const std::set<std::string, std::less<>> names = named_grounds(layouts);
   std::vector<FurtherGround> further;
-  for (const Record& record : store.records()) {
-    if (record.profile != profile) continue;
+  for (const Record& record : measured.store.records()) {
+    if (record.profile != measured.profile) continue;
     for (const RankingLayout& layout : layouts) {
       const std::string_view ground = further_ground(record, layout);
-      if (ground.empty() || named.contains(ground)) continue;
+      if (ground.empty() || names.contains(ground)) continue;
       if (std::ranges::count(further, ground, &FurtherGround::name) == 0)
         further.push_back({std::string(ground), {}});
     }
   }
   for (FurtherGround& ground : further) {
-    const auto like = [&](const RankingLayout& l) { return likeness(l, ground.name, store, profile); };
+    const auto like = [&](const RankingLayout& l) { return likeness(l, ground.name, measured, named); };
     for (auto first = layouts.begin(); first != layouts.end();) {
       const auto last =
           std::find_if(first, layouts.end(), [&](const auto& l) { return l.task != first->task; });
@@ -140,14 +142,17 @@ std::vector<FurtherGround> further_grounds(std::span<const RankingLayout> layout
   return further;
 }
 
-std::vector<FilledTable> tables_of_further_grounds(std::span<const RankingLayout> layouts, const Store& store,
-                                                   const std::string& profile) {
-  const std::vector<FurtherGround> further = further_grounds(layouts, store, profile);
-  const std::vector<Ranking> named = rank(layouts, store, profile);
+std::vector<FilledTable> tables_of_further_grounds(std::span<const RankingLayout> layouts,
+                                                   const ProfileOfStore& measured,
+                                                   const ProfileOfStore& named) {
+  const std::vector<FurtherGround> further = further_grounds(layouts, measured, named);
+  const std::vector<Ranking> compared = rank(layouts, named.store, named.profile);
   std::vector<FilledTable> tables;
   for (const FurtherGround& ground : further) {
-    FilledTable filled = empty_table(tables.size() + 1, short_name(ground.name));
-    for (const Ranking& here : rank(ground.layouts, store, profile)) add_row(here, named, filled);
+    FilledTable filled =
+        empty_table(tables.size() + 1, short_name(ground.name), &measured.store == &named.store);
+    for (const Ranking& here : rank(ground.layouts, measured.store, measured.profile))
+      add_row(here, compared, filled);
     if (!filled.table.rows.empty()) tables.push_back(std::move(filled));
   }
   return tables;

@@ -66,8 +66,10 @@ Previews previews_of(const Store& store, const std::string& profile) {
 
 class Report {
  public:
-  Report(const Store& store, std::span<const Paper> papers, const std::filesystem::path& out)
+  Report(const Store& store, std::span<const Paper> papers, const Store& reference,
+         const std::filesystem::path& out)
       : store_(store),
+        reference_(reference),
         papers_(papers),
         out_(out),
         results_(judge(store, papers)),
@@ -136,7 +138,8 @@ class Report {
   }
 
   void add_further_grounds() {
-    std::vector<FilledTable> tables = tables_of_further_grounds(ranking_layouts(), store_, results_.profile);
+    std::vector<FilledTable> tables = tables_of_further_grounds(ranking_layouts(), {store_, results_.profile},
+                                                                {reference_, reference_.last_profile()});
     if (tables.empty()) return;
     document_.push_back(Heading{2, "Further grounds", "grounds"});
     for (FilledTable& filled : tables) add_table(std::move(filled.table), run_links(filled.runs));
@@ -326,7 +329,7 @@ class Report {
     add_table(input_table(store_, results_.profile), {});
   }
 
-  const Store& store_;
+  const Store &store_, &reference_;
   std::span<const Paper> papers_;
   const std::filesystem::path& out_;
   JudgedResults results_;
@@ -338,14 +341,19 @@ class Report {
 
 }  // namespace
 
-std::filesystem::path write_report(const std::filesystem::path& folder) {
-  return write_report(Store::open(folder), papers());
+std::filesystem::path write_report(const std::filesystem::path& folder,
+                                   const std::filesystem::path& reference) {
+  const Store store = Store::open(folder);
+  if (reference.empty()) return write_report(store, papers());
+  const Store compared = Store::open(reference);
+  return write_report(store, papers(), &compared);
 }
 
-std::filesystem::path write_report(const Store& store, std::span<const Paper> papers) {
+std::filesystem::path write_report(const Store& store, std::span<const Paper> papers,
+                                   const Store* reference) {
   const std::filesystem::path target = store.folder() / "report";
   NewFolder folder(target, is_report, "report");
-  Report(store, papers, folder.path()).write();
+  Report(store, papers, reference == nullptr ? store : *reference, folder.path()).write();
   folder.publish();
   return target / "index.html";
 }

@@ -15,7 +15,10 @@ namespace terrabench {
 // as a whole or not at all; equal measurements give equal bytes. Returns the path of index.html. Throws
 // bad_input when the folder holds no results, environment_error when the report cannot be written. Not
 // thread-safe.
-std::filesystem::path write_report(const std::filesystem::path& folder);
-std::filesystem::path write_report(const Store&, std::span<const Paper>);
+// `reference`: another results folder, with whose grounds further ones are compared (further_grounds.h); by
+// default the same folder.
+std::filesystem::path write_report(const std::filesystem::path& folder,
+                                   const std::filesystem::path& reference = {});
+std::filesystem::path write_report(const Store&, std::span<const Paper>, const Store* reference = nullptr);
 
 }  // namespace terrabench

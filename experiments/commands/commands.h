@@ -91,7 +91,8 @@ ExitCode merge_command(const MergeArguments&);
 
 struct ReportArguments {
   std::filesystem::path folder = "out";
-  std::filesystem::path latex;  // folder of a LaTeX bundle to write instead of the report; empty: none
+  std::filesystem::path latex;      // folder of a LaTeX bundle to write instead of the report; empty: none
+  std::filesystem::path reference;  // results folder to compare further grounds with; empty: the same
 };
 ExitCode report_command(const ReportArguments&);
 

@@ -32,7 +32,7 @@ ExitCode check_command(const CheckArguments& arguments) {
 
 ExitCode report_command(const ReportArguments& arguments) {
   const std::filesystem::path written = arguments.latex.empty()
-                                            ? write_report(arguments.folder)
+                                            ? write_report(arguments.folder, arguments.reference)
                                             : write_latex_bundle(arguments.folder, arguments.latex);
   fmt::print("{}\n", written.string());
   return ExitCode::kGood;

@@ -44,7 +44,10 @@ class FurtherGroundsTest : public FolderTest {
     measure("cave/a/5%", 1, 4, true);
     measure("cave/b/5%", 2, 3, true);
   }
-  std::vector<FilledTable> tables() const { return tables_of_further_grounds(layouts_, store_, "quick"); }
+  std::vector<FilledTable> tables() const { return tables(store_); }
+  std::vector<FilledTable> tables(const Store& named) const {
+    return tables_of_further_grounds(layouts_, {store_, "quick"}, {named, "quick"});
+  }
 
   Provenance run_ = fake_provenance();
   Store store_;
@@ -80,11 +83,23 @@ TEST_F(FurtherGroundsTest, ComparesSolidsAsSolids) {
   EXPECT_EQ(tables()[0].table.rows[0][2].text, "as on a cave; on a hill drills");
 }
 
+TEST_F(FurtherGroundsTest, ComparesWithTheGroundsOfAnotherFolder) {
+  measure_named_grounds();
+  Store mine(folder_ / "mine");
+  std::swap(store_, mine);
+  store_.begin_run(run_);
+  measure("alps/a/5%", 5, 1, false);
+  measure("alps/b/5%", 10, 9, false);
+  EXPECT_EQ(tables()[0].table.rows[0][2].text, "nothing decided there");
+  EXPECT_EQ(tables(mine)[0].table.rows[0][2].text, "as on a hill; on a cave voxels");
+  EXPECT_THAT(tables(mine)[0].table.caption, HasSubstr("named for comparison"));
+}
+
 TEST_F(FurtherGroundsTest, SaysThatNothingWasMeasuredToCompare) {
   measure("alps/a/5%", 5, 1, false);
   measure("alps/b/5%", 10, 9, false);
   ASSERT_THAT(tables(), SizeIs(1));
-  EXPECT_EQ(tables()[0].table.rows[0][2].text, "nothing decided in this folder");
+  EXPECT_EQ(tables()[0].table.rows[0][2].text, "nothing decided there");
 }
 
 TEST_F(FurtherGroundsTest, WhatIsUndecidedIsNotTheSame) {
