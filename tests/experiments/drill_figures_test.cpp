@@ -6,45 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <numbers>
-#include <set>
 
 #include "experiments/drill/analysis.h"
-#include "experiments/drill/figures.h"
-#include "experiments/drill/ground.h"
 #include "experiments/figures/maps.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/hydrology/channels.h"
-#include "tests/experiments/sheet_reader.h"
+#include "tests/experiments/drill_figure_grounds.h"
 
 namespace terrabench::drill {
 namespace {
-
-// A ground of hills, and its mirror image: the same heights in other places.
-struct Grounds {
-  Heightfield one = crop(noise_hills(110, 3), 0, 0, 110, 90), other = one;
-  FlowNetwork network, other_network;
-  Grounds() {
-    for (int j = 0; j < one.depth; ++j) {
-      for (int i = 0; i < one.width; ++i) other.at(i, j) = one.at(one.width - 1 - i, j);
-    }
-    network = route_flow(one);
-    other_network = route_flow(other);
-  }
-  Study study() const { return {one, network, kVariants[0], "hills", ""}; }
-  Study mirrored() const { return {other, other_network, kVariants[0], "hills", ""}; }
-};
-
-const Grounds& grounds() {
-  static const Grounds both;
-  return both;
-}
-
-SheetReader read(figures::Sheet sheet) {
-  sheet.keep_all_colours();
-  return SheetReader(sheet);
-}
 
 // The place of a colour in the palette of elevations, whatever the light: shading only scales colours.
 double elevation_of(const Rgb& colour) {
@@ -129,141 +99,6 @@ TEST(DrillFigures, ChannelsOverTheRelief) {
   EXPECT_GE(faults_of_channels(read(channels_sheet(grounds().mirrored())), grounds().study()).size(), 8U);
   const Study mixed{grounds().one, grounds().other_network, kVariants[0], "hills", ""};
   EXPECT_GE(faults_of_channels(read(channels_sheet(mixed)), grounds().study()).size(), 4U);
-}
-
-// A polyline of a sheet.
-struct Drawn {
-  double thickness = 0, opacity = 1;
-  std::string colour, dashes;
-  std::vector<figures::SheetPoint> points;
-};
-
-std::vector<Drawn> lines_of(const figures::Sheet& sheet) {
-  std::vector<Drawn> lines;
-  std::istringstream svg(sheet.svg());
-  for (std::string text; std::getline(svg, text);) {
-    if (!text.starts_with("<polyline")) continue;
-    const auto value = [&](const std::string& key) {
-      const std::size_t at = text.find(" " + key + "=\"");
-      if (at == std::string::npos) return std::string();
-      const std::size_t begin = at + key.size() + 3;
-      return text.substr(begin, text.find('"', begin) - begin);
-    };
-    Drawn line{std::stod(value("stroke-width")),
-               std::stod(value("stroke-opacity")),
-               value("stroke"),
-               value("stroke-dasharray"),
-               {}};
-    std::istringstream points(value("points"));
-    for (std::string point; points >> point;) {
-      line.points.push_back({std::stod(point), std::stod(point.substr(point.find(',') + 1))});
-    }
-    lines.push_back(std::move(line));
-  }
-  return lines;
-}
-
-// The highest of the 120 rays at each distance from a pixel, by the bilinear formula.
-std::vector<double> union_at(const Heightfield& field, std::uint32_t pixel, int w) {
-  const int i = static_cast<int>(pixel) % field.width, j = static_cast<int>(pixel) / field.width;
-  std::vector<double> highest(static_cast<std::size_t>(w) + 1, -1e30);
-  highest[0] = field.at(i, j);
-  for (int r = 1; r <= w; ++r) {
-    for (int ray = 0; ray < 120; ++ray) {
-      const double angle = ray * std::numbers::pi / 60;
-      const double x = i + r * std::cos(angle), z = j + r * std::sin(angle);
-      const int x0 = static_cast<int>(std::floor(x + 1e-9)), z0 = static_cast<int>(std::floor(z + 1e-9));
-      const double dx = x - x0, dz = z - z0;
-      const double north = field.at(x0, z0) * (1 - dx) + field.at(x0 + 1, z0) * dx;
-      const double south = field.at(x0, z0 + 1) * (1 - dx) + field.at(x0 + 1, z0 + 1) * dx;
-      highest[static_cast<std::size_t>(r)] =
-          std::max(highest[static_cast<std::size_t>(r)], north * (1 - dz) + south * dz);
-    }
-  }
-  return highest;
-}
-
-// The least squares parabola through the first height.
-std::vector<double> parabola(const std::vector<double>& heights) {
-  double r2 = 0, r3 = 0, r4 = 0, ry = 0, r2y = 0;
-  for (std::size_t i = 1; i < heights.size(); ++i) {
-    const auto r = static_cast<double>(i);
-    const double y = heights[i] - heights[0];
-    r2 += r * r;
-    r3 += r * r * r;
-    r4 += r * r * r * r;
-    ry += r * y;
-    r2y += r * r * y;
-  }
-  const double determinant = r2 * r4 - r3 * r3, slope = (ry * r4 - r2y * r3) / determinant,
-               curvature = (r2y * r2 - ry * r3) / determinant;
-  std::vector<double> fitted;
-  for (std::size_t i = 0; i < heights.size(); ++i) {
-    const auto r = static_cast<double>(i);
-    fitted.push_back(heights[0] + slope * r + curvature * r * r);
-  }
-  return fitted;
-}
-
-// Figure 2 at a pixel of a ground: what is wrong with it.
-std::vector<std::string> faults_of_sections(const figures::Sheet& sheet, const Heightfield& ground,
-                                            std::uint32_t pixel) {
-  constexpr int kW = 20;
-  std::vector<std::string> faults;
-  const std::vector<Drawn> lines = lines_of(sheet);
-  const auto of = [&](const auto& test) {
-    std::vector<Drawn> found;
-    std::copy_if(lines.begin(), lines.end(), std::back_inserter(found), test);
-    return found;
-  };
-  const auto rays =
-      of([](const Drawn& l) { return l.thickness == 1.2 && l.points.size() == 2 && l.points[0].y < 480; });
-  const auto sections = of([](const Drawn& l) { return l.opacity == 0.85; });
-  const auto joint = of([](const Drawn& l) { return l.thickness == 4 && l.points.size() > 2; });
-  const auto printed = of([](const Drawn& l) { return l.dashes == "2,4" && l.points.size() > 2; });
-  if (rays.size() != 120 || sections.size() != 120) faults.push_back("not 120 rays and cross-sections");
-  if (joint.size() != 1 || printed.size() != 1) return {"no union or no fit"};
-  std::set<std::string> colours;
-  for (const Drawn& ray : rays) colours.insert(ray.colour);
-  if (colours.size() < 100) faults.push_back("rays share colours");
-  // The scale of the elevations, from two labels of the axis, each 4 units below its line.
-  std::map<double, double> labels;  // y to elevation
-  for (const SheetReader::Words& words : SheetReader(sheet, false).words) {
-    char* end = nullptr;
-    const double value = std::strtod(words.text.c_str(), &end);
-    if (*end == 0 && words.x < 520 && words.x > 500) labels[words.y - 4] = value;
-  }
-  if (labels.size() < 2) return {"no labels"};
-  const auto [top, high] = *labels.begin();
-  const auto [bottom, low] = *labels.rbegin();
-  const auto level = [&, top = top, high = high, bottom = bottom, low = low](double y) {
-    return high + (y - top) / (bottom - top) * (low - high);
-  };
-  const double within = (high - low) / 5000;  // points are given to a hundredth of a unit
-  const std::vector<double> highest = union_at(ground, pixel, kW), fitted = parabola(highest);
-  for (std::size_t r = 0; r < joint[0].points.size(); ++r) {
-    if (std::abs(level(joint[0].points[r].y) - highest[r]) > within) return {"union"};
-  }
-  if (joint[0].points.size() != highest.size()) faults.push_back("length of the union");
-  for (std::size_t r = 0; r + 1 < printed[0].points.size(); ++r) {
-    if (std::abs(level(printed[0].points[r].y) - fitted[r]) > within) return {"fit as printed"};
-  }
-  return faults;
-}
-
-TEST(DrillFigures, CrossSectionsTheirUnionAndFit) {
-  const Study study = grounds().study();
-  const std::uint32_t pixel = example_pixel(study);
-  ASSERT_GT(pixel, 0U);
-  const figures::Sheet sheet = cross_sections_sheet(study, pixel);
-  EXPECT_EQ(faults_of_sections(sheet, study.ground, pixel), std::vector<std::string>{});
-  EXPECT_EQ(SheetReader(sheet, false).pictures.size(), 2U);  // the map and its key
-  EXPECT_EQ(read(sheet).fault_of_panels(declared_panels("drill.F2")), "");
-  // The sections of the next pixel, and of the same pixel on another ground.
-  EXPECT_NE(faults_of_sections(cross_sections_sheet(study, pixel + 1), study.ground, pixel),
-            std::vector<std::string>{});
-  EXPECT_NE(faults_of_sections(cross_sections_sheet(grounds().mirrored(), pixel), study.ground, pixel),
-            std::vector<std::string>{});
 }
 
 Outcome outcome_at(const Study& study, const Setting& setting) {
