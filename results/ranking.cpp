@@ -129,7 +129,8 @@ std::optional<Ranking> rank(const RankingLayout& layout, const Store& store, con
     ranking.places.push_back({*c.label, c.median * to_unit, factor});
     if (std::ranges::count(ranking.runs, c.record->run) == 0) ranking.runs.push_back(c.record->run);
   }
-  while (ranking.tied < all.size() && ranking.places[ranking.tied].factor.low <= 1) ++ranking.tied;
+  const auto ties = [&](const Summary& f) { return f.low <= 1 || (timing && f.median < kTimingMargin); };
+  while (ranking.tied < all.size() && ties(ranking.places[ranking.tied].factor)) ++ranking.tied;
   return ranking;
 }
 

@@ -30,6 +30,11 @@ struct RankingLayout {
 };
 
 // One layout, filled: the entries that take part, from best to worst.
+// Methods are tied where the interval of their factor contains 1, and, of times, where the factor is below
+// this: a run's own interval does not hold what changes between runs of one machine, in the reference's
+// experiments up to this factor in two thirds of the medians.
+inline constexpr double kTimingMargin = 1.25;
+
 struct Ranking {
   struct Place {
     std::string label;
@@ -38,7 +43,7 @@ struct Ranking {
   };
   const RankingLayout* layout = nullptr;
   std::vector<Place> places;
-  std::size_t tied = 1;               // places whose interval contains 1 belong to the best
+  std::size_t tied = 1;               // places that belong to the best: see kTimingMargin
   bool single = false;                // a time that was measured once: no interval, no winner
   std::string not_compared;           // why not, as words that follow "as"; empty: the figures are compared
   std::vector<std::string> left_out;  // labels of entries that lack what is needed

@@ -126,12 +126,13 @@ class Report {
     write_file(out_ / "findings.md", markdown({facts}));
     write_file(out_ / "findings-short.md", markdown({brief}));
     document_.push_back(Heading{2, "Findings", "findings"});
-    document_.push_back(
-        Paragraph{"Who is best at what, written from the medians of the comparisons across the papers. In "
-                  "brackets after "
-                  "a factor stands its 95 % interval; methods whose interval holds 1 are called tied.",
-                  false,
-                  {{"JSON", "findings.json"}, {"Markdown", "findings.md"}}});
+    document_.push_back(Paragraph{
+        "Who is best at what, written from the medians of the comparisons across the papers. In "
+        "brackets after "
+        "a factor stands its 95 % interval; methods whose interval holds 1 are called tied, and those "
+        "whose times lie within 25 %, by which two runs of one machine may differ.",
+        false,
+        {{"JSON", "findings.json"}, {"Markdown", "findings.md"}}});
     document_.push_back(brief);
     document_.push_back(Paragraph{"With the figures:"});
     document_.push_back(std::move(facts));
