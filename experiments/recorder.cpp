@@ -8,13 +8,24 @@
 
 namespace terrabench {
 
+namespace {
+
+Metric& metric_called(std::string_view name, std::string_view unit, Record& record) {
+  const auto it = std::ranges::find(record.metrics, name, &Metric::name);
+  if (it != record.metrics.end()) return *it;
+  return record.metrics.emplace_back(Metric{std::string(name), std::string(unit), {}});
+}
+
+}  // namespace
+
 void Recorder::add(std::string_view metric, std::string_view unit, double sample) {
-  auto it = std::find_if(record_.metrics.begin(), record_.metrics.end(),
-                         [&](const Metric& m) { return m.name == metric; });
-  if (it == record_.metrics.end()) {
-    it = record_.metrics.insert(it, Metric{std::string(metric), std::string(unit), {}});
-  }
-  it->samples.push_back(sample);
+  metric_called(metric, unit, record_).samples.push_back(sample);
+}
+
+void Recorder::add_varying(std::string_view metric, std::string_view unit, double sample) {
+  Metric& varying = metric_called(metric, unit, record_);
+  varying.varies = true;
+  varying.samples.push_back(sample);
 }
 
 std::filesystem::path Recorder::figure(std::string_view id, std::string_view extension,

@@ -15,10 +15,21 @@ namespace {
 constexpr std::string_view kNames[] = {"same",       "rose",      "fell",        "differs",
                                        "unresolved", "elsewhere", "only before", "only after"};
 
+bool timed(const Metric& metric) { return metric.varies || is_timing(metric.unit); }
+
+// The allocator rounds requests up, to multiples that depend on what else lies on the heap.
+bool within_rounding(double before, double after) {
+  return std::abs(after - before) <= std::max(128.0, 0.001 * std::abs(before));
+}
+
+bool same_samples(const Metric& before, const Metric& after) {
+  return before.unit == "B" ? std::ranges::equal(before.samples, after.samples, within_rounding)
+                            : before.samples == after.samples;
+}
+
 Change change_of(const Metric& before, const Metric& after, const Summary& ratio, bool one_machine) {
-  if (!is_timing(before.unit) || before.unit != after.unit) {
-    return before.unit == after.unit && before.samples == after.samples ? Change::kSame : Change::kDiffers;
-  }
+  if (before.unit != after.unit) return Change::kDiffers;
+  if (!timed(before) && !timed(after)) return same_samples(before, after) ? Change::kSame : Change::kDiffers;
   if (!one_machine) return Change::kElsewhere;
   if (before.samples.size() < 2 || after.samples.size() < 2 || !std::isfinite(ratio.median)) {
     return Change::kUnresolved;
@@ -60,10 +71,39 @@ void add_both(const Pair& pair, const Metric& before, const Metric& after, Compa
   change.before = summarise(before.samples).median;
   change.after = summarise(after.samples).median;
   change.ratio = ratio;
+  change.timed = timed(before) || timed(after);
   change.same_ground = same_ground(pair.before, pair.after);
   if (one_machine) return;
   change.machine_before = machine_name(*pair.run_before);
   change.machine_after = machine_name(*pair.run_after);
+}
+
+double log_ratio(const MetricChange& m) { return std::log(m.ratio.median); }
+
+bool has_interval(const MetricChange& m) {
+  const bool resolved = m.change == Change::kSame || m.change == Change::kRose || m.change == Change::kFell;
+  return m.timed && resolved && m.ratio.median > 0;
+}
+
+// The median, and the deviation by the median of the distances from it.
+Noise noise_of(const std::vector<MetricChange>& metrics) {
+  constexpr double kNormal = 1.4826;  // standard deviation ÷ median distance, of a normal distribution
+  std::vector<double> logs;
+  for (const MetricChange& m : metrics) {
+    if (has_interval(m)) logs.push_back(log_ratio(m));
+  }
+  if (logs.size() < Noise::kLeast) return {.timings = logs.size()};
+  const double middle = summarise(logs).median;
+  for (double& log : logs) log = std::abs(log - middle);
+  return {logs.size(), std::exp(middle), std::exp(kNormal * summarise(logs).median)};
+}
+
+void ignore_noise(Comparison& comparison) {
+  comparison.noise = noise_of(comparison.metrics);
+  for (MetricChange& m : comparison.metrics) {
+    if (has_interval(m) && std::abs(log_ratio(m)) <= 3 * std::log(comparison.noise.deviation))
+      m.change = Change::kSame;
+  }
 }
 
 bool one_sided(const MetricChange& m) {
@@ -125,6 +165,7 @@ Comparison compare(const Store& before, const Store& after) {
         add_only(record, metric, Change::kOnlyAfter, out);
     }
   }
+  ignore_noise(out);
   return out;
 }
 
@@ -146,7 +187,7 @@ std::string compare_text(const Comparison& comparison, bool colour) {
       continue;
     }
     text += fmt::format("  {} → {}", format_quantity(m.before, m.unit), format_quantity(m.after, m.unit));
-    if (m.before != 0 && (m.change == Change::kSame || marked) && is_timing(m.unit)) {
+    if (m.before != 0 && (m.change == Change::kSame || marked) && m.timed) {
       text += fmt::format("  × {:.3f} [{:.3f}, {:.3f}]", m.ratio.median, m.ratio.low, m.ratio.high);
     } else if (m.before != 0 && m.before != m.after) {
       text += fmt::format("  × {:.4f}", m.ratio.median);
@@ -159,6 +200,10 @@ std::string compare_text(const Comparison& comparison, bool colour) {
     if (count > 0) tally += fmt::format("{}{} {}", tally.empty() ? "" : ", ", count, kNames[i]);
   }
   text += fmt::format("\n{}\n", tally.empty() ? "no metrics to compare" : tally);
+  if (const Noise& noise = comparison.noise; noise.timings >= Noise::kLeast) {
+    text += fmt::format("{} times: the median × {:.3f}, noise × {:.3f} (one standard deviation)\n",
+                        noise.timings, noise.median, noise.deviation);
+  }
   if (comparison.count(Change::kElsewhere) > 0) {
     text += "elsewhere: times of different kinds of machine, which are not compared\n";
   }
@@ -189,6 +234,10 @@ std::string compare_json(const Comparison& comparison) {
   }
   const Json json = {{"passed", comparison.passed()},
                      {"exact_equal", comparison.exact_equal()},
+                     {"noise",
+                      {{"timings", comparison.noise.timings},
+                       {"median", comparison.noise.median},
+                       {"deviation", comparison.noise.deviation}}},
                      {"only_before", comparison.count(Change::kOnlyBefore)},
                      {"only_after", comparison.count(Change::kOnlyAfter)},
                      {"metrics", list},

@@ -1,5 +1,6 @@
 // Compares two results folders metric by metric: what changed, and whether the change exceeds the noise.
-// Exact figures must be equal on any two machines, times are compared within one kind of machine.
+// Exact figures must be equal on any two machines, but for what the allocator rounds bytes to; times, and
+// what is computed from them, are compared within one kind of machine.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +13,10 @@
 namespace terrabench {
 
 enum class Change {
-  kSame,        // exact and equal, or a timing whose ratio's interval contains 1
-  kRose,        // the ratio's interval lies above 1
-  kFell,        // the ratio's interval lies below 1
-  kDiffers,     // exact and not equal
+  kSame,     // exact and equal, or a timing whose ratio's interval contains 1 or that lies within the noise
+  kRose,     // the ratio's interval lies above 1
+  kFell,     // the ratio's interval lies below 1
+  kDiffers,  // exact and not equal
   kUnresolved,  // a timing with only one sample in a folder, so without an interval
   kElsewhere,   // a timing of another kind of machine, which says nothing about the code
   kOnlyBefore,
@@ -26,15 +27,27 @@ std::string_view name(Change);
 struct MetricChange {
   std::string experiment, case_name, profile, metric, unit;
   Change change = Change::kSame;
+  bool timed = false;                                   // a time, or computed from times
   double before = 0, after = 0;                         // medians
   Summary ratio = {};                                   // after ÷ before, when both exist
   bool same_ground = true;                              // both have the same seed, parameters and terrain
   std::string machine_before = "", machine_after = "";  // machine_name(), where they are of different kinds
 };
 
+// Times of two runs of one program differ by more than the interval of either run holds: by other load, other
+// clock rates, other places in memory. This is estimated from all of them, since most of the code is the same
+// in both: a time changed only if it changed by more than three standard deviations as well. Where most of
+// the code changed, the median says so.
+struct Noise {
+  static constexpr std::size_t kLeast = 30;  // timings; with fewer, the intervals alone decide
+  std::size_t timings = 0;                   // of one machine, with intervals
+  double median = 1, deviation = 1;          // of after ÷ before, as factors
+};
+
 struct Comparison {
   std::vector<MetricChange> metrics;  // in the first folder's order, then those that only the second has
   std::vector<std::string> warnings, faults;  // of both stores
+  Noise noise;
 
   bool exact_equal() const;  // no exact metric differs
   bool passed() const { return exact_equal() && faults.empty(); }

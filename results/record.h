@@ -20,6 +20,8 @@ namespace terrabench {
 struct Metric {
   std::string name, unit;  // unit: "s", "B", "m", "1/s", "" for counts
   std::vector<double> samples;
+  // From run to run on one machine, although the unit does not say so: ratios of times, fits through them.
+  bool varies = false;
 };
 
 // A picture that a case drew, relative to the results folder.

@@ -148,6 +148,7 @@ Metric metric_from(const Json& json, std::string& warning) {
     require(sample.is_number(), fmt::format("a sample of '{}' is not a number", metric.name));
     metric.samples.push_back(sample.get<double>());
   }
+  if (fields.has("varies")) metric.varies = fields.flag("varies");
   fields.note_unknown(warning);
   return metric;
 }
@@ -283,6 +284,7 @@ std::string to_line(const Record& record) {
   for (const Metric& metric : record.metrics) {
     for (const double sample : metric.samples) check_finite(sample, where + metric.name);
     metrics.push_back({{"name", metric.name}, {"unit", metric.unit}, {"samples", metric.samples}});
+    if (metric.varies) metrics.back()["varies"] = true;
   }
   for (const RecordedFigure& figure : record.figures) {
     Json& entry = figures.emplace_back(Json{{"id", figure.id},

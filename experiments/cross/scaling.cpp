@@ -74,12 +74,12 @@ void SizePlan::measured(double columns, double seconds, std::int64_t peak_bytes)
 void SizePlan::refused(double columns) { as_refused_.push_back(columns); }
 
 void SizePlan::record(Recorder& recorder) const {
-  recorder.add(name_ + "_sizes", "", static_cast<double>(sizes_));
-  recorder.add(name_ + "_skipped", "",
-               static_cast<double>(for_time_.size() + for_memory_.size() + as_refused_.size()));
-  for (const double columns : for_time_) recorder.add(name_ + "_skipped_for_time", "", columns);
-  for (const double columns : for_memory_) recorder.add(name_ + "_skipped_for_memory", "", columns);
-  for (const double columns : as_refused_) recorder.add(name_ + "_skipped_as_refused", "", columns);
+  recorder.add_varying(name_ + "_sizes", "", static_cast<double>(sizes_));
+  recorder.add_varying(name_ + "_skipped", "",
+                       static_cast<double>(for_time_.size() + for_memory_.size() + as_refused_.size()));
+  for (const double columns : for_time_) recorder.add_varying(name_ + "_skipped_for_time", "", columns);
+  for (const double columns : for_memory_) recorder.add_varying(name_ + "_skipped_for_memory", "", columns);
+  for (const double columns : as_refused_) recorder.add_varying(name_ + "_skipped_as_refused", "", columns);
 }
 
 double Cost::theory() const {
@@ -90,26 +90,27 @@ double Cost::theory() const {
   return theory_ + std::log(std::log(*high) / std::log(*low)) / std::log(*high / *low);
 }
 
+// All of it varies: how large the sizes become depends on the time that they take.
 void Cost::record(Recorder& recorder) const {
   if (columns_.empty()) return;
   // An exponent of times varies from run to run as they do.
   const std::string_view unit = is_timing(unit_) ? "exponent" : "";
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    recorder.add(name_, unit_, values_[i]);
-    recorder.add(name_ + "_columns", "", columns_[i]);
+    recorder.add_varying(name_, unit_, values_[i]);
+    recorder.add_varying(name_ + "_columns", "", columns_[i]);
   }
   const auto [low, high] = std::minmax_element(columns_.begin(), columns_.end());
-  recorder.add(name_ + "_smallest", "", *low);
-  recorder.add(name_ + "_largest", "", *high);
-  recorder.add(name_ + "_theory", "", theory());
+  recorder.add_varying(name_ + "_smallest", "", *low);
+  recorder.add_varying(name_ + "_largest", "", *high);
+  recorder.add_varying(name_ + "_theory", "", theory());
   const Medians medians = medians_of(columns_, values_);
   const auto law = fit_power_law(medians.columns, medians.values);
   if (!law) return;
-  recorder.add(name_ + "_exponent", unit, law->exponent);
-  recorder.add(name_ + "_excess", unit, law->exponent - theory());
+  recorder.add_varying(name_ + "_exponent", unit, law->exponent);
+  recorder.add_varying(name_ + "_excess", unit, law->exponent - theory());
   if (!std::isfinite(law->low)) return;
-  recorder.add(name_ + "_low", unit, law->low);
-  recorder.add(name_ + "_high", unit, law->high);
+  recorder.add_varying(name_ + "_low", unit, law->low);
+  recorder.add_varying(name_ + "_high", unit, law->high);
 }
 
 }  // namespace terrabench::cross

@@ -121,8 +121,8 @@ void record_lines(const Times& times, const std::vector<Drills>& drills, Recorde
   const Line line = fit_line(pixels, medians);
   recorder.add("seconds_per_drill", "s", line.slope);
   recorder.add("seconds_without_drills", "s", line.intercept);
-  recorder.add("r_squared", "", line.r_squared);
-  recorder.add("r_squared_tau", "", fit_line(taus, medians).r_squared);
+  recorder.add_varying("r_squared", "", line.r_squared);
+  recorder.add_varying("r_squared_tau", "", fit_line(taus, medians).r_squared);
   // At the factorial's levels alone.
   std::vector<double> levels, at_levels;
   for (std::size_t t = 0; t < kTimedTaus.size(); ++t) {
@@ -130,20 +130,23 @@ void record_lines(const Times& times, const std::vector<Drills>& drills, Recorde
     levels.push_back(taus[t]);
     at_levels.push_back(medians[t]);
   }
-  recorder.add("r_squared_tau_levels", "", fit_line(levels, at_levels).r_squared);
+  recorder.add_varying("r_squared_tau_levels", "", fit_line(levels, at_levels).r_squared);
 }
 
 void record_ratios(const Times& times, Recorder& recorder) {
+  const auto add_varying_share = [&](std::string_view metric, double value) {
+    if (std::isfinite(value)) recorder.add_varying(metric, "", value);
+  };
   const double routing = median(times.routing), shapes = median(times.extraction[kPaperTau]);
   const double wide = median(times.regeneration), narrow = median(times.regeneration_matrix);
-  add_share(recorder, "shapes_to_regeneration", shapes / wide);
-  add_share(recorder, "shapes_to_regeneration_matrix", shapes / narrow);
-  add_share(recorder, "all_to_regeneration", (routing + shapes) / wide);
-  add_share(recorder, "all_to_regeneration_matrix", (routing + shapes) / narrow);
+  add_varying_share("shapes_to_regeneration", shapes / wide);
+  add_varying_share("shapes_to_regeneration_matrix", shapes / narrow);
+  add_varying_share("all_to_regeneration", (routing + shapes) / wide);
+  add_varying_share("all_to_regeneration_matrix", (routing + shapes) / narrow);
   const double unions = median(times.unions), fitting = median(times.fitting),
                all = routing + unions + fitting;
-  add_share(recorder, "fitting_share", fitting / all);
-  add_share(recorder, "union_and_fitting_share", (unions + fitting) / all);
+  add_varying_share("fitting_share", fitting / all);
+  add_varying_share("union_and_fitting_share", (unions + fitting) / all);
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {

@@ -141,7 +141,7 @@ class Peer {
       strokes.undo.paint(*structure_);
       return time;
     });
-    recorder.add(fmt::format("ght_per_{}_time{}", name_, suffix), "", tree_time / median);
+    recorder.add_varying(fmt::format("ght_per_{}_time{}", name_, suffix), "", tree_time / median);
   }
 
  private:

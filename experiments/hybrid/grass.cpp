@@ -90,7 +90,7 @@ void measure_table3(const Case& at, const RunOptions& options, Recorder& recorde
   }
   // The three frames of a turn are compared with each other, then all turns by their median.
   for (std::size_t i = 0; i + kCounts <= seconds.size(); i += kCounts) {
-    recorder.add("time_growth", "", seconds[i + 2] / std::max(seconds[i], 1e-9));
+    recorder.add_varying("time_growth", "", seconds[i + 2] / std::max(seconds[i], 1e-9));
   }
   recorder.add("growing_triangles", "", static_cast<double>(scenes[2]->patch().growing_triangles()));
   recorder.add("bytes_3n", "B", static_cast<double>(scenes[2]->patch().bytes()));

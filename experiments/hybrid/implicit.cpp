@@ -196,7 +196,7 @@ void measure_surface(const Case& at, const TerrainSource& source, const Implicit
     if (k > 0) continue;
     const double bytes = static_cast<double>(mesh.positions.size() * 2 * sizeof(glm::vec3) +
                                              mesh.indices.size() * sizeof(std::uint32_t));
-    recorder.add("peak_memory", "", static_cast<double>(HeapCounter::peak() - before) / bytes);
+    recorder.add_varying("peak_memory", "", static_cast<double>(HeapCounter::peak() - before) / bytes);
     const EdgeReport edges = check_edges(mesh);
     recorder.add("triangles", "", static_cast<double>(mesh.triangles()));
     recorder.add("open_edges", "", static_cast<double>(edges.open));

@@ -85,8 +85,8 @@ void record(const Round& round, Recorder& recorder) {
     recorder.add(fmt::format("points_{}", kNames[s]), "1/s", kQueries / round.points[s]);
     recorder.add(fmt::format("columns_{}", kNames[s]), "1/s", kQueries / round.columns[s]);
     if (s == 0) continue;
-    recorder.add(fmt::format("points_to_{}", kNames[s]), "", round.points[s] / round.points[0]);
-    recorder.add(fmt::format("columns_to_{}", kNames[s]), "", round.columns[s] / round.columns[0]);
+    recorder.add_varying(fmt::format("points_to_{}", kNames[s]), "", round.points[s] / round.points[0]);
+    recorder.add_varying(fmt::format("columns_to_{}", kNames[s]), "", round.columns[s] / round.columns[0]);
   }
 }
 

@@ -153,13 +153,13 @@ void record(const Expanded& expanded, const Forest& forest, Recorder& recorder) 
   recorder.add("faces_total", "", total);
   recorder.add("instances_expanded", "", static_cast<double>(expanded.parts));
   recorder.add("faces_expanded", "", static_cast<double>(expanded.faces));
-  recorder.add("faces_expanded_again", "", static_cast<double>(expanded.again));
+  recorder.add_varying("faces_expanded_again", "", static_cast<double>(expanded.again));
   recorder.add("share_expanded", "", total > 0 ? static_cast<double>(expanded.faces) / total : 0);
   recorder.add("parts_outside_bounds", "", static_cast<double>(expanded.outside));
-  recorder.add("cache_hits", "", static_cast<double>(expanded.cache.hits));
-  recorder.add("cache_misses", "", static_cast<double>(expanded.cache.misses));
-  recorder.add("cache_evictions", "", static_cast<double>(expanded.cache.evictions));
-  recorder.add("cache_peak", "B", static_cast<double>(expanded.cache.peak_bytes));
+  recorder.add_varying("cache_hits", "", static_cast<double>(expanded.cache.hits));
+  recorder.add_varying("cache_misses", "", static_cast<double>(expanded.cache.misses));
+  recorder.add_varying("cache_evictions", "", static_cast<double>(expanded.cache.evictions));
+  recorder.add_varying("cache_peak", "B", static_cast<double>(expanded.cache.peak_bytes));
 }
 
 void measure_lazy(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
@@ -177,8 +177,8 @@ void measure_lazy(const Case& at, const RunOptions& options, Recorder& recorder,
   Stopwatch tracing;
   const CoherentPicture picture = traced(lazy, view, at, options, progress);
   recorder.add("seconds", "s", tracing.seconds());
-  recorder.add("heap_peak", "B", static_cast<double>(HeapCounter::peak()));
-  recorder.add("resident_peak", "B", peak_resident());
+  recorder.add_varying("heap_peak", "B", static_cast<double>(HeapCounter::peak()));
+  recorder.add_varying("resident_peak", "B", peak_resident());
   const Memory memory = lazy.memory();
   const double pictures = 16.0 * static_cast<double>(picture.radiance.size());
   recorder.add("heap_held", "B", static_cast<double>(heap.held()) - pictures);

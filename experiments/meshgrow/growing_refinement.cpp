@@ -172,9 +172,9 @@ void measure_whole(const FaceMesh& base, int levels, int runs, Recorder& recorde
   }
   recorder.add("whole_time", "s", ours.time);
   recorder.add("openmesh_time", "s", openmesh.time);
-  recorder.add("openmesh_over_ours", "", openmesh.time / ours.time);
+  recorder.add_varying("openmesh_over_ours", "", openmesh.time / ours.time);
   recorder.add("openmesh_difference", "m", difference(mine, theirs));
-  recorder.add("peak_over_mesh", "", peak / bytes);
+  recorder.add_varying("peak_over_mesh", "", peak / bytes);
 }
 
 // Tables apart from positions that are computed with tables that exist.
@@ -198,13 +198,13 @@ void measure_tables(const FaceMesh& base, int levels, int runs, Recorder& record
   recorder.add("vertices", "", static_cast<double>(theirs.size()));
   recorder.add("tables_time", "s", tables.time);
   recorder.add("opensubdiv_tables_time", "s", their_tables.time);
-  recorder.add("tables_over_opensubdiv", "", tables.time / their_tables.time);
+  recorder.add_varying("tables_over_opensubdiv", "", tables.time / their_tables.time);
   recorder.add("positions_time", "s", one.time);
   recorder.add("opensubdiv_positions_time", "s", their_one.time);
-  recorder.add("opensubdiv_over_ours", "", their_one.time / one.time);
+  recorder.add_varying("opensubdiv_over_ours", "", their_one.time / one.time);
   recorder.add("parallel_positions_time", "s", all.time);
   recorder.add("opensubdiv_parallel_positions_time", "s", their_all.time);
-  recorder.add("opensubdiv_over_ours_parallel", "", their_all.time / all.time);
+  recorder.add_varying("opensubdiv_over_ours_parallel", "", their_all.time / all.time);
   recorder.add("opensubdiv_difference", "m", difference(points.back(), theirs));
 }
 

@@ -51,13 +51,13 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
       time_rounds(lods, ground, views, at.integer("rounds"), options, progress);
   const std::vector<double> least = least_times(rounds);
   for (std::size_t k = 0; k < kCells.size(); ++k) {
-    recorder.add(fmt::format("least_time_share_{}", kCells[k]), "", least[k + 1] / least[0]);
+    recorder.add_varying(fmt::format("least_time_share_{}", kCells[k]), "", least[k + 1] / least[0]);
   }
   for (const RoundTimes& round : rounds) {
     for (std::size_t k = 0; k < kCells.size(); ++k) {
       recorder.add(fmt::format("frame_time_{}", kCells[k]), "s",
                    round.of(k + 1) / static_cast<double>(views.size()));
-      recorder.add(fmt::format("time_share_{}", kCells[k]), "", round.of(k + 1) / round.of(0));
+      recorder.add_varying(fmt::format("time_share_{}", kCells[k]), "", round.of(k + 1) / round.of(0));
     }
   }
 }

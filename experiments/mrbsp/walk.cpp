@@ -123,7 +123,7 @@ void time_flags(Methods& methods, const Heightfield& ground, const std::vector<V
   const auto frames = static_cast<double>(views.size());
   recorder.add("toggled_per_view", "", static_cast<double>(toggled) / frames);
   recorder.add("toggle_time", "s", flag_time / frames);
-  recorder.add("toggle_to_lod_time", "", flag_time / lod_time);
+  recorder.add_varying("toggle_to_lod_time", "", flag_time / lod_time);
 }
 
 void time_frames(Methods& methods, const Heightfield& ground, const std::vector<View>& views,
@@ -131,18 +131,18 @@ void time_frames(Methods& methods, const Heightfield& ground, const std::vector<
   const std::vector<RoundTimes> rounds = time_rounds(methods.lods, ground, views, kRounds, options, progress);
   const std::vector<double> least = least_times(rounds);
   for (std::size_t m = 0; m < kMethods; ++m) {
-    recorder.add(fmt::format("least_time_share_{}", kMethodNames[m]), "", least[m] / least[kBrute]);
+    recorder.add_varying(fmt::format("least_time_share_{}", kMethodNames[m]), "", least[m] / least[kBrute]);
   }
   for (const RoundTimes& round : rounds) {
     for (std::size_t m = 0; m < kMethods; ++m) {
       const std::string_view name = kMethodNames[m];
       for (const double time : round.frames[m]) recorder.add(fmt::format("frame_time_{}", name), "s", time);
-      recorder.add(fmt::format("time_share_{}", name), "", round.of(m) / round.of(kBrute));
+      recorder.add_varying(fmt::format("time_share_{}", name), "", round.of(m) / round.of(kBrute));
     }
-    recorder.add("lod_frame_share", "", round.choosing_of(kLod) / round.of(kLod));
+    recorder.add_varying("lod_frame_share", "", round.choosing_of(kLod) / round.of(kLod));
     for (const auto& [of, to] : {std::pair{kVis, kLod}, {kBoth, kLod}, {kBoth, kVis}}) {
-      recorder.add(fmt::format("time_{}_to_{}", kMethodNames[of], kMethodNames[to]), "",
-                   round.of(of) / round.of(to));
+      recorder.add_varying(fmt::format("time_{}_to_{}", kMethodNames[of], kMethodNames[to]), "",
+                           round.of(of) / round.of(to));
     }
   }
 }

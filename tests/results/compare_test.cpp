@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "results/provenance.h"
@@ -36,7 +37,7 @@ class CompareTest : public FolderTest {
 
 TEST_F(CompareTest, ExactMetricsMustBeEqual) {
   EXPECT_EQ(change({"bytes", "B", {100}}, {"bytes", "B", {100}}), Change::kSame);
-  EXPECT_EQ(change({"bytes", "B", {100}}, {"bytes", "B", {101}}), Change::kDiffers);
+  EXPECT_EQ(change({"cells", "", {100}}, {"cells", "", {101}}), Change::kDiffers);
   EXPECT_EQ(change({"bytes", "B", {100}}, {"bytes", "KiB", {100}}), Change::kDiffers);
 }
 
@@ -48,6 +49,48 @@ TEST_F(CompareTest, TimingsChangeOnlyBeyondTheirNoise) {
   EXPECT_EQ(change(slow, base), Change::kFell);
   EXPECT_EQ(change(base, {"t", "s", {7.0}}), Change::kUnresolved);
   EXPECT_EQ(change({"t", "s", {0, 0, 0}}, base), Change::kUnresolved);
+}
+
+TEST_F(CompareTest, BytesMayDifferByWhatTheAllocatorRoundsTo) {
+  EXPECT_EQ(change({"bytes", "B", {1000}}, {"bytes", "B", {1128}}), Change::kSame);
+  EXPECT_EQ(change({"bytes", "B", {1000}}, {"bytes", "B", {1136}}), Change::kDiffers);
+  EXPECT_EQ(change({"bytes", "B", {1e9}}, {"bytes", "B", {1.0009e9}}), Change::kSame);
+  EXPECT_EQ(change({"bytes", "B", {1e9}}, {"bytes", "B", {1.0011e9}}), Change::kDiffers);
+}
+
+TEST_F(CompareTest, RatiosOfTimesAreComparedAsTimes) {
+  const Metric varying{"share", "", {0.5, 0.51, 0.49}, true}, plain{"share", "", {0.5, 0.51, 0.49}};
+  EXPECT_EQ(change(varying, {"share", "", {0.505, 0.5, 0.495}, true}), Change::kSame);
+  EXPECT_EQ(change(varying, {"share", "", {0.7, 0.71, 0.72}, true}), Change::kRose);
+  EXPECT_EQ(change(varying, {"share", "", {0.7}, true}), Change::kUnresolved);
+  EXPECT_EQ(change(plain, {"share", "", {0.505, 0.5, 0.495}, true}), Change::kSame) << "an older run";
+  EXPECT_EQ(change(plain, {"share", "", {0.505, 0.5, 0.495}}), Change::kDiffers);
+}
+
+// 41 times whose logarithms changed by -0.2 to 0.2, evenly, and one that tripled.
+TEST_F(CompareTest, WhatMostTimesDoIsNoise) {
+  const std::vector<double> samples{1, 1.001, 0.999};
+  std::vector<Metric> before, after;
+  const auto add_time = [&](const std::string& name, double factor) {
+    before.push_back({name, "s", samples});
+    Metric& changed = after.emplace_back(before.back());
+    for (double& sample : changed.samples) sample *= factor;
+  };
+  for (int k = -20; k <= 20; ++k) add_time(std::to_string(k), std::exp(0.01 * k));
+  add_time("tripled", 3);
+  write("a", before);
+  write("b", after);
+  const Comparison c = compare(folder_ / "a", folder_ / "b");
+  EXPECT_EQ(c.noise.timings, 42U);
+  EXPECT_NEAR(c.noise.deviation, std::exp(1.4826 * 0.105), 0.01);
+  EXPECT_EQ(c.count(Change::kSame), 41U);
+  EXPECT_EQ(c.metrics.back().change, Change::kRose);
+  EXPECT_THAT(compare_text(c, false), HasSubstr("42 times: the median × 1.005, noise × 1.168"));
+  before.resize(20);
+  after.resize(20);
+  write("few-a", before);
+  write("few-b", after);
+  EXPECT_EQ(compare(folder_ / "few-a", folder_ / "few-b").count(Change::kFell), 20U);
 }
 
 TEST_F(CompareTest, SaysWhatOnlyOneSideHasAndWhatWasMeasuredOnOtherGround) {

@@ -55,6 +55,17 @@ TEST(RecordLine, RefusesInvalidLines) {
   expect_bad_input(std::string(2'000'000, '['), "nested too deeply");
 }
 
+TEST(RecordLine, KeepsWhetherAMetricVaries) {
+  Record record = sample();
+  record.metrics.push_back({"ratio", "", {2}, true});
+  const std::string line = to_line(record);
+  const auto read = std::get<Record>(parse_line(line, "there:3").content);
+  EXPECT_FALSE(read.metrics[0].varies);
+  EXPECT_TRUE(read.metrics[1].varies);
+  EXPECT_EQ(to_line(read), line);
+  EXPECT_EQ(to_line(sample()).find("varies"), std::string::npos);
+}
+
 TEST(RecordLine, OverridesAreAFieldAndInOlderLinesTheEndOfTheCase) {
   const auto overrides = [](const std::string& line) {
     return std::get<Record>(parse_line(line, "there:3").content).overrides;

@@ -117,6 +117,7 @@ Record full_record() {
   add(record, "time", "s", {0.25, 1e-300});
   record.figures = {
       {"hybrid.F3", "figures/a.png", "A caption.", checksum("a"), FigureLayout{{{1, 2, 3, 4}}, {"a word"}}}};
+  record.metrics[0].varies = true;
   return record;
 }
 
@@ -134,6 +135,7 @@ TEST(Schema, WhatIsWrittenIsDocumented) {
   least.overrides.clear();
   least.terrain = least.terrain_checksum = "";
   least.parameters.clear();
+  least.metrics[0].varies = false;
   least.figures[0].layout.reset();
   EXPECT_EQ(fault(to_line(least)), "");
   Provenance run = full_run();
