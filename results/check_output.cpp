@@ -30,25 +30,27 @@ std::string check_json(const JudgedResults& results) {
   Json rows = Json::array();
   for (const Judgement& judgement : results.judgements) {
     const Claim& claim = *judgement.claim;
-    rows.push_back({{"id", claim.id},
-                    {"paper", judgement.paper->id},
-                    {"where", claim.where},
-                    {"statement", claim.statement},
-                    {"class", std::string(1, claim.claim_class)},
-                    {"counts_as", name(claim.about)},
-                    {"repeats", claim.repeats},
-                    {"reported", claim.reported},
-                    {"unit", claim.unit},
-                    {"tolerance", claim.tolerance},
-                    {"verdict", name(judgement.verdict)},
-                    {"known", claim.pending.empty() ? name(claim.known) : name(Verdict::kPending)},
-                    {"measured", judgement.measured},
-                    {"decided_by", judgement.deciding.text},
-                    {"reason", claim.known == Verdict::kDiffers ? claim.reason() : ""},
-                    {"matches", claim.matches},
-                    {"note", claim.note},
-                    {"complaint", judgement.complaint},
-                    {"runs", judgement.runs}});
+    rows.push_back(
+        {{"id", claim.id},
+         {"paper", judgement.paper->id},
+         {"where", claim.where},
+         {"statement", claim.statement},
+         {"class", std::string(1, claim.claim_class)},
+         {"counts_as", name(claim.about)},
+         {"repeats", claim.repeats},
+         {"reported", claim.reported},
+         {"unit", claim.unit},
+         {"tolerance", claim.tolerance},
+         {"verdict", name(judgement.verdict)},
+         {"known", claim.pending.empty() ? name(claim.known) : name(Verdict::kPending)},
+         {"measured", judgement.measured},
+         {"decided_by", judgement.deciding.text},
+         {"reason",
+          claim.known == Verdict::kDiffers || judgement.verdict == Verdict::kDiffers ? claim.reason() : ""},
+         {"matches", claim.matches},
+         {"note", claim.note},
+         {"complaint", judgement.complaint},
+         {"runs", judgement.runs}});
   }
   Json papers = Json::object();
   for (const Judgement& judgement : results.judgements) {

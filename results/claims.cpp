@@ -95,6 +95,7 @@ Condition condition_from(const TomlValue& node) {
     entry.refuse("a condition is one of equal, order, within, ratio, growth, figure");
   }
   condition.kind = form->kind;
+  condition.machine = entry.flag("machine");
   for (const TomlValue& operand : entry.list(form->key)) {
     condition.operands.push_back(operand_from(operand));
   }

@@ -57,6 +57,8 @@ struct Condition {
   std::vector<int> alike;
   std::vector<Operand> brightness;  // one or none
   static constexpr double kBrightness = 0.005;
+  bool machine =
+      false;  // whether Claim::machine says why it may fail; the claim's other conditions must hold
 };
 
 // What a row says something about. Rows of different kinds are counted apart: only those about the paper say
@@ -83,7 +85,7 @@ struct Claim {
   std::vector<Condition> conditions;  // all must hold
   Verdict known = Verdict::kReproduced;  // expected
   // Why the verdict depends on the machine, where machines were seen on both sides of the tolerance: then it
-  // is computed and shown, and neither side is unexpected. Empty: it does not.
+  // is computed and shown, and a condition marked so may fail or not. Empty: it does not.
   std::string machine;
   std::string pending, not_comparable;  // the reason; both empty if the claim is measured
   // For claims known to differ: the id of the claim of the reading that matches, or a sentence that says that

@@ -15,16 +15,11 @@ namespace {
 constexpr std::string_view kNames[] = {"same",       "rose",      "fell",        "differs",
                                        "unresolved", "elsewhere", "only before", "only after"};
 
-bool timed(const Metric& metric) { return metric.varies || is_timing(metric.unit); }
-
 // The allocator rounds requests up, to multiples that depend on what else lies on the heap.
 bool within_rounding(double before, double after) {
-  return std::abs(after - before) <= std::max(128.0, 0.001 * std::abs(before));
-}
-
-bool same_samples(const Metric& before, const Metric& after) {
-  return before.unit == "B" ? std::ranges::equal(before.samples, after.samples, within_rounding)
-                            : before.samples == after.samples;
+  constexpr double kSmallest = 4096, kRounding = 64, kShare = 0.001;
+  return before == after || (std::min(before, after) >= kSmallest &&
+                             std::abs(after - before) <= std::max(kRounding, kShare * before));
 }
 
 Change change_of(const Metric& before, const Metric& after, const Summary& ratio, bool one_machine) {
@@ -130,6 +125,12 @@ std::string machines_text(const Comparison& comparison) {
 }  // namespace
 
 std::string_view name(Change change) { return kNames[static_cast<std::size_t>(change)]; }
+
+bool timed(const Metric& metric) { return metric.varies || is_timing(metric.unit); }
+
+bool same_samples(const Metric& a, const Metric& b) {
+  return a.unit == "B" ? std::ranges::equal(a.samples, b.samples, within_rounding) : a.samples == b.samples;
+}
 
 bool Comparison::exact_equal() const { return count(Change::kDiffers) == 0; }
 

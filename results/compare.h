@@ -1,6 +1,6 @@
 // Compares two results folders metric by metric: what changed, and whether the change exceeds the noise.
-// Exact figures must be equal on any two machines, but for what the allocator rounds bytes to; times, and
-// what is computed from them, are compared within one kind of machine.
+// Exact figures must be equal on any two machines, but for what the allocator rounds to (same_samples);
+// times, and what is computed from them, are compared within one kind of machine.
 #pragma once
 
 #include <filesystem>
@@ -37,7 +37,8 @@ struct MetricChange {
 // Times of two runs of one program differ by more than the interval of either run holds: by other load, other
 // clock rates, other places in memory. This is estimated from all of them, since most of the code is the same
 // in both: a time changed only if it changed by more than three standard deviations as well. Where most of
-// the code changed, the median says so.
+// the code or the clock rate changed, the median says so: then nearly all times change, or, where the times
+// change by different factors, few of them exceed the deviation.
 struct Noise {
   static constexpr std::size_t kLeast = 30;  // timings; with fewer, the intervals alone decide
   std::size_t timings = 0;                   // of one machine, with intervals
@@ -53,6 +54,11 @@ struct Comparison {
   bool passed() const { return exact_equal() && faults.empty(); }
   std::size_t count(Change) const;
 };
+
+// A time, or computed from times.
+bool timed(const Metric&);
+// Equal, but for what the allocator rounds to: of heaps of 4 KiB and more, 64 bytes or a thousandth.
+bool same_samples(const Metric&, const Metric&);
 
 // Throws bad_input when a folder holds no results.
 Comparison compare(const std::filesystem::path& before, const std::filesystem::path& after);

@@ -22,9 +22,13 @@ std::string joined(const std::vector<Finding>& findings) {
   return text;
 }
 
-// Whether a machine may give this verdict as well as the known one.
-bool varies(const Claim& claim, Verdict verdict) {
-  return !claim.machine.empty() && verdict <= Verdict::kDiffers;
+// Where the verdict depends on the machine, only those conditions may fail that do.
+bool unexpected(const Claim& claim, Verdict verdict, const std::vector<Finding>& findings) {
+  if (claim.machine.empty() || verdict > Verdict::kDiffers) return verdict != claim.known;
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    if (findings[i].outcome == Outcome::kFails && !claim.conditions[i].machine) return true;
+  }
+  return false;
 }
 
 void judge_measured(Judgement& judgement, const Store& store, const std::string& profile) {
@@ -49,7 +53,7 @@ void judge_measured(Judgement& judgement, const Store& store, const std::string&
     judgement.complaint = "rests on a record that was altered";
   } else if (evidence.incomparable) {
     judgement.complaint = "compares what was measured on different machines or builds";
-  } else if (judgement.verdict != claim.known && !varies(claim, judgement.verdict)) {
+  } else if (unexpected(claim, judgement.verdict, findings)) {
     judgement.complaint =
         fmt::format("expected verdict '{}', computed '{}'", name(claim.known), name(judgement.verdict));
   }

@@ -61,7 +61,7 @@ std::string title_beside_number(const std::string& title) {
 // What the paper says and how it came out, without the rows that repeat others.
 Table own_rows(const Store& store, const JudgedResults& results, const Paper& paper) {
   const Table all = ledger_table(store, results, {&paper, 1}, {});
-  constexpr std::size_t kShown[] = {0, 1, 2, 3, 7};  // claim, the paper, printed, measured, verdict
+  constexpr std::size_t kShown[] = {0, 2, 3, 4, 1};  // claim, the paper, printed, measured, verdict
   Table table{
       "verdicts-" + paper.id,
       "Verdicts: " + paper.title,

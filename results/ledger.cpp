@@ -26,6 +26,7 @@ std::string why(const Judgement& j) {
   if (j.verdict != Verdict::kDiffers) return j.measured;
   // The note explains the known verdict, not one that nobody expected.
   if (!j.complaint.empty()) return j.complaint;
+  if (j.claim->matches.empty()) return j.claim->reason();
   return fmt::format("{} Matches: {}", j.claim->reason(), j.claim->matches);
 }
 

@@ -29,12 +29,12 @@ struct RankingLayout {
   std::vector<Entry> entries;
 };
 
-// One layout, filled: the entries that take part, from best to worst.
 // Methods are tied where the interval of their factor contains 1, and, of times, where the factor is below
-// this: a run's own interval does not hold what changes between runs of one machine, in the reference's
-// experiments up to this factor in two thirds of the medians.
+// this: a run's own interval does not hold what changes between runs of one machine. Two of the whole paper
+// profile differed by less than this in two thirds of the medians that are ranked.
 inline constexpr double kTimingMargin = 1.25;
 
+// One layout, filled: the entries that take part, from best to worst.
 struct Ranking {
   struct Place {
     std::string label;

@@ -77,7 +77,7 @@ std::string Ranking::result() const {
   };
   if (places.empty()) return "none";
   if (!not_compared.empty()) return "not compared, as " + not_compared;
-  if (tied > 1) {
+  if (tied > 1 && !single) {
     std::vector<std::string> best;
     for (std::size_t i = 0; i < tied; ++i) best.push_back(with_value(places[i]));
     const Summary& last = places[tied - 1].factor;

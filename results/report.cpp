@@ -143,6 +143,12 @@ class Report {
                                                                 {reference_, reference_.last_profile()});
     if (tables.empty()) return;
     document_.push_back(Heading{2, "Further grounds", "grounds"});
+    if (!reference_.faults().empty()) {
+      document_.push_back(
+          Paragraph{fmt::format("The results that these are compared with cannot be trusted: {} faults",
+                                reference_.faults().size()),
+                    true});
+    }
     for (FilledTable& filled : tables) add_table(std::move(filled.table), run_links(filled.runs));
   }
 

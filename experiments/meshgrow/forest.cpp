@@ -181,9 +181,9 @@ void measure_lazy(const Case& at, const RunOptions& options, Recorder& recorder,
   recorder.add_varying("resident_peak", "B", peak_resident());
   const Memory memory = lazy.memory();
   const double pictures = 16.0 * static_cast<double>(picture.radiance.size());
-  recorder.add("heap_held", "B", static_cast<double>(heap.held()) - pictures);
-  recorder.add("memory", "B", static_cast<double>(memory.total()));
-  recorder.add("embree_held", "B", static_cast<double>(lazy.embree_bytes()));
+  recorder.add_varying("heap_held", "B", static_cast<double>(heap.held()) - pictures);
+  recorder.add_varying("memory", "B", static_cast<double>(memory.total()));
+  recorder.add_varying("embree_held", "B", static_cast<double>(lazy.embree_bytes()));
   recorder.add("cache_bound", "B", static_cast<double>(bound));
   recorder.add("faces_chosen", "", static_cast<double>(lazy.faces_chosen()));
   record(lazy.expanded(), *forest, recorder);

@@ -37,7 +37,8 @@ class CompareTest : public FolderTest {
 
 TEST_F(CompareTest, ExactMetricsMustBeEqual) {
   EXPECT_EQ(change({"bytes", "B", {100}}, {"bytes", "B", {100}}), Change::kSame);
-  EXPECT_EQ(change({"cells", "", {100}}, {"cells", "", {101}}), Change::kDiffers);
+  EXPECT_EQ(change({"bytes", "B", {100}}, {"bytes", "B", {101}}), Change::kDiffers);
+  EXPECT_EQ(change({"cells", "", {100000}}, {"cells", "", {100001}}), Change::kDiffers);
   EXPECT_EQ(change({"bytes", "B", {100}}, {"bytes", "KiB", {100}}), Change::kDiffers);
 }
 
@@ -52,8 +53,8 @@ TEST_F(CompareTest, TimingsChangeOnlyBeyondTheirNoise) {
 }
 
 TEST_F(CompareTest, BytesMayDifferByWhatTheAllocatorRoundsTo) {
-  EXPECT_EQ(change({"bytes", "B", {1000}}, {"bytes", "B", {1128}}), Change::kSame);
-  EXPECT_EQ(change({"bytes", "B", {1000}}, {"bytes", "B", {1136}}), Change::kDiffers);
+  EXPECT_EQ(change({"bytes", "B", {10000}}, {"bytes", "B", {10064}}), Change::kSame);
+  EXPECT_EQ(change({"bytes", "B", {10000}}, {"bytes", "B", {10080}}), Change::kDiffers);
   EXPECT_EQ(change({"bytes", "B", {1e9}}, {"bytes", "B", {1.0009e9}}), Change::kSame);
   EXPECT_EQ(change({"bytes", "B", {1e9}}, {"bytes", "B", {1.0011e9}}), Change::kDiffers);
 }

@@ -200,14 +200,16 @@ TEST_F(OneClaim, KnownDifferenceDoesNotFailAndAnEndToItDoes) {
 TEST_F(OneClaim, VerdictsThatDependOnTheMachineAreComputedAndExpected) {
   metrics_ = {{"m", "", {2}}};
   const std::string machine = "machine = \"Caches differ.\"\nprofiles = [\"quick\", \"\"]\n";
-  const Judgement differs = judge_one("{equal = [\"e/c/m\", 3]}", "E", machine);
+  const Judgement differs = judge_one("{equal = [\"e/c/m\", 3], machine = true}", "E", machine);
   EXPECT_EQ(differs.verdict, Verdict::kDiffers);
   EXPECT_EQ(differs.complaint, "");
   EXPECT_EQ(differs.claim->reason(), "Caches differ.");
   EXPECT_EQ(differs.claim->profiles, std::vector<std::string>{"quick"});
-  const Judgement holds = judge_one("{equal = [\"e/c/m\", 2]}", "E", machine);
+  const Judgement holds = judge_one("{equal = [\"e/c/m\", 2], machine = true}", "E", machine);
   EXPECT_EQ(holds.verdict, Verdict::kReproduced);
   EXPECT_EQ(holds.complaint, "");
+  const Judgement broken = judge_one("{equal = [\"e/c/m\", 3]}", "E", machine);
+  EXPECT_NE(broken.complaint, "") << "a condition that must hold on any machine";
   const Judgement missing = judge_one("{equal = [\"e/c/other\", 2]}", "E", machine);
   EXPECT_EQ(missing.verdict, Verdict::kMissing);
   EXPECT_NE(missing.complaint, "");
