@@ -156,8 +156,8 @@ void add_results(CLI::App& app, Arguments& a) {
       "and a page (174 mm) wide");
   report
       ->add_option("--reference", a.report.reference,
-                   "Compare which method is best on your ground with the grounds measured in this results "
-                   "folder, such as results/reference; by default with those in DIR")
+                   "Results folder, such as results/reference: tells whether the method that is best on your "
+                   "ground is also best on the grounds measured there; by default those in DIR")
       ->excludes(latex);
   app.add_subcommand("cite", "Print BibTeX of the papers and of this program");
   auto* compare =

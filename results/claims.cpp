@@ -49,10 +49,10 @@ void read_panels(TomlTable& entry, Condition& condition) {
     const double panel = node.number("alike");
     const bool known = is_count(panel, condition.panels) &&
                        std::ranges::count(condition.alike, static_cast<int>(panel)) == 0;
-    if (!known) entry.refuse("'alike' lists different numbers from 1 to 'panels'");
+    if (!known) entry.refuse("'alike' must list different panels, as numbers from 1 to 'panels'");
     condition.alike.push_back(static_cast<int>(panel));
   }
-  if (condition.alike.size() == 1) entry.refuse("'alike' lists two panels or more");
+  if (condition.alike.size() == 1) entry.refuse("'alike' must list two panels or more");
 }
 
 void read_figure(TomlTable& entry, Condition& condition) {
@@ -119,7 +119,7 @@ Condition condition_from(const TomlValue& node) {
 std::vector<std::string> profiles_from(TomlTable& entry) {
   std::vector<std::string> profiles;
   for (const TomlValue& value : entry.list("profiles")) {
-    // A member of `each` that a profile does not measure leaves it empty.
+    // Empty for a member of `each` that is not measured in that profile.
     if (const std::string profile = value.text("profiles"); !profile.empty()) profiles.push_back(profile);
   }
   if (profiles.empty()) profiles.assign(std::begin(kAllProfiles), std::end(kAllProfiles));

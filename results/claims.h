@@ -50,15 +50,15 @@ struct Condition {
   std::vector<Operand> operands;
   double low = 0, high = 0;  // range, both ends included
   std::string figure;        // id
-  // Further for figures, all optional: panels = N; alike = [i, j, …]: panels, from 1, that may show the same
-  // because the methods they compare may do the same; prints = [a, …]: metrics that the figure's words give;
+  // Further for figures, all optional: panels = N; alike = [i, j, …]: panels, counted from 1, that may look
+  // the same because their methods may draw the same; prints = [a, …]: metrics that the figure's words give;
   // brightness = a: the mean of all pixels, 0 black to 1 white, within kBrightness. `prints` are operands.
   int panels = 0;
   std::vector<int> alike;
   std::vector<Operand> brightness;  // one or none
   static constexpr double kBrightness = 0.005;
-  bool machine =
-      false;  // whether Claim::machine says why it may fail; the claim's other conditions must hold
+  // Whether Claim::machine says why this condition may fail; the claim's other conditions must hold.
+  bool machine = false;
 };
 
 // What a row says something about. Rows of different kinds are counted apart: only those about the paper say
@@ -84,8 +84,9 @@ struct Claim {
   std::vector<std::string> profiles;  // those that measure it
   std::vector<Condition> conditions;  // all must hold
   Verdict known = Verdict::kReproduced;  // expected
-  // Why the verdict depends on the machine, where machines were seen on both sides of the tolerance: then it
-  // is computed and shown, and a condition marked so may fail or not. Empty: it does not.
+  // Why the verdict depends on the machine: for claims that were seen to hold on one machine and to fail on
+  // another. The verdict is computed and shown, but conditions marked `machine` may fail without a complaint.
+  // Empty: the verdict does not depend on the machine.
   std::string machine;
   std::string pending, not_comparable;  // the reason; both empty if the claim is measured
   // For claims known to differ: the id of the claim of the reading that matches, or a sentence that says that

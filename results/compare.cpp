@@ -80,7 +80,7 @@ bool has_interval(const MetricChange& m) {
   return m.timed && resolved && m.ratio.median > 0;
 }
 
-// The median, and the deviation by the median of the distances from it.
+// The standard deviation is estimated from the median distance to the median, so that outliers do not count.
 Noise noise_of(const std::vector<MetricChange>& metrics) {
   constexpr double kNormal = 1.4826;  // standard deviation ÷ median distance, of a normal distribution
   std::vector<double> logs;
@@ -96,7 +96,7 @@ Noise noise_of(const std::vector<MetricChange>& metrics) {
 void ignore_noise(Comparison& comparison) {
   comparison.noise = noise_of(comparison.metrics);
   for (MetricChange& m : comparison.metrics) {
-    if (has_interval(m) && std::abs(log_ratio(m)) <= 3 * std::log(comparison.noise.deviation))
+    if (has_interval(m) && std::abs(log_ratio(m)) <= std::log(comparison.noise.threshold()))
       m.change = Change::kSame;
   }
 }
@@ -126,11 +126,11 @@ std::string machines_text(const Comparison& comparison) {
 
 std::string_view name(Change change) { return kNames[static_cast<std::size_t>(change)]; }
 
-bool timed(const Metric& metric) { return metric.varies || is_timing(metric.unit); }
-
 bool same_samples(const Metric& a, const Metric& b) {
   return a.unit == "B" ? std::ranges::equal(a.samples, b.samples, within_rounding) : a.samples == b.samples;
 }
+
+double Noise::threshold() const { return std::pow(deviation, 3); }
 
 bool Comparison::exact_equal() const { return count(Change::kDiffers) == 0; }
 
@@ -202,8 +202,10 @@ std::string compare_text(const Comparison& comparison, bool colour) {
   }
   text += fmt::format("\n{}\n", tally.empty() ? "no metrics to compare" : tally);
   if (const Noise& noise = comparison.noise; noise.timings >= Noise::kLeast) {
-    text += fmt::format("{} times: the median × {:.3f}, noise × {:.3f} (one standard deviation)\n",
-                        noise.timings, noise.median, noise.deviation);
+    text += fmt::format(
+        "{} timings: median ratio × {:.3f}, noise × {:.3f} (one standard deviation); a time counts "
+        "as changed above × {:.3f} or below × {:.3f}\n",
+        noise.timings, noise.median, noise.deviation, noise.threshold(), 1 / noise.threshold());
   }
   if (comparison.count(Change::kElsewhere) > 0) {
     text += "elsewhere: times of different kinds of machine, which are not compared\n";
@@ -238,7 +240,8 @@ std::string compare_json(const Comparison& comparison) {
                      {"noise",
                       {{"timings", comparison.noise.timings},
                        {"median", comparison.noise.median},
-                       {"deviation", comparison.noise.deviation}}},
+                       {"deviation", comparison.noise.deviation},
+                       {"threshold", comparison.noise.threshold()}}},
                      {"only_before", comparison.count(Change::kOnlyBefore)},
                      {"only_after", comparison.count(Change::kOnlyAfter)},
                      {"metrics", list},

@@ -34,15 +34,16 @@ struct MetricChange {
   std::string machine_before = "", machine_after = "";  // machine_name(), where they are of different kinds
 };
 
-// Times of two runs of one program differ by more than the interval of either run holds: by other load, other
-// clock rates, other places in memory. This is estimated from all of them, since most of the code is the same
-// in both: a time changed only if it changed by more than three standard deviations as well. Where most of
-// the code or the clock rate changed, the median says so: then nearly all times change, or, where the times
-// change by different factors, few of them exceed the deviation.
+// Times of two runs of one program differ by more than their confidence intervals say: load, clock rate and
+// places in memory change. This noise is estimated from all times together, on the assumption that most of
+// the code is the same in both runs. A time counts as changed only if its interval excludes 1 and it changed
+// by more than three standard deviations of the noise. If most of the code or the clock rate did change, the
+// median shows it; then nearly all times count as changed or, if their factors differ widely, hardly any.
 struct Noise {
   static constexpr std::size_t kLeast = 30;  // timings; with fewer, the intervals alone decide
   std::size_t timings = 0;                   // of one machine, with intervals
   double median = 1, deviation = 1;          // of after ÷ before, as factors
+  double threshold() const;  // three deviations: a factor up to it is noise, and so is 1 ÷ it
 };
 
 struct Comparison {
@@ -55,9 +56,8 @@ struct Comparison {
   std::size_t count(Change) const;
 };
 
-// A time, or computed from times.
-bool timed(const Metric&);
-// Equal, but for what the allocator rounds to: of heaps of 4 KiB and more, 64 bytes or a thousandth.
+// Whether all samples are equal. Values in "B" of at least 4 KiB may differ by 64 bytes or a thousandth,
+// whichever is more: the allocator rounds requests up.
 bool same_samples(const Metric&, const Metric&);
 
 // Throws bad_input when a folder holds no results.

@@ -45,7 +45,7 @@ Finding compare(const Condition& condition, const std::vector<Quantity>& quantit
 bool may_meet(const Condition& condition, const std::vector<Quantity>& quantities, const Provenance& a,
               const Provenance& b) {
   const bool relates = condition.kind == Kind::kRatio || condition.kind == Kind::kGrowth;
-  const bool timed = std::ranges::any_of(quantities, [](const Quantity& q) { return is_timing(q.unit); });
+  const bool timed = std::ranges::any_of(quantities, &Quantity::timed);
   if (timed && (relates || condition.kind == Kind::kOrder)) return comparable(a, b);
   return !relates || same_code(a, b);
 }
@@ -78,7 +78,7 @@ class Reader {
     std::vector<const Record*> records;
     for (const Operand& operand : condition.operands) {
       if (operand.is_number()) {
-        quantities.push_back({{operand.number}, "", "", ""});
+        quantities.push_back({{operand.number}, "", ""});
         continue;
       }
       const Record* const record = store_.find(operand.experiment, operand.case_name, profile_);

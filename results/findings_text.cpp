@@ -42,7 +42,8 @@ std::string_view doubt(const Summary& s, double low, double high, bool holds) {
 
 Quantity quantity(const Operand& operand, const Metric& metric, bool name_case) {
   const std::string name = spoken(operand.metric);
-  return {metric.samples, name_case ? operand.case_name + " " + name : name, metric.unit, name};
+  return {metric.samples, name_case ? operand.case_name + " " + name : name, metric.unit, name,
+          timed(metric)};
 }
 
 bool names_cases(const Claim& claim) {

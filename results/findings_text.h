@@ -10,7 +10,8 @@ namespace terrabench {
 struct Quantity {
   std::vector<double> samples;
   std::string name, unit;
-  std::string metric;  // the name without the case
+  std::string metric = "";  // the name without the case
+  bool timed = false;       // a time, or computed from times
 };
 Quantity quantity(const Operand&, const Metric&, bool name_case);
 // Whether the claim's metrics are of several cases, so that their names must say of which.

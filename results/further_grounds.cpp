@@ -14,7 +14,7 @@ namespace {
 std::string_view ground_of(std::string_view case_name) { return case_name.substr(0, case_name.find('/')); }
 std::string_view rest_of(std::string_view case_name) { return case_name.substr(ground_of(case_name).size()); }
 
-// A DEM is named by its path: its last part is enough to know it by.
+// The ground of a DEM is called by the file's path; tables show the file name only.
 std::string_view short_name(std::string_view ground) { return ground.substr(ground.rfind('/') + 1); }
 
 std::set<std::string, std::less<>> named_grounds(std::span<const RankingLayout> layouts) {
@@ -25,7 +25,7 @@ std::set<std::string, std::less<>> named_grounds(std::span<const RankingLayout> 
   return named;
 }
 
-// The ground of a record that has the layout's metric and is called like one of its entries; empty: none.
+// The ground, if the record has the layout's metric and its case is an entry's on another ground; else empty.
 std::string_view further_ground(const Record& record, const RankingLayout& layout) {
   if (record.experiment != layout.experiment || record.find(layout.metric) == nullptr) return "";
   const std::string_view name = record.case_name;
@@ -37,8 +37,8 @@ std::string_view further_ground(const Record& record, const RankingLayout& layou
   return "";
 }
 
-// How many metrics the layout's first measured entry shares with the same case on another ground, less those
-// that either lacks.
+// How alike the layout's ground and another are measured: the number of metrics that the first entry measured
+// on both has on both, less the number that it has on one only.
 int likeness(const RankingLayout& layout, const std::string& ground, const ProfileOfStore& measured,
              const ProfileOfStore& named) {
   for (const RankingLayout::Entry& entry : layout.entries) {
@@ -91,15 +91,25 @@ std::string beside_named(const Ranking& here, std::span<const Ranking> named) {
   return same + (same.empty() || others.empty() ? "" : "; ") + others;
 }
 
+std::string caption(const ProfileOfStore& measured, const ProfileOfStore& named) {
+  std::string text = fmt::format(
+      "For each task: the best method on this ground and by which factor it is ahead of the next, with the "
+      "factor's 95 % interval in brackets. The last column lists the grounds measured in {}: first those "
+      "where the same method is best, then which method is best on the others.",
+      &measured.store == &named.store ? "the same results folder"
+                                      : "the results folder that was named for comparison");
+  if (measured.profile != named.profile) {
+    text += fmt::format(" This ground was measured in profile {}, those in profile {}.", measured.profile,
+                        named.profile);
+  }
+  return text;
+}
+
 // `number`: of the ground, since two DEMs may have the same name.
-FilledTable empty_table(std::size_t number, std::string_view ground, bool same_folder) {
+FilledTable empty_table(std::size_t number, std::string_view ground, const std::string& caption) {
   return {{fmt::format("ground-{}-{}", number, file_name(ground)),
            fmt::format("Which method for {}", ground),
-           fmt::format(
-               "For each task the best method on this ground, and by how much; in brackets after a "
-               "factor stands its 95 % interval. The last column compares with the grounds measured "
-               "in {}: where the same method is best, and which one is best elsewhere.",
-               same_folder ? "the same results folder" : "the results folder that was named for comparison"),
+           caption,
            {{"Task"}, {"Best on this ground"}, {"On the compared grounds"}},
            {}},
           {}};
@@ -149,8 +159,7 @@ std::vector<FilledTable> tables_of_further_grounds(std::span<const RankingLayout
   const std::vector<Ranking> compared = rank(layouts, named.store, named.profile);
   std::vector<FilledTable> tables;
   for (const FurtherGround& ground : further) {
-    FilledTable filled =
-        empty_table(tables.size() + 1, short_name(ground.name), &measured.store == &named.store);
+    FilledTable filled = empty_table(tables.size() + 1, short_name(ground.name), caption(measured, named));
     for (const Ranking& here : rank(ground.layouts, measured.store, measured.profile))
       add_row(here, compared, filled);
     if (!filled.table.rows.empty()) tables.push_back(std::move(filled));

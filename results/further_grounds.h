@@ -1,5 +1,5 @@
-// "Which method for my ground": the rankings of the claims files on grounds that these do not name, such as a
-// user's DEM, beside what was found on the grounds that they name, in the same results folder or in another.
+// "Which method for my ground": ranks the methods on grounds that no claims file names, such as a user's DEM,
+// and compares the result with the rankings on the named grounds, of the same or of another results folder.
 #pragma once
 
 #include <span>
@@ -20,8 +20,8 @@ struct FurtherGround {
   std::string name;                    // a case of it is called "name/…"
   std::vector<RankingLayout> layouts;  // one per task
 };
-// Every measured ground that no layout names, in the order of measurement. Of a task's layouts, it takes the
-// one whose own ground was measured with the most of the same metrics, so that solids are compared as solids.
+// Every measured ground that no layout names, in the order of measurement. For each task it gets the layout
+// whose named ground shares the most metrics with it, so that solids are ranked by the metrics of solids.
 std::vector<FurtherGround> further_grounds(std::span<const RankingLayout>, const ProfileOfStore& measured,
                                            const ProfileOfStore& named);
 

@@ -22,13 +22,18 @@ std::string joined(const std::vector<Finding>& findings) {
   return text;
 }
 
-// Where the verdict depends on the machine, only those conditions may fail that do.
-bool unexpected(const Claim& claim, Verdict verdict, const std::vector<Finding>& findings) {
-  if (claim.machine.empty() || verdict > Verdict::kDiffers) return verdict != claim.known;
-  for (std::size_t i = 0; i < findings.size(); ++i) {
-    if (findings[i].outcome == Outcome::kFails && !claim.conditions[i].machine) return true;
+// Why the verdict is unexpected; empty if it is not. If the claim depends on the machine, either verdict is
+// expected, but only conditions marked `machine` may fail.
+std::string surprise(const Claim& claim, Verdict verdict, const std::vector<Finding>& findings) {
+  if (claim.machine.empty() || verdict > Verdict::kDiffers) {
+    if (verdict == claim.known) return "";
+    return fmt::format("expected verdict '{}', computed '{}'", name(claim.known), name(verdict));
   }
-  return false;
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    if (findings[i].outcome == Outcome::kFails && !claim.conditions[i].machine)
+      return "a condition fails that must hold on any machine: " + findings[i].text;
+  }
+  return "";
 }
 
 void judge_measured(Judgement& judgement, const Store& store, const std::string& profile) {
@@ -53,9 +58,8 @@ void judge_measured(Judgement& judgement, const Store& store, const std::string&
     judgement.complaint = "rests on a record that was altered";
   } else if (evidence.incomparable) {
     judgement.complaint = "compares what was measured on different machines or builds";
-  } else if (unexpected(claim, judgement.verdict, findings)) {
-    judgement.complaint =
-        fmt::format("expected verdict '{}', computed '{}'", name(claim.known), name(judgement.verdict));
+  } else {
+    judgement.complaint = surprise(claim, judgement.verdict, findings);
   }
 }
 

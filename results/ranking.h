@@ -29,9 +29,9 @@ struct RankingLayout {
   std::vector<Entry> entries;
 };
 
-// Methods are tied where the interval of their factor contains 1, and, of times, where the factor is below
-// this: a run's own interval does not hold what changes between runs of one machine. Two of the whole paper
-// profile differed by less than this in two thirds of the medians that are ranked.
+// A method is tied with the best if the interval of its factor contains 1 or, for times, if the factor is
+// below this margin: an interval of one run does not cover the differences between runs on one machine. Of
+// the ranked medians, two thirds differed by less than this between two runs of the whole paper profile.
 inline constexpr double kTimingMargin = 1.25;
 
 // One layout, filled: the entries that take part, from best to worst.
@@ -45,11 +45,12 @@ struct Ranking {
   std::vector<Place> places;
   std::size_t tied = 1;               // places that belong to the best: see kTimingMargin
   bool single = false;                // a time that was measured once: no interval, no winner
-  std::string not_compared;           // why not, as words that follow "as"; empty: the figures are compared
+  std::string not_compared;           // the reason, as words after "as"; empty: they are comparable
   std::vector<std::string> left_out;  // labels of entries that lack what is needed
   std::vector<std::string> runs;
 
-  // Whether there is a best: not if times were measured once, or cannot be compared.
+  // Whether there is a best method, or several tied: not if times were measured once or if the values cannot
+  // be compared.
   bool decided() const { return !places.empty() && not_compared.empty() && !single; }
   // "heightmap (262 kB), ahead of drills (341 kB) by a factor of 1.3"
   std::string result() const;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "results/figure_layout.h"
+#include "results/statistics.h"
 #include "terrain/parameters.h"
 
 namespace terrabench {
@@ -20,9 +21,12 @@ namespace terrabench {
 struct Metric {
   std::string name, unit;  // unit: "s", "B", "m", "1/s", "" for counts
   std::vector<double> samples;
-  // From run to run on one machine, although the unit does not say so: ratios of times, fits through them.
+  // The value varies from run to run on one machine although its unit is not one of time: a ratio of times, a
+  // fit through times, a peak of memory, the hits of a cache.
   bool varies = false;
 };
+// Whether its samples vary from run to run of one program: by their unit, or because `varies` says so.
+inline bool timed(const Metric& metric) { return metric.varies || is_timing(metric.unit); }
 
 // A picture that a case drew, relative to the results folder.
 struct RecordedFigure {

@@ -127,14 +127,14 @@ class Report {
     write_file(out_ / "findings-short.md", markdown({brief}));
     document_.push_back(Heading{2, "Findings", "findings"});
     document_.push_back(Paragraph{
-        "Who is best at what, written from the medians of the comparisons across the papers. In "
-        "brackets after "
-        "a factor stands its 95 % interval; methods whose interval holds 1 are called tied, and those "
-        "whose times lie within 25 %, by which two runs of one machine may differ.",
+        "Which method is best at what, from the medians of the comparisons across the papers. In "
+        "parentheses: by how many times the best method is ahead of the next. In brackets after a factor: "
+        "its 95 % interval. Methods are called tied if that interval contains 1 or, for times, if the "
+        "factor is below 1.25, since two runs on one machine may differ by as much.",
         false,
         {{"JSON", "findings.json"}, {"Markdown", "findings.md"}}});
     document_.push_back(brief);
-    document_.push_back(Paragraph{"With the figures:"});
+    document_.push_back(Paragraph{"The same with the measured values:"});
     document_.push_back(std::move(facts));
   }
 
@@ -278,7 +278,7 @@ class Report {
     document_.push_back(std::move(gallery));
   }
 
-  // Shows a preview and leads to the original. Where the report folder is moved alone, its pictures stay.
+  // Shows a preview, which lies in the report folder and moves with it, and links to the original outside it.
   void add_picture(Gallery& gallery, const Record& record, const RecordedFigure& figure, std::string title,
                    std::string caption) {
     const auto preview = previews_.find({figure.checksum, figure.file});

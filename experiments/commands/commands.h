@@ -92,7 +92,7 @@ ExitCode merge_command(const MergeArguments&);
 struct ReportArguments {
   std::filesystem::path folder = "out";
   std::filesystem::path latex;      // folder of a LaTeX bundle to write instead of the report; empty: none
-  std::filesystem::path reference;  // results folder to compare further grounds with; empty: the same
+  std::filesystem::path reference;  // results folder to compare further grounds with; empty: `folder`
 };
 ExitCode report_command(const ReportArguments&);
 

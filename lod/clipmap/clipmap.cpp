@@ -205,9 +205,9 @@ const Frame& Clipmap::update(const View& view) {
   // Levels below `finest` are not drawn and stay where they were; move_window() catches up when they return.
   for (int l = finest; l < levels(); ++l) {
     const int spacing = 1 << l;
-    // So that the next finer window always begins one of two samples from here on each axis. In samples of
-    // this level: the corner is even, the eye 2m - 2 to 2m from it, near the middle of n = 4m - 1. The next
-    // finer corner is floor(eye) - m + 1, hence m - 1 or m samples from this corner.
+    // On each axis the next finer window may begin at one of two samples only, for which there are trims. In
+    // samples of this level: the corner is even, the eye 2m - 2 to 2m from it, near the middle of n = 4m - 1.
+    // The next finer corner is floor(eye) - m + 1, hence m - 1 or m samples from this corner.
     move_window(l, {2 * (lattice_floor(eye.x, 2 * spacing) - pattern_.m + 1),
                     2 * (lattice_floor(eye.y, 2 * spacing) - pattern_.m + 1)});
     if (l == 0 && !hole_cut_) update_blocks(l);

@@ -59,9 +59,9 @@ void Roam::refine() {
   }
 }
 
-// While the triangle forms no diamond (it has a base neighbour whose own base neighbour is another), that
-// neighbour is one level coarser: splits it, and one of its children becomes the new base neighbour. Then
-// splits the diamond.
+// Splits the triangle's diamond. As long as it is half of none, since its base neighbour is one level coarser
+// and has another base neighbour itself, that neighbour is split first; one of the neighbour's children then
+// becomes the triangle's base neighbour.
 void Roam::force_split(std::uint32_t id) {
   while (mesh_.nodes()[id].leaf() && !mesh_.forms_diamond(id)) force_split(mesh_.nodes()[id].base);
   // Splitting a degenerate neighbour may already have split this triangle.
@@ -110,8 +110,9 @@ void Roam::add_children(std::uint32_t id, const ViewedCorner& apex, const Viewed
   add(parent.child + 1, right, apex);
 }
 
-// A parent's diamond cannot merge while a child of either half is split that is not degenerate. Children are
-// counted per half; the queue's entry is the diamond's, so that the second half finds it gone.
+// A diamond cannot merge while a child of either half is split, unless that child is degenerate. Split
+// children are counted per half, but the merge queue has one entry per diamond: it may have been removed
+// already.
 void Roam::withdraw_parents(const Halves& both) {
   std::vector<Node>& nodes = mesh_.nodes();
   for (const std::uint32_t half : both) {

@@ -22,7 +22,7 @@ std::uint32_t furthest_height(std::span<const float> heights) {
   return furthest;
 }
 
-// A sample as far from height 0 as any.
+// The sample with the largest absolute height, or one of them.
 glm::ivec2 furthest_sample(const GroundGrid& grid) {
   const std::uint32_t furthest = furthest_height(grid.heights);
   const auto at = std::ranges::find(grid.heights, furthest, bits_of_size) - grid.heights.begin();
@@ -34,7 +34,7 @@ std::span<const float> row(const GroundGrid& grid, glm::ivec2 from, int samples)
   return grid.heights.subspan(begin, static_cast<std::size_t>(samples));
 }
 
-// The same after an edit, of which only the rectangle is searched unless the sample lies within.
+// The same after an edit. Searches only the edited rectangle, unless the old sample lies within it.
 glm::ivec2 furthest_sample(const GroundGrid& grid, glm::ivec2 furthest, const SampleRect& edited) {
   if (glm::all(glm::lessThanEqual(edited.low, furthest)) &&
       glm::all(glm::lessThanEqual(furthest, edited.high)))

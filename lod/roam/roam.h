@@ -63,9 +63,9 @@ class Roam : public Lod {
   Roam(const Heightfield&, const RoamOptions&, Progress&);
   const Frame& update(const View&) override;
   void tune(double max_error) override;
-  // O(edited samples + nodes), and O(all samples) if the edit covers the sample that is furthest from height
-  // 0, on which the ground's extent depends. The next update() computes all culling labels and priorities
-  // anew: O(triangles in the mesh).
+  // O(edited samples + nodes); O(all samples + nodes) if the edit covers the sample with the largest absolute
+  // height, on which the ground's extent depends. The next update() computes all culling labels and
+  // priorities anew: O(triangles in the mesh).
   void edited(const SampleRect&) override;
   Memory memory() const override;
 
@@ -129,7 +129,7 @@ class Roam : public Lod {
 
   roam::Mesh mesh_;
   RoamOptions options_;
-  glm::ivec2 furthest_;  // a sample that is as far from height 0 as any
+  glm::ivec2 furthest_;  // a sample with the largest absolute height
   double extent_;        // of the ground, metres
   roam::WedgieView view_;
   roam::PriorityQueue splits_{kBuckets}, merges_{kBuckets};

@@ -3,8 +3,8 @@
 // each distance, the narrowest channel that any ray sees.
 //
 // The offsets and weights are the same for every pixel: they are computed once, and rays run in SIMD lanes
-// without a branch. AVX2 and AVX-512 load two neighbours at once: 240·w loads per pixel. Samples that need
-// ground outside the terrain or without data are omitted.
+// without a branch. AVX2 and AVX-512 load two neighbours at once: 256·w loads per pixel, those of the lanes
+// that only fill vectors included. Samples that need ground outside the terrain or without data are omitted.
 #pragma once
 
 #include <cstdint>

@@ -14,10 +14,10 @@
 //
 // The tree afterwards: the host has three more children (left, right, scarp). Block cells at a lip are links
 // to the scarp. Old cells inside the cut, of whatever heightmap, are links to the nearest cell of a block.
-// Faces, which belong to the surface beside the tree, cover the three heightmaps and the ring around them. A
-// height cell holds the old ground's height over its heightmap's plane: the planes move, and the ground on
-// them with it. To follow one fault: record(), at the end of this file; the end of apply_event.cpp, which
-// calls it; edit.h; steps 2 and 4 in along_line.cpp; Edit::commit() in edit.cpp.
+// Faces, which are in Model::surface and not in the tree, cover the three heightmaps and the ring around
+// them. A height cell holds the old ground's height over its heightmap's plane: when the plane moves, the
+// ground on it moves too. To follow one fault: record(), at the end of this file; the end of apply_event.cpp,
+// which calls it; edit.h; steps 2 and 4 in along_line.cpp; Edit::commit() in edit.cpp.
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
-// Figure 2 of "drill": its cross-sections, their union and their fit, computed once more by plain formulas and
-// read back from the sheet. A figure of another place must be found out.
+// Figure 2 of "drill": its cross-sections, their union and their fit, computed once more by plain formulas
+// and read back from the sheet. The test must reject a figure of another place.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -45,7 +45,7 @@ TEST(Roam, KeepsItsErrorOnHighGround) {
   }
 }
 
-// Its tolerance for rounding depends on the extent, and with it what is culled.
+// ROAM's tolerance for rounding, and so what it culls, depends on the ground's extent.
 TEST(Roam, KnowsTheExtentOfEditedGround) {
   Heightfield field = ground(33, 21);
   Roam roam(field, {.max_error = 1}, silent());
@@ -67,6 +67,15 @@ TEST(Roam, KnowsTheExtentOfEditedGround) {
     roam.edited({edit.at, edit.at});
     EXPECT_EQ(RoamAudit::extent(roam), RoamAudit::extent(Roam(field, {.max_error = 1}, silent())));
   }
+  // The furthest height inside a larger rectangle, then none of it, with the furthest outside.
+  field.at(13, 9) = -9000;
+  roam.edited({{8, 6}, {20, 15}});
+  EXPECT_EQ(RoamAudit::extent(roam), RoamAudit::extent(Roam(field, {.max_error = 1}, silent())));
+  EXPECT_GT(RoamAudit::extent(roam), 9000);
+  field.at(13, 9) = 0;
+  field.at(16, 14) = 8000;
+  roam.edited({{12, 8}, {17, 14}});
+  EXPECT_EQ(RoamAudit::extent(roam), RoamAudit::extent(Roam(field, {.max_error = 1}, silent())));
 }
 
 TEST(Roam, IsExactWhereNoErrorIsAllowed) {

@@ -86,7 +86,9 @@ TEST_F(CompareTest, WhatMostTimesDoIsNoise) {
   EXPECT_NEAR(c.noise.deviation, std::exp(1.4826 * 0.105), 0.01);
   EXPECT_EQ(c.count(Change::kSame), 41U);
   EXPECT_EQ(c.metrics.back().change, Change::kRose);
-  EXPECT_THAT(compare_text(c, false), HasSubstr("42 times: the median × 1.005, noise × 1.168"));
+  const std::string text = compare_text(c, false);
+  EXPECT_THAT(text, HasSubstr("42 timings: median ratio × 1.005, noise × 1.168"));
+  EXPECT_THAT(text, HasSubstr("changed above × 1.595 or below × 0.627"));
   before.resize(20);
   after.resize(20);
   write("few-a", before);

@@ -10,6 +10,7 @@ namespace terrabench {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using testing::SizeIs;
 
 constexpr std::string_view kLayouts = R"(
@@ -93,6 +94,9 @@ TEST_F(FurtherGroundsTest, ComparesWithTheGroundsOfAnotherFolder) {
   EXPECT_EQ(tables()[0].table.rows[0][2].text, "nothing decided there");
   EXPECT_EQ(tables(mine)[0].table.rows[0][2].text, "as on a hill; on a cave voxels");
   EXPECT_THAT(tables(mine)[0].table.caption, HasSubstr("named for comparison"));
+  EXPECT_THAT(tables(mine)[0].table.caption, Not(HasSubstr("profile")));
+  const auto mixed = tables_of_further_grounds(layouts_, {store_, "quick"}, {mine, "paper"});
+  EXPECT_THAT(mixed[0].table.caption, HasSubstr("measured in profile quick, those in profile paper"));
 }
 
 TEST_F(FurtherGroundsTest, SaysThatNothingWasMeasuredToCompare) {

@@ -39,5 +39,5 @@ records() { grep -c '"case"' "$1/merged/measurements.jsonl"; }
 [[ -s slurm/check.txt && -s slurm/merged/report/index.html ]]
 jobs=$(squeue --states=all --noheader | wc -l)
 echo "jobs that Slurm ran: $jobs"
-# Two shards, the one that was killed once more, and what merges, checks and reports.
+# Four jobs at least: two shards, the second try of the killed one, and the job that merges, checks and reports.
 ((jobs >= 4))
