@@ -155,9 +155,10 @@ void add_results(CLI::App& app, Arguments& a) {
       "(Debian: latexmk, texlive-latex-recommended, lmodern). Figures are PDF, a column (84 mm) "
       "and a page (174 mm) wide");
   report
-      ->add_option("--reference", a.report.reference,
-                   "Results folder, such as results/reference: tells whether the method that is best on your "
-                   "ground is also best on the grounds measured there; by default those in DIR")
+      ->add_option(
+          "--reference", a.report.reference,
+          "Results folder with whose grounds yours is compared, such as results/reference: the report "
+          "says whether the same method is best there (default: DIR)")
       ->excludes(latex);
   app.add_subcommand("cite", "Print BibTeX of the papers and of this program");
   auto* compare =

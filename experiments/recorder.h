@@ -15,7 +15,7 @@ class Recorder {
 
   // Adds a sample to the metric of that name.
   void add(std::string_view metric, std::string_view unit, double sample);
-  // The same for a metric that varies from run to run although its unit is not one of time: Metric::varies.
+  // The same for a metric that varies from run to run although is_timing() of its unit is false.
   void add_varying(std::string_view metric, std::string_view unit, double sample);
   // Declares a picture of a claim; returns the path to write it to. `extension` without the dot.
   std::filesystem::path figure(std::string_view id, std::string_view extension, std::string_view caption);

@@ -203,9 +203,9 @@ std::string compare_text(const Comparison& comparison, bool colour) {
   text += fmt::format("\n{}\n", tally.empty() ? "no metrics to compare" : tally);
   if (const Noise& noise = comparison.noise; noise.timings >= Noise::kLeast) {
     text += fmt::format(
-        "{} timings: median ratio × {:.3f}, noise × {:.3f} (one standard deviation); a time counts "
-        "as changed above × {:.3f} or below × {:.3f}\n",
-        noise.timings, noise.median, noise.deviation, noise.threshold(), 1 / noise.threshold());
+        "{} times: median ratio × {:.3f}, noise × {:.3f} (one standard deviation); changes from × {:.3f} to "
+        "× {:.3f} count as noise\n",
+        noise.timings, noise.median, noise.deviation, 1 / noise.threshold(), noise.threshold());
   }
   if (comparison.count(Change::kElsewhere) > 0) {
     text += "elsewhere: times of different kinds of machine, which are not compared\n";

@@ -40,8 +40,8 @@ Finding compare(const Condition& condition, const std::vector<Quantity>& quantit
   return word_chain(equal, quantities, medians, holds);
 }
 
-// Whether records of two runs may meet in the condition. Ratios, growth and orders of times need one machine
-// and build, those of counts and errors one revision.
+// Whether records of two runs may meet in the condition. Ratios, growth and orders of what varies from run to
+// run need one machine and build, other ratios and growth one revision.
 bool may_meet(const Condition& condition, const std::vector<Quantity>& quantities, const Provenance& a,
               const Provenance& b) {
   const bool relates = condition.kind == Kind::kRatio || condition.kind == Kind::kGrowth;

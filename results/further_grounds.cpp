@@ -94,7 +94,8 @@ std::string beside_named(const Ranking& here, std::span<const Ranking> named) {
 std::string caption(const ProfileOfStore& measured, const ProfileOfStore& named) {
   std::string text = fmt::format(
       "For each task: the best method on this ground and by which factor it is ahead of the next, with the "
-      "factor's 95 % interval in brackets. The last column lists the grounds measured in {}: first those "
+      "factor's 95 % interval in brackets. The last column lists the grounds measured in {} where the task "
+      "is decided: first those "
       "where the same method is best, then which method is best on the others.",
       &measured.store == &named.store ? "the same results folder"
                                       : "the results folder that was named for comparison");

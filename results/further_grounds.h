@@ -21,7 +21,7 @@ struct FurtherGround {
   std::vector<RankingLayout> layouts;  // one per task
 };
 // Every measured ground that no layout names, in the order of measurement. For each task it gets the layout
-// whose named ground shares the most metrics with it, so that solids are ranked by the metrics of solids.
+// whose named ground was measured by the most similar metrics, so that solids are ranked as solids.
 std::vector<FurtherGround> further_grounds(std::span<const RankingLayout>, const ProfileOfStore& measured,
                                            const ProfileOfStore& named);
 

@@ -116,7 +116,7 @@ std::optional<Ranking> rank(const RankingLayout& layout, const Store& store, con
     return layout.most ? a.median > b.median : a.median < b.median;
   });
   const Candidate& best = all[0];
-  const bool timing = is_timing(best.metric->unit);
+  const bool timing = timed(*best.metric);
   ranking.not_compared = why_not_compared(all, timing, store);
   ranking.single =
       timing && all.size() > 1 && std::min(best.metric->samples.size(), all[1].metric->samples.size()) == 1;

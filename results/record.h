@@ -21,8 +21,8 @@ namespace terrabench {
 struct Metric {
   std::string name, unit;  // unit: "s", "B", "m", "1/s", "" for counts
   std::vector<double> samples;
-  // The value varies from run to run on one machine although its unit is not one of time: a ratio of times, a
-  // fit through times, a peak of memory, the hits of a cache.
+  // The value varies from run to run on one machine although is_timing() of its unit is false: a ratio of
+  // times, a fit through times, a peak of memory, the hits of a cache.
   bool varies = false;
 };
 // Whether its samples vary from run to run of one program: by their unit, or because `varies` says so.

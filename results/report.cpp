@@ -127,14 +127,17 @@ class Report {
     write_file(out_ / "findings-short.md", markdown({brief}));
     document_.push_back(Heading{2, "Findings", "findings"});
     document_.push_back(Paragraph{
-        "Which method is best at what, from the medians of the comparisons across the papers. In "
-        "parentheses: by how many times the best method is ahead of the next. In brackets after a factor: "
-        "its 95 % interval. Methods are called tied if that interval contains 1 or, for times, if the "
-        "factor is below 1.25, since two runs on one machine may differ by as much.",
+        fmt::format(
+            "Which method is best at what, from the medians of the comparisons across the papers, and in "
+            "parentheses by how many times it is ahead of the next. Methods are called tied if the 95 % "
+            "interval of that factor contains 1 or, for times, if it is below {}, since two runs on one "
+            "machine may differ by as much.",
+            kTimingMargin),
         false,
         {{"JSON", "findings.json"}, {"Markdown", "findings.md"}}});
     document_.push_back(brief);
-    document_.push_back(Paragraph{"The same with the measured values:"});
+    document_.push_back(
+        Paragraph{"The same with measured values, and with the 95 % interval of each factor:"});
     document_.push_back(std::move(facts));
   }
 

@@ -59,8 +59,8 @@ void Roam::refine() {
   }
 }
 
-// Splits the triangle's diamond. As long as it is half of none, since its base neighbour is one level coarser
-// and has another base neighbour itself, that neighbour is split first; one of the neighbour's children then
+// Splits the triangle's diamond. While its base neighbour is one level coarser, with another triangle as its
+// own base neighbour, the two form no diamond: then that neighbour is split first, and one of its children
 // becomes the triangle's base neighbour.
 void Roam::force_split(std::uint32_t id) {
   while (mesh_.nodes()[id].leaf() && !mesh_.forms_diamond(id)) force_split(mesh_.nodes()[id].base);

@@ -17,8 +17,8 @@ HWY_INLINE void gather_neighbours(const float* row, const std::int32_t* offset, 
                                   hn::Vec<F>& east) {
   const F f;
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
-  // Each 64-bit lane loads a pair of neighbours: half as many loads, which take most of the time. Not on
-  // other targets: they load lanes one by one, so nothing is saved, or their vectors have no fixed length.
+  // Each 64-bit lane loads a pair of neighbours: half as many loads, which take most of the time. Other
+  // targets take the plain form below: they load lanes one by one, or their vectors have no fixed length.
   const hn::Repartition<std::int64_t, F> pair;
   const hn::Rebind<std::int32_t, decltype(pair)> half;
   const auto gather = [&](const std::int32_t* from) HWY_ATTR {

@@ -67,15 +67,17 @@ TEST(Roam, KnowsTheExtentOfEditedGround) {
     roam.edited({edit.at, edit.at});
     EXPECT_EQ(RoamAudit::extent(roam), RoamAudit::extent(Roam(field, {.max_error = 1}, silent())));
   }
-  // The furthest height inside a larger rectangle, then none of it, with the furthest outside.
-  field.at(13, 9) = -9000;
-  roam.edited({{8, 6}, {20, 15}});
-  EXPECT_EQ(RoamAudit::extent(roam), RoamAudit::extent(Roam(field, {.max_error = 1}, silent())));
-  EXPECT_GT(RoamAudit::extent(roam), 9000);
-  field.at(13, 9) = 0;
-  field.at(16, 14) = 8000;
-  roam.edited({{12, 8}, {17, 14}});
-  EXPECT_EQ(RoamAudit::extent(roam), RoamAudit::extent(Roam(field, {.max_error = 1}, silent())));
+  // The largest absolute height inside a larger rectangle; then that height is removed, and the largest lies
+  // outside the rectangle.
+  field.at(30, 1) = 6000;
+  roam.edited({{30, 1}, {30, 1}});
+  for (const float height : {-9000.0F, 0.0F}) {
+    SCOPED_TRACE(height);
+    field.at(13, 9) = height;
+    roam.edited({{8, 6}, {20, 15}});
+    EXPECT_EQ(RoamAudit::extent(roam), RoamAudit::extent(Roam(field, {.max_error = 1}, silent())));
+    EXPECT_GT(RoamAudit::extent(roam), std::max(6000.0F, std::abs(height)));
+  }
 }
 
 TEST(Roam, IsExactWhereNoErrorIsAllowed) {

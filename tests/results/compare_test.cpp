@@ -87,8 +87,8 @@ TEST_F(CompareTest, WhatMostTimesDoIsNoise) {
   EXPECT_EQ(c.count(Change::kSame), 41U);
   EXPECT_EQ(c.metrics.back().change, Change::kRose);
   const std::string text = compare_text(c, false);
-  EXPECT_THAT(text, HasSubstr("42 timings: median ratio × 1.005, noise × 1.168"));
-  EXPECT_THAT(text, HasSubstr("changed above × 1.595 or below × 0.627"));
+  EXPECT_THAT(text, HasSubstr("42 times: median ratio × 1.005, noise × 1.168"));
+  EXPECT_THAT(text, HasSubstr("changes from × 0.627 to × 1.595 count as noise"));
   before.resize(20);
   after.resize(20);
   write("few-a", before);
