@@ -9,6 +9,7 @@
 #include "representations/ray_walk.h"
 #include "representations/voxel/dense_grid.h"
 #include "representations/voxel/voxel.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 namespace {
@@ -217,8 +218,7 @@ struct SpanGround {
 
 std::size_t own_bytes(const HeightGround& ground) { return ground.tops.bytes(); }
 std::size_t own_bytes(const SpanGround& ground) {
-  return ground.tops.bytes() + ground.starts.capacity() * sizeof ground.starts[0] +
-         ground.parts.capacity() * sizeof ground.parts[0];
+  return ground.tops.bytes() + heap_bytes(ground.starts.data()) + heap_bytes(ground.parts.data());
 }
 
 template <class Ground>
@@ -235,7 +235,7 @@ class Caster final : public RayCaster {
       }
     });
   }
-  std::size_t bytes() const override { return sizeof *this + own_bytes(ground_); }
+  std::size_t bytes() const override { return heap_bytes(this) + own_bytes(ground_); }
 
  private:
   Ground ground_;

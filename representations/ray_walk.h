@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "terrain/memory.h"
 #include "terrain/ray.h"
 
 namespace terrabench {
@@ -66,8 +67,7 @@ class TopPyramid {
     return tops_[starts_[level] + static_cast<std::size_t>(j) * widths_[level] + i];
   }
   std::size_t bytes() const {
-    return tops_.capacity() * sizeof(float) + starts_.capacity() * sizeof(std::size_t) +
-           widths_.capacity() * sizeof(int);
+    return heap_bytes(tops_.data()) + heap_bytes(starts_.data()) + heap_bytes(widths_.data());
   }
 
  private:

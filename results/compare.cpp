@@ -15,16 +15,10 @@ namespace {
 constexpr std::string_view kNames[] = {"same",       "rose",      "fell",        "differs",
                                        "unresolved", "elsewhere", "only before", "only after"};
 
-// The allocator rounds requests up, to multiples that depend on what else lies on the heap.
-bool within_rounding(double before, double after) {
-  constexpr double kSmallest = 4096, kRounding = 64, kShare = 0.001;
-  return before == after || (std::min(before, after) >= kSmallest &&
-                             std::abs(after - before) <= std::max(kRounding, kShare * before));
-}
-
 Change change_of(const Metric& before, const Metric& after, const Summary& ratio, bool one_machine) {
   if (before.unit != after.unit) return Change::kDiffers;
-  if (!timed(before) && !timed(after)) return same_samples(before, after) ? Change::kSame : Change::kDiffers;
+  if (!timed(before) && !timed(after))
+    return before.samples == after.samples ? Change::kSame : Change::kDiffers;
   if (!one_machine) return Change::kElsewhere;
   if (before.samples.size() < 2 || after.samples.size() < 2 || !std::isfinite(ratio.median)) {
     return Change::kUnresolved;
@@ -125,10 +119,6 @@ std::string machines_text(const Comparison& comparison) {
 }  // namespace
 
 std::string_view name(Change change) { return kNames[static_cast<std::size_t>(change)]; }
-
-bool same_samples(const Metric& a, const Metric& b) {
-  return a.unit == "B" ? std::ranges::equal(a.samples, b.samples, within_rounding) : a.samples == b.samples;
-}
 
 double Noise::threshold() const { return std::pow(deviation, 3); }
 

@@ -1,6 +1,6 @@
 // Compares two results folders metric by metric: what changed, and whether the change exceeds the noise.
-// Exact figures must be equal on any two machines, but for what the allocator rounds to (same_samples);
-// times, and what is computed from them, are compared within one kind of machine.
+// Exact figures must be equal on any two machines; what varies (timed() in record.h) is compared within one
+// kind of machine.
 #pragma once
 
 #include <filesystem>
@@ -55,10 +55,6 @@ struct Comparison {
   bool passed() const { return exact_equal() && faults.empty(); }
   std::size_t count(Change) const;
 };
-
-// Whether all samples are equal. Values in "B" of at least 4 KiB may differ by 64 bytes or a thousandth,
-// whichever is more: the allocator rounds requests up.
-bool same_samples(const Metric&, const Metric&);
 
 // Throws bad_input when a folder holds no results.
 Comparison compare(const std::filesystem::path& before, const std::filesystem::path& after);

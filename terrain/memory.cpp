@@ -1,6 +1,7 @@
 #include "terrain/memory.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,8 +18,28 @@ namespace {
 
 constinit std::atomic<std::int64_t> g_live{0}, g_peak{0};
 
+// How glibc's malloc sizes blocks. With the kFront bytes that it keeps in front of each, they are multiples
+// of 16 bytes and at least 32: a free block that is 16 bytes too long cannot be split and is given whole.
+// With multiples of 32 bytes the excess stays below the multiple, and can be told from it. Blocks above
+// kLarge come from the heap or as whole pages, of which 16 bytes are kept, as malloc sees fit: whole pages
+// less kPageRest are what both can give, with an excess below a page.
+constexpr std::size_t kFront = 8, kGranule = 32, kLarge = 124 << 10, kPage = 4096, kPageRest = 24;
+
+std::size_t round_up(std::size_t size) {
+  if (size > SIZE_MAX - 2 * kPage) throw std::bad_alloc();
+  const auto to_multiple = [](std::size_t n, std::size_t of) { return (n + of - 1) / of * of; };
+  return size <= kLarge ? to_multiple(std::max<std::size_t>(size, 1) + kFront, kGranule) - kFront
+                        : to_multiple(size + kPageRest, kPage) - kPageRest;
+}
+
+// What round_up() asked for, from the size of the block that malloc gave.
+std::size_t without_excess(std::size_t usable) {
+  return usable <= kLarge + kGranule + kFront ? (usable + kFront) / kGranule * kGranule - kFront
+                                              : (usable + kPageRest) / kPage * kPage - kPageRest;
+}
+
 void* count_in(void* block) {
-  const auto size = static_cast<std::int64_t>(malloc_usable_size(block));
+  const auto size = static_cast<std::int64_t>(heap_bytes(block));
   const std::int64_t live = g_live.fetch_add(size, std::memory_order_relaxed) + size;
   std::int64_t peak = g_peak.load(std::memory_order_relaxed);
   while (live > peak && !g_peak.compare_exchange_weak(peak, live, std::memory_order_relaxed)) {
@@ -28,27 +49,27 @@ void* count_in(void* block) {
 
 void count_out(void* block) {
   if (block != nullptr) {
-    g_live.fetch_sub(static_cast<std::int64_t>(malloc_usable_size(block)), std::memory_order_relaxed);
+    g_live.fetch_sub(static_cast<std::int64_t>(heap_bytes(block)), std::memory_order_relaxed);
   }
 }
 
 void* allocate(std::size_t size) {
-  void* const block = std::malloc(size == 0 ? 1 : size);
+  void* const block = std::malloc(round_up(size));
   if (block == nullptr) throw std::bad_alloc();
   return count_in(block);
 }
 
 void* allocate(std::size_t size, std::align_val_t align) {
-  const auto alignment = static_cast<std::size_t>(align);
-  if (size > SIZE_MAX - alignment) throw std::bad_alloc();
-  // aligned_alloc wants a multiple of the alignment.
-  void* const block = std::aligned_alloc(
-      alignment, (size + alignment - 1) / alignment * alignment + (size == 0 ? alignment : 0));
-  if (block == nullptr) throw std::bad_alloc();
+  void* block = nullptr;
+  if (posix_memalign(&block, static_cast<std::size_t>(align), round_up(size)) != 0) throw std::bad_alloc();
   return count_in(block);
 }
 
 }  // namespace
+
+std::size_t heap_bytes(const void* block) {
+  return block == nullptr ? 0 : without_excess(malloc_usable_size(const_cast<void*>(block)));
+}
 
 Memory& Memory::operator+=(const Memory& other) {
   payload += other.payload;

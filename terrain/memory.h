@@ -2,8 +2,6 @@
 // HeapCounter counts the same bytes in the allocator. The two agree, and tests check it.
 #pragma once
 
-#include <malloc.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -20,10 +18,11 @@ struct Memory {
   Memory& operator+=(const Memory& other);
 };
 
-// Bytes that the allocator gave for a block (0 for null).
-inline std::size_t heap_bytes(const void* block) {
-  return block == nullptr ? 0 : malloc_usable_size(const_cast<void*>(block));
-}
+// What a block from operator new counts for; 0 for null. It is the size that was asked for, rounded up, and
+// depends on nothing else: equal structures count equal bytes in every run. The allocator may add 16 bytes
+// more (aligned blocks: 32), or part of a page, depending on what else lies on the heap; these are not
+// counted.
+std::size_t heap_bytes(const void* block);
 
 // A vector's heap block as payload and slack, or as index and slack.
 template <class T>
@@ -39,8 +38,8 @@ Memory index_memory(const std::vector<T>& v) {
   return {0, m.payload, m.slack};
 }
 
-// Every block that operator new hands out anywhere in the process is counted with the size that the allocator
-// gave it. Blocks that C libraries take from malloc directly (GDAL, Mesa) are not counted.
+// Counts every block that operator new hands out anywhere in the process, by heap_bytes(). Blocks that C
+// libraries take from malloc directly (GDAL, Mesa) are not counted.
 struct HeapCounter {
   static std::int64_t live();  // bytes held now, by all threads
   static std::int64_t peak();  // largest live() since the last reset_peak()

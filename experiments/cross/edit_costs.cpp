@@ -114,7 +114,7 @@ class Edit {
   void measure(const std::string& step, const Representation& built) {
     const auto bytes = static_cast<double>(built.memory().total());
     TriangleMesh mesh = built.mesh({});
-    recorder_.add_varying(step + "_bytes", "B", bytes - bytes_before_);
+    recorder_.add(step + "_bytes", "B", bytes - bytes_before_);
     recorder_.add(step + "_triangles", "", static_cast<double>(new_triangles(last(), mesh)));
     edited_ = std::move(mesh);
   }

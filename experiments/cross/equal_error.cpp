@@ -124,7 +124,7 @@ void measure_cost(const Flight& flight, const Contender& method, double knob, Re
   recorder.add("first_update_time", "s", cost.first_update_time);
   recorder.add("first_uploaded", "B", cost.first_uploaded);
   recorder.add("bytes_held", "B", cost.bytes_held);
-  recorder.add("heap_growth", "B", cost.heap_growth);
+  recorder.add_varying("heap_growth", "B", cost.heap_growth);
   recorder.add("uploaded", "B", cost.uploaded);
   for (const double t : cost.times) recorder.add("update_time", "s", t);
   for (const double t : cost.triangles) recorder.add("triangles", "", t);

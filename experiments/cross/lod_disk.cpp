@@ -288,7 +288,7 @@ std::uint64_t peak_resident_bytes() {
 void walk_here(const fs::path& pyramid, const Case& at, Recorder& recorder, Progress& progress) {
   recorder.terrain(pyramid.string(), digest(pyramid));
   Walk(pyramid, at.integer("window")).measure(at.integer("steps"), recorder, progress);
-  recorder.add("peak_resident", "B", peak_resident_bytes());
+  recorder.add_varying("peak_resident", "B", static_cast<double>(peak_resident_bytes()));
 }
 
 // The same experiment over the pyramid in a second process, whose peak memory is then that of the walk.

@@ -13,7 +13,7 @@
 namespace terrabench::cross {
 namespace {
 
-constexpr std::size_t kSamples = 3;
+constexpr std::size_t kSamples = 9;
 
 class Numbers {
  public:

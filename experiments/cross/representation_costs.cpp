@@ -10,7 +10,8 @@
 namespace terrabench::cross {
 namespace {
 
-constexpr int kSamples = 3;
+// With three samples in each of two runs, the intervals of one in ten unchanged medians exclude each other.
+constexpr int kSamples = 9, kFewSamples = 3;
 constexpr double kLong = 1;  // seconds: what takes longer is measured once
 
 // Numbers in a range, the same on every machine.
@@ -29,20 +30,22 @@ class Numbers {
   std::mt19937 random_{1};
 };
 
-// Adds what `work` takes to the metric, up to kSamples times.
+// Adds what `work` takes to the metric, kSamples times; kFewSamples times where that takes kLong in all.
 template <class Work>
 void add_times(Recorder& recorder, std::string_view metric, const Work& work) {
-  for (int k = 0; k < kSamples; ++k) {
+  double all = 0;
+  for (int k = 0; k < (all < kLong ? kSamples : kFewSamples); ++k) {
     const double time = seconds(work);
+    all += time;
     recorder.add(metric, "s", time);
     if (time > kLong) return;
   }
 }
 
-// Calls `batch(k)` until a tenth of a second of processor time is used; queries per second.
+// Calls `batch(k)` until kEnough seconds of processor time are used; queries per second.
 template <class Batch>
 double rate(std::size_t queries, std::size_t batches, const Batch& batch) {
-  constexpr double kEnough = 0.1;
+  constexpr double kEnough = 0.04;
   double time = 0;
   std::size_t done = 0;
   while (done < batches && (done == 0 || time < kEnough)) {

@@ -23,7 +23,7 @@ const std::array kSpecs{
     ParameterSpec{"width", std::int64_t{1600}, "pixels", "width of the picture", 1, 16384},
     ParameterSpec{"height", std::int64_t{1000}, "pixels", "height of the picture", 1, 16384},
 };
-constexpr int kBuilds = 5;
+constexpr int kBuilds = 9;
 
 // Part of a file name: the catalogue name; for a path its stem and a digest, since two folders may hold files
 // of one name.

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "lod/meters/drawn_triangles.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 namespace {
@@ -71,8 +72,7 @@ float DrawnSurface::height(double x, double z) const {
 }
 
 std::size_t DrawnSurface::bytes() const {
-  return corners_.capacity() * sizeof(Corner) +
-         (begins_.capacity() + members_.capacity()) * sizeof(std::uint32_t);
+  return heap_bytes(corners_.data()) + heap_bytes(begins_.data()) + heap_bytes(members_.data());
 }
 
 double height_on_cells(const Heightfield& field, double x, double z) {

@@ -177,7 +177,7 @@ TEST(Scale, BytesOfAHeightMapGrowWithItsColumns) {
 TEST(Scale, DenseVoxelsGrowWithTheirVoxelsAndSkippedSizesAreRecorded) {
   const Record record =
       measured("solids/dense_voxel",
-               {{"smallest", std::int64_t{16}}, {"largest", std::int64_t{32}}, {"seconds", 1e6}});
+               {{"smallest", std::int64_t{32}}, {"largest", std::int64_t{64}}, {"seconds", 1e6}});
   EXPECT_NEAR(samples(record, "bytes_exponent").at(0), 1.5, 0.02);
   const Record brief = measured(
       "solids/dense_voxel",

@@ -242,7 +242,7 @@ TEST(RayCast, BytesAreThoseOfTheAllocator) {
     own_ray_caster(*built);
     const HeapScope scope;
     const auto caster = own_ray_caster(*built);
-    EXPECT_NEAR(static_cast<double>(caster->bytes()), static_cast<double>(scope.held()), 256) << type;
+    EXPECT_EQ(static_cast<std::int64_t>(caster->bytes()), scope.held()) << type;
   }
 }
 

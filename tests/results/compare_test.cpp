@@ -52,13 +52,6 @@ TEST_F(CompareTest, TimingsChangeOnlyBeyondTheirNoise) {
   EXPECT_EQ(change({"t", "s", {0, 0, 0}}, base), Change::kUnresolved);
 }
 
-TEST_F(CompareTest, BytesMayDifferByWhatTheAllocatorRoundsTo) {
-  EXPECT_EQ(change({"bytes", "B", {10000}}, {"bytes", "B", {10064}}), Change::kSame);
-  EXPECT_EQ(change({"bytes", "B", {10000}}, {"bytes", "B", {10080}}), Change::kDiffers);
-  EXPECT_EQ(change({"bytes", "B", {1e9}}, {"bytes", "B", {1.0009e9}}), Change::kSame);
-  EXPECT_EQ(change({"bytes", "B", {1e9}}, {"bytes", "B", {1.0011e9}}), Change::kDiffers);
-}
-
 TEST_F(CompareTest, RatiosOfTimesAreComparedAsTimes) {
   const Metric varying{"share", "", {0.5, 0.51, 0.49}, true}, plain{"share", "", {0.5, 0.51, 0.49}};
   EXPECT_EQ(change(varying, {"share", "", {0.505, 0.5, 0.495}, true}), Change::kSame);

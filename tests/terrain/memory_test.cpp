@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdlib>
+#include <map>
 #include <memory>
+#include <random>
 #include <thread>
 
 namespace terrabench {
@@ -78,6 +82,30 @@ TEST(Memory, ThreadsAreCountedTogether) {
   std::size_t expected = 0;
   for (const auto& block : blocks) expected += heap_bytes(block.get()) + heap_bytes(block->data());
   EXPECT_EQ(scope.held(), static_cast<std::int64_t>(expected));
+}
+
+// Whatever lies on the heap, holes of all sizes from C libraries included, and however often large blocks
+// were freed, after which malloc takes fewer of them as pages of their own.
+TEST(Memory, EqualBlocksCountEqualBytes) {
+  constexpr std::array<std::size_t, 12> kSizes{0,    1,    24,     25,     40,     100,
+                                               1000, 4096, 126976, 126977, 200000, 3000000};
+  std::map<std::size_t, std::size_t> counted;
+  std::mt19937 random(5);
+  std::vector<void*> foreign(2000);
+  std::vector<std::vector<char>> own(200);
+  for (int k = 0; k < 20000; ++k) {
+    void*& hole = foreign[random() % foreign.size()];
+    std::free(hole);
+    hole = std::malloc(random() % 300);
+    const std::size_t size = kSizes[random() % (k % 16 == 0 ? kSizes.size() : 8)];
+    const std::unique_ptr<std::byte[]> block(new std::byte[size]);
+    const std::size_t bytes = heap_bytes(block.get());
+    EXPECT_GE(bytes, size);
+    EXPECT_EQ(counted.try_emplace(size, bytes).first->second, bytes) << size;
+    own[random() % own.size()] = std::vector<char>(random() % 600);
+  }
+  for (void* const hole : foreign) std::free(hole);
+  EXPECT_EQ(counted.size(), kSizes.size());
 }
 
 TEST(Memory, TheMachineHasSome) {

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "terrain/memory.h"
 #include "terrain/sources/noise/code.h"
 
 namespace terrabench::noise {
@@ -29,7 +30,7 @@ class LatticeNoise {
   // those of Graph::fbm with frequency 2^-cell_bits, to the bit. O(octaves) a point. Thread-safe.
   void points(std::span<const std::int32_t> x, std::span<const std::int32_t> z, std::span<float> out) const;
 
-  std::size_t heap_bytes() const { return octaves_.capacity() * sizeof(Octave); }
+  std::size_t heap_bytes() const { return terrabench::heap_bytes(octaves_.data()); }
 
  private:
   int cell_bits_;
