@@ -19,23 +19,28 @@ namespace {
 constinit std::atomic<std::int64_t> g_live{0}, g_peak{0};
 
 // How glibc's malloc sizes blocks. With the kFront bytes that it keeps in front of each, they are multiples
-// of 16 bytes and at least 32: a free block that is 16 bytes too long cannot be split and is given whole.
-// With multiples of 32 bytes the excess stays below the multiple, and can be told from it. Blocks above
-// kLarge come from the heap or as whole pages, of which 16 bytes are kept, as malloc sees fit: whole pages
-// less kPageRest are what both can give, with an excess below a page.
-constexpr std::size_t kFront = 8, kGranule = 32, kLarge = 124 << 10, kPage = 4096, kPageRest = 24;
+// of 16 bytes and at least 32: a free block that is 16 bytes too long cannot be split and is given whole;
+// aligned blocks may be up to 48 bytes too long. Requests are rounded to multiples above such an excess, so
+// that it can be told from them: of 32 bytes, which small aligned blocks exceed, and above kSmall of 64.
+// Blocks above kLarge come from the heap or as whole pages, of which 16 bytes are kept, as malloc sees fit:
+// whole pages less kPageRest are what both can give, with an excess below a page.
+constexpr std::size_t kFront = 8, kSmall = 1024, kFine = 32, kCoarse = 64;
+constexpr std::size_t kLarge = 124 << 10, kPage = 4096, kPageRest = 24;
 
 std::size_t round_up(std::size_t size) {
   if (size > SIZE_MAX - 2 * kPage) throw std::bad_alloc();
   const auto to_multiple = [](std::size_t n, std::size_t of) { return (n + of - 1) / of * of; };
-  return size <= kLarge ? to_multiple(std::max<std::size_t>(size, 1) + kFront, kGranule) - kFront
-                        : to_multiple(size + kPageRest, kPage) - kPageRest;
+  if (size > kLarge) return to_multiple(size + kPageRest, kPage) - kPageRest;
+  const std::size_t length = std::max<std::size_t>(size, 1) + kFront;
+  return to_multiple(length, length <= kSmall ? kFine : kCoarse) - kFront;
 }
 
 // What round_up() asked for, from the size of the block that malloc gave.
 std::size_t without_excess(std::size_t usable) {
-  return usable <= kLarge + kGranule + kFront ? (usable + kFront) / kGranule * kGranule - kFront
-                                              : (usable + kPageRest) / kPage * kPage - kPageRest;
+  const std::size_t length = usable + kFront;
+  if (length > kLarge + 2 * kCoarse) return (usable + kPageRest) / kPage * kPage - kPageRest;
+  const std::size_t multiple = length < kSmall + kCoarse ? kFine : kCoarse;
+  return length / multiple * multiple - kFront;
 }
 
 void* count_in(void* block) {

@@ -308,7 +308,13 @@ void walk_apart(const fs::path& pyramid, const fs::path& folder, const Case& at,
         "run the same experiment over the pyramid by itself");
   }
   for (const Metric& metric : store.records().front().metrics) {
-    for (const double sample : metric.samples) recorder.add(metric.name, metric.unit, sample);
+    for (const double sample : metric.samples) {
+      if (metric.varies) {
+        recorder.add_varying(metric.name, metric.unit, sample);
+      } else {
+        recorder.add(metric.name, metric.unit, sample);
+      }
+    }
   }
 }
 

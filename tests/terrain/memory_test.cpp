@@ -89,7 +89,10 @@ TEST(Memory, ThreadsAreCountedTogether) {
 TEST(Memory, EqualBlocksCountEqualBytes) {
   constexpr std::array<std::size_t, 12> kSizes{0,    1,    24,     25,     40,     100,
                                                1000, 4096, 126976, 126977, 200000, 3000000};
-  std::map<std::size_t, std::size_t> counted;
+  struct alignas(64) Line {
+    std::byte bytes[64];
+  };
+  std::map<std::size_t, std::size_t> counted, counted_aligned;
   std::mt19937 random(5);
   std::vector<void*> foreign(2000);
   std::vector<std::vector<char>> own(200);
@@ -102,6 +105,9 @@ TEST(Memory, EqualBlocksCountEqualBytes) {
     const std::size_t bytes = heap_bytes(block.get());
     EXPECT_GE(bytes, size);
     EXPECT_EQ(counted.try_emplace(size, bytes).first->second, bytes) << size;
+    const std::unique_ptr<Line[]> lines(new Line[17 + size / 64]);
+    const std::size_t aligned = heap_bytes(lines.get());
+    EXPECT_EQ(counted_aligned.try_emplace(size, aligned).first->second, aligned) << size;
     own[random() % own.size()] = std::vector<char>(random() % 600);
   }
   for (void* const hole : foreign) std::free(hole);
