@@ -1,8 +1,8 @@
 // Rays on a representation, its own way and through its mesh.
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 
 #include "experiments/cross/representation_costs.h"
 #include "experiments/stopwatch.h"
@@ -12,8 +12,6 @@
 
 namespace terrabench::cross {
 namespace {
-
-constexpr std::size_t kSamples = 9;
 
 class Numbers {
  public:
@@ -64,30 +62,39 @@ std::vector<Ray> rays_along_ground(const GroundLines& lines, std::size_t n) {
   return rays;
 }
 
-struct Shot {
-  std::array<double, kSamples> seconds{};
-  std::vector<float> distances;
-};
+// The same rays, cast in two ways on one thread. The first time fills the caches.
+class Shots {
+ public:
+  Shots(std::vector<Ray> rays, const RayIndex& index, const RayCaster* own)
+      : rays_(std::move(rays)), index_(index), own_(own), hits_(rays_.size()), distances_(rays_.size()) {}
 
-// Casts all rays kSamples times on one thread, after a first time that fills the caches.
-template <class Cast>
-Shot shoot(std::span<const Ray> rays, const Cast& cast) {
-  Shot shot;
-  shot.distances.resize(rays.size());
-  cast(rays, std::span(shot.distances));
-  for (std::size_t k = 0; k < kSamples; ++k) {
-    shot.seconds[k] = processor_seconds([&] { cast(rays, std::span(shot.distances)); });
+  // Distances to what is hit, infinite where nothing is.
+  std::span<const float> through_mesh() {
+    index_.closest(rays_, hits_);
+    for (std::size_t r = 0; r < rays_.size(); ++r) distances_[r] = hits_[r].distance;
+    return distances_;
   }
-  return shot;
-}
+  std::span<const float> own_way() {
+    if (own_ == nullptr) return through_mesh();
+    own_->closest(rays_, distances_);
+    return distances_;
+  }
+  double seconds_through_mesh() {
+    through_mesh();
+    return processor_seconds([&] { through_mesh(); });
+  }
+  double seconds_own_way() {
+    own_way();
+    return processor_seconds([&] { own_way(); });
+  }
 
-Shot shoot(std::span<const Ray> rays, const RayIndex& index) {
-  std::vector<RayHit> hits(rays.size());
-  return shoot(rays, [&](std::span<const Ray> all, std::span<float> distances) {
-    index.closest(all, hits);
-    for (std::size_t r = 0; r < all.size(); ++r) distances[r] = hits[r].distance;
-  });
-}
+ private:
+  std::vector<Ray> rays_;
+  const RayIndex& index_;
+  const RayCaster* own_;
+  std::vector<RayHit> hits_;
+  std::vector<float> distances_;
+};
 
 std::size_t agreeing(std::span<const float> a, std::span<const float> b, float within) {
   std::size_t n = 0;
@@ -98,45 +105,68 @@ std::size_t agreeing(std::span<const float> a, std::span<const float> b, float w
   return n;
 }
 
+// What casts the rays of one case, as long as its rounds.
+struct Casters {
+  Casters(const Scene& scene, std::unique_ptr<RayIndex> mesh, std::unique_ptr<RayCaster> own_way,
+          std::size_t n)
+      : index(std::move(mesh)),
+        own(std::move(own_way)),
+        above(rays_from_above(scene.lines, n), *index, own.get()),
+        along(rays_along_ground(scene.lines, n), *index, own.get()) {}
+
+  std::unique_ptr<RayIndex> index;
+  std::unique_ptr<RayCaster> own;
+  Shots above, along;
+  double own_seconds = 0, mesh_seconds = 0;  // of both kinds, in this round
+};
+
+void add_rounds(const std::shared_ptr<Casters>& casters, double n, Rounds& rounds) {
+  const auto add = [&](const char* metric, Shots& shots, double (Shots::*seconds)(), double& sum,
+                       bool first) {
+    rounds.sample(metric, "1/s", [casters, &shots, seconds, &sum, first, n] {
+      const double time = (shots.*seconds)();
+      sum = (first ? 0 : sum) + time;
+      return n / time;
+    });
+  };
+  add("embree_above", casters->above, &Shots::seconds_through_mesh, casters->mesh_seconds, true);
+  add("rays_above", casters->above, &Shots::seconds_own_way, casters->own_seconds, true);
+  add("embree_along", casters->along, &Shots::seconds_through_mesh, casters->mesh_seconds, false);
+  add("rays_along", casters->along, &Shots::seconds_own_way, casters->own_seconds, false);
+  if (!casters->own) return;
+  rounds.sample("rays", "1/s", [casters, n] { return 2 * n / casters->own_seconds; });
+  rounds.sample("embree_rays", "1/s", [casters, n] { return 2 * n / casters->mesh_seconds; });
+}
+
 }  // namespace
 
 void measure_rays(const Scene& scene, const Representation& built, const TriangleMesh& mesh, int count,
-                  Recorder& recorder) {
+                  Recorder& recorder, Rounds& rounds) {
   const auto n = static_cast<std::size_t>(count);
   Stopwatch watch;
-  const RayIndex index(mesh);
+  auto index = std::make_unique<RayIndex>(mesh);
   recorder.add("embree_time", "s", watch.seconds());
-  recorder.add("embree_bytes", "B", static_cast<double>(index.bytes()));
+  recorder.add("embree_bytes", "B", static_cast<double>(index->bytes()));
   watch = {};
-  const std::unique_ptr<RayCaster> own = own_ray_caster(built);
+  std::unique_ptr<RayCaster> own = own_ray_caster(built);
   if (own) {
     recorder.add("ray_index_time", "s", watch.seconds());
     recorder.add("ray_index_bytes", "B", own->bytes());
   }
   recorder.add("own_rays", "", own ? 1 : 0);
+  const auto casters = std::make_shared<Casters>(scene, std::move(index), std::move(own), n);
   std::size_t agree = 0, hits = 0;
-  std::array<double, kSamples> own_seconds{}, embree_seconds{};  // of all rays
-  for (const bool above : {true, false}) {
-    const std::vector<Ray> rays = above ? rays_from_above(scene.lines, n) : rays_along_ground(scene.lines, n);
-    const Shot embree = shoot(rays, index);
-    const Shot shot = own ? shoot(rays, [&](auto all, auto out) { own->closest(all, out); }) : embree;
-    for (const float distance : embree.distances) hits += std::isfinite(distance);
-    agree += agreeing(shot.distances, embree.distances, scene.cell);
-    for (std::size_t k = 0; k < kSamples; ++k) {
-      own_seconds[k] += shot.seconds[k];
-      embree_seconds[k] += embree.seconds[k];
-      recorder.add(above ? "rays_above" : "rays_along", "1/s", static_cast<double>(n) / shot.seconds[k]);
-      recorder.add(above ? "embree_above" : "embree_along", "1/s",
-                   static_cast<double>(n) / embree.seconds[k]);
-    }
+  for (Shots* const shots : {&casters->above, &casters->along}) {
+    const std::span<const float> found = shots->through_mesh();
+    const std::vector<float> through_mesh(found.begin(), found.end());
+    for (const float distance : through_mesh) hits += std::isfinite(distance);
+    agree += agreeing(shots->own_way(), through_mesh, scene.cell);
   }
   recorder.add("ray_hits", "", static_cast<double>(hits) / static_cast<double>(2 * n));
-  if (!own) return;
-  recorder.add("ray_agreement", "", static_cast<double>(agree) / static_cast<double>(2 * n));
-  for (std::size_t k = 0; k < kSamples; ++k) {
-    recorder.add("rays", "1/s", static_cast<double>(2 * n) / own_seconds[k]);
-    recorder.add("embree_rays", "1/s", static_cast<double>(2 * n) / embree_seconds[k]);
+  if (casters->own) {
+    recorder.add("ray_agreement", "", static_cast<double>(agree) / static_cast<double>(2 * n));
   }
+  add_rounds(casters, static_cast<double>(n), rounds);
 }
 
 }  // namespace terrabench::cross

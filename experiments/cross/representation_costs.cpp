@@ -10,10 +10,6 @@
 namespace terrabench::cross {
 namespace {
 
-// With three samples in each of two runs, the intervals of one in ten unchanged medians exclude each other.
-constexpr int kSamples = 9, kFewSamples = 3;
-constexpr double kLong = 1;  // seconds: what takes longer is measured once
-
 // Numbers in a range, the same on every machine.
 class Numbers {
  public:
@@ -30,18 +26,6 @@ class Numbers {
   std::mt19937 random_{1};
 };
 
-// Adds what `work` takes to the metric, kSamples times; kFewSamples times where that takes kLong in all.
-template <class Work>
-void add_times(Recorder& recorder, std::string_view metric, const Work& work) {
-  double all = 0;
-  for (int k = 0; k < (all < kLong ? kSamples : kFewSamples); ++k) {
-    const double time = seconds(work);
-    all += time;
-    recorder.add(metric, "s", time);
-    if (time > kLong) return;
-  }
-}
-
 // Calls `batch(k)` until kEnough seconds of processor time are used; queries per second.
 template <class Batch>
 double rate(std::size_t queries, std::size_t batches, const Batch& batch) {
@@ -55,37 +39,66 @@ double rate(std::size_t queries, std::size_t batches, const Batch& batch) {
   return static_cast<double>(done * queries) / time;
 }
 
+// Random places, in batches.
+class Queries {
+ public:
+  explicit Queries(const Bounds& bounds)
+      : x_(numbers_.many(kBatch * kBatches, bounds.low.x, bounds.high.x)),
+        y_(numbers_.many(kBatch * kBatches, bounds.low.y, bounds.high.y)),
+        z_(numbers_.many(kBatch * kBatches, bounds.low.z, bounds.high.z)) {}
+
+  double points_per_second(const Representation& built) {
+    return rate(kBatch, kBatches, [&](std::size_t b) {
+      built.materials({part(x_, b), part(y_, b), part(z_, b)}, materials_);
+    });
+  }
+  double columns_per_second(const Representation& built) {
+    return rate(kBatch, kBatches, [&](std::size_t b) {
+      sink_.clear();
+      built.spans({part(x_, b), part(z_, b)}, sink_);
+    });
+  }
+
+ private:
+  static constexpr std::size_t kBatch = 1024, kBatches = 256;
+  static std::span<const float> part(const std::vector<float>& all, std::size_t batch) {
+    return std::span(all).subspan(batch * kBatch, kBatch);
+  }
+
+  Numbers numbers_;
+  std::vector<float> x_, y_, z_;
+  std::vector<Material> materials_{kBatch};
+  SpanSink sink_;
+};
+
 }  // namespace
 
 std::unique_ptr<Representation> measure_build(const Scene& scene, const RepresentationType& type,
                                               const Parameters& parameters, Recorder& recorder,
-                                              Progress& progress) {
-  const auto build = [&] { return type.build(scene.source, parameters, progress); };
+                                              Rounds& rounds, Progress& progress) {
+  const auto build = [&scene, &type, &progress, parameters] {
+    return type.build(scene.source, parameters, progress);
+  };
   std::unique_ptr<Representation> built = build();  // makes thread pools and tables
-  add_times(recorder, "build_time", [&] {
-    built.reset();
-    built = build();
-  });
   const Memory memory = built->memory();
   recorder.add("payload", "B", memory.payload);
   recorder.add("index", "B", memory.index);
   recorder.add("slack", "B", memory.slack);
   recorder.add("bytes", "B", memory.total());
   recorder.add("heap_bytes", "B", static_cast<double>(destroy_and_count(std::move(built))));
+  rounds.time("build_time", [build] { build(); });
   return build();
 }
 
 void measure_file(const Scene& scene, const RepresentationType& type, const Representation& built,
-                  Recorder& recorder) {
-  const TemporaryFolder folder;
-  const std::filesystem::path file = folder.path() / "scratch";
-  std::size_t bytes = 0;
-  add_times(recorder, "save_time", [&] { bytes = save_representation(file, type, built); });
+                  Recorder& recorder, Rounds& rounds) {
+  const auto folder = std::make_shared<TemporaryFolder>();  // as long as the work that uses it
+  const std::filesystem::path file = folder->path() / "scratch";
+  const std::size_t bytes = save_representation(file, type, built);
   recorder.add("file_bytes", "B", bytes);
   recorder.add("file_of_heightmap", "",
                static_cast<double>(bytes) / static_cast<double>(scene.heightmap_bytes));
-  std::unique_ptr<Representation> copy;
-  add_times(recorder, "load_time", [&] { copy = load_representation(file).representation; });
+  const std::unique_ptr<Representation> copy = load_representation(file).representation;
   constexpr std::size_t kMost = 4096;
   const std::size_t n = std::min(kMost, scene.lines.x.size());
   const Columns at{std::span(scene.lines.x).first(n), std::span(scene.lines.z).first(n)};
@@ -95,39 +108,21 @@ void measure_file(const Scene& scene, const RepresentationType& type, const Repr
   std::size_t differ = 0;
   for (std::size_t c = 0; c < n; ++c) differ += !std::ranges::equal(own.column(c), loaded.column(c));
   recorder.add("loaded_differs", "", differ);
+  rounds.time("save_time", [folder, file, &type, &built] { save_representation(file, type, built); });
+  rounds.time("load_time", [folder, file] { load_representation(file); });
 }
 
-void measure_queries(const Scene& scene, const Representation& built, Recorder& recorder) {
-  constexpr std::size_t kBatch = 1024, kBatches = 256;
-  Numbers numbers;
-  const Bounds& bounds = scene.lines.bounds;
-  const std::vector<float> x = numbers.many(kBatch * kBatches, bounds.low.x, bounds.high.x),
-                           y = numbers.many(kBatch * kBatches, bounds.low.y, bounds.high.y),
-                           z = numbers.many(kBatch * kBatches, bounds.low.z, bounds.high.z);
-  const auto part = [](const std::vector<float>& all, std::size_t batch) {
-    return std::span(all).subspan(batch * kBatch, kBatch);
-  };
-  std::vector<Material> materials(kBatch);
-  SpanSink sink;
-  built.spans({part(x, 0), part(z, 0)}, sink);  // warms up
-  for (int k = 0; k < kSamples; ++k) {
-    recorder.add("points_per_second", "1/s", rate(kBatch, kBatches, [&](std::size_t b) {
-                   built.materials({part(x, b), part(y, b), part(z, b)}, materials);
-                 }));
-    recorder.add("columns_per_second", "1/s", rate(kBatch, kBatches, [&](std::size_t b) {
-                   sink.clear();
-                   built.spans({part(x, b), part(z, b)}, sink);
-                 }));
-  }
+void measure_queries(const Scene& scene, const Representation& built, Rounds& rounds) {
+  const auto queries = std::make_shared<Queries>(scene.lines.bounds);
+  rounds.sample("points_per_second", "1/s", [queries, &built] { return queries->points_per_second(built); });
+  rounds.sample("columns_per_second", "1/s",
+                [queries, &built] { return queries->columns_per_second(built); });
 }
 
-TriangleMesh measure_mesh(const Representation& built, Recorder& recorder) {
-  TriangleMesh mesh;
-  add_times(recorder, "mesh_time", [&] {
-    mesh = {};
-    mesh = built.mesh({});
-  });
+TriangleMesh measure_mesh(const Representation& built, Recorder& recorder, Rounds& rounds) {
+  TriangleMesh mesh = built.mesh({});
   recorder.add("triangles", "", mesh.triangles());
+  rounds.time("mesh_time", [&built] { built.mesh({}); });
   return mesh;
 }
 

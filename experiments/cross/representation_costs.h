@@ -4,22 +4,30 @@
 
 #include <memory>
 
+#include "experiments/cross/rounds.h"
 #include "experiments/cross/scenes.h"
 #include "experiments/recorder.h"
 #include "terrain/mesh.h"
 
 namespace terrabench::cross {
 
-// Seconds to build (median of several), the bytes of each part, and the bytes that the allocator takes back.
-// Returns what was built.
+// What is timed is added to the rounds, which must run while the scene, the structure and the mesh are there.
+
+// Seconds to build, the bytes of each part, and the bytes that the allocator takes back. Returns what was
+// built.
 std::unique_ptr<Representation> measure_build(const Scene&, const RepresentationType&, const Parameters&,
-                                              Recorder&, Progress&);
+                                              Recorder&, Rounds&, Progress&);
 // Bytes on disk, seconds to save and to load, and how many of some thousand lines the loaded copy answers
 // differently.
-void measure_file(const Scene&, const RepresentationType&, const Representation&, Recorder&);
+void measure_file(const Scene&, const RepresentationType&, const Representation&, Recorder&, Rounds&);
 // Points and columns per second of processor time, on one thread, at random places.
-void measure_queries(const Scene&, const Representation&, Recorder&);
-TriangleMesh measure_mesh(const Representation&, Recorder&);
+void measure_queries(const Scene&, const Representation&, Rounds&);
+TriangleMesh measure_mesh(const Representation&, Recorder&, Rounds&);
+// Rays per second of processor time, on one thread: from above, downward in random directions; and along the
+// ground, from 2 % of its height above it, within 6° of the horizontal. Cast as own_ray_caster() does, or
+// through the mesh; both are compared hit by hit. `agreement`: the share of rays for which the two hit the
+// same place within a cell, or both nothing.
+void measure_rays(const Scene&, const Representation&, const TriangleMesh&, int rays, Recorder&, Rounds&);
 
 // A sphere dug where the ground is highest and filled again: seconds, bytes added since before the edit, and
 // the triangles that must be meshed again (new_triangles()), of which `mesh` are those before. Types that
@@ -30,11 +38,5 @@ void measure_edit(const Scene&, const RepresentationType&, Representation&, cons
 // The triangles of `after` that `before` does not have, by the bits of their corners: the least that anything
 // drawn must take over after the edit. O(n log n) of all triangles, 8 bytes each.
 std::size_t new_triangles(const TriangleMesh& before, const TriangleMesh& after);
-
-// Rays per second of processor time, on one thread: from above, downward in random directions; and along the
-// ground, from 2 % of its height above it, within 6° of the horizontal. Cast as own_ray_caster() does, or
-// through the mesh; both are compared hit by hit. `agreement`: the share of rays for which the two hit the
-// same place within a cell, or both nothing.
-void measure_rays(const Scene&, const Representation&, const TriangleMesh&, int rays, Recorder&);
 
 }  // namespace terrabench::cross

@@ -120,9 +120,11 @@ void measure_at_error(const Scene& scene, const RepresentationType& type, double
   if (!fitted) return;
   if (fitted->trial.setting > 0) recorder.add("setting", "", static_cast<double>(fitted->trial.setting));
   recorder.add("of_asked", "", fitted->trial.rmse / asked);
-  const auto built = measure_build(scene, type, fitted->parameters, recorder, progress);
-  measure_file(scene, type, *built, recorder);
-  measure_queries(scene, *built, recorder);
+  Rounds rounds;
+  const auto built = measure_build(scene, type, fitted->parameters, recorder, rounds, progress);
+  measure_file(scene, type, *built, recorder, rounds);
+  measure_queries(scene, *built, rounds);
+  rounds.run(recorder);
   record(differences(*built, scene.source, scene.lines, kMargin * scene.cell), scene.source, recorder);
 }
 
@@ -140,12 +142,14 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     measure_at_error(ground, type, share, recorder, progress);
     return;
   }
-  const auto built = measure_build(ground, type, ground.parameters(type), recorder, progress);
-  measure_file(ground, type, *built, recorder);
-  measure_queries(ground, *built, recorder);
+  Rounds rounds;
+  const auto built = measure_build(ground, type, ground.parameters(type), recorder, rounds, progress);
+  measure_file(ground, type, *built, recorder, rounds);
+  measure_queries(ground, *built, rounds);
   record(differences(*built, ground.source, ground.lines, kMargin * ground.cell), ground.source, recorder);
-  const TriangleMesh mesh = measure_mesh(*built, recorder);
-  measure_rays(ground, *built, mesh, at.integer("rays"), recorder);
+  const TriangleMesh mesh = measure_mesh(*built, recorder, rounds);
+  measure_rays(ground, *built, mesh, at.integer("rays"), recorder, rounds);
+  rounds.run(recorder);
   measure_edit(ground, type, *built, mesh, recorder, progress);
 }
 

@@ -1,0 +1,38 @@
+#include "experiments/cross/rounds.h"
+
+#include <gtest/gtest.h>
+
+namespace terrabench::cross {
+namespace {
+
+TEST(Rounds, DoEachPieceOnceARound) {
+  std::string order;
+  Rounds rounds(1e9);
+  rounds.time("a", [&] { order += 'a'; });
+  rounds.sample("b", "1/s", [&] {
+    order += 'b';
+    return static_cast<double>(order.size());
+  });
+  Record record;
+  Recorder recorder(record, "");
+  rounds.run(recorder);
+  EXPECT_EQ(order, "ababababababababab");
+  EXPECT_EQ(record.find("a")->unit, "s");
+  EXPECT_EQ(record.find("a")->samples.size(), std::size_t{Rounds::kMost});
+  EXPECT_EQ(record.find("b")->unit, "1/s");
+  EXPECT_EQ(record.find("b")->samples, (std::vector<double>{2, 4, 6, 8, 10, 12, 14, 16, 18}));
+}
+
+TEST(Rounds, DoLongWorkOnce) {
+  std::string order;
+  Rounds rounds(0);
+  rounds.time("a", [&] { order += 'a'; });
+  rounds.time("b", [&] { order += 'b'; });
+  Record record;
+  Recorder recorder(record, "");
+  rounds.run(recorder);
+  EXPECT_EQ(order, "ab");
+}
+
+}  // namespace
+}  // namespace terrabench::cross
