@@ -20,10 +20,10 @@ constinit std::atomic<std::int64_t> g_live{0}, g_peak{0};
 
 // How glibc's malloc sizes blocks. With the kFront bytes that it keeps in front of each, they are multiples
 // of 16 bytes and at least 32: a free block that is 16 bytes too long cannot be split and is given whole;
-// aligned blocks may be up to 48 bytes too long. Requests are rounded to multiples above such an excess, so
-// that it can be told from them: of 32 bytes, which small aligned blocks exceed, and above kSmall of 64.
-// Blocks above kLarge come from the heap or as whole pages, of which 16 bytes are kept, as malloc sees fit:
-// whole pages less kPageRest are what both can give, with an excess below a page.
+// aligned blocks may be 32 bytes too long. Requests are rounded to multiples above such an excess, so that it
+// can be told from them: of 32 bytes, and above kSmall, where all aligned blocks are, of 64. Blocks above
+// kLarge come from the heap or as whole pages, of which 16 bytes are kept, as malloc sees fit: whole pages
+// less kPageRest are what both can give, with an excess below a page for alignments up to half a page.
 constexpr std::size_t kFront = 8, kSmall = 1024, kFine = 32, kCoarse = 64;
 constexpr std::size_t kLarge = 124 << 10, kPage = 4096, kPageRest = 24;
 
@@ -43,6 +43,18 @@ std::size_t without_excess(std::size_t usable) {
   return length / multiple * multiple - kFront;
 }
 
+// Sanitizers give what is asked for and watch what lies behind: there the count alone is rounded.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+std::size_t to_ask(std::size_t size) {
+  const std::size_t rounded = round_up(size);
+  return kSanitized ? std::max<std::size_t>(size, 1) : rounded;
+}
+
 void* count_in(void* block) {
   const auto size = static_cast<std::int64_t>(heap_bytes(block));
   const std::int64_t live = g_live.fetch_add(size, std::memory_order_relaxed) + size;
@@ -59,21 +71,26 @@ void count_out(void* block) {
 }
 
 void* allocate(std::size_t size) {
-  void* const block = std::malloc(round_up(size));
+  void* const block = std::malloc(to_ask(size));
   if (block == nullptr) throw std::bad_alloc();
   return count_in(block);
 }
 
 void* allocate(std::size_t size, std::align_val_t align) {
   void* block = nullptr;
-  if (posix_memalign(&block, static_cast<std::size_t>(align), round_up(size)) != 0) throw std::bad_alloc();
+  const std::size_t alignment = std::max(static_cast<std::size_t>(align), sizeof(void*));
+  // Of small blocks the excess could not be told.
+  if (posix_memalign(&block, alignment, to_ask(kSanitized ? size : std::max(size, kSmall))) != 0)
+    throw std::bad_alloc();
   return count_in(block);
 }
 
 }  // namespace
 
 std::size_t heap_bytes(const void* block) {
-  return block == nullptr ? 0 : without_excess(malloc_usable_size(const_cast<void*>(block)));
+  if (block == nullptr) return 0;
+  const std::size_t usable = malloc_usable_size(const_cast<void*>(block));
+  return kSanitized ? round_up(usable) : without_excess(usable);
 }
 
 Memory& Memory::operator+=(const Memory& other) {

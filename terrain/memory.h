@@ -18,10 +18,9 @@ struct Memory {
   Memory& operator+=(const Memory& other);
 };
 
-// What a block from operator new counts for; 0 for null. It is the size that was asked for, rounded up, and
-// depends on nothing else: equal structures count equal bytes in every run. The allocator may add some bytes,
-// or part of a page, depending on what else lies on the heap; these are not counted, except for aligned
-// blocks below 1 KiB.
+// What a block from operator new counts for; 0 for null. It is the size that was asked for, rounded up as
+// operator new does here, and depends on nothing else: equal structures count equal bytes in every run. What
+// the allocator adds, depending on what else lies on the heap, is not counted.
 std::size_t heap_bytes(const void* block);
 
 // A vector's heap block as payload and slack, or as index and slack.

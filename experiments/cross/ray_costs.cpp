@@ -62,7 +62,8 @@ std::vector<Ray> rays_along_ground(const GroundLines& lines, std::size_t n) {
   return rays;
 }
 
-// The same rays, cast in two ways on one thread. The first time fills the caches.
+// The same rays, cast in two ways. Times are those of a second time, on one thread; the first fills its
+// caches.
 class Shots {
  public:
   Shots(std::vector<Ray> rays, const RayIndex& index, const RayCaster* own)
@@ -80,15 +81,19 @@ class Shots {
     return distances_;
   }
   double seconds_through_mesh() {
-    through_mesh();
-    return processor_seconds([&] { through_mesh(); });
+    return warm_seconds([&] { through_mesh(); });
   }
   double seconds_own_way() {
-    own_way();
-    return processor_seconds([&] { own_way(); });
+    return warm_seconds([&] { own_way(); });
   }
 
  private:
+  template <class Cast>
+  static double warm_seconds(const Cast& cast) {
+    processor_seconds(cast);
+    return processor_seconds(cast);
+  }
+
   std::vector<Ray> rays_;
   const RayIndex& index_;
   const RayCaster* own_;
@@ -117,25 +122,31 @@ struct Casters {
   std::unique_ptr<RayIndex> index;
   std::unique_ptr<RayCaster> own;
   Shots above, along;
-  double own_seconds = 0, mesh_seconds = 0;  // of both kinds, in this round
 };
 
+// All in one piece of work, so that sums are of one round.
 void add_rounds(const std::shared_ptr<Casters>& casters, double n, Rounds& rounds) {
-  const auto add = [&](const char* metric, Shots& shots, double (Shots::*seconds)(), double& sum,
-                       bool first) {
-    rounds.sample(metric, "1/s", [casters, &shots, seconds, &sum, first, n] {
-      const double time = (shots.*seconds)();
-      sum = (first ? 0 : sum) + time;
-      return n / time;
+  if (!casters->own) {
+    rounds.sample({"embree_above", "rays_above", "embree_along", "rays_along"}, "1/s", [casters, n] {
+      const double above = n / casters->above.seconds_through_mesh(),
+                   along = n / casters->along.seconds_through_mesh();
+      return std::vector{above, above, along, along};
     });
-  };
-  add("embree_above", casters->above, &Shots::seconds_through_mesh, casters->mesh_seconds, true);
-  add("rays_above", casters->above, &Shots::seconds_own_way, casters->own_seconds, true);
-  add("embree_along", casters->along, &Shots::seconds_through_mesh, casters->mesh_seconds, false);
-  add("rays_along", casters->along, &Shots::seconds_own_way, casters->own_seconds, false);
-  if (!casters->own) return;
-  rounds.sample("rays", "1/s", [casters, n] { return 2 * n / casters->own_seconds; });
-  rounds.sample("embree_rays", "1/s", [casters, n] { return 2 * n / casters->mesh_seconds; });
+    return;
+  }
+  rounds.sample({"embree_above", "rays_above", "embree_along", "rays_along", "rays", "embree_rays"}, "1/s",
+                [casters, n] {
+                  const double mesh_above = casters->above.seconds_through_mesh(),
+                               own_above = casters->above.seconds_own_way(),
+                               mesh_along = casters->along.seconds_through_mesh(),
+                               own_along = casters->along.seconds_own_way();
+                  return std::vector{n / mesh_above,
+                                     n / own_above,
+                                     n / mesh_along,
+                                     n / own_along,
+                                     2 * n / (own_above + own_along),
+                                     2 * n / (mesh_above + mesh_along)};
+                });
 }
 
 }  // namespace

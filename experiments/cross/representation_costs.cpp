@@ -39,7 +39,15 @@ double rate(std::size_t queries, std::size_t batches, const Batch& batch) {
   return static_cast<double>(done * queries) / time;
 }
 
-// Random places, in batches.
+// Without destroying what was made.
+template <class Make>
+double seconds_to_make(const Make& make) {
+  decltype(make()) made;
+  return seconds([&] { made = make(); });
+}
+
+// Random places, in batches. The first batch is asked once more before, since other work left the caches
+// cold.
 class Queries {
  public:
   explicit Queries(const Bounds& bounds)
@@ -48,12 +56,12 @@ class Queries {
         z_(numbers_.many(kBatch * kBatches, bounds.low.z, bounds.high.z)) {}
 
   double points_per_second(const Representation& built) {
-    return rate(kBatch, kBatches, [&](std::size_t b) {
+    return warm_rate([&](std::size_t b) {
       built.materials({part(x_, b), part(y_, b), part(z_, b)}, materials_);
     });
   }
   double columns_per_second(const Representation& built) {
-    return rate(kBatch, kBatches, [&](std::size_t b) {
+    return warm_rate([&](std::size_t b) {
       sink_.clear();
       built.spans({part(x_, b), part(z_, b)}, sink_);
     });
@@ -61,6 +69,11 @@ class Queries {
 
  private:
   static constexpr std::size_t kBatch = 1024, kBatches = 256;
+  template <class Batch>
+  static double warm_rate(const Batch& batch) {
+    batch(0);
+    return rate(kBatch, kBatches, batch);
+  }
   static std::span<const float> part(const std::vector<float>& all, std::size_t batch) {
     return std::span(all).subspan(batch * kBatch, kBatch);
   }
@@ -86,7 +99,7 @@ std::unique_ptr<Representation> measure_build(const Scene& scene, const Represen
   recorder.add("slack", "B", memory.slack);
   recorder.add("bytes", "B", memory.total());
   recorder.add("heap_bytes", "B", static_cast<double>(destroy_and_count(std::move(built))));
-  rounds.time("build_time", [build] { build(); });
+  rounds.sample("build_time", "s", [build] { return seconds_to_make(build); });
   return build();
 }
 
@@ -109,7 +122,9 @@ void measure_file(const Scene& scene, const RepresentationType& type, const Repr
   for (std::size_t c = 0; c < n; ++c) differ += !std::ranges::equal(own.column(c), loaded.column(c));
   recorder.add("loaded_differs", "", differ);
   rounds.time("save_time", [folder, file, &type, &built] { save_representation(file, type, built); });
-  rounds.time("load_time", [folder, file] { load_representation(file); });
+  rounds.sample("load_time", "s", [folder, file] {
+    return seconds_to_make([&] { return load_representation(file).representation; });
+  });
 }
 
 void measure_queries(const Scene& scene, const Representation& built, Rounds& rounds) {
@@ -122,7 +137,7 @@ void measure_queries(const Scene& scene, const Representation& built, Rounds& ro
 TriangleMesh measure_mesh(const Representation& built, Recorder& recorder, Rounds& rounds) {
   TriangleMesh mesh = built.mesh({});
   recorder.add("triangles", "", mesh.triangles());
-  rounds.time("mesh_time", [&built] { built.mesh({}); });
+  rounds.sample("mesh_time", "s", [&built] { return seconds_to_make([&] { return built.mesh({}); }); });
   return mesh;
 }
 

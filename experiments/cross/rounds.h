@@ -13,25 +13,27 @@ namespace terrabench::cross {
 
 class Rounds {
  public:
-  // Three samples in each of two runs are too few: one in ten unchanged medians would then lie outside of all
-  // samples of the other run.
+  // Of three samples in each of two runs, one run's all lie above the other's in one of ten unchanged times.
+  // kFew is what long work can afford.
   static constexpr int kMost = 9, kFew = 3;
 
   // `long_time`: seconds.
   explicit Rounds(double long_time = 1) : long_time_(long_time) {}
 
-  // Adds a metric whose samples `work` returns, one per call; or the seconds that `work` takes.
+  // Adds metrics of one unit. `work` is called once a round and returns a sample of each.
+  void sample(std::vector<std::string> metrics, std::string unit, std::function<std::vector<double>()> work);
   void sample(std::string metric, std::string unit, std::function<double()> work);
-  void time(std::string metric, std::function<void()> work);
+  void time(std::string metric, std::function<void()> work);  // the seconds that it takes
 
   // Does all the work kMost times: less often what took the long time in all, but kFew times; and once what
-  // took it alone. What the work refers to must still be there.
+  // took it alone. What the work refers to must still be there. Then forgets the work.
   void run(Recorder&);
 
  private:
   struct Step {
-    std::string metric, unit;
-    std::function<double()> work;
+    std::vector<std::string> metrics;
+    std::string unit;
+    std::function<std::vector<double>()> work;
     double longest = 0, all = 0;  // seconds
   };
   double long_time_;

@@ -9,9 +9,9 @@ TEST(Rounds, DoEachPieceOnceARound) {
   std::string order;
   Rounds rounds(1e9);
   rounds.time("a", [&] { order += 'a'; });
-  rounds.sample("b", "1/s", [&] {
+  rounds.sample({"b", "c"}, "1/s", [&] {
     order += 'b';
-    return static_cast<double>(order.size());
+    return std::vector{static_cast<double>(order.size()), 1.0};
   });
   Record record;
   Recorder recorder(record, "");
@@ -20,6 +20,7 @@ TEST(Rounds, DoEachPieceOnceARound) {
   EXPECT_EQ(record.find("a")->unit, "s");
   EXPECT_EQ(record.find("a")->samples.size(), std::size_t{Rounds::kMost});
   EXPECT_EQ(record.find("b")->unit, "1/s");
+  EXPECT_EQ(record.find("c")->samples, std::vector<double>(Rounds::kMost, 1));
   EXPECT_EQ(record.find("b")->samples, (std::vector<double>{2, 4, 6, 8, 10, 12, 14, 16, 18}));
 }
 

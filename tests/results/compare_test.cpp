@@ -38,6 +38,7 @@ class CompareTest : public FolderTest {
 TEST_F(CompareTest, ExactMetricsMustBeEqual) {
   EXPECT_EQ(change({"bytes", "B", {100}}, {"bytes", "B", {100}}), Change::kSame);
   EXPECT_EQ(change({"bytes", "B", {100}}, {"bytes", "B", {101}}), Change::kDiffers);
+  EXPECT_EQ(change({"bytes", "B", {1e9}}, {"bytes", "B", {1e9 + 1}}), Change::kDiffers);
   EXPECT_EQ(change({"cells", "", {100000}}, {"cells", "", {100001}}), Change::kDiffers);
   EXPECT_EQ(change({"bytes", "B", {100}}, {"bytes", "KiB", {100}}), Change::kDiffers);
 }

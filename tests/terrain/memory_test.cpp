@@ -105,13 +105,37 @@ TEST(Memory, EqualBlocksCountEqualBytes) {
     const std::size_t bytes = heap_bytes(block.get());
     EXPECT_GE(bytes, size);
     EXPECT_EQ(counted.try_emplace(size, bytes).first->second, bytes) << size;
-    const std::unique_ptr<Line[]> lines(new Line[17 + size / 64]);
+    const std::unique_ptr<Line[]> lines(new Line[1 + size / 64]);
     const std::size_t aligned = heap_bytes(lines.get());
+    EXPECT_GE(aligned, 64 * (1 + size / 64));
     EXPECT_EQ(counted_aligned.try_emplace(size, aligned).first->second, aligned) << size;
     own[random() % own.size()] = std::vector<char>(random() % 600);
   }
   for (void* const hole : foreign) std::free(hole);
   EXPECT_EQ(counted.size(), kSizes.size());
+}
+
+TEST(Memory, BlocksCountLittleMoreThanTheirSize) {
+  for (const auto& [size, counted] : {std::pair<std::size_t, std::size_t>{0, 24},
+                                      {24, 24},
+                                      {25, 56},
+                                      {1016, 1016},
+                                      {1017, 1080},
+                                      {126976, 127032},
+                                      {126977, 131048}}) {
+    const std::unique_ptr<std::byte[]> block(new std::byte[size]);
+    EXPECT_EQ(heap_bytes(block.get()), counted) << size;
+  }
+}
+
+TEST(Memory, AnyAlignmentIsAllowed) {
+  const HeapScope scope;
+  for (std::size_t align = 1; align <= 1024; align *= 2) {
+    void* const block = operator new(10, std::align_val_t(align));
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(block) % align, 0U);
+    operator delete(block, std::align_val_t(align));
+  }
+  EXPECT_EQ(scope.held(), 0);
 }
 
 TEST(Memory, TheMachineHasSome) {
