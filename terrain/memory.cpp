@@ -20,10 +20,10 @@ constinit std::atomic<std::int64_t> g_live{0}, g_peak{0};
 
 // How glibc's malloc sizes blocks. With the kFront bytes that it keeps in front of each, they are multiples
 // of 16 bytes and at least 32: a free block that is 16 bytes too long cannot be split and is given whole;
-// aligned blocks may be 32 bytes too long. Requests are rounded to multiples above such an excess, so that it
-// can be told from them: of 32 bytes, and above kSmall, where all aligned blocks are, of 64. Blocks above
-// kLarge come from the heap or as whole pages, of which 16 bytes are kept, as malloc sees fit: whole pages
-// less kPageRest are what both can give, with an excess below a page for alignments up to half a page.
+// aligned blocks may be 32 bytes too long. Requests are rounded up to multiples of more than this excess, so
+// that without_excess() can remove it: of 32 bytes; above kSmall, and for all aligned blocks, of 64. Blocks
+// above kLarge come, as malloc chooses, from the heap or as pages of their own, with 16 bytes in front. Both
+// can give whole pages less kPageRest; the excess is below a page for alignments up to half a page.
 constexpr std::size_t kFront = 8, kSmall = 1024, kFine = 32, kCoarse = 64;
 constexpr std::size_t kLarge = 124 << 10, kPage = 4096, kPageRest = 24;
 
@@ -79,7 +79,7 @@ void* allocate(std::size_t size) {
 void* allocate(std::size_t size, std::align_val_t align) {
   void* block = nullptr;
   const std::size_t alignment = std::max(static_cast<std::size_t>(align), sizeof(void*));
-  // Of small blocks the excess could not be told.
+  // At least kSmall: in smaller blocks, rounded to 32, an excess of 32 bytes would go unnoticed.
   if (posix_memalign(&block, alignment, to_ask(kSanitized ? size : std::max(size, kSmall))) != 0)
     throw std::bad_alloc();
   return count_in(block);

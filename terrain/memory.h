@@ -13,14 +13,15 @@ namespace terrabench {
 struct Memory {
   std::size_t payload = 0;  // the data itself
   std::size_t index = 0;    // offsets, tables and nodes that lead to the payload
-  std::size_t slack = 0;    // reserved and unused, rounding by the allocator included
+  std::size_t slack = 0;    // reserved and unused, rounding by operator new included
   std::size_t total() const { return payload + index + slack; }
   Memory& operator+=(const Memory& other);
 };
 
 // What a block from operator new counts for; 0 for null. It is the size that was asked for, rounded up as
-// operator new does here, and depends on nothing else: equal structures count equal bytes in every run. What
-// the allocator adds, depending on what else lies on the heap, is not counted.
+// operator new does here (aligned blocks: to a KiB at least), and depends on nothing else: equal structures
+// count equal bytes in every run. What the allocator adds, depending on what else lies on the heap, is not
+// counted.
 std::size_t heap_bytes(const void* block);
 
 // A vector's heap block as payload and slack, or as index and slack.

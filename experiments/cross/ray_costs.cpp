@@ -62,8 +62,7 @@ std::vector<Ray> rays_along_ground(const GroundLines& lines, std::size_t n) {
   return rays;
 }
 
-// The same rays, cast in two ways. Times are those of a second time, on one thread; the first fills its
-// caches.
+// The same rays, cast in two ways. They are cast twice on one thread: once to fill its caches, then timed.
 class Shots {
  public:
   Shots(std::vector<Ray> rays, const RayIndex& index, const RayCaster* own)
@@ -110,7 +109,7 @@ std::size_t agreeing(std::span<const float> a, std::span<const float> b, float w
   return n;
 }
 
-// What casts the rays of one case, as long as its rounds.
+// What casts the rays of one case; kept alive until its rounds have run.
 struct Casters {
   Casters(const Scene& scene, std::unique_ptr<RayIndex> mesh, std::unique_ptr<RayCaster> own_way,
           std::size_t n)

@@ -39,7 +39,7 @@ double rate(std::size_t queries, std::size_t batches, const Batch& batch) {
   return static_cast<double>(done * queries) / time;
 }
 
-// Without destroying what was made.
+// Seconds to make something, without those to destroy it.
 template <class Make>
 double seconds_to_make(const Make& make) {
   decltype(make()) made;

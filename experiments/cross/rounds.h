@@ -1,6 +1,6 @@
 // Times of several pieces of work, taken in rounds: each piece once a round. A machine that others share is
-// slow for some tenths of a second at a time; samples taken one after the other would all lie inside, or all
-// outside, and their interval would not show it.
+// slow for some tenths of a second at a time; samples taken one after the other would all be slow, or none,
+// and their confidence interval would not show it.
 #pragma once
 
 #include <functional>
@@ -13,8 +13,8 @@ namespace terrabench::cross {
 
 class Rounds {
  public:
-  // Of three samples in each of two runs, one run's all lie above the other's in one of ten unchanged times.
-  // kFew is what long work can afford.
+  // With three samples in each of two runs, an unchanged time looks changed (all samples of one run above all
+  // of the other's) in one case of ten. So kMost are taken, and kFew only where the work is long.
   static constexpr int kMost = 9, kFew = 3;
 
   // `long_time`: seconds.
@@ -25,8 +25,9 @@ class Rounds {
   void sample(std::string metric, std::string unit, std::function<double()> work);
   void time(std::string metric, std::function<void()> work);  // the seconds that it takes
 
-  // Does all the work kMost times: less often what took the long time in all, but kFew times; and once what
-  // took it alone. What the work refers to must still be there. Then forgets the work.
+  // Does each piece of work kMost times. Once its samples together took longer than `long_time`, a piece gets
+  // no more than kFew; once a single sample did, it gets no further one. What the work refers to must still
+  // be there. Then forgets the work.
   void run(Recorder&);
 
  private:
