@@ -3,14 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "results/format.h"
 #include "results/provenance.h"
 
 namespace terrabench {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kNames[] = {"same",       "rose",      "fell",        "differs",
                                        "unresolved", "elsewhere", "only before", "only after"};
@@ -23,6 +28,8 @@ Change change_of(const Metric& before, const Metric& after, const Summary& ratio
   if (before.samples.size() < 2 || after.samples.size() < 2 || !std::isfinite(ratio.median)) {
     return Change::kUnresolved;
   }
+  constexpr double kWide = 2;  // such an interval says nothing: the samples are not of one quantity
+  if (ratio.low < 1 / kWide && ratio.high > kWide) return Change::kUnresolved;
   return ratio.low > 1 ? Change::kRose : ratio.high < 1 ? Change::kFell : Change::kSame;
 }
 
@@ -75,28 +82,77 @@ bool has_interval(const MetricChange& m) {
 }
 
 // The standard deviation is estimated from the median distance to the median, so that outliers do not count.
-Noise noise_of(const std::vector<MetricChange>& metrics) {
+Noise noise_of(std::vector<double> logs) {
   constexpr double kNormal = 1.4826;  // standard deviation ÷ median distance, of a normal distribution
-  std::vector<double> logs;
-  for (const MetricChange& m : metrics) {
-    if (has_interval(m)) logs.push_back(log_ratio(m));
-  }
-  if (logs.size() < Noise::kLeast) return {.timings = logs.size()};
+  Noise noise{.timings = logs.size()};
+  if (logs.size() < Noise::kLeast) return noise;
   const double middle = summarise(logs).median;
   for (double& log : logs) log = std::abs(log - middle);
-  return {logs.size(), std::exp(middle), std::exp(kNormal * summarise(logs).median)};
+  noise.median = std::exp(middle);
+  noise.deviation = std::exp(kNormal * summarise(logs).median);
+  return noise;
+}
+
+// What a metric's noise may be estimated from, the most alike first: experiment and metric of the times.
+using Kind = std::pair<std::string, std::string>;
+std::array<Kind, 3> kinds_of(const MetricChange& m) {
+  return {Kind{m.experiment, m.metric}, Kind{m.experiment, ""}, Kind{"", ""}};
 }
 
 void ignore_noise(Comparison& comparison) {
-  comparison.noise = noise_of(comparison.metrics);
+  std::map<Kind, std::vector<double>> logs;
+  for (const MetricChange& m : comparison.metrics) {
+    if (!has_interval(m)) continue;
+    for (const Kind& kind : kinds_of(m)) logs[kind].push_back(log_ratio(m));
+  }
+  std::map<Kind, Noise> noises;
+  for (const auto& [kind, values] : logs) {
+    const bool all = kind == Kind{};
+    Noise noise = noise_of(values);
+    std::tie(noise.experiment, noise.metric) = kind;
+    if (all) comparison.noise = noise;
+    if (!all && noise.timings >= Noise::kLeast) comparison.noises.push_back(noise);
+    if (all || noise.timings >= Noise::kLeast) noises.emplace(kind, std::move(noise));
+  }
   for (MetricChange& m : comparison.metrics) {
-    if (has_interval(m) && std::abs(log_ratio(m)) <= std::log(comparison.noise.threshold()))
-      m.change = Change::kSame;
+    if (!has_interval(m)) continue;
+    const auto kinds = kinds_of(m);
+    m.threshold = noises.at(*std::ranges::find_if(kinds, [&](const Kind& k) { return noises.contains(k); }))
+                      .threshold();
+    if (std::abs(log_ratio(m)) <= std::log(m.threshold)) m.change = Change::kSame;
   }
 }
 
 bool one_sided(const MetricChange& m) {
   return m.change == Change::kOnlyBefore || m.change == Change::kOnlyAfter;
+}
+
+// What counts as noise: for all times together, then for those that have an estimate of their own.
+std::string noise_text(const Comparison& comparison) {
+  const Noise& all = comparison.noise;
+  if (all.timings < Noise::kLeast) return "";
+  std::string text = fmt::format(
+      "{} times: median ratio × {:.3f}, noise × {:.3f} (one standard deviation); "
+      "changes from × {:.3f} to × {:.3f} count as noise{}\n",
+      all.timings, all.median, all.deviation, 1 / all.threshold(), all.threshold(),
+      comparison.noises.empty() ? "" : ", but of");
+  for (const Noise& noise : comparison.noises) {
+    text += fmt::format("  {:<48} {:>5} times: × {:.3f} to × {:.3f}\n",
+                        noise.experiment + (noise.metric.empty() ? ", all metrics" : " " + noise.metric),
+                        noise.timings, 1 / noise.threshold(), noise.threshold());
+  }
+  return text;
+}
+
+Json json_of(const Noise& noise) {
+  Json json = Json::object();
+  if (!noise.experiment.empty()) json["experiment"] = noise.experiment;
+  if (!noise.metric.empty()) json["metric"] = noise.metric;
+  json["timings"] = noise.timings;
+  json["median"] = noise.median;
+  json["deviation"] = noise.deviation;
+  json["threshold"] = noise.threshold();
+  return json;
 }
 
 // What differs although only the machine should: exact figures, with both machines.
@@ -191,12 +247,7 @@ std::string compare_text(const Comparison& comparison, bool colour) {
     if (count > 0) tally += fmt::format("{}{} {}", tally.empty() ? "" : ", ", count, kNames[i]);
   }
   text += fmt::format("\n{}\n", tally.empty() ? "no metrics to compare" : tally);
-  if (const Noise& noise = comparison.noise; noise.timings >= Noise::kLeast) {
-    text += fmt::format(
-        "{} times: median ratio × {:.3f}, noise × {:.3f} (one standard deviation); changes from × {:.3f} to "
-        "× {:.3f} count as noise\n",
-        noise.timings, noise.median, noise.deviation, 1 / noise.threshold(), noise.threshold());
-  }
+  text += noise_text(comparison);
   if (comparison.count(Change::kElsewhere) > 0) {
     text += "elsewhere: times of different kinds of machine, which are not compared\n";
   }
@@ -209,7 +260,6 @@ std::string compare_text(const Comparison& comparison, bool colour) {
 }
 
 std::string compare_json(const Comparison& comparison) {
-  using Json = nlohmann::ordered_json;
   Json list = Json::array();
   for (const MetricChange& m : comparison.metrics) {
     Json entry = {{"experiment", m.experiment}, {"case", m.case_name}, {"profile", m.profile},
@@ -220,18 +270,19 @@ std::string compare_json(const Comparison& comparison) {
       // JSON has no infinity: a ratio to zero is null.
       entry["ratio"] = m.ratio.median;
       entry["interval"] = {m.ratio.low, m.ratio.high};
+      entry["timed"] = m.timed;
+      if (has_interval(m)) entry["threshold"] = m.threshold;
       entry["same_ground"] = m.same_ground;
       if (!m.machine_before.empty()) entry["machines"] = {m.machine_before, m.machine_after};
     }
     list.push_back(std::move(entry));
   }
+  Json noises = Json::array();
+  for (const Noise& noise : comparison.noises) noises.push_back(json_of(noise));
   const Json json = {{"passed", comparison.passed()},
                      {"exact_equal", comparison.exact_equal()},
-                     {"noise",
-                      {{"timings", comparison.noise.timings},
-                       {"median", comparison.noise.median},
-                       {"deviation", comparison.noise.deviation},
-                       {"threshold", comparison.noise.threshold()}}},
+                     {"noise", json_of(comparison.noise)},
+                     {"noises", noises},
                      {"only_before", comparison.count(Change::kOnlyBefore)},
                      {"only_after", comparison.count(Change::kOnlyAfter)},
                      {"metrics", list},

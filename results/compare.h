@@ -17,8 +17,9 @@ enum class Change {
   kRose,     // the ratio's interval lies above 1
   kFell,     // the ratio's interval lies below 1
   kDiffers,  // exact and not equal
-  kUnresolved,  // a timing with only one sample in a folder, so without an interval
-  kElsewhere,   // a timing of another kind of machine, which says nothing about the code
+  kUnresolved,  // a timing with only one sample in a folder, so without an interval, or with one from below ½
+                // to above 2, as of samples that were taken on grounds of different sizes
+  kElsewhere,  // a timing of another kind of machine, which says nothing about the code
   kOnlyBefore,
   kOnlyAfter,
 };
@@ -30,17 +31,22 @@ struct MetricChange {
   bool timed = false;                                   // a time, or computed from times
   double before = 0, after = 0;                         // medians
   Summary ratio = {};                                   // after ÷ before, when both exist
+  double threshold = 1;                                 // of its noise, see Noise
   bool same_ground = true;                              // both have the same seed, parameters and terrain
   std::string machine_before = "", machine_after = "";  // machine_name(), where they are of different kinds
 };
 
 // Times of two runs of one program differ by more than their confidence intervals say: load, clock rate and
-// places in memory change. This noise is estimated from all times together, on the assumption that most of
-// the code is the same in both runs. A time counts as changed only if its interval excludes 1 and it changed
-// by more than three standard deviations of the noise. If most of the code or the clock rate did change, the
-// median shows it; then nearly all times count as changed or, if their factors differ widely, hardly any.
+// places in memory change, and what takes long or uses much memory feels it more. This noise is estimated
+// from the times themselves, on the assumption that most of the code is the same in both runs. A time counts
+// as changed only if its interval excludes 1 and it changed by more than three standard deviations of the
+// noise of the times that are most like it: those of the same metric in the same experiment, if there are
+// kLeast of them, otherwise those of the same experiment, otherwise all. If most of those times did change,
+// the median shows it; then nearly all of them count as changed or, if their factors differ widely, hardly
+// any.
 struct Noise {
-  static constexpr std::size_t kLeast = 30;  // timings; with fewer, the intervals alone decide
+  static constexpr std::size_t kLeast = 20;  // timings; with fewer in all, the intervals alone decide
+  std::string experiment = "", metric = "";  // empty: of all experiments, of all metrics
   std::size_t timings = 0;                   // of one machine, with intervals
   double median = 1, deviation = 1;          // of after ÷ before, as factors
   double threshold() const;  // three deviations: a factor up to it is noise, and so is 1 ÷ it
@@ -49,7 +55,8 @@ struct Noise {
 struct Comparison {
   std::vector<MetricChange> metrics;  // in the first folder's order, then those that only the second has
   std::vector<std::string> warnings, faults;  // of both stores
-  Noise noise;
+  Noise noise;                                // of all times
+  std::vector<Noise> noises;  // of each experiment's metric and of each experiment with enough times, by name
 
   bool exact_equal() const;  // no exact metric differs
   bool passed() const { return exact_equal() && faults.empty(); }

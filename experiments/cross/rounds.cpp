@@ -24,12 +24,11 @@ void Rounds::time(std::string metric, std::function<void()> work) {
 void Rounds::run(Recorder& recorder) {
   for (int round = 0; round < kMost; ++round) {
     for (Step& step : steps_) {
-      const int rounds = step.longest > long_time_ ? 1 : step.all > long_time_ ? kFew : kMost;
-      if (round >= rounds) continue;
+      if (round >= most_rounds(step.spent, long_time_)) continue;
       const Stopwatch watch;
       const std::vector<double> samples = step.work();
-      step.longest = std::max(step.longest, watch.seconds());
-      step.all += watch.seconds();
+      const double time = watch.seconds();
+      step.spent = {std::max(step.spent.longest, time), step.spent.all + time};
       for (std::size_t m = 0; m < samples.size(); ++m) recorder.add(step.metrics[m], step.unit, samples[m]);
     }
   }

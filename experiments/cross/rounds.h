@@ -17,6 +17,16 @@ class Rounds {
   // of the other's) in one case of ten. So kMost are taken, and kFew only where the work is long.
   static constexpr int kMost = 9, kFew = 3;
 
+  // Seconds that the samples of a piece of work took so far: the longest one, and all together.
+  struct Spent {
+    double longest = 0, all = 0;
+  };
+  // Once its samples together took longer than `long_time`, a piece gets no more than kFew; once a single
+  // sample did, it gets no further one.
+  static constexpr int most_rounds(const Spent& spent, double long_time) {
+    return spent.longest > long_time ? 1 : spent.all > long_time ? kFew : kMost;
+  }
+
   // `long_time`: seconds.
   explicit Rounds(double long_time = 1) : long_time_(long_time) {}
 
@@ -25,9 +35,8 @@ class Rounds {
   void sample(std::string metric, std::string unit, std::function<double()> work);
   void time(std::string metric, std::function<void()> work);  // the seconds that it takes
 
-  // Does each piece of work kMost times. Once its samples together took longer than `long_time`, a piece gets
-  // no more than kFew; once a single sample did, it gets no further one. What the work refers to must still
-  // be there. Then forgets the work.
+  // Does each piece of work kMost times, or as many as most_rounds() allows. What the work refers to must
+  // still be there. Then forgets the work.
   void run(Recorder&);
 
  private:
@@ -35,7 +44,7 @@ class Rounds {
     std::vector<std::string> metrics;
     std::string unit;
     std::function<std::vector<double>()> work;
-    double longest = 0, all = 0;  // seconds
+    Spent spent = {};
   };
   double long_time_;
   std::vector<Step> steps_;

@@ -1,5 +1,7 @@
 #include "experiments/cross/scaling.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -90,7 +92,7 @@ double Cost::theory() const {
   return theory_ + std::log(std::log(*high) / std::log(*low)) / std::log(*high / *low);
 }
 
-// All of it varies: how large the sizes become depends on the time that they take.
+// All varies that depends on all sizes: how large they become depends on the time that they take.
 void Cost::record(Recorder& recorder) const {
   if (columns_.empty()) return;
   // An exponent of times varies from run to run as they do.
@@ -98,6 +100,7 @@ void Cost::record(Recorder& recorder) const {
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     recorder.add_varying(name_, unit_, values_[i]);
     recorder.add_varying(name_ + "_columns", "", columns_[i]);
+    recorder.add(fmt::format("{}_at_{:.0f}", name_, columns_[i]), unit_, values_[i]);
   }
   const auto [low, high] = std::minmax_element(columns_.begin(), columns_.end());
   recorder.add_varying(name_ + "_smallest", "", *low);

@@ -35,5 +35,11 @@ TEST(Rounds, DoLongWorkOnce) {
   EXPECT_EQ(order, "ab");
 }
 
+TEST(Rounds, TakeFewSamplesOfWorkThatAddsUp) {
+  EXPECT_EQ(Rounds::most_rounds({0.4, 1.0}, 1), Rounds::kMost);
+  EXPECT_EQ(Rounds::most_rounds({0.4, 1.2}, 1), Rounds::kFew);
+  EXPECT_EQ(Rounds::most_rounds({1.1, 1.1}, 1), 1);
+}
+
 }  // namespace
 }  // namespace terrabench::cross

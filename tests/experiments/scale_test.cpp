@@ -95,6 +95,7 @@ TEST(Cost, RecordsTheExponentThroughTheMediansBesideTheTheory) {
   const Record record = recorded(cost);
   EXPECT_THAT(samples(record, "build").size(), 9U);
   EXPECT_THAT(samples(record, "build_columns"), ElementsAre(1, 1, 1, 4, 4, 4, 16, 16, 16));
+  EXPECT_THAT(samples(record, "build_at_16"), ElementsAre(16, 32, 3200));
   EXPECT_NEAR(samples(record, "build_exponent").at(0), 1.25, 1e-9);
   EXPECT_NEAR(samples(record, "build_excess").at(0), 0.25, 1e-9);
   EXPECT_NEAR(samples(record, "build_low").at(0), 1.25, 1e-6);
@@ -112,6 +113,8 @@ TEST(Cost, OneSizeHasNoExponentAndTwoHaveNoInterval) {
   const Record two = recorded(one);
   EXPECT_NEAR(samples(two, "bytes_exponent").at(0), 1, 1e-12);
   EXPECT_EQ(two.find("bytes_exponent")->unit, "");
+  EXPECT_THAT(samples(two, "bytes_at_16"), ElementsAre(32));
+  EXPECT_FALSE(two.find("bytes_at_16")->varies) << "two runs must agree on it";
   EXPECT_EQ(two.find("bytes_low"), nullptr);
 }
 

@@ -1,4 +1,4 @@
-// A structure's memory() is what the allocator gave it.
+// A structure's memory() is what operator new gave it.
 #include "representations/layered_stack/layered_stack.h"
 #include "representations/voxel/voxel.h"
 #include "tests/representations/ground.h"

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -51,6 +52,7 @@ TEST_F(CompareTest, TimingsChangeOnlyBeyondTheirNoise) {
   EXPECT_EQ(change(slow, base), Change::kFell);
   EXPECT_EQ(change(base, {"t", "s", {7.0}}), Change::kUnresolved);
   EXPECT_EQ(change({"t", "s", {0, 0, 0}}, base), Change::kUnresolved);
+  EXPECT_EQ(change({"t", "s", {1, 10, 100}}, {"t", "s", {1, 11, 100}}), Change::kUnresolved) << "no interval";
 }
 
 TEST_F(CompareTest, RatiosOfTimesAreComparedAsTimes) {
@@ -83,11 +85,42 @@ TEST_F(CompareTest, WhatMostTimesDoIsNoise) {
   const std::string text = compare_text(c, false);
   EXPECT_THAT(text, HasSubstr("42 times: median ratio × 1.005, noise × 1.168"));
   EXPECT_THAT(text, HasSubstr("changes from × 0.627 to × 1.595 count as noise"));
-  before.resize(20);
-  after.resize(20);
+  before.resize(Noise::kLeast - 1);
+  after.resize(Noise::kLeast - 1);
   write("few-a", before);
   write("few-b", after);
-  EXPECT_EQ(compare(folder_ / "few-a", folder_ / "few-b").count(Change::kFell), 20U);
+  EXPECT_EQ(compare(folder_ / "few-a", folder_ / "few-b").count(Change::kFell), Noise::kLeast - 1);
+}
+
+// 25 cases: the times of "quiet" change by -1 to 1 %, those of "noisy" by -20 to 20 %; then one of each by 10
+// %.
+TEST_F(CompareTest, TimesThatAreAlikeShareTheirNoise) {
+  for (const bool later : {false, true}) {
+    Store store(folder_ / (later ? "b" : "a"));
+    const Provenance run = fake_provenance();
+    store.begin_run(run);
+    for (int k = -12; k <= 13; ++k) {
+      Record record = fake_record(run, "e", "n=" + std::to_string(k));
+      for (const auto& [name, range] : {std::pair{"quiet", 0.01}, std::pair{"noisy", 0.2}}) {
+        const double factor = !later ? 1 : k == 13 ? 1.1 : std::exp(range * k / 12);
+        record.metrics.push_back({name, "s", {factor, 1.0001 * factor, 0.9999 * factor}});
+      }
+      store.append(record);
+    }
+  }
+  const Comparison c = compare(folder_ / "a", folder_ / "b");
+  ASSERT_EQ(c.noises.size(), 3U) << "of e, of its metric noisy, of its metric quiet";
+  EXPECT_EQ(c.noises[2].metric, "quiet");
+  EXPECT_EQ(c.noises[2].timings, 26U);
+  EXPECT_EQ(c.count(Change::kRose), 1U);
+  const auto risen = std::ranges::find(c.metrics, Change::kRose, &MetricChange::change);
+  EXPECT_EQ(risen->metric, "quiet");
+  EXPECT_EQ(risen->case_name, "n=13");
+  EXPECT_EQ(risen->threshold, c.noises[2].threshold());
+  EXPECT_THAT(compare_text(c, false), HasSubstr("  e quiet"));
+  const auto json = nlohmann::json::parse(compare_json(c));
+  EXPECT_EQ(json["noises"][2]["metric"], "quiet");
+  EXPECT_EQ(json["noises"][2]["threshold"], risen->threshold);
 }
 
 TEST_F(CompareTest, SaysWhatOnlyOneSideHasAndWhatWasMeasuredOnOtherGround) {

@@ -137,6 +137,8 @@ TEST_F(MergeTest, ComparesExactFiguresOfACaseMeasuredTwice) {
   EXPECT_THAT(differs.contradictions[0], HasSubstr("on A processor <of & for> tests, 2 threads"));
   EXPECT_THAT(differs.contradictions[0], HasSubstr("on another CPU, 2 threads"));
   EXPECT_EQ(Store::open(folder_ / "out2").find("e", "n=2", "quick")->find("bytes")->samples[0], 102);
+  write_shard("one byte more", 2, 2, other, 101);
+  EXPECT_FALSE(merge_into("out3", {"a", "one byte more"}).passed());
 }
 
 TEST_F(MergeTest, RefusesAnotherSeed) {
