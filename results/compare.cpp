@@ -25,12 +25,13 @@ Change change_of(const Metric& before, const Metric& after, const Summary& ratio
   if (!timed(before) && !timed(after))
     return before.samples == after.samples ? Change::kSame : Change::kDiffers;
   if (!one_machine) return Change::kElsewhere;
-  if (before.samples.size() < 2 || after.samples.size() < 2 || !std::isfinite(ratio.median)) {
-    return Change::kUnresolved;
-  }
-  constexpr double kWide = 2;  // such an interval says nothing: the samples are not of one quantity
-  if (ratio.low < 1 / kWide && ratio.high > kWide) return Change::kUnresolved;
-  return ratio.low > 1 ? Change::kRose : ratio.high < 1 ? Change::kFell : Change::kSame;
+  const bool has_interval = before.samples.size() > 1 && after.samples.size() > 1 &&
+                            std::isfinite(ratio.median) && !std::isnan(ratio.low);
+  if (!has_interval) return Change::kUnresolved;
+  if (ratio.low > 1) return Change::kRose;
+  if (ratio.high < 1) return Change::kFell;
+  constexpr double kWide = 4;  // an interval around 1 that spans more does not say whether the time changed
+  return ratio.high > kWide * ratio.low ? Change::kUnresolved : Change::kSame;
 }
 
 bool same_ground(const Record& a, const Record& b) {
@@ -68,6 +69,7 @@ void add_both(const Pair& pair, const Metric& before, const Metric& after, Compa
   change.after = summarise(after.samples).median;
   change.ratio = ratio;
   change.timed = timed(before) || timed(after);
+  change.equal = before.samples == after.samples;
   change.same_ground = same_ground(pair.before, pair.after);
   if (one_machine) return;
   change.machine_before = machine_name(*pair.run_before);
@@ -76,9 +78,9 @@ void add_both(const Pair& pair, const Metric& before, const Metric& after, Compa
 
 double log_ratio(const MetricChange& m) { return std::log(m.ratio.median); }
 
-bool has_interval(const MetricChange& m) {
-  const bool resolved = m.change == Change::kSame || m.change == Change::kRose || m.change == Change::kFell;
-  return m.timed && resolved && m.ratio.median > 0;
+bool resolved(const MetricChange& m) {
+  return m.timed && m.ratio.median > 0 &&
+         (m.change == Change::kSame || m.change == Change::kRose || m.change == Change::kFell);
 }
 
 // The standard deviation is estimated from the median distance to the median, so that outliers do not count.
@@ -86,40 +88,57 @@ Noise noise_of(std::vector<double> logs) {
   constexpr double kNormal = 1.4826;  // standard deviation ÷ median distance, of a normal distribution
   Noise noise{.timings = logs.size()};
   if (logs.size() < Noise::kLeast) return noise;
-  const double middle = summarise(logs).median;
+  const double middle = median(logs);
   for (double& log : logs) log = std::abs(log - middle);
   noise.median = std::exp(middle);
-  noise.deviation = std::exp(kNormal * summarise(logs).median);
+  noise.deviation = std::exp(kNormal * median(logs));
   return noise;
 }
 
-// What a metric's noise may be estimated from, the most alike first: experiment and metric of the times.
-using Kind = std::pair<std::string, std::string>;
+// Profile, experiment and metric of times, or none of all three for all times.
+using Kind = std::array<std::string, 3>;
+
+// What a time's noise may be estimated from, the most alike first. The last one holds all times.
 std::array<Kind, 3> kinds_of(const MetricChange& m) {
-  return {Kind{m.experiment, m.metric}, Kind{m.experiment, ""}, Kind{"", ""}};
+  return {Kind{m.profile, m.experiment, m.metric}, Kind{m.profile, m.experiment, ""}, Kind{}};
+}
+
+// Times with the same samples in both folders, such as sizes that only long runs change, tell nothing of it.
+std::map<Kind, Noise> estimate_noise(const std::vector<MetricChange>& metrics) {
+  std::map<Kind, std::vector<double>> logs;
+  for (const MetricChange& m : metrics) {
+    if (!resolved(m) || m.equal) continue;
+    for (const Kind& kind : kinds_of(m)) logs[kind].push_back(log_ratio(m));
+  }
+  std::map<Kind, Noise> noises{{Kind{}, Noise{}}};
+  for (const auto& [kind, values] : logs) {
+    Noise noise = noise_of(values);
+    if (kind != Kind{} && noise.deviation == 1) continue;  // too few, or most have one ratio
+    std::tie(noise.profile, noise.experiment, noise.metric) = std::tie(kind[0], kind[1], kind[2]);
+    noises[kind] = std::move(noise);
+  }
+  return noises;
 }
 
 void ignore_noise(Comparison& comparison) {
-  std::map<Kind, std::vector<double>> logs;
-  for (const MetricChange& m : comparison.metrics) {
-    if (!has_interval(m)) continue;
-    for (const Kind& kind : kinds_of(m)) logs[kind].push_back(log_ratio(m));
-  }
-  std::map<Kind, Noise> noises;
-  for (const auto& [kind, values] : logs) {
-    const bool all = kind == Kind{};
-    Noise noise = noise_of(values);
-    std::tie(noise.experiment, noise.metric) = kind;
-    if (all) comparison.noise = noise;
-    if (!all && noise.timings >= Noise::kLeast) comparison.noises.push_back(noise);
-    if (all || noise.timings >= Noise::kLeast) noises.emplace(kind, std::move(noise));
-  }
+  std::map<Kind, Noise> noises = estimate_noise(comparison.metrics);
   for (MetricChange& m : comparison.metrics) {
-    if (!has_interval(m)) continue;
-    const auto kinds = kinds_of(m);
-    m.threshold = noises.at(*std::ranges::find_if(kinds, [&](const Kind& k) { return noises.contains(k); }))
-                      .threshold();
+    if (!resolved(m)) continue;
+    for (const Kind& kind : kinds_of(m)) {
+      const auto found = noises.find(kind);
+      if (found == noises.end()) continue;
+      m.threshold = found->second.threshold();
+      ++found->second.users;
+      break;
+    }
     if (std::abs(log_ratio(m)) <= std::log(m.threshold)) m.change = Change::kSame;
+  }
+  for (const auto& [kind, noise] : noises) {
+    if (kind == Kind{}) {
+      comparison.noise = noise;
+    } else if (noise.users > 0) {
+      comparison.noises.push_back(noise);
+    }
   }
 }
 
@@ -132,23 +151,29 @@ std::string noise_text(const Comparison& comparison) {
   const Noise& all = comparison.noise;
   if (all.timings < Noise::kLeast) return "";
   std::string text = fmt::format(
-      "{} times: median ratio × {:.3f}, noise × {:.3f} (one standard deviation); "
-      "changes from × {:.3f} to × {:.3f} count as noise{}\n",
+      "{} times: median ratio × {:.3f}, noise × {:.3f} (one standard deviation); changes from × {:.3f} to "
+      "× {:.3f} count as noise{}\n",
       all.timings, all.median, all.deviation, 1 / all.threshold(), all.threshold(),
-      comparison.noises.empty() ? "" : ", but of");
+      comparison.noises.empty() ? "" : "; of these, instead:");
   for (const Noise& noise : comparison.noises) {
-    text += fmt::format("  {:<48} {:>5} times: × {:.3f} to × {:.3f}\n",
-                        noise.experiment + (noise.metric.empty() ? ", all metrics" : " " + noise.metric),
-                        noise.timings, 1 / noise.threshold(), noise.threshold());
+    text += fmt::format("  {:<48} {:>5} times: median ratio × {:.3f}, noise from × {:.3f} to × {:.3f}\n",
+                        noise.experiment + (noise.metric.empty() ? ", other metrics" : " " + noise.metric),
+                        noise.users, noise.median, 1 / noise.threshold(), noise.threshold());
   }
   return text;
 }
 
+// Without median, deviation and threshold if there were too few times to estimate them.
 Json json_of(const Noise& noise) {
   Json json = Json::object();
-  if (!noise.experiment.empty()) json["experiment"] = noise.experiment;
+  if (!noise.experiment.empty()) {
+    json["profile"] = noise.profile;
+    json["experiment"] = noise.experiment;
+  }
   if (!noise.metric.empty()) json["metric"] = noise.metric;
   json["timings"] = noise.timings;
+  json["users"] = noise.users;
+  if (noise.timings < Noise::kLeast) return json;
   json["median"] = noise.median;
   json["deviation"] = noise.deviation;
   json["threshold"] = noise.threshold();
@@ -234,7 +259,8 @@ std::string compare_text(const Comparison& comparison, bool colour) {
       continue;
     }
     text += fmt::format("  {} → {}", format_quantity(m.before, m.unit), format_quantity(m.after, m.unit));
-    if (m.before != 0 && (m.change == Change::kSame || marked) && m.timed) {
+    const bool has_interval = m.ratio.low < m.ratio.high;  // not NaN
+    if (m.before != 0 && m.timed && has_interval && m.change != Change::kElsewhere) {
       text += fmt::format("  × {:.3f} [{:.3f}, {:.3f}]", m.ratio.median, m.ratio.low, m.ratio.high);
     } else if (m.before != 0 && m.before != m.after) {
       text += fmt::format("  × {:.4f}", m.ratio.median);
@@ -248,6 +274,9 @@ std::string compare_text(const Comparison& comparison, bool colour) {
   }
   text += fmt::format("\n{}\n", tally.empty() ? "no metrics to compare" : tally);
   text += noise_text(comparison);
+  if (comparison.count(Change::kUnresolved) > 0) {
+    text += "unresolved: times with a single sample, or an interval that spans more than a factor of 4\n";
+  }
   if (comparison.count(Change::kElsewhere) > 0) {
     text += "elsewhere: times of different kinds of machine, which are not compared\n";
   }
@@ -271,7 +300,7 @@ std::string compare_json(const Comparison& comparison) {
       entry["ratio"] = m.ratio.median;
       entry["interval"] = {m.ratio.low, m.ratio.high};
       entry["timed"] = m.timed;
-      if (has_interval(m)) entry["threshold"] = m.threshold;
+      if (resolved(m)) entry["threshold"] = m.threshold;
       entry["same_ground"] = m.same_ground;
       if (!m.machine_before.empty()) entry["machines"] = {m.machine_before, m.machine_after};
     }

@@ -14,12 +14,12 @@ namespace terrabench {
 
 enum class Change {
   kSame,     // exact and equal, or a timing whose ratio's interval contains 1 or that lies within the noise
-  kRose,     // the ratio's interval lies above 1
-  kFell,     // the ratio's interval lies below 1
+  kRose,     // the ratio's interval lies above 1, and the change exceeds the noise
+  kFell,     // the ratio's interval lies below 1, and the change exceeds the noise
   kDiffers,  // exact and not equal
-  kUnresolved,  // a timing with only one sample in a folder, so without an interval, or with one from below ½
-                // to above 2, as of samples that were taken on grounds of different sizes
-  kElsewhere,  // a timing of another kind of machine, which says nothing about the code
+  kUnresolved,  // a timing with only one sample in a folder, so without an interval, or whose interval spans
+                // more than a factor of 4 around 1, as of samples taken on grounds of different sizes
+  kElsewhere,   // a timing of another kind of machine, which says nothing about the code
   kOnlyBefore,
   kOnlyAfter,
 };
@@ -28,35 +28,40 @@ std::string_view name(Change);
 struct MetricChange {
   std::string experiment, case_name, profile, metric, unit;
   Change change = Change::kSame;
-  bool timed = false;                                   // a time, or computed from times
-  double before = 0, after = 0;                         // medians
-  Summary ratio = {};                                   // after ÷ before, when both exist
-  double threshold = 1;                                 // of its noise, see Noise
-  bool same_ground = true;                              // both have the same seed, parameters and terrain
+  bool timed = false;            // a time, or computed from times
+  double before = 0, after = 0;  // medians
+  Summary ratio = {};            // after ÷ before, when both exist
+  double threshold = 1;     // a change up to this factor is noise, and so is 1 ÷ it; 1: none was estimated
+  bool equal = false;       // both have the same samples
+  bool same_ground = true;  // both have the same seed, parameters and terrain
   std::string machine_before = "", machine_after = "";  // machine_name(), where they are of different kinds
 };
 
 // Times of two runs of one program differ by more than their confidence intervals say: load, clock rate and
-// places in memory change, and what takes long or uses much memory feels it more. This noise is estimated
-// from the times themselves, on the assumption that most of the code is the same in both runs. A time counts
-// as changed only if its interval excludes 1 and it changed by more than three standard deviations of the
-// noise of the times that are most like it: those of the same metric in the same experiment, if there are
-// kLeast of them, otherwise those of the same experiment, otherwise all. If most of those times did change,
-// the median shows it; then nearly all of them count as changed or, if their factors differ widely, hardly
-// any.
+// places in memory change, and what takes long or uses much memory feels it more. A time counts as changed
+// only if its interval excludes 1 and it changed by more than three standard deviations of the noise of the
+// times that are most like it: those of the same profile, experiment and metric if there are kLeast of them,
+// otherwise those of the same profile and experiment, otherwise all.
+//
+// The noise is estimated from the two runs themselves, on the assumption that most times of each such group
+// did not change. A quarter of them may, with little effect. If about half did, by different factors, the
+// estimate is wide and hides them. What all of a group share, such as a new compiler or a busy minute of the
+// machine, is not in its estimate: then all count as changed, and the group's median says so. The deviation
+// of 20 times is known to about a quarter. So of many times that did not change a few still seem to have.
 struct Noise {
   static constexpr std::size_t kLeast = 20;  // timings; with fewer in all, the intervals alone decide
-  std::string experiment = "", metric = "";  // empty: of all experiments, of all metrics
-  std::size_t timings = 0;                   // of one machine, with intervals
-  double median = 1, deviation = 1;          // of after ÷ before, as factors
-  double threshold() const;  // three deviations: a factor up to it is noise, and so is 1 ÷ it
+  std::string profile = "", experiment = "", metric = "";  // empty: of all
+  std::size_t timings = 0;           // of one kind of machine, with intervals: what it was estimated from
+  std::size_t users = 0;             // times that it applies to
+  double median = 1, deviation = 1;  // of after ÷ before, as factors
+  double threshold() const;          // three deviations: a factor up to it is noise, and so is 1 ÷ it
 };
 
 struct Comparison {
   std::vector<MetricChange> metrics;  // in the first folder's order, then those that only the second has
   std::vector<std::string> warnings, faults;  // of both stores
   Noise noise;                                // of all times
-  std::vector<Noise> noises;  // of each experiment's metric and of each experiment with enough times, by name
+  std::vector<Noise> noises;  // of experiments and of their metrics, where some times use it, sorted by name
 
   bool exact_equal() const;  // no exact metric differs
   bool passed() const { return exact_equal() && faults.empty(); }

@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <fstream>
 #include <thread>
 
@@ -30,6 +32,43 @@ double control_group_quota() {
   return in >> allowed >> period && period > 0 ? allowed / period : 0;
 }
 
+// A quarter of the processors busy with other work is enough to disturb work that uses all of them.
+constexpr double kBusyShare = 0.25;
+
+// Since the start of the machine, over all its processors.
+struct Ticks {
+  double busy = 0, all = 0;
+};
+
+Ticks ticks() {
+  std::ifstream in("/proc/stat");
+  std::string name;
+  in >> name;  // cpu
+  // user, nice, system, idle, waiting for a disk, interrupts, soft interrupts, taken by the host
+  constexpr std::array kBusy{true, true, true, false, false, true, true, true};
+  Ticks sum;
+  for (const bool busy : kBusy) {
+    double time = 0;
+    if (!(in >> time)) return {};
+    sum.all += time;
+    if (busy) sum.busy += time;
+  }
+  return sum;
+}
+
+// The load is averaged over a minute, so that it is high after a build that has ended. Then what the machine
+// does now is measured, while this process waits.
+double busy_processors(int processors) {
+  double load = 0;
+  std::ifstream("/proc/loadavg") >> load;
+  if (load <= kBusyShare * processors) return load;
+  const Ticks before = ticks();
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const Ticks after = ticks();
+  if (!(after.all > before.all)) return load;
+  return processors * (after.busy - before.busy) / (after.all - before.all);
+}
+
 }  // namespace
 
 int allowed_processors() {
@@ -44,8 +83,8 @@ TimingConditions read_timing_conditions() {
   TimingConditions now;
   now.build_type = kBuildType;
   now.flags = kFlags;
-  std::ifstream("/proc/loadavg") >> now.load;
   now.processors = static_cast<int>(std::max(1L, sysconf(_SC_NPROCESSORS_ONLN)));
+  now.busy = busy_processors(now.processors);
   now.allowed_processors = allowed_processors();
   now.quota = control_group_quota();
   now.governor = scaling_governor(now.processors);
@@ -60,11 +99,10 @@ std::vector<std::string> timing_warnings(const TimingConditions& now) {
     warnings.push_back(fmt::format(
         "this build ({}) is not optimised: times are many times those of a release build", now.build_type));
   }
-  // A quarter of the processors busy with other work is enough to disturb work that uses all of them.
-  if (now.load > 0.25 * now.processors) {
+  if (now.busy > kBusyShare * now.processors) {
     warnings.push_back(
-        fmt::format("the machine is busy (load average {:.2g} on {} processors): times are longer", now.load,
-                    now.processors));
+        fmt::format("the machine is busy (other work uses {:.2g} of {} processors): times are longer",
+                    now.busy, now.processors));
   }
   if (!now.governor.empty()) {
     warnings.push_back(fmt::format(

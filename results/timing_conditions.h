@@ -9,14 +9,15 @@ namespace terrabench {
 
 struct TimingConditions {
   std::string build_type, flags;  // of this program
-  double load = 0;                // runnable threads of the machine, averaged over the last minute
+  double busy = 0;                // processors that other work uses
   int processors = 1;             // of the machine
   int allowed_processors = 1;     // of these, those that this process may use
   double quota = 0;               // processor time per second that the control group allows; 0: no limit
   std::string governor;           // frequency scaling other than "performance" of some processor; empty: none
 };
 
-// Reads /proc, /sys and the build's own facts. What cannot be read stays at its default.
+// Reads /proc, /sys and the build's own facts. What cannot be read stays at its default. Waits for a fifth of
+// a second if the load of the last minute does not show that the machine is idle.
 TimingConditions read_timing_conditions();
 
 // One sentence per condition that makes times longer or makes them vary; empty when there is none.

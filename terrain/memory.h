@@ -1,5 +1,5 @@
 // Memory, by part and by measurement. memory() of a structure says what each of its heap bytes is for;
-// HeapCounter counts the same bytes in the allocator. The two agree, and tests check it.
+// HeapCounter counts the same bytes in operator new. The two agree, and tests check it.
 #pragma once
 
 #include <cstddef>

@@ -17,7 +17,7 @@ struct PathCost {
   double uploaded = 0;                           // bytes per frame, mean
   std::vector<double> times, triangles;          // per frame: seconds, triangles drawn
   std::size_t bytes_held = 0;                    // by the method's own count, after the path
-  std::int64_t heap_growth = 0;                  // by the allocator's
+  std::int64_t heap_growth = 0;                  // by the count of operator new
 };
 
 // Builds the method, sets its knob and updates it for every view of the flight.

@@ -13,7 +13,7 @@ namespace terrabench::cross {
 
 // What is timed is added to the rounds, which must run while the scene, the structure and the mesh are there.
 
-// Seconds to build, the bytes of each part, and the bytes that the allocator takes back. Returns what was
+// Seconds to build, the bytes of each part, and the bytes that operator new takes back. Returns what was
 // built.
 std::unique_ptr<Representation> measure_build(const Scene&, const RepresentationType&, const Parameters&,
                                               Recorder&, Rounds&, Progress&);

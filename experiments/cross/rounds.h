@@ -21,8 +21,8 @@ class Rounds {
   struct Spent {
     double longest = 0, all = 0;
   };
-  // Once its samples together took longer than `long_time`, a piece gets no more than kFew; once a single
-  // sample did, it gets no further one.
+  // A piece stops after kFew samples, or later, once its samples together took longer than `long_time`; and
+  // after any sample that did alone.
   static constexpr int most_rounds(const Spent& spent, double long_time) {
     return spent.longest > long_time ? 1 : spent.all > long_time ? kFew : kMost;
   }

@@ -92,7 +92,7 @@ double Cost::theory() const {
   return theory_ + std::log(std::log(*high) / std::log(*low)) / std::log(*high / *low);
 }
 
-// All varies that depends on all sizes: how large they become depends on the time that they take.
+// How many sizes are measured depends on the time that they take, so all that is computed over them varies.
 void Cost::record(Recorder& recorder) const {
   if (columns_.empty()) return;
   // An exponent of times varies from run to run as they do.

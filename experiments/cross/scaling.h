@@ -72,8 +72,8 @@ class Cost {
     values_.push_back(value);
   }
 
-  // The samples as `name`, their sizes as name_columns, pair by pair; those of each size again as
-  // name_at_COLUMNS, which two runs can be compared by; name_smallest and name_largest, the range of sizes;
+  // The samples as `name`, their sizes as name_columns, pair by pair; each size's samples again as
+  // name_at_COLUMNS, since two runs may reach different sizes; name_smallest and name_largest, the range of sizes;
   // name_theory, the exponent in theory; and from two sizes on name_exponent, the exponent of the power law
   // through the medians of the sizes, and name_excess, that minus the theory. From three sizes on name_low
   // and name_high, the exponent's 95 % interval.

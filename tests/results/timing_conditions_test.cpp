@@ -13,7 +13,7 @@ using testing::IsEmpty;
 TimingConditions good() {
   return {.build_type = "Release",
           .flags = "-O3 -DNDEBUG",
-          .load = 0.1,
+          .busy = 0.1,
           .processors = 8,
           .allowed_processors = 8,
           .quota = 0,
@@ -38,12 +38,12 @@ TEST(TimingConditions, EachBadOneGivesItsWarning) {
               ElementsAre(HasSubstr("this build (Debug) is not optimised")));
   EXPECT_THAT(warnings([](auto& now) { now.flags += " -fsanitize=address,undefined"; }),
               ElementsAre(HasSubstr("sanitizers")));
-  EXPECT_THAT(warnings([](auto& now) { now.load = 3.14; }),
-              ElementsAre(HasSubstr("load average 3.1 on 8 processors")));
+  EXPECT_THAT(warnings([](auto& now) { now.busy = 3.14; }),
+              ElementsAre(HasSubstr("other work uses 3.1 of 8 processors")));
   EXPECT_THAT(warnings([](auto& now) { now.governor = "powersave"; }),
               ElementsAre(HasSubstr("governor 'powersave'")));
   EXPECT_THAT(warnings([](auto& now) { now.quota = 1.5; }), ElementsAre(HasSubstr("1.5 of 8 processors")));
-  EXPECT_EQ(warnings([](auto& now) { now.load = 8, now.quota = 1, now.governor = "ondemand"; }).size(), 3U);
+  EXPECT_EQ(warnings([](auto& now) { now.busy = 8, now.quota = 1, now.governor = "ondemand"; }).size(), 3U);
 }
 
 TEST(TimingConditions, AreReadFromThisMachine) {
@@ -51,7 +51,7 @@ TEST(TimingConditions, AreReadFromThisMachine) {
   EXPECT_FALSE(now.flags.empty());
   EXPECT_GE(now.processors, 1);
   EXPECT_GE(now.allowed_processors, 1);
-  EXPECT_GE(now.load, 0);
+  EXPECT_GE(now.busy, 0);
 }
 
 }  // namespace
