@@ -313,6 +313,7 @@ void check_ids(const Paper& paper, const std::string& origin) {
   for (const Claim& claim : paper.claims) check(claim.id);
   for (const TableLayout& table : paper.tables) check(table.id);
   for (const PlotLayout& plot : paper.plots) check(plot.id);
+  for (const PageLayout& page : paper.pages) check(page.id);
 }
 
 // A repeat names a row of its own; `matches` names a claim that is known to hold, or is a sentence.
@@ -371,8 +372,9 @@ Paper parse_claims(std::string_view text, const std::string& origin) {
   std::vector<FurtherGround> grounds;
   for (const TomlValue& ground : entry.list("ground")) grounds.push_back(ground_from(ground, paper.claims));
   paper.claims = on_further_grounds(paper.claims, grounds);
-  for (const TomlValue& table : entry.list("table")) paper.tables.push_back(parse_table(table));
-  for (const TomlValue& plot : entry.list("plot")) paper.plots.push_back(parse_plot(plot));
+  for (const TomlValue& page : entry.list("page")) paper.pages.push_back(parse_page(page));
+  for (const TomlValue& table : entry.list("table")) paper.tables.push_back(parse_table(table, paper.pages));
+  for (const TomlValue& plot : entry.list("plot")) paper.plots.push_back(parse_plot(plot, paper.pages));
   entry.has("ranking");  // read by parse_rankings()
   entry.refuse_unknown();
   check_ids(paper, origin);

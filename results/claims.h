@@ -1,6 +1,6 @@
 // What the papers report, and how each claim is read from the measurements: experiments/*/claims.toml,
-// compiled in. The files also lay out the report's tables and plots. Key `known` is the verdict that a claim
-// is expected to have, written by hand; the verdicts of a run are computed by judge.h and not stored.
+// compiled in. The files also lay out the report's tables, plots and pages. Key `known` is the verdict that a
+// claim is expected to have, written by hand; the verdicts of a run are computed by judge.h and not stored.
 #pragma once
 
 #include <optional>
@@ -113,6 +113,7 @@ struct Paper {
   std::vector<Claim> claims;
   std::vector<TableLayout> tables;
   std::vector<PlotLayout> plots;
+  std::vector<PageLayout> pages = {};
 };
 
 // The five papers and the comparison across them, in this order. Parsed once.

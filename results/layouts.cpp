@@ -1,5 +1,7 @@
 #include "results/layouts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 
@@ -85,9 +87,33 @@ PlotLayout::Series series_from(const TomlValue& node) {
   return series;
 }
 
+// The page that a table or a plot names; empty: none.
+std::string page_from(TomlTable& entry, std::span<const PageLayout> pages) {
+  const std::string page = entry.text_or("page", "");
+  if (!page.empty() && std::ranges::count(pages, page, &PageLayout::id) == 0) {
+    entry.refuse(fmt::format("unknown page '{}'", page));
+  }
+  return page;
+}
+
+std::vector<std::string> texts_from(TomlTable& entry, std::string_view key) {
+  std::vector<std::string> texts;
+  for (const TomlValue& text : entry.list(key)) texts.push_back(text.text(key));
+  return texts;
+}
+
 }  // namespace
 
-TableLayout parse_table(const TomlValue& node) {
+PageLayout parse_page(const TomlValue& node) {
+  TomlTable entry(node);
+  PageLayout page{entry.text("id"), entry.text("about"), texts_from(entry, "sheets"),
+                  texts_from(entry, "pictures")};
+  entry.refuse_unknown();
+  return page;
+}
+
+TableLayout parse_table(const TomlValue& node, std::span<const PageLayout> pages) {
+  using Kind = TableLayout::Column::Kind;
   TomlTable entry(node);
   TableLayout table;
   table.id = entry.text("id");
@@ -100,11 +126,16 @@ TableLayout parse_table(const TomlValue& node) {
     table.columns.push_back(column_from(column));
   }
   if (table.rows.empty() || table.columns.empty()) entry.refuse("a table needs rows and columns");
+  table.page = page_from(entry, pages);
+  if (!table.page.empty() &&
+      std::ranges::count(table.columns, Kind::kVerdict, &TableLayout::Column::kind) > 0) {
+    entry.refuse("a table with verdicts stands on the main page, where the ledger's links lead");
+  }
   entry.refuse_unknown();
   return table;
 }
 
-PlotLayout parse_plot(const TomlValue& node) {
+PlotLayout parse_plot(const TomlValue& node, std::span<const PageLayout> pages) {
   TomlTable entry(node);
   PlotLayout plot;
   plot.id = entry.text("id");
@@ -114,6 +145,7 @@ PlotLayout parse_plot(const TomlValue& node) {
   plot.y = axis_from(entry.get("y"));
   for (const TomlValue& series : entry.list("series")) plot.series.push_back(series_from(series));
   if (plot.series.empty()) entry.refuse("a plot needs series");
+  plot.page = page_from(entry, pages);
   entry.refuse_unknown();
   return plot;
 }

@@ -1,7 +1,9 @@
-// Which tables and plots the report shows: the [[table]] and [[plot]] entries of a claims file.
+// Which tables, plots and pages the report has: the [[table]], [[plot]] and [[page]] entries of a claims
+// file.
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -10,6 +12,14 @@
 #include "results/plot.h"
 
 namespace terrabench {
+
+// A page of the report that shows in one place what belongs to one ground: the tables and plots whose `page`
+// is its id, and figures. Figures that were not drawn are left out.
+struct PageLayout {
+  std::string id, about;              // about: a sentence that says what the ground is
+  std::vector<std::string> sheets;    // ids of figures with many panels, each as wide as the page
+  std::vector<std::string> pictures;  // ids of figures that stand side by side
+};
 
 // A table of the report. Its rows are cases of one experiment; a row's own values are what the paper printed
 // (numbers) and ids of claims (text).
@@ -30,6 +40,7 @@ struct TableLayout {
   std::string id, title, caption, experiment, rows_title;
   std::vector<Row> rows;
   std::vector<Column> columns;
+  std::string page = {};  // id of the page that shows it; empty: the report's main page
 };
 
 // A plot of the report: lines through cases of an experiment, or through what the paper printed.
@@ -46,11 +57,14 @@ struct PlotLayout {
   std::string id, title, caption;
   PlotAxis x, y;
   std::vector<Series> series;
+  std::string page = {};  // id of the page that shows it; empty: the report's main page
 };
 
 struct TomlValue;
-// Throw bad_input with file and line for unknown or missing keys and wrong types.
-TableLayout parse_table(const TomlValue&);
-PlotLayout parse_plot(const TomlValue&);
+// Throw bad_input with file and line for unknown or missing keys, wrong types, and a `page` that is not among
+// the given pages.
+PageLayout parse_page(const TomlValue&);
+TableLayout parse_table(const TomlValue&, std::span<const PageLayout>);
+PlotLayout parse_plot(const TomlValue&, std::span<const PageLayout>);
 
 }  // namespace terrabench

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "results/fill.h"
 #include "results/report_tables.h"
@@ -187,11 +188,12 @@ Document ledger(const Store& store, const JudgedResults& results, std::span<cons
   for (const auto& [about, verdicts] : tally(results.judgements)) {
     counts += fmt::format("{}{}: {}", counts.empty() ? "" : "; ", name(about), counts_text(verdicts));
   }
+  std::vector<Link> pages = {{"Report", links.page}};
+  pages.insert(pages.end(), links.grounds.begin(), links.grounds.end());
   return {Heading{1, "Ledger", "top"},
           Paragraph{fmt::format("{} rows, judged from the measurements of profile “{}”. Of these, {}.",
                                 results.judgements.size(), results.profile, counts),
-                    false,
-                    {{"Report", links.page}}},
+                    false, std::move(pages)},
           Heading{2, "Counts", "counts"},
           TableBlock{class_table(results), {}},
           Heading{2, "Rows", "rows"},

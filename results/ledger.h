@@ -5,6 +5,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "results/document.h"
 #include "results/judge.h"
@@ -14,8 +15,9 @@ namespace terrabench {
 
 // Where rows may point, all relative to the report's folder.
 struct LedgerLinks {
-  std::string page;               // the report's main page
-  std::set<std::string> targets;  // what exists: "#id" on that page, and files
+  std::string page;                // the report's main page
+  std::set<std::string> targets;   // what exists: "#id" on that page, and files
+  std::vector<Link> grounds = {};  // to the pages of single grounds
 };
 
 // One row per claim, in the papers' order; the id of a claim is the anchor of its row.

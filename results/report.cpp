@@ -1,10 +1,9 @@
 #include "results/report.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for_each.h>
 
 #include <algorithm>
-#include <map>
+#include <optional>
 #include <set>
 
 #include "results/citation.h"
@@ -13,55 +12,24 @@
 #include "results/format.h"
 #include "results/further_cases.h"
 #include "results/further_grounds.h"
+#include "results/ground_page.h"
 #include "results/judge.h"
 #include "results/ledger.h"
 #include "results/new_folder.h"
 #include "results/paper_faults.h"
-#include "results/plot.h"
-#include "results/preview.h"
 #include "results/ranking.h"
-#include "results/rasterise.h"
+#include "results/report_parts.h"
 #include "results/report_tables.h"
-#include "terrain/error.h"
 #include "terrain/files.h"
 
 namespace terrabench {
 namespace {
 
-constexpr int kBitmapWidth = 1760;  // twice the plots' own size: sharp in print
-constexpr int kPreviewWidth = 896;  // as the page shows them: 56 rem
-
-std::vector<Link> run_links(const std::vector<std::string>& runs) {
-  std::vector<Link> links;
-  for (const std::string& run : runs) links.push_back({"run " + short_id(run), "#" + run_anchor(run)});
-  return links;
-}
+constexpr std::string_view kMainPage = "";  // TableLayout::page of what stands on it
 
 bool is_report(const std::filesystem::path& folder) {
   std::error_code error;
   return std::filesystem::exists(folder / "index.html", error);
-}
-
-// By checksum and file. Altered pictures have none: the page says at its top that they were altered.
-using Previews = std::map<std::pair<std::string, std::string>, std::string>;
-
-Previews previews_of(const Store& store, const std::string& profile) {
-  Previews previews;
-  for (const Record& record : store.records()) {
-    if (record.profile != profile) continue;
-    for (const RecordedFigure& figure : record.figures) {
-      if (store.intact(figure)) previews[{figure.checksum, figure.file}];
-    }
-  }
-  tbb::parallel_for_each(previews, [&](auto& picture_and_preview) {
-    auto& [picture, preview] = picture_and_preview;
-    try {
-      preview = webp_preview(read_png(store.folder() / picture.second), kPreviewWidth);
-    } catch (const Error& error) {
-      if (error.code() != ExitCode::kBadInput) throw;
-    }
-  });
-  return previews;
 }
 
 class Report {
@@ -73,7 +41,7 @@ class Report {
         papers_(papers),
         out_(out),
         results_(judge(store, papers)),
-        previews_(previews_of(store, results_.profile)) {}
+        parts_(store, results_.profile, out) {}
 
   void write() {
     introduce();
@@ -97,13 +65,7 @@ class Report {
         "none is typed in. Each table and picture names the run that it came from. Machine, code and command "
         "of each run are listed at the end.",
         results_.profile)});
-    if (!results_.faults.empty()) {
-      document_.push_back(Paragraph{
-          fmt::format("These results cannot be trusted: {} lines or pictures were altered or damaged, "
-                      "or name an unknown run. The first: {}",
-                      results_.faults.size(), without_folder(results_.faults.front())),
-          true});
-    }
+    add_warning(document_);
     for (const Judgement& judgement : results_.judgements) {
       if (judgement.complaint.empty()) continue;
       document_.push_back(Paragraph{fmt::format("{}: {}.", judgement.claim->id, judgement.complaint), true});
@@ -115,6 +77,16 @@ class Report {
     add_paper_faults();
     add_findings();
     add_further_grounds();
+  }
+
+  // On the main page and on every ground's.
+  void add_warning(Document& to) const {
+    if (results_.faults.empty()) return;
+    to.push_back(Paragraph{
+        fmt::format("These results cannot be trusted: {} lines or pictures were altered or damaged, "
+                    "or name an unknown run. The first: {}",
+                    results_.faults.size(), without_folder(results_.faults.front())),
+        true});
   }
 
   void add_findings() {
@@ -152,15 +124,20 @@ class Report {
                                 reference_.faults().size()),
                     true});
     }
-    for (FilledTable& filled : tables) add_table(std::move(filled.table), run_links(filled.runs));
+    for (FilledTable& filled : tables) add_table(std::move(filled.table), filled.runs);
   }
 
   void write_ledger() {
-    links_.page = "index.html";
+    set_form(kHtmlForm);
     write_file(out_ / "ledger.html", html(ledger(store_, results_, papers_, links_)));
     write_file(out_ / "tables/ledger.csv", csv(ledger_table(store_, results_, papers_, links_)));
-    links_.page = "report.md";
+    set_form(kMarkdownForm);
     write_file(out_ / "ledger.md", markdown(ledger(store_, results_, papers_, links_)));
+  }
+
+  void set_form(const ReportForm& form) {
+    links_.page = form.main_page;
+    links_.grounds = ground_links(grounds_, form);
   }
 
   void add_paper_faults() {
@@ -210,13 +187,52 @@ class Report {
     const std::string reference = paper.reference ? reference_text(*paper.reference) : "";
     document_.push_back(
         Paragraph{reference + (reference.empty() || paper.source.empty() ? "" : " ") + paper.source});
-    for (const TableLayout& layout : paper.tables) {
-      FilledTable filled = fill(layout, store_, results_);
-      if (!filled.runs.empty()) add_table(std::move(filled.table), run_links(filled.runs));
+    add_ground_pages(paper);
+    for (FilledTable& filled : filled_tables(paper, kMainPage)) {
+      add_table(std::move(filled.table), filled.runs);
     }
-    for (const PlotLayout& layout : paper.plots) add_plot(layout);
+    add_plots(paper, kMainPage, document_);
     add_verdicts(paper);
     add_gallery(paper);
+  }
+
+  // A page for every ground of which something was measured, and a list of these pages.
+  void add_ground_pages(const Paper& paper) {
+    std::vector<PageLayout> written;
+    for (const PageLayout& layout : paper.pages) {
+      const GroundPage page = filled_page(paper, layout);
+      if (page.empty()) continue;
+      write_file(out_ / ground_file(layout, kHtmlForm), html(ground_page(page, kHtmlForm)));
+      write_file(out_ / ground_file(layout, kMarkdownForm), markdown(ground_page(page, kMarkdownForm)));
+      written.push_back(layout);
+    }
+    if (written.empty()) return;
+    document_.push_back(TableBlock{ground_table(paper, written), {}});
+    grounds_.insert(grounds_.end(), written.begin(), written.end());
+  }
+
+  GroundPage filled_page(const Paper& paper, const PageLayout& layout) {
+    GroundPage page{&paper, &layout, {}, {}, {}, {}};
+    page.remarks.push_back(Paragraph{fmt::format("Measured in profile “{}”.", results_.profile)});
+    add_warning(page.remarks);
+    for (FilledTable& filled : filled_tables(paper, layout.id)) {
+      page.tables.push_back(parts_.table(std::move(filled.table), filled.runs));
+    }
+    add_plots(paper, layout.id, page.plots);
+    for (const std::string& sheet : layout.sheets) add_pictures(std::span(&sheet, 1), page.pictures);
+    add_pictures(layout.pictures, page.pictures);
+    return page;
+  }
+
+  // The paper's tables of which something was measured, as far as they stand on this page.
+  std::vector<FilledTable> filled_tables(const Paper& paper, std::string_view page) const {
+    std::vector<FilledTable> tables;
+    for (const TableLayout& layout : paper.tables) {
+      if (layout.page != page) continue;
+      FilledTable filled = fill(layout, store_, results_);
+      if (!filled.runs.empty()) tables.push_back(std::move(filled));
+    }
+    return tables;
   }
 
   void add_verdicts(const Paper& paper) {
@@ -261,7 +277,7 @@ class Report {
     document_.push_back(Heading{2, "Further cases", "further"});
     for (const TableLayout& layout : layouts) {
       FilledTable filled = fill(layout, store_, results_);
-      add_table(std::move(filled.table), run_links(filled.runs));
+      add_table(std::move(filled.table), filled.runs);
     }
   }
 
@@ -281,41 +297,35 @@ class Report {
     document_.push_back(std::move(gallery));
   }
 
-  // Shows a preview, which lies in the report folder and moves with it, and links to the original outside it.
   void add_picture(Gallery& gallery, const Record& record, const RecordedFigure& figure, std::string title,
                    std::string caption) {
-    const auto preview = previews_.find({figure.checksum, figure.file});
-    if (preview == previews_.end() || preview->second.empty()) return;
-    const std::string to = picture_file(figure), original = "../" + url_path(figure.file);
-    write_file(out_ / to, preview->second);
-    links_.targets.insert(to);
-    std::vector<Link> links = run_links({record.run});
-    links.push_back({"Full size", original});
-    gallery.pictures.push_back({std::move(title), std::move(caption), to, "", std::move(links), original});
+    std::optional<Picture> picture = parts_.picture(record, figure, std::move(title), std::move(caption));
+    if (!picture) return;
+    links_.targets.insert(picture->file);
+    gallery.pictures.push_back(std::move(*picture));
   }
 
-  void add_plot(const PlotLayout& layout) {
-    const FilledPlot filled = fill(layout, store_, results_.profile);
-    if (filled.runs.empty()) return;  // only the paper's curve: nothing was measured
-    const std::string stem = "figures/" + file_name(layout.id);
-    write_file(out_ / (stem + ".svg"), plot_svg(filled.plot));
-    svg_to_png(out_ / (stem + ".svg"), out_ / (stem + ".png"), kBitmapWidth);
-    std::vector<Link> links = run_links(filled.runs);
-    links.push_back({"PNG", stem + ".png"});
-    document_.push_back(
-        Gallery{{{layout.title, layout.caption, stem + ".svg", stem + ".png", std::move(links)}}});
+  // Those of these figures that were drawn, side by side.
+  void add_pictures(std::span<const std::string> ids, Document& to) {
+    Gallery gallery;
+    for (const std::string& id : ids) {
+      const auto [record, figure] = store_.find_figure(id, results_.profile);
+      if (figure == nullptr) continue;
+      add_picture(gallery, *record, *figure, record->experiment + " " + record->case_name, figure->caption);
+    }
+    if (!gallery.pictures.empty()) to.push_back(std::move(gallery));
   }
 
-  void add_table(Table table, std::vector<Link> links) {
-    const std::string stem = "tables/" + file_name(table.id);
+  void add_plots(const Paper& paper, std::string_view page, Document& to) const {
+    for (const PlotLayout& layout : paper.plots) {
+      if (layout.page != page) continue;
+      if (std::optional<Gallery> plot = parts_.plot(layout)) to.push_back(std::move(*plot));
+    }
+  }
+
+  void add_table(Table table, const std::vector<std::string>& runs) {
     links_.targets.insert("#" + table.id);
-    write_file(out_ / (stem + ".csv"), csv(table));
-    write_file(out_ / (stem + ".md"), markdown(table));
-    write_file(out_ / (stem + ".tex"), latex(table));
-    links.push_back({"CSV", stem + ".csv"});
-    links.push_back({"Markdown", stem + ".md"});
-    links.push_back({"LaTeX", stem + ".tex"});
-    document_.push_back(TableBlock{std::move(table), std::move(links)});
+    document_.push_back(parts_.table(std::move(table), runs));
   }
 
   void add_pending() {
@@ -343,10 +353,11 @@ class Report {
   std::span<const Paper> papers_;
   const std::filesystem::path& out_;
   JudgedResults results_;
-  Previews previews_;
+  ReportParts parts_;
   Document document_;
-  LedgerLinks links_;              // filled while the report is written
-  std::set<std::string> claimed_;  // ids of pictures that belong to a claim
+  LedgerLinks links_;                // filled while the report is written
+  std::vector<PageLayout> grounds_;  // those with a page
+  std::set<std::string> claimed_;    // ids of pictures that belong to a claim
 };
 
 }  // namespace

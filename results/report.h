@@ -1,4 +1,4 @@
-// Writes the page, tables and figures of a results folder, complete or partial. Takes seconds; measures
+// Writes the pages, tables and figures of a results folder, complete or partial. Takes seconds; measures
 // nothing.
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace terrabench {
 
-// DIR/report/: index.html, report.md, tables/*.{csv,md,tex}, figures/: *.{svg,png} of plots and *.webp, small
-// copies of the pictures in DIR/figures/, to which the pages link. Replaces an earlier report
-// as a whole or not at all; equal measurements give equal bytes. Returns the path of index.html. Throws
-// bad_input when the folder holds no results, environment_error when the report cannot be written. Not
-// thread-safe.
+// DIR/report/: index.html, report.md, ground-*.{html,md} (ground_page.h), ledger.{html,md},
+// tables/*.{csv,md,tex}, figures/: *.{svg,png} of plots and *.webp, small copies of the pictures in
+// DIR/figures/, to which the pages link. Replaces an earlier report as a whole or not at all; equal
+// measurements give equal bytes. Returns the path of index.html. Throws bad_input when the folder holds no
+// results, environment_error when the report cannot be written. Not thread-safe.
 // `reference`: another results folder, with whose grounds further ones are compared (further_grounds.h); by
 // default the same folder.
 std::filesystem::path write_report(const std::filesystem::path& folder,

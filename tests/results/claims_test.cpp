@@ -377,6 +377,12 @@ TEST(Claims, RefusesWithFileAndLine) {
   expect_refused(claim + "pending = \"x\"\nabout = \"you\"\n", "one of paper, ours, identity", 4);
   expect_refused(claim + "check = [{within = [\"e/c/m\"], range = [0, 1]}]\n", "holds every share", 9);
   expect_refused(claim + "pending = \"x\"\n" + std::string(kClaim) + "pending = \"x\"\n", "used twice", 0);
+  const std::string table =
+      head +
+      "[[table]]\nid = \"p.t\"\ntitle = \"t\"\ncaption = \"c\"\nexperiment = \"e\"\nrows_title = \"r\"\n"
+      "rows = [{label = \"l\", case = \"c\"}]\ncolumns = [{title = \"c\", verdict = \"v\"}]\npage = \"x\"\n";
+  expect_refused(table, "unknown page 'x'", 4);
+  expect_refused(table + "[[page]]\nid = \"x\"\nabout = \"a\"\n", "stands on the main page", 4);
   const std::string ground =
       claim + "check = [{figure = \"f\"}]\n[[ground]]\nname = \"b\"\nof = \"a\"\nlabel = \"l\"\n";
   expect_refused(ground + "known = [{claim = \"p.9\", verdict = \"differs\"}]\n", "unknown claim 'p.9'", 14);

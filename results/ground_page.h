@@ -1,0 +1,39 @@
+// The report's page of one ground: all its tables, then its plots, then its pictures, which would otherwise
+// stand among those of other grounds. A claims file says what belongs to it (layouts.h, PageLayout).
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "results/claims.h"
+#include "results/document.h"
+
+namespace terrabench {
+
+// The report is written in two forms. Pages of a form lead to each other.
+struct ReportForm {
+  std::string_view extension, main_page;
+};
+inline constexpr ReportForm kHtmlForm{"html", "index.html"}, kMarkdownForm{"md", "report.md"};
+
+struct GroundPage {
+  const Paper* paper = nullptr;
+  const PageLayout* layout = nullptr;
+  Document remarks;                  // on the whole report: its profile, whether it can be trusted
+  Document tables, plots, pictures;  // a link to "#id" means that place on the report's main page
+
+  bool empty() const { return tables.empty() && plots.empty() && pictures.empty(); }
+};
+
+// "ground-caves.html", relative to the report's folder.
+std::string ground_file(const PageLayout&, const ReportForm&);
+Document ground_page(const GroundPage&, const ReportForm&);
+
+// Links to the pages in one form.
+std::vector<Link> ground_links(std::span<const PageLayout>, const ReportForm&);
+// The pages of a paper with links to both forms, for the main page.
+Table ground_table(const Paper&, std::span<const PageLayout>);
+
+}  // namespace terrabench

@@ -1,0 +1,251 @@
+#include "results/ground_page.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <set>
+
+#include "results/report.h"
+#include "terrain/image.h"
+#include "tests/results/fake_results.h"
+
+namespace terrabench {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr std::string_view kClaims = R"(paper = "p"
+title = "Two grounds"
+source = "s"
+[sets]
+ground = ["hill", "cave"]
+[[claim]]
+id = "p.1"
+where = "w"
+statement = "s"
+class = "E"
+check = [{equal = ["e/hill/n", 3]}]
+[[page]]
+each = ["ground"]
+id = "{ground}"
+about = "A <{ground}> & more."
+sheets = ["p.maps-{ground}"]
+pictures = ["p.view-{ground}", "p.not-drawn"]
+[[table]]
+each = ["ground"]
+id = "p.size-{ground}"
+page = "{ground}"
+title = "Size"
+caption = "c"
+experiment = "e"
+rows_title = "r"
+rows = [{label = "l", case = "{ground}"}]
+columns = [{title = "Bytes", unit = "B", metric = "bytes"}]
+[[table]]
+id = "p.both"
+title = "Both"
+caption = "c"
+experiment = "e"
+rows_title = "r"
+rows = [{each = ["ground"], label = "l", case = "{ground}"}]
+columns = [{title = "Bytes", unit = "B", metric = "bytes"}]
+[[table]]
+each = ["ground"]
+id = "p.time-{ground}"
+page = "{ground}"
+title = "Time"
+caption = "c"
+experiment = "e"
+rows_title = "r"
+rows = [{label = "l", case = "{ground}"}]
+columns = [{title = "Time", unit = "s", metric = "time"}]
+[[plot]]
+each = ["ground"]
+id = "p.plot-{ground}"
+page = "{ground}"
+title = "Plot"
+caption = "c"
+x = {label = "x"}
+y = {label = "y"}
+series = [{label = "l", experiment = "e", metric = "n", cases = [[1, "{ground}"]]}]
+)";
+
+class GroundPageTest : public FolderTest {
+ protected:
+  GroundPageTest() : store_(folder_), papers_{parse_claims(kClaims, "claims.toml")} {
+    store_.begin_run(run_);
+  }
+
+  void measure(const std::string& ground) {
+    Record record = fake_record(run_, "e", ground);
+    add(record, "bytes", "B", {1000});
+    add(record, "time", "s", {2});
+    add(record, "n", "", {3});
+    for (const char* const kind : {"maps", "view"}) {
+      const std::string id = fmt::format("p.{}-{}", kind, ground), file = "figures/" + id + ".png";
+      write_png(folder_ / file, Image(40, 20, {200, 40, 40}));
+      record.figures.push_back({id, file, "Picture.", checksum(read_file(folder_ / file))});
+    }
+    store_.append(record);
+  }
+  bool has(const std::string& name) const { return std::filesystem::exists(folder_ / "report" / name); }
+  std::string written(const std::string& name) const { return read_file(folder_ / "report" / name); }
+
+  Provenance run_ = fake_provenance();
+  Store store_;
+  std::vector<Paper> papers_;
+};
+
+// What stands between `before` and `after`, at every place.
+std::vector<std::string> all_between(const std::string& text, std::string_view before, char after) {
+  std::vector<std::string> found;
+  for (std::size_t at = text.find(before); at != text.npos; at = text.find(before, at + 1)) {
+    const std::size_t begin = at + before.size();
+    found.push_back(text.substr(begin, text.find(after, begin) - begin));
+  }
+  return found;
+}
+
+TEST_F(GroundPageTest, HoldsAllThatBelongsToItsGroundAndNothingOfAnother) {
+  for (const char* const ground : {"hill", "cave"}) measure(ground);
+  write_report(store_, papers_);
+  for (const auto& [ground, other] : {std::pair{"hill", "cave"}, std::pair{"cave", "hill"}}) {
+    for (const char* const form : {"html", "md"}) {
+      const std::string page = written(fmt::format("ground-{}.{}", ground, form));
+      std::size_t at = 0;
+      for (const char* const part :
+           {"Ground {}", "Measured in profile", "id=\"p.size-{}\"", "id=\"p.time-{}\"", "figures/p.plot-{}.",
+            "figures/p.maps-{}.webp", "figures/p.view-{}.webp"}) {
+        const std::string text = fmt::format(fmt::runtime(part), ground);
+        EXPECT_NE(page.find(text, at), page.npos)
+            << ground << "." << form << " has no " << text << " in its place";
+        at = std::min(page.size(), page.find(text, at));
+      }
+      EXPECT_THAT(page, Not(HasSubstr(std::string("-") + other)));
+      EXPECT_THAT(page, Not(HasSubstr("p.both")));
+    }
+  }
+  EXPECT_THAT(written("ground-hill.html"), HasSubstr("<p>A &lt;hill&gt; &amp; more.</p>"));
+}
+
+TEST_F(GroundPageTest, IsListedWhereItsTablesWouldStand) {
+  for (const char* const ground : {"hill", "cave"}) measure(ground);
+  write_report(store_, papers_);
+  const std::string page = written("index.html");
+  EXPECT_THAT(page, HasSubstr("id=\"p.both\""));
+  for (const char* const ground : {"hill", "cave"}) {
+    EXPECT_THAT(page, HasSubstr(fmt::format("href=\"ground-{}.html\"", ground)));
+    EXPECT_THAT(page, HasSubstr(fmt::format("href=\"ground-{}.md\"", ground)));
+    EXPECT_THAT(page, Not(HasSubstr(fmt::format("p.size-{}", ground))));
+    EXPECT_THAT(page, Not(HasSubstr(fmt::format("p.plot-{}", ground))));
+    EXPECT_THAT(written("ledger.html"), HasSubstr(fmt::format("href=\"ground-{}.html\"", ground)));
+    EXPECT_THAT(written("ledger.md"), HasSubstr(fmt::format("(ground-{}.md)", ground)));
+    EXPECT_TRUE(has(fmt::format("tables/p.size-{}.csv", ground)));
+  }
+}
+
+TEST_F(GroundPageTest, EveryLinkLeadsSomewhere) {
+  for (const char* const ground : {"hill", "cave"}) measure(ground);
+  write_report(store_, papers_);
+  const std::string page = written("ground-hill.html"), text = written("ground-hill.md");
+  std::vector<std::string> targets = all_between(text, "](", ')');
+  for (const char* const attribute : {"href=\"", "src=\""}) {
+    for (std::string& target : all_between(page, attribute, '"')) targets.push_back(std::move(target));
+  }
+  const std::string run = "#run-" + run_.id.substr(0, 8);
+  for (const std::string& target :
+       {"index.html" + run, "report.md" + run, std::string("index.html#p"), std::string("report.md#p"),
+        std::string("ledger.html"), std::string("ledger.md")}) {
+    EXPECT_THAT(targets, Contains(target));
+  }
+  for (const std::string& target : targets) {
+    const std::size_t hash = target.find('#');
+    const std::string file = target.substr(0, hash);
+    EXPECT_TRUE(file.empty() || std::filesystem::is_regular_file(folder_ / "report" / file)) << target;
+    if (hash == target.npos) continue;
+    const std::string id = "id=\"" + target.substr(hash + 1) + "\"";
+    EXPECT_THAT(file.empty() ? page : written(file), HasSubstr(id));
+  }
+}
+
+TEST_F(GroundPageTest, AGroundThatWasNotMeasuredHasNone) {
+  measure("hill");
+  write_report(store_, papers_);
+  EXPECT_TRUE(has("ground-hill.html"));
+  EXPECT_FALSE(has("ground-cave.html"));
+  EXPECT_THAT(written("index.html"), Not(HasSubstr("ground-cave")));
+  EXPECT_THAT(written("ledger.html"), Not(HasSubstr("ground-cave")));
+}
+
+TEST_F(GroundPageTest, WarnsOfAlteredResults) {
+  measure("hill");
+  edit(file(), "\"seed\":1", "\"seed\":2");
+  write_report(Store::open(folder_), papers_);
+  EXPECT_THAT(written("ground-hill.html"), HasSubstr("cannot be trusted"));
+  EXPECT_THAT(written("ground-hill.md"), HasSubstr("cannot be trusted"));
+}
+
+std::string ground_of(const std::string& case_name) { return case_name.substr(0, case_name.find('/')); }
+
+// The page where cases of these grounds belong; empty: the main page.
+std::string page_for(const Paper& paper, const std::set<std::string>& grounds) {
+  if (grounds.size() != 1) return "";
+  const std::string& ground = *grounds.begin();
+  return std::ranges::count(paper.pages, ground, &PageLayout::id) > 0 ? ground : "";
+}
+
+TEST(GroundPages, HaveEveryTableAndPlotWhoseCasesAreAllOnThatGround) {
+  std::size_t tables = 0, plots = 0;
+  for (const Paper& paper : papers()) {
+    for (const TableLayout& table : paper.tables) {
+      std::set<std::string> grounds;
+      for (const TableLayout::Row& row : table.rows) grounds.insert(ground_of(row.case_name));
+      EXPECT_EQ(table.page, page_for(paper, grounds)) << table.id;
+      tables += table.page.empty() ? 0 : 1;
+    }
+    for (const PlotLayout& plot : paper.plots) {
+      std::set<std::string> grounds;
+      for (const PlotLayout::Series& series : plot.series) {
+        for (const auto& [x, case_name] : series.cases) grounds.insert(ground_of(case_name));
+      }
+      EXPECT_EQ(plot.page, page_for(paper, grounds)) << plot.id;
+      plots += plot.page.empty() ? 0 : 1;
+    }
+  }
+  EXPECT_GE(tables, 50U);
+  EXPECT_GE(plots, 11U);
+}
+
+TEST(GroundPages, HaveEverySheetThatShowsNumbersOfThatGround) {
+  std::size_t sheets = 0;
+  for (const Paper& paper : papers()) {
+    for (const Claim& claim : paper.claims) {
+      for (const Condition& condition : claim.conditions) {
+        std::set<std::string> grounds;
+        for (const Operand& operand : condition.operands) grounds.insert(ground_of(operand.case_name));
+        const std::string ground = page_for(paper, grounds);
+        if (condition.kind != Condition::Kind::kFigure || ground.empty()) continue;
+        const auto page = std::ranges::find(paper.pages, ground, &PageLayout::id);
+        EXPECT_THAT(page->sheets, Contains(condition.figure)) << claim.id;
+        ++sheets;
+      }
+    }
+  }
+  EXPECT_GE(sheets, 8U) << "error maps of five grounds and wireframes of three";
+}
+
+TEST(GroundPages, HaveFilesOfTheirOwn) {
+  std::set<std::string> files;
+  for (const Paper& paper : papers()) {
+    for (const PageLayout& page : paper.pages) {
+      EXPECT_TRUE(files.insert(ground_file(page, kHtmlForm)).second) << page.id;
+    }
+  }
+  EXPECT_GE(files.size(), 5U);
+}
+
+}  // namespace
+}  // namespace terrabench
