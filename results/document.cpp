@@ -50,11 +50,13 @@ struct HtmlWriter {
     text += gallery.pictures.size() == 1 ? "<div class=\"wide\">\n" : "<div class=\"gallery\">\n";
     for (const Picture& picture : gallery.pictures) {
       const std::string file = escape_html(picture.file), title = escape_html(picture.title);
+      const std::string id =
+          picture.anchor.empty() ? "" : fmt::format(" id=\"{}\"", escape_html(picture.anchor));
       text += fmt::format(
-          "<figure>\n<a href=\"{4}\"><img src=\"{0}\" alt=\"{1}: {2}\" loading=\"lazy\"></a>\n"
+          "<figure{5}>\n<a href=\"{4}\"><img src=\"{0}\" alt=\"{1}: {2}\" loading=\"lazy\"></a>\n"
           "<figcaption><strong>{1}.</strong> {2}</figcaption>\n{3}</figure>\n",
           file, title, escape_html(picture.caption), links(picture.links),
-          picture.original.empty() ? file : escape_html(picture.original));
+          picture.original.empty() ? file : escape_html(picture.original), id);
     }
     text += "</div>\n";
   }
@@ -92,6 +94,7 @@ struct MarkdownWriter {
   }
   void operator()(const Gallery& gallery) {
     for (const Picture& picture : gallery.pictures) {
+      if (!picture.anchor.empty()) text += fmt::format("<a id=\"{}\"></a>", picture.anchor);
       text += fmt::format("![{0}]({1})\n\n**{0}.** {2}\n\n", escape_markdown(picture.title),
                           picture.bitmap.empty() ? picture.file : picture.bitmap,
                           escape_markdown(picture.caption));

@@ -37,6 +37,7 @@ struct Picture {
   std::string bitmap;                // for Markdown, when it differs
   std::vector<Link> links;
   std::string original = {};  // at full size, where a click leads; empty: the file
+  std::string anchor = {};    // id of the picture, for links to it; empty: none
 };
 // Pictures side by side where they fit; a single picture is wide.
 struct Gallery {

@@ -61,17 +61,6 @@ Cell growth_cell(const std::string& metric, const Record* before, const Record* 
   return number_cell(summarise_ratio(to->samples, from->samples).median);
 }
 
-// The column with "<name>" in its metric replaced by the row's text; a row without it leaves no metric.
-TableLayout::Column for_row(TableLayout::Column column, const TableLayout::Row& row) {
-  const std::size_t open = column.metric.find('<'), close = column.metric.find('>', open);
-  if (close == std::string::npos) return column;
-  const auto value = row.values.find(std::string_view(column.metric).substr(open + 1, close - open - 1));
-  const std::string* const text =
-      value == row.values.end() ? nullptr : std::get_if<std::string>(&value->second);
-  column.metric = text == nullptr ? "" : column.metric.replace(open, close - open + 1, *text);
-  return column;
-}
-
 // Whether a row has something to show without a measurement: a value as printed, or a verdict.
 bool speaks_alone(const TableLayout& layout, const TableLayout::Row& row) {
   return std::ranges::any_of(layout.columns, [&](const TableLayout::Column& column) {

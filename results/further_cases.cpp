@@ -11,7 +11,19 @@ namespace {
 using Column = TableLayout::Column;
 using Shown = std::set<std::pair<std::string, std::string>>;  // experiment, case
 
-Shown shown_in(std::span<const Paper> papers) {
+// Adds the cases that the claim reads and those that drew the pictures which it judges.
+void add_cases(const Claim& claim, const Store& store, std::string_view profile, Shown& shown) {
+  for (const Condition& condition : claim.conditions) {
+    for (const auto* const operands : {&condition.operands, &condition.brightness}) {
+      for (const Operand& operand : *operands) shown.emplace(operand.experiment, operand.case_name);
+    }
+    if (condition.kind != Condition::Kind::kFigure) continue;
+    const Record* const drew = store.find_figure(condition.figure, profile).first;
+    if (drew != nullptr) shown.emplace(drew->experiment, drew->case_name);
+  }
+}
+
+Shown shown_in(const Store& store, std::span<const Paper> papers, std::string_view profile) {
   Shown shown;
   for (const Paper& paper : papers) {
     for (const TableLayout& table : paper.tables) {
@@ -22,12 +34,7 @@ Shown shown_in(std::span<const Paper> papers) {
         for (const auto& [x, name] : series.cases) shown.emplace(series.experiment, name);
       }
     }
-    for (const Claim& claim : paper.claims) {
-      for (const Condition& condition : claim.conditions) {
-        for (const Operand& operand : condition.operands)
-          shown.emplace(operand.experiment, operand.case_name);
-      }
-    }
+    for (const Claim& claim : paper.claims) add_cases(claim, store, profile, shown);
   }
   return shown;
 }
@@ -66,7 +73,7 @@ std::vector<Column> columns_for(std::span<const Record* const> records, const Ta
 
 std::vector<TableLayout> further_cases(const Store& store, std::span<const Paper> papers,
                                        std::string_view profile) {
-  const Shown shown = shown_in(papers);
+  const Shown shown = shown_in(store, papers, profile);
   std::vector<std::pair<std::string, std::vector<const Record*>>> experiments;
   for (const Record& record : store.records()) {
     if (record.profile != profile || record.metrics.empty()) continue;

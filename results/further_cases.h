@@ -1,4 +1,5 @@
-// Tables of cases that no table, plot or claim shows: the user's own terrain, other parameters.
+// Tables of cases that nothing else is about: no table or plot shows them, no claim reads them or judges a
+// picture that they drew. Such are the user's own terrain and other parameters.
 #pragma once
 
 #include <span>

@@ -25,8 +25,9 @@ Block from_another_page(Block block, std::string_view main_page) {
 
 }  // namespace
 
-std::string ground_file(const PageLayout& layout, const ReportForm& form) {
-  return fmt::format("ground-{}.{}", file_name(layout.id), form.extension);
+std::string page_file(std::string_view ground, const ReportForm& form) {
+  if (ground.empty()) return std::string(form.main_page);
+  return fmt::format("ground-{}.{}", file_name(ground), form.extension);
 }
 
 Document ground_page(const GroundPage& page, const ReportForm& form) {
@@ -53,7 +54,7 @@ Document ground_page(const GroundPage& page, const ReportForm& form) {
 
 std::vector<Link> ground_links(std::span<const PageLayout> layouts, const ReportForm& form) {
   std::vector<Link> links;
-  for (const PageLayout& layout : layouts) links.push_back({title(layout), ground_file(layout, form)});
+  for (const PageLayout& layout : layouts) links.push_back({title(layout), page_file(layout.id, form)});
   return links;
 }
 
@@ -64,8 +65,8 @@ Table ground_table(const Paper& paper, std::span<const PageLayout> layouts) {
               {{"Ground"}, {"What it is"}, {"As Markdown"}},
               {}};
   for (const PageLayout& layout : layouts) {
-    const std::string markdown_file = ground_file(layout, kMarkdownForm);
-    table.rows.push_back({{layout.id, "", ground_file(layout, kHtmlForm)},
+    const std::string markdown_file = page_file(layout.id, kMarkdownForm);
+    table.rows.push_back({{layout.id, "", page_file(layout.id, kHtmlForm)},
                           {layout.about},
                           {markdown_file, "", markdown_file}});
   }

@@ -27,8 +27,8 @@ struct GroundPage {
   bool empty() const { return tables.empty() && plots.empty() && pictures.empty(); }
 };
 
-// "ground-caves.html", relative to the report's folder.
-std::string ground_file(const PageLayout&, const ReportForm&);
+// "ground-caves.html", relative to the report's folder; of an empty id, the main page.
+std::string page_file(std::string_view ground, const ReportForm&);
 Document ground_page(const GroundPage&, const ReportForm&);
 
 // Links to the pages in one form.

@@ -150,4 +150,14 @@ PlotLayout parse_plot(const TomlValue& node, std::span<const PageLayout> pages) 
   return plot;
 }
 
+TableLayout::Column for_row(TableLayout::Column column, const TableLayout::Row& row) {
+  const std::size_t open = column.metric.find('<'), close = column.metric.find('>', open);
+  if (close == std::string::npos) return column;
+  const auto value = row.values.find(std::string_view(column.metric).substr(open + 1, close - open - 1));
+  const std::string* const text =
+      value == row.values.end() ? nullptr : std::get_if<std::string>(&value->second);
+  column.metric = text == nullptr ? "" : column.metric.replace(open, close - open + 1, *text);
+  return column;
+}
+
 }  // namespace terrabench

@@ -42,6 +42,8 @@ struct TableLayout {
   std::vector<Column> columns;
   std::string page = {};  // id of the page that shows it; empty: the report's main page
 };
+// The column with "<name>" in its metric replaced by the row's text; a row without it leaves no metric.
+TableLayout::Column for_row(TableLayout::Column, const TableLayout::Row&);
 
 // A plot of the report: lines through cases of an experiment, or through what the paper printed.
 struct PlotLayout {

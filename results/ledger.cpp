@@ -42,8 +42,9 @@ std::string ours(const Judgement& j) {
 
 class Rows {
  public:
-  Rows(const Store& store, const JudgedResults& results, const LedgerLinks& links)
-      : store_(store), results_(results), links_(links) {}
+  Rows(const Store& store, const JudgedResults& results, std::span<const Paper> papers,
+       const LedgerLinks& links)
+      : store_(store), results_(results), links_(links), where_shown_(papers, links.shown_on) {}
 
   std::vector<Cell> row(const Judgement& j) const {
     const Claim& claim = *j.claim;
@@ -61,27 +62,20 @@ class Rows {
   }
 
  private:
-  // The picture that the claim judges, otherwise the table that shows its verdict.
+  // The picture that the claim judges, otherwise the table or plot that shows its numbers.
   Cell figure(const Judgement& j) const {
     for (const Condition& condition : j.claim->conditions) {
       if (condition.kind != Condition::Kind::kFigure) continue;
       const RecordedFigure* const drawn = store_.find_figure(condition.figure, results_.profile).second;
       if (drawn == nullptr) continue;
       const std::string file = picture_file(*drawn);
-      return {.text = condition.figure, .link = links_.targets.contains(file) ? file : ""};
+      return {.text = condition.figure, .link = links_.pictures.contains(file) ? file : ""};
     }
-    for (const TableLayout& layout : j.paper->tables) {
-      for (const TableLayout::Row& row : layout.rows) {
-        const bool shows = std::ranges::any_of(row.values, [&](const auto& value) {
-          const auto* const id = std::get_if<std::string>(&value.second);
-          return id != nullptr && *id == j.claim->id;
-        });
-        if (shows && links_.targets.contains("#" + layout.id)) {
-          return {.text = layout.title, .link = links_.page + "#" + layout.id};
-        }
-      }
-    }
-    return {"–"};
+    const auto place = where_shown_.find(*j.claim, store_, results_.profile);
+    if (!place) return {"–"};
+    const auto& [id, title, ground] = place->layout;
+    return {.text = fmt::format("{}{}", title, place->same_quantity ? "" : " (same case, other quantities)"),
+            .link = fmt::format("{}#{}", page_file(ground, links_.form), id)};
   }
 
   // The run that was read last, and the lines of measurements.jsonl that were.
@@ -107,7 +101,7 @@ class Rows {
       ++shown;
     }
     if (lines.size() > shown) text += fmt::format(" and {} more", lines.size() - shown);
-    return {.text = text, .link = links_.page + "#" + run_anchor(j.runs.back())};
+    return {.text = text, .link = std::string(links_.form.main_page) + "#" + run_anchor(j.runs.back())};
   }
 
   void note_line(std::set<std::size_t>& lines, const Record* record) const {
@@ -117,6 +111,7 @@ class Rows {
   const Store& store_;
   const JudgedResults& results_;
   const LedgerLinks& links_;
+  WhereShown where_shown_;
 };
 
 }  // namespace
@@ -126,7 +121,9 @@ Table ledger_table(const Store& store, const JudgedResults& results, std::span<c
   Table table{"ledger",
               "Every row",
               "Claim, what the paper says in our words and what it prints, what was measured, and why the "
-              "verdict is not “reproduced” where it is not. Lines are those of measurements.jsonl.",
+              "verdict is not “reproduced” where it is not. The figure or table is the picture that the "
+              "row judges, otherwise the first table or plot that shows its verdict or one of its "
+              "numbers. Lines are those of measurements.jsonl.",
               {{"Claim"},
                {"Verdict"},
                {"The paper"},
@@ -139,7 +136,7 @@ Table ledger_table(const Store& store, const JudgedResults& results, std::span<c
                {"Figure or table"},
                {"Run"}},
               {}};
-  const Rows rows(store, results, links);
+  const Rows rows(store, results, papers, links);
   for (const Paper& paper : papers) {
     for (const Judgement& judgement : results.of(paper)) table.rows.push_back(rows.row(judgement));
   }
@@ -188,7 +185,7 @@ Document ledger(const Store& store, const JudgedResults& results, std::span<cons
   for (const auto& [about, verdicts] : tally(results.judgements)) {
     counts += fmt::format("{}{}: {}", counts.empty() ? "" : "; ", name(about), counts_text(verdicts));
   }
-  std::vector<Link> pages = {{"Report", links.page}};
+  std::vector<Link> pages = {{"Report", std::string(links.form.main_page)}};
   pages.insert(pages.end(), links.grounds.begin(), links.grounds.end());
   return {Heading{1, "Ledger", "top"},
           Paragraph{fmt::format("{} rows, judged from the measurements of profile “{}”. Of these, {}.",

@@ -8,16 +8,19 @@
 #include <vector>
 
 #include "results/document.h"
+#include "results/ground_page.h"
 #include "results/judge.h"
 #include "results/store.h"
+#include "results/where_shown.h"
 
 namespace terrabench {
 
 // Where rows may point, all relative to the report's folder.
 struct LedgerLinks {
-  std::string page;                // the report's main page
-  std::set<std::string> targets;   // what exists: "#id" on that page, and files
-  std::vector<Link> grounds = {};  // to the pages of single grounds
+  ReportForm form = kHtmlForm;
+  std::set<std::string> pictures = {};  // files
+  ShownOn shown_on = {};                // the tables and plots
+  std::vector<Link> grounds = {};       // to the pages of single grounds
 };
 
 // One row per claim, in the papers' order; the id of a claim is the anchor of its row.

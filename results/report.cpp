@@ -136,7 +136,7 @@ class Report {
   }
 
   void set_form(const ReportForm& form) {
-    links_.page = form.main_page;
+    links_.form = form;
     links_.grounds = ground_links(grounds_, form);
   }
 
@@ -202,8 +202,8 @@ class Report {
     for (const PageLayout& layout : paper.pages) {
       const GroundPage page = filled_page(paper, layout);
       if (page.empty()) continue;
-      write_file(out_ / ground_file(layout, kHtmlForm), html(ground_page(page, kHtmlForm)));
-      write_file(out_ / ground_file(layout, kMarkdownForm), markdown(ground_page(page, kMarkdownForm)));
+      write_file(out_ / page_file(layout.id, kHtmlForm), html(ground_page(page, kHtmlForm)));
+      write_file(out_ / page_file(layout.id, kMarkdownForm), markdown(ground_page(page, kMarkdownForm)));
       written.push_back(layout);
     }
     if (written.empty()) return;
@@ -216,6 +216,7 @@ class Report {
     page.remarks.push_back(Paragraph{fmt::format("Measured in profile “{}”.", results_.profile)});
     add_warning(page.remarks);
     for (FilledTable& filled : filled_tables(paper, layout.id)) {
+      links_.shown_on.emplace(filled.table.id, layout.id);
       page.tables.push_back(parts_.table(std::move(filled.table), filled.runs));
     }
     add_plots(paper, layout.id, page.plots);
@@ -301,7 +302,7 @@ class Report {
                    std::string caption) {
     std::optional<Picture> picture = parts_.picture(record, figure, std::move(title), std::move(caption));
     if (!picture) return;
-    links_.targets.insert(picture->file);
+    links_.pictures.insert(picture->file);
     gallery.pictures.push_back(std::move(*picture));
   }
 
@@ -316,15 +317,18 @@ class Report {
     if (!gallery.pictures.empty()) to.push_back(std::move(gallery));
   }
 
-  void add_plots(const Paper& paper, std::string_view page, Document& to) const {
+  void add_plots(const Paper& paper, std::string_view page, Document& to) {
     for (const PlotLayout& layout : paper.plots) {
       if (layout.page != page) continue;
-      if (std::optional<Gallery> plot = parts_.plot(layout)) to.push_back(std::move(*plot));
+      std::optional<Gallery> plot = parts_.plot(layout);
+      if (!plot) continue;
+      links_.shown_on.emplace(layout.id, page);
+      to.push_back(std::move(*plot));
     }
   }
 
   void add_table(Table table, const std::vector<std::string>& runs) {
-    links_.targets.insert("#" + table.id);
+    links_.shown_on.emplace(table.id, kMainPage);
     document_.push_back(parts_.table(std::move(table), runs));
   }
 

@@ -62,7 +62,8 @@ std::optional<Gallery> ReportParts::plot(const PlotLayout& layout) const {
   svg_to_png(out_ / (stem + ".svg"), out_ / (stem + ".png"), kBitmapWidth);
   std::vector<Link> links = run_links(filled.runs);
   links.push_back({"PNG", stem + ".png"});
-  return Gallery{{{layout.title, layout.caption, stem + ".svg", stem + ".png", std::move(links)}}};
+  return Gallery{
+      {{layout.title, layout.caption, stem + ".svg", stem + ".png", std::move(links), "", layout.id}}};
 }
 
 std::optional<Picture> ReportParts::picture(const Record& record, const RecordedFigure& figure,

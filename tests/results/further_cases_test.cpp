@@ -18,6 +18,12 @@ where = "w"
 statement = "s"
 class = "E"
 check = [{equal = ["e/judged/n", 1]}]
+[[claim]]
+id = "p.2"
+where = "w"
+statement = "s"
+class = "F"
+check = [{figure = "p.F1", brightness = "e/compared/n"}]
 [[table]]
 id = "p.t"
 title = "t"
@@ -45,7 +51,13 @@ TEST_F(FurtherCases, AreThoseThatNothingElseShows) {
     add(record, metric, unit, {2});
     store.append(record);
   };
-  for (const char* const name : {"judged", "shown", "plotted", "mine"}) measure("e", name, "time", "s");
+  for (const char* const name : {"judged", "compared", "shown", "plotted", "mine"}) {
+    measure("e", name, "time", "s");
+  }
+  Record drawing = fake_record(run, "e", "drawing");
+  add(drawing, "time", "s", {2});
+  drawing.figures.push_back({"p.F1", "figures/p.F1.png", "The picture that a claim judges"});
+  store.append(drawing);
   measure("e", "picture", "peaks", "");
   measure("f", "first", "a", "px");
   measure("f", "second", "b", "");

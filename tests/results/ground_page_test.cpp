@@ -241,7 +241,7 @@ TEST(GroundPages, HaveFilesOfTheirOwn) {
   std::set<std::string> files;
   for (const Paper& paper : papers()) {
     for (const PageLayout& page : paper.pages) {
-      EXPECT_TRUE(files.insert(ground_file(page, kHtmlForm)).second) << page.id;
+      EXPECT_TRUE(files.insert(page_file(page.id, kHtmlForm)).second) << page.id;
     }
   }
   EXPECT_GE(files.size(), 5U);

@@ -13,6 +13,24 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
+constexpr std::string_view kPlotOnly = R"(paper = "p"
+title = "t"
+source = "s"
+[[claim]]
+id = "p.1"
+where = "w"
+statement = "s"
+class = "E"
+check = [{equal = ["e/small/n", 2]}]
+[[plot]]
+id = "p.growth"
+title = "Growth"
+caption = "c"
+x = {label = "x"}
+y = {label = "y"}
+series = [{label = "l", experiment = "e", metric = "n", cases = [[1, "small"], [2, "large"]]}]
+)";
+
 constexpr std::size_t kVerdict = 1, kPrinted = 3, kMeasured = 4, kTolerance = 5, kWhy = 8, kFigure = 9,
                       kRun = 10;
 
@@ -22,7 +40,7 @@ class LedgerTest : public FolderTest {
 
   Table table(std::span<const Paper> of) const {
     const Store store = Store::open(folder_);
-    return ledger_table(store, judge(store, of), of, {"index.html", {"#hybrid.table1"}});
+    return ledger_table(store, judge(store, of), of, {.shown_on = {{"hybrid.table1", ""}}});
   }
   // The row with this id; ends the test when there is none.
   static const std::vector<Cell>& row(const Table& table, const std::string& id) {
@@ -58,6 +76,41 @@ TEST_F(LedgerTest, ARowSaysWhatWasPrintedAndMeasuredAndWhere) {
   EXPECT_THAT(differs[kWhy].text, HasSubstr("the work grows with n³, by 8. Matches: hybrid.T2.256"));
   // The figure was drawn, but the links know of no such file.
   EXPECT_EQ(row(ledger, "hybrid.F3")[kFigure].link, "");
+}
+
+// Searches all tables anew for each number: slow, but it has no index that could be wrong.
+TEST_F(LedgerTest, EveryRowWhoseNumbersATableShowsHasAFigureOrTable) {
+  const Store store = Store::open(folder_);
+  LedgerLinks links;
+  for (const Paper& paper : faked_papers()) {
+    for (const TableLayout& layout : paper.tables) links.shown_on.emplace(layout.id, "");
+  }
+  const Table ledger = ledger_table(store, judge(store, faked_papers()), faked_papers(), links);
+  const auto is_shown = [&](const Operand& operand) {
+    const Record* const record = store.find(operand.experiment, operand.case_name, "paper");
+    if (record == nullptr || record->find(operand.metric) == nullptr) return false;
+    for (const Paper& paper : faked_papers()) {
+      for (const TableLayout& layout : paper.tables) {
+        if (layout.experiment != operand.experiment) continue;
+        if (std::ranges::count(layout.rows, operand.case_name, &TableLayout::Row::case_name) == 0) continue;
+        if (std::ranges::count(layout.columns, operand.metric, &TableLayout::Column::metric) > 0) return true;
+      }
+    }
+    return false;
+  };
+  int shown = 0;
+  for (const Paper& paper : faked_papers()) {
+    for (const Claim& claim : paper.claims) {
+      for (const Condition& condition : claim.conditions) {
+        if (std::ranges::none_of(condition.operands, is_shown)) continue;
+        const Cell& figure = row(ledger, claim.id)[kFigure];
+        EXPECT_NE(figure.text, "–") << claim.id;
+        EXPECT_THAT(figure.text, Not(HasSubstr("other quantities"))) << claim.id;
+        ++shown;
+      }
+    }
+  }
+  EXPECT_GT(shown, 0);
 }
 
 TEST_F(LedgerTest, ARunNamesTheLinesThatWereRead) {
@@ -104,12 +157,43 @@ TEST_F(LedgerTest, EveryLinkOfThePageLeadsSomewhere) {
     const std::string file = target.substr(0, hash);
     EXPECT_TRUE(file.empty() || std::filesystem::is_regular_file(folder_ / "report" / file)) << target;
     if (hash != target.npos) {
-      EXPECT_THAT(file.empty() ? page : index, HasSubstr("id=\"" + target.substr(hash + 1) + "\""));
+      EXPECT_THAT(file.empty() ? page : read_file(folder_ / "report" / file),
+                  HasSubstr("id=\"" + target.substr(hash + 1) + "\""));
     }
     pictures += target.starts_with("figures/") ? 1 : 0;
   }
   EXPECT_GT(links, 50);
   EXPECT_EQ(pictures, 11);
+}
+
+TEST_F(LedgerTest, EveryAnchorThatTheMarkdownPageNamesExists) {
+  write_report(folder_);
+  const std::string page = read_file(folder_ / "report/ledger.md"),
+                    report = read_file(folder_ / "report/report.md");
+  int links = 0;
+  constexpr std::string_view kLink = "](report.md#";
+  for (std::size_t at = page.find(kLink); at != page.npos; at = page.find(kLink, at + 1), ++links) {
+    const std::size_t begin = at + kLink.size();
+    const std::string id = page.substr(begin, page.find(')', begin) - begin);
+    EXPECT_NE(report.find("<a id=\"" + id + "\"></a>"), report.npos) << id;
+  }
+  EXPECT_GT(links, 20);
+}
+
+TEST_F(LedgerTest, ARowWhoseNumbersOnlyAPlotShowsLinksToThePlot) {
+  Store store(folder_);
+  for (const auto& [name, n] : {std::pair{"small", 2.0}, std::pair{"large", 4.0}}) {
+    Record record = fake_record(fake_provenance(), "e", name, "paper");
+    add(record, "n", "", {n});
+    store.append(record);
+  }
+  const std::vector<Paper> of{parse_claims(kPlotOnly, "claims.toml")};
+  write_report(store, of);
+  const auto page = [&](const char* name) { return read_file(folder_ / "report" / name); };
+  EXPECT_THAT(page("ledger.html"), HasSubstr("<a href=\"index.html#p.growth\">Growth</a>"));
+  EXPECT_THAT(page("index.html"), HasSubstr("<figure id=\"p.growth\">"));
+  EXPECT_THAT(page("ledger.md"), HasSubstr("[Growth](report.md#p.growth)"));
+  EXPECT_THAT(page("report.md"), HasSubstr("<a id=\"p.growth\"></a>"));
 }
 
 // Without the script the field is hidden and no row is.

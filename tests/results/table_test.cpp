@@ -67,15 +67,16 @@ TEST(DocumentTest, PageNeedsNothingFromOutside) {
                              Paragraph{"a & b", true},
                              Facts{{{"x", "<y>"}}},
                              TableBlock{awkward(), {{"CSV", "a.csv"}}},
-                             Gallery{{{"P", "c", "p.svg", "p.png", {}}}}};
+                             Gallery{{{"P", "c", "p.svg", "p.png", {}, "", "p.p"}}}};
   const std::string page = html(document);
   EXPECT_THAT(page, HasSubstr("<html lang=\"en\">"));
   EXPECT_THAT(page, HasSubstr("<li><a href=\"#part\">Part</a></li>"));
+  EXPECT_THAT(page, HasSubstr("<figure id=\"p.p\">"));
   EXPECT_THAT(page, HasSubstr("alt=\"P: c\""));
   EXPECT_THAT(page, Not(HasSubstr("http")));
   EXPECT_THAT(page, Not(HasSubstr("<y>")));
   const std::string text = markdown(document);
-  EXPECT_THAT(text, HasSubstr("![P](p.png)"));
+  EXPECT_THAT(text, HasSubstr("<a id=\"p.p\"></a>![P](p.png)"));
   EXPECT_THAT(text, HasSubstr("[CSV](a.csv)"));
 }
 
