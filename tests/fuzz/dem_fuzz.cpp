@@ -82,6 +82,13 @@ std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
            "</SourceFilename><ImageOffset>8</ImageOffset><PixelOffset>1</PixelOffset><LineOffset>8</"
            "LineOffset>"
            "</VRTRasterBand></VRTDataset>"),
+      // A source on the network, which must be refused. Nothing listens on port 9.
+      seed(kVrt,
+           "<VRTDataset rasterXSize=\"3\" rasterYSize=\"2\"><GeoTransform>7, 0.1, 0, 47, 0, "
+           "-0.1</GeoTransform>"
+           "<VRTRasterBand dataType=\"Float32\" band=\"1\"><SimpleSource><SourceFilename>"
+           "NETCDF:\"http://127.0.0.1:9/x\":z</SourceFilename><SourceBand>1</SourceBand></SimpleSource>"
+           "</VRTRasterBand></VRTDataset>"),
   };
 }
 

@@ -1,12 +1,14 @@
 // DEMs that must not be believed: one that names files on the network, and text grids with words in them.
-#include <cpl_conv.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
-#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
+
+#include <atomic>
+#include <string>
+#include <thread>
 
 #include "terrain/sources/dem/dem.h"
 #include "tests/terrain/errors.h"
@@ -17,7 +19,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// Listens on a port of this machine.
+// Listens on a port of this machine. It hangs up on every caller at once, so that none waits for an answer.
 class Listener {
  public:
   Listener() : socket_(socket(AF_INET, SOCK_STREAM, 0)) {
@@ -29,45 +31,68 @@ class Listener {
     EXPECT_EQ(listen(socket_, 4), 0);
     EXPECT_EQ(getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size), 0);
     port_ = ntohs(address.sin_port);
+    thread_ = std::thread([this] { hang_up(); });
   }
-  ~Listener() { close(socket_); }
+  ~Listener() {
+    shutdown(socket_, SHUT_RDWR);  // ends accept()
+    thread_.join();
+    close(socket_);
+  }
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
 
   int port() const { return port_; }
-  bool was_called() const {
-    pollfd waiting{socket_, POLLIN, 0};
-    return poll(&waiting, 1, 100) > 0;
-  }
+  bool was_called() const { return called_; }
 
  private:
+  void hang_up() {
+    for (int caller; (caller = accept(socket_, nullptr, nullptr)) >= 0; close(caller)) called_ = true;
+  }
+
   int socket_, port_ = 0;
+  std::atomic<bool> called_ = false;
+  std::thread thread_;
 };
 
-std::string vrt_of(const std::string& source) {
+std::string vrt_of(const std::string& source, int width = 4, int depth = 4) {
   return fmt::format(
-      "<VRTDataset rasterXSize=\"4\" rasterYSize=\"4\"><GeoTransform>0,1,0,0,0,-1</GeoTransform>"
+      "<VRTDataset rasterXSize=\"{}\" rasterYSize=\"{}\"><GeoTransform>0,1,0,0,0,-1</GeoTransform>"
       "<VRTRasterBand dataType=\"Float32\" band=\"1\"><SimpleSource><SourceFilename>{}</SourceFilename>"
       "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>",
-      source);
+      width, depth, source);
 }
 
-TEST(DemTrust, NoNetworkFromAFile) {
-  const CPLConfigOptionSetter no_long_wait("GDAL_HTTP_TIMEOUT", "1", false);
-  const Listener listener;
+// Reads the name itself and a .vrt that has it as its source; both must fail without a call. Returns what the
+// first failure says.
+std::string refused(const std::string& name, const Listener& listener) {
   const TemporaryFolder folder;
+  const Failure direct = failure_of([&] { (void)read_dem(name); });
+  EXPECT_EQ(direct.code, ExitCode::kBadInput) << name;
+  const std::string path = folder.write("a.vrt", vrt_of(name));
+  EXPECT_EQ(failure_of([&] { (void)read_dem(path); }).code, ExitCode::kBadInput) << name;
+  EXPECT_FALSE(listener.was_called()) << name;
+  return direct.what;
+}
+
+TEST(DemTrust, NoNetworkByAFileSystem) {
+  const Listener listener;
   const std::string url = fmt::format("http://127.0.0.1:{}/a.tif", listener.port());
-  for (const std::string& source :
-       {"/vsicurl/" + url, "/vsicurl_streaming/" + url, "/vsicurl?url=" + url, "/vsizip//vsicurl/" + url}) {
-    const std::string path = folder.write("a.vrt", vrt_of(source));
-    const Failure failure = failure_of([&] { (void)read_dem(path); });
-    EXPECT_EQ(failure.code, ExitCode::kBadInput) << source;
-    const Failure direct = failure_of([&] { (void)read_dem(source); });
-    EXPECT_EQ(direct.code, ExitCode::kBadInput) << source;
-    if (source.starts_with("/vsizip/")) continue;  // says only that there is no such archive
-    EXPECT_THAT(direct.what, HasSubstr("--allow-network")) << source;
+  for (const char* const prefix : {"/vsicurl/", "/vsicurl_streaming/", "/vsicurl?url="}) {
+    EXPECT_THAT(refused(prefix + url, listener), HasSubstr("--allow-network"));
   }
-  EXPECT_FALSE(listener.was_called());
+  refused("/vsizip//vsicurl/" + url, listener);  // says only that there is no such archive
+}
+
+TEST(DemTrust, NoNetworkByAFormat) {
+  const Listener listener;
+  const std::string host = fmt::format("127.0.0.1:{}", listener.port());
+  for (const std::string& name :
+       {"NETCDF:\"http://" + host + "/x\":z", "netcdf:http://" + host + "/x",
+        "NETCDF:\"[mode=dap4]http://" + host + "/x\":z", "NETCDF:\"http:\"\"//" + host + "/x\":z"}) {
+    EXPECT_THAT(refused(name, listener), HasSubstr("--allow-network"));
+  }
+  refused("FITS:\"http://" + host + "/x\":1", listener);
+  refused("http://" + host + "/x.nc", listener);
 }
 
 std::string grid(const std::string& values) {
@@ -84,6 +109,21 @@ TEST(DemTrust, WordInATextGridIsNoHeight) {
   for (const char* const values : {"1 2 3\n4 5x 6\n", "1 2 3\n4 5 --6\n", "a 2 3\n4 5 6\n"}) {
     const std::string other = folder.write("b.asc", grid(values));
     EXPECT_EQ(failure_of([&] { (void)read_dem(other); }).code, ExitCode::kBadInput) << values;
+  }
+}
+
+TEST(DemTrust, WordInATextGridBehindAVirtualFileIsNoHeight) {
+  const TemporaryFolder folder;
+  const std::string text = folder / "a.asc";
+  const std::string virtual_file = folder.write("a.vrt", vrt_of(text, 3, 2));
+  const std::string nested = folder.write("b.vrt", vrt_of(virtual_file, 3, 2));
+  for (const std::string& path : {virtual_file, nested, "vrt://" + text + "?bands=1"}) {
+    folder.write("a.asc", grid("1 2 3\n4 5 6\n"));
+    EXPECT_EQ(read_dem(path).heights.at(1, 1), 5.0F) << path;
+    folder.write("a.asc", grid("1 2 3\n4 five 6\n"));
+    const Failure failure = failure_of([&] { (void)read_dem(path); });
+    EXPECT_EQ(failure.code, ExitCode::kBadInput) << path;
+    EXPECT_THAT(failure.what, HasSubstr("a.asc:8:3: 'five'"));
   }
 }
 

@@ -31,7 +31,7 @@ struct RasterFile {
   std::function<bool(int, int)> masked;  // true: no data by the file's own mask
 
   void write(const std::string& path) const {
-    GDALAllRegister();
+    if (GDALGetDriverCount() == 0) GDALAllRegister();  // again would bring back what the reader removed
     CPLStringList list;
     for (const std::string& option : options) list.AddString(option.c_str());
     GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName(format.c_str());

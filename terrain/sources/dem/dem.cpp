@@ -13,7 +13,6 @@
 #include "terrain/sources/dem/gdal_session.h"
 #include "terrain/sources/dem/height_values.h"
 #include "terrain/sources/dem/placement.h"
-#include "terrain/sources/dem/text_grid.h"
 
 namespace terrabench {
 namespace {
@@ -316,7 +315,6 @@ Dem read(const std::string& path, const DemOptions& options, Progress* progress)
   dem.format = dataset->GetDriver() != nullptr ? dataset->GetDriver()->GetDescription() : "";
   GDALRasterBand& band = choose_band(*dataset, options.band, where, dem.notes);
   check_raw_length(*dataset, options.band, where);
-  if (dem.format == "AAIGrid" || dem.format == "GRASSASCIIGrid") check_text_grid(path, where);
   const DemWindow window = choose_window(*dataset, options.window, where);
   const Placement placement = place_raster(*dataset, window, where, dem.notes);
   Reader reader(band, window, height_rule(band, where, dem.notes), messages, where);

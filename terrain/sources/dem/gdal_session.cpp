@@ -9,26 +9,24 @@
 #include <string_view>
 
 #include "terrain/sources/dem/network.h"
+#include "terrain/sources/dem/text_grid.h"
 
 namespace terrabench {
 namespace {
 
 // Formats that hold elevations, or pictures used as heights. All others are removed: drivers that fetch from
-// the network or a database, vector formats, and MEM, whose "file names" are addresses in memory.
-constexpr std::string_view kFormats[] = {"AAIGrid",     "ACE2",    "AIG",      "ARG",       "BAG",
-                                         "BLX",         "BMP",     "BT",       "BYN",       "DTED",
-                                         "EHdr",        "ENVI",    "ERS",      "FITS",      "GIF",
-                                         "GPKG",        "GRIB",    "GS7BG",    "GSAG",      "GSBG",
-                                         "GTX",         "GTiff",   "GXF",      "GenBin",    "GRASSASCIIGrid",
-                                         "HDF5",        "HF2",     "HFA",      "HDF5Image", "ILWIS",
-                                         "ISCE",        "ISG",     "ISIS2",    "ISIS3",     "JDEM",
-                                         "JP2OpenJPEG", "JPEG",    "Leveller", "NGSGEOID",  "NITF",
-                                         "NWT_GRD",     "PCIDSK",  "PCRaster", "PDS",       "PDS4",
-                                         "PNG",         "PNM",     "RMF",      "ROI_PAC",   "RRASTER",
-                                         "RST",         "SAGA",    "SDTS",     "SGI",       "SIGDEM",
-                                         "SNODAS",      "SRTMHGT", "TGA",      "Terragen",  "USGSDEM",
-                                         "VICAR",       "VRT",     "WEBP",     "XYZ",       "ZMap",
-                                         "Zarr",        "netCDF"};
+// the network or a database, vector formats, MEM, whose "file names" are addresses in memory, and FITS, whose
+// library fetches URLs by itself.
+constexpr std::string_view kFormats[] = {
+    "AAIGrid", "ACE2",     "AIG",         "ARG",       "BAG",      "BLX",      "BMP",    "BT",
+    "BYN",     "DTED",     "EHdr",        "ENVI",      "ERS",      "GIF",      "GPKG",   "GRIB",
+    "GS7BG",   "GSAG",     "GSBG",        "GTX",       "GTiff",    "GXF",      "GenBin", "GRASSASCIIGrid",
+    "HDF5",    "HF2",      "HFA",         "HDF5Image", "ILWIS",    "ISCE",     "ISG",    "ISIS2",
+    "ISIS3",   "JDEM",     "JP2OpenJPEG", "JPEG",      "Leveller", "NGSGEOID", "NITF",   "NWT_GRD",
+    "PCIDSK",  "PCRaster", "PDS",         "PDS4",      "PNG",      "PNM",      "RMF",    "ROI_PAC",
+    "RRASTER", "RST",      "SAGA",        "SDTS",      "SGI",      "SIGDEM",   "SNODAS", "SRTMHGT",
+    "TGA",     "Terragen", "USGSDEM",     "VICAR",     "VRT",      "WEBP",     "XYZ",    "ZMap",
+    "Zarr",    "netCDF"};
 
 // The cache of decoded blocks for all open files together. Reading proceeds block by block, so that a larger
 // cache does not help.
@@ -51,6 +49,7 @@ void register_drivers() {
     GDALDestroyDriver(driver);
   }
   guard_network();
+  guard_text_grids();
   if (CPLGetConfigOption("GDAL_CACHEMAX", nullptr) == nullptr) GDALSetCacheMax64(kBlockCache);
 }
 

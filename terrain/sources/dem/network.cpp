@@ -1,9 +1,13 @@
 #include "terrain/sources/dem/network.h"
 
+#include <cpl_conv.h>
 #include <cpl_error.h>
+#include <cpl_http.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <cpl_vsi_virtual.h>
+#include <gdal_priv.h>
+#include <ogr_srs_api.h>
 
 #include <algorithm>
 #include <atomic>
@@ -21,6 +25,11 @@ constexpr std::string_view kLocal[] = {
     "/vsimem/",   "/vsizip/",   "/vsigzip/",   "/vsitar/", "/vsisubfile/", "/vsisparse/", "/vsicached?",
     "/vsistdin/", "/vsistdin?", "/vsistdout/", "/vsi7z/",  "/vsirar/",     "/vsicrypt/"};
 
+void refuse(const char* name) {
+  CPLError(CE_Failure, CPLE_OpenFailed, "%s would be fetched from the network; --allow-network permits it",
+           name);
+}
+
 class RefusingFileSystem : public VSIFilesystemHandler {
  public:
   VSIVirtualHandle* Open(const char* path, const char*, bool, CSLConstList) override {
@@ -31,20 +40,9 @@ class RefusingFileSystem : public VSIFilesystemHandler {
     refuse(path);
     return -1;
   }
-
- private:
-  static void refuse(const char* path) {
-    CPLError(CE_Failure, CPLE_OpenFailed, "%s would be fetched from the network; --allow-network permits it",
-             path);
-  }
 };
 
-}  // namespace
-
-void allow_network() { network_allowed = true; }
-
-void guard_network() {
-  if (network_allowed) return;
+void refuse_file_systems() {
   // Never freed: GDAL's table of file systems refers to the first to the end of the process, and what it had
   // before must stay reachable.
   static auto* const refusing = new RefusingFileSystem;
@@ -62,6 +60,48 @@ void guard_network() {
     prefix.back() = '?';
     replace(prefix);
   }
+}
+
+// For what GDAL fetches without a file system, such as a reference system given by its URL.
+CPLHTTPResult* refuse_fetch(const char* url, CSLConstList, GDALProgressFunc, void*, CPLHTTPFetchWriteFunc,
+                            void*, void*) {
+  refuse(url);
+  auto* const result = static_cast<CPLHTTPResult*>(CPLCalloc(1, sizeof(CPLHTTPResult)));
+  result->nStatus = 1;
+  result->pszErrBuf = CPLStrdup("refused");
+  return result;
+}
+
+GDALDataset* (*open_netcdf)(GDALOpenInfo*) = nullptr;
+
+// libnetcdf itself fetches names that hold "://", by DAP or HTTP and past GDAL's file systems. Quotes and
+// backslashes do not count: GDAL and libnetcdf take them out of the name.
+GDALDataset* open_local_netcdf(GDALOpenInfo* info) {
+  std::string name = info->pszFilename;
+  std::erase_if(name, [](char c) { return c == '"' || c == '\\'; });
+  if (name.find("://") == std::string::npos) return open_netcdf(info);
+  // Any other name with "://" may be meant for another driver.
+  if (STARTS_WITH_CI(name.c_str(), "NETCDF:")) refuse(info->pszFilename);
+  return nullptr;
+}
+
+void refuse_remote_netcdf() {
+  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("netCDF");
+  if (driver == nullptr) return;
+  open_netcdf = driver->pfnOpen;
+  driver->pfnOpen = open_local_netcdf;
+}
+
+}  // namespace
+
+void allow_network() { network_allowed = true; }
+
+void guard_network() {
+  if (network_allowed) return;
+  refuse_file_systems();
+  refuse_remote_netcdf();
+  CPLHTTPSetFetchCallback(refuse_fetch, nullptr);
+  OSRSetPROJEnableNetwork(FALSE);  // grids of datum shifts
 }
 
 }  // namespace terrabench

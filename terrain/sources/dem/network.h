@@ -8,8 +8,9 @@ namespace terrabench {
 // effect.
 void allow_network();
 
-// Replaces GDAL's file systems that are not on this machine by one that refuses to open anything, unless
-// allow_network() was called. Called once by register_gdal().
+// Unless allow_network() was called, makes GDAL refuse all that is not on this machine: files of its remote
+// file systems, netCDF by URL, and what it would fetch by HTTP. Formats whose libraries reach the network in
+// other ways must not be registered. Called once by register_gdal(), after the drivers are registered.
 void guard_network();
 
 }  // namespace terrabench

@@ -2,6 +2,7 @@
 
 #include <cpl_vsi.h>
 #include <fmt/format.h>
+#include <gdal_priv.h>
 
 #include <algorithm>
 #include <cctype>
@@ -50,7 +51,7 @@ bool is_number(std::string_view word) {
 // Follows the words of the file. The values begin after the last line that begins with a key.
 class Scanner {
  public:
-  explicit Scanner(std::string where) : where_(std::move(where)) {}
+  explicit Scanner(std::string path) : path_(std::move(path)) {}
 
   void take(char c) {
     if (!is_space(c)) {
@@ -76,7 +77,7 @@ class Scanner {
     first_ = false;
     if (!header_line_ && !is_number(word_)) {
       throw bad_input(fmt::format("'{}' stands where a height should be", printable()),
-                      fmt::format("{}:{}:{}", where_, line_, begin_),
+                      fmt::format("{}:{}:{}", path_, line_, begin_),
                       "replace it by a number, or by the grid's no-data value");
     }
     word_.clear();
@@ -90,7 +91,7 @@ class Scanner {
     return text;
   }
 
-  std::string where_, word_;
+  std::string path_, word_;
   std::uint64_t line_ = 1, column_ = 1, begin_ = 1;
   bool first_ = true;         // no word of this line has been read
   bool header_line_ = false;  // this line is one of the header's
@@ -101,17 +102,53 @@ struct CloseFile {
   void operator()(VSILFILE* file) const { VSIFCloseL(file); }
 };
 
-}  // namespace
-
-void check_text_grid(const std::string& path, const std::string& where) {
+// Throws bad_input with line and column for the first word among the values that is no number. Reads the file
+// once, in blocks.
+void check_text_grid(const std::string& path) {
   const std::unique_ptr<VSILFILE, CloseFile> file(VSIFOpenL(path.c_str(), "rb"));
   if (file == nullptr) return;  // not a file of its own; the driver has opened it
-  Scanner scanner(where);
+  Scanner scanner(path);
   std::vector<char> block(kBlock);
   while (const std::size_t got = VSIFReadL(block.data(), 1, block.size(), file.get())) {
     for (std::size_t i = 0; i < got; ++i) scanner.take(block[i]);
   }
   scanner.end_word();
+}
+
+constexpr const char* kFormats[] = {"AAIGrid", "GRASSASCIIGrid"};
+
+// GDAL does not tell the function which driver it is called for, so each format has its own.
+using OpenFunction = GDALDataset* (*)(GDALOpenInfo*);
+template <int format>
+OpenFunction unchecked_open = nullptr;
+
+template <int format>
+GDALDataset* checked_open(GDALOpenInfo* info) {
+  GDALDataset* const dataset = unchecked_open<format>(info);
+  if (dataset == nullptr) return nullptr;
+  try {
+    check_text_grid(info->pszFilename);
+    return dataset;
+  } catch (const Error& error) {  // must not unwind through GDAL
+    CPLError(CE_Failure, CPLE_AppDefined, "%s; %s", error.what(), error.advice().c_str());
+    GDALClose(dataset);
+    return nullptr;
+  }
+}
+
+template <int format>
+void guard_format() {
+  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName(kFormats[format]);
+  if (driver == nullptr) return;
+  unchecked_open<format> = driver->pfnOpen;
+  driver->pfnOpen = checked_open<format>;
+}
+
+}  // namespace
+
+void guard_text_grids() {
+  guard_format<0>();
+  guard_format<1>();
 }
 
 }  // namespace terrabench

@@ -1,12 +1,11 @@
 // Grids of numbers as text (Arc/Info and GRASS ASCII grids). GDAL reads a word among the numbers as 0.
 #pragma once
 
-#include <string>
-
 namespace terrabench {
 
-// Throws bad_input with line and column if the values of the grid hold a word that is no number. Reads the
-// file once, in blocks. O(bytes).
-void check_text_grid(const std::string& path, const std::string& where);
+// Makes GDAL refuse text grids with a word among their values, and say its line and column. This holds
+// wherever GDAL opens one, also as a source of a .vrt. Opening a grid then reads it once more, O(bytes).
+// Called once by register_gdal().
+void guard_text_grids();
 
 }  // namespace terrabench
