@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "results/fill.h"
 #include "results/report_tables.h"
@@ -91,7 +92,49 @@ class Page {
   const std::string& report_;
 };
 
+// Of the rows about a paper.
+struct Share {
+  std::string name;
+  int differing = 0, measured = 0;
+};
+
+Share share_of(const JudgedResults& results, const Paper& paper) {
+  Share share{paper.title.substr(0, paper.title.find(':'))};
+  for (const Judgement& j : results.of(paper)) {
+    if (j.claim->about != About::kPaper || j.verdict > Verdict::kDiffers) continue;
+    ++share.measured;
+    if (j.verdict == Verdict::kDiffers) ++share.differing;
+  }
+  return share;
+}
+
 }  // namespace
+
+std::string where_papers_differ(const JudgedResults& results, std::span<const Paper> papers) {
+  int differing = 0, measured = 0;
+  std::vector<Share> shares;
+  for (const Paper& paper : papers) {
+    const Share share = share_of(results, paper);
+    differing += share.differing;
+    measured += share.measured;
+    if (share.differing > 0) shares.push_back(share);
+  }
+  if (measured == 0) return "";
+  if (differing == 0) return fmt::format("None of {} rows about the papers differs.", measured);
+  std::ranges::stable_sort(shares, [](const Share& a, const Share& b) {
+    return a.differing * b.measured > b.differing * a.measured;
+  });
+  std::string text =
+      fmt::format("Of {} rows about the papers {} differ from what was measured", measured, differing);
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    text += i == 0                   ? ", the largest share on "
+            : i == 1                 ? ", then on "
+            : i + 1 == shares.size() ? " and "
+                                     : ", ";
+    text += fmt::format("“{}” ({} of {})", shares[i].name, shares[i].differing, shares[i].measured);
+  }
+  return text + ".";
+}
 
 Document paper_faults(const JudgedResults& results, std::span<const Paper> papers,
                       const std::string& report) {

@@ -16,6 +16,8 @@ RankingLayout layout_from(const TomlValue& node) {
   layout.id = entry.text("id");
   layout.task = entry.text("task");
   layout.where = entry.text("where");
+  layout.sentence = entry.text_or("sentence", "");
+  if (!layout.sentence.empty()) layout.brief = entry.text("brief");
   layout.experiment = entry.text("experiment");
   layout.metric = entry.text("metric");
   layout.unit = entry.text_or("unit", "");

@@ -22,6 +22,12 @@ std::string joined(const std::vector<std::string>& parts, std::string_view last)
   return text;
 }
 
+// Clauses become a sentence.
+void finish(std::string& text) {
+  text += ".";
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+}
+
 // Of 1.002, three digits would be 1.
 std::string digits(double factor) { return fmt::format("{:.{}g}", factor, factor < 1.1 ? 4 : 3); }
 
@@ -32,7 +38,7 @@ std::string factor_text(const Summary& factor) {
   return fmt::format("{} [{:.3g}, {:.3g}]", median, factor.low, factor.high);
 }
 
-// Grounds of one task with the same outcome.
+// Grounds of one task with the same outcome, a subject and a verb: "drills and stacks tied".
 struct Group {
   std::string outcome;
   std::vector<std::string> where;
@@ -40,12 +46,12 @@ struct Group {
 };
 
 std::string outcome_of(const Ranking& ranking) {
-  if (ranking.places.empty()) return "none";
-  if (!ranking.decided()) return "undecided";
-  if (ranking.places.size() == 1) return ranking.places[0].label + " alone";
+  if (ranking.places.empty()) return "none took part";
+  if (!ranking.decided()) return "nothing was decided";
+  if (ranking.places.size() == 1) return ranking.places[0].label + " alone took part";
   std::vector<std::string> best;
   for (std::size_t i = 0; i < ranking.tied; ++i) best.push_back(ranking.places[i].label);
-  if (best.size() == 1) return best[0];
+  if (best.size() == 1) return best[0] + " led";
   std::ranges::sort(best);
   return joined(best, " and ") + " tied";
 }
@@ -96,16 +102,22 @@ std::string Ranking::result() const {
 Facts in_short(std::span<const Ranking> rankings) {
   Facts facts;
   for (auto first = rankings.begin(); first != rankings.end();) {
+    const RankingLayout& layout = *first->layout;
     std::vector<Group> groups;
-    auto next = first;
-    for (; next != rankings.end() && next->layout->task == first->layout->task; ++next) add_to(groups, *next);
+    for (; first != rankings.end() && first->layout->task == layout.task; ++first) add_to(groups, *first);
+    if (layout.sentence.empty()) continue;
     std::vector<std::string> texts;
     for (const Group& group : groups) texts.push_back(text_of(group));
-    const std::string& needs = first->layout->needs_text;
-    facts.lines.emplace_back(first->layout->task + (needs.empty() ? "" : ", " + needs),
-                             fmt::format("{}.", fmt::join(texts, "; ")));
-    first = next;
+    const std::string clause = layout.brief + " " + joined(texts, ", and ");
+    const auto line =
+        std::ranges::find(facts.lines, layout.sentence, &std::pair<std::string, std::string>::first);
+    if (line == facts.lines.end()) {
+      facts.lines.emplace_back(layout.sentence, clause);
+    } else {
+      line->second += "; " + clause;
+    }
   }
+  for (auto& [name, text] : facts.lines) finish(text);
   return facts;
 }
 
@@ -122,10 +134,7 @@ Facts findings(std::span<const Ranking> rankings) {
     }
     facts.lines.back().second += ranking.clause();
   }
-  for (auto& [name, text] : facts.lines) {
-    text += ".";
-    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  }
+  for (auto& [name, text] : facts.lines) finish(text);
   return facts;
 }
 

@@ -94,22 +94,24 @@ class Report {
     Facts facts = findings(rankings);
     if (facts.lines.empty()) return;
     write_file(out_ / "findings.json", findings_json(rankings));
-    const Facts brief = in_short(rankings);
+    Facts brief = in_short(rankings);
+    if (std::string differ = where_papers_differ(results_, papers_); !differ.empty())
+      brief.lines.emplace_back("Papers and measurements", std::move(differ));
     write_file(out_ / "findings.md", markdown({facts}));
     write_file(out_ / "findings-short.md", markdown({brief}));
     document_.push_back(Heading{2, "Findings", "findings"});
     document_.push_back(Paragraph{
         fmt::format(
-            "Which method is best at what, from the medians of the comparisons across the papers, and in "
-            "parentheses by how many times it is ahead of the next. Methods are called tied if the 95 % "
-            "interval of that factor contains 1 or, for times, if it is below {}, since two runs on one "
-            "machine may differ by as much.",
+            "Which method leads at what, from the medians of the comparisons across the papers, and in "
+            "parentheses by how many times it is ahead of the next; and where the papers differ from what "
+            "was measured. Methods are called tied if the 95 % interval of that factor contains 1 or, for "
+            "times, if it is below {}, since two runs on one machine may differ by as much.",
             kTimingMargin),
         false,
         {{"JSON", "findings.json"}, {"Markdown", "findings.md"}}});
-    document_.push_back(brief);
+    document_.push_back(std::move(brief));
     document_.push_back(
-        Paragraph{"The same with measured values, and with the 95 % interval of each factor:"});
+        Paragraph{"Every task with its measured values, and with the 95 % interval of each factor:"});
     document_.push_back(std::move(facts));
   }
 

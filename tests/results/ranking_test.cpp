@@ -25,6 +25,8 @@ type = [{name = "a", label = "drills"}, {name = "b", label = "voxels"}, {name = 
 each = ["ground"]
 id = "time-{ground}"
 task = "Fastest"
+sentence = "Speed"
+brief = "for the shortest time,"
 where = "{ground.where}"
 experiment = "x"
 metric = "time"
@@ -36,6 +38,8 @@ entries = [{each = ["type"], label = "{type.label}", case = "{ground}/{type}"}]
 [[ranking]]
 id = "rate-hill"
 task = "Most queries"
+sentence = "Queries"
+brief = "for the most queries,"
 where = "on a hill"
 experiment = "x"
 metric = "bytes"
@@ -83,27 +87,45 @@ TEST_F(RankingTest, SaysWhoWinsByHowMuchAndChangesWithTheFigures) {
 
 TEST_F(RankingTest, InShortGroundsWithTheSameBestStandTogether) {
   const auto line = [&] {
-    const auto [task, text] = in_short(rank(layouts_, store_, "quick")).lines.at(0);
-    EXPECT_EQ(task, "Fastest, of those that lose little");
+    const auto [sentence, text] = in_short(rank(layouts_, store_, "quick")).lines.at(0);
+    EXPECT_EQ(sentence, "Speed");
     return text;
   };
   measure("hill/a", {0.010, 0.010});
   measure("hill/b", {0.030, 0.030});
   measure("sea/a", {0.010, 0.010});
   measure("sea/b", {0.040, 0.040});
-  EXPECT_EQ(line(), "drills on a hill and at sea (3 to 4 ×).");
+  EXPECT_EQ(line(), "For the shortest time, drills led on a hill and at sea (3 to 4 ×).");
   measure("sea/b", {0.005, 0.005});
-  EXPECT_EQ(line(), "drills on a hill (3 ×); voxels at sea (2 ×).");
+  EXPECT_EQ(line(), "For the shortest time, drills led on a hill (3 ×), and voxels led at sea (2 ×).");
   measure("sea/b", {0.010, 0.010});
-  EXPECT_EQ(line(), "drills on a hill (3 ×); drills and voxels tied at sea.");
+  EXPECT_EQ(line(), "For the shortest time, drills led on a hill (3 ×), and drills and voxels tied at sea.");
   measure("sea/b", {0.010});
-  EXPECT_EQ(line(), "drills on a hill (3 ×); undecided at sea.");
+  EXPECT_EQ(line(), "For the shortest time, drills led on a hill (3 ×), and nothing was decided at sea.");
   measure("sea/b", {0.010, 0.010}, 1000, 0.1);  // of those that lose little there is one at sea
-  EXPECT_EQ(line(), "drills on a hill (3 ×); voxels alone at sea.");
+  EXPECT_EQ(line(), "For the shortest time, drills led on a hill (3 ×), and voxels alone took part at sea.");
   measure("sea/b", {0.010, 0.010}, 1000, 0.9);
-  EXPECT_EQ(line(), "drills on a hill (3 ×); none at sea.");
+  EXPECT_EQ(line(), "For the shortest time, drills led on a hill (3 ×), and none took part at sea.");
   measure("hill/b", {0.010, 0.010}, 1002);
-  EXPECT_EQ(in_short(rank(layouts_, store_, "quick")).lines.at(1).second, "voxels on a hill (1.002 ×).");
+  EXPECT_EQ(in_short(rank(layouts_, store_, "quick")).lines.at(1).second,
+            "For the most queries, voxels led on a hill (1.002 ×).");
+}
+
+TEST_F(RankingTest, InShortTasksOfOneSentenceStandTogether) {
+  measure("hill/a", {0.010, 0.010});
+  measure("hill/b", {0.030, 0.030});
+  EXPECT_EQ(in_short(rank(layouts_, store_, "quick")).lines.size(), 2U);
+  layouts_[2].sentence = layouts_[0].sentence;
+  const Facts together = in_short(rank(layouts_, store_, "quick"));
+  ASSERT_EQ(together.lines.size(), 1U);
+  EXPECT_EQ(
+      together.lines[0].second,
+      "For the shortest time, drills led on a hill (3 ×); for the most queries, drills and voxels tied on "
+      "a hill.");
+  layouts_[2].sentence = "";
+  const Facts one = in_short(rank(layouts_, store_, "quick"));
+  ASSERT_EQ(one.lines.size(), 1U);
+  EXPECT_EQ(one.lines[0].second, "For the shortest time, drills led on a hill (3 ×).");
 }
 
 TEST_F(RankingTest, WithinTheIntervalItIsATie) {
@@ -170,12 +192,14 @@ TEST_F(RankingTest, OneMethodAloneIsNoFinding) {
 }
 
 TEST(RankingLayouts, OfTheClaimsFilesAreWellFormed) {
-  std::set<std::string> ids;
+  std::set<std::string> ids, sentences;
   for (const RankingLayout& layout : ranking_layouts()) {
     EXPECT_TRUE(ids.insert(layout.id).second) << layout.id;
     EXPECT_GE(layout.entries.size(), 2U) << layout.id;
+    if (!layout.sentence.empty()) sentences.insert(layout.sentence);
   }
-  EXPECT_EQ(ids.size(), 31U);
+  EXPECT_EQ(ids.size(), 39U);
+  EXPECT_EQ(sentences.size(), 4U) << "README has room for five, and where_papers_differ() is the fifth";
 }
 
 TEST_F(RankingTest, StandOnTheReportsFirstPage) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <map>
 
 #include "results/record_json.h"
@@ -237,6 +238,7 @@ TEST(Readme, HasTheCountsOfTheRunThatIsKept) {
 TEST(Readme, HasTheFindingsOfTheRunThatIsKept) {
   const std::filesystem::path root = TERRABENCH_SOURCE_DIR;
   const std::string findings = read_file(root / "results/reference/report/findings-short.md");
+  EXPECT_EQ(std::ranges::count(findings, '\n'), 6) << "five sentences, a line each, and an empty line";
   EXPECT_THAT(read_file(root / "README.md"),
               HasSubstr("<!-- findings -->\n" + findings + "<!-- end of findings -->"))
       << "run scripts/readme-counts";
