@@ -275,7 +275,9 @@ std::string compare_text(const Comparison& comparison, bool colour) {
   text += fmt::format("\n{}\n", tally.empty() ? "no metrics to compare" : tally);
   text += noise_text(comparison);
   if (comparison.count(Change::kUnresolved) > 0) {
-    text += "unresolved: times with a single sample, or an interval that spans more than a factor of 4\n";
+    text +=
+        "unresolved: times with a single sample, an interval that spans more than a factor of 4, or a ratio "
+        "without a finite value\n";
   }
   if (comparison.count(Change::kElsewhere) > 0) {
     text += "elsewhere: times of different kinds of machine, which are not compared\n";

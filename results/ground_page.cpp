@@ -61,7 +61,7 @@ std::vector<Link> ground_links(std::span<const PageLayout> layouts, const Report
 Table ground_table(const Paper& paper, std::span<const PageLayout> layouts) {
   Table table{paper.id + ".grounds",
               "One page per ground",
-              "Each has all tables, plots and pictures of the comparisons on that ground.",
+              "Each has the tables, plots and pictures that show that ground alone.",
               {{"Ground"}, {"What it is"}, {"As Markdown"}},
               {}};
   for (const PageLayout& layout : layouts) {

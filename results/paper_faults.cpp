@@ -124,8 +124,8 @@ std::string where_papers_differ(const JudgedResults& results, std::span<const Pa
   std::ranges::stable_sort(shares, [](const Share& a, const Share& b) {
     return a.differing * b.measured > b.differing * a.measured;
   });
-  std::string text =
-      fmt::format("Of {} rows about the papers {} differ from what was measured", measured, differing);
+  std::string text = fmt::format("Of {} rows about the papers, {} differ{} from what was measured", measured,
+                                 differing, differing == 1 ? "s" : "");
   for (std::size_t i = 0; i < shares.size(); ++i) {
     text += i == 0                   ? ", the largest share on "
             : i == 1                 ? ", then on "

@@ -20,7 +20,7 @@ struct RankingLayout {
   };
   std::string id, task, where;  // task: "Fewest bytes in memory"; where: "on caves"
   // Of the findings in short. `sentence` is the name of the sentence that says who is best at this task, and
-  // `brief` how the task begins there: "for the fewest bytes in memory,". Both empty: in none.
+  // `brief` how the task begins there: "for the fewest bytes in memory". Both empty: in none.
   std::string sentence, brief;
   std::string experiment, metric;
   std::string unit;   // that values are shown in
@@ -73,8 +73,8 @@ std::vector<Ranking> rank(std::span<const RankingLayout>, const Store&, const st
 
 // A sentence per name of RankingLayout::sentence, in the order of first use: for each of its tasks, whose
 // rankings follow each other, which method led where, and by how many times it was ahead of the next: "For
-// the fewest bytes in memory, heightmap led on real mountains and on a fractal (1.08 to 1.2 ×), and drills
-// and stacks tied on caves; for the least error, …".
+// the fewest bytes in memory: on real mountains and on a fractal, heightmap led (1.08 to 1.2 ×); on caves,
+// drills and stacks tied; for the least error: …".
 Facts in_short(std::span<const Ranking>);
 // A sentence per task, which joins the clauses of all its grounds.
 Facts findings(std::span<const Ranking>);

@@ -68,7 +68,7 @@ void add_to(std::vector<Group>& groups, const Ranking& ranking) {
 }
 
 std::string text_of(const Group& group) {
-  const std::string text = group.outcome + " " + joined(group.where, " and ");
+  const std::string text = joined(group.where, " and ") + ", " + group.outcome;
   if (group.most == 0) return text;
   const std::string least = digits(group.least), most = digits(group.most);
   return text + (least == most ? fmt::format(" ({} ×)", most) : fmt::format(" ({} to {} ×)", least, most));
@@ -108,7 +108,7 @@ Facts in_short(std::span<const Ranking> rankings) {
     if (layout.sentence.empty()) continue;
     std::vector<std::string> texts;
     for (const Group& group : groups) texts.push_back(text_of(group));
-    const std::string clause = layout.brief + " " + joined(texts, ", and ");
+    const std::string clause = fmt::format("{}: {}", layout.brief, fmt::join(texts, "; "));
     const auto line =
         std::ranges::find(facts.lines, layout.sentence, &std::pair<std::string, std::string>::first);
     if (line == facts.lines.end()) {

@@ -35,18 +35,31 @@ double control_group_quota() {
 // A quarter of the processors busy with other work is enough to disturb work that uses all of them.
 constexpr double kBusyShare = 0.25;
 
-// Since the start of the machine, over all its processors.
-struct Ticks {
-  double busy = 0, all = 0;
-};
+// The load is averaged over a minute, so that it is high after a build that has ended. Then what the machine
+// does now is measured, while this process waits.
+double busy_processors(int processors) {
+  double load = 0;
+  std::ifstream("/proc/loadavg") >> load;
+  if (load <= kBusyShare * processors) return load;
+  const auto now = [] {
+    std::ifstream stat("/proc/stat");
+    return read_ticks(stat);
+  };
+  const ProcessorTicks before = now();
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const ProcessorTicks after = now();
+  if (!(after.all > before.all)) return load;
+  return processors * (after.busy - before.busy) / (after.all - before.all);
+}
 
-Ticks ticks() {
-  std::ifstream in("/proc/stat");
+}  // namespace
+
+ProcessorTicks read_ticks(std::istream& in) {
   std::string name;
   in >> name;  // cpu
   // user, nice, system, idle, waiting for a disk, interrupts, soft interrupts, taken by the host
   constexpr std::array kBusy{true, true, true, false, false, true, true, true};
-  Ticks sum;
+  ProcessorTicks sum;
   for (const bool busy : kBusy) {
     double time = 0;
     if (!(in >> time)) return {};
@@ -55,21 +68,6 @@ Ticks ticks() {
   }
   return sum;
 }
-
-// The load is averaged over a minute, so that it is high after a build that has ended. Then what the machine
-// does now is measured, while this process waits.
-double busy_processors(int processors) {
-  double load = 0;
-  std::ifstream("/proc/loadavg") >> load;
-  if (load <= kBusyShare * processors) return load;
-  const Ticks before = ticks();
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  const Ticks after = ticks();
-  if (!(after.all > before.all)) return load;
-  return processors * (after.busy - before.busy) / (after.all - before.all);
-}
-
-}  // namespace
 
 int allowed_processors() {
   cpu_set_t allowed;

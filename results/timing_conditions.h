@@ -2,6 +2,7 @@
 // warns about it and keeps the warnings in its provenance.
 #pragma once
 
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,13 @@ struct TimingConditions {
   double quota = 0;               // processor time per second that the control group allows; 0: no limit
   std::string governor;           // frequency scaling other than "performance" of some processor; empty: none
 };
+
+// Time since the start of the machine, of all its processors together: busy, and busy or not.
+struct ProcessorTicks {
+  double busy = 0, all = 0;
+};
+// From the first line of /proc/stat; both 0 if it has not that form.
+ProcessorTicks read_ticks(std::istream&);
 
 // Reads /proc, /sys and the build's own facts. What cannot be read stays at its default. Waits for a fifth of
 // a second if the load of the last minute does not show that the machine is idle.

@@ -44,14 +44,14 @@ TEST(WherePapersDiffer, NamesTheLargestShareFirst) {
                    {"Rivers", {kDiffers, kSame}},
                    {"Dunes", {kDiffers}},
                    {"Reefs", {kSame}}}),
-      "Of 7 rows about the papers 3 differ from what was measured, the largest share on “Dunes” (1 of 1), "
+      "Of 7 rows about the papers, 3 differ from what was measured, the largest share on “Dunes” (1 of 1), "
       "then on “Rivers” (1 of 2) and “Clouds” (1 of 3).");
 }
 
 TEST(WherePapersDiffer, CountsMeasuredRowsAboutPapersAlone) {
   EXPECT_EQ(
-      sentence_of({{"Rivers", {kDiffers, kNotRun, kRepeat, kOurs}}, {"Across", {kOurs}}}),
-      "Of 1 rows about the papers 1 differ from what was measured, the largest share on “Rivers” (1 of 1).");
+      sentence_of({{"Rivers", {kSame, kDiffers, kNotRun, kRepeat, kOurs}}, {"Across", {kOurs}}}),
+      "Of 2 rows about the papers, 1 differs from what was measured, the largest share on “Rivers” (1 of 2).");
   EXPECT_EQ(sentence_of({{"Rivers", {kSame, kShape}}}), "None of 2 rows about the papers differs.");
   EXPECT_EQ(sentence_of({{"Across", {kOurs}}}), "");
 }

@@ -26,7 +26,7 @@ each = ["ground"]
 id = "time-{ground}"
 task = "Fastest"
 sentence = "Speed"
-brief = "for the shortest time,"
+brief = "for the shortest time"
 where = "{ground.where}"
 experiment = "x"
 metric = "time"
@@ -39,7 +39,7 @@ entries = [{each = ["type"], label = "{type.label}", case = "{ground}/{type}"}]
 id = "rate-hill"
 task = "Most queries"
 sentence = "Queries"
-brief = "for the most queries,"
+brief = "for the most queries"
 where = "on a hill"
 experiment = "x"
 metric = "bytes"
@@ -95,20 +95,20 @@ TEST_F(RankingTest, InShortGroundsWithTheSameBestStandTogether) {
   measure("hill/b", {0.030, 0.030});
   measure("sea/a", {0.010, 0.010});
   measure("sea/b", {0.040, 0.040});
-  EXPECT_EQ(line(), "For the shortest time, drills led on a hill and at sea (3 to 4 ×).");
+  EXPECT_EQ(line(), "For the shortest time: on a hill and at sea, drills led (3 to 4 ×).");
   measure("sea/b", {0.005, 0.005});
-  EXPECT_EQ(line(), "For the shortest time, drills led on a hill (3 ×), and voxels led at sea (2 ×).");
+  EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, voxels led (2 ×).");
   measure("sea/b", {0.010, 0.010});
-  EXPECT_EQ(line(), "For the shortest time, drills led on a hill (3 ×), and drills and voxels tied at sea.");
+  EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, drills and voxels tied.");
   measure("sea/b", {0.010});
-  EXPECT_EQ(line(), "For the shortest time, drills led on a hill (3 ×), and nothing was decided at sea.");
+  EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, nothing was decided.");
   measure("sea/b", {0.010, 0.010}, 1000, 0.1);  // of those that lose little there is one at sea
-  EXPECT_EQ(line(), "For the shortest time, drills led on a hill (3 ×), and voxels alone took part at sea.");
+  EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, voxels alone took part.");
   measure("sea/b", {0.010, 0.010}, 1000, 0.9);
-  EXPECT_EQ(line(), "For the shortest time, drills led on a hill (3 ×), and none took part at sea.");
+  EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, none took part.");
   measure("hill/b", {0.010, 0.010}, 1002);
   EXPECT_EQ(in_short(rank(layouts_, store_, "quick")).lines.at(1).second,
-            "For the most queries, voxels led on a hill (1.002 ×).");
+            "For the most queries: on a hill, voxels led (1.002 ×).");
 }
 
 TEST_F(RankingTest, InShortTasksOfOneSentenceStandTogether) {
@@ -118,14 +118,14 @@ TEST_F(RankingTest, InShortTasksOfOneSentenceStandTogether) {
   layouts_[2].sentence = layouts_[0].sentence;
   const Facts together = in_short(rank(layouts_, store_, "quick"));
   ASSERT_EQ(together.lines.size(), 1U);
-  EXPECT_EQ(
-      together.lines[0].second,
-      "For the shortest time, drills led on a hill (3 ×); for the most queries, drills and voxels tied on "
-      "a hill.");
+  EXPECT_EQ(together.lines[0].second,
+            "For the shortest time: on a hill, drills led (3 ×); for the most queries: on a hill, drills and "
+            "voxels "
+            "tied.");
   layouts_[2].sentence = "";
   const Facts one = in_short(rank(layouts_, store_, "quick"));
   ASSERT_EQ(one.lines.size(), 1U);
-  EXPECT_EQ(one.lines[0].second, "For the shortest time, drills led on a hill (3 ×).");
+  EXPECT_EQ(one.lines[0].second, "For the shortest time: on a hill, drills led (3 ×).");
 }
 
 TEST_F(RankingTest, WithinTheIntervalItIsATie) {

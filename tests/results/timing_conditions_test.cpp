@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <sstream>
+
 namespace terrabench {
 namespace {
 
@@ -44,6 +46,14 @@ TEST(TimingConditions, EachBadOneGivesItsWarning) {
               ElementsAre(HasSubstr("governor 'powersave'")));
   EXPECT_THAT(warnings([](auto& now) { now.quota = 1.5; }), ElementsAre(HasSubstr("1.5 of 8 processors")));
   EXPECT_EQ(warnings([](auto& now) { now.busy = 8, now.quota = 1, now.governor = "ondemand"; }).size(), 3U);
+}
+
+TEST(TimingConditions, IdleProcessorsAndThoseThatWaitForADiskAreNotBusy) {
+  std::istringstream stat("cpu  10 1 5 200 40 2 3 4 7 0\ncpu0 5 0 0 0 0 0 0 0 0 0\n"), other("intr 1 2");
+  const ProcessorTicks ticks = read_ticks(stat), none = read_ticks(other);
+  EXPECT_EQ(ticks.busy, 10 + 1 + 5 + 2 + 3 + 4);
+  EXPECT_EQ(ticks.all, 25 + 240);
+  EXPECT_EQ(none.all, 0);
 }
 
 TEST(TimingConditions, AreReadFromThisMachine) {

@@ -12,6 +12,7 @@
 
 #include "terrain/sources/dem/dem.h"
 #include "tests/terrain/errors.h"
+#include "tests/terrain/raster_file.h"
 #include "tests/terrain/temporary_folder.h"
 
 namespace terrabench {
@@ -62,6 +63,10 @@ std::string vrt_of(const std::string& source, int width = 4, int depth = 4) {
       width, depth, source);
 }
 
+std::string grid(const std::string& values) {
+  return "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999\n" + values;
+}
+
 // Reads the name itself and a .vrt that has it as its source; both must fail without a call. Returns what the
 // first failure says.
 std::string refused(const std::string& name, const Listener& listener) {
@@ -95,8 +100,32 @@ TEST(DemTrust, NoNetworkByAFormat) {
   refused("http://" + host + "/x.nc", listener);
 }
 
-std::string grid(const std::string& values) {
-  return "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999\n" + values;
+TEST(DemTrust, NoNetworkByAReferenceSystem) {
+  const Listener listener;
+  const TemporaryFolder folder;
+  const std::string text = folder.write("a.asc", grid("1 2 3\n4 5 6\n"));
+  const std::string path = folder.write(
+      "a.vrt",
+      fmt::format("<VRTDataset rasterXSize=\"3\" rasterYSize=\"2\" subClass=\"VRTWarpedDataset\">"
+                  "<VRTRasterBand dataType=\"Float32\" band=\"1\" subClass=\"VRTWarpedRasterBand\"/>"
+                  "<GDALWarpOptions><SourceDataset>{}</SourceDataset><Transformer><ReprojectionTransformer>"
+                  "<SourceSRS>http://127.0.0.1:{}/a</SourceSRS><TargetSRS>EPSG:4326</TargetSRS>"
+                  "</ReprojectionTransformer></Transformer></GDALWarpOptions></VRTDataset>",
+                  text, listener.port()));
+  const Failure failure = failure_of([&] { (void)read_dem(path); });
+  EXPECT_EQ(failure.code, ExitCode::kBadInput);
+  EXPECT_THAT(failure.what, HasSubstr("--allow-network"));
+  EXPECT_FALSE(listener.was_called());
+}
+
+TEST(DemTrust, NetcdfOfThisMachineIsRead) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.nc";
+  RasterFile file = metres();
+  file.format = "netCDF";
+  file.write(path);
+  expect_ramp(read_dem(path).heights, 6, 4);
+  expect_ramp(read_dem("NETCDF:\"" + path + "\":Band1").heights, 6, 4);
 }
 
 TEST(DemTrust, WordInATextGridIsNoHeight) {

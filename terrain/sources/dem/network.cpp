@@ -74,14 +74,23 @@ CPLHTTPResult* refuse_fetch(const char* url, CSLConstList, GDALProgressFunc, voi
 
 GDALDataset* (*open_netcdf)(GDALOpenInfo*) = nullptr;
 
-// libnetcdf itself fetches names that hold "://", by DAP or HTTP and past GDAL's file systems. Quotes and
-// backslashes do not count: GDAL and libnetcdf take them out of the name.
+// Whether "://" stands in the name. Quotes and backslashes do not count: GDAL and libnetcdf take them out.
+bool names_url(const char* name) {
+  constexpr std::string_view kMark = "://";
+  std::size_t matched = 0;
+  for (; *name != '\0'; ++name) {
+    if (*name == '"' || *name == '\\') continue;
+    matched = *name == kMark[matched] ? matched + 1 : *name == kMark[0] ? 1 : 0;
+    if (matched == kMark.size()) return true;
+  }
+  return false;
+}
+
+// libnetcdf itself fetches URLs, by DAP or HTTP and past GDAL's file systems.
 GDALDataset* open_local_netcdf(GDALOpenInfo* info) {
-  std::string name = info->pszFilename;
-  std::erase_if(name, [](char c) { return c == '"' || c == '\\'; });
-  if (name.find("://") == std::string::npos) return open_netcdf(info);
-  // Any other name with "://" may be meant for another driver.
-  if (STARTS_WITH_CI(name.c_str(), "NETCDF:")) refuse(info->pszFilename);
+  if (!names_url(info->pszFilename)) return open_netcdf(info);
+  // Any other URL may be meant for another driver.
+  if (STARTS_WITH_CI(info->pszFilename, "NETCDF:")) refuse(info->pszFilename);
   return nullptr;
 }
 

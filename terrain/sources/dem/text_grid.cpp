@@ -131,9 +131,11 @@ GDALDataset* checked_open(GDALOpenInfo* info) {
     return dataset;
   } catch (const Error& error) {  // must not unwind through GDAL
     CPLError(CE_Failure, CPLE_AppDefined, "%s; %s", error.what(), error.advice().c_str());
-    GDALClose(dataset);
-    return nullptr;
+  } catch (const std::exception& error) {  // no memory
+    CPLError(CE_Failure, CPLE_OutOfMemory, "%s", error.what());
   }
+  GDALClose(dataset);
+  return nullptr;
 }
 
 template <int format>
