@@ -86,8 +86,8 @@ class Representation {
   virtual Bounds bounds() const = 0;
 };
 
-// The heap bytes that destroying the structure frees, by the count of operator new. No other thread may allocate
-// meanwhile.
+// The heap bytes that destroying the structure frees, by the count of operator new. No other thread may
+// allocate meanwhile.
 std::int64_t destroy_and_count(std::unique_ptr<Representation>);
 
 struct Traits {

@@ -44,7 +44,7 @@ class Rows {
  public:
   Rows(const Store& store, const JudgedResults& results, std::span<const Paper> papers,
        const LedgerLinks& links)
-      : store_(store), results_(results), links_(links), where_shown_(papers, links.shown_on) {}
+      : store_(store), results_(results), links_(links), where_shown_(papers, links.shown) {}
 
   std::vector<Cell> row(const Judgement& j) const {
     const Claim& claim = *j.claim;

@@ -19,8 +19,8 @@ namespace terrabench {
 struct LedgerLinks {
   ReportForm form = kHtmlForm;
   std::set<std::string> pictures = {};  // files
-  ShownOn shown_on = {};                // the tables and plots
-  std::vector<Link> grounds = {};       // to the pages of single grounds
+  ShownIds shown = {};
+  std::vector<Link> grounds = {};  // to the pages of single grounds
 };
 
 // One row per claim, in the papers' order; the id of a claim is the anchor of its row.

@@ -218,7 +218,7 @@ class Report {
     page.remarks.push_back(Paragraph{fmt::format("Measured in profile “{}”.", results_.profile)});
     add_warning(page.remarks);
     for (FilledTable& filled : filled_tables(paper, layout.id)) {
-      links_.shown_on.emplace(filled.table.id, layout.id);
+      links_.shown.insert(filled.table.id);
       page.tables.push_back(parts_.table(std::move(filled.table), filled.runs));
     }
     add_plots(paper, layout.id, page.plots);
@@ -324,13 +324,13 @@ class Report {
       if (layout.page != page) continue;
       std::optional<Gallery> plot = parts_.plot(layout);
       if (!plot) continue;
-      links_.shown_on.emplace(layout.id, page);
+      links_.shown.insert(layout.id);
       to.push_back(std::move(*plot));
     }
   }
 
   void add_table(Table table, const std::vector<std::string>& runs) {
-    links_.shown_on.emplace(table.id, kMainPage);
+    links_.shown.insert(table.id);
     document_.push_back(parts_.table(std::move(table), runs));
   }
 

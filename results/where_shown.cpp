@@ -19,8 +19,8 @@ Likeness likeness(std::string_view shown, std::string_view read) {
 
 }  // namespace
 
-WhereShown::WhereShown(std::span<const Paper> papers, const ShownOn& shown_on) {
-  const auto in_report = [&](const auto& layout) { return shown_on.contains(layout.id); };
+WhereShown::WhereShown(std::span<const Paper> papers, const ShownIds& shown) {
+  const auto in_report = [&](const auto& layout) { return shown.contains(layout.id); };
   for (const Paper& paper : papers) {
     for (const TableLayout& table : paper.tables) {
       if (in_report(table)) add(table);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,9 +16,8 @@
 
 namespace terrabench {
 
-// The tables and plots that the report contains: id → PageLayout::id of the page that shows it; empty for the
-// main page.
-using ShownOn = std::map<std::string, std::string, std::less<>>;
+// Ids of the tables and plots that the report contains.
+using ShownIds = std::set<std::string, std::less<>>;
 
 // An index over the layouts of all tables and plots. It points into the papers, which must outlive it.
 class WhereShown {
@@ -32,7 +32,7 @@ class WhereShown {
   };
 
   // Tables and plots that are not among those shown are left out. O(n log n) for n cells and points.
-  WhereShown(std::span<const Paper>, const ShownOn&);
+  WhereShown(std::span<const Paper>, const ShownIds&);
 
   // The first table with a row that names the claim; otherwise the first table, or else plot, that shows one
   // of the metrics that the claim reads; otherwise the one that shows the most similarly named metric of a

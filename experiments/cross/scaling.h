@@ -73,10 +73,10 @@ class Cost {
   }
 
   // The samples as `name`, their sizes as name_columns, pair by pair; each size's samples again as
-  // name_at_COLUMNS, since two runs may reach different sizes; name_smallest and name_largest, the range of sizes;
-  // name_theory, the exponent in theory; and from two sizes on name_exponent, the exponent of the power law
-  // through the medians of the sizes, and name_excess, that minus the theory. From three sizes on name_low
-  // and name_high, the exponent's 95 % interval.
+  // name_at_COLUMNS, since two runs may reach different sizes; name_smallest and name_largest, the range of
+  // sizes; name_theory, the exponent in theory; and from two sizes on name_exponent, the exponent of the
+  // power law through the medians of the sizes, and name_excess, that minus the theory. From three sizes on
+  // name_low and name_high, the exponent's 95 % interval.
   void record(Recorder&) const;
 
   // In theory, over the sizes measured: with the logarithm the slope depends on them.

@@ -40,7 +40,7 @@ class LedgerTest : public FolderTest {
 
   Table table(std::span<const Paper> of) const {
     const Store store = Store::open(folder_);
-    return ledger_table(store, judge(store, of), of, {.shown_on = {{"hybrid.table1", ""}}});
+    return ledger_table(store, judge(store, of), of, {.shown = {"hybrid.table1"}});
   }
   // The row with this id; ends the test when there is none.
   static const std::vector<Cell>& row(const Table& table, const std::string& id) {
@@ -83,7 +83,7 @@ TEST_F(LedgerTest, EveryRowWhoseNumbersATableShowsHasAFigureOrTable) {
   const Store store = Store::open(folder_);
   LedgerLinks links;
   for (const Paper& paper : faked_papers()) {
-    for (const TableLayout& layout : paper.tables) links.shown_on.emplace(layout.id, "");
+    for (const TableLayout& layout : paper.tables) links.shown.insert(layout.id);
   }
   const Table ledger = ledger_table(store, judge(store, faked_papers()), faked_papers(), links);
   const auto is_shown = [&](const Operand& operand) {

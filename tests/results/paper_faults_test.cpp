@@ -49,9 +49,9 @@ TEST(WherePapersDiffer, NamesTheLargestShareFirst) {
 }
 
 TEST(WherePapersDiffer, CountsMeasuredRowsAboutPapersAlone) {
-  EXPECT_EQ(
-      sentence_of({{"Rivers", {kSame, kDiffers, kNotRun, kRepeat, kOurs}}, {"Across", {kOurs}}}),
-      "Of 2 rows about the papers, 1 differs from what was measured, the largest share on “Rivers” (1 of 2).");
+  EXPECT_EQ(sentence_of({{"Rivers", {kSame, kDiffers, kNotRun, kRepeat, kOurs}}, {"Across", {kOurs}}}),
+            "Of 2 rows about the papers, 1 differs from what was measured, the largest share on “Rivers” (1 "
+            "of 2).");
   EXPECT_EQ(sentence_of({{"Rivers", {kSame, kShape}}}), "None of 2 rows about the papers differs.");
   EXPECT_EQ(sentence_of({{"Across", {kOurs}}}), "");
 }
