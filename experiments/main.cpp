@@ -124,6 +124,13 @@ void add_run(CLI::App& app, Arguments& a) {
           "the timed ones, one by one. Takes the memory of so many cases")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  command
+      ->add_option(
+          "--again", a.run.again,
+          "Measure timed cases that took at most so many seconds a second time, after all others, so "
+          "that no slow moment of the machine decides; 0: none")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
   add_renderer(*command, a.run.options.renderer);
   command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
       ->check(CLI::Range(1, 4096));

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "experiments/processes.h"
+#include "experiments/second_look.h"
 #include "experiments/stopwatch.h"
 #include "experiments/timing.h"
 #include "renderers/context.h"
@@ -110,8 +111,7 @@ void check_untimed(const Record& record) {
   }
 }
 
-void measure(const RunPlan& plan, const PlannedCase& planned, Record record, Progress::Output output,
-             Store& store) {
+Record measured(const RunPlan& plan, const PlannedCase& planned, Record record, Progress::Output output) {
   if (Progress::interrupted()) throw Error(ExitCode::kInterrupted, "interrupted", "run", "");
   Progress progress(output);
   Recorder recorder(record, plan.folder);
@@ -119,7 +119,7 @@ void measure(const RunPlan& plan, const PlannedCase& planned, Record record, Pro
   progress.end();
   if (!records_times(*planned.experiment)) check_untimed(record);
   for (RecordedFigure& figure : record.figures) describe(plan.folder, figure);
-  store.append(record);
+  return record;
 }
 
 void apply(const std::vector<std::string>& assignments, std::vector<PlannedCase>& cases) {
@@ -143,6 +143,90 @@ void apply(const std::vector<std::string>& assignments, std::vector<PlannedCase>
     throw unknown_name("parameter", name, known);
   }
 }
+
+// The planned cases, measured into one folder.
+class Session {
+ public:
+  explicit Session(const RunPlan& plan) : plan_(plan), cases_(plan_cases(plan)), store_(plan.folder) {
+    for (const std::string& warning : store_.warnings()) fmt::print(stderr, "warning: {}\n", warning);
+    provenance_ = plan.jobs > 1 ? provenance_from_process(plan) : provenance_of(plan);
+    for (const std::string& warning : provenance_.timing_warnings) {
+      fmt::print(stderr, "warning: {}\n", warning);
+    }
+    store_.begin_run(provenance_);
+  }
+
+  void run() {
+    std::vector<std::size_t> alone, beside;
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      if (plan_.resume && is_measured(begin(i), store_, provenance_)) continue;
+      (plan_.jobs > 1 && !times(i) ? beside : alone).push_back(i);
+    }
+    measure_beside(beside);
+    measure_alone(alone);
+    store_.sync();
+    const std::size_t skipped = cases_.size() - alone.size() - beside.size();
+    if (skipped == 0) return;
+    fmt::print(stderr, "{} of {} cases were already in the results folder\n", skipped, cases_.size());
+  }
+
+ private:
+  struct Look {
+    std::size_t at;  // in cases_
+    Record record;
+    double seconds;
+  };
+
+  void measure_beside(const std::vector<std::size_t>& cases) {
+    const auto share = static_cast<std::size_t>(std::max(1, provenance_.threads / plan_.jobs));
+    run_in_processes(
+        plan_.jobs, cases.size(),
+        [&](std::size_t k) {
+          const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, share);
+          measure_first(cases[k], Progress::Output::kSilent);
+        },
+        [&](std::size_t k) { return title(cases[k]); });
+  }
+
+  void measure_alone(const std::vector<std::size_t>& cases) {
+    const auto output = isatty(STDERR_FILENO) != 0 ? Progress::Output::kTerminal : Progress::Output::kLines;
+    std::vector<Look> brief;
+    for (const std::size_t i : cases) {
+      Look first = measure_first(i, output);
+      if (times(i) && first.seconds <= plan_.again) brief.push_back(std::move(first));
+    }
+    for (std::size_t k = 0; k < brief.size(); ++k) {
+      const Look second = look(brief[k].at, output);
+      store_.append(with_second_look(std::move(brief[k].record), second.record));
+      fmt::print(stderr, "[{}/{}] {}, again: {:.2f} s\n", k + 1, brief.size(), title(second.at),
+                 second.seconds);
+    }
+  }
+
+  Look measure_first(std::size_t i, Progress::Output output) {
+    Look first = look(i, output);
+    store_.append(first.record);
+    fmt::print(stderr, "[{}/{}] {}: {:.2f} s\n", i + 1, cases_.size(), title(i), first.seconds);
+    return first;
+  }
+
+  Look look(std::size_t i, Progress::Output output) const {
+    const Stopwatch watch;
+    Record record = measured(plan_, cases_[i], begin(i), output);
+    return {i, std::move(record), watch.seconds()};
+  }
+
+  Record begin(std::size_t i) const { return begin_record(plan_, cases_[i], provenance_.id); }
+  bool times(std::size_t i) const { return records_times(*cases_[i].experiment); }
+  std::string title(std::size_t i) const {
+    return fmt::format("{} {}", cases_[i].experiment->id, cases_[i].at.name);
+  }
+
+  const RunPlan& plan_;
+  std::vector<PlannedCase> cases_;
+  Store store_;
+  Provenance provenance_;
+};
 
 }  // namespace
 
@@ -178,42 +262,6 @@ std::vector<PlannedCase> plan_cases(const RunPlan& plan) {
   return mine;
 }
 
-void run(const RunPlan& plan) {
-  const std::vector<PlannedCase> cases = plan_cases(plan);
-  Store store(plan.folder);
-  for (const std::string& warning : store.warnings()) fmt::print(stderr, "warning: {}\n", warning);
-  const Provenance provenance = plan.jobs > 1 ? provenance_from_process(plan) : provenance_of(plan);
-  for (const std::string& warning : provenance.timing_warnings) fmt::print(stderr, "warning: {}\n", warning);
-  store.begin_run(provenance);
-  std::vector<std::size_t> alone, beside;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (plan.resume && is_measured(begin_record(plan, cases[i], provenance.id), store, provenance)) continue;
-    (plan.jobs > 1 && !records_times(*cases[i].experiment) ? beside : alone).push_back(i);
-  }
-  const auto title = [&](std::size_t i) {
-    return fmt::format("{} {}", cases[i].experiment->id, cases[i].at.name);
-  };
-  const auto measure_one = [&](std::size_t i, Progress::Output output) {
-    const Stopwatch watch;
-    measure(plan, cases[i], begin_record(plan, cases[i], provenance.id), output, store);
-    fmt::print(stderr, "[{}/{}] {}: {:.2f} s\n", i + 1, cases.size(), title(i), watch.seconds());
-  };
-  const auto share = static_cast<std::size_t>(std::max(1, provenance.threads / plan.jobs));
-  run_in_processes(
-      plan.jobs, beside.size(),
-      [&](std::size_t i) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, share);
-        measure_one(beside[i], Progress::Output::kSilent);
-      },
-      [&](std::size_t i) { return title(beside[i]); });
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  for (const std::size_t i : alone) {
-    measure_one(i, terminal ? Progress::Output::kTerminal : Progress::Output::kLines);
-  }
-  store.sync();
-  const std::size_t skipped = cases.size() - alone.size() - beside.size();
-  if (skipped > 0)
-    fmt::print(stderr, "{} of {} cases were already in the results folder\n", skipped, cases.size());
-}
+void run(const RunPlan& plan) { Session(plan).run(); }
 
 }  // namespace terrabench

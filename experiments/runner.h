@@ -22,6 +22,7 @@ struct RunPlan {
   int shard = 1, shards = 1;  // measure only every shards-th case of the part, from the shard-th
   int threads = 0;            // in use, for the provenance; 0: all
   int jobs = 1;               // cases without times beside each other, with threads ÷ jobs threads each
+  double again = 0.7;         // timed cases that took at most so many seconds are measured once more; 0: none
   std::vector<std::string> command;  // argv, for the provenance
 };
 
@@ -35,7 +36,8 @@ std::vector<PlannedCase> plan_cases(const RunPlan&);
 
 // Measures all planned cases and appends their records to folder/measurements.jsonl, in the registry's order;
 // with jobs > 1 first those without times, beside each other in processes of their own, then the timed ones,
-// alone. Throws Error(kInterrupted) on Ctrl-C; the records so far stay.
+// alone. Short timed ones once more at the end (second_look.h), which adds to their times; --resume does not
+// make up for it. Throws Error(kInterrupted) on Ctrl-C; the records so far stay.
 void run(const RunPlan&);
 
 }  // namespace terrabench

@@ -25,7 +25,9 @@ Change change_of(const Metric& before, const Metric& after, const Summary& ratio
   if (!timed(before) && !timed(after))
     return before.samples == after.samples ? Change::kSame : Change::kDiffers;
   if (!one_machine) return Change::kElsewhere;
-  const bool has_interval = before.samples.size() > 1 && after.samples.size() > 1 &&
+  constexpr std::size_t kFewest =
+      3;  // two unchanged times are both above, or both below, two others in one case of three
+  const bool has_interval = before.samples.size() >= kFewest && after.samples.size() >= kFewest &&
                             std::isfinite(ratio.median) && !std::isnan(ratio.low);
   if (!has_interval) return Change::kUnresolved;
   if (ratio.low > 1) return Change::kRose;
@@ -276,7 +278,8 @@ std::string compare_text(const Comparison& comparison, bool colour) {
   text += noise_text(comparison);
   if (comparison.count(Change::kUnresolved) > 0) {
     text +=
-        "unresolved: times with a single sample, an interval that spans more than a factor of 4, or a ratio "
+        "unresolved: times with fewer than three samples, an interval that spans more than a factor of 4, or "
+        "a ratio "
         "without a finite value\n";
   }
   if (comparison.count(Change::kElsewhere) > 0) {

@@ -17,9 +17,10 @@ enum class Change {
   kRose,     // the ratio's interval lies above 1, and the change exceeds the noise
   kFell,     // the ratio's interval lies below 1, and the change exceeds the noise
   kDiffers,  // exact and not equal
-  kUnresolved,  // a timing with only one sample in a folder, so without an interval, or whose interval spans
-                // more than a factor of 4 around 1, as of samples taken on grounds of different sizes
-  kElsewhere,   // a timing of another kind of machine, which says nothing about the code
+  kUnresolved,  // a timing with fewer than three samples in a folder, too few for an interval, or whose
+                // interval spans more than a factor of 4 around 1, as of samples taken on grounds of
+                // different sizes
+  kElsewhere,  // a timing of another kind of machine, which says nothing about the code
   kOnlyBefore,
   kOnlyAfter,
 };

@@ -53,8 +53,11 @@ TEST_F(CompareTest, TimingsChangeOnlyBeyondTheirNoise) {
   EXPECT_EQ(change(base, {"t", "s", {7.0}}), Change::kUnresolved);
   EXPECT_EQ(change({"t", "s", {0, 0, 0}}, base), Change::kUnresolved);
   EXPECT_EQ(change({"faults", "faults", {0, 5, 5}}, {"faults", "faults", {0, 50, 50}}), Change::kUnresolved);
-  EXPECT_EQ(change({"t", "s", {1, 1.8}}, {"t", "s", {1, 1.8}}), Change::kSame) << "from 0.56 to 1.8";
-  EXPECT_EQ(change({"t", "s", {1, 2.2}}, {"t", "s", {1, 2.2}}), Change::kUnresolved) << "from 0.45 to 2.2";
+  EXPECT_EQ(change({"t", "s", {1, 1.5, 1.8}}, {"t", "s", {1, 1.5, 1.8}}), Change::kSame)
+      << "from 0.56 to 1.8";
+  EXPECT_EQ(change({"t", "s", {1, 1.5, 2.2}}, {"t", "s", {1, 1.5, 2.2}}), Change::kUnresolved)
+      << "from 0.45 to 2.2";
+  EXPECT_EQ(change({"t", "s", {1, 1.1}}, {"t", "s", {3, 3.1}}), Change::kUnresolved) << "two samples of each";
 }
 
 TEST_F(CompareTest, RatiosOfTimesAreComparedAsTimes) {
