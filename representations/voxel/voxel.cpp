@@ -129,6 +129,7 @@ struct Voxel::Layers {
   };
   std::vector<Layer> layers;
   std::size_t edits_since_prune = 0;
+  std::size_t known_leaves = 0;  // when they were last counted
 
   Tree& of(Material material) {
     for (Layer& layer : layers) {
@@ -140,10 +141,18 @@ struct Voxel::Layers {
     for (Layer& layer : layers) openvdb::tools::prune(*layer.tree);
     edits_since_prune = 0;
   }
-  std::size_t leaves() const {
-    std::size_t count = 0;
-    for (const Layer& layer : layers) count += layer.tree->leafCount();
-    return count;
+  // Pruning and counting walk all leaves. After at least as many edits as there are leaves, their cost per
+  // edit is constant.
+  void prune_if_due() {
+    if (edits_since_prune <= known_leaves) return;
+    count_leaves();
+    if (edits_since_prune <= known_leaves) return;
+    prune();
+    count_leaves();
+  }
+  void count_leaves() {
+    known_leaves = 0;
+    for (const Layer& layer : layers) known_leaves += layer.tree->leafCount();
   }
 };
 
@@ -183,6 +192,7 @@ std::unique_ptr<Representation> Voxel::build(const TerrainSource& source, const 
     }
   }
   built->layers_->prune();
+  built->layers_->count_leaves();
   return built;
 }
 
@@ -249,8 +259,7 @@ void Voxel::edit(Columns where, std::span<const Span> what) {
     if (what[c].material != Material::kAir) layers_->of(what[c].material).fill(box, true, true);
     ++layers_->edits_since_prune;
   }
-  // Pruning walks all leaves; after at least as many edits, its cost per edit is constant.
-  if (layers_->edits_since_prune > layers_->leaves()) layers_->prune();
+  layers_->prune_if_due();
 }
 
 TriangleMesh Voxel::mesh(MeshDetail) const {
@@ -383,6 +392,7 @@ std::unique_ptr<Representation> Voxel::load(ByteSource& in) {
     if (all.activeVoxelCount() != voxels + tree.activeVoxelCount())
       in.fail("two materials fill the same voxel");
   }
+  built->layers_->count_leaves();
   return built;
 }
 
