@@ -104,7 +104,7 @@ void measure_lod(const Run& run, std::string_view name) {
       const std::vector<View> path = same_flight(ground);
       std::unique_ptr<Lod> built;
       add_turns(
-          costs.build, costs.build_faults, columns, turns(columns), [&] { built.reset(); },
+          costs.build, costs.build_faults, columns, [&] { built.reset(); },
           [&] { built = method.build(ground, silent); });
       built->tune(tuned.knob);
       built->update(path.front());

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/cross/fresh_pages.h"
 #include "experiments/cross/scaling.h"
 #include "experiments/experiment.h"
 #include "experiments/stopwatch.h"
@@ -18,14 +19,6 @@
 #include "terrain/memory.h"
 
 namespace terrabench::cross {
-
-inline constexpr int kMostTurns = 5;
-
-// How often work on so many columns or voxels is repeated, beyond the first turn if there are several.
-inline int turns(double work) {
-  constexpr double kRepeatedWork = 1 << 18;
-  return std::clamp(static_cast<int>(kRepeatedWork / work), 1, kMostTurns);
-}
 
 inline double squared(int side) { return static_cast<double>(side) * side; }
 
@@ -48,6 +41,7 @@ class Run {
   template <class Work>
   bool measured(SizePlan& plan, double columns, const Work& work) const {
     if (!plan.admits(columns)) return false;
+    use_memory_once(plan.expected_bytes(columns));
     HeapCounter::reset_peak();
     const double begin = process_seconds();
     try {
@@ -89,15 +83,19 @@ inline double page_faults() {
   return static_cast<double>(used.ru_minflt);
 }
 
-// Processor seconds and page faults of each turn of the work on one thread, after one that is not counted if
-// there are several. Before each turn clear() frees what the last one made, uncounted.
+// Processor seconds and page faults of each turn of the work on one thread. Short work is done once more
+// before, uncounted, and then five times; work of some seconds once, since the largest sizes take minutes.
+// Before each turn clear() frees what the last one made, uncounted.
 template <class Clear, class Work>
-void add_turns(Cost& cost, Cost& faults, double columns, int repeated, const Clear& clear, const Work& work) {
-  for (int turn = repeated > 1 ? -1 : 0; turn < repeated; ++turn) {
+void add_turns(Cost& cost, Cost& faults, double columns, const Clear& clear, const Work& work) {
+  constexpr double kShort = 0.2, kLong = 2;  // seconds
+  int turns = 1;
+  for (int turn = 0; turn < turns; ++turn) {
     clear();
     const double before = page_faults();
     const double taken = processor_seconds(work);
-    if (turn < 0) continue;
+    if (turn == 0) turns = taken < kShort ? 6 : taken < kLong ? 3 : 1;
+    if (turn == 0 && turns == 6) continue;
     cost.add(columns, taken);
     faults.add(columns, page_faults() - before);
   }
@@ -113,6 +111,10 @@ const auto& entry(const Table& table, std::string_view kind, std::string_view na
   }
   throw unknown_name(kind, name, known);
 }
+
+// Structures over height maps or over a solid: scale_structures.cpp.
+void measure_structure(const Run&, bool solid, std::string_view name);
+std::vector<std::string_view> scaled_structures(bool solid);
 
 // Level of detail along a path: scale_lods.cpp.
 void measure_lod(const Run&, std::string_view method);

@@ -54,7 +54,7 @@ bool SizePlan::admits(double columns) {
   }
   if (sizes_ == 0) return true;
   const double ratio = columns / last_columns_;
-  if (last_peak_ * std::pow(ratio, growth_.memory) > static_cast<double>(budget_.bytes)) {
+  if (expected_bytes(columns) > budget_.bytes) {
     for_memory_.push_back(columns);
     return false;
   }
@@ -63,6 +63,13 @@ bool SizePlan::admits(double columns) {
     return false;
   }
   return true;
+}
+
+std::uint64_t SizePlan::expected_bytes(double columns) const {
+  if (sizes_ == 0) return 0;
+  constexpr double kEnough = 1e18;  // larger than any memory, and still an integer
+  return static_cast<std::uint64_t>(
+      std::min(kEnough, last_peak_ * std::pow(columns / last_columns_, growth_.memory)));
 }
 
 void SizePlan::measured(double columns, double seconds, std::int64_t peak_bytes) {

@@ -37,6 +37,8 @@ class SizePlan {
       : name_(std::move(name)), budget_(budget), growth_(growth) {}
 
   bool admits(double columns);
+  // The peak of the heap at this size, from that of the last size and the theory; 0 before the first.
+  std::uint64_t expected_bytes(double columns) const;
   void measured(double columns, double seconds, std::int64_t peak_bytes);
   // The structure does not take ground of this size.
   void refused(double columns);

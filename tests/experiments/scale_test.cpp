@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <set>
 #include <string>
 
+#include "experiments/cross/fresh_pages.h"
+#include "experiments/cross/scale_run.h"
 #include "experiments/cross/scaling.h"
 #include "experiments/experiment.h"
 #include "lod/lod.h"
@@ -67,7 +70,10 @@ TEST(SizePlan, AdmitsExactlyWhatTheBudgetCovers) {
 TEST(SizePlan, SkipsWhatMemoryDoesNotHold) {
   SizePlan plan("mesh", {1e6, 639}, {1, 1.5});
   ASSERT_TRUE(plan.admits(1));
+  EXPECT_EQ(plan.expected_bytes(1), 0U);
   plan.measured(1, 1, 10);
+  EXPECT_EQ(plan.expected_bytes(4), 80U);
+  EXPECT_GT(plan.expected_bytes(1e300), std::uint64_t{1} << 59) << "no overflow";
   ASSERT_TRUE(plan.admits(4)) << "10 · 4^1.5 = 80";
   plan.measured(4, 1, 80);
   EXPECT_FALSE(plan.admits(16)) << "640";
@@ -175,6 +181,39 @@ TEST(Scale, BytesOfAHeightMapGrowWithItsColumns) {
   EXPECT_NEAR(samples(record, "bytes_exponent").at(0), 1, 0.02);
   EXPECT_EQ(samples(record, "build_skipped").at(0), 0);
   EXPECT_EQ(samples(record, "query_exponent").size(), 1U);
+}
+
+// Nine samples of queries, rays and edits at three sizes, and those only where the structure has them.
+TEST(Scale, QueriesRaysEditsAndFilesAreMeasuredAtEverySize) {
+  const auto over = [](const char* name) {
+    return measured(name, {{"smallest", std::int64_t{33}}, {"largest", std::int64_t{129}}, {"seconds", 1e6}});
+  };
+  const Record stack = over("heights/layered_stack"), map = over("heights/heightmap"),
+               tree = over("heights/ght");
+  for (const char* const cost : {"query", "query_near", "ray", "ray_near", "edit"}) {
+    EXPECT_EQ(samples(stack, cost).size(), 9U) << cost;
+    for (const double seconds : samples(stack, cost)) EXPECT_GT(seconds, 0) << cost;
+  }
+  EXPECT_EQ(samples(tree, "edit").size(), 9U);
+  EXPECT_EQ(map.find("edit"), nullptr) << "a heightmap takes no edits";
+  EXPECT_EQ(over("heights/procedural_mesh").find("ray"), nullptr) << "cast through its mesh";
+  EXPECT_THAT(samples(map, "load_smallest"), ElementsAre(33 * 33));
+  EXPECT_THAT(samples(map, "load_largest"), ElementsAre(129 * 129));
+}
+
+TEST(Scale, MemoryUsedOnceIsGivenBack) {
+  const auto resident_pages = [] {
+    std::ifstream file("/proc/self/statm");
+    long size = 0, resident = 0;
+    file >> size >> resident;
+    return resident;
+  };
+  const long before = resident_pages();
+  const double faults = page_faults();
+  use_memory_once(std::uint64_t{1} << 28);
+  EXPECT_GT(page_faults(), faults) << "pages were used";
+  EXPECT_LT(resident_pages(), before + (1 << 14))
+      << "a quarter of them, in case other tests' threads live on";
 }
 
 TEST(Scale, DenseVoxelsGrowWithTheirVoxelsAndSkippedSizesAreRecorded) {
