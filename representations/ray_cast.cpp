@@ -1,11 +1,11 @@
 #include "representations/ray_cast.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
+#include "representations/cast_all.h"
 #include "representations/drill/drill_terrain.h"
+#include "representations/ght/ght_rays.h"
 #include "representations/heightmap/heightmap.h"
 #include "representations/layered_stack/layered_stack.h"
+#include "representations/plan_square.h"
 #include "representations/ray_walk.h"
 #include "representations/voxel/dense_grid.h"
 #include "representations/voxel/voxel.h"
@@ -36,13 +36,7 @@ struct HeightGround {
     return {origin - before * cell, cell, low, high, std::max(1, samples - 1 + before + (beyond ? 1 : 0))};
   }
 
-  // The heights at the corners of a square.
-  struct Corners {
-    float nw, ne, sw, se;
-    bool none() const { return std::isnan(nw + ne + sw + se); }
-    float highest() const { return std::max(std::max(nw, ne), std::max(sw, se)); }
-  };
-  Corners corners(int i, int j) const {
+  CornerHeights corners(int i, int j) const {
     i -= before_x;
     j -= before_z;
     const int east = std::min(i + 1, grid.width - 1), south = std::min(j + 1, grid.depth - 1);
@@ -56,67 +50,24 @@ struct HeightGround {
   }
 
   float top(int i, int j) const {
-    const Corners c = corners(i, j);
+    const CornerHeights c = corners(i, j);
     return c.none() ? kNothing : c.highest();
   }
 
-  // The ray over a square whose sides are 1: its position, and its height over the planes of the square's two
-  // triangles, are linear in t. The triangles meet along the diagonal u + v = 1.
-  struct Square {
-    double u0, du, v0, dv, y0, dy;  // position at t: u0 + t · du
-    double nw, ne, sw, se;
-
-    double past_diagonal(double t) const { return u0 + t * du + (v0 + t * dv) - 1; }
-    // Above the north-western triangle, or the other.
-    double above(bool north_west, double t) const {
-      const double u = u0 + t * du, v = v0 + t * dv, y = y0 + t * dy;
-      return y - (north_west ? nw + u * (ne - nw) + v * (sw - nw)
-                             : se + (1 - u) * (sw - se) + (1 - v) * (ne - se));
-    }
-    bool below(double t) const { return above(past_diagonal(t) < 0, t) < 0; }
-  };
-  static double per_width(const PlanAxis& axis, int k) {
-    return k > 0 && k + 1 < axis.cells ? axis.per_cell : 1 / (axis.plane(k + 1) - axis.plane(k));
-  }
-  Square square(int i, int j, const Corners& c, const RayPath& path) const {
-    const double per_x = per_width(x, i), per_z = per_width(z, j);
-    return {(path.origin.x - x.plane(i)) * per_x,
-            path.direction.x * per_x,
-            (path.origin.z - z.plane(j)) * per_z,
-            path.direction.z * per_z,
-            path.origin.y,
-            path.direction.y,
-            c.nw,
-            c.ne,
-            c.sw,
-            c.se};
-  }
-
   bool solid(int i, int j, const RayPath& path, double t) const {
-    const Corners c = corners(i, j);
-    return !c.none() && square(i, j, c, path).below(t);
+    const CornerHeights c = corners(i, j);
+    return !c.none() && PlanSquare(x, z, i, j, c, path).below(t);
   }
 
   double change(int i, int j, const RayPath& path, Stretch at, double lowest, bool inside) const {
-    const Corners c = corners(i, j);
+    const CornerHeights c = corners(i, j);
     if (!inside && lowest > c.highest()) return kNone;
     if (c.none()) return inside ? at.begin : kNone;
-    const Square s = square(i, j, c, path);
-    const double first = s.past_diagonal(at.begin), last = s.past_diagonal(at.end);
-    if ((s.above(first < 0, at.begin) < 0) != inside) return at.begin;
-    if (first * last >= 0) return change(s, first + last < 0, at, inside);
-    const double middle = at.begin + (at.end - at.begin) * (first / (first - last));
-    const double hit = change(s, first < 0, {at.begin, middle}, inside);
-    return hit < kNone ? hit : change(s, last < 0, {middle, at.end}, inside);
+    return PlanSquare(x, z, i, j, c, path).change(at, inside);
   }
 
-  static double change(const Square& s, bool north_west, Stretch at, bool inside) {
-    const double last = s.above(north_west, at.end);
-    if ((last < 0) == inside) return kNone;
-    const double first = s.above(north_west, at.begin);
-    if ((first < 0) != inside) return at.begin;
-    return std::clamp(at.begin + (at.end - at.begin) * (first / (first - last)), at.begin, at.end);
-  }
+  double closest(const Ray& ray) const { return RayWalk(*this, ray).closest(); }
+  std::size_t bytes() const { return tops.bytes(); }
 
   const HeightGrid& grid;
   std::span<const float> heights;
@@ -209,6 +160,9 @@ struct SpanGround {
     return std::clamp((face - path.origin.y) / path.direction.y, at.begin, at.end);
   }
 
+  double closest(const Ray& ray) const { return RayWalk(*this, ray).closest(); }
+  std::size_t bytes() const { return tops.bytes() + heap_bytes(starts.data()) + heap_bytes(parts.data()); }
+
   PlanAxis x, z;
   double floor, highest = 0;
   std::vector<std::uint32_t> starts;
@@ -216,46 +170,23 @@ struct SpanGround {
   TopPyramid tops;
 };
 
-std::size_t own_bytes(const HeightGround& ground) { return ground.tops.bytes(); }
-std::size_t own_bytes(const SpanGround& ground) {
-  return ground.tops.bytes() + heap_bytes(ground.starts.data()) + heap_bytes(ground.parts.data());
-}
-
-template <class Ground>
-class Caster final : public RayCaster {
- public:
-  template <class... From>
-  explicit Caster(const From&... from) : ground_(from...) {}
-
-  void closest(std::span<const Ray> rays, std::span<float> distances) const override {
-    constexpr std::size_t kGrain = 1024;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), kGrain), [&](const auto& range) {
-      for (std::size_t r = range.begin(); r < range.end(); ++r) {
-        distances[r] = static_cast<float>(RayWalk<Ground>(ground_, rays[r]).closest());
-      }
-    });
-  }
-  std::size_t bytes() const override { return heap_bytes(this) + own_bytes(ground_); }
-
- private:
-  Ground ground_;
-};
-
 }  // namespace
 
 std::unique_ptr<RayCaster> own_ray_caster(const Representation& of) {
   const auto heights = [](const Heightmap& map) -> std::unique_ptr<RayCaster> {
     if (map.grid().width < 2 || map.grid().depth < 2) return nullptr;  // no area
-    return std::make_unique<Caster<HeightGround>>(map);
+    return std::make_unique<GroundCaster<HeightGround>>(map);
   };
   const auto spans = [&](const ColumnGrid& grid) -> std::unique_ptr<RayCaster> {
-    return std::make_unique<Caster<SpanGround>>(of, grid);
+    return std::make_unique<GroundCaster<SpanGround>>(of, grid);
   };
   if (const auto* const map = dynamic_cast<const Heightmap*>(&of)) return heights(*map);
   if (const auto* const drills = dynamic_cast<const DrillTerrain*>(&of)) return heights(drills->surface());
   if (const auto* const stack = dynamic_cast<const LayeredStack*>(&of)) return spans(stack->grid());
   if (const auto* const voxels = dynamic_cast<const Voxel*>(&of)) return spans(voxels->grid());
   if (const auto* const cells = dynamic_cast<const DenseGrid*>(&of)) return spans(cells->grid());
+  if (const auto* const tree = dynamic_cast<const Ght*>(&of)) return ght_ray_caster(*tree);
+  if (const auto* const surface = dynamic_cast<const ImplicitSurface*>(&of))
   return nullptr;
 }
 

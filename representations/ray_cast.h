@@ -1,12 +1,15 @@
-// Closest hits of arbitrary rays on a representation, from its heights or spans and without a mesh.
+// Closest hits of arbitrary rays on a representation, from what it holds and without a mesh.
 //
 //   heightmap, drill                     the two triangles of each square of samples, as mesh() draws them
 //   layered_stack, voxel, dense_voxel    blocks: each column's spans, as wide as the column
+//   ght                                  squares and faces, as mesh() draws them: ght/ght_rays.h
 //
 // Rays walk over the columns in plan (Amanatides & Woo 1987) and skip blocks of 4^l × 4^l columns whose
 // highest solid point lies below them (maximum mipmaps; Tevs, Ihrke & Seidel 2008). No ray slips through an
 // edge between columns: whether it is in the solid is carried from column to column, and any change is a hit.
-// Other types are cast through their mesh: renderers/raytrace/ray_index.h.
+// A procedural_mesh is a mesh already, with no columns to walk over, and has no caster of its own; nor has an
+// implicit surface.
+// Any mesh is cast by Embree: renderers/raytrace/ray_index.h.
 #pragma once
 
 #include <cstddef>

@@ -116,10 +116,11 @@ inline bool clip(double origin, double direction, double low, double high, Stret
 //   bool solid(i, j, path, t);                   whether the ray is in the solid at t, as cell (i, j) says
 //   double change(i, j, path, stretch, lowest, inside);  where it first is not as `inside` says, or infinity;
 //                                                `lowest`: the ray's least height on the stretch
+// A ground that is not const is one ray's own, and may remember what it found on earlier stretches.
 template <class Ground>
 class RayWalk {
  public:
-  RayWalk(const Ground& ground, const Ray& ray) : ground_(ground), path_(ray), ray_(ray) {}
+  RayWalk(Ground& ground, const Ray& ray) : ground_(ground), path_(ray), ray_(ray) {}
 
   // Infinity for no hit.
   double closest() {
@@ -136,7 +137,8 @@ class RayWalk {
     end_ = box.end;
     i_ = ground_.x.cell_at(path_.x(begin_));
     j_ = ground_.z.cell_at(path_.z(begin_));
-    inside_ = begin_ <= ray_.near && ground_.solid(i_, j_, path_, begin_);
+    inside_ = ground_.solid(i_, j_, path_, begin_);
+    if (inside_ && begin_ > ray_.near) return begin_;  // through a wall or the floor
     const double hit = walk();
     if (hit < kNone) return hit;
     return inside_ && end_ < ray_.far ? end_ : kNone;
@@ -188,7 +190,7 @@ class RayWalk {
     return (block ^ (cell >> shift)) >> TopPyramid::kShift != 0;
   }
 
-  const Ground& ground_;
+  Ground& ground_;
   RayPath path_;
   const Ray& ray_;
   double begin_ = 0, end_ = 0;

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -90,6 +91,21 @@ class ComposedSurface {
     for (std::uint32_t e = tiles_[tile].first[slot(s)]; e != kNone; e = entries_[e].next)
       visit(entries_[e].face);
   }
+  // The same for those whose box in the square meets that of the line from `from` to `to` in plan (x, z).
+  template <class Visit>
+  void along(Square s, glm::dvec2 from, glm::dvec2 to, const Visit& visit) const {
+    const std::uint32_t tile = tile_of_[tile_index(s)];
+    if (tile == kNone) return;
+    const glm::dvec2 a = steps_in(s, from), b = steps_in(s, to), low = glm::min(a, b), high = glm::max(a, b);
+    for (std::uint32_t e = tiles_[tile].first[slot(s)]; e != kNone; e = entries_[e].next) {
+      const std::uint32_t box = entries_[e].box;
+      if (high.x < (box & 255U) || low.x > (box >> 8U & 255U) + 1.0 || high.y < (box >> 16U & 255U) ||
+          low.y > (box >> 24U) + 1.0) {
+        continue;
+      }
+      visit(entries_[e].face);
+    }
+  }
   // Calls visit(FaceId) for every face.
   template <class Visit>
   void each_face(const Visit& visit) const {
@@ -148,6 +164,11 @@ class ComposedSurface {
   struct Corners {  // of a face, in plan
     glm::dvec2 low, high;
   };
+  // Of a point in plan, from the square's first corner.
+  glm::dvec2 steps_in(Square s, glm::dvec2 plan) const {
+    return kBoxSteps *
+           glm::dvec2((plan.x - grid_.origin_x) * per_x_ - s.i, (plan.y - grid_.origin_z) * per_z_ - s.j);
+  }
   static Corners corners_of(const Tree& tree, const Face& face);
   std::uint32_t box_in(Square s, const Corners& face) const;
 

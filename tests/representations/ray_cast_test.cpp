@@ -1,79 +1,10 @@
 // Rays on representations against every triangle of a mesh in turn, in double precision.
-#include "representations/ray_cast.h"
-
 #include <tbb/global_control.h>
 
-#include <glm/geometric.hpp>
-
-#include "tests/representations/ground.h"
+#include "tests/representations/rays.h"
 
 namespace terrabench::test {
 namespace {
-
-constexpr float kNone = std::numeric_limits<float>::infinity();
-
-// Möller & Trumbore 1997, both sides.
-double distance_to(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const Ray& ray) {
-  const glm::dvec3 o(ray.origin), d(ray.direction), ab = b - a, ac = c - a, p = glm::cross(d, ac);
-  const double determinant = glm::dot(ab, p);
-  if (determinant == 0) return kNone;
-  const glm::dvec3 s = o - a, q = glm::cross(s, ab);
-  const double u = glm::dot(s, p) / determinant, v = glm::dot(d, q) / determinant;
-  const double t = glm::dot(ac, q) / determinant;
-  return u >= 0 && v >= 0 && u + v <= 1 && t >= ray.near && t <= ray.far ? t : kNone;
-}
-
-float brute_force(const TriangleMesh& mesh, const Ray& ray) {
-  double nearest = kNone;
-  for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
-    const auto corner = [&](std::size_t k) { return glm::dvec3(mesh.positions[mesh.indices[t + k]]); };
-    nearest = std::min(nearest, distance_to(corner(0), corner(1), corner(2), ray));
-  }
-  return static_cast<float>(nearest);
-}
-
-// From places in and around the bounds, in all directions; a part starts later or ends early.
-std::vector<Ray> random_rays(const Bounds& bounds, unsigned seed, int count) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> unit(0, 1);
-  std::normal_distribution<float> normal;
-  std::vector<Ray> rays;
-  for (int r = 0; r < count; ++r) {
-    const glm::vec3 share = glm::vec3(unit(random), unit(random), unit(random)) * 1.6F - 0.3F;
-    Ray ray{bounds.low + share * bounds.size(), {normal(random), normal(random), normal(random)}};
-    ray.direction *= glm::length(bounds.size()) / 3;
-    if (r % 4 == 1) ray.direction.y *= 0.01F;  // grazing
-    if (r % 8 == 2) ray.far = unit(random);
-    if (r % 8 == 3) ray.near = unit(random);
-    rays.push_back(ray);
-  }
-  return rays;
-}
-
-std::vector<float> cast(const Representation& on, std::span<const Ray> rays) {
-  std::vector<float> distances(rays.size());
-  const auto caster = own_ray_caster(on);
-  EXPECT_NE(caster, nullptr);
-  if (caster) caster->closest(rays, distances);
-  return distances;
-}
-
-// Compares with the triangles; at least an eighth of the rays must hit.
-void expect_hits(const Representation& on, const TriangleMesh& mesh, unsigned seed) {
-  const std::vector<Ray> rays = random_rays(bounds_of(mesh), seed, 1000);
-  const std::vector<float> distances = cast(on, rays);
-  std::size_t hits = 0;
-  for (std::size_t r = 0; r < rays.size(); ++r) {
-    const float expected = brute_force(mesh, rays[r]);
-    hits += std::isfinite(expected);
-    if (std::isfinite(expected)) {
-      EXPECT_NEAR(distances[r], expected, 2e-5F * std::max(1.0F, expected)) << "ray " << r;
-    } else {
-      EXPECT_EQ(distances[r], kNone) << "ray " << r;
-    }
-  }
-  EXPECT_GT(hits, rays.size() / 8);
-}
 
 std::vector<float> rough(int count, unsigned seed, int hole_every) {
   std::mt19937 random(seed);
@@ -141,8 +72,8 @@ TEST(RayCast, VerticalRaysHitWhatColumnsSay) {
   const std::vector<float> distances = cast(*built, rays);
   for (std::size_t c = 0; c < sink.columns(); ++c) {
     const auto column = sink.column(c);
-    EXPECT_FLOAT_EQ(distances[2 * c], column.empty() ? kNone : bounds.high.y + 5 - column.back().top);
-    EXPECT_FLOAT_EQ(distances[2 * c + 1], column.empty() ? kNone : column.front().bottom - bounds.low.y + 5);
+    EXPECT_FLOAT_EQ(distances[2 * c], column.empty() ? kNoHit : bounds.high.y + 5 - column.back().top);
+    EXPECT_FLOAT_EQ(distances[2 * c + 1], column.empty() ? kNoHit : column.front().bottom - bounds.low.y + 5);
   }
 }
 
@@ -174,7 +105,7 @@ TEST(RayCast, NoRaySlipsThroughAnEdgeOrACorner) {
   const std::vector<float> level = cast(*built, rays);
   for (std::size_t r = 0; r < rays.size(); ++r) {
     // The mesh is hit by this ray, or by one of its neighbours where it runs within a wall or an edge.
-    float low = kNone, high = 0;
+    float low = kNoHit, high = 0;
     for (const float dx : {-1e-3F, 1e-3F}) {
       Ray near = rays[r];
       near.origin += glm::vec3(dx, dx, -dx);
@@ -197,7 +128,7 @@ TEST(RayCast, GroundIsHitFromInside) {
   EXPECT_FLOAT_EQ(distances[0], 0.25F);
   EXPECT_FLOAT_EQ(distances[1], 3.5F - floor);
   EXPECT_FLOAT_EQ(distances[2], 3.75F);
-  EXPECT_EQ(distances[3], kNone);
+  EXPECT_EQ(distances[3], kNoHit);
 }
 
 TEST(RayCast, RaysThatAreNoneHitNothing) {
@@ -210,22 +141,24 @@ TEST(RayCast, RaysThatAreNoneHitNothing) {
   rays[4].near = kNan;
   rays[5].far = kNan;
   rays[6].near = -1;
-  rays[7].origin = {kNone, 0, 0};
+  rays[7].origin = {kNoHit, 0, 0};
   rays[8].direction = {0, -kFar, 0};
   rays[9] = {{3, 100, 3}, {0, -1, 0}, 5, 4};
-  for (const char* type : {"heightmap", "layered_stack"}) {
+  for (const char* type : {"heightmap", "layered_stack", "ght"}) {
     const std::vector<float> distances =
         cast(*build(type, from_heights(8, 8, std::vector<float>(64, 1.0F))), rays);
     EXPECT_NEAR(distances[0], 99, 0.5);
-    for (std::size_t r = 1; r < rays.size(); ++r) EXPECT_EQ(distances[r], kNone) << type << ' ' << r;
+    for (std::size_t r = 1; r < rays.size(); ++r) EXPECT_EQ(distances[r], kNoHit) << type << ' ' << r;
   }
 }
 
-TEST(RayCast, TypesWithoutColumnsOrHeightsHaveNone) {
+TEST(RayCast, MeshesAndGroundWithoutAreaHaveNone) {
   const TerrainSource source = from_heights(8, 8, std::vector<float>(64, 1.0F));
+  EXPECT_EQ(own_ray_caster(*build("procedural_mesh", source)), nullptr);
   EXPECT_EQ(own_ray_caster(*build("implicit", source)), nullptr);
-  EXPECT_EQ(own_ray_caster(*build("ght", source)), nullptr);
-  EXPECT_EQ(own_ray_caster(*build("heightmap", from_heights(5, 1, {1, 2, 3, 4, 5}))), nullptr);
+  for (const char* type : {"heightmap", "ght"}) {
+    EXPECT_EQ(own_ray_caster(*build(type, from_heights(5, 1, {1, 2, 3, 4, 5}))), nullptr) << type;
+  }
 }
 
 TEST(RayCast, ThreadsChangeNothing) {
@@ -237,7 +170,7 @@ TEST(RayCast, ThreadsChangeNothing) {
 }
 
 TEST(RayCast, BytesAreThoseOfTheAllocator) {
-  for (const char* type : {"heightmap", "layered_stack"}) {
+  for (const char* type : {"heightmap", "layered_stack", "ght"}) {
     const auto built = build(type, from_heights(200, 150, rough(30000, 6, 0)));
     own_ray_caster(*built);
     const HeapScope scope;

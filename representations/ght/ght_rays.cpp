@@ -1,0 +1,132 @@
+#include "representations/ght/ght_rays.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "representations/cast_all.h"
+#include "representations/plan_square.h"
+#include "representations/ray_triangle.h"
+
+namespace terrabench {
+namespace {
+
+using namespace ght;
+
+constexpr double kNoHit = std::numeric_limits<double>::infinity();
+constexpr float kNothing = -std::numeric_limits<float>::infinity();
+
+// A Ground of ray_walk.h. `inside` alone tells the ray's state in simple squares; over others, every triangle
+// on the way is a hit, as it is on mesh().
+struct GhtGround {
+  explicit GhtGround(const Ght& of)
+      : tree(of.model().tree),
+        surface(of.model().surface),
+        x{tree.grid().origin_x, tree.grid().spacing_x, of.bounds().low.x, of.bounds().high.x,
+          tree.grid().width - 1},
+        z{tree.grid().origin_z, tree.grid().spacing_z, of.bounds().low.z, of.bounds().high.z,
+          tree.grid().depth - 1},
+        floor(of.model().floor),
+        tops(x.cells, z.cells, [&](int i, int j) {
+          return top({i, j});
+        }) {
+    highest = tops.levels() == 0 ? top({0, 0}) : tops.at(tops.levels(), 0, 0);
+  }
+
+  // Of a square that is no hole.
+  CornerHeights corners(Square s) const {
+    const auto height = [&](int i, int j) { return tree.height(tree.at_sample(i, j)); };
+    return {height(s.i, s.j), height(s.i + 1, s.j), height(s.i, s.j + 1), height(s.i + 1, s.j + 1)};
+  }
+  std::array<glm::vec3, 3> positions(const Face& face) const {
+    return {tree.position(face[0]), tree.position(face[1]), tree.position(face[2])};
+  }
+  PlanSquare square(Square s, const CornerHeights& c, const RayPath& path) const {
+    return {x, z, s.i, s.j, c, path};
+  }
+
+  float top(Square s) const {
+    float highest_corner = surface.plain(tree, s) ? corners(s).highest() : kNothing;
+    surface.over(s, [&](FaceId f) {
+      for (const CellId c : surface.face(f)) highest_corner = std::max(highest_corner, tree.position(c).y);
+    });
+    return highest_corner;
+  }
+
+  bool solid(int i, int j, const RayPath& path, double t) const {
+    const Square s{i, j};
+    if (ComposedSurface::hole(tree, s)) return false;
+    if (surface.simple(s)) return square(s, corners(s), path).below(t);
+    thread_local std::vector<Crossing> crossings;
+    crossings.clear();
+    surface.crossings(tree, static_cast<float>(path.x(t)), static_cast<float>(path.z(t)), s, crossings);
+    int depth = 0;
+    for (const Crossing& c : crossings) depth += c.y > path.y(t) ? c.weight : 0;
+    return depth > 0;
+  }
+
+  double change(int i, int j, const RayPath& path, Stretch at, double lowest, bool inside) const {
+    const Square s{i, j};
+    if (ComposedSurface::hole(tree, s)) return inside ? at.begin : kNoHit;
+    if (!surface.simple(s)) return change_among_faces(s, path, at, inside);
+    const CornerHeights c = corners(s);
+    if (!inside && lowest > c.highest()) return kNoHit;
+    return square(s, c, path).change(at, inside);
+  }
+
+  double change_among_faces(Square s, const RayPath& path, Stretch at, bool inside) const {
+    if (!inside && beside_hole(s) && solid(s.i, s.j, path, at.begin)) return at.begin;
+    const TriangleRay ray(path);
+    // Rounding may put a hit on the border between two squares beyond both.
+    const double slip = 1e-9 * (at.end - at.begin) + 1e-12 * std::abs(at.end);
+    double nearest = kNoHit;
+    const auto test = [&](const Face& face) {
+      const double t = ray.meets(positions(face));
+      if (t >= at.begin - slip && t <= at.end + slip) {
+        nearest = std::min(nearest, std::clamp(t, at.begin, at.end));
+      }
+    };
+    if (surface.plain(tree, s)) {
+      // As planes, so that it fits to simple squares, and as triangles, so that it fits to faces.
+      const PlanSquare ground = square(s, corners(s), path);
+      const double above = ground.above(at.begin);
+      if ((above < 0) != inside && std::abs(above) < within_rounding()) return at.begin;
+      nearest = ground.change(at, above < 0);
+      for (const Face& face : ComposedSurface::plain_faces(ComposedSurface::corners(tree, s))) test(face);
+    }
+    surface.along(s, {path.x(at.begin), path.z(at.begin)}, {path.x(at.end), path.z(at.end)},
+                  [&](FaceId f) { test(surface.face(f)); });
+    return nearest;
+  }
+
+  // A ray that passes the ground on the very border of two squares may have done so by the planes of the one
+  // and not yet by those of the other. A millionth of a cell is more than their rounding, metres.
+  double within_rounding() const { return 1e-6 * static_cast<double>(tree.grid().spacing()); }
+
+  // Between a hole and ground there is a wall.
+  bool beside_hole(Square s) const {
+    if (!tree.has_holes()) return false;
+    const auto hole = [&](int i, int j) {
+      return i >= 0 && j >= 0 && i < x.cells && j < z.cells && ComposedSurface::hole(tree, {i, j});
+    };
+    return hole(s.i - 1, s.j) || hole(s.i + 1, s.j) || hole(s.i, s.j - 1) || hole(s.i, s.j + 1);
+  }
+
+  double closest(const Ray& ray) const { return RayWalk(*this, ray).closest(); }
+  std::size_t bytes() const { return tops.bytes(); }
+
+  const Tree& tree;
+  const ComposedSurface& surface;
+  PlanAxis x, z;
+  double floor, highest = 0;
+  TopPyramid tops;
+};
+
+}  // namespace
+
+std::unique_ptr<RayCaster> ght_ray_caster(const Ght& of) {
+  const SampleGrid& grid = of.model().tree.grid();
+  if (grid.width < 2 || grid.depth < 2) return nullptr;
+  return std::make_unique<GroundCaster<GhtGround>>(of);
+}
+
+}  // namespace terrabench
