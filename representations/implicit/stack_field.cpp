@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "terrain/error.h"
 
@@ -76,31 +75,6 @@ std::int64_t StackField::unit_z(double z) const {
 double StackField::unit_y(double y) const {
   const ColumnGrid& grid = stack_.grid();
   return static_cast<double>(rounded((y - grid.origin_y) / grid.step * static_cast<double>(level_unit_)));
-}
-
-// Moved by a length along one axis, the cube loses a slab of its support and takes in another: at most the
-// length's share of the radius changes from solid to air. The sphere loses at most its cross-section times
-// the length.
-double StackField::steepest(glm::dvec3 apart) const {
-  if (kernel_ == Kernel::kSphere) return 1.06 * 1.5 * glm::length(apart) / radius_;
-  const ColumnGrid& grid = stack_.grid();
-  const auto share = [](double metres, double cell, std::int64_t unit, std::int64_t radius) {
-    return std::abs(metres) / cell * static_cast<double>(unit) / static_cast<double>(radius);
-  };
-  return share(apart.x, grid.cell_x, column_unit_, radius_x_) +
-         share(apart.y, grid.step, level_unit_, radius_y_) +
-         share(apart.z, grid.cell_z, column_unit_, radius_z_);
-}
-
-// Rounding moves each of two points by up to half a unit, or half a phase.
-double StackField::jump() const {
-  constexpr double kFloat = 1e-6;  // more than rounding the result
-  if (kernel_ == Kernel::kSphere) {
-    const ColumnGrid& grid = stack_.grid();
-    return steepest({grid.cell_x / SphereChords::kPhases, 0, grid.cell_z / SphereChords::kPhases}) + kFloat;
-  }
-  return 1.0 / static_cast<double>(radius_x_) + 1.0 / static_cast<double>(radius_y_) +
-         1.0 / static_cast<double>(radius_z_) + kFloat;
 }
 
 void add_solid_lengths(const ColumnRuns& runs, double per_level, std::span<const double> v, double radius,

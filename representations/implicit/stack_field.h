@@ -42,11 +42,6 @@ class StackField final : public SampledField {
   std::unique_ptr<FieldPlanes> planes(std::span<const float> xs, std::span<const float> ys) const override;
   float at(glm::vec3) const override;
   Heights heights(glm::dvec2 low, glm::dvec2 high) const override;
-  // Bounds on how fast the field changes: between two points that are `apart`, metres per axis, by no more
-  // than steepest(apart) + jump(). Exact for the cube. For the sphere, whose table of chords is no exact
-  // sphere, with 6 % added.
-  double steepest(glm::dvec3 apart) const;
-  double jump() const;
   // Along a vertical line: heights y ascend. O(columns of the support · (their runs + y)).
   void line(double x, double z, std::span<const float> y, std::span<float> out) const;
   Memory memory() const { return chords_.memory(); }
