@@ -186,7 +186,6 @@ std::unique_ptr<RayCaster> own_ray_caster(const Representation& of) {
   if (const auto* const voxels = dynamic_cast<const Voxel*>(&of)) return spans(voxels->grid());
   if (const auto* const cells = dynamic_cast<const DenseGrid*>(&of)) return spans(cells->grid());
   if (const auto* const tree = dynamic_cast<const Ght*>(&of)) return ght_ray_caster(*tree);
-  if (const auto* const surface = dynamic_cast<const ImplicitSurface*>(&of))
   return nullptr;
 }
 
