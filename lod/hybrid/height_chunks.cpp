@@ -19,8 +19,16 @@ glm::vec3 normal_of(const Heightfield& field, glm::ivec2 at) {
 }
 
 HeightChunks::HeightChunks(const Heightfield& heights) : heights_(heights) {
-  const glm::ivec2 chunks = layout().chunks;
-  versions_.assign(static_cast<std::size_t>(chunks.x) * static_cast<std::size_t>(chunks.y), 0);
+  const glm::ivec2 tiles = (layout().chunks + kTile - 1) / kTile;
+  tiles_x_ = tiles.x;
+  versions_.resize(index({0, tiles.y}, tiles.x));
+}
+
+Memory HeightChunks::memory() const {
+  Memory memory;
+  memory.index = heap_bytes(versions_.data());
+  for (const auto& tile : versions_) memory.index += heap_bytes(tile.get());
+  return memory;
 }
 
 // A normal depends on the samples around its own.
@@ -29,7 +37,11 @@ void HeightChunks::edited(glm::ivec2 low, glm::ivec2 high) {
   const glm::ivec2 from = glm::max(low - 2, 0) / kCells,
                    to = glm::min((high + 1) / kCells, layout.chunks - 1);
   for (int b = from.y; b <= to.y; ++b) {
-    for (int a = from.x; a <= to.x; ++a) ++versions_[number({a, b})];
+    for (int a = from.x; a <= to.x; ++a) {
+      auto& tile = versions_[tile_of({a, b})];
+      if (!tile) tile = std::make_unique<std::uint64_t[]>(static_cast<std::size_t>(kTile) * kTile);
+      ++tile[place_in_tile({a, b})];
+    }
   }
 }
 

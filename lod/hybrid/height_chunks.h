@@ -2,6 +2,7 @@
 // of ground that has no other. Cells need not be square here; cell() is the one along x.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "lod/hybrid/chunk_layout.h"
@@ -19,23 +20,30 @@ class HeightChunks final : public MeshChunks {
   glm::ivec2 chunks() const override { return layout().chunks; }
   // O(cells). `detail` must be 0.
   TriangleMesh chunk(glm::ivec2 at, int detail) const override;
-  std::uint64_t version(glm::ivec2 at) const override { return versions_[number(at)]; }
+  std::uint64_t version(glm::ivec2 at) const override {
+    const auto& tile = versions_[tile_of(at)];
+    return tile ? tile[place_in_tile(at)] : 0;
+  }
   // The heights at samples low … high have changed.
   void edited(glm::ivec2 low, glm::ivec2 high);
-  Memory memory() const { return index_memory(versions_); }
+  Memory memory() const;
 
   // The chunks cover the ground; the last ones may be narrower.
   ChunkLayout layout() const;
 
  private:
   static constexpr int kCells = 16;
-  std::size_t number(glm::ivec2 at) const {
-    return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(layout().chunks.x) +
-           static_cast<std::size_t>(at.x);
+  static constexpr int kTile = 64;  // chunks along a side of a tile
+  static std::size_t index(glm::ivec2 at, int width) {
+    return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(at.x);
   }
+  std::size_t tile_of(glm::ivec2 chunk) const { return index(chunk / kTile, tiles_x_); }
+  static std::size_t place_in_tile(glm::ivec2 chunk) { return index(chunk % kTile, kTile); }
 
   const Heightfield& heights_;
-  std::vector<std::uint64_t> versions_;  // by chunk
+  int tiles_x_ = 0;
+  // Of each chunk, by tiles; null where nothing was edited, so that large ground costs nothing.
+  std::vector<std::unique_ptr<std::uint64_t[]>> versions_;
 };
 
 // The place of a sample as renderers compute it (vertex_position()), and the surface's unit normal there by
