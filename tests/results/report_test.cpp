@@ -235,6 +235,27 @@ TEST(Readme, HasTheCountsOfTheRunThatIsKept) {
       << "run scripts/readme-counts";
 }
 
+// The committed report with all that its pages show, so that it can be sent and opens fast.
+TEST(Reference, ReportIsSmall) {
+  const std::filesystem::path report =
+      std::filesystem::path(TERRABENCH_SOURCE_DIR) / "results/reference/report";
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(report)) {
+    if (entry.is_regular_file()) bytes += entry.file_size();
+  }
+  EXPECT_LT(bytes, 15'000'000U);
+  // Nothing that the main page shows lies outside of that folder, or is missing from it.
+  const std::string page = read_file(report / "index.html");
+  std::size_t pictures = 0;
+  for (std::size_t at = 0; (at = page.find("<img src=\"", at)) != page.npos; ++pictures) {
+    at += 10;
+    const std::string file = page.substr(at, page.find('"', at) - at);
+    EXPECT_FALSE(file.starts_with("../")) << file;
+    EXPECT_TRUE(std::filesystem::is_regular_file(report / file)) << file;
+  }
+  EXPECT_GE(pictures, 100U);
+}
+
 TEST(Readme, HasTheFindingsOfTheRunThatIsKept) {
   const std::filesystem::path root = TERRABENCH_SOURCE_DIR;
   const std::string findings = read_file(root / "results/reference/report/findings-short.md");
