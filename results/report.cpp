@@ -20,6 +20,7 @@
 #include "results/ranking.h"
 #include "results/report_parts.h"
 #include "results/report_tables.h"
+#include "results/shown_pictures.h"
 #include "terrain/files.h"
 
 namespace terrabench {
@@ -249,25 +250,11 @@ class Report {
     document_.push_back(std::move(notes));
   }
 
-  // Whether a claim of class F is about this figure. Claims of other classes may have it as a condition too.
-  bool has_own_claim(const Paper& paper, const std::string& figure) const {
-    return std::ranges::any_of(results_.of(paper), [&](const Judgement& j) {
-      return j.claim->claim_class == 'F' &&
-             std::ranges::count(j.claim->conditions, figure, &Condition::figure) > 0;
-    });
-  }
-
   void add_gallery(const Paper& paper) {
     Gallery gallery;
-    for (const Judgement& judgement : results_.of(paper)) {
-      for (const Condition& condition : judgement.claim->conditions) {
-        const auto [record, figure] = store_.find_figure(condition.figure, results_.profile);
-        if (figure == nullptr || (judgement.claim->claim_class != 'F' && has_own_claim(paper, figure->id)))
-          continue;
-        claimed_.insert(figure->id);
-        add_picture(gallery, *record, *figure, judgement.claim->where,
-                    judgement.claim->statement + " " + figure->caption);
-      }
+    for (ShownPicture& shown : claimed_pictures(store_, results_, paper)) {
+      claimed_.insert(shown.figure->id);
+      add_picture(gallery, std::move(shown));
     }
     if (gallery.pictures.empty()) return;
     document_.push_back(Heading{3, "Figures, in the paper's order", paper.id + "-figures"});
@@ -290,7 +277,8 @@ class Report {
       if (record.profile != results_.profile) continue;
       for (const RecordedFigure& figure : record.figures) {
         if (!claimed_.contains(figure.id)) {
-          add_picture(gallery, record, figure, record.experiment + " " + record.case_name, figure.caption);
+          add_picture(gallery,
+                      {&record, &figure, record.experiment + " " + record.case_name, figure.caption});
         }
       }
     }
@@ -300,9 +288,9 @@ class Report {
     document_.push_back(std::move(gallery));
   }
 
-  void add_picture(Gallery& gallery, const Record& record, const RecordedFigure& figure, std::string title,
-                   std::string caption) {
-    std::optional<Picture> picture = parts_.picture(record, figure, std::move(title), std::move(caption));
+  void add_picture(Gallery& gallery, ShownPicture shown) {
+    std::optional<Picture> picture =
+        parts_.picture(*shown.record, *shown.figure, std::move(shown.title), std::move(shown.caption));
     if (!picture) return;
     links_.pictures.insert(picture->file);
     gallery.pictures.push_back(std::move(*picture));
@@ -311,10 +299,8 @@ class Report {
   // Those of these figures that were drawn, side by side.
   void add_pictures(std::span<const std::string> ids, Document& to) {
     Gallery gallery;
-    for (const std::string& id : ids) {
-      const auto [record, figure] = store_.find_figure(id, results_.profile);
-      if (figure == nullptr) continue;
-      add_picture(gallery, *record, *figure, record->experiment + " " + record->case_name, figure->caption);
+    for (ShownPicture& shown : drawn_pictures(store_, results_.profile, ids)) {
+      add_picture(gallery, std::move(shown));
     }
     if (!gallery.pictures.empty()) to.push_back(std::move(gallery));
   }

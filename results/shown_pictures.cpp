@@ -1,0 +1,44 @@
+#include "results/shown_pictures.h"
+
+#include <algorithm>
+
+namespace terrabench {
+namespace {
+
+// Whether a claim of class F is about this figure. Claims of other classes may have it as a condition too.
+bool has_own_claim(std::span<const Judgement> judgements, const std::string& figure) {
+  return std::ranges::any_of(judgements, [&](const Judgement& j) {
+    return j.claim->claim_class == 'F' &&
+           std::ranges::count(j.claim->conditions, figure, &Condition::figure) > 0;
+  });
+}
+
+}  // namespace
+
+std::vector<ShownPicture> claimed_pictures(const Store& store, const JudgedResults& results,
+                                           const Paper& paper) {
+  std::vector<ShownPicture> pictures;
+  const auto judgements = results.of(paper);
+  for (const Judgement& judgement : judgements) {
+    const Claim& claim = *judgement.claim;
+    for (const Condition& condition : claim.conditions) {
+      const auto [record, figure] = store.find_figure(condition.figure, results.profile);
+      if (figure == nullptr || (claim.claim_class != 'F' && has_own_claim(judgements, figure->id))) continue;
+      pictures.push_back({record, figure, claim.where, claim.statement + " " + figure->caption});
+    }
+  }
+  return pictures;
+}
+
+std::vector<ShownPicture> drawn_pictures(const Store& store, std::string_view profile,
+                                         std::span<const std::string> ids) {
+  std::vector<ShownPicture> pictures;
+  for (const std::string& id : ids) {
+    const auto [record, figure] = store.find_figure(id, profile);
+    if (figure == nullptr) continue;
+    pictures.push_back({record, figure, record->experiment + " " + record->case_name, figure->caption});
+  }
+  return pictures;
+}
+
+}  // namespace terrabench
