@@ -158,9 +158,9 @@ void add_results(CLI::App& app, Arguments& a) {
   report->add_option("dir", a.report.folder, "Results folder")->capture_default_str();
   auto* const latex = report->add_option(
       "--latex", a.report.latex,
-      "Write this folder instead: tables and figures for a paper, which `latexmk -pdf` compiles "
-      "(Debian: latexmk, texlive-latex-recommended, lmodern). Figures are PDF, a column (84 mm) "
-      "and a page (174 mm) wide");
+      "Write this folder instead: tables, plots and pictures for a paper, which `latexmk -pdf` compiles "
+      "(Debian: latexmk, texlive-latex-recommended, lmodern). Plots are PDF, a column (84 mm) "
+      "and a page (174 mm) wide; pictures are PNG as drawn");
   report
       ->add_option(
           "--reference", a.report.reference,

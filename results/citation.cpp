@@ -61,6 +61,8 @@ std::string paper_entry(const Paper& paper) {
     std::vector<std::string> authors;
     for (const std::string& author : reference.authors) authors.push_back(escaped(author));
     fields.emplace_back("author", joined(authors, " and ", " and "));
+  } else {
+    fields.emplace_back("key", paper.id);  // BibTeX sorts by it in place of authors
   }
   // Inner braces keep the title's capitals.
   fields.emplace_back("title", fmt::format("{{{}}}", escaped(title_of(reference))));

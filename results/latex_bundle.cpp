@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <fstream>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "results/citation.h"
 #include "results/fill.h"
@@ -15,13 +17,18 @@
 #include "results/plot.h"
 #include "results/rasterise.h"
 #include "results/report_tables.h"
+#include "results/shown_pictures.h"
 #include "results/tally.h"
+#include "terrain/error.h"
 #include "terrain/files.h"
+#include "terrain/image.h"
 
 namespace terrabench {
 namespace {
 
 constexpr double kColumn = 84, kPage = 174;  // millimetres
+// Pictures are printed at 254 dpi, at which their words can be read, and leave room for a caption.
+constexpr double kPixelsPerMillimetre = 10, kHighest = 190;
 
 // The first line of main.tex, by which an earlier bundle is known.
 constexpr std::string_view kMark =
@@ -45,6 +52,9 @@ constexpr std::string_view kPreamble = R"(
 \renewcommand{\textfraction}{0.05}
 \renewcommand{\floatpagefraction}{0.7}
 \emergencystretch=3em
+% pdfTeX's default, 9, compiles five times as long and saves 6 %.
+\ifdefined\pdfcompresslevel\pdfcompresslevel=3\fi
+\ifdefined\pdfsuppresswarningpagegroup\pdfsuppresswarningpagegroup=1\fi
 )";
 
 bool is_bundle(const std::filesystem::path& folder) {
@@ -81,21 +91,42 @@ Table own_rows(const Store& store, const JudgedResults& results, const Paper& pa
   return table;
 }
 
+// A figure of main.tex, without its float.
+struct FigureText {
+  std::string text;
+  bool column;  // 84 mm wide, so that two stand side by side; otherwise a line of its own
+};
+
+// `include`: what shows it.
+FigureText figure_text(bool column, std::string_view include, const std::string& title,
+                       std::string_view caption, std::string_view id) {
+  const std::string body = fmt::format("{}\n    \\caption{{{}. {}}}\n    \\label{{fig:{}}}\n", include,
+                                       escape_latex(title_beside_number(title)), escape_latex(caption), id);
+  if (!column) return {"    \\centering\n    " + body, false};
+  return {fmt::format("  \\begin{{minipage}}[t]{{{}mm}}\n    \\vspace{{0pt}}\\centering\n    {}"
+                      "  \\end{{minipage}}\n",
+                      kColumn, body),
+          true};
+}
+
 class Bundle {
  public:
   Bundle(const Store& store, std::span<const Paper> papers, const std::filesystem::path& out)
       : store_(store), papers_(papers), out_(out), results_(judge(store, papers)) {}
 
-  void write() {
+  // Returns the files of pictures that are left out.
+  std::vector<std::string> write() {
+    for (const Paper& paper : papers_) add_paper(paper);
+    const std::string sections = std::move(text_);
     text_ = fmt::format(
-        "{}{}\\title{{Five terrain papers, measured again}}\n\\date{{}}\n\n\\begin{{document}}\n"
-        "\\maketitle\n",
+        "{}{}\\title{{Five terrain papers, measured again}}\n\\author{{}}\n\\date{{}}\n\n"
+        "\\begin{{document}}\n\\maketitle\n",
         kMark, kPreamble);
     introduce();
-    for (const Paper& paper : papers_) add_paper(paper);
-    text_ += "\\bibliographystyle{plain}\n\\bibliography{references}\n\\end{document}\n";
+    text_ += sections + "\\bibliographystyle{plain}\n\\bibliography{references}\n\\end{document}\n";
     write_file(out_ / "references.bib", bibtex(papers_));
     write_file(out_ / "main.tex", text_);
+    return left_out_;
   }
 
  private:
@@ -107,6 +138,11 @@ class Bundle {
       text_ += "\\textbf{These results cannot be trusted:} ";
       paragraph(fmt::format("{} lines or pictures were altered or damaged, or name an unknown run.",
                             results_.faults.size()));
+    }
+    if (!left_out_.empty()) {
+      text_ += "\\textbf{Pictures are left out,} ";
+      paragraph(
+          fmt::format("since they are missing, altered or not readable: {}.", fmt::join(left_out_, ", ")));
     }
     std::set<std::string> runs;
     for (const Record& record : store_.records()) {
@@ -128,10 +164,11 @@ class Bundle {
     }
     Table verdicts = own_rows(store_, results_, paper);
     if (!verdicts.rows.empty()) tables.push_back(std::move(verdicts));
-    std::vector<std::string> figures;
+    std::vector<FigureText> figures;
     for (const PlotLayout& layout : paper.plots) {
-      if (std::string figure = draw(layout); !figure.empty()) figures.push_back(std::move(figure));
+      if (std::optional<FigureText> figure = draw(layout)) figures.push_back(std::move(*figure));
     }
+    add_pictures(paper, figures);
     if (tables.empty() && figures.empty()) return;
     floating_ = false;
     text_ +=
@@ -142,27 +179,71 @@ class Bundle {
     add_figures(figures);
   }
 
-  // The two files of a plot, and what shows the smaller one in half a line; empty if nothing was measured.
-  std::string draw(const PlotLayout& layout) const {
+  // The two files of a plot, and what shows the smaller one in half a line; nothing if it was not measured.
+  std::optional<FigureText> draw(const PlotLayout& layout) const {
     const FilledPlot filled = fill(layout, store_, results_.profile);
-    if (filled.runs.empty()) return "";
+    if (filled.runs.empty()) return std::nullopt;
     const std::string stem = "figures/" + file_name(layout.id);
     std::filesystem::create_directories(out_ / "figures");
     svg_text_to_pdf(plot_svg(filled.plot, column_size(filled.plot)), out_ / (stem + ".pdf"), kColumn);
     svg_text_to_pdf(plot_svg(filled.plot, page_size(filled.plot)), out_ / (stem + "-page.pdf"), kPage);
-    return fmt::format(
-        "  \\begin{{minipage}}[t]{{{}mm}}\n    \\vspace{{0pt}}\\centering\n    \\includegraphics{{{}.pdf}}\n"
-        "    \\caption{{{}. {}}}\n    \\label{{fig:{}}}\n  \\end{{minipage}}",
-        kColumn, stem, escape_latex(title_beside_number(layout.title)), escape_latex(layout.caption),
-        layout.id);
+    return figure_text(true, fmt::format("\\includegraphics{{{}.pdf}}", stem), layout.title, layout.caption,
+                       layout.id);
   }
 
-  // Two in a line.
-  void add_figures(const std::vector<std::string>& figures) {
-    for (std::size_t i = 0; i < figures.size(); i += 2) {
-      text_ += "\\begin{figure}[htbp]\n" + figures[i];
-      if (i + 1 < figures.size()) text_ += "\\hfill\n" + figures[i + 1];
-      text_ += "\n\\end{figure}\n";
+  // Those of claims, then those of grounds; each once. A ground's `pictures` have no words, so that a column
+  // is wide enough.
+  void add_pictures(const Paper& paper, std::vector<FigureText>& figures) {
+    for (const ShownPicture& shown : claimed_pictures(store_, results_, paper)) {
+      add_picture(shown, kPage, figures);
+    }
+    for (const PageLayout& page : paper.pages) {
+      for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, page.sheets)) {
+        add_picture(shown, kPage, figures);
+      }
+      for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, page.pictures)) {
+        add_picture(shown, kColumn, figures);
+      }
+    }
+  }
+
+  // `widest`: millimetres.
+  void add_picture(const ShownPicture& shown, double widest, std::vector<FigureText>& figures) {
+    const std::string& from = shown.figure->file;
+    if (!pictures_.insert(from).second) return;
+    const std::optional<Image> image = read_intact(*shown.figure);
+    if (!image) {
+      left_out_.push_back(from);
+      return;
+    }
+    const std::string to = "pictures/" + file_name(std::filesystem::path(from).filename().string());
+    write_file(out_ / to, read_file(store_.folder() / from));
+    const double width =
+        std::min({image->width / kPixelsPerMillimetre, widest, kHighest * image->width / image->height});
+    figures.push_back(figure_text(width <= kColumn,
+                                  fmt::format("\\includegraphics[width={:.1f}mm]{{{}}}", width, to),
+                                  shown.title, shown.caption, shown.figure->id));
+  }
+
+  // Nothing if LaTeX could not read it either, or if it is not the picture that was drawn.
+  std::optional<Image> read_intact(const RecordedFigure& figure) const {
+    if (!store_.intact(figure)) return std::nullopt;
+    try {
+      return read_png(store_.folder() / figure.file);
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::kBadInput) throw;
+      return std::nullopt;
+    }
+  }
+
+  // Two of a column's width in a line, where they follow each other.
+  void add_figures(const std::vector<FigureText>& figures) {
+    for (std::size_t i = 0; i < figures.size(); ++i) {
+      text_ += "\\begin{figure}[htbp]\n" + figures[i].text;
+      if (figures[i].column && i + 1 < figures.size() && figures[i + 1].column) {
+        text_ += "  \\hfill\n" + figures[++i].text;
+      }
+      text_ += "\\end{figure}\n";
     }
   }
 
@@ -183,23 +264,24 @@ class Bundle {
   std::span<const Paper> papers_;
   const std::filesystem::path& out_;
   JudgedResults results_;
-  std::string text_;       // main.tex
-  bool floating_ = false;  // whether a table since the last clearpage may still move
+  std::string text_;                   // main.tex
+  bool floating_ = false;              // whether a table since the last clearpage may still move
+  std::set<std::string> pictures_;     // files of all that were asked for so far
+  std::vector<std::string> left_out_;  // files of those among them that cannot be shown
 };
 
 }  // namespace
 
-std::filesystem::path write_latex_bundle(const std::filesystem::path& results,
-                                         const std::filesystem::path& target) {
+WrittenBundle write_latex_bundle(const std::filesystem::path& results, const std::filesystem::path& target) {
   return write_latex_bundle(Store::open(results), papers(), target);
 }
 
-std::filesystem::path write_latex_bundle(const Store& store, std::span<const Paper> papers,
-                                         const std::filesystem::path& target) {
+WrittenBundle write_latex_bundle(const Store& store, std::span<const Paper> papers,
+                                 const std::filesystem::path& target) {
   NewFolder folder(target, is_bundle, "LaTeX bundle");
-  Bundle(store, papers, folder.path()).write();
+  std::vector<std::string> left_out = Bundle(store, papers, folder.path()).write();
   folder.publish();
-  return folder.target() / "main.tex";
+  return {folder.target() / "main.tex", std::move(left_out)};
 }
 
 }  // namespace terrabench

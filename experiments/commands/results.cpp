@@ -30,10 +30,25 @@ ExitCode check_command(const CheckArguments& arguments) {
   return results.passed() ? ExitCode::kGood : ExitCode::kClaimFallsShort;
 }
 
+namespace {
+
+std::filesystem::path latex_bundle(const ReportArguments& arguments) {
+  const WrittenBundle bundle = write_latex_bundle(arguments.folder, arguments.latex);
+  if (!bundle.left_out.empty()) {
+    fmt::print(
+        stderr,
+        "warning: {} of the pictures are missing, altered or not readable, and left out; the first: {}\n"
+        "  copy them beside measurements.jsonl, and write the bundle again\n",
+        bundle.left_out.size(), (arguments.folder / bundle.left_out.front()).string());
+  }
+  return bundle.main;
+}
+
+}  // namespace
+
 ExitCode report_command(const ReportArguments& arguments) {
-  const std::filesystem::path written = arguments.latex.empty()
-                                            ? write_report(arguments.folder, arguments.reference)
-                                            : write_latex_bundle(arguments.folder, arguments.latex);
+  const std::filesystem::path written =
+      arguments.latex.empty() ? write_report(arguments.folder, arguments.reference) : latex_bundle(arguments);
   fmt::print("{}\n", written.string());
   return ExitCode::kGood;
 }

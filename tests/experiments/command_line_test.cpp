@@ -263,12 +263,22 @@ TEST_F(CommandLine, CiteAndReportLatexServeAPaper) {
   const Outcome cite = call("$T cite");
   EXPECT_EQ(cite.code, 0);
   EXPECT_THAT(cite.text, HasSubstr("@misc{paper:drill,"));
-  ASSERT_EQ(call("$T run hybrid.noise-stages --shard 1/4 --set pixels=32 --out out").code, 0);
+  ASSERT_EQ(call("$T run hybrid.noise-stages --shard 1/4 --out out").code, 0);
   const Outcome latex = call("$T report out --latex bundle/");
   EXPECT_EQ(latex.code, 0) << latex.text;
   EXPECT_THAT(latex.text, HasSubstr("bundle/main.tex"));
   EXPECT_THAT(call("cat bundle/references.bib").text, HasSubstr(cite.text));
   EXPECT_FALSE(fs::exists(folder_ / "out/report")) << "only the bundle is written";
+  EXPECT_THAT(latex.text, Not(HasSubstr("warning")));
+  const auto pictures = [&] { return fs::is_directory(folder_ / "bundle/pictures"); };
+  EXPECT_TRUE(pictures());
+  fs::rename(folder_ / "out/figures", folder_ / "elsewhere");
+  const Outcome without = call("$T report out --latex bundle");
+  EXPECT_EQ(without.code, 0) << without.text;
+  EXPECT_THAT(without.text,
+              HasSubstr("are missing, altered or not readable, and left out; the first: out/figures/"));
+  EXPECT_FALSE(pictures());
+  fs::rename(folder_ / "elsewhere", folder_ / "out/figures");
   EXPECT_EQ(call("$T report out --latex out").code, 4) << "the measurements are no bundle";
   EXPECT_EQ(call("$T report out --latex bundle/main.tex").code, 4);
   EXPECT_TRUE(fs::exists(folder_ / "out/measurements.jsonl"));

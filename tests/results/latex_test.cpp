@@ -22,6 +22,29 @@ bool installed(const std::string& program) {
   return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
 }
 
+bool can_compile() {
+  return installed("latexmk") && installed("kpsewhich") &&
+         std::system("kpsewhich booktabs.sty lmodern.sty >/dev/null") == 0;
+}
+constexpr const char* kCannotCompile =
+    "Debian's latexmk, texlive-latex-recommended and lmodern are not all installed";
+
+// What the program prints; fails the test when it fails. `scratch`: a file that may be written.
+std::string output_of(const std::string& command, const std::filesystem::path& scratch) {
+  const int code = std::system((command + " >" + scratch.string() + " 2>&1").c_str());
+  std::string text = read_file(scratch);
+  EXPECT_EQ(code, 0) << command << "\n" << text;
+  return text;
+}
+
+// Lines of pdffonts are: name, type, encoding, embedded, subset, …
+bool all_fonts_are_embedded(const std::string& fonts, std::size_t heading_lines = 2) {
+  const auto lines = static_cast<std::size_t>(std::ranges::count(fonts, '\n'));
+  std::size_t embedded = 0;
+  for (std::size_t at = 0; (at = fonts.find(" yes yes ", at)) != fonts.npos; at += 8) ++embedded;
+  return lines > heading_lines && embedded == lines - heading_lines;
+}
+
 std::size_t count(std::string_view text, std::string_view part) {
   std::size_t n = 0;
   for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++n;
@@ -105,6 +128,16 @@ class LatexBundle : public FolderTest {
     ADD_FAILURE() << "no error";
     return "";
   }
+  // Compiles the bundle; its log. Fails the test when LaTeX fails or a reference leads nowhere.
+  std::string compiled() const {
+    output_of("cd " + bundle().string() + " && latexmk -pdf -interaction=nonstopmode -halt-on-error main.tex",
+              folder_ / "latexmk.txt");
+    EXPECT_TRUE(read_file(bundle() / "main.pdf").starts_with("%PDF-"));
+    std::string log = read_file(bundle() / "main.log");
+    for (const char* fault : {"undefined references", "undefined citations", "multiply-defined labels"})
+      EXPECT_THAT(log, Not(HasSubstr(fault)));
+    return log;
+  }
   std::size_t entries() const {
     return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
   }
@@ -112,7 +145,7 @@ class LatexBundle : public FolderTest {
 
 TEST_F(LatexBundle, HoldsWhatMainNames) {
   write_fake_results(folder_, "paper");
-  EXPECT_EQ(write_latex_bundle(folder_, bundle()), bundle() / "main.tex");
+  EXPECT_EQ(write_latex_bundle(folder_, bundle()).main, bundle() / "main.tex");
   const auto all = files();
   const std::string& main = all.at("main.tex");
   std::size_t named = 2;  // main.tex, references.bib
@@ -126,11 +159,18 @@ TEST_F(LatexBundle, HoldsWhatMainNames) {
       EXPECT_TRUE(content.starts_with("%PDF-")) << file;
       EXPECT_EQ(count(main, "\\includegraphics{" + file + "}"), file.ends_with("-page.pdf") ? 0U : 1U);
       ++named;
+    } else if (file.starts_with("pictures/")) {
+      const std::filesystem::path drawn = std::filesystem::path("figures") / file.substr(9);
+      EXPECT_EQ(content, read_file(folder_ / drawn)) << file;
+      EXPECT_EQ(count(main, "mm]{" + file + "}"), 1U);
+      EXPECT_EQ(count(main, "\\label{fig:" + drawn.stem().string() + "}"), 1U);
+      ++named;
     }
   }
   EXPECT_EQ(named, all.size());
   for (const char* file : {"tables/hybrid.table1.tex", "tables/summary.tex", "tables/verdicts-hybrid.tex",
-                           "figures/hybrid.table2-growth.pdf", "figures/hybrid.table2-growth-page.pdf"}) {
+                           "figures/hybrid.table2-growth.pdf", "figures/hybrid.table2-growth-page.pdf",
+                           "pictures/hybrid.F3.png", "pictures/relief.jacksboro.heightmap.png"}) {
     EXPECT_TRUE(all.contains(file)) << file;
   }
   EXPECT_THAT(all.at("tables/hybrid.table1.tex"), HasSubstr("6,291,456"));
@@ -139,6 +179,39 @@ TEST_F(LatexBundle, HoldsWhatMainNames) {
               testing::ContainsRegex("Claim[^&]*& The paper &[^&]*Printed[^&]*& Measured &[^&]*Verdict"));
   EXPECT_THAT(all.at("references.bib"), HasSubstr("@misc{paper:hybrid,"));
   EXPECT_THAT(main, HasSubstr("\\cite{paper:hybrid}"));
+}
+
+TEST_F(LatexBundle, PicturesThatAreGoneOrAlteredAreNamed) {
+  write_fake_results(folder_, "quick");
+  std::filesystem::remove(folder_ / "figures/hybrid.F4.png");
+  write_file(folder_ / "figures/hybrid.F6.png", std::string_view("altered"));
+  // As it was drawn, but not readable.
+  write_file(folder_ / "figures/x.png", std::string_view("no picture"));
+  Record newer = fake_record(fake_provenance(), "x", "y");
+  newer.figures = {{"hybrid.F7", "figures/x.png", "No picture", checksum("no picture")}};
+  Store(folder_).append(newer);
+  EXPECT_THAT(write_latex_bundle(folder_, bundle()).left_out,
+              testing::ElementsAre("figures/hybrid.F4.png", "figures/hybrid.F6.png", "figures/x.png"));
+  const auto all = files();
+  EXPECT_THAT(all.at("main.tex"), HasSubstr("missing, altered or not readable: figures/hybrid.F4.png, "
+                                            "figures/hybrid.F6.png, figures/x.png."));
+  for (int k = 3; k <= 13; ++k) {
+    const std::string name = "pictures/hybrid.F" + std::to_string(k) + ".png";
+    const bool there = k != 4 && k != 6 && k != 7;
+    EXPECT_EQ(all.contains(name), there) << name;
+    EXPECT_EQ(count(all.at("main.tex"), "{" + name + "}"), there ? 1U : 0U) << name;
+  }
+}
+
+TEST_F(LatexBundle, WithoutAnyPictureItHasTheTables) {
+  write_fake_results(folder_, "quick");
+  EXPECT_THAT(write_latex_bundle(folder_, bundle()).left_out, testing::IsEmpty());
+  std::filesystem::remove_all(folder_ / "figures");
+  EXPECT_EQ(write_latex_bundle(folder_, bundle()).left_out.size(), 12U);
+  const auto all = files();
+  EXPECT_FALSE(std::filesystem::exists(bundle() / "pictures"));
+  EXPECT_TRUE(all.contains("tables/hybrid.table1.tex"));
+  EXPECT_THAT(all.at("main.tex"), Not(HasSubstr("{pictures/")));
 }
 
 TEST_F(LatexBundle, SameMeasurementsSameBytesAndAnEarlierOneIsReplaced) {
@@ -192,21 +265,16 @@ TEST_F(LatexBundle, FiguresHaveTheirPrintSizeAndFonts) {
   Plot plot{"p", {"x", "m", true}, {"y", "τ² ≤ 1", false}, {{"s", {{1, 2, 2, 2}, {10, 3, 3, 3}}}}};
   const std::filesystem::path pdf = folder_ / "p.pdf", out = folder_ / "out";
   svg_text_to_pdf(plot_svg(plot, column_size(plot)), pdf, 84);
-  ASSERT_EQ(std::system(("pdfinfo " + pdf.string() + " >" + out.string()).c_str()), 0);
-  EXPECT_THAT(read_file(out), HasSubstr("Page size:       238.11 x"));  // 84 mm in points of 1/72 inch
-  ASSERT_EQ(std::system(("pdffonts " + pdf.string() + " >" + out.string()).c_str()), 0);
-  const std::string fonts = read_file(out);
+  // 84 mm in points of 1/72 inch.
+  EXPECT_THAT(output_of("pdfinfo " + pdf.string(), out), HasSubstr("Page size:       238.11 x"));
+  const std::string fonts = output_of("pdffonts " + pdf.string(), out);
   EXPECT_THAT(fonts, HasSubstr("DejaVuSans"));
-  // Name, type, encoding, embedded, subset, …
-  EXPECT_EQ(count(fonts, " yes yes yes "), count(fonts, "\n") - 2) << fonts;
+  EXPECT_TRUE(all_fonts_are_embedded(fonts)) << fonts;
   EXPECT_EQ(entries(), 2U) << "only the PDF and this test's own file are left";
 }
 
 TEST_F(LatexBundle, Compiles) {
-  if (!installed("latexmk") || !installed("kpsewhich") ||
-      std::system("kpsewhich booktabs.sty lmodern.sty >/dev/null") != 0) {
-    GTEST_SKIP() << "Debian's latexmk, texlive-latex-recommended and lmodern are not all installed";
-  }
+  if (!can_compile()) GTEST_SKIP() << kCannotCompile;
   Store store(folder_);
   const Provenance run = fake_provenance();
   store.begin_run(run);
@@ -220,14 +288,29 @@ TEST_F(LatexBundle, Compiles) {
   one[0].reference->authors = {"A & B_C %"};
   for (Claim& claim : one[0].claims) claim.statement += kAwkward;
   write_latex_bundle(store, one, bundle());
-  const std::string compile =
-      "cd " + bundle().string() +
-      " && latexmk -pdf -interaction=nonstopmode -halt-on-error main.tex >out.txt 2>&1";
-  EXPECT_EQ(std::system(compile.c_str()), 0) << read_file(bundle() / "out.txt");
-  EXPECT_TRUE(read_file(bundle() / "main.pdf").starts_with("%PDF-"));
-  const std::string log = read_file(bundle() / "main.log");
-  EXPECT_THAT(log, Not(HasSubstr("undefined references")));
-  EXPECT_THAT(log, Not(HasSubstr("Missing character")));
+  EXPECT_THAT(compiled(), Not(HasSubstr("Missing character")));
+}
+
+// The bundle of the run that is kept, whole: takes 20 s.
+TEST_F(LatexBundle, OfTheReferenceCompiles) {
+  if (!can_compile()) GTEST_SKIP() << kCannotCompile;
+  if (!installed("pdffonts")) GTEST_SKIP() << "Debian's poppler-utils is not installed";
+  const auto reference = std::filesystem::path(TERRABENCH_SOURCE_DIR) / "results/reference";
+  EXPECT_THAT(write_latex_bundle(reference, bundle()).left_out, testing::IsEmpty());
+  std::size_t bytes = 0, plots = 0;
+  for (const auto& [file, content] : files()) {
+    bytes += content.size();
+    if (!file.starts_with("figures/")) continue;
+    const std::string fonts = output_of("pdffonts " + (bundle() / file).string(), folder_ / "fonts");
+    EXPECT_TRUE(all_fonts_are_embedded(fonts)) << file << "\n" << fonts;
+    ++plots;
+  }
+  EXPECT_LT(bytes, 60'000'000U);
+  EXPECT_GE(plots, 50U);
+  const std::string log = compiled();
+  for (const char* fault : {"Overfull", "Missing character", "LaTeX Warning", "pdfTeX warning"})
+    EXPECT_THAT(log, Not(HasSubstr(fault)));
+  EXPECT_THAT(read_file(bundle() / "main.blg"), Not(HasSubstr("Warning")));
 }
 
 }  // namespace
