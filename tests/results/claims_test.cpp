@@ -382,7 +382,7 @@ TEST(Claims, RefusesWithFileAndLine) {
       "[[table]]\nid = \"p.t\"\ntitle = \"t\"\ncaption = \"c\"\nexperiment = \"e\"\nrows_title = \"r\"\n"
       "rows = [{label = \"l\", case = \"c\"}]\ncolumns = [{title = \"c\", verdict = \"v\"}]\npage = \"x\"\n";
   expect_refused(table, "unknown page 'x'", 4);
-  expect_refused(table + "[[page]]\nid = \"x\"\nabout = \"a\"\n", "stands on the main page", 4);
+  EXPECT_EQ(parse_claims(table + "[[page]]\nid = \"x\"\nabout = \"a\"\n", "x").tables[0].page, "x");
   const std::string ground =
       claim + "check = [{figure = \"f\"}]\n[[ground]]\nname = \"b\"\nof = \"a\"\nlabel = \"l\"\n";
   expect_refused(ground + "known = [{claim = \"p.9\", verdict = \"differs\"}]\n", "unknown claim 'p.9'", 14);

@@ -42,8 +42,8 @@ title = "Size"
 caption = "c"
 experiment = "e"
 rows_title = "r"
-rows = [{label = "l", case = "{ground}"}]
-columns = [{title = "Bytes", unit = "B", metric = "bytes"}]
+rows = [{label = "l", case = "{ground}", claim = "p.1"}]
+columns = [{title = "Bytes", unit = "B", metric = "bytes"}, {title = "Verdict", verdict = "claim"}]
 [[table]]
 id = "p.both"
 title = "Both"
@@ -145,6 +145,15 @@ TEST_F(GroundPageTest, IsListedWhereItsTablesWouldStand) {
     EXPECT_THAT(written("ledger.md"), HasSubstr(fmt::format("(ground-{}.md)", ground)));
     EXPECT_TRUE(has(fmt::format("tables/p.size-{}.csv", ground)));
   }
+}
+
+TEST_F(GroundPageTest, TheLedgerLeadsToATableWithVerdictsOnIt) {
+  for (const char* const ground : {"hill", "cave"}) measure(ground);
+  write_report(store_, papers_);
+  EXPECT_THAT(written("ground-hill.html"), HasSubstr("class=\"verdict reproduced\""));
+  EXPECT_THAT(written("ground-hill.md"), HasSubstr("reproduced"));
+  EXPECT_THAT(written("ledger.html"), HasSubstr("href=\"ground-hill.html#p.size-hill\""));
+  EXPECT_THAT(written("ledger.md"), HasSubstr("(ground-hill.md#p.size-hill)"));
 }
 
 TEST_F(GroundPageTest, EveryLinkLeadsSomewhere) {
