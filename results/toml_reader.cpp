@@ -157,6 +157,30 @@ void TomlTable::refuse_unknown() {
   for (const auto& [key, node] : rest()) node.fail(fmt::format("unknown key '{}'", key));
 }
 
+namespace {
+
+bool has_slot(const TomlValue& value) {
+  return value.node->is_string() && next_slot(value.node->ref<std::string>(), 0);
+}
+
+// A member's texts; those with slots come last, since they name the others.
+void read_member(TomlValue element, const std::string& set, SetMember& member) {
+  element.bound[set] = &member;
+  TomlTable entry(std::move(element));
+  member.fields.emplace(kName, entry.text(kName));
+  std::map<std::string, std::string> named;
+  const auto rest = entry.rest();
+  for (const auto& [key, value] : rest) {
+    if (!has_slot(value)) member.fields.emplace(key, value.text(key));
+  }
+  for (const auto& [key, value] : rest) {
+    if (has_slot(value)) named.emplace(key, value.text(key));
+  }
+  member.fields.merge(named);
+}
+
+}  // namespace
+
 void read_sets(const toml::table& table, TomlFile& file) {
   const toml::node* const sets = table.get("sets");
   if (sets == nullptr) return;
@@ -168,9 +192,7 @@ void read_sets(const toml::table& table, TomlFile& file) {
         member.fields.emplace(kName, element.text(name));
         continue;
       }
-      TomlTable entry(element);
-      member.fields.emplace(kName, entry.text(kName));
-      for (const auto& [key, value] : entry.rest()) member.fields.emplace(key, value.text(key));
+      read_member(element, name, member);
     }
     if (members.empty()) node.fail(fmt::format("the set '{}' is empty", name));
     file.sets.emplace(name, std::move(members));

@@ -218,11 +218,12 @@ TEST(Claims, EveryClaimOfTheDrillPaperIsJudgedOnFourGrounds) {
 TEST(Claims, EachStandsForEveryMemberOfASet) {
   const std::string sets =
       "[sets]\npx = [\"1\", \"2\"]\n"
-      "on = [{name = \"a\", at = \"here\"}, {name = \"b\", at = \"there\"}]\nother = [\"x\", \"y\"]\n";
+      "on = [{name = \"a\", at = \"here\", as = \"at {on}\"}, {name = \"b\", as = \"{on.at}: {on}\", at = "
+      "\"there\"}]\nother = [\"x\", \"y\"]\n";
   const std::string text =
       std::string(kHead) + sets +
       "[[claim]]\neach = [\"on\"]\nid = \"p.{on}\"\nwhere = \"{on.at}, "
-      "{on}\"\nstatement = \"s\"\nclass = \"E\"\n"
+      "{on}\"\nstatement = \"{on.as}\"\nclass = \"E\"\n"
       "check = [{equal = [\"e/{on}/{px}px/m\", 0]}, {each = [\"px\"], within = "
       "[\"e/{on}/{px}/m\"], range = [0, 2]}]\n"
       "[[table]]\neach = [\"px\", \"on\"]\nid = \"t{px}{on}\"\ntitle = \"t\"\ncaption = "
@@ -238,6 +239,8 @@ TEST(Claims, EachStandsForEveryMemberOfASet) {
   EXPECT_EQ(there.repeats, "p.a");
   EXPECT_EQ(there.id, "p.b");
   EXPECT_EQ(there.where, "there, b");
+  EXPECT_EQ(paper.claims[0].statement, "at a");
+  EXPECT_EQ(there.statement, "there: b");
   ASSERT_EQ(there.conditions.size(), 3U);
   ASSERT_EQ(there.conditions[0].operands.size(), 3U);
   EXPECT_EQ(there.conditions[0].operands[1].case_name, "b/2px");
@@ -260,6 +263,9 @@ TEST(Claims, RefusesInvalidSets) {
   refused("px = 3", "", "list", 5);
   refused("px = [3]", "", "table", 5);
   refused("px = [{at = \"x\"}]", "", "'name' is missing", 5);
+  refused("px = [{name = \"{px.as}\", as = \"a\"}]", "", "a member of 'px' has no 'as'", 5);
+  refused("px = [{name = \"a\", as = \"{px.at}\", at = \"{px}\"}]", "", "a member of 'px' has no 'at'", 5);
+  refused("py = [\"1\"]\npx = [{name = \"a\", as = \"{py}\"}]", "", "no 'each' names the set 'py' here", 6);
   refused(good, "note = \"{px}\"\n", "no 'each' names the set 'px' here", 11);
   refused(good, "check = [{equal = [\"e/{py}/m\", 1]}]\n", "unknown set 'py'", 11);
   refused(good, "check = [{each = [\"py\"], equal = [\"e/c/m\", 1]}]\n", "unknown set 'py'", 11);
