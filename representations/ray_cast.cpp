@@ -4,6 +4,7 @@
 #include "representations/drill/drill_terrain.h"
 #include "representations/ght/ght_rays.h"
 #include "representations/heightmap/heightmap.h"
+#include "representations/implicit/field_rays.h"
 #include "representations/layered_stack/layered_stack.h"
 #include "representations/plan_square.h"
 #include "representations/ray_walk.h"
@@ -186,6 +187,8 @@ std::unique_ptr<RayCaster> own_ray_caster(const Representation& of) {
   if (const auto* const voxels = dynamic_cast<const Voxel*>(&of)) return spans(voxels->grid());
   if (const auto* const cells = dynamic_cast<const DenseGrid*>(&of)) return spans(cells->grid());
   if (const auto* const tree = dynamic_cast<const Ght*>(&of)) return ght_ray_caster(*tree);
+  if (const auto* const surface = dynamic_cast<const ImplicitSurface*>(&of))
+    return field_ray_caster(*surface);
   return nullptr;
 }
 

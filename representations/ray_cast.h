@@ -3,12 +3,13 @@
 //   heightmap, drill                     the two triangles of each square of samples, as mesh() draws them
 //   layered_stack, voxel, dense_voxel    blocks: each column's spans, as wide as the column
 //   ght                                  squares and faces, as mesh() draws them: ght/ght_rays.h
+//   implicit                             the zero set of the field, which mesh() approximates:
+//                                        implicit/field_rays.h
 //
 // Rays walk over the columns in plan (Amanatides & Woo 1987) and skip blocks of 4^l × 4^l columns whose
 // highest solid point lies below them (maximum mipmaps; Tevs, Ihrke & Seidel 2008). No ray slips through an
 // edge between columns: whether it is in the solid is carried from column to column, and any change is a hit.
-// A procedural_mesh is a mesh already, with no columns to walk over, and has no caster of its own; nor has an
-// implicit surface.
+// A procedural_mesh is a mesh already, with no columns to walk over, and has no caster of its own.
 // Any mesh is cast by Embree: renderers/raytrace/ray_index.h.
 #pragma once
 

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "terrain/error.h"
 
@@ -75,6 +77,31 @@ std::int64_t StackField::unit_z(double z) const {
 double StackField::unit_y(double y) const {
   const ColumnGrid& grid = stack_.grid();
   return static_cast<double>(rounded((y - grid.origin_y) / grid.step * static_cast<double>(level_unit_)));
+}
+
+// Moved by a length along one axis, the cube loses a slab of its support and takes in another: at most the
+// length's share of the radius changes from solid to air. The sphere loses at most its cross-section times
+// the length.
+double StackField::steepest(glm::dvec3 apart) const {
+  if (kernel_ == Kernel::kSphere) return 1.06 * 1.5 * glm::length(apart) / radius_;
+  const ColumnGrid& grid = stack_.grid();
+  const auto share = [](double metres, double cell, std::int64_t unit, std::int64_t radius) {
+    return std::abs(metres) / cell * static_cast<double>(unit) / static_cast<double>(radius);
+  };
+  return share(apart.x, grid.cell_x, column_unit_, radius_x_) +
+         share(apart.y, grid.step, level_unit_, radius_y_) +
+         share(apart.z, grid.cell_z, column_unit_, radius_z_);
+}
+
+// Rounding moves each of two points by up to half a unit, or half a phase.
+double StackField::jump() const {
+  constexpr double kFloat = 1e-6;  // more than rounding the result
+  if (kernel_ == Kernel::kSphere) {
+    const ColumnGrid& grid = stack_.grid();
+    return steepest({grid.cell_x / SphereChords::kPhases, 0, grid.cell_z / SphereChords::kPhases}) + kFloat;
+  }
+  return 1.0 / static_cast<double>(radius_x_) + 1.0 / static_cast<double>(radius_y_) +
+         1.0 / static_cast<double>(radius_z_) + kFloat;
 }
 
 void add_solid_lengths(const ColumnRuns& runs, double per_level, std::span<const double> v, double radius,
@@ -201,19 +228,93 @@ float StackField::at(glm::vec3 p) const {
   return static_cast<float>((2 * volume - support) / support);
 }
 
-SampledField::Heights StackField::heights(glm::dvec2 low, glm::dvec2 high) const {
+bool StackField::shares(std::int64_t at, std::int64_t radius, int columns, Shares& out) const {
+  const int shift = std::countr_zero(static_cast<std::uint64_t>(column_unit_));  // a power of 2
+  const auto column_of = [&](std::int64_t unit) {
+    return static_cast<int>(std::clamp<std::int64_t>(unit >> shift, 0, columns - 1));
+  };
+  const std::int64_t low = at - radius, high = at + radius;
+  out.first = column_of(low);
+  const int last = column_of(high);
+  out.count = last - out.first + 1;
+  if (out.count > Shares::kMost) return false;
+  for (int k = 0; k < out.count; ++k)
+    out.share[static_cast<std::size_t>(k)] = static_cast<double>(column_unit_);
+  // The outermost columns stand for all beyond them.
+  const auto border = [&](int column) { return static_cast<double>(column * column_unit_); };
+  out.share[0] = border(out.first + 1) - static_cast<double>(low);
+  double& end = out.share[static_cast<std::size_t>(out.count - 1)];
+  end = out.count == 1 ? static_cast<double>(high - low) : static_cast<double>(high) - border(last);
+  return true;
+}
+
+// All volumes are integers, so that the order in which they are added does not matter.
+float StackField::at(glm::vec3 p, const ColumnTops& tops) const {
+  const ColumnGrid& grid = stack_.grid();
+  Shares along_x, along_z;
+  if (kernel_ != Kernel::kCube || !shares(unit_x(p.x), radius_x_, grid.width, along_x) ||
+      !shares(unit_z(p.z), radius_z_, grid.depth, along_z)) {
+    return at(p);
+  }
+  const auto per_level = static_cast<double>(level_unit_), radius = static_cast<double>(radius_y_);
+  const double v = unit_y(p.y), low = v - radius;
+  double volume = 0;
+  for (int b = 0; b < along_z.count; ++b) {
+    const std::uint16_t* const row = tops.row(along_z.first + b) + along_x.first;
+    double sum = 0;
+    for (int a = 0; a < along_x.count; ++a) {
+      const double share = along_x.share[static_cast<std::size_t>(a)];
+      if (row[a] == ColumnTops::kOther) [[unlikely]] {
+        add_solid_lengths(stack_.column(along_x.first + a, along_z.first + b), per_level, std::span(&v, 1),
+                          radius, share, std::span(&sum, 1));
+      } else {
+        sum += share * std::clamp(row[a] * per_level - low, 0.0, 2 * radius);
+      }
+    }
+    volume += along_z.share[static_cast<std::size_t>(b)] * sum;
+  }
+  return static_cast<float>((2 * volume - support_) / support_);
+}
+
+StackField::Reach StackField::reach(glm::dvec2 low, glm::dvec2 high) const {
   const ColumnGrid& grid = stack_.grid();
   const double reach = radius_ + rounding();
   const auto column_of = [](double at, double origin, double cell, int count) {
     return static_cast<int>(std::clamp(std::floor((at - origin) / cell), 0.0, count - 1.0));
   };
-  const int i0 = column_of(low.x - reach, grid.origin_x, grid.cell_x, grid.width),
-            i1 = column_of(high.x + reach, grid.origin_x, grid.cell_x, grid.width),
-            j0 = column_of(low.y - reach, grid.origin_z, grid.cell_z, grid.depth),
-            j1 = column_of(high.y + reach, grid.origin_z, grid.cell_z, grid.depth);
+  return {column_of(low.x - reach, grid.origin_x, grid.cell_x, grid.width),
+          column_of(high.x + reach, grid.origin_x, grid.cell_x, grid.width),
+          column_of(low.y - reach, grid.origin_z, grid.cell_z, grid.depth),
+          column_of(high.y + reach, grid.origin_z, grid.cell_z, grid.depth)};
+}
+
+double StackField::highest(glm::dvec2 low, glm::dvec2 high, const ColumnTops& tops) const {
+  const ColumnGrid& grid = stack_.grid();
+  const Reach columns = reach(low, high);
+  int highest = -1;
+  for (int j = columns.first_j; j <= columns.last_j; ++j) {
+    const std::uint16_t* const row = tops.row(j);
+    for (int i = columns.first_i; i <= columns.last_i; ++i) {
+      int top = row[i];
+      if (top == ColumnTops::kOther) [[unlikely]] {
+        const ColumnRuns runs = stack_.column(i, j);
+        std::size_t solid = runs.count;
+        while (solid > 0 && runs.materials[solid - 1] == Material::kAir) --solid;
+        top = solid == 0 ? -1 : runs.tops[solid - 1];
+      }
+      highest = std::max(highest, top);
+    }
+  }
+  if (highest < 0) return -std::numeric_limits<double>::infinity();
+  return grid.origin_y + (highest + 1) * grid.step;  // a level more than rounding along y
+}
+
+SampledField::Heights StackField::heights(glm::dvec2 low, glm::dvec2 high) const {
+  const ColumnGrid& grid = stack_.grid();
+  const Reach columns = reach(low, high);
   int lowest_air = grid.levels, highest_solid = 0;
-  for (int j = j0; j <= j1; ++j) {
-    for (int i = i0; i <= i1; ++i) {
+  for (int j = columns.first_j; j <= columns.last_j; ++j) {
+    for (int i = columns.first_i; i <= columns.last_i; ++i) {
       const ColumnRuns runs = stack_.column(i, j);
       std::size_t solid = 0;
       while (solid < runs.count && runs.materials[solid] != Material::kAir) ++solid;

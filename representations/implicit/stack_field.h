@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "representations/implicit/column_tops.h"
 #include "representations/implicit/sampled_field.h"
 #include "representations/implicit/sphere_chords.h"
 #include "representations/layered_stack/layered_stack.h"
@@ -41,18 +42,40 @@ class StackField final : public SampledField {
 
   std::unique_ptr<FieldPlanes> planes(std::span<const float> xs, std::span<const float> ys) const override;
   float at(glm::vec3) const override;
+  // The same to the bit, with the cube several times as fast. `tops` are the stacks' own.
+  float at(glm::vec3, const ColumnTops& tops) const;
   Heights heights(glm::dvec2 low, glm::dvec2 high) const override;
+  // The height from which on the field is not positive over the rectangle: that of the highest solid in
+  // reach, since at most half of the kernel lies below. -infinity over air. O(columns in reach)
+  double highest(glm::dvec2 low, glm::dvec2 high, const ColumnTops& tops) const;
+  // Bounds on how fast the field changes: between two points that are `apart`, metres per axis, by no more
+  // than steepest(apart) + jump(). Exact for the cube. For the sphere, whose table of chords is no exact
+  // sphere, with 6 % added.
+  double steepest(glm::dvec3 apart) const;
+  double jump() const;
   // Along a vertical line: heights y ascend. O(columns of the support · (their runs + y)).
   void line(double x, double z, std::span<const float> y, std::span<float> out) const;
   Memory memory() const { return chords_.memory(); }
 
  private:
   friend class CubePlanes;
+  // The columns that the kernel reaches from a rectangle: [first, last] along x and z.
+  struct Reach {
+    int first_i, last_i, first_j, last_j;
+  };
+  Reach reach(glm::dvec2 low, glm::dvec2 high) const;
   // Positions in units from the grid's border or floor.
   std::int64_t unit_x(double x) const;
   std::int64_t unit_z(double z) const;
   double unit_y(double y) const;
   void cube_volumes(double x, double z, std::span<const double> v, std::span<double> volume) const;
+  // The columns that the cube meets along one axis, and how much of it lies over each, in units.
+  struct Shares {
+    static constexpr int kMost = 32;
+    int first, count;
+    std::array<double, kMost> share;
+  };
+  bool shares(std::int64_t at, std::int64_t radius, int columns, Shares& out) const;  // false: too many
   // Both add to `volume`. Returns the volume of the whole sphere; `steps`: one zero more than y.
   double sphere_volumes(double x, double z, std::span<const float> y, std::span<double> volume,
                         std::span<double> steps) const;

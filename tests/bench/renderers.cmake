@@ -1,1 +1,1 @@
-terrabench_benchmark(raytrace_bench SOURCES raytrace_bench.cpp LIBRARIES renderers TBB::tbb)
+terrabench_benchmark(raytrace_bench SOURCES raytrace_bench.cpp LIBRARIES renderers representations TBB::tbb)

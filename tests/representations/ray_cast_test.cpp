@@ -144,7 +144,7 @@ TEST(RayCast, RaysThatAreNoneHitNothing) {
   rays[7].origin = {kNoHit, 0, 0};
   rays[8].direction = {0, -kFar, 0};
   rays[9] = {{3, 100, 3}, {0, -1, 0}, 5, 4};
-  for (const char* type : {"heightmap", "layered_stack", "ght"}) {
+  for (const char* type : {"heightmap", "layered_stack", "ght", "implicit"}) {
     const std::vector<float> distances =
         cast(*build(type, from_heights(8, 8, std::vector<float>(64, 1.0F))), rays);
     EXPECT_NEAR(distances[0], 99, 0.5);
@@ -155,7 +155,6 @@ TEST(RayCast, RaysThatAreNoneHitNothing) {
 TEST(RayCast, MeshesAndGroundWithoutAreaHaveNone) {
   const TerrainSource source = from_heights(8, 8, std::vector<float>(64, 1.0F));
   EXPECT_EQ(own_ray_caster(*build("procedural_mesh", source)), nullptr);
-  EXPECT_EQ(own_ray_caster(*build("implicit", source)), nullptr);
   for (const char* type : {"heightmap", "ght"}) {
     EXPECT_EQ(own_ray_caster(*build(type, from_heights(5, 1, {1, 2, 3, 4, 5}))), nullptr) << type;
   }
@@ -170,7 +169,7 @@ TEST(RayCast, ThreadsChangeNothing) {
 }
 
 TEST(RayCast, BytesAreThoseOfTheAllocator) {
-  for (const char* type : {"heightmap", "layered_stack", "ght"}) {
+  for (const char* type : {"heightmap", "layered_stack", "ght", "implicit"}) {
     const auto built = build(type, from_heights(200, 150, rough(30000, 6, 0)));
     own_ray_caster(*built);
     const HeapScope scope;

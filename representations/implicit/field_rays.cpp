@@ -1,0 +1,319 @@
+#include "representations/implicit/field_rays.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "representations/cast_all.h"
+#include "representations/ray_walk.h"
+
+namespace terrabench {
+namespace {
+
+constexpr double kNoHit = std::numeric_limits<double>::infinity();
+constexpr float kNothing = -std::numeric_limits<float>::infinity();
+
+// Heights over a cell of the lattice in plan between which the surface can pass, metres.
+struct HeightRange {
+  float low, high;
+};
+
+// How much the field can differ between a point of a cell and the cell's nearest corner.
+double within_cell(const StackField& field, const FieldLattice& lattice) {
+  return field.steepest(glm::dvec3(0.5 * static_cast<double>(lattice.cell))) + field.jump();
+}
+
+// The ranges of a rectangle of columns, row by row.
+struct RangeBlock {
+  std::vector<std::uint32_t> counts;  // per column
+  std::vector<HeightRange> ranges;
+};
+
+// Finds them from the lattice's samples, two planes at a time.
+class RangeSweep {
+ public:
+  RangeSweep(const ImplicitSurface& of, const ColumnTops& tops, glm::ivec2 begin, glm::ivec2 end)
+      : field_(of.field()),
+        tops_(tops),
+        lattice_(of.lattice()),
+        begin_(begin),
+        end_(end),
+        margin_(static_cast<float>(within_cell(of.field(), of.lattice()))) {
+    choose_levels();
+    for (int i = begin.x; i <= end.x; ++i) xs_.push_back(lattice_.position(0, i));
+    for (int k = first_; k <= last_ && first_ < last_; ++k) ys_.push_back(lattice_.position(1, k));
+    if (!ys_.empty()) planes_ = field_.planes(xs_, ys_);
+  }
+
+  RangeBlock run() {
+    const auto columns =
+        static_cast<std::size_t>(end_.x - begin_.x) * static_cast<std::size_t>(end_.y - begin_.y);
+    if (ys_.empty()) return {std::vector<std::uint32_t>(columns, 0), {}};
+    values_.resize(xs_.size() * ys_.size());
+    for (std::vector<std::uint8_t>& plane : near_) plane.resize(values_.size());
+    load(begin_.y, near_[0]);
+    for (int j = begin_.y; j < end_.y; ++j) {
+      load(j + 1, near_[1]);
+      for (std::size_t i = 0; i + 1 < xs_.size(); ++i) add_column(i * ys_.size(), air_over(i, j));
+      near_[0].swap(near_[1]);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  // What a point says of the cells around it.
+  enum : std::uint8_t { kMaybeSolid = 1, kMaybeAir = 2, kBoth = 3 };
+
+  // Leaves out the points below which all is solid and above which all is air.
+  void choose_levels() {
+    const auto [solid, air] = field_.heights({lattice_.position(0, begin_.x), lattice_.position(2, begin_.y)},
+                                             {lattice_.position(0, end_.x), lattice_.position(2, end_.y)});
+    if (!(solid < air)) return;
+    const auto point = [&](double y) {
+      return std::clamp((y - lattice_.low.y) / lattice_.cell, 0.0, static_cast<double>(lattice_.cells.y));
+    };
+    last_ = static_cast<int>(std::ceil(point(air)));
+    first_ = std::min(last_, static_cast<int>(std::floor(point(solid))));
+  }
+
+  void load(int j, std::vector<std::uint8_t>& near) {
+    planes_->sample(lattice_.position(2, j), values_);
+    for (std::size_t k = 0; k < values_.size(); ++k) {
+      near[k] = static_cast<std::uint8_t>((values_[k] > -margin_ ? kMaybeSolid : 0) |
+                                          (values_[k] < margin_ ? kMaybeAir : 0));
+    }
+  }
+
+  // Of the cells between the lines of points that begin at `at` and the next ones.
+  void add_column(std::size_t at, double air) {
+    const std::uint8_t* const lines[] = {&near_[0][at], &near_[0][at + ys_.size()], &near_[1][at],
+                                         &near_[1][at + ys_.size()]};
+    const auto say = [&](std::size_t k) { return lines[0][k] | lines[1][k] | lines[2][k] | lines[3][k]; };
+    const std::size_t before = out_.ranges.size();
+    int below = say(0);
+    for (std::size_t k = 0; k + 1 < ys_.size() && ys_[k] < air; ++k) {
+      const int above = say(k + 1);
+      const bool last = first_ + static_cast<int>(k) + 1 == lattice_.cells.y;  // the box's top: air above
+      const int corners = below | above | (last ? kMaybeAir : 0);
+      below = above;
+      if (corners != kBoth) continue;
+      const auto high = static_cast<float>(std::min<double>(ys_[k + 1], air));
+      if (out_.ranges.size() > before && out_.ranges.back().high == ys_[k]) {
+        out_.ranges.back().high = high;
+      } else {
+        out_.ranges.push_back({ys_[k], high});
+      }
+    }
+    out_.counts.push_back(static_cast<std::uint32_t>(out_.ranges.size() - before));
+  }
+  double air_over(std::size_t i, int j) const {
+    return field_.highest({xs_[i], lattice_.position(2, j)}, {xs_[i + 1], lattice_.position(2, j + 1)},
+                          tops_);
+  }
+
+  const StackField& field_;
+  const ColumnTops& tops_;
+  const FieldLattice& lattice_;
+  glm::ivec2 begin_, end_;  // cells along x and z
+  float margin_;
+  int first_ = 0, last_ = 0;  // points along y
+  std::vector<float> xs_, ys_, values_;
+  std::vector<std::uint8_t> near_[2];  // of the planes at j and j + 1
+  std::unique_ptr<FieldPlanes> planes_;
+  RangeBlock out_;
+};
+
+struct FieldGround;
+
+// What one ray knows: a Ground of ray_walk.h for it alone.
+class FieldRay {
+ public:
+  FieldRay(const FieldGround& ground, const Ray& ray);
+
+  bool solid(int i, int j, const RayPath& path, double t);
+  double change(int i, int j, const RayPath& path, Stretch at, double lowest, bool inside);
+
+ private:
+  double value(const RayPath& path, double t) const;
+  double change(const RayPath& path, Stretch at, bool inside);
+  double narrow(const RayPath& path, double a, double b, double at_a, double at_b) const;
+
+  const FieldGround& ground_;
+  double per_change_, least_, fine_;  // in lengths of the direction
+  // The last sample, and up to where the field cannot change its sign after it.
+  double sampled_ = -kNoHit, value_ = 0, clear_ = -kNoHit;
+
+ public:
+  const PlanAxis &x, &z;
+  double floor, highest;
+  const TopPyramid& tops;
+};
+
+struct FieldGround {
+  explicit FieldGround(const ImplicitSurface& of)
+      : field(of.field()),
+        lattice(of.lattice()),
+        x(axis(0)),
+        z(axis(2)),
+        jump(field.jump()),
+        columns(of.stack()),
+        ranges(read(of)),
+        tops(x.cells, z.cells, [&](int i, int j) { return top(i, j); }) {
+    highest = tops.levels() == 0 ? top(0, 0) : tops.at(tops.levels(), 0, 0);
+  }
+
+  PlanAxis axis(int k) const {
+    return {lattice.low[k], lattice.cell, lattice.low[k], lattice.high[k], lattice.cells[k]};
+  }
+
+  std::vector<HeightRange> read(const ImplicitSurface& of) {
+    constexpr int kWidth = 32, kDepth = 128;  // cells of a block: its planes stay in a cache
+    const int across = (x.cells + kWidth - 1) / kWidth, down = (z.cells + kDepth - 1) / kDepth;
+    std::vector<RangeBlock> blocks(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
+    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+      const glm::ivec2 begin{static_cast<int>(b) % across * kWidth, static_cast<int>(b) / across * kDepth};
+      blocks[b] =
+          RangeSweep(of, columns, begin, glm::min(begin + glm::ivec2(kWidth, kDepth), {x.cells, z.cells}))
+              .run();
+    });
+    std::vector<HeightRange> all;
+    std::size_t size = 0;
+    for (const RangeBlock& block : blocks) size += block.ranges.size();
+    all.reserve(size);
+    starts.reserve(static_cast<std::size_t>(x.cells) * static_cast<std::size_t>(z.cells) + 1);
+    starts.push_back(0);
+    // Rows of the grid, each pieced together from the blocks that it passes.
+    struct Place {
+      std::size_t column = 0, range = 0;
+    };
+    std::vector<Place> places(blocks.size());
+    for (int j = 0; j < z.cells; ++j) {
+      for (int i = 0; i < x.cells; ++i) {
+        const std::size_t b = static_cast<std::size_t>(j / kDepth * across + i / kWidth);
+        const std::uint32_t count = blocks[b].counts[places[b].column++];
+        for (std::uint32_t k = 0; k < count; ++k) all.push_back(blocks[b].ranges[places[b].range++]);
+        starts.push_back(static_cast<std::uint32_t>(all.size()));
+      }
+    }
+    return all;
+  }
+
+  std::span<const HeightRange> column(int i, int j) const {
+    const std::size_t c =
+        static_cast<std::size_t>(j) * static_cast<std::size_t>(x.cells) + static_cast<std::size_t>(i);
+    return {ranges.data() + starts[c], starts[c + 1] - starts[c]};
+  }
+  float top(int i, int j) const {
+    const auto of = column(i, j);
+    return of.empty() ? kNothing : of.back().high;
+  }
+
+  double closest(const Ray& ray) const {
+    FieldRay one(*this, ray);
+    return RayWalk(one, ray).closest();
+  }
+  std::size_t bytes() const {
+    return tops.bytes() + columns.bytes() + heap_bytes(starts.data()) + heap_bytes(ranges.data());
+  }
+
+  const StackField& field;
+  const FieldLattice& lattice;
+  PlanAxis x, z;
+  double jump, highest = 0;
+  ColumnTops columns;
+  std::vector<std::uint32_t> starts;  // the ranges of column c are [starts[c], starts[c + 1])
+  std::vector<HeightRange> ranges;
+  TopPyramid tops;
+};
+
+FieldRay::FieldRay(const FieldGround& ground, const Ray& ray)
+    : ground_(ground),
+      x(ground.x),
+      z(ground.z),
+      floor(static_cast<double>(ground.lattice.low.y)),
+      highest(ground.highest),
+      tops(ground.tops) {
+  const glm::dvec3 direction(ray.direction);
+  per_change_ = 1 / ground.field.steepest(direction);
+  const double cell = static_cast<double>(ground.lattice.cell) / glm::length(direction);
+  least_ = cell / 4;
+  fine_ = cell / 1024;
+}
+
+double FieldRay::value(const RayPath& path, double t) const {
+  return static_cast<double>(ground_.field.at({path.x(t), path.y(t), path.z(t)}, ground_.columns));
+}
+
+bool FieldRay::solid(int i, int j, const RayPath& path, double t) {
+  if (path.y(t) > static_cast<double>(ground_.top(i, j))) return false;
+  return value(path, t) > 0;
+}
+
+double FieldRay::change(int i, int j, const RayPath& path, Stretch at, double lowest, bool inside) {
+  const auto ranges = ground_.column(i, j);
+  if (ranges.empty() || (!inside && lowest > static_cast<double>(ground_.top(i, j)))) return kNoHit;
+  const bool up = path.direction.y > 0;
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
+    const HeightRange range = ranges[up ? k : ranges.size() - 1 - k];
+    Stretch part = at;
+    if (!clip(path.origin.y, path.direction.y, range.low, range.high, part)) {
+      continue;
+    }
+    const double hit = change(path, part, inside);
+    if (hit < kNoHit) return hit;
+  }
+  return kNoHit;
+}
+
+double FieldRay::change(const RayPath& path, Stretch at, bool inside) {
+  for (double t = std::max(at.begin, clear_); t <= at.end; t = clear_) {
+    if (t > sampled_) {
+      const double before = sampled_, at_before = value_;
+      sampled_ = t;
+      value_ = value(path, t);
+      if ((value_ > 0) != inside) {
+        return before < 0 ? t : narrow(path, before, t, at_before, value_);
+      }
+    }
+    if (t == at.end) break;
+    const double free = t + (std::abs(value_) - ground_.jump) * per_change_;
+    clear_ = std::max({free, std::min(t + least_, at.end), std::nextafter(t, kNoHit)});
+  }
+  return kNoHit;
+}
+
+// The change of sign between a and b, on the side of b: by false position that halves the value which stays
+// (the Illinois method), never closer than half the precision to an end, so that both ends close in.
+double FieldRay::narrow(const RayPath& path, double a, double b, double at_a, double at_b) const {
+  const bool begins = at_a > 0;
+  int kept = 0;  // the end that the last step kept: -1 a, 1 b
+  for (int step = 1; b - a > fine_; ++step) {
+    double t = a + (b - a) * (at_a / (at_a - at_b));
+    t = step % 4 == 0 ? (a + b) / 2 : std::clamp(t, a + fine_ / 2, b - fine_ / 2);
+    if (t <= a || t >= b) break;  // so far away that no number lies between
+    const double at_t = value(path, t);
+    if ((at_t > 0) == begins) {
+      a = t;
+      at_a = at_t;
+      if (kept == 1) at_b /= 2;
+      kept = 1;
+    } else {
+      b = t;
+      at_b = at_t;
+      if (kept == -1) at_a /= 2;
+      kept = -1;
+    }
+  }
+  return b;
+}
+
+}  // namespace
+
+std::unique_ptr<RayCaster> field_ray_caster(const ImplicitSurface& of) {
+  if (within_cell(of.field(), of.lattice()) >= 1) return nullptr;
+  return std::make_unique<GroundCaster<FieldGround>>(of);
+}
+
+}  // namespace terrabench
