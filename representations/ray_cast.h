@@ -37,7 +37,9 @@ class RayCaster {
 };
 
 // The representation must outlive the caster and not be edited. Null for types that have no caster of their
-// own. Takes a fifteenth of the bytes of the heights; for columns a copy of their spans. O(columns + spans).
+// own. Takes a fifteenth of the bytes of the heights; for columns a copy of their spans; for an implicit
+// surface some 15 B per column. Null also for ground without area, and for an implicit surface whose kernel
+// is too small (field_rays.h). O(columns + spans).
 std::unique_ptr<RayCaster> own_ray_caster(const Representation&);
 
 }  // namespace terrabench
