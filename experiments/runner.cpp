@@ -1,6 +1,7 @@
 #include "experiments/runner.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
 
@@ -166,8 +167,9 @@ class Session {
     measure_alone(alone);
     store_.sync();
     const std::size_t skipped = cases_.size() - alone.size() - beside.size();
-    if (skipped == 0) return;
-    fmt::print(stderr, "{} of {} cases were already in the results folder\n", skipped, cases_.size());
+    if (skipped > 0)
+      fmt::print(stderr, "{} of {} cases were already in the results folder\n", skipped, cases_.size());
+    check_differences();
   }
 
  private:
@@ -197,10 +199,28 @@ class Session {
     }
     for (std::size_t k = 0; k < brief.size(); ++k) {
       const Look second = look(brief[k].at, output);
-      store_.append(with_second_look(std::move(brief[k].record), second.record));
+      keep_both(std::move(brief[k]), second);
       fmt::print(stderr, "[{}/{}] {}, again: {:.2f} s\n", k + 1, brief.size(), title(second.at),
                  second.seconds);
     }
+  }
+
+  // The record of the first look stands if the second differs in what is exact.
+  void keep_both(Look first, const Look& second) {
+    if (const std::string what = exact_difference(first.record, second.record); !what.empty()) {
+      differences_.push_back(fmt::format("{}: {}", title(first.at), what));
+    } else {
+      store_.append(with_second_look(std::move(first.record), second.record));
+    }
+  }
+
+  // A bug of the program, not of the machine: every run could record something else.
+  void check_differences() const {
+    if (differences_.empty()) return;
+    throw Error(ExitCode::kClaimFallsShort,
+                fmt::format("measured twice, {} cases differ in what is exact: {}", differences_.size(),
+                            fmt::join(differences_, "; ")),
+                plan_.folder.string(), "report it as a bug; what was measured first is kept");
   }
 
   Look measure_first(std::size_t i, Progress::Output output) {
@@ -226,6 +246,7 @@ class Session {
   std::vector<PlannedCase> cases_;
   Store store_;
   Provenance provenance_;
+  std::vector<std::string> differences_;  // between two looks
 };
 
 }  // namespace

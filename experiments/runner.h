@@ -37,7 +37,8 @@ std::vector<PlannedCase> plan_cases(const RunPlan&);
 // Measures all planned cases and appends their records to folder/measurements.jsonl, in the registry's order;
 // with jobs > 1 first those without times, beside each other in processes of their own, then the timed ones,
 // alone. Short timed ones once more at the end (second_look.h), which adds to their times; --resume does not
-// make up for it. Throws Error(kInterrupted) on Ctrl-C; the records so far stay.
+// make up for it. Throws Error(kInterrupted) on Ctrl-C; the records so far stay; and
+// Error(kClaimFallsShort) at the end if two looks differ in what is exact.
 void run(const RunPlan&);
 
 }  // namespace terrabench

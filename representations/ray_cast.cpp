@@ -1,8 +1,8 @@
 #include "representations/ray_cast.h"
 
-#include "representations/cast_all.h"
 #include "representations/drill/drill_terrain.h"
 #include "representations/ght/ght_rays.h"
+#include "representations/ground_caster.h"
 #include "representations/heightmap/heightmap.h"
 #include "representations/implicit/field_rays.h"
 #include "representations/layered_stack/layered_stack.h"

@@ -25,9 +25,7 @@ Change change_of(const Metric& before, const Metric& after, const Summary& ratio
   if (!timed(before) && !timed(after))
     return before.samples == after.samples ? Change::kSame : Change::kDiffers;
   if (!one_machine) return Change::kElsewhere;
-  constexpr std::size_t kFewest =
-      3;  // two unchanged times are both above, or both below, two others in one case of three
-  const bool has_interval = before.samples.size() >= kFewest && after.samples.size() >= kFewest &&
+  const bool has_interval = std::min(before.samples.size(), after.samples.size()) >= kFewestSamples &&
                             std::isfinite(ratio.median) && !std::isnan(ratio.low);
   if (!has_interval) return Change::kUnresolved;
   if (ratio.low > 1) return Change::kRose;

@@ -140,9 +140,8 @@ class Bundle {
                             results_.faults.size()));
     }
     if (!left_out_.empty()) {
-      text_ += "\\textbf{Pictures are left out,} ";
-      paragraph(
-          fmt::format("since they are missing, altered or not readable: {}.", fmt::join(left_out_, ", ")));
+      text_ += "\\textbf{Pictures left out} ";
+      paragraph(fmt::format("(missing, altered or not readable): {}.", fmt::join(left_out_, ", ")));
     }
     std::set<std::string> runs;
     for (const Record& record : store_.records()) {

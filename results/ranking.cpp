@@ -120,8 +120,8 @@ std::optional<Ranking> rank(const RankingLayout& layout, const Store& store, con
   const Candidate& best = all[0];
   const bool timing = timed(*best.metric);
   ranking.not_compared = why_not_compared(all, timing, store);
-  ranking.single =
-      timing && all.size() > 1 && std::min(best.metric->samples.size(), all[1].metric->samples.size()) == 1;
+  ranking.too_few = timing && all.size() > 1 &&
+                    std::min(best.metric->samples.size(), all[1].metric->samples.size()) < kFewestSamples;
   for (const Candidate& c : all) {
     const double to_unit = conversion(c.metric->unit, layout.unit, layout.metric, store.where(*c.record));
     const bool equal = c.median == best.median;  // two zeros have no ratio

@@ -47,13 +47,13 @@ struct Ranking {
   const RankingLayout* layout = nullptr;
   std::vector<Place> places;
   std::size_t tied = 1;               // places that belong to the best: see kTimingMargin
-  bool single = false;                // a time that was measured once: no interval, no winner
+  bool too_few = false;               // a time with fewer than kFewestSamples: no interval, no winner
   std::string not_compared;           // the reason, as words after "as"; empty: they are comparable
   std::vector<std::string> left_out;  // labels of entries that lack what is needed
   std::vector<std::string> runs;
 
-  // Whether there is a best method, or several tied: not if times were measured once or if the values cannot
-  // be compared.
+  // Whether there is a best method, or several tied: not if times have too few samples or if the values
+  // cannot be compared.
   bool decided() const { return !places.empty() && not_compared.empty() && !single; }
   // "heightmap (262 kB), ahead of drills (341 kB) by a factor of 1.3"
   std::string result() const;

@@ -94,7 +94,8 @@ std::string Ranking::result() const {
   const std::string first = with_value(places[0]), second = with_value(places[1]),
                     factor = factor_text(places[1].factor);
   if (single) {
-    return fmt::format("undecided, as each was measured once: {}, {}, a factor of {}", first, second, factor);
+    return fmt::format("undecided, as they were measured only once or twice: {}, {}, a factor of {}", first,
+                       second, factor);
   }
   return fmt::format("{}, ahead of {} by a factor of {}", first, second, factor);
 }
@@ -162,7 +163,7 @@ std::string findings_json(std::span<const Ranking> rankings) {
                     {"left_out", ranking.left_out},
                     {"places", places},
                     {"tied", ranking.places.empty() ? 0 : ranking.tied},
-                    {"measured_once", ranking.single},
+                    {"too_few_samples", ranking.too_few},
                     {"comparable", ranking.not_compared.empty()},
                     {"finding", ranking.clause()},
                     {"runs", ranking.runs}});

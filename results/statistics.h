@@ -14,6 +14,10 @@ struct Summary {
   std::size_t count = 0;
   double median = 0, low = 0, high = 0;
 };
+// With fewer, no interval deserves the name: of two samples against two of the same distribution, one pair
+// lies wholly above the other with probability 1/3; of three against three with 1/10.
+inline constexpr std::size_t kFewestSamples = 3;
+
 double median(std::span<const double> samples);      // at least one sample, all finite
 Summary summarise(std::span<const double> samples);  // at least one sample, all finite
 

@@ -7,8 +7,8 @@
 //   ground = [{name = "flat", where = "on flat land"}, {name = "hills", where = "on hills"}]
 //
 // A list element with each = ["ground", "size"] stands for one element per pair of members. In its texts,
-// {size}, {ground} (the member's name) and {ground.where} are replaced by those of the pair. A member's own
-// texts may name its others in the same way, unless those name some themselves. In a list of texts, a text
+// {size}, {ground} (the member's name) and {ground.where} are replaced by those of the pair. A member's
+// text may take {set.field} from other fields of the same member, one level deep. In a list of texts, a text
 // with a set that no `each` names stands for one text per member. Numbers are not replaced.
 #pragma once
 

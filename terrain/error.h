@@ -12,7 +12,7 @@ namespace terrabench {
 // The program's documented exit codes.
 enum class ExitCode {
   kGood = 0,
-  kClaimFallsShort = 1,  // `check` found a claim whose verdict is not the known one
+  kClaimFallsShort = 1,  // a claim's verdict is not the known one, or exact figures differ
   kUsage = 2,            // invalid option, unknown name
   kBadInput = 3,         // a file is damaged, or its content is unusable
   kEnvironment = 4,      // no GL context, disk full, unwritable folder

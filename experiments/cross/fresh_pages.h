@@ -1,4 +1,4 @@
-// Memory that the machine has, before work that uses it is timed.
+// Touches memory before timed work, so that a virtual machine's host has provided it by then.
 #pragma once
 
 #include <cstdint>

@@ -47,7 +47,7 @@ constexpr std::array kOverSolids{
 
 constexpr int kBatch = 1024, kQueries = 1 << 16, kQueryTurns = 3;  // columns per call, and per sample
 constexpr double kQuerySeconds = 0.05;                             // per sample, of slow structures
-constexpr int kNear = 32;         // columns on each side of the window of near queries, which caches hold
+constexpr int kNear = 32;         // columns along a side of the window of near queries, which caches hold
 constexpr int kEditRadius = 8;    // columns
 constexpr int kEdits = 32;        // per sample
 constexpr float kHighest = 1600;  // metres, of the hills
@@ -147,7 +147,7 @@ bool takes_edits(const RepresentationType& type, const Representation& built) {
 }
 
 // Digs half a sphere of kEditRadius columns out of the ground, kEdits times; seconds per time. A tree of
-// heightmaps takes a radial erosion of that size, which removes the same.
+// heightmaps takes a radial erosion with the same radii, which also removes the ground above the sphere.
 double seconds_per_edit(Representation& structure, float cell, Places places) {
   std::vector<float> x(kEdits), z(kEdits);
   places.next(x, z);

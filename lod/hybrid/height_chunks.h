@@ -42,7 +42,7 @@ class HeightChunks final : public MeshChunks {
 
   const Heightfield& heights_;
   int tiles_x_ = 0;
-  // Of each chunk, by tiles; null where nothing was edited, so that large ground costs nothing.
+  // Of each chunk, by tiles: 8 B each until a chunk in it is edited, 32 KiB from then on.
   std::vector<std::unique_ptr<std::uint64_t[]>> versions_;
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "representations/cast_all.h"
+#include "representations/ground_caster.h"
 #include "representations/plan_square.h"
 #include "representations/ray_triangle.h"
 

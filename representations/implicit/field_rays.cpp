@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "representations/cast_all.h"
+#include "representations/ground_caster.h"
 #include "representations/ray_walk.h"
 
 namespace terrabench {

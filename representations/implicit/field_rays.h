@@ -4,10 +4,9 @@
 // The caster holds, per column of the lattice's cells, the intervals of height in which the surface can pass.
 // All eight corners of any other cell have the same sign, by more than the field can change on the way to
 // the nearest corner; or the cell lies above all that is solid in the kernel's reach. So no surface is missed
-// between them. On such intervals a ray goes on by the
-// distance in which the field cannot reach 0 (sphere tracing; Hart 1996), but by at least a quarter of a
-// cell: ground that a ray touches for less may be missed. The change is then narrowed down to a 1024th of a
-// cell.
+// between them. On such intervals a ray goes on by the distance in which the field cannot reach 0 (sphere
+// tracing; Hart 1996), but by at least a quarter of a cell: ground that a ray touches for less may be missed.
+// The change is then narrowed down to a 1024th of a cell.
 //
 // mesh() approximates the same surface from the lattice's samples alone. By default its vertices are means
 // of crossings (surface nets), so that its edges are rounder than the field's: hits lie within a third of
@@ -22,8 +21,8 @@
 namespace terrabench {
 
 // As own_ray_caster(). Null for a kernel so small, of less than about 1.6 of the lattice's cells, that the
-// corners of a cell say nothing of its inside. Takes 4 B per column of cells, 8 B per interval, and a
-// fifteenth of 4 B per column. Samples the lattice once, in parallel.
+// corners of a cell say nothing of its inside. Takes 4 B per column of cells and a fifteenth of that, 8 B per
+// interval, and 2 B per column of the stacks. Samples the lattice once, in parallel.
 std::unique_ptr<RayCaster> field_ray_caster(const ImplicitSurface&);
 
 }  // namespace terrabench

@@ -205,10 +205,13 @@ BENCHMARK(picture)->UseRealTime()->MeasureProcessCPUTime()->Unit(benchmark::kMil
 BENCHMARK(instances)->UseRealTime()->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
 
 #define OWN_RAYS(type)                                                      \
-  BENCHMARK_CAPTURE(own_rays, type / above, #type, false)->UseManualTime(); \
-  BENCHMARK_CAPTURE(own_rays, type / along, #type, true)->UseManualTime()
+  BENCHMARK_CAPTURE(own_rays, type##_above, #type, false)->UseManualTime(); \
+  BENCHMARK_CAPTURE(own_rays, type##_along, #type, true)->UseManualTime()
 OWN_RAYS(heightmap);
 OWN_RAYS(layered_stack);
+OWN_RAYS(voxel);
+OWN_RAYS(dense_voxel);
+OWN_RAYS(drill);
 OWN_RAYS(ght);
 OWN_RAYS(implicit);
 

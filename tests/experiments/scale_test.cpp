@@ -211,7 +211,7 @@ TEST(Scale, MemoryUsedOnceIsGivenBack) {
   const long before = resident_pages();
   const double faults = page_faults();
   use_memory_once(std::uint64_t{1} << 28);
-  EXPECT_GT(page_faults(), faults) << "pages were used";
+  EXPECT_GE(page_faults(), faults + 128) << "every page was used, even if pages have 2 MiB";
   EXPECT_LT(resident_pages(), before + (1 << 14))
       << "a quarter of them, in case other tests' threads live on";
 }

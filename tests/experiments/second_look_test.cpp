@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "results/store.h"
-#include "terrain/error.h"
 #include "tests/experiments/command_line.h"
 
 namespace terrabench {
@@ -12,6 +11,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Record record(std::vector<Metric> metrics) {
   Record made;
@@ -19,16 +19,6 @@ Record record(std::vector<Metric> metrics) {
   made.case_name = "n=64";
   made.metrics = std::move(metrics);
   return made;
-}
-
-std::string refusal(const Record& first, const Record& again) {
-  try {
-    with_second_look(first, again);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kEnvironment);
-    return error.what();
-  }
-  return "";
 }
 
 TEST(SecondLook, AddsTheSamplesOfWhatVaries) {
@@ -41,17 +31,26 @@ TEST(SecondLook, AddsTheSamplesOfWhatVaries) {
   EXPECT_THAT(both.find("late")->samples, ElementsAre(9)) << "a size that only the second look reached";
 }
 
-TEST(SecondLook, RefusesExactFiguresThatDiffer) {
-  const Record first = record({{"bytes", "B", {7}}});
-  EXPECT_EQ(refusal(first, first), "");
-  EXPECT_THAT(refusal(first, record({{"bytes", "B", {8}}})), HasSubstr("'bytes': 7, then 8"));
-  EXPECT_THAT(refusal(first, record({{"bytes", "m", {7}}})), HasSubstr("'bytes'"));
-  EXPECT_THAT(refusal(first, record({})), HasSubstr("'bytes': 7, then nothing"));
-  EXPECT_THAT(refusal(record({}), first), HasSubstr("'bytes': nothing, then 7"));
+TEST(SecondLook, FindsExactFiguresThatDiffer) {
+  const Record first = record({{"time", "s", {3}}, {"bytes", "B", {7}}});
+  EXPECT_EQ(exact_difference(first, first), "");
+  EXPECT_EQ(exact_difference(first, record({{"time", "s", {4}}, {"bytes", "B", {7}}})), "");
+  EXPECT_EQ(exact_difference(first, record({{"bytes", "B", {8}}})), "the metric 'bytes': 7 B, then 8 B");
+  EXPECT_EQ(exact_difference(first, record({{"bytes", "m", {7}}})), "the metric 'bytes': 7 B, then 7 m");
   Record drawn = first;
   drawn.figures.push_back({"ght.F1", "figures/ght.F1.quick.png", "a picture", "0123"});
-  EXPECT_THAT(refusal(first, drawn), HasSubstr("pictures"));
-  EXPECT_EQ(refusal(drawn, drawn), "");
+  EXPECT_EQ(exact_difference(first, drawn), "the pictures");
+  EXPECT_EQ(exact_difference(drawn, drawn), "");
+}
+
+// Which sizes of cross.scale fit its budget of time varies from one look to the next.
+TEST(SecondLook, SizesThatOnlyOneLookReachedStay) {
+  const Record fewer = record({{"bytes_at_4", "B", {7}}}),
+               more = record({{"bytes_at_4", "B", {7}}, {"bytes_at_16", "B", {28}}});
+  EXPECT_EQ(exact_difference(fewer, more), "");
+  EXPECT_EQ(exact_difference(more, fewer), "");
+  EXPECT_THAT(with_second_look(fewer, more).find("bytes_at_16")->samples, ElementsAre(28));
+  EXPECT_THAT(with_second_look(more, fewer).find("bytes_at_16")->samples, ElementsAre(28));
 }
 
 // The samples of the newest record of hybrid.table2.
@@ -69,6 +68,9 @@ TEST_F(CommandLine, ShortTimedCasesAreMeasuredTwiceInOneRun) {
   EXPECT_THAT(twice.text, HasSubstr("again: "));
   EXPECT_EQ(Store::open(folder_ / "twice").records().size(), Store::open(folder_ / "once").records().size());
   EXPECT_EQ(call("$T compare once twice").code, 0);
+  EXPECT_THAT(call("$T run hybrid.fresnel --again 1000 --out untimed").text, Not(HasSubstr("again: ")));
+  EXPECT_THAT(call("$T run cross.scale --set largest=257,seconds=0.01 --again 1000 --out sizes").text,
+              HasSubstr("again: "));
   EXPECT_EQ(call(run + "--again -1 --out twice").code, 2);
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "lod/camera/camera_path.h"
+#include "lod/hybrid/height_chunks.h"
 #include "terrain/error.h"
 #include "terrain/memory.h"
 #include "tests/lod/hybrid_ground.h"
@@ -234,6 +235,43 @@ TEST_F(HybridChunks, EyesAnywhereAreDrawn) {
     const Frame& frame = lod.update(view);
     EXPECT_EQ(frame.stats.triangles, corners_of(frame).size() / 3);
   }
+}
+
+// Versions lie in tiles of 1024² samples, which exist where something was edited; a plain array is the model.
+TEST(HeightChunks, CountEditsOverTheBordersOfTiles) {
+  Heightfield field;
+  field.width = 1100;
+  field.depth = 2200;
+  field.heights.assign(std::size_t{1100} * 2200, 1);
+  const HeapScope heap;
+  hybrid::HeightChunks chunks(field);
+  const glm::ivec2 all = chunks.chunks();
+  std::vector<std::uint64_t> model(static_cast<std::size_t>(all.x) * all.y);
+  const std::int64_t empty = heap.held() - static_cast<std::int64_t>(heap_bytes(model.data()));
+  EXPECT_EQ(chunks.memory().total(), static_cast<std::size_t>(empty)) << "six tiles, none edited";
+  const std::pair<glm::ivec2, glm::ivec2> edits[] = {{{1000, 10}, {1050, 40}},
+                                                     {{5, 1020}, {9, 2060}},
+                                                     {{1099, 2199}, {1099, 2199}},
+                                                     {{1020, 1020}, {1030, 1030}}};
+  constexpr int kCells = 16;
+  for (const auto& [low, high] : edits) {
+    chunks.edited(low, high);
+    for (int b = 0; b < all.y; ++b) {
+      for (int a = 0; a < all.x; ++a) {
+        // A chunk shares its last samples with the next, and a normal depends on the samples beside its own.
+        const glm::ivec2 first = glm::ivec2(a, b) * kCells - 1, last = first + kCells + 2;
+        model[static_cast<std::size_t>(b) * all.x + a] +=
+            low.x <= last.x && high.x >= first.x && low.y <= last.y && high.y >= first.y;
+      }
+    }
+  }
+  for (int b = 0; b < all.y; ++b) {
+    for (int a = 0; a < all.x; ++a) {
+      ASSERT_EQ(chunks.version({a, b}), model[static_cast<std::size_t>(b) * all.x + a]) << a << " " << b;
+    }
+  }
+  EXPECT_EQ(chunks.memory().total(), static_cast<std::size_t>(heap.held()) - heap_bytes(model.data()));
+  EXPECT_GT(chunks.memory().total(), static_cast<std::size_t>(empty));
 }
 
 }  // namespace

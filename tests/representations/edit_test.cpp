@@ -124,5 +124,25 @@ TEST(Edit, UndoneEditsLeaveTheStackAsItWas) {  // canonical runs: the same conte
   EXPECT_EQ(stack->memory().total(), untouched->memory().total());
 }
 
+// Full leaves become parts of larger nodes once there were as many edits as leaves; until then they stay.
+TEST(Edit, ManyEditsOfOpenVdbVoxelsGiveTheirLeavesBack) {
+  constexpr int kSide = 64;
+  const auto cells = [](unsigned percent) {
+    return build("voxel", random_cells(5, kSide, kSide, kSide, 1, percent), kSide);
+  };
+  const auto built = cells(50);
+  const Bounds bounds = built->bounds();
+  std::vector<float> x, z;
+  for (int j = 0; j < kSide; ++j) {
+    for (int i = 0; i < kSide; ++i) {
+      x.push_back(bounds.low.x + (static_cast<float>(i) + 0.5F) * bounds.size().x / kSide);
+      z.push_back(bounds.low.z + (static_cast<float>(j) + 0.5F) * bounds.size().z / kSide);
+    }
+  }
+  const std::vector<Span> all(x.size(), {bounds.low.y, bounds.high.y, Material{1}});
+  built->edit({x, z}, all);
+  EXPECT_EQ(built->memory().total(), cells(100)->memory().total()) << "one solid box";
+}
+
 }  // namespace
 }  // namespace terrabench::test

@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <sstream>
 
 #include "results/format.h"
 #include "results/latex_bundle.h"
@@ -37,12 +38,19 @@ std::string output_of(const std::string& command, const std::filesystem::path& s
   return text;
 }
 
-// Lines of pdffonts are: name, type, encoding, embedded, subset, …
-bool all_fonts_are_embedded(const std::string& fonts, std::size_t heading_lines = 2) {
-  const auto lines = static_cast<std::size_t>(std::ranges::count(fonts, '\n'));
+// Of what pdffonts prints: two lines of heading, then one line per font, with "yes" or "no" below "emb".
+bool all_fonts_are_embedded(const std::string& fonts) {
+  std::istringstream lines(fonts);
+  std::string heading, line;
+  std::getline(lines, heading);
+  const std::size_t column = heading.find("emb");
+  std::getline(lines, line);
   std::size_t embedded = 0;
-  for (std::size_t at = 0; (at = fonts.find(" yes yes ", at)) != fonts.npos; at += 8) ++embedded;
-  return lines > heading_lines && embedded == lines - heading_lines;
+  while (std::getline(lines, line)) {
+    if (column == heading.npos || line.size() < column || line.compare(column, 3, "yes") != 0) return false;
+    ++embedded;
+  }
+  return embedded > 0;
 }
 
 std::size_t count(std::string_view text, std::string_view part) {
