@@ -376,6 +376,7 @@ Paper parse_claims(std::string_view text, const std::string& origin) {
   for (const TomlValue& table : entry.list("table")) paper.tables.push_back(parse_table(table, paper.pages));
   for (const TomlValue& plot : entry.list("plot")) paper.plots.push_back(parse_plot(plot, paper.pages));
   entry.has("ranking");  // read by parse_rankings()
+  if (entry.has("further")) paper.further = ClaimsFile{std::string(text), origin};
   entry.refuse_unknown();
   check_ids(paper, origin);
   check_references(paper, origin);

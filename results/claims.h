@@ -106,6 +106,10 @@ struct Reference {
   int year = 0;             // 0: not stated
 };
 
+struct ClaimsFile {
+  std::string text, origin;  // origin: its name, for error messages
+};
+
 struct Paper {
   std::string id, title;               // title: the name that pages and tables use
   std::optional<Reference> reference;  // the comparison across the papers has none
@@ -114,6 +118,9 @@ struct Paper {
   std::vector<TableLayout> tables;
   std::vector<PlotLayout> plots;
   std::vector<PageLayout> pages = {};
+  // The claims file, if it has [further]: its pages are filled for grounds that it does not name as well
+  // (further_grounds.h).
+  std::optional<ClaimsFile> further = {};
 };
 
 // The five papers and the comparison across them, in this order. Parsed once.

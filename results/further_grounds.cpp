@@ -3,63 +3,156 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <map>
 #include <set>
+#include <string_view>
 
-#include "results/report_tables.h"
+#include "results/ground_name.h"
+#include "results/toml_reader.h"
+#include "terrain/toml.h"
 
 namespace terrabench {
 namespace {
 
-std::string_view ground_of(std::string_view case_name) { return case_name.substr(0, case_name.find('/')); }
-std::string_view rest_of(std::string_view case_name) { return case_name.substr(ground_of(case_name).size()); }
+// What the records say of a ground.
+struct Measured {
+  std::string ground;
+  std::vector<const Record*> records;
+};
 
-// The ground of a DEM is called by the file's path; tables show the file name only.
-std::string_view short_name(std::string_view ground) { return ground.substr(ground.rfind('/') + 1); }
-
-std::set<std::string, std::less<>> named_grounds(std::span<const RankingLayout> layouts) {
-  std::set<std::string, std::less<>> named;
-  for (const RankingLayout& layout : layouts) {
-    for (const RankingLayout::Entry& entry : layout.entries) named.emplace(ground_of(entry.case_name));
-  }
-  return named;
-}
-
-// The ground, if the record has the layout's metric and its case is an entry's on another ground; else empty.
-std::string_view further_ground(const Record& record, const RankingLayout& layout) {
-  if (record.experiment != layout.experiment || record.find(layout.metric) == nullptr) return "";
+bool stands_on(const Record& record) {
   const std::string_view name = record.case_name;
-  for (const RankingLayout::Entry& entry : layout.entries) {
-    const std::string_view rest = rest_of(entry.case_name);
-    if (!rest.empty() && name.size() > rest.size() && name.ends_with(rest))
-      return name.substr(0, name.size() - rest.size());
-  }
-  return "";
+  return !record.terrain.empty() && name.starts_with(record.terrain) &&
+         (name.size() == record.terrain.size() || name[record.terrain.size()] == '/');
 }
 
-// How alike the layout's ground and another are measured: the number of metrics that the first entry measured
-// on both has on both, less the number that it has on one only.
-int likeness(const RankingLayout& layout, const std::string& ground, const ProfileOfStore& measured,
-             const ProfileOfStore& named) {
-  for (const RankingLayout::Entry& entry : layout.entries) {
-    const Record* const own = named.store.find(layout.experiment, entry.case_name, named.profile);
-    const Record* const other = measured.store.find(
-        layout.experiment, ground + std::string(rest_of(entry.case_name)), measured.profile);
-    if (own == nullptr || other == nullptr || other->find(layout.metric) == nullptr) continue;
-    const auto shared = static_cast<int>(std::ranges::count_if(
-        own->metrics, [&](const Metric& metric) { return other->find(metric.name) != nullptr; }));
-    return 3 * shared - static_cast<int>(own->metrics.size() + other->metrics.size());
+// Of all that stands on pages.
+std::set<std::string, std::less<>> experiments_on_pages(const Paper& paper) {
+  std::set<std::string, std::less<>> experiments;
+  for (const TableLayout& table : paper.tables) {
+    if (!table.page.empty()) experiments.insert(table.experiment);
   }
-  return std::numeric_limits<int>::min();
+  for (const PlotLayout& plot : paper.plots) {
+    if (plot.page.empty()) continue;
+    for (const PlotLayout::Series& series : plot.series) experiments.insert(series.experiment);
+  }
+  for (const PageLayout& page : paper.pages) {
+    for (const auto* const figures : {&page.sheets, &page.pictures}) {
+      for (const PageLayout::Drawn& drawn : *figures) experiments.insert(drawn.experiment);
+    }
+  }
+  return experiments;
 }
 
-RankingLayout moved_to(RankingLayout layout, const std::string& ground) {
-  layout.id += " on " + ground;
-  layout.where = fmt::format("on {}", short_name(ground));
-  for (RankingLayout::Entry& entry : layout.entries) {
-    entry.case_name = ground + std::string(rest_of(entry.case_name));
+// The grounds that the paper has no page of, in the order of measurement.
+std::vector<Measured> unnamed_grounds(const Paper& paper, const ProfileOfStore& measured) {
+  const std::set<std::string, std::less<>> experiments = experiments_on_pages(paper);
+  std::vector<Measured> grounds;
+  for (const Record& record : measured.store.records()) {
+    if (record.profile != measured.profile || !experiments.contains(record.experiment) ||
+        !stands_on(record) || std::ranges::count(paper.pages, record.terrain, &PageLayout::id) > 0) {
+      continue;
+    }
+    auto at = std::ranges::find(grounds, record.terrain, &Measured::ground);
+    if (at == grounds.end()) at = grounds.insert(at, {record.terrain, {}});
+    at->records.push_back(&record);
   }
-  return layout;
+  return grounds;
+}
+
+// Checksums are compared within experiments, since some measure a part of the ground.
+bool has_changed(std::span<const Record* const> records) {
+  std::map<std::string_view, std::string_view> checksums;  // by experiment
+  return std::ranges::any_of(records, [&](const Record* record) {
+    return checksums.try_emplace(record->experiment, record->terrain_checksum).first->second !=
+           record->terrain_checksum;
+  });
+}
+
+// The claims file knows the ground by its id, which can stand in ids and in file names. Cases have its name.
+void move_case(std::string& case_name, const FurtherGround& ground) {
+  if (case_name == ground.id || case_name.starts_with(ground.id + "/"))
+    case_name.replace(0, ground.id.size(), ground.name);
+}
+
+void move_figures(std::vector<PageLayout::Drawn>& figures, const FurtherGround& ground) {
+  for (PageLayout::Drawn& drawn : figures) {
+    if (const std::size_t at = drawn.title.find(ground.id); at != std::string::npos)
+      drawn.title.replace(at, ground.id.size(), ground.label);
+    move_case(drawn.case_name, ground);
+  }
+}
+
+void move_cases(FurtherGround& ground) {
+  for (TableLayout& table : ground.paper.tables) {
+    for (TableLayout::Row& row : table.rows) move_case(row.case_name, ground);
+  }
+  for (PlotLayout& plot : ground.paper.plots) {
+    for (PlotLayout::Series& series : plot.series) {
+      for (auto& [x, case_name] : series.cases) move_case(case_name, ground);
+    }
+  }
+  for (RankingLayout& ranking : ground.rankings) {
+    for (RankingLayout::Entry& entry : ranking.entries) move_case(entry.case_name, ground);
+  }
+  for (PageLayout& page : ground.paper.pages) {
+    page.label = ground.label;
+    move_figures(page.sheets, ground);
+    move_figures(page.pictures, ground);
+  }
+}
+
+bool ranks_cases_of(const RankingLayout& ranking, std::string_view id) {
+  return !ranking.entries.empty() &&
+         std::ranges::all_of(ranking.entries, [&](const RankingLayout::Entry& entry) {
+           return entry.case_name.starts_with(fmt::format("{}/", id));
+         });
+}
+
+// Reads the page, tables, plots and rankings of the ground's id, with `file` as the sets are for it.
+void read_layouts(const toml::table& table, const TomlFile& file, const Paper& named, FurtherGround& ground) {
+  TomlTable entry({&table, &file, {}});
+  Paper& paper = ground.paper;
+  std::vector<PageLayout> pages = named.pages;  // tables of named grounds are read too, and left out
+  for (const TomlValue& value : entry.list("page")) {
+    PageLayout page = parse_page(value);
+    if (page.id != ground.id) continue;
+    pages.push_back(page);
+    paper.pages.push_back(std::move(page));
+  }
+  if (paper.pages.size() != 1) entry.refuse("[further] must leave one [[page]] for a further ground");
+  for (const TomlValue& value : entry.list("table")) {
+    TableLayout layout = parse_table(value, pages);
+    if (layout.page == ground.id) paper.tables.push_back(std::move(layout));
+  }
+  for (const TomlValue& value : entry.list("plot")) {
+    PlotLayout layout = parse_plot(value, pages);
+    if (layout.page == ground.id) paper.plots.push_back(std::move(layout));
+  }
+  for (const TomlValue& value : entry.list("ranking")) {
+    RankingLayout layout = parse_ranking(value);
+    if (ranks_cases_of(layout, ground.id)) ground.rankings.push_back(std::move(layout));
+  }
+}
+
+FurtherGround lay_out(const Paper& named, const Measured& measured, const std::string& label) {
+  FurtherGround ground{
+      measured.ground, label, ground_id(measured.ground), {}, {}, has_changed(measured.records)};
+  ground.paper.id = named.id;
+  ground.paper.title = named.title;
+  const ClaimsFile& claims = *named.further;
+  const toml::table table = parse_toml(claims.text, claims.origin, "correct the claims file");
+  TomlFile file{claims.origin, {}};
+  read_sets(table, file);
+  const SetMember names{{{"name", ground.id}, {"label", label}}};
+  const auto has = [&](std::string_view metric) {
+    return std::ranges::any_of(measured.records,
+                               [&](const Record* record) { return record->find(metric) != nullptr; });
+  };
+  replace_sets(table, names, has, file);
+  read_layouts(table, file, named, ground);
+  move_cases(ground);
+  return ground;
 }
 
 // Labels of the best, and of those tied with it.
@@ -106,10 +199,9 @@ std::string caption(const ProfileOfStore& measured, const ProfileOfStore& named)
   return text;
 }
 
-// `number`: of the ground, since two DEMs may have the same name.
-FilledTable empty_table(std::size_t number, std::string_view ground, const std::string& caption) {
-  return {{fmt::format("ground-{}-{}", number, file_name(ground)),
-           fmt::format("Which method for {}", ground),
+FilledTable empty_table(const FurtherGround& ground, const std::string& caption) {
+  return {{"which-method-" + ground.id,
+           fmt::format("Which method for {}", ground.label),
            caption,
            {{"Task"}, {"Best on this ground"}, {"On the compared grounds"}},
            {}},
@@ -128,41 +220,29 @@ void add_row(const Ranking& here, std::span<const Ranking> named, FilledTable& f
 
 }  // namespace
 
-std::vector<FurtherGround> further_grounds(std::span<const RankingLayout> layouts,
-                                           const ProfileOfStore& measured, const ProfileOfStore& named) {
-  const std::set<std::string, std::less<>> names = named_grounds(layouts);
+std::vector<FurtherGround> further_grounds(std::span<const Paper> papers, const ProfileOfStore& measured) {
   std::vector<FurtherGround> further;
-  for (const Record& record : measured.store.records()) {
-    if (record.profile != measured.profile) continue;
-    for (const RankingLayout& layout : layouts) {
-      const std::string_view ground = further_ground(record, layout);
-      if (ground.empty() || names.contains(ground)) continue;
-      if (std::ranges::count(further, ground, &FurtherGround::name) == 0)
-        further.push_back({std::string(ground), {}});
-    }
-  }
-  for (FurtherGround& ground : further) {
-    const auto like = [&](const RankingLayout& l) { return likeness(l, ground.name, measured, named); };
-    for (auto first = layouts.begin(); first != layouts.end();) {
-      const auto last =
-          std::find_if(first, layouts.end(), [&](const auto& l) { return l.task != first->task; });
-      ground.layouts.push_back(moved_to(*std::ranges::max_element(first, last, {}, like), ground.name));
-      first = last;
-    }
+  for (const Paper& paper : papers) {
+    if (!paper.further) continue;
+    const std::vector<Measured> grounds = unnamed_grounds(paper, measured);
+    std::vector<std::string> names;
+    for (const Measured& ground : grounds) names.push_back(ground.ground);
+    const std::vector<std::string> labels = ground_labels(names);
+    for (std::size_t k = 0; k < grounds.size(); ++k) further.push_back(lay_out(paper, grounds[k], labels[k]));
   }
   return further;
 }
 
-std::vector<FilledTable> tables_of_further_grounds(std::span<const RankingLayout> layouts,
+std::vector<FilledTable> tables_of_further_grounds(std::span<const FurtherGround> further,
                                                    const ProfileOfStore& measured,
+                                                   std::span<const RankingLayout> compared,
                                                    const ProfileOfStore& named) {
-  const std::vector<FurtherGround> further = further_grounds(layouts, measured, named);
-  const std::vector<Ranking> compared = rank(layouts, named.store, named.profile);
+  const std::vector<Ranking> elsewhere = rank(compared, named.store, named.profile);
   std::vector<FilledTable> tables;
   for (const FurtherGround& ground : further) {
-    FilledTable filled = empty_table(tables.size() + 1, short_name(ground.name), caption(measured, named));
-    for (const Ranking& here : rank(ground.layouts, measured.store, measured.profile))
-      add_row(here, compared, filled);
+    FilledTable filled = empty_table(ground, caption(measured, named));
+    for (const Ranking& here : rank(ground.rankings, measured.store, measured.profile))
+      add_row(here, elsewhere, filled);
     if (!filled.table.rows.empty()) tables.push_back(std::move(filled));
   }
   return tables;

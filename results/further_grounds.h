@@ -1,11 +1,14 @@
-// "Which method for my ground": ranks the methods on grounds that no claims file names, such as a user's DEM,
-// and compares the result with the rankings on the named grounds, of the same or of another results folder.
+// Grounds that were measured and that no claims file names, such as a user's DEM: what the report shows of
+// them. A claims file says with its [further] how its tables, plots, pictures and rankings are had for such a
+// ground (toml_reader.h). "Which method for my ground" ranks the methods there, and compares the result with
+// the rankings on the named grounds, of the same or of another results folder.
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
+#include "results/claims.h"
 #include "results/fill.h"
 #include "results/ranking.h"
 
@@ -17,18 +20,28 @@ struct ProfileOfStore {
 };
 
 struct FurtherGround {
-  std::string name;                    // a case of it is called "name/…"
-  std::vector<RankingLayout> layouts;  // one per task
-};
-// Every measured ground that no layout names, in the order of measurement. For each task it gets the layout
-// whose named ground was measured by the most similar metrics, so that solids are ranked as solids.
-std::vector<FurtherGround> further_grounds(std::span<const RankingLayout>, const ProfileOfStore& measured,
-                                           const ProfileOfStore& named);
+  std::string name;   // Record::terrain
+  std::string label;  // what readers call it (ground_name.h)
+  std::string id;     // part of file names and of ids
+  // The claims file's page for this ground with the tables and plots that stand on it, all of them, measured
+  // or not; no claims.
+  Paper paper;
+  std::vector<RankingLayout> rankings;  // one per task
+  bool changed = false;                 // whether one experiment measured different contents under this name
 
-// A table per further ground: for each task who is best there and by how much, and which of the named grounds
-// have the same best.
-std::vector<FilledTable> tables_of_further_grounds(std::span<const RankingLayout>,
+  const PageLayout& page() const { return paper.pages.front(); }
+};
+
+// In the order of measurement. A record tells its ground (Record::terrain), and belongs to it if its case is
+// named "GROUND" or "GROUND/…" and its experiment is one that the page shows. Reads the claims file anew for
+// each ground: milliseconds. Throws bad_input as parse_claims() does.
+std::vector<FurtherGround> further_grounds(std::span<const Paper>, const ProfileOfStore& measured);
+
+// A table per further ground of which methods can be ranked: for each task who is best there and by how much,
+// and which of the `compared` grounds, as measured in `named`, have the same best.
+std::vector<FilledTable> tables_of_further_grounds(std::span<const FurtherGround>,
                                                    const ProfileOfStore& measured,
+                                                   std::span<const RankingLayout> compared,
                                                    const ProfileOfStore& named);
 
 }  // namespace terrabench

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "results/report_tables.h"
 
 namespace terrabench {
 namespace {
 
-std::string title(const PageLayout& layout) { return "Ground " + layout.id; }
+std::string title(const PageLayout& layout) { return "Ground " + layout.label; }
 
 // Makes the block's links to places on the main page lead there from another page.
 Block from_another_page(Block block, std::string_view main_page) {
@@ -42,13 +44,11 @@ Document ground_page(const GroundPage& page, const ReportForm& form) {
   add_part("Plots", "plots", page.plots);
   add_part("Pictures", "pictures", page.pictures);
   document.push_back(Heading{2, "Other pages", "pages"});
-  document.push_back(
-      Paragraph{"The verdicts on these measurements, the other comparisons, and the machine and code of each "
-                "run:",
-                false,
-                {{page.paper->title, fmt::format("{}#{}", form.main_page, page.paper->id)},
-                 {"Report", std::string(form.main_page)},
-                 {"Ledger", fmt::format("ledger.{}", form.extension)}}});
+  document.push_back(Paragraph{page.elsewhere,
+                               false,
+                               {{page.section.text, fmt::format("{}{}", form.main_page, page.section.target)},
+                                {"Report", std::string(form.main_page)},
+                                {"Ledger", fmt::format("ledger.{}", form.extension)}}});
   return document;
 }
 
@@ -58,15 +58,15 @@ std::vector<Link> ground_links(std::span<const PageLayout> layouts, const Report
   return links;
 }
 
-Table ground_table(const Paper& paper, std::span<const PageLayout> layouts) {
-  Table table{paper.id + ".grounds",
-              "One page per ground",
+Table ground_table(std::string id, std::string title, std::span<const PageLayout> layouts) {
+  Table table{std::move(id),
+              std::move(title),
               "Each has the tables, plots and pictures that show that ground alone.",
               {{"Ground"}, {"What it is"}, {"As Markdown"}},
               {}};
   for (const PageLayout& layout : layouts) {
     const std::string markdown_file = page_file(layout.id, kMarkdownForm);
-    table.rows.push_back({{layout.id, "", page_file(layout.id, kHtmlForm)},
+    table.rows.push_back({{layout.label, "", page_file(layout.id, kHtmlForm)},
                           {layout.about},
                           {markdown_file, "", markdown_file}});
   }

@@ -19,8 +19,9 @@ struct ReportForm {
 inline constexpr ReportForm kHtmlForm{"html", "index.html"}, kMarkdownForm{"md", "report.md"};
 
 struct GroundPage {
-  const Paper* paper = nullptr;
   const PageLayout* layout = nullptr;
+  std::string elsewhere;             // what else the report says of the ground, a sentence that ends in ':'
+  Link section;                      // leads there: "#id" on the main page
   Document remarks;                  // on the whole report: its profile, whether it can be trusted
   Document tables, plots, pictures;  // a link to "#id" means that place on the report's main page
 
@@ -33,7 +34,7 @@ Document ground_page(const GroundPage&, const ReportForm&);
 
 // Links to the pages in one form.
 std::vector<Link> ground_links(std::span<const PageLayout>, const ReportForm&);
-// The pages of a paper with links to both forms, for the main page.
-Table ground_table(const Paper&, std::span<const PageLayout>);
+// The pages with links to both forms, for the main page.
+Table ground_table(std::string id, std::string title, std::span<const PageLayout>);
 
 }  // namespace terrabench

@@ -96,18 +96,26 @@ std::string page_from(TomlTable& entry, std::span<const PageLayout> pages) {
   return page;
 }
 
-std::vector<std::string> texts_from(TomlTable& entry, std::string_view key) {
-  std::vector<std::string> texts;
-  for (const TomlValue& text : entry.list(key)) texts.push_back(text.text(key));
-  return texts;
+std::vector<PageLayout::Drawn> drawn_from(TomlTable& entry, std::string_view key) {
+  std::vector<PageLayout::Drawn> drawn;
+  for (const TomlValue& node : entry.list(key)) {
+    const std::string path = node.text(key);
+    const std::size_t slash = path.find('/');
+    if (slash == path.npos || slash == 0 || slash + 1 == path.size()) {
+      node.fail(fmt::format("'{}' lists cases that draw figures, as \"experiment/case\"", key));
+    }
+    const std::string experiment = path.substr(0, slash), case_name = path.substr(slash + 1);
+    drawn.push_back({experiment, case_name, fmt::format("{} {}", experiment, case_name)});
+  }
+  return drawn;
 }
 
 }  // namespace
 
 PageLayout parse_page(const TomlValue& node) {
   TomlTable entry(node);
-  PageLayout page{entry.text("id"), entry.text("about"), texts_from(entry, "sheets"),
-                  texts_from(entry, "pictures")};
+  const std::string id = entry.text("id");
+  PageLayout page{id, entry.text("about"), id, drawn_from(entry, "sheets"), drawn_from(entry, "pictures")};
   entry.refuse_unknown();
   return page;
 }

@@ -16,9 +16,16 @@ namespace terrabench {
 // A page of the report that shows in one place what belongs to one ground: the tables and plots whose `page`
 // is its id, and figures. Figures that were not drawn are left out.
 struct PageLayout {
-  std::string id, about;              // about: a sentence that says what the ground is
-  std::vector<std::string> sheets;    // ids of figures with many panels, each as wide as the page
-  std::vector<std::string> pictures;  // ids of figures that stand side by side
+  // The case that draws the figures; in a claims file "experiment/case".
+  struct Drawn {
+    std::string experiment, case_name;
+    std::string title;  // of its figures: the experiment and the case, as readers call it
+    bool operator==(const Drawn&) const = default;
+  };
+  std::string id, about;        // about: a sentence that says what the ground is
+  std::string label;            // what readers call the ground; the id if the file names it
+  std::vector<Drawn> sheets;    // figures with many panels, each as wide as the page
+  std::vector<Drawn> pictures;  // figures that stand side by side
 };
 
 // A table of the report. Its rows are cases of one experiment; a row's own values are what the paper printed

@@ -10,38 +10,6 @@
 namespace terrabench {
 namespace {
 
-RankingLayout layout_from(const TomlValue& node) {
-  TomlTable entry(node);
-  RankingLayout layout;
-  layout.id = entry.text("id");
-  layout.task = entry.text("task");
-  layout.where = entry.text("where");
-  layout.sentence = entry.text_or("sentence", "");
-  if (!layout.sentence.empty()) layout.brief = entry.text("brief");
-  layout.experiment = entry.text("experiment");
-  layout.metric = entry.text("metric");
-  layout.unit = entry.text_or("unit", "");
-  const std::string best = entry.text("best");
-  if (best != "most" && best != "least") entry.refuse("'best' is either most or least");
-  layout.most = best == "most";
-  if (entry.has("needs")) {
-    TomlTable needs(entry.get("needs"));
-    layout.needs = needs.text("metric");
-    layout.needs_text = needs.text("text");
-    const auto [low, high] = needs.get("range").pair("range");
-    layout.needs_low = low.number("range");
-    layout.needs_high = high.number("range");
-    needs.refuse_unknown();
-  }
-  for (const TomlValue& value : entry.list("entries")) {
-    TomlTable one(value);
-    layout.entries.push_back({one.text("label"), one.text("case")});
-    one.refuse_unknown();
-  }
-  entry.refuse_unknown();
-  return layout;
-}
-
 struct Candidate {
   const std::string* label;
   const Record* record;
@@ -85,13 +53,45 @@ std::string why_not_compared(const std::vector<Candidate>& all, bool timing, con
 
 }  // namespace
 
+RankingLayout parse_ranking(const TomlValue& node) {
+  TomlTable entry(node);
+  RankingLayout layout;
+  layout.id = entry.text("id");
+  layout.task = entry.text("task");
+  layout.where = entry.text("where");
+  layout.sentence = entry.text_or("sentence", "");
+  if (!layout.sentence.empty()) layout.brief = entry.text("brief");
+  layout.experiment = entry.text("experiment");
+  layout.metric = entry.text("metric");
+  layout.unit = entry.text_or("unit", "");
+  const std::string best = entry.text("best");
+  if (best != "most" && best != "least") entry.refuse("'best' is either most or least");
+  layout.most = best == "most";
+  if (entry.has("needs")) {
+    TomlTable needs(entry.get("needs"));
+    layout.needs = needs.text("metric");
+    layout.needs_text = needs.text("text");
+    const auto [low, high] = needs.get("range").pair("range");
+    layout.needs_low = low.number("range");
+    layout.needs_high = high.number("range");
+    needs.refuse_unknown();
+  }
+  for (const TomlValue& value : entry.list("entries")) {
+    TomlTable one(value);
+    layout.entries.push_back({one.text("label"), one.text("case")});
+    one.refuse_unknown();
+  }
+  entry.refuse_unknown();
+  return layout;
+}
+
 std::vector<RankingLayout> parse_rankings(std::string_view text, const std::string& origin) {
   const toml::table table = parse_toml(text, origin, "correct the claims file");
   TomlFile file{origin, {}};
   read_sets(table, file);
   TomlTable entry({&table, &file, {}});
   std::vector<RankingLayout> layouts;
-  for (const TomlValue& value : entry.list("ranking")) layouts.push_back(layout_from(value));
+  for (const TomlValue& value : entry.list("ranking")) layouts.push_back(parse_ranking(value));
   return layouts;
 }
 

@@ -61,7 +61,9 @@ struct Ranking {
   std::string clause() const { return layout->where + ": " + result(); }
 };
 
-// Every [[ranking]] of a claims file. Throws bad_input with file and line.
+struct TomlValue;
+// One [[ranking]], and every one of a claims file. Throw bad_input with file and line.
+RankingLayout parse_ranking(const TomlValue&);
 std::vector<RankingLayout> parse_rankings(std::string_view toml, const std::string& origin);
 // Of all claims files that are compiled in. Parsed once.
 std::span<const RankingLayout> ranking_layouts();

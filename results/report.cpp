@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <set>
 
@@ -42,6 +43,7 @@ class Report {
         papers_(papers),
         out_(out),
         results_(judge(store, papers)),
+        further_(further_grounds(papers, {store, results_.profile})),
         parts_(store, results_.profile, out) {}
 
   void write() {
@@ -116,18 +118,48 @@ class Report {
     document_.push_back(std::move(facts));
   }
 
+  // What was measured on grounds that no claims file names: a list of their pages, and which method is best
+  // there.
   void add_further_grounds() {
-    std::vector<FilledTable> tables = tables_of_further_grounds(ranking_layouts(), {store_, results_.profile},
-                                                                {reference_, reference_.last_profile()});
-    if (tables.empty()) return;
+    write_further_pages();
+    std::vector<FilledTable> tables = tables_of_further_grounds(
+        further_, {store_, results_.profile}, ranking_layouts(), {reference_, reference_.last_profile()});
+    if (further_pages_.empty() && tables.empty()) return;
     document_.push_back(Heading{2, "Further grounds", "grounds"});
-    if (!reference_.faults().empty()) {
+    document_.push_back(
+        Paragraph{"Grounds that were given with --terrain. No claim is about them. The page of each has the "
+                  "tables, plots and pictures that the grounds of the comparisons across the papers have, as "
+                  "far as they were measured."});
+    if (!further_pages_.empty())
+      document_.push_back(
+          TableBlock{ground_table("further.grounds", "One page per further ground", further_pages_), {}});
+    if (!tables.empty() && !reference_.faults().empty()) {
       document_.push_back(
           Paragraph{fmt::format("The results that these are compared with cannot be trusted: {} faults",
                                 reference_.faults().size()),
                     true});
     }
     for (FilledTable& filled : tables) add_table(std::move(filled.table), filled.runs);
+  }
+
+  void write_further_pages() {
+    for (const FurtherGround& ground : further_) {
+      GroundPage page = filled_page(ground.paper, ground.page());
+      page.elsewhere =
+          "Which method is best on this ground, the measurements on other grounds, and the machine and code "
+          "of "
+          "each run:";
+      page.section = {"Further grounds", "#grounds"};
+      if (ground.changed) {
+        page.remarks.push_back(Paragraph{
+            "The content of this ground changed between its measurements, so that values of different "
+            "cases may belong to different ground. Measure all of them again.",
+            true});
+      }
+      if (!write_page(page)) continue;
+      further_pages_.push_back(ground.page());
+      for (const auto* const figures : {&ground.page().sheets, &ground.page().pictures}) claim(*figures);
+    }
   }
 
   void write_ledger() {
@@ -141,6 +173,7 @@ class Report {
   void set_form(const ReportForm& form) {
     links_.form = form;
     links_.grounds = ground_links(grounds_, form);
+    std::ranges::move(ground_links(further_pages_, form), std::back_inserter(links_.grounds));
   }
 
   void add_paper_faults() {
@@ -203,19 +236,28 @@ class Report {
   void add_ground_pages(const Paper& paper) {
     std::vector<PageLayout> written;
     for (const PageLayout& layout : paper.pages) {
-      const GroundPage page = filled_page(paper, layout);
-      if (page.empty()) continue;
-      write_file(out_ / page_file(layout.id, kHtmlForm), html(ground_page(page, kHtmlForm)));
-      write_file(out_ / page_file(layout.id, kMarkdownForm), markdown(ground_page(page, kMarkdownForm)));
-      written.push_back(layout);
+      GroundPage page = filled_page(paper, layout);
+      page.elsewhere =
+          "The verdicts on these measurements, the other comparisons, and the machine and code of each run:";
+      page.section = {paper.title, "#" + paper.id};
+      if (write_page(page)) written.push_back(layout);
     }
     if (written.empty()) return;
-    document_.push_back(TableBlock{ground_table(paper, written), {}});
+    document_.push_back(TableBlock{ground_table(paper.id + ".grounds", "One page per ground", written), {}});
     grounds_.insert(grounds_.end(), written.begin(), written.end());
   }
 
+  // Whether there is anything on it; otherwise it is not written.
+  bool write_page(const GroundPage& page) const {
+    if (page.empty()) return false;
+    const std::string& id = page.layout->id;
+    write_file(out_ / page_file(id, kHtmlForm), html(ground_page(page, kHtmlForm)));
+    write_file(out_ / page_file(id, kMarkdownForm), markdown(ground_page(page, kMarkdownForm)));
+    return true;
+  }
+
   GroundPage filled_page(const Paper& paper, const PageLayout& layout) {
-    GroundPage page{&paper, &layout, {}, {}, {}, {}};
+    GroundPage page{&layout, "", {}, {}, {}, {}, {}};
     page.remarks.push_back(Paragraph{fmt::format("Measured in profile “{}”.", results_.profile)});
     add_warning(page.remarks);
     for (FilledTable& filled : filled_tables(paper, layout.id)) {
@@ -223,7 +265,7 @@ class Report {
       page.tables.push_back(parts_.table(std::move(filled.table), filled.runs));
     }
     add_plots(paper, layout.id, page.plots);
-    for (const std::string& sheet : layout.sheets) add_pictures(std::span(&sheet, 1), page.pictures);
+    for (const PageLayout::Drawn& sheet : layout.sheets) add_pictures(std::span(&sheet, 1), page.pictures);
     add_pictures(layout.pictures, page.pictures);
     return page;
   }
@@ -262,7 +304,7 @@ class Report {
   }
 
   void add_further_cases() {
-    const std::vector<TableLayout> layouts = further_cases(store_, papers_, results_.profile);
+    const std::vector<TableLayout> layouts = further_cases(store_, papers_, further_, results_.profile);
     if (layouts.empty()) return;
     document_.push_back(Heading{2, "Further cases", "further"});
     for (const TableLayout& layout : layouts) {
@@ -296,13 +338,22 @@ class Report {
     gallery.pictures.push_back(std::move(*picture));
   }
 
-  // Those of these figures that were drawn, side by side.
-  void add_pictures(std::span<const std::string> ids, Document& to) {
+  // The figures that these cases drew, side by side.
+  void add_pictures(std::span<const PageLayout::Drawn> cases, Document& to) {
     Gallery gallery;
-    for (ShownPicture& shown : drawn_pictures(store_, results_.profile, ids)) {
+    for (ShownPicture& shown : drawn_pictures(store_, results_.profile, cases)) {
       add_picture(gallery, std::move(shown));
     }
     if (!gallery.pictures.empty()) to.push_back(std::move(gallery));
+  }
+
+  // Keeps the figures that these cases drew from standing on the main page.
+  void claim(std::span<const PageLayout::Drawn> cases) {
+    for (const PageLayout::Drawn& drawn : cases) {
+      const Record* const record = store_.find(drawn.experiment, drawn.case_name, results_.profile);
+      if (record == nullptr) continue;
+      for (const RecordedFigure& figure : record->figures) claimed_.insert(figure.id);
+    }
   }
 
   void add_plots(const Paper& paper, std::string_view page, Document& to) {
@@ -345,11 +396,13 @@ class Report {
   std::span<const Paper> papers_;
   const std::filesystem::path& out_;
   JudgedResults results_;
+  std::vector<FurtherGround> further_;
   ReportParts parts_;
   Document document_;
-  LedgerLinks links_;                // filled while the report is written
-  std::vector<PageLayout> grounds_;  // those with a page
-  std::set<std::string> claimed_;    // ids of pictures that belong to a claim
+  LedgerLinks links_;                                // filled while the report is written
+  std::vector<PageLayout> grounds_, further_pages_;  // those with a page
+  std::set<std::string>
+      claimed_;  // ids of pictures that belong to a claim or stand on a further ground's page
 };
 
 }  // namespace

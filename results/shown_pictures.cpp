@@ -31,12 +31,14 @@ std::vector<ShownPicture> claimed_pictures(const Store& store, const JudgedResul
 }
 
 std::vector<ShownPicture> drawn_pictures(const Store& store, std::string_view profile,
-                                         std::span<const std::string> ids) {
+                                         std::span<const PageLayout::Drawn> cases) {
   std::vector<ShownPicture> pictures;
-  for (const std::string& id : ids) {
-    const auto [record, figure] = store.find_figure(id, profile);
-    if (figure == nullptr) continue;
-    pictures.push_back({record, figure, record->experiment + " " + record->case_name, figure->caption});
+  for (const PageLayout::Drawn& drawn : cases) {
+    const Record* const record = store.find(drawn.experiment, drawn.case_name, profile);
+    if (record == nullptr) continue;
+    for (const RecordedFigure& figure : record->figures) {
+      pictures.push_back({record, &figure, drawn.title, figure.caption});
+    }
   }
   return pictures;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "results/judge.h"
+#include "results/layouts.h"
 
 namespace terrabench {
 
@@ -21,8 +22,8 @@ struct ShownPicture {
 // judges is shown with that claim only, although other claims may have it as a condition too. Reads no file.
 std::vector<ShownPicture> claimed_pictures(const Store&, const JudgedResults&, const Paper&);
 
-// Those of these figures that were drawn, by id, in this order. Reads no file.
+// The figures that these cases drew, in this order. Reads no file.
 std::vector<ShownPicture> drawn_pictures(const Store&, std::string_view profile,
-                                         std::span<const std::string> ids);
+                                         std::span<const PageLayout::Drawn> cases);
 
 }  // namespace terrabench

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -10,7 +11,7 @@
 namespace terrabench {
 namespace {
 
-constexpr std::string_view kEach = "each", kName = "name";
+constexpr std::string_view kEach = "each", kName = "name", kFurther = "further", kMeasured = "measured";
 constexpr std::size_t kMostElements = 4096;  // of a list, after `each` is applied
 
 // "{set}" or "{set.field}" in a text.
@@ -64,6 +65,32 @@ std::vector<TomlValue> repeated(const TomlValue& node) {
     }
   }
   return all;
+}
+
+bool has_slot(const TomlValue& value) {
+  return value.node->is_string() && next_slot(value.node->ref<std::string>(), 0);
+}
+
+// Texts with slots are read last, since they name the others.
+SetMember member_from(TomlValue element, const std::string& set) {
+  SetMember member;
+  if (element.node->is_string()) {
+    member.fields.emplace(kName, element.text(set));
+    return member;
+  }
+  element.bound[set] = &member;
+  TomlTable entry(std::move(element));
+  member.fields.emplace(kName, entry.text(kName));
+  std::map<std::string, std::string> named;
+  const auto rest = entry.rest();
+  for (const auto& [key, value] : rest) {
+    if (!has_slot(value)) member.fields.emplace(key, value.text(key));
+  }
+  for (const auto& [key, value] : rest) {
+    if (has_slot(value)) named.emplace(key, value.text(key));
+  }
+  member.fields.merge(named);
+  return member;
 }
 
 }  // namespace
@@ -157,45 +184,34 @@ void TomlTable::refuse_unknown() {
   for (const auto& [key, node] : rest()) node.fail(fmt::format("unknown key '{}'", key));
 }
 
-namespace {
-
-bool has_slot(const TomlValue& value) {
-  return value.node->is_string() && next_slot(value.node->ref<std::string>(), 0);
-}
-
-// A member's texts; those with slots come last, since they name the others.
-void read_member(TomlValue element, const std::string& set, SetMember& member) {
-  element.bound[set] = &member;
-  TomlTable entry(std::move(element));
-  member.fields.emplace(kName, entry.text(kName));
-  std::map<std::string, std::string> named;
-  const auto rest = entry.rest();
-  for (const auto& [key, value] : rest) {
-    if (!has_slot(value)) member.fields.emplace(key, value.text(key));
-  }
-  for (const auto& [key, value] : rest) {
-    if (has_slot(value)) named.emplace(key, value.text(key));
-  }
-  member.fields.merge(named);
-}
-
-}  // namespace
-
 void read_sets(const toml::table& table, TomlFile& file) {
   const toml::node* const sets = table.get("sets");
   if (sets == nullptr) return;
   for (const auto& [name, node] : TomlTable({sets, &file, {}}).rest()) {
     std::vector<SetMember> members;
-    for (const TomlValue& element : node.elements(name)) {
-      SetMember& member = members.emplace_back();
-      if (element.node->is_string()) {
-        member.fields.emplace(kName, element.text(name));
-        continue;
-      }
-      read_member(element, name, member);
-    }
+    for (const TomlValue& element : node.elements(name)) members.push_back(member_from(element, name));
     if (members.empty()) node.fail(fmt::format("the set '{}' is empty", name));
     file.sets.emplace(name, std::move(members));
+  }
+}
+
+void replace_sets(const toml::table& table, const SetMember& ground,
+                  const std::function<bool(std::string_view metric)>& has, TomlFile& file) {
+  const toml::node* const further = table.get(kFurther);
+  if (further == nullptr) return;
+  const TomlValue value{further, &file, {{std::string(kFurther), &ground}}};
+  for (const auto& [name, node] : TomlTable(value).rest()) {
+    const auto set = file.sets.find(name);
+    if (set == file.sets.end()) node.fail(fmt::format("unknown set '{}'", name));
+    std::vector<SetMember> members;
+    for (const TomlValue& element : node.elements(name)) members.push_back(member_from(element, name));
+    const auto suits = [&](const SetMember& member) {
+      const auto measured = member.fields.find(kMeasured);
+      return measured == member.fields.end() || has(measured->second);
+    };
+    const auto chosen = std::ranges::find_if(members, suits);
+    if (chosen == members.end()) node.fail(fmt::format("no member of '{}' suits every ground", name));
+    set->second = {*chosen};
   }
 }
 

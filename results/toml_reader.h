@@ -10,8 +10,18 @@
 // {size}, {ground} (the member's name) and {ground.where} are replaced by those of the pair. A member's
 // text may take {set.field} from other fields of the same member, one level deep. In a list of texts, a text
 // with a set that no `each` names stands for one text per member. Numbers are not replaced.
+//
+// What is stated for a set of grounds can be had for a ground that the file does not name, too. A file says
+// with which members, and where there are several, for which kind of ground each is (replace_sets()):
+//
+//   [further]
+//   ground = [
+//     {name = "{further}", measured = "cavities", where = "in {further.label}"},
+//     {name = "{further}", where = "on {further.label}"},
+//   ]
 #pragma once
 
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -74,5 +84,12 @@ class TomlTable {
 
 // Reads the sets of a file into `sets`. Throws bad_input for an empty set or members of another form.
 void read_sets(const toml::table& file, TomlFile&);
+
+// Puts another ground in the place of those in the sets that the file's [further] names: each of these sets
+// is left with one member, the first whose `measured` is a metric of the ground; a member without `measured`
+// suits any ground. In the members' texts, {further} and {further.field} are those of `ground`. Throws
+// bad_input for an unknown set, or if no member suits the ground.
+void replace_sets(const toml::table& file, const SetMember& ground,
+                  const std::function<bool(std::string_view metric)>& has, TomlFile&);
 
 }  // namespace terrabench

@@ -1,9 +1,13 @@
 #include "experiments/figures/maps.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
+
+#include "results/ground_name.h"
 
 namespace terrabench::figures {
 namespace {
@@ -140,11 +144,9 @@ void add_colour_key(Sheet& sheet, double x, double y, std::string_view words, do
 
 std::string ground_suffix(std::string_view ground, std::string_view main_ground) {
   if (ground == main_ground) return "";
-  std::string name(ground.substr(ground.find_last_of('/') + 1));
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
-  }
-  return "." + name;
+  const bool plain = std::ranges::all_of(
+      ground, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-'; });
+  return fmt::format(".{}", plain ? std::string(ground) : ground_id(ground));
 }
 
 }  // namespace terrabench::figures
