@@ -61,9 +61,9 @@ std::string escape_html(std::string_view text) {
 }
 
 std::string escape_markdown(std::string_view text) {
-  constexpr Replacement kMarkdown[] = {{"\\", "\\\\"}, {"|", "\\|"}, {"*", "\\*"},   {"_", "\\_"},
-                                       {"`", "\\`"},   {"[", "\\["}, {"]", "\\]"},   {"<", "&lt;"},
-                                       {">", "&gt;"},  {"#", "\\#"}, {"&", "&amp;"}, {"~", "\\~"}};
+  constexpr Replacement kMarkdown[] = {
+      {"\\", "\\\\"}, {"|", "\\|"},  {"*", "\\*"}, {"_", "\\_"},   {"`", "\\`"}, {"[", "\\["}, {"]", "\\]"},
+      {"<", "&lt;"},  {">", "&gt;"}, {"#", "\\#"}, {"&", "&amp;"}, {"~", "\\~"}, {"$", "\\$"}};
   return replace(text, kMarkdown);
 }
 

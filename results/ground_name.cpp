@@ -28,9 +28,10 @@ bool ends_in(std::string_view ground, std::string_view tail) {
 }  // namespace
 
 std::string ground_id(std::string_view ground) {
-  std::string stem = std::filesystem::path(ground).stem().string().substr(0, kLongestStem);
-  for (char& c : stem) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
+  std::string stem;
+  for (const char c : std::filesystem::path(ground).stem().string()) {
+    const bool kept = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-';
+    if (stem.size() < kLongestStem && (kept || !stem.ends_with('_'))) stem += kept ? c : '_';
   }
   return fmt::format("{}-{}", stem.empty() ? "ground" : stem, checksum(ground).substr(0, kDigest));
 }

@@ -69,10 +69,7 @@ class Report {
         "of each run are listed at the end.",
         results_.profile)});
     add_warning(document_);
-    for (const Judgement& judgement : results_.judgements) {
-      if (judgement.complaint.empty()) continue;
-      document_.push_back(Paragraph{fmt::format("{}: {}.", judgement.claim->id, judgement.complaint), true});
-    }
+    add_complaints();
     add_summary();
     document_.push_back(Paragraph{"Every row with its figure and its run, in one table that can be filtered:",
                                   false,
@@ -80,6 +77,30 @@ class Report {
     add_paper_faults();
     add_findings();
     add_further_grounds();
+  }
+
+  // Claims of which nothing was measured are many after a run on a ground of the user's: the first are named.
+  void add_complaints() {
+    constexpr std::size_t kNamed = 3;
+    std::vector<std::string> unmeasured;
+    for (const Judgement& judgement : results_.judgements) {
+      if (judgement.complaint.empty()) continue;
+      if (judgement.verdict == Verdict::kMissing && judgement.runs.empty()) {
+        unmeasured.push_back(judgement.claim->id);
+      } else {
+        document_.push_back(
+            Paragraph{fmt::format("{}: {}.", judgement.claim->id, judgement.complaint), true});
+      }
+    }
+    if (unmeasured.empty()) return;
+    const std::size_t count = unmeasured.size();
+    if (count > kNamed) unmeasured.resize(kNamed);
+    document_.push_back(
+        Paragraph{fmt::format("Verdict “missing”, since nothing of them was measured: {}{}.",
+                              fmt::join(unmeasured, ", "),
+                              count > kNamed ? fmt::format(" and {} more claims", count - kNamed) : ""),
+                  true,
+                  {{"All in the ledger", "ledger.html"}, {"as Markdown", "ledger.md"}}});
   }
 
   // On the main page and on every ground's.
@@ -126,10 +147,10 @@ class Report {
         further_, {store_, results_.profile}, ranking_layouts(), {reference_, reference_.last_profile()});
     if (further_pages_.empty() && tables.empty()) return;
     document_.push_back(Heading{2, "Further grounds", "grounds"});
-    document_.push_back(
-        Paragraph{"Grounds that were given with --terrain. No claim is about them. The page of each has the "
-                  "tables, plots and pictures that the grounds of the comparisons across the papers have, as "
-                  "far as they were measured."});
+    document_.push_back(Paragraph{
+        "Grounds chosen with the option --terrain of run. No claim is about them. The page of each has "
+        "the tables, plots and pictures that the grounds of the comparisons across the papers have, as "
+        "far as they were measured."});
     if (!further_pages_.empty())
       document_.push_back(
           TableBlock{ground_table("further.grounds", "One page per further ground", further_pages_), {}});

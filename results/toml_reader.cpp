@@ -210,7 +210,7 @@ void replace_sets(const toml::table& table, const SetMember& ground,
       return measured == member.fields.end() || has(measured->second);
     };
     const auto chosen = std::ranges::find_if(members, suits);
-    if (chosen == members.end()) node.fail(fmt::format("no member of '{}' suits every ground", name));
+    if (chosen == members.end()) node.fail(fmt::format("no member of '{}' suits this ground", name));
     set->second = {*chosen};
   }
 }
