@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/experiment.h"
+#include "experiments/figures/maps.h"
 #include "representations/representation.h"
 #include "results/figure_layout.h"
 #include "terrain/image.h"
@@ -42,6 +43,16 @@ TEST_P(ErrorMaps, ShowEveryTypeWithItsBytesAndItsError) {
       EXPECT_TRUE(says(*layout, found->samples[0])) << type.name << metric;
     }
   }
+}
+
+// DEMs of one file name must not draw into one file; names in the catalogue keep the ids that claims read.
+TEST(GroundSuffix, TellsPathsApartAndKeepsNames) {
+  EXPECT_EQ(figures::ground_suffix("jacksboro", "jacksboro"), "");
+  EXPECT_EQ(figures::ground_suffix("planet-faults", "jacksboro"), ".planet-faults");
+  const std::string x = figures::ground_suffix("/x/caves", "jacksboro");
+  EXPECT_EQ(x.substr(0, 7), ".caves-");
+  EXPECT_NE(x, figures::ground_suffix("/y/caves", "jacksboro"));
+  EXPECT_NE(x, figures::ground_suffix("caves", "jacksboro"));
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ TEST_F(FurtherCases, AreThoseThatNothingElseShows) {
   measure("f", "second", "b", "");
   const std::vector<Paper> papers{parse_claims(kClaims, "claims.toml")};
 
-  const std::vector<TableLayout> tables = further_cases(store, papers, "quick");
+  const std::vector<TableLayout> tables = further_cases(store, papers, {}, "quick");
   ASSERT_EQ(tables.size(), 2U);
   // As the claims file's own table shows them, without columns that none of them has.
   ASSERT_EQ(tables[0].columns.size(), 1U);
@@ -76,7 +76,7 @@ TEST_F(FurtherCases, AreThoseThatNothingElseShows) {
   EXPECT_EQ(tables[1].columns[0].unit, "px");
   EXPECT_EQ(tables[1].rows.size(), 2U);
 
-  EXPECT_TRUE(further_cases(store, papers, "paper").empty());
+  EXPECT_TRUE(further_cases(store, papers, {}, "paper").empty());
 }
 
 }  // namespace

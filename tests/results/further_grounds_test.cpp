@@ -1,21 +1,74 @@
 #include "results/further_grounds.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <set>
+
+#include "results/ground_name.h"
 #include "results/record_json.h"
 #include "results/report.h"
+#include "results/report_tables.h"
+#include "terrain/error.h"
 #include "tests/results/fake_results.h"
 
 namespace terrabench {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 using testing::SizeIs;
 
-constexpr std::string_view kLayouts = R"(
+constexpr std::string_view kClaims = R"(paper = "p"
+title = "t"
+source = "s"
+
 [sets]
 ground = [{name = "hill", metric = "rmse"}, {name = "cave", metric = "volume_error"}]
+
+[further]
+ground = [
+  {name = "{further}", label = "{further.label}", measured = "cavities", metric = "volume_error"},
+  {name = "{further}", label = "{further.label}", metric = "rmse"},
+]
+
+[[page]]
+each = ["ground"]
+id = "{ground}"
+about = "a"
+sheets = ["x/{ground}/map"]
+
+[[table]]
+each = ["ground"]
+id = "p.t-{ground}"
+page = "{ground}"
+title = "t"
+caption = "c"
+experiment = "x"
+rows_title = "r"
+rows = [{label = "a", case = "{ground}/a/5%"}]
+columns = [{title = "Error", metric = "{ground.metric}"}]
+
+[[table]]
+id = "p.all"
+title = "t"
+caption = "c"
+experiment = "x"
+rows_title = "r"
+rows = [{each = ["ground"], label = "a", case = "{ground}/a/5%"}]
+columns = [{title = "Error", metric = "rmse"}]
+
+[[plot]]
+each = ["ground"]
+id = "p.p-{ground}"
+page = "{ground}"
+title = "t"
+caption = "c"
+x = {label = "x"}
+y = {label = "y"}
+series = [{label = "a", experiment = "x", metric = "{ground.metric}", cases = [[1, "{ground}/a/5%"]]}]
 
 [[ranking]]
 each = ["ground"]
@@ -32,27 +85,33 @@ class FurtherGroundsTest : public FolderTest {
  protected:
   FurtherGroundsTest() : store_(folder_) { store_.begin_run(run_); }
 
-  void measure(const std::string& name, double rmse, double volume_error, bool solid) {
-    Record record = fake_record(run_, "x", name);
+  void measure(const std::string& ground, const std::string& rest, double rmse, double volume_error,
+               bool solid) {
+    Record record = fake_record(run_, "x", fmt::format("{}/{}", ground, rest));
+    record.terrain = ground;
+    record.terrain_checksum = checksum_;
     add(record, "rmse", "", {rmse});
     add(record, "volume_error", "", {volume_error});
     if (solid) add(record, "cavities", "", {1});
     store_.append(record);
   }
   void measure_named_grounds() {
-    measure("hill/a/5%", 1, 4, false);
-    measure("hill/b/5%", 2, 3, false);
-    measure("cave/a/5%", 1, 4, true);
-    measure("cave/b/5%", 2, 3, true);
+    measure("hill", "a/5%", 1, 4, false);
+    measure("hill", "b/5%", 2, 3, false);
+    measure("cave", "a/5%", 1, 4, true);
+    measure("cave", "b/5%", 2, 3, true);
   }
+  std::vector<FurtherGround> grounds() const { return further_grounds(papers_, {store_, "quick"}); }
   std::vector<FilledTable> tables() const { return tables(store_); }
-  std::vector<FilledTable> tables(const Store& named) const {
-    return tables_of_further_grounds(layouts_, {store_, "quick"}, {named, "quick"});
+  std::vector<FilledTable> tables(const Store& named, const std::string& profile = "quick") const {
+    return tables_of_further_grounds(grounds(), {store_, "quick"}, layouts_, {named, profile});
   }
 
   Provenance run_ = fake_provenance();
+  std::string checksum_ = "00112233445566778899aabbccddeeff";
   Store store_;
-  std::vector<RankingLayout> layouts_ = parse_rankings(kLayouts, "test.toml");
+  std::vector<Paper> papers_{parse_claims(kClaims, "test.toml")};
+  std::vector<RankingLayout> layouts_ = parse_rankings(kClaims, "test.toml");
 };
 
 TEST_F(FurtherGroundsTest, NamedGroundsHaveNoTable) {
@@ -62,8 +121,8 @@ TEST_F(FurtherGroundsTest, NamedGroundsHaveNoTable) {
 
 TEST_F(FurtherGroundsTest, SaysWhoIsBestThereAndWhereElse) {
   measure_named_grounds();
-  measure("/home/me/alps.tif/a/5%", 5, 1, false);
-  measure("/home/me/alps.tif/b/5%", 10, 9, false);
+  measure("/home/me/alps.tif", "a/5%", 5, 1, false);
+  measure("/home/me/alps.tif", "b/5%", 10, 9, false);
   ASSERT_THAT(tables(), SizeIs(1));
   const Table table = tables()[0].table;
   EXPECT_EQ(table.title, "Which method for alps.tif");
@@ -74,11 +133,11 @@ TEST_F(FurtherGroundsTest, SaysWhoIsBestThereAndWhereElse) {
   EXPECT_THAT(tables()[0].runs, SizeIs(1));
 }
 
-// Solids have cavities, so that the layout of the cave is more like them.
+// Solids have cavities, which the member of [further] that compares volumes asks for.
 TEST_F(FurtherGroundsTest, ComparesSolidsAsSolids) {
   measure_named_grounds();
-  measure("arch/a/5%", 5, 8, true);
-  measure("arch/b/5%", 10, 2, true);
+  measure("arch", "a/5%", 5, 8, true);
+  measure("arch", "b/5%", 10, 2, true);
   ASSERT_THAT(tables(), SizeIs(1));
   EXPECT_EQ(tables()[0].table.rows[0][1].text, "voxels (2), ahead of drills (8) by a factor of 4");
   EXPECT_EQ(tables()[0].table.rows[0][2].text, "as on a cave; on a hill drills");
@@ -89,30 +148,30 @@ TEST_F(FurtherGroundsTest, ComparesWithTheGroundsOfAnotherFolder) {
   Store mine(folder_ / "mine");
   std::swap(store_, mine);
   store_.begin_run(run_);
-  measure("alps/a/5%", 5, 1, false);
-  measure("alps/b/5%", 10, 9, false);
+  measure("alps", "a/5%", 5, 1, false);
+  measure("alps", "b/5%", 10, 9, false);
   EXPECT_EQ(tables()[0].table.rows[0][2].text, "nothing decided there");
   EXPECT_EQ(tables(mine)[0].table.rows[0][2].text, "as on a hill; on a cave voxels");
   EXPECT_THAT(tables(mine)[0].table.caption, HasSubstr("named for comparison"));
   EXPECT_THAT(tables(mine)[0].table.caption, Not(HasSubstr("profile")));
-  const auto mixed = tables_of_further_grounds(layouts_, {store_, "quick"}, {mine, "paper"});
+  const auto mixed = tables(mine, "paper");
   EXPECT_THAT(mixed[0].table.caption, HasSubstr("measured in profile quick, those in profile paper"));
 }
 
 TEST_F(FurtherGroundsTest, SaysThatNothingWasMeasuredToCompare) {
-  measure("alps/a/5%", 5, 1, false);
-  measure("alps/b/5%", 10, 9, false);
+  measure("alps", "a/5%", 5, 1, false);
+  measure("alps", "b/5%", 10, 9, false);
   ASSERT_THAT(tables(), SizeIs(1));
   EXPECT_EQ(tables()[0].table.rows[0][2].text, "nothing decided there");
 }
 
 TEST_F(FurtherGroundsTest, WhatIsUndecidedIsNotTheSame) {
   measure_named_grounds();
-  measure("alps/a/5%", 5, 1, false);
+  measure("alps", "a/5%", 5, 1, false);
   run_.git_revision[0] = 'f';
   run_.id = digest(run_);
   store_.begin_run(run_);
-  measure("alps/b/5%", 10, 9, false);
+  measure("alps", "b/5%", 10, 9, false);
   ASSERT_THAT(tables(), SizeIs(1));
   EXPECT_THAT(tables()[0].table.rows[0][1].text, HasSubstr("not compared, as "));
   EXPECT_EQ(tables()[0].table.rows[0][2].text, "on a hill drills; on a cave voxels");
@@ -121,10 +180,179 @@ TEST_F(FurtherGroundsTest, WhatIsUndecidedIsNotTheSame) {
 TEST_F(FurtherGroundsTest, DemsOfOneNameHaveTheirOwnTables) {
   for (const char* const folder : {"/x/", "/y/"}) {
     for (const char* const type : {"a", "b"})
-      measure(std::string(folder) + "alps.tif/" + type + "/5%", 1, 1, false);
+      measure(std::string(folder) + "alps.tif", std::string(type) + "/5%", 1, 1, false);
   }
   ASSERT_THAT(tables(), SizeIs(2));
   EXPECT_NE(tables()[0].table.id, tables()[1].table.id);
+  EXPECT_EQ(tables()[0].table.title, "Which method for x/alps.tif");
+  EXPECT_EQ(tables()[1].table.title, "Which method for y/alps.tif");
+}
+
+// Without a named ground beside them, heights are still ranked by their error and solids by volume.
+TEST_F(FurtherGroundsTest, AreRankedByTheirKindWhereNothingElseWasMeasured) {
+  measure("alps", "a/5%", 5, 9, false);
+  measure("alps", "b/5%", 10, 1, false);
+  measure("arch", "a/5%", 5, 9, true);
+  measure("arch", "b/5%", 10, 1, true);
+  ASSERT_THAT(tables(), SizeIs(2));
+  EXPECT_THAT(tables()[0].table.rows[0][1].text, HasSubstr("drills (5), ahead of voxels (10)"));
+  EXPECT_THAT(tables()[1].table.rows[0][1].text, HasSubstr("voxels (1), ahead of drills (9)"));
+}
+
+// The end of a case's name does not tell where the ground's ends.
+TEST_F(FurtherGroundsTest, AreKnownByTheTerrainOfTheRecord) {
+  measure("/x/a/5%", "a/5%", 1, 1, false);
+  measure("/x/a/5%", "b/5%", 2, 1, false);
+  Record elsewhere = fake_record(run_, "x", "copy/a/5%");  // measured on other ground than its case names
+  elsewhere.terrain = "/x/b";
+  add(elsewhere, "rmse", "", {1});
+  store_.append(elsewhere);
+  Record other = fake_record(run_, "y", "alps");  // no page shows this experiment
+  other.terrain = "alps";
+  add(other, "rmse", "", {1});
+  store_.append(other);
+  ASSERT_THAT(grounds(), SizeIs(1));
+  EXPECT_EQ(grounds()[0].name, "/x/a/5%");
+  EXPECT_EQ(tables()[0].table.rows[0][1].text, "drills (1), ahead of voxels (2) by a factor of 2");
+}
+
+TEST_F(FurtherGroundsTest, HaveTheLayoutsOfAPageWithTheirOwnCases) {
+  measure("/x/alps.tif", "a/5%", 1, 1, false);
+  ASSERT_THAT(grounds(), SizeIs(1));
+  const FurtherGround ground = grounds()[0];
+  EXPECT_EQ(ground.id, ground_id("/x/alps.tif"));
+  EXPECT_EQ(ground.page().id, ground.id);
+  EXPECT_EQ(ground.page().label, "alps.tif");
+  EXPECT_THAT(ground.page().sheets, ElementsAre(PageLayout::Drawn{"x", "/x/alps.tif/map", "x alps.tif/map"}));
+  ASSERT_THAT(ground.paper.tables, SizeIs(1));
+  EXPECT_EQ(ground.paper.tables[0].id, "p.t-" + ground.id);
+  EXPECT_EQ(ground.paper.tables[0].page, ground.id);
+  EXPECT_EQ(ground.paper.tables[0].rows[0].case_name, "/x/alps.tif/a/5%");
+  ASSERT_THAT(ground.paper.plots, SizeIs(1));
+  EXPECT_EQ(ground.paper.plots[0].series[0].cases[0].second, "/x/alps.tif/a/5%");
+  ASSERT_THAT(ground.rankings, SizeIs(1));
+  EXPECT_TRUE(ground.paper.claims.empty());
+  EXPECT_FALSE(ground.changed);
+}
+
+TEST_F(FurtherGroundsTest, TellWhetherTheirContentChanged) {
+  measure("alps", "a/5%", 1, 1, false);
+  checksum_[0] = 'f';
+  measure("arch", "a/5%", 1, 1, true);
+  measure("alps", "b/5%", 1, 1, false);
+  ASSERT_THAT(grounds(), SizeIs(2));
+  EXPECT_TRUE(grounds()[0].changed);
+  EXPECT_FALSE(grounds()[1].changed);
+}
+
+TEST_F(FurtherGroundsTest, RefuseAClaimsFileThatLeavesNoLayout) {
+  measure("alps", "a/5%", 1, 1, false);
+  const auto message = [&](std::string_view from, std::string_view to) -> std::string {
+    std::string text(kClaims);
+    text.replace(text.find(from), from.size(), to);
+    try {
+      further_grounds(std::vector{parse_claims(text, "test.toml")}, {store_, "quick"});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message("rmse", "rmse"), "");
+  EXPECT_THAT(message("[further]\nground", "[further]\ngrounds"), HasSubstr("unknown set 'grounds'"));
+  EXPECT_THAT(
+      message("label = \"{further.label}\", metric = \"rmse\"", "measured = \"n\", metric = \"rmse\""),
+      HasSubstr("no member of 'ground' suits"));
+  EXPECT_THAT(message("{name = \"{further}\", label = \"{further.label}\", metric", "{name = \"x\", metric"),
+              HasSubstr("one [[page]]"));
+}
+
+std::string without(std::string text, std::string_view ground) {
+  const std::size_t at = text.find(ground);
+  return at == text.npos ? text : text.erase(at, ground.size());
+}
+
+// What a paper shows on a ground's page, apart from its name, ids and texts.
+std::multiset<std::string> shown_on(const Paper& paper, std::string_view page, std::string_view ground) {
+  std::multiset<std::string> shown;
+  for (const TableLayout& table : paper.tables) {
+    if (table.page != page) continue;
+    std::string text = table.experiment;
+    for (const TableLayout::Row& row : table.rows) text += "\n" + row.label + without(row.case_name, ground);
+    for (const TableLayout::Column& column : table.columns) text += "\n" + column.title + column.metric;
+    shown.insert(text);
+  }
+  for (const PlotLayout& plot : paper.plots) {
+    if (plot.page != page) continue;
+    std::string text = plot.y.label + plot.y.unit;
+    for (const PlotLayout::Series& series : plot.series) {
+      text += "\n" + series.label + series.metric;
+      for (const auto& [x, case_name] : series.cases) text += "\n" + without(case_name, ground);
+    }
+    shown.insert(text);
+  }
+  for (const PageLayout& layout : paper.pages) {
+    if (layout.id != page) continue;
+    for (const auto* const figures : {&layout.sheets, &layout.pictures}) {
+      for (const PageLayout::Drawn& drawn : *figures)
+        shown.insert(drawn.experiment + without(drawn.case_name, ground));
+    }
+  }
+  return shown;
+}
+
+// Heights have what the real mountains have, which all experiments measure; solids what the caves have, and
+// more.
+TEST_F(FurtherGroundsTest, OfTheClaimsFilesHaveAllThatNamedGroundsHave) {
+  for (const bool solid : {false, true}) {
+    Record record = fake_record(run_, "cross.representations", solid ? "/x/arch/a" : "/x/alps/a");
+    record.terrain = solid ? "/x/arch" : "/x/alps";
+    add(record, solid ? "cavities" : "rmse", "", {1});
+    store_.append(record);
+  }
+  const std::vector<FurtherGround> further = further_grounds(papers(), {store_, "quick"});
+  ASSERT_THAT(further, SizeIs(2));
+  const Paper& cross = *std::ranges::find(papers(), std::string("cross"), &Paper::id);
+  const auto alps = shown_on(further[0].paper, further[0].id, "/x/alps");
+  const auto arch = shown_on(further[1].paper, further[1].id, "/x/arch");
+  EXPECT_GE(alps.size(), 20U);
+  EXPECT_EQ(alps, shown_on(cross, "jacksboro", "jacksboro"));
+  const auto caves = shown_on(cross, "caves", "caves");
+  EXPECT_TRUE(std::ranges::includes(arch, caves));
+  EXPECT_FALSE(std::ranges::includes(alps, caves)) << "their plot is of heights";
+  const auto tasks = [](std::span<const RankingLayout> rankings) {
+    std::vector<std::string> all;
+    for (const RankingLayout& ranking : rankings) {
+      if (all.empty() || all.back() != ranking.task) all.push_back(ranking.task);
+    }
+    return all;
+  };
+  for (const FurtherGround& ground : further) {
+    EXPECT_EQ(tasks(ground.rankings), tasks(ranking_layouts()));
+    EXPECT_EQ(ground.rankings.size(), tasks(ground.rankings).size()) << "one per task";
+  }
+}
+
+// An id names files and places on pages: no ground's may be those of another.
+TEST_F(FurtherGroundsTest, HaveIdsOfTheirOwn) {
+  for (const char* const ground : {"/x/alps", "/y/alps", "/x/alps-speed", "/x/caves-speed", "/x/caves"}) {
+    Record record = fake_record(run_, "cross.representations", std::string(ground) + "/heightmap");
+    record.terrain = ground;
+    store_.append(record);
+  }
+  std::multiset<std::string> ids;
+  const auto add_ids = [&](const Paper& paper) {
+    for (const TableLayout& table : paper.tables) ids.insert(table.id);
+    for (const PlotLayout& plot : paper.plots) ids.insert(plot.id);
+    for (const PageLayout& page : paper.pages) ids.insert(page.id);
+  };
+  for (const Paper& paper : papers()) add_ids(paper);
+  const std::size_t named = ids.size();
+  for (const FurtherGround& ground : further_grounds(papers(), {store_, "quick"})) add_ids(ground.paper);
+  EXPECT_GE(ids.size(), named + 5 * 15);
+  for (const std::string& id : ids) {
+    EXPECT_EQ(ids.count(id), 1U) << id;
+    EXPECT_EQ(file_name(id), id);
+  }
 }
 
 TEST_F(FurtherGroundsTest, StandInTheReport) {
@@ -132,6 +360,7 @@ TEST_F(FurtherGroundsTest, StandInTheReport) {
   for (std::size_t i = 0; i < 2; ++i) {
     const std::string& name = layout.entries[i].case_name;
     Record record = fake_record(run_, layout.experiment, "alps.tif" + name.substr(name.find('/')));
+    record.terrain = "alps.tif";
     add(record, layout.metric, "B", {1000.0 * static_cast<double>(i + 1)});
     store_.append(record);
   }

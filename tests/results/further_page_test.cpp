@@ -1,0 +1,174 @@
+// The report's pages of grounds that no claims file names, such as DEMs of the user's.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <regex>
+#include <set>
+
+#include "results/ground_name.h"
+#include "results/ground_page.h"
+#include "results/report.h"
+#include "terrain/image.h"
+#include "tests/results/fake_results.h"
+
+namespace terrabench {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class FurtherPageTest : public FolderTest {
+ protected:
+  FurtherPageTest() : store_(folder_) { store_.begin_run(run_); }
+
+  // Some of what cross.representations and cross.error-maps measure there.
+  void measure(const std::string& ground) {
+    for (const char* const type : {"heightmap", "drill"}) {
+      for (const char* const share : {"", "/5%", "/20%"}) {
+        Record record =
+            fake_record(run_, "cross.representations", fmt::format("{}/{}{}", ground, type, share));
+        record.terrain = ground;
+        add(record, "file_bytes", "B", {1000});
+        add(record, "rmse", "m", {3});
+        add(record, "tried_bytes", "B", {1000, 2000});
+        add(record, "tried_rmse", "m", {3, 2});
+        store_.append(record);
+      }
+    }
+    Record maps = fake_record(run_, "cross.error-maps", ground);
+    maps.terrain = ground;
+    add(maps, "drill_rmse", "m", {3});
+    const std::string id = "cross.error-maps." + ground_id(ground), file = "figures/" + id + ".png";
+    write_png(folder_ / file, Image(40, 20, {200, 40, 40}));
+    maps.figures.push_back({id, file, "Maps of <" + ground + ">.", checksum(read_file(folder_ / file))});
+    store_.append(maps);
+  }
+  void write() { write_report(store_, papers()); }
+  std::string written(const std::string& name) const { return read_file(folder_ / "report" / name); }
+  std::string page(const std::string& ground, const ReportForm& form = kHtmlForm) const {
+    return written(page_file(ground_id(ground), form));
+  }
+  std::set<std::string> pages() const {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "report")) {
+      const std::string name = entry.path().filename().string();
+      if (name.starts_with("ground-")) names.insert(name);
+    }
+    return names;
+  }
+
+  Provenance run_ = fake_provenance();
+  Store store_;
+};
+
+TEST_F(FurtherPageTest, HasTheTablesPlotsAndPicturesOfItsGround) {
+  measure("/x/alps.tif");
+  write();
+  for (const ReportForm& form : {kHtmlForm, kMarkdownForm}) {
+    const std::string text = page("/x/alps.tif", form), id = ground_id("/x/alps.tif");
+    for (const std::string& part :
+         {std::string("Ground alps.tif"), "id=\"cross.representations-" + id + "\"",
+          "id=\"cross.representations-" + id + "-bytes\"", "figures/cross.representations-" + id + "-pareto.",
+          "figures/cross.error-maps." + id + ".webp", std::string("cross.error-maps alps.tif")}) {
+      EXPECT_THAT(text, HasSubstr(part)) << form.extension;
+    }
+    EXPECT_THAT(text, Not(HasSubstr("cross.lod-"))) << "nothing of it was measured";
+    EXPECT_THAT(text, Not(HasSubstr("{further")));
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "report/tables" /
+                                      fmt::format("cross.representations-{}.csv", ground_id("/x/alps.tif"))));
+}
+
+TEST_F(FurtherPageTest, IsListedOnTheMainPageWhichDoesNotRepeatIt) {
+  measure("/x/alps.tif");
+  write();
+  const std::string main_page = written("index.html"), id = ground_id("/x/alps.tif");
+  for (const ReportForm& form : {kHtmlForm, kMarkdownForm}) {
+    EXPECT_THAT(main_page, HasSubstr(fmt::format("href=\"{}\"", page_file(id, form))));
+  }
+  EXPECT_THAT(main_page, HasSubstr("<a href=\"#grounds\">Further grounds</a>")) << "in the navigation";
+  EXPECT_THAT(written("ledger.html"), HasSubstr(fmt::format("href=\"{}\"", page_file(id, kHtmlForm))));
+  EXPECT_THAT(main_page, Not(HasSubstr("Further cases")));
+  EXPECT_THAT(main_page, Not(HasSubstr("cross.error-maps." + id)));
+}
+
+TEST_F(FurtherPageTest, LeadsOnlyToPlacesThatExist) {
+  measure("/x/alps.tif");
+  write();
+  const std::string text = page("/x/alps.tif");
+  const std::regex link("(?:href|src)=\"([^\"#]*)(?:#([^\"]*))?\"");
+  int links = 0;
+  for (std::sregex_iterator at(text.begin(), text.end(), link), end; at != end; ++at, ++links) {
+    const std::string file = (*at)[1], anchor = (*at)[2];
+    EXPECT_TRUE(file.empty() || std::filesystem::is_regular_file(folder_ / "report" / file)) << file;
+    if (!anchor.empty())
+      EXPECT_THAT(file.empty() ? text : written(file), HasSubstr("id=\"" + anchor + "\"")) << file;
+  }
+  EXPECT_GE(links, 20);
+}
+
+TEST_F(FurtherPageTest, EscapesTheNamesOfFiles) {
+  const std::string ground = "/x/a b/<i>\"Großer\" & 'co' $1 [x](y) {page} %s.tif";
+  measure(ground);
+  write();
+  EXPECT_EQ(pages().size(), 2U);
+  const std::string text = page(ground), words = page(ground, kMarkdownForm);
+  EXPECT_THAT(
+      text, HasSubstr("Ground &lt;i&gt;&quot;Großer&quot; &amp; &#39;co&#39; $1 [x](y) {page} %s.tif</h1>"));
+  EXPECT_THAT(text, Not(HasSubstr("<i>")));
+  EXPECT_THAT(words, HasSubstr("Ground &lt;i&gt;\"Großer\" &amp; 'co' \\$1 \\[x\\](y) {page} %s.tif"));
+  EXPECT_THAT(written("index.html"), Not(HasSubstr("<i>")));
+}
+
+TEST_F(FurtherPageTest, IsItsOwnForEachOfTwoFilesOfOneName) {
+  measure("/x/alps.tif");
+  measure("/y/alps.tif");
+  measure("/x/caves");  // as the file name of a ground with a page of its own
+  write();
+  EXPECT_EQ(pages().size(), 6U);
+  EXPECT_THAT(page("/x/alps.tif"), HasSubstr("Ground x/alps.tif"));
+  EXPECT_THAT(page("/y/alps.tif"), HasSubstr("Ground y/alps.tif"));
+  EXPECT_THAT(page("/x/alps.tif"), Not(HasSubstr(ground_id("/y/alps.tif"))));
+  EXPECT_THAT(page("/x/caves"), HasSubstr("Ground caves"));
+}
+
+TEST_F(FurtherPageTest, IsNotWrittenIfNothingOnItWasMeasured) {
+  Record record = fake_record(run_, "cross.representations", "/x/alps.tif/heightmap (rays=7)");
+  record.terrain = "/x/alps.tif";
+  record.overrides = {"rays=7"};
+  add(record, "rmse", "m", {3});
+  store_.append(record);
+  measure("jacksboro");
+  write();
+  EXPECT_EQ(pages(), (std::set<std::string>{"ground-jacksboro.html", "ground-jacksboro.md"}));
+  EXPECT_THAT(written("index.html"), Not(HasSubstr("Further grounds")));
+}
+
+TEST_F(FurtherPageTest, WarnsOfGroundThatChanged) {
+  measure("/x/alps.tif");
+  write();
+  EXPECT_THAT(page("/x/alps.tif"), Not(HasSubstr("The content of this ground changed")));
+  Record again = fake_record(run_, "cross.representations", "/x/alps.tif/voxel");
+  again.terrain = "/x/alps.tif";
+  again.terrain_checksum = "another";
+  add(again, "rmse", "m", {3});
+  store_.append(again);
+  write();
+  EXPECT_THAT(page("/x/alps.tif"), HasSubstr("The content of this ground changed"));
+}
+
+// After a run on a ground of the user's alone, no claim is measured.
+TEST_F(FurtherPageTest, IsNotBuriedUnderMissingClaims) {
+  measure("/x/alps.tif");
+  write();
+  const std::string text = written("index.html");
+  const std::string_view mark = "class=\"warning\"";
+  std::size_t warnings = 0;
+  for (std::size_t at = text.find(mark); at != text.npos; at = text.find(mark, at + 1)) ++warnings;
+  EXPECT_EQ(warnings, 1U);
+  EXPECT_THAT(text, testing::ContainsRegex("nothing of them was measured: [^<]* and [0-9]+ more claims"));
+}
+
+}  // namespace
+}  // namespace terrabench
