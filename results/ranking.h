@@ -54,7 +54,7 @@ struct Ranking {
 
   // Whether there is a best method, or several tied: not if times have too few samples or if the values
   // cannot be compared.
-  bool decided() const { return !places.empty() && not_compared.empty() && !single; }
+  bool decided() const { return !places.empty() && not_compared.empty() && !too_few; }
   // "heightmap (262 kB), ahead of drills (341 kB) by a factor of 1.3"
   std::string result() const;
   // "on caves: " and the result

@@ -83,7 +83,7 @@ std::string Ranking::result() const {
   };
   if (places.empty()) return "none";
   if (!not_compared.empty()) return "not compared, as " + not_compared;
-  if (tied > 1 && !single) {
+  if (tied > 1 && !too_few) {
     std::vector<std::string> best;
     for (std::size_t i = 0; i < tied; ++i) best.push_back(with_value(places[i]));
     const Summary& last = places[tied - 1].factor;
@@ -93,7 +93,7 @@ std::string Ranking::result() const {
   if (places.size() == 1) return with_value(places[0]) + " alone";
   const std::string first = with_value(places[0]), second = with_value(places[1]),
                     factor = factor_text(places[1].factor);
-  if (single) {
+  if (too_few) {
     return fmt::format("undecided, as they were measured only once or twice: {}, {}, a factor of {}", first,
                        second, factor);
   }

@@ -102,8 +102,9 @@ TEST_F(FurtherPageTest, LeadsOnlyToPlacesThatExist) {
   for (std::sregex_iterator at(text.begin(), text.end(), link), end; at != end; ++at, ++links) {
     const std::string file = (*at)[1], anchor = (*at)[2];
     EXPECT_TRUE(file.empty() || std::filesystem::is_regular_file(folder_ / "report" / file)) << file;
-    if (!anchor.empty())
+    if (!anchor.empty()) {
       EXPECT_THAT(file.empty() ? text : written(file), HasSubstr("id=\"" + anchor + "\"")) << file;
+    }
   }
   EXPECT_GE(links, 20);
 }
