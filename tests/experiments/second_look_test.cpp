@@ -69,7 +69,7 @@ TEST_F(CommandLine, ShortTimedCasesAreMeasuredTwiceInOneRun) {
   EXPECT_EQ(Store::open(folder_ / "twice").records().size(), Store::open(folder_ / "once").records().size());
   EXPECT_EQ(call("$T compare once twice").code, 0);
   EXPECT_THAT(call("$T run hybrid.fresnel --again 1000 --out untimed").text, Not(HasSubstr("again: ")));
-  EXPECT_THAT(call("$T run cross.scale --set largest=257,seconds=0.01 --again 1000 --out sizes").text,
+  EXPECT_THAT(call("$T run cross.scale --set largest=513,seconds=0.01 --again 1000 --out sizes").text,
               HasSubstr("again: "));
   EXPECT_EQ(call(run + "--again -1 --out twice").code, 2);
 }

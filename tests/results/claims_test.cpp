@@ -185,6 +185,8 @@ TEST(Claims, TheLargestSizeAndFurtherGroundsAreMeasuredInThePaperProfileOnly) {
                        // Exponents of times near their bound.
                        claim->id == "cross.scale.build" || claim->id == "cross.scale.query.near" ||
                        claim->id == "cross.scale.lod" || claim->id == "cross.scale.flow" ||
+                       claim->id == "cross.scale.load" || claim->id == "cross.scale.edit" ||
+                       claim->id.starts_with("cross.scale.ray") ||
                        claim->id == "cross.representations.ray-rate.large" ||
                        // At the quick profile's size the peak is another ground, and voxels are too coarse.
                        claim->id == "cross.lod-ranks.peak" || claim->id == "cross.lod-seams.peak" ||

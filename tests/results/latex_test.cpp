@@ -201,7 +201,7 @@ TEST_F(LatexBundle, PicturesThatAreGoneOrAlteredAreNamed) {
   EXPECT_THAT(write_latex_bundle(folder_, bundle()).left_out,
               testing::ElementsAre("figures/hybrid.F4.png", "figures/hybrid.F6.png", "figures/x.png"));
   const auto all = files();
-  EXPECT_THAT(all.at("main.tex"), HasSubstr("missing, altered or not readable: figures/hybrid.F4.png, "
+  EXPECT_THAT(all.at("main.tex"), HasSubstr("(missing, altered or not readable): figures/hybrid.F4.png, "
                                             "figures/hybrid.F6.png, figures/x.png."));
   for (int k = 3; k <= 13; ++k) {
     const std::string name = "pictures/hybrid.F" + std::to_string(k) + ".png";

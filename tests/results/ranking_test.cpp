@@ -91,29 +91,29 @@ TEST_F(RankingTest, InShortGroundsWithTheSameBestStandTogether) {
     EXPECT_EQ(sentence, "Speed");
     return text;
   };
-  measure("hill/a", {0.010, 0.010});
-  measure("hill/b", {0.030, 0.030});
-  measure("sea/a", {0.010, 0.010});
-  measure("sea/b", {0.040, 0.040});
+  measure("hill/a", {0.010, 0.010, 0.010});
+  measure("hill/b", {0.030, 0.030, 0.030});
+  measure("sea/a", {0.010, 0.010, 0.010});
+  measure("sea/b", {0.040, 0.040, 0.040});
   EXPECT_EQ(line(), "For the shortest time: on a hill and at sea, drills led (3 to 4 ×).");
-  measure("sea/b", {0.005, 0.005});
+  measure("sea/b", {0.005, 0.005, 0.005});
   EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, voxels led (2 ×).");
-  measure("sea/b", {0.010, 0.010});
+  measure("sea/b", {0.010, 0.010, 0.010});
   EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, drills and voxels tied.");
   measure("sea/b", {0.010});
   EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, nothing was decided.");
-  measure("sea/b", {0.010, 0.010}, 1000, 0.1);  // of those that lose little there is one at sea
+  measure("sea/b", {0.010, 0.010, 0.010}, 1000, 0.1);  // of those that lose little there is one at sea
   EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, voxels alone took part.");
-  measure("sea/b", {0.010, 0.010}, 1000, 0.9);
+  measure("sea/b", {0.010, 0.010, 0.010}, 1000, 0.9);
   EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, none took part.");
-  measure("hill/b", {0.010, 0.010}, 1002);
+  measure("hill/b", {0.010, 0.010, 0.010}, 1002);
   EXPECT_EQ(in_short(rank(layouts_, store_, "quick")).lines.at(1).second,
             "For the most queries: on a hill, voxels led (1.002 ×).");
 }
 
 TEST_F(RankingTest, InShortTasksOfOneSentenceStandTogether) {
-  measure("hill/a", {0.010, 0.010});
-  measure("hill/b", {0.030, 0.030});
+  measure("hill/a", {0.010, 0.010, 0.010});
+  measure("hill/b", {0.030, 0.030, 0.030});
   EXPECT_EQ(in_short(rank(layouts_, store_, "quick")).lines.size(), 2U);
   layouts_[2].sentence = layouts_[0].sentence;
   const Facts together = in_short(rank(layouts_, store_, "quick"));
