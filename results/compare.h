@@ -20,7 +20,7 @@ enum class Change {
   kUnresolved,  // a timing with fewer than three samples in a folder, too few for an interval, or whose
                 // interval spans more than a factor of 4 around 1, as of samples taken on grounds of
                 // different sizes
-  kElsewhere,  // a timing of another kind of machine, which says nothing about the code
+  kElsewhere,   // a timing of another kind of machine, which says nothing about the code
   kOnlyBefore,
   kOnlyAfter,
 };
