@@ -33,7 +33,7 @@ class HeightChunks final : public MeshChunks {
 
  private:
   static constexpr int kCells = 16;
-  static constexpr int kTile = 64;  // chunks along a side of a tile
+  static constexpr int kTile = 16;  // chunks along a side of a tile
   static std::size_t index(glm::ivec2 at, int width) {
     return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(at.x);
   }
@@ -42,7 +42,7 @@ class HeightChunks final : public MeshChunks {
 
   const Heightfield& heights_;
   int tiles_x_ = 0;
-  // Of each chunk, by tiles: 8 B each until a chunk in it is edited, 32 KiB from then on.
+  // Of each chunk, by tiles: 8 B each until a chunk in it is edited, 2 KiB from then on.
   std::vector<std::unique_ptr<std::uint64_t[]>> versions_;
 };
 
