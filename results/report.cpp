@@ -168,8 +168,7 @@ class Report {
       GroundPage page = filled_page(ground.paper, ground.page());
       page.elsewhere =
           "Which method is best on this ground, the measurements on other grounds, and the machine and code "
-          "of "
-          "each run:";
+          "of each run:";
       page.section = {"Further grounds", "#grounds"};
       if (ground.changed) {
         page.remarks.push_back(Paragraph{
@@ -370,10 +369,8 @@ class Report {
 
   // Keeps the figures that these cases drew from standing on the main page.
   void claim(std::span<const PageLayout::Drawn> cases) {
-    for (const PageLayout::Drawn& drawn : cases) {
-      const Record* const record = store_.find(drawn.experiment, drawn.case_name, results_.profile);
-      if (record == nullptr) continue;
-      for (const RecordedFigure& figure : record->figures) claimed_.insert(figure.id);
+    for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, cases)) {
+      claimed_.insert(shown.figure->id);
     }
   }
 
