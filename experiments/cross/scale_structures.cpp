@@ -12,6 +12,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 
 #include "experiments/cross/scale_run.h"
 #include "experiments/cross/temporary_folder.h"
@@ -146,22 +147,36 @@ bool takes_edits(const RepresentationType& type, const Representation& built) {
   return type.traits.editable || dynamic_cast<const Ght*>(&built) != nullptr;
 }
 
+// Of the column; nothing where it is empty.
+std::optional<float> highest_solid(const Representation& structure, const float& x, const float& z) {
+  SpanSink sink;
+  structure.spans({{&x, 1}, {&z, 1}}, sink);
+  const auto column = sink.column(0);
+  return column.empty() ? std::nullopt : std::optional(column.back().top);
+}
+
+// Whether all the holes of a size fit into half of a ground that is as high as it is wide. On less the later
+// ones would find the ground dug away.
+bool holes_fit(int side) {
+  const double hole = 2 * std::numbers::pi / 3 * std::pow(kEditRadius, 3);
+  return kQueryTurns * kEdits * hole <= 0.5 * std::pow(side, 3);
+}
+
 // Digs half a sphere of kEditRadius columns out of the ground, kEdits times; seconds per time. A tree of
 // heightmaps takes a radial erosion with the same radii, which also removes the ground above the sphere.
+// Throws environment_error unless more than half of the times the ground is lower afterwards (where the floor
+// lies open there is nothing to dig): then it was not digging that took the time.
 double seconds_per_edit(Representation& structure, float cell, Places places) {
   std::vector<float> x(kEdits), z(kEdits);
   places.next(x, z);
-  SpanSink ground;
   auto* const tree = dynamic_cast<Ght*>(&structure);
   const float radius = cell * kEditRadius;
   double spent = 0;
-  int done = 0;
+  int done = 0, holes = 0;
   for (int i = 0; i < kEdits; ++i) {
-    ground.clear();
-    structure.spans({std::span(x).subspan(i, 1), std::span(z).subspan(i, 1)}, ground);
-    const auto column = ground.column(0);
-    if (column.empty()) continue;
-    const glm::vec3 centre{x[i], column.back().top, z[i]};
+    const std::optional<float> top = highest_solid(structure, x[i], z[i]);
+    if (!top) continue;
+    const glm::vec3 centre{x[i], *top, z[i]};
     spent += processor_seconds([&] {
       if (tree != nullptr) {
         tree->apply(events::RadialErosion{glm::dvec3(centre), glm::dvec3(radius)});
@@ -170,8 +185,13 @@ double seconds_per_edit(Representation& structure, float cell, Places places) {
       }
     });
     ++done;
+    holes += highest_solid(structure, x[i], z[i]).value_or(-HUGE_VALF) < *top;
   }
-  return spent / std::max(done, 1);
+  if (2 * holes <= done) {
+    throw environment_error(fmt::format("only {} of {} edits dug a hole", holes, kEdits), "cross.scale",
+                            "report it as a bug");
+  }
+  return spent / done;
 }
 
 // What one structure costs at all sizes.
@@ -235,8 +255,8 @@ class Structure {
 
   // Away from the borders, which events must not reach.
   void dig(Representation& built, int side) {
+    if (!holes_fit(side)) return;
     const double share = 1 - 2.0 * (kEditRadius + 2) / side;
-    if (share <= 0) return;
     const float cell = built.bounds().size().x / static_cast<float>(solid_ ? side : side - 1);
     for (int turn = 0; turn < kQueryTurns; ++turn) {
       edit_.add(squared(side), seconds_per_edit(built, cell, places(built, share)));

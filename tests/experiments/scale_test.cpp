@@ -186,7 +186,7 @@ TEST(Scale, BytesOfAHeightMapGrowWithItsColumns) {
 // Nine samples of queries, rays and edits at three sizes, and those only where the structure has them.
 TEST(Scale, QueriesRaysEditsAndFilesAreMeasuredAtEverySize) {
   const auto over = [](const char* name) {
-    return measured(name, {{"smallest", std::int64_t{33}}, {"largest", std::int64_t{129}}, {"seconds", 1e6}});
+    return measured(name, {{"smallest", std::int64_t{65}}, {"largest", std::int64_t{257}}, {"seconds", 1e6}});
   };
   const Record stack = over("heights/layered_stack"), map = over("heights/heightmap"),
                tree = over("heights/ght");
@@ -197,8 +197,17 @@ TEST(Scale, QueriesRaysEditsAndFilesAreMeasuredAtEverySize) {
   EXPECT_EQ(samples(tree, "edit").size(), 9U);
   EXPECT_EQ(map.find("edit"), nullptr) << "a heightmap takes no edits";
   EXPECT_EQ(over("heights/procedural_mesh").find("ray"), nullptr) << "cast through its mesh";
-  EXPECT_THAT(samples(map, "load_smallest"), ElementsAre(33 * 33));
-  EXPECT_THAT(samples(map, "load_largest"), ElementsAre(129 * 129));
+  EXPECT_THAT(samples(map, "load_smallest"), ElementsAre(65 * 65));
+  EXPECT_THAT(samples(map, "load_largest"), ElementsAre(257 * 257));
+}
+
+TEST(Scale, DiggingIsMeasuredOnlyWhereTheGroundHasRoomForTheHoles) {
+  const Record record =
+      measured("solids/layered_stack",
+               {{"smallest", std::int64_t{32}}, {"largest", std::int64_t{64}}, {"seconds", 1e6}});
+  EXPECT_THAT(samples(record, "query_smallest"), ElementsAre(32 * 32));
+  EXPECT_THAT(samples(record, "edit_smallest"), ElementsAre(64 * 64));
+  for (const double seconds : samples(record, "edit")) EXPECT_GT(seconds, 0);
 }
 
 TEST(Scale, MemoryUsedOnceIsGivenBack) {
