@@ -36,9 +36,10 @@ std::vector<PlannedCase> plan_cases(const RunPlan&);
 
 // Measures all planned cases and appends their records to folder/measurements.jsonl, in the registry's order;
 // with jobs > 1 first those without times, beside each other in processes of their own, then the timed ones,
-// alone. Short timed ones once more at the end (second_look.h), which adds to their times; --resume does not
-// make up for it. Throws Error(kInterrupted) on Ctrl-C; the records so far stay; and
-// Error(kClaimFallsShort) at the end if two looks differ in what is exact.
+// alone. At the end, measures short timed cases a second time and adds these samples to their times
+// (second_look.h). After an interruption, --resume does not catch up on second measurements. Throws
+// Error(kInterrupted) on Ctrl-C and keeps the records written so far. Throws Error(kClaimFallsShort) at the
+// end if exact figures of a case differ between its two measurements.
 void run(const RunPlan&);
 
 }  // namespace terrabench

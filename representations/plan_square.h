@@ -35,7 +35,7 @@ class PlanSquare {
   // Metres above the ground, negative in the solid.
   double above(double t) const { return above(past_diagonal(t) < 0, t); }
 
-  // Where in the stretch the ray first is not below the ground as `inside` says; infinite for nowhere.
+  // The first t in the stretch at which below(t) differs from `inside`; infinite if there is none.
   double change(Stretch at, bool inside) const {
     const double first = past_diagonal(at.begin), last = past_diagonal(at.end);
     if ((above(first < 0, at.begin) < 0) != inside) return at.begin;

@@ -26,7 +26,7 @@ bool stands_on(const Record& record) {
          (name.size() == record.terrain.size() || name[record.terrain.size()] == '/');
 }
 
-// Of all that stands on pages.
+// The experiments whose tables, plots or figures stand on pages of grounds.
 std::set<std::string, std::less<>> experiments_on_pages(const Paper& paper) {
   std::set<std::string, std::less<>> experiments;
   for (const TableLayout& table : paper.tables) {

@@ -20,8 +20,8 @@ inline constexpr ReportForm kHtmlForm{"html", "index.html"}, kMarkdownForm{"md",
 
 struct GroundPage {
   const PageLayout* layout = nullptr;
-  std::string elsewhere;             // what else the report says of the ground, a sentence that ends in ':'
-  Link section;                      // leads there: "#id" on the main page
+  std::string elsewhere;             // what `section` holds, as words before the link; ends in ':'
+  Link section;                      // to a section of the main page, "#id"
   Document remarks;                  // on the whole report: its profile, whether it can be trusted
   Document tables, plots, pictures;  // a link to "#id" means that place on the report's main page
 

@@ -178,7 +178,8 @@ class Bundle {
     add_figures(figures);
   }
 
-  // The two files of a plot, and what shows the smaller one in half a line; nothing if it was not measured.
+  // Writes both files of a plot, 84 mm and 174 mm wide. Returns the figure with the 84 mm one; nothing, and
+  // no files, if the plot has no measurements.
   std::optional<FigureText> draw(const PlotLayout& layout) const {
     const FilledPlot filled = fill(layout, store_, results_.profile);
     if (filled.runs.empty()) return std::nullopt;

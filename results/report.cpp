@@ -267,7 +267,7 @@ class Report {
     grounds_.insert(grounds_.end(), written.begin(), written.end());
   }
 
-  // Whether there is anything on it; otherwise it is not written.
+  // Writes the page in both forms unless it is empty. Returns whether it was written.
   bool write_page(const GroundPage& page) const {
     if (page.empty()) return false;
     const std::string& id = page.layout->id;

@@ -110,7 +110,8 @@ std::string TomlValue::text(std::string_view what) const {
     if (member == bound.end()) fail(fmt::format("no 'each' names the set '{}' here", slot->set));
     const auto field = member->second->fields.find(slot->field);
     if (field == member->second->fields.end()) {
-      fail(fmt::format("a member of '{}' has no '{}', or it names others itself", slot->set, slot->field));
+      fail(fmt::format("a member of '{}' has no '{}', or that field refers to other fields itself", slot->set,
+                       slot->field));
     }
     full.append(raw, done, slot->begin - done).append(field->second);
     done = slot->end;

@@ -11,8 +11,9 @@
 // text may take {set.field} from other fields of the same member, one level deep. In a list of texts, a text
 // with a set that no `each` names stands for one text per member. Numbers are not replaced.
 //
-// What is stated for a set of grounds can be had for a ground that the file does not name, too. A file says
-// with which members, and where there are several, for which kind of ground each is (replace_sets()):
+// Tables, plots, pages and rankings that are stated for a set of grounds can also be made for a ground that
+// the file does not name. [further] lists, per set, the members that then replace the set's own. The first
+// that suits the ground is used: `measured` names a metric that the ground must have (replace_sets()).
 //
 //   [further]
 //   ground = [

@@ -5,11 +5,11 @@
 
 namespace terrabench::cross {
 
-// Uses so many bytes of new memory and gives them back. The host of a virtual machine provides a page when
-// the machine first uses it, which takes several times as long as the page fault within the machine and is
-// counted nowhere: without this, work on much memory would seem slow in the first case that uses so much, and
-// only there. Seldom more than 2 µs per page of 4 KiB, 9 µs where the host must provide it. At most what is
-// available; nothing if the system has no pages to give.
+// Writes to `bytes` of new memory, or to 90 % of the available memory if that is less, and frees it. Does
+// nothing if the system refuses the memory. The host of a virtual machine provides a page when the machine
+// first uses it. This takes several times as long as the page fault within the machine, and no counter shows
+// it. Without this function the first case that uses much memory would seem slow, and no later one. Takes
+// seldom more than 2 µs per page of 4 KiB, or 9 µs where the host must provide the page.
 void use_memory_once(std::uint64_t bytes);
 
 }  // namespace terrabench::cross

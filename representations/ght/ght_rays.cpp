@@ -98,8 +98,8 @@ struct GhtGround {
     return nearest;
   }
 
-  // A ray that passes the ground on the very border of two squares may have done so by the planes of the one
-  // and not yet by those of the other. A millionth of a cell is more than their rounding, metres.
+  // Metres; a millionth of a cell. Where a ray crosses the ground exactly on the border of two squares, the
+  // planes of one square may put it below the ground and those of the other above, by less than this.
   double within_rounding() const { return 1e-6 * static_cast<double>(tree.grid().spacing()); }
 
   // Between a hole and ground there is a wall.

@@ -66,7 +66,8 @@ class RangeSweep {
   // What a point says of the cells around it.
   enum : std::uint8_t { kMaybeSolid = 1, kMaybeAir = 2, kBoth = 3 };
 
-  // Leaves out the points below which all is solid and above which all is air.
+  // Limits the points along y to the heights at which the surface can lie: all is solid below them, and all
+  // is air above them.
   void choose_levels() {
     const auto [solid, air] = field_.heights({lattice_.position(0, begin_.x), lattice_.position(2, begin_.y)},
                                              {lattice_.position(0, end_.x), lattice_.position(2, end_.y)});
@@ -142,7 +143,8 @@ class FieldRay {
 
   const FieldGround& ground_;
   double per_change_, least_, fine_;  // in lengths of the direction
-  // The last sample, and up to where the field cannot change its sign after it.
+  // The position and value of the last sample, and the earliest position of the next one. The field keeps
+  // its sign between the two unless they are at most least_ apart.
   double sampled_ = -kNoHit, value_ = 0, clear_ = -kNoHit;
 
  public:
@@ -284,8 +286,9 @@ double FieldRay::change(const RayPath& path, Stretch at, bool inside) {
   return kNoHit;
 }
 
-// The change of sign between a and b, on the side of b: by false position that halves the value which stays
-// (the Illinois method), never closer than half the precision to an end, so that both ends close in.
+// Narrows down the change of sign between a and b to fine_, and returns the end on the side of b. Uses false
+// position and halves the value at an end that is kept twice (the Illinois method); every fourth step is a
+// bisection. No step lands within fine_ / 2 of an end, so that both ends close in.
 double FieldRay::narrow(const RayPath& path, double a, double b, double at_a, double at_b) const {
   const bool begins = at_a > 0;
   int kept = 0;  // the end that the last step kept: -1 a, 1 b

@@ -45,12 +45,13 @@ class StackField final : public SampledField {
   // The same to the bit, with the cube several times as fast. `tops` are the stacks' own.
   float at(glm::vec3, const ColumnTops& tops) const;
   Heights heights(glm::dvec2 low, glm::dvec2 high) const override;
-  // The height from which on the field is not positive over the rectangle: that of the highest solid in
-  // reach, since at most half of the kernel lies below. -infinity over air. O(columns in reach)
+  // A height at and above which the field is nowhere positive over the rectangle: one level, for rounding,
+  // above the highest solid in the kernel's reach. From there at most half of the kernel lies in the solid.
+  // -infinity if all columns in reach are air. O(columns in reach)
   double highest(glm::dvec2 low, glm::dvec2 high, const ColumnTops& tops) const;
-  // Bounds on how fast the field changes: between two points that are `apart`, metres per axis, by no more
-  // than steepest(apart) + jump(). Exact for the cube. For the sphere, whose table of chords is no exact
-  // sphere, with 6 % added.
+  // Bounds on how fast the field changes: between two points whose offset is `apart` (metres along each
+  // axis), it changes by at most steepest(apart) + jump(). The cube's bound has no margin. The sphere's has
+  // 6 %, because its table of chords only approximates a sphere.
   double steepest(glm::dvec3 apart) const;
   double jump() const;
   // Along a vertical line: heights y ascend. O(columns of the support · (their runs + y)).

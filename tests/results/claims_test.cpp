@@ -267,7 +267,7 @@ TEST(Claims, RefusesInvalidSets) {
   refused("px = [{at = \"x\"}]", "", "'name' is missing", 5);
   refused("px = [{name = \"{px.as}\", as = \"a\"}]", "", "a member of 'px' has no 'as'", 5);
   refused("px = [{name = \"a\", as = \"{px.at}\", at = \"{px}\"}]", "",
-          "has no 'at', or it names others itself", 5);
+          "has no 'at', or that field refers to other fields itself", 5);
   refused("py = [\"1\"]\npx = [{name = \"a\", as = \"{py}\"}]", "", "no 'each' names the set 'py' here", 6);
   refused(good, "note = \"{px}\"\n", "no 'each' names the set 'px' here", 11);
   refused(good, "check = [{equal = [\"e/{py}/m\", 1]}]\n", "unknown set 'py'", 11);
