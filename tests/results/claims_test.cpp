@@ -188,6 +188,7 @@ TEST(Claims, TheLargestSizeAndFurtherGroundsAreMeasuredInThePaperProfileOnly) {
                        claim->id == "cross.scale.load" || claim->id == "cross.scale.edit" ||
                        claim->id.starts_with("cross.scale.ray") ||
                        claim->id == "cross.representations.ray-rate.large" ||
+                       claim->id == "cross.representations.ray-rate.grounds" ||
                        // At the quick profile's size the peak is another ground, and voxels are too coarse.
                        claim->id == "cross.lod-ranks.peak" || claim->id == "cross.lod-seams.peak" ||
                        claim->id == "cross.representations.equal-error.caves" ||
