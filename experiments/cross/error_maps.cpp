@@ -96,10 +96,11 @@ double end_of_colours(const std::vector<Map>& maps) {
   return power * (wish >= 5 * power ? 10 : wish >= 2 * power ? 5 : 2);
 }
 
+std::string kilobytes(double bytes) { return fmt::format("{:.{}f} kB", bytes / 1000, bytes < 1000 ? 2 : 1); }
+
 std::string numbers(const Map& map) {
-  const double kilobytes = static_cast<double>(map.file_bytes) / 1000;
-  return fmt::format("{:.{}f} kB{}, RMSE {:.{}f} m", kilobytes, kilobytes < 1 ? 2 : 1, map.fits ? "" : "*",
-                     map.rmse, map.rmse < 10 ? 2 : 1);
+  return fmt::format("{}{}, RMSE {:.{}f} m", kilobytes(static_cast<double>(map.file_bytes)),
+                     map.fits ? "" : "*", map.rmse, map.rmse < 10 ? 2 : 1);
 }
 
 struct Marks {
@@ -172,11 +173,11 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
           fmt::format(
               "Signed error of height of each type on {}, over its shaded relief: blue too low, red too "
               "high, one scale for all. Each type has the finest setting whose file takes at most "
-              "{:.0f} % of the bytes of the ground's heights, {:.0f} kB; a type that has no file so "
+              "{:.0f} % of the bytes of the ground's heights, {}; a type that has no file so "
               "small is marked * and shown at the ground's own resolution. RMSE of the {} × {} columns "
               "shown, {:.3g} {} across.",
               at.terrain, 100 * at.parameters.number("share"),
-              at.parameters.number("share") * static_cast<double>(ground.heightmap_bytes) / 1000,
+              kilobytes(at.parameters.number("share") * static_cast<double>(ground.heightmap_bytes)),
               surface.width, surface.depth, far ? width / 1000 : width, far ? "km" : "m")));
 }
 
