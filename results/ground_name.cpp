@@ -50,4 +50,12 @@ std::vector<std::string> ground_labels(std::span<const std::string> grounds) {
   return labels;
 }
 
+std::string with_label(std::string text, std::string_view ground, std::string_view label) {
+  if (ground.find('/') == ground.npos) return text;
+  for (std::size_t at = text.find(ground); at != text.npos; at = text.find(ground, at + label.size())) {
+    text.replace(at, ground.size(), label);
+  }
+  return text;
+}
+
 }  // namespace terrabench

@@ -18,4 +18,7 @@ std::string ground_id(std::string_view ground);
 // it from the other grounds' files. The grounds must differ. O(n² · length)
 std::vector<std::string> ground_labels(std::span<const std::string> grounds);
 
+// The text with the label wherever it has the ground's name, if that is a path; other names stay.
+std::string with_label(std::string text, std::string_view ground, std::string_view label);
+
 }  // namespace terrabench

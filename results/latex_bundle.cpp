@@ -198,10 +198,10 @@ class Bundle {
       add_picture(shown, kPage, figures);
     }
     for (const PageLayout& page : paper.pages) {
-      for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, page.sheets)) {
+      for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, page.sheets, page.label)) {
         add_picture(shown, kPage, figures);
       }
-      for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, page.pictures)) {
+      for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, page.pictures, page.label)) {
         add_picture(shown, kColumn, figures);
       }
     }

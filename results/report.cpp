@@ -285,8 +285,10 @@ class Report {
       page.tables.push_back(parts_.table(std::move(filled.table), filled.runs));
     }
     add_plots(paper, layout.id, page.plots);
-    for (const PageLayout::Drawn& sheet : layout.sheets) add_pictures(std::span(&sheet, 1), page.pictures);
-    add_pictures(layout.pictures, page.pictures);
+    for (const PageLayout::Drawn& sheet : layout.sheets) {
+      add_pictures(std::span(&sheet, 1), layout.label, page.pictures);
+    }
+    add_pictures(layout.pictures, layout.label, page.pictures);
     return page;
   }
 
@@ -359,9 +361,9 @@ class Report {
   }
 
   // The figures that these cases drew, side by side.
-  void add_pictures(std::span<const PageLayout::Drawn> cases, Document& to) {
+  void add_pictures(std::span<const PageLayout::Drawn> cases, const std::string& label, Document& to) {
     Gallery gallery;
-    for (ShownPicture& shown : drawn_pictures(store_, results_.profile, cases)) {
+    for (ShownPicture& shown : drawn_pictures(store_, results_.profile, cases, label)) {
       add_picture(gallery, std::move(shown));
     }
     if (!gallery.pictures.empty()) to.push_back(std::move(gallery));
@@ -369,7 +371,7 @@ class Report {
 
   // Keeps the figures that these cases drew from standing on the main page.
   void claim(std::span<const PageLayout::Drawn> cases) {
-    for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, cases)) {
+    for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, cases, {})) {
       claimed_.insert(shown.figure->id);
     }
   }

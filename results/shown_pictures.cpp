@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "results/ground_name.h"
+
 namespace terrabench {
 namespace {
 
@@ -31,13 +33,13 @@ std::vector<ShownPicture> claimed_pictures(const Store& store, const JudgedResul
 }
 
 std::vector<ShownPicture> drawn_pictures(const Store& store, std::string_view profile,
-                                         std::span<const PageLayout::Drawn> cases) {
+                                         std::span<const PageLayout::Drawn> cases, std::string_view label) {
   std::vector<ShownPicture> pictures;
   for (const PageLayout::Drawn& drawn : cases) {
     const Record* const record = store.find(drawn.experiment, drawn.case_name, profile);
     if (record == nullptr) continue;
     for (const RecordedFigure& figure : record->figures) {
-      pictures.push_back({record, &figure, drawn.title, figure.caption});
+      pictures.push_back({record, &figure, drawn.title, with_label(figure.caption, record->terrain, label)});
     }
   }
   return pictures;

@@ -22,8 +22,9 @@ struct ShownPicture {
 // judges is shown with that claim only, although other claims may have it as a condition too. Reads no file.
 std::vector<ShownPicture> claimed_pictures(const Store&, const JudgedResults&, const Paper&);
 
-// The figures that these cases drew, in this order. Reads no file.
+// The figures that these cases drew, in this order. Reads no file. Captions have `label`, what readers call
+// the ground, instead of the path of its DEM.
 std::vector<ShownPicture> drawn_pictures(const Store&, std::string_view profile,
-                                         std::span<const PageLayout::Drawn> cases);
+                                         std::span<const PageLayout::Drawn> cases, std::string_view label);
 
 }  // namespace terrabench

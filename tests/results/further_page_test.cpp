@@ -80,6 +80,18 @@ TEST_F(FurtherPageTest, HasTheTablesPlotsAndPicturesOfItsGround) {
                                       fmt::format("cross.representations-{}.csv", ground_id("/x/alps.tif"))));
 }
 
+// The captions of pictures are recorded with the path that was given.
+TEST_F(FurtherPageTest, HasNoPathsInItsCaptions) {
+  measure("/x/alps.tif");
+  measure("/y/alps.tif");
+  write();
+  for (const ReportForm& form : {kHtmlForm, kMarkdownForm}) {
+    const std::string text = page("/y/alps.tif", form);
+    EXPECT_THAT(text, HasSubstr("Maps of &lt;y/alps.tif&gt;.")) << form.extension;
+    EXPECT_THAT(text, Not(HasSubstr("/y/alps.tif"))) << form.extension;
+  }
+}
+
 TEST_F(FurtherPageTest, IsListedOnTheMainPageWhichDoesNotRepeatIt) {
   measure("/x/alps.tif");
   write();

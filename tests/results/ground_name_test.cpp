@@ -49,5 +49,11 @@ TEST(GroundLabels, AreFileNamesWithTheFoldersThatTellThemApart) {
   EXPECT_THAT(labels({"hills"}), ElementsAre("hills"));
 }
 
+TEST(GroundLabels, ReplacePathsAlone) {
+  EXPECT_EQ(with_label("on /x/a.tif, /x/a.tif's", "/x/a.tif", "x/a.tif"), "on x/a.tif, x/a.tif's");
+  EXPECT_EQ(with_label("on hills", "hills", "the hills"), "on hills");
+  EXPECT_EQ(with_label("", "/x/a.tif", "a.tif"), "");
+}
+
 }  // namespace
 }  // namespace terrabench
