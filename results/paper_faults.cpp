@@ -44,7 +44,8 @@ class Page {
                 {}};
     for (const Judgement& j : results_.of(paper)) {
       const Claim& claim = *j.claim;
-      if (claim.vague.empty() || claim.about == About::kRepeat || !was_measured(j.verdict)) continue;
+      if (claim.vague.empty() || claim.about == About::kRepeat || !was_measured(j.verdict) || j.runs.empty())
+        continue;
       table.rows.push_back({{claim.id, "", link(paper)},
                             {where_and_statement(claim)},
                             {claim.vague},

@@ -181,6 +181,7 @@ TEST_F(FurtherPageTest, IsNotBuriedUnderMissingClaims) {
   for (std::size_t at = text.find(mark); at != text.npos; at = text.find(mark, at + 1)) ++warnings;
   EXPECT_EQ(warnings, 1U);
   EXPECT_THAT(text, testing::ContainsRegex("nothing of them was measured: [^<]* and [0-9]+ more claims"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "report/wrong-or-vague.html"));
 }
 
 }  // namespace
