@@ -11,10 +11,12 @@
 #include "results/citation.h"
 #include "results/fill.h"
 #include "results/format.h"
+#include "results/further_grounds.h"
 #include "results/judge.h"
 #include "results/ledger.h"
 #include "results/new_folder.h"
 #include "results/plot.h"
+#include "results/ranking.h"
 #include "results/rasterise.h"
 #include "results/report_tables.h"
 #include "results/shown_pictures.h"
@@ -117,6 +119,7 @@ class Bundle {
   // Returns the files of pictures that are left out.
   std::vector<std::string> write() {
     for (const Paper& paper : papers_) add_paper(paper);
+    add_further_grounds();
     const std::string sections = std::move(text_);
     text_ = fmt::format(
         "{}{}\\title{{Five terrain papers, measured again}}\n\\author{{}}\n\\date{{}}\n\n"
@@ -154,6 +157,46 @@ class Bundle {
   }
 
   void add_paper(const Paper& paper) {
+    std::vector<Table> tables = filled_tables(paper);
+    const bool judged =
+        std::ranges::any_of(results_.of(paper), [](const Judgement& j) { return !j.runs.empty(); });
+    Table verdicts = own_rows(store_, results_, paper);
+    if (judged && !verdicts.rows.empty()) tables.push_back(std::move(verdicts));
+    std::vector<FigureText> figures = drawn_plots(paper);
+    add_pictures(paper, figures);
+    if (tables.empty() && figures.empty()) return;
+    begin_section(paper.title, paper.id);
+    if (paper.reference) text_ += fmt::format("The paper is~\\cite{{{}}}. ", citation_key(paper));
+    paragraph(paper.source);
+    for (const Table& table : tables) add_table(table);
+    add_figures(figures);
+  }
+
+  // A section per ground that no claims file names, with what the report's page of it shows.
+  void add_further_grounds() {
+    const ProfileOfStore measured{store_, results_.profile};
+    for (const FurtherGround& ground : further_grounds(papers_, measured)) {
+      std::vector<Table> tables = filled_tables(ground.paper);
+      for (FilledTable& filled :
+           tables_of_further_grounds({&ground, 1}, measured, ranking_layouts(), measured)) {
+        tables.push_back(std::move(filled.table));
+      }
+      std::vector<FigureText> figures = drawn_plots(ground.paper);
+      add_pictures(ground.page(), figures);
+      if (tables.empty() && figures.empty()) continue;
+      begin_section("Ground " + ground.label, "ground-" + ground.id);
+      paragraph(ground.page().about);
+      for (const Table& table : tables) add_table(table);
+      add_figures(figures);
+    }
+  }
+
+  void begin_section(const std::string& title, const std::string& id) {
+    floating_ = false;
+    text_ += fmt::format("\\clearpage\n\\section{{{}}}\n\\label{{sec:{}}}\n", escape_latex(title), id);
+  }
+
+  std::vector<Table> filled_tables(const Paper& paper) const {
     std::vector<Table> tables;
     for (const TableLayout& layout : paper.tables) {
       FilledTable filled = fill(layout, store_, results_);
@@ -161,21 +204,15 @@ class Bundle {
       filled.table.title = title_beside_number(filled.table.title);
       tables.push_back(std::move(filled.table));
     }
-    Table verdicts = own_rows(store_, results_, paper);
-    if (!verdicts.rows.empty()) tables.push_back(std::move(verdicts));
+    return tables;
+  }
+
+  std::vector<FigureText> drawn_plots(const Paper& paper) const {
     std::vector<FigureText> figures;
     for (const PlotLayout& layout : paper.plots) {
       if (std::optional<FigureText> figure = draw(layout)) figures.push_back(std::move(*figure));
     }
-    add_pictures(paper, figures);
-    if (tables.empty() && figures.empty()) return;
-    floating_ = false;
-    text_ +=
-        fmt::format("\\clearpage\n\\section{{{}}}\n\\label{{sec:{}}}\n", escape_latex(paper.title), paper.id);
-    if (paper.reference) text_ += fmt::format("The paper is~\\cite{{{}}}. ", citation_key(paper));
-    paragraph(paper.source);
-    for (const Table& table : tables) add_table(table);
-    add_figures(figures);
+    return figures;
   }
 
   // Writes both files of a plot, 84 mm and 174 mm wide. Returns the figure with the 84 mm one; nothing, and
@@ -191,19 +228,21 @@ class Bundle {
                        layout.id);
   }
 
-  // Those of claims, then those of grounds; each once. A ground's `pictures` have no words, so that a column
-  // is wide enough.
+  // Those of claims, then those of grounds; each once.
   void add_pictures(const Paper& paper, std::vector<FigureText>& figures) {
     for (const ShownPicture& shown : claimed_pictures(store_, results_, paper)) {
       add_picture(shown, kPage, figures);
     }
-    for (const PageLayout& page : paper.pages) {
-      for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, page.sheets, page.label)) {
-        add_picture(shown, kPage, figures);
-      }
-      for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, page.pictures, page.label)) {
-        add_picture(shown, kColumn, figures);
-      }
+    for (const PageLayout& page : paper.pages) add_pictures(page, figures);
+  }
+
+  // A ground's `pictures` have no words, so that a column is wide enough.
+  void add_pictures(const PageLayout& page, std::vector<FigureText>& figures) {
+    for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, page.sheets, page.label)) {
+      add_picture(shown, kPage, figures);
+    }
+    for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, page.pictures, page.label)) {
+      add_picture(shown, kColumn, figures);
     }
   }
 

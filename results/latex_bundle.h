@@ -24,7 +24,8 @@ struct WrittenBundle {
 // appears whole or not at all and replaces an earlier bundle. Each plot is there twice: figures/ID.pdf, a
 // column wide (84 mm), and figures/ID-page.pdf, a page wide (174 mm), letters about 8 pt high, fonts
 // embedded. The pictures are those that claims judge and that pages of grounds show, byte for byte as they
-// were drawn; main.tex names those that are left out. Equal measurements give equal bytes. O(bytes of the
+// were drawn; main.tex names those that are left out. Each ground that no claims file names, such as a user's
+// DEM, has a section (further_grounds.h). Equal measurements give equal bytes. O(bytes of the
 // measurements + pixels of the pictures). Throws bad_input when `results` holds no measurements,
 // environment_error when `target` holds anything else or cannot be written. Not thread-safe.
 WrittenBundle write_latex_bundle(const std::filesystem::path& results, const std::filesystem::path& target);

@@ -8,6 +8,7 @@
 
 #include "results/ground_name.h"
 #include "results/ground_page.h"
+#include "results/latex_bundle.h"
 #include "results/report.h"
 #include "terrain/image.h"
 #include "tests/results/fake_results.h"
@@ -169,6 +170,23 @@ TEST_F(FurtherPageTest, WarnsOfGroundThatChanged) {
   store_.append(again);
   write();
   EXPECT_THAT(page("/x/alps.tif"), HasSubstr("The content of this ground changed"));
+}
+
+TEST_F(FurtherPageTest, HasASectionInTheLatexBundle) {
+  measure("/x/a_b.tif");
+  measure("/y/a_b.tif");
+  EXPECT_THAT(write_latex_bundle(store_, papers(), folder_ / "bundle").left_out, testing::IsEmpty());
+  const std::string text = read_file(folder_ / "bundle/main.tex"), id = ground_id("/x/a_b.tif");
+  for (const std::string& part :
+       {std::string("\\section{Ground x/a\\_b.tif}"), "\\label{sec:ground-" + id + "}",
+        "\\input{tables/cross.representations-" + id + ".tex}", "\\input{tables/which-method-" + id + ".tex}",
+        "{figures/cross.representations-" + id + "-pareto.pdf}",
+        "{pictures/cross.error-maps." + id + ".png}"}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
+  EXPECT_THAT(text, HasSubstr("\\section{Ground y/a\\_b.tif}"));
+  EXPECT_THAT(text, Not(HasSubstr("/x/a"))) << "a path";
+  EXPECT_THAT(text, Not(HasSubstr("sec:hybrid"))) << "nothing of it was measured";
 }
 
 // After a run on a ground of the user's alone, no claim is measured.
