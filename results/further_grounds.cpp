@@ -184,14 +184,20 @@ std::string beside_named(const Ranking& here, std::span<const Ranking> named) {
   return same + (same.empty() || others.empty() ? "" : "; ") + others;
 }
 
-std::string caption(const ProfileOfStore& measured, const ProfileOfStore& named) {
-  std::string text = fmt::format(
+// `compared`: whether the table has the column of the other grounds.
+std::string caption(const ProfileOfStore& measured, const ProfileOfStore& named, bool compared) {
+  const bool same_folder = &measured.store == &named.store;
+  std::string text =
       "For each task: the best method on this ground and by which factor it is ahead of the next, with the "
-      "factor's 95 % interval in brackets. The last column lists the grounds measured in {} where the task "
-      "is decided: first those "
-      "where the same method is best, then which method is best on the others.",
-      &measured.store == &named.store ? "the same results folder"
-                                      : "the results folder that was named for comparison");
+      "factor's 95 % interval in brackets.";
+  if (compared) {
+    text += fmt::format(
+        " The last column lists the grounds measured in {} where the task is decided: first those where the "
+        "same method is best, then which method is best on the others.",
+        same_folder ? "the same results folder" : "the results folder that was named for comparison");
+  } else if (!same_folder) {
+    text += " No task is decided in the results folder that was named for comparison.";
+  }
   if (measured.profile != named.profile) {
     text += fmt::format(" This ground was measured in profile {}, those in profile {}.", measured.profile,
                         named.profile);
@@ -199,20 +205,22 @@ std::string caption(const ProfileOfStore& measured, const ProfileOfStore& named)
   return text;
 }
 
-FilledTable empty_table(const FurtherGround& ground, const std::string& caption) {
-  return {{"which-method-" + ground.id,
-           fmt::format("Which method for {}", ground.label),
-           caption,
-           {{"Task"}, {"Best on this ground"}, {"On the compared grounds"}},
-           {}},
-          {}};
+FilledTable empty_table(const FurtherGround& ground, const std::string& caption, bool compared) {
+  FilledTable filled{{"which-method-" + ground.id,
+                      fmt::format("Which method for {}", ground.label),
+                      caption,
+                      {{"Task"}, {"Best on this ground"}},
+                      {}},
+                     {}};
+  if (compared) filled.table.columns.push_back({"On the compared grounds"});
+  return filled;
 }
 
-void add_row(const Ranking& here, std::span<const Ranking> named, FilledTable& filled) {
+void add_row(const Ranking& here, std::span<const Ranking> named, bool compared, FilledTable& filled) {
   const std::string& needs = here.layout->needs_text;
-  filled.table.rows.push_back({{here.layout->task + (needs.empty() ? "" : ", " + needs)},
-                               {here.result()},
-                               {beside_named(here, named)}});
+  std::vector<Cell> row{{here.layout->task + (needs.empty() ? "" : ", " + needs)}, {here.result()}};
+  if (compared) row.push_back({beside_named(here, named)});
+  filled.table.rows.push_back(std::move(row));
   for (const std::string& run : here.runs) {
     if (std::ranges::count(filled.runs, run) == 0) filled.runs.push_back(run);
   }
@@ -238,11 +246,12 @@ std::vector<FilledTable> tables_of_further_grounds(std::span<const FurtherGround
                                                    std::span<const RankingLayout> compared,
                                                    const ProfileOfStore& named) {
   const std::vector<Ranking> elsewhere = rank(compared, named.store, named.profile);
+  const bool decided = std::ranges::any_of(elsewhere, &Ranking::decided);
   std::vector<FilledTable> tables;
   for (const FurtherGround& ground : further) {
-    FilledTable filled = empty_table(ground, caption(measured, named));
+    FilledTable filled = empty_table(ground, caption(measured, named, decided), decided);
     for (const Ranking& here : rank(ground.rankings, measured.store, measured.profile))
-      add_row(here, elsewhere, filled);
+      add_row(here, elsewhere, decided, filled);
     if (!filled.table.rows.empty()) tables.push_back(std::move(filled));
   }
   return tables;

@@ -38,7 +38,8 @@ struct FurtherGround {
 std::vector<FurtherGround> further_grounds(std::span<const Paper>, const ProfileOfStore& measured);
 
 // A table per further ground of which methods can be ranked: for each task who is best there and by how much,
-// and which of the `compared` grounds, as measured in `named`, have the same best.
+// and which of the `compared` grounds, as measured in `named`, have the same best. Without this last column if
+// no task is decided on any of them.
 std::vector<FilledTable> tables_of_further_grounds(std::span<const FurtherGround>,
                                                    const ProfileOfStore& measured,
                                                    std::span<const RankingLayout> compared,

@@ -154,6 +154,11 @@ class Report {
     if (!further_pages_.empty())
       document_.push_back(
           TableBlock{ground_table("further.grounds", "One page per further ground", further_pages_), {}});
+    if (!tables.empty() && &reference_ == &store_) {
+      document_.push_back(
+          Paragraph{"The option --reference of report compares these grounds with those of another results "
+                    "folder, such as results/reference."});
+    }
     if (!tables.empty() && !reference_.faults().empty()) {
       document_.push_back(
           Paragraph{fmt::format("The results that these are compared with cannot be trusted: {} faults",
