@@ -90,6 +90,7 @@ std::vector<TableLayout> further_cases(const Store& store, std::span<const Paper
     if (at == experiments.end()) at = experiments.insert(at, {record.experiment, {}});
     at->second.push_back(&record);
   }
+  const GroundLabels labels = labels_of_grounds(store, profile);
   std::vector<TableLayout> tables;
   for (const auto& [experiment, records] : experiments) {
     TableLayout table{experiment + ".further",
@@ -102,7 +103,9 @@ std::vector<TableLayout> further_cases(const Store& store, std::span<const Paper
     for (const Record* const record : records) {
       const bool fits = std::ranges::any_of(
           table.columns, [&](const TableLayout::Column& c) { return record->find(c.metric) != nullptr; });
-      if (fits) table.rows.push_back({record->case_name, record->case_name, {}});
+      if (fits) {
+        table.rows.push_back({labelled(record->case_name, *record, labels), record->case_name, {}});
+      }
     }
     tables.push_back(std::move(table));
   }

@@ -228,15 +228,31 @@ void add_row(const Ranking& here, std::span<const Ranking> named, bool compared,
 
 }  // namespace
 
+GroundLabels labels_of_grounds(const Store& store, std::string_view profile) {
+  GroundLabels labels;
+  for (const Record& record : store.records()) {
+    if (record.profile == profile && !record.terrain.empty()) labels[record.terrain];
+  }
+  std::vector<std::string> grounds;
+  for (const auto& [ground, label] : labels) grounds.push_back(ground);
+  const std::vector<std::string> found = ground_labels(grounds);
+  for (std::size_t k = 0; k < grounds.size(); ++k) labels[grounds[k]] = found[k];
+  return labels;
+}
+
+std::string labelled(std::string text, const Record& record, const GroundLabels& labels) {
+  const auto at = labels.find(record.terrain);
+  return at == labels.end() ? text : with_label(std::move(text), record.terrain, at->second);
+}
+
 std::vector<FurtherGround> further_grounds(std::span<const Paper> papers, const ProfileOfStore& measured) {
+  const GroundLabels labels = labels_of_grounds(measured.store, measured.profile);
   std::vector<FurtherGround> further;
   for (const Paper& paper : papers) {
     if (!paper.further) continue;
-    const std::vector<Measured> grounds = unnamed_grounds(paper, measured);
-    std::vector<std::string> names;
-    for (const Measured& ground : grounds) names.push_back(ground.ground);
-    const std::vector<std::string> labels = ground_labels(names);
-    for (std::size_t k = 0; k < grounds.size(); ++k) further.push_back(lay_out(paper, grounds[k], labels[k]));
+    for (const Measured& ground : unnamed_grounds(paper, measured)) {
+      further.push_back(lay_out(paper, ground, labels.at(ground.ground)));
+    }
   }
   return further;
 }

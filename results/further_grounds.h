@@ -4,8 +4,11 @@
 // the rankings on the named grounds, of the same or of another results folder.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "results/claims.h"
@@ -19,9 +22,15 @@ struct ProfileOfStore {
   std::string profile;
 };
 
+// What readers call each ground that was measured (ground_name.h), by Record::terrain.
+using GroundLabels = std::map<std::string, std::string, std::less<>>;
+GroundLabels labels_of_grounds(const Store&, std::string_view profile);
+// The text, such as a case's name, with the label instead of the path of the DEM that was measured.
+std::string labelled(std::string text, const Record&, const GroundLabels&);
+
 struct FurtherGround {
   std::string name;   // Record::terrain
-  std::string label;  // what readers call it (ground_name.h)
+  std::string label;  // of labels_of_grounds()
   std::string id;     // part of file names and of ids
   // The claims file's page for this ground with the tables and plots that stand on it, all of them, measured
   // or not; no claims.
@@ -38,8 +47,8 @@ struct FurtherGround {
 std::vector<FurtherGround> further_grounds(std::span<const Paper>, const ProfileOfStore& measured);
 
 // A table per further ground of which methods can be ranked: for each task who is best there and by how much,
-// and which of the `compared` grounds, as measured in `named`, have the same best. Without this last column if
-// no task is decided on any of them.
+// and which of the `compared` grounds, as measured in `named`, have the same best. Without this last column
+// if no task is decided on any of them.
 std::vector<FilledTable> tables_of_further_grounds(std::span<const FurtherGround>,
                                                    const ProfileOfStore& measured,
                                                    std::span<const RankingLayout> compared,

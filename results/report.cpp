@@ -341,13 +341,15 @@ class Report {
   }
 
   void add_other_pictures() {
+    const GroundLabels labels = labels_of_grounds(store_, results_.profile);
     Gallery gallery;
     for (const Record& record : store_.records()) {
       if (record.profile != results_.profile) continue;
       for (const RecordedFigure& figure : record.figures) {
         if (!claimed_.contains(figure.id)) {
           add_picture(gallery,
-                      {&record, &figure, record.experiment + " " + record.case_name, figure.caption});
+                      {&record, &figure, labelled(record.experiment + " " + record.case_name, record, labels),
+                       labelled(figure.caption, record, labels)});
         }
       }
     }

@@ -93,6 +93,22 @@ TEST_F(FurtherPageTest, HasNoPathsInItsCaptions) {
   }
 }
 
+// Nor has the main page, where cases stand that no page shows.
+TEST_F(FurtherPageTest, LeavesCasesToTheMainPageByTheirLabels) {
+  measure("/x/alps.tif");
+  Record curve = fake_record(run_, "drill.size", "/x/alps.tif/printed");
+  curve.terrain = "/x/alps.tif";
+  add(curve, "bits", "", {1000});
+  write_png(folder_ / "figures/curve.png", Image(40, 20, {200, 40, 40}));
+  curve.figures.push_back({"curve", "figures/curve.png", "Bits for /x/alps.tif",
+                           checksum(read_file(folder_ / "figures/curve.png"))});
+  store_.append(curve);
+  write();
+  const std::string text = written("report.md");
+  EXPECT_THAT(text, HasSubstr("| alps.tif/printed |"));
+  EXPECT_THAT(text, HasSubstr("**drill.size alps.tif/printed.** Bits for alps.tif"));
+}
+
 TEST_F(FurtherPageTest, IsListedOnTheMainPageWhichDoesNotRepeatIt) {
   measure("/x/alps.tif");
   write();
