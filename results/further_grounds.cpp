@@ -69,6 +69,27 @@ bool has_changed(std::span<const Record* const> records) {
   });
 }
 
+// On a ground with samples without a height, a coarse method may have no ground in a wide border around them.
+std::string lost_columns(std::span<const Record* const> records, const std::string& label) {
+  constexpr double kMany = 0.01;
+  double largest = 0;
+  const Record* of = nullptr;
+  for (const Record* const record : records) {
+    const Metric *const lost = record->find("lost_columns"), *const kept = record->find("columns");
+    if (lost == nullptr || kept == nullptr || lost->samples.empty() || kept->samples.empty()) continue;
+    const double share = lost->samples[0] / std::max(lost->samples[0] + kept->samples[0], 1.0);
+    if (share <= largest) continue;
+    largest = share;
+    of = record;
+  }
+  if (largest < kMany) return "";
+  return fmt::format(
+      "Errors of height leave out the columns in which only the ground or only the method has a height, such "
+      "as beside samples without data: up to {:.1f} % of the columns ({}). A method that loses many columns "
+      "may have a smaller error for it.",
+      100 * largest, with_label(of->case_name, of->terrain, label));
+}
+
 // The claims file knows the ground by its id, which can stand in ids and in file names. Cases have its name.
 void move_case(std::string& case_name, const FurtherGround& ground) {
   if (case_name == ground.id || case_name.starts_with(ground.id + "/"))
@@ -136,8 +157,13 @@ void read_layouts(const toml::table& table, const TomlFile& file, const Paper& n
 }
 
 FurtherGround lay_out(const Paper& named, const Measured& measured, const std::string& label) {
-  FurtherGround ground{
-      measured.ground, label, ground_id(measured.ground), {}, {}, has_changed(measured.records)};
+  FurtherGround ground{measured.ground,
+                       label,
+                       ground_id(measured.ground),
+                       {},
+                       {},
+                       has_changed(measured.records),
+                       lost_columns(measured.records, label)};
   ground.paper.id = named.id;
   ground.paper.title = named.title;
   const ClaimsFile& claims = *named.further;
@@ -208,7 +234,7 @@ std::string caption(const ProfileOfStore& measured, const ProfileOfStore& named,
 FilledTable empty_table(const FurtherGround& ground, const std::string& caption, bool compared) {
   FilledTable filled{{"which-method-" + ground.id,
                       fmt::format("Which method for {}", ground.label),
-                      caption,
+                      caption + (ground.lost_columns.empty() ? "" : " " + ground.lost_columns),
                       {{"Task"}, {"Best on this ground"}},
                       {}},
                      {}};

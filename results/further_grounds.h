@@ -37,6 +37,9 @@ struct FurtherGround {
   Paper paper;
   std::vector<RankingLayout> rankings;  // one per task
   bool changed = false;                 // whether one experiment measured different contents under this name
+  // A warning if a method has no ground in many columns, or too much of it; otherwise empty. Errors leave
+  // such columns out.
+  std::string lost_columns;
 
   const PageLayout& page() const { return paper.pages.front(); }
 };

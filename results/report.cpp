@@ -181,6 +181,7 @@ class Report {
             "cases may belong to different ground. Measure all of them again.",
             true});
       }
+      if (!ground.lost_columns.empty()) page.remarks.push_back(Paragraph{ground.lost_columns, true});
       if (!write_page(page)) continue;
       further_pages_.push_back(ground.page());
       for (const auto* const figures : {&ground.page().sheets, &ground.page().pictures}) claim(*figures);

@@ -188,6 +188,27 @@ TEST_F(FurtherPageTest, WarnsOfGroundThatChanged) {
   EXPECT_THAT(page("/x/alps.tif"), HasSubstr("The content of this ground changed"));
 }
 
+// Errors leave these columns out, so that a method that loses many of them looks better than it is.
+TEST_F(FurtherPageTest, WarnsOfManyLostColumns) {
+  const auto lose = [&](const std::string& rest, double lost) {
+    Record record = fake_record(run_, "cross.representations", "/x/alps.tif/" + rest);
+    record.terrain = "/x/alps.tif";
+    add(record, "columns", "", {1000 - lost});
+    add(record, "lost_columns", "", {lost});
+    add(record, "rmse", "m", {3});
+    store_.append(record);
+  };
+  measure("/x/alps.tif");
+  lose("voxel/20%", 5);
+  write();
+  EXPECT_THAT(page("/x/alps.tif"), Not(HasSubstr("leave out the columns")));
+  lose("voxel/5%", 250);
+  lose("voxel/1%", 20);
+  write();
+  EXPECT_THAT(page("/x/alps.tif"), HasSubstr("up to 25.0 % of the columns (alps.tif/voxel/5%)"));
+  EXPECT_THAT(written("index.html"), HasSubstr("up to 25.0 % of the columns (alps.tif/voxel/5%)"));
+}
+
 TEST_F(FurtherPageTest, HasASectionInTheLatexBundle) {
   measure("/x/a_b.tif");
   measure("/y/a_b.tif");
