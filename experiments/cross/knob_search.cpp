@@ -53,7 +53,7 @@ std::optional<double> next_place(const Knob& knob, const Tried& tried, double ta
   const auto& [coarse_place, coarse_error] = *coarse;
   const double width = coarse_place - fine_place;
   if (fine_error >= (1 - kKnobSlack) * target || width * octaves <= kNarrowest) return std::nullopt;
-  if (std::isinf(coarse_error)) return fine_place + width / 2;
+  if (std::isinf(coarse_error) || std::isinf(fine_error)) return fine_place + width / 2;
   // Aims slightly below the target, inside the accepted range.
   const double aim = std::log2(1 - kKnobSlack / 2);
   const double low = octaves_of(fine_error, target), high = octaves_of(coarse_error, target);

@@ -20,7 +20,7 @@ inline constexpr double kKnobSlack = 0.02;
 
 // The coarsest setting found with error ≤ target; the finest one where even that exceeds the target. About
 // six calls of error_at(knob), which should rise from finest to coarsest; infinite at settings that are
-// refused for being too coarse.
+// refused for being too coarse, minus infinite at those that are refused for being too fine.
 Tuned search_knob(const Knob&, double target, const std::function<double(double)>& error_at);
 
 }  // namespace terrabench::cross

@@ -92,6 +92,21 @@ TEST(KnobSearch, PassesOverSettingsThatAreRefused) {
   EXPECT_LE(tried, 16);
 }
 
+TEST(KnobSearch, FindsTheFinestSettingThatIsNotRefused) {
+  int tried = 0;
+  double finest = HUGE_VAL;
+  const Tuned tuned = search_knob(kPixels, 1, [&](double knob) {
+    ++tried;
+    if (knob < 5) return -HUGE_VAL;
+    finest = std::min(finest, knob);
+    return 0.3 * knob;  // at least 1.5
+  });
+  EXPECT_FALSE(tuned.reached && tuned.error > 0);
+  EXPECT_GE(finest, 5);
+  EXPECT_LE(finest, 5.05);
+  EXPECT_LE(tried, 16);
+}
+
 TEST(Contender, TakesItsOwnOptionsAndRefusesGarbage) {
   const Contender area = contender("mrbsp", "geomipmap.patch=32,mrbsp.threshold=area,mrbsp.depth=7");
   EXPECT_EQ(area.options.text("threshold"), "area");
