@@ -13,16 +13,22 @@ namespace {
 
 constexpr int kCoarsest = 4;  // columns
 
-double longest_side(const Scene& scene) {
-  return scene.source.heights ? std::max(scene.source.heights->width, scene.source.heights->depth)
-                              : scene.options.resolution;
+// Between the own samples of a ground that events made; 0 for other ground. Trees of heightmaps start there,
+// since other samples may have no room for the ground's tunnels.
+int columns_of_events(const Scene& scene) {
+  return scene.source.events ? scene.source.events->ground.width - 1 : 0;
+}
+
+// The finest resolution: a height field's own samples, twice the columns of a solid.
+double most_columns(const Scene& scene) {
+  if (scene.source.heights) return std::max(scene.source.heights->width, scene.source.heights->depth);
+  return std::max(2 * scene.options.resolution, columns_of_events(scene));
 }
 
 Knob resolution_knob(const Scene& scene) {
-  const double own = longest_side(scene), finest = scene.source.heights ? own : 2 * own;
-  // Other samples than a sculpture's own may have no room for its tunnels.
-  const double first = scene.source.events ? scene.source.events->ground.width - 1 : std::round(own / 4);
-  return {"resolution", "", finest, kCoarsest, std::max<double>(kCoarsest, first), true};
+  const double most = most_columns(scene), guess = std::round(scene.source.heights ? most / 4 : most / 8);
+  const double first = scene.source.events ? columns_of_events(scene) : guess;
+  return {"resolution", "", most, kCoarsest, std::max<double>(kCoarsest, first), true};
 }
 
 Parameters with(Parameters parameters, std::string_view name, std::int64_t setting) {
@@ -63,22 +69,25 @@ std::optional<Fitted> Fitting::within_budget(double budget) {
   return {};
 }
 
+// Bytes grow about as the square of the columns; their square root is searched, because search_knob() expects
+// an error proportional to the knob. Its finest end is here the fewest columns, whose file is the smallest.
 std::optional<Fitted> Fitting::finest_within(double budget) {
-  constexpr int kProbes = 8;
-  constexpr double kClose = 0.95;
   std::optional<Fitted> best;
-  double low = kCoarsest, high = longest_side(scene_);
-  for (int k = 0; k < kProbes; ++k) {
-    const auto resolution = static_cast<std::int64_t>(k == 0 ? high : std::sqrt(low * high));
-    if (k > 0 && static_cast<double>(resolution) <= low) break;
-    const Parameters parameters = scene_.parameters(type_, resolution);
-    const std::optional<Trial> trial = attempt(parameters, resolution);
-    const bool fits = !trial || static_cast<double>(trial->file_bytes) <= budget;
-    (fits ? low : high) = static_cast<double>(resolution);
-    if (!fits || !trial) continue;
-    if (!best || trial->file_bytes > best->trial.file_bytes) best = Fitted{parameters, *trial};
-    if (k == 0 || static_cast<double>(trial->file_bytes) >= kClose * budget) break;
-  }
+  const double most = most_columns(scene_);
+  const double guess = std::round(most * std::sqrt(budget / static_cast<double>(scene_.heightmap_bytes))),
+               first = scene_.source.events && has("events") ? columns_of_events(scene_) : guess;
+  const Knob knob{"resolution", "", kCoarsest, most, std::clamp<double>(first, kCoarsest, most), true};
+  search_knob(knob, std::sqrt(budget), [&](double value) {
+    const auto columns = static_cast<std::int64_t>(value);
+    const Parameters parameters = scene_.parameters(type_, columns);
+    const std::optional<Trial> trial = attempt(parameters, columns);
+    if (!trial) return -std::numeric_limits<double>::infinity();
+    const auto bytes = static_cast<double>(trial->file_bytes);
+    if (bytes <= budget && (!best || trial->file_bytes > best->trial.file_bytes)) {
+      best = Fitted{parameters, *trial};
+    }
+    return std::sqrt(bytes);
+  });
   return best;
 }
 

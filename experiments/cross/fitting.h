@@ -3,7 +3,7 @@
 //
 // The knob of most types is their resolution, from 4 columns along the ground to its own samples or, for a
 // solid, to twice the columns of the scene. Drills choose all their parameters themselves, for given bytes as
-// for a given error.
+// for a given error; of a solid they sample the columns of the scene.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,10 @@
 #include "experiments/cross/scenes.h"
 
 namespace terrabench::cross {
+
+// Settings come in steps and have an end, so that a type may stay far below what it is allowed. Types are
+// compared at the same bytes or at the same error only where they take at least this share of it.
+inline constexpr double kLeastOfBytes = 0.85, kLeastOfError = 0.9;
 
 struct Trial {
   std::int64_t setting = 0;  // columns, or the bytes that drills were allowed; 0 if they were given an error
@@ -31,8 +35,9 @@ class Fitting {
   // Keeps references.
   Fitting(const Scene&, const RepresentationType&, Progress&);
 
-  // The finest setting found whose file takes at most `budget` bytes; nothing if there is none. A resolution
-  // at which the type cannot hold the ground counts as too coarse. About eight builds.
+  // The setting found whose file takes the most bytes, at most `budget`; nothing if there is none, and then
+  // the smallest file of trials() is about the smallest that the type can have. A resolution at which the
+  // type cannot hold the ground counts as too coarse. About five builds, for drills one or two.
   std::optional<Fitted> for_bytes(double budget);
   // The coarsest setting found whose error is at most `rmse` metres, which is above 0; nothing if the finest
   // setting exceeds it, or the coarsest stays below. About eight builds. Drills that cannot are tried once

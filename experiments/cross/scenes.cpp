@@ -1,6 +1,7 @@
 #include "experiments/cross/scenes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "experiments/cross/temporary_folder.h"
@@ -70,6 +71,12 @@ std::vector<std::string> own_grounds() { return {"jacksboro", "fractal", "caves"
 std::int64_t solid_resolution(std::string_view terrain, bool paper_profile) {
   if (paper_profile) return 256;
   return terrain == "caves" ? 64 : 128;
+}
+
+bool is_solid(const std::string& terrain) {
+  constexpr std::array<std::string_view, 4> kSolids{"caves", "canyon", "sequence", "two-tunnels"};
+  if (std::ranges::find(kSolids, terrain) != kSolids.end()) return true;
+  return terrain.ends_with(".toml") && open_terrain(terrain).solid.has_value();
 }
 
 const Scene& scene(const SceneOptions& options, Progress& progress) {

@@ -42,6 +42,8 @@ double relief_of(const Scene&);
 // The grounds on which types are compared unless others are named, and the columns along solid ground.
 std::vector<std::string> own_grounds();
 std::int64_t solid_resolution(std::string_view terrain, bool paper_profile);
+// Whether the ground is a solid, by its name. A script of events is read for it.
+bool is_solid(const std::string& terrain);
 
 // Kept until another one is asked for.
 const Scene& scene(const SceneOptions&, Progress&);
