@@ -82,9 +82,10 @@ class ErrorBarLine : public vtkPlotLine {
     painter->GetPen()->SetLineType(vtkPen::SOLID_LINE);
     painter->GetPen()->SetWidth(1.8F);
     for (const auto& [x, low, high] : bars_) {
-      painter->DrawLine(x, low, x, high);
-      painter->DrawLine(x - cap_, low, x + cap_, low);
-      painter->DrawLine(x - cap_, high, x + cap_, high);
+      std::array<float, 12> lines = {x,        low,  x,        high,  //
+                                     x - cap_, low,  x + cap_, low,   //
+                                     x - cap_, high, x + cap_, high};
+      painter->DrawLines(lines.data(), 6);
     }
     return painted;
   }

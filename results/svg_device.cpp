@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include "results/format.h"
 
@@ -47,6 +48,7 @@ vtkStandardNewMacro(SvgDevice)
   ViewportSize.Set(width, height);
   ViewportRect.Set(0, 0, width, height);
   body_.clear();
+  group_.clear();
   defs_.clear();
   clips_ = 0;
   clipping_ = false;
@@ -72,7 +74,16 @@ SvgDevice::Point SvgDevice::place(const float* point) const {
 }
 
 void SvgDevice::emit(const std::string& element) {
-  body_ += clipping_ ? fmt::format("<g clip-path=\"url(#{})\">{}</g>\n", clip_, element) : element + "\n";
+  constexpr std::string_view kEnd = "</g>\n";
+  if (!clipping_) {
+    body_ += element + "\n";
+    group_.clear();
+  } else if (group_ == clip_) {
+    body_.insert(body_.size() - kEnd.size(), element + "\n");
+  } else {
+    body_ += fmt::format("<g clip-path=\"url(#{})\">\n{}\n{}", clip_, element, kEnd);
+    group_ = clip_;
+  }
 }
 
 std::string SvgDevice::stroke() const {

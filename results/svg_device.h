@@ -69,6 +69,7 @@ class SvgDevice : public vtkContextDevice2D {
   void emit(const std::string& element);
 
   std::string body_, defs_, clip_;
+  std::string group_;  // the clip of the group that ends body_; empty: no group does
   int clips_ = 0;
   bool clipping_ = false;
   std::vector<double> matrices_;  // nine each

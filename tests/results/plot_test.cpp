@@ -42,6 +42,18 @@ TEST(PlotTest, ShowsLabelsUnitsTicksAndEveryPoint) {
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
 }
 
+TEST(PlotTest, WhatOneClipCutsSharesAGroup) {
+  Plot few = growth();
+  few.series = {{"a", {{1, 1, 0.9, 1.1}, {1000, 1000, 900, 1100}}, false}};
+  Plot many = few;
+  for (int n = 2; n < 100; ++n) many.series[0].points.push_back({1.0 * n, 1.0 * n, 0.9 * n, 1.1 * n});
+  const std::string two = plot_svg(few), hundred = plot_svg(many);
+  EXPECT_EQ(count(hundred, "<circle"), 101U) << "and the legend";
+  EXPECT_GT(count(hundred, "<g clip-path"), 0U);
+  EXPECT_LE(count(hundred, "<g clip-path"), count(two, "<g clip-path"));
+  EXPECT_EQ(count(hundred, "<g "), count(hundred, "</g>"));
+}
+
 TEST(PlotTest, LabelsOfANarrowPlotKeepClearOfEachOther) {
   Plot plot = growth();
   plot.series = {{"a", {}, false}};
