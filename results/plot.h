@@ -46,7 +46,7 @@ std::string plot_svg(const Plot&, const PlotSize&);
 inline std::string plot_svg(const Plot& plot) { return plot_svg(plot, screen_size(plot)); }
 
 // The exponent of the power law through the points (least squares of the logarithms); nothing for fewer than
-// two distinct positive x.
+// two distinct x, nor where an x or y is not above 0.
 std::optional<double> power_law(std::span<const PlotPoint>);
 
 }  // namespace terrabench

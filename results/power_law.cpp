@@ -26,7 +26,7 @@ std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const
   assert(x.size() == y.size());
   std::vector<double> u, v;  // logarithms
   for (std::size_t i = 0; i < x.size(); ++i) {
-    if (!(x[i] > 0 && y[i] > 0)) continue;
+    if (!(x[i] > 0 && y[i] > 0)) return std::nullopt;
     u.push_back(std::log(x[i]));
     v.push_back(std::log(y[i]));
   }

@@ -15,8 +15,8 @@ struct PowerLaw {
   std::size_t points = 0;
 };
 
-// y ∝ x^exponent. Points with x or y ≤ 0 are left out; nothing for fewer than two distinct x. The spans are
-// of one length. O(points).
+// y ∝ x^exponent. Nothing for fewer than two distinct x, nor where an x or y is not above 0: a fit through
+// the other points would hide a faulty one. The spans are of one length. O(points).
 std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const double> y);
 
 // The 97.5 % quantile of Student's t; infinite for 0 degrees of freedom. Exact to 0.001.

@@ -8,6 +8,7 @@
 
 #include "results/power_law.h"
 #include "results/statistics.h"
+#include "terrain/error.h"
 
 namespace terrabench::cross {
 namespace {
@@ -86,6 +87,9 @@ void SizePlan::record(Recorder& recorder) const {
   recorder.add_varying(name_ + "_sizes", "", static_cast<double>(sizes_));
   recorder.add_varying(name_ + "_skipped", "",
                        static_cast<double>(for_time_.size() + for_memory_.size() + as_refused_.size()));
+  recorder.add_varying(name_ + "_short_of_time", "", static_cast<double>(for_time_.size()));
+  recorder.add_varying(name_ + "_short_of_memory", "", static_cast<double>(for_memory_.size()));
+  recorder.add_varying(name_ + "_refused", "", static_cast<double>(as_refused_.size()));
   for (const double columns : for_time_) recorder.add_varying(name_ + "_skipped_for_time", "", columns);
   for (const double columns : for_memory_) recorder.add_varying(name_ + "_skipped_for_memory", "", columns);
   for (const double columns : as_refused_) recorder.add_varying(name_ + "_skipped_as_refused", "", columns);
@@ -114,8 +118,15 @@ void Cost::record(Recorder& recorder) const {
   recorder.add_varying(name_ + "_largest", "", *high);
   recorder.add_varying(name_ + "_theory", "", theory());
   const Medians medians = medians_of(columns_, values_);
+  for (std::size_t i = 0; i < medians.values.size(); ++i) {
+    if (unit_ == "s" && !(medians.values[i] > 0)) {
+      throw environment_error(fmt::format("{} took no time at {:.0f} columns", name_, medians.columns[i]),
+                              "cross.scale", "report it as a bug");
+    }
+  }
   const auto law = fit_power_law(medians.columns, medians.values);
   if (!law) return;
+  recorder.add_varying(name_ + "_fitted", "", static_cast<double>(law->points));
   recorder.add_varying(name_ + "_exponent", unit, law->exponent);
   recorder.add_varying(name_ + "_excess", unit, law->exponent - theory());
   if (!std::isfinite(law->low)) return;

@@ -43,8 +43,9 @@ class SizePlan {
   // The structure does not take ground of this size.
   void refused(double columns);
 
-  // name_sizes and name_skipped, the numbers of sizes; name_skipped_for_time, …_for_memory and …_as_refused,
-  // the columns of each skipped size, where there are any.
+  // name_sizes and name_skipped, the numbers of sizes; of the latter name_short_of_time, name_short_of_memory
+  // and name_refused, the numbers by reason; name_skipped_for_time, …_for_memory and …_as_refused, the
+  // columns of each skipped size, where there are any.
   void record(Recorder&) const;
 
   std::size_t sizes() const { return sizes_; }
@@ -77,8 +78,10 @@ class Cost {
   // The samples as `name`, their sizes as name_columns, pair by pair; each size's samples again as
   // name_at_COLUMNS, since two runs may reach different sizes; name_smallest and name_largest, the range of
   // sizes; name_theory, the exponent in theory; and from two sizes on name_exponent, the exponent of the
-  // power law through the medians of the sizes, and name_excess, that minus the theory. From three sizes on
-  // name_low and name_high, the exponent's 95 % interval.
+  // power law through the medians of the sizes, name_excess, that minus the theory, and name_fitted, the
+  // number of sizes. From three sizes on name_low and name_high, the exponent's 95 % interval. Where the
+  // median of a size is 0, as of page faults it may be, there is no exponent. Throws environment_error where a time
+  // is 0: then nothing was measured.
   void record(Recorder&) const;
 
   // In theory, over the sizes measured: with the logarithm the slope depends on them.

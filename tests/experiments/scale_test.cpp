@@ -56,6 +56,9 @@ TEST(SizePlan, SkipsWhatTheTimeLeftDoesNotCover) {
   EXPECT_THAT(samples(record, "build_skipped"), ElementsAre(2));
   EXPECT_THAT(samples(record, "build_skipped_for_time"), ElementsAre(16));
   EXPECT_THAT(samples(record, "build_skipped_for_memory"), ElementsAre(64));
+  EXPECT_THAT(samples(record, "build_short_of_time"), ElementsAre(1));
+  EXPECT_THAT(samples(record, "build_short_of_memory"), ElementsAre(1));
+  EXPECT_THAT(samples(record, "build_refused"), ElementsAre(0));
 }
 
 TEST(SizePlan, AdmitsExactlyWhatTheBudgetCovers) {
@@ -64,7 +67,8 @@ TEST(SizePlan, AdmitsExactlyWhatTheBudgetCovers) {
     ASSERT_TRUE(plan.admits(columns));
     plan.measured(columns, columns, static_cast<std::int64_t>(10 * columns));
   }
-  EXPECT_THAT(recorded(plan).metrics.size(), 2U) << "nothing was skipped";
+  EXPECT_THAT(samples(recorded(plan), "build_skipped"), ElementsAre(0));
+  EXPECT_EQ(recorded(plan).find("build_skipped_for_time"), nullptr);
 }
 
 TEST(SizePlan, SkipsWhatMemoryDoesNotHold) {
@@ -91,6 +95,7 @@ TEST(SizePlan, TheFirstSizeIsAlwaysMeasuredAndARefusalEndsThePlan) {
   other.refused(4);
   EXPECT_FALSE(other.admits(16));
   EXPECT_THAT(samples(recorded(other), "build_skipped_as_refused"), ElementsAre(4, 16));
+  EXPECT_THAT(samples(recorded(other), "build_refused"), ElementsAre(2));
 }
 
 TEST(Cost, RecordsTheExponentThroughTheMediansBesideTheTheory) {
@@ -108,6 +113,25 @@ TEST(Cost, RecordsTheExponentThroughTheMediansBesideTheTheory) {
   EXPECT_NEAR(samples(record, "build_high").at(0), 1.25, 1e-6);
   EXPECT_EQ(record.find("build_exponent")->unit, "exponent") << "varies from run to run";
   EXPECT_THAT(samples(record, "build_largest"), ElementsAre(16));
+  EXPECT_THAT(samples(record, "build_fitted"), ElementsAre(3));
+}
+
+TEST(Cost, ATimeOfZeroIsAFaultAndNoBytesHaveNoExponent) {
+  Cost time("edit", "s", 0), bytes("uploaded", "B", 0);
+  for (const double columns : {1.0, 4.0, 16.0}) {
+    time.add(columns, columns > 1 ? 1e-6 : 0);
+    bytes.add(columns, columns > 1 ? 8 : 0);
+  }
+  try {
+    recorded(time);
+    FAIL() << "took no time";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("edit took no time at 1 columns"));
+  }
+  const Record record = recorded(bytes);
+  EXPECT_THAT(samples(record, "uploaded_at_1"), ElementsAre(0));
+  EXPECT_EQ(record.find("uploaded_exponent"), nullptr);
+  EXPECT_EQ(record.find("uploaded_fitted"), nullptr);
 }
 
 TEST(Cost, OneSizeHasNoExponentAndTwoHaveNoInterval) {

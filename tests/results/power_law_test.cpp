@@ -42,12 +42,23 @@ TEST(PowerLawFit, TwoPointsHaveASlopeAndNoFiniteInterval) {
   EXPECT_TRUE(std::isinf(law->low) && std::isinf(law->high));
 }
 
-TEST(PowerLawFit, LeavesOutWhatHasNoLogarithmAndNeedsTwoSizes) {
+TEST(PowerLawFit, NeedsTwoSizes) {
   EXPECT_FALSE(fit_power_law({}, {}));
-  const std::vector<double> x = {0, -1, 2, 2, 8}, y = {1, 1, 3, 4, 0};
-  EXPECT_FALSE(fit_power_law(x, y));
-  const std::vector<double> more_x = {0, 2, 2, 8}, more_y = {1, 3, 3, 12};
-  EXPECT_NEAR(fit_power_law(more_x, more_y)->exponent, 1, 1e-12);
+  const std::vector<double> same = {2, 2}, x = {2, 2, 8}, y = {3, 3, 12};
+  EXPECT_FALSE(fit_power_law(same, {y.data(), 2}));
+  EXPECT_NEAR(fit_power_law(x, y)->exponent, 1, 1e-12);
+}
+
+// One point without a logarithm among four with one.
+TEST(PowerLawFit, RefusesPointsThatAreNotAboveZero) {
+  const std::vector<double> above = {1, 2, 4, 8, 16};
+  ASSERT_TRUE(fit_power_law(above, above));
+  for (const double bad : {0.0, -1.0, std::nan("")}) {
+    std::vector<double> values = above;
+    values[2] = bad;
+    EXPECT_FALSE(fit_power_law(above, values)) << bad;
+    EXPECT_FALSE(fit_power_law(values, above)) << bad;
+  }
 }
 
 // The interval holds the true exponent in 95 % of all trials, for few and for many sizes: ± 4 standard errors
