@@ -79,7 +79,7 @@ std::vector<Case> cases(const RunOptions& options) {
     add("heights", one, 129, paper ? 16385 : voxels ? 513 : 1025);
   }
   for (const std::string_view one : scaled_structures(true)) add("solids", one, 32, paper ? 1024 : 128);
-  for (const std::string_view one : scaled_lods()) add("lods", one, 513, paper ? 16385 : 2049);
+  for (const std::string_view one : scaled_lods()) add("lods", one, 129, paper ? 16385 : 2049);
   for (const std::string_view one : {kWholeMetres, kUnrounded}) add("flow", one, 129, paper ? 16385 : 1025);
   return cases;
 }

@@ -37,6 +37,9 @@ constexpr std::string_view kPath = "low";
 constexpr int kTunedSide = 257, kTunedFrames = 6;
 constexpr int kFrames = 100, kFramesPerSample = 10;
 constexpr float kMiddle = 3840;  // metres from two sides of every ground to the middle of the path
+// Side of the smallest ground that is walked on. On less, much of what is in view lies beyond the ground's
+// edge, so that the share of the ground in view, which in theory is the same at any size, grows with it.
+constexpr int kSmallestWalk = 513;
 
 // The path `low`, turned by a quarter around a place that has the same ground at any size, so that it looks
 // towards the ground that larger sizes add.
@@ -101,11 +104,12 @@ void measure_lod(const Run& run, std::string_view name) {
     const double columns = squared(side);
     run.measured(plan, columns, [&] {
       const Heightfield ground = noise_hills(side, run.seed());
-      const std::vector<View> path = same_flight(ground);
       std::unique_ptr<Lod> built;
       add_turns(
           costs.build, costs.build_faults, columns, [&] { built.reset(); },
           [&] { built = method.build(ground, silent); });
+      if (side < kSmallestWalk) return;
+      const std::vector<View> path = same_flight(ground);
       built->tune(tuned.knob);
       built->update(path.front());
       follow(*built, path, columns, costs);

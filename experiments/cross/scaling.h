@@ -80,8 +80,8 @@ class Cost {
   // sizes; name_theory, the exponent in theory; and from two sizes on name_exponent, the exponent of the
   // power law through the medians of the sizes, name_excess, that minus the theory, and name_fitted, the
   // number of sizes. From three sizes on name_low and name_high, the exponent's 95 % interval. Where the
-  // median of a size is 0, as of page faults it may be, there is no exponent. Throws environment_error where a time
-  // is 0: then nothing was measured.
+  // median of a size is 0, as of page faults it may be, there is no exponent. Throws environment_error where
+  // a time is 0: then nothing was measured.
   void record(Recorder&) const;
 
   // In theory, over the sizes measured: with the logarithm the slope depends on them.

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -266,6 +267,20 @@ TEST(Scale, AWindowOnGrowingGroundHoldsTheSame) {
   EXPECT_NEAR(samples(record, "bytes_exponent").at(0), 0, 0.25);
   const Record brute = measured("lods/brute_force", {{"smallest", std::int64_t{257}}, {"seconds", 1e6}});
   EXPECT_GT(samples(brute, "triangles_exponent").at(0), 0.5);
+}
+
+// On smaller ground much of what is in view lies beyond the edge.
+TEST(Scale, MethodsAreBuiltOnSmallerGroundThanTheyWalkOn) {
+  for (const LodType& type : lods()) {
+    const Record record = measured(fmt::format("lods/{}", type.name).c_str(),
+                                   {{"largest", std::int64_t{1025}}, {"seconds", 1e6}});
+    EXPECT_THAT(samples(record, "build_smallest"), ElementsAre(129 * 129)) << type.name;
+    EXPECT_THAT(samples(record, "build_fitted"), ElementsAre(4)) << type.name;
+    for (const char* const cost : {"bytes", "update", "uploaded", "triangles"}) {
+      EXPECT_THAT(samples(record, std::string(cost) + "_smallest"), ElementsAre(513 * 513)) << type.name;
+      EXPECT_THAT(samples(record, std::string(cost) + "_fitted"), ElementsAre(2)) << type.name;
+    }
+  }
 }
 
 TEST(Scale, RefusesWhatItDoesNotKnow) {
