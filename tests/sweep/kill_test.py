@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Usage: kill_test.py PROGRAM FOLDER [MOMENTS [SEED [OPTION OF terrabench run…]]]
+"""Usage: kill_test.py PROGRAM FOLDER [KILLS [SEED [OPTION OF terrabench run…]]]
 
-Kills runs and merges with SIGKILL at random moments, MOMENTS of each, and checks what is left:
+Kills runs and merges with SIGKILL at random moments, KILLS of each, and checks what is left. A program that ends before its
+moment is started again and does not count.
 - every line of measurements.jsonl that was whole at the kill is still there, and at most the last line is torn;
 - `run --resume` exits with 0 and ends with the records and pictures of a run that was not killed;
 - a killed merge leaves the old measurements.jsonl or the whole new one, with all pictures.
@@ -15,9 +16,10 @@ import time
 from pathlib import Path
 
 PROGRAM, FOLDER = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-MOMENTS = int(sys.argv[3]) if len(sys.argv) > 3 else 10
+KILLS = int(sys.argv[3]) if len(sys.argv) > 3 else 10
 SEED = int(sys.argv[4]) if len(sys.argv) > 4 else 1
 OPTIONS = sys.argv[5:]
+ATTEMPTS = 3 * KILLS + 10
 CASES = ["hybrid.noise-stages", "hybrid.fresnel", "--set", "pixels=16"]
 
 
@@ -67,34 +69,57 @@ def results(folder):
     return found
 
 
+def count_records(folder):
+    return whole_lines(folder).count(b'"kind":"record"')
+
+
 def seconds_of(*arguments):
     begin = time.monotonic()
     terrabench(*arguments)
     return time.monotonic() - begin
 
 
+def seconds_left(folder, *arguments):
+    """Runs the program to its end; returns, for each number of records, how long it still ran once it had written them."""
+    process = subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    begin, appeared = time.monotonic(), []
+    while process.poll() is None:
+        appeared += [time.monotonic()] * (count_records(folder) + 1 - len(appeared))
+        time.sleep(0.001)
+    end = time.monotonic()
+    demand(process.returncode == 0, f"{arguments}: exit code {process.returncode}")
+    appeared += [end] * (count_records(folder) + 1 - len(appeared))
+    return [end - begin] + [end - moment for moment in appeared[1:]]
+
+
 def kill_runs(moments):
-    whole, killed, torn = FOLDER / "whole", FOLDER / "killed", 0
+    whole, killed = FOLDER / "whole", FOLDER / "killed"
     run = ["run", *CASES, *OPTIONS, "--out"]
-    seconds = seconds_of(*run, whole)
-    expected, hits, completed = results(whole), 0, 0
-    for number in range(MOMENTS):
-        hit, before = kill_after(moments.uniform(0, 1.1 * seconds), killed, *run, killed, "--resume")
+    left = seconds_left(whole, *run, whole)
+    start = seconds_of(*run, whole, "--resume")  # nothing remains to be measured
+    expected = results(whole)
+    demand(len(left) == len(expected) + 1, f"{len(left) - 1} records were counted, {len(expected)} were read")
+    attempts = hits = torn = completed = 0
+    while hits < KILLS and attempts < ATTEMPTS:
+        attempts += 1
+        done = count_records(killed)
+        seconds = left[0] if done == 0 else start + left[done]
+        hit, before = kill_after(moments.uniform(0, seconds), killed, *run, killed, "--resume")
         hits += hit
-        demand(content(killed).startswith(before), f"moment {number}: a line that was whole is gone")
+        demand(content(killed).startswith(before), f"attempt {attempts}: a line that was whole is gone")
         torn += content(killed) != whole_lines(killed)
         for line in whole_lines(killed).splitlines():
             json.loads(line)
-        # Sometimes it is killed again before it is complete.
-        if number % 3 == 2 or number == MOMENTS - 1:
+        # Two of three are killed again before they are complete, as long as any case remains.
+        if not hit or hits % 3 == 0 or hits == KILLS or count_records(killed) == len(expected):
             said = terrabench(*run, killed, "--resume")
             demand("altered" not in said, said)
-            demand(results(killed) == expected, f"moment {number}: the resumed run has other results")
+            demand(results(killed) == expected, f"attempt {attempts}: the resumed run has other results")
             terrabench("compare", whole, killed)
             completed += 1
             shutil.rmtree(killed)
-    demand(hits > 0, "every run ended before its kill")
-    print(f"runs: {MOMENTS} kills over {seconds:.1f} s, {hits} while it ran, {torn} left a torn line, "
+    demand(hits == KILLS, f"only {hits} of {attempts} runs were killed before they ended")
+    print(f"runs: {hits} kills while it ran, of {attempts} attempts over {left[0]:.1f} s, {torn} left a torn line, "
           f"{completed} times completed with the same {len(expected)} records")
 
 
@@ -106,22 +131,23 @@ def kill_merges(moments):
     shutil.copytree(shards[0], old)
     shutil.copytree(old, new)
     seconds = seconds_of("merge", new, *shards[1:])
-    hits = came_through = 0
-    for number in range(MOMENTS):
+    attempts = hits = came_through = 0
+    while hits < KILLS and attempts < ATTEMPTS:
+        attempts += 1
         shutil.rmtree(out, ignore_errors=True)
         shutil.copytree(old, out)
-        hit, _ = kill_after(moments.uniform(0.2, 1.1) * seconds, out, "merge", out, *shards[1:])
+        hit, _ = kill_after(moments.uniform(0.2, 1) * seconds, out, "merge", out, *shards[1:])
         hits += hit
         left = content(out)
-        demand(left in (content(old), content(new)), f"moment {number}: neither the old nor the new records")
-        came_through += left == content(new)
+        demand(left in (content(old), content(new)), f"attempt {attempts}: neither the old nor the new records")
+        came_through += hit and left == content(new)
         results(out)
         terrabench("merge", out, *shards[1:])
-        demand(content(out) == content(new), f"moment {number}: the repeated merge has other records")
-        demand(results(out) == results(FOLDER / "whole"), f"moment {number}: not the results of the unbroken run")
-    demand(hits > 0, "every merge ended before its kill")
-    print(f"merges: {MOMENTS} kills over {seconds:.2f} s, {hits} while it ran, {came_through} left the new records, "
-          f"{MOMENTS - came_through} the old")
+        demand(content(out) == content(new), f"attempt {attempts}: the repeated merge has other records")
+        demand(results(out) == results(FOLDER / "whole"), f"attempt {attempts}: not the results of the unbroken run")
+    demand(hits == KILLS, f"only {hits} of {attempts} merges were killed before they ended")
+    print(f"merges: {hits} kills while it ran, of {attempts} attempts over {seconds:.2f} s, {came_through} left the new "
+          f"records, {hits - came_through} the old")
 
 
 shutil.rmtree(FOLDER, ignore_errors=True)
