@@ -131,7 +131,8 @@ std::optional<Ranking> rank(const RankingLayout& layout, const Store& store, con
     ranking.places.push_back({*c.label, c.median * to_unit, factor});
     if (std::ranges::count(ranking.runs, c.record->run) == 0) ranking.runs.push_back(c.record->run);
   }
-  const auto ties = [&](const Summary& f) { return f.low <= 1 || (timing && f.median < kTimingMargin); };
+  ranking.margin = timing ? kTimingMargin : kExactMargin;
+  const auto ties = [&](const Summary& f) { return f.low <= 1 || f.median < ranking.margin; };
   while (ranking.tied < all.size() && ties(ranking.places[ranking.tied].factor)) ++ranking.tied;
   return ranking;
 }

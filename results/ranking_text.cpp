@@ -28,21 +28,27 @@ void finish(std::string& text) {
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
 }
 
-// Of 1.002, three digits would be 1.
-std::string digits(double factor) { return fmt::format("{:.{}g}", factor, factor < 1.1 ? 4 : 3); }
-
-// "1.3 [1.2, 1.4]"; the interval is left out where there is none.
+// "1.3 [1.2, 1.4]"; the interval is left out where there is none. Of 1.002, three digits would be 1.
 std::string factor_text(const Summary& factor) {
-  const std::string median = digits(factor.median);
+  const int digits = factor.median < 1.1 ? 4 : 3;
+  const std::string median = fmt::format("{:.{}g}", factor.median, digits);
   if (factor.low == factor.high) return median;
-  return fmt::format("{} [{:.3g}, {:.3g}]", median, factor.low, factor.high);
+  return fmt::format("{} [{:.{}g}, {:.{}g}]", median, factor.low, digits, factor.high, digits);
+}
+
+// Of a ranking with two places or more: by which the best is ahead of the next, or within which the best are
+// tied.
+const Summary& factor_of(const Ranking& ranking) {
+  return ranking.places[ranking.tied > 1 ? ranking.tied - 1 : 1].factor;
 }
 
 // Grounds of one task with the same outcome, a subject and a verb: "drills and stacks tied".
 struct Group {
   std::string outcome;
   std::vector<std::string> where;
-  double least = 0, most = 0;  // by which factor the best is ahead of the next; 0: of none
+  bool tied = false;
+  // By which factors the best is ahead of the next, or within which the best are tied; without those of 1.
+  std::vector<Summary> factors;
 };
 
 std::string outcome_of(const Ranking& ranking) {
@@ -59,19 +65,20 @@ std::string outcome_of(const Ranking& ranking) {
 void add_to(std::vector<Group>& groups, const Ranking& ranking) {
   const std::string outcome = outcome_of(ranking);
   auto at = std::ranges::find(groups, outcome, &Group::outcome);
-  if (at == groups.end()) at = groups.insert(at, {outcome, {}, 0, 0});
+  if (at == groups.end()) at = groups.insert(at, {outcome, {}, ranking.tied > 1, {}});
   at->where.push_back(ranking.layout->where);
-  if (!ranking.decided() || ranking.tied > 1 || ranking.places.size() == 1) return;
-  const double ahead = ranking.places[1].factor.median;
-  at->least = at->most == 0 ? ahead : std::min(at->least, ahead);
-  at->most = std::max(at->most, ahead);
+  if (!ranking.decided() || ranking.places.size() == 1) return;
+  const Summary& factor = factor_of(ranking);
+  if (factor.median != 1) at->factors.push_back(factor);
 }
 
 std::string text_of(const Group& group) {
   const std::string text = joined(group.where, " and ") + ", " + group.outcome;
-  if (group.most == 0) return text;
-  const std::string least = digits(group.least), most = digits(group.most);
-  return text + (least == most ? fmt::format(" ({} ×)", most) : fmt::format(" ({} to {} ×)", least, most));
+  if (group.factors.empty()) return text;
+  const auto [least, most] = std::ranges::minmax_element(group.factors, {}, &Summary::median);
+  const std::string low = factor_text(*least), high = factor_text(*most);
+  if (group.tied) return text + fmt::format(" (within {} ×)", high);
+  return text + (low == high ? fmt::format(" ({} ×)", high) : fmt::format(" ({} to {} ×)", low, high));
 }
 
 }  // namespace
@@ -86,9 +93,11 @@ std::string Ranking::result() const {
   if (tied > 1 && !too_few) {
     std::vector<std::string> best;
     for (std::size_t i = 0; i < tied; ++i) best.push_back(with_value(places[i]));
-    const Summary& last = places[tied - 1].factor;
-    return fmt::format("{} are tied{}", joined(best, " and "),
-                       last.median != 1 ? fmt::format(", within a factor of {}", factor_text(last)) : "");
+    std::string text = joined(best, " and ") + " are tied";
+    const Summary& last = factor_of(*this);
+    if (last.median != 1) text += fmt::format(", within a factor of {}", factor_text(last));
+    if (last.low > 1) text += fmt::format(", less than the margin of {}", margin);
+    return text;
   }
   if (places.size() == 1) return with_value(places[0]) + " alone";
   const std::string first = with_value(places[0]), second = with_value(places[1]),
@@ -98,6 +107,20 @@ std::string Ranking::result() const {
                        second, factor);
   }
   return fmt::format("{}, ahead of {} by a factor of {}", first, second, factor);
+}
+
+std::string Ranking::lead() const {
+  if (places.size() == 1) return "alone";
+  const Summary& factor = factor_of(*this);
+  if (tied == 1) return factor_text(factor) + " ×";
+  return factor.median == 1 ? "tied" : fmt::format("tied, within {} ×", factor_text(factor));
+}
+
+std::string tie_rule() {
+  return fmt::format(
+      "Methods are called tied if the 95 % interval of that factor contains 1 or if the factor is below a "
+      "margin: {} for times, since two runs on one machine may differ by as much, and {} for all else.",
+      kTimingMargin, kExactMargin);
 }
 
 Facts in_short(std::span<const Ranking> rankings) {
@@ -162,6 +185,7 @@ std::string findings_json(std::span<const Ranking> rankings) {
                     {"needs", layout.needs_text},
                     {"left_out", ranking.left_out},
                     {"places", places},
+                    {"margin", ranking.margin},
                     {"tied", ranking.places.empty() ? 0 : ranking.tied},
                     {"too_few_samples", ranking.too_few},
                     {"comparable", ranking.not_compared.empty()},

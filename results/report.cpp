@@ -127,10 +127,9 @@ class Report {
     document_.push_back(Paragraph{
         fmt::format(
             "Which method leads at what, from the medians of the comparisons across the papers, and in "
-            "parentheses by how many times it is ahead of the next; and where the papers differ from what "
-            "was measured. Methods are called tied if the 95 % interval of that factor contains 1 or, for "
-            "times, if it is below {}, since two runs on one machine may differ by as much.",
-            kTimingMargin),
+            "parentheses by how many times it is ahead of the next, with the 95 % interval in brackets where "
+            "the figures vary; and where the papers differ from what was measured. {}",
+            tie_rule()),
         false,
         {{"JSON", "findings.json"}, {"Markdown", "findings.md"}}});
     document_.push_back(std::move(brief));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "results/ranking.h"
 #include "results/record_json.h"
 #include "terrain/error.h"
 #include "tests/results/fake_results.h"
@@ -254,6 +255,16 @@ TEST(Reference, ReportIsSmall) {
     EXPECT_TRUE(std::filesystem::is_regular_file(report / file)) << file;
   }
   EXPECT_GE(pictures, 100U);
+}
+
+// Without the margins, a tie whose interval excludes 1 cannot be understood.
+TEST(Readme, SaysBesideTheFindingsWhenMethodsAreTied) {
+  std::string readme = read_file(std::filesystem::path(TERRABENCH_SOURCE_DIR) / "README.md");
+  std::ranges::replace(readme, '\n', ' ');
+  const std::size_t rule = readme.find(tie_rule()), findings = readme.find("<!-- findings -->");
+  ASSERT_NE(rule, readme.npos);
+  EXPECT_LT(rule, findings);
+  EXPECT_LT(findings - rule, 1500U);
 }
 
 TEST(Readme, HasTheFindingsOfTheRunThatIsKept) {
