@@ -129,8 +129,41 @@ TEST_F(FurtherGroundsTest, SaysWhoIsBestThereAndWhereElse) {
   ASSERT_THAT(table.rows, SizeIs(1));
   EXPECT_EQ(table.rows[0][0].text, "Least error");
   EXPECT_EQ(table.rows[0][1].text, "drills (5), ahead of voxels (10) by a factor of 2");
-  EXPECT_EQ(table.rows[0][2].text, "as on a hill; on a cave voxels");
+  EXPECT_EQ(table.rows[0][2].text, "as on a hill (2 ×); on a cave voxels (1.33 ×)");
+  EXPECT_THAT(table.caption, HasSubstr(tie_rule()));
   EXPECT_THAT(tables()[0].runs, SizeIs(1));
+}
+
+TEST_F(FurtherGroundsTest, SaysByHowMuchTheBestLeadElsewhere) {
+  const auto beside = [&] { return tables()[0].table.rows[0][2].text; };
+  measure("alps", "a/5%", 5, 1, false);
+  measure("alps", "b/5%", 10, 9, false);
+  measure("cave", "a/5%", 1, 4, true);
+  measure("cave", "b/5%", 2, 4, true);
+  EXPECT_EQ(beside(), "as on a cave (tied)");
+  measure("cave", "b/5%", 2, 4.02, true);
+  EXPECT_EQ(beside(), "as on a cave (tied, within 1.005 ×)");
+  measure("cave", "b/5%", 2, 4.8, true);
+  EXPECT_EQ(beside(), "as on a cave (1.2 ×)");
+}
+
+// A run of the quick profile measures smaller grounds.
+TEST_F(FurtherGroundsTest, HeadsOfColumnsNameTheProfilesWhereTheyDiffer) {
+  measure_named_grounds();
+  measure("alps", "a/5%", 5, 1, false);
+  measure("alps", "b/5%", 10, 9, false);
+  EXPECT_EQ(tables()[0].table.columns[1].title, "Best on this ground");
+  Store paper(folder_ / "paper");
+  paper.begin_run(run_);
+  for (const auto& [type, rmse] : {std::pair{"a", 1.0}, std::pair{"b", 3.0}}) {
+    Record record = fake_record(run_, "x", fmt::format("hill/{}/5%", type), "paper");
+    add(record, "rmse", "", {rmse});
+    paper.append(record);
+  }
+  const Table table = tables(paper, "paper")[0].table;
+  EXPECT_EQ(table.columns[1].title, "Best on this ground, profile quick");
+  EXPECT_EQ(table.columns[2].title, "On the compared grounds, profile paper");
+  EXPECT_EQ(table.rows[0][2].text, "as on a hill (3 ×)");
 }
 
 // Solids have cavities, which the member of [further] that compares volumes asks for.
@@ -140,7 +173,7 @@ TEST_F(FurtherGroundsTest, ComparesSolidsAsSolids) {
   measure("arch", "b/5%", 10, 2, true);
   ASSERT_THAT(tables(), SizeIs(1));
   EXPECT_EQ(tables()[0].table.rows[0][1].text, "voxels (2), ahead of drills (8) by a factor of 4");
-  EXPECT_EQ(tables()[0].table.rows[0][2].text, "as on a cave; on a hill drills");
+  EXPECT_EQ(tables()[0].table.rows[0][2].text, "as on a cave (1.33 ×); on a hill drills (2 ×)");
 }
 
 TEST_F(FurtherGroundsTest, ComparesWithTheGroundsOfAnotherFolder) {
@@ -151,7 +184,7 @@ TEST_F(FurtherGroundsTest, ComparesWithTheGroundsOfAnotherFolder) {
   measure("alps", "a/5%", 5, 1, false);
   measure("alps", "b/5%", 10, 9, false);
   EXPECT_THAT(tables()[0].table.columns, SizeIs(2));
-  EXPECT_EQ(tables(mine)[0].table.rows[0][2].text, "as on a hill; on a cave voxels");
+  EXPECT_EQ(tables(mine)[0].table.rows[0][2].text, "as on a hill (2 ×); on a cave voxels (1.33 ×)");
   EXPECT_THAT(tables(mine)[0].table.caption, HasSubstr("named for comparison"));
   EXPECT_THAT(tables(mine)[0].table.caption, Not(HasSubstr("profile")));
   const auto mixed = tables(mine, "paper");
@@ -180,7 +213,7 @@ TEST_F(FurtherGroundsTest, WhatIsUndecidedIsNotTheSame) {
   measure("alps", "b/5%", 10, 9, false);
   ASSERT_THAT(tables(), SizeIs(1));
   EXPECT_THAT(tables()[0].table.rows[0][1].text, HasSubstr("not compared, as "));
-  EXPECT_EQ(tables()[0].table.rows[0][2].text, "on a hill drills; on a cave voxels");
+  EXPECT_EQ(tables()[0].table.rows[0][2].text, "on a hill drills (2 ×); on a cave voxels (1.33 ×)");
 }
 
 TEST_F(FurtherGroundsTest, DemsOfOneNameHaveTheirOwnTables) {
