@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "results/findings_text.h"
+#include "results/nearness.h"
 #include "results/provenance.h"
 #include "terrain/error.h"
 #include "terrain/image.h"
@@ -24,20 +25,29 @@ using Outcome = Finding::Outcome;
 Finding compare(const Condition& condition, const std::vector<Quantity>& quantities) {
   const std::vector<double>&first = quantities[0].samples, &second = quantities.back().samples;
   const auto in_range = [&](const Summary& s) {
-    return word_range(condition, quantities, s, s.median >= condition.low && s.median <= condition.high);
+    const bool holds = s.median >= condition.low && s.median <= condition.high;
+    Finding found = word_range(condition, quantities, s, holds);
+    if (holds) found.room = room_in_range(s.median, condition.low, condition.high);
+    return found;
   };
   if (condition.kind == Kind::kWithin) return in_range(summarise(first));
   if (condition.kind == Kind::kRatio) return in_range(summarise_ratio(first, second));
   if (condition.kind == Kind::kGrowth) return in_range(summarise_ratio(second, first));
   const bool equal = condition.kind == Kind::kEqual;  // else order: read() keeps figures apart
-  std::vector<double> medians;
+  std::vector<double> medians, rooms;
   std::vector<bool> holds;  // for each median but the first: with the one before it
   for (const Quantity& q : quantities) {
     const double median = summarise(q.samples).median;
-    if (!medians.empty()) holds.push_back(equal ? medians.back() == median : medians.back() < median);
+    if (!medians.empty()) {
+      holds.push_back(equal ? medians.back() == median : medians.back() < median);
+      rooms.push_back(equal ? 0 : room_between(medians.back(), median));
+    }
     medians.push_back(median);
   }
-  return word_chain(equal, quantities, medians, holds);
+  const auto nearest = std::ranges::min_element(rooms);
+  Finding found = word_chain(equal, quantities, medians, holds, nearest - rooms.begin());
+  if (!equal && found.outcome == Outcome::kHolds) found.room = *nearest;
+  return found;
 }
 
 // Whether records of two runs may meet in the condition. Ratios, growth and orders of what varies from run to
@@ -107,10 +117,11 @@ class Reader {
 
   Finding read_figure(const Condition& condition) {
     const auto [record, figure] = store_.find_figure(condition.figure, profile_);
-    if (figure == nullptr) return {Outcome::kMissing, "no picture was drawn", "not drawn", "", "picture"};
+    if (figure == nullptr)
+      return {Outcome::kMissing, "no picture was drawn", "not drawn", "", "picture", "picture"};
     note_read(*record);
     const auto [holds, text] = inspect(condition, *figure);
-    return {outcome(holds), text, holds ? "drawn" : "not usable", "", "picture"};
+    return {outcome(holds), text, holds ? "drawn" : "not usable", "", "picture", "picture"};
   }
 
   // Whether the picture is the one that was drawn, shows something, and contains what it should.

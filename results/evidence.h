@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,9 @@ struct Finding {
   std::string text;  // in full: "time 0.12 s [0.11, 0.13], in [0, 1]"
   // In short: the figure that decides ("0.12 s"), what it must be ("[0, 1]", "< 3 s"), and its name ("time").
   std::string value, expected, quantity;
+  std::string what = "";  // `quantity` after its case, where the claim reads several cases
+  std::optional<double> room =
+      std::nullopt;  // to the bound (nearness.h); none: it fails, or knows no distance
 };
 
 struct Evidence {

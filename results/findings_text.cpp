@@ -60,8 +60,11 @@ bool names_cases(const Claim& claim) {
 
 Finding word_missing(const Operand& o) {
   return {Finding::Outcome::kMissing,
-          fmt::format("no {} of {} {} was measured", o.metric, o.experiment, o.case_name), "not measured", "",
-          spoken(o.metric)};
+          fmt::format("no {} of {} {} was measured", o.metric, o.experiment, o.case_name),
+          "not measured",
+          "",
+          spoken(o.metric),
+          o.case_name + " " + spoken(o.metric)};
 }
 
 Finding word_range(const Condition& condition, const std::vector<Quantity>& quantities, const Summary& s,
@@ -80,6 +83,7 @@ Finding word_range(const Condition& condition, const std::vector<Quantity>& quan
     unit = "";
   }
   const double low = condition.low, high = condition.high;
+  found.what = what;
   found.value = format_quantity(s.median, unit);
   found.expected = fmt::format("[{}, {}]", format_exact(low), format_exact(high));
   found.text = what + " " + found.value;
@@ -91,7 +95,7 @@ Finding word_range(const Condition& condition, const std::vector<Quantity>& quan
 }
 
 Finding word_chain(bool equal, const std::vector<Quantity>& quantities, const std::vector<double>& medians,
-                   const std::vector<bool>& holds) {
+                   const std::vector<bool>& holds, std::size_t nearest) {
   const std::string_view sign = equal ? "=" : "<", broken = equal ? "≠" : "≥";
   const auto failing = std::ranges::find(holds, false);
   Finding found{outcome(failing == holds.end()), show(quantities[0], medians[0]), "", "", ""};
@@ -101,7 +105,7 @@ Finding word_chain(bool equal, const std::vector<Quantity>& quantities, const st
       found.text += fmt::format(" ({})", missed_by(medians[i], medians[i + 1]));
     }
   }
-  const std::size_t shown = failing == holds.end() ? 0 : failing - holds.begin();
+  const std::size_t shown = failing == holds.end() ? nearest : failing - holds.begin();
   // Of the pair, a plain number is the bound; without one, the second operand is.
   const bool bound_first = quantities[shown].name.empty();
   const std::size_t bound = bound_first ? shown : shown + 1, measured = bound_first ? shown + 1 : shown;
@@ -109,6 +113,7 @@ Finding word_chain(bool equal, const std::vector<Quantity>& quantities, const st
   found.expected = fmt::format("{} {}", bound_first && !equal ? ">" : sign,
                                format_quantity(medians[bound], quantities[bound].unit));
   found.quantity = quantities[measured].metric;
+  found.what = quantities[measured].name;
   return found;
 }
 

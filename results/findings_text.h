@@ -24,8 +24,8 @@ Finding word_missing(const Operand&);
 // within, ratio, growth: `s` was compared with the condition's range.
 Finding word_range(const Condition&, const std::vector<Quantity>&, const Summary& s, bool holds);
 // equal, order: holds[i] tells whether medians i and i + 1 do. In short, shows the first pair that fails,
-// else the first pair.
+// else the pair `nearest`.
 Finding word_chain(bool equal, const std::vector<Quantity>&, const std::vector<double>& medians,
-                   const std::vector<bool>& holds);
+                   const std::vector<bool>& holds, std::size_t nearest);
 
 }  // namespace terrabench

@@ -36,12 +36,28 @@ std::string surprise(const Claim& claim, Verdict verdict, const std::vector<Find
   return "";
 }
 
+// The index of Judgement::deciding.
+std::size_t find_deciding(const std::vector<Finding>& findings) {
+  for (const Outcome outcome : {Outcome::kMissing, Outcome::kFails}) {
+    const auto at = std::ranges::find(findings, outcome, &Finding::outcome);
+    if (at != findings.end()) return at - findings.begin();
+  }
+  std::size_t nearest = 0;
+  if (!findings[0].room) return nearest;
+  for (std::size_t i = 1; i < findings.size(); ++i) {
+    if (findings[i].room && *findings[i].room < *findings[nearest].room) nearest = i;
+  }
+  return nearest;
+}
+
 void judge_measured(Judgement& judgement, const Store& store, const std::string& profile) {
   const Claim& claim = *judgement.claim;
   Evidence evidence = gather_evidence(claim, store, profile);
   std::vector<Finding>& findings = evidence.findings;
   const auto first = [&](Outcome outcome) { return std::ranges::find(findings, outcome, &Finding::outcome); };
   judgement.runs = evidence.runs;
+  judgement.deciding_condition = find_deciding(findings);
+  judgement.deciding = findings[judgement.deciding_condition];
   if (first(Outcome::kMissing) != findings.end()) {
     // Report only what is missing.
     std::erase_if(findings, [](const Finding& finding) { return finding.outcome != Outcome::kMissing; });
@@ -51,8 +67,6 @@ void judge_measured(Judgement& judgement, const Store& store, const std::string&
   } else {
     judgement.verdict = claim.claim_class == 'S' ? Verdict::kShape : Verdict::kReproduced;
   }
-  const auto failing = first(Outcome::kFails);
-  judgement.deciding = failing != findings.end() ? *failing : findings.front();
   judgement.measured = joined(findings);
   if (evidence.altered) {
     judgement.complaint = "rests on a record that was altered";
@@ -65,7 +79,9 @@ void judge_measured(Judgement& judgement, const Store& store, const std::string&
 
 Judgement judge_claim(const Paper& paper, const Claim& claim, const Store& store,
                       const std::string& profile) {
-  Judgement judgement{&paper, &claim, Verdict::kPending, {}, {}, {}, ""};
+  Judgement judgement;
+  judgement.paper = &paper;
+  judgement.claim = &claim;
   if (!claim.not_comparable.empty()) {
     judgement.verdict = Verdict::kNotComparable;
     judgement.measured = claim.not_comparable;

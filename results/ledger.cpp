@@ -31,13 +31,22 @@ std::string why(const Judgement& j) {
   return fmt::format("{} Matches: {}", j.claim->reason(), j.claim->matches);
 }
 
-// The figure that decides, and how many further conditions the verdict rests on.
+// The figure that decides and, of a claim with several conditions, which one it is of, with its bound and
+// why.
 std::string ours(const Judgement& j) {
-  if (j.deciding.value.empty()) return "–";
+  const Finding& found = j.deciding;
+  if (found.value.empty()) return "–";
+  const std::string text = fmt::format("{}{}{}", found.what, found.what.empty() ? "" : ": ", found.value);
   const std::size_t conditions = j.claim->conditions.size();
-  return fmt::format("{}{}{}{}", j.deciding.quantity, j.deciding.quantity.empty() ? "" : ": ",
-                     j.deciding.value,
-                     conditions == 1 ? "" : fmt::format(" (one of {} conditions)", conditions));
+  if (conditions == 1) return text;
+  std::string_view why_this;
+  if (found.outcome == Finding::Outcome::kFails) {
+    why_this = ": the first that fails";
+  } else if (found.outcome == Finding::Outcome::kHolds && found.room) {
+    why_this = ": the nearest to its bound";
+  }
+  return fmt::format("{} (condition {} of {}{}{}{})", text, j.deciding_condition + 1, conditions,
+                     found.expected.empty() ? "" : ", ", found.expected, why_this);
 }
 
 class Rows {
@@ -123,7 +132,11 @@ Table ledger_table(const Store& store, const JudgedResults& results, std::span<c
               "Claim, what the paper says in our words and what it prints, what was measured, and why the "
               "verdict is not “reproduced” where it is not. The figure or table is the picture that the "
               "row judges, otherwise the first table or plot that shows its verdict or one of its "
-              "numbers. Lines are those of measurements.jsonl.",
+              "numbers. Lines are those of measurements.jsonl. Of a row with several conditions, “Measured” "
+              "shows the first that fails or, if all hold, the one nearest to its bound: the least share of "
+              "a range's half that lies between value and bound (of logarithms where the range is positive), "
+              "or 1 - smaller ÷ larger where there is one bound. Equalities and pictures have no such "
+              "distance: they are shown where they are a row's first condition, which is what it states.",
               {{"Claim"},
                {"Verdict"},
                {"The paper"},

@@ -1,5 +1,6 @@
 #include "results/judge.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -144,6 +145,30 @@ TEST_F(OneClaim, TheFirstFailingConditionDecides) {
   EXPECT_EQ(deciding("{equal = [\"e/c/n\", 100]}, {equal = [\"e/c/t\", 1]}"), "0.5 s | = 1 | t");
   EXPECT_EQ(deciding("{equal = [\"e/c/n\", 1]}, {equal = [\"e/c/other\", 1]}"), "not measured |  | other");
   EXPECT_EQ(deciding("{figure = \"p.F1\"}"), "not drawn |  | picture");
+}
+
+TEST_F(OneClaim, OfConditionsThatHoldTheNearestToItsBoundDecides) {
+  metrics_ = {{"m", "B", {110}}, {"n", "B", {100}}, {"few", "1/s", {3}}, {"share", "", {0}}};
+  const auto deciding = [&](const std::string& check) {
+    const Judgement judged = judge_one(check);
+    const Finding& found = judged.deciding;
+    return fmt::format("{} | {} | {} | {}", judged.deciding_condition, found.value, found.expected,
+                       found.what);
+  };
+  const std::string wide = R"({within = ["e/c/m"], range = [1, 1000]})",
+                    above = R"({order = [2.9, "e/c/few"]})", equal = R"({equal = ["e/c/n", 100]})";
+  EXPECT_EQ(deciding(wide + ", " + above), "1 | 3 1/s | > 2.9 | few");
+  EXPECT_EQ(deciding(above + ", " + wide), "0 | 3 1/s | > 2.9 | few");
+  EXPECT_EQ(deciding(wide + R"(, {ratio = ["e/c/m", "e/c/n"], range = [1.09, 9]}, )" + above),
+            "1 | 1.1 | [1.09, 9] | m ÷ n");
+  // Of a chain, the nearest pair.
+  EXPECT_EQ(deciding(R"({order = [1, "e/c/n", "e/c/m", 1000]})"), "0 | 100 B | < 110 B | n");
+  // The best possible share is not near its bound.
+  EXPECT_EQ(deciding(R"({within = ["e/c/share"], range = [0, 0.2]}, )" + wide), "1 | 110 B | [1, 1000] | m");
+  // An equality decides only as the first, what fails always.
+  EXPECT_EQ(deciding(equal + ", " + above), "0 | 100 B | = 100 | n");
+  EXPECT_EQ(deciding(above + ", " + equal), "0 | 3 1/s | > 2.9 | few");
+  EXPECT_EQ(deciding(equal + ", " + above + R"(, {order = ["e/c/m", "e/c/n"]})"), "2 | 110 B | < 100 B | m");
 }
 
 TEST_F(OneClaim, RatiosAcrossMachinesOrBuildsAreRefused) {

@@ -78,6 +78,38 @@ TEST_F(LedgerTest, ARowSaysWhatWasPrintedAndMeasuredAndWhere) {
   EXPECT_EQ(row(ledger, "hybrid.F3")[kFigure].link, "");
 }
 
+TEST_F(LedgerTest, ARowOfSeveralConditionsShowsTheOneThatDecidesAndWhichItIs) {
+  Store store(folder_);
+  for (const auto& [name, rate] : {std::pair{"fast", 3.77e6}, std::pair{"slow", 0.27e6}}) {
+    Record record = fake_record(fake_provenance(), "e", name, "paper");
+    add(record, "rate", "1/s", {rate});
+    store.append(record);
+  }
+  const auto measured = [&](const std::string& check) {
+    const std::vector<Paper> of{parse_claims(R"(paper = "p"
+title = "t"
+source = "s"
+[[claim]]
+id = "p.1"
+where = "w"
+statement = "s"
+class = "E"
+check = [)" + check + "]",
+                                             "claims.toml")};
+    return ledger_table(store, judge(store, of), of, {}).rows[0][kMeasured].text;
+  };
+  const std::string fast = R"({order = [2e5, "e/fast/rate"]})", slow = R"({order = [2e5, "e/slow/rate"]})",
+                    equal = R"({equal = ["e/fast/rate", 3.77e6]})";
+  EXPECT_EQ(measured(slow), "rate: 270,000 1/s");
+  EXPECT_EQ(measured(fast + ", " + slow),
+            "slow rate: 270,000 1/s (condition 2 of 2, > 200,000: the nearest to its bound)");
+  EXPECT_EQ(measured(fast + R"(, {order = ["e/slow/rate", 1]})"),
+            "slow rate: 270,000 1/s (condition 2 of 2, < 1: the first that fails)");
+  EXPECT_EQ(measured(equal + ", " + slow), "fast rate: 3,770,000 1/s (condition 1 of 2, = 3,770,000)");
+  EXPECT_EQ(measured(fast + R"(, {order = ["e/none/rate", 1]})"),
+            "none rate: not measured (condition 2 of 2)");
+}
+
 // Searches all tables anew for each number: slow, but it has no index that could be wrong.
 TEST_F(LedgerTest, EveryRowWhoseNumbersATableShowsHasAFigureOrTable) {
   const Store store = Store::open(folder_);
