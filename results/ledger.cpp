@@ -133,10 +133,10 @@ Table ledger_table(const Store& store, const JudgedResults& results, std::span<c
               "verdict is not “reproduced” where it is not. The figure or table is the picture that the "
               "row judges, otherwise the first table or plot that shows its verdict or one of its "
               "numbers. Lines are those of measurements.jsonl. Of a row with several conditions, “Measured” "
-              "shows the first that fails or, if all hold, the one nearest to its bound: the least share of "
-              "a range's half that lies between value and bound (of logarithms where the range is positive), "
-              "or 1 - smaller ÷ larger where there is one bound. Equalities and pictures have no such "
-              "distance: they are shown where they are a row's first condition, which is what it states.",
+              "shows the first that fails or, if all hold, the one nearest to its bound: the distance to the "
+              "bound is measured in halves of the range (of its logarithm if both ends are positive), and "
+              "where there is only one bound it is 1 - smaller ÷ larger. An equality or a picture has no "
+              "such distance; it is shown if it is the row's first condition, which is what the row states.",
               {{"Claim"},
                {"Verdict"},
                {"The paper"},
