@@ -35,9 +35,9 @@ class Fitting {
   // Keeps references.
   Fitting(const Scene&, const RepresentationType&, Progress&);
 
-  // The setting found whose file takes the most bytes, at most `budget`; nothing if there is none, and then
-  // the smallest file of trials() is about the smallest that the type can have. A resolution at which the
-  // type cannot hold the ground counts as too coarse. About five builds, for drills one or two.
+  // The setting found whose file takes the most bytes, at most `budget`; nothing if there is none; trials()
+  // then has the smallest file found. A resolution at which the type cannot hold the ground counts as too
+  // coarse. About five builds, for drills one or two.
   std::optional<Fitted> for_bytes(double budget);
   // The coarsest setting found whose error is at most `rmse` metres, which is above 0; nothing if the finest
   // setting exceeds it, or the coarsest stays below. About eight builds. Drills that cannot are tried once
