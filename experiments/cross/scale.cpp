@@ -54,8 +54,8 @@ void measure_flow(const Run& run, bool whole) {
   route_faults.record(run.recorder());
 }
 
-// Seconds of a case. In the paper profile they reach the largest ground that 20 GiB hold, but for the file of
-// OpenVDB's voxels and the mesh of the implicit surface, which would take minutes more.
+// Seconds of a case. In the paper profile they reach the largest ground that 20 GiB hold, but for the mesh of
+// the implicit surface, which would take minutes more.
 double budget(std::string_view family, Profile profile) {
   if (profile == Profile::kQuick) return 20;
   return family == "heights" ? 400 : family == "solids" ? 200 : 150;
