@@ -44,7 +44,7 @@ LevelRange within(double origin, double cell, int count, double centre, double r
   return {index(centre - radius), index(centre + radius)};
 }
 
-// Edits each column whose axis lies within the disc with the span that span_at(distance²) gives.
+// Edits each column whose axis lies within the disc with the span that span_at(plan, distance²) gives.
 template <class SpanAt>
 std::size_t edit_disc(Representation& edited, const Disc& disc, const SpanAt& span_at) {
   const ColumnGrid& grid = edited_columns(edited);
@@ -57,8 +57,8 @@ std::size_t edit_disc(Representation& edited, const Disc& disc, const SpanAt& sp
       const double dx = grid.centre_x(i) - disc.x, dz = grid.centre_z(j) - disc.z;
       const double squared = dx * dx + dz * dz;
       if (!(squared < disc.radius * disc.radius)) continue;
-      const Span span = span_at(squared);
-      if (!(span.bottom < span.top)) continue;  // thinner than floats tell apart
+      const Span span = span_at(glm::dvec2(grid.centre_x(i), grid.centre_z(j)), squared);
+      if (!(span.bottom < span.top)) continue;  // empty, or thinner than floats tell apart
       x.push_back(grid.centre_x(i));
       z.push_back(grid.centre_z(j));
       spans.push_back(span);
@@ -91,7 +91,7 @@ std::size_t fill_sphere(Representation& edited, const Sphere& sphere, Material m
   const double y = c.y, radius = sphere.radius;
   const Disc disc{c.x, c.z, radius};
   check_reach(edited.bounds(), disc, y - radius, y + radius);
-  return edit_disc(edited, disc, [&](double squared) {
+  return edit_disc(edited, disc, [&](glm::dvec2, double squared) {
     const double half = std::sqrt(radius * radius - squared);
     return Span{static_cast<float>(y - half), static_cast<float>(y + half), material};
   });
@@ -107,7 +107,25 @@ std::size_t fill_cylinder(Representation& edited, const Cylinder& cylinder, Mate
   }
   const Disc disc{cylinder.x, cylinder.z, cylinder.radius};
   check_reach(edited.bounds(), disc, cylinder.bottom, cylinder.top);
-  return edit_disc(edited, disc, [&](double) { return Span{cylinder.bottom, cylinder.top, material}; });
+  return edit_disc(edited, disc, [&](glm::dvec2, double) {
+    return Span{cylinder.bottom, cylinder.top, material};
+  });
+}
+
+std::size_t erode(Representation& edited, const events::RadialErosion& event) {
+  edited_columns(edited);
+  for (const double radius : {event.radii.x, event.radii.y, event.radii.z}) check_radius(radius);
+  const glm::dvec3 c = event.centre;
+  if (!std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z)) {
+    throw usage_error(fmt::format("an event at ({}, {}, {})", c.x, c.y, c.z), "edit tool",
+                      "give finite positions in metres");
+  }
+  const Disc disc{c.x, c.z, std::max(event.radii.x, event.radii.z)};
+  check_reach(edited.bounds(), disc, c.y - event.radii.y, HUGE_VAL);
+  return edit_disc(edited, disc, [&](glm::dvec2 plan, double) {
+    return Span{static_cast<float>(event.bottom(plan)), HUGE_VALF,
+                Material::kAir};  // empty outside the ellipse
+  });
 }
 
 }  // namespace terrabench

@@ -1,12 +1,14 @@
-// Tools that dig and fill with simple shapes, on top of Representation::edit(), for any method with the trait
-// `editable` (the edits that the hybrid paper leaves to future work). They touch only the columns within the
-// radius: O(columns under the tool), plus what the method's own edit costs.
+// Tools that dig and fill with simple shapes, and the one event of the tree of heightmaps that is such a
+// shape, on top of Representation::edit(), for any method with the trait `editable` (the edits that the
+// hybrid paper leaves to future work). They touch only the columns within the radius: O(columns under the
+// tool), plus what the method's own edit costs.
 #pragma once
 
 #include <cstddef>
 
 #include "representations/column_grid.h"
 #include "representations/representation.h"
+#include "terrain/events/event.h"
 
 namespace terrabench {
 
@@ -30,5 +32,8 @@ const ColumnGrid& edited_columns(const Representation&);
 // that does not reach into the terrain's bounds.
 std::size_t fill_sphere(Representation&, const Sphere&, Material);
 std::size_t fill_cylinder(Representation&, const Cylinder&, Material);
+// Removes what the event removes: all ground above the lower half of its ellipsoid. Counts and throws as
+// above, for a centre or radii that are not finite, and radii ≤ 0.
+std::size_t erode(Representation&, const events::RadialErosion&);
 
 }  // namespace terrabench

@@ -1,6 +1,8 @@
-// Spheres and cylinders against the shape's own equation, column by column.
+// Spheres, cylinders and an event against the shape's own equation, column by column.
 #include "representations/edit_tools.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "representations/implicit/implicit_surface.h"
@@ -70,6 +72,38 @@ TEST_P(Tools, CylindersReachFromBottomToTop) {
   EXPECT_EQ(sink.column(2).size(), 1U);
 }
 
+TEST_P(Tools, ErodingRemovesAllAboveTheLowerHalf) {
+  const auto built = build(GetParam(), block(40), 40);
+  const events::RadialErosion event{{4.3, 8.1, 6.7}, {9.4, 5.2, 6.3}};
+  const std::size_t columns = erode(*built, event);
+  const Lattice lattice(built->bounds(), 40, 40);
+  const SpanSink sink = spans_of(*built, lattice.columns());
+  std::size_t within = 0;
+  for (std::size_t c = 0; c < sink.columns(); ++c) {
+    const double bottom = event.bottom({lattice.x[c], lattice.z[c]});
+    ASSERT_EQ(sink.column(c).size(), 1U);
+    if (bottom == HUGE_VAL) {
+      EXPECT_EQ(sink.column(c)[0], (Span{-10, 30, Material::kBedrock}));
+      continue;
+    }
+    ++within;
+    EXPECT_NEAR(sink.column(c)[0].top, bottom, 0.501);
+  }
+  EXPECT_EQ(columns, within);
+  EXPECT_GT(within, 150U);
+  ByteSink before, after;
+  built->save(before);
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const events::RadialErosion& wrong :
+       {events::RadialErosion{{0, 0, 0}, {1, 0, 1}}, events::RadialErosion{{0, 0, 0}, {1, 1, infinity}},
+        events::RadialErosion{{infinity, 0, 0}, {1, 1, 1}}, events::RadialErosion{{90, 0, 0}, {1, 1, 1}},
+        events::RadialErosion{{0, 90, 0}, {1, 1, 1}}}) {
+    EXPECT_THROW(erode(*built, wrong), Error);
+  }
+  built->save(after);
+  EXPECT_TRUE(std::ranges::equal(before.bytes(), after.bytes()));
+}
+
 TEST_P(Tools, WrongShapesChangeNothing) {
   const auto built = build(GetParam(), block(20), 20);
   ByteSink before, after;
@@ -109,6 +143,7 @@ TEST(EditTools, TypesThatCannotBeEditedRefuse) {
       EXPECT_GT(fill_sphere(*built, {{1, 5, 1}, 1}, Material::kAir), 0U) << type.name;
     } else {
       EXPECT_THROW(fill_sphere(*built, {{1, 5, 1}, 1}, Material::kAir), Error) << type.name;
+      EXPECT_THROW(erode(*built, {{1, 5, 1}, {1, 1, 1}}), Error) << type.name;
     }
   }
 }
