@@ -1,4 +1,4 @@
-// The same edit on every type of representation.
+// The same edits on every type of representation.
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
@@ -6,31 +6,89 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <utility>
 
 #include "experiments/cross/representation_costs.h"
+#include "experiments/cross/rounds.h"
 #include "experiments/stopwatch.h"
 #include "representations/edit_tools.h"
 #include "representations/ght/ght.h"
 #include "terrain/error.h"
+#include "terrain/events/event.h"
 
 namespace terrabench::cross {
 namespace {
 
+using events::RadialErosion;
+
+// The tops of the ground's lines, the highest first.
+std::vector<glm::vec3> tops(const GroundLines& lines) {
+  std::vector<glm::vec3> all;
+  for (std::size_t c = 0; c < lines.parts.lines(); ++c) {
+    const auto line = lines.parts.line(c);
+    if (!line.empty()) all.emplace_back(lines.x[c], line.back().top, lines.z[c]);
+  }
+  std::ranges::stable_sort(all, std::greater{}, &glm::vec3::y);
+  return all;
+}
+
 // Where the ground's highest line stands, and a radius of a sixteenth of the shorter side; at most half the
 // relief, so that no type digs through its floor.
 Sphere place_of_edit(const Scene& scene) {
-  const GroundLines& lines = scene.lines;
+  const glm::vec3 size = scene.lines.bounds.size();
   Sphere sphere;
-  float highest = -HUGE_VALF;
-  for (std::size_t c = 0; c < lines.parts.lines(); ++c) {
-    const auto line = lines.parts.line(c);
-    if (line.empty() || line.back().top <= highest) continue;
-    highest = line.back().top;
-    sphere.centre = {lines.x[c], highest, lines.z[c]};
-  }
-  const glm::vec3 size = lines.bounds.size();
+  if (const std::vector<glm::vec3> all = tops(scene.lines); !all.empty()) sphere.centre = all.front();
   sphere.radius = std::min({size.x / 16, size.z / 16, static_cast<float>(relief_of(scene)) / 2});
   return sphere;
+}
+
+struct EventPlace {
+  RadialErosion event;
+  bool taken = false;  // by the tree of heightmaps
+};
+
+RadialErosion event_of(const Sphere& sphere) {
+  return {glm::dvec3(sphere.centre), glm::dvec3(sphere.radius)};
+}
+
+bool refuses(const Error& error) {
+  return error.code() == ExitCode::kBadInput || error.code() == ExitCode::kUsage;
+}
+
+// An event of the sphere's radius, at the highest line where the tree takes it, and not so low that it would
+// reach below the ground. In place of the sphere if there is none: trees of solids take no events.
+EventPlace find_place(const Scene& scene, Sphere sphere, Progress& progress) {
+  const EventPlace none{event_of(sphere)};
+  std::unique_ptr<Representation> built;
+  try {
+    built = scene.build(representation("ght"), progress);
+  } catch (const Error& error) {
+    if (!refuses(error)) throw;
+    return none;
+  }
+  for (const glm::vec3 top : tops(scene.lines)) {
+    if (top.y - sphere.radius < scene.lines.bounds.low.y) break;
+    sphere.centre = top;
+    try {
+      dynamic_cast<Ght&>(*built).apply(event_of(sphere));
+      return {event_of(sphere), true};
+    } catch (const Error& error) {
+      if (!refuses(error)) throw;
+      if (error.code() == ExitCode::kUsage) break;  // here and anywhere else
+    }
+  }
+  return none;
+}
+
+// Kept until another scene is asked for: all types get the same event.
+const EventPlace& place_of_event(const Scene& scene, const Sphere& sphere, Progress& progress) {
+  static std::optional<std::pair<SceneOptions, EventPlace>> kept;
+  if (!kept || !(kept->first == scene.options))
+    kept.emplace(scene.options, find_place(scene, sphere, progress));
+  return kept->second;
 }
 
 // Heights: dug to the sphere's lower half, or filled up to its upper half within the ground's bounds.
@@ -68,17 +126,89 @@ TerrainSource changed(const TerrainSource& source, const Sphere& sphere, Materia
   return result;
 }
 
-bool apply_event(Ght& tree, const Sphere& sphere, Recorder& recorder) {
-  const glm::dvec3 radii(sphere.radius);
-  try {
-    recorder.add("dig_time", "s", seconds([&] {
-                   tree.apply(events::RadialErosion{glm::dvec3(sphere.centre), radii});
-                 }));
-    return true;
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kUsage) throw;
-    return false;  // trees of solids take no events, and some places allow none: built again
+TerrainSource eroded(const TerrainSource& source, const RadialErosion& event) {
+  TerrainSource result = source;
+  result.events = nullptr;
+  if (result.heights) {
+    Heightfield& field = *result.heights;
+    for (int j = 0; j < field.depth; ++j) {
+      for (int i = 0; i < field.width; ++i) {
+        float& height = field.at(i, j);
+        if (Heightfield::is_no_data(height)) continue;
+        const glm::dvec2 plan(i * field.cell_x, j * field.cell_z);
+        height = std::min(height, static_cast<float>(event.bottom(plan)));
+      }
+    }
+    return result;
   }
+  result.solid->column = [inner = source.solid->column, event](const ColumnSamples& at,
+                                                               std::span<Material> out) {
+    inner(at, out);
+    const double bottom = event.bottom({at.x, at.z});
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      if (at.y0 + static_cast<float>(k) * at.dy > bottom) out[k] = Material::kAir;
+    }
+  };
+  return result;
+}
+
+void apply(Representation& on, const RadialErosion& event) {
+  if (auto* const tree = dynamic_cast<Ght*>(&on)) {
+    tree->apply(event);
+  } else {
+    erode(on, event);
+  }
+}
+
+// The solid metres above and below the event's lower half, on lines within its ellipse.
+class EventLines {
+ public:
+  explicit EventLines(const RadialErosion& event) {
+    constexpr int kAlong = 61;  // across the ellipse
+    for (int j = 0; j < kAlong; ++j) {
+      for (int i = 0; i < kAlong; ++i) {
+        const glm::vec2 plan(event.centre.x + event.radii.x * ((2.0 * i + 1) / kAlong - 1),
+                             event.centre.z + event.radii.z * ((2.0 * j + 1) / kAlong - 1));
+        const double bottom = event.bottom(plan);
+        if (bottom == HUGE_VAL) continue;
+        x_.push_back(plan.x);
+        z_.push_back(plan.y);
+        bottoms_.push_back(bottom);
+      }
+    }
+  }
+
+  struct Metres {
+    std::vector<double> below;  // per line
+    double above = 0;           // of all lines
+  };
+  Metres metres(const Representation& built) const {
+    SpanSink sink;
+    built.spans({x_, z_}, sink);
+    Metres all;
+    for (std::size_t c = 0; c < bottoms_.size(); ++c) {
+      double below = 0;
+      for (const Span& s : sink.column(c)) {
+        const double cut = std::clamp<double>(bottoms_[c], s.bottom, s.top);
+        below += cut - s.bottom;
+        all.above += s.top - cut;
+      }
+      all.below.push_back(below);
+    }
+    return all;
+  }
+
+ private:
+  std::vector<float> x_, z_;
+  std::vector<double> bottoms_;
+};
+
+void record_misplaced(const EventLines::Metres& before, const EventLines::Metres& after, Recorder& recorder) {
+  double misplaced = after.above;
+  for (std::size_t c = 0; c < before.below.size(); ++c) {
+    misplaced += std::abs(after.below[c] - before.below[c]);
+  }
+  if (before.above > 0) recorder.add("event_misplaced", "", misplaced / before.above);
 }
 
 // One number per triangle: a hash of the bits of its corners, the same wherever its first corner is.
@@ -105,28 +235,36 @@ std::vector<std::uint64_t> hashes(const TriangleMesh& mesh) {
   return all;
 }
 
-class Edit {
- public:
-  Edit(double bytes_before, const TriangleMesh& mesh, Recorder& recorder)
-      : bytes_before_(bytes_before), mesh_(mesh), recorder_(recorder) {}
+// After a step, "dig", "fill" or "event". Returns the new mesh.
+TriangleMesh record_step(const std::string& step, const Representation& after, std::size_t bytes_before,
+                         const TriangleMesh& before, Recorder& recorder) {
+  TriangleMesh mesh = after.mesh({});
+  recorder.add(step + "_bytes", "B",
+               static_cast<double>(after.memory().total()) - static_cast<double>(bytes_before));
+  recorder.add(step + "_triangles", "", static_cast<double>(new_triangles(before, mesh)));
+  return mesh;
+}
 
-  // After a step of the edit, "dig" or "fill".
-  void measure(const std::string& step, const Representation& built) {
-    const auto bytes = static_cast<double>(built.memory().total());
-    TriangleMesh mesh = built.mesh({});
-    recorder_.add(step + "_bytes", "B", bytes - bytes_before_);
-    recorder_.add(step + "_triangles", "", static_cast<double>(new_triangles(last(), mesh)));
-    edited_ = std::move(mesh);
+// Fresh copies of a structure as it was when this was made, by what its files hold.
+class Copies {
+ public:
+  Copies(const RepresentationType& type, const Representation& built) : type_(type) { built.save(saved_); }
+  std::unique_ptr<Representation> make() const {
+    ByteSource source(saved_.bytes(), "copy");
+    return type_.load(source);
   }
 
  private:
-  const TriangleMesh& last() const { return edited_.indices.empty() ? mesh_ : edited_; }
-
-  double bytes_before_;
-  const TriangleMesh& mesh_;
-  TriangleMesh edited_;
-  Recorder& recorder_;
+  const RepresentationType& type_;
+  ByteSink saved_;
 };
+
+// Seconds to build from a ground, without those to destroy what is built.
+template <class Build>
+double building_seconds(const Build& build, const TerrainSource& ground) {
+  std::unique_ptr<Representation> built;
+  return seconds([&] { built = build(ground); });
+}
 
 }  // namespace
 
@@ -143,28 +281,58 @@ std::size_t new_triangles(const TriangleMesh& before, const TriangleMesh& after)
 void measure_edit(const Scene& scene, const RepresentationType& type, Representation& built,
                   const TriangleMesh& mesh, Recorder& recorder, Progress& progress) {
   const Sphere sphere = place_of_edit(scene);
-  Edit edit(static_cast<double>(built.memory().total()), mesh, recorder);
-  bool rebuilt = false;
-  auto* const tree = dynamic_cast<Ght*>(&built);
-  const std::array steps{std::pair{"dig", Material::kAir}, std::pair{"fill", Material::kBedrock}};
-  if (type.traits.editable) {
-    for (const auto& [step, material] : steps) {
-      recorder.add(step + std::string("_time"), "s", seconds([&] { fill_sphere(built, sphere, material); }));
-      edit.measure(step, built);
-    }
-  } else if (tree != nullptr && apply_event(*tree, sphere, recorder)) {
-    edit.measure("dig", built);
+  const EventPlace& place = place_of_event(scene, sphere, progress);
+  const RadialErosion& event = place.event;
+  const bool digs = type.traits.editable,
+             erodes = digs || (place.taken && dynamic_cast<const Ght*>(&built) != nullptr);
+  recorder.add("rebuilt", "", digs ? 0 : 1);
+  recorder.add("event_rebuilt", "", erodes ? 0 : 1);
+  const auto build = [&](const TerrainSource& ground) {
+    return type.build(ground, scene.parameters(type), progress);
+  };
+  const std::size_t bytes = built.memory().total();
+  const EventLines lines(event);
+  const EventLines::Metres before = lines.metres(built);
+  std::optional<Copies> copies;
+  if (erodes) copies.emplace(type, built);
+  Rounds rounds(1, 5);  // at least five samples: most edits take less than a millisecond
+
+  TerrainSource dug, filled, cut;
+  if (digs) {
+    fill_sphere(built, sphere, Material::kAir);
+    const TriangleMesh dug_mesh = record_step("dig", built, bytes, mesh, recorder);
+    fill_sphere(built, sphere, Material::kBedrock);
+    record_step("fill", built, bytes, dug_mesh, recorder);
+    rounds.sample({"dig_time", "fill_time"}, "s", [&] {
+      const auto copy = copies->make();
+      const double dig = seconds([&] { fill_sphere(*copy, sphere, Material::kAir); });
+      return std::vector{dig, seconds([&] { fill_sphere(*copy, sphere, Material::kBedrock); })};
+    });
   } else {
-    rebuilt = true;
-    for (const auto& [step, material] : steps) {
-      const TerrainSource edited = changed(scene.source, sphere, material);
-      std::unique_ptr<Representation> again;
-      recorder.add(step + std::string("_time"), "s",
-                   seconds([&] { again = type.build(edited, scene.parameters(type), progress); }));
-      edit.measure(step, *again);
-    }
+    dug = changed(scene.source, sphere, Material::kAir);
+    filled = changed(scene.source, sphere, Material::kBedrock);
+    const TriangleMesh dug_mesh = record_step("dig", *build(dug), bytes, mesh, recorder);
+    record_step("fill", *build(filled), bytes, dug_mesh, recorder);
+    rounds.sample("dig_time", "s", [&] { return building_seconds(build, dug); });
+    rounds.sample("fill_time", "s", [&] { return building_seconds(build, filled); });
   }
-  recorder.add("rebuilt", "", rebuilt ? 1 : 0);
+  if (erodes) {
+    const auto untouched = build(scene.source);  // a copy lacks the spare room of one that was built
+    apply(*untouched, event);
+    record_step("event", *untouched, bytes, mesh, recorder);
+    record_misplaced(before, lines.metres(*untouched), recorder);
+    rounds.sample("event_time", "s", [&] {
+      const auto fresh = copies->make();
+      return seconds([&] { apply(*fresh, event); });
+    });
+  } else {
+    cut = eroded(scene.source, event);
+    const auto again = build(cut);
+    record_step("event", *again, bytes, mesh, recorder);
+    record_misplaced(before, lines.metres(*again), recorder);
+    rounds.sample("event_time", "s", [&] { return building_seconds(build, cut); });
+  }
+  rounds.run(recorder);
 }
 
 }  // namespace terrabench::cross

@@ -1,5 +1,5 @@
 // What a representation costs, measured alike for all types from outside: bytes, files, queries, meshing,
-// rays and an edit.
+// rays and edits.
 #pragma once
 
 #include <memory>
@@ -29,10 +29,13 @@ TriangleMesh measure_mesh(const Representation&, Recorder&, Rounds&);
 // the same place within a cell, or both nothing.
 void measure_rays(const Scene&, const Representation&, const TriangleMesh&, int rays, Recorder&, Rounds&);
 
-// A sphere dug where the ground is highest and filled again: seconds, bytes added since before the edit, and
-// the triangles that must be meshed again (new_triangles()), of which `mesh` are those before. Types that
-// cannot be edited are built again from the ground without and then with the sphere (`rebuilt` = 1); a tree
-// of heightmaps applies an event of its own instead, which cannot be filled.
+// Two edits. A sphere is dug where the ground is highest and filled again: dig_*, fill_*, `rebuilt`. And the
+// tree of heightmaps' radial erosion, which also removes the ground above it, with the same radius at the
+// highest place where the tree takes it: event_*, `event_rebuilt`. Of each step the seconds, the bytes added
+// since before the edit, and the triangles that must be meshed again (new_triangles()), of which `mesh` are
+// those before. A type that does not take the edit is built again from the changed ground (`…rebuilt` = 1).
+// Each sample of a time starts from a fresh copy. `event_misplaced`: of the ground that the event should
+// remove, how much is still there, plus how much is missing below it, as a share.
 void measure_edit(const Scene&, const RepresentationType&, Representation&, const TriangleMesh& mesh,
                   Recorder&, Progress&);
 // The triangles of `after` that `before` does not have, by the bits of their corners: the least that anything

@@ -24,7 +24,7 @@ void Rounds::time(std::string metric, std::function<void()> work) {
 void Rounds::run(Recorder& recorder) {
   for (int round = 0; round < kMost; ++round) {
     for (Step& step : steps_) {
-      if (round >= most_rounds(step.spent, long_time_)) continue;
+      if (round >= most_rounds(step.spent, long_time_, few_)) continue;
       const Stopwatch watch;
       const std::vector<double> samples = step.work();
       const double time = watch.seconds();

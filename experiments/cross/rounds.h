@@ -21,14 +21,14 @@ class Rounds {
   struct Spent {
     double longest = 0, all = 0;
   };
-  // A piece stops after kFew samples, or later, once its samples together took longer than `long_time`; and
+  // A piece stops after `few` samples, or later, once its samples together took longer than `long_time`; and
   // after any sample that did alone.
-  static constexpr int most_rounds(const Spent& spent, double long_time) {
-    return spent.longest > long_time ? 1 : spent.all > long_time ? kFew : kMost;
+  static constexpr int most_rounds(const Spent& spent, double long_time, int few = kFew) {
+    return spent.longest > long_time ? 1 : spent.all > long_time ? few : kMost;
   }
 
-  // `long_time`: seconds.
-  explicit Rounds(double long_time = 1) : long_time_(long_time) {}
+  // `long_time`: seconds. `few`: 1 to kMost.
+  explicit Rounds(double long_time = 1, int few = kFew) : long_time_(long_time), few_(few) {}
 
   // Adds metrics of one unit. `work` is called once a round and returns a sample of each.
   void sample(std::vector<std::string> metrics, std::string unit, std::function<std::vector<double>()> work);
@@ -47,6 +47,7 @@ class Rounds {
     Spent spent = {};
   };
   double long_time_;
+  int few_;
   std::vector<Step> steps_;
 };
 

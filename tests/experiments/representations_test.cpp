@@ -213,18 +213,56 @@ TEST(ComparedAtErrors, ATypeThatCannotReachAnErrorHasNoFile) {
 TEST_P(Compared, MeshesAgainOnlyWhatAnEditChanged) {
   const Record found = measure(GetParam(), "fractal", 0);
   const double all = value(found, "triangles");
-  EXPECT_GT(value(found, "dig_triangles"), 0);
-  EXPECT_LT(value(found, "dig_triangles"), 1.1 * all);
-  const bool event = GetParam() == "ght";  // cannot be filled
-  EXPECT_EQ(found.find("fill_triangles") == nullptr, event);
-  if (!event) {
-    EXPECT_GT(value(found, "fill_triangles"), 0);
+  for (const char* const metric : {"dig_triangles", "fill_triangles", "event_triangles"}) {
+    EXPECT_GT(value(found, metric), 0) << metric;
+    EXPECT_LT(value(found, metric), 1.1 * all) << metric;
   }
   if (GetParam() == "heightmap") {
     // A circle of a sixteenth of the side: radius 4 cells, at the border half of it.
     EXPECT_LT(value(found, "dig_triangles"), 2 * 10 * 10);
     EXPECT_GT(value(found, "dig_triangles"), 2 * 5);
   }
+}
+
+TEST_P(Compared, TakesTheEventOfTheTree) {
+  const Record found = measure(GetParam(), "canyon", 0);
+  const bool editable = representation(GetParam()).traits.editable, tree = GetParam() == "ght";
+  EXPECT_EQ(value(found, "rebuilt"), editable ? 0 : 1);
+  EXPECT_EQ(value(found, "event_rebuilt"), editable || tree ? 0 : 1);
+  EXPECT_GT(value(found, "event_triangles"), 0);
+  EXPECT_NE(found.find("event_bytes"), nullptr);
+  // A type that did nothing would have 1. The radius is 1.5 cells for all but the tree; drills are too coarse
+  // for it.
+  EXPECT_GT(value(found, "event_misplaced"), 0);
+  if (GetParam() != "drill") {
+    EXPECT_LT(value(found, "event_misplaced"), tree ? 0.1 : 0.9);
+  }
+}
+
+TEST_P(Compared, TimesEditsOftenEnoughForIntervals) {
+  const Record found = measure(GetParam(), "fractal", 0);
+  for (const char* const metric : {"dig_time", "fill_time", "event_time"}) {
+    ASSERT_NE(found.find(metric), nullptr) << metric;
+    EXPECT_GE(found.find(metric)->samples.size(), 5U) << metric;
+    EXPECT_GT(std::ranges::min(found.find(metric)->samples), 0) << metric;
+  }
+  for (const char* const metric : {"dig_bytes", "fill_bytes", "event_bytes", "event_triangles"}) {
+    EXPECT_EQ(found.find(metric)->samples.size(), 1U) << metric;
+  }
+}
+
+TEST(ComparedEvents, HaveTheSameTrianglesWhereverHeightsAreKept) {
+  // On open ground the tree's event leaves the heights that a heightmap without it has.
+  const Record tree = measure("ght", "fractal", 0), heights = measure("heightmap", "fractal", 0);
+  EXPECT_EQ(value(tree, "event_triangles"), value(heights, "event_triangles"));
+  EXPECT_EQ(value(tree, "event_rebuilt"), 0);
+  EXPECT_EQ(value(heights, "event_rebuilt"), 1);
+}
+
+TEST(ComparedEvents, AreRefusedByTreesOfSolids) {
+  const Record tree = measure("ght", "caves", 0), stack = measure("layered_stack", "caves", 0);
+  EXPECT_EQ(value(tree, "event_rebuilt"), 1);
+  EXPECT_EQ(value(stack, "event_rebuilt"), 0);
 }
 
 TEST(NewTriangles, AreThoseWithAnotherCorner) {

@@ -39,6 +39,8 @@ TEST(Rounds, TakeFewSamplesOfWorkThatAddsUp) {
   EXPECT_EQ(Rounds::most_rounds({0.4, 1.0}, 1), Rounds::kMost);
   EXPECT_EQ(Rounds::most_rounds({0.4, 1.2}, 1), Rounds::kFew);
   EXPECT_EQ(Rounds::most_rounds({1.1, 1.1}, 1), 1);
+  EXPECT_EQ(Rounds::most_rounds({0.4, 1.2}, 1, 5), 5);
+  EXPECT_EQ(Rounds::most_rounds({1.1, 1.1}, 1, 5), 1);
 }
 
 }  // namespace
