@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/vec3.hpp>
+#include <string_view>
 
 #include "representations/implicit/implicit_surface.h"
 #include "representations/layered_stack/layered_stack.h"
@@ -22,6 +24,13 @@ void check_radius(double radius) {
   if (!(radius > 0 && std::isfinite(radius))) {
     throw usage_error(fmt::format("a radius of {} m", radius), "edit tool",
                       "give a positive, finite number of metres");
+  }
+}
+
+void check_position(std::string_view shape, glm::dvec3 at) {
+  if (!std::isfinite(at.x) || !std::isfinite(at.y) || !std::isfinite(at.z)) {
+    throw usage_error(fmt::format("{} at ({}, {}, {})", shape, at.x, at.y, at.z), "edit tool",
+                      "give finite positions in metres");
   }
 }
 
@@ -84,10 +93,7 @@ std::size_t fill_sphere(Representation& edited, const Sphere& sphere, Material m
   edited_columns(edited);
   const glm::vec3 c = sphere.centre;
   check_radius(sphere.radius);
-  if (!std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z)) {
-    throw usage_error(fmt::format("a sphere at ({}, {}, {})", c.x, c.y, c.z), "edit tool",
-                      "give finite positions in metres");
-  }
+  check_position("a sphere", glm::dvec3(c));
   const double y = c.y, radius = sphere.radius;
   const Disc disc{c.x, c.z, radius};
   check_reach(edited.bounds(), disc, y - radius, y + radius);
@@ -116,15 +122,16 @@ std::size_t erode(Representation& edited, const events::RadialErosion& event) {
   edited_columns(edited);
   for (const double radius : {event.radii.x, event.radii.y, event.radii.z}) check_radius(radius);
   const glm::dvec3 c = event.centre;
-  if (!std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z)) {
-    throw usage_error(fmt::format("an event at ({}, {}, {})", c.x, c.y, c.z), "edit tool",
-                      "give finite positions in metres");
-  }
+  check_position("an event", c);
   const Disc disc{c.x, c.z, std::max(event.radii.x, event.radii.z)};
-  check_reach(edited.bounds(), disc, c.y - event.radii.y, HUGE_VAL);
+  const Bounds bounds = edited.bounds();
+  check_reach(bounds, disc, c.y - event.radii.y, HUGE_VAL);
   return edit_disc(edited, disc, [&](glm::dvec2 plan, double) {
-    return Span{static_cast<float>(event.bottom(plan)), HUGE_VALF,
-                Material::kAir};  // empty outside the ellipse
+    const double bottom = event.bottom(plan);
+    if (bottom == HUGE_VAL) return Span{HUGE_VALF, HUGE_VALF, Material::kAir};  // outside the ellipse
+    // Within the terrain's heights, since a double may exceed all floats.
+    return Span{static_cast<float>(std::clamp<double>(bottom, bounds.low.y, bounds.high.y)), HUGE_VALF,
+                Material::kAir};
   });
 }
 

@@ -32,8 +32,9 @@ const ColumnGrid& edited_columns(const Representation&);
 // that does not reach into the terrain's bounds.
 std::size_t fill_sphere(Representation&, const Sphere&, Material);
 std::size_t fill_cylinder(Representation&, const Cylinder&, Material);
-// Removes what the event removes: all ground above the lower half of its ellipsoid. Counts and throws as
-// above, for a centre or radii that are not finite, and radii ≤ 0.
+// Removes what the event removes: all ground above the lower half of its ellipsoid. Counts as above. Throws
+// as above, for a centre or radii that are not finite, radii ≤ 0, an ellipse whose circumscribed circle does
+// not reach the terrain, and an ellipsoid above all of the terrain.
 std::size_t erode(Representation&, const events::RadialErosion&);
 
 }  // namespace terrabench

@@ -100,8 +100,27 @@ TEST_P(Tools, ErodingRemovesAllAboveTheLowerHalf) {
         events::RadialErosion{{0, 90, 0}, {1, 1, 1}}}) {
     EXPECT_THROW(erode(*built, wrong), Error);
   }
+  EXPECT_EQ(erode(*built, {{-13, 8, 6}, {2, 5, 9}}), 0U);  // beside the terrain, which its circle reaches
   built->save(after);
   EXPECT_TRUE(std::ranges::equal(before.bytes(), after.bytes()));
+}
+
+TEST_P(Tools, ErodingTakesHeightsThatFloatsDoNotHold) {
+  for (const events::RadialErosion& event : {events::RadialErosion{{0, -1e300, 0}, {8, 1, 8}},
+                                             events::RadialErosion{{0, 1e300, 0}, {8, 2e300, 8}}}) {
+    const auto built = build(GetParam(), block(40), 40);
+    const std::size_t columns = erode(*built, event);
+    const Lattice lattice(built->bounds(), 40, 40);
+    const SpanSink sink = spans_of(*built, lattice.columns());
+    std::size_t within = 0;
+    for (std::size_t c = 0; c < sink.columns(); ++c) {
+      const double bottom = event.bottom({lattice.x[c], lattice.z[c]});
+      within += bottom < HUGE_VAL ? 1 : 0;
+      EXPECT_EQ(sink.column(c).size(), bottom < 0 ? 0U : 1U) << lattice.x[c] << ' ' << lattice.z[c];
+    }
+    EXPECT_EQ(columns, within);
+    EXPECT_GT(within, 150U);
+  }
 }
 
 TEST_P(Tools, WrongShapesChangeNothing) {
