@@ -24,6 +24,13 @@ double seconds(const Work& work) {
   return watch.seconds();
 }
 
+// Seconds to make something, without those to destroy it.
+template <class Make>
+double seconds_to_make(const Make& make) {
+  decltype(make()) made;
+  return seconds([&] { made = make(); });
+}
+
 // Processor seconds of the calling thread and of the whole process.
 inline double processor_time(clockid_t clock) {
   timespec time{};

@@ -9,6 +9,7 @@
 #include <functional>
 #include <glm/vec2.hpp>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "experiments/cross/representation_costs.h"
@@ -54,12 +55,9 @@ RadialErosion event_of(const Sphere& sphere) {
   return {glm::dvec3(sphere.centre), glm::dvec3(sphere.radius)};
 }
 
-bool refuses(const Error& error) {
-  return error.code() == ExitCode::kBadInput || error.code() == ExitCode::kUsage;
-}
-
 // An event of the sphere's radius, at the highest line where the tree takes it, and not so low that it would
-// reach below the ground. In place of the sphere if there is none: trees of solids take no events.
+// reach below the ground. If no place is found, the event at the sphere's own centre: trees of solids take no
+// events.
 EventPlace find_place(const Scene& scene, Sphere sphere, Progress& progress) {
   const EventPlace none{event_of(sphere)};
   std::unique_ptr<Representation> built;
@@ -69,8 +67,10 @@ EventPlace find_place(const Scene& scene, Sphere sphere, Progress& progress) {
     if (!refuses(error)) throw;
     return none;
   }
+  constexpr std::size_t kMostPlaces = 1000;  // a refused event costs as much as one that is taken
+  std::size_t tried = 0;
   for (const glm::vec3 top : tops(scene.lines)) {
-    if (top.y - sphere.radius < scene.lines.bounds.low.y) break;
+    if (tried++ == kMostPlaces || top.y - sphere.radius < scene.lines.bounds.low.y) break;
     sphere.centre = top;
     try {
       dynamic_cast<Ght&>(*built).apply(event_of(sphere));
@@ -203,6 +203,7 @@ class EventLines {
   std::vector<double> bottoms_;
 };
 
+// Ground that was added below counts as well, such as a tunnel filled by a type without overhangs.
 void record_misplaced(const EventLines::Metres& before, const EventLines::Metres& after, Recorder& recorder) {
   double misplaced = after.above;
   for (std::size_t c = 0; c < before.below.size(); ++c) {
@@ -235,35 +236,94 @@ std::vector<std::uint64_t> hashes(const TriangleMesh& mesh) {
   return all;
 }
 
-// After a step, "dig", "fill" or "event". Returns the new mesh.
-TriangleMesh record_step(const std::string& step, const Representation& after, std::size_t bytes_before,
-                         const TriangleMesh& before, Recorder& recorder) {
-  TriangleMesh mesh = after.mesh({});
-  recorder.add(step + "_bytes", "B",
-               static_cast<double>(after.memory().total()) - static_cast<double>(bytes_before));
-  recorder.add(step + "_triangles", "", static_cast<double>(new_triangles(before, mesh)));
-  return mesh;
-}
+// A type on a ground before any edit, with which all edits are compared.
+struct Untouched {
+  const Scene& scene;
+  const RepresentationType& type;
+  const Representation& built;
+  const TriangleMesh& mesh;  // of `built`
+  Progress& progress;
 
-// Fresh copies of a structure as it was when this was made, by what its files hold.
-class Copies {
- public:
-  Copies(const RepresentationType& type, const Representation& built) : type_(type) { built.save(saved_); }
-  std::unique_ptr<Representation> make() const {
-    ByteSource source(saved_.bytes(), "copy");
-    return type_.load(source);
+  std::unique_ptr<Representation> build() const { return scene.build(type, progress); }
+  // From a changed ground, which has no events. Without them a sculpted ground is like any solid, of which a
+  // tree takes 128 columns by default.
+  std::unique_ptr<Representation> build_from(const TerrainSource& ground) const {
+    Parameters parameters = scene.parameters(type);
+    if (scene.source.events && parameters.has("resolution")) {
+      parameters.set("resolution", std::int64_t{scene.options.resolution});
+    }
+    return type.build(ground, parameters, progress);
   }
-
- private:
-  const RepresentationType& type_;
-  ByteSink saved_;
 };
 
-// Seconds to build from a ground, without those to destroy what is built.
-template <class Build>
-double building_seconds(const Build& build, const TerrainSource& ground) {
-  std::unique_ptr<Representation> built;
-  return seconds([&] { built = build(ground); });
+// After a step, "dig", "fill" or "event"; `mesh` is that before the step. Returns the new mesh.
+TriangleMesh record_step(const std::string& step, const Representation& after, const Untouched& untouched,
+                         const TriangleMesh& mesh, Recorder& recorder) {
+  TriangleMesh now = after.mesh({});
+  const auto bytes_before = static_cast<double>(untouched.built.memory().total());
+  recorder.add(step + "_bytes", "B", static_cast<double>(after.memory().total()) - bytes_before);
+  recorder.add(step + "_triangles", "", static_cast<double>(new_triangles(mesh, now)));
+  return now;
+}
+
+// At least five samples, unless one alone takes over a second.
+Rounds rounds_of_edits() { return Rounds(1, 5); }
+
+void measure_sphere(const Untouched& untouched, const Sphere& sphere, Recorder& recorder) {
+  const auto edit = [&](Representation& on, Material material) { fill_sphere(on, sphere, material); };
+  const auto edited = untouched.build();
+  edit(*edited, Material::kAir);
+  const TriangleMesh dug_mesh = record_step("dig", *edited, untouched, untouched.mesh, recorder);
+  edit(*edited, Material::kBedrock);
+  record_step("fill", *edited, untouched, dug_mesh, recorder);
+  Rounds rounds = rounds_of_edits();
+  rounds.sample({"dig_time", "fill_time"}, "s", [&] {
+    const auto fresh = untouched.build();
+    const double dig = seconds([&] { edit(*fresh, Material::kAir); });
+    return std::vector{dig, seconds([&] { edit(*fresh, Material::kBedrock); })};
+  });
+  rounds.run(recorder);
+}
+
+void measure_rebuilt_sphere(const Untouched& untouched, const Sphere& sphere, Recorder& recorder) {
+  const TerrainSource dug = changed(untouched.scene.source, sphere, Material::kAir),
+                      filled = changed(untouched.scene.source, sphere, Material::kBedrock);
+  const TriangleMesh dug_mesh =
+      record_step("dig", *untouched.build_from(dug), untouched, untouched.mesh, recorder);
+  record_step("fill", *untouched.build_from(filled), untouched, dug_mesh, recorder);
+  Rounds rounds = rounds_of_edits();
+  rounds.sample("dig_time", "s", [&] { return seconds_to_make([&] { return untouched.build_from(dug); }); });
+  rounds.sample("fill_time", "s",
+                [&] { return seconds_to_make([&] { return untouched.build_from(filled); }); });
+  rounds.run(recorder);
+}
+
+void record_event(const Untouched& untouched, const Representation& after, const RadialErosion& event,
+                  Recorder& recorder) {
+  record_step("event", after, untouched, untouched.mesh, recorder);
+  const EventLines lines(event);
+  record_misplaced(lines.metres(untouched.built), lines.metres(after), recorder);
+}
+
+void measure_event(const Untouched& untouched, const RadialErosion& event, Recorder& recorder) {
+  const auto edited = untouched.build();
+  apply(*edited, event);
+  record_event(untouched, *edited, event, recorder);
+  Rounds rounds = rounds_of_edits();
+  rounds.sample("event_time", "s", [&] {
+    const auto fresh = untouched.build();  // one from a file would lack the room for more events
+    return seconds([&] { apply(*fresh, event); });
+  });
+  rounds.run(recorder);
+}
+
+void measure_rebuilt_event(const Untouched& untouched, const RadialErosion& event, Recorder& recorder) {
+  const TerrainSource cut = eroded(untouched.scene.source, event);
+  record_event(untouched, *untouched.build_from(cut), event, recorder);
+  Rounds rounds = rounds_of_edits();
+  rounds.sample("event_time", "s",
+                [&] { return seconds_to_make([&] { return untouched.build_from(cut); }); });
+  rounds.run(recorder);
 }
 
 }  // namespace
@@ -278,61 +338,17 @@ std::size_t new_triangles(const TriangleMesh& before, const TriangleMesh& after)
   return found;
 }
 
-void measure_edit(const Scene& scene, const RepresentationType& type, Representation& built,
+void measure_edit(const Scene& scene, const RepresentationType& type, const Representation& built,
                   const TriangleMesh& mesh, Recorder& recorder, Progress& progress) {
   const Sphere sphere = place_of_edit(scene);
   const EventPlace& place = place_of_event(scene, sphere, progress);
-  const RadialErosion& event = place.event;
   const bool digs = type.traits.editable,
              erodes = digs || (place.taken && dynamic_cast<const Ght*>(&built) != nullptr);
   recorder.add("rebuilt", "", digs ? 0 : 1);
   recorder.add("event_rebuilt", "", erodes ? 0 : 1);
-  const auto build = [&](const TerrainSource& ground) {
-    return type.build(ground, scene.parameters(type), progress);
-  };
-  const std::size_t bytes = built.memory().total();
-  const EventLines lines(event);
-  const EventLines::Metres before = lines.metres(built);
-  std::optional<Copies> copies;
-  if (erodes) copies.emplace(type, built);
-  Rounds rounds(1, 5);  // at least five samples: most edits take less than a millisecond
-
-  TerrainSource dug, filled, cut;
-  if (digs) {
-    fill_sphere(built, sphere, Material::kAir);
-    const TriangleMesh dug_mesh = record_step("dig", built, bytes, mesh, recorder);
-    fill_sphere(built, sphere, Material::kBedrock);
-    record_step("fill", built, bytes, dug_mesh, recorder);
-    rounds.sample({"dig_time", "fill_time"}, "s", [&] {
-      const auto copy = copies->make();
-      const double dig = seconds([&] { fill_sphere(*copy, sphere, Material::kAir); });
-      return std::vector{dig, seconds([&] { fill_sphere(*copy, sphere, Material::kBedrock); })};
-    });
-  } else {
-    dug = changed(scene.source, sphere, Material::kAir);
-    filled = changed(scene.source, sphere, Material::kBedrock);
-    const TriangleMesh dug_mesh = record_step("dig", *build(dug), bytes, mesh, recorder);
-    record_step("fill", *build(filled), bytes, dug_mesh, recorder);
-    rounds.sample("dig_time", "s", [&] { return building_seconds(build, dug); });
-    rounds.sample("fill_time", "s", [&] { return building_seconds(build, filled); });
-  }
-  if (erodes) {
-    const auto untouched = build(scene.source);  // a copy lacks the spare room of one that was built
-    apply(*untouched, event);
-    record_step("event", *untouched, bytes, mesh, recorder);
-    record_misplaced(before, lines.metres(*untouched), recorder);
-    rounds.sample("event_time", "s", [&] {
-      const auto fresh = copies->make();
-      return seconds([&] { apply(*fresh, event); });
-    });
-  } else {
-    cut = eroded(scene.source, event);
-    const auto again = build(cut);
-    record_step("event", *again, bytes, mesh, recorder);
-    record_misplaced(before, lines.metres(*again), recorder);
-    rounds.sample("event_time", "s", [&] { return building_seconds(build, cut); });
-  }
-  rounds.run(recorder);
+  const Untouched untouched{scene, type, built, mesh, progress};
+  (digs ? measure_sphere : measure_rebuilt_sphere)(untouched, sphere, recorder);
+  (erodes ? measure_event : measure_rebuilt_event)(untouched, place.event, recorder);
 }
 
 }  // namespace terrabench::cross

@@ -14,7 +14,7 @@ namespace {
 constexpr int kCoarsest = 4;  // columns
 
 // Between the own samples of a ground that events made; 0 for other ground. Trees of heightmaps start there,
-// since other samples may have no room for the ground's tunnels.
+// since other samples may have no room for the ground's tunnels; when tuned for an error, all types do.
 int columns_of_events(const Scene& scene) {
   return scene.source.events ? scene.source.events->ground.width - 1 : 0;
 }
@@ -28,7 +28,8 @@ double most_columns(const Scene& scene) {
 Knob resolution_knob(const Scene& scene) {
   const double most = most_columns(scene), guess = std::round(scene.source.heights ? most / 4 : most / 8);
   const double first = scene.source.events ? columns_of_events(scene) : guess;
-  return {"resolution", "", most, kCoarsest, std::max<double>(kCoarsest, first), true};
+  const double coarsest = std::min<double>(kCoarsest, most);
+  return {"resolution", "", most, coarsest, std::max(coarsest, first), true};
 }
 
 Parameters with(Parameters parameters, std::string_view name, std::int64_t setting) {
@@ -76,7 +77,8 @@ std::optional<Fitted> Fitting::finest_within(double budget) {
   const double most = most_columns(scene_);
   const double guess = std::round(most * std::sqrt(budget / static_cast<double>(scene_.heightmap_bytes))),
                first = scene_.source.events && has("events") ? columns_of_events(scene_) : guess;
-  const Knob knob{"resolution", "", kCoarsest, most, std::clamp<double>(first, kCoarsest, most), true};
+  const double least = std::min<double>(kCoarsest, most);
+  const Knob knob{"resolution", "", least, most, std::clamp(first, least, most), true};
   search_knob(knob, std::sqrt(budget), [&](double value) {
     const auto columns = static_cast<std::int64_t>(value);
     const Parameters parameters = scene_.parameters(type_, columns);

@@ -72,7 +72,7 @@ Tuned search_knob(const Knob& knob, double target, const std::function<double(do
   const auto coarse = first_too_coarse(tried, target);
   const auto& [place, error] = coarse == tried.begin() ? *coarse : *std::prev(coarse);
   const bool decided = coarse != tried.end() || error >= (1 - kKnobSlack) * target;
-  return {knob_at(knob, place), error, error <= target && decided};
+  return {knob_at(knob, place), error, std::isfinite(error) && error <= target && decided};
 }
 
 }  // namespace terrabench::cross

@@ -11,7 +11,8 @@ namespace terrabench::cross {
 struct Tuned {
   double knob = 0, error = 0;
   // The error is at most the target, and within kKnobSlack of it unless the next coarser setting exceeds it.
-  // False also where even the coarsest setting stays below: such a method is not at the required error.
+  // False also where even the coarsest setting stays below, or where all settings before the first that
+  // exceeds it are refused: such a method is not at the required error.
   bool reached = false;
 };
 

@@ -39,13 +39,6 @@ double rate(std::size_t queries, std::size_t batches, const Batch& batch) {
   return static_cast<double>(done * queries) / time;
 }
 
-// Seconds to make something, without those to destroy it.
-template <class Make>
-double seconds_to_make(const Make& make) {
-  decltype(make()) made;
-  return seconds([&] { made = make(); });
-}
-
 // Random places, in batches. The first batch is asked once more before, since other work left the caches
 // cold.
 class Queries {

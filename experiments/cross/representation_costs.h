@@ -31,12 +31,13 @@ void measure_rays(const Scene&, const Representation&, const TriangleMesh&, int 
 
 // Two edits. A sphere is dug where the ground is highest and filled again: dig_*, fill_*, `rebuilt`. And the
 // tree of heightmaps' radial erosion, which also removes the ground above it, with the same radius at the
-// highest place where the tree takes it: event_*, `event_rebuilt`. Of each step the seconds, the bytes added
-// since before the edit, and the triangles that must be meshed again (new_triangles()), of which `mesh` are
-// those before. A type that does not take the edit is built again from the changed ground (`…rebuilt` = 1).
-// Each sample of a time starts from a fresh copy. `event_misplaced`: of the ground that the event should
-// remove, how much is still there, plus how much is missing below it, as a share.
-void measure_edit(const Scene&, const RepresentationType&, Representation&, const TriangleMesh& mesh,
+// highest place, of the thousand highest, where the tree takes it: event_*, `event_rebuilt`. Of each step the
+// seconds, the bytes added since before the edit, and the triangles that must be meshed again
+// (new_triangles()), of which `mesh` are those before. A type that does not take the edit is built again from
+// the changed ground, with the scene's columns if that is a solid (`…rebuilt` = 1). Each edit is timed on a
+// structure built anew. `event_misplaced`: of the ground that the event should remove, how much is still
+// there, plus by how much the ground below changes, as a share.
+void measure_edit(const Scene&, const RepresentationType&, const Representation&, const TriangleMesh& mesh,
                   Recorder&, Progress&);
 // The triangles of `after` that `before` does not have, by the bits of their corners: the least that anything
 // drawn must take over after the edit. O(n log n) of all triangles, 8 bytes each.

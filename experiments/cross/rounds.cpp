@@ -1,6 +1,7 @@
 #include "experiments/cross/rounds.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "experiments/stopwatch.h"
@@ -27,8 +28,9 @@ void Rounds::run(Recorder& recorder) {
       if (round >= most_rounds(step.spent, long_time_, few_)) continue;
       const Stopwatch watch;
       const std::vector<double> samples = step.work();
-      const double time = watch.seconds();
-      step.spent = {std::max(step.spent.longest, time), step.spent.all + time};
+      const double all = watch.seconds();
+      const double measured = step.unit == "s" ? std::accumulate(samples.begin(), samples.end(), 0.0) : all;
+      step.spent = {std::max(step.spent.longest, measured), step.spent.all + all};
       for (std::size_t m = 0; m < samples.size(); ++m) recorder.add(step.metrics[m], step.unit, samples[m]);
     }
   }

@@ -17,12 +17,13 @@ class Rounds {
   // of the other's) in one case of ten. So kMost are taken, and kFew only where the work is long.
   static constexpr int kMost = 9, kFew = 3;
 
-  // Seconds that the samples of a piece of work took so far: the longest one, and all together.
+  // Seconds that a piece of work took so far: the longest sample, and all together. Where the metrics are in
+  // seconds, `longest` is only what was measured; `all` includes what the work did to prepare it.
   struct Spent {
     double longest = 0, all = 0;
   };
-  // A piece stops after `few` samples, or later, once its samples together took longer than `long_time`; and
-  // after any sample that did alone.
+  // A piece stops after `few` samples, or later, once all its work took longer than `long_time`; and after
+  // any sample that did alone.
   static constexpr int most_rounds(const Spent& spent, double long_time, int few = kFew) {
     return spent.longest > long_time ? 1 : spent.all > long_time ? few : kMost;
   }

@@ -41,8 +41,8 @@ constexpr std::array kOverHeights{
 // Those that hold overhangs. A column of stacks is as long as its runs; voxels are read level by level.
 constexpr std::array kOverSolids{
     StructureTheory{"layered_stack", kVoxels, 1, 0, 1, kLevels, 0},
-    StructureTheory{"voxel", kVoxels, 1, kLevels, kVoxels, kLevels, kLevels},
-    StructureTheory{"dense_voxel", kVoxels, kVoxels, kLevels, kVoxels, kLevels, kLevels},
+    StructureTheory{"voxel", kVoxels, 1, kLevels, kVoxels, kLevels, 0},
+    StructureTheory{"dense_voxel", kVoxels, kVoxels, kLevels, kVoxels, kLevels, 0},
     StructureTheory{"implicit", kVoxels, 1, kLevels, kVoxels, kLevels, 0},
 };
 
@@ -188,7 +188,7 @@ double seconds_per_edit(Representation& structure, float cell, Places places) {
     holes += highest_solid(structure, x[i], z[i]).value_or(-HUGE_VALF) < *top;
   }
   if (2 * holes <= done) {
-    throw environment_error(fmt::format("only {} of {} edits dug a hole", holes, kEdits), "cross.scale",
+    throw environment_error(fmt::format("only {} of {} edits dug a hole", holes, done), "cross.scale",
                             "report it as a bug");
   }
   return spent / done;

@@ -60,6 +60,10 @@ double relief_of(const Scene& scene) {
   return static_cast<double>(highest) - lowest;
 }
 
+bool refuses(const Error& error) {
+  return error.code() == ExitCode::kBadInput || error.code() == ExitCode::kUsage;
+}
+
 std::size_t file_bytes(const RepresentationType& type, const Representation& built) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "scratch";
@@ -76,7 +80,7 @@ std::int64_t solid_resolution(std::string_view terrain, bool paper_profile) {
 bool is_solid(const std::string& terrain) {
   constexpr std::array<std::string_view, 4> kSolids{"caves", "canyon", "sequence", "two-tunnels"};
   if (std::ranges::find(kSolids, terrain) != kSolids.end()) return true;
-  return terrain.ends_with(".toml") && open_terrain(terrain).solid.has_value();
+  return terrain.ends_with(events::kExtension) && open_terrain(terrain).solid.has_value();
 }
 
 const Scene& scene(const SceneOptions& options, Progress& progress) {

@@ -9,6 +9,7 @@
 
 #include "experiments/cross/ground_lines.h"
 #include "representations/representation.h"
+#include "terrain/error.h"
 #include "terrain/progress.h"
 #include "terrain/source.h"
 
@@ -47,6 +48,9 @@ bool is_solid(const std::string& terrain);
 
 // Kept until another one is asked for.
 const Scene& scene(const SceneOptions&, Progress&);
+
+// Whether a type refuses the input or a setting; otherwise the machine failed, or the user interrupted.
+bool refuses(const Error&);
 
 // Bytes of the file that save_representation() writes.
 std::size_t file_bytes(const RepresentationType&, const Representation&);

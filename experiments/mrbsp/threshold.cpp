@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 
 #include "experiments/experiment.h"
 #include "experiments/figures/sheet.h"
@@ -75,7 +76,7 @@ void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress& pr
   for (std::size_t k = 0; k < plot.series.size(); ++k) {
     const std::vector<PlotPoint>& points = plot.series[k].points;
     const std::string name = k == 0 ? "printed" : "area";
-    recorder.add("slope_" + name, "", power_law(points).value_or(0));
+    if (const auto slope = power_law(points)) recorder.add("slope_" + name, "", *slope);
     recorder.add("size_near_" + name, "pixels", points.front().y);
     recorder.add("size_far_" + name, "pixels", points.back().y);
   }
@@ -107,9 +108,10 @@ Plot threshold_plot(const Heightfield& level, Progress& progress) {
       .series = {}};
   for (const bool area : {false, true}) {
     std::vector<PlotPoint> points = apparent_sizes(level, area, progress);
-    const std::string slope = slope_text(power_law(points).value_or(0));
+    const std::optional<double> slope = power_law(points);
     plot.series.push_back(
-        {.label = fmt::format("{}, slope {}", area ? "M − 2 log₂(D/S)" : "M − log₂(D/S), as printed", slope),
+        {.label = fmt::format("{}, slope {}", area ? "M − 2 log₂(D/S)" : "M − log₂(D/S), as printed",
+                              slope ? slope_text(*slope) : "–"),
          .points = std::move(points)});
   }
   return plot;

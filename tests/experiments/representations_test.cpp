@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::string_view kId = "cross.representations";
 
-Record measure(std::string_view type, const std::string& terrain, double share, double error = 0) {
+Record measure(std::string_view type, const std::string& terrain, double share, double error = 0,
+               std::int64_t resolution = 24) {
   const Experiment& compared = experiment(kId);
   const Case at{"small",
                 {compared.parameters,
@@ -26,7 +27,7 @@ Record measure(std::string_view type, const std::string& terrain, double share, 
                   {"share", share},
                   {"error", error},
                   {"size", std::int64_t{65}},
-                  {"resolution", std::int64_t{24}},
+                  {"resolution", resolution},
                   {"lines", std::int64_t{41}},
                   {"rays", std::int64_t{300}}}},
                 terrain};
@@ -225,18 +226,28 @@ TEST_P(Compared, MeshesAgainOnlyWhatAnEditChanged) {
 }
 
 TEST_P(Compared, TakesTheEventOfTheTree) {
-  const Record found = measure(GetParam(), "canyon", 0);
+  const Record found = measure(GetParam(), "canyon", 0, 0, 96);
   const bool editable = representation(GetParam()).traits.editable, tree = GetParam() == "ght";
   EXPECT_EQ(value(found, "rebuilt"), editable ? 0 : 1);
   EXPECT_EQ(value(found, "event_rebuilt"), editable || tree ? 0 : 1);
   EXPECT_GT(value(found, "event_triangles"), 0);
   EXPECT_NE(found.find("event_bytes"), nullptr);
-  // A type that did nothing would have 1. The radius is 1.5 cells for all but the tree; drills are too coarse
-  // for it.
+  // A type that did nothing would have 1. The radius is 6 cells, for the tree 8. Drills and the kernel of the
+  // implicit surface are coarser than cells.
+  const bool coarse = GetParam() == "drill" || GetParam() == "implicit";
   EXPECT_GT(value(found, "event_misplaced"), 0);
-  if (GetParam() != "drill") {
-    EXPECT_LT(value(found, "event_misplaced"), tree ? 0.1 : 0.9);
-  }
+  EXPECT_LT(value(found, "event_misplaced"), tree ? 0.1 : coarse ? 0.5 : 0.25);
+}
+
+TEST(ComparedSpheres, AreDugIntoTreesBuiltAgainWithTheColumnsOfTheScene) {
+  const Record found = measure("ght", "canyon", 0, 0, 96);
+  EXPECT_EQ(value(found, "rebuilt"), 1);
+  // No sample of the tree of events is left: all triangles are new, two per square of the top and of the
+  // floor and per edge of the border.
+  EXPECT_EQ(value(found, "dig_triangles"), 4 * 95 * 95 + 2 * 4 * 95);
+  // The tree with the sphere filled is built alike.
+  EXPECT_LT(value(found, "fill_triangles"), 0.1 * value(found, "triangles"));
+  EXPECT_GT(value(found, "fill_triangles"), 0);
 }
 
 TEST_P(Compared, TimesEditsOftenEnoughForIntervals) {

@@ -35,6 +35,23 @@ TEST(Rounds, DoLongWorkOnce) {
   EXPECT_EQ(order, "ab");
 }
 
+TEST(Rounds, TakeFewSamplesOfShortWorkThatIsLongToPrepare) {
+  std::string order;
+  Rounds rounds(0, 2);
+  rounds.sample("a", "s", [&] {
+    order += 'a';
+    return 0.0;  // measured
+  });
+  rounds.sample("b", "1/s", [&] {
+    order += 'b';
+    return 0.0;
+  });
+  Record record;
+  Recorder recorder(record, "");
+  rounds.run(recorder);
+  EXPECT_EQ(order, "aba");
+}
+
 TEST(Rounds, TakeFewSamplesOfWorkThatAddsUp) {
   EXPECT_EQ(Rounds::most_rounds({0.4, 1.0}, 1), Rounds::kMost);
   EXPECT_EQ(Rounds::most_rounds({0.4, 1.2}, 1), Rounds::kFew);
