@@ -10,6 +10,7 @@ moment is started again and does not count.
 import json
 import random
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -41,7 +42,9 @@ def kill_after(seconds, folder, *arguments):
     time.sleep(seconds)
     before = whole_lines(folder)
     process.kill()
-    return process.wait() < 0, before
+    code = process.wait()
+    demand(code in (0, -signal.SIGKILL), f"{arguments}: ended with {code} before its kill")
+    return code != 0, before
 
 
 def content(folder):
@@ -104,10 +107,11 @@ def kill_runs(moments):
         attempts += 1
         done = count_records(killed)
         seconds = left[0] if done == 0 else start + left[done]
+        earlier = content(killed)
         hit, before = kill_after(moments.uniform(0, seconds), killed, *run, killed, "--resume")
         hits += hit
         demand(content(killed).startswith(before), f"attempt {attempts}: a line that was whole is gone")
-        torn += content(killed) != whole_lines(killed)
+        torn += content(killed) not in (earlier, whole_lines(killed))
         for line in whole_lines(killed).splitlines():
             json.loads(line)
         # Two of three are killed again before they are complete, as long as any case remains.
