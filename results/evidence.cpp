@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "results/findings_text.h"
@@ -27,7 +28,7 @@ Finding compare(const Condition& condition, const std::vector<Quantity>& quantit
   const auto in_range = [&](const Summary& s) {
     const bool holds = s.median >= condition.low && s.median <= condition.high;
     Finding found = word_range(condition, quantities, s, holds);
-    if (holds) found.room = room_in_range(s.median, condition.low, condition.high);
+    if (holds) found.room = room_in_range(s.median, condition);
     return found;
   };
   if (condition.kind == Kind::kWithin) return in_range(summarise(first));
@@ -36,17 +37,20 @@ Finding compare(const Condition& condition, const std::vector<Quantity>& quantit
   const bool equal = condition.kind == Kind::kEqual;  // else order: read() keeps figures apart
   std::vector<double> medians, rooms;
   std::vector<bool> holds;  // for each median but the first: with the one before it
+  constexpr double kNoBound = std::numeric_limits<double>::infinity();
+  bool from_zero = false;  // whether the operand before is the number 0, a bound that does not count
   for (const Quantity& q : quantities) {
     const double median = summarise(q.samples).median;
     if (!medians.empty()) {
       holds.push_back(equal ? medians.back() == median : medians.back() < median);
-      rooms.push_back(equal ? 0 : room_between(medians.back(), median));
+      rooms.push_back(equal ? 0 : from_zero ? kNoBound : room_between(medians.back(), median));
     }
+    from_zero = q.name.empty() && median == 0;
     medians.push_back(median);
   }
   const auto nearest = std::ranges::min_element(rooms);
   Finding found = word_chain(equal, quantities, medians, holds, nearest - rooms.begin());
-  if (!equal && found.outcome == Outcome::kHolds) found.room = *nearest;
+  if (!equal && found.outcome == Outcome::kHolds && *nearest < kNoBound) found.room = *nearest;
   return found;
 }
 
@@ -93,7 +97,7 @@ class Reader {
       }
       const Record* const record = store_.find(operand.experiment, operand.case_name, profile_);
       const Metric* const metric = record == nullptr ? nullptr : record->find(operand.metric);
-      if (metric == nullptr) return word_missing(operand);
+      if (metric == nullptr) return word_missing(operand, name_cases_);
       note_read(*record);
       records.push_back(record);
       quantities.push_back(quantity(operand, *metric, name_cases_));

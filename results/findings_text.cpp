@@ -58,13 +58,14 @@ bool names_cases(const Claim& claim) {
   return false;
 }
 
-Finding word_missing(const Operand& o) {
+Finding word_missing(const Operand& o, bool name_case) {
+  const std::string name = spoken(o.metric);
   return {Finding::Outcome::kMissing,
           fmt::format("no {} of {} {} was measured", o.metric, o.experiment, o.case_name),
           "not measured",
           "",
-          spoken(o.metric),
-          o.case_name + " " + spoken(o.metric)};
+          name,
+          name_case ? o.case_name + " " + name : name};
 }
 
 Finding word_range(const Condition& condition, const std::vector<Quantity>& quantities, const Summary& s,
@@ -83,7 +84,7 @@ Finding word_range(const Condition& condition, const std::vector<Quantity>& quan
     unit = "";
   }
   const double low = condition.low, high = condition.high;
-  found.what = what;
+  found.what = condition.kind == Condition::Kind::kGrowth ? "growth of " + second.name : what;
   found.value = format_quantity(s.median, unit);
   found.expected = fmt::format("[{}, {}]", format_exact(low), format_exact(high));
   found.text = what + " " + found.value;

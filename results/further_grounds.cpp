@@ -6,8 +6,10 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "results/ground_name.h"
+#include "results/lost_columns.h"
 #include "results/toml_reader.h"
 #include "terrain/toml.h"
 
@@ -67,27 +69,6 @@ bool has_changed(std::span<const Record* const> records) {
     return checksums.try_emplace(record->experiment, record->terrain_checksum).first->second !=
            record->terrain_checksum;
   });
-}
-
-// On a ground with samples without a height, a coarse method may have no ground in a wide border around them.
-std::string lost_columns(std::span<const Record* const> records, const std::string& label) {
-  constexpr double kMany = 0.01;
-  double largest = 0;
-  const Record* of = nullptr;
-  for (const Record* const record : records) {
-    const Metric *const lost = record->find("lost_columns"), *const kept = record->find("columns");
-    if (lost == nullptr || kept == nullptr || lost->samples.empty() || kept->samples.empty()) continue;
-    const double share = lost->samples[0] / std::max(lost->samples[0] + kept->samples[0], 1.0);
-    if (share <= largest) continue;
-    largest = share;
-    of = record;
-  }
-  if (largest < kMany) return "";
-  return fmt::format(
-      "Errors of height leave out the columns in which only the ground or only the method has a height, such "
-      "as beside samples without data: up to {:.1f} % of the columns ({}). A method that loses many columns "
-      "may have a smaller error for it.",
-      100 * largest, with_label(of->case_name, of->terrain, label));
 }
 
 // The claims file knows the ground by its id, which can stand in ids and in file names. Cases have its name.
@@ -156,14 +137,22 @@ void read_layouts(const toml::table& table, const TomlFile& file, const Paper& n
   }
 }
 
-FurtherGround lay_out(const Paper& named, const Measured& measured, const std::string& label) {
-  FurtherGround ground{measured.ground,
-                       label,
-                       ground_id(measured.ground),
-                       {},
-                       {},
-                       has_changed(measured.records),
-                       lost_columns(measured.records, label)};
+std::vector<std::string> warnings_of(const FurtherGround& ground, std::span<const Record* const> records,
+                                     const ProfileOfStore& in) {
+  std::vector<std::string> warnings;
+  if (has_changed(records)) {
+    warnings.emplace_back(
+        "The content of this ground changed between its measurements, so that values of different cases may "
+        "belong to different ground. Measure all of them again.");
+  }
+  std::string lost = lost_columns(ground.paper, ground.page(), in.store, in.profile);
+  if (!lost.empty()) warnings.push_back(std::move(lost));
+  return warnings;
+}
+
+FurtherGround lay_out(const Paper& named, const Measured& measured, const std::string& label,
+                      const ProfileOfStore& in) {
+  FurtherGround ground{measured.ground, label, ground_id(measured.ground), {}, {}, {}};
   ground.paper.id = named.id;
   ground.paper.title = named.title;
   const ClaimsFile& claims = *named.further;
@@ -178,6 +167,7 @@ FurtherGround lay_out(const Paper& named, const Measured& measured, const std::s
   replace_sets(table, names, has, file);
   read_layouts(table, file, named, ground);
   move_cases(ground);
+  ground.warnings = warnings_of(ground, measured.records, in);
   return ground;
 }
 
@@ -189,17 +179,19 @@ std::vector<std::string> winners(const Ranking& ranking) {
   return labels;
 }
 
-bool share_a_winner(const Ranking& a, const Ranking& b) {
-  const std::vector<std::string> ours = winners(a), theirs = winners(b);
-  return std::ranges::any_of(ours, [&](const std::string& w) { return std::ranges::count(theirs, w) > 0; });
+bool same_winners(const Ranking& a, const Ranking& b) {
+  std::vector<std::string> ours = winners(a), theirs = winners(b);
+  std::ranges::sort(ours);
+  std::ranges::sort(theirs);
+  return ours == theirs;
 }
 
-// "as on real mountains (1.3 [1.2, 1.4] ×), on a fractal (2 ×); on caves layered stack (tied, within 1.1 ×)"
+// "as on real mountains (1.3 [1.2, 1.4] ×), on a fractal (2 ×); on caves drills, voxels (tied, within 1.1 ×)"
 std::string beside_named(const Ranking& here, std::span<const Ranking> named) {
   std::string same, others;
   for (const Ranking& ranking : named) {
     if (ranking.layout->task != here.layout->task || !ranking.decided()) continue;
-    if (here.decided() && share_a_winner(here, ranking)) {
+    if (here.decided() && same_winners(here, ranking)) {
       same += fmt::format("{}{} ({})", same.empty() ? "as " : ", ", ranking.layout->where, ranking.lead());
     } else {
       others += fmt::format("{}{} {} ({})", others.empty() ? "" : "; ", ranking.layout->where,
@@ -215,30 +207,40 @@ std::string caption(const ProfileOfStore& measured, const ProfileOfStore& named,
   const bool same_folder = &measured.store == &named.store;
   std::string text =
       "For each task: the best method on this ground and by which factor it is ahead of the next, with the "
-      "factor's 95 % interval in brackets.";
+      "factor's 95 % interval in brackets. " +
+      tie_rule();
   if (compared) {
     text += fmt::format(
         " The last column lists the grounds measured in {} where the task is decided: first those where the "
-        "same method is best, then which method is best on the others.",
+        "same method is best or the same methods are tied, then which methods are best on the others. "
+        "Its parentheses hold the factor by which the best is ahead of the next there, or within which the "
+        "best are tied, with its interval.",
         same_folder ? "the same results folder" : "the results folder that was named for comparison");
   } else if (!same_folder) {
     text += " No task is decided in the results folder that was named for comparison.";
   }
-  if (measured.profile != named.profile) {
+  if (compared && measured.profile != named.profile) {
     text += fmt::format(" This ground was measured in profile {}, those in profile {}.", measured.profile,
                         named.profile);
   }
   return text;
 }
 
-FilledTable empty_table(const FurtherGround& ground, const std::string& caption, bool compared) {
+FilledTable empty_table(const FurtherGround& ground, const ProfileOfStore& measured,
+                        const ProfileOfStore& named, bool compared) {
   FilledTable filled{{"which-method-" + ground.id,
                       fmt::format("Which method for {}", ground.label),
-                      caption + (ground.lost_columns.empty() ? "" : " " + ground.lost_columns),
+                      caption(measured, named, compared),
                       {{"Task"}, {"Best on this ground"}},
                       {}},
                      {}};
-  if (compared) filled.table.columns.push_back({"On the compared grounds"});
+  if (!compared) return filled;
+  std::vector<Column>& columns = filled.table.columns;
+  columns.push_back({"On the compared grounds"});
+  if (measured.profile != named.profile) {
+    columns[1].title += fmt::format(", profile {}", measured.profile);
+    columns[2].title += fmt::format(", profile {}", named.profile);
+  }
   return filled;
 }
 
@@ -250,18 +252,6 @@ void add_row(const Ranking& here, std::span<const Ranking> named, bool compared,
   for (const std::string& run : here.runs) {
     if (std::ranges::count(filled.runs, run) == 0) filled.runs.push_back(run);
   }
-}
-
-// Says by what a reader compares the grounds: the factors, and the profiles where these differ.
-void explain_comparison(const ProfileOfStore& measured, const ProfileOfStore& named, Table& table) {
-  if (table.columns.size() < 3) return;
-  table.caption +=
-      " Parentheses in the last column hold the factor by which the best is ahead of the next there, or "
-      "within which the best are tied, with its interval. " +
-      tie_rule();
-  if (measured.profile == named.profile) return;
-  table.columns[1].title += fmt::format(", profile {}", measured.profile);
-  table.columns[2].title += fmt::format(", profile {}", named.profile);
 }
 
 }  // namespace
@@ -289,7 +279,7 @@ std::vector<FurtherGround> further_grounds(std::span<const Paper> papers, const 
   for (const Paper& paper : papers) {
     if (!paper.further) continue;
     for (const Measured& ground : unnamed_grounds(paper, measured)) {
-      further.push_back(lay_out(paper, ground, labels.at(ground.ground)));
+      further.push_back(lay_out(paper, ground, labels.at(ground.ground), measured));
     }
   }
   return further;
@@ -303,12 +293,11 @@ std::vector<FilledTable> tables_of_further_grounds(std::span<const FurtherGround
   const bool decided = std::ranges::any_of(elsewhere, &Ranking::decided);
   std::vector<FilledTable> tables;
   for (const FurtherGround& ground : further) {
-    FilledTable filled = empty_table(ground, caption(measured, named, decided), decided);
+    FilledTable filled = empty_table(ground, measured, named, decided);
     for (const Ranking& here : rank(ground.rankings, measured.store, measured.profile))
       add_row(here, elsewhere, decided, filled);
     if (!filled.table.rows.empty()) tables.push_back(std::move(filled));
   }
-  for (FilledTable& filled : tables) explain_comparison(measured, named, filled.table);
   return tables;
 }
 

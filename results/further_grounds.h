@@ -36,10 +36,9 @@ struct FurtherGround {
   // or not; no claims.
   Paper paper;
   std::vector<RankingLayout> rankings;  // one per task
-  bool changed = false;                 // whether one experiment measured different contents under this name
-  // A warning if a method has no ground in many columns, or too much of it; otherwise empty. Errors leave
-  // such columns out.
-  std::string lost_columns;
+  // For readers: that one experiment measured different contents under this name, that methods lost many
+  // columns (lost_columns.h).
+  std::vector<std::string> warnings;
 
   const PageLayout& page() const { return paper.pages.front(); }
 };
@@ -50,8 +49,8 @@ struct FurtherGround {
 std::vector<FurtherGround> further_grounds(std::span<const Paper>, const ProfileOfStore& measured);
 
 // A table per further ground of which methods can be ranked: for each task who is best there and by how much,
-// and which of the `compared` grounds, as measured in `named`, have the same best. Without this last column
-// if no task is decided on any of them.
+// and which of the `compared` grounds, as measured in `named`, have the same best, or the same methods tied.
+// Without this last column if no task is decided on any of them.
 std::vector<FilledTable> tables_of_further_grounds(std::span<const FurtherGround>,
                                                    const ProfileOfStore& measured,
                                                    std::span<const RankingLayout> compared,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "results/glob.h"
 #include "terrain/error.h"
@@ -36,18 +37,15 @@ std::string surprise(const Claim& claim, Verdict verdict, const std::vector<Find
   return "";
 }
 
-// The index of Judgement::deciding.
-std::size_t find_deciding(const std::vector<Finding>& findings) {
+// The index of Judgement::deciding. `exact`: whether the claim is of class E.
+std::size_t find_deciding(const std::vector<Finding>& findings, bool exact) {
   for (const Outcome outcome : {Outcome::kMissing, Outcome::kFails}) {
     const auto at = std::ranges::find(findings, outcome, &Finding::outcome);
     if (at != findings.end()) return at - findings.begin();
   }
-  std::size_t nearest = 0;
-  if (!findings[0].room) return nearest;
-  for (std::size_t i = 1; i < findings.size(); ++i) {
-    if (findings[i].room && *findings[i].room < *findings[nearest].room) nearest = i;
-  }
-  return nearest;
+  if (exact && !findings[0].room) return 0;
+  const auto room = [](const Finding& f) { return f.room.value_or(std::numeric_limits<double>::infinity()); };
+  return std::ranges::min_element(findings, {}, room) - findings.begin();
 }
 
 void judge_measured(Judgement& judgement, const Store& store, const std::string& profile) {
@@ -56,7 +54,7 @@ void judge_measured(Judgement& judgement, const Store& store, const std::string&
   std::vector<Finding>& findings = evidence.findings;
   const auto first = [&](Outcome outcome) { return std::ranges::find(findings, outcome, &Finding::outcome); };
   judgement.runs = evidence.runs;
-  judgement.deciding_condition = find_deciding(findings);
+  judgement.deciding_condition = find_deciding(findings, claim.claim_class == 'E');
   judgement.deciding = findings[judgement.deciding_condition];
   if (first(Outcome::kMissing) != findings.end()) {
     // Report only what is missing.

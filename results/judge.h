@@ -26,10 +26,10 @@ struct Judgement {
   const Claim* claim = nullptr;
   Verdict verdict = Verdict::kPending;  // until judge_claim() finds another
   std::string measured;                 // the findings in full; or why nothing was measured
-  // The finding that says most about the verdict: the first missing one, else the first that fails, else the
-  // one with the least room to its bound (nearness.h). An equality or a picture holds without any room: it is
-  // the one if it is the claim's first condition, as claims begin with what they state, and never otherwise.
-  // Empty if nothing was measured.
+  // Decides the verdict: the first condition that was not measured, else the first that fails, else the one
+  // with the least room (nearness.h). Conditions without room (equalities, pictures, ranges of one value or
+  // from 0 without end) decide only if an exact claim begins with one, or if no other has room. Empty if
+  // nothing was measured.
   Finding deciding;
   std::size_t deciding_condition = 0;  // its index in the claim's conditions
   std::vector<std::string> runs;       // ids of the runs that it rests on

@@ -186,6 +186,10 @@ class Bundle {
       if (tables.empty() && figures.empty()) continue;
       begin_section("Ground " + ground.label, "ground-" + ground.id);
       paragraph(ground.page().about);
+      for (const std::string& warning : ground.warnings) {
+        text_ += "\\textbf{Warning:} ";
+        paragraph(warning);
+      }
       for (const Table& table : tables) add_table(table);
       add_figures(figures);
     }

@@ -31,8 +31,8 @@ std::string why(const Judgement& j) {
   return fmt::format("{} Matches: {}", j.claim->reason(), j.claim->matches);
 }
 
-// The figure that decides and, of a claim with several conditions, which one it is of, with its bound and
-// why.
+// The figure that decides and, of a claim with several conditions, which one it is of and why; with its
+// bound, unless column “Tolerance” shows that.
 std::string ours(const Judgement& j) {
   const Finding& found = j.deciding;
   if (found.value.empty()) return "–";
@@ -45,8 +45,9 @@ std::string ours(const Judgement& j) {
   } else if (found.outcome == Finding::Outcome::kHolds && found.room) {
     why_this = ": the nearest to its bound";
   }
-  return fmt::format("{} (condition {} of {}{}{}{})", text, j.deciding_condition + 1, conditions,
-                     found.expected.empty() ? "" : ", ", found.expected, why_this);
+  const bool bound_here = !j.claim->tolerance.empty() && !found.expected.empty();
+  return fmt::format("{} (condition {} of {}{}{})", text, j.deciding_condition + 1, conditions,
+                     bound_here ? ", " + found.expected : "", why_this);
 }
 
 class Rows {
@@ -133,10 +134,12 @@ Table ledger_table(const Store& store, const JudgedResults& results, std::span<c
               "verdict is not “reproduced” where it is not. The figure or table is the picture that the "
               "row judges, otherwise the first table or plot that shows its verdict or one of its "
               "numbers. Lines are those of measurements.jsonl. Of a row with several conditions, “Measured” "
-              "shows the first that fails or, if all hold, the one nearest to its bound: the distance to the "
-              "bound is measured in halves of the range (of its logarithm if both ends are positive), and "
-              "where there is only one bound it is 1 - smaller ÷ larger. An equality or a picture has no "
-              "such distance; it is shown if it is the row's first condition, which is what the row states.",
+              "shows the first that fails or, if all hold, the one nearest to a bound: the distance between "
+              "value and bound, relative to the larger of the two. A lower bound of 0 does not count, nor "
+              "does an upper bound of 1 that is the best value of a share. An equality or a picture has no "
+              "such distance; it is shown if a row of class E begins with it or if no condition has one. A "
+              "condition that was not measured is shown before all others. Conditions are numbered after "
+              "“each” of the claims file is expanded.",
               {{"Claim"},
                {"Verdict"},
                {"The paper"},

@@ -11,18 +11,13 @@ double room_between(double a, double b) {
   return std::isfinite(scale) ? std::min(1.0, distance / scale) : 1;
 }
 
-std::optional<double> room_in_range(double value, double low, double high) {
+std::optional<double> room_in_range(double value, const Condition& condition) {
+  const double low = condition.low, high = condition.high;
   if (low == high) return std::nullopt;
-  const bool below = std::isfinite(low) && low != 0, above = std::isfinite(high);
+  const bool share = condition.kind == Condition::Kind::kWithin && low > 0 && high == 1;
+  const bool below = std::isfinite(low) && low != 0, above = std::isfinite(high) && !share;
   if (!below && !above) return std::nullopt;
-  if (!below) return room_between(value, high);
-  if (!above) return room_between(low, value);
-  if (low > 0) {
-    value = std::log(value);
-    low = std::log(low);
-    high = std::log(high);
-  }
-  return std::min(value - low, high - value) / ((high - low) / 2);
+  return std::min(below ? room_between(low, value) : 1.0, above ? room_between(value, high) : 1.0);
 }
 
 }  // namespace terrabench

@@ -1,22 +1,23 @@
-// How near a measured value is to the bound that it must keep: of several conditions that hold, the one with
-// the least room says most about the verdict. A room is 0 at the bound and 1 as far from it as can be, so
-// that rooms of different units and kinds compare:
-// - A range with two bounds: the distance to the nearer one, as a share of the distance from the middle. If
-//   both are positive, distances are those of logarithms: the middle of [0.5, 2] is 1.
-// - A range with one bound, or a value that must be below another: 1 - smaller ÷ larger, at most 1 where the
-//   signs differ or one is 0. A lower bound of 0 does not count: counts, bytes, times and shares are never
-//   less.
-// - A range of one value has no room, as an equality has none.
+// How near a measured value is to the bounds that it must keep: of several conditions that hold, the one with
+// the least room says most about the verdict. The room to a bound is the distance between the value and the
+// bound, relative to the larger of the two: 0 at the bound, 1 - smaller ÷ larger where the signs are equal,
+// at most 1. The room of a condition is the least of those to its bounds. These do not count:
+// - A lower bound of 0: counts, bytes, times and shares are never less.
+// - The upper bound of a condition `within` from above 0 to 1: the value is a share, and 1 the best share.
+// A range of one value has no room, as an equality has none.
 // O(1).
 #pragma once
 
 #include <optional>
 
+#include "results/claims.h"
+
 namespace terrabench {
 
-// Of a value that lies in [low, high]; either may be infinite. None if low = high, or if nothing bounds it.
-std::optional<double> room_in_range(double value, double low, double high);
-// Of a < b.
+// Of a value that lies in the condition's range, whose ends may be infinite. None if it has one value or no
+// bound that counts.
+std::optional<double> room_in_range(double value, const Condition&);
+// Between two values, in any order.
 double room_between(double a, double b);
 
 }  // namespace terrabench

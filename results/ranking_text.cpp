@@ -77,8 +77,8 @@ std::string text_of(const Group& group) {
   if (group.factors.empty()) return text;
   const auto [least, most] = std::ranges::minmax_element(group.factors, {}, &Summary::median);
   const std::string low = factor_text(*least), high = factor_text(*most);
-  if (group.tied) return text + fmt::format(" (within {} ×)", high);
-  return text + (low == high ? fmt::format(" ({} ×)", high) : fmt::format(" ({} to {} ×)", low, high));
+  return text +
+         fmt::format(" ({}{}{} ×)", group.tied ? "within " : "", low == high ? "" : low + " to ", high);
 }
 
 }  // namespace
@@ -119,7 +119,8 @@ std::string Ranking::lead() const {
 std::string tie_rule() {
   return fmt::format(
       "Methods are called tied if the 95 % interval of that factor contains 1 or if the factor is below a "
-      "margin: {} for times, since two runs on one machine may differ by as much, and {} for all else.",
+      "margin: {} for times and rates, since two of three of them differ by less between two runs on one "
+      "machine, and {} for all else, since a smaller lead is no reason to choose a method.",
       kTimingMargin, kExactMargin);
 }
 

@@ -16,6 +16,7 @@
 #include "results/ground_page.h"
 #include "results/judge.h"
 #include "results/ledger.h"
+#include "results/lost_columns.h"
 #include "results/new_folder.h"
 #include "results/paper_faults.h"
 #include "results/ranking.h"
@@ -127,8 +128,9 @@ class Report {
     document_.push_back(Paragraph{
         fmt::format(
             "Which method leads at what, from the medians of the comparisons across the papers, and in "
-            "parentheses by how many times it is ahead of the next, with the 95 % interval in brackets where "
-            "the figures vary; and where the papers differ from what was measured. {}",
+            "parentheses by how many times it is ahead of the next, or within which factor methods are tied, "
+            "with the 95 % interval in brackets where the figures vary; and where the papers differ from "
+            "what was measured. {}",
             tie_rule()),
         false,
         {{"JSON", "findings.json"}, {"Markdown", "findings.md"}}});
@@ -164,26 +166,24 @@ class Report {
                                 reference_.faults().size()),
                     true});
     }
+    for (const FurtherGround& ground : further_) {
+      for (const std::string& warning : ground.warnings) {
+        document_.push_back(Paragraph{fmt::format("{}: {}", ground.label, warning), true});
+      }
+    }
     for (FilledTable& filled : tables) add_table(std::move(filled.table), filled.runs);
   }
 
   void write_further_pages() {
     for (const FurtherGround& ground : further_) {
-      GroundPage page = filled_page(ground.paper, ground.page());
+      GroundPage page = filled_page(ground.paper, ground.page(), ground.warnings);
       page.elsewhere =
           "Which method is best on this ground, the measurements on other grounds, and the machine and code "
           "of each run:";
       page.section = {"Further grounds", "#grounds"};
-      if (ground.changed) {
-        page.remarks.push_back(Paragraph{
-            "The content of this ground changed between its measurements, so that values of different "
-            "cases may belong to different ground. Measure all of them again.",
-            true});
-      }
-      if (!ground.lost_columns.empty()) page.remarks.push_back(Paragraph{ground.lost_columns, true});
       if (!write_page(page)) continue;
       further_pages_.push_back(ground.page());
-      for (const auto* const figures : {&ground.page().sheets, &ground.page().pictures}) claim(*figures);
+      keep_off_main_page(ground.page());
     }
   }
 
@@ -261,7 +261,10 @@ class Report {
   void add_ground_pages(const Paper& paper) {
     std::vector<PageLayout> written;
     for (const PageLayout& layout : paper.pages) {
-      GroundPage page = filled_page(paper, layout);
+      std::vector<std::string> warnings;
+      std::string lost = lost_columns(paper, layout, store_, results_.profile);
+      if (!lost.empty()) warnings.push_back(std::move(lost));
+      GroundPage page = filled_page(paper, layout, warnings);
       page.elsewhere =
           "The verdicts on these measurements, the other comparisons, and the machine and code of each run:";
       page.section = {paper.title, "#" + paper.id};
@@ -281,10 +284,12 @@ class Report {
     return true;
   }
 
-  GroundPage filled_page(const Paper& paper, const PageLayout& layout) {
+  GroundPage filled_page(const Paper& paper, const PageLayout& layout,
+                         const std::vector<std::string>& warnings) {
     GroundPage page{&layout, "", {}, {}, {}, {}, {}};
     page.remarks.push_back(Paragraph{fmt::format("Measured in profile “{}”.", results_.profile)});
     add_warning(page.remarks);
+    for (const std::string& warning : warnings) page.remarks.push_back(Paragraph{warning, true});
     for (FilledTable& filled : filled_tables(paper, layout.id)) {
       links_.shown.insert(filled.table.id);
       page.tables.push_back(parts_.table(std::move(filled.table), filled.runs));
@@ -376,10 +381,12 @@ class Report {
     if (!gallery.pictures.empty()) to.push_back(std::move(gallery));
   }
 
-  // Keeps the figures that these cases drew from standing on the main page.
-  void claim(std::span<const PageLayout::Drawn> cases) {
-    for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, cases, {})) {
-      claimed_.insert(shown.figure->id);
+  // Keeps the figures that this page shows from standing on the main page too.
+  void keep_off_main_page(const PageLayout& page) {
+    for (const auto* const cases : {&page.sheets, &page.pictures}) {
+      for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, *cases, page.label)) {
+        claimed_.insert(shown.figure->id);
+      }
     }
   }
 

@@ -201,12 +201,33 @@ TEST_F(FurtherPageTest, WarnsOfManyLostColumns) {
   measure("/x/alps.tif");
   lose("voxel/20%", 5);
   write();
-  EXPECT_THAT(page("/x/alps.tif"), Not(HasSubstr("leave out the columns")));
+  EXPECT_THAT(page("/x/alps.tif"), Not(HasSubstr("leave out columns")));
   lose("voxel/5%", 250);
   lose("voxel/1%", 20);
   write();
   EXPECT_THAT(page("/x/alps.tif"), HasSubstr("up to 25.0 % of the columns (alps.tif/voxel/5%)"));
+  EXPECT_THAT(page("/x/alps.tif"), HasSubstr("Errors of volume leave out none."));
   EXPECT_THAT(written("index.html"), HasSubstr("up to 25.0 % of the columns (alps.tif/voxel/5%)"));
+}
+
+TEST_F(FurtherPageTest, WarnsInTheLatexBundleToo) {
+  measure("/x/alps.tif");
+  Record record = fake_record(run_, "cross.representations", "/x/alps.tif/voxel/5%");
+  record.terrain = "/x/alps.tif";
+  record.terrain_checksum = "another";
+  add(record, "columns", "", {750});
+  add(record, "lost_columns", "", {250});
+  add(record, "rmse", "m", {3});
+  store_.append(record);
+  write_latex_bundle(store_, papers(), folder_ / "bundle");
+  const std::string text = read_file(folder_ / "bundle/main.tex");
+  for (const char* const part :
+       {"\\textbf{Warning:} The content of this ground changed",
+        "\\textbf{Warning:} RMSE and other errors of height leave out columns where only one of ground and "
+        "method has a height",
+        "up to 25.0 \\% of the columns (alps.tif/voxel/5\\%)"}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
 }
 
 TEST_F(FurtherPageTest, HasASectionInTheLatexBundle) {

@@ -148,9 +148,10 @@ TEST_F(OneClaim, TheFirstFailingConditionDecides) {
 }
 
 TEST_F(OneClaim, OfConditionsThatHoldTheNearestToItsBoundDecides) {
-  metrics_ = {{"m", "B", {110}}, {"n", "B", {100}}, {"few", "1/s", {3}}, {"share", "", {0}}};
-  const auto deciding = [&](const std::string& check) {
-    const Judgement judged = judge_one(check);
+  metrics_ = {
+      {"m", "B", {110}}, {"n", "B", {100}}, {"few", "1/s", {3}}, {"share", "", {0}}, {"all", "", {1}}};
+  const auto deciding = [&](const std::string& check, const std::string& type = "E") {
+    const Judgement judged = judge_one(check, type);
     const Finding& found = judged.deciding;
     return fmt::format("{} | {} | {} | {}", judged.deciding_condition, found.value, found.expected,
                        found.what);
@@ -165,8 +166,16 @@ TEST_F(OneClaim, OfConditionsThatHoldTheNearestToItsBoundDecides) {
   EXPECT_EQ(deciding(R"({order = [1, "e/c/n", "e/c/m", 1000]})"), "0 | 100 B | < 110 B | n");
   // The best possible share is not near its bound.
   EXPECT_EQ(deciding(R"({within = ["e/c/share"], range = [0, 0.2]}, )" + wide), "1 | 110 B | [1, 1000] | m");
-  // An equality decides only as the first, what fails always.
+  const std::string all = R"({within = ["e/c/all"], range = [0.85, 1]})";
+  EXPECT_EQ(deciding(all + ", " + above), "1 | 3 1/s | > 2.9 | few");
+  EXPECT_EQ(deciding(wide + ", " + all), "1 | 1 | [0.85, 1] | all");
+  // An equality decides only as the first of an exact claim or if no other has room; what fails always does.
+  const std::string positive = R"({order = [0, "e/c/few"]})";
   EXPECT_EQ(deciding(equal + ", " + above), "0 | 100 B | = 100 | n");
+  EXPECT_EQ(deciding(equal + ", " + above, "T"), "1 | 3 1/s | > 2.9 | few");
+  EXPECT_EQ(deciding(equal + ", " + wide + ", " + above, "T"), "2 | 3 1/s | > 2.9 | few");
+  EXPECT_EQ(deciding(equal + ", " + positive, "T"), "0 | 100 B | = 100 | n");
+  EXPECT_EQ(deciding(positive, "T"), "0 | 3 1/s | > 0 | few");
   EXPECT_EQ(deciding(above + ", " + equal), "0 | 3 1/s | > 2.9 | few");
   EXPECT_EQ(deciding(equal + ", " + above + R"(, {order = ["e/c/m", "e/c/n"]})"), "2 | 110 B | < 100 B | m");
 }

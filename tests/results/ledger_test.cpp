@@ -85,7 +85,7 @@ TEST_F(LedgerTest, ARowOfSeveralConditionsShowsTheOneThatDecidesAndWhichItIs) {
     add(record, "rate", "1/s", {rate});
     store.append(record);
   }
-  const auto measured = [&](const std::string& check) {
+  const auto measured = [&](const std::string& check, const std::string& more = "") {
     const std::vector<Paper> of{parse_claims(R"(paper = "p"
 title = "t"
 source = "s"
@@ -94,7 +94,7 @@ id = "p.1"
 where = "w"
 statement = "s"
 class = "E"
-check = [)" + check + "]",
+check = [)" + check + "]\n" + more,
                                              "claims.toml")};
     return ledger_table(store, judge(store, of), of, {}).rows[0][kMeasured].text;
   };
@@ -102,11 +102,21 @@ check = [)" + check + "]",
                     equal = R"({equal = ["e/fast/rate", 3.77e6]})";
   EXPECT_EQ(measured(slow), "rate: 270,000 1/s");
   EXPECT_EQ(measured(fast + ", " + slow),
-            "slow rate: 270,000 1/s (condition 2 of 2, > 200,000: the nearest to its bound)");
+            "slow rate: 270,000 1/s (condition 2 of 2: the nearest to its bound)");
   EXPECT_EQ(measured(fast + R"(, {order = ["e/slow/rate", 1]})"),
-            "slow rate: 270,000 1/s (condition 2 of 2, < 1: the first that fails)");
-  EXPECT_EQ(measured(equal + ", " + slow), "fast rate: 3,770,000 1/s (condition 1 of 2, = 3,770,000)");
+            "slow rate: 270,000 1/s (condition 2 of 2: the first that fails)");
+  EXPECT_EQ(measured(equal + ", " + slow), "fast rate: 3,770,000 1/s (condition 1 of 2)");
   EXPECT_EQ(measured(fast + R"(, {order = ["e/none/rate", 1]})"),
+            "none rate: not measured (condition 2 of 2)");
+  EXPECT_EQ(measured(R"({order = [2e5, "e/none/rate"]})"), "rate: not measured");
+  EXPECT_EQ(measured(slow + R"(, {growth = ["e/slow/rate", "e/fast/rate"], range = [13, 14]})"),
+            "growth of fast rate: 13.96 (condition 2 of 2: the nearest to its bound)");
+  // Words in place of the bounds: the bound stands beside the figure.
+  const std::string words = "tolerance = \"above the floor\"\n";
+  EXPECT_EQ(measured(slow, words), "rate: 270,000 1/s");
+  EXPECT_EQ(measured(fast + ", " + slow, words),
+            "slow rate: 270,000 1/s (condition 2 of 2, > 200,000: the nearest to its bound)");
+  EXPECT_EQ(measured(fast + R"(, {order = ["e/none/rate", 1]})", words),
             "none rate: not measured (condition 2 of 2)");
 }
 

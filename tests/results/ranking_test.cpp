@@ -123,8 +123,14 @@ TEST_F(RankingTest, InShortEveryFactorThatVariesHasItsInterval) {
   measure("hill/b", {0.0120, 0.0120, 0.0121});
   measure("sea/b", {0.0110, 0.0110, 0.0112});
   EXPECT_EQ(line(),
-            "For the shortest time: on a hill and at sea, drills and voxels tied (within 1.2 [1.09, 1.21] "
-            "×).");
+            "For the shortest time: on a hill and at sea, drills and voxels tied (within 1.1 [1, 1.12] to "
+            "1.2 [1.09, 1.21] ×).");
+}
+
+// The margins decide on times, rates and all else, each with its reason.
+TEST(Ranking, TheRuleOfTiesGivesBothMarginsWithTheirReasons) {
+  EXPECT_THAT(tie_rule(), HasSubstr("below a margin: 1.25 for times and rates, since two of three of them"));
+  EXPECT_THAT(tie_rule(), HasSubstr("and 1.01 for all else, since a smaller lead is no reason"));
 }
 
 TEST_F(RankingTest, AShortLeadOfExactFiguresIsATie) {
