@@ -16,7 +16,9 @@ constexpr int kCoarsest = 4;  // columns
 // Between the own samples of a ground that events made; 0 for other ground. Trees of heightmaps start there,
 // since other samples may have no room for the ground's tunnels; when tuned for an error, all types do.
 int columns_of_events(const Scene& scene) {
-  return scene.source.events ? scene.source.events->ground.width - 1 : 0;
+  if (!scene.source.events) return 0;
+  const Heightfield& ground = scene.source.events->ground;
+  return std::max(ground.width, ground.depth) - 1;
 }
 
 // The finest resolution: a height field's own samples, twice the columns of a solid.
@@ -49,7 +51,7 @@ std::optional<Trial> Fitting::attempt(const Parameters& parameters, std::int64_t
     const Differences found = top_and_volume_differences(*built, scene_.source, scene_.lines);
     return trials_.emplace_back(Trial{setting, file_bytes(type_, *built), found.rmse, 1 - found.volume_iou});
   } catch (const Error& error) {
-    if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kUsage) throw;
+    if (!refuses(error)) throw;
     return {};
   }
 }
@@ -75,7 +77,8 @@ std::optional<Fitted> Fitting::within_budget(double budget) {
 std::optional<Fitted> Fitting::finest_within(double budget) {
   std::optional<Fitted> best;
   const double most = most_columns(scene_);
-  const double guess = std::round(most * std::sqrt(budget / static_cast<double>(scene_.heightmap_bytes))),
+  const double own = scene_.source.heights ? most : static_cast<double>(scene_.options.resolution);
+  const double guess = std::round(own * std::sqrt(budget / static_cast<double>(scene_.heightmap_bytes))),
                first = scene_.source.events && has("events") ? columns_of_events(scene_) : guess;
   const double least = std::min<double>(kCoarsest, most);
   const Knob knob{"resolution", "", least, most, std::clamp(first, least, most), true};

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kLongestStride = 4;      // octaves, before the target is bracketed
 constexpr double kNarrowest = 1.0 / 128;  // octaves: a bracket not worth dividing
+constexpr std::size_t kInterpolated = 8;  // tries, after which brackets are halved: errors that come in steps
 
 using Tried = std::map<double, double>;  // errors by place on the knob: 0 finest … 1 coarsest
 
@@ -53,11 +54,21 @@ std::optional<double> next_place(const Knob& knob, const Tried& tried, double ta
   const auto& [coarse_place, coarse_error] = *coarse;
   const double width = coarse_place - fine_place;
   if (fine_error >= (1 - kKnobSlack) * target || width * octaves <= kNarrowest) return std::nullopt;
-  if (std::isinf(coarse_error) || std::isinf(fine_error)) return fine_place + width / 2;
+  if (tried.size() >= kInterpolated || std::isinf(coarse_error) || std::isinf(fine_error))
+    return fine_place + width / 2;
   // Aims slightly below the target, inside the accepted range.
   const double aim = std::log2(1 - kKnobSlack / 2);
   const double low = octaves_of(fine_error, target), high = octaves_of(coarse_error, target);
   return fine_place + width * std::clamp((aim - low) / (high - low), 0.1, 0.9);
+}
+
+// A whole number beside one that was tried, on the side that is still open; nothing if that is none.
+std::optional<double> neighbour(const Knob& knob, const Tried& tried, double value, double target) {
+  const double coarser = knob.coarsest > knob.finest ? 1 : -1;
+  const double place = place_of(knob, value), next = value + (tried.at(place) > target ? -coarser : coarser);
+  const double beside = place_of(knob, next);
+  if (beside < 0 || beside > 1 || tried.contains(beside)) return std::nullopt;
+  return next;
 }
 
 }  // namespace
@@ -65,9 +76,11 @@ std::optional<double> next_place(const Knob& knob, const Tried& tried, double ta
 Tuned search_knob(const Knob& knob, double target, const std::function<double(double)>& error_at) {
   Tried tried;
   while (const auto place = next_place(knob, tried, target)) {
-    const double value = knob_at(knob, *place), real = place_of(knob, value);
-    if (tried.contains(real)) break;  // several places round to one whole number
-    tried.emplace(real, error_at(value));
+    std::optional<double> value = knob_at(knob, *place);
+    // Several places round to one whole number.
+    if (tried.contains(place_of(knob, *value))) value = neighbour(knob, tried, *value, target);
+    if (!value) break;
+    tried.emplace(place_of(knob, *value), error_at(*value));
   }
   const auto coarse = first_too_coarse(tried, target);
   const auto& [place, error] = coarse == tried.begin() ? *coarse : *std::prev(coarse);

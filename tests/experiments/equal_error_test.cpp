@@ -70,6 +70,38 @@ TEST(KnobSearch, WholeKnobsEndAtTheNextNumber) {
   EXPECT_EQ(tuned.knob, 21);
 }
 
+// Interpolation may round to a number that was tried: the ones beside it are left.
+TEST(KnobSearch, FindsTheBestWholeNumberWhereverItBegins) {
+  for (double first = 4; first <= 64; ++first) {
+    for (const double target : {4.2, 9.5, 17.82, 18.0, 40.9}) {
+      int tried = 0;
+      const Knob more{"columns", "", 4, 64, first, true}, fewer{"columns", "", 64, 4, first, true};
+      const Tuned most = search_knob(more, target, [&](double knob) {
+        ++tried;
+        return knob;
+      });
+      EXPECT_EQ(most.knob, std::floor(target)) << "from " << first;
+      const Tuned least = search_knob(fewer, 1 / target, [&](double knob) {
+        ++tried;
+        return 1 / knob;
+      });
+      EXPECT_EQ(least.knob, std::ceil(target)) << "from " << first;
+      EXPECT_LE(tried, 24) << "from " << first << " for " << target;
+    }
+  }
+}
+
+// Errors in steps, such as of files that consist of blocks: interpolation creeps, halving does not.
+TEST(KnobSearch, DoesNotCreepAlongSteps) {
+  int tried = 0;
+  const Tuned tuned = search_knob(kPixels, 1, [&](double knob) {
+    ++tried;
+    return knob < 300 ? 0.7 : 1.001;
+  });
+  EXPECT_NEAR(tuned.knob, 300, 3);
+  EXPECT_LE(tried, 18);
+}
+
 TEST(KnobSearch, SaysWhatCannotBeReached) {
   const Tuned worse = search_knob(kPixels, 1, [](double knob) { return 3 + knob; });
   EXPECT_FALSE(worse.reached);

@@ -21,9 +21,13 @@ TEST(Fitting, TakesGroundOfFewerSamplesThanTheCoarsestSettingHasColumns) {
   for (const RepresentationType& type : representations()) {
     Fitting for_bytes(tiny, type, silent), for_error(tiny, type, silent);
     const auto fitted = for_bytes.for_bytes(1e6);
-    if (fitted) EXPECT_LE(fitted->trial.file_bytes, 1e6) << type.name;
+    if (fitted) {
+      EXPECT_LE(fitted->trial.file_bytes, 1e6) << type.name;
+    }
     const auto exact = for_error.for_error(1e3);
-    if (exact) EXPECT_LE(exact->trial.rmse, 1e3) << type.name;
+    if (exact) {
+      EXPECT_LE(exact->trial.rmse, 1e3) << type.name;
+    }
     EXPECT_EQ(fitted.has_value(), !for_bytes.trials().empty()) << type.name;
   }
 }
