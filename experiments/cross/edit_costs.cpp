@@ -57,14 +57,14 @@ RadialErosion event_of(const Sphere& sphere) {
 
 // An event of the sphere's radius, at the highest line where the tree takes it, and not so low that it would
 // reach below the ground. If no place is found, the event at the sphere's own centre: trees of solids take no
-// events.
+// events, nor do those that do not fit into memory.
 EventPlace find_place(const Scene& scene, Sphere sphere, Progress& progress) {
   const EventPlace none{event_of(sphere)};
   std::unique_ptr<Representation> built;
   try {
     built = scene.build(representation("ght"), progress);
   } catch (const Error& error) {
-    if (!refuses(error)) throw;
+    if (!refuses(error) && error.code() != ExitCode::kEnvironment) throw;
     return none;
   }
   constexpr std::size_t kMostPlaces = 1000;  // a refused event costs as much as one that is taken
@@ -271,11 +271,13 @@ Rounds rounds_of_edits() { return Rounds(1, 5); }
 
 void measure_sphere(const Untouched& untouched, const Sphere& sphere, Recorder& recorder) {
   const auto edit = [&](Representation& on, Material material) { fill_sphere(on, sphere, material); };
-  const auto edited = untouched.build();
-  edit(*edited, Material::kAir);
-  const TriangleMesh dug_mesh = record_step("dig", *edited, untouched, untouched.mesh, recorder);
-  edit(*edited, Material::kBedrock);
-  record_step("fill", *edited, untouched, dug_mesh, recorder);
+  {
+    const auto edited = untouched.build();
+    edit(*edited, Material::kAir);
+    const TriangleMesh dug_mesh = record_step("dig", *edited, untouched, untouched.mesh, recorder);
+    edit(*edited, Material::kBedrock);
+    record_step("fill", *edited, untouched, dug_mesh, recorder);
+  }
   Rounds rounds = rounds_of_edits();
   rounds.sample({"dig_time", "fill_time"}, "s", [&] {
     const auto fresh = untouched.build();
@@ -288,9 +290,11 @@ void measure_sphere(const Untouched& untouched, const Sphere& sphere, Recorder& 
 void measure_rebuilt_sphere(const Untouched& untouched, const Sphere& sphere, Recorder& recorder) {
   const TerrainSource dug = changed(untouched.scene.source, sphere, Material::kAir),
                       filled = changed(untouched.scene.source, sphere, Material::kBedrock);
-  const TriangleMesh dug_mesh =
-      record_step("dig", *untouched.build_from(dug), untouched, untouched.mesh, recorder);
-  record_step("fill", *untouched.build_from(filled), untouched, dug_mesh, recorder);
+  {
+    const TriangleMesh dug_mesh =
+        record_step("dig", *untouched.build_from(dug), untouched, untouched.mesh, recorder);
+    record_step("fill", *untouched.build_from(filled), untouched, dug_mesh, recorder);
+  }
   Rounds rounds = rounds_of_edits();
   rounds.sample("dig_time", "s", [&] { return seconds_to_make([&] { return untouched.build_from(dug); }); });
   rounds.sample("fill_time", "s",
@@ -306,9 +310,11 @@ void record_event(const Untouched& untouched, const Representation& after, const
 }
 
 void measure_event(const Untouched& untouched, const RadialErosion& event, Recorder& recorder) {
-  const auto edited = untouched.build();
-  apply(*edited, event);
-  record_event(untouched, *edited, event, recorder);
+  {
+    const auto edited = untouched.build();
+    apply(*edited, event);
+    record_event(untouched, *edited, event, recorder);
+  }
   Rounds rounds = rounds_of_edits();
   rounds.sample("event_time", "s", [&] {
     const auto fresh = untouched.build();  // one from a file would lack the room for more events
@@ -341,6 +347,7 @@ std::size_t new_triangles(const TriangleMesh& before, const TriangleMesh& after)
 void measure_edit(const Scene& scene, const RepresentationType& type, const Representation& built,
                   const TriangleMesh& mesh, Recorder& recorder, Progress& progress) {
   const Sphere sphere = place_of_edit(scene);
+  if (!(sphere.radius >= scene.cell)) return;  // low ground: the sphere may lie between the samples
   const EventPlace& place = place_of_event(scene, sphere, progress);
   const bool digs = type.traits.editable,
              erodes = digs || (place.taken && dynamic_cast<const Ght*>(&built) != nullptr);

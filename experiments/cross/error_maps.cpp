@@ -46,7 +46,8 @@ struct Map {
   const RepresentationType* type = nullptr;
   bool fits = false;
   std::size_t file_bytes = 0;
-  double rmse = 0;
+  std::size_t columns = 0, lost_columns = 0;  // where both have a surface; where only one of the two has
+  double rmse = 0;                            // of the former; NaN if there is none
   Heightfield error;  // metres; infinite where only one of the two has a surface, no data where neither
 };
 
@@ -69,19 +70,20 @@ Map map_of(const Scene& scene, const RepresentationType& type, const Heightfield
   const auto built = type.build(scene.source, fitted ? fitted->parameters : scene.parameters(type), progress);
   map.file_bytes = file_bytes(type, *built);
   map.error = tops(lines_of(*built, scene.lines), scene.lines);
-  double squares = 0, count = 0;
+  double squares = 0;
   for (std::size_t c = 0; c < ground.heights.size(); ++c) {
     float& error = map.error.heights[c];
     const bool has = !Heightfield::is_no_data(error), expected = !Heightfield::is_no_data(ground.heights[c]);
     if (has != expected) {
       error = HUGE_VALF;
+      ++map.lost_columns;
     } else if (has) {
       error -= ground.heights[c];
       squares += static_cast<double>(error) * error;
-      ++count;
+      ++map.columns;
     }
   }
-  map.rmse = count > 0 ? std::sqrt(squares / count) : 0;
+  map.rmse = std::sqrt(squares / static_cast<double>(map.columns));
   return map;
 }
 
@@ -89,9 +91,11 @@ Map map_of(const Scene& scene, const RepresentationType& type, const Heightfield
 // of ten.
 double end_of_colours(const std::vector<Map>& maps) {
   std::vector<double> rmse;
-  for (const Map& map : maps) rmse.push_back(map.rmse);
+  for (const Map& map : maps) {
+    if (map.columns > 0) rmse.push_back(map.rmse);
+  }
   std::sort(rmse.begin(), rmse.end());
-  const double wish = std::max(2 * rmse[rmse.size() / 2], 1e-3),
+  const double wish = std::max(rmse.empty() ? 0 : 2 * rmse[rmse.size() / 2], 1e-3),
                power = std::pow(10, std::floor(std::log10(wish)));
   return power * (wish >= 5 * power ? 10 : wish >= 2 * power ? 5 : 2);
 }
@@ -99,8 +103,9 @@ double end_of_colours(const std::vector<Map>& maps) {
 std::string kilobytes(double bytes) { return fmt::format("{:.{}f} kB", bytes / 1000, bytes < 1000 ? 2 : 1); }
 
 std::string numbers(const Map& map) {
-  return fmt::format("{}{}, RMSE {:.{}f} m", kilobytes(static_cast<double>(map.file_bytes)),
-                     map.fits ? "" : "*", map.rmse, map.rmse < 10 ? 2 : 1);
+  const std::string bytes = kilobytes(static_cast<double>(map.file_bytes)) + (map.fits ? "" : "*");
+  if (map.columns == 0) return bytes + ", no common ground";
+  return fmt::format("{}, RMSE {:.{}f} m", bytes, map.rmse, map.rmse < 10 ? 2 : 1);
 }
 
 struct Marks {
@@ -163,8 +168,12 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     const std::string name(type.name);
     recorder.add(name + "_fits", "", map.fits ? 1 : 0);
     recorder.add(name + "_file", "kB", static_cast<double>(map.file_bytes) / 1000);
-    recorder.add(name + "_rmse", "m", map.rmse);
+    if (map.columns > 0) recorder.add(name + "_rmse", "m", map.rmse);
   }
+  // Of the type that loses most.
+  const Map& worst = *std::ranges::max_element(maps, {}, &Map::lost_columns);
+  recorder.add("columns", "", static_cast<double>(worst.columns));
+  recorder.add("lost_columns", "", static_cast<double>(worst.lost_columns));
   const double width = static_cast<double>(surface.width) * surface.cell_x;
   const bool far = width >= 1000;
   draw(maps, surface)
@@ -175,7 +184,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
               "high, one scale for all. Each type has the finest setting whose file takes at most "
               "{:.0f} % of the bytes of the ground's heights, {}; a type that has no file so "
               "small is marked * and shown at the ground's own resolution. RMSE of the {} × {} columns "
-              "shown, {:.3g} {} across.",
+              "shown, {:.3g} {} "
+              "across, without those where only one of the two has a surface.",
               at.terrain, 100 * at.parameters.number("share"),
               kilobytes(at.parameters.number("share") * static_cast<double>(ground.heightmap_bytes)),
               surface.width, surface.depth, far ? width / 1000 : width, far ? "km" : "m")));

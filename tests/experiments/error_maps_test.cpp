@@ -35,6 +35,10 @@ TEST_P(ErrorMaps, ShowEveryTypeWithItsBytesAndItsError) {
   ASSERT_TRUE(layout);
   EXPECT_EQ(layout->panels.size(), representations().size());
   EXPECT_EQ(layout_fault(*layout, read_png(file)), "");
+  const Metric *const kept = record.find("columns"), *const lost = record.find("lost_columns");
+  ASSERT_TRUE(kept != nullptr && lost != nullptr);
+  EXPECT_GT(kept->samples[0], 80 * 70);
+  EXPECT_EQ(kept->samples[0] + lost->samples[0], 80 * 80);
   for (const RepresentationType& type : representations()) {
     for (const char* const metric : {"_rmse", "_file"}) {
       const Metric* const found = record.find(std::string(type.name) + metric);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 #include <string>
 
@@ -12,6 +13,7 @@
 #include "results/claims.h"
 #include "results/ranking.h"
 #include "results/statistics.h"
+#include "terrain/files.h"
 
 namespace terrabench::cross {
 namespace {
@@ -237,6 +239,22 @@ TEST_P(Compared, TakesTheEventOfTheTree) {
   const bool coarse = GetParam() == "drill" || GetParam() == "implicit";
   EXPECT_GT(value(found, "event_misplaced"), 0);
   EXPECT_LT(value(found, "event_misplaced"), tree ? 0.1 : coarse ? 0.5 : 0.25);
+}
+
+// On low ground the sphere, at most half the relief, could lie between the samples.
+TEST(ComparedSpheres, AreNotDugIntoGroundLowerThanItsCells) {
+  for (const auto& [highest, edits] : {std::pair{"150", false}, std::pair{"250", true}}) {
+    const std::filesystem::path file =
+        std::filesystem::path(testing::TempDir()) / fmt::format("{}_m.asc", highest);
+    std::string text = "ncols 33\nnrows 33\nxllcorner 0\nyllcorner 0\ncellsize 100\n";
+    for (int i = 0; i < 33 * 33; ++i) text += i == 16 * 33 + 16 ? std::string(highest) + " " : "0 ";
+    write_file(file, std::string_view(text));
+    const Record found = measure("layered_stack", file.string(), 0);
+    EXPECT_EQ(found.find("dig_triangles") != nullptr, edits) << highest;
+    EXPECT_EQ(found.find("event_triangles") != nullptr, edits) << highest;
+    EXPECT_NE(found.find("triangles"), nullptr);
+    std::filesystem::remove(file);
+  }
 }
 
 TEST(ComparedSpheres, AreDugIntoTreesBuiltAgainWithTheColumnsOfTheScene) {

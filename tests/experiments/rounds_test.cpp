@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 namespace terrabench::cross {
 namespace {
 
@@ -37,12 +40,15 @@ TEST(Rounds, DoLongWorkOnce) {
 
 TEST(Rounds, TakeFewSamplesOfShortWorkThatIsLongToPrepare) {
   std::string order;
-  Rounds rounds(0, 2);
+  Rounds rounds(0.05, 2);
+  const auto prepare = [] { std::this_thread::sleep_for(std::chrono::milliseconds(60)); };
   rounds.sample("a", "s", [&] {
+    prepare();
     order += 'a';
     return 0.0;  // measured
   });
   rounds.sample("b", "1/s", [&] {
+    prepare();
     order += 'b';
     return 0.0;
   });
@@ -58,6 +64,11 @@ TEST(Rounds, TakeFewSamplesOfWorkThatAddsUp) {
   EXPECT_EQ(Rounds::most_rounds({1.1, 1.1}, 1), 1);
   EXPECT_EQ(Rounds::most_rounds({0.4, 1.2}, 1, 5), 5);
   EXPECT_EQ(Rounds::most_rounds({1.1, 1.1}, 1, 5), 1);
+}
+
+TEST(Rounds, EndWhereSamplesTakeMinutesToPrepare) {
+  EXPECT_EQ(Rounds::most_rounds({0.01, 29}, 1, 5), 5);
+  EXPECT_EQ(Rounds::most_rounds({0.01, 31}, 1, 5), 1);
 }
 
 }  // namespace
