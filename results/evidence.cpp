@@ -121,11 +121,10 @@ class Reader {
 
   Finding read_figure(const Condition& condition) {
     const auto [record, figure] = store_.find_figure(condition.figure, profile_);
-    if (figure == nullptr)
-      return {Outcome::kMissing, "no picture was drawn", "not drawn", "", "picture", "picture"};
+    if (figure == nullptr) return {Outcome::kMissing, "no picture was drawn", "not drawn", "", "picture"};
     note_read(*record);
     const auto [holds, text] = inspect(condition, *figure);
-    return {outcome(holds), text, holds ? "drawn" : "not usable", "", "picture", "picture"};
+    return {outcome(holds), text, holds ? "drawn" : "not usable", "", "picture"};
   }
 
   // Whether the picture is the one that was drawn, shows something, and contains what it should.

@@ -17,9 +17,9 @@ namespace terrabench {
 struct Finding {
   enum class Outcome { kHolds, kFails, kMissing } outcome = Outcome::kMissing;
   std::string text;  // in full: "time 0.12 s [0.11, 0.13], in [0, 1]"
-  // In short: the figure that decides ("0.12 s"), what it must be ("[0, 1]", "< 3 s"), and its name ("time").
+  // In short: the figure that decides ("0.12 s"), what it must be ("[0, 1]", "< 3 s"), and its name ("time"),
+  // which begins with the case's if the claim reads several cases.
   std::string value, expected, quantity;
-  std::string what = "";  // `quantity`, with the case's name if the claim reads several cases
   std::optional<double> room =
       std::nullopt;  // to the bound (nearness.h); none: it fails, or knows no distance
 };

@@ -42,8 +42,7 @@ std::string_view doubt(const Summary& s, double low, double high, bool holds) {
 
 Quantity quantity(const Operand& operand, const Metric& metric, bool name_case) {
   const std::string name = spoken(operand.metric);
-  return {metric.samples, name_case ? operand.case_name + " " + name : name, metric.unit, name,
-          timed(metric)};
+  return {metric.samples, name_case ? operand.case_name + " " + name : name, metric.unit, timed(metric)};
 }
 
 bool names_cases(const Claim& claim) {
@@ -59,32 +58,27 @@ bool names_cases(const Claim& claim) {
 }
 
 Finding word_missing(const Operand& o, bool name_case) {
-  const std::string name = spoken(o.metric);
   return {Finding::Outcome::kMissing,
-          fmt::format("no {} of {} {} was measured", o.metric, o.experiment, o.case_name),
-          "not measured",
-          "",
-          name,
-          name_case ? o.case_name + " " + name : name};
+          fmt::format("no {} of {} {} was measured", o.metric, o.experiment, o.case_name), "not measured", "",
+          (name_case ? o.case_name + " " : "") + spoken(o.metric)};
 }
 
 Finding word_range(const Condition& condition, const std::vector<Quantity>& quantities, const Summary& s,
                    bool holds) {
   const Quantity &first = quantities[0], &second = quantities.back();
-  Finding found{outcome(holds), "", "", "", first.metric};
+  Finding found{outcome(holds), "", "", "", first.name};
   std::string what = first.name;
   std::string_view unit = first.unit;
   if (condition.kind == Condition::Kind::kRatio) {
     what = fmt::format("{} ÷ {}", first.name, second.name);
-    found.quantity = fmt::format("{} ÷ {}", first.metric, second.metric);
+    found.quantity = what;
     unit = "";
   } else if (condition.kind == Condition::Kind::kGrowth) {
     what = fmt::format("{} grows by the factor", second.name);
-    found.quantity = "growth of " + second.metric;
+    found.quantity = "growth of " + second.name;
     unit = "";
   }
   const double low = condition.low, high = condition.high;
-  found.what = condition.kind == Condition::Kind::kGrowth ? "growth of " + second.name : what;
   found.value = format_quantity(s.median, unit);
   found.expected = fmt::format("[{}, {}]", format_exact(low), format_exact(high));
   found.text = what + " " + found.value;
@@ -113,8 +107,7 @@ Finding word_chain(bool equal, const std::vector<Quantity>& quantities, const st
   found.value = format_quantity(medians[measured], quantities[measured].unit);
   found.expected = fmt::format("{} {}", bound_first && !equal ? ">" : sign,
                                format_quantity(medians[bound], quantities[bound].unit));
-  found.quantity = quantities[measured].metric;
-  found.what = quantities[measured].name;
+  found.quantity = quantities[measured].name;
   return found;
 }
 

@@ -10,8 +10,7 @@ namespace terrabench {
 struct Quantity {
   std::vector<double> samples;
   std::string name, unit;
-  std::string metric = "";  // the name without the case
-  bool timed = false;       // timed(Metric): varies from run to run
+  bool timed = false;  // timed(Metric): varies from run to run
 };
 Quantity quantity(const Operand&, const Metric&, bool name_case);
 // Whether the claim's metrics are of several cases, so that their names must say of which.

@@ -228,7 +228,7 @@ std::string caption(const ProfileOfStore& measured, const ProfileOfStore& named,
 
 FilledTable empty_table(const FurtherGround& ground, const ProfileOfStore& measured,
                         const ProfileOfStore& named, bool compared) {
-  FilledTable filled{{"which-method-" + ground.id,
+  FilledTable filled{{ground.table_id(),
                       fmt::format("Which method for {}", ground.label),
                       caption(measured, named, compared),
                       {{"Task"}, {"Best on this ground"}},

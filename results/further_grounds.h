@@ -41,6 +41,7 @@ struct FurtherGround {
   std::vector<std::string> warnings;
 
   const PageLayout& page() const { return paper.pages.front(); }
+  std::string table_id() const { return "which-method-" + id; }  // of tables_of_further_grounds()
 };
 
 // In the order of measurement. A record tells its ground (Record::terrain), and belongs to it if its case is

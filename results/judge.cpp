@@ -56,6 +56,7 @@ void judge_measured(Judgement& judgement, const Store& store, const std::string&
   judgement.runs = evidence.runs;
   judgement.deciding_condition = find_deciding(findings, claim.claim_class == 'E');
   judgement.deciding = findings[judgement.deciding_condition];
+  judgement.stated = findings.front().text;
   if (first(Outcome::kMissing) != findings.end()) {
     // Report only what is missing.
     std::erase_if(findings, [](const Finding& finding) { return finding.outcome != Outcome::kMissing; });

@@ -26,6 +26,7 @@ struct Judgement {
   const Claim* claim = nullptr;
   Verdict verdict = Verdict::kPending;  // until judge_claim() finds another
   std::string measured;                 // the findings in full; or why nothing was measured
+  std::string stated;                   // the first of them: claims begin with what they state
   // Decides the verdict: the first condition that was not measured, else the first that fails, else the one
   // with the least room (nearness.h). Conditions without room (equalities, pictures, ranges of one value or
   // from 0 without end) decide only if an exact claim begins with one, or if no other has room. Empty if

@@ -14,6 +14,7 @@
 #include "results/further_grounds.h"
 #include "results/judge.h"
 #include "results/ledger.h"
+#include "results/lost_columns.h"
 #include "results/new_folder.h"
 #include "results/plot.h"
 #include "results/ranking.h"
@@ -73,12 +74,16 @@ std::string title_beside_number(const std::string& title) {
 // What the paper says and how it came out, without the rows that repeat others.
 Table own_rows(const Store& store, const JudgedResults& results, const Paper& paper) {
   const Table all = ledger_table(store, results, {&paper, 1}, {});
-  constexpr std::size_t kShown[] = {0, 2, 3, 4, 1};  // claim, the paper, printed, measured, verdict
+  constexpr std::size_t kShown[] = {0, 2, 3,
+                                    4, 5, 1};  // claim, the paper, printed, measured, tolerance, verdict
   Table table{
       "verdicts-" + paper.id,
       "Verdicts: " + paper.title,
-      "What the paper says in our words, what it prints, the measurement that decides, and the verdict. "
-      "Rows that repeat another on further grounds or with other parameters are left out.",
+      "What the paper says in our words, what it prints, the measurement that decides, what it must keep, "
+      "and "
+      "the verdict. Of a row with several conditions, the first that fails is shown or, if all hold, the one "
+      "nearest to its bound. Rows that repeat another on further grounds or with other parameters are left "
+      "out.",
       {},
       {}};
   for (const std::size_t i : kShown) table.columns.push_back(all.columns[i]);
@@ -168,28 +173,33 @@ class Bundle {
     begin_section(paper.title, paper.id);
     if (paper.reference) text_ += fmt::format("The paper is~\\cite{{{}}}. ", citation_key(paper));
     paragraph(paper.source);
+    for (const PageLayout& page : paper.pages) {
+      const std::string lost = lost_columns(paper, page, store_, results_.profile);
+      if (!lost.empty()) warn(fmt::format("Ground {}. {}", page.label, lost));
+    }
     for (const Table& table : tables) add_table(table);
     add_figures(figures);
   }
 
-  // A section per ground that no claims file names, with what the report's page of it shows.
+  // A section per ground that no claims file names, with the tables, plots and pictures of its page in the
+  // report, and which method is best there, compared with the named grounds of the same results folder.
   void add_further_grounds() {
     const ProfileOfStore measured{store_, results_.profile};
-    for (const FurtherGround& ground : further_grounds(papers_, measured)) {
+    const std::vector<FurtherGround> further = further_grounds(papers_, measured);
+    std::vector<FilledTable> which =
+        tables_of_further_grounds(further, measured, ranking_layouts(), measured);
+    for (const FurtherGround& ground : further) {
       std::vector<Table> tables = filled_tables(ground.paper);
-      for (FilledTable& filled :
-           tables_of_further_grounds({&ground, 1}, measured, ranking_layouts(), measured)) {
-        tables.push_back(std::move(filled.table));
-      }
+      const auto best =
+          std::ranges::find(which, ground.table_id(),
+                            [](const FilledTable& filled) -> const std::string& { return filled.table.id; });
+      if (best != which.end()) tables.push_back(std::move(best->table));
       std::vector<FigureText> figures = drawn_plots(ground.paper);
       add_pictures(ground.page(), figures);
       if (tables.empty() && figures.empty()) continue;
       begin_section("Ground " + ground.label, "ground-" + ground.id);
       paragraph(ground.page().about);
-      for (const std::string& warning : ground.warnings) {
-        text_ += "\\textbf{Warning:} ";
-        paragraph(warning);
-      }
+      for (const std::string& warning : ground.warnings) warn(warning);
       for (const Table& table : tables) add_table(table);
       add_figures(figures);
     }
@@ -301,6 +311,10 @@ class Bundle {
     text_ += fmt::format("\\input{{{}}}\n", file);
   }
 
+  void warn(std::string_view text) {
+    text_ += "\\textbf{Warning:} ";
+    paragraph(text);
+  }
   void paragraph(std::string_view text) { text_ += escape_latex(text) + "\n\n"; }
 
   const Store& store_;

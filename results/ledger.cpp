@@ -36,7 +36,8 @@ std::string why(const Judgement& j) {
 std::string ours(const Judgement& j) {
   const Finding& found = j.deciding;
   if (found.value.empty()) return "–";
-  const std::string text = fmt::format("{}{}{}", found.what, found.what.empty() ? "" : ": ", found.value);
+  const std::string text =
+      fmt::format("{}{}{}", found.quantity, found.quantity.empty() ? "" : ": ", found.value);
   const std::size_t conditions = j.claim->conditions.size();
   if (conditions == 1) return text;
   std::string_view why_this;
@@ -135,11 +136,12 @@ Table ledger_table(const Store& store, const JudgedResults& results, std::span<c
               "row judges, otherwise the first table or plot that shows its verdict or one of its "
               "numbers. Lines are those of measurements.jsonl. Of a row with several conditions, “Measured” "
               "shows the first that fails or, if all hold, the one nearest to a bound: the distance between "
-              "value and bound, relative to the larger of the two. A lower bound of 0 does not count, nor "
-              "does an upper bound of 1 that is the best value of a share. An equality or a picture has no "
-              "such distance; it is shown if a row of class E begins with it or if no condition has one. A "
-              "condition that was not measured is shown before all others. Conditions are numbered after "
-              "“each” of the claims file is expanded.",
+              "value and bound, relative to the larger of the two, and at most 1, as where one is negative "
+              "or 0. A lower bound of 0 does not count, nor does an upper bound of 1 that is the best value "
+              "of a share. A condition without a bound that counts, such as an equality or a picture, is "
+              "shown if a row of class E begins with it or if no condition has one. A condition that was not "
+              "measured is shown before all others. Conditions are numbered after “each” of the claims file "
+              "is expanded.",
               {{"Claim"},
                {"Verdict"},
                {"The paper"},

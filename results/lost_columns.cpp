@@ -38,10 +38,12 @@ std::string lost_columns(const Paper& paper, const PageLayout& page, const Store
       for (const auto& [x, case_name] : series.cases) note(series.experiment, case_name);
     }
   }
+  for (const PageLayout::Drawn& sheet : page.sheets) note(sheet.experiment, sheet.case_name);
   if (of == nullptr || largest < kMany) return "";
   return fmt::format(
       "RMSE and other errors of height leave out columns where only one of ground and method has a height "
-      "(beside samples without data, or in holes): up to {:.1f} % of the columns ({}). A method that loses "
+      "(beside samples without data, or in holes): up to {:.1f} % of the columns (case {}). A method that "
+      "loses "
       "many columns may have a smaller error for it. Errors of volume leave out none.",
       100 * largest, with_label(of->case_name, of->terrain, page.label));
 }

@@ -86,7 +86,7 @@ class Page {
     const Judgement* const match = find(paper, claim.matches);
     if (match == nullptr) return claim.matches;
     return fmt::format("{}, {}: {} {}", match->claim->id, name(match->verdict), match->claim->statement,
-                       match->deciding.text);
+                       match->stated);
   }
 
   const JudgedResults& results_;

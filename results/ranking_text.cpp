@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -28,12 +29,23 @@ void finish(std::string& text) {
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
 }
 
-// "1.3 [1.2, 1.4]"; the interval is left out where there is none. Of 1.002, three digits would be 1.
+// Three digits, and as many more as tell the factor from 1 and from the margins, which decide on ties: 1.002.
+std::string digits_of(double factor) {
+  constexpr std::array kBounds{1.0, kExactMargin, kTimingMargin};
+  constexpr int kFewest = 3, kMost = 7;
+  for (int digits = kFewest;; ++digits) {
+    std::string text = fmt::format("{:.{}g}", factor, digits);
+    const double shown = std::strtod(text.c_str(), nullptr);
+    const auto same_side = [&](double bound) { return (shown <=> bound) == (factor <=> bound); };
+    if (digits == kMost || std::ranges::all_of(kBounds, same_side)) return text;
+  }
+}
+
+// "1.3 [1.2, 1.4]"; the interval is left out where there is none.
 std::string factor_text(const Summary& factor) {
-  const int digits = factor.median < 1.1 ? 4 : 3;
-  const std::string median = fmt::format("{:.{}g}", factor.median, digits);
+  const std::string median = digits_of(factor.median);
   if (factor.low == factor.high) return median;
-  return fmt::format("{} [{:.{}g}, {:.{}g}]", median, factor.low, digits, factor.high, digits);
+  return fmt::format("{} [{}, {}]", median, digits_of(factor.low), digits_of(factor.high));
 }
 
 // Of a ranking with two places or more: by which the best is ahead of the next, or within which the best are
@@ -76,9 +88,16 @@ std::string text_of(const Group& group) {
   const std::string text = joined(group.where, " and ") + ", " + group.outcome;
   if (group.factors.empty()) return text;
   const auto [least, most] = std::ranges::minmax_element(group.factors, {}, &Summary::median);
-  const std::string low = factor_text(*least), high = factor_text(*most);
-  return text +
-         fmt::format(" ({}{}{} ×)", group.tied ? "within " : "", low == high ? "" : low + " to ", high);
+  std::string factors = fmt::format("{} to {}", factor_text(*least), factor_text(*most));
+  if (digits_of(least->median) == digits_of(most->median)) {
+    Summary all = *most;  // one factor with an interval that holds those of all grounds
+    for (const Summary& factor : group.factors) {
+      all.low = std::min(all.low, factor.low);
+      all.high = std::max(all.high, factor.high);
+    }
+    factors = factor_text(all);
+  }
+  return text + fmt::format(" ({}{} ×)", group.tied ? "within " : "", factors);
 }
 
 }  // namespace

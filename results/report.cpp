@@ -168,7 +168,7 @@ class Report {
     }
     for (const FurtherGround& ground : further_) {
       for (const std::string& warning : ground.warnings) {
-        document_.push_back(Paragraph{fmt::format("{}: {}", ground.label, warning), true});
+        document_.push_back(Paragraph{fmt::format("Ground {}. {}", ground.label, warning), true});
       }
     }
     for (FilledTable& filled : tables) add_table(std::move(filled.table), filled.runs);

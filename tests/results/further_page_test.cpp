@@ -205,9 +205,25 @@ TEST_F(FurtherPageTest, WarnsOfManyLostColumns) {
   lose("voxel/5%", 250);
   lose("voxel/1%", 20);
   write();
-  EXPECT_THAT(page("/x/alps.tif"), HasSubstr("up to 25.0 % of the columns (alps.tif/voxel/5%)"));
+  EXPECT_THAT(page("/x/alps.tif"), HasSubstr("up to 25.0 % of the columns (case alps.tif/voxel/5%)"));
   EXPECT_THAT(page("/x/alps.tif"), HasSubstr("Errors of volume leave out none."));
-  EXPECT_THAT(written("index.html"), HasSubstr("up to 25.0 % of the columns (alps.tif/voxel/5%)"));
+  EXPECT_THAT(written("index.html"), HasSubstr("up to 25.0 % of the columns (case alps.tif/voxel/5%)"));
+}
+
+// The map of errors alone, which the README names for a DEM of the user's.
+TEST_F(FurtherPageTest, WarnsOfColumnsThatOnlyTheErrorMapsLost) {
+  Record maps = fake_record(run_, "cross.error-maps", "/x/alps.tif");
+  maps.terrain = "/x/alps.tif";
+  add(maps, "drill_rmse", "m", {3});
+  add(maps, "columns", "", {750});
+  add(maps, "lost_columns", "", {250});
+  const std::string file = "figures/cross.error-maps." + ground_id("/x/alps.tif") + ".png";
+  write_png(folder_ / file, Image(40, 20, {200, 40, 40}));
+  maps.figures.push_back(
+      {"cross.error-maps." + ground_id("/x/alps.tif"), file, "Maps.", checksum(read_file(folder_ / file))});
+  store_.append(maps);
+  write();
+  EXPECT_THAT(page("/x/alps.tif"), HasSubstr("up to 25.0 % of the columns (case alps.tif)"));
 }
 
 TEST_F(FurtherPageTest, WarnsInTheLatexBundleToo) {
@@ -219,13 +235,19 @@ TEST_F(FurtherPageTest, WarnsInTheLatexBundleToo) {
   add(record, "lost_columns", "", {250});
   add(record, "rmse", "m", {3});
   store_.append(record);
+  Record named = fake_record(run_, "cross.representations", "caves/ght/5%");
+  add(named, "columns", "", {900});
+  add(named, "lost_columns", "", {100});
+  add(named, "rmse", "m", {3});
+  store_.append(named);
   write_latex_bundle(store_, papers(), folder_ / "bundle");
   const std::string text = read_file(folder_ / "bundle/main.tex");
+  EXPECT_THAT(text, HasSubstr("\\textbf{Warning:} Ground caves. RMSE"));
   for (const char* const part :
        {"\\textbf{Warning:} The content of this ground changed",
         "\\textbf{Warning:} RMSE and other errors of height leave out columns where only one of ground and "
         "method has a height",
-        "up to 25.0 \\% of the columns (alps.tif/voxel/5\\%)"}) {
+        "up to 25.0 \\% of the columns (case alps.tif/voxel/5\\%)"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
 }

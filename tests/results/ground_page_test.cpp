@@ -213,7 +213,7 @@ TEST_F(GroundPageTest, WarnsOfManyLostColumns) {
   write_report(store_, papers_);
   for (const char* const form : {"html", "md"}) {
     EXPECT_THAT(written(fmt::format("ground-hill.{}", form)),
-                HasSubstr("up to 25.0 % of the columns (hill)"));
+                HasSubstr("up to 25.0 % of the columns (case hill)"));
     EXPECT_THAT(written(fmt::format("ground-cave.{}", form)), Not(HasSubstr("leave out columns")));
   }
 }

@@ -154,7 +154,7 @@ TEST_F(OneClaim, OfConditionsThatHoldTheNearestToItsBoundDecides) {
     const Judgement judged = judge_one(check, type);
     const Finding& found = judged.deciding;
     return fmt::format("{} | {} | {} | {}", judged.deciding_condition, found.value, found.expected,
-                       found.what);
+                       found.quantity);
   };
   const std::string wide = R"({within = ["e/c/m"], range = [1, 1000]})",
                     above = R"({order = [2.9, "e/c/few"]})", equal = R"({equal = ["e/c/n", 100]})";
