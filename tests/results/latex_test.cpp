@@ -184,7 +184,8 @@ TEST_F(LatexBundle, HoldsWhatMainNames) {
   EXPECT_THAT(all.at("tables/hybrid.table1.tex"), HasSubstr("6,291,456"));
   EXPECT_THAT(all.at("tables/verdicts-hybrid.tex"), HasSubstr("hybrid."));
   EXPECT_THAT(all.at("tables/verdicts-hybrid.tex"),
-              testing::ContainsRegex("Claim[^&]*& The paper &[^&]*Printed[^&]*& Measured &[^&]*Tolerance[^&]*&[^&]*Verdict"));
+              testing::ContainsRegex(
+                  "Claim[^&]*& The paper &[^&]*Printed[^&]*& Measured &[^&]*Tolerance[^&]*&[^&]*Verdict"));
   EXPECT_THAT(all.at("references.bib"), HasSubstr("@misc{paper:hybrid,"));
   EXPECT_THAT(main, HasSubstr("\\cite{paper:hybrid}"));
 }
