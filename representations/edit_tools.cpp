@@ -129,7 +129,7 @@ std::size_t erode(Representation& edited, const events::RadialErosion& event) {
   return edit_disc(edited, disc, [&](glm::dvec2 plan, double) {
     const double bottom = event.bottom(plan);
     if (bottom == HUGE_VAL) return Span{HUGE_VALF, HUGE_VALF, Material::kAir};  // outside the ellipse
-    // Within the terrain's heights, since a double may exceed all floats.
+    // Clamped to the terrain's heights, since a double may exceed all floats.
     return Span{static_cast<float>(std::clamp<double>(bottom, bounds.low.y, bounds.high.y)), HUGE_VALF,
                 Material::kAir};
   });

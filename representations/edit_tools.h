@@ -33,8 +33,9 @@ const ColumnGrid& edited_columns(const Representation&);
 std::size_t fill_sphere(Representation&, const Sphere&, Material);
 std::size_t fill_cylinder(Representation&, const Cylinder&, Material);
 // Removes what the event removes: all ground above the lower half of its ellipsoid. Counts as above. Throws
-// as above, for a centre or radii that are not finite, radii ≤ 0, an ellipse whose circumscribed circle does
-// not reach the terrain, and an ellipsoid above all of the terrain.
+// usage_error, before any change, for a representation that cannot be edited, a centre or radii that are not
+// finite, radii ≤ 0, an ellipse whose circumscribed circle does not reach the terrain, and an ellipsoid above
+// all of the terrain.
 std::size_t erode(Representation&, const events::RadialErosion&);
 
 }  // namespace terrabench

@@ -36,8 +36,8 @@ struct FurtherGround {
   // or not; no claims.
   Paper paper;
   std::vector<RankingLayout> rankings;  // one per task
-  // For readers: that one experiment measured different contents under this name, that methods lost many
-  // columns (lost_columns.h).
+  // Shown to readers: the ground's content changed between its measurements; a method lost many columns
+  // (lost_columns.h).
   std::vector<std::string> warnings;
 
   const PageLayout& page() const { return paper.pages.front(); }

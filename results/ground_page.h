@@ -22,7 +22,7 @@ struct GroundPage {
   const PageLayout* layout = nullptr;
   std::string elsewhere;             // what `section` holds, as words before the link; ends in ':'
   Link section;                      // to a section of the main page, "#id"
-  Document remarks;                  // on the report: profile, whether it can be trusted; on the ground
+  Document remarks;                  // the profile, and warnings
   Document tables, plots, pictures;  // a link to "#id" means that place on the report's main page
 
   bool empty() const { return tables.empty() && plots.empty() && pictures.empty(); }

@@ -26,11 +26,11 @@ struct Judgement {
   const Claim* claim = nullptr;
   Verdict verdict = Verdict::kPending;  // until judge_claim() finds another
   std::string measured;                 // the findings in full; or why nothing was measured
-  std::string stated;                   // the first of them: claims begin with what they state
+  std::string stated;                   // that on the first condition, which is what the claim states
   // Decides the verdict: the first condition that was not measured, else the first that fails, else the one
-  // with the least room (nearness.h). Conditions without room (equalities, pictures, ranges of one value or
-  // from 0 without end) decide only if an exact claim begins with one, or if no other has room. Empty if
-  // nothing was measured.
+  // with the least room (nearness.h). Conditions without room (equalities, pictures, ranges of one value,
+  // a lower bound of 0 alone) decide only if an exact claim begins with one, or if no other has room. Empty
+  // if nothing was measured.
   Finding deciding;
   std::size_t deciding_condition = 0;  // its index in the claim's conditions
   std::vector<std::string> runs;       // ids of the runs that it rests on

@@ -79,11 +79,10 @@ Table own_rows(const Store& store, const JudgedResults& results, const Paper& pa
   Table table{
       "verdicts-" + paper.id,
       "Verdicts: " + paper.title,
-      "What the paper says in our words, what it prints, the measurement that decides, what it must keep, "
-      "and "
+      "What the paper says in our words, what it prints, the measurement that decides, its tolerance, and "
       "the verdict. Of a row with several conditions, the first that fails is shown or, if all hold, the one "
-      "nearest to its bound. Rows that repeat another on further grounds or with other parameters are left "
-      "out.",
+      "nearest to its bound; an exact row that begins with an equality or a picture shows that. Rows that "
+      "repeat another on further grounds or with other parameters are left out.",
       {},
       {}};
   for (const std::size_t i : kShown) table.columns.push_back(all.columns[i]);

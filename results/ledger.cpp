@@ -135,13 +135,12 @@ Table ledger_table(const Store& store, const JudgedResults& results, std::span<c
               "verdict is not “reproduced” where it is not. The figure or table is the picture that the "
               "row judges, otherwise the first table or plot that shows its verdict or one of its "
               "numbers. Lines are those of measurements.jsonl. Of a row with several conditions, “Measured” "
-              "shows the first that fails or, if all hold, the one nearest to a bound: the distance between "
-              "value and bound, relative to the larger of the two, and at most 1, as where one is negative "
-              "or 0. A lower bound of 0 does not count, nor does an upper bound of 1 that is the best value "
-              "of a share. A condition without a bound that counts, such as an equality or a picture, is "
-              "shown if a row of class E begins with it or if no condition has one. A condition that was not "
-              "measured is shown before all others. Conditions are numbered after “each” of the claims file "
-              "is expanded.",
+              "shows the first that fails or, if all hold, the one nearest to a bound. The distance is "
+              "|value − bound| ÷ max(|value|, |bound|), or 1 if that is less. A lower bound of 0 does not "
+              "count, nor does an upper bound of 1 that is the best value of a share. A condition without a "
+              "bound that counts, such as an equality or a picture, is shown if a row of class E begins with "
+              "it or if no condition of the row has such a bound. A condition that was not measured is shown "
+              "before all others. Conditions are numbered after “each” of the claims file is expanded.",
               {{"Claim"},
                {"Verdict"},
                {"The paper"},

@@ -43,8 +43,7 @@ std::string lost_columns(const Paper& paper, const PageLayout& page, const Store
   return fmt::format(
       "RMSE and other errors of height leave out columns where only one of ground and method has a height "
       "(beside samples without data, or in holes): up to {:.1f} % of the columns (case {}). A method that "
-      "loses "
-      "many columns may have a smaller error for it. Errors of volume leave out none.",
+      "loses many columns may therefore have a smaller error. Errors of volume leave out none.",
       100 * largest, with_label(of->case_name, of->terrain, page.label));
 }
 

@@ -138,7 +138,7 @@ std::string Ranking::lead() const {
 std::string tie_rule() {
   return fmt::format(
       "Methods are called tied if the 95 % interval of that factor contains 1 or if the factor is below a "
-      "margin: {} for times and rates, since two of three of them differ by less between two runs on one "
+      "margin: {} for times and rates, since two thirds of them change by less between two runs on one "
       "machine, and {} for all else, since a smaller lead is no reason to choose a method.",
       kTimingMargin, kExactMargin);
 }

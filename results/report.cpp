@@ -127,10 +127,10 @@ class Report {
     document_.push_back(Heading{2, "Findings", "findings"});
     document_.push_back(Paragraph{
         fmt::format(
-            "Which method leads at what, from the medians of the comparisons across the papers, and in "
-            "parentheses by how many times it is ahead of the next, or within which factor methods are tied, "
-            "with the 95 % interval in brackets where the figures vary; and where the papers differ from "
-            "what was measured. {}",
+            "Which method leads at what, from the medians of the comparisons across the papers, and where "
+            "the papers differ from what was measured. In parentheses stands by how many times the leader is "
+            "ahead of the next method, or within which factor methods are tied, in brackets the 95 % interval "
+            "of that factor, where the figures vary. {}",
             tie_rule()),
         false,
         {{"JSON", "findings.json"}, {"Markdown", "findings.md"}}});

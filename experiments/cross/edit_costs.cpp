@@ -56,8 +56,9 @@ RadialErosion event_of(const Sphere& sphere) {
 }
 
 // An event of the sphere's radius, at the highest line where the tree takes it, and not so low that it would
-// reach below the ground. If no place is found, the event at the sphere's own centre: trees of solids take no
-// events, nor do those that do not fit into memory.
+// reach below the ground. The event at the sphere's own centre, not taken, if the tree refuses it at all of
+// the kMostPlaces highest lines or cannot be built, such as for lack of memory: trees of solids take no
+// events.
 EventPlace find_place(const Scene& scene, Sphere sphere, Progress& progress) {
   const EventPlace none{event_of(sphere)};
   std::unique_ptr<Representation> built;
@@ -67,7 +68,8 @@ EventPlace find_place(const Scene& scene, Sphere sphere, Progress& progress) {
     if (!refuses(error) && error.code() != ExitCode::kEnvironment) throw;
     return none;
   }
-  constexpr std::size_t kMostPlaces = 1000;  // a refused event costs as much as one that is taken
+  constexpr std::size_t kMostPlaces =
+      1000;  // bounds the time: a refused event costs as much as one that is taken
   std::size_t tried = 0;
   for (const glm::vec3 top : tops(scene.lines)) {
     if (tried++ == kMostPlaces || top.y - sphere.radius < scene.lines.bounds.low.y) break;
@@ -245,8 +247,8 @@ struct Untouched {
   Progress& progress;
 
   std::unique_ptr<Representation> build() const { return scene.build(type, progress); }
-  // From a changed ground, which has no events. Without them a sculpted ground is like any solid, of which a
-  // tree takes 128 columns by default.
+  // From a changed ground. It no longer lists its events, so that a tree would sample it as it does any
+  // solid, at 128 columns by default; it gets the columns that the other types have.
   std::unique_ptr<Representation> build_from(const TerrainSource& ground) const {
     Parameters parameters = scene.parameters(type);
     if (scene.source.events && parameters.has("resolution")) {
@@ -266,7 +268,8 @@ TriangleMesh record_step(const std::string& step, const Representation& after, c
   return now;
 }
 
-// At least five samples, unless one alone takes over a second.
+// At least five samples, unless one edit (dig and fill together) takes more than 1 s, or all edits with the
+// builds before them more than 30 s.
 Rounds rounds_of_edits() { return Rounds(1, 5); }
 
 void measure_sphere(const Untouched& untouched, const Sphere& sphere, Recorder& recorder) {
@@ -317,7 +320,7 @@ void measure_event(const Untouched& untouched, const RadialErosion& event, Recor
   }
   Rounds rounds = rounds_of_edits();
   rounds.sample("event_time", "s", [&] {
-    const auto fresh = untouched.build();  // one from a file would lack the room for more events
+    const auto fresh = untouched.build();  // a loaded one has no spare capacity for events
     return seconds([&] { apply(*fresh, event); });
   });
   rounds.run(recorder);
@@ -347,7 +350,7 @@ std::size_t new_triangles(const TriangleMesh& before, const TriangleMesh& after)
 void measure_edit(const Scene& scene, const RepresentationType& type, const Representation& built,
                   const TriangleMesh& mesh, Recorder& recorder, Progress& progress) {
   const Sphere sphere = place_of_edit(scene);
-  if (!(sphere.radius >= scene.cell)) return;  // low ground: the sphere may lie between the samples
+  if (!(sphere.radius >= scene.cell)) return;  // the sphere could lie between the samples
   const EventPlace& place = place_of_event(scene, sphere, progress);
   const bool digs = type.traits.editable,
              erodes = digs || (place.taken && dynamic_cast<const Ght*>(&built) != nullptr);

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kLongestStride = 4;      // octaves, before the target is bracketed
 constexpr double kNarrowest = 1.0 / 128;  // octaves: a bracket not worth dividing
-constexpr std::size_t kInterpolated = 8;  // tries, after which brackets are halved: errors that come in steps
+constexpr std::size_t kInterpolated =
+    8;  // tries, after which brackets are halved: interpolation creeps along steps
 
 using Tried = std::map<double, double>;  // errors by place on the knob: 0 finest … 1 coarsest
 
@@ -62,7 +63,8 @@ std::optional<double> next_place(const Knob& knob, const Tried& tried, double ta
   return fine_place + width * std::clamp((aim - low) / (high - low), 0.1, 0.9);
 }
 
-// A whole number beside one that was tried, on the side that is still open; nothing if that is none.
+// The whole number beside `value`, which was tried: a finer one if its error exceeds the target, otherwise a
+// coarser one. Nothing if that was tried too or is not on the knob.
 std::optional<double> neighbour(const Knob& knob, const Tried& tried, double value, double target) {
   const double coarser = knob.coarsest > knob.finest ? 1 : -1;
   const double place = place_of(knob, value), next = value + (tried.at(place) > target ? -coarser : coarser);

@@ -35,9 +35,10 @@ void measure_rays(const Scene&, const Representation&, const TriangleMesh&, int 
 // seconds, the bytes added since before the edit, and the triangles that must be meshed again
 // (new_triangles()), of which `mesh` are those before. A type that does not take the edit is built again from
 // the changed ground, with the scene's columns if that is a solid (`…rebuilt` = 1). Each edit is timed on a
-// structure built anew. Nothing is recorded if the ground's relief is less than two cells: the sphere, of at
-// most half of it, could lie between the samples. `event_misplaced`: of the ground that the event should
-// remove, how much is still there, plus by how much the ground below changes, as a share.
+// structure built anew. Nothing is recorded if the sphere's radius is less than a cell, on ground with a
+// relief below two cells or a side below 16: the sphere could lie between the samples. `event_misplaced`: of
+// the ground that the event should remove, how much is still there, plus by how much the ground below
+// changes, as a share.
 void measure_edit(const Scene&, const RepresentationType&, const Representation&, const TriangleMesh& mesh,
                   Recorder&, Progress&);
 // The triangles of `after` that `before` does not have, by the bits of their corners: the least that anything

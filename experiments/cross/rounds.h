@@ -17,13 +17,13 @@ class Rounds {
   // of the other's) in one case of ten. So kMost are taken, and kFew only where the work is long.
   static constexpr int kMost = 9, kFew = 3;
 
-  // Seconds that a piece of work took so far: the longest sample, and all together. Where the metrics are in
-  // seconds, `longest` is only what was measured; `all` includes what the work did to prepare it.
+  // Seconds that a piece of work took so far. `longest`: its longest call, and of metrics in seconds only
+  // what was measured, summed over the metrics. `all`: all calls, with what they did to prepare.
   struct Spent {
     double longest = 0, all = 0;
   };
-  // A piece stops after `few` samples, or later, once all its work took longer than `long_time`; after any
-  // sample that did alone; and after any once all its work took kPatience times as long.
+  // How many samples a piece gets, at least those that it has: one if a call took longer than `long_time`, or
+  // all calls longer than kPatience times that; `few` if all calls took longer than `long_time`; else kMost.
   static constexpr double kPatience = 30;
   static constexpr int most_rounds(const Spent& spent, double long_time, int few = kFew) {
     if (spent.longest > long_time || spent.all > kPatience * long_time) return 1;

@@ -49,7 +49,7 @@ bool is_solid(const std::string& terrain);
 // Kept until another one is asked for.
 const Scene& scene(const SceneOptions&, Progress&);
 
-// Whether a type refuses the input or a setting; otherwise the machine failed, or the user interrupted.
+// Whether a type refuses the input or a setting; false where the machine failed or the user interrupted.
 bool refuses(const Error&);
 
 // Bytes of the file that save_representation() writes.

@@ -150,7 +150,7 @@ TEST_F(RankingTest, InShortEqualFactorsHaveOneInterval) {
 
 // The margins decide on times, rates and all else, each with its reason.
 TEST(Ranking, TheRuleOfTiesGivesBothMarginsWithTheirReasons) {
-  EXPECT_THAT(tie_rule(), HasSubstr("below a margin: 1.25 for times and rates, since two of three of them"));
+  EXPECT_THAT(tie_rule(), HasSubstr("below a margin: 1.25 for times and rates, since two thirds of them"));
   EXPECT_THAT(tie_rule(), HasSubstr("and 1.01 for all else, since a smaller lead is no reason"));
 }
 
