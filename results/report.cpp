@@ -129,7 +129,8 @@ class Report {
         fmt::format(
             "Which method leads at what, from the medians of the comparisons across the papers, and where "
             "the papers differ from what was measured. In parentheses stands by how many times the leader is "
-            "ahead of the next method, or within which factor methods are tied, in brackets the 95 % interval "
+            "ahead of the next method, or within which factor methods are tied, in brackets the 95 % "
+            "interval "
             "of that factor, where the figures vary. {}",
             tie_rule()),
         false,
