@@ -28,10 +28,10 @@ constexpr int kClosedPipe = 141;
 
 constexpr const char* kFooter =
     "Exit codes: 0 good, 1 a verdict is not the known one, 2 wrong use, 3 bad input, 4 environment (no GL, "
-    "disk full), "
-    "130 interrupted, 141 the reader of the output closed the pipe.\n"
+    "disk full), 130 interrupted, 141 the reader of the output closed the pipe.\n"
     "Examples:\n"
-    "  terrabench run 'hybrid.*' --profile quick --out out && terrabench check out && terrabench report out\n"
+    "  terrabench run 'hybrid.*' --out out\n"
+    "  terrabench check out --claims 'hybrid.*' && terrabench report out\n"
     "  terrabench represent mountain.tif --as layered_stack --save mountain.tb --render mountain.png\n"
     "  terrabench represent caves --as implicit --render caves.png --renderer raytrace --samples 128";
 
