@@ -186,7 +186,9 @@ class RayWalk {
                    double at) {
     const int block = cell >> shift, other_block = other_cell >> shift;
     cell = direction > 0 ? (block + 1) << shift : (block << shift) - 1;
-    other_cell = std::clamp(other.cell_at(at), other_block << shift, ((other_block + 1) << shift) - 1);
+    if (shift > 0) {
+      other_cell = std::clamp(other.cell_at(at), other_block << shift, ((other_block + 1) << shift) - 1);
+    }
     return (block ^ (cell >> shift)) >> TopPyramid::kShift != 0;
   }
 

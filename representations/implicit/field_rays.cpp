@@ -13,7 +13,7 @@ namespace terrabench {
 namespace {
 
 constexpr double kNoHit = std::numeric_limits<double>::infinity();
-constexpr float kNothing = -std::numeric_limits<float>::infinity();
+constexpr float kEndless = std::numeric_limits<float>::infinity(), kNothing = -kEndless;
 
 // Heights over a cell of the lattice in plan between which the surface can pass, metres.
 struct HeightRange {
@@ -25,6 +25,18 @@ double within_cell(const StackField& field, const FieldLattice& lattice) {
   return field.steepest(glm::dvec3(0.5 * static_cast<double>(lattice.cell))) + field.jump();
 }
 
+// How much closer to 0 the field can be at a point of a cell than at all four corners of its level.
+double within_level(const StackField& field, const FieldLattice& lattice) {
+  const auto positions = [&](int axis) {
+    std::vector<float> all;
+    for (int k = 0; k <= lattice.cells[axis]; ++k) all.push_back(lattice.position(axis, k));
+    return all;
+  };
+  if (field.linear_between(positions(0), positions(2))) return field.jump();
+  const double half = 0.5 * static_cast<double>(lattice.cell);
+  return field.steepest({half, 0, half}) + field.jump();
+}
+
 // The ranges of a rectangle of columns, row by row.
 struct RangeBlock {
   std::vector<std::uint32_t> counts;  // per column
@@ -34,13 +46,15 @@ struct RangeBlock {
 // Finds them from the lattice's samples, two planes at a time.
 class RangeSweep {
  public:
-  RangeSweep(const ImplicitSurface& of, const ColumnTops& tops, glm::ivec2 begin, glm::ivec2 end)
+  RangeSweep(const ImplicitSurface& of, const ColumnTops& tops, double margin, glm::ivec2 begin,
+             glm::ivec2 end)
       : field_(of.field()),
         tops_(tops),
         lattice_(of.lattice()),
         begin_(begin),
         end_(end),
-        margin_(static_cast<float>(within_cell(of.field(), of.lattice()))) {
+        margin_(static_cast<float>(margin)),
+        per_change_(static_cast<float>(1 / of.field().steepest({0, 1, 0}))) {
     choose_levels();
     for (int i = begin.x; i <= end.x; ++i) xs_.push_back(lattice_.position(0, i));
     for (int k = first_; k <= last_ && first_ < last_; ++k) ys_.push_back(lattice_.position(1, k));
@@ -52,19 +66,22 @@ class RangeSweep {
         static_cast<std::size_t>(end_.x - begin_.x) * static_cast<std::size_t>(end_.y - begin_.y);
     if (ys_.empty()) return {std::vector<std::uint32_t>(columns, 0), {}};
     values_.resize(xs_.size() * ys_.size());
-    for (std::vector<std::uint8_t>& plane : near_) plane.resize(values_.size());
-    load(begin_.y, near_[0]);
+    for (std::vector<Clear>& plane : clear_) plane.resize(values_.size());
+    load(begin_.y, clear_[0]);
     for (int j = begin_.y; j < end_.y; ++j) {
-      load(j + 1, near_[1]);
+      load(j + 1, clear_[1]);
       for (std::size_t i = 0; i + 1 < xs_.size(); ++i) add_column(i * ys_.size(), air_over(i, j));
-      near_[0].swap(near_[1]);
+      clear_[0].swap(clear_[1]);
     }
     return std::move(out_);
   }
 
  private:
-  // What a point says of the cells around it.
-  enum : std::uint8_t { kMaybeSolid = 1, kMaybeAir = 2, kBoth = 3 };
+  // How far from a point, metres, the cells around it are as it is, if their other corners agree: positive
+  // in the solid, negative in air; at most to the next point.
+  struct Clear {
+    float down, up;
+  };
 
   // Limits the points along y to the heights at which the surface can lie: all is solid below them, and all
   // is air above them.
@@ -79,35 +96,53 @@ class RangeSweep {
     first_ = std::min(last_, static_cast<int>(std::floor(point(solid))));
   }
 
-  void load(int j, std::vector<std::uint8_t>& near) {
+  void load(int j, std::vector<Clear>& clear) {
     planes_->sample(lattice_.position(2, j), values_);
-    for (std::size_t k = 0; k < values_.size(); ++k) {
-      near[k] = static_cast<std::uint8_t>((values_[k] > -margin_ ? kMaybeSolid : 0) |
-                                          (values_[k] < margin_ ? kMaybeAir : 0));
+    for (std::size_t line = 0; line < values_.size(); line += ys_.size()) {
+      for (std::size_t k = 0; k < ys_.size(); ++k) clear[line + k] = {0, 0};
+      for (std::size_t k = 0; k + 1 < ys_.size(); ++k) {
+        const float apart = ys_[k + 1] - ys_[k], below = values_[line + k], above = values_[line + k + 1];
+        float up = free(below), down = free(above);
+        if ((below > 0) == (above > 0) && up + down >= apart) up = down = apart;
+        clear[line + k].up = std::copysign(std::min(up, apart), below);
+        clear[line + k + 1].down = std::copysign(std::min(down, apart), above);
+      }
     }
   }
+  float free(float value) const { return std::max(0.0F, (std::abs(value) - margin_) * per_change_); }
 
   // Of the cells between the lines of points that begin at `at` and the next ones.
   void add_column(std::size_t at, double air) {
-    const std::uint8_t* const lines[] = {&near_[0][at], &near_[0][at + ys_.size()], &near_[1][at],
-                                         &near_[1][at + ys_.size()]};
-    const auto say = [&](std::size_t k) { return lines[0][k] | lines[1][k] | lines[2][k] | lines[3][k]; };
+    const Clear* const lines[] = {&clear_[0][at], &clear_[0][at + ys_.size()], &clear_[1][at],
+                                  &clear_[1][at + ys_.size()]};
+    const auto least = [&](std::size_t k, float Clear::*side) {
+      return std::min({lines[0][k].*side, lines[1][k].*side, lines[2][k].*side, lines[3][k].*side});
+    };
+    const auto most = [&](std::size_t k, float Clear::*side) {
+      return std::max({lines[0][k].*side, lines[1][k].*side, lines[2][k].*side, lines[3][k].*side});
+    };
     const std::size_t before = out_.ranges.size();
-    int below = say(0);
     for (std::size_t k = 0; k + 1 < ys_.size() && ys_[k] < air; ++k) {
-      const int above = say(k + 1);
       const bool last = first_ + static_cast<int>(k) + 1 == lattice_.cells.y;  // the box's top: air above
-      const int corners = below | above | (last ? kMaybeAir : 0);
-      below = above;
-      if (corners != kBoth) continue;
-      const auto high = static_cast<float>(std::min<double>(ys_[k + 1], air));
-      if (out_.ranges.size() > before && out_.ranges.back().high == ys_[k]) {
-        out_.ranges.back().high = high;
-      } else {
-        out_.ranges.push_back({ys_[k], high});
-      }
+      const float from_below = std::max({0.0F, least(k, &Clear::up), -most(k, &Clear::up)});
+      const float in_solid = last ? 0.0F : least(k + 1, &Clear::down);
+      const float from_above = std::max({0.0F, in_solid, -most(k + 1, &Clear::down)});
+      if (from_below + from_above >= ys_[k + 1] - ys_[k]) continue;
+      const double low = ys_[k] + from_below, high = std::min<double>(ys_[k + 1] - from_above, air);
+      if (low <= high) add_range(low, high, before);
     }
     out_.counts.push_back(static_cast<std::uint32_t>(out_.ranges.size() - before));
+  }
+
+  // To the column whose ranges begin at `before`. Wider by more than the rounding of both.
+  void add_range(double low, double high, std::size_t before) {
+    const HeightRange range{std::nextafter(static_cast<float>(low), -kEndless),
+                            std::nextafter(static_cast<float>(high), kEndless)};
+    if (out_.ranges.size() > before && out_.ranges.back().high >= range.low) {
+      out_.ranges.back().high = range.high;
+    } else {
+      out_.ranges.push_back(range);
+    }
   }
   double air_over(std::size_t i, int j) const {
     return field_.highest({xs_[i], lattice_.position(2, j)}, {xs_[i + 1], lattice_.position(2, j + 1)},
@@ -117,11 +152,11 @@ class RangeSweep {
   const StackField& field_;
   const ColumnTops& tops_;
   const FieldLattice& lattice_;
-  glm::ivec2 begin_, end_;  // cells along x and z
-  float margin_;
-  int first_ = 0, last_ = 0;  // points along y
+  glm::ivec2 begin_, end_;     // cells along x and z
+  float margin_, per_change_;  // the least value that says something of its cell, and metres per change by 1
+  int first_ = 0, last_ = 0;   // points along y
   std::vector<float> xs_, ys_, values_;
-  std::vector<std::uint8_t> near_[2];  // of the planes at j and j + 1
+  std::vector<Clear> clear_[2];  // of the planes at j and j + 1
   std::unique_ptr<FieldPlanes> planes_;
   RangeBlock out_;
 };
@@ -173,12 +208,13 @@ struct FieldGround {
   std::vector<HeightRange> read(const ImplicitSurface& of) {
     constexpr int kWidth = 32, kDepth = 128;  // cells of a block: its planes stay in a cache
     const int across = (x.cells + kWidth - 1) / kWidth, down = (z.cells + kDepth - 1) / kDepth;
+    const double margin = within_level(of.field(), of.lattice());
     std::vector<RangeBlock> blocks(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
       const glm::ivec2 begin{static_cast<int>(b) % across * kWidth, static_cast<int>(b) / across * kDepth};
-      blocks[b] =
-          RangeSweep(of, columns, begin, glm::min(begin + glm::ivec2(kWidth, kDepth), {x.cells, z.cells}))
-              .run();
+      blocks[b] = RangeSweep(of, columns, margin, begin,
+                             glm::min(begin + glm::ivec2(kWidth, kDepth), {x.cells, z.cells}))
+                      .run();
     });
     std::vector<HeightRange> all;
     std::size_t size = 0;

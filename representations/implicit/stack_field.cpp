@@ -104,6 +104,21 @@ double StackField::jump() const {
          1.0 / static_cast<double>(radius_z_) + kFloat;
 }
 
+bool StackField::linear_between(std::span<const float> xs, std::span<const float> zs) const {
+  if (kernel_ != Kernel::kCube || radius_x_ % column_unit_ != 0 || radius_z_ % column_unit_ != 0)
+    return false;
+  const auto border_between = [&](std::int64_t a, std::int64_t b) {
+    return floor_div(b - 1, column_unit_) > floor_div(a, column_unit_);
+  };
+  for (std::size_t k = 1; k < xs.size(); ++k) {
+    if (border_between(unit_x(xs[k - 1]), unit_x(xs[k]))) return false;
+  }
+  for (std::size_t k = 1; k < zs.size(); ++k) {
+    if (border_between(unit_z(zs[k - 1]), unit_z(zs[k]))) return false;
+  }
+  return true;
+}
+
 void add_solid_lengths(const ColumnRuns& runs, double per_level, std::span<const double> v, double radius,
                        double weight, std::span<double> volume) {
   std::size_t first = 0;

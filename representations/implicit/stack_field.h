@@ -54,6 +54,9 @@ class StackField final : public SampledField {
   // 6 %, because its table of chords only approximates a sphere.
   double steepest(glm::dvec3 apart) const;
   double jump() const;
+  // Whether, at equal height, the field is linear along x and along z between any two neighbours of these
+  // positions: with the cube and a radius of whole columns, wherever no column's border lies between them.
+  bool linear_between(std::span<const float> xs, std::span<const float> zs) const;
   // Along a vertical line: heights y ascend. O(columns of the support · (their runs + y)).
   void line(double x, double z, std::span<const float> y, std::span<float> out) const;
   Memory memory() const { return chords_.memory(); }

@@ -1,4 +1,6 @@
 // The field of the implicit surface against integrals that know nothing of prefix sums.
+#include <random>
+
 #include "terrain/error.h"
 #include "tests/representations/implicit_ground.h"
 
@@ -207,6 +209,49 @@ TEST(ImplicitField, FarBelowOnlyTheLowestLevelCounts) {
   const glm::vec3 low = built->bounds().low;
   EXPECT_EQ(built->field().at(low + glm::vec3(0, -300, 0)), built->field().at(low + glm::vec3(0, -400, 0)));
   EXPECT_NE(built->field().at(low + glm::vec3(0, -290, 0)), built->field().at(low + glm::vec3(0, -400, 0)));
+}
+
+// Half-way between two neighbours the field is the mean of theirs, to a unit of volume, exactly where
+// linear_between() says so: not across a border of columns, nor with a radius that ends within one.
+TEST(ImplicitField, IsLinearBetweenPositionsAsItSays) {
+  std::mt19937 random(5);
+  std::vector<float> heights;
+  for (int k = 0; k < 20 * 20; ++k) heights.push_back(2 + static_cast<float>(random() % 1000) / 50);
+  const auto built = implicit(from_heights(20, 20, heights, 1, 1), {});
+  const LayeredStack& stack = built->stack();
+  const ColumnGrid& grid = stack.grid();
+  const auto positions = [&](double first, double apart) {
+    std::vector<float> all;
+    for (int k = 0; k < 12; ++k) all.push_back(static_cast<float>(grid.origin_x + first + apart * k));
+    return all;
+  };
+  struct Row {
+    double radius, first, apart;
+    bool linear;
+  };
+  for (const Row& row : {Row{2, 3, 1, true}, Row{1, 3, 1, true}, Row{2, 3, 0.5, true}, Row{2, 3.5, 1, false},
+                         Row{2, 3, 0.75, false}, Row{2, 0, 1.5, false}, Row{1.5, 3, 1, false}}) {
+    SCOPED_TRACE(testing::Message() << row.radius << " " << row.first << " " << row.apart);
+    const StackField field(stack, Kernel::kCube, row.radius);
+    const std::vector<float> all = positions(row.first, row.apart);
+    EXPECT_EQ(field.linear_between(all, all), row.linear);
+    double worst = 0;
+    for (std::size_t j = 0; j + 1 < all.size(); ++j) {
+      for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+        for (const float y : {4.0F, 9.0F, 11.5F, 14.0F}) {
+          const double ends = field.at({all[i], y, all[j]}) + field.at({all[i + 1], y, all[j]});
+          const double middle = field.at({(all[i] + all[i + 1]) / 2, y, all[j]});
+          worst = std::max(worst, std::abs(middle - ends / 2));
+        }
+      }
+    }
+    if (row.linear) {
+      EXPECT_LT(worst, 1e-6);
+    } else {
+      EXPECT_GT(worst, 1e-3);
+    }
+  }
+  EXPECT_FALSE(StackField(stack, Kernel::kSphere, 2).linear_between(positions(3, 1), positions(3, 1)));
 }
 
 TEST(ImplicitField, RadiiWithoutAnExactVolumeAreRefused) {
