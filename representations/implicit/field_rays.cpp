@@ -20,9 +20,13 @@ struct HeightRange {
   float low, high;
 };
 
+// From a point of a cell to the nearest corner, along each axis, metres. The last cell can be a little
+// larger.
+double half_cell(const FieldLattice& lattice) { return 0.5005 * static_cast<double>(lattice.cell); }
+
 // How much the field can differ between a point of a cell and the cell's nearest corner.
 double within_cell(const StackField& field, const FieldLattice& lattice) {
-  return field.steepest(glm::dvec3(0.5 * static_cast<double>(lattice.cell))) + field.jump();
+  return field.steepest(glm::dvec3(half_cell(lattice))) + field.jump();
 }
 
 // How much closer to 0 the field can be at a point of a cell than at all four corners of its level.
@@ -33,8 +37,7 @@ double within_level(const StackField& field, const FieldLattice& lattice) {
     return all;
   };
   if (field.linear_between(positions(0), positions(2))) return field.jump();
-  const double half = 0.5 * static_cast<double>(lattice.cell);
-  return field.steepest({half, 0, half}) + field.jump();
+  return field.steepest({half_cell(lattice), 0, half_cell(lattice)}) + field.jump();
 }
 
 // The ranges of a rectangle of columns, row by row.
@@ -66,12 +69,12 @@ class RangeSweep {
         static_cast<std::size_t>(end_.x - begin_.x) * static_cast<std::size_t>(end_.y - begin_.y);
     if (ys_.empty()) return {std::vector<std::uint32_t>(columns, 0), {}};
     values_.resize(xs_.size() * ys_.size());
-    for (std::vector<Clear>& plane : clear_) plane.resize(values_.size());
-    load(begin_.y, clear_[0]);
+    for (std::vector<Free>& plane : free_) plane.resize(values_.size());
+    load(begin_.y, free_[0]);
     for (int j = begin_.y; j < end_.y; ++j) {
-      load(j + 1, clear_[1]);
+      load(j + 1, free_[1]);
       for (std::size_t i = 0; i + 1 < xs_.size(); ++i) add_column(i * ys_.size(), air_over(i, j));
-      clear_[0].swap(clear_[1]);
+      free_[0].swap(free_[1]);
     }
     return std::move(out_);
   }
@@ -79,7 +82,7 @@ class RangeSweep {
  private:
   // How far from a point, metres, the cells around it are as it is, if their other corners agree: positive
   // in the solid, negative in air; at most to the next point.
-  struct Clear {
+  struct Free {
     float down, up;
   };
 
@@ -96,38 +99,38 @@ class RangeSweep {
     first_ = std::min(last_, static_cast<int>(std::floor(point(solid))));
   }
 
-  void load(int j, std::vector<Clear>& clear) {
+  void load(int j, std::vector<Free>& free) {
     planes_->sample(lattice_.position(2, j), values_);
     for (std::size_t line = 0; line < values_.size(); line += ys_.size()) {
-      for (std::size_t k = 0; k < ys_.size(); ++k) clear[line + k] = {0, 0};
+      for (std::size_t k = 0; k < ys_.size(); ++k) free[line + k] = {0, 0};
       for (std::size_t k = 0; k + 1 < ys_.size(); ++k) {
         const float apart = ys_[k + 1] - ys_[k], below = values_[line + k], above = values_[line + k + 1];
-        float up = free(below), down = free(above);
+        float up = free_beside(below), down = free_beside(above);
         if ((below > 0) == (above > 0) && up + down >= apart) up = down = apart;
-        clear[line + k].up = std::copysign(std::min(up, apart), below);
-        clear[line + k + 1].down = std::copysign(std::min(down, apart), above);
+        free[line + k].up = std::copysign(std::min(up, apart), below);
+        free[line + k + 1].down = std::copysign(std::min(down, apart), above);
       }
     }
   }
-  float free(float value) const { return std::max(0.0F, (std::abs(value) - margin_) * per_change_); }
+  float free_beside(float value) const { return std::max(0.0F, (std::abs(value) - margin_) * per_change_); }
 
   // Of the cells between the lines of points that begin at `at` and the next ones.
   void add_column(std::size_t at, double air) {
-    const Clear* const lines[] = {&clear_[0][at], &clear_[0][at + ys_.size()], &clear_[1][at],
-                                  &clear_[1][at + ys_.size()]};
-    const auto least = [&](std::size_t k, float Clear::*side) {
+    const Free* const lines[] = {&free_[0][at], &free_[0][at + ys_.size()], &free_[1][at],
+                                 &free_[1][at + ys_.size()]};
+    const auto least = [&](std::size_t k, float Free::*side) {
       return std::min({lines[0][k].*side, lines[1][k].*side, lines[2][k].*side, lines[3][k].*side});
     };
-    const auto most = [&](std::size_t k, float Clear::*side) {
+    const auto most = [&](std::size_t k, float Free::*side) {
       return std::max({lines[0][k].*side, lines[1][k].*side, lines[2][k].*side, lines[3][k].*side});
     };
     const std::size_t before = out_.ranges.size();
     for (std::size_t k = 0; k + 1 < ys_.size() && ys_[k] < air; ++k) {
       const bool last = first_ + static_cast<int>(k) + 1 == lattice_.cells.y;  // the box's top: air above
-      const float from_below = std::max({0.0F, least(k, &Clear::up), -most(k, &Clear::up)});
-      const float in_solid = last ? 0.0F : least(k + 1, &Clear::down);
-      const float from_above = std::max({0.0F, in_solid, -most(k + 1, &Clear::down)});
-      if (from_below + from_above >= ys_[k + 1] - ys_[k]) continue;
+      const float from_below = std::max({0.0F, least(k, &Free::up), -most(k, &Free::up)});
+      const float in_solid = last ? 0.0F : least(k + 1, &Free::down);
+      const float from_above = std::max({0.0F, in_solid, -most(k + 1, &Free::down)});
+      if (!last && from_below + from_above >= ys_[k + 1] - ys_[k]) continue;
       const double low = ys_[k] + from_below, high = std::min<double>(ys_[k + 1] - from_above, air);
       if (low <= high) add_range(low, high, before);
     }
@@ -156,7 +159,7 @@ class RangeSweep {
   float margin_, per_change_;  // the least value that says something of its cell, and metres per change by 1
   int first_ = 0, last_ = 0;   // points along y
   std::vector<float> xs_, ys_, values_;
-  std::vector<Clear> clear_[2];  // of the planes at j and j + 1
+  std::vector<Free> free_[2];  // of the planes at j and j + 1
   std::unique_ptr<FieldPlanes> planes_;
   RangeBlock out_;
 };

@@ -3,6 +3,8 @@
 
 #include <tbb/global_control.h>
 
+#include <random>
+
 #include "tests/representations/implicit_ground.h"
 #include "tests/representations/rays.h"
 
@@ -106,6 +108,38 @@ TEST(FieldRays, HitIsTheFirstChangeOfSign) {
     }
     EXPECT_GT(changes, 200U);
     EXPECT_GT(walls, 50U);
+  }
+}
+
+// Short level rays within one cell in plan, at any height: if the field's sign differs between their ends,
+// they hit. A height that the caster wrongly takes for free of the surface would show here.
+TEST(FieldRays, ChangesWithinACellAreFoundAtEveryHeight) {
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const auto built = implicit(c.source, c.options);
+    const FieldLattice& lattice = built->lattice();
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> in(0, 1);
+    std::vector<Ray> rays;
+    while (rays.size() < 20000) {
+      const int i = static_cast<int>(in(random) * static_cast<float>(lattice.cells.x)),
+                j = static_cast<int>(in(random) * static_cast<float>(lattice.cells.z));
+      const glm::vec3 low{lattice.position(0, i), lattice.low.y, lattice.position(2, j)},
+          high{lattice.position(0, i + 1), lattice.high.y, lattice.position(2, j + 1)};
+      const float height = in(random);
+      const glm::vec3 begin = glm::mix(low, high, glm::vec3(in(random), height, in(random))),
+                      end = glm::mix(low, high, glm::vec3(in(random), height, in(random)));
+      if (begin != end) rays.push_back({.origin = begin, .direction = end - begin, .near = 0, .far = 1});
+    }
+    const std::vector<float> distances = cast(*built, rays);
+    std::size_t changes = 0;
+    for (std::size_t r = 0; r < rays.size(); ++r) {
+      const StackField& field = built->field();
+      if ((field.at(at(rays[r], 0)) > 0) == (field.at(at(rays[r], 1)) > 0)) continue;
+      ++changes;
+      EXPECT_TRUE(std::isfinite(distances[r])) << r;
+    }
+    EXPECT_GT(changes, 40U);
   }
 }
 

@@ -211,47 +211,60 @@ TEST(ImplicitField, FarBelowOnlyTheLowestLevelCounts) {
   EXPECT_NE(built->field().at(low + glm::vec3(0, -290, 0)), built->field().at(low + glm::vec3(0, -400, 0)));
 }
 
-// Half-way between two neighbours the field is the mean of theirs, to a unit of volume, exactly where
-// linear_between() says so: not across a border of columns, nor with a radius that ends within one.
+// The farthest that the field half-way between two neighbours along an axis is from the mean of theirs.
+double from_linear(const StackField& field, std::span<const float> xs, std::span<const float> zs, int axis) {
+  double worst = 0;
+  for (std::size_t j = 0; j + 1 < zs.size(); ++j) {
+    for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
+      for (const float y : {4.0F, 9.0F, 11.5F, 14.0F}) {
+        const glm::vec3 one{xs[i], y, zs[j]};
+        const glm::vec3 other = axis == 0 ? glm::vec3{xs[i + 1], y, zs[j]} : glm::vec3{xs[i], y, zs[j + 1]};
+        const double middle = field.at((one + other) / 2.0F);
+        worst = std::max(worst, std::abs(middle - (field.at(one) + field.at(other)) / 2));
+      }
+    }
+  }
+  return worst;
+}
+
+// Not across a border of columns, nor with a radius that ends within one. Columns of 1 m × 2 m.
 TEST(ImplicitField, IsLinearBetweenPositionsAsItSays) {
   std::mt19937 random(5);
   std::vector<float> heights;
   for (int k = 0; k < 20 * 20; ++k) heights.push_back(2 + static_cast<float>(random() % 1000) / 50);
-  const auto built = implicit(from_heights(20, 20, heights, 1, 1), {});
+  const auto built = implicit(from_heights(20, 20, heights, 1, 2), {});
   const LayeredStack& stack = built->stack();
   const ColumnGrid& grid = stack.grid();
-  const auto positions = [&](double first, double apart) {
+  const auto positions = [](double origin, double first, double apart) {
     std::vector<float> all;
-    for (int k = 0; k < 12; ++k) all.push_back(static_cast<float>(grid.origin_x + first + apart * k));
+    for (int k = 0; k < 8; ++k) all.push_back(static_cast<float>(origin + first + apart * k));
     return all;
   };
   struct Row {
-    double radius, first, apart;
-    bool linear;
+    double radius, first_x, apart_x, first_z, apart_z;
+    bool along_x, along_z;
   };
-  for (const Row& row : {Row{2, 3, 1, true}, Row{1, 3, 1, true}, Row{2, 3, 0.5, true}, Row{2, 3.5, 1, false},
-                         Row{2, 3, 0.75, false}, Row{2, 0, 1.5, false}, Row{1.5, 3, 1, false}}) {
-    SCOPED_TRACE(testing::Message() << row.radius << " " << row.first << " " << row.apart);
+  for (const Row& row : {Row{2, 3, 1, 4, 2, true, true}, Row{4, 3, 0.5, 4, 1, true, true},
+                         Row{2, 3.5, 1, 4, 2, false, true}, Row{2, 3, 1, 5, 2, true, false},
+                         Row{2, 3, 0.75, 4, 2, false, true}, Row{2, 3, 1, 4, 1.5, true, false},
+                         Row{1, 3, 1, 4, 2, true, false}, Row{1.5, 3, 1, 4, 2, false, false}}) {
+    SCOPED_TRACE(testing::Message() << row.radius << ' ' << row.first_x << ' ' << row.apart_x << ' '
+                                    << row.first_z << ' ' << row.apart_z);
     const StackField field(stack, Kernel::kCube, row.radius);
-    const std::vector<float> all = positions(row.first, row.apart);
-    EXPECT_EQ(field.linear_between(all, all), row.linear);
-    double worst = 0;
-    for (std::size_t j = 0; j + 1 < all.size(); ++j) {
-      for (std::size_t i = 0; i + 1 < all.size(); ++i) {
-        for (const float y : {4.0F, 9.0F, 11.5F, 14.0F}) {
-          const double ends = field.at({all[i], y, all[j]}) + field.at({all[i + 1], y, all[j]});
-          const double middle = field.at({(all[i] + all[i + 1]) / 2, y, all[j]});
-          worst = std::max(worst, std::abs(middle - ends / 2));
-        }
+    const std::vector<float> xs = positions(grid.origin_x, row.first_x, row.apart_x),
+                             zs = positions(grid.origin_z, row.first_z, row.apart_z);
+    EXPECT_EQ(field.linear_between(xs, zs), row.along_x && row.along_z);
+    for (const int axis : {0, 1}) {
+      const double off = from_linear(field, xs, zs, axis);
+      if (axis == 0 ? row.along_x : row.along_z) {
+        EXPECT_LT(off, 1e-6) << axis;
+      } else {
+        EXPECT_GT(off, 1e-3) << axis;
       }
     }
-    if (row.linear) {
-      EXPECT_LT(worst, 1e-6);
-    } else {
-      EXPECT_GT(worst, 1e-3);
-    }
   }
-  EXPECT_FALSE(StackField(stack, Kernel::kSphere, 2).linear_between(positions(3, 1), positions(3, 1)));
+  const std::vector<float> borders = positions(grid.origin_x, 2, 2);
+  EXPECT_FALSE(StackField(stack, Kernel::kSphere, 2).linear_between(borders, borders));
 }
 
 TEST(ImplicitField, RadiiWithoutAnExactVolumeAreRefused) {
