@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "experiments/interference.h"
 #include "experiments/processes.h"
 #include "experiments/second_look.h"
 #include "experiments/stopwatch.h"
@@ -173,9 +174,8 @@ class Session {
   }
 
  private:
-  struct Look {
+  struct Measured : Look {
     std::size_t at;  // in cases_
-    Record record;
     double seconds;
   };
 
@@ -192,25 +192,28 @@ class Session {
 
   void measure_alone(const std::vector<std::size_t>& cases) {
     const auto output = isatty(STDERR_FILENO) != 0 ? Progress::Output::kTerminal : Progress::Output::kLines;
-    std::vector<Look> brief;
+    std::vector<Measured> brief;
     for (const std::size_t i : cases) {
-      Look first = measure_first(i, output);
-      if (times(i) && first.seconds <= plan_.again) brief.push_back(std::move(first));
+      Measured first = measure_first(i, output);
+      // A disturbed one takes up to twice as long, since disturbed samples are taken again.
+      const double most = (disturbed(first.loop) ? 2 : 1) * plan_.again;
+      if (times(i) && first.seconds <= most) brief.push_back(std::move(first));
     }
     for (std::size_t k = 0; k < brief.size(); ++k) {
-      const Look second = look(brief[k].at, output);
-      keep_both(std::move(brief[k]), second);
-      fmt::print(stderr, "[{}/{}] {}, again: {:.2f} s\n", k + 1, brief.size(), title(second.at),
-                 second.seconds);
+      Measured second = look(brief[k].at, output);
+      const bool one_alone = disturbed(brief[k].loop) != disturbed(second.loop);
+      fmt::print(stderr, "[{}/{}] {}, again: {:.2f} s{}\n", k + 1, brief.size(), title(second.at),
+                 second.seconds, one_alone ? ", one of the two disturbed" : "");
+      keep_both(std::move(brief[k]), std::move(second));
     }
   }
 
   // The record of the first look stands if the second differs in what is exact.
-  void keep_both(Look first, const Look& second) {
+  void keep_both(Measured first, Measured second) {
     if (const std::string what = exact_difference(first.record, second.record); !what.empty()) {
       differences_.push_back(fmt::format("{}: {}", title(first.at), what));
     } else {
-      store_.append(with_second_look(std::move(first.record), second.record));
+      store_.append(with_second_look(std::move(first), std::move(second)));
     }
   }
 
@@ -223,17 +226,19 @@ class Session {
                 plan_.folder.string(), "report it as a bug; what was measured first is kept");
   }
 
-  Look measure_first(std::size_t i, Progress::Output output) {
-    Look first = look(i, output);
+  Measured measure_first(std::size_t i, Progress::Output output) {
+    Measured first = look(i, output);
     store_.append(first.record);
     fmt::print(stderr, "[{}/{}] {}: {:.2f} s\n", i + 1, cases_.size(), title(i), first.seconds);
     return first;
   }
 
-  Look look(std::size_t i, Progress::Output output) const {
+  Measured look(std::size_t i, Progress::Output output) const {
+    const double before = times(i) ? loop_seconds() : 0;
     const Stopwatch watch;
     Record record = measured(plan_, cases_[i], begin(i), output);
-    return {i, std::move(record), watch.seconds()};
+    const double seconds = watch.seconds();
+    return {{std::move(record), times(i) ? std::min(before, loop_seconds()) : 0}, i, seconds};
   }
 
   Record begin(std::size_t i) const { return begin_record(plan_, cases_[i], provenance_.id); }

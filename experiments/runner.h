@@ -36,10 +36,11 @@ std::vector<PlannedCase> plan_cases(const RunPlan&);
 
 // Measures all planned cases and appends their records to folder/measurements.jsonl, in the registry's order;
 // with jobs > 1 first those without times, beside each other in processes of their own, then the timed ones,
-// alone. At the end, measures short timed cases a second time and adds these samples to their times
-// (second_look.h). After an interruption, --resume does not catch up on second measurements. Throws
-// Error(kInterrupted) on Ctrl-C and keeps the records written so far. Throws Error(kClaimFallsShort) at the
-// end if exact figures of a case differ between its two measurements.
+// alone. At the end, measures short timed cases a second time and adds these samples to their times, or keeps
+// those of one measurement alone if only the other was disturbed (second_look.h). After an interruption,
+// --resume does not catch up on second measurements. Throws Error(kInterrupted) on Ctrl-C and keeps the
+// records written so far. Throws Error(kClaimFallsShort) at the end if exact figures of a case differ between
+// its two measurements.
 void run(const RunPlan&);
 
 }  // namespace terrabench

@@ -4,6 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
+
+#include "experiments/interference.h"
 
 namespace terrabench {
 
@@ -20,16 +23,19 @@ std::string exact_difference(const Record& first, const Record& again) {
   return same_pictures ? "" : "the pictures";
 }
 
-Record with_second_look(Record first, const Record& again) {
-  for (Metric& metric : first.metrics) {
-    const Metric* const other = again.find(metric.name);
-    if (other == nullptr || !timed(metric)) continue;
-    metric.samples.insert(metric.samples.end(), other->samples.begin(), other->samples.end());
+Record with_second_look(Look first, Look again) {
+  if (disturbed(first.loop) && !disturbed(again.loop)) std::swap(first, again);
+  if (disturbed(first.loop) == disturbed(again.loop)) {
+    for (Metric& metric : first.record.metrics) {
+      const Metric* const other = again.record.find(metric.name);
+      if (other == nullptr || !timed(metric)) continue;
+      metric.samples.insert(metric.samples.end(), other->samples.begin(), other->samples.end());
+    }
   }
-  for (const Metric& metric : again.metrics) {
-    if (first.find(metric.name) == nullptr) first.metrics.push_back(metric);
+  for (const Metric& metric : again.record.metrics) {
+    if (first.record.find(metric.name) == nullptr) first.record.metrics.push_back(metric);
   }
-  return first;
+  return std::move(first.record);
 }
 
 }  // namespace terrabench

@@ -1,6 +1,7 @@
 // Short timed cases are measured a second time, after all others. A machine that others share is slow for
 // seconds or minutes at a time: times taken within one such period agree with each other and not with the
-// next run's, so that their confidence interval is too narrow. Samples of two periods mend that.
+// next run's, so that their confidence interval is too narrow. Samples of two periods mend that. Where other
+// guests of the machine disturbed one of the two looks alone (interference.h), only the other's samples stay.
 #pragma once
 
 #include <string>
@@ -13,8 +14,13 @@ namespace terrabench {
 // only one of them has does not count: how many sizes a budget of time allows varies.
 std::string exact_difference(const Record& first, const Record& again);
 
-// `first` with the samples of `again` after its own, where they vary from run to run, and with the metrics
-// that only `again` has.
-Record with_second_look(Record first, const Record& again);
+struct Look {
+  Record record;
+  double loop = 0;  // seconds, the faster of those before and after: a look is disturbed if both were slow
+};
+
+// The first look's record with the samples of the second after its own, where they vary from run to run; or
+// that of the undisturbed one, if one of them was disturbed. With the metrics that only the other has.
+Record with_second_look(Look first, Look again);
 
 }  // namespace terrabench

@@ -1,12 +1,15 @@
 // Times of several pieces of work, taken in rounds: each piece once a round. A machine that others share is
 // slow for some tenths of a second at a time; samples taken one after the other would all be slow, or none,
-// and their confidence interval would not show it.
+// and their confidence interval would not show it. Samples that other work disturbed (interference.h) are
+// taken again.
 #pragma once
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "experiments/interference.h"
 #include "experiments/recorder.h"
 
 namespace terrabench::cross {
@@ -30,16 +33,19 @@ class Rounds {
     return spent.all > long_time ? few : kMost;
   }
 
-  // `long_time`: seconds. `few`: 1 to kMost.
-  explicit Rounds(double long_time = 1, int few = kFew) : long_time_(long_time), few_(few) {}
+  // `long_time`: seconds. `few`: 1 to kMost. `loop`: as loop_seconds().
+  explicit Rounds(double long_time = 1, int few = kFew, std::function<double()> loop = loop_seconds)
+      : long_time_(long_time), few_(few), loop_(std::move(loop)) {}
 
   // Adds metrics of one unit. `work` is called once a round and returns a sample of each.
   void sample(std::vector<std::string> metrics, std::string unit, std::function<std::vector<double>()> work);
   void sample(std::string metric, std::string unit, std::function<double()> work);
   void time(std::string metric, std::function<void()> work);  // the seconds that it takes
 
-  // Does each piece of work kMost times, or as many as most_rounds() allows. What the work refers to must
-  // still be there. Then forgets the work.
+  // Does each piece of work kMost times, or as many as most_rounds() allows, and up to as many again for
+  // what was disturbed. Records the undisturbed samples of a piece if they are at least `few`, otherwise all;
+  // and the numbers of samples left out and of disturbed ones kept, as left_out_samples and
+  // disturbed_samples. What the work refers to must still be there. Then forgets the work.
   void run(Recorder&);
 
  private:
@@ -48,9 +54,13 @@ class Rounds {
     std::string unit;
     std::function<std::vector<double>()> work;
     Spent spent = {};
+    Turns turns = {};
   };
+  bool do_round();  // whether anything was left to do
+
   double long_time_;
   int few_;
+  std::function<double()> loop_;
   std::vector<Step> steps_;
 };
 

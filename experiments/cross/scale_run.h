@@ -14,7 +14,9 @@
 #include "experiments/cross/fresh_pages.h"
 #include "experiments/cross/scaling.h"
 #include "experiments/experiment.h"
+#include "experiments/interference.h"
 #include "experiments/stopwatch.h"
+#include "results/statistics.h"
 #include "terrain/error.h"
 #include "terrain/memory.h"
 
@@ -86,19 +88,32 @@ inline double page_faults() {
 // Processor seconds and page faults of each turn of the work on one thread. Work under
 // 0.2 s is done once uncounted, then five times; under 2 s three times, all counted; longer work once, since
 // the largest sizes take minutes. So small sizes are measured warm and large ones cold, as they are in use.
-// Before each turn clear() frees what the last one made, uncounted.
+// Work under 0.05 s is done up to ten times if turns are disturbed (interference.h), which takes little of
+// the budget of time; three undisturbed turns or more then stand alone. Before each turn clear() frees what
+// the last one made, uncounted.
 template <class Clear, class Work>
 void add_turns(Cost& cost, Cost& faults, double columns, const Clear& clear, const Work& work) {
-  constexpr double kShort = 0.2, kLong = 2;  // seconds
-  int turns = 1;
-  for (int turn = 0; turn < turns; ++turn) {
+  constexpr double kBrief = 0.05, kShort = 0.2, kLong = 2;  // seconds
+  const auto turn = [&] {
     clear();
     const double before = page_faults();
     const double taken = processor_seconds(work);
-    if (turn == 0) turns = taken < kShort ? 6 : taken < kLong ? 3 : 1;
-    if (turn == 0 && turns == 6) continue;
-    cost.add(columns, taken);
-    faults.add(columns, page_faults() - before);
+    return std::vector{taken, page_faults() - before};
+  };
+  std::vector<std::vector<double>> kept{turn()};
+  const double first = kept.front().front();
+  if (first < kBrief) {
+    Turns turns;
+    take_turns(turns, 5, turn);
+    kept = turns.kept(kFewestSamples);
+  } else if (first < kLong) {
+    const bool warm = first < kShort;
+    if (warm) kept.clear();
+    for (int more = 0; more < (warm ? 5 : 2); ++more) kept.push_back(turn());
+  }
+  for (const std::vector<double>& one : kept) {
+    cost.add(columns, one[0]);
+    faults.add(columns, one[1]);
   }
 }
 

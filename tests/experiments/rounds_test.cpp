@@ -8,9 +8,12 @@
 namespace terrabench::cross {
 namespace {
 
+// Loops beside which no sample is disturbed, whatever this machine does.
+constexpr auto kCalm = [] { return 0.0; };
+
 TEST(Rounds, DoEachPieceOnceARound) {
   std::string order;
-  Rounds rounds(1e9);
+  Rounds rounds(1e9, Rounds::kFew, kCalm);
   rounds.time("a", [&] { order += 'a'; });
   rounds.sample({"b", "c"}, "1/s", [&] {
     order += 'b';
@@ -40,7 +43,7 @@ TEST(Rounds, DoLongWorkOnce) {
 
 TEST(Rounds, TakeFewSamplesOfShortWorkThatIsLongToPrepare) {
   std::string order;
-  Rounds rounds(0.05, 2);
+  Rounds rounds(0.05, 2, kCalm);
   const auto prepare = [] { std::this_thread::sleep_for(std::chrono::milliseconds(60)); };
   rounds.sample("a", "s", [&] {
     prepare();
@@ -56,6 +59,44 @@ TEST(Rounds, TakeFewSamplesOfShortWorkThatIsLongToPrepare) {
   Recorder recorder(record, "");
   rounds.run(recorder);
   EXPECT_EQ(order, "aba");
+}
+
+// The moments before and after each piece: the third sample is taken beside other work.
+TEST(Rounds, TakeDisturbedSamplesAgainAndLeaveThemOut) {
+  int moment = 0, taken = 0;
+  Rounds rounds(1e9, Rounds::kFew, [&] { return ++moment == 6 ? 1.0 : 0.0; });
+  rounds.sample("a", "s", [&] { return static_cast<double>(taken++); });
+  Record record;
+  Recorder recorder(record, "");
+  rounds.run(recorder);
+  EXPECT_EQ(record.find("a")->samples, (std::vector<double>{0, 1, 3, 4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(record.find("left_out_samples")->samples, std::vector<double>{1});
+  EXPECT_EQ(record.find("disturbed_samples")->samples, std::vector<double>{0});
+}
+
+TEST(Rounds, KeepAllSamplesWhereOtherWorkNeverRests) {
+  int taken = 0;
+  Rounds rounds(1e9, Rounds::kFew, [] { return 1.0; });
+  rounds.sample("a", "s", [&] { return static_cast<double>(taken++); });
+  Record record;
+  Recorder recorder(record, "");
+  rounds.run(recorder);
+  EXPECT_EQ(record.find("a")->samples.size(), std::size_t{2 * Rounds::kMost});
+  EXPECT_EQ(record.find("left_out_samples")->samples, std::vector<double>{0});
+  EXPECT_EQ(record.find("disturbed_samples")->samples, std::vector<double>{2 * Rounds::kMost});
+}
+
+// Undisturbed samples that are fewer than `few` do not stand alone.
+TEST(Rounds, KeepAllWhereTooFewAreUndisturbed) {
+  for (const int calm : {4, 5}) {
+    int moment = 0, taken = 0;
+    Rounds rounds(1e9, 5, [&] { return (++moment + 1) / 2 <= calm ? 0.0 : 1.0; });
+    rounds.sample("a", "s", [&] { return static_cast<double>(taken++); });
+    Record record;
+    Recorder recorder(record, "");
+    rounds.run(recorder);
+    EXPECT_EQ(record.find("a")->samples.size(), calm == 5 ? 5U : 2U * Rounds::kMost);
+  }
 }
 
 TEST(Rounds, TakeFewSamplesOfWorkThatAddsUp) {
