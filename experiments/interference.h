@@ -5,7 +5,7 @@
 // The loop alone decides: of samples beside equally fast loops none is preferred for its time.
 //
 // The loop sees the core that runs it, not the others, and nothing of other programs that take their turns on
-// it. A process that is disturbed all the time knows no fast loop, and notices nothing.
+// it. A process that is disturbed from start to end knows no fast loop, and notices nothing.
 #pragma once
 
 #include <cstddef>
@@ -26,8 +26,8 @@ inline bool disturbed(double loop) { return loop > 1.2 * shortest_loop(); }
 // Samples of one piece of work, each taken in one go.
 class Turns {
  public:
-  // Whether to take another sample, of `wanted` undisturbed ones: disturbed ones are taken again, but never
-  // more than 2 · wanted in all, and what is wanted once is taken once.
+  // True until there are `wanted` undisturbed samples, or 2 · wanted in all. If `wanted` is 1, one sample is
+  // taken and never repeated, since such work is long.
   bool more(std::size_t wanted) const;
   // `loop`: the slower of those before and after the sample.
   void add(std::vector<double> sample, double loop);

@@ -42,9 +42,9 @@ class Rounds {
   void sample(std::string metric, std::string unit, std::function<double()> work);
   void time(std::string metric, std::function<void()> work);  // the seconds that it takes
 
-  // Does each piece of work kMost times, or as many as most_rounds() allows, and up to as many again for
-  // what was disturbed. Records the undisturbed samples of a piece if they are at least `few`, otherwise all;
-  // and the numbers of samples left out and of disturbed ones kept, as left_out_samples and
+  // Does each piece of work kMost times, or as often as most_rounds() allows, and repeats disturbed samples
+  // up to the same number again. Records the undisturbed samples of a piece if they are at least `few`,
+  // otherwise all; and the numbers of samples left out and of disturbed ones kept, as left_out_samples and
   // disturbed_samples. What the work refers to must still be there. Then forgets the work.
   void run(Recorder&);
 

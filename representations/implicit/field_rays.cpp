@@ -80,8 +80,8 @@ class RangeSweep {
   }
 
  private:
-  // How far from a point, metres, the cells around it are as it is, if their other corners agree: positive
-  // in the solid, negative in air; at most to the next point.
+  // The distance along y, metres, over which the cells around a point have its sign, if their other corners
+  // have it too; at most to the next point. Positive in the solid, negative in air.
   struct Free {
     float down, up;
   };
@@ -156,7 +156,7 @@ class RangeSweep {
   const ColumnTops& tops_;
   const FieldLattice& lattice_;
   glm::ivec2 begin_, end_;     // cells along x and z
-  float margin_, per_change_;  // the least value that says something of its cell, and metres per change by 1
+  float margin_, per_change_;  // the least |field| that proves a sign nearby; metres per unit of field
   int first_ = 0, last_ = 0;   // points along y
   std::vector<float> xs_, ys_, values_;
   std::vector<Free> free_[2];  // of the planes at j and j + 1

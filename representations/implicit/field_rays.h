@@ -5,11 +5,12 @@
 // At any other height the field has the same sign at the column's four edges, and by more than it can change
 // on the way there from a sample of the lattice; or the height lies above all that is solid in the kernel's
 // reach. Between the edges the field is linear along x and along z where the lattice's cells do not straddle
-// columns and the cube's radius is whole columns (by default on square columns), so that nothing is added
-// there; else it is given what it can change from the nearest edge. So no surface is missed between the
-// intervals. On them a ray goes on by the distance in which the field cannot reach 0 (sphere tracing; Hart
-// 1996), but by at least a quarter of a cell: ground that a ray touches for less may be missed. The change is
-// then narrowed down to a 1024th of a cell.
+// columns and the cube's radius is whole columns (by default on square columns), so that no margin is needed.
+// Elsewhere the margin is the most that the field can change between a point and the nearest edge. So no
+// surface is missed between the intervals. Within them a ray is sphere-traced (Hart 1996): each step is the
+// distance over which the field cannot reach 0, but at least a quarter of a cell. Ground that a ray crosses
+// for less than that may be missed. Where the field's sign has changed, the hit is narrowed down to a 1024th
+// of a cell.
 //
 // mesh() approximates the same surface from the lattice's samples alone. By default its vertices are means
 // of crossings (surface nets), so that its edges are rounder than the field's: hits lie within a third of
