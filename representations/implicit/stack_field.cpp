@@ -107,16 +107,12 @@ double StackField::jump() const {
 bool StackField::linear_between(std::span<const float> xs, std::span<const float> zs) const {
   if (kernel_ != Kernel::kCube || radius_x_ % column_unit_ != 0 || radius_z_ % column_unit_ != 0)
     return false;
-  const auto border_between = [&](std::int64_t a, std::int64_t b) {
-    return floor_div(b - 1, column_unit_) > floor_div(a, column_unit_);
+  const auto none_between = [&](std::span<const float> at, std::int64_t (StackField::*unit)(double) const) {
+    return std::ranges::adjacent_find(at, [&](float a, float b) {
+             return floor_div((this->*unit)(b)-1, column_unit_) > floor_div((this->*unit)(a), column_unit_);
+           }) == at.end();
   };
-  for (std::size_t k = 1; k < xs.size(); ++k) {
-    if (border_between(unit_x(xs[k - 1]), unit_x(xs[k]))) return false;
-  }
-  for (std::size_t k = 1; k < zs.size(); ++k) {
-    if (border_between(unit_z(zs[k - 1]), unit_z(zs[k]))) return false;
-  }
-  return true;
+  return none_between(xs, &StackField::unit_x) && none_between(zs, &StackField::unit_z);
 }
 
 void add_solid_lengths(const ColumnRuns& runs, double per_level, std::span<const double> v, double radius,
