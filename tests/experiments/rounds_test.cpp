@@ -8,10 +8,17 @@
 namespace terrabench::cross {
 namespace {
 
-// Loops beside which no sample is disturbed, whatever this machine does.
+// Loops beside which no sample is disturbed, and such that every one is, whatever this machine does.
 constexpr auto kCalm = [] { return 0.0; };
+constexpr auto kSlow = [] { return 1.0; };
 
-TEST(Rounds, DoEachPieceOnceARound) {
+// No loop is slow before a real one was taken.
+class RoundsTest : public ::testing::Test {
+ protected:
+  void SetUp() override { loop_seconds(); }
+};
+
+TEST_F(RoundsTest, DoEachPieceOnceARound) {
   std::string order;
   Rounds rounds(1e9, Rounds::kFew, kCalm);
   rounds.time("a", [&] { order += 'a'; });
@@ -30,7 +37,7 @@ TEST(Rounds, DoEachPieceOnceARound) {
   EXPECT_EQ(record.find("b")->samples, (std::vector<double>{2, 4, 6, 8, 10, 12, 14, 16, 18}));
 }
 
-TEST(Rounds, DoLongWorkOnce) {
+TEST_F(RoundsTest, DoLongWorkOnce) {
   std::string order;
   Rounds rounds(0);
   rounds.time("a", [&] { order += 'a'; });
@@ -41,7 +48,7 @@ TEST(Rounds, DoLongWorkOnce) {
   EXPECT_EQ(order, "ab");
 }
 
-TEST(Rounds, TakeFewSamplesOfShortWorkThatIsLongToPrepare) {
+TEST_F(RoundsTest, TakeFewSamplesOfShortWorkThatIsLongToPrepare) {
   std::string order;
   Rounds rounds(0.05, 2, kCalm);
   const auto prepare = [] { std::this_thread::sleep_for(std::chrono::milliseconds(60)); };
@@ -62,7 +69,7 @@ TEST(Rounds, TakeFewSamplesOfShortWorkThatIsLongToPrepare) {
 }
 
 // The moments before and after each piece: the third sample is taken beside other work.
-TEST(Rounds, TakeDisturbedSamplesAgainAndLeaveThemOut) {
+TEST_F(RoundsTest, TakeDisturbedSamplesAgainAndLeaveThemOut) {
   int moment = 0, taken = 0;
   Rounds rounds(1e9, Rounds::kFew, [&] { return ++moment == 6 ? 1.0 : 0.0; });
   rounds.sample("a", "s", [&] { return static_cast<double>(taken++); });
@@ -74,9 +81,9 @@ TEST(Rounds, TakeDisturbedSamplesAgainAndLeaveThemOut) {
   EXPECT_EQ(record.find("disturbed_samples")->samples, std::vector<double>{0});
 }
 
-TEST(Rounds, KeepAllSamplesWhereOtherWorkNeverRests) {
+TEST_F(RoundsTest, KeepAllSamplesWhereOtherWorkNeverRests) {
   int taken = 0;
-  Rounds rounds(1e9, Rounds::kFew, [] { return 1.0; });
+  Rounds rounds(1e9, Rounds::kFew, kSlow);
   rounds.sample("a", "s", [&] { return static_cast<double>(taken++); });
   Record record;
   Recorder recorder(record, "");
@@ -87,7 +94,7 @@ TEST(Rounds, KeepAllSamplesWhereOtherWorkNeverRests) {
 }
 
 // Undisturbed samples that are fewer than `few` do not stand alone.
-TEST(Rounds, KeepAllWhereTooFewAreUndisturbed) {
+TEST_F(RoundsTest, KeepAllWhereTooFewAreUndisturbed) {
   for (const int calm : {4, 5}) {
     int moment = 0, taken = 0;
     Rounds rounds(1e9, 5, [&] { return (++moment + 1) / 2 <= calm ? 0.0 : 1.0; });
@@ -99,7 +106,7 @@ TEST(Rounds, KeepAllWhereTooFewAreUndisturbed) {
   }
 }
 
-TEST(Rounds, TakeFewSamplesOfWorkThatAddsUp) {
+TEST_F(RoundsTest, TakeFewSamplesOfWorkThatAddsUp) {
   EXPECT_EQ(Rounds::most_rounds({0.4, 1.0}, 1), Rounds::kMost);
   EXPECT_EQ(Rounds::most_rounds({0.4, 1.2}, 1), Rounds::kFew);
   EXPECT_EQ(Rounds::most_rounds({1.1, 1.1}, 1), 1);
@@ -107,7 +114,7 @@ TEST(Rounds, TakeFewSamplesOfWorkThatAddsUp) {
   EXPECT_EQ(Rounds::most_rounds({1.1, 1.1}, 1, 5), 1);
 }
 
-TEST(Rounds, EndWhereSamplesTakeMinutesToPrepare) {
+TEST_F(RoundsTest, EndWhereSamplesTakeMinutesToPrepare) {
   EXPECT_EQ(Rounds::most_rounds({0.01, 29}, 1, 5), 5);
   EXPECT_EQ(Rounds::most_rounds({0.01, 31}, 1, 5), 1);
 }
