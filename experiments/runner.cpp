@@ -109,7 +109,8 @@ void check_untimed(const Record& record) {
     if (!is_timing(metric.unit)) continue;
     throw Error(ExitCode::kEnvironment,
                 fmt::format("records the time '{}', but is registered as UNTIMED", metric.name),
-                record.experiment, "register it as TIMED in experiments/registry.cpp");
+                record.experiment,
+                "register it as TIMED in experiments/registry.cpp, or let its times() say so");
   }
 }
 
@@ -119,7 +120,7 @@ Record measured(const RunPlan& plan, const PlannedCase& planned, Record record, 
   Recorder recorder(record, plan.folder);
   planned.experiment->measure(planned.at, plan.options, recorder, progress);
   progress.end();
-  if (!records_times(*planned.experiment)) check_untimed(record);
+  if (!records_times(*planned.experiment, planned.at)) check_untimed(record);
   for (RecordedFigure& figure : record.figures) describe(plan.folder, figure);
   return record;
 }
@@ -197,7 +198,8 @@ class Session {
       Measured first = measure_first(i, output);
       // A disturbed one takes up to twice as long, since disturbed samples are taken again.
       const double most = (disturbed(first.loop) ? 2 : 1) * plan_.again;
-      if (times(i) && first.seconds <= most) brief.push_back(std::move(first));
+      const bool varies = times(i) && std::ranges::any_of(first.record.metrics, timed);
+      if (varies && first.seconds <= most) brief.push_back(std::move(first));
     }
     for (std::size_t k = 0; k < brief.size(); ++k) {
       Measured second = look(brief[k].at, output);
@@ -242,7 +244,7 @@ class Session {
   }
 
   Record begin(std::size_t i) const { return begin_record(plan_, cases_[i], provenance_.id); }
-  bool times(std::size_t i) const { return records_times(*cases_[i].experiment); }
+  bool times(std::size_t i) const { return records_times(*cases_[i].experiment, cases_[i].at); }
   std::string title(std::size_t i) const {
     return fmt::format("{} {}", cases_[i].experiment->id, cases_[i].at.name);
   }
@@ -279,7 +281,7 @@ std::vector<PlannedCase> plan_cases(const RunPlan& plan) {
   }
   if (plan.part != Part::kAll) {
     std::erase_if(cases, [&](const PlannedCase& planned) {
-      return records_times(*planned.experiment) != (plan.part == Part::kTimed);
+      return records_times(*planned.experiment, planned.at) != (plan.part == Part::kTimed);
     });
   }
   std::vector<PlannedCase> mine;

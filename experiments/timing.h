@@ -1,13 +1,17 @@
-// Which experiments record times, as registry.cpp says.
+// Which cases record times: those of experiments that do, as registry.cpp says, but for those that say
+// otherwise.
 #pragma once
 
 #include "experiments/experiment.h"
 
 namespace terrabench {
 
-// Whether cases of this registered experiment record times (is_timing() of a unit): they want the machine to
-// themselves. Those of the others may be measured beside each other, since nothing that they record depends on
-// what else the machine does.
+// Whether cases of this registered experiment, or this one of them, record times (is_timing() of a unit):
+// they want the machine to themselves. The others may be measured beside each other, since nothing that they
+// record depends on what else the machine does.
 bool records_times(const Experiment&);
+inline bool records_times(const Experiment& experiment, const Case& at) {
+  return records_times(experiment) && (experiment.times == nullptr || experiment.times(at));
+}
 
 }  // namespace terrabench

@@ -22,18 +22,20 @@ fail() {
 # Prints the comment that opens the script: its help.
 usage() { sed -n '2,/^$/ { s/^# \{0,1\}//; /^$/ q; p }' "$0"; }
 
-# How many compilers to run at once: one per core, as long as each has 1.5 GiB. The largest source needs 0.8 GiB, and
-# 1.2 GiB with a sanitizer.
-compile_jobs() {
-  local cores kib=0 limit
+# fitting_jobs KIB: how many processes to run at once: one per core, as long as each has so much memory.
+fitting_jobs() {
+  local each=$1 cores kib=0 limit
   cores=$(nproc)
   [[ -r /proc/meminfo ]] && kib=$(sed -n 's/^MemAvailable: *\([0-9]*\) kB/\1/p' /proc/meminfo)
   limit=$(cat /sys/fs/cgroup/memory.max 2>/dev/null || true)  # a container's; "max" when it has none
   if [[ $limit =~ ^[0-9]+$ ]] && ((kib == 0 || limit / 1024 < kib)); then kib=$((limit / 1024)); fi
-  local fitting=$((kib / 1572864))
+  local fitting=$((kib / each))
   if ((kib == 0 || fitting > cores)); then fitting=$cores; fi
   echo $((fitting > 0 ? fitting : 1))
 }
+
+# How many compilers to run at once. The largest source needs 0.8 GiB, and 1.2 GiB with a sanitizer.
+compile_jobs() { fitting_jobs 1572864; }
 
 # build PRESET [TARGET…]: configures and builds into build/PRESET; everything when no target is named.
 build() {
