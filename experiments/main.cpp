@@ -113,8 +113,8 @@ void add_run(CLI::App& app, Arguments& a) {
       ->capture_default_str();
   command
       ->add_option("--cases", a.cases,
-                   "all; timed: only cases of experiments that record times, which want the machine to "
-                   "themselves; untimed: only the others")
+                   "all; timed: only cases that may record times, which want the machine to themselves; "
+                   "untimed: only the others")
       ->check(CLI::IsMember({"all", "timed", "untimed"}))
       ->capture_default_str();
   command

@@ -108,9 +108,8 @@ void check_untimed(const Record& record) {
   for (const Metric& metric : record.metrics) {
     if (!is_timing(metric.unit)) continue;
     throw Error(ExitCode::kEnvironment,
-                fmt::format("records the time '{}', but is registered as UNTIMED", metric.name),
-                record.experiment,
-                "register it as TIMED in experiments/registry.cpp, or let its times() say so");
+                fmt::format("records the time '{}', but counts as untimed", metric.name), record.experiment,
+                "register it as TIMED in experiments/registry.cpp, or let its times() be true for this case");
   }
 }
 

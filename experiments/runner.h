@@ -10,7 +10,7 @@
 
 namespace terrabench {
 
-enum class Part { kAll, kTimed, kUntimed };  // cases of which experiments: see timing.h
+enum class Part { kAll, kTimed, kUntimed };  // which cases: see timing.h
 
 struct RunPlan {
   std::vector<std::string> patterns;  // experiment ids or globs (* and ?); empty: all
@@ -22,7 +22,7 @@ struct RunPlan {
   int shard = 1, shards = 1;  // measure only every shards-th case of the part, from the shard-th
   int threads = 0;            // in use, for the provenance; 0: all
   int jobs = 1;               // cases without times beside each other, with threads ÷ jobs threads each
-  double again = 0.7;         // timed cases that took at most so many seconds are measured once more; 0: none
+  double again = 0.7;         // cases with times that took at most so many seconds: once more; 0: none
   std::vector<std::string> command;  // argv, for the provenance
 };
 
@@ -36,8 +36,9 @@ std::vector<PlannedCase> plan_cases(const RunPlan&);
 
 // Measures all planned cases and appends their records to folder/measurements.jsonl, in the registry's order;
 // with jobs > 1 first those without times, beside each other in processes of their own, then the timed ones,
-// alone. At the end, measures short timed cases a second time and adds these samples to their times, or keeps
-// those of one measurement alone if only the other was disturbed (second_look.h). After an interruption,
+// alone. At the end, measures short cases that recorded times a second time and adds these samples to their
+// times, or keeps those of one measurement alone if only the other was disturbed (second_look.h). After an
+// interruption,
 // --resume does not catch up on second measurements. Throws Error(kInterrupted) on Ctrl-C and keeps the
 // records written so far. Throws Error(kClaimFallsShort) at the end if exact figures of a case differ between
 // its two measurements.

@@ -1,7 +1,8 @@
-// Short timed cases are measured a second time, after all others. A machine that others share is slow for
-// seconds or minutes at a time: times taken within one such period agree with each other and not with the
-// next run's, so that their confidence interval is too narrow. Samples of two periods mend that. Where other
-// guests of the machine disturbed one of the two looks alone (interference.h), only the other's samples stay.
+// Short cases that recorded times are measured a second time, after all others. A machine that others share
+// is slow for seconds or minutes at a time: times taken within one such period agree with each other and not
+// with the next run's, so that their confidence interval is too narrow. Samples of two periods mend that.
+// Where other guests of the machine disturbed one of the two looks alone (interference.h), only the other's
+// samples stay.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Which cases record times: those of experiments that do, as registry.cpp says, but for those that say
-// otherwise.
+// Which cases may record times: those of experiments that registry.cpp calls TIMED, except where
+// Experiment::times says no.
 #pragma once
 
 #include "experiments/experiment.h"

@@ -22,9 +22,10 @@ fail() {
 # Prints the comment that opens the script: its help.
 usage() { sed -n '2,/^$/ { s/^# \{0,1\}//; /^$/ q; p }' "$0"; }
 
-# fitting_jobs KIB: how many processes to run at once: one per core, as long as each has so much memory.
+# fitting_jobs MIB: how many processes to run at once: one per core, but no more than the available memory holds if each
+# needs so many MiB; at least one.
 fitting_jobs() {
-  local each=$1 cores kib=0 limit
+  local each=$(($1 * 1024)) cores kib=0 limit
   cores=$(nproc)
   [[ -r /proc/meminfo ]] && kib=$(sed -n 's/^MemAvailable: *\([0-9]*\) kB/\1/p' /proc/meminfo)
   limit=$(cat /sys/fs/cgroup/memory.max 2>/dev/null || true)  # a container's; "max" when it has none
@@ -35,7 +36,7 @@ fitting_jobs() {
 }
 
 # How many compilers to run at once. The largest source needs 0.8 GiB, and 1.2 GiB with a sanitizer.
-compile_jobs() { fitting_jobs 1572864; }
+compile_jobs() { fitting_jobs 1536; }
 
 # build PRESET [TARGET…]: configures and builds into build/PRESET; everything when no target is named.
 build() {

@@ -142,7 +142,7 @@ void measure_at_error(const Scene& scene, const RepresentationType& type, double
   record(differences(*built, scene.source, scene.lines, kMargin * scene.cell), scene.source, recorder);
 }
 
-// What a type costs and answers in a second is measured at the same resolution and at the same error.
+// Times are measured at the same resolution and at the same error, not at the same bytes.
 bool times(const Case& at) { return at.parameters.number("share") == 0; }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {

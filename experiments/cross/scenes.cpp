@@ -7,6 +7,7 @@
 #include "experiments/cross/temporary_folder.h"
 #include "experiments/ght/site.h"
 #include "terrain/events/event_file.h"
+#include "terrain/files.h"
 #include "terrain/sources/fractal/diamond_square.h"
 
 namespace terrabench::cross {
@@ -80,7 +81,9 @@ std::int64_t solid_resolution(std::string_view terrain, bool paper_profile) {
 bool is_solid(const std::string& terrain) {
   constexpr std::array<std::string_view, 4> kSolids{"caves", "canyon", "sequence", "two-tunnels"};
   if (std::ranges::find(kSolids, terrain) != kSolids.end()) return true;
-  return terrain.ends_with(events::kExtension) && open_terrain(terrain).solid.has_value();
+  // Only parsed: cases are planned before processes are forked, and evaluating a script starts threads.
+  return terrain.ends_with(events::kExtension) &&
+         !events::parse_script(read_file(terrain, events::kMostBytes), terrain).events.empty();
 }
 
 const Scene& scene(const SceneOptions& options, Progress& progress) {

@@ -8,11 +8,11 @@
 namespace terrabench::cross {
 namespace {
 
-// Loops beside which no sample is disturbed, and such that every one is, whatever this machine does.
+// Loops that let no sample count as disturbed, and every sample, whatever this machine does.
 constexpr auto kCalm = [] { return 0.0; };
 constexpr auto kSlow = [] { return 1.0; };
 
-// No loop is slow before a real one was taken.
+// Until a real loop was timed, none counts as slow.
 class RoundsTest : public ::testing::Test {
  protected:
   void SetUp() override { loop_seconds(); }

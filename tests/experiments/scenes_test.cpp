@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "experiments/cross/fitting.h"
+#include "terrain/events/event_file.h"
 #include "terrain/source.h"
 
 namespace terrabench::cross {
@@ -13,6 +17,17 @@ TEST(Scenes, KnowEverySolidOfTheCatalogueByName) {
   for (const TerrainType& type : terrains()) {
     EXPECT_EQ(is_solid(std::string(type.name)), open_terrain(type.name).solid.has_value()) << type.name;
   }
+}
+
+TEST(Scenes, KnowAScriptThatDigsForASolid) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "scenes_script.toml";
+  const auto write = [&](const events::Script& script) { std::ofstream(file) << events::to_text(script); };
+  write({"diamond-square", 1, 33, {}, {}});
+  EXPECT_FALSE(is_solid(file));
+  EXPECT_TRUE(open_terrain(file.string()).heights);
+  write({"diamond-square", 1, 33, {events::RadialErosion{glm::dvec3(0), glm::dvec3(1)}}, {}});
+  EXPECT_TRUE(is_solid(file));
+  std::filesystem::remove(file);
 }
 
 TEST(Fitting, TakesGroundOfFewerSamplesThanTheCoarsestSettingHasColumns) {
