@@ -10,6 +10,7 @@
 namespace terrabench {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -89,6 +90,12 @@ TEST_F(CommandLine, ShortTimedCasesAreMeasuredTwiceInOneRun) {
   EXPECT_EQ(Store::open(folder_ / "twice").records().size(), Store::open(folder_ / "once").records().size());
   EXPECT_EQ(call("$T compare once twice").code, 0);
   EXPECT_THAT(call("$T run hybrid.fresnel --again 1000 --out untimed").text, Not(HasSubstr("again: ")));
+  // A case of a timed experiment that reaches no error, and so records no time.
+  const Outcome unreached = call(
+      "$T run cross.representations --shard 1/1000 --set representation=implicit,error=1e-9 --again 1000 "
+      "--out unreached");
+  ASSERT_EQ(unreached.code, 0) << unreached.text;
+  EXPECT_THAT(unreached.text, AllOf(HasSubstr("[1/1] "), Not(HasSubstr("again: "))));
   EXPECT_THAT(call("$T run cross.scale --set largest=513,seconds=0.01 --again 1000 --out sizes").text,
               HasSubstr("again: "));
   EXPECT_EQ(call(run + "--again -1 --out twice").code, 2);
