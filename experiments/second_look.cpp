@@ -29,6 +29,7 @@ Record with_second_look(Look first, Look again) {
     for (Metric& metric : first.record.metrics) {
       const Metric* const other = again.record.find(metric.name);
       if (other == nullptr || !timed(metric)) continue;
+      metric.first_look = metric.samples.size();
       metric.samples.insert(metric.samples.end(), other->samples.begin(), other->samples.end());
     }
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,6 +25,9 @@ struct Metric {
   // The value varies from run to run on one machine although is_timing() of its unit is false: a ratio of
   // times, a fit through times, a peak of memory, the hits of a cache.
   bool varies = false;
+  // Of a case that was measured twice in one run, how many samples the first time gave; 0: all are of one
+  // time.
+  std::size_t first_look = 0;
 };
 // Whether its samples vary from run to run of one program: by their unit, or because `varies` says so.
 inline bool timed(const Metric& metric) { return metric.varies || is_timing(metric.unit); }

@@ -149,6 +149,12 @@ Metric metric_from(const Json& json, std::string& warning) {
     metric.samples.push_back(sample.get<double>());
   }
   if (fields.has("varies")) metric.varies = fields.flag("varies");
+  if (fields.has("first_look")) {
+    const std::uint64_t first = fields.natural("first_look");
+    require(first > 0 && first < metric.samples.size(),
+            fmt::format("'first_look' of '{}' leaves a look without samples", metric.name));
+    metric.first_look = first;
+  }
   fields.note_unknown(warning);
   return metric;
 }
@@ -285,6 +291,7 @@ std::string to_line(const Record& record) {
     for (const double sample : metric.samples) check_finite(sample, where + metric.name);
     metrics.push_back({{"name", metric.name}, {"unit", metric.unit}, {"samples", metric.samples}});
     if (metric.varies) metrics.back()["varies"] = true;
+    if (metric.first_look > 0) metrics.back()["first_look"] = metric.first_look;
   }
   for (const RecordedFigure& figure : record.figures) {
     Json& entry = figures.emplace_back(Json{{"id", figure.id},

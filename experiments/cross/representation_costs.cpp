@@ -29,7 +29,7 @@ class Numbers {
 // Calls `batch(k)` until kEnough seconds of processor time are used; queries per second.
 template <class Batch>
 double rate(std::size_t queries, std::size_t batches, const Batch& batch) {
-  constexpr double kEnough = 0.04;
+  constexpr double kEnough = 0.02;
   double time = 0;
   std::size_t done = 0;
   while (done < batches && (done == 0 || time < kEnough)) {

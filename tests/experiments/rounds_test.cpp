@@ -29,12 +29,12 @@ TEST_F(RoundsTest, DoEachPieceOnceARound) {
   Record record;
   Recorder recorder(record, "");
   rounds.run(recorder);
-  EXPECT_EQ(order, "ababababababababab");
+  EXPECT_EQ(order, "abababababab");
   EXPECT_EQ(record.find("a")->unit, "s");
   EXPECT_EQ(record.find("a")->samples.size(), std::size_t{Rounds::kMost});
   EXPECT_EQ(record.find("b")->unit, "1/s");
   EXPECT_EQ(record.find("c")->samples, std::vector<double>(Rounds::kMost, 1));
-  EXPECT_EQ(record.find("b")->samples, (std::vector<double>{2, 4, 6, 8, 10, 12, 14, 16, 18}));
+  EXPECT_EQ(record.find("b")->samples, (std::vector<double>{2, 4, 6, 8, 10, 12}));
 }
 
 TEST_F(RoundsTest, DoLongWorkOnce) {
@@ -76,7 +76,7 @@ TEST_F(RoundsTest, TakeDisturbedSamplesAgainAndLeaveThemOut) {
   Record record;
   Recorder recorder(record, "");
   rounds.run(recorder);
-  EXPECT_EQ(record.find("a")->samples, (std::vector<double>{0, 1, 3, 4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(record.find("a")->samples, (std::vector<double>{0, 1, 3, 4, 5, 6}));
   EXPECT_EQ(record.find("left_out_samples")->samples, std::vector<double>{1});
   EXPECT_EQ(record.find("disturbed_samples")->samples, std::vector<double>{0});
 }

@@ -33,6 +33,7 @@ TEST(SecondLook, AddsTheSamplesOfWhatVaries) {
             with_second_look({first}, {second}).find("time")->samples);
   const Record both = with_second_look({first}, {second});
   EXPECT_THAT(both.find("time")->samples, ElementsAre(3, 1, 2, 4));
+  EXPECT_EQ(both.find("time")->first_look, 2U);
   EXPECT_THAT(both.find("ratio")->samples, ElementsAre(2, 5));
   EXPECT_THAT(both.find("bytes")->samples, ElementsAre(7));
   EXPECT_THAT(both.find("late")->samples, ElementsAre(9)) << "a size that only the second look reached";
@@ -45,6 +46,7 @@ TEST(SecondLook, KeepsTheUndisturbedOneAlone) {
   for (const Record& kept :
        {with_second_look({early, 0}, {late, 1}), with_second_look({late, 1}, {early, 0})}) {
     EXPECT_THAT(kept.find("time")->samples, ElementsAre(3, 1));
+    EXPECT_EQ(kept.find("time")->first_look, 0U);
     EXPECT_THAT(kept.find("bytes")->samples, ElementsAre(7));
     EXPECT_THAT(kept.find("early")->samples, ElementsAre(8));
     EXPECT_THAT(kept.find("late")->samples, ElementsAre(9));

@@ -118,6 +118,7 @@ Record full_record() {
   record.figures = {
       {"hybrid.F3", "figures/a.png", "A caption.", checksum("a"), FigureLayout{{{1, 2, 3, 4}}, {"a word"}}}};
   record.metrics[0].varies = true;
+  record.metrics[0].first_look = 1;
   return record;
 }
 
@@ -136,6 +137,7 @@ TEST(Schema, WhatIsWrittenIsDocumented) {
   least.terrain = least.terrain_checksum = "";
   least.parameters.clear();
   least.metrics[0].varies = false;
+  least.metrics[0].first_look = 0;
   least.figures[0].layout.reset();
   EXPECT_EQ(fault(to_line(least)), "");
   Provenance run = full_run();
