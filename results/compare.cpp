@@ -7,7 +7,10 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
 #include <tuple>
+#include <utility>
 
 #include "results/format.h"
 #include "results/provenance.h"
@@ -60,6 +63,15 @@ struct Pair {
   }
 };
 
+// Second ÷ first measurement of a case that was measured twice, if the ratio is positive and finite and
+// neither median rests on too few samples.
+std::optional<double> repeat_ratio(const Metric& metric) {
+  const std::span<const double> samples(metric.samples);
+  if (std::min(metric.first_look, samples.size() - metric.first_look) < kFewestSamples) return std::nullopt;
+  const double ratio = median(samples.subspan(metric.first_look)) / median(samples.first(metric.first_look));
+  return std::isfinite(ratio) && ratio > 0 ? std::optional(ratio) : std::nullopt;
+}
+
 void add_both(const Pair& pair, const Metric& before, const Metric& after, Comparison& out) {
   const Summary ratio = summarise_ratio(after.samples, before.samples);
   const bool one_machine = pair.one_machine();
@@ -71,7 +83,12 @@ void add_both(const Pair& pair, const Metric& before, const Metric& after, Compa
   change.timed = timed(before) || timed(after);
   change.equal = before.samples == after.samples;
   change.same_ground = same_ground(pair.before, pair.after);
-  if (one_machine) return;
+  if (one_machine) {
+    for (const Metric* const metric : {&before, &after}) {
+      if (const auto ratio = repeat_ratio(*metric)) change.repeats.push_back(*ratio);
+    }
+    return;
+  }
   change.machine_before = machine_name(*pair.run_before);
   change.machine_after = machine_name(*pair.run_after);
 }
@@ -83,54 +100,88 @@ bool resolved(const MetricChange& m) {
          (m.change == Change::kSame || m.change == Change::kRose || m.change == Change::kFell);
 }
 
-// The standard deviation is estimated from the median distance to the median, so that outliers do not count.
-Noise noise_of(std::vector<double> logs) {
-  constexpr double kNormal = 1.4826;  // standard deviation ÷ median distance, of a normal distribution
-  Noise noise{.timings = logs.size()};
-  if (logs.size() < Noise::kLeast) return noise;
+// Logarithms of the ratios of a group of times: after ÷ before, and second ÷ first measurement in one run.
+struct Ratios {
+  std::vector<double> between, within;
+};
+
+bool repeated(const Noise& noise) { return noise.repeats >= Noise::kRepeats; }
+
+double take_off_median(std::vector<double>& logs) {
   const double middle = median(logs);
   for (double& log : logs) log = std::abs(log - middle);
-  noise.median = std::exp(middle);
-  noise.deviation = std::exp(kNormal * median(logs));
+  return middle;
+}
+
+// The standard deviation is estimated from the median distance to the median, so that outliers do not count:
+// between the runs they may be changes of the program.
+Noise noise_of(Ratios ratios) {
+  constexpr double kNormal = 1.4826;  // standard deviation ÷ median distance, of a normal distribution
+  constexpr double kDeviations = 3, kShare = 0.99;
+  auto& [between, within] = ratios;
+  Noise noise{.timings = between.size(), .repeats = within.size()};
+  if (!between.empty()) noise.median = std::exp(take_off_median(between));
+  if (noise.timings >= Noise::kLeast) {
+    noise.deviation = std::exp(kNormal * median(between));
+    noise.threshold = std::pow(noise.deviation, kDeviations);
+  }
+  if (repeated(noise)) {
+    take_off_median(within);
+    const auto rank =
+        within.begin() + std::lround(std::ceil(kShare * static_cast<double>(within.size()))) - 1;
+    std::nth_element(within.begin(), rank, within.end());
+    noise.threshold = std::exp(*rank);
+  }
   return noise;
 }
 
 // Profile, experiment and metric of times, or none of all three for all times.
 using Kind = std::array<std::string, 3>;
 
-// What a time's noise may be estimated from, the most alike first. The last one holds all times.
+// The groups that a time belongs to, the most alike first. The last one holds all times.
 std::array<Kind, 3> kinds_of(const MetricChange& m) {
   return {Kind{m.profile, m.experiment, m.metric}, Kind{m.profile, m.experiment, ""}, Kind{}};
 }
 
 // Times with the same samples in both folders, such as sizes that only long runs change, tell nothing of it.
 std::map<Kind, Noise> estimate_noise(const std::vector<MetricChange>& metrics) {
-  std::map<Kind, std::vector<double>> logs;
+  std::map<Kind, Ratios> ratios{{Kind{}, Ratios{}}};
   for (const MetricChange& m : metrics) {
-    if (!resolved(m) || m.equal) continue;
-    for (const Kind& kind : kinds_of(m)) logs[kind].push_back(log_ratio(m));
+    if (!m.timed || m.equal) continue;
+    for (const Kind& kind : kinds_of(m)) {
+      if (resolved(m)) ratios[kind].between.push_back(log_ratio(m));
+      for (const double ratio : m.repeats) ratios[kind].within.push_back(std::log(ratio));
+    }
   }
-  std::map<Kind, Noise> noises{{Kind{}, Noise{}}};
-  for (const auto& [kind, values] : logs) {
-    Noise noise = noise_of(values);
-    if (kind != Kind{} && noise.deviation == 1) continue;  // too few, or most have one ratio
+  std::map<Kind, Noise> noises;
+  for (auto& [kind, values] : ratios) {
+    Noise noise = noise_of(std::move(values));
+    const bool known = repeated(noise) || noise.deviation > 1;  // not too few, nor most with one ratio
+    if (kind != Kind{} && !known) continue;
     std::tie(noise.profile, noise.experiment, noise.metric) = std::tie(kind[0], kind[1], kind[2]);
     noises[kind] = std::move(noise);
   }
   return noises;
 }
 
+Noise& noise_for(const MetricChange& m, std::map<Kind, Noise>& noises) {
+  Noise* known = nullptr;
+  for (const Kind& kind : kinds_of(m)) {
+    const auto found = noises.find(kind);
+    if (found == noises.end()) continue;
+    if (kind != Kind{} && repeated(found->second)) return found->second;
+    if (known == nullptr) known = &found->second;
+  }
+  return *known;  // all times have an entry
+}
+
 void ignore_noise(Comparison& comparison) {
   std::map<Kind, Noise> noises = estimate_noise(comparison.metrics);
   for (MetricChange& m : comparison.metrics) {
     if (!resolved(m)) continue;
-    for (const Kind& kind : kinds_of(m)) {
-      const auto found = noises.find(kind);
-      if (found == noises.end()) continue;
-      m.threshold = found->second.threshold();
-      ++found->second.users;
-      break;
-    }
+    Noise& noise = noise_for(m, noises);
+    m.threshold = noise.threshold;
+    ++noise.users;
     if (std::abs(log_ratio(m)) <= std::log(m.threshold)) m.change = Change::kSame;
   }
   for (const auto& [kind, noise] : noises) {
@@ -148,22 +199,25 @@ bool one_sided(const MetricChange& m) {
 
 // What counts as noise: for all times together, then for those that have an estimate of their own.
 std::string noise_text(const Comparison& comparison) {
+  const auto text_of = [](std::size_t times, const Noise& noise) {
+    return fmt::format("{} times: median ratio × {:.3f}; noise from × {:.3f} to × {:.3f}, {}", times,
+                       noise.median, 1 / noise.threshold, noise.threshold,
+                       repeated(noise) ? fmt::format("of {} repeats", noise.repeats)
+                                       : fmt::format("three deviations of × {:.3f}", noise.deviation));
+  };
   const Noise& all = comparison.noise;
-  if (all.timings < Noise::kLeast) return "";
-  std::string text = fmt::format(
-      "{} times: median ratio × {:.3f}, noise × {:.3f} (one standard deviation); changes from × {:.3f} to "
-      "× {:.3f} count as noise{}\n",
-      all.timings, all.median, all.deviation, 1 / all.threshold(), all.threshold(),
-      comparison.noises.empty() ? "" : "; of these, instead:");
+  if (all.timings < Noise::kLeast && !repeated(all)) return "";
+  std::string text =
+      text_of(all.timings, all) + (comparison.noises.empty() ? "\n" : "; of these, instead:\n");
   for (const Noise& noise : comparison.noises) {
-    text += fmt::format("  {:<48} {:>5} times: median ratio × {:.3f}, noise from × {:.3f} to × {:.3f}\n",
+    text += fmt::format("  {:<48} {}\n",
                         noise.experiment + (noise.metric.empty() ? ", other metrics" : " " + noise.metric),
-                        noise.users, noise.median, 1 / noise.threshold(), noise.threshold());
+                        text_of(noise.users, noise));
   }
   return text;
 }
 
-// Without median, deviation and threshold if there were too few times to estimate them.
+// Without what there were too few times to estimate.
 Json json_of(const Noise& noise) {
   Json json = Json::object();
   if (!noise.experiment.empty()) {
@@ -172,11 +226,11 @@ Json json_of(const Noise& noise) {
   }
   if (!noise.metric.empty()) json["metric"] = noise.metric;
   json["timings"] = noise.timings;
+  json["repeats"] = noise.repeats;
   json["users"] = noise.users;
-  if (noise.timings < Noise::kLeast) return json;
-  json["median"] = noise.median;
-  json["deviation"] = noise.deviation;
-  json["threshold"] = noise.threshold();
+  if (noise.timings > 0) json["median"] = noise.median;
+  if (noise.timings >= Noise::kLeast) json["deviation"] = noise.deviation;
+  if (noise.timings >= Noise::kLeast || repeated(noise)) json["threshold"] = noise.threshold;
   return json;
 }
 
@@ -200,8 +254,6 @@ std::string machines_text(const Comparison& comparison) {
 }  // namespace
 
 std::string_view name(Change change) { return kNames[static_cast<std::size_t>(change)]; }
-
-double Noise::threshold() const { return std::pow(deviation, 3); }
 
 bool Comparison::exact_equal() const { return count(Change::kDiffers) == 0; }
 

@@ -32,30 +32,40 @@ struct MetricChange {
   bool timed = false;            // a time, or computed from times
   double before = 0, after = 0;  // medians
   Summary ratio = {};            // after ÷ before, when both exist
-  double threshold = 1;     // a change up to this factor is noise, and so is 1 ÷ it; 1: none was estimated
-  bool equal = false;       // both have the same samples
-  bool same_ground = true;  // both have the same seed, parameters and terrain
+  double threshold = 1;  // a change up to this factor is noise, and so is 1 ÷ it; 1: none was estimated
+  bool equal = false;    // both have the same samples
+  std::vector<double> repeats = {};  // second ÷ first measurement, for each folder that measured it twice
+  bool same_ground = true;           // both have the same seed, parameters and terrain
   std::string machine_before = "", machine_after = "";  // machine_name(), where they are of different kinds
 };
 
 // Times of two runs of one program differ by more than their confidence intervals say: load, clock rate and
 // places in memory change, and what takes long or uses much memory feels it more. A time counts as changed
-// only if its interval excludes 1 and it changed by more than three standard deviations of the noise of the
-// times that are most like it: those of the same profile, experiment and metric if there are kLeast of them,
-// otherwise those of the same profile and experiment, otherwise all.
+// only if its interval excludes 1 and it changed by more than the threshold of the group of times that are
+// most like it: those of the same profile, experiment and metric, those of the same profile and experiment,
+// or all. The first of the former two with kRepeats counts, otherwise the first of the three with an
+// estimate.
 //
-// The noise is estimated from the two runs themselves, on the assumption that most times of each such group
-// did not change. A quarter of them may, with little effect. If about half did, by different factors, the
-// estimate is wide and hides them. What all of a group share, such as a new compiler or a busy minute of the
-// machine, is not in its estimate: then all count as changed, and the group's median says so. The deviation
-// of 20 times is known to about a quarter. So of many times that did not change a few still seem to have.
+// Repeats are the changes from the first to the second measurement of cases that one run measured twice
+// (Metric::first_look). The program was the same, so that all that changed is noise: the threshold is the
+// factor that 99 of 100 of them do not exceed. What is common to a group, as if memory is warm the second
+// time, is in both runs and does not count: the median is taken off.
+//
+// Without enough repeats, three standard deviations of the changes between the runs are the threshold. This
+// assumes that most times of the group did not change. A quarter of them may, with little effect. If about
+// half did, by different factors, the estimate is wide and hides them.
+//
+// What all of a group share between the runs, such as a new compiler or a busy hour of the machine, is in
+// neither: then all count as changed, and the group's median says so. Of many times that did not change a
+// few still seem to have.
 struct Noise {
-  static constexpr std::size_t kLeast = 20;  // timings; with fewer in all, the intervals alone decide
-  std::string profile = "", experiment = "", metric = "";  // empty: of all
-  std::size_t timings = 0;           // of one kind of machine, with intervals: what it was estimated from
+  static constexpr std::size_t kLeast = 20, kRepeats = 100;  // with less in all, the intervals alone decide
+  std::string profile = "", experiment = "", metric = "";    // empty: of all
+  std::size_t timings = 0;           // of one kind of machine, with intervals, that are not the same in both
+  std::size_t repeats = 0;           // of one kind of machine; up to two of a time, one of each run
   std::size_t users = 0;             // times that it applies to
-  double median = 1, deviation = 1;  // of after ÷ before, as factors
-  double threshold() const;          // three deviations: a factor up to it is noise, and so is 1 ÷ it
+  double median = 1, deviation = 1;  // of after ÷ before, as factors; the deviation of kLeast timings or more
+  double threshold = 1;              // a factor up to it is noise, and so is 1 ÷ it
 };
 
 struct Comparison {

@@ -25,8 +25,7 @@ struct Metric {
   // The value varies from run to run on one machine although is_timing() of its unit is false: a ratio of
   // times, a fit through times, a peak of memory, the hits of a cache.
   bool varies = false;
-  // Of a case that was measured twice in one run, how many samples the first time gave; 0: all are of one
-  // time.
+  // How many samples the first measurement gave, of a case that one run measured twice; 0: measured once.
   std::size_t first_look = 0;
 };
 // Whether its samples vary from run to run of one program: by their unit, or because `varies` says so.

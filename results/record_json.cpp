@@ -152,7 +152,8 @@ Metric metric_from(const Json& json, std::string& warning) {
   if (fields.has("first_look")) {
     const std::uint64_t first = fields.natural("first_look");
     require(first > 0 && first < metric.samples.size(),
-            fmt::format("'first_look' of '{}' leaves a look without samples", metric.name));
+            fmt::format("'first_look' of '{}' is {}, and there are {} samples", metric.name, first,
+                        metric.samples.size()));
     metric.first_look = first;
   }
   fields.note_unknown(warning);

@@ -39,7 +39,7 @@ const ParameterSpec kSpecs[] = {
     {"sun_height", 24.0, "°", "height of the sun above the horizon", 0, 90},
     {"width", std::int64_t{1600}, "pixels", "width of the picture", 16, 16384},
     {"height", std::int64_t{900}, "pixels", "height of the picture", 16, 16384},
-    {"frames", std::int64_t{20}, "frames", "frames to time at that size", 0, 100'000},
+    {"frames", std::int64_t{5}, "frames", "frames to time at that size", 0, 100'000},
 };
 
 std::vector<Case> cases(const RunOptions& options) {

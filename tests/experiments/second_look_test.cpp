@@ -34,6 +34,8 @@ TEST(SecondLook, AddsTheSamplesOfWhatVaries) {
   const Record both = with_second_look({first}, {second});
   EXPECT_THAT(both.find("time")->samples, ElementsAre(3, 1, 2, 4));
   EXPECT_EQ(both.find("time")->first_look, 2U);
+  EXPECT_EQ(both.find("ratio")->first_look, 1U);
+  EXPECT_EQ(both.find("bytes")->first_look + both.find("late")->first_look, 0U);
   EXPECT_THAT(both.find("ratio")->samples, ElementsAre(2, 5));
   EXPECT_THAT(both.find("bytes")->samples, ElementsAre(7));
   EXPECT_THAT(both.find("late")->samples, ElementsAre(9)) << "a size that only the second look reached";
@@ -75,10 +77,9 @@ TEST(SecondLook, SizesThatOnlyOneLookReachedStay) {
   EXPECT_THAT(with_second_look({more}, {fewer}).find("bytes_at_16")->samples, ElementsAre(28));
 }
 
-// The samples of the newest record of hybrid.table2.
-std::size_t samples(const std::filesystem::path& folder) {
-  const Store store = Store::open(folder);
-  return store.records().back().find("generation_time")->samples.size();
+// Of the newest record of hybrid.table2.
+Metric generation_time(const std::filesystem::path& folder) {
+  return *Store::open(folder).records().back().find("generation_time");
 }
 
 TEST_F(CommandLine, ShortTimedCasesAreMeasuredTwiceInOneRun) {
@@ -87,7 +88,10 @@ TEST_F(CommandLine, ShortTimedCasesAreMeasuredTwiceInOneRun) {
   const Outcome twice = call(run + "--again 1000 --out twice");
   ASSERT_EQ(twice.code, 0) << twice.text;
   const bool disturbed = twice.text.find("one of the two disturbed") != std::string::npos;
-  EXPECT_EQ(samples(folder_ / "twice"), (disturbed ? 1 : 2) * samples(folder_ / "once"));
+  const Metric first = generation_time(folder_ / "once"), both = generation_time(folder_ / "twice");
+  EXPECT_EQ(both.samples.size(), (disturbed ? 1 : 2) * first.samples.size());
+  EXPECT_EQ(first.first_look, 0U);
+  EXPECT_EQ(both.first_look, disturbed ? 0U : first.samples.size());
   EXPECT_THAT(twice.text, HasSubstr("again: "));
   EXPECT_EQ(Store::open(folder_ / "twice").records().size(), Store::open(folder_ / "once").records().size());
   EXPECT_EQ(call("$T compare once twice").code, 0);
