@@ -22,7 +22,7 @@ struct RunPlan {
   int shard = 1, shards = 1;  // measure only every shards-th case of the part, from the shard-th
   int threads = 0;            // in use, for the provenance; 0: all
   int jobs = 1;               // cases without times beside each other, with threads ÷ jobs threads each
-  double again = 3;  // cases with times that took at most so many seconds are measured twice; 0: none
+  double again = 1;  // cases with times that took at most so many seconds are measured twice; 0: none
   std::vector<std::string> command;  // argv, for the provenance
 };
 

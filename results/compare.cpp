@@ -105,33 +105,34 @@ struct Ratios {
   std::vector<double> between, within;
 };
 
-bool repeated(const Noise& noise) { return noise.repeats >= Noise::kRepeats; }
-
-double take_off_median(std::vector<double>& logs) {
-  const double middle = median(logs);
-  for (double& log : logs) log = std::abs(log - middle);
-  return middle;
+// The factor that 99 of 100 do not exceed, nor its inverse.
+double spread_of(std::vector<double> logs) {
+  constexpr double kShare = 0.99;
+  for (double& log : logs) log = std::abs(log);
+  const auto rank = logs.begin() + std::lround(std::ceil(kShare * static_cast<double>(logs.size()))) - 1;
+  std::nth_element(logs.begin(), rank, logs.end());
+  return std::exp(*rank);
 }
 
 // The standard deviation is estimated from the median distance to the median, so that outliers do not count:
 // between the runs they may be changes of the program.
 Noise noise_of(Ratios ratios) {
   constexpr double kNormal = 1.4826;  // standard deviation ÷ median distance, of a normal distribution
-  constexpr double kDeviations = 3, kShare = 0.99;
+  constexpr double kDeviations = 3;
   auto& [between, within] = ratios;
   Noise noise{.timings = between.size(), .repeats = within.size()};
-  if (!between.empty()) noise.median = std::exp(take_off_median(between));
+  if (between.empty()) return noise;
+  const double middle = median(between);
+  noise.median = std::exp(middle);
   if (noise.timings >= Noise::kLeast) {
+    for (double& log : between) log = std::abs(log - middle);
     noise.deviation = std::exp(kNormal * median(between));
     noise.threshold = std::pow(noise.deviation, kDeviations);
   }
-  if (repeated(noise)) {
-    take_off_median(within);
-    const auto rank =
-        within.begin() + std::lround(std::ceil(kShare * static_cast<double>(within.size()))) - 1;
-    std::nth_element(within.begin(), rank, within.end());
-    noise.threshold = std::exp(*rank);
-  }
+  if (noise.repeats < Noise::kRepeats) return noise;
+  const double spread = spread_of(std::move(within));
+  noise.by_repeats = spread > 1;  // counters may be the same each time of one run, and not in the next
+  if (noise.by_repeats) noise.threshold = spread;
   return noise;
 }
 
@@ -147,17 +148,16 @@ std::array<Kind, 3> kinds_of(const MetricChange& m) {
 std::map<Kind, Noise> estimate_noise(const std::vector<MetricChange>& metrics) {
   std::map<Kind, Ratios> ratios{{Kind{}, Ratios{}}};
   for (const MetricChange& m : metrics) {
-    if (!m.timed || m.equal) continue;
+    if (!resolved(m) || m.equal) continue;
     for (const Kind& kind : kinds_of(m)) {
-      if (resolved(m)) ratios[kind].between.push_back(log_ratio(m));
+      ratios[kind].between.push_back(log_ratio(m));
       for (const double ratio : m.repeats) ratios[kind].within.push_back(std::log(ratio));
     }
   }
   std::map<Kind, Noise> noises;
   for (auto& [kind, values] : ratios) {
     Noise noise = noise_of(std::move(values));
-    const bool known = repeated(noise) || noise.deviation > 1;  // not too few, nor most with one ratio
-    if (kind != Kind{} && !known) continue;
+    if (kind != Kind{} && noise.threshold == 1) continue;  // too few, or most have one ratio
     std::tie(noise.profile, noise.experiment, noise.metric) = std::tie(kind[0], kind[1], kind[2]);
     noises[kind] = std::move(noise);
   }
@@ -169,7 +169,7 @@ Noise& noise_for(const MetricChange& m, std::map<Kind, Noise>& noises) {
   for (const Kind& kind : kinds_of(m)) {
     const auto found = noises.find(kind);
     if (found == noises.end()) continue;
-    if (kind != Kind{} && repeated(found->second)) return found->second;
+    if (kind != Kind{} && found->second.by_repeats) return found->second;
     if (known == nullptr) known = &found->second;
   }
   return *known;  // all times have an entry
@@ -202,11 +202,11 @@ std::string noise_text(const Comparison& comparison) {
   const auto text_of = [](std::size_t times, const Noise& noise) {
     return fmt::format("{} times: median ratio × {:.3f}; noise from × {:.3f} to × {:.3f}, {}", times,
                        noise.median, 1 / noise.threshold, noise.threshold,
-                       repeated(noise) ? fmt::format("of {} repeats", noise.repeats)
-                                       : fmt::format("three deviations of × {:.3f}", noise.deviation));
+                       noise.by_repeats ? fmt::format("of {} repeats", noise.repeats)
+                                        : fmt::format("three deviations of × {:.3f}", noise.deviation));
   };
   const Noise& all = comparison.noise;
-  if (all.timings < Noise::kLeast && !repeated(all)) return "";
+  if (all.timings < Noise::kLeast && !all.by_repeats) return "";
   std::string text =
       text_of(all.timings, all) + (comparison.noises.empty() ? "\n" : "; of these, instead:\n");
   for (const Noise& noise : comparison.noises) {
@@ -230,7 +230,7 @@ Json json_of(const Noise& noise) {
   json["users"] = noise.users;
   if (noise.timings > 0) json["median"] = noise.median;
   if (noise.timings >= Noise::kLeast) json["deviation"] = noise.deviation;
-  if (noise.timings >= Noise::kLeast || repeated(noise)) json["threshold"] = noise.threshold;
+  if (noise.timings >= Noise::kLeast || noise.by_repeats) json["threshold"] = noise.threshold;
   return json;
 }
 

@@ -34,8 +34,10 @@ struct MetricChange {
   Summary ratio = {};            // after ÷ before, when both exist
   double threshold = 1;  // a change up to this factor is noise, and so is 1 ÷ it; 1: none was estimated
   bool equal = false;    // both have the same samples
-  std::vector<double> repeats = {};  // second ÷ first measurement, for each folder that measured it twice
-  bool same_ground = true;           // both have the same seed, parameters and terrain
+  // Second ÷ first measurement, for each folder that measured it twice: of one kind of machine, positive and
+  // finite, and with kFewestSamples or more each time.
+  std::vector<double> repeats = {};
+  bool same_ground = true;                              // both have the same seed, parameters and terrain
   std::string machine_before = "", machine_after = "";  // machine_name(), where they are of different kinds
 };
 
@@ -43,29 +45,31 @@ struct MetricChange {
 // places in memory change, and what takes long or uses much memory feels it more. A time counts as changed
 // only if its interval excludes 1 and it changed by more than the threshold of the group of times that are
 // most like it: those of the same profile, experiment and metric, those of the same profile and experiment,
-// or all. The first of the former two with kRepeats counts, otherwise the first of the three with an
-// estimate.
+// or all. The first of the former two with kRepeats counts, otherwise the first of the three whose noise can
+// be estimated.
 //
 // Repeats are the changes from the first to the second measurement of cases that one run measured twice
 // (Metric::first_look). The program was the same, so that all that changed is noise: the threshold is the
-// factor that 99 of 100 of them do not exceed. What is common to a group, as if memory is warm the second
-// time, is in both runs and does not count: the median is taken off.
+// factor that 99 of 100 of them do not exceed. They do not show what stays for a whole run and differs from
+// time to time, such as places in memory, nor how much cases vary that are too long to be measured twice, and
+// the times of one case share its moments.
 //
-// Without enough repeats, three standard deviations of the changes between the runs are the threshold. This
-// assumes that most times of the group did not change. A quarter of them may, with little effect. If about
-// half did, by different factors, the estimate is wide and hides them.
+// With fewer, three standard deviations of the changes between the runs are the threshold, if there are
+// kLeast. This assumes that most times of the group did not change. A quarter of them may, with little
+// effect. If about half did, by different factors, the estimate is wide and hides them.
 //
 // What all of a group share between the runs, such as a new compiler or a busy hour of the machine, is in
 // neither: then all count as changed, and the group's median says so. Of many times that did not change a
 // few still seem to have.
 struct Noise {
-  static constexpr std::size_t kLeast = 20, kRepeats = 100;  // with less in all, the intervals alone decide
-  std::string profile = "", experiment = "", metric = "";    // empty: of all
+  static constexpr std::size_t kLeast = 20, kRepeats = 100;
+  std::string profile = "", experiment = "", metric = "";  // empty: of all
   std::size_t timings = 0;           // of one kind of machine, with intervals, that are not the same in both
-  std::size_t repeats = 0;           // of one kind of machine; up to two of a time, one of each run
+  std::size_t repeats = 0;           // of these; up to two of a time, one of each run
   std::size_t users = 0;             // times that it applies to
   double median = 1, deviation = 1;  // of after ÷ before, as factors; the deviation of kLeast timings or more
-  double threshold = 1;              // a factor up to it is noise, and so is 1 ÷ it
+  double threshold = 1;              // a factor up to it is noise, and so is 1 ÷ it; 1: not estimated
+  bool by_repeats = false;           // whether the threshold is
 };
 
 struct Comparison {

@@ -176,11 +176,12 @@ TEST_F(AlikeTimes, AreListedWithTheirNoise) {
   EXPECT_FALSE(bytes.contains("threshold"));
 }
 
-// Two runs, each with cases of experiment "e" that were measured twice. Between the two measurements the k-th
-// time rose by 10 %, as all did, and by a further -1 to 1 % from case to case. Between the runs none changed
-// by more than 0.01 %, but what was measured once.
+// Two runs, each with times that were measured twice. Between these measurements they rose by 9 to 11 %, but
+// for the first three, by 90 %. Between the runs they changed by `shift`, and what was measured once by
+// factors of its own.
 class RepeatedTimes : public CompareTest {
  protected:
+  static constexpr double kWithin = 0.1, kSpread = 0.01;  // logarithms
   static Metric once(const std::string& name, double factor) {
     return {name, "s", {factor, 1.0001 * factor, 0.9999 * factor}};
   }
@@ -190,71 +191,124 @@ class RepeatedTimes : public CompareTest {
     metric.first_look = 3;
     return metric;
   }
-  // `count` times measured twice, then those measured once, which changed by these factors between the runs.
-  Comparison compared(int count, const std::vector<double>& factors, double shift = 1.0001) {
-    for (const char* name : {"a", "b"}) std::filesystem::remove_all(folder_ / name);
+  // Metrics of the one case of an experiment.
+  struct Case {
+    std::string experiment;
     std::vector<Metric> before, after;
+    void add_once(const std::string& name, double factor) {
+      before.push_back(once(name, 1));
+      after.push_back(once(name, factor));
+    }
+  };
+  static Case case_with(int count, double shift = 1.0001) {
+    Case made{"e", {}, {}};
     for (int k = 0; k < count; ++k) {
-      const double change = 1.1 * std::exp(0.02 * k / (count - 1) - 0.01);
-      before.push_back(twice("t" + std::to_string(k), 1, change));
-      after.push_back(twice("t" + std::to_string(k), shift, change));
+      const double change = k < 3 ? 1.9 : std::exp(kWithin - kSpread + 2 * kSpread * k / (count - 1));
+      made.before.push_back(twice("t" + std::to_string(k), 1, change));
+      made.after.push_back(twice("t" + std::to_string(k), shift, change));
     }
-    for (const double factor : factors) {
-      before.push_back(once(std::to_string(factor), 1));
-      after.push_back(once(std::to_string(factor), factor));
+    return made;
+  }
+  Comparison compared(const std::vector<Case>& cases) {
+    const Provenance run = fake_provenance();
+    for (const bool later : {false, true}) {
+      const std::filesystem::path folder = folder_ / (later ? "b" : "a");
+      std::filesystem::remove_all(folder);
+      Store store(folder);
+      store.begin_run(run);
+      for (const Case& one : cases) {
+        Record record = fake_record(run, one.experiment, "c");
+        record.metrics = later ? one.after : one.before;
+        store.append(record);
+      }
     }
-    write("a", before);
-    write("b", after);
     return compare(folder_ / "a", folder_ / "b");
   }
 };
 
-TEST_F(RepeatedTimes, TheirChangesWithinARunAreNoise) {
-  const Comparison c = compared(101, {1.005, 0.995, 1.02, 0.98});
+// Of 600 repeats the 594th counts, and six rose by 90 %.
+TEST_F(RepeatedTimes, AreNoiseButForTheFarthestOfAHundred) {
+  Case e = case_with(300);
+  for (const double factor : {1.1, 0.9, 1.13, 0.88}) e.add_once(std::to_string(factor), factor);
+  const Comparison c = compared({e});
   ASSERT_EQ(c.noises.size(), 1U) << "of experiment e";
   const Noise& noise = c.noises[0];
-  EXPECT_EQ(noise.timings, 105U);
-  EXPECT_EQ(noise.repeats, 202U);
-  EXPECT_EQ(noise.users, 105U);
-  EXPECT_NEAR(std::log(noise.threshold), 0.01, 1e-9);
-  EXPECT_EQ(c.count(Change::kSame), 103U);
-  EXPECT_EQ(c.metrics[103].change, Change::kRose);
-  EXPECT_EQ(c.metrics[104].change, Change::kFell);
-  EXPECT_THAT(compare_text(c, false), HasSubstr("105 times: median ratio × 1.000; noise from × 0.990 to × "
-                                                "1.010, of 202 repeats"));
+  EXPECT_EQ(noise.timings, 304U);
+  EXPECT_EQ(noise.repeats, 600U);
+  EXPECT_EQ(noise.users, 304U);
+  EXPECT_NEAR(std::log(noise.threshold), kWithin + kSpread, 1e-9);
+  EXPECT_EQ(c.count(Change::kSame), 302U);
+  EXPECT_EQ(c.metrics[302].change, Change::kRose);
+  EXPECT_EQ(c.metrics[303].change, Change::kFell);
+  EXPECT_THAT(compare_text(c, false), HasSubstr("304 times: median ratio × 1.000; noise from × 0.896 to × "
+                                                "1.116, of 600 repeats"));
   const auto json = nlohmann::json::parse(compare_json(c));
-  EXPECT_EQ(json["noises"][0]["repeats"], 202);
+  EXPECT_EQ(json["noises"][0]["repeats"], 600);
   EXPECT_EQ(json["noises"][0]["threshold"], noise.threshold);
+  EXPECT_NEAR(compared({case_with(299)}).noise.threshold, 1.9, 1e-9) << "of 598 the 593rd";
 }
 
-TEST_F(RepeatedTimes, AreTooFewBelowAHundred) {
-  const Comparison c = compared(49, {1.02});
-  EXPECT_EQ(c.noise.repeats, 98U);
-  EXPECT_NEAR(c.noise.threshold, 1, 1e-9) << "most changed by one ratio";
-  EXPECT_EQ(c.metrics.back().change, Change::kRose);
+TEST_F(RepeatedTimes, CountFromAHundredOn) {
+  EXPECT_FALSE(compared({case_with(49)}).noise.by_repeats);
+  const Comparison c = compared({case_with(50)});
+  EXPECT_TRUE(c.noise.by_repeats);
+  EXPECT_EQ(c.noise.repeats, 100U);
 }
 
-// A shift that all share is seen in the median, also where the noise of the group cannot be told.
+// Experiment f has 20 times of its own and no repeats, and g too few of both. Metric "own" of e has none
+// either.
+TEST_F(RepeatedTimes, OfTheExperimentCountBeforeDeviationsOfTheMetricAndThoseBeforeAllRepeats) {
+  Case f{"f", {}, {}}, g{"g", {}, {}}, e = case_with(60);
+  for (int k = 0; k < 20; ++k) f.add_once(std::to_string(k), 1.001 + 0.001 * k);
+  g.add_once("t", 1.5);
+  e.add_once("own", 1.5);
+  const Comparison c = compared({e, f, g});
+  ASSERT_EQ(c.noises.size(), 2U);
+  EXPECT_TRUE(c.noises[0].by_repeats);
+  EXPECT_EQ(c.noises[0].users, 61U);
+  EXPECT_FALSE(c.noises[1].by_repeats);
+  EXPECT_EQ(c.noises[1].users, 20U);
+  EXPECT_LT(c.noises[1].threshold, 1.05);
+  EXPECT_TRUE(c.noise.by_repeats);
+  EXPECT_EQ(c.noise.users, 1U) << "g's";
+  EXPECT_EQ(c.metrics.back().threshold, c.noise.threshold);
+}
+
 TEST_F(RepeatedTimes, SayWhatAllOfThemShare) {
-  const Comparison c = compared(60, {}, 2);
-  EXPECT_EQ(c.count(Change::kRose), 60U);
-  EXPECT_NEAR(c.noise.median, 2, 1e-9);
-  const Comparison few = compared(10, {}, 2);
-  EXPECT_NEAR(few.noise.median, 2, 1e-9);
+  const Comparison c = compared({case_with(100, 3)});
+  EXPECT_EQ(c.count(Change::kRose), 100U);
+  EXPECT_NEAR(c.noise.median, 3, 1e-9);
+  const Comparison few = compared({case_with(10, 3)});
+  EXPECT_NEAR(few.noise.median, 3, 1e-9);
   EXPECT_EQ(compare_text(few, false).find("median ratio"), std::string::npos) << "too few times";
-  EXPECT_NEAR(nlohmann::json::parse(compare_json(few))["noise"]["median"], 2, 1e-9);
+  EXPECT_NEAR(nlohmann::json::parse(compare_json(few))["noise"]["median"], 3, 1e-9);
+}
+
+// Counters may be the same each time of one run.
+TEST_F(RepeatedTimes, TellNothingIfTheyAreAllTheSame) {
+  Case e{"e", {}, {}};
+  for (int k = 0; k < 60; ++k) {
+    e.before.push_back(twice(std::to_string(k), 1, 1));
+    e.after.push_back(twice(std::to_string(k), 1 + 0.001 * k, 1));
+  }
+  const Comparison c = compared({e});
+  EXPECT_EQ(c.noise.repeats, 118U) << "one is the same in both runs";
+  EXPECT_FALSE(c.noise.by_repeats);
+  EXPECT_GT(c.noise.threshold, 1);
 }
 
 TEST_F(RepeatedTimes, NeedThreeSamplesOfEachMeasurement) {
-  Metric metric = twice("t", 1, 1.5);
-  write("a", {metric});
-  metric.first_look = 4;
-  write("b", {metric});
-  const Comparison c = compare(folder_ / "a", folder_ / "b");
-  ASSERT_EQ(c.metrics[0].repeats.size(), 1U) << "b's second measurement has two";
-  EXPECT_NEAR(c.metrics[0].repeats[0], 1.5, 1e-9);
-  write("zero", {Metric{"t", "s", {0, 0, 0, 1, 1, 1}, false, 3}});
-  EXPECT_TRUE(compare(folder_ / "zero", folder_ / "zero").metrics[0].repeats.empty());
+  const auto repeats = [&](std::vector<double> samples, std::size_t first_look) {
+    const Metric metric{"t", "s", std::move(samples), false, first_look};
+    return compared({Case{"e", {metric}, {metric}}}).metrics[0].repeats;
+  };
+  EXPECT_EQ(repeats({1, 1, 1, 2, 2, 2}, 3), (std::vector<double>{2, 2}));
+  EXPECT_TRUE(repeats({1, 1, 1, 2, 2, 2}, 4).empty());
+  EXPECT_TRUE(repeats({1, 1, 1, 2, 2, 2}, 2).empty());
+  EXPECT_TRUE(repeats({1, 1, 1, 2, 2, 2}, 0).empty());
+  EXPECT_TRUE(repeats({0, 0, 0, 1, 1, 1}, 3).empty());
+  EXPECT_TRUE(repeats({1, 1, 1, 0, 0, 0}, 3).empty());
+  EXPECT_TRUE(repeats({0, 0, 0, 0, 0, 0}, 3).empty());
 }
 
 // Counters of pages: most do not change at all, which is no estimate of how much the others may.
