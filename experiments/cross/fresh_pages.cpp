@@ -1,8 +1,10 @@
 #include "experiments/cross/fresh_pages.h"
 
+#include <malloc.h>
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "terrain/memory.h"
 
@@ -16,6 +18,22 @@ void use_memory_once(std::uint64_t bytes) {
   if (block == MAP_FAILED) return;
   for (std::uint64_t at = 0; at < bytes; at += kPage) static_cast<volatile char*>(block)[at] = 1;
   munmap(block, bytes);
+}
+
+namespace {
+
+constexpr int kLargest = 32 << 20;  // bytes; glibc refuses a higher limit for blocks of their own mapping
+
+}  // namespace
+
+KeepFreedMemory::KeepFreedMemory() {
+  mallopt(M_MMAP_THRESHOLD, kLargest);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+}
+
+KeepFreedMemory::~KeepFreedMemory() {
+  mallopt(M_TRIM_THRESHOLD, 2 * kLargest);
+  malloc_trim(0);
 }
 
 }  // namespace terrabench::cross

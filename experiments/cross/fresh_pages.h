@@ -1,4 +1,4 @@
-// Touches memory before timed work, so that a virtual machine's host has provided it by then.
+// What timed work finds of the memory that it asks for, made the same whichever case ran before.
 #pragma once
 
 #include <cstdint>
@@ -11,5 +11,17 @@ namespace terrabench::cross {
 // it. Without this function the first case that uses much memory would seem slow, and no later one. Takes
 // seldom more than 2 µs per page of 4 KiB, or 9 µs where the host must provide the page.
 void use_memory_once(std::uint64_t bytes);
+
+// While it lives, the process keeps what is freed of blocks below 32 MiB, and work that is done again finds
+// the pages that it used before. By default glibc raises its limits with the blocks that were freed so far,
+// so that a page fault or none depends on which cases ran before. Afterwards the freed memory goes back to
+// the system, and the limits are those that glibc ends at after large blocks.
+class KeepFreedMemory {
+ public:
+  KeepFreedMemory();
+  ~KeepFreedMemory();
+  KeepFreedMemory(const KeepFreedMemory&) = delete;
+  KeepFreedMemory& operator=(const KeepFreedMemory&) = delete;
+};
 
 }  // namespace terrabench::cross

@@ -76,6 +76,7 @@ class Run {
   Recorder& recorder_;
   Progress& progress_;
   std::int64_t base_;  // heap bytes before the case
+  KeepFreedMemory keep_;
 };
 
 // Page faults of the calling thread so far that needed no disk: the first use of memory that the system gave.
