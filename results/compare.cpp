@@ -217,7 +217,7 @@ std::string noise_text(const Comparison& comparison) {
   return text;
 }
 
-// Without what there were too few times to estimate.
+// Leaves out each field that there were too few times to estimate.
 Json json_of(const Noise& noise) {
   Json json = Json::object();
   if (!noise.experiment.empty()) {

@@ -44,19 +44,19 @@ struct MetricChange {
 // Times of two runs of one program differ by more than their confidence intervals say: load, clock rate and
 // places in memory change, and what takes long or uses much memory feels it more. A time counts as changed
 // only if its interval excludes 1 and it changed by more than the threshold of the group of times that are
-// most like it: those of the same profile, experiment and metric, those of the same profile and experiment,
-// or all. The first of the former two with kRepeats counts, otherwise the first of the three whose noise can
-// be estimated.
+// most like it. There are three such groups: times of the same profile, experiment and metric; times of the
+// same profile and experiment; and all times. The first group counts if it has kRepeats, else the second if
+// it has; else the first of the three whose noise can be estimated.
 //
-// Repeats are the changes from the first to the second measurement of cases that one run measured twice
-// (Metric::first_look). The program was the same, so that all that changed is noise: the threshold is the
-// factor that 99 of 100 of them do not exceed. They do not show what stays for a whole run and differs from
-// time to time, such as places in memory, nor how much cases vary that are too long to be measured twice, and
-// the times of one case share its moments.
+// A repeat is the change from the first to the second measurement of a time that one run measured twice
+// (Metric::first_look). The program was the same, so every such change is noise, and the threshold is the
+// factor that 99 of 100 of them do not exceed. Repeats do not show differences that last for a whole run,
+// such as places in memory, nor the noise of cases that are too long to be measured twice. All times of one
+// case were repeated at the same moments, so their repeats are alike.
 //
-// With fewer, three standard deviations of the changes between the runs are the threshold, if there are
-// kLeast. This assumes that most times of the group did not change. A quarter of them may, with little
-// effect. If about half did, by different factors, the estimate is wide and hides them.
+// A group with fewer repeats, but with kLeast times, has as its threshold three standard deviations of the
+// changes between the runs. This assumes that most times of the group did not change. A quarter of them may,
+// with little effect. If about half did, by different factors, the estimate is wide and hides them.
 //
 // What all of a group share between the runs, such as a new compiler or a busy hour of the machine, is in
 // neither: then all count as changed, and the group's median says so. Of many times that did not change a
@@ -69,7 +69,7 @@ struct Noise {
   std::size_t users = 0;             // times that it applies to
   double median = 1, deviation = 1;  // of after ÷ before, as factors; the deviation of kLeast timings or more
   double threshold = 1;              // a factor up to it is noise, and so is 1 ÷ it; 1: not estimated
-  bool by_repeats = false;           // whether the threshold is
+  bool by_repeats = false;           // whether the threshold comes from repeats, not from the deviation
 };
 
 struct Comparison {

@@ -22,7 +22,7 @@ void use_memory_once(std::uint64_t bytes) {
 
 namespace {
 
-constexpr int kLargest = 32 << 20;  // bytes; glibc refuses a higher limit for blocks of their own mapping
+constexpr int kLargest = 32 << 20;  // bytes; glibc maps larger blocks anew, and accepts no higher limit
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// What timed work finds of the memory that it asks for, made the same whichever case ran before.
+// Gives timed work the same state of memory, whichever case ran before it.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,11 @@ namespace terrabench::cross {
 // seldom more than 2 µs per page of 4 KiB, or 9 µs where the host must provide the page.
 void use_memory_once(std::uint64_t bytes);
 
-// While it lives, the process keeps what is freed of blocks below 32 MiB, and work that is done again finds
-// the pages that it used before. By default glibc raises its limits with the blocks that were freed so far,
-// so that a page fault or none depends on which cases ran before. Afterwards the freed memory goes back to
-// the system, and the limits are those that glibc ends at after large blocks.
+// While it lives, the process keeps up to 2 GiB of freed memory, so that work that is repeated finds the
+// pages that it used before. Blocks of 32 MiB or more are the exception: the system always maps them anew. By
+// default glibc keeps more memory the larger the blocks are that were freed before, and so page faults depend
+// on the cases that ran before. The destructor gives the freed memory back to the system, and leaves glibc's
+// limits as they are after large blocks were freed.
 class KeepFreedMemory {
  public:
   KeepFreedMemory();

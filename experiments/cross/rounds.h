@@ -18,7 +18,8 @@ class Rounds {
  public:
   // With three samples in each of two runs, an unchanged time looks changed (all samples of one run above all
   // of the other's) in one case of ten, with six in one of 462. So kMost are taken, and kFew only where the
-  // work is long. More of one moment would help less than those of the second measurement (second_look.h).
+  // work is long. Further samples taken right then would help less than a second measurement later
+  // (second_look.h).
   static constexpr int kMost = 6, kFew = 3;
 
   // Seconds that a piece of work took so far. `longest`: its longest call, and of metrics in seconds only
