@@ -43,7 +43,10 @@ class Run {
   template <class Work>
   bool measured(SizePlan& plan, double columns, const Work& work) const {
     if (!plan.admits(columns)) return false;
-    use_memory_once(plan.expected_bytes(columns));
+    const auto held = static_cast<std::uint64_t>(std::max<std::int64_t>(0, HeapCounter::live() - base_));
+    const std::uint64_t expected = std::max(held, plan.expected_bytes(columns));
+    if (available_memory() < expected - held) keep_.give_back();
+    keep_.provide(expected - held);
     HeapCounter::reset_peak();
     const double begin = process_seconds();
     try {
@@ -88,10 +91,10 @@ inline double page_faults() {
 
 // Processor seconds and page faults of each turn of the work on one thread. Work under
 // 0.2 s is done once uncounted, then five times; under 2 s three times, all counted; longer work once, since
-// the largest sizes take minutes. So small sizes are measured warm and large ones cold, as they are in use.
-// Work under 0.05 s is done up to ten times if turns are disturbed (interference.h), which takes little of
-// the budget of time; three undisturbed turns or more then stand alone. Before each turn clear() frees what
-// the last one made, uncounted.
+// the largest sizes take minutes. So small sizes are measured with warm caches and large ones with cold
+// caches, as they are in use. Work under 0.05 s is done up to ten times if turns are disturbed
+// (interference.h), which takes little of the budget of time; three undisturbed turns or more then stand
+// alone. Before each turn clear() frees what the last one made, uncounted.
 template <class Clear, class Work>
 void add_turns(Cost& cost, Cost& faults, double columns, const Clear& clear, const Work& work) {
   constexpr double kBrief = 0.05, kShort = 0.2, kLong = 2;  // seconds
