@@ -5,38 +5,33 @@
 #include <algorithm>
 #include <memory>
 #include <new>
-#include <vector>
 
 #include "terrain/memory.h"
 
 namespace terrabench::cross {
-namespace {
 
-// Bytes. Where the freed memory has no room for a larger block, glibc maps it from the system, and unmaps it
-// when it is freed. It accepts no higher limit.
-constexpr int kLargest = 32 << 20;
-
-}  // namespace
-
+// By default glibc maps large blocks from the system where the freed memory has no room for them, and unmaps
+// them when they are freed. The limits are those that large blocks leave behind.
 KeepFreedMemory::KeepFreedMemory() {
-  mallopt(M_MMAP_THRESHOLD, kLargest);
+  mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, -1);  // never
 }
 
 KeepFreedMemory::~KeepFreedMemory() {
+  constexpr int kMost = 65536, kLargest = 32 << 20;  // mapped blocks, as by default, and bytes
+  mallopt(M_MMAP_MAX, kMost);
+  mallopt(M_MMAP_THRESHOLD, kLargest);
   mallopt(M_TRIM_THRESHOLD, 2 * kLargest);
   give_back();
 }
 
+// In one block, since many would be placed in gaps that are too small for the work's largest.
 void KeepFreedMemory::provide(std::uint64_t bytes) const {
-  constexpr std::uint64_t kBlock = kLargest / 2, kPage = 4096;
-  const std::uint64_t all = std::min(bytes, available_memory() / 10 * 9);
-  std::vector<std::unique_ptr<char[]>> blocks((all + kBlock - 1) / kBlock);
-  for (auto& block : blocks) {
-    block.reset(new (std::nothrow) char[kBlock]);
-    if (!block) return;
-    for (std::uint64_t at = 0; at < kBlock; at += kPage) static_cast<volatile char*>(block.get())[at] = 1;
-  }
+  constexpr std::uint64_t kPage = 4096;
+  bytes = std::min(bytes, available_memory() / 10 * 9);
+  const std::unique_ptr<char[]> block(new (std::nothrow) char[bytes]);
+  if (!block) return;
+  for (std::uint64_t at = 0; at < bytes; at += kPage) static_cast<volatile char*>(block.get())[at] = 1;
 }
 
 void KeepFreedMemory::give_back() const { malloc_trim(0); }
