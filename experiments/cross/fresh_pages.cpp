@@ -10,22 +10,23 @@
 
 namespace terrabench::cross {
 
-// By default glibc maps large blocks from the system where the freed memory has no room for them, and unmaps
-// them when they are freed. The limits are those that large blocks leave behind.
+// By default, where freed memory has no room for a large block, glibc maps it from the system, and unmaps it
+// when it is freed. M_MMAP_MAX 0 lets the heap grow instead.
 KeepFreedMemory::KeepFreedMemory() {
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, -1);  // never
 }
 
 KeepFreedMemory::~KeepFreedMemory() {
-  constexpr int kMost = 65536, kLargest = 32 << 20;  // mapped blocks, as by default, and bytes
+  constexpr int kMost = 65536, kLargest = 32 << 20;  // glibc's default; its limit in bytes after large blocks
   mallopt(M_MMAP_MAX, kMost);
   mallopt(M_MMAP_THRESHOLD, kLargest);
   mallopt(M_TRIM_THRESHOLD, 2 * kLargest);
   give_back();
 }
 
-// In one block, since many would be placed in gaps that are too small for the work's largest.
+// One block, since glibc would place smaller ones in gaps that have no room for the largest block of the
+// work.
 void KeepFreedMemory::provide(std::uint64_t bytes) const {
   constexpr std::uint64_t kPage = 4096;
   bytes = std::min(bytes, available_memory() / 10 * 9);

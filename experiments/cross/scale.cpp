@@ -54,9 +54,9 @@ void measure_flow(const Run& run, bool whole) {
   route_faults.record(run.recorder());
 }
 
-// Seconds of a case. In the paper profile they are the most that keeps the whole profile within two hours,
-// and reach the largest ground that 20 GiB hold, but for structures that would take minutes more: the mesh of
-// the implicit surface, and on slow machines voxels, whose record then says that a size was skipped for time.
+// Processor seconds of a case. With those of the paper profile the whole profile took 117 minutes on two
+// cores. A size that would take longer is skipped, and recorded as skipped for time: meshing the largest
+// implicit surface, and on slow machines also the largest ground of voxels.
 double budget(std::string_view family, Profile profile) {
   if (profile == Profile::kQuick) return 20;
   return family == "heights" ? 300 : family == "solids" ? 150 : 120;
