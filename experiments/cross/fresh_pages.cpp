@@ -10,23 +10,25 @@
 
 namespace terrabench::cross {
 
-// By default, where freed memory has no room for a large block, glibc maps it from the system, and unmaps it
-// when it is freed. M_MMAP_MAX 0 lets the heap grow instead.
+// By default, if no free block is large enough, glibc allocates a block above M_MMAP_THRESHOLD with mmap, and
+// calls munmap when it is freed. With M_MMAP_MAX 0 it extends the heap instead, and the process keeps the
+// pages.
 KeepFreedMemory::KeepFreedMemory() {
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, -1);  // never
 }
 
 KeepFreedMemory::~KeepFreedMemory() {
-  constexpr int kMost = 65536, kLargest = 32 << 20;  // glibc's default; its limit in bytes after large blocks
+  constexpr int kMost = 65536;        // default of M_MMAP_MAX
+  constexpr int kLargest = 32 << 20;  // bytes, the highest M_MMAP_THRESHOLD that glibc accepts
   mallopt(M_MMAP_MAX, kMost);
   mallopt(M_MMAP_THRESHOLD, kLargest);
   mallopt(M_TRIM_THRESHOLD, 2 * kLargest);
   give_back();
 }
 
-// One block, since glibc would place smaller ones in gaps that have no room for the largest block of the
-// work.
+// Allocates one block: glibc could place several small ones in fragments of free memory, of which none might
+// fit the largest block that the timed work allocates.
 void KeepFreedMemory::provide(std::uint64_t bytes) const {
   constexpr std::uint64_t kPage = 4096;
   bytes = std::min(bytes, available_memory() / 10 * 9);

@@ -17,10 +17,10 @@ class KeepFreedMemory {
   KeepFreedMemory& operator=(const KeepFreedMemory&) = delete;
 
   // Allocates `bytes`, or 90 % of the available memory if that is less, writes to every page and frees the
-  // block. Later work that needs no more has no page faults, even for large blocks. Nor does it wait for the
-  // host of a virtual machine, which provides a page when the machine first uses it: that takes several times
-  // as long as the page fault within the machine, and no counter shows it. A new page of 4 KiB takes 2 to
-  // 25 µs, by the machine. Does nothing if the system refuses the memory.
+  // block. Later allocations up to this size cause almost no page faults, even for large blocks. In a virtual
+  // machine, the host also provides a page at its first use. That takes several times as long as the guest's
+  // page fault, and the guest does not count it; later work does not wait for it. The first use of a page of
+  // 4 KiB took 2 to 25 µs on the machines measured. Does nothing if the system refuses the memory.
   void provide(std::uint64_t bytes) const;
   // Gives freed memory back to the system.
   void give_back() const;

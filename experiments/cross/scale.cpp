@@ -54,9 +54,10 @@ void measure_flow(const Run& run, bool whole) {
   route_faults.record(run.recorder());
 }
 
-// Processor seconds of a case. With those of the paper profile the whole profile took 117 minutes on two
-// cores. A size that would take longer is skipped, and recorded as skipped for time: meshing the largest
-// implicit surface, and on slow machines also the largest ground of voxels.
+// The limit of processor time per case, in seconds. With these limits the paper profile took 117 minutes on
+// two cores of an AMD EPYC. A size that is expected to exceed the limit is skipped, and the record gives time
+// as the reason: the mesh of the largest implicit surface, and on slow machines the largest voxels over
+// heights.
 double budget(std::string_view family, Profile profile) {
   if (profile == Profile::kQuick) return 20;
   return family == "heights" ? 300 : family == "solids" ? 150 : 120;

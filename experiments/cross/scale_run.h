@@ -45,7 +45,8 @@ class Run {
     if (!plan.admits(columns)) return false;
     const auto held = static_cast<std::uint64_t>(std::max<std::int64_t>(0, HeapCounter::live() - base_));
     const std::uint64_t expected = std::max(held, plan.expected_bytes(columns));
-    // Freed memory that lies in gaps may be of no use to the work, and then must leave room for other memory.
+    // The heap may be fragmented, so that the work cannot use freed blocks again. If too little other memory
+    // is available, the freed pages go back to the system first.
     if (available_memory() < expected - held) keep_.give_back();
     keep_.provide(expected - held);
     HeapCounter::reset_peak();

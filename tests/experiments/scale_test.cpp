@@ -236,7 +236,7 @@ TEST(Scale, DiggingIsMeasuredOnlyWhereTheGroundHasRoomForTheHoles) {
   for (const double seconds : samples(record, "edit")) EXPECT_GT(seconds, 0);
 }
 
-// The blocks are those that glibc maps from the system unless it has room for them.
+// By default glibc allocates blocks of 64 MiB with mmap if no free block fits.
 TEST(Scale, ProvidedMemoryComesWithoutFaultsAndIsGivenBack) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "a sanitizer has an allocator of its own";
@@ -257,11 +257,12 @@ TEST(Scale, ProvidedMemoryComesWithoutFaultsAndIsGivenBack) {
   {
     const KeepFreedMemory keep;
     keep.give_back();
-    EXPECT_GE(faults(), 96) << "every page was used, even if pages have 2 MiB";
+    EXPECT_GE(faults(), 96) << "each page causes a fault: at least 96 with pages of 2 MiB";
     keep.provide(std::uint64_t{3 * 64 + 8} << 20);
     EXPECT_LT(faults(), 100);
   }
-  EXPECT_LT(resident_pages(), before + (1 << 14)) << "a third of them, in case other tests' threads live on";
+  EXPECT_LT(resident_pages(), before + (1 << 14))
+      << "at most a third of the pages stay; threads of other tests may hold some";
 }
 
 // Without it the faults depend on the blocks that were freed before.
