@@ -76,8 +76,9 @@ void keep_error(Shared& shared, std::size_t tasks, ExitCode code, std::string_vi
   } catch (const Error& error) {
     keep_error(shared, tasks, error.code(), error.what(), error.advice());
   } catch (const std::bad_alloc&) {
-    keep_error(shared, tasks, ExitCode::kEnvironment, "out of memory",
-               "run fewer cases beside each other (--jobs), then go on with --resume");
+    keep_error(
+        shared, tasks, ExitCode::kEnvironment, "out of memory",
+        "close other programs, or run fewer cases beside each other (--jobs); then go on with --resume");
   } catch (const std::exception& error) {
     keep_error(shared, tasks, ExitCode::kEnvironment, error.what(), "");
   }
@@ -101,7 +102,9 @@ void wait_for(std::vector<pid_t> processes, Shared& shared, std::size_t tasks,
                  fmt::format("the process that measured {} {} {}", name(shared.current[index]),
                              WIFSIGNALED(status) ? "was ended by signal" : "ended with exit status",
                              WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status)),
-                 "if memory ran out, run fewer cases beside each other (--jobs); then go on with --resume");
+                 "if memory ran out, close other programs, or run fewer cases beside each other (--jobs); "
+                 "then go on "
+                 "with --resume");
     }
     if (Progress::interrupted() && !told) {
       for (const pid_t process : processes) kill(process, SIGTERM);

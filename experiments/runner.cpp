@@ -80,6 +80,10 @@ Provenance provenance_from_process(const RunPlan& plan) {
   return std::get<Provenance>(parse_line(line, "this run").content);
 }
 
+Progress::Output progress_output() {
+  return isatty(STDERR_FILENO) != 0 ? Progress::Output::kTerminal : Progress::Output::kLines;
+}
+
 // What is known of a case before it is measured.
 Record begin_record(const RunPlan& plan, const PlannedCase& planned, const std::string& run) {
   Record record;
@@ -151,7 +155,7 @@ class Session {
  public:
   explicit Session(const RunPlan& plan) : plan_(plan), cases_(plan_cases(plan)), store_(plan.folder) {
     for (const std::string& warning : store_.warnings()) fmt::print(stderr, "warning: {}\n", warning);
-    provenance_ = plan.jobs > 1 ? provenance_from_process(plan) : provenance_of(plan);
+    provenance_ = provenance_from_process(plan);
     for (const std::string& warning : provenance_.timing_warnings) {
       fmt::print(stderr, "warning: {}\n", warning);
     }
@@ -159,15 +163,17 @@ class Session {
   }
 
   void run() {
-    std::vector<std::size_t> alone, beside;
+    std::vector<std::size_t> beside, fresh, alone;
     for (std::size_t i = 0; i < cases_.size(); ++i) {
       if (plan_.resume && is_measured(begin(i), store_, provenance_)) continue;
-      (plan_.jobs > 1 && !times(i) ? beside : alone).push_back(i);
+      const bool own = in_fresh_process(*cases_[i].experiment);
+      (own ? fresh : plan_.jobs > 1 && !times(i) ? beside : alone).push_back(i);
     }
     measure_beside(beside);
+    measure_fresh(fresh);
     measure_alone(alone);
     store_.sync();
-    const std::size_t skipped = cases_.size() - alone.size() - beside.size();
+    const std::size_t skipped = cases_.size() - beside.size() - fresh.size() - alone.size();
     if (skipped > 0)
       fmt::print(stderr, "{} of {} cases were already in the results folder\n", skipped, cases_.size());
     check_differences();
@@ -190,8 +196,17 @@ class Session {
         [&](std::size_t k) { return title(cases[k]); });
   }
 
+  void measure_fresh(const std::vector<std::size_t>& cases) {
+    const auto output = progress_output();
+    if (!cases.empty()) loop_seconds();  // all of them then know the same fast loop
+    for (const std::size_t i : cases) {
+      run_in_processes(
+          1, 1, [&](std::size_t) { measure_first(i, output); }, [&](std::size_t) { return title(i); });
+    }
+  }
+
   void measure_alone(const std::vector<std::size_t>& cases) {
-    const auto output = isatty(STDERR_FILENO) != 0 ? Progress::Output::kTerminal : Progress::Output::kLines;
+    const auto output = progress_output();
     std::vector<Measured> brief;
     for (const std::size_t i : cases) {
       Measured first = measure_first(i, output);

@@ -1,5 +1,6 @@
 // Runs cases of experiments and keeps each record as soon as it is measured: one case after another, or those
-// that record no times beside each other.
+// that record no times beside each other. Cases whose times depend on what was allocated before get a process
+// each (in_fresh_process() of timing.h).
 #pragma once
 
 #include <filesystem>
@@ -22,7 +23,8 @@ struct RunPlan {
   int shard = 1, shards = 1;  // measure only every shards-th case of the part, from the shard-th
   int threads = 0;            // in use, for the provenance; 0: all
   int jobs = 1;               // cases without times beside each other, with threads ÷ jobs threads each
-  double again = 1;  // cases with times that took at most so many seconds are measured twice; 0: none
+  // Cases with times that took at most so many seconds are measured twice, if not in a process each; 0: none.
+  double again = 1;
   std::vector<std::string> command;  // argv, for the provenance
 };
 
@@ -34,14 +36,14 @@ struct PlannedCase {
 };
 std::vector<PlannedCase> plan_cases(const RunPlan&);
 
-// Measures all planned cases and appends their records to folder/measurements.jsonl, in the registry's order;
-// with jobs > 1 first those without times, beside each other in processes of their own, then the timed ones,
-// alone. At the end, measures short cases that recorded times a second time and adds these samples to their
+// Measures all planned cases and appends their records to folder/measurements.jsonl, in the registry's order
+// within each of three parts: with jobs > 1 those without times, beside each other in `jobs` processes; those
+// of in_fresh_process(), one after another in a process each; the others, one after another. At the end,
+// measures short ones of the last part that recorded times a second time and adds these samples to their
 // times, or keeps those of one measurement alone if only the other was disturbed (second_look.h). After an
-// interruption,
-// --resume does not catch up on second measurements. Throws Error(kInterrupted) on Ctrl-C and keeps the
-// records written so far. Throws Error(kClaimFallsShort) at the end if exact figures of a case differ between
-// its two measurements.
+// interruption, --resume does not catch up on second measurements. Throws Error(kInterrupted) on Ctrl-C and
+// keeps the records written so far. Throws Error(kClaimFallsShort) at the end if exact figures of a case
+// differ between its two measurements. Call it before this process has threads (run_in_processes()).
 void run(const RunPlan&);
 
 }  // namespace terrabench

@@ -1,4 +1,4 @@
-// Which cases may record times: those of experiments that registry.cpp calls TIMED, except where
+// Which cases may record times: those of experiments that registry.cpp calls TIMED or FRESH, except where
 // Experiment::times says no.
 #pragma once
 
@@ -13,5 +13,9 @@ bool records_times(const Experiment&);
 inline bool records_times(const Experiment& experiment, const Case& at) {
   return records_times(experiment) && (experiment.times == nullptr || experiment.times(at));
 }
+
+// Whether each case of this registered experiment is measured in a process of its own: one whose times depend
+// on where in the heap its memory lies, and so on what the process allocated before.
+bool in_fresh_process(const Experiment&);
 
 }  // namespace terrabench

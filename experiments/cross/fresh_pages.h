@@ -1,4 +1,4 @@
-// Gives timed work the same state of memory, whichever case ran before it.
+// Gives timed work memory that it can use without page faults.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@ namespace terrabench::cross {
 
 // While it lives, the process keeps the memory that is freed, and uses it again without page faults. By
 // default glibc keeps more of it the larger the blocks are that were freed before, so the number of faults
-// depends on the cases that ran before. The destructor gives the freed memory back to the system, and leaves
+// depends on the sizes measured before. The destructor gives the freed memory back to the system, and leaves
 // glibc's limits as they are after large blocks were freed.
 class KeepFreedMemory {
  public:

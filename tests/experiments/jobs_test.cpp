@@ -89,6 +89,22 @@ TEST_F(CommandLine, JobsRecordTheSameInOneRun) {
               HasSubstr("cases were already in the results folder"));
 }
 
+// The first process that the run starts is not the case's: it finds out the provenance. It has ended when
+// there are results.
+TEST_F(CommandLine, ACaseOfScaleIsMeasuredInAProcessOfItsOwn) {
+  EXPECT_TRUE(in_fresh_process(experiment("cross.scale")));
+  EXPECT_FALSE(in_fresh_process(experiment("hybrid.table2")));
+  const Outcome killed = call(
+      "$T run cross.scale --shard 1/20 --out out & run=$!\n"
+      "for try in $(seq 3000); do [ -s out/measurements.jsonl ] && break; sleep 0.01; done\n"
+      "for try in $(seq 300); do\n"
+      "  kill -KILL $(grep -ls \"^PPid:.$run\\$\" /proc/[0-9]*/status | cut -d/ -f3) && break; sleep 0.01\n"
+      "done; wait $run");
+  EXPECT_EQ(killed.code, 4) << killed.text;
+  EXPECT_THAT(killed.text,
+              HasSubstr("the process that measured cross.scale heights/heightmap was ended by signal 9"));
+}
+
 TEST_F(CommandLine, FailureOfACaseBesideOthersEndsTheRunWithItsCode) {
   ASSERT_EQ(call("mkdir -p out && touch out/figures").code, 0);
   const Outcome failed = call(std::string(kRun) + "--out out --jobs 2");
