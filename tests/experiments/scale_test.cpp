@@ -216,11 +216,11 @@ TEST(Scale, QueriesRaysEditsAndFilesAreMeasuredAtEverySize) {
   };
   const Record stack = over("heights/layered_stack"), map = over("heights/heightmap"),
                tree = over("heights/ght");
-  for (const char* const cost : {"query", "query_near", "ray", "ray_near", "edit"}) {
+  for (const char* const cost : {"query", "query_near", "ray", "ray_near", "edit", "edit_cached"}) {
     EXPECT_EQ(samples(stack, cost).size(), 9U) << cost;
     for (const double seconds : samples(stack, cost)) EXPECT_GT(seconds, 0) << cost;
   }
-  EXPECT_EQ(samples(tree, "edit").size(), 9U);
+  for (const char* const cost : {"edit", "edit_cached"}) EXPECT_EQ(samples(tree, cost).size(), 9U) << cost;
   EXPECT_EQ(map.find("edit"), nullptr) << "a heightmap takes no edits";
   EXPECT_EQ(over("heights/procedural_mesh").find("ray"), nullptr) << "cast through its mesh";
   EXPECT_THAT(samples(map, "load_smallest"), ElementsAre(65 * 65));
