@@ -78,9 +78,7 @@ std::vector<RoundTimes> time_rounds(std::vector<Mrbsp>& lods, const Heightfield&
                                     const std::vector<View>& views, int rounds, const RunOptions& options,
                                     Progress& progress) {
   const auto context = open_context(options.renderer, views[0].width, views[0].height);
-  std::vector<std::unique_ptr<FrameRenderer>> renderers;
-  for (std::size_t m = 0; m < lods.size(); ++m)
-    renderers.push_back(std::make_unique<FrameRenderer>(*context));
+  std::vector<std::unique_ptr<FrameRenderer>> renderers(lods.size());
   const HeightRange range = height_range(ground);
   const FrameStyle style{.lowest = range.lowest, .highest = range.highest};
   const auto draw = [&](std::size_t m, const View& view) {
@@ -92,14 +90,22 @@ std::vector<RoundTimes> time_rounds(std::vector<Mrbsp>& lods, const Heightfield&
     });
     return std::pair(choice, choice + drawing);
   };
-  // The first frames upload heights and compile shaders.
-  for (std::size_t m = 0; m < lods.size(); ++m) draw(m, views[0]);
+  // The first frame uploads heights and compiles shaders.
+  const auto renew = [&](std::size_t first) {
+    for (auto& renderer : renderers) renderer.reset();
+    for (std::size_t k = 0; k < lods.size(); ++k) {
+      const std::size_t m = (first + k) % lods.size();
+      renderers[m] = std::make_unique<FrameRenderer>(*context);
+      draw(m, views[0]);
+    }
+  };
   std::vector<RoundTimes> all;
   progress.begin("drawing frames", static_cast<std::uint64_t>(rounds) * views.size());
   for (int round = 0; round < rounds; ++round) {
     RoundTimes& times = all.emplace_back();
     times.frames.resize(lods.size());
     times.choices.resize(lods.size());
+    renew(round);
     for (const View& view : views) {
       for (std::size_t turn = 0; turn < lods.size(); ++turn) {
         const std::size_t m = round % 2 == 0 ? turn : lods.size() - 1 - turn;
