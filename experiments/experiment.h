@@ -39,8 +39,8 @@ struct Experiment {
   std::span<const ParameterSpec> parameters;
   std::vector<Case> (*cases)(const RunOptions&);
   void (*measure)(const Case&, const RunOptions&, Recorder&, Progress&);
-  // Of an experiment registered as TIMED: whether a case, with its --set values, may record times; null:
-  // every case may.
+  // Of an experiment not registered as UNTIMED: whether a case, with its --set values, may record times;
+  // null: every case may.
   bool (*times)(const Case&) = nullptr;
 
   std::string_view paper() const { return id.substr(0, id.find('.')); }

@@ -16,6 +16,7 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct Shared {
   std::atomic<std::size_t> next{0};                  // task; the number of tasks or more: none is left
   std::atomic<std::size_t> current[kMostProcesses];  // task that each process is at
   std::atomic<bool> failed{false};                   // the first to set it writes what follows
+  bool closed_pipe = false;                          // nobody reads what it prints
   ExitCode code = ExitCode::kGood;
   char what[kLongestText] = "", advice[kLongestText] = "";
 };
@@ -55,9 +57,10 @@ void copy_text(std::string_view text, std::span<char> out) {
 }
 
 void keep_error(Shared& shared, std::size_t tasks, ExitCode code, std::string_view what,
-                std::string_view advice) {
+                std::string_view advice, bool closed_pipe = false) {
   shared.next = tasks;
   if (shared.failed.exchange(true)) return;
+  shared.closed_pipe = closed_pipe;
   shared.code = code;
   copy_text(what, shared.what);
   copy_text(advice, shared.advice);
@@ -68,6 +71,9 @@ void keep_error(Shared& shared, std::size_t tasks, ExitCode code, std::string_vi
                        const std::function<void(std::size_t)>& task) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);  // it was killed before this process asked to die with it
+  // Ctrl-C goes to a whole group. Outside it, this process gets one signal, from its parent: a second one
+  // would end it before it has removed its temporary files.
+  setpgid(0, 0);
   try {
     for (std::size_t i = shared.next++; i < tasks; i = shared.next++) {
       shared.current[process] = i;
@@ -79,6 +85,9 @@ void keep_error(Shared& shared, std::size_t tasks, ExitCode code, std::string_vi
     keep_error(
         shared, tasks, ExitCode::kEnvironment, "out of memory",
         "close other programs, or run fewer cases beside each other (--jobs); then go on with --resume");
+  } catch (const std::system_error& error) {
+    keep_error(shared, tasks, ExitCode::kEnvironment, error.what(), "",
+               error.code() == std::errc::broken_pipe);
   } catch (const std::exception& error) {
     keep_error(shared, tasks, ExitCode::kEnvironment, error.what(), "");
   }
@@ -103,8 +112,7 @@ void wait_for(std::vector<pid_t> processes, Shared& shared, std::size_t tasks,
                              WIFSIGNALED(status) ? "was ended by signal" : "ended with exit status",
                              WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status)),
                  "if memory ran out, close other programs, or run fewer cases beside each other (--jobs); "
-                 "then go on "
-                 "with --resume");
+                 "then go on with --resume");
     }
     if (Progress::interrupted() && !told) {
       for (const pid_t process : processes) kill(process, SIGTERM);
@@ -131,42 +139,40 @@ void run_in_processes(int jobs, std::size_t tasks, const std::function<void(std:
       processes.push_back(process);
     } else {
       keep_error(*shared, tasks, ExitCode::kEnvironment,
-                 fmt::format("cannot start a process: {}", std::strerror(errno)), "use fewer --jobs");
+                 fmt::format("cannot start a process: {}", std::strerror(errno)),
+                 "close other programs, or use fewer --jobs");
     }
   }
   wait_for(std::move(processes), *shared, tasks, name);
+  if (shared->closed_pipe) throw std::system_error(std::make_error_code(std::errc::broken_pipe));
   if (shared->failed) throw Error(shared->code, shared->what, "", shared->advice);
   if (Progress::interrupted()) throw Error(ExitCode::kInterrupted, "interrupted", "", "");
 }
 
 std::string call_in_process(const std::function<std::string()>& produce) {
-  int ends[2];
-  if (pipe(ends) != 0) {
-    throw environment_error(fmt::format("cannot open a pipe: {}", std::strerror(errno)), "", "");
-  }
-  const auto close_ends = [&] {
-    close(ends[0]);
-    close(ends[1]);
+  const auto failed = [](const char* what) {
+    return environment_error(fmt::format("cannot {} a file in memory: {}", what, std::strerror(errno)), "",
+                             "close other programs");
   };
+  const int memory = memfd_create("text", MFD_CLOEXEC);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(memory < 0 ? nullptr : fdopen(memory, "w+"),
+                                                             std::fclose);
+  if (!file) throw failed("create");
+  run_in_processes(
+      1, 1,
+      [&](std::size_t) {
+        const std::string text = produce();
+        if (std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() ||
+            std::fflush(file.get()) != 0) {
+          throw failed("write to");
+        }
+      },
+      [](std::size_t) { return "the environment"; });
   std::string text;
-  try {
-    run_in_processes(
-        1, 1,
-        [&](std::size_t) {
-          const std::string produced = produce();  // no longer than what a pipe holds
-          if (write(ends[1], produced.data(), produced.size()) != static_cast<ssize_t>(produced.size())) {
-            throw environment_error("cannot write to a pipe", "", "");
-          }
-        },
-        [](std::size_t) { return "the environment"; });
-    char buffer[std::size_t{1} << 16];
-    const ssize_t got = read(ends[0], buffer, sizeof buffer);
-    text.assign(buffer, static_cast<std::size_t>(std::max<ssize_t>(0, got)));
-  } catch (...) {
-    close_ends();
-    throw;
-  }
-  close_ends();
+  char buffer[4096];
+  std::rewind(file.get());
+  while (const std::size_t got = std::fread(buffer, 1, sizeof buffer, file.get())) text.append(buffer, got);
+  if (std::ferror(file.get()) != 0) throw failed("read");
   return text;
 }
 

@@ -1,5 +1,5 @@
-// Runs independent tasks beside each other, each in one of a few forked processes: the tasks share no heap,
-// no OpenGL context and no thread pool, so what they count per process is what they would count alone.
+// Runs tasks in forked processes, one or several beside each other: tasks in different processes share no
+// heap, no OpenGL context and no thread pool, so what they count per process is what they would count alone.
 #pragma once
 
 #include <cstddef>
@@ -12,12 +12,14 @@ namespace terrabench {
 // done with one. Call it before this process has threads: they do not live on in a forked one.
 //
 // An Error that a task throws is thrown here, once the tasks in progress are done; no further task is begun.
-// The same after a process was killed: environment_error, naming name(task). After Progress::interrupt() the
-// processes are interrupted too. When this process is killed, they are killed with it.
+// The same after a process was killed: environment_error, naming name(task). Of std::system_error, a broken
+// pipe is thrown as such. After Progress::interrupt() the processes are interrupted too; they are in process
+// groups of their own, so that a terminal's Ctrl-C reaches them only that way. When this process is killed,
+// they are killed with it.
 void run_in_processes(int jobs, std::size_t tasks, const std::function<void(std::size_t)>& task,
                       const std::function<std::string(std::size_t)>& name);
 
-// What `produce` returns, at most 64 KiB, in a process of its own: for work that starts threads.
+// What `produce` returns, in a process of its own: for work that starts threads.
 std::string call_in_process(const std::function<std::string()>& produce);
 
 }  // namespace terrabench

@@ -113,7 +113,8 @@ void check_untimed(const Record& record) {
     if (!is_timing(metric.unit)) continue;
     throw Error(ExitCode::kEnvironment,
                 fmt::format("records the time '{}', but counts as untimed", metric.name), record.experiment,
-                "register it as TIMED in experiments/registry.cpp, or let its times() be true for this case");
+                "register it as TIMED or FRESH in experiments/registry.cpp, or let its times() be true for "
+                "this case");
   }
 }
 
@@ -166,8 +167,11 @@ class Session {
     std::vector<std::size_t> beside, fresh, alone;
     for (std::size_t i = 0; i < cases_.size(); ++i) {
       if (plan_.resume && is_measured(begin(i), store_, provenance_)) continue;
-      const bool own = in_fresh_process(*cases_[i].experiment);
-      (own ? fresh : plan_.jobs > 1 && !times(i) ? beside : alone).push_back(i);
+      if (in_fresh_process(*cases_[i].experiment)) {
+        fresh.push_back(i);
+      } else {
+        (plan_.jobs > 1 && !times(i) ? beside : alone).push_back(i);
+      }
     }
     measure_beside(beside);
     measure_fresh(fresh);
@@ -198,8 +202,8 @@ class Session {
 
   void measure_fresh(const std::vector<std::size_t>& cases) {
     const auto output = progress_output();
-    if (!cases.empty()) loop_seconds();  // all of them then know the same fast loop
     for (const std::size_t i : cases) {
+      loop_seconds();  // the case inherits the shortest loop so far, and need not find it anew
       run_in_processes(
           1, 1, [&](std::size_t) { measure_first(i, output); }, [&](std::size_t) { return title(i); });
     }

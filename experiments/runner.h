@@ -23,7 +23,8 @@ struct RunPlan {
   int shard = 1, shards = 1;  // measure only every shards-th case of the part, from the shard-th
   int threads = 0;            // in use, for the provenance; 0: all
   int jobs = 1;               // cases without times beside each other, with threads ÷ jobs threads each
-  // Cases with times that took at most so many seconds are measured twice, if not in a process each; 0: none.
+  // Cases with times that took at most so many seconds, except those of in_fresh_process(), are measured
+  // twice; 0: none.
   double again = 1;
   std::vector<std::string> command;  // argv, for the provenance
 };

@@ -1,5 +1,5 @@
-// Which cases may record times: those of experiments that registry.cpp calls TIMED or FRESH, except where
-// Experiment::times says no.
+// Which cases may record times, and which need a process of their own. Times: those of experiments that
+// registry.cpp calls TIMED or FRESH, except where Experiment::times says no.
 #pragma once
 
 #include "experiments/experiment.h"

@@ -1,8 +1,12 @@
 // Which cases may run beside each other, and that they then record the same.
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <csignal>
+#include <filesystem>
+#include <iterator>
 #include <set>
+#include <thread>
 #include <utility>
 
 #include "experiments/runner.h"
@@ -14,6 +18,7 @@
 namespace terrabench {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr const char* kRun =
@@ -95,14 +100,30 @@ TEST_F(CommandLine, ACaseOfScaleIsMeasuredInAProcessOfItsOwn) {
   EXPECT_TRUE(in_fresh_process(experiment("cross.scale")));
   EXPECT_FALSE(in_fresh_process(experiment("hybrid.table2")));
   const Outcome killed = call(
-      "$T run cross.scale --shard 1/20 --out out & run=$!\n"
+      "$T run cross.scale --shard 1/20 --set largest=4097,seconds=1000 --out out & run=$!\n"
       "for try in $(seq 3000); do [ -s out/measurements.jsonl ] && break; sleep 0.01; done\n"
       "for try in $(seq 300); do\n"
       "  kill -KILL $(grep -ls \"^PPid:.$run\\$\" /proc/[0-9]*/status | cut -d/ -f3) && break; sleep 0.01\n"
       "done; wait $run");
   EXPECT_EQ(killed.code, 4) << killed.text;
   EXPECT_THAT(killed.text,
-              HasSubstr("the process that measured cross.scale heights/heightmap was ended by signal 9"));
+              AllOf(HasSubstr("measured cross.scale heights/heightmap"), HasSubstr("was ended by signal 9")));
+}
+
+// A terminal sends it to the whole group: to the run and to the process of the case.
+TEST_F(CommandLine, CtrlCDuringACaseOfScaleLeavesNoTemporaryFiles) {
+  const auto entries = [&] {
+    return std::distance(std::filesystem::directory_iterator(folder_ / "tmp"), {});
+  };
+  std::filesystem::create_directory(folder_ / "tmp");
+  const pid_t child =
+      start("TMPDIR=$PWD/tmp exec $T run cross.scale --shard 1/20 --set largest=4097,seconds=1000 --out out");
+  for (int i = 0; i < 600 && entries() == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  ASSERT_GT(entries(), 0);
+  kill(-child, SIGINT);
+  const Outcome outcome = wait(child);
+  EXPECT_EQ(outcome.code, 130) << outcome.text;
+  EXPECT_EQ(entries(), 0);
 }
 
 TEST_F(CommandLine, FailureOfACaseBesideOthersEndsTheRunWithItsCode) {

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <filesystem>
 #include <set>
+#include <system_error>
 
 #include "terrain/error.h"
 #include "terrain/files.h"
@@ -85,9 +86,22 @@ TEST_F(Processes, AKilledOneIsAnErrorThatNamesItsTask) {
   EXPECT_LT(noted(), 50U);
 }
 
+// The program then ends with the code of a closed pipe.
+TEST_F(Processes, ABrokenPipeStaysOne) {
+  try {
+    run_in_processes(
+        1, 1,
+        [](std::size_t) { throw std::system_error(std::make_error_code(std::errc::broken_pipe), "output"); },
+        [](std::size_t) { return ""; });
+    FAIL() << "nothing was thrown";
+  } catch (const std::system_error& error) {
+    EXPECT_EQ(error.code(), std::errc::broken_pipe);
+  }
+}
+
 TEST_F(Processes, ReturnText) {
   EXPECT_EQ(call_in_process([] { return std::to_string(getppid()); }), std::to_string(getpid()));
-  EXPECT_EQ(call_in_process([] { return std::string(10000, 'x'); }).size(), 10000U);
+  EXPECT_EQ(call_in_process([] { return std::string(1000000, 'x'); }).size(), 1000000U);
   EXPECT_THROW(call_in_process([]() -> std::string { throw usage_error("no", "", ""); }), Error);
 }
 
