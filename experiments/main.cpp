@@ -127,8 +127,8 @@ void add_run(CLI::App& app, Arguments& a) {
   command
       ->add_option(
           "--again", a.run.again,
-          "Repeat timed cases of at most so many seconds once all others are done, so that one slow period "
-          "of the machine does not distort all their samples; 0: no repeats")
+          "Repeat timed cases of at most so many seconds, except those of cross.scale, once all others are "
+          "done, so that one slow period of the machine does not distort all their samples; 0: no repeats")
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   add_renderer(*command, a.run.options.renderer);

@@ -12,7 +12,7 @@
 namespace terrabench {
 
 // The first exact metric that both have and that is not the same, or the pictures; empty if all agree. What
-// only one of them has does not count: how many sizes a budget of time allows varies.
+// only one of them has does not count: some figures are recorded only if the time allows.
 std::string exact_difference(const Record& first, const Record& again);
 
 struct Look {

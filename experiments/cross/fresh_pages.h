@@ -8,7 +8,7 @@ namespace terrabench::cross {
 // While it lives, the process keeps the memory that is freed, and uses it again without page faults. By
 // default glibc keeps more of it the larger the blocks are that were freed before, so the number of faults
 // depends on the sizes measured before. The destructor gives the freed memory back to the system, and leaves
-// glibc's limits as they are after large blocks were freed.
+// glibc's limits as they are after large blocks were freed, for tests that go on in the same process.
 class KeepFreedMemory {
  public:
   KeepFreedMemory();

@@ -35,7 +35,7 @@ constexpr std::array kLods{
 
 constexpr std::string_view kPath = "low";
 constexpr int kTunedSide = 257, kTunedFrames = 6;
-constexpr int kFrames = 100, kFramesPerSample = 10, kWalks = 3;
+constexpr int kFrames = 100, kFramesPerSample = 10;
 constexpr float kMiddle = 3840;  // metres from two sides of every ground to the middle of the path
 // Side of the smallest ground that is walked on. On less, much of what is in view lies beyond the ground's
 // edge, so that the share of the ground in view, which in theory is the same at any size, grows with it.
@@ -66,46 +66,23 @@ struct LodCosts {
   Cost build, build_faults, bytes, update, uploaded, triangles;
 };
 
-struct Walk {
-  std::vector<double> seconds;           // of an update, the mean of kFramesPerSample frames at a time:
-                                         // reading the clock takes a good part of a microsecond
-  double bytes_sent = 0, triangles = 0;  // per frame
-};
-
-// Updates along the path after its first view.
-Walk walk(Lod& method, const std::vector<View>& path) {
+// Updates along the path, the mean of kFramesPerSample frames at a time: reading the clock takes a good part
+// of a microsecond.
+void follow(Lod& method, const std::vector<View>& path, double columns, LodCosts& costs) {
   const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
-  Walk out;
-  method.update(path.front());
+  double sent = 0, drawn = 0;
   for (std::size_t i = 1; i + kFramesPerSample <= path.size(); i += kFramesPerSample) {
     const double begin = thread_seconds();
     for (std::size_t k = i; k < i + kFramesPerSample; ++k) {
       const FrameStats& stats = method.update(path[k]).stats;
-      out.bytes_sent += static_cast<double>(stats.bytes_sent());
-      out.triangles += static_cast<double>(stats.triangles);
+      sent += static_cast<double>(stats.bytes_sent());
+      drawn += static_cast<double>(stats.triangles);
     }
-    out.seconds.push_back((thread_seconds() - begin) / kFramesPerSample);
+    costs.update.add(columns, (thread_seconds() - begin) / kFramesPerSample);
   }
   const auto frames = static_cast<double>(path.size() - 1);
-  out.bytes_sent /= frames;
-  out.triangles /= frames;
-  return out;
-}
-
-// The same walk kWalks times. What is counted is that of the first.
-void follow(Lod& method, const std::vector<View>& path, double columns, LodCosts& costs) {
-  Turns walks;
-  take_turns(walks, kWalks, [&] {
-    const Walk one = walk(method, path);
-    if (walks.taken() == 0) {
-      costs.uploaded.add(columns, one.bytes_sent);
-      costs.triangles.add(columns, one.triangles);
-    }
-    return one.seconds;
-  });
-  for (const std::vector<double>& seconds : walks.kept(1)) {
-    for (const double each : seconds) costs.update.add(columns, each);
-  }
+  costs.uploaded.add(columns, sent / frames);
+  costs.triangles.add(columns, drawn / frames);
 }
 
 }  // namespace
@@ -134,6 +111,7 @@ void measure_lod(const Run& run, std::string_view name) {
       if (side < kSmallestWalk) return;
       const std::vector<View> path = same_flight(ground);
       built->tune(tuned.knob);
+      built->update(path.front());
       follow(*built, path, columns, costs);
       costs.bytes.add(columns, static_cast<double>(built->memory().total()));
     });
