@@ -71,9 +71,9 @@ void keep_error(Shared& shared, std::size_t tasks, ExitCode code, std::string_vi
                        const std::function<void(std::size_t)>& task) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);  // it was killed before this process asked to die with it
-  // Ctrl-C goes to a whole group. Outside it, this process gets one signal, from its parent: a second one
-  // would end it before it has removed its temporary files.
-  setpgid(0, 0);
+  // A terminal's Ctrl-C goes to the whole group, and the parent passes it on: the second signal must not end
+  // this process before it has removed its temporary files.
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { Progress::interrupt(); });
   try {
     for (std::size_t i = shared.next++; i < tasks; i = shared.next++) {
       shared.current[process] = i;
@@ -157,7 +157,11 @@ std::string call_in_process(const std::function<std::string()>& produce) {
   const int memory = memfd_create("text", MFD_CLOEXEC);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(memory < 0 ? nullptr : fdopen(memory, "w+"),
                                                              std::fclose);
-  if (!file) throw failed("create");
+  if (!file) {
+    const Error error = failed("create");
+    if (memory >= 0) close(memory);
+    throw error;
+  }
   run_in_processes(
       1, 1,
       [&](std::size_t) {

@@ -203,7 +203,7 @@ class Session {
   void measure_fresh(const std::vector<std::size_t>& cases) {
     const auto output = progress_output();
     for (const std::size_t i : cases) {
-      loop_seconds();  // the case inherits the shortest loop so far, and need not find it anew
+      loop_seconds();  // the case inherits the shortest loop seen so far, and can tell if it is disturbed
       run_in_processes(
           1, 1, [&](std::size_t) { measure_first(i, output); }, [&](std::size_t) { return title(i); });
     }

@@ -37,14 +37,15 @@ struct PlannedCase {
 };
 std::vector<PlannedCase> plan_cases(const RunPlan&);
 
-// Measures all planned cases and appends their records to folder/measurements.jsonl, in the registry's order
-// within each of three parts: with jobs > 1 those without times, beside each other in `jobs` processes; those
-// of in_fresh_process(), one after another in a process each; the others, one after another. At the end,
-// measures short ones of the last part that recorded times a second time and adds these samples to their
-// times, or keeps those of one measurement alone if only the other was disturbed (second_look.h). After an
-// interruption, --resume does not catch up on second measurements. Throws Error(kInterrupted) on Ctrl-C and
-// keeps the records written so far. Throws Error(kClaimFallsShort) at the end if exact figures of a case
-// differ between its two measurements. Call it before this process has threads (run_in_processes()).
+// Measures all planned cases and appends their records to folder/measurements.jsonl, in three parts: with
+// jobs > 1 those without times, beside each other in `jobs` processes, in the order in which they end; those
+// of in_fresh_process(), one after another in a process each; the others, one after another. The last two
+// parts keep the registry's order. At the end, measures short ones of the last part that recorded times a
+// second time and adds these samples to their times, or keeps those of one measurement alone if only the
+// other was disturbed (second_look.h). After an interruption, --resume does not catch up on second
+// measurements. Throws Error(kInterrupted) on Ctrl-C and keeps the records written so far. Throws
+// Error(kClaimFallsShort) at the end if exact figures of a case differ between its two measurements. Call it
+// before this process has threads (run_in_processes()).
 void run(const RunPlan&);
 
 }  // namespace terrabench

@@ -5,15 +5,20 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "experiments/interference.h"
 
 namespace terrabench {
 
 std::string exact_difference(const Record& first, const Record& again) {
+  for (const Metric& metric : again.metrics) {
+    if (first.find(metric.name) == nullptr) return fmt::format("the new metric '{}'", metric.name);
+  }
   for (const Metric& metric : first.metrics) {
     const Metric* const other = again.find(metric.name);
-    if (other == nullptr || timed(metric)) continue;
+    if (other == nullptr) return fmt::format("the lost metric '{}'", metric.name);
+    if (timed(metric)) continue;
     if (metric.unit == other->unit && metric.samples == other->samples) continue;
     return fmt::format("the metric '{}': {} {}, then {} {}", metric.name, fmt::join(metric.samples, " "),
                        metric.unit, fmt::join(other->samples, " "), other->unit);
@@ -27,14 +32,11 @@ Record with_second_look(Look first, Look again) {
   if (disturbed(first.loop) && !disturbed(again.loop)) std::swap(first, again);
   if (disturbed(first.loop) == disturbed(again.loop)) {
     for (Metric& metric : first.record.metrics) {
-      const Metric* const other = again.record.find(metric.name);
-      if (other == nullptr || !timed(metric)) continue;
+      if (!timed(metric)) continue;
+      const std::vector<double>& more = again.record.find(metric.name)->samples;
       metric.first_look = metric.samples.size();
-      metric.samples.insert(metric.samples.end(), other->samples.begin(), other->samples.end());
+      metric.samples.insert(metric.samples.end(), more.begin(), more.end());
     }
-  }
-  for (const Metric& metric : again.record.metrics) {
-    if (first.record.find(metric.name) == nullptr) first.record.metrics.push_back(metric);
   }
   return std::move(first.record);
 }

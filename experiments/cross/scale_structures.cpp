@@ -51,7 +51,7 @@ constexpr int kBatch = 1024, kQueries = 1 << 16, kQueryTurns = 3;  // columns pe
 constexpr double kQuerySeconds = 0.05;                             // per sample, of slow structures
 constexpr int kNear = 32;         // columns along a side of the window of near queries, which caches hold
 constexpr int kEditRadius = 8;    // columns
-constexpr int kEdits = 32;        // per sample
+constexpr int kEdits = 32;        // per turn: half of them make one sample, half the other
 constexpr float kHighest = 1600;  // metres, of the hills
 
 // Hills from 0 to kHighest metres exactly, so that no size has more levels than another: two corners are the
@@ -156,7 +156,7 @@ std::optional<float> highest_solid(const Representation& structure, const float&
   return column.empty() ? std::nullopt : std::optional(column.back().top);
 }
 
-// All columns within kEditRadius of one.
+// Reads the square of columns around (x, z) that a hole there can change.
 void read_columns(const Representation& structure, float x, float z, float cell) {
   std::vector<float> xs, zs;
   for (int i = -kEditRadius; i <= kEditRadius; ++i) {
@@ -176,7 +176,7 @@ bool holes_fit(int side) {
   return kQueryTurns * kEdits * hole <= 0.5 * std::pow(side, 3);
 }
 
-// Those holes of a sample that are of one kind.
+// The holes that make one sample: those in columns just read, or the others.
 struct Holes {
   double spent = 0;  // processor seconds
   int dug = 0, lower = 0;
@@ -190,7 +190,8 @@ struct Holes {
 
 // Digs half a sphere of kEditRadius columns out of the ground, kEdits times. A tree of heightmaps takes a
 // radial erosion with the same radii, which also removes the ground above the sphere. Before every second
-// hole the columns that it changes are read, so that caches hold them: .second are these holes.
+// hole all columns that it can change are read, so that caches hold them. Returns the other holes, then
+// these.
 std::pair<Holes, Holes> dig_holes(Representation& structure, float cell, Places places) {
   std::vector<float> x(kEdits), z(kEdits);
   places.next(x, z);

@@ -37,8 +37,8 @@ struct RoundTimes {
 };
 // Draws every view with every method, `rounds` times. Methods alternate at every view, so that a slow period
 // of the machine affects all alike; every second round reverses their order, so that none always follows the
-// same other one and inherits its caches. Every round has new renderers, made in another order: in one run
-// all frames of one renderer took a third longer from beginning to end. Compare methods within a round: a
+// same other one and inherits its caches. Every round has new renderers, made in another order: all frames
+// of one can take a third longer than those of another that draws the same. Compare methods within a round: a
 // whole round may be slow without changing its ratios.
 std::vector<RoundTimes> time_rounds(std::vector<Mrbsp>& lods, const Heightfield&, const std::vector<View>&,
                                     int rounds, const RunOptions&, Progress&);
