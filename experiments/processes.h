@@ -14,8 +14,9 @@ namespace terrabench {
 // An Error that a task throws is thrown here, once the tasks in progress are done; no further task is begun.
 // The same after a process was killed: environment_error, naming name(task). Of std::system_error, a broken
 // pipe is thrown as such. After Progress::interrupt() the processes are interrupted too: in them, SIGINT and
-// SIGTERM only call Progress::interrupt(), however often they come, so that they have time to clean up. When
-// this process is killed, they are killed with it.
+// SIGTERM only call Progress::interrupt(), however often they come, so that they can clean up while this
+// process waits. When it ends before them, by a kill or a second Ctrl-C, they are killed with it, and may
+// leave temporary files.
 void run_in_processes(int jobs, std::size_t tasks, const std::function<void(std::size_t)>& task,
                       const std::function<std::string(std::size_t)>& name);
 

@@ -241,8 +241,8 @@ class Session {
   void check_differences() const {
     if (differences_.empty()) return;
     throw Error(ExitCode::kClaimFallsShort,
-                fmt::format("measured twice, {} cases differ in what is exact: {}", differences_.size(),
-                            fmt::join(differences_, "; ")),
+                fmt::format("measured twice, {} cases differ in more than their times: {}",
+                            differences_.size(), fmt::join(differences_, "; ")),
                 plan_.folder.string(), "report it as a bug; what was measured first is kept");
   }
 

@@ -44,8 +44,8 @@ std::vector<PlannedCase> plan_cases(const RunPlan&);
 // second time and adds these samples to their times, or keeps those of one measurement alone if only the
 // other was disturbed (second_look.h). After an interruption, --resume does not catch up on second
 // measurements. Throws Error(kInterrupted) on Ctrl-C and keeps the records written so far. Throws
-// Error(kClaimFallsShort) at the end if exact figures of a case differ between its two measurements. Call it
-// before this process has threads (run_in_processes()).
+// Error(kClaimFallsShort) at the end if exact figures of a case differ between its two measurements, or only
+// one of them has a metric. Call it before this process has threads (run_in_processes()).
 void run(const RunPlan&);
 
 }  // namespace terrabench

@@ -10,6 +10,7 @@
 
 #include "terrain/error.h"
 #include "terrain/files.h"
+#include "terrain/progress.h"
 
 namespace terrabench {
 namespace {
@@ -103,6 +104,16 @@ TEST_F(Processes, ReturnText) {
   EXPECT_EQ(call_in_process([] { return std::to_string(getppid()); }), std::to_string(getpid()));
   EXPECT_EQ(call_in_process([] { return std::string(1000000, 'x'); }).size(), 1000000U);
   EXPECT_THROW(call_in_process([]() -> std::string { throw usage_error("no", "", ""); }), Error);
+}
+
+TEST_F(Processes, StopWithTheirGroupAndOutliveASecondSignal) {
+  EXPECT_EQ(call_in_process([] { return std::to_string(getpgrp()); }), std::to_string(getpgrp()))
+      << "what Ctrl-Z stops";
+  const std::string seen = call_in_process([] {
+    for (const int signal : {SIGINT, SIGTERM, SIGINT}) std::raise(signal);
+    return std::string(Progress::interrupted() ? "interrupted" : "");
+  });
+  EXPECT_EQ(seen, "interrupted");
 }
 
 }  // namespace

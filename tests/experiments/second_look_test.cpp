@@ -59,7 +59,7 @@ TEST(SecondLook, FindsExactFiguresThatDiffer) {
             "the metric 'bytes': 7 B, then 8 B");
   EXPECT_EQ(exact_difference(first, record({{"time", "s", {3}}, {"bytes", "m", {7}}})),
             "the metric 'bytes': 7 B, then 7 m");
-  const Record more = record({{"time", "s", {3}}, {"bytes", "B", {7}}, {"late", "B", {9}}});
+  const Record more = record({{"time", "s", {3}}, {"bytes", "B", {7}}, {"late", "s", {9}}});
   EXPECT_EQ(exact_difference(first, more), "the new metric 'late'");
   EXPECT_EQ(exact_difference(more, first), "the lost metric 'late'");
   Record drawn = first;
