@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/cross/cold_caches.h"
 #include "experiments/cross/fresh_pages.h"
 #include "experiments/cross/scaling.h"
 #include "experiments/experiment.h"
@@ -23,6 +24,13 @@
 namespace terrabench::cross {
 
 inline double squared(int side) { return static_cast<double>(side) * side; }
+
+// Page faults of the calling thread so far that needed no disk: the first use of memory that the system gave.
+inline double page_faults() {
+  rusage used{};
+  getrusage(RUSAGE_THREAD, &used);
+  return static_cast<double>(used.ru_minflt);
+}
 
 // All the sizes of one case, with one budget per stage.
 class Run {
@@ -62,6 +70,39 @@ class Run {
     return true;
   }
 
+  // Processor seconds and page faults of each turn of the work on one thread. Before each turn, uncounted,
+  // clear() frees what the last one made, and the caches are emptied: small sizes would find their memory
+  // there, and large ones would not. Work under 0.2 s is done once uncounted, then five times; under 2 s
+  // three times, all counted; longer work once, since the largest sizes take minutes. Work under 0.05 s is
+  // done up to ten times if turns are disturbed (interference.h), which takes little of the budget of time;
+  // three undisturbed turns or more then stand alone.
+  template <class Clear, class Work>
+  void add_turns(Cost& cost, Cost& faults, double columns, const Clear& clear, const Work& work) const {
+    constexpr double kBrief = 0.05, kShort = 0.2, kLong = 2;  // seconds
+    const auto turn = [&] {
+      clear();
+      caches_.empty();
+      const double before = page_faults();
+      const double taken = processor_seconds(work);
+      return std::vector{taken, page_faults() - before};
+    };
+    std::vector<std::vector<double>> kept{turn()};
+    const double first = kept.front().front();
+    if (first < kBrief) {
+      Turns turns;
+      take_turns(turns, 5, turn);
+      kept = turns.kept(kFewestSamples);
+    } else if (first < kLong) {
+      const bool uncounted = first < kShort;
+      if (uncounted) kept.clear();
+      for (int more = 0; more < (uncounted ? 5 : 2); ++more) kept.push_back(turn());
+    }
+    for (const std::vector<double>& one : kept) {
+      cost.add(columns, one[0]);
+      faults.add(columns, one[1]);
+    }
+  }
+
   std::vector<int> sides(bool solid) const {
     const int smallest = at_.integer("smallest"), largest = at_.integer("largest");
     if (largest < smallest) {
@@ -80,48 +121,10 @@ class Run {
   const RunOptions& options_;
   Recorder& recorder_;
   Progress& progress_;
-  std::int64_t base_;  // heap bytes before the case
+  ColdCaches caches_;
+  std::int64_t base_;  // heap bytes before the case, with those of caches_
   KeepFreedMemory keep_;
 };
-
-// Page faults of the calling thread so far that needed no disk: the first use of memory that the system gave.
-inline double page_faults() {
-  rusage used{};
-  getrusage(RUSAGE_THREAD, &used);
-  return static_cast<double>(used.ru_minflt);
-}
-
-// Processor seconds and page faults of each turn of the work on one thread. Work under
-// 0.2 s is done once uncounted, then five times; under 2 s three times, all counted; longer work once, since
-// the largest sizes take minutes. So small sizes are measured with warm caches and large ones with cold
-// caches, as they are in use. Work under 0.05 s is done up to ten times if turns are disturbed
-// (interference.h), which takes little of the budget of time; three undisturbed turns or more then stand
-// alone. Before each turn clear() frees what the last one made, uncounted.
-template <class Clear, class Work>
-void add_turns(Cost& cost, Cost& faults, double columns, const Clear& clear, const Work& work) {
-  constexpr double kBrief = 0.05, kShort = 0.2, kLong = 2;  // seconds
-  const auto turn = [&] {
-    clear();
-    const double before = page_faults();
-    const double taken = processor_seconds(work);
-    return std::vector{taken, page_faults() - before};
-  };
-  std::vector<std::vector<double>> kept{turn()};
-  const double first = kept.front().front();
-  if (first < kBrief) {
-    Turns turns;
-    take_turns(turns, 5, turn);
-    kept = turns.kept(kFewestSamples);
-  } else if (first < kLong) {
-    const bool warm = first < kShort;
-    if (warm) kept.clear();
-    for (int more = 0; more < (warm ? 5 : 2); ++more) kept.push_back(turn());
-  }
-  for (const std::vector<double>& one : kept) {
-    cost.add(columns, one[0]);
-    faults.add(columns, one[1]);
-  }
-}
 
 // The entry of that name. Throws unknown_name.
 template <class Table>

@@ -272,7 +272,7 @@ class Structure {
     run_.measured(filing_, columns, [&] { write_and_read(*built, columns); });
     run_.measured(meshing_, columns, [&] {
       TriangleMesh drawn;
-      add_turns(
+      run_.add_turns(
           mesh_, mesh_faults_, columns, [&] { drawn = {}; }, [&] { drawn = built->mesh({}); });
     });
     if (takes_edits(type_, *built)) dig(*built, side);
@@ -298,7 +298,7 @@ class Structure {
     if (solid_) parameters.set("resolution", std::int64_t{side});
     std::unique_ptr<Representation> built;
     Progress silent;  // a structure's own phases would end the case's
-    add_turns(
+    run_.add_turns(
         build_, build_faults_, columns, [&] { built.reset(); },
         [&] { built = type_.build(source, parameters, silent); });
     bytes_.add(columns, static_cast<double>(built->memory().total()));
@@ -323,7 +323,7 @@ class Structure {
     const std::filesystem::path path = folder_.path() / "saved";
     file_.add(columns, static_cast<double>(save_representation(path, type_, built)));
     std::unique_ptr<Representation> loaded;
-    add_turns(
+    run_.add_turns(
         load_, load_faults_, columns, [&] { loaded.reset(); },
         [&] { loaded = load_representation(path).representation; });
   }
