@@ -1,20 +1,37 @@
 #include "experiments/cross/cold_caches.h"
 
-#include <cstddef>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
 
 namespace terrabench::cross {
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{64} << 20, kLine = 64;  // bytes
+constexpr std::size_t kMiB = 1 << 20, kLine = 64;  // bytes
+
+// In bytes; 0 if Linux does not say. sysconf would count all caches of the processor, of which a virtual
+// machine has a part.
+std::size_t largest_cache() {
+  std::size_t largest = 0;
+  for (int k = 0;; ++k) {
+    std::ifstream file(fmt::format("/sys/devices/system/cpu/cpu0/cache/index{}/size", k));
+    std::size_t kilobytes = 0;  // such as 32768K
+    if (!(file >> kilobytes)) return largest;
+    largest = std::max(largest, kilobytes * 1024);
+  }
+}
 
 }  // namespace
 
-ColdCaches::ColdCaches() : block_(std::make_unique<char[]>(kBlock)) {}
+ColdCaches::ColdCaches()
+    : bytes_(std::clamp(2 * largest_cache(), 64 * kMiB, 256 * kMiB)),
+      block_(std::make_unique<char[]>(bytes_)) {}
 
-// Writes, and does not only read: as after work on large ground, each line that the timed work brings in must
-// wait until a changed one is written back.
-void ColdCaches::empty() const {
-  for (std::size_t at = 0; at < kBlock; at += kLine) ++block_[at];
+// Writes rather than reads, so that the caches are full of modified lines, as after work on large ground:
+// the timed work waits until they are written back.
+void ColdCaches::evict() const {
+  for (std::size_t at = 0; at < bytes_; at += kLine) ++block_[at];
 }
 
 }  // namespace terrabench::cross

@@ -1,6 +1,7 @@
 // Lets timed work find none of its data in the processor's caches.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 namespace terrabench::cross {
@@ -8,11 +9,12 @@ namespace terrabench::cross {
 class ColdCaches {
  public:
   ColdCaches();
-  // Writes to a block of 64 MiB, which most processors' caches cannot hold beside anything else. Takes some
-  // 10 ms.
-  void empty() const;
+  // Writes to a block twice as large as the largest cache that Linux reports, but at least of 64 MiB, and at
+  // most of 256 MiB, so that the caches hold nothing else. 64 MiB take some 10 ms.
+  void evict() const;
 
  private:
+  std::size_t bytes_;
   std::unique_ptr<char[]> block_;
 };
 

@@ -1,4 +1,4 @@
-// What the parts of the experiment cross.scale share: the sizes of a case and its budget.
+// What the parts of the experiment cross.scale share: the sizes of a case, its budget, and how work is timed.
 #pragma once
 
 #include <sys/resource.h>
@@ -70,18 +70,19 @@ class Run {
     return true;
   }
 
-  // Processor seconds and page faults of each turn of the work on one thread. Before each turn, uncounted,
-  // clear() frees what the last one made, and the caches are emptied: small sizes would find their memory
-  // there, and large ones would not. Work under 0.2 s is done once uncounted, then five times; under 2 s
-  // three times, all counted; longer work once, since the largest sizes take minutes. Work under 0.05 s is
-  // done up to ten times if turns are disturbed (interference.h), which takes little of the budget of time;
-  // three undisturbed turns or more then stand alone.
+  // Processor seconds and page faults of each turn of the work on one thread. Before each turn, outside the
+  // timed part, clear() frees what the last one made, and the caches are emptied. Otherwise they would hold
+  // the data of small sizes and not of large ones. The work then waits for its code and its first pages, too,
+  // which counts most at the smallest sizes. Work under 0.2 s is done once uncounted, then five times; under
+  // 2 s three times, all counted; longer work once, since the largest sizes take minutes. Work under 0.05 s
+  // is done up to ten times if turns are disturbed (interference.h), which takes little of the budget of
+  // time; three undisturbed turns or more then stand alone.
   template <class Clear, class Work>
   void add_turns(Cost& cost, Cost& faults, double columns, const Clear& clear, const Work& work) const {
     constexpr double kBrief = 0.05, kShort = 0.2, kLong = 2;  // seconds
     const auto turn = [&] {
       clear();
-      caches_.empty();
+      caches_.evict();
       const double before = page_faults();
       const double taken = processor_seconds(work);
       return std::vector{taken, page_faults() - before};

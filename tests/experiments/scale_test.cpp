@@ -293,6 +293,14 @@ TEST(Scale, DenseVoxelsGrowWithTheirVoxelsAndSkippedSizesAreRecorded) {
   EXPECT_THAT(samples(brief, "build_skipped"), ElementsAre(2)) << "24 and 32 samples";
 }
 
+// Emptying the caches takes more memory than the limit here.
+TEST(Scale, TheLimitOfMemoryIsForTheWorkAlone) {
+  const Record record = measured(
+      "heights/heightmap",
+      {{"smallest", std::int64_t{33}}, {"largest", std::int64_t{129}}, {"memory", 0.01}, {"seconds", 1e6}});
+  EXPECT_THAT(samples(record, "build_sizes"), ElementsAre(3));
+}
+
 TEST(Scale, AWindowOnGrowingGroundHoldsTheSame) {
   const Record record = measured("lods/clipmap", {{"smallest", std::int64_t{257}}, {"seconds", 1e6}});
   EXPECT_NEAR(samples(record, "bytes_exponent").at(0), 0, 0.25);
