@@ -116,6 +116,7 @@ class Run {
   std::uint64_t seed() const { return options_.seed; }
   Recorder& recorder() const { return recorder_; }
   Progress& progress() const { return progress_; }
+  const ColdCaches& caches() const { return caches_; }
 
  private:
   const Case& at_;

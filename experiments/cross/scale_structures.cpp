@@ -190,18 +190,20 @@ struct Holes {
 
 // Digs half a sphere of kEditRadius columns out of the ground, kEdits times. A tree of heightmaps takes a
 // radial erosion with the same radii, which also removes the ground above the sphere. Before every second
-// hole all columns that it can change are read, so that caches hold them. Returns the other holes, then
-// these.
-std::pair<Holes, Holes> dig_holes(Representation& structure, float cell, Places places) {
+// hole all columns that it can change are read, so that caches hold them; before the others the caches are
+// emptied, and then the middle column is read. Returns the other holes, then these.
+std::pair<Holes, Holes> dig_holes(Representation& structure, float cell, Places places,
+                                  const ColdCaches& caches) {
   std::vector<float> x(kEdits), z(kEdits);
   places.next(x, z);
   auto* const tree = dynamic_cast<Ght*>(&structure);
   const float radius = cell * kEditRadius;
   std::pair<Holes, Holes> all;
   for (int i = 0; i < kEdits; ++i) {
+    const bool cached = i % 2 == 1;
+    if (!cached) caches.evict();
     const std::optional<float> top = highest_solid(structure, x[i], z[i]);
     if (!top) continue;
-    const bool cached = i % 2 == 1;
     if (cached) read_columns(structure, x[i], z[i], cell);
     Holes& holes = cached ? all.second : all.first;
     const glm::vec3 centre{x[i], *top, z[i]};
@@ -284,7 +286,7 @@ class Structure {
     const double share = 1 - 2.0 * (kEditRadius + 2) / side;
     const float cell = built.bounds().size().x / static_cast<float>(solid_ ? side : side - 1);
     for (int turn = 0; turn < kQueryTurns; ++turn) {
-      const auto [anywhere, cached] = dig_holes(built, cell, places(built, share));
+      const auto [anywhere, cached] = dig_holes(built, cell, places(built, share), run_.caches());
       if (const auto taken = anywhere.seconds()) edit_.add(squared(side), *taken);
       if (const auto taken = cached.seconds()) edit_cached_.add(squared(side), *taken);
     }
