@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::size_t kMiB = 1 << 20, kLine = 64;  // bytes
 
-// In bytes; 0 if Linux does not say. sysconf would count all caches of the processor, of which a virtual
-// machine has a part.
+// Of the first core, in bytes; 0 if Linux does not say. sysconf may give the sum of the third-level caches of
+// the whole processor, of which a virtual machine has only some.
 std::size_t largest_cache() {
   std::size_t largest = 0;
   for (int k = 0;; ++k) {
@@ -28,8 +28,8 @@ ColdCaches::ColdCaches()
     : bytes_(std::clamp(2 * largest_cache(), 64 * kMiB, 256 * kMiB)),
       block_(std::make_unique<char[]>(bytes_)) {}
 
-// Writes rather than reads, so that the caches are full of modified lines, as after work on large ground:
-// the timed work waits until they are written back.
+// Writes rather than reads, so that the caches are full of modified lines, as after work on large ground. The
+// timed work then also waits until these lines are written to memory.
 void ColdCaches::evict() const {
   for (std::size_t at = 0; at < bytes_; at += kLine) ++block_[at];
 }

@@ -1,4 +1,4 @@
-// Lets timed work find none of its data in the processor's caches.
+// Evicts what the processor's caches hold, so that timed work starts with cold caches.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@ namespace terrabench::cross {
 class ColdCaches {
  public:
   ColdCaches();
-  // Writes to a block twice as large as the largest cache that Linux reports, but at least of 64 MiB, and at
-  // most of 256 MiB, so that the caches hold nothing else. 64 MiB take some 10 ms.
+  // Writes to a block of twice the size of the largest cache that Linux reports, but of 64 to 256 MiB. A
+  // cache of more than 256 MiB would keep a part of its data. Writing 64 MiB takes about 10 ms.
   void evict() const;
 
  private:

@@ -71,12 +71,12 @@ class Run {
   }
 
   // Processor seconds and page faults of each turn of the work on one thread. Before each turn, outside the
-  // timed part, clear() frees what the last one made, and the caches are emptied. Otherwise they would hold
-  // the data of small sizes and not of large ones. The work then waits for its code and its first pages, too,
-  // which counts most at the smallest sizes. Work under 0.2 s is done once uncounted, then five times; under
-  // 2 s three times, all counted; longer work once, since the largest sizes take minutes. Work under 0.05 s
-  // is done up to ten times if turns are disturbed (interference.h), which takes little of the budget of
-  // time; three undisturbed turns or more then stand alone.
+  // timed part, clear() frees what the last one made, and the caches are emptied: otherwise they would hold
+  // the data of small sizes, but not of large ones. The time therefore includes cache misses on the code,
+  // too, which matters most at the smallest sizes. Work under 0.2 s is done once uncounted, then five times;
+  // under 2 s three times, all counted; longer work once, since the largest sizes take minutes. Of work under
+  // 0.05 s, turns that are disturbed (interference.h) are repeated, up to ten turns in all, which costs
+  // little time; if at least three are undisturbed, only those are counted.
   template <class Clear, class Work>
   void add_turns(Cost& cost, Cost& faults, double columns, const Clear& clear, const Work& work) const {
     constexpr double kBrief = 0.05, kShort = 0.2, kLong = 2;  // seconds
@@ -124,7 +124,7 @@ class Run {
   Recorder& recorder_;
   Progress& progress_;
   ColdCaches caches_;
-  std::int64_t base_;  // heap bytes before the case, with those of caches_
+  std::int64_t base_;  // heap bytes before the case, with the block of caches_
   KeepFreedMemory keep_;
 };
 

@@ -293,7 +293,7 @@ TEST(Scale, DenseVoxelsGrowWithTheirVoxelsAndSkippedSizesAreRecorded) {
   EXPECT_THAT(samples(brief, "build_skipped"), ElementsAre(2)) << "24 and 32 samples";
 }
 
-// Emptying the caches takes more memory than the limit here.
+// The block with which the caches are emptied is larger than the limit here, and must not count.
 TEST(Scale, TheLimitOfMemoryIsForTheWorkAlone) {
   const Record record = measured(
       "heights/heightmap",
