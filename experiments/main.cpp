@@ -171,10 +171,16 @@ void add_results(CLI::App& app, Arguments& a) {
   auto* compare =
       app.add_subcommand("compare",
                          "Compare two results folders, metric by metric: exact figures on any machines, "
-                         "times within one kind of "
-                         "machine, with confidence intervals. Exits with 1 if exact figures differ");
-  compare->add_option("a", a.compare.before, "Results folder")->required();
-  compare->add_option("b", a.compare.after, "Results folder")->required();
+                         "times within one kind of machine, with confidence intervals, and pictures. Also "
+                         "two folders of PNG files. Exits with 1 if exact figures or pictures differ");
+  compare->add_option("a", a.compare.before, "Results folder, or folder of PNG files")->required();
+  compare->add_option("b", a.compare.after, "The same")->required();
+  compare->add_option("--psnr", a.compare.limits.psnr, "Pictures differ below this PSNR, dB")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  compare->add_option("--ssim", a.compare.limits.ssim, "Pictures differ below this mean SSIM")
+      ->check(CLI::Range(-1.0, 1.0))
+      ->capture_default_str();
   compare->add_flag("--json", a.compare.json, "Print JSON");
   auto* merge = app.add_subcommand(
       "merge",

@@ -261,11 +261,12 @@ std::size_t Comparison::count(Change change) const {
   return static_cast<std::size_t>(std::ranges::count(metrics, change, &MetricChange::change));
 }
 
-Comparison compare(const std::filesystem::path& before, const std::filesystem::path& after) {
-  return compare(Store::open(before), Store::open(after));
+Comparison compare(const std::filesystem::path& before, const std::filesystem::path& after,
+                   const PictureLimits& limits) {
+  return compare(Store::open(before), Store::open(after), limits);
 }
 
-Comparison compare(const Store& before, const Store& after) {
+Comparison compare(const Store& before, const Store& after, const PictureLimits& limits) {
   Comparison out;
   for (const Store* const store : {&before, &after}) {
     out.warnings.insert(out.warnings.end(), store->warnings().begin(), store->warnings().end());
@@ -290,6 +291,7 @@ Comparison compare(const Store& before, const Store& after) {
     }
   }
   ignore_noise(out);
+  out.pictures = compare_pictures(before, after, limits);
   return out;
 }
 
@@ -336,6 +338,7 @@ std::string compare_text(const Comparison& comparison, bool colour) {
     text += "elsewhere: times of different kinds of machine, which are not compared\n";
   }
   text += machines_text(comparison);
+  text += pictures_text(comparison.pictures, colour);
   for (const std::string& warning : comparison.warnings) text += fmt::format("warning: {}\n", warning);
   if (!comparison.faults.empty()) {
     text += fmt::format("{} faults: the results cannot be trusted\n", comparison.faults.size());
@@ -370,6 +373,7 @@ std::string compare_json(const Comparison& comparison) {
                      {"only_before", comparison.count(Change::kOnlyBefore)},
                      {"only_after", comparison.count(Change::kOnlyAfter)},
                      {"metrics", list},
+                     {"pictures", Json::parse(pictures_json(comparison.pictures))},
                      {"warnings", comparison.warnings},
                      {"faults", comparison.faults}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -1,4 +1,5 @@
-// Compares two results folders metric by metric: what changed, and whether the change exceeds the noise.
+// Compares two results folders metric by metric: what changed, and whether the change exceeds the noise; and
+// picture by picture (compare_pictures.h).
 // Exact figures must be equal on any two machines; what varies (timed() in record.h) is compared within one
 // kind of machine.
 #pragma once
@@ -7,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "results/compare_pictures.h"
 #include "results/statistics.h"
 #include "results/store.h"
 
@@ -77,15 +79,17 @@ struct Comparison {
   std::vector<std::string> warnings, faults;  // of both stores
   Noise noise;                                // of all times
   std::vector<Noise> noises;  // of experiments and of their metrics, where some times use it, sorted by name
+  PictureComparison pictures;
 
   bool exact_equal() const;  // no exact metric differs
-  bool passed() const { return exact_equal() && faults.empty(); }
+  bool passed() const { return exact_equal() && pictures.passed() && faults.empty(); }
   std::size_t count(Change) const;
 };
 
 // Throws bad_input when a folder holds no results.
-Comparison compare(const std::filesystem::path& before, const std::filesystem::path& after);
-Comparison compare(const Store& before, const Store& after);
+Comparison compare(const std::filesystem::path& before, const std::filesystem::path& after,
+                   const PictureLimits& = {});
+Comparison compare(const Store& before, const Store& after, const PictureLimits& = {});
 
 std::string compare_text(const Comparison&, bool colour);
 std::string compare_json(const Comparison&);

@@ -32,8 +32,7 @@ struct Source {
 
 // A shard may hold a run without a record: there can be more shards than cases.
 Store open_shard(const fs::path& folder) {
-  std::error_code error;
-  if (fs::exists(folder / "measurements.jsonl", error)) return Store(folder);
+  if (Store::is_at(folder)) return Store(folder);
   throw bad_input("holds no measurements", folder.string(),
                   "name folders that `terrabench run --out` has written");
 }

@@ -17,6 +17,8 @@
 namespace terrabench {
 namespace {
 
+constexpr std::string_view kMeasurements = "measurements.jsonl";
+
 // A sync takes as long as a small case, and only a machine that stops loses what is not synced: a killed
 // process does not.
 constexpr std::chrono::seconds kSyncInterval{1};
@@ -112,10 +114,13 @@ Named by_name(Named parameters) {
 
 }  // namespace
 
-Store::Store(std::filesystem::path folder)
-    : folder_(std::move(folder)), file_(folder_ / "measurements.jsonl") {
+Store::Store(std::filesystem::path folder) : folder_(std::move(folder)), file_(folder_ / kMeasurements) {
+  if (is_at(folder_)) read(read_file(file_, kLargestFile));
+}
+
+bool Store::is_at(const std::filesystem::path& folder) {
   std::error_code error;
-  if (std::filesystem::exists(file_, error)) read(read_file(file_, kLargestFile));
+  return std::filesystem::exists(folder / kMeasurements, error);
 }
 
 Store Store::open(const std::filesystem::path& folder) {

@@ -33,7 +33,9 @@ class Store {
   // be read, all its lines are damaged, or one was written by a later version of the program.
   explicit Store(std::filesystem::path folder);
 
-  // The same, but throws bad_input when there are no measurements.
+  // Whether the folder holds a file of measurements.
+  static bool is_at(const std::filesystem::path& folder);
+  // As the constructor, but throws bad_input when there are no measurements.
   static Store open(const std::filesystem::path& folder);
 
   // Throw environment_error (disk full, unwritable) and leave the file as it was. Several processes may

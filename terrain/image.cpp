@@ -87,6 +87,15 @@ void write_png(const std::filesystem::path& path, const Image& image) {
   write_file(path, bytes);
 }
 
+std::array<int, 2> png_size(const std::filesystem::path& path) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  const bool good = png_image_begin_read_from_file(&png, path.c_str()) != 0;
+  png_image_free(&png);
+  if (!good) throw bad_input(png.message, path.string(), "give a complete PNG file");
+  return {static_cast<int>(png.width), static_cast<int>(png.height)};
+}
+
 Image read_png(const std::filesystem::path& path) {
   constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 30;
   constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28;

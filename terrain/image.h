@@ -26,6 +26,8 @@ Image with_few_colours(Image image, int most = 256);
 
 // Written whole or not at all, as by write_file(); with a palette if 256 colours suffice and that is smaller.
 void write_png(const std::filesystem::path&, const Image&);
+// Width and height, from the file's header alone. Throws bad_input.
+std::array<int, 2> png_size(const std::filesystem::path&);
 // Any PNG, converted to RGB; transparent pixels become white. Throws bad_input.
 Image read_png(const std::filesystem::path&);
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "representations/export/line_grid.h"
+#include "results/compare_pictures.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -79,6 +80,7 @@ ExitCode check_command(const CheckArguments&);
 
 struct CompareArguments {
   std::filesystem::path before, after;
+  PictureLimits limits;
   bool json = false;
 };
 ExitCode compare_command(const CompareArguments&);

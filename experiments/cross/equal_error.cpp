@@ -15,10 +15,10 @@
 #include "experiments/stopwatch.h"
 #include "lod/brute_force/brute_force.h"
 #include "lod/meters/cracks.h"
-#include "lod/meters/image_error.h"
 #include "lod/meters/screen_error.h"
 #include "renderers/frame_renderer.h"
 #include "results/format.h"
+#include "terrain/metrics/image_error.h"
 
 namespace terrabench::cross {
 namespace {

@@ -9,9 +9,9 @@
 #include "experiments/cases.h"
 #include "experiments/experiment.h"
 #include "experiments/hybrid/grassland.h"
-#include "lod/meters/image_error.h"
 #include "renderers/frame_timer.h"
 #include "renderers/grass/grass_scene.h"
+#include "terrain/metrics/image_error.h"
 
 namespace terrabench::hybrid {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "experiments/experiment.h"
 #include "experiments/mrbsp/methods.h"
-#include "lod/meters/image_error.h"
 #include "renderers/frame_renderer.h"
+#include "terrain/metrics/image_error.h"
 
 namespace terrabench::mrbsp {
 namespace {

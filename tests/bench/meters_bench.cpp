@@ -4,8 +4,8 @@
 #include "lod/brute_force/brute_force.h"
 #include "lod/camera/camera_path.h"
 #include "lod/meters/cracks.h"
-#include "lod/meters/image_error.h"
 #include "lod/meters/screen_error.h"
+#include "terrain/metrics/image_error.h"
 #include "tests/bench/mountains.h"
 
 namespace terrabench {

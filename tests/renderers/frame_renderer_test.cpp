@@ -12,7 +12,7 @@
 #include "lod/clipmap/clipmap.h"
 #include "lod/clipmap/endless_heights.h"
 #include "lod/lod.h"
-#include "lod/meters/image_error.h"
+#include "terrain/metrics/image_error.h"
 #include "tests/lod/variants.h"
 #include "tests/terrain/ground.h"
 

@@ -8,12 +8,12 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "lod/meters/image_error.h"
 #include "renderers/context.h"
 #include "renderers/gl.h"
 #include "renderers/grass/plain_ground.h"
 #include "renderers/target.h"
 #include "terrain/error.h"
+#include "terrain/metrics/image_error.h"
 #include "terrain/view.h"
 #include "tests/renderers/meadow.h"
 

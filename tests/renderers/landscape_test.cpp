@@ -14,9 +14,9 @@
 #include <set>
 
 #include "lod/lod.h"
-#include "lod/meters/image_error.h"
 #include "terrain/error.h"
 #include "terrain/files.h"
+#include "terrain/metrics/image_error.h"
 #include "tests/terrain/ground.h"
 
 namespace terrabench {

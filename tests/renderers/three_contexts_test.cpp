@@ -9,7 +9,6 @@
 #include <iostream>
 #include <vector>
 
-#include "lod/meters/image_error.h"
 #include "renderers/context.h"
 #include "renderers/egl/egl_context.h"
 #include "renderers/frame_timer.h"
@@ -18,6 +17,7 @@
 #include "renderers/relief.h"
 #include "renderers/target.h"
 #include "terrain/error.h"
+#include "terrain/metrics/image_error.h"
 #include "tests/renderers/virtual_display.h"
 
 namespace terrabench {

@@ -1,7 +1,8 @@
-#include "lod/meters/image_error.h"
+#include "terrain/metrics/image_error.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -52,10 +53,39 @@ TEST(Ssim, OfASmallPictureIsOneEvenWindow) {
   EXPECT_NEAR(ssim(stripes, Image(4, 2, {100, 100, 100})), c2 / (2500 + c2), 1e-9);
 }
 
+// A step in one row shows in the windows that cover it, and in no other: each window reads its own rows.
+TEST(Ssim, OfOneChangedRowIsThatOfTheWindowsThatCoverIt) {
+  const int width = 11, height = 40, row = 25;
+  const Image flat(width, height, {100, 100, 100});
+  Image changed = flat;
+  for (int x = 0; x < width; ++x) changed.set(x, row, {200, 200, 200});
+  double expected = 0, sum = 0;
+  std::array<double, 11> weights{};
+  for (int k = 0; k < 11; ++k) sum += weights[k] = std::exp(-(k - 5) * (k - 5) / 4.5);
+  const double c1 = 6.5025, c2 = 58.5225;
+  for (int top = 0; top + 11 <= height; ++top) {
+    const double weight = top <= row && row < top + 11 ? weights[row - top] / sum : 0;
+    const double mean = 100 + 100 * weight, variance = 1e4 * weight * (1 - weight);
+    expected += (2 * 100 * mean + c1) * c2 / ((100.0 * 100 + mean * mean + c1) * (variance + c2));
+  }
+  EXPECT_NEAR(ssim(flat, changed), expected / 30, 1e-9);
+}
+
+TEST(DifferingPixels, AreThoseThatDifferInAnyChannel) {
+  const Image a(5, 4, {10, 20, 30});
+  Image b = a;
+  EXPECT_EQ(differing_pixels(a, b), 0U);
+  b.set(0, 0, {11, 20, 30});
+  b.set(3, 2, {10, 20, 31});
+  b.set(4, 3, {10, 0, 0});
+  EXPECT_EQ(differing_pixels(a, b), 3U);
+}
+
 TEST(ImageError, RefusesPicturesOfTwoSizes) {
   EXPECT_THROW(psnr(Image(3, 3, {}), Image(3, 4, {})), Error);
   EXPECT_THROW(ssim(Image(3, 3, {}), Image(4, 3, {})), Error);
   EXPECT_THROW(ssim(Image(), Image()), Error);
+  EXPECT_THROW(differing_pixels(Image(3, 3, {}), Image(4, 3, {})), Error);
 }
 
 }  // namespace
