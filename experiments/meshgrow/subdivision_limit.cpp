@@ -6,7 +6,7 @@
 //    ring's subdivision matrix that belongs to rotationally symmetric vectors: 1/4 for 4 faces alone;
 //  - its neighbours, which are other vertices at each step, slide along the surface by the subdominant
 //    eigenvalue, except beside regular vertices, where the limit reproduces linear functions at every vertex.
-// The eigenvalues come from the matrix itself, which is built here and shares no code with the library.
+// The eigenvalues come from the matrix itself (ring_eigenvalue.h), which shares no code with the library.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,9 +14,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
-#include <numbers>
 
 #include "experiments/cases.h"
+#include "experiments/meshgrow/ring_eigenvalue.h"
 #include "experiments/meshgrow/subdivision_reference.h"
 #include "representations/procedural_mesh/base_mesh.h"
 #include "representations/procedural_mesh/subdivision/limit.h"
@@ -41,56 +41,6 @@ std::vector<Case> cases(const RunOptions&) { return cases_by("mesh", kSpecs); }
 FaceMesh base_of(std::string_view name) {
   if (name == "plane") return growing::plane({4, 4}, 4, 4).mesh;
   return shape(name);
-}
-
-// One step of a vertex with n faces and its ring: values[0] is the vertex, then the ends of its edges, then
-// the far corners of its faces, face k between edges k and k + 1.
-std::vector<double> step_of_ring(const std::vector<double>& values) {
-  const std::size_t n = (values.size() - 1) / 2;
-  const double v = values[0];
-  std::vector<double> next(values.size());
-  const auto edge = [&](std::size_t k) { return values[1 + k % n]; };
-  const auto face_point = [&](std::size_t k) {
-    return (v + edge(k) + edge(k + 1) + values[1 + n + k % n]) / 4;
-  };
-  double edges = 0, faces = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    edges += (v + edge(k)) / 2;
-    faces += face_point(k);
-    next[1 + k] = (v + edge(k) + face_point(k + n - 1) + face_point(k)) / 4;
-    next[1 + n + k] = face_point(k);
-  }
-  const auto count = static_cast<double>(n);
-  next[0] = (faces / count + 2 * edges / count + (count - 3) * v) / count;
-  return next;
-}
-
-// The largest eigenvalue below 1 among vectors that are constant around the vertex (turns = 0) or that turn
-// once around it (turns = 1), by the power method.
-double eigenvalue(std::size_t n, int turns) {
-  std::vector<double> x(1 + 2 * n);
-  x[0] = turns == 0 ? 1 : 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const double angle = 2 * std::numbers::pi * turns / static_cast<double>(n);
-    x[1 + k] = turns == 0 ? 0.3 : std::cos(angle * static_cast<double>(k));
-    x[1 + n + k] = turns == 0 ? -0.2 : 1.5 * std::cos(angle * (static_cast<double>(k) + 0.5));
-  }
-  double factor = 0;
-  for (int i = 0; i < 100; ++i) {
-    if (turns == 0) {
-      // Differences to the vertex after the step: the constant vector, whose eigenvalue is 1, drops out.
-      for (std::size_t k = x.size(); k-- > 0;) x[k] -= x[0];
-    }
-    std::vector<double> y = step_of_ring(x);
-    if (turns == 0) {
-      for (std::size_t k = y.size(); k-- > 0;) y[k] -= y[0];
-    }
-    factor = y[1] / x[1];
-    const double scale = y[1];
-    for (double& value : y) value /= scale;
-    x = std::move(y);
-  }
-  return factor;
 }
 
 struct Distances {
@@ -142,7 +92,7 @@ void record_step(Recorder& recorder, int step, int last, const Distances& now, c
     recorder.add(fmt::format("vertex_{}_ratio_{}", n, step), "", vertex);
     recorder.add(fmt::format("ring_{}_ratio_{}", n, step), "", ring);
     if (step != last) continue;
-    const double symmetric = eigenvalue(n, 0), subdominant = n == 4 ? 0.25 : eigenvalue(n, 1);
+    const double symmetric = ring_eigenvalue(n, 0), subdominant = n == 4 ? 0.25 : ring_eigenvalue(n, 1);
     recorder.add(fmt::format("vertex_{}_eigenvalue", n), "", symmetric);
     recorder.add(fmt::format("ring_{}_eigenvalue", n), "", subdominant);
     recorder.add(fmt::format("vertex_{}_off_eigenvalue", n), "", std::abs(vertex - symmetric));

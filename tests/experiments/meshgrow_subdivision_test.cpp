@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
+#include "experiments/meshgrow/ring_eigenvalue.h"
 #include "experiments/meshgrow/subdivision_peer.h"
 #include "experiments/meshgrow/subdivision_reference.h"
 #include "tests/representations/face_shapes.h"
@@ -85,6 +88,18 @@ TEST(OpenSubdivPeer, SeesACreaseThatTheOtherSideLacks) {
     apart = std::max(apart, std::abs(same[2].points[v].x - other[2].points[v].x));
   }
   EXPECT_GT(apart, 0.1);
+}
+
+// The constant vector has eigenvalue 1 and must not grow from rounding within the steps of the power method.
+TEST(RingEigenvalue, IsThatOfTheClosedForms) {
+  for (std::size_t faces = 3; faces <= 12; ++faces) {
+    const auto n = static_cast<double>(faces);
+    EXPECT_NEAR(ring_eigenvalue(faces, 0), (3 * n - 7 + std::sqrt(5 * n * n - 30 * n + 49)) / (8 * n), 1e-9)
+        << faces;
+    const double angle = std::numbers::pi / n, c = std::cos(2 * angle);
+    EXPECT_NEAR(ring_eigenvalue(faces, 1), (5 + c + std::cos(angle) * std::sqrt(2 * (c + 9))) / 16, 1e-9)
+        << faces;
+  }
 }
 
 }  // namespace
