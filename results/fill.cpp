@@ -137,13 +137,15 @@ FilledTable fill(const TableLayout& layout, const Store& store, const JudgedResu
   for (const TableLayout::Row& row : layout.rows) {
     const Record* const record = store.find(layout.experiment, row.case_name, results.profile);
     const Record* const above = std::exchange(before, record);
+    const Record* const grown_from = row.new_block ? nullptr : above;
     if (record == nullptr && !speaks_alone(layout, row)) continue;
     if (record != nullptr) note_run(filled.runs, *record);
     std::vector<Cell> cells = {{row.label}};
     for (const TableLayout::Column& general : layout.columns) {
       const TableLayout::Column column = for_row(general, row);
-      cells.push_back(column.kind == ColumnKind::kGrowth ? growth_cell(column.metric, above, record, store)
-                                                         : cell_for(column, row, record, store, results));
+      cells.push_back(column.kind == ColumnKind::kGrowth
+                          ? growth_cell(column.metric, grown_from, record, store)
+                          : cell_for(column, row, record, store, results));
     }
     filled.table.rows.push_back(std::move(cells));
   }

@@ -12,7 +12,7 @@ namespace {
 
 TableLayout::Row row_from(const TomlValue& node) {
   TomlTable entry(node);
-  TableLayout::Row row{entry.text("label"), entry.text("case"), {}};
+  TableLayout::Row row{entry.text("label"), entry.text("case"), {}, entry.flag("new_block")};
   for (const auto& [key, value] : entry.rest()) {
     if (value.node->is_string()) {
       row.values.emplace(key, value.text(key));

@@ -34,13 +34,14 @@ struct TableLayout {
   struct Row {
     std::string label, case_name;
     std::map<std::string, std::variant<double, std::string>, std::less<>> values;
+    bool new_block = false;  // the first row of a block: growth is not from the row above
   };
   struct Column {
     enum class Kind { kReported, kMetric, kInterval, kGrowth, kSpeedUp, kVerdict };
     Kind kind = Kind::kMetric;
     std::string title, unit;
     std::string key;  // of Row::values; kReported, kSpeedUp (reported ÷ measured), kVerdict
-    // kMetric, kInterval, kGrowth (÷ the row before), kSpeedUp. "<name>" stands for the row's text of that
+    // kMetric, kInterval, kGrowth (÷ the row above), kSpeedUp. "<name>" stands for the row's text of that
     // name, so that the rows of one table may show different metrics.
     std::string metric;
   };

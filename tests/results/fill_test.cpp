@@ -91,6 +91,30 @@ TEST_F(LayoutTest, RowsMayNameTheMetricOfAColumn) {
   EXPECT_EQ(table.rows[2][1].text, "–");
 }
 
+TEST_F(LayoutTest, GrowthStartsAnewInEachBlock) {
+  const Provenance run = fake_provenance();
+  Store store(folder_);
+  store.begin_run(run);
+  for (int i = 1; i <= 4; ++i) {
+    Record record = fake_record(run, "e", "c" + std::to_string(i));
+    add(record, "time", "s", {i == 3 ? 0.5 : 10.0 * i});
+    store.append(record);
+  }
+  const Paper paper = parse_claims(
+      "paper = \"p\"\ntitle = \"t\"\nsource = \"s\"\n"
+      "[[table]]\nid = \"p.t\"\ntitle = \"t\"\ncaption = \"c\"\nexperiment = \"e\"\nrows_title = \"r\"\n"
+      "rows = [{label = \"a\", case = \"c1\"}, {label = \"b\", case = \"c2\"}, "
+      "{label = \"c\", case = \"c3\", new_block = true}, {label = \"d\", case = \"c4\"}]\n"
+      "columns = [{title = \"growth\", unit = \"×\", growth = \"time\"}]\n",
+      "test");
+  const Table table = fill(paper.tables.at(0), store, {"quick", {}, {}, {}}).table;
+  ASSERT_EQ(table.rows.size(), 4U);
+  EXPECT_EQ(table.rows[0][1].text, "–");
+  EXPECT_EQ(table.rows[1][1].text, "2");
+  EXPECT_EQ(table.rows[2][1].text, "–");
+  EXPECT_EQ(table.rows[3][1].text, "80");
+}
+
 TEST(LayoutFile, CasesWithAMeasuredXAreNamesAlone) {
   EXPECT_ANY_THROW(
       with_series(R"({label = "l", experiment = "e", metric = "m", paired = true, cases = [[1, "c"]]})"));
