@@ -193,6 +193,12 @@ void write_fake_results(const std::filesystem::path& folder, const std::string& 
     add(record, "least", "", {slice[1]});
     add(record, "most", "", {slice[2]});
     add(record, "mean_shown", "", {mean_brightness(gradient(kWidth, kHeight))});
+    if (figure == 12) add(record, "pixels_off_product", "", {0});
+    if (figure == 8 || figure == 12 || figure == 13) {
+      const double floating = figure == 12 ? 7 : 1;
+      add(record, "floating_pieces", "", {floating});
+      add(record, "floating_area", "m²", {10 * floating});
+    }
     add_picture(record, folder, fmt::format("hybrid.F{}", figure), "Vertical slice of 64 m × 64 m.");
     store.append(record);
   }

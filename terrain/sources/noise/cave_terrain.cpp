@@ -43,8 +43,8 @@ constexpr std::array<StageInfo, kStages> kStageInfo = {{
     {Stage::kRidged, 9, "ridged multifractal", 0, 1},
     {Stage::kClampedRidged, 10, "clamped ridged multifractal", 0, 1},
     {Stage::kPerturbedRidged, 11, "perturbed ridged multifractal", 0, 1},
-    {Stage::kMultiplied, 12, "caves multiplied with terrain", 0, 1},
-    {Stage::kAttenuated, 13, "attenuated caves and terrain", 0, 1},
+    {Stage::kMultiplied, 12, "the cave map of figure 11 times the terrain of figure 8", 0, 1},
+    {Stage::kAttenuated, 13, "the product of figure 12 with caves that fade with height", 0, 1},
 }};
 
 // The paper's graph, stage by stage, each stage a node that the next builds on.
@@ -84,6 +84,10 @@ class Builder {
 
   Node perturbed(Node cave) { return graph_.translate_domain(cave, graph_.cache(shift(4, kRoughness))); }
 
+  // In two dimensions one map is enough.
+  Node one_cave(bool attenuated) { return perturbed(map(cave(0, attenuated))); }
+
+  // In three, one ridged multifractal would cut the terrain apart.
   Node both_caves(bool attenuated) {
     const Node first = cave(0, attenuated), second = cave(1, attenuated);
     const Node combined = options_.printed_product ? graph_.multiply(map(first), map(second))
@@ -92,7 +96,7 @@ class Builder {
   }
 
   // The terrain is the mask, so that no cave is evaluated in the air.
-  Node carved(Node terrain, bool attenuated) { return graph_.multiply(terrain, both_caves(attenuated)); }
+  Node carved(Node terrain, Node cave_map) { return graph_.multiply(terrain, cave_map); }
 
  private:
   Fractal fractal(std::uint64_t which, const Shape& shape) const {
@@ -136,11 +140,11 @@ Node stage_node(Builder& b, Stage stage) {
     case Stage::kClampedRidged:
       return b.map(b.cave(0, false));
     case Stage::kPerturbedRidged:
-      return b.perturbed(b.map(b.cave(0, false)));
+      return b.one_cave(false);
     case Stage::kMultiplied:
-      return b.carved(b.xy_perturbed(), false);
+      return b.carved(b.xy_perturbed(), b.one_cave(false));
     case Stage::kAttenuated:
-      return b.carved(b.xy_perturbed(), true);
+      return b.carved(b.xy_perturbed(), b.one_cave(true));
   }
   return {};
 }
@@ -148,7 +152,7 @@ Node stage_node(Builder& b, Stage stage) {
 CaveGraph terrain_graph(const CaveOptions& o) {
   Builder b(o);
   Node root = !o.perturb_y ? b.ground() : o.perturb_x ? b.xy_perturbed() : b.y_perturbed();
-  if (o.caves) root = b.carved(root, o.attenuation);
+  if (o.caves) root = b.carved(root, b.both_caves(o.attenuation));
   return {b.take(), root};
 }
 

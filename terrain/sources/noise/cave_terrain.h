@@ -31,8 +31,8 @@ struct CaveOptions {
 };
 
 // The stages of the paper's figures 3 to 13. Its captions 9 and 10 are swapped: by the text, followed here,
-// the noise comes first and is then clamped. In the cave maps, as in the paper, 0 is a cave. Stages with one
-// ridged multifractal show the first; those of the whole terrain have both.
+// the noise comes first and is then clamped. In the cave maps, as in the paper, 0 is a cave. The figures are
+// two-dimensional and have one ridged multifractal, the first; the terrain in space has both.
 enum class Stage : std::uint8_t {
   kGradient,         // figure 3: 0 at the top, 1 at the bottom
   kClampedGradient,  // 4: ground 1, sky 0
@@ -43,8 +43,8 @@ enum class Stage : std::uint8_t {
   kRidged,           // 9 in the text
   kClampedRidged,    // 10 in the text
   kPerturbedRidged,  // 11
-  kMultiplied,       // 12: terrain and caves, not attenuated
-  kAttenuated,       // 13
+  kMultiplied,       // 12: figure 8 times figure 11
+  kAttenuated,       // 13: the same with caves that fade with height
 };
 inline constexpr int kStages = 11;
 
@@ -61,7 +61,7 @@ struct CaveGraph {
   Node root;
 };
 
-// The stage's graph; of the options only seed, extent and printed_product matter.
+// The stage's graph; of the options only seed and extent matter.
 CaveGraph graph_for(Stage stage, const CaveOptions& options);
 
 // Throws usage_error when the extent is not a positive number. Safe to sample from many threads.
