@@ -27,7 +27,7 @@ namespace {
 constexpr int kClosedPipe = 141;
 
 constexpr const char* kFooter =
-    "Exit codes: 0 good, 1 a verdict is not the known one, 2 wrong use, 3 bad input, 4 environment (no GL, "
+    "Exit codes: 0 good, 1 a claim is not as expected, 2 wrong use, 3 bad input, 4 environment (no GL, "
     "disk full), 130 interrupted, 141 the reader of the output closed the pipe.\n"
     "Examples:\n"
     "  terrabench run 'hybrid.*' --out out\n"
@@ -146,7 +146,7 @@ void add_results(CLI::App& app, Arguments& a) {
       "check",
       "Print the verdict on every claim: first the claims that fail the check, then one line per claim "
       "(verdict, the value that decides, its expected range), then one line per paper. Exits with 0 if every "
-      "verdict is the known one, else with 1");
+      "claim is as expected: exactly those of its conditions fail that are known to; else with 1");
   check->add_option("dir", a.check.folder, "Results folder")->capture_default_str();
   check->add_option("--claims,--rows", a.check.claims,
                     "Check only these claims: ids or globs such as 'hybrid.T1.*'");

@@ -24,6 +24,15 @@ Json counts_json(std::span<const Judgement> judgements) {
   return json;
 }
 
+// The claim's conditions that are expected to fail, or that may.
+Json formulas(const Claim& claim, Condition::Expected expected) {
+  Json list = Json::array();
+  for (const Condition& condition : claim.conditions) {
+    if (condition.expected == expected) list.push_back(formula(condition));
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string check_json(const JudgedResults& results) {
@@ -42,11 +51,13 @@ std::string check_json(const JudgedResults& results) {
          {"unit", claim.unit},
          {"tolerance", claim.tolerance},
          {"verdict", name(judgement.verdict)},
-         {"known", claim.pending.empty() ? name(claim.known) : name(Verdict::kPending)},
+         {"known", claim.pending.empty() ? name(claim.known()) : name(Verdict::kPending)},
+         {"fails", formulas(claim, Condition::Expected::kFails)},
+         {"may_fail", formulas(claim, Condition::Expected::kEither)},
          {"measured", judgement.measured},
          {"decided_by", judgement.deciding.text},
          {"reason",
-          claim.known == Verdict::kDiffers || judgement.verdict == Verdict::kDiffers ? claim.reason() : ""},
+          claim.known() == Verdict::kDiffers || judgement.verdict == Verdict::kDiffers ? claim.reason() : ""},
          {"matches", claim.matches},
          {"note", claim.note},
          {"complaint", judgement.complaint},

@@ -128,8 +128,18 @@ class Writer {
         text_ += wrapped(j.claim->where + ": " + j.claim->statement, 4, width_) +
                  wrapped("measured: " + j.measured, 4, width_) +
                  wrapped(fmt::format("counts as: {}", name(j.claim->about)), 4, width_);
+        write_expected(*j.claim);
       }
       if (look_.verbose || j.claim->about != About::kRepeat) write_reason(j);
+    }
+  }
+
+  // The conditions that need not hold, one per line.
+  void write_expected(const Claim& claim) {
+    for (const Condition& condition : claim.conditions) {
+      if (condition.expected == Condition::Expected::kHolds) continue;
+      const bool fails = condition.expected == Condition::Expected::kFails;
+      text_ += wrapped((fails ? "known to fail: " : "may fail: ") + formula(condition), 4, width_);
     }
   }
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
+#include "results/conditions.h"
 #include "results/embedded.h"
 #include "results/toml_reader.h"
 #include "terrain/error.h"
@@ -18,103 +18,6 @@ constexpr std::string_view kVerdicts[] = {
 constexpr std::string_view kAbout[] = {"about the paper", "our own rules", "identities", "repeats"};
 constexpr std::string_view kAllProfiles[] = {"quick", "paper"};
 
-Operand operand_from(const TomlValue& node) {
-  Operand operand;
-  if (!node.node->is_string()) {
-    operand.number = node.number("operand");
-    return operand;
-  }
-  const std::string path = node.text("operand");
-  const std::size_t first = path.find('/'), last = path.rfind('/');
-  if (first == path.npos || first == last || first == 0 || last + 1 == path.size()) {
-    node.fail("an operand is a number or \"experiment/case/metric\"");
-  }
-  operand.experiment = path.substr(0, first);
-  operand.case_name = path.substr(first + 1, last - first - 1);
-  operand.metric = path.substr(last + 1);
-  return operand;
-}
-
-bool is_count(double number, int most) {
-  return number >= 1 && number <= most && number == std::floor(number);
-}
-
-void read_panels(TomlTable& entry, Condition& condition) {
-  if (entry.has("panels")) {
-    const double panels = entry.get("panels").number("panels");
-    if (!is_count(panels, 1000)) entry.refuse("'panels' is a count");
-    condition.panels = static_cast<int>(panels);
-  }
-  for (const TomlValue& node : entry.list("alike")) {
-    const double panel = node.number("alike");
-    const bool known = is_count(panel, condition.panels) &&
-                       std::ranges::count(condition.alike, static_cast<int>(panel)) == 0;
-    if (!known) entry.refuse("'alike' must list different panels, as numbers from 1 to 'panels'");
-    condition.alike.push_back(static_cast<int>(panel));
-  }
-  if (condition.alike.size() == 1) entry.refuse("'alike' must list two panels or more");
-}
-
-void read_figure(TomlTable& entry, Condition& condition) {
-  condition.kind = Condition::Kind::kFigure;
-  condition.figure = entry.text("figure");
-  read_panels(entry, condition);
-  for (const TomlValue& metric : entry.list("prints")) condition.operands.push_back(operand_from(metric));
-  if (entry.has("brightness")) condition.brightness.push_back(operand_from(entry.get("brightness")));
-  const auto is_number = [](const Operand& operand) { return operand.is_number(); };
-  if (std::ranges::any_of(condition.operands, is_number) ||
-      std::ranges::any_of(condition.brightness, is_number)) {
-    entry.refuse("a figure is compared with metrics, not with numbers");
-  }
-  entry.refuse_unknown();
-}
-
-Condition condition_from(const TomlValue& node) {
-  using Kind = Condition::Kind;
-  struct Form {
-    std::string_view key;
-    Kind kind;
-    std::size_t fewest, most;
-    bool range;
-  };
-  constexpr Form kForms[] = {{"equal", Kind::kEqual, 2, 64, false},
-                             {"order", Kind::kOrder, 2, 16, false},
-                             {"within", Kind::kWithin, 1, 1, true},
-                             {"ratio", Kind::kRatio, 2, 2, true},
-                             {"growth", Kind::kGrowth, 2, 2, true}};
-  TomlTable entry(node);
-  Condition condition;
-  if (entry.has("figure")) {
-    condition.kind = Kind::kFigure;
-    read_figure(entry, condition);
-    return condition;
-  }
-  const auto* const form =
-      std::find_if(std::begin(kForms), std::end(kForms), [&](const Form& f) { return entry.has(f.key); });
-  if (form == std::end(kForms)) {
-    entry.refuse("a condition is one of equal, order, within, ratio, growth, figure");
-  }
-  condition.kind = form->kind;
-  condition.machine = entry.flag("machine");
-  for (const TomlValue& operand : entry.list(form->key)) {
-    condition.operands.push_back(operand_from(operand));
-  }
-  if (condition.operands.size() < form->fewest || condition.operands.size() > form->most) {
-    entry.refuse(fmt::format("'{}' takes {} to {} operands", form->key, form->fewest, form->most));
-  }
-  if (form->range) {
-    const auto [low, high] = entry.get("range").pair("range");
-    condition.low = low.number("range");
-    condition.high = high.number("range");
-    if (condition.low > condition.high) entry.refuse("the range is empty");
-    if (condition.kind == Condition::Kind::kWithin && condition.low <= 0 && condition.high == 1) {
-      entry.refuse("the range holds every share: no method could fail it");
-    }
-  }
-  entry.refuse_unknown();
-  return condition;
-}
-
 // All profiles if the entry names none.
 std::vector<std::string> profiles_from(TomlTable& entry) {
   std::vector<std::string> profiles;
@@ -126,18 +29,13 @@ std::vector<std::string> profiles_from(TomlTable& entry) {
   return profiles;
 }
 
-Verdict known_verdict(const TomlTable& entry, const std::string& known, const std::string& note) {
-  const auto* const at = std::find(std::begin(kVerdicts), std::end(kVerdicts), known);
-  const auto verdict = static_cast<Verdict>(at - std::begin(kVerdicts));
-  // The other verdicts depend on the run.
-  if (verdict > Verdict::kNotComparable) {
-    entry.refuse(fmt::format("invalid known verdict '{}': expected {}", known,
-                             fmt::join(std::span(kVerdicts).first(4), ", ")));
+// Patterns for conditions. Empty ones are those of members of `each` that need none.
+std::vector<std::string> patterns_from(TomlTable& entry, std::string_view key) {
+  std::vector<std::string> patterns;
+  for (const TomlValue& value : entry.list(key)) {
+    if (std::string pattern = value.text(key); !pattern.empty()) patterns.push_back(std::move(pattern));
   }
-  if (verdict == Verdict::kDiffers && note.empty()) {
-    entry.refuse("a claim known to differ needs a 'note' with the reason");
-  }
-  return verdict;
+  return patterns;
 }
 
 About about_from(TomlTable& entry, About usual) {
@@ -160,6 +58,7 @@ Claim claim_from(const TomlValue& node, About usual_about, const Claim* first) {
   TomlTable entry(node);
   Claim claim;
   claim.id = entry.text("id");
+  claim.line = static_cast<int>(node.node->source().begin.line);
   claim.about = about_from(entry, usual_about);
   const bool each_is_a_row = entry.flag("each_is_a_row");
   if (first != nullptr && !each_is_a_row) make_repeat(claim, first->id);
@@ -186,16 +85,10 @@ Claim claim_from(const TomlValue& node, About usual_about, const Claim* first) {
     entry.refuse(
         fmt::format("{} needs either 'check' or a reason in 'pending' or 'not_comparable'", claim.id));
   }
-  const Verdict usual = !claim.not_comparable.empty() ? Verdict::kNotComparable
-                        : claim.claim_class == 'S'    ? Verdict::kShape
-                                                      : Verdict::kReproduced;
-  claim.known = known_verdict(entry, entry.text_or("known", std::string(name(usual))), claim.note);
+  claim.fails = patterns_from(entry, "fails");
+  claim.may_fail = patterns_from(entry, "may_fail");
   claim.matches = entry.text_or("matches", "");
   claim.vague = entry.text_or("vague", "");
-  if (claim.known == Verdict::kDiffers && claim.matches.empty()) {
-    entry.refuse(
-        "a claim known to differ needs 'matches': the id of the claim that does hold, or a sentence");
-  }
   entry.refuse_unknown();
   return claim;
 }
@@ -217,36 +110,15 @@ Reference reference_from(const TomlValue& node) {
 
 // Another ground for claims: the same conditions, read from other cases.
 struct FurtherGround {
-  // A claim whose known verdict on this ground is another than on the ground of the paper's claim.
-  struct Known {
-    std::string claim;
-    Verdict verdict;
-    std::string note, matches;  // empty: the claim's own
-  };
   std::string name;   // appended to the id of each claim and of its figures
   std::string of;     // the ground that the claims' conditions name: the case, or its first part
   std::string label;  // appended to where the claim stands in the paper
   std::vector<std::string> profiles;
-  std::vector<Known> known;
 };
 
-FurtherGround ground_from(const TomlValue& node, const std::vector<Claim>& claims) {
+FurtherGround ground_from(const TomlValue& node) {
   TomlTable entry(node);
-  FurtherGround ground{entry.text("name"), entry.text("of"), entry.text("label"), profiles_from(entry), {}};
-  for (const TomlValue& known_entry : entry.list("known")) {
-    TomlTable known(known_entry);
-    const std::string id = known.text("claim"), verdict = known.text("verdict");
-    const auto claim = std::ranges::find(claims, id, &Claim::id);
-    if (claim == claims.end()) known.refuse(fmt::format("unknown claim '{}'", id));
-    const std::string note = known.text_or("note", "");
-    const std::string matches = known.text_or("matches", "");
-    ground.known.push_back(
-        {id, known_verdict(known, verdict, note.empty() ? claim->note : note), note, matches});
-    if (ground.known.back().verdict == Verdict::kDiffers && matches.empty() && claim->matches.empty()) {
-      known.refuse("a claim known to differ needs 'matches'");
-    }
-    known.refuse_unknown();
-  }
+  FurtherGround ground{entry.text("name"), entry.text("of"), entry.text("label"), profiles_from(entry)};
   entry.refuse_unknown();
   return ground;
 }
@@ -284,12 +156,6 @@ std::vector<Claim> on_further_grounds(const std::vector<Claim>& claims,
       again.id += "." + ground.name;
       again.where += ", on " + ground.label;
       again.profiles = ground.profiles;
-      const auto known = std::ranges::find(ground.known, claim.id, &FurtherGround::Known::claim);
-      if (known != ground.known.end()) {
-        again.known = known->verdict;
-        if (!known->note.empty()) again.note = known->note;
-        if (!known->matches.empty()) again.matches = known->matches;
-      }
       all.push_back(std::move(again));
     }
   }
@@ -336,7 +202,7 @@ void check_references(const Paper& paper, const std::string& origin) {
     if (match == paper.claims.end()) {
       fail(claim, fmt::format("'matches' is neither a claim's id nor a sentence: '{}'", claim.matches));
     }
-    if (match->known > Verdict::kShape) fail(claim, fmt::format("'{}' is not known to hold", match->id));
+    if (match->known() > Verdict::kShape) fail(claim, fmt::format("'{}' is not known to hold", match->id));
   }
 }
 
@@ -345,8 +211,15 @@ void check_references(const Paper& paper, const std::string& origin) {
 std::string_view name(Verdict verdict) { return kVerdicts[static_cast<std::size_t>(verdict)]; }
 std::string_view name(About about) { return kAbout[static_cast<std::size_t>(about)]; }
 
+Verdict Claim::known() const {
+  if (!not_comparable.empty()) return Verdict::kNotComparable;
+  if (std::ranges::count(conditions, Condition::Expected::kFails, &Condition::expected) > 0)
+    return Verdict::kDiffers;
+  return claim_class == 'S' ? Verdict::kShape : Verdict::kReproduced;
+}
+
 std::string Claim::reason() const {
-  if (!machine.empty()) return machine;
+  if (known() != Verdict::kDiffers && !machine.empty()) return machine;
   const std::size_t end = note.find(". ");
   return end == std::string::npos ? note : note.substr(0, end + 1);
 }
@@ -370,8 +243,9 @@ Paper parse_claims(std::string_view text, const std::string& origin) {
     paper.claims.push_back(claim_from(claim, about, again ? &paper.claims[first] : nullptr));
   }
   std::vector<FurtherGround> grounds;
-  for (const TomlValue& ground : entry.list("ground")) grounds.push_back(ground_from(ground, paper.claims));
+  for (const TomlValue& ground : entry.list("ground")) grounds.push_back(ground_from(ground));
   paper.claims = on_further_grounds(paper.claims, grounds);
+  expect_failures(paper.claims, origin);
   for (const TomlValue& page : entry.list("page")) paper.pages.push_back(parse_page(page));
   for (const TomlValue& table : entry.list("table")) paper.tables.push_back(parse_table(table, paper.pages));
   for (const TomlValue& plot : entry.list("plot")) paper.plots.push_back(parse_plot(plot, paper.pages));

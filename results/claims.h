@@ -1,6 +1,7 @@
 // What the papers report, and how each claim is read from the measurements: experiments/*/claims.toml,
-// compiled in. The files also lay out the report's tables, plots and pages. Key `known` is the verdict that a
-// claim is expected to have, written by hand; the verdicts of a run are computed by judge.h and not stored.
+// compiled in. The files also lay out the report's tables, plots and pages. Keys `fails` and `may_fail` of a
+// claim name those of its conditions that are not expected to hold; the verdicts of a run are computed by
+// judge.h and not stored.
 #pragma once
 
 #include <optional>
@@ -57,9 +58,11 @@ struct Condition {
   std::vector<int> alike;
   std::vector<Operand> brightness;  // one or none
   static constexpr double kBrightness = 0.005;
-  // Whether Claim::machine says why this condition may fail; the claim's other conditions must hold.
-  bool machine = false;
+  enum class Expected { kHolds, kFails, kEither } expected = Expected::kHolds;  // Claim::fails, may_fail
 };
+// The condition as one line: "e/c/m = 3", "1 < e/c/m", "e/c/m in [0, 2]", "e/c/m / e/c/n in [5, 20]" for a
+// ratio and the other way round for growth, "figure p.F1".
+std::string formula(const Condition&);
 
 // What a row says something about. Rows of different kinds are counted apart: only those about the paper say
 // how much of it is reproduced.
@@ -83,17 +86,22 @@ struct Claim {
   std::string unit, note, tolerance;  // tolerance: in words, for readers; the ranges in check decide
   std::vector<std::string> profiles;  // those that measure it
   std::vector<Condition> conditions;  // all must hold
-  Verdict known = Verdict::kReproduced;  // expected
-  // Why the verdict depends on the machine: for claims that were seen to hold on one machine and to fail on
-  // another. The verdict is computed and shown, but conditions marked `machine` may fail without a complaint.
-  // Empty: the verdict does not depend on the machine.
+  // Patterns (glob.h) for the formula() of conditions, such as "*/rmse_best_w = *". Where a claim stands for
+  // several, by `each` or on further grounds, a pattern may name conditions of only some of them.
+  // Those in `fails` are expected to fail, so that the claim is known to differ; those in `may_fail` were
+  // seen to hold on one machine and to fail on another, and `machine` says why.
+  std::vector<std::string> fails, may_fail;
   std::string machine;
   std::string pending, not_comparable;  // the reason; both empty if the claim is measured
   // For claims known to differ: the id of the claim of the reading that matches, or a sentence that says that
-  // none does. The reason why it differs is `machine`, otherwise the first sentence of `note`.
+  // none does.
   std::string matches;
+  int line = 0;       // in the claims file
   std::string vague;  // what the paper leaves open, where this claim measures several readings; else empty
 
+  // The expected verdict: differs if a condition is expected to fail. Those in `may_fail` do not count.
+  Verdict known() const;
+  // Why it differs: the first sentence of `note` if it is known to, otherwise `machine`.
   std::string reason() const;
 };
 

@@ -23,18 +23,20 @@ std::string joined(const std::vector<Finding>& findings) {
   return text;
 }
 
-// Why the verdict is unexpected; empty if it is not. If the claim depends on the machine, either verdict is
-// expected, but only conditions marked `machine` may fail.
+// What is not as expected; empty if all is.
 std::string surprise(const Claim& claim, Verdict verdict, const std::vector<Finding>& findings) {
-  if (claim.machine.empty() || verdict > Verdict::kDiffers) {
-    if (verdict == claim.known) return "";
-    return fmt::format("expected verdict '{}', computed '{}'", name(claim.known), name(verdict));
-  }
+  if (verdict == Verdict::kMissing)
+    return fmt::format("expected verdict '{}', computed '{}'", name(claim.known()), name(verdict));
+  std::string text;
   for (std::size_t i = 0; i < findings.size(); ++i) {
-    if (findings[i].outcome == Outcome::kFails && !claim.conditions[i].machine)
-      return "a condition fails that must hold on any machine: " + findings[i].text;
+    const Condition::Expected expected = claim.conditions[i].expected;
+    const bool fails = findings[i].outcome == Outcome::kFails;
+    if (expected == Condition::Expected::kEither || fails == (expected == Condition::Expected::kFails))
+      continue;
+    if (!text.empty()) text += "; ";
+    text += (fails ? "fails and must hold: " : "holds and was known to fail: ") + findings[i].text;
   }
-  return "";
+  return text;
 }
 
 // The index of Judgement::deciding. `exact`: whether the claim is of class E.

@@ -6,8 +6,9 @@
 //    one fails, else reproduced ("shape" for claims of class S). Without evidence, judge_claim(): pending or
 //    not comparable if the claim gives a reason for it, not run if that profile does not measure the claim.
 // 4. Complaints, with which `terrabench check` exits with 1, only on claims that went through
-//    judge_measured(): a verdict other than the claim's known one, a record altered by hand, a comparison
-//    between different machines or builds.
+//    judge_measured(): a condition that fails and is not named in the claim's `fails`, one that is named
+//    there and holds, a missing measurement, a record altered by hand, a comparison between different
+//    machines or builds.
 // To follow one verdict: judge_claim() and judge_measured() in judge.cpp, then evidence.cpp from its end.
 #pragma once
 

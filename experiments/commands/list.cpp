@@ -87,7 +87,7 @@ Json list_claims() {
                       {"paper", paper.id},
                       {"where", claim.where},
                       {"class", std::string(1, claim.claim_class)},
-                      {"known", name(claim.known)}});
+                      {"known", name(claim.known())}});
     }
   }
   return list;

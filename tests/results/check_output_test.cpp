@@ -99,6 +99,22 @@ TEST_F(CheckOutput, VerbosePrintsAllEvidence) {
   }
 }
 
+TEST_F(CheckOutput, VerboseAndJsonNameTheConditionsThatNeedNotHold) {
+  const JudgedResults results = passing();
+  const std::string text = check_text(results, {.width = 300, .verbose = true});
+  const std::string condition =
+      "hybrid.table1/n=128/paper_layout_heap_bytes / hybrid.table1/n=128/paper_stack_bytes in [1, 1]";
+  EXPECT_THAT(text, HasSubstr("\n    known to fail: " + condition + "\n"));
+  EXPECT_EQ(count(text, "known to fail: hybrid.table1/"), 1U) << "the claim's other condition must hold";
+  EXPECT_THAT(check_text(results, {.width = 300}), Not(HasSubstr("known to fail")));
+  const auto json = nlohmann::json::parse(check_json(results));
+  const auto row =
+      std::ranges::find_if(json["rows"], [](const auto& r) { return r["id"] == "hybrid.T1.layout"; });
+  ASSERT_NE(row, json["rows"].end());
+  EXPECT_EQ((*row)["fails"], nlohmann::json::array({condition}));
+  EXPECT_EQ((*row)["may_fail"], nlohmann::json::array());
+}
+
 TEST_F(CheckOutput, WhatDiffersSaysWhyAndWhichReadingMatches) {
   const std::string text = check_text(passing(), {.width = 200});
   EXPECT_THAT(text, HasSubstr("and are not counted. matches: hybrid.T1.128\n"));

@@ -227,28 +227,50 @@ TEST_F(OneClaim, MissingMeasurementFails) {
 
 TEST_F(OneClaim, KnownDifferenceDoesNotFailAndAnEndToItDoes) {
   metrics_ = {{"m", "", {2}}};
-  const std::string known = "known = \"differs\"\nnote = \"n\"\nmatches = \"None does.\"\n";
+  const std::string known = "fails = [\"e/c/m = *\"]\nnote = \"n\"\nmatches = \"None does.\"\n";
   EXPECT_EQ(judge_one("{equal = [\"e/c/m\", 3]}", "E", known).complaint, "");
-  EXPECT_NE(judge_one("{equal = [\"e/c/m\", 2]}", "E", known).complaint, "");
+  EXPECT_EQ(judge_one("{equal = [\"e/c/m\", 2]}", "E", known).complaint,
+            "holds and was known to fail: m 2 = 2");
 }
 
-// Such a claim may be inside or outside its tolerance without a complaint, but it must have been measured.
-TEST_F(OneClaim, VerdictsThatDependOnTheMachineAreComputedAndExpected) {
+TEST_F(OneClaim, AKnownDifferenceExcusesNoOtherCondition) {
+  metrics_ = {{"m", "", {2}}, {"n", "", {5}}};
+  const std::string known =
+      "fails = [\"e/c/m = 3\", \"e/c/n in *\"]\nnote = \"n\"\nmatches = \"None does.\"\n";
+  const std::string failing = "{equal = [\"e/c/m\", 3]}, {within = [\"e/c/n\"], range = [6, 7]}";
+  EXPECT_EQ(judge_one(failing + ", {order = [1, \"e/c/m\"]}", "E", known).complaint, "");
+  const Judgement broken = judge_one(failing + ", {order = [2, \"e/c/m\"]}", "E", known);
+  EXPECT_EQ(broken.verdict, Verdict::kDiffers);
+  EXPECT_THAT(broken.complaint, HasSubstr("fails and must hold: 2 ≥ m 2"));
+  // One of two known failures has ended: the verdict is the same, the claim is not.
+  const Judgement ended =
+      judge_one("{equal = [\"e/c/m\", 3]}, {within = [\"e/c/n\"], range = [4, 7]}", "E", known);
+  EXPECT_EQ(ended.verdict, Verdict::kDiffers);
+  EXPECT_THAT(ended.complaint, HasSubstr("holds and was known to fail: n 5, in [4, 7]"));
+  EXPECT_NE(judge_one(failing + ", {order = [1, \"e/c/other\"]}", "E", known).complaint, "") << "missing";
+}
+
+// Such a condition may hold or fail without a complaint, but it must have been measured.
+TEST_F(OneClaim, ConditionsThatDependOnTheMachineMayFailAndNoOthers) {
   metrics_ = {{"m", "", {2}}};
-  const std::string machine = "machine = \"Caches differ.\"\nprofiles = [\"quick\", \"\"]\n";
-  const Judgement differs = judge_one("{equal = [\"e/c/m\", 3], machine = true}", "E", machine);
+  const std::string machine =
+      "may_fail = [\"e/c/* = *\"]\nmachine = \"Caches differ.\"\nprofiles = [\"quick\", \"\"]\n";
+  const Judgement differs = judge_one("{equal = [\"e/c/m\", 3]}", "E", machine);
   EXPECT_EQ(differs.verdict, Verdict::kDiffers);
   EXPECT_EQ(differs.complaint, "");
+  EXPECT_EQ(differs.claim->known(), Verdict::kReproduced);
   EXPECT_EQ(differs.claim->reason(), "Caches differ.");
   EXPECT_EQ(differs.claim->profiles, std::vector<std::string>{"quick"});
-  const Judgement holds = judge_one("{equal = [\"e/c/m\", 2], machine = true}", "E", machine);
+  const Judgement holds = judge_one("{equal = [\"e/c/m\", 2]}", "E", machine);
   EXPECT_EQ(holds.verdict, Verdict::kReproduced);
   EXPECT_EQ(holds.complaint, "");
-  const Judgement broken = judge_one("{equal = [\"e/c/m\", 3]}", "E", machine);
-  EXPECT_THAT(broken.complaint, HasSubstr("must hold on any machine: m 2 ≠ 3"));
-  const Judgement both = judge_one("{equal = [\"e/c/m\", 3], machine = true}, {equal = [\"e/c/m\", 4]}", "E",
-                                   machine + "known = \"differs\"\nnote = \"n\"\nmatches = \"None does.\"\n");
-  EXPECT_THAT(both.complaint, HasSubstr("must hold on any machine: m 2 ≠ 4"));
+  const Judgement broken = judge_one("{equal = [\"e/c/m\", 3]}, {order = [3, \"e/c/m\"]}", "E", machine);
+  EXPECT_EQ(broken.complaint, "fails and must hold: 3 ≥ m 2 (50 % above)");
+  const Judgement both =
+      judge_one("{equal = [\"e/c/m\", 3]}, {order = [3, \"e/c/m\"]}", "E",
+                machine + "fails = [\"3 < e/c/m\"]\nnote = \"First. Second.\"\nmatches = \"None does.\"\n");
+  EXPECT_EQ(both.complaint, "");
+  EXPECT_EQ(both.claim->reason(), "First.");
   const Judgement missing = judge_one("{equal = [\"e/c/other\", 2]}", "E", machine);
   EXPECT_EQ(missing.verdict, Verdict::kMissing);
   EXPECT_NE(missing.complaint, "");
