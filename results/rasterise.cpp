@@ -14,6 +14,7 @@
 #include "terrain/error.h"
 #include "terrain/files.h"
 #include "terrain/image.h"
+#include "terrain/temporary_name.h"
 
 extern char** environ;
 
@@ -54,7 +55,7 @@ void run_rsvg(std::vector<std::string> arguments) {
 // Runs `convert` on a file with this text, which is removed afterwards; so is `result` if it fails.
 template <class Convert>
 void with_svg_file(std::string_view svg, const std::filesystem::path& result, Convert convert) {
-  const std::filesystem::path file = result.string() + fmt::format(".{}.tmp", getpid());
+  const std::filesystem::path file = temporary_name(result);
   write_file(file, svg);
   std::error_code ignored;
   try {

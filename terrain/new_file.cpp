@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "terrain/error.h"
+#include "terrain/temporary_name.h"
 
 namespace terrabench {
 namespace {
@@ -36,7 +37,7 @@ NewFile::NewFile(const std::filesystem::path& name) {
   error.clear();
   if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), error);
   if (error) throw cannot_write(path_, error.value());
-  temporary_ = path_.string() + fmt::format(".{}.tmp", getpid());
+  temporary_ = temporary_name(path_);
   descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (descriptor_ < 0) throw cannot_write(path_, errno);
 }

@@ -11,8 +11,9 @@ namespace terrabench {
 
 class NewFile {
  public:
-  // Creates the folder and the empty temporary file. A link stays a link: its target is replaced. Throws
-  // environment_error when the name is that of a folder or a device, or cannot be written. So do all others.
+  // Creates the folder and the empty temporary file, and removes those that killed processes left. A link
+  // stays a link: its target is replaced. Throws environment_error when the name is that of a folder or a
+  // device, or cannot be written. So do all others.
   explicit NewFile(const std::filesystem::path& name);
   // Removes the temporary file unless keep() was called.
   ~NewFile();

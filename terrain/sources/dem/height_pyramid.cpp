@@ -1,7 +1,6 @@
 #include "terrain/sources/dem/height_pyramid.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "terrain/sources/dem/dem.h"
 #include "terrain/sources/dem/gdal_session.h"
 #include "terrain/sources/dem/geotiff_rows.h"
+#include "terrain/temporary_name.h"
 
 namespace terrabench {
 namespace {
@@ -191,7 +191,7 @@ void HeightPyramid::build(const std::string& dem, const fs::path& folder, Progre
                       "choose another folder");
   }
   const RasterSize size = raster_size(dem);
-  const fs::path temporary = folder.string() + fmt::format(".{}.tmp", getpid());
+  const fs::path temporary = temporary_name(folder);
   struct Remove {
     const fs::path& path;
     ~Remove() {
