@@ -68,13 +68,14 @@ struct MarkdownWriter {
   void links(const std::vector<Link>& links) {
     std::string line;
     for (const Link& link : links) {
-      line += fmt::format("{}[{}]({})", line.empty() ? "" : " · ", escape_markdown(link.text), link.target);
+      line += fmt::format("{}[{}]({})", line.empty() ? "" : " · ", escape_markdown(link.text),
+                          escape_markdown_target(link.target));
     }
     if (!line.empty()) text += line + "\n\n";
   }
   void operator()(const Heading& h) {
     text += fmt::format("{} <a id=\"{}\"></a>{}\n\n", std::string(static_cast<std::size_t>(h.level), '#'),
-                        h.id, escape_markdown(h.text));
+                        escape_html(h.id), escape_markdown(h.text));
   }
   void operator()(const Paragraph& p) {
     text += fmt::format("{}{}\n\n", p.warning ? "> **Warning:** " : "", escape_markdown(p.text));
@@ -87,16 +88,16 @@ struct MarkdownWriter {
     text += "\n";
   }
   void operator()(const TableBlock& block) {
-    text +=
-        fmt::format("<a id=\"{}\"></a>**{}.** {}\n\n{}\n", block.table.id, escape_markdown(block.table.title),
-                    escape_markdown(block.table.caption), markdown(block.table));
+    text += fmt::format("<a id=\"{}\"></a>**{}.** {}\n\n{}\n", escape_html(block.table.id),
+                        escape_markdown(block.table.title), escape_markdown(block.table.caption),
+                        markdown(block.table));
     links(block.links);
   }
   void operator()(const Gallery& gallery) {
     for (const Picture& picture : gallery.pictures) {
-      if (!picture.anchor.empty()) text += fmt::format("<a id=\"{}\"></a>", picture.anchor);
+      if (!picture.anchor.empty()) text += fmt::format("<a id=\"{}\"></a>", escape_html(picture.anchor));
       text += fmt::format("![{0}]({1})\n\n**{0}.** {2}\n\n", escape_markdown(picture.title),
-                          picture.bitmap.empty() ? picture.file : picture.bitmap,
+                          escape_markdown_target(picture.bitmap.empty() ? picture.file : picture.bitmap),
                           escape_markdown(picture.caption));
       links(picture.links);
     }

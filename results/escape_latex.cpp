@@ -112,7 +112,9 @@ bool in_t1(std::uint32_t code) {
 
 }  // namespace
 
-std::string escape_latex(std::string_view text) {
+std::string escape_latex(std::string_view utf8) {
+  const std::string plain = printable(utf8);
+  std::string_view text = plain;
   std::string out;
   while (!text.empty()) {
     const auto* const known =
@@ -123,9 +125,7 @@ std::string escape_latex(std::string_view text) {
       continue;
     }
     const auto [code, length] = first_character(text);
-    if (code < 0x20 || code == 0x7F) {
-      out += ' ';
-    } else if (code < 0x80 || in_t1(code)) {
+    if (code < 0x80 || in_t1(code)) {
       out += text.substr(0, length);
     } else {
       out += code == 0xFFFD ? "?" : fmt::format("[U+{:04X}]", code);  // LaTeX would stop at it

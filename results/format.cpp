@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -19,16 +21,33 @@ std::string replace(std::string_view text, std::span<const Replacement> replacem
     const auto it = std::find_if(replacements.begin(), replacements.end(),
                                  [&](const Replacement& r) { return text.starts_with(r.first); });
     const bool known = it != replacements.end();
-    // Control characters become spaces: they would break a table's row or a terminal's line.
-    const char c = text[0];
-    if (known) {
-      out += it->second;
-    } else {
-      out += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c;
-    }
+    out += known ? it->second : text.substr(0, 1);
     text.remove_prefix(known ? it->first.size() : 1);
   }
   return out;
+}
+
+bool is_number(std::string_view text) {
+  double number = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && stop == text.data() + text.size();
+}
+
+bool is_formula(std::string_view text) {
+  constexpr std::string_view kBetween = " … ";
+  if (text.empty() || std::string_view("=+-@\t\r").find(text[0]) == std::string_view::npos) return false;
+  const std::size_t at = text.find(kBetween);
+  if (at == text.npos) return !is_number(text);
+  return !is_number(text.substr(0, at)) || !is_number(text.substr(at + kBetween.size()));
+}
+
+// The length of a character that is not printable and begins the text; 0 for others.
+std::size_t unprintable(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0; };
+  if (byte(0) < 0x20 || byte(0) == 0x7F) return 1;
+  if (byte(0) == 0xC2 && byte(1) >= 0x80 && byte(1) < 0xA0) return 2;   // C1
+  if (byte(0) == 0xEF && byte(1) == 0xBF && byte(2) >= 0xBE) return 3;  // U+FFFE, U+FFFF
+  return 0;
 }
 
 std::string with_separators(std::string digits) {
@@ -54,22 +73,45 @@ std::string format_quantity(double number, std::string_view unit) {
 
 std::string format_exact(double number) { return fmt::format("{}", number); }
 
+std::string printable(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  while (!text.empty()) {
+    const std::size_t bad = unprintable(text);
+    out += bad > 0 ? ' ' : text[0];
+    text.remove_prefix(std::max<std::size_t>(bad, 1));
+  }
+  return out;
+}
+
 std::string escape_html(std::string_view text) {
   constexpr Replacement kHtml[] = {
       {"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}, {"'", "&#39;"}};
-  return replace(text, kHtml);
+  return replace(printable(text), kHtml);
 }
 
 std::string escape_markdown(std::string_view text) {
   constexpr Replacement kMarkdown[] = {
       {"\\", "\\\\"}, {"|", "\\|"},  {"*", "\\*"}, {"_", "\\_"},   {"`", "\\`"}, {"[", "\\["}, {"]", "\\]"},
       {"<", "&lt;"},  {">", "&gt;"}, {"#", "\\#"}, {"&", "&amp;"}, {"~", "\\~"}, {"$", "\\$"}};
-  return replace(text, kMarkdown);
+  return replace(printable(text), kMarkdown);
+}
+
+std::string escape_markdown_target(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain =
+        std::isalnum(byte) != 0 || std::string_view("-._~/#%").find(c) != std::string_view::npos;
+    out += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return out;
 }
 
 std::string escape_csv(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == text.npos) return std::string(text);
-  std::string out = "\"";
+  const std::string mark = is_formula(text) ? "'" : "";
+  if (text.find_first_of(",\"\r\n") == text.npos) return mark + std::string(text);
+  std::string out = "\"" + mark;
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + "\"";
 }

@@ -16,10 +16,18 @@ std::string format_quantity(double, std::string_view unit);
 // The shortest digits that read back the same: for CSV.
 std::string format_exact(double);
 
-std::string escape_html(std::string_view);  // also XML; control characters become spaces
+// Without control characters, which a terminal would obey (C0, DEL, C1), and without the two characters that
+// XML lacks: a space stands for each.
+std::string printable(std::string_view utf8);
+
+std::string escape_html(std::string_view);  // also XML; what is not printable becomes spaces
 std::string escape_markdown(std::string_view);
+// The target of a Markdown link, a URL: what could end it, or a table's cell, is percent-encoded.
+std::string escape_markdown_target(std::string_view);
 // For T1-encoded fonts. Characters that LaTeX lacks become [U+2713]; bytes that are not UTF-8 become "?".
 std::string escape_latex(std::string_view);
-std::string escape_csv(std::string_view);  // RFC 4180
+// RFC 4180. Text that a spreadsheet would take for a formula, since it begins with = + - @ or a tab and is
+// neither a number nor an interval of two, begins with an apostrophe.
+std::string escape_csv(std::string_view);
 
 }  // namespace terrabench

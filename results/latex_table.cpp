@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "results/format.h"
+#include "results/report_tables.h"
 #include "results/table.h"
 
 namespace terrabench {
@@ -123,7 +124,7 @@ class Setting {
   std::string latex(bool landscape) const {
     const std::string caption =
         fmt::format("  \\caption{{{}. {}}}\n  \\label{{tab:{}}}", escape_latex(table_.title),
-                    escape_latex(table_.caption), table_.id);
+                    escape_latex(table_.caption), file_name(table_.id));
     const std::string sizes =
         fmt::format("  \\{}\n  \\setlength{{\\tabcolsep}}{{{}pt}}\n", font_.name, kGap / 2);
     const bool floating = !landscape && height() <= kFloating;

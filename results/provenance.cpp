@@ -19,6 +19,7 @@
 #endif
 
 #include "results/build_info.h"
+#include "results/format.h"
 #include "results/record_json.h"
 #include "results/timing_conditions.h"
 #include "terrain/memory.h"
@@ -77,6 +78,26 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
   };
 }
 
+std::string in_quotes(std::string_view argument) {
+  std::string text = "'";
+  for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+// For control characters, which a record cannot hold, with the escapes of Bash, Zsh and POSIX 2024.
+std::string in_quotes_with_escapes(std::string_view argument) {
+  std::string text = "$'";
+  for (const char c : argument) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte >= 0x7F) {
+      text += fmt::format("\\x{:02x}", byte);
+    } else {
+      text += c == '\'' || c == '\\' ? fmt::format("\\{}", c) : std::string(1, c);
+    }
+  }
+  return text + "'";
+}
+
 }  // namespace
 
 std::string quote_command(const std::vector<std::string>& arguments) {
@@ -89,9 +110,7 @@ std::string quote_command(const std::vector<std::string>& arguments) {
       command += argument;
       continue;
     }
-    command += '\'';
-    for (const char c : argument) command += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    command += '\'';
+    command += printable(argument) == argument ? in_quotes(argument) : in_quotes_with_escapes(argument);
   }
   return command;
 }
@@ -123,11 +142,11 @@ Provenance collect_provenance(const RunFacts& facts) {
   p.compiler = kCompiler;
   p.flags = kFlags;
   p.build_type = kBuildType;
-  p.cpu = value_in("/proc/cpuinfo", "model name", ':');
+  p.cpu = printable(value_in("/proc/cpuinfo", "model name", ':'));
   p.threads = facts.threads > 0 ? facts.threads : allowed_processors();
   p.memory = physical_memory();
-  p.os = operating_system();
-  p.gl_renderer = facts.gl_renderer;
+  p.os = printable(operating_system());
+  p.gl_renderer = printable(facts.gl_renderer);
   p.simd = facts.simd;
   p.libraries = library_versions();
   for (const auto& library : facts.libraries) {

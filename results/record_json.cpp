@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "results/format.h"
 #include "terrain/error.h"
 #include "terrain/files.h"
 
@@ -19,6 +21,9 @@ using Json = nlohmann::json;
 // A line is an object of arrays of objects of arrays; anything deeper is no line of ours, and could exhaust
 // the stack.
 constexpr int kDeepest = 6;
+
+// Every integer below is a double, and is written back as it was read.
+constexpr double kExactIntegers = 9007199254740992;  // 2⁵³
 
 struct Damaged {
   std::string what;
@@ -89,12 +94,10 @@ class Fields {
     require(value.is_string(), fmt::format("'{}' is not text", name));
     return value.get<std::string>();
   }
-  // Names become keys, table cells and terminal output.
+  // Names become keys and table cells.
   std::string name(const char* field) {
     std::string value = text(field);
     require(!value.empty() && value.size() <= 200, fmt::format("'{}' is empty or too long", field));
-    require(std::none_of(value.begin(), value.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }),
-            fmt::format("'{}' holds control characters", field));
     return value;
   }
   std::uint64_t natural(const char* name) {
@@ -130,8 +133,26 @@ class Fields {
   std::set<std::string, std::less<>> known_;
 };
 
+// Every text of a line may reach a terminal, which obeys control characters. `name`: of the field.
+void require_printable(const Json& json, const std::string& name) {
+  if (json.is_string()) {
+    const auto& text = json.get_ref<const std::string&>();
+    require(printable(text) == text, fmt::format("'{}' holds control characters", name));
+  } else if (json.is_array()) {
+    for (const Json& value : json) require_printable(value, name);
+  } else if (json.is_object()) {
+    for (const auto& [key, value] : json.items()) {
+      require(printable(key) == key, "a field's name holds control characters");
+      require_printable(value, key);
+    }
+  }
+}
+
 Value value_from(const Json& json, const std::string& name) {
   if (json.is_boolean()) return json.get<bool>();
+  require(!json.is_number_unsigned() ||
+              json.get<std::uint64_t>() <= std::uint64_t{std::numeric_limits<std::int64_t>::max()},
+          fmt::format("parameter '{}' is larger than 2⁶³ − 1", name));
   if (json.is_number_integer()) return json.get<std::int64_t>();
   if (json.is_number_float()) return json.get<double>();
   require(json.is_string(), fmt::format("parameter '{}' is neither number, text, true nor false", name));
@@ -147,6 +168,8 @@ Metric metric_from(const Json& json, std::string& warning) {
   for (const Json& sample : samples) {
     require(sample.is_number(), fmt::format("a sample of '{}' is not a number", metric.name));
     metric.samples.push_back(sample.get<double>());
+    require(!sample.is_number_integer() || std::abs(metric.samples.back()) < kExactIntegers,
+            fmt::format("a sample of '{}' is an integer of more than 53 bits", metric.name));
   }
   if (fields.has("varies")) metric.varies = fields.flag("varies");
   if (fields.has("first_look")) {
@@ -265,6 +288,7 @@ Line line_from(std::string_view text, const std::string& where) {
     require(depth <= kDeepest, "is nested too deeply");
     return true;
   });
+  require_printable(json, "line");
   Fields fields(json, "the line");
   Line line;
   check_schema(fields, where);

@@ -37,7 +37,7 @@ struct NewerSchema : Error {
   using Error::Error;
 };
 // Takes any bytes. Throws NewerSchema, and bad_input("what is wrong", where) for what is not such a line: not
-// JSON, wrong types, numbers that no double holds, names with control characters, a picture outside the
+// JSON, wrong types, numbers that no double holds, texts with control characters, a picture outside the
 // folder.
 Line parse_line(std::string_view text, const std::string& where);
 

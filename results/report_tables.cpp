@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
 
 #include "results/fill.h"
 #include "results/format.h"
 #include "results/tally.h"
+#include "terrain/files.h"
 
 namespace terrabench {
 
@@ -27,7 +27,8 @@ std::string file_name(std::string_view id) {
   for (char& c : name) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '-' && c != '_') c = '_';
   }
-  return name.starts_with('.') ? "_" + name : name;
+  if (name.starts_with('.')) name[0] = '_';
+  return name == id ? name : name + "-" + checksum(id).substr(0, 8);
 }
 
 std::string url_path(std::string_view path) {
@@ -41,8 +42,14 @@ std::string url_path(std::string_view path) {
   return url;
 }
 
-std::string picture_file(const RecordedFigure& figure) {
-  return "figures/" + file_name(std::filesystem::path(figure.file).stem().string()) + ".webp";
+std::string picture_name(const RecordedFigure& figure) {
+  constexpr std::string_view kFolder = "figures/", kEnding = ".png";
+  std::string_view name = figure.file;
+  // No name of the other kind begins with a slash.
+  if (!name.starts_with(kFolder) || !name.ends_with(kEnding)) return file_name(fmt::format("/{}", name));
+  name.remove_prefix(kFolder.size());
+  name.remove_suffix(kEnding.size());
+  return file_name(name);
 }
 
 std::string short_id(const std::string& run) { return run.substr(0, 8); }

@@ -21,13 +21,18 @@ Table pending_table(const JudgedResults&);
 std::string where_and_statement(const Claim&);
 std::string reported_text(const Claim&);
 
-// The id as a file's name: other characters than letters, digits, '.', '-', '_' become '_'.
+// The id as the name of a file or of a label: other characters than letters, digits, '.', '-', '_' become
+// '_', and a digest follows, so that no two ids have the same name.
 std::string file_name(std::string_view id);
 // A relative path as part of a link: what is not a letter, a digit or one of "-._~/" is percent-encoded.
 std::string url_path(std::string_view path);
-// The report's copy of a picture, relative to the report's folder. Under its own name: two pictures may have
-// one id.
-std::string picture_file(const RecordedFigure&);
+// The name of a picture's copy, without an ending: its own, since two pictures may have one id, with its
+// folder where that is not figures/.
+std::string picture_name(const RecordedFigure&);
+// The report's copy, relative to the report's folder.
+inline std::string picture_file(const RecordedFigure& figure) {
+  return "figures/" + picture_name(figure) + ".webp";
+}
 
 // Where the numbers come from: one run, and every case of a profile with its seed, terrain and parameters.
 Facts run_facts(const Provenance&);

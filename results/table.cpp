@@ -35,7 +35,7 @@ std::string html_cell(const Cell& cell, const Column& column, bool heads_row) {
 std::string markdown_cell(const Cell& cell) {
   std::string text = escape_markdown(cell.text);
   if (!cell.anchor.empty()) text = fmt::format("<a id=\"{}\"></a>", escape_html(cell.anchor)) + text;
-  return cell.link.empty() ? text : fmt::format("[{}]({})", text, cell.link);
+  return cell.link.empty() ? text : fmt::format("[{}]({})", text, escape_markdown_target(cell.link));
 }
 
 }  // namespace

@@ -64,6 +64,11 @@ TEST(ProvenanceTest, IdChangesWithAnythingInIt) {
 TEST(ProvenanceTest, CommandsCanBePasted) {
   EXPECT_EQ(quote_command({"a", "b c", "", "it's", "$x", "--set=k=v"}),
             "a 'b c' '' 'it'\\''s' '$x' --set=k=v");
+  EXPECT_EQ(quote_command({"a\tb\nit's\\",
+                           "\xc2\x9b"
+                           "31m",
+                           "Łódź"}),
+            "$'a\\x09b\\x0ait\\'s\\\\' $'\\xc2\\x9b31m' 'Łódź'");
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+
 #include "terrain/error.h"
 #include "tests/results/fake_results.h"
 
@@ -46,6 +48,22 @@ TEST(RecordLine, RefusesInvalidLines) {
   expect_bad_input(changed("[0.25,0.35,0.3333333333333333]", "[]"), "has no samples");
   expect_bad_input(changed("\"hybrid.table2\"", "7"), "'experiment' is not text");
   expect_bad_input(changed("hybrid.table2", "hybrid\\u001b[31m"), "control characters");
+  for (const char* bad :
+       {"\\u0007", "\\n", "\\u007f", "\\u0085", "\\u009b31m", "\xc2\x9b", "\\ufffe", "\\uffff"}) {
+    expect_bad_input(changed("hybrid.table2", std::string("hybrid") + bad), "'experiment' holds control");
+    expect_bad_input(changed("\"unit\":\"s", std::string("\"unit\":\"s") + bad), "'unit' holds control");
+    expect_bad_input(changed("\"terrain\":\"", std::string("\"terrain\":\"") + bad),
+                     "'terrain' holds control");
+    expect_bad_input(changed("\"parameters\":{", std::string("\"parameters\":{\"a") + bad + "\":1,"),
+                     "name holds control");
+    expect_bad_input(changed("\"kind\"", std::string("\"a") + bad + "\":1,\"kind\""), "name holds control");
+  }
+  for (const char* number : {"9223372036854775808", "18446744073709551615"}) {
+    expect_bad_input(changed("\"parameters\":{", std::string("\"parameters\":{\"a\":") + number + ","),
+                     "'a' is larger than 2⁶³ − 1");
+  }
+  expect_bad_input(changed("0.25", "9007199254740993"), "more than 53 bits");
+  expect_bad_input(changed("0.25", "-9007199254740993"), "more than 53 bits");
   expect_bad_input(changed("\"figures\":[]", "\"figures\":{}"), "'figures' is not a list");
   for (const char* path : {"../secret.png", "/etc/passwd", "figures/../../x.png"}) {
     const std::string figure =
@@ -53,6 +71,16 @@ TEST(RecordLine, RefusesInvalidLines) {
     expect_bad_input(changed("\"figures\":[]", figure), "outside the results folder");
   }
   expect_bad_input(std::string(2'000'000, '['), "nested too deeply");
+}
+
+TEST(RecordLine, KeepsTheLargestIntegers) {
+  Record record = sample();
+  for (const std::int64_t value :
+       {std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()}) {
+    record.parameters = {{"a", value}};
+    const std::string line = to_line(record);
+    EXPECT_EQ(to_line(std::get<Record>(parse_line(line, "there:3").content)), line);
+  }
 }
 
 TEST(RecordLine, KeepsWhetherAMetricVaries) {

@@ -38,6 +38,32 @@ TEST(TableTest, Csv) {
             "Name|s,Size [B]\r\n\"a,\"\"b\"\"\nc\",1024\r\n<script>alert(1)</script>,2 % & 3 # {4} ~^\\\r\n");
 }
 
+TEST(TableTest, CsvHoldsNoFormula) {
+  for (const char* text : {"=1+1", "@SUM(A1)", "+cmd", "-2+3", "-x", "--set", "\t=1", "- … 3", "-1 … x"}) {
+    EXPECT_EQ(escape_csv(text), std::string("'") + text) << text;
+  }
+  EXPECT_EQ(escape_csv("=HYPERLINK(\"x\", 1)"), "\"'=HYPERLINK(\"\"x\"\", 1)\"");
+  for (const char* text : {"-1", "-1.5e-07", "-2 … -1", "a=1", "1-2", "–", "", "x"})
+    EXPECT_EQ(escape_csv(text), text);
+}
+
+TEST(Format, WhatIsNotPrintableBecomesASpace) {
+  EXPECT_EQ(printable("a\x1b[1m\tb\x7f\r\n"), "a [1m b   ");
+  EXPECT_EQ(printable("\xc2\x9b"
+                      "31m \xc2\x80\xc2\x9f\xc2\xa0°"),
+            " 31m   \xc2\xa0°");
+  EXPECT_EQ(printable("\xef\xbf\xbe\xef\xbf\xbf\xef\xbf\xbd"), "  \xef\xbf\xbd");
+  EXPECT_EQ(printable("Łódź 中 \xc2"), "Łódź 中 \xc2");
+  EXPECT_EQ(escape_html("\xc2\x9b<"), " &lt;");
+  EXPECT_EQ(escape_markdown("\xc2\x9b<"), " &lt;");
+  EXPECT_EQ(escape_latex("\xc2\x9b%"), " \\%");
+}
+
+TEST(Format, AMarkdownTargetStaysWithinItsParentheses) {
+  EXPECT_EQ(escape_markdown_target("../figures/a%20b.png#x-y_z~"), "../figures/a%20b.png#x-y_z~");
+  EXPECT_EQ(escape_markdown_target("a) <b>|\"\\&:"), "a%29%20%3Cb%3E%7C%22%5C%26%3A");
+}
+
 TEST(TableTest, HtmlEscapesAndMarksUp) {
   const std::string text = html(awkward());
   EXPECT_THAT(text, Not(HasSubstr("<script>")));
