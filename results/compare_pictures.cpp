@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <tuple>
 
 #include "results/format.h"
@@ -31,12 +32,17 @@ constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 30;
 // The pictures of a folder.
 struct Pictures {
   fs::path folder;
-  std::map<std::string, std::string> checksums;  // by file; empty: not recorded
+  const Store* store;                            // null: the files are not recorded
+  std::map<std::string, std::string> checksums;  // by file; empty when not recorded
+
+  fs::path path_of(const std::string& file) const {
+    return store == nullptr ? folder / file : store->path_of(file);
+  }
 };
 
 // A file that several records name is as the last of them drew it.
 Pictures recorded(const Store& store) {
-  Pictures pictures{store.folder(), {}};
+  Pictures pictures{store.folder(), &store, {}};
   std::map<std::string, std::size_t> lines;
   for (const Record& record : store.records()) {
     for (const RecordedFigure& figure : record.figures) {
@@ -56,7 +62,7 @@ bool is_png_name(const fs::path& file) {
 }
 
 Pictures found_in(const fs::path& folder) {
-  Pictures pictures{folder, {}};
+  Pictures pictures{folder, nullptr, {}};
   try {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
       if (entry.is_regular_file() && is_png_name(entry.path()))
@@ -69,19 +75,20 @@ Pictures found_in(const fs::path& folder) {
   return pictures;
 }
 
-// Two files that are to be compared.
+// Two files that must be decoded.
 struct Pair {
   fs::path before, after;
-  std::string checksum_before, checksum_after;
   ComparedPicture* result;
-  bool small = false;  // whether both may be decoded beside others
+  bool small;  // whether both may be decoded beside others
 };
 
-std::string content(const fs::path& file, const std::string& recorded_checksum, std::string_view side) {
+std::string content(const Pictures& pictures, const std::string& file, std::string_view side) {
+  const fs::path path = pictures.path_of(file);
   std::error_code error;
-  if (!fs::is_regular_file(file, error)) throw bad_input(fmt::format("missing {}", side), "", "");
-  std::string bytes = read_file(file, kLargestFile);
-  if (!recorded_checksum.empty() && checksum(bytes) != recorded_checksum)
+  if (!fs::is_regular_file(path, error)) throw bad_input(fmt::format("missing {}", side), "", "");
+  std::string bytes = read_file(path, kLargestFile);
+  const std::string& recorded = pictures.checksums.at(file);
+  if (!recorded.empty() && checksum(bytes) != recorded)
     throw bad_input(fmt::format("{} it is not the picture that its record names", side), "", "");
   return bytes;
 }
@@ -98,28 +105,29 @@ void or_not_compared(ComparedPicture& picture, const Work& work) {
   }
 }
 
-// Whether the two must be decoded. If not, all that there is to say of them is said.
-bool must_decode(Pair& pair) {
-  bool decode = false;
-  or_not_compared(*pair.result, [&] {
-    const std::string before = content(pair.before, pair.checksum_before, "before"),
-                      after = content(pair.after, pair.checksum_after, "after");
-    if (before == after) {
-      pair.result->change = PictureChange::kIdentical;
+// Nothing if the two need not be decoded: then all that there is to say of them is said.
+std::optional<Pair> settle(const Pictures& before, const Pictures& after, ComparedPicture& result) {
+  std::optional<Pair> pair;
+  or_not_compared(result, [&] {
+    const std::string bytes_before = content(before, result.file, "before"),
+                      bytes_after = content(after, result.file, "after");
+    if (bytes_before == bytes_after) {
+      result.change = PictureChange::kIdentical;
       return;
     }
-    const auto [width, height] = pair.result->size = png_size(pair.before);
-    const auto [width_after, height_after] = png_size(pair.after);
+    const fs::path path_before = before.path_of(result.file), path_after = after.path_of(result.file);
+    const auto [width, height] = result.size = png_size(path_before);
+    const auto [width_after, height_after] = png_size(path_after);
     if (width != width_after || height != height_after) {
-      pair.result->reason =
+      result.reason =
           fmt::format("{} × {} pixels before, {} × {} after", width, height, width_after, height_after);
       return;
     }
-    decode = true;
-    pair.small = std::int64_t{width} * height <= kSmall &&
-                 std::ssize(before) + std::ssize(after) <= static_cast<std::ptrdiff_t>(8 * kSmall);
+    const bool small = std::int64_t{width} * height <= kSmall &&
+                       std::ssize(bytes_before) + std::ssize(bytes_after) <= 8 * kSmall;
+    pair = {path_before, path_after, &result, small};
   });
-  return decode;
+  return pair;
 }
 
 void decode(const Pair& pair, const PictureLimits& limits) {
@@ -147,9 +155,9 @@ PictureComparison compare_all(const Pictures& before, const Pictures& after, con
   std::vector<Pair> beside, alone;
   for (ComparedPicture& picture : pictures) {
     if (picture.change != PictureChange::kNotCompared) continue;
-    Pair pair{before.folder / picture.file, after.folder / picture.file, before.checksums.at(picture.file),
-              after.checksums.at(picture.file), &picture};
-    if (must_decode(pair)) (pair.small ? beside : alone).push_back(std::move(pair));
+    if (std::optional<Pair> pair = settle(before, after, picture)) {
+      (pair->small ? beside : alone).push_back(std::move(*pair));
+    }
   }
   tbb::parallel_for_each(beside, [&](const Pair& pair) { decode(pair, limits); });
   for (const Pair& pair : alone) decode(pair, limits);
@@ -168,7 +176,7 @@ bool decoded(const ComparedPicture& p) {
 
 std::string finding_text(const ComparedPicture& p) {
   if (one_sided(p)) return "";
-  if (!decoded(p)) return "  " + p.reason;
+  if (!decoded(p)) return "  " + printable(p.reason);
   if (p.differing == 0) return "  all pixels equal, in other bytes";
   const double all = static_cast<double>(p.size[0]) * p.size[1];
   return fmt::format("  {:.2f} dB, SSIM {:.4f}, {} of {} × {} pixels differ ({} %)", p.psnr, p.ssim,
@@ -210,8 +218,8 @@ std::string pictures_text(const PictureComparison& comparison, bool colour) {
     if (p.change == PictureChange::kIdentical) continue;
     const bool marked = p.change != PictureChange::kClose;
     const std::string_view paint = colour && marked ? "\x1b[33m" : "", plain = paint.empty() ? "" : "\x1b[0m";
-    text += fmt::format("  {} {}{:<12}{} {}{}\n", marked ? '*' : ' ', paint, name(p.change), plain, p.file,
-                        finding_text(p));
+    text += fmt::format("  {} {}{:<12}{} {}{}\n", marked ? '*' : ' ', paint, name(p.change), plain,
+                        printable(p.file), finding_text(p));
   }
   return fmt::format("pictures: {} (close: at least {} dB and SSIM {})\n{}", tally, comparison.limits.psnr,
                      comparison.limits.ssim, text);

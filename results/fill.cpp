@@ -9,7 +9,6 @@
 
 #include "results/format.h"
 #include "results/statistics.h"
-#include "terrain/error.h"
 
 namespace terrabench {
 namespace {
@@ -34,16 +33,21 @@ void note_run(std::vector<std::string>& runs, const Record& record) {
 
 Cell number_cell(double number) { return {format_number(number), format_exact(number)}; }
 
-Cell measured_cell(const TableLayout::Column& column, const TableLayout::Row& row, const Metric& metric,
-                   const std::string& where) {
+Cell measured_cell(const TableLayout::Column& column, const TableLayout::Row& row, const Metric& metric) {
   const Summary s = summarise(metric.samples);
   if (column.kind == ColumnKind::kMetric || column.kind == ColumnKind::kInterval) {
-    const double factor = conversion(metric.unit, column.unit, column.metric, where);
-    if (column.kind == ColumnKind::kMetric) return number_cell(s.median * factor);
-    if (s.count == 1) return kNothing;
-    const double low = s.low * factor, high = s.high * factor;
-    return {fmt::format("{} … {}", format_number(low), format_number(high)),
-            fmt::format("{} … {}", format_exact(low), format_exact(high))};
+    if (column.kind == ColumnKind::kInterval && s.count == 1) return kNothing;
+    const std::optional<double> known = conversion(metric.unit, column.unit);
+    const double factor = known.value_or(1), low = s.low * factor, high = s.high * factor;
+    Cell cell = column.kind == ColumnKind::kMetric
+                    ? number_cell(s.median * factor)
+                    : Cell{fmt::format("{} … {}", format_number(low), format_number(high)),
+                           fmt::format("{} … {}", format_exact(low), format_exact(high))};
+    if (!known) {
+      const std::string unit = metric.unit.empty() ? "without unit" : metric.unit;
+      cell = {cell.text + " " + unit, cell.raw + " " + unit};
+    }
+    return cell;
   }
   const auto reported = row.values.find(column.key);
   if (reported == row.values.end() || !std::holds_alternative<double>(reported->second)) return kNothing;
@@ -54,7 +58,7 @@ Cell measured_cell(const TableLayout::Column& column, const TableLayout::Row& ro
 Cell growth_cell(const std::string& metric, const Record* before, const Record* record, const Store& store) {
   const Metric* const from = before == nullptr ? nullptr : before->find(metric);
   const Metric* const to = record == nullptr ? nullptr : record->find(metric);
-  if (from == nullptr || to == nullptr) return kNothing;
+  if (from == nullptr || to == nullptr || from->unit != to->unit) return kNothing;
   const Provenance* const earlier = store.run(before->run);
   const Provenance* const later = store.run(record->run);
   if (earlier == nullptr || later == nullptr || !comparable(*earlier, *later)) return kNothing;
@@ -83,7 +87,7 @@ std::vector<PlotPoint> paired_points(const Metric& metric, const Metric& across,
 }
 
 Cell cell_for(const TableLayout::Column& column, const TableLayout::Row& row, const Record* record,
-              const Store& store, const JudgedResults& results) {
+              const JudgedResults& results) {
   const auto value = row.values.find(column.key);
   const bool given = value != row.values.end();
   if (column.kind == ColumnKind::kReported) {
@@ -98,13 +102,12 @@ Cell cell_for(const TableLayout::Column& column, const TableLayout::Row& row, co
     return it == results.judgements.end() ? kNothing : verdict_cell(*it);
   }
   const Metric* const metric = record == nullptr ? nullptr : record->find(column.metric);
-  return metric == nullptr ? kNothing : measured_cell(column, row, *metric, store.where(*record));
+  return metric == nullptr ? kNothing : measured_cell(column, row, *metric);
 }
 
 }  // namespace
 
-double conversion(std::string_view from, std::string_view to, std::string_view metric,
-                  std::string_view where) {
+std::optional<double> conversion(std::string_view from, std::string_view to) {
   if (from == to) return 1;
   const auto find = [](std::string_view name) {
     return std::find_if(std::begin(kUnits), std::end(kUnits), [&](const Unit& u) { return u.name == name; });
@@ -112,10 +115,7 @@ double conversion(std::string_view from, std::string_view to, std::string_view m
   const Unit *const a = find(from), *const b = find(to);
   // Counts may be shown without the name of what is counted, ratios with ×.
   if ((to.empty() && a == std::end(kUnits)) || (from.empty() && to == "×")) return 1;
-  if (a == std::end(kUnits) || b == std::end(kUnits) || a->kind != b->kind) {
-    throw bad_input(fmt::format("'{}' was measured in '{}' and cannot be shown in '{}'", metric, from, to),
-                    where, "measure again into a new folder, or correct the unit in the claims file");
-  }
+  if (a == std::end(kUnits) || b == std::end(kUnits) || a->kind != b->kind) return std::nullopt;
   return a->size / b->size;
 }
 
@@ -145,7 +145,7 @@ FilledTable fill(const TableLayout& layout, const Store& store, const JudgedResu
       const TableLayout::Column column = for_row(general, row);
       cells.push_back(column.kind == ColumnKind::kGrowth
                           ? growth_cell(column.metric, grown_from, record, store)
-                          : cell_for(column, row, record, store, results));
+                          : cell_for(column, row, record, results));
     }
     filled.table.rows.push_back(std::move(cells));
   }
@@ -158,6 +158,7 @@ FilledPlot fill(const PlotLayout& layout, const Store& store, const std::string&
     PlotSeries& line = filled.plot.series.emplace_back();
     line.label = series.label;
     line.reported = series.cases.empty();
+    int left_out = 0;
     for (const auto& [x, y] : series.values) line.points.push_back({x, y, y, y});
     for (const auto& [x, case_name] : series.cases) {
       const Record* const record = store.find(series.experiment, case_name, profile);
@@ -165,20 +166,23 @@ FilledPlot fill(const PlotLayout& layout, const Store& store, const std::string&
       const Metric* const across =
           record == nullptr || series.x_metric.empty() ? nullptr : record->find(series.x_metric);
       if (metric == nullptr || (across == nullptr && !series.x_metric.empty())) continue;
+      const std::optional<double> up = conversion(metric->unit, layout.y.unit),
+                                  right = across == nullptr ? 1 : conversion(across->unit, layout.x.unit);
+      if (!up || !right) {
+        ++left_out;
+        continue;
+      }
       note_run(filled.runs, *record);
-      const std::string where = store.where(*record);
-      const double up = conversion(metric->unit, layout.y.unit, series.metric, where);
-      const double right =
-          across == nullptr ? 1 : conversion(across->unit, layout.x.unit, series.x_metric, where);
       if (series.paired) {
-        const std::vector<PlotPoint> points = paired_points(*metric, *across, up, right);
+        const std::vector<PlotPoint> points = paired_points(*metric, *across, *up, *right);
         line.points.insert(line.points.end(), points.begin(), points.end());
         continue;
       }
       const Summary s = summarise(metric->samples);
-      const double at = across == nullptr ? x : summarise(across->samples).median * right;
-      line.points.push_back({at, s.median * up, s.low * up, s.high * up});
+      const double at = across == nullptr ? x : summarise(across->samples).median * *right;
+      line.points.push_back({at, s.median * *up, s.low * *up, s.high * *up});
     }
+    if (left_out > 0) line.label += fmt::format(", {} in other units left out", left_out);
     if (!series.slope) continue;
     if (const auto slope = power_law(line.points)) line.label += fmt::format(", slope {:.2f}", *slope);
   }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
 #include <set>
 #include <utility>
@@ -33,9 +32,8 @@ constexpr double kColumn = 84, kPage = 174;  // millimetres
 // Pictures are printed at 254 dpi, at which their words can be read, and leave room for a caption.
 constexpr double kPixelsPerMillimetre = 10, kHighest = 190;
 
-// The first line of main.tex, by which an earlier bundle is known.
-constexpr std::string_view kMark =
-    "% Written by terrabench report --latex: a later one replaces this folder.";
+constexpr FolderMark kMark{"LaTeX bundle", "main.tex",
+                           "% Written by terrabench report --latex: a later one replaces this folder."};
 
 constexpr std::string_view kPreamble = R"(
 \documentclass[10pt,a4paper]{article}
@@ -59,12 +57,6 @@ constexpr std::string_view kPreamble = R"(
 \ifdefined\pdfcompresslevel\pdfcompresslevel=3\fi
 \ifdefined\pdfsuppresswarningpagegroup\pdfsuppresswarningpagegroup=1\fi
 )";
-
-bool is_bundle(const std::filesystem::path& folder) {
-  std::ifstream file(folder / "main.tex", std::ios::binary);
-  std::string start(kMark.size(), ' ');
-  return file.read(start.data(), static_cast<std::streamsize>(start.size())) && start == kMark;
-}
 
 // A paper's own numbers would stand beside the bundle's: "Table 2: Table 1: …".
 std::string title_beside_number(const std::string& title) {
@@ -106,8 +98,9 @@ struct FigureText {
 // `include`: what shows it.
 FigureText figure_text(bool column, std::string_view include, const std::string& title,
                        std::string_view caption, std::string_view id) {
-  const std::string body = fmt::format("{}\n    \\caption{{{}. {}}}\n    \\label{{fig:{}}}\n", include,
-                                       escape_latex(title_beside_number(title)), escape_latex(caption), id);
+  const std::string body =
+      fmt::format("{}\n    \\caption{{{}. {}}}\n    \\label{{fig:{}}}\n", include,
+                  escape_latex(title_beside_number(title)), escape_latex(caption), file_name(id));
   if (!column) return {"    \\centering\n    " + body, false};
   return {fmt::format("  \\begin{{minipage}}[t]{{{}mm}}\n    \\vspace{{0pt}}\\centering\n    {}"
                       "  \\end{{minipage}}\n",
@@ -120,20 +113,22 @@ class Bundle {
   Bundle(const Store& store, std::span<const Paper> papers, const std::filesystem::path& out)
       : store_(store), papers_(papers), out_(out), results_(judge(store, papers)) {}
 
-  // Returns the files of pictures that are left out.
-  std::vector<std::string> write() {
+  // The files of pictures that are left out.
+  const std::vector<std::string>& left_out() const { return left_out_; }
+  const std::vector<std::string>& faults() const { return results_.faults; }
+
+  void write() {
     for (const Paper& paper : papers_) add_paper(paper);
     add_further_grounds();
     const std::string sections = std::move(text_);
     text_ = fmt::format(
         "{}{}\\title{{Five terrain papers, measured again}}\n\\author{{}}\n\\date{{}}\n\n"
         "\\begin{{document}}\n\\maketitle\n",
-        kMark, kPreamble);
+        kMark.line, kPreamble);
     introduce();
     text_ += sections + "\\bibliographystyle{plain}\n\\bibliography{references}\n\\end{document}\n";
     write_file(out_ / "references.bib", bibtex(papers_));
-    write_file(out_ / "main.tex", text_);
-    return left_out_;
+    write_file(out_ / kMark.file, text_);
   }
 
  private:
@@ -206,7 +201,8 @@ class Bundle {
 
   void begin_section(const std::string& title, const std::string& id) {
     floating_ = false;
-    text_ += fmt::format("\\clearpage\n\\section{{{}}}\n\\label{{sec:{}}}\n", escape_latex(title), id);
+    text_ +=
+        fmt::format("\\clearpage\n\\section{{{}}}\n\\label{{sec:{}}}\n", escape_latex(title), file_name(id));
   }
 
   std::vector<Table> filled_tables(const Paper& paper) const {
@@ -268,8 +264,8 @@ class Bundle {
       left_out_.push_back(from);
       return;
     }
-    const std::string to = "pictures/" + file_name(std::filesystem::path(from).filename().string());
-    write_file(out_ / to, read_file(store_.folder() / from));
+    const std::string to = "pictures/" + picture_name(*shown.figure) + ".png";
+    write_file(out_ / to, read_file(store_.path_of(from)));
     const double width =
         std::min({image->width / kPixelsPerMillimetre, widest, kHighest * image->width / image->height});
     figures.push_back(figure_text(width <= kColumn,
@@ -281,7 +277,7 @@ class Bundle {
   std::optional<Image> read_intact(const RecordedFigure& figure) const {
     if (!store_.intact(figure)) return std::nullopt;
     try {
-      return read_png(store_.folder() / figure.file);
+      return read_png(store_.path_of(figure.file));
     } catch (const Error& error) {
       if (error.code() != ExitCode::kBadInput) throw;
       return std::nullopt;
@@ -334,10 +330,11 @@ WrittenBundle write_latex_bundle(const std::filesystem::path& results, const std
 
 WrittenBundle write_latex_bundle(const Store& store, std::span<const Paper> papers,
                                  const std::filesystem::path& target) {
-  NewFolder folder(target, is_bundle, "LaTeX bundle");
-  std::vector<std::string> left_out = Bundle(store, papers, folder.path()).write();
+  NewFolder folder(target, kMark);
+  Bundle bundle(store, papers, folder.path());
+  bundle.write();
   folder.publish();
-  return {folder.target() / "main.tex", std::move(left_out)};
+  return {folder.target() / kMark.file, bundle.left_out(), bundle.faults()};
 }
 
 }  // namespace terrabench

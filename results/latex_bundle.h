@@ -18,6 +18,7 @@ struct WrittenBundle {
   // Pictures that the bundle should show but that are missing, altered or not readable: their files, relative
   // to the results folder.
   std::vector<std::string> left_out = {};
+  std::vector<std::string> faults = {};  // why its results cannot be trusted; empty if they can
 };
 
 // Writes the tables, plots and pictures of `results`, a results folder, into the folder `target`, which

@@ -128,8 +128,7 @@ void copy_records(const std::vector<Source>& sources, Store& out) {
     if (source.store == &out) continue;
     for (const RecordedFigure& figure : source.record->figures) {
       if (out.intact(figure)) continue;
-      write_file(out.folder() / figure.file,
-                 read_file(source.store->folder() / figure.file, kLargestPicture));
+      write_file(out.path_of(figure.file), read_file(source.store->path_of(figure.file), kLargestPicture));
     }
     const Provenance& run = source.run();
     if (out.run(run.id) == nullptr && std::ranges::count(runs, run.id, &Provenance::id) == 0) {

@@ -2,11 +2,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
+#include <fstream>
+#include <string>
 
 #include "terrain/error.h"
+#include "terrain/temporary_name.h"
 
 namespace terrabench {
 namespace fs = std::filesystem;
@@ -19,19 +21,26 @@ fs::path named(const fs::path& folder) {
   return path.has_filename() ? path : path.parent_path();
 }
 
+bool has_mark(const fs::path& folder, const FolderMark& mark) {
+  std::ifstream file(folder / mark.file, std::ios::binary);
+  std::string start(mark.line.size(), ' ');
+  return file.read(start.data(), std::ssize(start)) && start == mark.line;
+}
+
 }  // namespace
 
-NewFolder::NewFolder(const fs::path& target, bool (*is_earlier)(const fs::path&), const char* kind)
+NewFolder::NewFolder(const fs::path& target, const FolderMark& mark)
     : target_(named(target)),
-      path_(target_.parent_path() / fmt::format(".{}.{}.tmp", target_.filename().string(), getpid())) {
+      path_(temporary_name(target_.parent_path() / ("." + target_.filename().string()))) {
   std::error_code error;
   const bool exists = fs::exists(fs::symlink_status(target_, error));
   if (exists && !fs::is_directory(target_, error)) {
     throw environment_error("is not a folder", target_.string(), "name another, or move it away");
   }
-  if (exists && !fs::is_empty(target_, error) && !is_earlier(target_)) {
-    throw environment_error(fmt::format("holds files that are not a {} and would be replaced", kind),
-                            target_.string(), "move them away");
+  if (exists && !fs::is_empty(target_, error) && !has_mark(target_, mark)) {
+    throw environment_error(
+        fmt::format("holds files that are not a {} and would be replaced", mark.kind), target_.string(),
+        fmt::format("move them away; a {} is known by the first line of {}", mark.kind, mark.file));
   }
   fs::remove_all(path_, error);
   fs::create_directories(path_, error);

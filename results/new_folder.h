@@ -1,18 +1,25 @@
 // A folder that appears whole or not at all: it is filled under a temporary name beside its target, then
-// renamed.
+// renamed. What killed processes left under such names is removed.
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 namespace terrabench {
 
+// How a folder is known that the program wrote itself, so that it may be replaced: this file begins with
+// `line`, which says so.
+struct FolderMark {
+  const char* kind;  // the word for such folders in messages, such as "report"
+  const char* file;
+  std::string_view line;
+};
+
 class NewFolder {
  public:
-  // `is_earlier(folder)` tells whether a folder that stands at the target is an earlier one of the same kind,
-  // which publish() replaces; an empty one always may be. `kind` is the word for it in messages, such as
-  // "report". Throws environment_error when the target is anything else, or nothing can be written beside it.
-  NewFolder(const std::filesystem::path& target, bool (*is_earlier)(const std::filesystem::path&),
-            const char* kind);
+  // publish() replaces an earlier folder of the same kind, or an empty one. Throws environment_error when the
+  // target is anything else, or nothing can be written beside it.
+  NewFolder(const std::filesystem::path& target, const FolderMark&);
   ~NewFolder();  // removes the temporary folder
   NewFolder(const NewFolder&) = delete;
   NewFolder& operator=(const NewFolder&) = delete;

@@ -17,14 +17,20 @@ struct Candidate {
   double median;
 };
 
-// The measured entries; those that lack what is needed are noted in `left_out`.
+// The measured entries, all in one unit; those in another, and those that lack what is needed, are noted in
+// `left_out`.
 std::vector<Candidate> candidates(const RankingLayout& layout, const Store& store, const std::string& profile,
                                   std::vector<std::string>& left_out) {
   std::vector<Candidate> all;
   for (const RankingLayout::Entry& entry : layout.entries) {
     const Record* const record = store.find(layout.experiment, entry.case_name, profile);
     const Metric* const metric = record == nullptr ? nullptr : record->find(layout.metric);
-    if (metric != nullptr) all.push_back({&entry.label, record, metric, median(metric->samples)});
+    if (metric == nullptr) continue;
+    if (conversion(metric->unit, layout.unit) && (all.empty() || all[0].metric->unit == metric->unit)) {
+      all.push_back({&entry.label, record, metric, median(metric->samples)});
+    } else {
+      left_out.push_back(entry.label);
+    }
   }
   const auto has = [&](const Candidate& c) { return c.record->find(layout.needs) != nullptr; };
   if (layout.needs.empty() || std::ranges::none_of(all, has)) return all;
@@ -123,8 +129,8 @@ std::optional<Ranking> rank(const RankingLayout& layout, const Store& store, con
   ranking.too_few = timing && all.size() > 1 &&
                     std::min(best.metric->samples.size(), all[1].metric->samples.size()) < kFewestSamples;
   for (const Candidate& c : all) {
-    const double to_unit = conversion(c.metric->unit, layout.unit, layout.metric, store.where(*c.record));
-    const bool equal = c.median == best.median;  // two zeros have no ratio
+    const double to_unit = *conversion(c.metric->unit, layout.unit);  // candidates have one
+    const bool equal = c.median == best.median;                       // two zeros have no ratio
     const Summary factor = equal         ? Summary{1, 1, 1, 1}
                            : layout.most ? summarise_ratio(best.metric->samples, c.metric->samples)
                                          : summarise_ratio(c.metric->samples, best.metric->samples);

@@ -55,7 +55,7 @@ struct Ranking {
   std::size_t tied = 1;               // places that belong to the best
   bool too_few = false;               // a time with fewer than kFewestSamples: no interval, no winner
   std::string not_compared;           // the reason, as words after "as"; empty: they are comparable
-  std::vector<std::string> left_out;  // labels of entries that lack what is needed
+  std::vector<std::string> left_out;  // labels of entries in other units, or that lack what is needed
   std::vector<std::string> runs;
 
   // Whether there is a best method, or several tied: not if times have too few samples or if the values

@@ -30,10 +30,8 @@ namespace {
 
 constexpr std::string_view kMainPage = "";  // TableLayout::page of what stands on it
 
-bool is_report(const std::filesystem::path& folder) {
-  std::error_code error;
-  return std::filesystem::exists(folder / "index.html", error);
-}
+constexpr FolderMark kMark{"report", "index.html",
+                           "<!-- Written by terrabench report: a later one replaces this folder. -->"};
 
 class Report {
  public:
@@ -47,6 +45,13 @@ class Report {
         further_(further_grounds(papers, {store, results_.profile})),
         parts_(store, results_.profile, out) {}
 
+  // Of the reference too, if it is another folder.
+  std::vector<std::string> faults() const {
+    std::vector<std::string> all = results_.faults;
+    if (&reference_ != &store_) std::ranges::copy(reference_.faults(), std::back_inserter(all));
+    return all;
+  }
+
   void write() {
     introduce();
     for (const Paper& paper : papers_) {
@@ -57,7 +62,7 @@ class Report {
     add_pending();
     add_provenance();
     write_ledger();
-    write_file(out_ / "index.html", html(document_));
+    write_file(out_ / kMark.file, fmt::format("{}\n{}", kMark.line, html(document_)));
     write_file(out_ / "report.md", markdown(document_));
   }
 
@@ -442,21 +447,20 @@ class Report {
 
 }  // namespace
 
-std::filesystem::path write_report(const std::filesystem::path& folder,
-                                   const std::filesystem::path& reference) {
+WrittenReport write_report(const std::filesystem::path& folder, const std::filesystem::path& reference) {
   const Store store = Store::open(folder);
   if (reference.empty()) return write_report(store, papers());
   const Store compared = Store::open(reference);
   return write_report(store, papers(), &compared);
 }
 
-std::filesystem::path write_report(const Store& store, std::span<const Paper> papers,
-                                   const Store* reference) {
+WrittenReport write_report(const Store& store, std::span<const Paper> papers, const Store* reference) {
   const std::filesystem::path target = store.folder() / "report";
-  NewFolder folder(target, is_report, "report");
-  Report(store, papers, reference == nullptr ? store : *reference, folder.path()).write();
+  NewFolder folder(target, kMark);
+  Report report(store, papers, reference == nullptr ? store : *reference, folder.path());
+  report.write();
   folder.publish();
-  return target / "index.html";
+  return {target / kMark.file, report.faults()};
 }
 
 }  // namespace terrabench

@@ -305,14 +305,27 @@ std::string Store::where(const Record& record) const {
 }
 
 bool Store::intact(const RecordedFigure& figure) const {
-  const std::filesystem::path path = folder_ / figure.file;
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return false;
   try {
-    return checksum(read_file(path, kLargestPicture)) == figure.checksum;
+    const std::filesystem::path file = path_of(figure.file);
+    return std::filesystem::is_regular_file(file, error) &&
+           checksum(read_file(file, kLargestPicture)) == figure.checksum;
   } catch (const Error&) {
     return false;
   }
+}
+
+std::filesystem::path Store::path_of(const std::string& figure_file) const {
+  const std::filesystem::path file = folder_ / figure_file;
+  std::error_code error;
+  const std::filesystem::path within =
+      std::filesystem::weakly_canonical(file, error)
+          .lexically_relative(std::filesystem::weakly_canonical(folder_, error));
+  if (error || within.empty() || *within.begin() == "..") {
+    throw bad_input("leads out of the results folder", file.string(),
+                    "put the picture itself there, or measure the case again");
+  }
+  return file;
 }
 
 }  // namespace terrabench

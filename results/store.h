@@ -67,6 +67,8 @@ class Store {
   std::size_t line(const Record& record) const { return lines_[index(record)]; }  // from 1
   // Whether the picture exists, byte for byte as recorded. Reads the file.
   bool intact(const RecordedFigure&) const;
+  // Where a picture lies, or would be written. Throws bad_input when links lead out of the folder.
+  std::filesystem::path path_of(const std::string& figure_file) const;
   // The profile of the newest record; empty for an empty store.
   const std::string& last_profile() const { return last_profile_; }
 

@@ -32,8 +32,24 @@ ExitCode check_command(const CheckArguments& arguments) {
 
 namespace {
 
+void warn_of(const std::vector<std::string>& faults) {
+  if (faults.empty()) return;
+  fmt::print(
+      stderr,
+      "warning: these results cannot be trusted: {} lines or pictures were altered or damaged, or name "
+      "an unknown run; the first: {}\n  'terrabench check' lists all; measure these cases again\n",
+      faults.size(), faults.front());
+}
+
+std::filesystem::path report(const ReportArguments& arguments) {
+  const WrittenReport report = write_report(arguments.folder, arguments.reference);
+  warn_of(report.faults);
+  return report.page;
+}
+
 std::filesystem::path latex_bundle(const ReportArguments& arguments) {
   const WrittenBundle bundle = write_latex_bundle(arguments.folder, arguments.latex);
+  warn_of(bundle.faults);
   if (!bundle.left_out.empty()) {
     fmt::print(
         stderr,
@@ -47,9 +63,7 @@ std::filesystem::path latex_bundle(const ReportArguments& arguments) {
 }  // namespace
 
 ExitCode report_command(const ReportArguments& arguments) {
-  const std::filesystem::path written =
-      arguments.latex.empty() ? write_report(arguments.folder, arguments.reference) : latex_bundle(arguments);
-  fmt::print("{}\n", written.string());
+  fmt::print("{}\n", (arguments.latex.empty() ? report(arguments) : latex_bundle(arguments)).string());
   return ExitCode::kGood;
 }
 

@@ -83,6 +83,36 @@ TEST_F(CommandLine, BadInputExits3) {
   }
 }
 
+TEST_F(CommandLine, CompareExits1ForPicturesThatDiffer) {
+  const auto draw = [&](const char* file, std::uint8_t grey) {
+    write_png(folder_ / file, Image(20, 20, {grey, grey, grey}));
+  };
+  draw("a/x.png", 100);
+  EXPECT_EQ(call("$T compare a b").code, 3) << "no second folder";
+  draw("b/y.png", 100);
+  EXPECT_EQ(call("$T compare a b").code, 3) << "nothing in common";
+  draw("b/x.png", 101);
+  const Outcome close = call("$T compare a b");
+  EXPECT_EQ(close.code, 0) << close.text;
+  EXPECT_THAT(close.text, HasSubstr("48.13 dB"));
+  EXPECT_EQ(call("$T compare a b --psnr 50").code, 1);
+  EXPECT_EQ(call("$T compare a b --psnr 40 --ssim 1").code, 1);
+  EXPECT_EQ(call("$T compare a b --json | python3 -m json.tool").code, 0);
+  EXPECT_EQ(call("$T compare a b --ssim 1.1").code, 2);
+  EXPECT_EQ(call("$T compare a b --psnr -1").code, 2);
+  std::ofstream(folder_ / "b/x.png") << "no picture";
+  EXPECT_EQ(call("$T compare a b").code, 1);
+}
+
+TEST_F(CommandLine, ReportSaysOnTheTerminalThatLinesWereAltered) {
+  ASSERT_EQ(call("$T run overview.relief --set width=32 --set height=32 --out out").code, 0);
+  ASSERT_EQ(call("sed -i 's/\"seed\":[0-9]*/\"seed\":77/' out/measurements.jsonl").code, 0);
+  const Outcome outcome = call("$T report out");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("these results cannot be trusted"));
+  EXPECT_THAT(outcome.text, HasSubstr("measurements.jsonl:2: altered"));
+}
+
 TEST_F(CommandLine, ListsEverythingAsTextAndJson) {
   const Outcome text = call("$T list");
   EXPECT_EQ(text.code, 0);

@@ -11,6 +11,7 @@
 #include "results/rasterise.h"
 #include "results/table.h"
 #include "terrain/error.h"
+#include "terrain/image.h"
 #include "tests/results/fake_results.h"
 
 namespace terrabench {
@@ -188,6 +189,30 @@ TEST_F(LatexBundle, HoldsWhatMainNames) {
                   "Claim[^&]*& The paper &[^&]*Printed[^&]*& Measured &[^&]*Tolerance[^&]*&[^&]*Verdict"));
   EXPECT_THAT(all.at("references.bib"), HasSubstr("@misc{paper:hybrid,"));
   EXPECT_THAT(main, HasSubstr("\\cite{paper:hybrid}"));
+}
+
+TEST_F(LatexBundle, NothingFromARecordBecomesACommand) {
+  write_fake_results(folder_, "quick");
+  const std::string evil = "a}\\input{/etc/hostname}%";
+  Store store(folder_);
+  Record record = fake_record(fake_provenance(), "cross.error-maps", evil);
+  record.terrain = evil;
+  const std::string file = "figures/" + std::string("y}%.png");
+  write_png(folder_ / file, Image(9, 9, {1, 2, 3}));
+  record.figures = {{evil, file, evil, checksum(read_file(folder_ / file))}};
+  store.append(record);
+  write_latex_bundle(folder_, bundle());
+  std::size_t shown = 0;
+  for (const auto& [name, content] : files()) {
+    if (!name.ends_with(".tex")) continue;
+    EXPECT_THAT(content, Not(HasSubstr("\\input{/etc"))) << name;
+    EXPECT_THAT(content, Not(HasSubstr("}%"))) << name;
+    shown += count(content, "\\label{fig:a");
+  }
+  EXPECT_GT(shown, 0U) << "the picture is in the bundle";
+  const std::string table = latex(Table{evil, evil, evil, {{evil}}, {{{evil}}}});
+  EXPECT_THAT(table, Not(HasSubstr("\\input{/etc")));
+  EXPECT_THAT(table, HasSubstr("\\label{tab:a_"));
 }
 
 TEST_F(LatexBundle, PicturesThatAreGoneOrAlteredAreNamed) {

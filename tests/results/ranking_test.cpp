@@ -268,7 +268,7 @@ TEST_F(RankingTest, StandOnTheReportsFirstPage) {
     add(record, layout.metric, "B", {1000.0 * static_cast<double>(i + 1)});
     store_.append(record);
   }
-  const std::string page = read_file(write_report(folder_));
+  const std::string page = read_file(write_report(folder_).page);
   EXPECT_THAT(page, HasSubstr(layout.entries[0].label + " (1 kB), ahead of"));
   EXPECT_THAT(page, HasSubstr(tie_rule()));
   EXPECT_THAT(read_file(folder_ / "report/findings.md"), testing::StartsWith("- **" + layout.task + "**: "));

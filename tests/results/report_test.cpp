@@ -1,14 +1,18 @@
 #include "results/report.h"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "results/ranking.h"
 #include "results/record_json.h"
 #include "terrain/error.h"
+#include "terrain/image.h"
 #include "tests/results/fake_results.h"
+#include "tests/terrain/dead_process.h"
 
 namespace terrabench {
 namespace {
@@ -31,7 +35,7 @@ std::map<std::string, std::string> files_of(const std::filesystem::path& folder)
 
 TEST_F(ReportTest, HoldsTablesPlotsFiguresAndProvenance) {
   write_fake_results(folder_, "quick");
-  EXPECT_EQ(write_report(folder_), folder_ / "report/index.html");
+  EXPECT_EQ(write_report(folder_).page, folder_ / "report/index.html");
   const auto files = files_of(folder_ / "report");
   for (const char* file : {"index.html", "report.md", "tables/hybrid.table1.csv", "tables/hybrid.table2.tex",
                            "tables/hybrid.verdicts.md", "figures/hybrid.table2-growth.svg",
@@ -51,7 +55,7 @@ TEST_F(ReportTest, HoldsTablesPlotsFiguresAndProvenance) {
 
 TEST_F(ReportTest, EveryLinkLeadsSomewhere) {
   write_fake_results(folder_, "paper");
-  const std::string page = read_file(write_report(folder_));
+  const std::string page = read_file(write_report(folder_).page);
   int links = 0;
   for (const std::string_view attribute : {"href=\"", "src=\""}) {
     for (std::size_t at = page.find(attribute); at != page.npos; at = page.find(attribute, at + 1), ++links) {
@@ -103,7 +107,7 @@ TEST_F(ReportTest, ComesOutOfAPartialRun) {
   Record record = fake_record(run, "hybrid.table2", "n=64");
   add(record, "generation_time", "s", {0.02});
   store.append(record);
-  const std::string page = read_file(write_report(folder_));
+  const std::string page = read_file(write_report(folder_).page);
   EXPECT_THAT(page, HasSubstr("Table 2"));
   EXPECT_THAT(page, HasSubstr("missing"));
 }
@@ -136,15 +140,54 @@ TEST_F(ReportTest, GrowthIsFromTheRowAboveOnTheSameMachine) {
 
 TEST_F(ReportTest, ShowsTablesThatNoRowJudgesYet) {
   write_fake_results(folder_, "quick");
-  const std::string page = read_file(write_report(folder_));
+  const std::string page = read_file(write_report(folder_).page);
   EXPECT_THAT(page, HasSubstr("jacksboro, heightmap"));
   EXPECT_THAT(page, HasSubstr("id=\"cross\""));
 }
 
 TEST_F(ReportTest, AlteredResultsCarryAWarning) {
   write_fake_results(folder_, "quick");
+  EXPECT_THAT(write_report(folder_).faults, testing::IsEmpty());
   edit(file(), "\"seed\":1", "\"seed\":2");
-  EXPECT_THAT(read_file(write_report(folder_)), HasSubstr("cannot be trusted"));
+  std::filesystem::remove(folder_ / "figures/hybrid.F4.png");
+  const WrittenReport report = write_report(folder_);
+  EXPECT_THAT(read_file(report.page), HasSubstr("cannot be trusted"));
+  EXPECT_THAT(report.faults,
+              testing::ElementsAre(HasSubstr("measurements.jsonl:2: altered"), HasSubstr("hybrid.F4")));
+}
+
+// Of every string that a record holds, in every file of the report.
+TEST_F(ReportTest, NothingFromOutsideBecomesMarkup) {
+  write_fake_results(folder_, "quick");
+  Store store(folder_);
+  for (const std::string evil :
+       {"x\"><script>alert(1)</script>", "x}\\input{/etc/hostname}%", "x](javascript:alert(1))",
+        "=cmd|' /C calc'!A0", "](x) <b> | \" ' \\evil{}"}) {
+    Record record = fake_record(fake_provenance(), evil, evil);
+    record.terrain = evil;
+    record.parameters = {{evil, evil}};
+    add(record, evil, evil, {1, 2, 3});
+    record.figures = {{evil, "figures/xy.png", evil, ""}};
+    write_png(folder_ / "figures/xy.png", Image(9, 9, {1, 2, 3}));
+    record.figures[0].checksum = checksum(read_file(folder_ / "figures/xy.png"));
+    store.append(record);
+  }
+  write_report(folder_);
+  for (const auto& [file, text] : files_of(folder_ / "report")) {
+    if (file.ends_with(".tex")) {
+      EXPECT_THAT(text, Not(HasSubstr("\\input{/etc"))) << file;
+      EXPECT_THAT(text, Not(HasSubstr("\\evil"))) << file;
+    } else if (file.ends_with(".csv")) {
+      EXPECT_FALSE(text.starts_with("=")) << file;
+      EXPECT_THAT(text, Not(testing::ContainsRegex("[,\n\"]=cmd"))) << file;
+    } else if (file.ends_with(".html") || file.ends_with(".md") || file.ends_with(".svg")) {
+      EXPECT_THAT(text, Not(HasSubstr("<script>alert"))) << file;
+      EXPECT_THAT(text, Not(HasSubstr("<b>"))) << file;
+      if (file.ends_with(".md")) {
+        EXPECT_THAT(text, Not(HasSubstr("[x](javascript"))) << file;
+      }
+    }
+  }
 }
 
 TEST_F(ReportTest, NamesAndCaptionsFromOutsideCannotBreakThePage) {
@@ -154,7 +197,7 @@ TEST_F(ReportTest, NamesAndCaptionsFromOutsideCannotBreakThePage) {
   write_file(folder_ / "figures/x.png", std::string_view("x"));
   record.figures = {{"../../<script>", "figures/x.png", "</figure><script>alert(2)</script>"}};
   store.append(record);
-  const std::string page = read_file(write_report(folder_));
+  const std::string page = read_file(write_report(folder_).page);
   EXPECT_THAT(page, Not(HasSubstr("<script>")));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "<script>.png"));
 }
@@ -174,6 +217,28 @@ TEST_F(ReportTest, PicturesOfOneIdStandSideBySide) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "report/figures/x.two.webp"));
 }
 
+TEST_F(ReportTest, PicturesOfOneNameInTwoFoldersBothStand) {
+  write_fake_results(folder_, "quick");
+  Store store(folder_);
+  std::uint8_t red = 0;
+  for (const std::string file :
+       {"figures/a/x.png", "figures/b/x.png", "x.png", "figures/x.png", "figures/x.png.png"}) {
+    Record record = fake_record(fake_provenance(), "x", file);
+    write_png(folder_ / file, Image(40, 20, {red += 40, 40, 40}));
+    record.figures = {{file, file, "of " + file, checksum(read_file(folder_ / file))}};
+    store.append(record);
+  }
+  const std::string page = read_file(write_report(folder_).page);
+  std::set<std::string> shown, bytes;
+  for (std::size_t at = 0; (at = page.find("alt=\"x ", at)) != page.npos; at += 6) {
+    const std::size_t begin = page.rfind("src=\"", at) + 5;
+    shown.insert(page.substr(begin, page.find('"', begin) - begin));
+  }
+  for (const std::string& file : shown) bytes.insert(read_file(folder_ / "report" / file));
+  EXPECT_EQ(shown.size(), 5U);
+  EXPECT_EQ(bytes.size(), 5U) << "each is its own picture";
+}
+
 TEST_F(ReportTest, APictureThatCannotBeReadIsLeftOut) {
   write_fake_results(folder_, "quick");
   Store store(folder_);
@@ -181,7 +246,7 @@ TEST_F(ReportTest, APictureThatCannotBeReadIsLeftOut) {
   write_file(folder_ / "figures/x.png", std::string_view("no picture"));
   record.figures = {{"x", "figures/x.png", "No picture", checksum("no picture")}};
   store.append(record);
-  EXPECT_THAT(read_file(write_report(folder_)), Not(HasSubstr("No picture")));
+  EXPECT_THAT(read_file(write_report(folder_).page), Not(HasSubstr("No picture")));
 }
 
 TEST_F(ReportTest, EmptyFolderIsBadInput) {
@@ -195,16 +260,18 @@ TEST_F(ReportTest, EmptyFolderIsBadInput) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "report"));
 }
 
-TEST_F(ReportTest, AUnitThatCannotBeShownIsAnErrorAtTheRecordsLine) {
+TEST_F(ReportTest, AFigureInAnotherUnitStandsWithIt) {
   write_fake_results(folder_, "quick");
   edit(file(), "\"paper_stack_bytes\",\"samples\":[98304.0],\"unit\":\"B\"",
        "\"paper_stack_bytes\",\"samples\":[98304.0],\"unit\":\"s\"");
-  try {
-    write_report(folder_);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("measurements.jsonl:2: 'paper_stack_bytes' was measured in 's'"));
-  }
+  edit(file(), "\"stack_bytes_per_column\",\"samples\":[13.01171875],\"unit\":\"B\"",
+       "\"stack_bytes_per_column\",\"samples\":[13.01171875],\"unit\":\"m\"");
+  write_report(folder_);
+  const std::string table = read_file(folder_ / "report/tables/hybrid.table1.csv");
+  EXPECT_THAT(table, HasSubstr("98304 s,"));
+  EXPECT_THAT(table, HasSubstr("393216,")) << "the row below has the column's unit";
+  EXPECT_THAT(read_file(folder_ / "report/figures/hybrid.table1-bytes.svg"),
+              HasSubstr(", 1 in other units left out"));
 }
 
 TEST_F(ReportTest, DoesNotReplaceWhatIsNoReport) {
@@ -212,6 +279,40 @@ TEST_F(ReportTest, DoesNotReplaceWhatIsNoReport) {
   write_file(folder_ / "report/thesis.tex", std::string_view("years of work"));
   EXPECT_THROW(write_report(folder_), Error);
   EXPECT_EQ(read_file(folder_ / "report/thesis.tex"), "years of work");
+  // Nor another program's page.
+  write_file(folder_ / "report/index.html", std::string_view("<!DOCTYPE html>\n<html lang=\"en\">"));
+  EXPECT_THROW(write_report(folder_), Error);
+  EXPECT_EQ(read_file(folder_ / "report/thesis.tex"), "years of work");
+}
+
+TEST_F(ReportTest, RemovesWhatKilledProcessesLeft) {
+  write_fake_results(folder_, "quick");
+  const std::string mine = std::to_string(getppid()), dead = std::to_string(dead_process());
+  write_file(folder_ / (".report." + dead + ".tmp") / "index.html", std::string_view("half"));
+  write_file(folder_ / (".report." + mine + ".tmp") / "index.html", std::string_view("of one that runs"));
+  write_report(folder_);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / (".report." + dead + ".tmp")));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / (".report." + mine + ".tmp")));
+}
+
+TEST_F(ReportTest, ALinkOutOfTheFolderIsNoPicture) {
+  const std::filesystem::path outside = folder_ / "outside", results = folder_ / "results";
+  write_fake_results(results, "quick");
+  std::filesystem::create_directories(outside);
+  std::filesystem::rename(results / "figures/hybrid.F4.png", outside / "secret.png");
+  std::filesystem::create_symlink(outside / "secret.png", results / "figures/hybrid.F4.png");
+  EXPECT_THAT(write_report(results).faults, testing::ElementsAre(HasSubstr("hybrid.F4")));
+  EXPECT_FALSE(std::filesystem::exists(results / "report/figures/hybrid.F4.webp"));
+  EXPECT_TRUE(std::filesystem::exists(results / "report/figures/hybrid.F3.webp"));
+  // The whole folder of pictures likewise; a link to the results folder itself is none out of it.
+  std::filesystem::rename(results / "figures", outside / "figures");
+  std::filesystem::create_directory_symlink(outside / "figures", results / "figures");
+  EXPECT_GT(write_report(results).faults.size(), 5U);
+  std::filesystem::remove(results / "figures");
+  std::filesystem::rename(outside / "figures", results / "figures");
+  std::filesystem::create_directory_symlink(results, folder_ / "link");
+  EXPECT_EQ(write_report(folder_ / "link").faults.size(), 1U);
+  EXPECT_EQ(Store(folder_ / "new/").path_of("figures/x.png"), folder_ / "new/figures/x.png");
 }
 
 // The renderer of plots is gone: no half report may appear, and the earlier one stays.
