@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
+#include <cstring>
+#include <string_view>
+
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -20,6 +24,18 @@ static_assert(sizeof(PatchMorph) == 5 * sizeof(float));
 constexpr GLuint kGroundBinding = 1;
 constexpr GLuint kFirstTriangle = 2;  // location of the vertex attribute
 
+#ifdef NDEBUG
+constexpr bool kChecked = false;
+#else
+constexpr bool kChecked = true;  // reads every frame's arrays back
+#endif
+
+std::size_t heights_of(const Frame& frame) {  // bytes
+  std::size_t bytes = frame.grid.heights.size_bytes();
+  for (const ClipLevel& level : frame.clip_levels) bytes += level.heights.size_bytes();
+  return bytes;
+}
+
 void check_room(std::size_t bytes) {
   GLint64 most = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
@@ -33,17 +49,14 @@ void check_room(std::size_t bytes) {
 
 }  // namespace
 
-void GrowingBuffer::reserve(std::size_t bytes) {
-  if (bytes <= capacity_) return;
+bool GrowingBuffer::reserve(std::size_t bytes) {
+  if (bytes <= capacity_) return false;
   const std::size_t capacity = bytes + static_cast<std::size_t>(static_cast<double>(bytes) * slack_);
-  Buffer larger;
-  glNamedBufferStorage(larger.id(), static_cast<GLsizeiptr>(capacity), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  buffer_ = Buffer();
+  glNamedBufferStorage(buffer_.id(), static_cast<GLsizeiptr>(capacity), nullptr, GL_DYNAMIC_STORAGE_BIT);
   check_gl("reserving memory for the terrain");
-  if (capacity_ > 0) {
-    glCopyNamedBufferSubData(buffer_.id(), larger.id(), 0, 0, static_cast<GLsizeiptr>(capacity_));
-  }
-  buffer_ = std::move(larger);
   capacity_ = capacity;
+  return true;
 }
 
 void GrowingBuffer::write(std::size_t at, const void* data, std::size_t bytes) {
@@ -72,15 +85,21 @@ FrameBuffers::FrameBuffers() {
   ground_.reserve(sizeof(GroundBlock));
 }
 
-void FrameBuffers::upload_all(const Frame& frame) {
+void FrameBuffers::upload_indices(const Frame& frame) {
   indices_.write(0, frame.indices.data(), frame.indices.size_bytes());
+}
+
+void FrameBuffers::upload_heights(const Frame& frame) {
   heights_.write(0, frame.grid.heights.data(), frame.grid.heights.size_bytes());
-  morphs_.write(0, frame.morphs.data(), frame.morphs.size_bytes());
   std::size_t at = 0;
   for (const ClipLevel& level : frame.clip_levels) {
     heights_.write(at, level.heights.data(), level.heights.size_bytes());
     at += level.heights.size_bytes();
   }
+}
+
+void FrameBuffers::upload_morphs(const Frame& frame) {
+  morphs_.write(0, frame.morphs.data(), frame.morphs.size_bytes());
 }
 
 void FrameBuffers::upload(const Frame& frame, const DirtyRange& range) {
@@ -96,7 +115,7 @@ void FrameBuffers::upload(const Frame& frame, const DirtyRange& range) {
       morphs_.write(range.first * sizeof(PatchMorph), &frame.morphs[range.first], range.bytes());
       break;
     case DirtyRange::Target::kMesh:
-      break;  // upload_meshes() sends meshes by their id
+      break;
     case DirtyRange::Target::kClipLevel:
       const ClipLevel& level = frame.clip_levels[range.level];
       for (std::size_t row = range.z; row < std::size_t{range.z} + range.depth; ++row) {
@@ -108,18 +127,56 @@ void FrameBuffers::upload(const Frame& frame, const DirtyRange& range) {
 }
 
 void FrameBuffers::upload(const Frame& frame) {
-  std::size_t height_bytes = frame.grid.heights.size_bytes();
-  for (const ClipLevel& level : frame.clip_levels) height_bytes += level.heights.size_bytes();
+  const std::size_t height_bytes = heights_of(frame);
   check_room(height_bytes);
-  indices_.reserve(frame.indices.size_bytes());
-  heights_.reserve(height_bytes);
-  morphs_.reserve(frame.morphs.size_bytes());
-  if (frames_++ == 0) {
-    upload_all(frame);
-  } else {
-    for (const DirtyRange& range : frame.uploads) upload(frame, range);
+  // In a later frame, a buffer that grew is sent whole, and its dirty ranges with it.
+  const bool first = frames_++ == 0;
+  const bool indices = indices_.reserve(frame.indices.size_bytes()) || first;
+  const bool heights = heights_.reserve(height_bytes) || first;
+  const bool morphs = morphs_.reserve(frame.morphs.size_bytes()) || first;
+  const std::size_t before = bytes_uploaded();
+  if (indices) upload_indices(frame);
+  if (heights) upload_heights(frame);
+  if (morphs) upload_morphs(frame);
+  std::size_t named = 0;
+  for (const DirtyRange& range : frame.uploads) {
+    const bool sent = range.target == DirtyRange::Target::kIndices  ? indices
+                      : range.target == DirtyRange::Target::kMorphs ? morphs
+                      : range.target == DirtyRange::Target::kMesh   ? true  // upload_meshes() sends it
+                                                                    : heights;
+    if (!sent) upload(frame, range);
+    if (range.target != DirtyRange::Target::kMesh) named += range.bytes();
   }
+  if (!first) bytes_resent_ += bytes_uploaded() - before - named;
   upload_meshes(frame, describe(frame));
+  if constexpr (kChecked) check_contents(frame);
+}
+
+// That the GPU's arrays are the frame's. A driver may run commands in another order than given, or a dirty
+// range may be missing.
+void FrameBuffers::check_contents(const Frame& frame) const {
+  const auto compare = [](const GrowingBuffer& buffer, std::size_t at, auto content, std::string_view what) {
+    std::vector<std::byte> kept(content.size_bytes());
+    if (kept.empty()) return;
+    glGetNamedBufferSubData(buffer.id(), static_cast<GLintptr>(at), static_cast<GLsizeiptr>(kept.size()),
+                            kept.data());
+    check_gl("reading the terrain back");
+    if (std::memcmp(kept.data(), content.data(), kept.size()) == 0) return;
+    throw environment_error(
+        fmt::format("the GPU's {} are not the frame's", what), "renderer",
+        "report the renderer's name and version: its driver changed the order of commands");
+  };
+  for (const Batch& batch : frame.batches) {
+    compare(indices_, batch.first_index * sizeof(std::uint32_t),
+            frame.indices.subspan(batch.first_index, batch.index_count), "indices");
+  }
+  compare(heights_, 0, frame.grid.heights, "heights");
+  compare(morphs_, 0, frame.morphs, "morphs");
+  std::size_t at = 0;
+  for (const ClipLevel& level : frame.clip_levels) {
+    compare(heights_, at, level.heights, "heights");
+    at += level.heights.size_bytes();
+  }
 }
 
 // Returns the number of triangles in the batches.

@@ -14,14 +14,15 @@
 
 namespace terrabench {
 
-// A buffer that is written in parts and grows to (1 + slack) times the needed size. On growth the GPU copies
-// the contents, so that nothing is sent twice.
+// A buffer that is written in parts and grows to (1 + slack) times the needed size. A buffer that grew is
+// empty: its owner sends the whole array again. To copy the old contents on the GPU would send less, but
+// NVIDIA's driver 580 has been seen to run such a copy after the writes that follow it.
 class GrowingBuffer {
  public:
   explicit GrowingBuffer(double slack = 0.5) : slack_(slack) {}
   GLuint id() const { return buffer_.id(); }
   std::size_t written() const { return written_; }  // bytes in total
-  void reserve(std::size_t bytes);
+  bool reserve(std::size_t bytes);                  // true: it grew and is empty
   void write(std::size_t at, const void* data, std::size_t bytes);
   template <class T>
   void replace(const std::vector<T>& content) {
@@ -53,6 +54,8 @@ class FrameBuffers {
 
   // All bytes written to the GPU's buffers, without a few hundred bytes of uniforms per frame.
   std::size_t bytes_uploaded() const;
+  // Of these, the bytes that no dirty range named: of arrays sent again because their buffer grew.
+  std::size_t bytes_resent() const { return bytes_resent_; }
 
  private:
   // Laid out as in shaders/frame_heights.glsl.
@@ -80,8 +83,11 @@ class FrameBuffers {
     std::uint64_t listed;  // number of the last frame that listed it
   };
 
-  void upload_all(const Frame&);
+  void upload_indices(const Frame&);
+  void upload_heights(const Frame&);
+  void upload_morphs(const Frame&);
   void upload(const Frame&, const DirtyRange&);
+  void check_contents(const Frame&) const;
   void upload_meshes(const Frame&, std::uint32_t first_triangle);
   std::uint32_t describe(const Frame&);
 
@@ -90,7 +96,7 @@ class FrameBuffers {
   GrowingBuffer heights_{0};  // grows only when a clipmap adds levels
   GrowingBuffer ground_;      // the uniform block
   std::uint64_t frames_ = 0;
-  std::size_t mesh_bytes_ = 0;  // uploaded in total
+  std::size_t mesh_bytes_ = 0, bytes_resent_ = 0;  // in total
   std::vector<BatchRecord> batch_records_;
   std::vector<LevelRecord> level_records_;
   std::vector<DrawCommand> draw_commands_;

@@ -153,13 +153,13 @@ std::vector<std::uint32_t> FrameRenderer::triangle_numbers(const Frame& frame, c
   check_gl("making a picture of triangle numbers");
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
   glViewport(0, 0, view.width, view.height);
-  const GLuint none = 0;
+  constexpr GLuint kNone[4] = {};  // all four components are read, of whatever format
   // Depth is near ÷ distance, whose relative precision in floats is the same at any distance: a metre behind
   // a ridge ten kilometres away is hidden. There is no far plane.
   glm::mat4 clip = world_to_clip(view);
   for (int column = 0; column < 4; ++column) clip[column][2] = column == 3 ? view.near : 0;
   const GLfloat far = 0;
-  glClearNamedFramebufferuiv(framebuffer.id(), GL_COLOR, 0, &none);
+  glClearNamedFramebufferuiv(framebuffer.id(), GL_COLOR, 0, kNone);
   glClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &far);
   gl_->buffers.upload(frame);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -180,5 +180,6 @@ std::vector<std::uint32_t> FrameRenderer::triangle_numbers(const Frame& frame, c
 }
 
 std::size_t FrameRenderer::bytes_uploaded() const { return gl_->buffers.bytes_uploaded(); }
+std::size_t FrameRenderer::bytes_resent() const { return gl_->buffers.bytes_resent(); }
 
 }  // namespace terrabench

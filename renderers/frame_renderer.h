@@ -44,9 +44,11 @@ class FrameRenderer {
   // Uploads like draw().
   std::vector<std::uint32_t> triangle_numbers(const Frame&, const View&);
 
-  // All bytes written to the GPU's buffers: the whole first frame, and FrameStats::bytes_sent() of the
-  // others. A few hundred bytes of uniforms per frame are not counted.
+  // All bytes written to the GPU's buffers: the whole first frame, FrameStats::bytes_sent() of the others,
+  // and bytes_resent(): arrays sent once more because their buffer had to grow. A few hundred bytes of
+  // uniforms per frame are not counted.
   std::size_t bytes_uploaded() const;
+  std::size_t bytes_resent() const;
 
  private:
   struct Gl;
