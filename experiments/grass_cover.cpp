@@ -97,7 +97,9 @@ void GrassCover::draw(const PassView& pass) {
   look.thin_from = 0.4F * reach_;
   look.none_beyond = reach_;
   look.linear = has_colors(pass.pass) && pass.pass != Pass::kPicture;
-  for (auto& [id, patch] : patches_) renderer_.draw(patch, look, GrassTechnique::kIndirect);
+  std::vector<GrassPatch*> all;
+  for (auto& [id, patch] : patches_) all.push_back(&patch);
+  renderer_.draw(all, look, GrassTechnique::kIndirect);
 }
 
 std::int64_t GrassCover::strands() const {

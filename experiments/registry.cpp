@@ -25,6 +25,7 @@
   TIMED(hybrid, kTable3)                              \
   UNTIMED(hybrid, kSlope)                             \
   UNTIMED(hybrid, kBary)                              \
+  UNTIMED(hybrid, kRandom)                            \
   UNTIMED(hybrid, kGrassFigures)                      \
   TIMED(hybrid, kHero)                                \
   UNTIMED(ght, kGenerators)                           \

@@ -1,16 +1,18 @@
-// Grass of "hybrid" (§3.3): Table 3, the slope angle, and points by barycentric coordinates.
+// Grass of "hybrid" (§3.3): Table 3, the slope angle, points by barycentric coordinates, and random numbers.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <set>
 
 #include "experiments/cases.h"
 #include "experiments/experiment.h"
 #include "experiments/hybrid/grassland.h"
 #include "renderers/frame_timer.h"
 #include "renderers/grass/grass_scene.h"
+#include "renderers/grass/strand.h"
 #include "terrain/metrics/image_error.h"
 
 namespace terrabench::hybrid {
@@ -209,6 +211,52 @@ void measure_bary(const Case& at, const RunOptions& options, Recorder& recorder,
   recorder.add("largest_distance", "m", distances.back());
 }
 
+constexpr std::array<std::string_view, 2> kRandoms = {"hash", "printed"};
+const std::array kRandomSpecs{
+    choice("random", kRandoms, "where the strands' pseudo-random numbers come from"),
+    ParameterSpec{"strands", std::int64_t{41'960}, "strands", "on all the ground", 1,
+                  GrassGrowth::kMostStrands},
+};
+
+std::vector<Case> random_cases(const RunOptions&) { return cases_by("random", kRandomSpecs); }
+
+// The renderer's strands against those of a second growth there, and against the processor's.
+void measure_random(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
+  const Heightfield field = grassland(options.seed, 64, 0.7F);
+  recorder.terrain("grassland", checksum(field));
+  const TriangleMesh mesh = grassland_mesh(field);
+  const GrassGround ground = grass_ground(mesh);
+  const GrassGrowth growth{.strands = at.parameters.integer("strands"),
+                           .random = static_cast<RandomReading>(at.parameters.choice("random"))};
+  const auto gl = open_context(options.renderer, 16, 16);
+  const std::vector<GrassStrand> strands = GrassScene(*gl, ground, growth).strands(),
+                                 again = GrassScene(*gl, ground, growth).strands();
+  const GrassPlan plan = plan_grass(ground, growth);
+
+  constexpr double kMoved = 1e-3;  // metres; rounding moves a root by less
+  std::vector<double> moves;
+  std::set<std::array<float, 3>> places;
+  std::size_t moved = 0, redrawn_elsewhere = 0;
+  for (std::size_t t = 0; t < plan.growing(); ++t) {
+    const glm::uvec4& triangle = plan.triangles[t];
+    for (std::uint32_t k = triangle.w; k < plan.triangles[t + 1].w; ++k) {
+      const GrassStrand here = grow_strand(ground, growth, triangle, k - triangle.w + 1);
+      moves.push_back(glm::distance(glm::dvec3(here.root), glm::dvec3(strands[k].root)));
+      moved += moves.back() > kMoved ? 1 : 0;
+      redrawn_elsewhere += strands[k].root != again[k].root ? 1 : 0;
+      places.insert({strands[k].root.x, strands[k].root.y, strands[k].root.z});
+    }
+  }
+  std::sort(moves.begin(), moves.end());
+  const auto all = static_cast<double>(moves.size());
+  recorder.add("strands", "", all);
+  recorder.add("places", "", static_cast<double>(places.size()));
+  recorder.add("redrawn_elsewhere", "", static_cast<double>(redrawn_elsewhere));
+  recorder.add("moved_share", "", static_cast<double>(moved) / all);
+  recorder.add("median_move", "m", moves[moves.size() / 2]);
+  recorder.add("largest_move", "m", moves.back());
+}
+
 }  // namespace
 
 extern const Experiment kTable3{"hybrid.table3", "Table 3: frame time of grass billboards", kTable3Specs,
@@ -217,5 +265,7 @@ extern const Experiment kSlope{"hybrid.slope", "Grass: the slope angle, as print
                                slope_cases, measure_slope};
 extern const Experiment kBary{"hybrid.bary", "Grass: points of a triangle, as printed and as a sum",
                               kBarySpecs, bary_cases, measure_bary};
+extern const Experiment kRandom{"hybrid.random", "Grass: pseudo-random numbers, as printed and by a hash",
+                                kRandomSpecs, random_cases, measure_random};
 
 }  // namespace terrabench::hybrid

@@ -8,16 +8,18 @@
 //                      .linear = true}, GrassTechnique::kIndirect);   // in each frame
 //
 // draw() wants depth test and depth writes on, and blending off. It leaves these and the culling of faces as
-// they were, and changes the program, the vertex array, texture unit 0, uniform buffers 0 and 1, and storage
-// buffers 0 to 3. Where the framebuffer is multisampled, blades get soft edges by alpha to coverage.
+// they were, and changes the program, the vertex array, texture unit 0, uniform buffers 0 and 1, storage
+// buffers 0 to 3, and the buffer of indirect commands. Where the framebuffer is multisampled, a share of a
+// pixel's samples gives blades soft edges.
 //
 // Three techniques draw the same billboards:
-//   kGeometryShader  as the paper: grown anew from the triangles in each frame; no memory per strand
+//   kGeometryShader  as the paper: grown anew from the triangles in each frame; no memory per strand. A run
+//   of
+//                    the shader grows one strand, so that its output is small and many run at once.
 //   kInstancing      grown once, then one instance per strand; 48 B per strand
 //   kIndirect        a compute shader grows the strands that are in view, and one indirect call draws them;
 //                    up to 48 B per strand
-// All follow the paper's pseudo-random numbers, which are the sine of large numbers: another GPU may round it
-// otherwise and place the strands elsewhere on the same triangles.
+// The same ground and growth give the same strands on every GPU, unless GrassGrowth::random says otherwise.
 #pragma once
 
 #include <cstddef>
@@ -27,6 +29,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -98,14 +101,15 @@ class GrassRenderer {
   GrassRenderer(const GrassRenderer&) = delete;
   GrassRenderer& operator=(const GrassRenderer&) = delete;
 
-  // Does not wait for the GPU. A patch without strands draws nothing.
+  // Does not wait for the GPU. Patches out of view and those without strands cost nothing on the GPU.
+  void draw(std::span<GrassPatch* const>, const GrassLook&, GrassTechnique);
   void draw(GrassPatch&, const GrassLook&, GrassTechnique);
 
-  // Draws, and returns the billboards that the GPU sent to be rasterised, by its own count. kIndirect leaves
-  // out what lies outside the view, kGeometryShader and kIndirect what is thinned out. Waits for the GPU.
+  // Draws, and returns the billboards that the GPU sent to be rasterised, by its own count. kGeometryShader
+  // and kIndirect leave out strands that lie outside the view or are thinned out. Waits for the GPU.
   std::int64_t count_billboards(GrassPatch&, const GrassLook&, GrassTechnique);
 
-  // All strands of the patch, read back, in the order of the triangles. Waits for the GPU.
+  // All strands of the patch, read back, in the order of the plan's triangles. Waits for the GPU.
   std::vector<GrassStrand> strands(GrassPatch&);
 
  private:

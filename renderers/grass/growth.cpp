@@ -41,6 +41,24 @@ void check(const GrassGround& ground, const GrassGrowth& growth) {
   }
 }
 
+// From the number of strands of each triangle: the order, the runs and the number of each one's first strand.
+void arrange(GrassPlan& plan) {
+  std::stable_sort(plan.triangles.begin(), plan.triangles.end(),
+                   [](const glm::uvec4& a, const glm::uvec4& b) { return a.w > b.w; });
+  std::uint32_t first = 0;
+  for (std::size_t t = 0; t < plan.triangles.size(); ++t) {
+    const std::uint32_t own = plan.triangles[t].w;
+    plan.triangles[t].w = first;
+    first += own;
+    if (own == 0) continue;
+    if (plan.runs.empty() || plan.runs.back().strands != own) {
+      plan.runs.push_back({static_cast<std::uint32_t>(t), 0, own});
+    }
+    ++plan.runs.back().triangles;
+  }
+  plan.triangles.emplace_back(0, 0, 0, first);
+}
+
 }  // namespace
 
 double slope_angle(double normal_y, SlopeAngle reading) {
@@ -70,16 +88,15 @@ GrassPlan plan_grass(const GrassGround& ground, const GrassGrowth& growth) {
     plan.triangles.emplace_back(at, 0);
   }
   if (plan.triangles.empty()) return plan;
-  // The strand that ends each triangle, by proportion of the running sum; the last is exact.
-  std::uint32_t first = 0;
+  // The number of strands up to each triangle, by proportion of the running sum; the last is exact.
+  std::uint32_t before = 0;
   for (std::size_t t = 0; t < ends.size(); ++t) {
     const double share = t + 1 == ends.size() ? 1 : ends[t] / sum;
     const auto end = static_cast<std::uint32_t>(std::floor(share * static_cast<double>(growth.strands)));
-    plan.triangles[t].w = first;
-    plan.most_per_triangle = std::max(plan.most_per_triangle, end - first);
-    first = end;
+    plan.triangles[t].w = end - before;
+    before = end;
   }
-  plan.triangles.emplace_back(0, 0, 0, first);
+  arrange(plan);
   return plan;
 }
 

@@ -26,17 +26,24 @@ enum class PointReading : std::uint8_t {
   kCrossProduct,  // (A·a × B·b) × C·c
 };
 
+// Where the pseudo-random numbers come from.
+enum class RandomReading : std::uint8_t {
+  kHash,     // integers that are scrambled from the bits of the corners: the same on every GPU
+  kPrinted,  // the sine of large numbers, as in the paper: each GPU places the strands elsewhere
+};
+
 struct GrassGrowth {
   std::int64_t strands = 0;  // on all triangles together, with two billboards each; at most kMostStrands
   float steepest = 45;       // degrees; no grass on triangles with a larger slope angle
   SlopeAngle slope = SlopeAngle::kPrinted;
   PointReading point = PointReading::kSum;
+  RandomReading random = RandomReading::kHash;
   bool by_area = false;  // strands per area are equal; otherwise strands per triangle, as in the paper
   bool turned = false;   // billboards stand in any direction; otherwise along a triangle's first edge, as in
                          // the paper, which shows as rows on regular meshes
   float height = 0.4F, width = 0.4F;  // metres, of a billboard in the mean
   float height_variation = 0.35F;     // guide strands are higher or lower by up to this share
-  float texture_metres = 8;  // of ground per unit of the texture coordinates, which seed the random numbers
+  float texture_metres = 8;  // of ground per unit of the texture coordinates, which seed the printed numbers
 
   static constexpr std::int64_t kMostStrands = 4'194'240;
 };
@@ -49,9 +56,14 @@ struct GrassGround {
 GrassGround grass_ground(const TriangleMesh&);
 
 struct GrassPlan {
+  // Triangles that grow the same number of strands, above 0, one after the other.
+  struct Run {
+    std::uint32_t first = 0, triangles = 0, strands = 0;  // strands of each
+  };
   // Corners a, b, c and, as w, the number of the triangle's first strand; one entry more, with w = strands.
+  // Those with the most strands come first.
   std::vector<glm::uvec4> triangles;
-  std::uint32_t most_per_triangle = 0;
+  std::vector<Run> runs;
 
   std::size_t growing() const { return triangles.empty() ? 0 : triangles.size() - 1; }
   std::int64_t strands() const { return triangles.empty() ? 0 : triangles.back().w; }
@@ -61,7 +73,7 @@ struct GrassPlan {
 // more. Triangles without area and those with coordinates or normals that are not finite get none; without
 // any triangle to grow on, there are no strands. Throws usage_error for a number of strands outside its
 // range, lengths that are not positive, other numbers of normals than of positions, and indices out of range.
-// O(triangles).
+// O(n log n) for n triangles.
 GrassPlan plan_grass(const GrassGround&, const GrassGrowth&);
 
 }  // namespace terrabench

@@ -1,31 +1,26 @@
 #version 450 core
-// Grows the strands of a triangle anew in each frame, as the paper does.
+// Grows one strand of a triangle anew in each frame, as the paper does.
 layout(triangles) in;
-layout(triangle_strip, max_vertices = 64) out;  // kBlock strands of grass_corner.vert
+layout(triangle_strip, max_vertices = 8) out;
 
-#include "grass_look.glsl"
 #include "grass_strand.glsl"
-#include "grass_reach.glsl"
 #include "grass_blade.glsl"
+#include "grass_reach.glsl"
 
 in Root {
   vec3 position;
   vec3 normal;
-  flat uint first;
-  flat uint last;
+  flat uint number;
 } root[];
 
 void main() {
-  Corner a = Corner(root[0].position, root[0].normal);
-  Corner b = Corner(root[1].position, root[1].normal);
-  Corner c = Corner(root[2].position, root[2].normal);
-  for (uint number = root[0].first; number <= root[0].last; ++number) {
-    Strand strand = strand_at(a, b, c, number);
-    if (!in_reach(strand)) continue;
-    for (uint corner = 0u; corner < 8u; ++corner) {
-      set_corner(strand, corner);
-      EmitVertex();
-      if (corner % 4u == 3u) EndPrimitive();
-    }
+  Strand strand = strand_at(Corner(root[0].position, root[0].normal), Corner(root[1].position, root[1].normal),
+                            Corner(root[2].position, root[2].normal), root[0].number);
+  if (!in_reach(strand) || !in_view(strand)) return;
+  Bush bush = bush_of(strand);
+  for (uint corner = 0u; corner < 8u; ++corner) {
+    set_corner(bush, corner);
+    EmitVertex();
+    if (corner % 4u == 3u) EndPrimitive();
   }
 }

@@ -1,15 +1,12 @@
 #version 450 core
-// Passes a triangle's corners to grass.geom. One instance draws kBlock strands of each triangle.
+// Passes a triangle's corners to grass.geom. Instance k draws strand k + 1 of each triangle.
 #include "grass_ground.glsl"
 
 out Root {
   vec3 position;
   vec3 normal;
-  flat uint first;  // strand of the triangle to draw, counted from 1
-  flat uint last;
+  flat uint number;  // of the triangle's strand, counted from 1
 } root;
-
-const uint kBlock = 8u;
 
 void main() {
   uint number = uint(gl_VertexID) / 3u;
@@ -17,7 +14,5 @@ void main() {
   Corner at = corner_at(triangle[uint(gl_VertexID) % 3u]);
   root.position = at.position;
   root.normal = at.normal;
-  uint count = triangles[number + 1u].w - triangle.w;
-  root.first = uint(gl_InstanceID) * kBlock + 1u;
-  root.last = min(root.first + kBlock - 1u, count);
+  root.number = uint(gl_InstanceID) + 1u;
 }

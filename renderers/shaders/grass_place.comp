@@ -32,19 +32,6 @@ uint triangle_of(uint strand) {
   return low;
 }
 
-// False if the sphere around the strand's billboards lies outside the view.
-bool in_view(Strand strand) {
-  float radius = strand.height * (1.0 + length(look.wind.xy)) + strand.width;
-  mat4 rows = transpose(look.world_to_clip);
-  for (int side = 0; side < 3; ++side) {
-    for (float sign = -1.0; sign < 2.0; sign += 2.0) {
-      vec4 plane = rows[3] + sign * rows[side];
-      if (dot(plane, vec4(strand.root, 1.0)) < -radius * length(plane.xyz)) return false;
-    }
-  }
-  return true;
-}
-
 void main() {
   uint number = gl_GlobalInvocationID.x;
   if (number >= growth.strands) return;

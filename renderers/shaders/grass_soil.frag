@@ -12,5 +12,6 @@ void main() {
   vec3 ground = mix(kRock, kSoil, smoothstep(0.60, 0.85, normal.y));
   vec3 light = look.sky_colour.rgb * (0.5 + 0.5 * normal.y) +
                look.sun_colour.rgb * max(dot(normal, look.sun.xyz), 0.0);
-  color = grass_finished(ground * light, world, 1.0);
+  vec4 air = air_before(world);
+  color = vec4(finished(air.rgb + air.a * ground * light), 1.0);
 }

@@ -11,6 +11,7 @@ layout(std140, binding = 1) uniform GrassGrowth {
   uint turned;
   uint strands;
   uint triangles;
+  uint random;      // RandomReading
 } growth;
 
 struct Corner {
@@ -27,31 +28,40 @@ struct Strand {
   float width;   // metres
 };
 
+const uint kPrinted = 1u;  // of RandomReading
+
 vec3 guide(Corner at) {
-  float share = 2.0 * grass_random(at.position.xz) - 1.0;
-  return at.normal * growth.height * (1.0 + growth.variation * share);
+  float random = growth.random == kPrinted ? printed_random(at.position.xz) : fraction(scrambled(at.position));
+  return at.normal * growth.height * (1.0 + growth.variation * (2.0 * random - 1.0));
 }
 
-// The paper multiplies by its "total created strands". Read as the strands of the triangle created so far, this one
-// included: with the total of all, every strand of a triangle would stand at one point, and from 0 the first would
-// stand at a corner.
-vec3 barycentric(Corner a, float number) {
-  float first = grass_random(a.position.xz / growth.texture_metres * number);
-  float second = grass_random((a.position.xz + 1.0) * number);
-  if (first + second > 1.0) {
-    if (first > second) {
-      first = 1.0 - first;
+// Two random numbers of a strand. The paper multiplies by its "total created strands". Read as the strands of the
+// triangle created so far, this one included: with the total of all, every strand of a triangle would stand at one
+// point, and from 0 the first would stand at a corner.
+vec2 printed_pair(Corner a, float number) {
+  return vec2(printed_random(a.position.xz / growth.texture_metres * number),
+              printed_random((a.position.xz + 1.0) * number));
+}
+
+vec3 barycentric(vec2 pair) {
+  if (pair.x + pair.y > 1.0) {
+    if (pair.x > pair.y) {
+      pair.x = 1.0 - pair.x;
     } else {
-      second = 1.0 - second;
+      pair.y = 1.0 - pair.y;
     }
   }
-  return vec3(first, second, 1.0 - first - second);
+  return vec3(pair, 1.0 - pair.x - pair.y);
 }
 
 const uint kSum = 0u, kProduct = 1u;  // of PointReading; the third is the cross product
 
+// Strand `number` of the triangle, counted from 1.
 Strand strand_at(Corner a, Corner b, Corner c, uint number) {
-  vec3 share = barycentric(a, float(number));
+  bool printed = growth.random == kPrinted;
+  uint own = scrambled(number + scrambled(a.position) + scrambled(scrambled(b.position) + scrambled(c.position)));
+  vec2 pair = printed ? printed_pair(a, float(number)) : vec2(fraction(scrambled(own + 1u)), fraction(scrambled(own + 2u)));
+  vec3 share = barycentric(pair);
   vec3 x = a.position * share.x, y = b.position * share.y, z = c.position * share.z;
   vec3 tip = guide(a) * share.x + guide(b) * share.y + guide(c) * share.z;
   Strand strand;
@@ -60,7 +70,7 @@ Strand strand_at(Corner a, Corner b, Corner c, uint number) {
   bool grows = high > 1e-6 * growth.height;  // not where opposite normals cancel
   strand.height = grows ? high : 0.0;
   strand.up = grows ? tip / high : vec3(0.0, 1.0, 0.0);
-  strand.random = grass_random(strand.root.xz);
+  strand.random = printed ? printed_random(strand.root.xz) : fraction(own);
   strand.side = normalize(b.position - a.position);
   if (growth.turned != 0u) {
     float angle = 6.2831853 * fract(strand.random * 61.0);

@@ -94,13 +94,20 @@ TEST(GrassPlan, SpreadsTheStrandsEvenly) {
     const GrassPlan plan = plan_grass(grass_ground(mesh), {.strands = strands, .steepest = 20});
     ASSERT_EQ(plan.strands(), strands);
     std::uint32_t least = std::numeric_limits<std::uint32_t>::max(), most = 0;
+    std::vector<std::uint32_t> counts;
     for (std::size_t t = 0; t < plan.growing(); ++t) {
-      const std::uint32_t count = plan.triangles[t + 1].w - plan.triangles[t].w;
-      least = std::min(least, count);
-      most = std::max(most, count);
+      counts.push_back(plan.triangles[t + 1].w - plan.triangles[t].w);
+      least = std::min(least, counts.back());
+      most = std::max(most, counts.back());
     }
     EXPECT_LE(most - least, 1U);
-    EXPECT_EQ(plan.most_per_triangle, most);
+    // The runs list every triangle that grows a strand, once.
+    std::vector<std::uint32_t> listed(counts.size());
+    for (const GrassPlan::Run& run : plan.runs) {
+      for (std::uint32_t t = run.first; t < run.first + run.triangles; ++t) listed[t] += run.strands;
+    }
+    EXPECT_EQ(listed, counts);
+    EXPECT_LE(plan.runs.size(), 2U);
   }
 }
 

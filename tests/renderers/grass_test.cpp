@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <set>
@@ -11,6 +12,7 @@
 #include "renderers/context.h"
 #include "renderers/gl.h"
 #include "renderers/grass/plain_ground.h"
+#include "renderers/grass/strand.h"
 #include "renderers/target.h"
 #include "terrain/error.h"
 #include "terrain/metrics/image_error.h"
@@ -117,10 +119,55 @@ TEST_F(Grass, StandsOnItsTriangleWithTheSumOnly) {
   }
 }
 
+// With the hash, a GPU's strands are the processor's up to the rounding of sums. The printed sine of large
+// numbers is not: where strands stand depends on who computes it.
+TEST_F(Grass, StandsAtTheSamePlaceForEveryProcessorWithTheHashOnly) {
+  for (const RandomReading random : {RandomReading::kHash, RandomReading::kPrinted}) {
+    const GrassGrowth growth{.strands = 20'000, .random = random, .turned = true};
+    GrassPatch patch(grass_ground(mesh_), growth);
+    const std::vector<GrassStrand> strands = grass_.strands(patch);
+    const GrassPlan plan = plan_grass(grass_ground(mesh_), growth);
+    std::size_t same = 0;
+    for (std::size_t t = 0; t < plan.growing(); ++t) {
+      for (std::uint32_t k = plan.triangles[t].w; k < plan.triangles[t + 1].w; ++k) {
+        const GrassStrand here =
+            grow_strand(grass_ground(mesh_), growth, plan.triangles[t], k - plan.triangles[t].w + 1);
+        const GrassStrand& there = strands[k];
+        same += glm::distance(here.root, there.root) < 1e-5F && here.random == there.random &&
+                        std::abs(here.height - there.height) < 1e-6F &&
+                        glm::distance(here.side, there.side) < 1e-3F
+                    ? 1
+                    : 0;
+      }
+    }
+    if (random == RandomReading::kHash) {
+      EXPECT_EQ(same, 20'000U);
+    } else {
+      EXPECT_LT(same, 19'000U);
+    }
+  }
+}
+
+// No two strands of one triangle or of neighbours stand alike, and none prefers a part of its triangle.
+TEST_F(Grass, HashesAreSpreadEvenly) {
+  const GrassGrowth growth{.strands = 60'000, .steepest = 180};
+  GrassPatch patch(grass_ground(mesh_), growth);
+  std::array<int, 16> bins{};
+  std::set<float> randoms;
+  for (const GrassStrand& strand : grass_.strands(patch)) {
+    ++bins[static_cast<std::size_t>(strand.random * 16)];
+    randoms.insert(strand.random);
+  }
+  // Chi-squared with 15 degrees of freedom: 37.7 is exceeded once in a thousand.
+  double chi = 0;
+  for (const int bin : bins) chi += (bin - 3750.0) * (bin - 3750.0) / 3750.0;
+  EXPECT_LT(chi, 37.7);
+  EXPECT_GT(randoms.size(), 59'000U);
+}
+
 TEST_F(Grass, StrandsFollowTheirGuides) {
   TriangleMesh level = testing::ground(1, 1, [](float, float) { return 0.0F; });
-  for (glm::vec3& p : level.positions)
-    p += glm::vec3(3.7F, 0, 5.1F);  // at the origin all random numbers are 0
+  for (glm::vec3& p : level.positions) p += glm::vec3(3.7F, 0, 5.1F);
   GrassPatch patch(grass_ground(level), {.strands = 2000, .height = 0.5F, .height_variation = 0.2F});
   glm::dvec3 mean(0);
   std::set<std::pair<float, float>> places;
@@ -232,7 +279,7 @@ TEST_F(Grass, OnBareGroundDrawsNothing) {
 
 TEST_F(Grass, CountsItsBytes) {
   GrassPatch patch(grass_ground(mesh_), {.strands = 1000});
-  const std::size_t ground = 25 * 25 * 24 + (patch.growing_triangles() + 1) * 16 + 32;
+  const std::size_t ground = 25 * 25 * 24 + (patch.growing_triangles() + 1) * 16 + 48 + 16;
   EXPECT_EQ(patch.bytes(), ground);
   count(patch, GrassTechnique::kGeometryShader);
   EXPECT_EQ(patch.bytes(), ground);

@@ -228,7 +228,7 @@ void main() {
   // In the included file: main() is there twice.
   const ShaderFile twice{"folder/twice.comp", R"(#version 450 core
 layout(local_size_x = 1) in;
-int grass_random(vec2 at) { return 1; }
+int printed_random(vec2 at) { return 1; }
 #include "grass_random.glsl"
 void main() {})"};
   EXPECT_THAT(error_of([&] { link_compute(twice); }).what(),
