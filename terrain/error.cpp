@@ -6,6 +6,8 @@
 #include <numeric>
 #include <vector>
 
+#include "terrain/printable.h"
+
 namespace terrabench {
 namespace {
 
@@ -42,7 +44,7 @@ std::string suggestion(std::string_view name, std::span<const std::string_view> 
 }  // namespace
 
 Error::Error(ExitCode code, std::string_view what, std::string_view where, std::string_view advice)
-    : std::runtime_error(join(what, where)), code_(code), advice_(advice) {}
+    : std::runtime_error(printable(join(what, where))), code_(code), advice_(printable(advice)) {}
 
 Error usage_error(std::string_view what, std::string_view where, std::string_view advice) {
   return {ExitCode::kUsage, what, where, advice};

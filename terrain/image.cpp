@@ -7,7 +7,6 @@
 
 #include "terrain/error.h"
 #include "terrain/files.h"
-#include "terrain/memory.h"
 
 namespace terrabench {
 
@@ -94,31 +93,6 @@ std::array<int, 2> png_size(const std::filesystem::path& path) {
   png_image_free(&png);
   if (!good) throw bad_input(png.message, path.string(), "give a complete PNG file");
   return {static_cast<int>(png.width), static_cast<int>(png.height)};
-}
-
-Image read_png(const std::filesystem::path& path) {
-  constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 30;
-  constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28;
-  const std::string bytes = read_file(path, kLargestFile);
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  const auto fail = [&](const char* what) {
-    const Error error = bad_input(what, path.string(), "give a complete PNG file");
-    png_image_free(&png);
-    return error;
-  };
-  if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) throw fail(png.message);
-  if (std::uint64_t{png.width} * png.height > kMostPixels) throw fail("the picture has too many pixels");
-  try {
-    require_memory(std::uint64_t{3} * png.width * png.height, path.string(), "give a smaller picture");
-  } catch (const Error&) {
-    png_image_free(&png);
-    throw;
-  }
-  png.format = PNG_FORMAT_RGB;
-  Image image(static_cast<int>(png.width), static_cast<int>(png.height), {255, 255, 255});
-  if (png_image_finish_read(&png, nullptr, image.rgb.data(), 0, nullptr) == 0) throw fail(png.message);
-  return image;
 }
 
 }  // namespace terrabench

@@ -10,6 +10,7 @@
 
 #include "terrain/error.h"
 #include "terrain/heightfield.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 namespace {
@@ -73,9 +74,17 @@ double combine(const Taps& taps, const double* values) {
 }
 
 void check_size(int width, int depth) {
-  if (width >= 1 && depth >= 1) return;
-  throw usage_error(fmt::format("width and depth must be at least 1, got {} and {}", width, depth),
-                    "resample", "choose the number of samples along both sides");
+  if (width < 1 || depth < 1) {
+    throw usage_error(fmt::format("width and depth must be at least 1, got {} and {}", width, depth),
+                      "resample", "choose the number of samples along both sides");
+  }
+  const std::uint64_t samples = std::uint64_t(width) * std::uint64_t(depth);
+  if (samples > kMostSamples) {
+    throw usage_error(fmt::format("{} × {} samples are {:.0f} million, more than the {:.0f} million allowed",
+                                  width, depth, samples / 1e6, kMostSamples / 1e6),
+                      "resample", "choose fewer");
+  }
+  require_memory(samples * sizeof(float), fmt::format("{} × {} samples", width, depth), "choose fewer");
 }
 
 // The heights that the taps combine, with the field's georeference. The caller sets the cells.

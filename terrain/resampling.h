@@ -12,16 +12,21 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "terrain/heightfield.h"
 
 namespace terrabench {
 
+// The most samples of a height field that is read whole or resampled: 1 GiB.
+inline constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 28;
+
 // The same rectangle at another number of samples: each is the bilinear height at its own (i·cell_x,
 // j·cell_z) of the given field, so that the two can be compared place by place. resample() moves them: its
 // sample (0, 0) stands in the middle of the new grid's first cell, which only the georeference says. Throws
-// usage_error unless each side has at least 2 samples, or 1 in both fields. O(n).
+// usage_error unless each side has at least 2 samples, or 1 in both fields, and for more than kMostSamples;
+// environment_error, before anything is taken, where memory does not suffice. O(n).
 Heightfield resample_gridline(const Heightfield&, int width, int depth);
 
 // The source samples that make one new sample along one axis; the weights add up to 1.

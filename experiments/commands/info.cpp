@@ -30,13 +30,26 @@ void print_heights(const Heightfield& field, const std::vector<std::string>& not
   for (const std::string& note : notes) fmt::print("note        {}\n", note);
 }
 
-void describe_dem(const std::filesystem::path& path) {
-  const Dem dem = read_dem(path.string());
-  fmt::print("{}: digital elevation model ({})\n", path.string(), dem.format);
-  print_heights(dem.heights, dem.notes);
-  if (dem.format == "PNG") {
+// Of a DEM that is too large to be read whole, its header.
+void describe_dem(const std::string& name) {
+  const DemHeader header = read_dem_header(name);
+  fmt::print("{}: digital elevation model ({}, {})\n", name, header.format, header.type);
+  if (header.too_large.empty()) {
+    const Dem dem = read_dem(name);
+    print_heights(dem.heights, dem.notes);
+  } else {
+    fmt::print("samples     {} × {}, cells {:.6g} m × {:.6g} m, {:.4g} km × {:.4g} km\n", header.width,
+               header.depth, header.cell_x, header.cell_z, (header.width - 1) * header.cell_x / 1000,
+               (header.depth - 1) * header.cell_z / 1000);
+    for (const std::string& note : header.notes) fmt::print("note        {}\n", note);
+    fmt::print(
+        "note        its heights were not read: {}; `represent` reads a part of it (--crop) or a reduced "
+        "copy (--resample)\n",
+        header.too_large);
+  }
+  if (header.format == "PNG" && !name.starts_with(kDemPrefix)) {
     fmt::print("note        its values are used as heights; {}{} makes a landscape with a sea of it\n",
-               kDrawingPrefix, path.string());
+               kDrawingPrefix, name);
   }
 }
 
@@ -75,11 +88,12 @@ void describe_representation(const std::filesystem::path& path) {
 
 // A script of events, described by the tree that it builds.
 void describe_script(const std::filesystem::path& path) {
-  const TerrainSource source = events::open_script(read_file(path), path.string());
+  const TerrainSource source = events::open_script(read_file(path, events::kMostBytes), path.string());
   const RepresentationType& type = representation("ght");
   Progress progress;
   const auto built = type.build(source, Parameters(type.parameters), progress);
   fmt::print("{}: terrain with {} events\n", path.string(), source.events ? source.events->events.size() : 0);
+  for (const std::string& note : source.notes) fmt::print("note        {}\n", note);
   fmt::print("checksum    {}\n", source.checksum);
   print_bounds(built->bounds());
   print_tree(*built);
@@ -123,7 +137,7 @@ ExitCode info_command(const std::filesystem::path& path) {
       describe_script(path);
     }
   } else {
-    describe_dem(path);  // its error names what is wrong with any other path
+    describe_dem(path.string());  // its error names what is wrong with any other path
   }
   return ExitCode::kGood;
 }

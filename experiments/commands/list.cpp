@@ -13,6 +13,7 @@
 #include "representations/representation.h"
 #include "results/claims.h"
 #include "terrain/source.h"
+#include "terrain/sources/dem/dem.h"
 
 namespace terrabench {
 namespace {
@@ -103,6 +104,12 @@ Json list_terrains() {
                    "land from your own picture, from black (sea bed) to white (peaks); may be followed by "
                    ",cell=30,sea_level=0.3,peak=1000,seabed=0.1,smoothing=2,mountains=0.6"},
                   {"origin", "the MRBSP paper's drawings"}});
+  list.push_back(
+      {{"name", fmt::format("{}FILE", kDemPrefix)},
+       {"summary",
+        "an elevation model, read as options say: ,band=1,nodata=-9999,unit=ft,encoding=terrarium; without "
+        "options, its path alone (docs/grounds.md)"},
+       {"origin", "GDAL"}});
   return list;
 }
 

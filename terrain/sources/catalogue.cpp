@@ -77,7 +77,7 @@ TerrainSource from_dem(std::string_view name, const std::string& path) {
 
 TerrainSource from_drawing(std::string_view name) {
   const NamedDrawing drawing = parse_drawing(name.substr(kDrawingPrefix.size()));
-  const Image picture = read_png(drawing.file);
+  const GreyImage picture = read_grey_png(drawing.file);
   if (picture.width < 2 || picture.height < 2) {
     throw bad_input(
         fmt::format("a drawing must have at least 2 × 2 pixels, got {} × {}", picture.width, picture.height),
@@ -132,6 +132,7 @@ std::span<const TerrainType> terrains() { return kTerrains; }
 
 std::string terrain_file(std::string_view text) {
   if (text.starts_with(kDrawingPrefix)) return parse_drawing(text.substr(kDrawingPrefix.size())).file;
+  if (text.starts_with(kDemPrefix)) return parse_dem(text).path;
   std::vector<std::string_view> known;
   for (const TerrainType& type : terrains()) {
     if (type.name == text) return "";
@@ -144,18 +145,23 @@ std::string terrain_file(std::string_view text) {
   throw Error(unknown.code(), unknown.what(), "", unknown.advice() + "; the path of a DEM file works too");
 }
 
+namespace {
+
+bool names_event_file(std::string_view text) {
+  return !text.starts_with(kDrawingPrefix) && terrain_file(text).ends_with(events::kExtension);
+}
+
+}  // namespace
+
 bool names_dem_file(std::string_view text) {
-  return !text.starts_with(kDrawingPrefix) && !terrain_file(text).empty();
+  return !text.starts_with(kDrawingPrefix) && !terrain_file(text).empty() && !names_event_file(text);
 }
 
 TerrainSource open_terrain(std::string_view name_or_path, std::uint64_t seed) {
   if (name_or_path.starts_with(kDrawingPrefix)) return from_drawing(name_or_path);
-  if (names_dem_file(name_or_path)) {
-    const std::string path(name_or_path);
-    if (path.ends_with(events::kExtension))
-      return events::open_script(read_file(path, events::kMostBytes), path);
-    return from_dem(path, path);
-  }
+  const std::string path(name_or_path);
+  if (names_event_file(path)) return events::open_script(read_file(path, events::kMostBytes), path);
+  if (names_dem_file(path)) return from_dem(path, path);
   for (const TerrainType& type : terrains()) {
     if (type.name == name_or_path) return type.open(seed);
   }

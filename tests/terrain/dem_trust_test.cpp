@@ -156,6 +156,41 @@ TEST(DemTrust, WordInATextGridBehindAVirtualFileIsNoHeight) {
   }
 }
 
+TEST(DemTrust, WordsForNoHeightAreVoids) {
+  const TemporaryFolder folder;
+  const std::string header = "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n";
+  // Among whole numbers and others, at the beginning or elsewhere, declared or not.
+  for (const char* const no_data :
+       {"", "NODATA_value -9999\n", "NODATA_value nan\n", "NODATA_value null\n"}) {
+    for (const char* const word : {"nan", "NaN", "-nan", "null", "NULL", "NA", "n/a"}) {
+      for (const char* const form : {"{} 2 3\n4 5 6\n", " {} 2 3\n4 5 6\n", "1 2 3\n4 {} 6\n",
+                                     "1.5 2 3\n4 5 {}\n", "{0} 2 3\n{0} 5 {0}"}) {
+        const std::string text = header + no_data + fmt::format(fmt::runtime(form), word);
+        const Heightfield field = read_dem(folder.write("a.asc", text)).heights;
+        const std::size_t voids = form[1] == '0' ? 3 : 1;
+        EXPECT_EQ(height_range(field).no_data, voids) << text;
+        EXPECT_GE(height_range(field).lowest, 1) << text;
+        EXPECT_EQ(field.cell_x, 10) << text;
+      }
+    }
+  }
+  EXPECT_THAT(folder.names(), testing::ElementsAre("a.asc"));
+}
+
+TEST(DemTrust, AGridWithWordsKeepsItsReferenceSystem) {
+  const TemporaryFolder folder;
+  OGRSpatialReference utm;
+  utm.importFromEPSG(kUtm33);
+  char* text = nullptr;
+  const char* const options[] = {"FORMAT=WKT1_ESRI", nullptr};
+  ASSERT_EQ(utm.exportToWkt(&text, options), OGRERR_NONE);
+  folder.write("a.prj", text);
+  CPLFree(text);
+  const Dem dem = read_dem(folder.write("a.asc", grid("null 2 3\n4 5 null\n")));
+  EXPECT_EQ(height_range(dem.heights).no_data, 2U);
+  EXPECT_THAT(dem.heights.georeference.crs, HasSubstr("UTM"));
+}
+
 TEST(DemTrust, EveryWayToWriteANumberIsRead) {
   const TemporaryFolder folder;
   for (const char* const values : {"1 2 3\n4 5 6\n", "+1 2.0 3e0 4\r\n5 6", "1,5 2 3\n4 5 6\n",

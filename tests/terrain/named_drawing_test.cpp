@@ -8,6 +8,7 @@
 #include "terrain/source.h"
 #include "terrain/sources/drawing/drawing.h"
 #include "tests/terrain/errors.h"
+#include "tests/terrain/png_bytes.h"
 #include "tests/terrain/temporary_folder.h"
 
 namespace terrabench {
@@ -77,19 +78,6 @@ TEST_F(NamedDrawingTest, RefusesAdjustmentsThatCannotBe) {
   refused(",peak=3,", "");
 }
 
-std::string chunk(const std::string& type, const std::string& data) {
-  const auto big_endian = [](std::uint32_t v) {
-    return std::string{static_cast<char>(v >> 24), static_cast<char>(v >> 16), static_cast<char>(v >> 8),
-                       static_cast<char>(v)};
-  };
-  std::uint32_t crc = ~0U;
-  for (const char c : type + data) {
-    crc ^= static_cast<std::uint8_t>(c);
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1) != 0 ? 0xEDB88320U : 0U);
-  }
-  return big_endian(static_cast<std::uint32_t>(data.size())) + type + data + big_endian(~crc);
-}
-
 TEST_F(NamedDrawingTest, RefusesWhatIsNoPicture) {
   const auto refused = [&](const std::string& name, const std::string& what) {
     const Failure failure = failure_of([&] { open_terrain("drawing:" + name); });
@@ -107,7 +95,7 @@ TEST_F(NamedDrawingTest, RefusesWhatIsNoPicture) {
   refused(folder_ / "dot.png", "1 × 1");
   // 40,000 × 25,000 grey pixels that are not there.
   const std::string header("\0\0\x9C\x40\0\0\x61\xA8\x08\0\0\0\0", 13);
-  refused(folder_.write("huge.png", "\x89PNG\r\n\x1A\n" + chunk("IHDR", header) + chunk("IDAT", "x")),
+  refused(folder_.write("huge.png", "\x89PNG\r\n\x1A\n" + png_chunk("IHDR", header) + png_chunk("IDAT", "x")),
           "too many pixels");
 }
 

@@ -23,6 +23,7 @@ struct RasterFile {
   GDALDataType type = GDT_Float32;
   std::optional<std::array<double, 6>> transform;
   int epsg = 0;
+  std::string system;  // instead of `epsg`, such as "EPSG:2274+6360"
   std::optional<double> no_data;
   std::string unit;
   double scale = 1, offset = 0;
@@ -40,9 +41,10 @@ struct RasterFile {
       std::array<double, 6> t = *transform;
       dataset->SetGeoTransform(t.data());
     }
-    if (epsg != 0) {
+    if (epsg != 0 || !system.empty()) {
       OGRSpatialReference reference;
-      reference.importFromEPSG(epsg);
+      const std::string name = system.empty() ? "EPSG:" + std::to_string(epsg) : system;
+      EXPECT_EQ(reference.SetFromUserInput(name.c_str()), OGRERR_NONE) << name;
       reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
       dataset->SetSpatialRef(&reference);
     }

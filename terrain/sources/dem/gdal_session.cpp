@@ -8,6 +8,7 @@
 #include <mutex>
 #include <string_view>
 
+#include "terrain/printable.h"
 #include "terrain/sources/dem/network.h"
 #include "terrain/sources/dem/text_grid.h"
 
@@ -55,11 +56,8 @@ void register_drivers() {
 
 // One line of bounded length without control characters: messages quote the content of damaged files.
 std::string tidy(const char* text) {
-  std::string line(text == nullptr ? "" : text);
+  std::string line = printable(text == nullptr ? "" : text);
   if (line.size() > kLongestMessage) line = line.substr(0, kLongestMessage) + "…";
-  for (char& c : line) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
-  }
   return line.empty() ? "GDAL gave no reason" : line;
 }
 

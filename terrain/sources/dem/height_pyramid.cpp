@@ -60,13 +60,8 @@ struct RasterSize {
 };
 
 RasterSize raster_size(const std::string& dem) {
-  const GdalMessages messages;
-  const DatasetPointer dataset(GDALDataset::Open(dem.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-  if (dataset == nullptr) {
-    read_dem(dem);  // throws with the reason
-    throw bad_input("cannot be opened as a terrain", dem, "give a raster that gdalinfo opens");
-  }
-  return {dataset->GetRasterXSize(), dataset->GetRasterYSize()};
+  const DemHeader header = read_dem_header(dem);
+  return {header.width, header.depth};
 }
 
 // Replaces missing heights by those of the reduced copy.

@@ -10,7 +10,7 @@
 namespace terrabench {
 namespace {
 
-void check(const Image& picture, const DrawingOptions& options) {
+void check(const GreyImage& picture, const DrawingOptions& options) {
   const auto within = [](float value, float lowest, float highest, std::string_view name,
                          std::string_view advice) {
     if (!(value >= lowest && value <= highest)) {
@@ -30,14 +30,8 @@ void check(const Image& picture, const DrawingOptions& options) {
   }
 }
 
-// Luma of BT.601, which gives a grey pixel its own value.
-int intensity(const Image& picture, std::size_t pixel) {
-  const std::uint8_t* const c = picture.rgb.data() + 3 * pixel;
-  return (299 * c[0] + 587 * c[1] + 114 * c[2] + 500) / 1000;
-}
-
-float height_of(int grey, const DrawingOptions& options) {
-  const float g = static_cast<float>(grey) / 255, s = options.sea_level;
+float height_of(std::uint16_t grey, const DrawingOptions& options) {
+  const float g = static_cast<float>(grey) / 65535, s = options.sea_level;
   return g >= s ? options.peak * ((g - s) / (1 - s)) : -options.seabed * options.peak * ((s - g) / s);
 }
 
@@ -68,14 +62,14 @@ void smooth(Heightfield& field, const std::vector<float>& soft, std::vector<floa
 
 }  // namespace
 
-Heightfield land_from_drawing(const Image& picture, const DrawingOptions& options) {
+Heightfield land_from_drawing(const GreyImage& picture, const DrawingOptions& options) {
   check(picture, options);
   const std::size_t fields = options.smoothing == 0 ? 1 : 3;
   require_memory(fields * sizeof(float) * picture.width * static_cast<std::size_t>(picture.height),
                  "land from a drawing", "give a smaller picture");
   Heightfield field = Heightfield::zeros(picture.width, picture.height, options.cell, options.cell);
   for (std::size_t k = 0; k < field.heights.size(); ++k) {
-    field.heights[k] = height_of(intensity(picture, k), options);
+    field.heights[k] = height_of(picture.values[k], options);
   }
   if (options.smoothing == 0) return field;
   std::vector<float> soft(field.heights.size()), next(field.heights.size());

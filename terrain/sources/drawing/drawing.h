@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
+#include "terrain/grey_image.h"
 #include "terrain/heightfield.h"
-#include "terrain/image.h"
 
 namespace terrabench {
 
@@ -28,7 +28,10 @@ struct DrawingOptions {
 
 // One sample per pixel, the sea's surface at 0. Throws usage_error for an empty picture or options out of
 // range, and environment_error where memory would not suffice.
-Heightfield land_from_drawing(const Image&, const DrawingOptions&);
+Heightfield land_from_drawing(const GreyImage&, const DrawingOptions&);
+inline Heightfield land_from_drawing(const Image& picture, const DrawingOptions& options) {
+  return land_from_drawing(grey(picture), options);
+}
 
 // A drawing by name: FILE[,ADJUSTMENT=VALUE…], such as "coast.png,sea_level=0.4,peak=1500".
 struct NamedDrawing {
