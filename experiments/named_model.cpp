@@ -7,6 +7,7 @@
 #include "representations/procedural_mesh/model.h"
 #include "representations/procedural_mesh/model_terrain.h"
 #include "terrain/error.h"
+#include "terrain/events/event_file.h"
 #include "terrain/files.h"
 #include "terrain/source.h"
 
@@ -40,9 +41,10 @@ bool names_model(const std::string& name) {
   check_name(name);
   std::error_code error;
   if (!name.ends_with(".toml") || !std::filesystem::is_regular_file(name, error)) return false;
-  // Scripts of events may be longer than models.
+  // Event files may be longer than models. A model that is too long is one all the same: open_model_text()
+  // says so.
   const std::uintmax_t bytes = std::filesystem::file_size(name, error);
-  return !error && bytes <= growing::kMostModelBytes && is_model_text(read_file(name));
+  return !error && bytes <= events::kMostBytes && is_model_text(read_file(name));
 }
 
 std::string open_model_text(const std::string& name) {

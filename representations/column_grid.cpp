@@ -92,6 +92,14 @@ void ColumnSampler::choose_grid(const Solid& solid, const Parameters& parameters
         fmt::format("levels of {} m cannot be distinguished at a height of {} m", grid_.step, low.y), "step",
         "choose a larger step, or move the solid to lower coordinates");
   }
+  // Hours on any machine, at some ten million samples of a solid per second.
+  constexpr double kMostSamples = std::uint64_t{1} << 38;
+  if (const double samples = 1.0 * grid_.width * grid_.depth * grid_.levels; samples > kMostSamples) {
+    throw environment_error(
+        fmt::format("{} × {} columns of {} levels are {:.2g} samples of the solid, more than {:.2g}",
+                    grid_.width, grid_.depth, grid_.levels, samples, kMostSamples),
+        "resolution, step", "choose a lower resolution or a larger step");
+  }
   grid_.cell_x = size.x / static_cast<double>(grid_.width);
   grid_.cell_z = size.z / static_cast<double>(grid_.depth);
   grid_.origin_x = low.x;
@@ -171,6 +179,13 @@ void check_heights(const Heightfield& field, std::string_view where) {
     throw wrong("a height is infinite");
   }
   if (height_range(field).no_data == field.heights.size()) throw wrong("all samples are no-data");
+}
+
+void require_cells(int width, int depth, std::string_view where) {
+  if (width >= 2 && depth >= 2) return;
+  throw usage_error(
+      fmt::format("a surface between samples needs at least 2 × 2 of them, got {} × {}", width, depth), where,
+      "give more samples, or choose a representation of single columns, such as heightmap");
 }
 
 std::optional<Heightfield> at_resolution(const Heightfield& field, std::int64_t resolution) {

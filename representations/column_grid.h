@@ -110,6 +110,8 @@ inline constexpr int kDefaultResolution = 128;
 
 // Throws bad_input unless every height is finite or no-data, at least one is a height, and sizes make sense.
 void check_heights(const Heightfield&, std::string_view where);
+// For surfaces between samples. Throws usage_error for a single row or column, which has none.
+void require_cells(int width, int depth, std::string_view where);
 // The field's rectangle with `resolution` samples along its longer side (resample_gridline()), where cells
 // keep their shape as nearly as whole numbers allow; nothing when it has that many, or for 0. Throws
 // usage_error for 1 sample.

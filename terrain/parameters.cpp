@@ -171,6 +171,15 @@ std::vector<std::string> split_assignments(std::span<const std::string> texts,
       first = false;
     }
   }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto name = [](const std::string& assignment) {
+      return std::string_view(assignment).substr(0, assignment.find('='));
+    };
+    const auto same = [&](const std::string& other) { return name(other) == name(all[i]); };
+    if (std::any_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(i), same)) {
+      throw usage_error(fmt::format("'{}' is set twice", name(all[i])), "--set", "leave out one");
+    }
+  }
   return all;
 }
 

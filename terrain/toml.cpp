@@ -37,7 +37,8 @@ std::optional<Character> decode(std::string_view text) {
 
 // Rewrites a TOML text in ASCII: characters beyond it become escapes in strings (a literal string becomes a
 // basic one) and go from comments; elsewhere they are refused. Lines stay where they are. toml++ thus never
-// sees such a character, whatever it takes a malformed text for.
+// sees such a character, whatever it takes a malformed text for. Refuses keys of so many parts that toml++
+// would exhaust the stack.
 class AsciiToml {
  public:
   AsciiToml(std::string_view text, const std::string& file) : rest_(text), file_(file) {}
@@ -52,6 +53,7 @@ class AsciiToml {
       } else if (next == '"' || next == '\'') {
         string(next);
       } else {
+        count_parts(next);
         copy("outside a string or a comment", "put the key or the text in double quotes");
       }
     }
@@ -76,6 +78,15 @@ class AsciiToml {
       column_ = 1;
     }
     return *next;
+  }
+
+  // toml++ makes a table inside a table for each part of a key, and destroys them by recursion.
+  void count_parts(char next) {
+    constexpr int kMostParts = 100;
+    if (next == '.' && ++dots_ >= kMostParts) {
+      fail(fmt::format("a key has more than {} parts", kMostParts), "write it with fewer dots");
+    }
+    if (std::string_view("=,[]{}\n").find(next) != std::string_view::npos) dots_ = 0;
   }
 
   // One character that must be ASCII.
@@ -130,13 +141,15 @@ class AsciiToml {
   const std::string& file_;
   std::string out_;
   std::size_t line_ = 1, column_ = 1;
+  int dots_ = 0;  // in this key or value
 };
 
 }  // namespace
 
 toml::table parse_toml(std::string_view text, const std::string& file, std::string_view advice) {
-  std::string ascii;
-  if (!std::all_of(text.begin(), text.end(), is_ascii)) text = ascii = AsciiToml(text, file).run();
+  const std::string ascii = AsciiToml(text, file).run();
+  // Otherwise as it is: errors of models name columns.
+  if (!std::all_of(text.begin(), text.end(), is_ascii)) text = ascii;
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {

@@ -34,6 +34,7 @@ std::unique_ptr<Ght> from_field(const Heightfield& field, const TerrainSource& s
   check_heights(field, source.name);
   const auto resampled = at_resolution(field, parameters.integer("resolution"));
   const Heightfield& ground = resampled ? *resampled : field;
+  require_cells(ground.width, ground.depth, source.name);
   check_room(static_cast<std::size_t>(ground.width) * static_cast<std::size_t>(ground.depth), parameters);
   const float cell = std::max(ground.cell_x, ground.cell_z);
   // The floor of the solid that the same events make, so that both contain the same ground.
@@ -49,6 +50,7 @@ std::unique_ptr<Ght> from_solid(const TerrainSource& source, const Parameters& p
   const auto sampled = Heightmap::build(source, parameters, progress);
   const auto& map = static_cast<const Heightmap&>(*sampled);
   const HeightGrid& from = map.grid();
+  require_cells(from.width, from.depth, source.name);
   check_room(map.heights().size(), parameters);
   const glm::vec2 spacing(from.cell_x, from.cell_z);
   const SampleGrid grid = {from.width, from.depth, spacing.x, spacing.y, from.origin_x, from.origin_z};

@@ -1,6 +1,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "representations/implicit/block_sweep.h"
 #include "terrain/error.h"
@@ -70,6 +71,22 @@ TriangleMesh join(std::vector<SurfaceBlock>& blocks) {
   return mesh;
 }
 
+// Foresees the mesh of a large lattice by that of a coarse one, since a surface's vertices grow with the
+// square of its fineness. Throws environment_error where memory will not hold it.
+void foresee(const SampledField& field, const FieldLattice& lattice, Extractor extractor) {
+  constexpr double kLarge = 0x1p31, kCoarse = 0x1p24;  // cells
+  const double cells = 1.0 * lattice.cells.x * lattice.cells.y * lattice.cells.z;
+  if (cells < kLarge) return;
+  const double factor = std::cbrt(cells / kCoarse);
+  const TriangleMesh mesh = closed_surface(
+      field, {{lattice.low, lattice.high}, static_cast<float>(lattice.cell * factor)}, extractor);
+  const double bytes = 2.0 * sizeof(glm::vec3) * static_cast<double>(mesh.positions.size()) +
+                       sizeof(std::uint32_t) * static_cast<double>(mesh.indices.size());
+  // join() holds the mesh beside what is left of its blocks.
+  require_memory(static_cast<std::uint64_t>(1.5 * factor * factor * bytes), "the mesh of an implicit surface",
+                 "choose larger cells (cell), or a lower resolution");
+}
+
 }  // namespace
 
 SurfaceBlock extract(Extractor extractor, const BlockTask& task) {
@@ -77,6 +94,7 @@ SurfaceBlock extract(Extractor extractor, const BlockTask& task) {
 }
 
 TriangleMesh closed_surface(const SampledField& field, const FieldLattice& lattice, Extractor extractor) {
+  foresee(field, lattice, extractor);
   // Cells -1 … cells, one more than the lattice has on each side.
   const auto tiles = [](int cells, int size) { return (cells + 2 + size - 1) / size; };
   const int across = tiles(lattice.cells.x, kBlockWidth), down = tiles(lattice.cells.z, kBlockDepth);

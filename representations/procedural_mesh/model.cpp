@@ -109,7 +109,7 @@ Model parse_model(std::string_view text, const std::string& origin) {
   if (model.base.faces() > model.limits.faces) {
     throw bad_input(
         fmt::format("the base mesh has {} faces, more than {}", model.base.faces(), model.limits.faces),
-        origin, "raise the limit of faces");
+        origin, "make it coarser, or raise the limit of faces, to 100,000,000 at most");
   }
   return model;
 }
@@ -139,7 +139,7 @@ void check_subdivision(const Model& model, const Step& step, const GrownMesh& me
   throw bad_input(fmt::format("the subdivision gives {} faces, more than {}", mesh.mesh.corners.size(),
                               model.limits.faces),
                   fmt::format("{}:{}:{}", model.system.file, step.place.line, step.place.column),
-                  "subdivide less, or raise the limit of faces");
+                  "subdivide less, or raise the limit of faces, to 100,000,000 at most");
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ void require_faces(const Table& table, const ModelReader& models, std::uint64_t 
   if (faces <= models.model.limits.faces) return;
   fail_at(table.node(), models.file,
           fmt::format("the base mesh has {} faces, more than {}", faces, models.model.limits.faces),
-          "raise the limit of faces");
+          "make it coarser, or raise the limit of faces, to 100,000,000 at most");
 }
 
 Primitive primitive(Table& table, const ModelReader& models) {

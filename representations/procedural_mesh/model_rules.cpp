@@ -136,6 +136,10 @@ class RuleReader {
     optional("tropism", result.tropism);
     optional("scale", result.scale);
     optional("radius", result.radius);
+    if (result.scale.given() && result.radius.given()) {
+      fail_at(table.node(), file_, "a section has both 'scale' and 'radius'",
+              "leave out one: both set its size");
+    }
     if (const toml::node* const stretch = table.find("stretch")) {
       const toml::array& pair = list_of(*stretch, file_, "stretch", 2);
       result.stretch = {models_.expression(pair[0], names_), models_.expression(pair[1], names_)};

@@ -1,5 +1,7 @@
 #include "representations/procedural_mesh/procedural_mesh.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -38,6 +40,7 @@ void take_heights(const TerrainSource& source, const Parameters& parameters, Mes
   check_heights(*source.heights, source.name);
   const auto resampled = at_resolution(*source.heights, parameters.integer("resolution"));
   const Heightfield& field = resampled ? *resampled : *source.heights;
+  require_cells(field.width, field.depth, source.name);
   out.ground = {lines(field.width, 0, field.cell_x), lines(field.depth, 0, field.cell_z), field.heights};
   // A coarser field's ground may lie lower than the floor of the finer one, never by more than rounding.
   out.ground_bounds = {
@@ -146,14 +149,26 @@ ProceduralMesh::ProceduralMesh(MeshDescription description, const std::string& o
   columns_ = TriangleColumns(std::move(polygons.positions), std::move(triangles));
   if (description_.model.empty()) return;
   Bounds model = bounds_of_model(columns_);
+  constexpr float kFarthest = 1e9F;  // as heights of files
+  const glm::vec3 reach = glm::max(glm::abs(model.low), glm::abs(model.high));
+  if (const float farthest = std::max({reach.x, reach.y, reach.z}); !(farthest <= kFarthest)) {
+    throw bad_input(
+        fmt::format("the model reaches {:.3g} m from its origin, farther than {:.0g} m", farthest, kFarthest),
+        origin, "make it smaller: its coordinates are metres");
+  }
   if (description_.has_ground()) {
     bounds_ = {glm::min(bounds_.low, model.low), glm::max(bounds_.high, model.high)};
     return;
   }
-  const bool open = !open_edges(columns_.triangles()).empty();
+  const std::vector<DirectedEdge> border = open_edges(columns_.triangles());
+  const bool open = !border.empty();
   if (open && !(area_of_sheets(columns_.positions(), columns_.triangles()) > 0)) {
     throw bad_input("an open mesh that looks down has no ground below it", origin,
                     "turn its faces over, or close it");
+  }
+  if (volume_of_closed_parts(columns_.positions(), columns_.triangles(), border) < 0) {
+    throw bad_input("a closed mesh is turned inside out: it encloses air, and all around it would be solid",
+                    origin, "turn its faces over: their corners run counter-clockwise, seen from outside");
   }
   // The block under a sheet is at least a sixteenth of its width thick.
   if (open) model.low.y -= std::max(model.size().x, model.size().z) / 16;

@@ -181,6 +181,22 @@ TriangleMesh close_down(std::vector<glm::vec3> positions, std::vector<Triangle> 
   return mesh;
 }
 
+double volume_of_closed_parts(std::span<const glm::vec3> positions, std::span<const Triangle> triangles,
+                              std::span<const DirectedEdge> open) {
+  const bool sheets_exist = !open.empty();
+  Sheets sheets(sheets_exist ? positions.size() : 0, triangles.first(sheets_exist ? triangles.size() : 0),
+                open);
+  const glm::dvec3 origin = positions.empty() ? glm::vec3(0) : positions[0];
+  double volume = 0;
+  for (const Triangle& t : triangles) {
+    if (sheets_exist && sheets.has(t.x)) continue;
+    const glm::dvec3 a = glm::dvec3(positions[t.x]) - origin, b = glm::dvec3(positions[t.y]) - origin,
+                     c = glm::dvec3(positions[t.z]) - origin;
+    volume += glm::dot(a, glm::cross(b, c)) / 6;
+  }
+  return volume;
+}
+
 double area_of_sheets(std::span<const glm::vec3> positions, std::span<const Triangle> triangles) {
   const std::vector<DirectedEdge> open = open_edges(triangles);
   double area = 0;  // by the border alone, which has the area of what it encloses

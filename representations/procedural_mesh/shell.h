@@ -26,6 +26,11 @@ std::vector<DirectedEdge> open_edges(std::span<const Triangle>);
 // doubled, so that the result is watertight. O(n log n).
 TriangleMesh close_down(std::vector<glm::vec3> positions, std::vector<Triangle> triangles, float floor);
 
+// What the closed parts enclose, m³: negative where they are turned inside out. `open`: open_edges() of the
+// triangles. O(n).
+double volume_of_closed_parts(std::span<const glm::vec3> positions, std::span<const Triangle> triangles,
+                              std::span<const DirectedEdge> open);
+
 // The area of the triangles in sheets as seen from above, m²: negative where they look down.
 double area_of_sheets(std::span<const glm::vec3> positions, std::span<const Triangle> triangles);
 

@@ -1,10 +1,14 @@
 // The surfaces of both extractors: closed, where the field says, the same in chunks and after edits.
+#include <gmock/gmock.h>
+
 #include <glm/geometric.hpp>
 #include <map>
 #include <set>
 
 #include "representations/implicit/cell_cases.h"
+#include "terrain/sources/noise/cave_terrain.h"
 #include "tests/representations/implicit_ground.h"
+#include "tests/terrain/errors.h"
 
 namespace terrabench::test {
 namespace {
@@ -202,6 +206,18 @@ TEST_P(EveryExtractor, NormalsFollowTheFieldsGradient) {
     }
     EXPECT_GT(sum / static_cast<double>(mesh.positions.size()), 0.985) << detail;
   }
+}
+
+// 64,000³ cells: no machine holds a mesh of some 10¹⁰ vertices.
+TEST(ImplicitSurface, AMeshThatNoMemoryHoldsIsRefusedBeforeItIsMade) {
+  const RepresentationType& type = representation("implicit");
+  Progress progress;
+  const auto built =
+      type.build(noise::cave_source({.seed = 1}),
+                 Parameters(type.parameters, {{"resolution", std::int64_t{64}}, {"cell", 0.002}}), progress);
+  const Failure failure = failure_of([&] { (void)built->mesh({}); });
+  EXPECT_EQ(failure.code, ExitCode::kEnvironment);
+  EXPECT_THAT(failure.advice, testing::HasSubstr("larger cells"));
 }
 
 }  // namespace

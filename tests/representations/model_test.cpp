@@ -85,6 +85,16 @@ TEST(Models, NumbersThatAreNotFiniteAreRefusedWhereTheyAreWritten) {
               StartsWith("m:9:24: the value is not a finite number"));
 }
 
+TEST(Models, ContradictionsInARuleAreRefused) {
+  const std::string grow = "[[step]]\ngrow = 1\n";
+  EXPECT_THAT(error_of(kHead + kRule + "sections = [{ move = 1, scale = 0.5, radius = 2 }]\n" + grow),
+              HasSubstr("both 'scale' and 'radius'"));
+  for (const char* const value : {"-0.5", "\"0.5 - step - 1\""}) {
+    EXPECT_THAT(error_of(kHead + kRule + "probability = " + value + "\n" + kExtrude + grow),
+                AllOf(StartsWith("m:9:1"), HasSubstr("a probability is negative")));
+  }
+}
+
 TEST(Models, TemplatesThatDoNotFitAreRefused) {
   const auto faces = [](const std::string& text) {
     return error_of(kHead + kRule + "corners = 4\nvertices = [[0, 0, 1], [0, 0.1, 1]]\nfaces = " + text +

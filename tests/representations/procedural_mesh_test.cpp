@@ -315,6 +315,45 @@ std::string error_of(const Action& action) {
   return "";
 }
 
+TEST(ProceduralMesh, RefusesClosedMeshesThatAreTurnedInsideOut) {
+  const auto tetrahedron = [](bool turned, const std::string& step = "") {
+    return std::string("[base]\nshape = \"mesh\"\nvertices = [[0,0,0],[1,0,0],[0,1,0],[0,0,1]]\nfaces = ") +
+           (turned ? "[[0,1,2],[0,3,1],[1,3,2],[0,2,3]]\n" : "[[0,2,1],[0,1,3],[1,2,3],[0,3,2]]\n") + step;
+  };
+  for (const std::string& step : {std::string(), std::string("[[step]]\nsubdivide = 2\n")}) {
+    EXPECT_EQ(error_of([&] { model_of(tetrahedron(false, step)); }), "");
+    EXPECT_THAT(error_of([&] { model_of(tetrahedron(true, step)); }), HasSubstr("inside out"));
+  }
+  const TerrainSource flat = from_heights(3, 3, std::vector<float>(9, 7));
+  EXPECT_THAT(error_of([&] {
+                model_on_ground(tetrahedron(true), "m", flat, ModelPlace{1, 1, 0.5F});
+              }),
+              HasSubstr("inside out"));
+  // Beside a sheet that looks up.
+  const std::string plane =
+      "[base]\nvertices = [[0,0,0],[9,0,0],[9,0,9],[0,0,9],[0,5,0],[1,5,0],[0,6,0],[0,5,1]]\n";
+  EXPECT_EQ(error_of([&] { model_of(plane + "faces = [[3,2,1,0],[4,6,5],[4,5,7],[5,6,7],[4,7,6]]\n"); }), "");
+  EXPECT_THAT(error_of([&] { model_of(plane + "faces = [[3,2,1,0],[4,5,6],[4,7,5],[5,7,6],[4,6,7]]\n"); }),
+              HasSubstr("inside out"));
+}
+
+TEST(ProceduralMesh, RefusesModelsLargerThanAnyGround) {
+  EXPECT_EQ(error_of([] { model_of("[base]\nshape = \"cube\"\nsize = [1e8, 1e8, 1e8]\n"); }), "");
+  EXPECT_THAT(error_of([] { model_of("[base]\nshape = \"cube\"\nsize = [1e30, 1e30, 1e30]\n"); }),
+              HasSubstr("farther than"));
+}
+
+TEST(ProceduralMesh, RefusesASingleRowOfSamples) {
+  for (const char* const type : {"procedural_mesh", "ght"}) {
+    for (const auto& [width, depth] : {std::pair{1, 5}, {5, 1}, {1, 1}}) {
+      const TerrainSource row =
+          from_heights(width, depth, std::vector<float>(static_cast<std::size_t>(width) * depth, 7));
+      EXPECT_THAT(error_of([&] { build(type, row); }), HasSubstr("at least 2 × 2")) << type << width;
+    }
+    EXPECT_EQ(error_of([&] { build(type, from_heights(2, 2, {1, 2, 3, 4})); }), "") << type;
+  }
+}
+
 TEST(ProceduralMesh, RefusesWhatHasNoInside) {
   EXPECT_THAT(error_of([] {
                 model_of("[base]\nvertices = [[0,0,0],[1,0,0],[1,0,1],[0,0,1]]\nfaces = [[0,1,2,3]]\n");

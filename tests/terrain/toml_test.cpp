@@ -107,5 +107,26 @@ TEST(Toml, MalformedTextsAreRefusedByLine) {
   }
 }
 
+TEST(Toml, KeysOfManyPartsAreRefusedBeforeTheyExhaustTheStack) {
+  const auto dotted = [](int parts, const std::string& part = "a") {
+    std::string key = part;
+    for (int i = 1; i < parts; ++i) key += "." + part;
+    return key;
+  };
+  for (const std::string& text :
+       {dotted(260000) + " = 1", "b = 1\n[" + dotted(260000) + "]\nc = 2", "[[" + dotted(260000) + "]]",
+        "b = { " + dotted(260000) + " = 1 }", dotted(260000, "\"a\"") + " = 1",
+        dotted(260000, "'a'") + " = 1", dotted(260000, " a ") + " = 'é'"}) {
+    const Failure failure = failure_of([&] { (void)parse_toml(text, "f", "mend it"); });
+    EXPECT_EQ(failure.code, ExitCode::kBadInput);
+    EXPECT_THAT(failure.what, HasSubstr("more than 100 parts"));
+  }
+  EXPECT_EQ(text_of(dotted(100) + " = 1"), "none");
+  // Dots of numbers, strings and comments are of no key.
+  std::string numbers = "b = [";
+  for (int i = 0; i < 300; ++i) numbers += "1.5, ";
+  EXPECT_EQ(text_of("a = \"" + dotted(300) + "\" # " + dotted(300) + "\n" + numbers + "]"), dotted(300));
+}
+
 }  // namespace
 }  // namespace terrabench

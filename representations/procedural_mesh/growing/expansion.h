@@ -13,7 +13,7 @@ Counts counts_of(const Template&, std::uint32_t n);
 
 // Why a face could not be expanded. `place`: of the expression or the rule at fault.
 struct Failure {
-  enum Kind : std::uint8_t { kNone, kNotFinite, kCorners, kDegenerate } kind = kNone;
+  enum Kind : std::uint8_t { kNone, kNotFinite, kCorners, kDegenerate, kNegative } kind = kNone;
   Place place;
 };
 

@@ -56,10 +56,10 @@ void Wave::fail(const Failure& failure, const Active& active) const {
   constexpr std::string_view kWhat[] = {
       "", "the value is not a finite number",
       "the template does not fit the face, which has another number of corners",
-      "the rule makes a degenerate face"};
+      "the rule makes a degenerate face", "a probability is negative"};
   constexpr std::string_view kAdvice[] = {"", "check the divisors, and keep every value in its range",
                                           "give the symbol to faces with as many corners as the base has",
-                                          "keep its corners apart"};
+                                          "keep its corners apart", "use max(0, …) where it may fall below"};
   const Symbol& symbol = system_.symbols[grown_.mesh.symbols[active.face]];
   throw bad_input(
       fmt::format("{}, where '{}' grows in step {}", kWhat[failure.kind], symbol.name, grown_.steps + 1),
@@ -77,7 +77,8 @@ const Rule* Wave::rule_for(const Active& active, Failure& failure) const {
     for (std::uint32_t r = symbol.first_rule; r < symbol.first_rule + symbol.rules; ++r) {
       const Rule& rule = system_.rules[r];
       if (value.optional(rule.when, 1) == 0) continue;
-      const double probability = std::max(0.0, value.optional(rule.probability, 1));
+      const double probability = value.optional(rule.probability, 1);
+      if (probability < 0) value.fail(Failure::kNegative, rule.probability.place);
       if (visit(rule, probability)) return;
     }
   };
@@ -112,7 +113,7 @@ void Wave::choose(const std::vector<Active>& active) {
 
 void Wave::fail_beyond(std::size_t limit, std::string_view what) const {
   throw bad_input(fmt::format("the model grows beyond {} {} in step {}", limit, what, grown_.steps + 1),
-                  system_.file, "let it grow less, or raise the limit of faces");
+                  system_.file, "let it grow less, or raise the limit of faces, to 100,000,000 at most");
 }
 
 // Faces that were replaced do not count, but their number is bounded, too: see should_drop().
