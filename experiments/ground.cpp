@@ -1,5 +1,6 @@
 #include "experiments/ground.h"
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -53,7 +54,10 @@ TerrainSource open_heights(std::string_view name, std::uint64_t seed) {
 
 TerrainSource open_filled_heights(std::string_view name, std::uint64_t seed) {
   TerrainSource source = open_heights(name, seed);
+  const std::size_t holes = height_range(*source.heights).no_data;
+  if (holes == 0) return source;
   source.heights = fill_no_data(*source.heights);
+  source.notes.push_back(fmt::format("{} samples without height were filled from around them", holes));
   return source;
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <sstream>
 
 #include "experiments/interference.h"
 #include "experiments/processes.h"
@@ -59,10 +60,24 @@ std::vector<std::pair<std::string, Value>> values(const Parameters& parameters) 
 // Reports a missing file before anything is measured, not hours later.
 void check_terrain(const std::string& terrain) {
   std::error_code error;
-  const bool virtual_file = terrain.starts_with("/vsi") || terrain.starts_with('<');
   const std::string file = terrain_file(terrain);
+  const bool virtual_file = file.starts_with("/vsi") || file.starts_with('<');
   if (!file.empty() && !virtual_file && !std::filesystem::exists(file, error)) {
     throw bad_input("no such file", file, "check the path, or see `terrabench list terrains`");
+  }
+}
+
+// Reads the user's grounds once before anything is measured on them: says what their reader converted,
+// guessed or left out, and throws for one that cannot be read.
+void print_notes(const RunOptions& options) {
+  for (const std::string& terrain : options.terrains) {
+    const std::string file = terrain_file(terrain);
+    std::error_code error;
+    if (file.empty() || std::filesystem::is_directory(file, error)) continue;
+    const std::string notes = call_in_process(
+        [&] { return fmt::format("{}", fmt::join(open_terrain(terrain, options.seed).notes, "\n")); });
+    std::istringstream lines(notes);
+    for (std::string note; std::getline(lines, note);) fmt::print(stderr, "note: {}: {}\n", terrain, note);
   }
 }
 
@@ -156,6 +171,7 @@ class Session {
  public:
   explicit Session(const RunPlan& plan) : plan_(plan), cases_(plan_cases(plan)), store_(plan.folder) {
     for (const std::string& warning : store_.warnings()) fmt::print(stderr, "warning: {}\n", warning);
+    print_notes(plan.options);
     provenance_ = provenance_from_process(plan);
     for (const std::string& warning : provenance_.timing_warnings) {
       fmt::print(stderr, "warning: {}\n", warning);

@@ -252,6 +252,7 @@ ExitCode render_command(const RenderArguments& a) {
   const std::size_t kept = paint(a, shots, painter, source, field, progress);
 
   fmt::print("terrain     {}, checksum {}\n", source.name, source.checksum);
+  for (const std::string& note : source.notes) fmt::print("note        {}\n", note);
   fmt::print("method      {}, {}\n", type.name, context->renderer());
   if (kept > 0) fmt::print("kept        {} of {} pictures from an earlier run\n", kept, shots.size());
   fmt::print("rendered    {}\n", a.out.string());
