@@ -102,9 +102,11 @@ void add_run(CLI::App& app, Arguments& a) {
   command->add_option("--profile", a.profile, "quick: takes minutes; paper: the papers' sizes")
       ->check(CLI::IsMember({"quick", "paper"}))
       ->capture_default_str();
-  command->add_option("--terrain", a.run.options.terrains,
-                      "Measure on these terrains: names from `terrabench list terrains`, paths of DEMs, or "
-                      "drawing:FILE.png (default: each experiment's own)");
+  command->add_option(
+      "--terrain", a.run.options.terrains,
+      "Measure on these terrains: names from `terrabench list terrains`, paths of DEMs, or "
+      "drawing:FILE.png (default: each experiment's own). dem:FILE,band=2,nodata=0,unit=ft and "
+      "dem:FILE,encoding=terrarium say how a DEM is read (docs/grounds.md)");
   command->add_option("--out", a.run.folder, "Results folder")->capture_default_str();
   command->add_flag("--resume", a.run.resume, "Skip cases that are already in the folder");
   command
@@ -197,10 +199,10 @@ void add_represent(CLI::App& app, Arguments& a) {
   auto* command = app.add_subcommand("represent",
                                      "Build one representation; print its bytes and error, save it, draw it");
   command
-      ->add_option(
-          "terrain", a.represent.terrain,
-          "A name from `terrabench list terrains` or `list models`, the path of a DEM or of a model, "
-          "or drawing:FILE.png")
+      ->add_option("terrain", a.represent.terrain,
+                   "A name from `terrabench list terrains` or `list models`, the path of a DEM, an event "
+                   "file or a model, "
+                   "dem:FILE,OPTION=VALUE (docs/grounds.md) or drawing:FILE.png")
       ->required();
   command->add_option(
       "--ground", a.represent.ground,
@@ -239,7 +241,17 @@ void add_represent(CLI::App& app, Arguments& a) {
   command->add_option("--render", a.represent.render, "Write a shaded or ray-traced relief to this PNG");
   command->add_option("--write-flow", a.represent.write_flow,
                       "Write flow accumulation to this GeoTIFF, and directions beside it");
-  command->add_option("--crop", a.represent.crop, "Part to use, in samples: column, row, width, depth")
+  command
+      ->add_option(
+          "--flow", a.represent.flow,
+          "Where a sample drains, for --write-flow: lowest, as the drill paper says, to the neighbour that "
+          "a search from the border reaches first, lowest first, so that nothing stays in pits; steepest, "
+          "to the neighbour with the largest fall per metre, so that pits keep their flow (D8)")
+      ->check(CLI::IsMember(std::vector<std::string>(kFlows.begin(), kFlows.end())))
+      ->capture_default_str();
+  command
+      ->add_option("--crop", a.represent.crop,
+                   "Part to use, in samples from the north-western one: column, row, width, depth")
       ->expected(4);
   command->add_option("--resample", a.represent.resample, "New width and depth in samples")->expected(2);
   command->add_flag("--fill", a.represent.fill, "Fill samples without data from the samples around them");
@@ -282,8 +294,11 @@ void add_represent(CLI::App& app, Arguments& a) {
   exported->add_option("--like", a.exported.like,
                        "The DEM that it was built from: write along its samples, with its reference system");
   auto* info = app.add_subcommand(
-      "info", "Describe a DEM, a drawing, a model, a saved representation or a results folder");
-  info->add_option("file", a.info, "File or folder, or drawing:FILE.png")->required();
+      "info",
+      "Describe a DEM, a drawing, an event file, a model, a saved representation or a results folder");
+  info->add_option("file", a.info,
+                   "File or folder, dem:FILE,OPTION=VALUE (docs/grounds.md) or drawing:FILE.png")
+      ->required();
 }
 
 void add_render(CLI::App& app, Arguments& a) {
@@ -293,7 +308,8 @@ void add_render(CLI::App& app, Arguments& a) {
   RenderArguments& r = a.render;
   command
       ->add_option("terrain", r.terrain,
-                   "A name from `terrabench list terrains`, the path of a DEM, or drawing:FILE.png")
+                   "A name from `terrabench list terrains`, the path of a DEM or an event file, "
+                   "dem:FILE,OPTION=VALUE (docs/grounds.md) or drawing:FILE.png")
       ->required();
   command->add_flag(
       "--scene", r.scene,

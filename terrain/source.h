@@ -52,7 +52,7 @@ inline constexpr std::string_view kDrawingPrefix = "drawing:";
 // The file that a terrain is read from: a drawing's picture, or what can only be a path (it exists, or looks
 // like one). Empty for a catalogue name. Throws unknown_name, with the nearest, for anything else.
 std::string terrain_file(std::string_view name_or_path);
-// Whether it is the path of a DEM or event file.
+// Whether it is the path of a DEM, alone or with options (dem.h); not that of an event file.
 bool names_dem_file(std::string_view name_or_path);
 
 // By catalogue name, as a drawing or, for anything else, the path of any DEM that GDAL opens. Throws

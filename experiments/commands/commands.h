@@ -2,6 +2,7 @@
 // correct, and returns the exit code.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -24,15 +25,19 @@ ExitCode list_command(const ListArguments&);
 // The renderer that traces rays instead of opening an OpenGL context.
 inline constexpr std::string_view kRaytrace = "raytrace";
 
+// Rules of --flow: the paper's search from the border, and steepest descent.
+inline constexpr std::array<std::string_view, 2> kFlows = {"lowest", "steepest"};
+
 struct RepresentArguments {
   std::string terrain, as;
   std::string ground, place;  // where a model stands, "X,Z" or "X,Z,SCALE"; empty: nowhere, and the middle
   std::vector<std::string> assignments;
-  std::string save, render;   // files to write; empty: none
-  std::string write_flow;     // likewise: flow accumulation; directions go into a second file beside it
-  std::vector<int> crop;      // i, j, width, depth
-  std::vector<int> resample;  // width, depth
-  bool fill = false;          // fill no-data holes
+  std::string save, render;     // files to write; empty: none
+  std::string write_flow;       // likewise: flow accumulation; directions go into a second file beside it
+  std::string flow = "lowest";  // where each sample drains: kFlows
+  std::vector<int> crop;        // i, j, width, depth
+  std::vector<int> resample;    // width, depth
+  bool fill = false;            // fill no-data holes
   struct Stroke {
     bool dig;            // otherwise adds bedrock
     std::string sphere;  // "X,Y,Z,RADIUS", metres

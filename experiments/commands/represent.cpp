@@ -24,6 +24,7 @@
 #include "results/format.h"
 #include "terrain/hydrology/channels.h"
 #include "terrain/hydrology/flow.h"
+#include "terrain/hydrology/steepest.h"
 #include "terrain/sources/dem/dem.h"
 
 namespace terrabench {
@@ -170,8 +171,10 @@ void print_expansion(const ProceduralMesh& built) {
 }
 
 // Rasters for other programs: how many pixels drain through each pixel, and in which direction.
-void write_flow(const std::filesystem::path& path, const TerrainSource& source, Progress& progress) {
-  const FlowNetwork network = route_flow(*source.heights, &progress);
+void write_flow(const RepresentArguments& a, const TerrainSource& source, Progress& progress) {
+  const std::filesystem::path path = a.write_flow;
+  const FlowNetwork network =
+      a.flow == kFlows[0] ? route_flow(*source.heights, &progress) : route_steepest(*source.heights);
   std::filesystem::path directions = path;
   directions.replace_filename(path.stem().string() + "-direction" + path.extension().string());
   write_geotiff(path, accumulation_raster(network, *source.heights), "");
@@ -265,7 +268,7 @@ ExitCode represent_command(const RepresentArguments& a) {
     print_export(a.save, type, *built, source.heights ? lines_of(*source.heights) : own_lines(*built),
                  progress);
   }
-  if (!a.write_flow.empty()) write_flow(a.write_flow, source, progress);
+  if (!a.write_flow.empty()) write_flow(a, source, progress);
   if (!a.render.empty()) draw(a, *built, source.bounds(), progress);
   fmt::print("allocator   {} freed\n",
              format_quantity(static_cast<double>(destroy_and_count(std::move(built))), "B"));
