@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "terrain/error.h"
+#include "terrain/spelling.h"
 
 namespace terrabench {
 namespace {
@@ -153,7 +154,7 @@ const toml::node* TomlTable::find(std::string_view key) {
 
 TomlValue TomlTable::get(std::string_view key) {
   const toml::node* const node = find(key);
-  if (node == nullptr) refuse(fmt::format("'{}' is missing", key));
+  if (node == nullptr) refuse(missing_key(key, table()));
   return node_.at(*node);
 }
 
@@ -182,7 +183,10 @@ std::vector<std::pair<std::string, TomlValue>> TomlTable::rest() {
 }
 
 void TomlTable::refuse_unknown() {
-  for (const auto& [key, node] : rest()) node.fail(fmt::format("unknown key '{}'", key));
+  const std::vector<std::string> known(known_.begin(), known_.end());  // before rest(), which adds to it
+  for (const auto& [key, node] : rest()) {
+    node.fail(unknown_key(key, std::vector<std::string_view>(known.begin(), known.end())));
+  }
 }
 
 void read_sets(const toml::table& table, TomlFile& file) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "terrain/error.h"
+#include "terrain/spelling.h"
 
 namespace terrabench {
 namespace {
@@ -155,6 +156,15 @@ toml::table parse_toml(std::string_view text, const std::string& file, std::stri
   } catch (const toml::parse_error& error) {
     throw bad_input(error.description(), fmt::format("{}:{}", file, error.source().begin.line), advice);
   }
+}
+
+std::string missing_key(std::string_view key, const toml::table& table) {
+  for (const auto& [present, value] : table) {
+    if (!is_slip(present.str(), key)) continue;
+    return fmt::format("'{}' is missing; is it meant by '{}' in line {}?", key, present.str(),
+                       value.source().begin.line);
+  }
+  return fmt::format("'{}' is missing", key);
 }
 
 }  // namespace terrabench

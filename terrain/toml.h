@@ -23,4 +23,7 @@ namespace terrabench {
 // U+0499), and exhausts the stack for a key of 260,000 parts, which are refused above 100. O(n).
 toml::table parse_toml(std::string_view text, const std::string& file, std::string_view advice);
 
+// "'height' is missing; is it meant by 'hieght' in line 9?", the question only if the table has such a key.
+std::string missing_key(std::string_view key, const toml::table&);
+
 }  // namespace terrabench

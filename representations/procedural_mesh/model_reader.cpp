@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "terrain/error.h"
+#include "terrain/spelling.h"
 
 namespace terrabench::growing {
 
@@ -30,7 +31,7 @@ const toml::node* Table::find(std::string_view key) {
 
 const toml::node& Table::get(std::string_view key) {
   const toml::node* const node = find(key);
-  if (node == nullptr) fail_at(table_, file_, fmt::format("'{}' is missing", key), "add it");
+  if (node == nullptr) fail_at(table_, file_, missing_key(key, table_), "add it");
   return *node;
 }
 
@@ -86,7 +87,7 @@ glm::dvec3 Table::vector_or(std::string_view key, glm::dvec3 otherwise) {
 void Table::done() const {
   for (const auto& [key, value] : table_) {
     if (known_.contains(key.str())) continue;
-    fail_at(value, file_, fmt::format("unknown key '{}'", key.str()),
+    fail_at(value, file_, unknown_key(key.str(), std::vector<std::string_view>(known_.begin(), known_.end())),
             fmt::format("known here: {}", fmt::join(known_, ", ")));
   }
 }

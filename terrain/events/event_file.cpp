@@ -10,6 +10,7 @@
 #include "terrain/error.h"
 #include "terrain/events/evaluate.h"
 #include "terrain/sources/fractal/diamond_square.h"
+#include "terrain/spelling.h"
 #include "terrain/toml.h"
 
 namespace terrabench::events {
@@ -36,7 +37,7 @@ class Entry {
   }
   const toml::node& get(std::string_view key) {
     const toml::node* const node = find(key);
-    if (node == nullptr) fail(table_, origin_, fmt::format("'{}' is missing", key), "add it");
+    if (node == nullptr) fail(table_, origin_, missing_key(key, table_), "add it");
     return *node;
   }
   std::string text(std::string_view key) {
@@ -69,7 +70,8 @@ class Entry {
   void refuse_unknown() const {
     for (const auto& [key, value] : table_) {
       if (known_.contains(key.str())) continue;
-      fail(value, origin_, fmt::format("unknown key '{}'", key.str()),
+      fail(value, origin_,
+           unknown_key(key.str(), std::vector<std::string_view>(known_.begin(), known_.end())),
            fmt::format("known: {}", fmt::join(known_, ", ")));
     }
   }

@@ -56,6 +56,7 @@ const std::string kHead = kSymbols + kCubeBase;  // 6 lines
 TEST(Models, BadInputIsRefusedWithLineAndColumn) {
   const auto refused = [](const std::string& text) { return error_of(text); };
   EXPECT_THAT(refused(""), HasSubstr("'base' is missing"));
+  EXPECT_THAT(refused("[bsae]"), HasSubstr("'base' is missing; is it meant by 'bsae' in line 1?"));
   EXPECT_THAT(refused("[base"), StartsWith("m:1"));
   EXPECT_THAT(refused(kHead + kRule), AllOf(StartsWith("m:7:"), HasSubstr("a rule without a template")));
   EXPECT_THAT(refused(kHead + kRule + "faces = [[0, 1, 2]]\n"), HasSubstr("a rule without base"));

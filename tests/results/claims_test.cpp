@@ -367,6 +367,8 @@ TEST(Claims, RefusesWithFileAndLine) {
   expect_refused("\xff\xfe\x00", "", 0);
   expect_refused("title = \"t\"", "'paper' is missing", 0);
   expect_refused(head + "colour = 1\n", "unknown key 'colour'", 4);
+  expect_refused(head + "[[claim]]\nid = \"p.1\"\nwehre = \"x\"\n",
+                 "'where' is missing; is it meant by 'wehre' in line 6?", 4);
   expect_refused(head + "claim = 3\n", "'claim' is not a list", 0);
   expect_refused(head + "[[claim]]\nid = \"p.1\"\n", "'where' is missing", 4);
   expect_refused(claim, "needs either 'check' or a reason", 4);
