@@ -14,22 +14,15 @@
 #include "renderers/overlay.h"
 #include "renderers/target.h"
 #include "renderers/wires.h"
+#include "terrain/framing.h"
 
 namespace terrabench {
 namespace {
 
 // The view with its depth range fitted to the scene, for the best depth precision.
 View fit_depth(View view, const Bounds& bounds) {
-  const glm::vec3 forward = glm::normalize(view.target - view.eye);
-  float nearest = std::numeric_limits<float>::infinity(), farthest = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 p((corner & 1) != 0 ? bounds.high.x : bounds.low.x,
-                      (corner & 2) != 0 ? bounds.high.y : bounds.low.y,
-                      (corner & 4) != 0 ? bounds.high.z : bounds.low.z);
-    const float depth = glm::dot(p - view.eye, forward);
-    nearest = std::min(nearest, depth);
-    farthest = std::max(farthest, depth);
-  }
+  auto [nearest, farthest] = depth_range(view, bounds);
+  farthest = std::max(farthest, 0.0F);
   // The margin keeps rounding from clipping the outermost vertices. From inside the terrain, kLeastShare of
   // the depth range in front of the eye is clipped.
   constexpr float kMargin = 0.01F, kLeastShare = 1e-4F;

@@ -7,15 +7,47 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <limits>
 
 #include "lod/lod.h"
 #include "terrain/error.h"
+#include "terrain/framing.h"
 
 namespace terrabench {
 namespace {
 
-constexpr double kEyeHeight = 1.8;  // metres
+constexpr double kEyeHeight = 1.8;          // metres, on ground longer than kEyeHeight / kEyeShare
+constexpr double kEyeShare = 0.1;           // of the longer side, on smaller ground
+constexpr double kNear = 0.5 / kEyeHeight;  // per metre of the least eye height
 constexpr double kMostFrames = 1e6;
+
+// Metres per unit: of places along x and z, and of heights.
+struct Scale {
+  glm::dvec2 place;
+  double height;
+};
+
+// How much longer the unit of places may become until a keyframe leaves the ground.
+double room(const CameraPath& path, const glm::dvec2& extent, double unit) {
+  double factor = std::numeric_limits<double>::infinity();
+  for (const Keyframe& key : path.keyframes) {
+    for (int axis = 0; axis < 2; ++axis) {
+      const double way = std::abs(key.at[axis]) * unit;
+      const double share = key.at[axis] > 0 ? 1 - path.origin[axis] : path.origin[axis];
+      if (way > 0 && share > 0) factor = std::min(factor, share * extent[axis] / way);
+    }
+  }
+  return factor;
+}
+
+Scale scale_of(const CameraPath& path, const glm::dvec2& extent) {
+  constexpr double kFilled = 0.9;  // of the room: then no eye stands at the border, beyond which nothing is
+  double unit = path.by_extent ? std::max(extent.x, extent.y) : 1;
+  const double free = room(path, extent, unit);
+  if (path.by_extent && free < 1) return {extent, std::min(extent.x, extent.y)};
+  if (path.shrinks) unit = std::min(unit, kFilled * free);
+  return {glm::dvec2(unit), unit};
+}
 
 // A path over a particular ground, in metres.
 class Flight {
@@ -24,8 +56,10 @@ class Flight {
       : path_(path),
         ground_(ground),
         extent_(ground.extent_x(), ground.extent_z()),
-        unit_(path.by_extent ? std::max(extent_.x, extent_.y) : 1.0),
-        heights_(height_range(ground)) {
+        scale_(scale_of(path, extent_)),
+        least_height_(std::min(kEyeHeight, kEyeShare * std::max(extent_.x, extent_.y))) {
+    const HeightRange heights = height_range(ground);
+    box_ = {{0, heights.lowest, 0}, {extent_.x, heights.highest, extent_.y}};
     double time = 0;
     for (std::size_t k = 0; k < path.keyframes.size(); ++k) {
       if (k > 0) time += distance(path.keyframes[k - 1], path.keyframes[k]) / path.keyframes[k - 1].speed;
@@ -46,7 +80,10 @@ class Flight {
     const glm::dvec2 plan =
         turns ? place(path_.keyframes.front().at) : glm::mix(place(from.at), place(to.at), share);
     const glm::dvec3 eye(plan.x, eye_height(plan, from, to, share), plan.y);
-    return look(eye, direction(eye, from, to, share));
+    const glm::dvec3 way = direction(eye, from, to, share);
+    // A heading looks straight down with what lies ahead at the picture's top; other plans have north there.
+    const double heading = glm::radians(glm::mix(from.heading, to.heading, share));
+    return look(eye, way, upright(way, {std::sin(heading), 0, -std::cos(heading)}));
   }
 
  private:
@@ -56,7 +93,7 @@ class Flight {
                                                  : glm::distance(a.at, b.at);
   }
 
-  glm::dvec2 place(const glm::dvec2& at) const { return path_.origin * extent_ + at * unit_; }
+  glm::dvec2 place(const glm::dvec2& at) const { return path_.origin * extent_ + at * scale_.place; }
 
   double ground_at(const glm::dvec2& at) const {
     const glm::dvec2 inside = glm::clamp(at, glm::dvec2(0), extent_);
@@ -65,9 +102,11 @@ class Flight {
   }
 
   double eye_height(const glm::dvec2& plan, const Keyframe& from, const Keyframe& to, double share) const {
-    const double least = ground_at(plan) + kEyeHeight;
+    const double least = ground_at(plan) + least_height_;
     if (path_.kind != CameraPath::Kind::kFly) return least;
-    const auto above = [&](const Keyframe& key) { return ground_at(place(key.at)) + key.height * unit_; };
+    const auto above = [&](const Keyframe& key) {
+      return ground_at(place(key.at)) + key.height * scale_.height;
+    };
     return std::max(glm::mix(above(from), above(to), share), least);
   }
 
@@ -79,34 +118,33 @@ class Flight {
     }
     if (path_.look == CameraPath::Look::kPlace) {
       const glm::dvec2 plan = glm::mix(place(from.look_at), place(to.look_at), share);
-      const glm::dvec3 way = glm::dvec3(plan.x, ground_at(plan), plan.y) - eye;
-      // Looking straight down leaves the up vector undefined; look along the path instead.
-      if (std::hypot(way.x, way.z) > 1e-3 * std::abs(way.y)) return glm::normalize(way);
+      return glm::normalize(glm::dvec3(plan.x, ground_at(plan), plan.y) - eye);
     }
     const glm::dvec2 ahead = glm::normalize(to.at - from.at);
     return {ahead.x, 0, ahead.y};
   }
 
-  View look(const glm::dvec3& eye, const glm::dvec3& direction) const {
+  View look(const glm::dvec3& eye, const glm::dvec3& direction, const glm::vec3& up) const {
     View view;
     view.eye = eye;
     // So far away that float rounding of eye and target does not rotate the view.
     view.target = eye + direction * std::max(1.0, 0.1 * glm::length(extent_));
+    view.up = path_.up.value_or(up);
     view.vertical_fov = static_cast<float>(glm::radians(path_.field_of_view));
     view.width = path_.screen.x;
     view.height = path_.screen.y;
-    view.near = static_cast<float>(path_.near);
-    const glm::dvec3 low(0, heights_.lowest, 0), high(extent_.x, heights_.highest, extent_.y);
-    const double farthest = glm::length(glm::max(glm::abs(eye - low), glm::abs(eye - high)));
-    view.far = static_cast<float>(std::max(1.01 * farthest, 2 * path_.near));
+    const double near = path_.near.value_or(kNear * least_height_);
+    view.near = static_cast<float>(near);
+    view.far = static_cast<float>(std::max(far_plane(eye, box_), 2 * near));
     return view;
   }
 
   const CameraPath& path_;
   const Heightfield& ground_;
   glm::dvec2 extent_;
-  double unit_;
-  HeightRange heights_;
+  Scale scale_;
+  double least_height_;        // of the eye above the ground, metres
+  Bounds box_;                 // of the ground
   std::vector<double> times_;  // at each keyframe, seconds
 };
 

@@ -1,33 +1,5 @@
-// Camera paths: a TOML file describes how an eye moves over any ground, and views() gives a view per frame.
-// Start from the example below, which a test parses, or from a file in lod/camera/paths.
-//
-// clang-format off
-//   kind = "fly"              # walk: 1.8 m above the ground; fly: at a height; turn: on the spot
-//   unit = "m"                # of positions, heights and speeds: "m" or "extent" (the ground's longer side)
-//   origin = [0.5, 0.5]       # place of [0, 0], in shares of the ground's sides; [0, 0] by default
-//   field_of_view = 60        # degrees, vertical
-//   screen = [800, 600]       # pixels
-//   frames_per_second = 25
-//   speed = 20                # units per second; for a turn, degrees per second
-//   near = 0.5                # metres, optional; the far plane always lies beyond the whole ground
-//
-//   [[keyframe]]
-//   at = [0, 0]               # x (east) and z (south) from the origin; for a turn, in the first keyframe only
-//   height = 100              # for a flight: above the ground here; in between at least 1.8 m
-//   heading = 90              # degrees clockwise from north; or look_at = [10, 5], a place on the ground;
-//   pitch = -10               # degrees upwards, optional.  Without either, the eye looks along the path.
-//
-//   [[keyframe]]
-//   at = [300, 0]
-//   height = 50
-//   heading = 120
-//   speed = 40                # from here on, instead of the path's
-//
-//   [[keyframe]]
-//   at = [500, 200]
-//   height = 80
-//   heading = 180
-// clang-format on
+// Camera paths: a TOML file describes how an eye moves over ground of any size and shape, and views() gives a
+// view per frame. docs/paths.md describes the file, with an example that a test parses.
 //
 // Everything is interpolated linearly between keyframes, headings as numbers (0 to 360 is a full turn). All
 // keyframes of a path use the same way to look. The same path over the same ground gives the same views.
@@ -35,6 +7,7 @@
 
 #include <filesystem>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -60,12 +33,14 @@ struct CameraPath {
   std::string name;
   Kind kind = Kind::kWalk;
   Look look = Look::kAhead;
-  bool by_extent = false;  // lengths are shares of the ground's longer side
+  bool by_extent = false;  // lengths are shares of the ground's sides; see views()
+  bool shrinks = false;    // otherwise, if in metres: shortened on ground that the keyframes would leave
   glm::dvec2 origin{0};
   double field_of_view = 60;  // degrees
   glm::ivec2 screen{800, 600};
   double frames_per_second = 25;
-  double near = 0.5;                // metres
+  std::optional<double> near;       // metres; otherwise chosen
+  std::optional<glm::vec3> up;      // otherwise upright(), or a steep heading
   std::vector<Keyframe> keyframes;  // at least two; neighbours differ in place, or heading for a turn
 };
 
@@ -79,9 +54,12 @@ std::span<const CameraPath> camera_paths();
 CameraPath open_camera_path(const std::string& name);
 const CameraPath& camera_path(std::string_view name);  // throws unknown_name
 
-// One view per frame, from the first keyframe on. An eye beyond the ground takes the ground's height at the
-// nearest point of its border. Throws usage_error for ground that fails check_ground(), or for more than a
-// million frames.
+// One view per frame, from the first keyframe on. The unit "extent" is the ground's longer side if all
+// keyframes then stand on the ground, as on ground that is about square. Otherwise each side is the unit
+// along itself, and the shorter one that of heights. A path has the same frames on ground of any shape,
+// because speed is in units. An eye beyond the ground takes the ground's height at the nearest point of its
+// border. Throws usage_error for ground that fails check_ground(), for more than a million frames, and for an
+// `up` along the line of sight.
 std::vector<View> views(const CameraPath&, const Heightfield& ground);
 
 }  // namespace terrabench

@@ -9,6 +9,7 @@
 #include "terrain/embedded.h"
 #include "terrain/error.h"
 #include "terrain/files.h"
+#include "terrain/spelling.h"
 #include "terrain/toml.h"
 
 namespace terrabench {
@@ -23,6 +24,12 @@ constexpr double kLongest = 1e7;  // units: a quarter of the way around the Eart
 [[noreturn]] void fail(const toml::node& node, const std::string& origin, std::string_view what) {
   throw bad_input(what, fmt::format("{}:{}", origin, node.source().begin.line), "correct the camera path");
 }
+
+// Of both tables, to suggest the one that was meant.
+constexpr std::string_view kKeys[] = {"kind",   "unit",  "shrink",   "origin",  "field_of_view",
+                                      "screen", "speed", "keyframe", "near",    "frames_per_second",
+                                      "up",     "at",    "height",   "heading", "pitch",
+                                      "look_at"};
 
 // One table of the file; refuse_unknown() reports keys that were never read.
 class Entry {
@@ -41,11 +48,16 @@ class Entry {
     return has(key) ? number(key, lowest, highest) : fallback;
   }
   glm::dvec2 pair(std::string_view key, double lowest, double highest) {
+    return numbers<glm::dvec2>(key, "a pair of numbers", lowest, highest);
+  }
+  glm::dvec3 triple(std::string_view key, double lowest, double highest) {
+    return numbers<glm::dvec3>(key, "three numbers", lowest, highest);
+  }
+  bool flag_or(std::string_view key, bool fallback) {
+    if (!has(key)) return fallback;
     const toml::node& node = get(key);
-    const toml::array* const array = node.as_array();
-    if (array == nullptr || array->size() != 2)
-      fail(node, origin_, fmt::format("'{}' must be a pair of numbers", key));
-    return {number_of(*array->get(0), key, lowest, highest), number_of(*array->get(1), key, lowest, highest)};
+    if (!node.is_boolean()) fail(node, origin_, fmt::format("'{}' must be true or false", key));
+    return *node.value<bool>();
   }
   // The value's index in `words`.
   std::size_t word(std::string_view key, std::span<const std::string_view> words) {
@@ -64,16 +76,31 @@ class Entry {
   }
   void refuse_unknown() const {
     for (const auto& [key, value] : *node_.as_table()) {
-      if (!known_.contains(key.str())) fail(value, origin_, fmt::format("unknown key '{}'", key.str()));
+      if (read_.contains(key.str())) continue;
+      const bool known = std::find(std::begin(kKeys), std::end(kKeys), key.str()) != std::end(kKeys);
+      fail(value, origin_,
+           known ? fmt::format("'{}' has no meaning here", key.str()) : unknown_key(key.str(), kKeys));
     }
   }
 
  private:
   const toml::node& get(std::string_view key) {
-    known_.insert(std::string(key));
+    read_.insert(std::string(key));
     const toml::node* const node = node_.as_table()->get(key);
-    if (node == nullptr) refuse(fmt::format("'{}' is missing", key));
+    if (node == nullptr) refuse(missing_key(key, *node_.as_table()));
     return *node;
+  }
+  template <class Vector>
+  Vector numbers(std::string_view key, std::string_view what, double lowest, double highest) {
+    const toml::node& node = get(key);
+    const toml::array* const array = node.as_array();
+    Vector all;
+    if (array == nullptr || array->size() != static_cast<std::size_t>(all.length()))
+      fail(node, origin_, fmt::format("'{}' must be {}", key, what));
+    for (int k = 0; k < all.length(); ++k) {
+      all[k] = number_of(*array->get(static_cast<std::size_t>(k)), key, lowest, highest);
+    }
+    return all;
   }
   double number_of(const toml::node& node, std::string_view key, double lowest, double highest) const {
     const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
@@ -85,7 +112,7 @@ class Entry {
 
   const toml::node& node_;
   const std::string& origin_;
-  std::set<std::string, std::less<>> known_;
+  std::set<std::string, std::less<>> read_;
 };
 
 CameraPath::Look look_of(const Entry& entry) {
@@ -104,7 +131,7 @@ Keyframe keyframe_from(Entry& entry, const CameraPath& path, double speed) {
   if (path.look == CameraPath::Look::kPlace) key.look_at = entry.pair("look_at", -kLongest, kLongest);
   if (path.look == CameraPath::Look::kHeading) {
     key.heading = entry.number("heading", -1e5, 1e5);
-    key.pitch = entry.number_or("pitch", -89, 89, 0);
+    key.pitch = entry.number_or("pitch", -90, 90, 0);
   }
   entry.refuse_unknown();
   if (key.speed == 0) entry.refuse("'speed' is missing, in the keyframe and in the path");
@@ -124,7 +151,8 @@ void read_keyframes(Entry& file, CameraPath& path, double speed, const std::stri
     if (path.keyframes.empty()) path.look = look;
     if (look != path.look) entry.refuse("all keyframes must have 'heading', or all 'look_at', or neither");
     if (path.kind == CameraPath::Kind::kTurn && look != CameraPath::Look::kHeading) {
-      entry.refuse("the keyframes of a turn need 'heading'");
+      if (!entry.has("heading")) entry.number("heading", -1e5, 1e5);  // says that it is missing
+      entry.refuse("a turn has no 'look_at'");
     }
     path.keyframes.push_back(keyframe_from(entry, path, speed));
   }
@@ -146,7 +174,9 @@ CameraPath parse_camera_path(std::string_view text, std::string name, const std:
   path.screen = glm::ivec2(screen);
   if (glm::dvec2(path.screen) != screen) file.refuse("'screen' must be in whole pixels");
   path.frames_per_second = file.number("frames_per_second", 0.01, 1000);
-  path.near = file.number_or("near", 1e-3, 1e6, path.near);
+  if (file.has("near")) path.near = file.number("near", 1e-6, 1e6);
+  if (file.has("up")) path.up = file.triple("up", -1, 1);
+  if (!path.by_extent) path.shrinks = file.flag_or("shrink", false);
   const double speed = file.number_or("speed", kSlowest, kLongest, 0);
   read_keyframes(file, path, speed, origin);
   file.refuse_unknown();

@@ -200,7 +200,8 @@ class Expected {
 BarePixels find_bare_pixels(const Frame& frame, const Heightfield& ground, const View& view) {
   if (!(view.eye.x >= 0 && view.eye.x <= ground.extent_x() && view.eye.z >= 0 &&
         view.eye.z <= ground.extent_z())) {
-    throw usage_error("the eye must be over the ground's extent", "eye", "choose another view");
+    throw usage_error("the eye must be over the ground's extent", "eye",
+                      "choose another view, or a camera path that stays on the ground (docs/paths.md)");
   }
   Crossings crossings(view);
   std::vector<glm::vec3> corners;

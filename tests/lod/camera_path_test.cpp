@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
-#include <sstream>
 
 #include "lod/lod.h"
 #include "terrain/error.h"
@@ -128,15 +127,11 @@ TEST(CameraPath, ArrivesWhereATimeIsTooShortToCount) {
 }
 
 // Users start from this example.
-TEST(CameraPath, ReadsTheExampleOfItsHeader) {
-  const std::string header =
-      read_file(std::filesystem::path(TERRABENCH_SOURCE_DIR) / "lod/camera/camera_path.h");
-  std::string example;
-  std::istringstream lines(header);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("//   ")) example += line.substr(5) + "\n";
-  }
-  const CameraPath path = parse(example);
+TEST(CameraPath, ReadsTheExampleOfItsPage) {
+  const std::string page = read_file(std::filesystem::path(TERRABENCH_SOURCE_DIR) / "docs/paths.md");
+  const std::string fence = "```toml\n";
+  const std::size_t begin = page.find(fence) + fence.size();
+  const CameraPath path = parse(page.substr(begin, page.find("```", begin) - begin));
   EXPECT_EQ(path.kind, CameraPath::Kind::kFly);
   EXPECT_EQ(path.look, CameraPath::Look::kHeading);
   ASSERT_EQ(path.keyframes.size(), 3U);
@@ -173,6 +168,89 @@ TEST(CameraPath, CommittedPathsHoldOnAnyGround) {
   EXPECT_THROW(camera_path("wlak"), Error);
 }
 
+// On ground of the same sides and on much longer ones: named paths stay on the ground, go as far along each
+// side as on a square, and look at the ground.
+TEST(CameraPath, CommittedPathsStayOnGroundOfAnyShape) {
+  for (const CameraPath& path : camera_paths()) {
+    const std::vector<View> square = views(path, flat(101, 101, 0));
+    for (const auto& [width, depth] : {std::pair{101, 101}, {34, 101}, {101, 34}, {11, 201}, {201, 11}}) {
+      for (const float cell : {0.01F, 10.0F, 5000.0F}) {
+        Heightfield ground = flat(width, depth, 0);
+        ground.cell_x = ground.cell_z = cell;
+        const std::vector<View> all = views(path, ground);
+        ASSERT_EQ(all.size(), square.size()) << path.name;
+        for (const View& view : all) {
+          EXPECT_GE(view.eye.x, 0) << path.name << ' ' << width << " x " << depth << ", " << cell;
+          EXPECT_GE(view.eye.z, 0) << path.name;
+          EXPECT_LE(view.eye.x, ground.extent_x()) << path.name;
+          EXPECT_LE(view.eye.z, ground.extent_z()) << path.name;
+          EXPECT_LT(view.near, view.eye.y) << path.name;
+          EXPECT_GT(view.far, std::hypot(ground.extent_x() - view.eye.x, ground.extent_z() - view.eye.z));
+        }
+        if (!path.by_extent) continue;
+        EXPECT_NEAR(all.back().eye.x / ground.extent_x(), square.back().eye.x / 100, 1e-4) << path.name;
+        EXPECT_NEAR(all.back().eye.z / ground.extent_z(), square.back().eye.z / 100, 1e-4) << path.name;
+      }
+    }
+  }
+}
+
+// What was measured on such grounds stays comparable: the unit of all axes is the longer side.
+TEST(CameraPath, NearlySquareGroundDoesNotStretchAPath) {
+  const CameraPath& path = camera_path("fly");
+  for (const auto& [width, depth] : {std::pair{101, 101}, {95, 101}, {101, 95}}) {
+    const View first = views(path, flat(width, depth, 0)).front();
+    EXPECT_NEAR(first.eye.x, 10, 1e-3);
+    EXPECT_NEAR(first.eye.z, 90, 1e-3);
+    EXPECT_NEAR(first.eye.y, 12, 1e-3);
+  }
+}
+
+TEST(CameraPath, AMetreShrinksOnlyWhereItIsAsked) {
+  const std::string beyond = replaced(kWalk, "[20, 8]", "[20, -40]");
+  const View far = views(parse(beyond), flat(60, 60)).back();
+  EXPECT_NEAR(far.eye.z, -40, 1e-4);
+  const std::string shrinks =
+      replaced(replaced(kWalk, "speed = 2", "speed = 2\nshrink = true"), "[20, 8]", "[20, 80]");
+  EXPECT_NEAR(views(parse(shrinks), flat(101, 101)).back().eye.z, 80, 1e-4);
+  const std::vector<View> small = views(parse(shrinks), flat(41, 41));
+  EXPECT_NEAR(small.back().eye.z, 36, 1e-4);  // 0.9 of 40 m for 80 m
+  EXPECT_NEAR(small.front().eye.x, 4.5, 1e-4);
+  EXPECT_EQ(small.size(), views(parse(shrinks), flat(101, 101)).size());
+}
+
+// Looking straight down all the way, north is at the top; with `up`, what that says.
+TEST(CameraPath, LooksStraightDown) {
+  const std::string text = R"(kind = "fly"
+field_of_view = 60
+screen = [160, 120]
+frames_per_second = 5
+speed = 50
+[[keyframe]]
+at = [320, 320]
+height = 300
+look_at = [320, 320]
+[[keyframe]]
+at = [330, 320]
+height = 300
+look_at = [330, 320]
+)";
+  Heightfield ground = hilly(65, 65);
+  ground.cell_x = ground.cell_z = 10;
+  const auto expect = [&](const std::string& path, const glm::vec3& up) {
+    for (const View& view : views(parse(path), ground)) {
+      EXPECT_LT(glm::normalize(view.target - view.eye).y, -0.999F) << path;
+      EXPECT_LT(glm::distance(view.up, up), 1e-5F) << path;
+    }
+  };
+  expect(text, {0, 0, -1});
+  expect(replaced(text, "speed = 50", "speed = 50\nup = [1, 0, 0]"), {1, 0, 0});
+  const std::string east = replaced(replaced(text, "look_at = [320, 320]", "heading = 90\npitch = -90"),
+                                    "look_at = [330, 320]", "heading = 90\npitch = -90");
+  expect(east, {1, 0, 0});
+  EXPECT_THROW(views(parse(replaced(text, "speed = 50", "speed = 50\nup = [0, 1, 0]")), ground), Error);
+}
+
 TEST(CameraPath, OpensANameOrAFile) {
   EXPECT_EQ(open_camera_path("fly").name, "fly");
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "my_path.toml";
@@ -194,13 +272,26 @@ TEST(CameraPath, RefusesGarbageByLine) {
   refused("[10, 20]", "[10, \"x\"]", 7, "'at'");
   refused("[10, 20]", "[20, 20]", 8, "must differ");
   refused("speed = 4", "speed = 0", 10, "'speed'");
-  refused("speed = 4", "spede = 4", 10, "'spede'");
+  refused("speed = 4", "spede = 4", 10, "unknown key 'spede'; did you mean 'speed'?");
+  refused("kind", "knid", 1, "'kind' is missing; is it meant by 'knid' in line 1?");
+  refused("frames_per_second", "frames_per_secnd", 1, "by 'frames_per_secnd' in line 4?");
+  refused("\nat = [20, 20]", "\natt = [20, 20]", 8, "is it meant by 'att' in line 9?");
+  refused("speed = 4", "look_ta = [4, 4]", 10, "did you mean 'look_at'?");
+  refused("speed = 4", "up = [0, 0, -1]", 10, "'up' has no meaning here");
+  refused("speed = 2", "speed = 2\nup = [0, 1]", 6, "three numbers");
+  refused("speed = 2", "speed = 2\nup = [0, 1, nan]", 6, "'up'");
+  refused("speed = 2", "speed = 2\nshrink = 1", 6, "true or false");
+  refused("speed = 2", "speed = 2\nunit = \"extent\"\nshrink = true", 7, "'shrink' has no meaning here");
+  refused("speed = 2", "speed = 2\nnear = 0", 6, "'near'");
   refused("speed = 4", "speed = ", 10, "");
   refused("speed = 4", "heading = 4", 8, "all keyframes must");
   refused("speed = 4", "height = 4", 10, "'height'");
   refused("\"walk\"", "\"swim\"", 1, "walk, fly or turn");
   refused("\"walk\"", "7", 1, "'kind'");
   refused("\"walk\"", "\"turn\"", 6, "heading");
+  expect_refused(replaced(replaced(kWalk, "\"walk\"", "\"turn\""), "at = [10, 20]",
+                          "at = [10, 20]\nheading = 3\nlook_at = [3, 4]"),
+                 6, "no 'look_at'");
   refused("= 90", "= 180", 2, "'field_of_view'");
   refused("= 90", "= -nan", 2, "'field_of_view'");
   refused("[640, 480]", "[640, 0]", 3, "'screen'");
