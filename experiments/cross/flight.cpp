@@ -57,6 +57,15 @@ std::vector<std::size_t> evenly(std::size_t count, std::size_t last) {
   return chosen;
 }
 
+bool any_visible(const SeenSamples& seen) {
+  for (int j = 0; j < seen.depth(); ++j) {
+    for (int i = 0; i < seen.width(); ++i) {
+      if (seen.at(i, j) == Seen::kVisible) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 TerrainSource open_ground(std::string_view name, int size, std::uint64_t seed) {
@@ -88,6 +97,11 @@ Flight::Flight(const Route& along, Progress& progress)
     progress.advance();
   }
   progress.end();
+  if (std::none_of(seen.begin(), seen.end(), any_visible)) {
+    throw usage_error(fmt::format("no sample of {} is visible in any metered frame", route.terrain),
+                      route.path,
+                      "choose a path that looks at the ground (docs/paths.md), or meter more frames");
+  }
 }
 
 std::vector<std::size_t> pictured(const Flight& flight) {
