@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,12 @@ struct Case {
   std::vector<std::string> overrides = {};  // "name=value" given by --set; `name` contains them too
 
   int integer(std::string_view parameter) const { return static_cast<int>(parameters.integer(parameter)); }
+};
+
+// Thrown by measure() where a case cannot be measured and nothing is at fault, such as a method on ground
+// that it cannot hold. The case is recorded as skipped, with this reason.
+struct SkippedCase : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 struct Experiment {

@@ -28,7 +28,8 @@ constexpr int kClosedPipe = 141;
 
 constexpr const char* kFooter =
     "Exit codes: 0 good, 1 a claim is not as expected, 2 wrong use, 3 bad input, 4 environment (no GL, "
-    "disk full), 130 interrupted, 141 the reader of the output closed the pipe.\n"
+    "disk full), 5 some cases of a run failed, 130 interrupted, 141 the reader of the output closed the "
+    "pipe.\n"
     "Examples:\n"
     "  terrabench run 'hybrid.*' --out out\n"
     "  terrabench check out --claims 'hybrid.*' && terrabench report out\n"
@@ -108,7 +109,8 @@ void add_run(CLI::App& app, Arguments& a) {
       "drawing:FILE.png (default: each experiment's own). dem:FILE,band=2,nodata=0,unit=ft and "
       "dem:FILE,encoding=terrarium say how a DEM is read (docs/grounds.md)");
   command->add_option("--out", a.run.folder, "Results folder")->capture_default_str();
-  command->add_flag("--resume", a.run.resume, "Skip cases that are already in the folder");
+  command->add_flag("--resume", a.run.resume,
+                    "Skip cases that are already in the folder, but not those that failed");
   command
       ->add_option("--shard", a.shard,
                    "i/n: measure only every n-th case, starting with the i-th (docs/sweeps.md)")
@@ -143,6 +145,13 @@ void add_run(CLI::App& app, Arguments& a) {
       "have it. A text value may contain commas, but not one followed by a parameter's name and '='");
 }
 
+void add_profile_to_read(CLI::App& command, std::string& profile) {
+  command
+      .add_option("--profile", profile,
+                  "Read only measurements of this profile, quick or paper (default: that of the newest)")
+      ->check(CLI::IsMember({"quick", "paper"}));
+}
+
 void add_results(CLI::App& app, Arguments& a) {
   auto* check = app.add_subcommand(
       "check",
@@ -152,12 +161,14 @@ void add_results(CLI::App& app, Arguments& a) {
   check->add_option("dir", a.check.folder, "Results folder")->capture_default_str();
   check->add_option("--claims,--rows", a.check.claims,
                     "Check only these claims: ids or globs such as 'hybrid.T1.*'");
+  add_profile_to_read(*check, a.check.profile);
   check->add_flag("--verbose", a.check.verbose, "Print all evidence under each line");
   check->add_flag("--json", a.check.json, "Print JSON");
   check->add_option("--junit", a.check.junit, "Also write JUnit XML for a CI server");
   auto* report = app.add_subcommand(
       "report", "Write tables, plots and a web page from the measurements: DIR/report/index.html");
   report->add_option("dir", a.report.folder, "Results folder")->capture_default_str();
+  add_profile_to_read(*report, a.report.profile);
   auto* const latex = report->add_option(
       "--latex", a.report.latex,
       "Write this folder instead: tables, plots and pictures for a paper, which `latexmk -pdf` compiles "
@@ -365,10 +376,10 @@ ExitCode dispatch(const CLI::App& app, Arguments& a) {
   a.run.threads = a.threads;
   a.run.part = a.cases == "timed" ? Part::kTimed : a.cases == "untimed" ? Part::kUntimed : Part::kAll;
   a.run.options.profile = a.profile == "paper" ? Profile::kPaper : Profile::kQuick;
-  run(a.run);
+  const ExitCode code = run(a.run);
   fmt::print("measurements: {}\nnext: terrabench check {}; terrabench report {}\n",
              (a.run.folder / "measurements.jsonl").string(), a.run.folder.string(), a.run.folder.string());
-  return ExitCode::kGood;
+  return code;
 }
 
 int main_program(int argc, char** argv) {

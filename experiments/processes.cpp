@@ -13,6 +13,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <new>
 #include <span>
@@ -31,10 +32,11 @@ constexpr int kMostProcesses = 1024;
 
 // What the processes share, in memory that a fork does not copy.
 struct Shared {
-  std::atomic<std::size_t> next{0};                  // task; the number of tasks or more: none is left
-  std::atomic<std::size_t> current[kMostProcesses];  // task that each process is at
-  std::atomic<bool> failed{false};                   // the first to set it writes what follows
-  bool closed_pipe = false;                          // nobody reads what it prints
+  std::atomic<std::size_t> next{0};  // task; the number of tasks or more: none is left
+  std::atomic<std::size_t>
+      current[kMostProcesses];      // task that each process is at; the number of tasks: none
+  std::atomic<bool> failed{false};  // the first to set it writes what follows
+  bool closed_pipe = false;         // nobody reads what it prints
   ExitCode code = ExitCode::kGood;
   char what[kLongestText] = "", advice[kLongestText] = "";
 };
@@ -78,6 +80,7 @@ void keep_error(Shared& shared, std::size_t tasks, ExitCode code, std::string_vi
     for (std::size_t i = shared.next++; i < tasks; i = shared.next++) {
       shared.current[process] = i;
       task(i);
+      shared.current[process] = tasks;
     }
   } catch (const Error& error) {
     keep_error(shared, tasks, error.code(), error.what(), error.advice());
@@ -94,59 +97,93 @@ void keep_error(Shared& shared, std::size_t tasks, ExitCode code, std::string_vi
   _exit(0);
 }
 
-// Waits until all have ended; passes an interruption on to them.
-void wait_for(std::vector<pid_t> processes, Shared& shared, std::size_t tasks,
-              const std::function<std::string(std::size_t)>& name) {
-  const std::vector<pid_t> numbered = processes;
-  bool told = false;
-  while (!processes.empty()) {
-    for (const pid_t process : numbered) {
-      int status = 0;
-      if (std::ranges::count(processes, process) == 0 || waitpid(process, &status, WNOHANG) == 0) continue;
-      std::erase(processes, process);
-      // Interrupted, a process ends early, and run_in_processes() says so.
-      if ((WIFEXITED(status) && WEXITSTATUS(status) == 0) || Progress::interrupted()) continue;
-      const auto index = std::ranges::find(numbered, process) - numbered.begin();
-      keep_error(shared, tasks, ExitCode::kEnvironment,
-                 fmt::format("the process that measured {} {} {}", name(shared.current[index]),
-                             WIFSIGNALED(status) ? "was ended by signal" : "ended with exit status",
-                             WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status)),
-                 "if memory ran out, close other programs, or run fewer cases beside each other (--jobs); "
-                 "then go on with --resume");
-    }
-    if (Progress::interrupted() && !told) {
-      for (const pid_t process : processes) kill(process, SIGTERM);
-      told = true;
-    }
-    // A signal does not wake waitpid(): std::signal() restarts it.
-    if (!processes.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+// How it ended, if not by _exit(0): "was ended by signal 9 (Killed)".
+std::string abnormal_end(int status) {
+  if (WIFSIGNALED(status)) {
+    const int signal = WTERMSIG(status);
+    return fmt::format("the process was ended by signal {} ({}){}", signal, strsignal(signal),
+                       signal == SIGKILL ? ", as when memory runs out" : "");
   }
+  const int code = WEXITSTATUS(status);
+  return code == 0 ? "" : fmt::format("the process ended with exit status {}", code);
 }
 
-}  // namespace
+// The processes that do the tasks, each in its slot of Shared::current.
+class Pool {
+ public:
+  Pool(std::size_t tasks, const std::function<void(std::size_t)>& task,
+       const std::function<void(std::size_t, const std::string&)>& died)
+      : tasks_(tasks), task_(task), died_(died) {}
 
-void run_in_processes(int jobs, std::size_t tasks, const std::function<void(std::size_t)>& task,
-                      const std::function<std::string(std::size_t)>& name) {
-  const auto shared = share();
-  const auto count = std::min<std::size_t>({static_cast<std::size_t>(jobs), tasks, kMostProcesses});
-  std::fflush(nullptr);  // or each process would write what is buffered
-  const pid_t parent = getpid();
-  std::vector<pid_t> processes;
-  for (std::size_t i = 0; i < count; ++i) {
+  // Waits until all have ended; passes an interruption on to them.
+  void run(std::size_t jobs) {
+    for (std::size_t slot = 0; slot < jobs; ++slot) start(slot);
+    bool told = false;
+    while (!processes_.empty()) {
+      reap();
+      if (Progress::interrupted() && !told) {
+        for (const auto& [process, slot] : processes_) kill(process, SIGTERM);
+        told = true;
+      }
+      // A signal does not wake waitpid(): std::signal() restarts it.
+      if (!processes_.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    if (shared_->closed_pipe) throw std::system_error(std::make_error_code(std::errc::broken_pipe));
+    if (shared_->failed) throw Error(shared_->code, shared_->what, "", shared_->advice);
+    if (Progress::interrupted()) throw Error(ExitCode::kInterrupted, "interrupted", "", "");
+  }
+
+ private:
+  void start(std::size_t slot) {
+    std::fflush(nullptr);  // or each process would write what is buffered
+    const pid_t parent = getpid();
+    shared_->current[slot] = tasks_;
     const pid_t process = fork();
-    if (process == 0) work(*shared, static_cast<int>(i), parent, tasks, task);
+    if (process == 0) work(*shared_, static_cast<int>(slot), parent, tasks_, task_);
     if (process > 0) {
-      processes.push_back(process);
+      processes_[process] = slot;
     } else {
-      keep_error(*shared, tasks, ExitCode::kEnvironment,
+      keep_error(*shared_, tasks_, ExitCode::kEnvironment,
                  fmt::format("cannot start a process: {}", std::strerror(errno)),
                  "close other programs, or use fewer --jobs");
     }
   }
-  wait_for(std::move(processes), *shared, tasks, name);
-  if (shared->closed_pipe) throw std::system_error(std::make_error_code(std::errc::broken_pipe));
-  if (shared->failed) throw Error(shared->code, shared->what, "", shared->advice);
-  if (Progress::interrupted()) throw Error(ExitCode::kInterrupted, "interrupted", "", "");
+
+  void reap() {
+    for (const auto& [process, slot] : std::map(processes_)) {
+      int status = 0;
+      if (waitpid(process, &status, WNOHANG) == 0) continue;
+      processes_.erase(process);
+      const std::string how = abnormal_end(status);
+      // Interrupted, a process ends early, and run() says so.
+      if (how.empty() || Progress::interrupted()) continue;
+      replace(slot, how);
+    }
+  }
+
+  // Another process takes the tasks that are left.
+  void replace(std::size_t slot, const std::string& how) {
+    const std::size_t task = shared_->current[slot];
+    try {
+      if (task < tasks_) died_(task, how);
+    } catch (const Error& error) {
+      keep_error(*shared_, tasks_, error.code(), error.what(), error.advice());
+    }
+    if (shared_->next < tasks_) start(slot);
+  }
+
+  const std::unique_ptr<Shared, Unmap> shared_ = share();
+  std::size_t tasks_;
+  const std::function<void(std::size_t)>& task_;
+  const std::function<void(std::size_t, const std::string&)>& died_;
+  std::map<pid_t, std::size_t> processes_;  // running, with their slots
+};
+
+}  // namespace
+
+void run_in_processes(int jobs, std::size_t tasks, const std::function<void(std::size_t)>& task,
+                      const std::function<void(std::size_t, const std::string&)>& died) {
+  Pool(tasks, task, died).run(std::min<std::size_t>({static_cast<std::size_t>(jobs), tasks, kMostProcesses}));
 }
 
 std::string call_in_process(const std::function<std::string()>& produce) {
@@ -171,7 +208,7 @@ std::string call_in_process(const std::function<std::string()>& produce) {
           throw failed("write to");
         }
       },
-      [](std::size_t) { return "the environment"; });
+      [](std::size_t, const std::string& how) { throw environment_error(how, "", "close other programs"); });
   std::string text;
   char buffer[4096];
   std::rewind(file.get());

@@ -3,29 +3,47 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "terrain/error.h"
 #include "terrain/files.h"
 
 namespace terrabench {
 
 namespace {
 
-Metric& metric_called(std::string_view name, std::string_view unit, Record& record) {
+// The metric with one more sample.
+Metric& with_sample(std::string_view name, std::string_view unit, double sample, Record& record) {
+  if (!std::isfinite(sample)) {
+    throw bad_input(fmt::format("{} cannot be recorded", sample), name,
+                    "a measurement must be a finite number: the experiment is at fault");
+  }
   const auto it = std::ranges::find(record.metrics, name, &Metric::name);
-  if (it != record.metrics.end()) return *it;
-  return record.metrics.emplace_back(Metric{std::string(name), std::string(unit), {}});
+  Metric& metric = it != record.metrics.end()
+                       ? *it
+                       : record.metrics.emplace_back(Metric{std::string(name), std::string(unit), {}});
+  metric.samples.push_back(sample);
+  return metric;
 }
 
 }  // namespace
 
 void Recorder::add(std::string_view metric, std::string_view unit, double sample) {
-  metric_called(metric, unit, record_).samples.push_back(sample);
+  with_sample(metric, unit, sample, record_);
 }
 
 void Recorder::add_varying(std::string_view metric, std::string_view unit, double sample) {
-  Metric& varying = metric_called(metric, unit, record_);
-  varying.varies = true;
-  varying.samples.push_back(sample);
+  with_sample(metric, unit, sample, record_).varies = true;
+}
+
+void Recorder::undefined(std::initializer_list<std::string_view> metrics, std::string_view reason) {
+  for (const std::string_view metric : metrics) record_.undefined.emplace_back(metric, reason);
+}
+
+void Recorder::add_ratio(std::string_view metric, double numerator, double denominator,
+                         std::string_view why_undefined) {
+  if (denominator == 0) return undefined({metric}, why_undefined);
+  add(metric, "", numerator / denominator);
 }
 
 std::filesystem::path Recorder::figure(std::string_view id, std::string_view extension,

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <new>
 #include <sstream>
+#include <system_error>
 
 #include "experiments/interference.h"
 #include "experiments/processes.h"
@@ -16,14 +18,16 @@
 #include "experiments/timing.h"
 #include "renderers/context.h"
 #include "renderers/raytrace/ray_index.h"
+#include "results/absences.h"
+#include "results/format.h"
 #include "results/glob.h"
 #include "results/provenance.h"
 #include "results/record_json.h"
 #include "results/statistics.h"
 #include "results/store.h"
-#include "terrain/error.h"
 #include "terrain/files.h"
 #include "terrain/image.h"
+#include "terrain/machine_error.h"
 #include "terrain/sources/noise/program.h"
 
 namespace terrabench {
@@ -112,14 +116,15 @@ Record begin_record(const RunPlan& plan, const PlannedCase& planned, const std::
   return record;
 }
 
-bool is_measured(const Record& record, const Store& store, const Provenance& now) {
-  return store.find({.experiment = record.experiment,
-                     .case_name = record.case_name,
-                     .profile = record.profile,
-                     .parameters = record.parameters,
-                     .seed = record.seed,
-                     .terrain_checksum = std::nullopt},
-                    now) != nullptr;
+bool is_settled(const Record& record, const Store& store, const Provenance& now) {
+  const Record* const found = store.find({.experiment = record.experiment,
+                                          .case_name = record.case_name,
+                                          .profile = record.profile,
+                                          .parameters = record.parameters,
+                                          .seed = record.seed,
+                                          .terrain_checksum = std::nullopt},
+                                         now);
+  return found != nullptr && found->outcome != CaseOutcome::kFailed;
 }
 
 // Otherwise the times of a case that ran beside others would be taken for those of one that ran alone.
@@ -133,15 +138,66 @@ void check_untimed(const Record& record) {
   }
 }
 
-Record measured(const RunPlan& plan, const PlannedCase& planned, Record record, Progress::Output output) {
+void become(CaseOutcome outcome, std::string_view reason, const PlannedCase& planned, Record& record) {
+  record.outcome = outcome;
+  record.reason = reason.empty() ? "for an unknown reason" : printable(reason);
+  record.metrics.clear();
+  record.figures.clear();
+  record.undefined.clear();
+  if (record.terrain.empty()) record.terrain = planned.at.terrain;
+}
+
+void check_interrupted() {
   if (Progress::interrupted()) throw Error(ExitCode::kInterrupted, "interrupted", "run", "");
+}
+
+void measure(const RunPlan& plan, const PlannedCase& planned, Progress::Output output, Record& record) {
+  check_interrupted();
   Progress progress(output);
   Recorder recorder(record, plan.folder);
   planned.experiment->measure(planned.at, plan.options, recorder, progress);
   progress.end();
   if (!records_times(*planned.experiment, planned.at)) check_untimed(record);
   for (RecordedFigure& figure : record.figures) describe(plan.folder, figure);
+}
+
+// The record of the case, whatever became of it. Throws only what ends the run.
+Record outcome_of(const RunPlan& plan, const PlannedCase& planned, Record record, Progress::Output output) {
+  const auto fail = [&](std::string_view reason) {
+    check_interrupted();  // what an interruption broke is not the case's fault
+    become(CaseOutcome::kFailed, reason, planned, record);
+  };
+  try {
+    measure(plan, planned, output, record);
+  } catch (const SkippedCase& skipped) {
+    become(CaseOutcome::kSkipped, skipped.what(), planned, record);
+  } catch (const MachineError&) {
+    throw;
+  } catch (const Error& error) {
+    if (error.code() == ExitCode::kInterrupted) throw;
+    fail(error.what());
+  } catch (const std::bad_alloc&) {
+    fail("out of memory");
+  } catch (const std::filesystem::filesystem_error& error) {
+    fail(error.what());
+  } catch (const std::system_error&) {
+    throw;  // of standard output or standard error
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
   return record;
+}
+
+// Names become parts of records: refuses what a record cannot hold before anything is measured.
+void check_names(const std::vector<PlannedCase>& cases) {
+  for (const PlannedCase& planned : cases) {
+    const std::string fault = name_fault(planned.at.name);
+    if (fault.empty()) continue;
+    throw usage_error("the name of a case " + fault, planned.at.name,
+                      planned.at.terrain.empty()
+                          ? "shorten the values of --set"
+                          : "rename the file, or name it by a shorter path, such as a link");
+  }
 }
 
 void apply(const std::vector<std::string>& assignments, std::vector<PlannedCase>& cases) {
@@ -179,10 +235,10 @@ class Session {
     store_.begin_run(provenance_);
   }
 
-  void run() {
+  ExitCode run() {
     std::vector<std::size_t> beside, fresh, alone;
     for (std::size_t i = 0; i < cases_.size(); ++i) {
-      if (plan_.resume && is_measured(begin(i), store_, provenance_)) continue;
+      if (plan_.resume && is_settled(begin(i), store_, provenance_)) continue;
       if (in_fresh_process(*cases_[i].experiment)) {
         fresh.push_back(i);
       } else {
@@ -196,7 +252,9 @@ class Session {
     const std::size_t skipped = cases_.size() - beside.size() - fresh.size() - alone.size();
     if (skipped > 0)
       fmt::print(stderr, "{} of {} cases were already in the results folder\n", skipped, cases_.size());
+    const bool failed = list_absent();
     check_differences();
+    return failed ? kCasesFailed : ExitCode::kGood;
   }
 
  private:
@@ -213,7 +271,7 @@ class Session {
           const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, share);
           measure_first(cases[k], Progress::Output::kSilent);
         },
-        [&](std::size_t k) { return title(cases[k]); });
+        [&](std::size_t k, const std::string& how) { note_death(cases[k], how); });
   }
 
   void measure_fresh(const std::vector<std::size_t>& cases) {
@@ -221,7 +279,8 @@ class Session {
     for (const std::size_t i : cases) {
       loop_seconds();  // the case inherits the shortest loop seen so far, and can tell if it is disturbed
       run_in_processes(
-          1, 1, [&](std::size_t) { measure_first(i, output); }, [&](std::size_t) { return title(i); });
+          1, 1, [&](std::size_t) { measure_first(i, output); },
+          [&](std::size_t, const std::string& how) { note_death(i, how); });
     }
   }
 
@@ -232,7 +291,8 @@ class Session {
       Measured first = measure_first(i, output);
       // A disturbed one takes up to twice as long, since disturbed samples are taken again.
       const double most = (disturbed(first.loop) ? 2 : 1) * plan_.again;
-      const bool varies = times(i) && std::ranges::any_of(first.record.metrics, timed);
+      const bool varies =
+          times(i) && std::ranges::any_of(first.record.metrics, timed);  // not one that failed
       if (varies && first.seconds <= most) brief.push_back(std::move(first));
     }
     for (std::size_t k = 0; k < brief.size(); ++k) {
@@ -264,15 +324,53 @@ class Session {
 
   Measured measure_first(std::size_t i, Progress::Output output) {
     Measured first = look(i, output);
-    store_.append(first.record);
-    fmt::print(stderr, "[{}/{}] {}: {:.2f} s\n", i + 1, cases_.size(), title(i), first.seconds);
+    keep(first.record, i);
+    const Record& record = first.record;
+    fmt::print(stderr, "[{}/{}] {}: {:.2f} s{}\n", i + 1, cases_.size(), title(i), first.seconds,
+               record.outcome == CaseOutcome::kMeasured
+                   ? ""
+                   : fmt::format(", {}: {}", name(record.outcome), record.reason));
     return first;
+  }
+
+  // As a failure if the record cannot be written as it is.
+  void keep(Record& record, std::size_t i) {
+    try {
+      store_.append(record);
+    } catch (const MachineError&) {
+      throw;
+    } catch (const Error& error) {
+      become(CaseOutcome::kFailed, error.what(), cases_[i], record);
+      store_.append(record);
+    }
+  }
+
+  // The process that measured the case was killed or crashed.
+  void note_death(std::size_t i, const std::string& how) {
+    Record record = begin(i);
+    become(CaseOutcome::kFailed, how, cases_[i], record);
+    store_.append(record);
+    fmt::print(stderr, "[{}/{}] {}, failed: {}\n", i + 1, cases_.size(), title(i), how);
+  }
+
+  // Prints which of the planned cases failed or were skipped, and why, from the folder, since other processes
+  // measured some; returns whether any failed.
+  bool list_absent() const {
+    const Store store(plan_.folder);
+    std::vector<const Record*> records;
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      const Record planned = begin(i);
+      const Record* const record = store.find(planned.experiment, planned.case_name, planned.profile);
+      if (record != nullptr && record->outcome != CaseOutcome::kMeasured) records.push_back(record);
+    }
+    fmt::print(stderr, "{}", absences_text(absences(records), false));
+    return std::ranges::any_of(records, [](const Record* r) { return r->outcome == CaseOutcome::kFailed; });
   }
 
   Measured look(std::size_t i, Progress::Output output) const {
     const double before = times(i) ? loop_seconds() : 0;
     const Stopwatch watch;
-    Record record = measured(plan_, cases_[i], begin(i), output);
+    Record record = outcome_of(plan_, cases_[i], begin(i), output);
     const double seconds = watch.seconds();
     return {{std::move(record), times(i) ? std::min(before, loop_seconds()) : 0}, i, seconds};
   }
@@ -308,6 +406,7 @@ std::vector<PlannedCase> plan_cases(const RunPlan& plan) {
   }
   const std::vector<std::string> assignments = split_assignments(plan.assignments, specs);
   apply(assignments, cases);
+  check_names(cases);
   if (!plan.options.terrains.empty() &&
       std::none_of(cases.begin(), cases.end(), [](const PlannedCase& p) { return !p.at.terrain.empty(); })) {
     throw usage_error("none of these experiments takes a terrain", "--terrain",
@@ -324,6 +423,6 @@ std::vector<PlannedCase> plan_cases(const RunPlan& plan) {
   return mine;
 }
 
-void run(const RunPlan& plan) { Session(plan).run(); }
+ExitCode run(const RunPlan& plan) { return Session(plan).run(); }
 
 }  // namespace terrabench

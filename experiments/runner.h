@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/experiment.h"
+#include "terrain/error.h"
 
 namespace terrabench {
 
@@ -18,7 +19,7 @@ struct RunPlan {
   RunOptions options;
   std::vector<std::string> assignments;  // name=value,…, for every case that has such a parameter
   std::filesystem::path folder = "out";
-  bool resume = false;  // skip cases that the folder already holds
+  bool resume = false;  // skip cases that the folder already holds, unless they failed
   Part part = Part::kAll;
   int shard = 1, shards = 1;  // measure only every shards-th case of the part, from the shard-th
   int threads = 0;            // in use, for the provenance; 0: all
@@ -29,6 +30,9 @@ struct RunPlan {
   std::vector<std::string> command;  // argv, for the provenance
 };
 
+// Exit code of a run of which some cases failed; the others are measured.
+inline constexpr ExitCode kCasesFailed{5};
+
 // The cases a plan names, in the registry's order. Throws usage_error when a pattern matches nothing (with
 // the nearest id) or an assignment fits no parameter of any chosen experiment.
 struct PlannedCase {
@@ -37,15 +41,18 @@ struct PlannedCase {
 };
 std::vector<PlannedCase> plan_cases(const RunPlan&);
 
-// Measures all planned cases and appends their records to folder/measurements.jsonl, in three parts: with
-// jobs > 1 those without times, beside each other in `jobs` processes, in the order in which they end; those
-// of in_fresh_process(), one after another in a process each; the others, one after another. The last two
-// parts keep the registry's order. At the end, measures short ones of the last part that recorded times a
-// second time and adds these samples to their times, or keeps those of one measurement alone if only the
-// other was disturbed (second_look.h). After an interruption, --resume does not catch up on second
-// measurements. Throws Error(kInterrupted) on Ctrl-C and keeps the records written so far. Throws
-// Error(kClaimFallsShort) at the end if exact figures of a case differ between its two measurements, or only
-// one of them has a metric. Call it before this process has threads (run_in_processes()).
-void run(const RunPlan&);
+// Measures all planned cases and appends their records to folder/measurements.jsonl. A case that fails or
+// cannot be measured is recorded as such, with the reason, and does not end the run: kCasesFailed then says
+// that some failed, and a list at the end names them. Only what all cases would meet ends it
+// (MachineError): an interruption, a full disk, no OpenGL. In three parts: with jobs > 1 those without
+// times, beside each other in `jobs` processes, in the order in which they end; those of in_fresh_process(),
+// one after another in a process each; the others, one after another. The last two parts keep the registry's
+// order. At the end, measures short ones of the last part that recorded times a second time and adds these
+// samples to their times, or keeps those of one measurement alone if only the other was disturbed
+// (second_look.h). After an interruption, --resume does not catch up on second measurements. Throws
+// Error(kInterrupted) on Ctrl-C and keeps the records written so far. Throws Error(kClaimFallsShort) at the
+// end if exact figures of a case differ between its two measurements, or only one of them has a metric. Call
+// it before this process has threads (run_in_processes()).
+ExitCode run(const RunPlan&);
 
 }  // namespace terrabench

@@ -12,6 +12,8 @@
 namespace terrabench {
 
 std::string exact_difference(const Record& first, const Record& again) {
+  if (again.outcome != CaseOutcome::kMeasured)
+    return fmt::format("{}: {}", name(again.outcome), again.reason);
   for (const Metric& metric : again.metrics) {
     if (first.find(metric.name) == nullptr) return fmt::format("the new metric '{}'", metric.name);
   }

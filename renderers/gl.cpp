@@ -6,7 +6,7 @@
 #include <mutex>
 
 #include "renderers/ramp.h"
-#include "terrain/error.h"
+#include "terrain/machine_error.h"
 
 namespace terrabench {
 
@@ -36,9 +36,9 @@ void load_gl(GLADloadfunc get_function, std::string_view library) {
   loaded = nullptr;
   const int version = gladLoadGL(get_function);
   if (version < GLAD_MAKE_VERSION(4, 5)) {
-    throw environment_error(fmt::format("OpenGL 4.5 is required, found {}.{}", GLAD_VERSION_MAJOR(version),
-                                        GLAD_VERSION_MINOR(version)),
-                            library, "install Mesa 22 or newer (Debian 12 has it)");
+    throw MachineError(fmt::format("OpenGL 4.5 is required, found {}.{}", GLAD_VERSION_MAJOR(version),
+                                   GLAD_VERSION_MINOR(version)),
+                       library, "install Mesa 22 or newer (Debian 12 has it)");
   }
   loaded = get_function;
 }

@@ -3,19 +3,19 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-#include "terrain/error.h"
+#include "terrain/machine_error.h"
 
 namespace terrabench {
 
 SharedLibrary::SharedLibrary(const char* path, std::string_view missing, const char* advice)
     : path_(path), advice_(advice), handle_(dlopen(path, RTLD_NOW | RTLD_LOCAL)) {
-  if (handle_ == nullptr) throw environment_error(missing, path, advice);
+  if (handle_ == nullptr) throw MachineError(missing, path, advice);
 }
 
 void* SharedLibrary::symbol(const char* name) const {
   void* const found = dlsym(handle_, name);
   if (found == nullptr) {
-    throw environment_error(fmt::format("the library lacks the function {}", name), path_, advice_);
+    throw MachineError(fmt::format("the library lacks the function {}", name), path_, advice_);
   }
   return found;
 }

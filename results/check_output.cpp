@@ -68,7 +68,13 @@ std::string check_json(const JudgedResults& results) {
     Json& counts = papers[judgement.paper->id];
     if (counts.is_null()) counts = counts_json(results.of(*judgement.paper));
   }
+  Json absent = Json::array();
+  for (const Absence& absence : results.absences) {
+    absent.push_back({{"what", absence.what}, {"reason", absence.reason}, {"where", absence.where}});
+  }
   const Json json = {{"profile", results.profile},
+                     {"ignored", results.ignored},
+                     {"without_measurements", absent},
                      {"passed", results.passed()},
                      {"counts", counts_json(results.judgements)},
                      {"counts_by_paper", papers},

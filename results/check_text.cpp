@@ -63,6 +63,7 @@ class Writer {
     for (const Paper* const paper : papers_) write_paper(*paper);
     write_ids(Verdict::kNotRun);
     write_ids(Verdict::kPending);
+    write_absences();
     write_summary();
     return std::move(text_);
   }
@@ -73,13 +74,24 @@ class Writer {
     std::ranges::copy_if(results_.judgements, std::back_inserter(failing),
                          [](const Judgement& j) { return !j.complaint.empty(); });
     const std::size_t all = results_.judgements.size();
-    if (failing.empty()) {
-      text_ += fmt::format("Profile {}: {} claims, every verdict as expected\n", results_.profile, all);
-      return;
-    }
-    text_ +=
-        fmt::format("Profile {}: {} of {} claims fail the check\n", results_.profile, failing.size(), all);
+    text_ += failing.empty() ? fmt::format("Profile {}: {} claims, {}\n", results_.profile, all,
+                                           judged_none() ? "none of them judged: none was measured"
+                                                         : "every verdict as expected")
+                             : fmt::format("Profile {}: {} of {} claims fail the check\n", results_.profile,
+                                           failing.size(), all);
+    for (const std::string& ignored : results_.ignored) text_ += wrapped(ignored, 2, width_);
     write_lines(failing, true);
+  }
+
+  bool judged_none() const {
+    return std::ranges::none_of(results_.judgements,
+                                [](const Judgement& j) { return was_measured(j.verdict); });
+  }
+
+  void write_absences() {
+    if (!results_.absences.empty()) {
+      text_ += "\nWithout measurements\n" + absences_text(results_.absences, look_.verbose);
+    }
   }
 
   void write_paper(const Paper& paper) {

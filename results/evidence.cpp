@@ -97,7 +97,10 @@ class Reader {
       }
       const Record* const record = store_.find(operand.experiment, operand.case_name, profile_);
       const Metric* const metric = record == nullptr ? nullptr : record->find(operand.metric);
-      if (metric == nullptr) return word_missing(operand, name_cases_);
+      if (metric == nullptr) {
+        return word_missing(operand, name_cases_,
+                            record == nullptr ? std::nullopt : record->why_absent(operand.metric));
+      }
       note_read(*record);
       records.push_back(record);
       quantities.push_back(quantity(operand, *metric, name_cases_));

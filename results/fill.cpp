@@ -31,6 +31,12 @@ void note_run(std::vector<std::string>& runs, const Record& record) {
   if (std::ranges::count(runs, record.run) == 0) runs.push_back(record.run);
 }
 
+// "skipped" or "not defined"; a dash if the record does not say.
+Cell absent_cell(const Record& record, std::string_view metric) {
+  const std::optional<WhyAbsent> why = record.why_absent(metric);
+  return why ? Cell{std::string(why->word)} : kNothing;
+}
+
 Cell number_cell(double number) { return {format_number(number), format_exact(number)}; }
 
 Cell measured_cell(const TableLayout::Column& column, const TableLayout::Row& row, const Metric& metric) {
@@ -101,8 +107,9 @@ Cell cell_for(const TableLayout::Column& column, const TableLayout::Row& row, co
     const auto it = std::ranges::find(results.judgements, id, [](const Judgement& j) { return j.claim->id; });
     return it == results.judgements.end() ? kNothing : verdict_cell(*it);
   }
-  const Metric* const metric = record == nullptr ? nullptr : record->find(column.metric);
-  return metric == nullptr ? kNothing : measured_cell(column, row, *metric);
+  if (record == nullptr) return kNothing;
+  const Metric* const metric = record->find(column.metric);
+  return metric == nullptr ? absent_cell(*record, column.metric) : measured_cell(column, row, *metric);
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ struct FilledTable {
   std::vector<std::string> runs;  // that its figures come from; empty when nothing was measured
 };
 // Leaves out rows with neither a measurement nor a figure of the paper; a figure that was not measured is a
-// dash, and one whose unit cannot be converted to the column's stands with its own.
+// dash, or the record's word for it, such as "not defined", and one whose unit cannot be converted to the
+// column's stands with its own.
 FilledTable fill(const TableLayout&, const Store&, const JudgedResults&);
 
 struct FilledPlot {

@@ -57,9 +57,11 @@ bool names_cases(const Claim& claim) {
   return false;
 }
 
-Finding word_missing(const Operand& o, bool name_case) {
+Finding word_missing(const Operand& o, bool name_case, const std::optional<WhyAbsent>& why) {
   return {Finding::Outcome::kMissing,
-          fmt::format("no {} of {} {} was measured", o.metric, o.experiment, o.case_name), "not measured", "",
+          fmt::format("no {} of {} {} was measured{}", o.metric, o.experiment, o.case_name,
+                      why ? fmt::format(" ({}: {})", why->word, why->reason) : ""),
+          why ? std::string(why->word) : "not measured", "",
           (name_case ? o.case_name + " " : "") + spoken(o.metric)};
 }
 

@@ -19,7 +19,7 @@ bool names_cases(const Claim&);
 inline Finding::Outcome outcome(bool holds) {
   return holds ? Finding::Outcome::kHolds : Finding::Outcome::kFails;
 }
-Finding word_missing(const Operand&, bool name_case);
+Finding word_missing(const Operand&, bool name_case, const std::optional<WhyAbsent>&);
 // within, ratio, growth: `s` was compared with the condition's range.
 Finding word_range(const Condition&, const std::vector<Quantity>&, const Summary& s, bool holds);
 // equal, order: holds[i] tells whether medians i and i + 1 do. In short, shows the first pair that fails,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include "results/glob.h"
 #include "terrain/error.h"
@@ -111,10 +112,29 @@ void look_for_altered_pictures(const Store& store, JudgedResults& results) {
   }
 }
 
+// What the profile lacks, and what the other profiles hold.
+void read_profile(const Store& store, JudgedResults& results) {
+  std::vector<const Record*> records;
+  std::map<std::string, int> others;
+  for (const Record& record : store.records()) {
+    if (record.profile == results.profile) {
+      records.push_back(&record);
+    } else {
+      ++others[record.profile];
+    }
+  }
+  results.absences = absences(records);
+  for (const auto& [profile, count] : others) {
+    results.ignored.push_back(fmt::format(
+        "{} cases of profile {} are not read; --profile {} reads them instead", count, profile, profile));
+  }
+}
+
 }  // namespace
 
 bool JudgedResults::passed() const {
   return faults.empty() &&
+         std::ranges::any_of(judgements, [](const Judgement& j) { return j.verdict <= Verdict::kDiffers; }) &&
          std::ranges::all_of(judgements, [](const Judgement& j) { return j.complaint.empty(); });
 }
 
@@ -124,8 +144,9 @@ std::span<const Judgement> JudgedResults::of(const Paper& paper) const {
           std::find_if(first, judgements.end(), [&](const Judgement& j) { return j.paper != &paper; })};
 }
 
-JudgedResults judge(const std::filesystem::path& folder, std::span<const std::string> globs) {
-  return judge(Store::open(folder), papers(), globs);
+JudgedResults judge(const std::filesystem::path& folder, std::span<const std::string> globs,
+                    const std::string& profile) {
+  return judge(Store::open(folder, profile), papers(), globs);
 }
 
 JudgedResults judge(const Store& store, std::span<const Paper> papers, std::span<const std::string> globs) {
@@ -134,7 +155,8 @@ JudgedResults judge(const Store& store, std::span<const Paper> papers, std::span
     for (const Claim& claim : paper.claims) ids.push_back(claim.id);
   }
   demand_matches(globs, ids, "claim");
-  JudgedResults results{store.last_profile(), {}, store.warnings(), store.faults()};
+  JudgedResults results{store.profile(), {}, store.warnings(), store.faults()};
+  read_profile(store, results);
   look_for_altered_pictures(store, results);
   for (const Paper& paper : papers) {
     for (const Claim& claim : paper.claims) {

@@ -1,7 +1,7 @@
 // The verdict on every claim, computed from claims and records and nothing else:
 // 1. A claim (claims.h, read from experiments/*/claims.toml) has conditions on metrics of named cases.
 // 2. gather_evidence (evidence.h) reads these metrics from the records and evaluates each condition. Only
-//    records of the newest record's profile count, of each case the newest.
+//    records of one profile count, the newest record's unless another is chosen, of each case the newest.
 // 3. judge_measured() makes one verdict from the findings: missing if one could not be evaluated, differs if
 //    one fails, else reproduced ("shape" for claims of class S). Without evidence, judge_claim(): pending or
 //    not comparable if the claim gives a reason for it, not run if that profile does not measure the claim.
@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "results/absences.h"
 #include "results/evidence.h"
 
 namespace terrabench {
@@ -39,18 +40,23 @@ struct Judgement {
 };
 
 struct JudgedResults {
-  std::string profile;                        // of the newest record
+  std::string profile;                        // that was judged
   std::vector<Judgement> judgements;          // by paper, in the claims' order
   std::vector<std::string> warnings, faults;  // of the store and of the pictures that its records drew
+  std::vector<Absence> absences = {};         // cases of the profile without measurements, and why
+  // "18 cases of profile paper are not read; --profile paper reads them": for each other profile in the
+  // folder.
+  std::vector<std::string> ignored = {};
 
-  bool passed() const;  // no complaint, no fault
+  bool passed() const;  // some claim was judged by measurements; no complaint, no fault
   std::span<const Judgement> of(const Paper&) const;
 };
 
-// Judges the claims whose id matches one of the globs (* and ?), or all when there are no globs. The papers
-// must outlive the result. Throws bad_input when the folder holds no results, usage_error when a glob matches
-// no claim.
-JudgedResults judge(const std::filesystem::path& folder, std::span<const std::string> globs = {});
+// Judges the claims whose id matches one of the globs (* and ?), or all when there are no globs, on the
+// records of the store's profile. The papers must outlive the result. Throws as Store::open(), and
+// usage_error when a glob matches no claim.
+JudgedResults judge(const std::filesystem::path& folder, std::span<const std::string> globs = {},
+                    const std::string& profile = "");
 JudgedResults judge(const Store&, std::span<const Paper>, std::span<const std::string> globs = {});
 
 }  // namespace terrabench

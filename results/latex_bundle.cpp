@@ -324,8 +324,9 @@ class Bundle {
 
 }  // namespace
 
-WrittenBundle write_latex_bundle(const std::filesystem::path& results, const std::filesystem::path& target) {
-  return write_latex_bundle(Store::open(results), papers(), target);
+WrittenBundle write_latex_bundle(const std::filesystem::path& results, const std::filesystem::path& target,
+                                 const std::string& profile) {
+  return write_latex_bundle(Store::open(results, profile), papers(), target);
 }
 
 WrittenBundle write_latex_bundle(const Store& store, std::span<const Paper> papers,

@@ -27,9 +27,11 @@ struct WrittenBundle {
 // embedded. The pictures are those that claims judge and that pages of grounds show, byte for byte as they
 // were drawn; main.tex names those that are left out. Each ground that no claims file names, such as a user's
 // DEM, has a section (further_grounds.h). Equal measurements give equal bytes. O(bytes of the
-// measurements + pixels of the pictures). Throws bad_input when `results` holds no measurements,
-// environment_error when `target` holds anything else or cannot be written. Not thread-safe.
-WrittenBundle write_latex_bundle(const std::filesystem::path& results, const std::filesystem::path& target);
+// measurements + pixels of the pictures). Throws bad_input when `results` holds no measurements
+// of the profile (as Store::open()), environment_error when `target` holds anything else or cannot be
+// written. Not thread-safe.
+WrittenBundle write_latex_bundle(const std::filesystem::path& results, const std::filesystem::path& target,
+                                 const std::string& profile = "");
 WrittenBundle write_latex_bundle(const Store&, std::span<const Paper>, const std::filesystem::path& target);
 
 }  // namespace terrabench

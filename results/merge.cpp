@@ -1,9 +1,12 @@
 #include "results/merge.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "results/format.h"
@@ -20,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kLargestPicture = std::uint64_t{1} << 28;
+constexpr std::string_view kOneSweep = "merge folders of one sweep only";
 
 // A record with the store that it comes from.
 struct Source {
@@ -61,20 +65,49 @@ void check_revision(const Source& first, const Source& other) {
                   other.where(), "merge folders of one revision only");
 }
 
+// Of any two cases: folders of one sweep share the seed, and what stands under a path. (Experiments make
+// several grounds of one name, such as in several sizes.)
+class SweepCheck {
+ public:
+  void add(const Source& source) {
+    const Record& record = *source.record;
+    if (!first_) first_ = source;
+    if (record.seed != first_->record->seed) {
+      throw bad_input(fmt::format("measured with seed {}, but {} with seed {}", record.seed, first_->where(),
+                                  first_->record->seed),
+                      source.where(), kOneSweep);
+    }
+    const bool path = record.terrain.find_first_of("./\\<") != record.terrain.npos;
+    if (!path || record.terrain_checksum.empty()) return;
+    const auto [at, added] = grounds_.try_emplace({record.experiment, record.profile, record.terrain,
+                                                   fmt::format("{}", fmt::join(record.overrides, ","))},
+                                                  source);
+    if (added || at->second.record->terrain_checksum == record.terrain_checksum) return;
+    throw bad_input(fmt::format("{} is another terrain than in {}: the file was changed", record.terrain,
+                                at->second.where()),
+                    source.where(), kOneSweep);
+  }
+
+ private:
+  std::optional<Source> first_;
+  std::map<std::array<std::string, 4>, Source> grounds_;
+};
+
 void check_same_case(const Source& kept, const Source& other) {
   const auto sorted = [](auto parameters) {
     std::ranges::sort(parameters);
     return parameters;
   };
   const Record &a = *kept.record, &b = *other.record;
-  const char* const what = a.seed != b.seed                               ? "seed"
-                           : a.terrain_checksum != b.terrain_checksum     ? "terrain"
-                           : sorted(a.parameters) != sorted(b.parameters) ? "parameters"
-                                                                          : nullptr;
+  // A case that failed may not know its terrain's.
+  const bool checksums = !a.terrain_checksum.empty() && !b.terrain_checksum.empty();
+  const char* const what = checksums && a.terrain_checksum != b.terrain_checksum ? "terrain"
+                           : sorted(a.parameters) != sorted(b.parameters)        ? "parameters"
+                                                                                 : nullptr;
   if (what == nullptr) return;
   throw bad_input(
       fmt::format("{} {} has another {} than in {}", b.experiment, b.case_name, what, kept.where()),
-      other.where(), "merge folders of one sweep only");
+      other.where(), kOneSweep);
 }
 
 // Exact figures hold on any machine, so two measurements of a case must agree in them.
@@ -94,29 +127,33 @@ void compare_exact(const Source& kept, const Source& other, std::vector<std::str
 // The records of the merged folder, in order, each once.
 struct Plan {
   std::vector<Source> records;
+  std::map<std::tuple<std::string, std::string, std::string>, std::size_t>
+      places;                                   // experiment, case, profile → index in records
   std::map<std::string, std::string> pictures;  // file → checksum
 };
 
-void add_record(const Source& source,
-                std::map<std::tuple<std::string, std::string, std::string>, Source>& cases, Plan& plan,
-                Merged& out) {
+void add_record(const Source& source, Plan& plan, Merged& out) {
   const Record& record = *source.record;
-  const auto [it, added] = cases.try_emplace({record.experiment, record.case_name, record.profile}, source);
+  const auto [it, added] =
+      plan.places.try_emplace({record.experiment, record.case_name, record.profile}, plan.records.size());
   if (!added) {
-    const Source& kept = it->second;
+    Source& kept = plan.records[it->second];
     if (to_line(*kept.record) == to_line(record))
       return;  // a copy of it, such as from a merge that was killed
     check_same_case(kept, source);
     compare_exact(kept, source, out.contradictions);
     ++out.repeated;
-    return;
+    const auto failed = [](const Record& r) { return r.outcome == CaseOutcome::kFailed; };
+    if (!failed(*kept.record) || failed(record)) return;
+    kept = source;
+  } else {
+    plan.records.push_back(source);
   }
-  plan.records.push_back(source);
   for (const RecordedFigure& figure : record.figures) {
     const auto [picture, first] = plan.pictures.try_emplace(figure.file, figure.checksum);
     if (first || picture->second == figure.checksum) continue;
     throw bad_input(fmt::format("{} is another picture than in a folder before", figure.file), source.where(),
-                    "merge folders of one sweep only");
+                    kOneSweep);
   }
 }
 
@@ -167,12 +204,13 @@ Merged merge(const fs::path& out, std::span<const fs::path> folders) {
   for (const Store& store : inputs) stores.push_back(&store);
   Merged result;
   Plan plan;
-  std::map<std::tuple<std::string, std::string, std::string>, Source> cases;
+  SweepCheck sweep;
   for (const Store* const store : stores) {
     check_trustworthy(*store);
     result.warnings.insert(result.warnings.end(), store->warnings().begin(), store->warnings().end());
     for (const Record& record : store->records()) {
-      add_record({store, &record}, cases, plan, result);
+      sweep.add({store, &record});
+      add_record({store, &record}, plan, result);
       check_revision(plan.records.front(), {store, &record});
     }
   }
@@ -192,8 +230,9 @@ std::string merge_text(const Merged& merged) {
         merged.machines);
   }
   if (merged.repeated > 0) {
-    text += fmt::format("{} cases were measured more than once; the first folder's record is kept\n",
-                        merged.repeated);
+    text += fmt::format(
+        "{} cases were measured more than once; the first folder's record is kept, unless it failed\n",
+        merged.repeated);
   }
   for (const std::string& line : merged.contradictions) text += fmt::format("differs: {}\n", line);
   if (!merged.passed()) {

@@ -17,7 +17,8 @@ namespace terrabench {
 struct Merged {
   std::size_t copied = 0;    // records
   std::size_t present = 0;   // records that the output folder held already
-  std::size_t repeated = 0;  // further measurements of a case; the first folder's is kept
+  std::size_t repeated = 0;  // further records of a case; the first folder's is kept, of a case that failed
+                             // there the first that did not
   std::size_t machines = 0;  // kinds of machine or build, between which times cannot be compared
   // Exact figures in which a repeated measurement differs from the one that is kept: "experiment case metric:
   // 3 in FOLDER on MACHINE; 4 in FOLDER on MACHINE".

@@ -67,8 +67,7 @@ class Trial {
       for (Samples& samples : metrics) samples = {median(samples)};
       if (!metrics.empty()) change(metrics);
     };
-    return gather_evidence(one_, store_, store_.last_profile(), mutate).findings[0].outcome ==
-           Outcome::kHolds;
+    return gather_evidence(one_, store_, store_.profile(), mutate).findings[0].outcome == Outcome::kHolds;
   }
 
   const Store& store_;
@@ -76,8 +75,8 @@ class Trial {
 };
 
 bool is_measured(const Claim& claim, const Store& store) {
-  if (claim.conditions.empty() || std::ranges::count(claim.profiles, store.last_profile()) == 0) return false;
-  const Evidence evidence = gather_evidence(claim, store, store.last_profile());
+  if (claim.conditions.empty() || std::ranges::count(claim.profiles, store.profile()) == 0) return false;
+  const Evidence evidence = gather_evidence(claim, store, store.profile());
   return std::ranges::count(evidence.findings, Outcome::kMissing, &Finding::outcome) == 0;
 }
 

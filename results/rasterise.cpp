@@ -7,13 +7,15 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <string>
 #include <vector>
 
-#include "terrain/error.h"
 #include "terrain/files.h"
 #include "terrain/image.h"
+#include "terrain/machine_error.h"
+#include "terrain/progress.h"
 #include "terrain/temporary_name.h"
 
 extern char** environ;
@@ -21,8 +23,8 @@ extern char** environ;
 namespace terrabench {
 namespace {
 
-// Runs rsvg-convert with these arguments, its output thrown away. Throws environment_error unless it
-// succeeds.
+// Runs rsvg-convert with these arguments, its output thrown away. Throws MachineError unless it succeeds,
+// Error(kInterrupted) if Ctrl-C ended it, which a terminal sends to it too.
 void run_rsvg(std::vector<std::string> arguments) {
   std::string program = "rsvg-convert", epoch = "SOURCE_DATE_EPOCH=0";  // the date in a PDF
   std::vector<char*> argv = {program.data()}, variables = {epoch.data()};
@@ -43,12 +45,16 @@ void run_rsvg(std::vector<std::string> arguments) {
   }
   // A C library may report a missing program only as the child's exit status 127.
   if (error != 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 127)) {
-    throw environment_error(fmt::format("cannot be run: {}", std::strerror(error != 0 ? error : ENOENT)),
-                            program, "install Debian's librsvg2-bin, which turns plots into PNG and PDF");
+    throw MachineError(fmt::format("cannot be run: {}", std::strerror(error != 0 ? error : ENOENT)), program,
+                       "install Debian's librsvg2-bin, which turns plots into PNG and PDF");
+  }
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  if (signal == SIGINT || signal == SIGTERM || (status != 0 && Progress::interrupted())) {
+    throw Error(ExitCode::kInterrupted, "interrupted", program, "");
   }
   if (status != 0) {
-    throw environment_error(fmt::format("failed with status {}", status), program + " " + arguments.back(),
-                            "check the free space on the disk and the folder's permissions");
+    throw MachineError(fmt::format("failed with status {}", status), program + " " + arguments.back(),
+                       "check the free space on the disk and the folder's permissions");
   }
 }
 

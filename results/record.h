@@ -57,7 +57,20 @@ struct Provenance {
 // code, although they may differ, so that an interrupted run can be resumed.
 bool comparable(const Provenance&, const Provenance&);
 
-// One case of one experiment, measured.
+// What became of a case. Only kMeasured has metrics and figures; the others give a reason instead.
+enum class CaseOutcome {
+  kMeasured,
+  kFailed,   // an error stopped it: measured again by --resume
+  kSkipped,  // it cannot be measured, such as a method on ground that it cannot hold
+};
+std::string_view name(CaseOutcome);  // "failed"
+
+// Why a metric is absent: "skipped", "needs 2 × 2 samples"; or "not defined", "the ground is flat".
+struct WhyAbsent {
+  std::string_view word, reason;
+};
+
+// One case of one experiment.
 struct Record {
   std::string experiment, case_name, profile;
   std::vector<std::string> overrides = {};  // "name=value" of --set; also in case_name, so no claim reads it
@@ -67,11 +80,17 @@ struct Record {
   std::vector<std::pair<std::string, Value>> parameters;
   std::vector<Metric> metrics;
   std::vector<RecordedFigure> figures;
+  CaseOutcome outcome = CaseOutcome::kMeasured;
+  std::string reason = {};  // why it was not measured; empty if it was
+  // Metrics that have no value, such as an error relative to a relief of 0: name, reason.
+  std::vector<std::pair<std::string, std::string>> undefined = {};
 
   const Metric* find(std::string_view metric) const {  // null when absent
     const auto it = std::ranges::find(metrics, metric, &Metric::name);
     return it == metrics.end() ? nullptr : &*it;
   }
+  // Of a metric that find() does not find; nothing when the record does not say.
+  std::optional<WhyAbsent> why_absent(std::string_view metric) const;
 };
 
 }  // namespace terrabench

@@ -1,6 +1,7 @@
 #include "results/record_json.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -97,8 +98,16 @@ class Fields {
   // Names become keys and table cells.
   std::string name(const char* field) {
     std::string value = text(field);
-    require(!value.empty() && value.size() <= 200, fmt::format("'{}' is empty or too long", field));
+    const std::string fault = name_fault(value);
+    require(fault.empty(), fmt::format("'{}' {}", field, fault));
     return value;
+  }
+  // One of these words, given by its place among them.
+  std::size_t choice(const char* field, std::initializer_list<std::string_view> allowed) {
+    const std::string value = text(field);
+    const auto at = std::ranges::find(allowed, value);
+    require(at != allowed.end(), fmt::format("'{}' is neither '{}'", field, fmt::join(allowed, "' nor '")));
+    return static_cast<std::size_t>(at - allowed.begin());
   }
   std::uint64_t natural(const char* name) {
     const Json& value = get(name);
@@ -227,11 +236,29 @@ void check_schema(Fields& fields, const std::string& where) {
       where, "use the version that wrote it, or a later one");
 }
 
+// Why the case, or some of its metrics, have no value.
+void read_absences(Fields& fields, Record& record) {
+  if (fields.has("outcome")) {
+    record.outcome =
+        fields.choice("outcome", {"failed", "skipped"}) == 0 ? CaseOutcome::kFailed : CaseOutcome::kSkipped;
+    record.reason = fields.text("reason");
+    require(!record.reason.empty(), "'reason' is empty");
+    require(record.metrics.empty() && record.figures.empty(), "a case that was not measured has results");
+  }
+  if (!fields.has("undefined")) return;
+  for (const auto& [name, reason] : fields.object("undefined").items()) {
+    require(name_fault(name).empty() && reason.is_string() && record.find(name) == nullptr,
+            fmt::format("the reason why '{}' is not defined is damaged", name));
+    record.undefined.emplace_back(name, reason.get<std::string>());
+  }
+}
+
 Record record_from(Fields& fields, std::string& warning) {
   Record record;
   record.experiment = fields.name("experiment");
   record.case_name = fields.name("case");
-  record.profile = fields.name("profile");
+  fields.choice("profile", {"quick", "paper"});  // what a claim may name: another would be judged by none
+  record.profile = fields.text("profile");
   record.run = fields.name("run");
   record.seed = fields.natural("seed");
   record.terrain = fields.text("terrain");
@@ -250,6 +277,7 @@ Record record_from(Fields& fields, std::string& warning) {
   }
   for (const Json& metric : fields.array("metrics")) record.metrics.push_back(metric_from(metric, warning));
   for (const Json& figure : fields.array("figures")) record.figures.push_back(figure_from(figure, warning));
+  read_absences(fields, record);
   return record;
 }
 
@@ -308,6 +336,14 @@ Line line_from(std::string_view text, const std::string& where) {
 
 }  // namespace
 
+std::string name_fault(std::string_view text) {
+  constexpr std::size_t kLongest = 200;
+  if (text.empty()) return "is empty";
+  if (text.size() > kLongest)
+    return fmt::format("has {} bytes, at most {} are allowed", text.size(), kLongest);
+  return printable(text) == text ? "" : "holds control characters";
+}
+
 std::string to_line(const Record& record) {
   const std::string where = record.experiment + "/" + record.case_name + "/";
   Json parameters = Json::object(), metrics = Json::array(), figures = Json::array();
@@ -343,6 +379,11 @@ std::string to_line(const Record& record) {
              {"metrics", metrics},
              {"figures", figures}});
   if (!record.overrides.empty()) line["overrides"] = record.overrides;
+  if (record.outcome != CaseOutcome::kMeasured) {
+    line["outcome"] = name(record.outcome);
+    line["reason"] = record.reason;
+  }
+  for (const auto& [metric, reason] : record.undefined) line["undefined"][metric] = reason;
   return sealed(std::move(line));
 }
 

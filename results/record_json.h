@@ -17,6 +17,10 @@ namespace terrabench {
 // that a reader must know of gets the next number.
 inline constexpr std::uint64_t kSchema = 2;
 
+// What forbids such a text as the name of a case, a metric or the like: "is empty", "has 231 bytes, at most
+// 200 are allowed", "holds control characters"; empty if nothing does.
+std::string name_fault(std::string_view);
+
 // Without the newline. Throws bad_input when a number is not finite.
 std::string to_line(const Record&);
 std::string to_line(const Provenance&);  // ignores `id`

@@ -58,6 +58,7 @@ class Report {
       if (has_results(paper)) add_paper(paper);
     }
     add_further_cases();
+    add_absences();
     add_other_pictures();
     add_pending();
     add_provenance();
@@ -74,9 +75,16 @@ class Report {
         "none is typed in. Each table and picture names the run that it came from. Machine, code and command "
         "of each run are listed at the end.",
         results_.profile)});
+    for (const std::string& ignored : results_.ignored) document_.push_back(Paragraph{ignored + ".", true});
     add_warning(document_);
     add_complaints();
     add_summary();
+    if (const std::size_t failed = std::ranges::count(results_.absences, "failed", &Absence::what);
+        failed > 0) {
+      document_.push_back(Paragraph{"Some cases failed: what they should have measured is missing.",
+                                    true,
+                                    {{"Which, and why", "#absent"}}});
+    }
     document_.push_back(Paragraph{"Every row with its figure and its run, in one table that can be filtered:",
                                   false,
                                   {{"Ledger", "ledger.html"}, {"as Markdown", "ledger.md"}}});
@@ -151,7 +159,7 @@ class Report {
   void add_further_grounds() {
     write_further_pages();
     std::vector<FilledTable> tables = tables_of_further_grounds(
-        further_, {store_, results_.profile}, ranking_layouts(), {reference_, reference_.last_profile()});
+        further_, {store_, results_.profile}, ranking_layouts(), {reference_, reference_.profile()});
     if (further_pages_.empty() && tables.empty()) return;
     document_.push_back(Heading{2, "Further grounds", "grounds"});
     document_.push_back(Paragraph{
@@ -411,6 +419,13 @@ class Report {
     document_.push_back(parts_.table(std::move(table), runs));
   }
 
+  void add_absences() {
+    Table table = absence_table(results_);
+    if (table.rows.empty()) return;
+    document_.push_back(Heading{2, "Without measurements", "absent"});
+    add_table(std::move(table), {});
+  }
+
   void add_pending() {
     Table table = pending_table(results_);
     if (table.rows.empty()) return;
@@ -447,8 +462,9 @@ class Report {
 
 }  // namespace
 
-WrittenReport write_report(const std::filesystem::path& folder, const std::filesystem::path& reference) {
-  const Store store = Store::open(folder);
+WrittenReport write_report(const std::filesystem::path& folder, const std::filesystem::path& reference,
+                           const std::string& profile) {
+  const Store store = Store::open(folder, profile);
   if (reference.empty()) return write_report(store, papers());
   const Store compared = Store::open(reference);
   return write_report(store, papers(), &compared);

@@ -23,8 +23,9 @@ struct WrittenReport {
 // measurements give equal bytes. Throws bad_input when the folder holds no results, environment_error when
 // `report` in it is no earlier report, or when the report cannot be written. Not thread-safe.
 // `reference`: another results folder, with whose grounds further ones are compared (further_grounds.h); by
-// default the same folder.
-WrittenReport write_report(const std::filesystem::path& folder, const std::filesystem::path& reference = {});
+// default the same folder. `profile`: as Store::open().
+WrittenReport write_report(const std::filesystem::path& folder, const std::filesystem::path& reference = {},
+                           const std::string& profile = "");
 WrittenReport write_report(const Store&, std::span<const Paper>, const Store* reference = nullptr);
 
 }  // namespace terrabench

@@ -150,6 +150,21 @@ Facts run_facts(const Provenance& run) {
   return facts;
 }
 
+Table absence_table(const JudgedResults& results) {
+  Table table{
+      "absences",
+      "Without measurements",
+      "Cases that failed or were skipped, and quantities that are not defined, such as an error relative to "
+      "a relief of 0. Tables show these words in their place.",
+      {{"What"}, {"Reason"}, {"Cases"}},
+      {}};
+  for (const Absence& absence : results.absences) {
+    table.rows.push_back(
+        {{absence.what}, {absence.reason}, {fmt::format("{}", fmt::join(absence.where, "; "))}});
+  }
+  return table;
+}
+
 Table input_table(const Store& store, std::string_view profile) {
   Table table{
       "inputs",

@@ -36,6 +36,8 @@ inline std::string picture_file(const RecordedFigure& figure) {
 
 // Where the numbers come from: one run, and every case of a profile with its seed, terrain and parameters.
 Facts run_facts(const Provenance&);
+// Cases without measurements and metrics without a value, by reason.
+Table absence_table(const JudgedResults&);
 Table input_table(const Store&, std::string_view profile);
 // Runs are named by the start of their digest, and have an anchor in the page.
 std::string short_id(const std::string& run);

@@ -11,8 +11,8 @@
 #include <cstring>
 
 #include "results/record_json.h"
-#include "terrain/error.h"
 #include "terrain/files.h"
+#include "terrain/machine_error.h"
 
 namespace terrabench {
 namespace {
@@ -25,11 +25,11 @@ constexpr std::chrono::seconds kSyncInterval{1};
 
 constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 30, kLargestPicture = std::uint64_t{1} << 28;
 
-Error cannot_append(const std::filesystem::path& file, int error) {
-  return environment_error(fmt::format("cannot write: {}", std::strerror(error)), file.string(),
-                           error == ENOSPC || error == EDQUOT
-                               ? "free some space on the disk, then go on with --resume"
-                               : "check the folder's permissions, or choose another with --out");
+MachineError cannot_append(const std::filesystem::path& file, int error) {
+  return MachineError(fmt::format("cannot write: {}", std::strerror(error)), file.string(),
+                      error == ENOSPC || error == EDQUOT
+                          ? "free some space on the disk, then go on with --resume"
+                          : "check the folder's permissions, or choose another with --out");
 }
 
 // The file, locked against other processes that append to it or replace it.
@@ -123,7 +123,7 @@ bool Store::is_at(const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / kMeasurements, error);
 }
 
-Store Store::open(const std::filesystem::path& folder) {
+Store Store::open(const std::filesystem::path& folder, const std::string& profile) {
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error)) {
     throw bad_input("no such folder", folder.string(),
@@ -134,6 +134,12 @@ Store Store::open(const std::filesystem::path& folder) {
     throw bad_input("holds no measurements", folder.string(),
                     "measure first: terrabench run --out " + folder.string());
   }
+  if (profile.empty() || profile == store.profile_) return store;
+  if (std::ranges::count(store.records_, profile, &Record::profile) == 0) {
+    throw bad_input(fmt::format("holds no measurements of profile {}", profile), folder.string(),
+                    fmt::format("leave out --profile to read those of profile {}", store.profile_));
+  }
+  store.profile_ = profile;
   return store;
 }
 
@@ -175,7 +181,7 @@ void Store::read_line(std::string_view text) {
     if (auto* record = std::get_if<Record>(&line.content)) {
       keep(std::move(*record), line.altered);
     } else {
-      runs_.push_back(std::get<Provenance>(std::move(line.content)));
+      add_run(std::get<Provenance>(std::move(line.content)));
     }
   } catch (const NewerSchema&) {
     throw;
@@ -186,20 +192,23 @@ void Store::read_line(std::string_view text) {
 }
 
 void Store::keep(Record record, bool altered) {
-  last_profile_ = record.profile;
-  for (std::size_t i = 0; i < records_.size(); ++i) {
-    if (records_[i].experiment != record.experiment || records_[i].case_name != record.case_name ||
-        records_[i].profile != record.profile) {
-      continue;
-    }
-    records_[i] = std::move(record);
-    altered_[i] = altered;
-    lines_[i] = last_line_;
+  profile_ = record.profile;
+  const auto [at, added] =
+      places_.try_emplace({record.experiment, record.case_name, record.profile}, records_.size());
+  if (!added) {
+    records_[at->second] = std::move(record);
+    altered_[at->second] = altered;
+    lines_[at->second] = last_line_;
     return;
   }
   records_.push_back(std::move(record));
   altered_.push_back(altered);
   lines_.push_back(last_line_);
+}
+
+void Store::add_run(Provenance run) {
+  std::string id = run.id;
+  runs_.try_emplace(std::move(id), std::move(run));
 }
 
 void Store::create_folder() const {
@@ -229,7 +238,7 @@ void Store::begin_run(const Provenance& provenance) {
   const std::string line = to_line(provenance);
   Line parsed = parse_line(line, "this run");
   append_line(line);
-  runs_.push_back(std::get<Provenance>(std::move(parsed.content)));
+  add_run(std::get<Provenance>(std::move(parsed.content)));
 }
 
 void Store::append(const Record& record) {
@@ -262,10 +271,8 @@ void Store::append_all(std::span<const Provenance> runs, std::span<const Record>
 
 const Record* Store::find(std::string_view experiment, std::string_view case_name,
                           std::string_view profile) const {
-  const auto it = std::find_if(records_.begin(), records_.end(), [&](const Record& record) {
-    return record.experiment == experiment && record.case_name == case_name && record.profile == profile;
-  });
-  return it == records_.end() ? nullptr : &*it;
+  const auto it = places_.find(std::tuple(experiment, case_name, profile));
+  return it == places_.end() ? nullptr : &records_[it->second];
 }
 
 const Record* Store::find(const CaseKey& key, const Provenance& now) const {
@@ -294,8 +301,8 @@ std::pair<const Record*, const RecordedFigure*> Store::find_figure(std::string_v
 }
 
 const Provenance* Store::run(std::string_view id) const {
-  const auto it = std::ranges::find(runs_, id, &Provenance::id);
-  return it == runs_.end() ? nullptr : &*it;
+  const auto it = runs_.find(id);
+  return it == runs_.end() ? nullptr : &it->second;
 }
 
 bool Store::altered(const Record& record) const { return altered_[index(record)]; }

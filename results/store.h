@@ -7,10 +7,12 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -28,15 +30,17 @@ struct CaseKey {
 
 class Store {
  public:
-  // Reads the folder; a folder without measurements is an empty store. Drops damaged lines with a warning,
-  // also a last line that was cut short, which the next append removes. Throws bad_input when the file cannot
-  // be read, all its lines are damaged, or one was written by a later version of the program.
+  // Reads the folder, n lines in O(n log n); a folder without measurements is an empty store. Drops damaged
+  // lines with a warning, also a last line that was cut short, which the next append removes. Throws
+  // bad_input when the file cannot be read, all its lines are damaged, or one was written by a later version
+  // of the program.
   explicit Store(std::filesystem::path folder);
 
   // Whether the folder holds a file of measurements.
   static bool is_at(const std::filesystem::path& folder);
-  // As the constructor, but throws bad_input when there are no measurements.
-  static Store open(const std::filesystem::path& folder);
+  // As the constructor, but throws bad_input when there are no measurements, or none of this profile; empty:
+  // any.
+  static Store open(const std::filesystem::path& folder, const std::string& profile = "");
 
   // Throw environment_error (disk full, unwritable) and leave the file as it was. Several processes may
   // append to one folder. The record's run must have begun before append().
@@ -69,8 +73,9 @@ class Store {
   bool intact(const RecordedFigure&) const;
   // Where a picture lies, or would be written. Throws bad_input when links lead out of the folder.
   std::filesystem::path path_of(const std::string& figure_file) const;
-  // The profile of the newest record; empty for an empty store.
-  const std::string& last_profile() const { return last_profile_; }
+  // The profile that is judged and reported: the one that open() was given, otherwise that of the newest
+  // record; empty for an empty store.
+  const std::string& profile() const { return profile_; }
 
   const std::filesystem::path& folder() const { return folder_; }
   // What was dropped or ignored while reading, with line numbers.
@@ -82,6 +87,7 @@ class Store {
   void read(std::string_view content);
   void read_line(std::string_view text);
   void keep(Record record, bool altered);
+  void add_run(Provenance);
   std::size_t index(const Record& record) const {
     return static_cast<std::size_t>(&record - records_.data());
   }
@@ -93,8 +99,10 @@ class Store {
   std::vector<bool> altered_;       // parallel to records_
   std::vector<std::size_t> lines_;  // parallel to records_: line numbers, so a larger one is newer
   std::size_t last_line_ = 0;       // number of the line that was read or appended last
-  std::vector<Provenance> runs_;
-  std::string last_profile_;
+  std::map<std::tuple<std::string, std::string, std::string>, std::size_t, std::less<>>
+      places_;                                           // experiment, case, profile → index in records_
+  std::map<std::string, Provenance, std::less<>> runs_;  // by id
+  std::string profile_;
   std::chrono::steady_clock::time_point synced_{};  // when this process last synced the file
   std::vector<std::string> warnings_, faults_;
 };

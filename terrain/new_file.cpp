@@ -9,17 +9,16 @@
 #include <cstring>
 #include <utility>
 
-#include "terrain/error.h"
+#include "terrain/machine_error.h"
 #include "terrain/temporary_name.h"
 
 namespace terrabench {
 namespace {
 
-Error cannot_write(const std::filesystem::path& path, int error) {
-  return environment_error(fmt::format("cannot write: {}", std::strerror(error)), path.string(),
-                           error == ENOSPC
-                               ? "free some space on the disk, or choose another folder with --out"
-                               : "check the folder's permissions, or choose another with --out");
+MachineError cannot_write(const std::filesystem::path& path, int error) {
+  return MachineError(fmt::format("cannot write: {}", std::strerror(error)), path.string(),
+                      error == ENOSPC ? "free some space on the disk, or choose another folder with --out"
+                                      : "check the folder's permissions, or choose another with --out");
 }
 
 }  // namespace
@@ -32,7 +31,7 @@ NewFile::NewFile(const std::filesystem::path& name) {
   error.clear();  // a new file has no status yet
   const auto status = std::filesystem::status(path_, error);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    throw environment_error("cannot write: it is a folder or a device", path_.string(), "name a file");
+    throw MachineError("cannot write: it is a folder or a device", path_.string(), "name a file");
   }
   error.clear();
   if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), error);

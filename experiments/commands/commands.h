@@ -79,6 +79,7 @@ ExitCode render_command(const RenderArguments&);
 struct CheckArguments {
   std::filesystem::path folder = "out", junit;
   std::vector<std::string> claims;  // ids or globs; empty: all
+  std::string profile;              // empty: the newest record's
   bool json = false, verbose = false;
 };
 ExitCode check_command(const CheckArguments&);
@@ -100,6 +101,7 @@ struct ReportArguments {
   std::filesystem::path folder = "out";
   std::filesystem::path latex;      // folder of a LaTeX bundle to write instead of the report; empty: none
   std::filesystem::path reference;  // results folder to compare further grounds with; empty: `folder`
+  std::string profile;              // empty: the newest record's
 };
 ExitCode report_command(const ReportArguments&);
 

@@ -110,12 +110,14 @@ void describe_model(const std::string& path) {
 
 void describe_results(const std::filesystem::path& folder) {
   const Store store = Store::open(folder);
-  fmt::print("{}: results, {} cases, profile {}\n", folder.string(), store.records().size(),
-             store.last_profile());
+  fmt::print("{}: results, {} cases, profile {}\n", folder.string(), store.records().size(), store.profile());
   for (const std::string& warning : store.warnings()) fmt::print("warning     {}\n", warning);
   for (const Record& record : store.records()) {
-    fmt::print("  {} {} ({}): {} metrics, {} figures\n", record.experiment, record.case_name, record.profile,
-               record.metrics.size(), record.figures.size());
+    const std::string what =
+        record.outcome == CaseOutcome::kMeasured
+            ? fmt::format("{} metrics, {} figures", record.metrics.size(), record.figures.size())
+            : fmt::format("{}: {}", name(record.outcome), record.reason);
+    fmt::print("  {} {} ({}): {}\n", record.experiment, record.case_name, record.profile, what);
   }
 }
 

@@ -17,7 +17,7 @@
 namespace terrabench {
 
 ExitCode check_command(const CheckArguments& arguments) {
-  const JudgedResults results = judge(arguments.folder, arguments.claims);
+  const JudgedResults results = judge(arguments.folder, arguments.claims, arguments.profile);
   // Before the text, whose reader may close the pipe.
   if (!arguments.junit.empty()) write_file(arguments.junit, check_junit(results));
   TextLook look{.verbose = arguments.verbose};
@@ -42,13 +42,13 @@ void warn_of(const std::vector<std::string>& faults) {
 }
 
 std::filesystem::path report(const ReportArguments& arguments) {
-  const WrittenReport report = write_report(arguments.folder, arguments.reference);
+  const WrittenReport report = write_report(arguments.folder, arguments.reference, arguments.profile);
   warn_of(report.faults);
   return report.page;
 }
 
 std::filesystem::path latex_bundle(const ReportArguments& arguments) {
-  const WrittenBundle bundle = write_latex_bundle(arguments.folder, arguments.latex);
+  const WrittenBundle bundle = write_latex_bundle(arguments.folder, arguments.latex, arguments.profile);
   warn_of(bundle.faults);
   if (!bundle.left_out.empty()) {
     fmt::print(

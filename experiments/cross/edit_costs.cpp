@@ -211,7 +211,7 @@ void record_misplaced(const EventLines::Metres& before, const EventLines::Metres
   for (std::size_t c = 0; c < before.below.size(); ++c) {
     misplaced += std::abs(after.below[c] - before.below[c]);
   }
-  if (before.above > 0) recorder.add("event_misplaced", "", misplaced / before.above);
+  recorder.add_ratio("event_misplaced", misplaced, before.above, "the event removes nothing");
 }
 
 // One number per triangle: a hash of the bits of its corners, the same wherever its first corner is.
@@ -350,7 +350,12 @@ std::size_t new_triangles(const TriangleMesh& before, const TriangleMesh& after)
 void measure_edit(const Scene& scene, const RepresentationType& type, const Representation& built,
                   const TriangleMesh& mesh, Recorder& recorder, Progress& progress) {
   const Sphere sphere = place_of_edit(scene);
-  if (!(sphere.radius >= scene.cell)) return;  // the sphere could lie between the samples
+  if (!(sphere.radius >= scene.cell)) {
+    return recorder.undefined(
+        {"rebuilt", "dig_bytes", "dig_triangles", "dig_time", "fill_bytes", "fill_triangles", "fill_time",
+         "event_rebuilt", "event_bytes", "event_triangles", "event_time"},
+        "the ground is too flat or too small for an edit as large as its cells");
+  }
   const EventPlace& place = place_of_event(scene, sphere, progress);
   const bool digs = type.traits.editable,
              erodes = digs || (place.taken && dynamic_cast<const Ght*>(&built) != nullptr);

@@ -44,12 +44,14 @@ Parameters with(Parameters parameters, std::string_view name, std::int64_t setti
 Fitting::Fitting(const Scene& scene, const RepresentationType& type, Progress& progress)
     : scene_(scene), type_(type), progress_(progress), parameters_(scene.parameters(type)) {}
 
-// Nothing where the type refuses the setting.
+// Nothing where the type refuses the setting, or keeps no column whose top could be compared.
 std::optional<Trial> Fitting::attempt(const Parameters& parameters, std::int64_t setting) {
   try {
     const auto built = type_.build(scene_.source, parameters, progress_);
     const Differences found = top_and_volume_differences(*built, scene_.source, scene_.lines);
-    return trials_.emplace_back(Trial{setting, file_bytes(type_, *built), found.rmse, 1 - found.volume_iou});
+    if (found.columns == 0) return {};
+    return trials_.emplace_back(
+        Trial{setting, file_bytes(type_, *built), found.rmse, 1 - found.volume_iou.value_or(1)});
   } catch (const Error& error) {
     if (!refuses(error)) throw;
     return {};

@@ -22,7 +22,7 @@ inline constexpr double kLeastOfBytes = 0.85, kLeastOfError = 0.9;
 struct Trial {
   std::int64_t setting = 0;  // columns, or the bytes that drills were allowed; 0 if they were given an error
   std::size_t file_bytes = 0;
-  double rmse = 0, volume_error = 0;  // of tops, metres; 1 - IoU
+  double rmse = 0, volume_error = 0;  // of tops, metres; 1 - IoU, 0 where neither has volume
 };
 
 struct Fitted {

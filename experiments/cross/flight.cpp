@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "experiments/cross/scenes.h"
 #include "experiments/ground.h"
 #include "lod/camera/camera_path.h"
 #include "lod/meters/screen_error.h"
@@ -122,7 +123,7 @@ Flight& flight_along(const Route& route, Progress& progress) {
 }
 
 std::unique_ptr<Lod> Contender::build(const Heightfield& ground, Progress& progress) const {
-  return type->build(ground, options, progress);
+  return unless_refused([&] { return type->build(ground, options, progress); });
 }
 
 Contender contender(std::string_view method, std::string_view options) {

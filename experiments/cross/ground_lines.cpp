@@ -117,9 +117,8 @@ double farthest(const std::vector<SpacePoint>& from, const NearestPoint& to) {
 
 void compare_surfaces(const GroundLines& ground, const LineParts& built, Differences& found) {
   const std::vector<SpacePoint> a = surface_points(ground, ground.parts), b = surface_points(ground, built);
-  found.from_ground = farthest(a, NearestPoint(b));
-  found.to_ground = farthest(b, NearestPoint(a));
-  found.hausdorff = std::max(found.from_ground, found.to_ground);
+  if (a.empty() || b.empty()) return;
+  found.distance = {farthest(a, NearestPoint(b)), farthest(b, NearestPoint(a))};
 }
 
 void compare_tops(std::vector<double> errors, Differences& found) {
@@ -231,7 +230,7 @@ Differences tops_and_volume(const Representation& built, const TerrainSource& so
     both += shared;
     either += length(ground.parts.line(c)) + length(parts.line(c)) - shared;
   }
-  found.volume_iou = either > 0 ? both / either : 1;
+  if (either > 0) found.volume_iou = both / either;
   return found;
 }
 

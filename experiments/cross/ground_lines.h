@@ -6,7 +6,9 @@
 // of two lines; those of heights have one exact span.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -50,14 +52,18 @@ GroundLines ground_lines(const TerrainSource&, int along);
 LineParts lines_of(const Representation&, const GroundLines&);
 
 struct Differences {
-  // Tops of columns: at every sample of a height field, or on the lines of a solid. Metres.
+  // Tops of columns: at every sample of a height field, or on the lines of a solid. Metres. Of no columns, 0.
   double rmse = 0, p99 = 0, largest = 0;
   std::size_t columns = 0, lost_columns = 0;  // lost: only one of the two has ground
-  double volume_iou = 0;                      // on the lines
+  std::optional<double> volume_iou;           // on the lines; nothing if neither has volume there
   // Distances between points on both surfaces, sampled alike: on the lines, and on walls along the lines next
-  // to them, so that walls stand up to a step beside their true place in both. 0 for equal lines; metres.
-  double hausdorff = 0;  // the larger of the two:
-  double from_ground = 0, to_ground = 0;
+  // to them, so that walls stand up to a step beside their true place in both. 0 for equal lines; metres;
+  // nothing if one of the two has no points.
+  struct Distance {
+    double from_ground = 0, to_ground = 0;
+    double hausdorff() const { return std::max(from_ground, to_ground); }
+  };
+  std::optional<Distance> distance;
   // Air under a roof, in cubic metres. The core is what lies more than `margin` away from all that is solid.
   double cavities = 0, cores = 0;
   double cavities_filled = 0, cores_filled = 0;  // the representation's solid parts within

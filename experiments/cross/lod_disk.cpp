@@ -23,6 +23,7 @@
 #include "experiments/cross/strips.h"
 #include "experiments/cross/temporary_folder.h"
 #include "experiments/experiment.h"
+#include "experiments/runner.h"
 #include "experiments/stopwatch.h"
 #include "lod/camera/camera_path.h"
 #include "lod/clipmap/clipmap.h"
@@ -265,7 +266,9 @@ void run_own_program(const std::vector<std::string>& arguments, const std::files
                      Progress& progress) {
   const int status = wait(start(arguments, log));
   progress.advance();  // throws when interrupted
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+  // A case that failed there has a record that says why.
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  if (code == 0 || code == static_cast<int>(kCasesFailed)) return;
   throw environment_error(WIFSIGNALED(status)
                               ? fmt::format("the second process was ended by signal {}", WTERMSIG(status))
                               : fmt::format("the second process failed: {}", last_line(log)),
@@ -308,7 +311,12 @@ void walk_apart(const fs::path& pyramid, const fs::path& folder, const Case& at,
         fmt::format("the second process left {} records, not one", store.records().size()), results.string(),
         "run the same experiment over the pyramid by itself");
   }
-  for (const Metric& metric : store.records().front().metrics) {
+  const Record& walk = store.records().front();
+  if (walk.outcome != CaseOutcome::kMeasured) {
+    throw environment_error("the second process failed: " + walk.reason, "",
+                            "run the same experiment by itself");
+  }
+  for (const Metric& metric : walk.metrics) {
     for (const double sample : metric.samples) {
       if (metric.varies) {
         recorder.add_varying(metric.name, metric.unit, sample);

@@ -85,7 +85,7 @@ std::unique_ptr<Representation> measure_build(const Scene& scene, const Represen
   const auto build = [&scene, &type, &progress, parameters] {
     return type.build(scene.source, parameters, progress);
   };
-  std::unique_ptr<Representation> built = build();  // makes thread pools and tables
+  std::unique_ptr<Representation> built = unless_refused(build);  // makes thread pools and tables
   const Memory memory = built->memory();
   recorder.add("payload", "B", memory.payload);
   recorder.add("index", "B", memory.index);

@@ -65,22 +65,40 @@ std::vector<Case> cases(const RunOptions& options) {
   return cases;
 }
 
-void record(const Differences& found, const TerrainSource& source, Recorder& recorder) {
+void record_tops(const Differences& found, Recorder& recorder) {
+  recorder.add("columns", "", found.columns);
+  recorder.add("lost_columns", "", found.lost_columns);
+  if (found.columns == 0) {
+    return recorder.undefined({"rmse", "error_p99", "largest_error"},
+                              "the type and the ground share no column");
+  }
   recorder.add("rmse", "m", found.rmse);
   recorder.add("error_p99", "m", found.p99);
   recorder.add("largest_error", "m", found.largest);
-  recorder.add("columns", "", found.columns);
-  recorder.add("lost_columns", "", found.lost_columns);
-  recorder.add("hausdorff", "m", found.hausdorff);
-  recorder.add("hausdorff_from_ground", "m", found.from_ground);
-  recorder.add("hausdorff_to_ground", "m", found.to_ground);
-  recorder.add("volume_iou", "", found.volume_iou);
-  recorder.add("volume_error", "", 1 - found.volume_iou);
+}
+
+void record(const Differences& found, const TerrainSource& source, Recorder& recorder) {
+  record_tops(found, recorder);
+  if (found.distance) {
+    recorder.add("hausdorff", "m", found.distance->hausdorff());
+    recorder.add("hausdorff_from_ground", "m", found.distance->from_ground);
+    recorder.add("hausdorff_to_ground", "m", found.distance->to_ground);
+  } else {
+    recorder.undefined({"hausdorff", "hausdorff_from_ground", "hausdorff_to_ground"},
+                       "the type or the ground has no surface on the lines on which they are compared");
+  }
+  if (found.volume_iou) {
+    recorder.add("volume_iou", "", *found.volume_iou);
+    recorder.add("volume_error", "", 1 - *found.volume_iou);
+  } else {
+    recorder.undefined({"volume_iou", "volume_error"},
+                       "neither the type nor the ground has volume on the lines on which they are compared");
+  }
   if (source.heights) return;
   recorder.add("cavities", "m³", found.cavities);
   recorder.add("cores", "m³", found.cores);
-  if (found.cavities > 0) recorder.add("cavities_lost", "", found.cavities_filled / found.cavities);
-  if (found.cores > 0) recorder.add("cores_lost", "", found.cores_filled / found.cores);
+  recorder.add_ratio("cavities_lost", found.cavities_filled, found.cavities, "the ground has no cavities");
+  recorder.add_ratio("cores_lost", found.cores_filled, found.cores, "no cavity is deep enough for a core");
 }
 
 // Every setting that was tried, for the plot of error against bytes.
@@ -120,6 +138,10 @@ void measure_at_error(const Scene& scene, const RepresentationType& type, double
                       Progress& progress) {
   const double relief = relief_of(scene), asked = share * relief;
   recorder.add("relief", "m", relief);
+  if (relief == 0) {
+    return recorder.undefined({"asked_rmse", "reached", "same_error", "least_of_relief", "of_asked"},
+                              "the ground is flat: an error has no share of its relief");
+  }
   recorder.add("asked_rmse", "m", asked);
   Fitting fitting(scene, type, progress);
   const std::optional<Fitted> fitted = fitting.for_error(asked);

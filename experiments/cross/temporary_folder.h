@@ -10,7 +10,7 @@
 #include <string>
 #include <system_error>
 
-#include "terrain/error.h"
+#include "terrain/machine_error.h"
 
 namespace terrabench::cross {
 
@@ -20,8 +20,8 @@ class TemporaryFolder {
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "terrabench-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) {
-      throw environment_error(fmt::format("cannot make a folder: {}", std::strerror(errno)), name,
-                              "free some space, or set TMPDIR to a folder that has it");
+      throw MachineError(fmt::format("cannot make a folder: {}", std::strerror(errno)), name,
+                         "free some space, or set TMPDIR to a folder that has it");
     }
     path_ = name;
   }

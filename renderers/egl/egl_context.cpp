@@ -13,7 +13,7 @@
 
 #include "renderers/gl.h"
 #include "renderers/shared_library.h"
-#include "terrain/error.h"
+#include "terrain/machine_error.h"
 
 namespace terrabench {
 namespace {
@@ -147,8 +147,8 @@ class EglContext final : public GlContext {
     if (egl_.make_current(opened_.display, EGL_NO_SURFACE, EGL_NO_SURFACE, opened_.context) == EGL_FALSE) {
       const EGLint error = egl_.get_error();
       if (error == EGL_CONTEXT_LOST) throw context_lost("EGL");
-      throw environment_error(fmt::format("the OpenGL context cannot be made current (0x{:x})", error), "EGL",
-                              "close it and open a new one");
+      throw MachineError(fmt::format("the OpenGL context cannot be made current (0x{:x})", error), "EGL",
+                         "close it and open a new one");
     }
     load_gl(reinterpret_cast<GLADloadfunc>(egl_.get_function), "EGL");
   }
@@ -176,8 +176,8 @@ std::unique_ptr<GlContext> open_egl(int width, int height, EglDevices devices, c
       return std::make_unique<EglContext>(egl, *opened, width, height);
     }
   }
-  throw environment_error(devices == EglDevices::kGpus ? "no GPU has OpenGL 4.5" : "no device has OpenGL 4.5",
-                          "EGL", kAdvice);
+  throw MachineError(devices == EglDevices::kGpus ? "no GPU has OpenGL 4.5" : "no device has OpenGL 4.5",
+                     "EGL", kAdvice);
 }
 
 }  // namespace terrabench

@@ -10,7 +10,7 @@
 #include "renderers/gl.h"
 #include "renderers/shared_library.h"
 #include "renderers/target.h"
-#include "terrain/error.h"
+#include "terrain/machine_error.h"
 
 namespace terrabench {
 namespace {
@@ -86,8 +86,8 @@ class GlfwContext final : public GlContext {
     glfw_.make_current(window_);
     const char* description = nullptr;
     if (glfw_.get_error(&description) != GLFW_NO_ERROR) {
-      throw environment_error(fmt::format("the window's OpenGL context cannot be used: {}", description),
-                              "GLFW", "close it and open a new one");
+      throw MachineError(fmt::format("the window's OpenGL context cannot be used: {}", description), "GLFW",
+                         "close it and open a new one");
     }
     load_gl(reinterpret_cast<GLADloadfunc>(glfw_.get_function), "GLFW");
   }
@@ -125,7 +125,7 @@ std::unique_ptr<GlContext> open_glfw(int width, int height, bool visible, const 
   const Library glfw = load_library(library);
   // Never terminated: GLFW counts no users, and Mesa's modules do not survive unloading.
   if (glfw.init() == GLFW_FALSE) {
-    throw environment_error(
+    throw MachineError(
         fmt::format("no window can be opened ({})", last_error(glfw)), "GLFW",
         "set DISPLAY, start the program under xvfb-run (Debian's packages xvfb and xauth), or choose "
         "--renderer egl or osmesa");
@@ -133,9 +133,9 @@ std::unique_ptr<GlContext> open_glfw(int width, int height, bool visible, const 
   GlContext::leave_current();  // GLX makes its new context current for a moment
   GLFWwindow* const window = create_window(glfw, width, height, visible);
   if (window == nullptr) {
-    throw environment_error(fmt::format("the display has no OpenGL 4.5 ({})", last_error(glfw)), "GLFW",
-                            "install Debian's packages libgl1 and libgl1-mesa-dri or the GPU's driver, or "
-                            "choose --renderer egl or osmesa");
+    throw MachineError(fmt::format("the display has no OpenGL 4.5 ({})", last_error(glfw)), "GLFW",
+                       "install Debian's packages libgl1 and libgl1-mesa-dri or the GPU's driver, or "
+                       "choose --renderer egl or osmesa");
   }
   return std::make_unique<GlfwContext>(glfw, window, width, height);
 }

@@ -5,7 +5,7 @@
 
 #include "renderers/gl.h"
 #include "renderers/shared_library.h"
-#include "terrain/error.h"
+#include "terrain/machine_error.h"
 
 namespace terrabench {
 namespace {
@@ -52,13 +52,13 @@ class OsmesaContext final : public GlContext {
     const int attributes[] = {kFormat, GL_RGBA, kDepthBits, 0, kProfile, kCoreProfile,
                               kMajor,  4,       kMinor,     5, 0};
     const Library::Handle handle = library.create(attributes, nullptr);
-    if (handle == nullptr) throw environment_error("Mesa does not provide OpenGL 4.5", "OSMesa", kAdvice);
+    if (handle == nullptr) throw MachineError("Mesa does not provide OpenGL 4.5", "OSMesa", kAdvice);
     return handle;
   }
 
   void acquire() override {
     if (library_.make_current(handle_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) == 0) {
-      throw environment_error("the OpenGL context cannot be made current", "OSMesa", kAdvice);
+      throw MachineError("the OpenGL context cannot be made current", "OSMesa", kAdvice);
     }
     load_gl(library_.get_function, "OSMesa");
   }

@@ -19,8 +19,8 @@
 #include <sstream>
 
 #include "representations/procedural_mesh/mesh_file_scan.h"
-#include "terrain/error.h"
 #include "terrain/files.h"
+#include "terrain/machine_error.h"
 #include "terrain/new_file.h"
 
 namespace terrabench {
@@ -264,8 +264,8 @@ void write_mesh(const std::filesystem::path& path, const FaceMesh& mesh, PlyForm
   const bool written = om::IO::IOManager().write(out, extension, exporter, options, 9);
   out.close();
   if (!written || !out) {
-    throw environment_error("cannot write the mesh", path.string(),
-                            "check the folder's permissions and the space left on its disk");
+    throw MachineError("cannot write the mesh", path.string(),
+                       "check the folder's permissions and the space left on its disk");
   }
   file.keep();
 }

@@ -57,7 +57,7 @@ TEST(GroundLines, AStructureOnTheGridIsExact) {
   EXPECT_EQ(found.largest, 0);
   EXPECT_EQ(found.lost_columns, 0U);
   EXPECT_EQ(found.volume_iou, 1);
-  EXPECT_EQ(found.hausdorff, 0);
+  EXPECT_EQ(found.distance->hausdorff(), 0);
   EXPECT_EQ(found.cavities, 32.0 * 64 * 16);
   EXPECT_EQ(found.cavities_filled, 0);
   // Lines stand 4 m apart; the cavity is 16 m high, of which a margin of 4 m leaves 8. The last column of
@@ -72,12 +72,12 @@ TEST(GroundLines, HeightsFillWhatIsUnderARoof) {
   EXPECT_EQ(found.cavities_filled, found.cavities);
   EXPECT_EQ(found.cores_filled, found.cores);
   const double ground = 64.0 * 64 * 24 + 32.0 * 64 * 8, filled = 32.0 * 64 * 16;
-  EXPECT_NEAR(found.volume_iou, ground / (ground + filled), 1e-6);
-  EXPECT_EQ(found.from_ground, 24);  // from the ground under the roof to the roof's upper side
+  EXPECT_NEAR(*found.volume_iou, ground / (ground + filled), 1e-6);
+  EXPECT_EQ(found.distance->from_ground, 24);  // from the ground under the roof to the roof's upper side
   // The new wall's points stand on the last line under the roof, 2 m west of it, at multiples of 4 m: the
   // middle one is 8 m from the ground and from the roof's lower side.
-  EXPECT_EQ(found.to_ground, 8);
-  EXPECT_EQ(found.hausdorff, 24);
+  EXPECT_EQ(found.distance->to_ground, 8);
+  EXPECT_EQ(found.distance->hausdorff(), 24);
 }
 
 TEST(GroundLines, HeightsAreComparedSampleBySample) {
@@ -98,7 +98,19 @@ TEST(GroundLines, HeightsAreComparedSampleBySample) {
   EXPECT_EQ(found.p99, 1);
   EXPECT_NEAR(found.rmse, std::sqrt((33.0 * 33 - 2 + 121) / (33.0 * 33 - 1)), 1e-9);
   EXPECT_EQ(between("heightmap", source).volume_iou, 1);
-  EXPECT_EQ(between("heightmap", source).hausdorff, 0);
+  EXPECT_EQ(between("heightmap", source).distance->hausdorff(), 0);
+}
+
+// Single samples among voids stand between the lines.
+TEST(GroundLines, WhatHasNothingToCompareIsNotDefined) {
+  Heightfield field = Heightfield::zeros(17, 17, 2, 2);
+  for (float& h : field.heights) h = Heightfield::kNoData;
+  field.at(0, 0) = 1;
+  field.at(16, 16) = 5;
+  const Differences voids = between("heightmap", source_of("voids", field));
+  EXPECT_EQ(voids.columns, 2U);
+  EXPECT_FALSE(voids.distance);
+  EXPECT_FALSE(voids.volume_iou);
 }
 
 }  // namespace

@@ -105,9 +105,11 @@ TEST_F(CommandLine, ACaseOfScaleIsMeasuredInAProcessOfItsOwn) {
       "for try in $(seq 300); do\n"
       "  kill -KILL $(grep -ls \"^PPid:.$run\\$\" /proc/[0-9]*/status | cut -d/ -f3) && break; sleep 0.01\n"
       "done; wait $run");
-  EXPECT_EQ(killed.code, 4) << killed.text;
-  EXPECT_THAT(killed.text,
-              AllOf(HasSubstr("measured cross.scale heights/heightmap"), HasSubstr("was ended by signal 9")));
+  EXPECT_EQ(killed.code, 5) << killed.text;
+  EXPECT_THAT(killed.text, AllOf(HasSubstr("cross.scale heights/heightmap"),
+                                 HasSubstr("failed: the process was ended by signal 9 (Killed)")));
+  const Store store = Store::open(folder_ / "out");
+  EXPECT_EQ(store.records().at(0).outcome, CaseOutcome::kFailed);
 }
 
 // A terminal sends it to the whole group: to the run and to the process of the case.
@@ -126,7 +128,7 @@ TEST_F(CommandLine, CtrlCDuringACaseOfScaleLeavesNoTemporaryFiles) {
   EXPECT_EQ(entries(), 0);
 }
 
-TEST_F(CommandLine, FailureOfACaseBesideOthersEndsTheRunWithItsCode) {
+TEST_F(CommandLine, AFolderThatCannotBeWrittenEndsTheRun) {
   ASSERT_EQ(call("mkdir -p out && touch out/figures").code, 0);
   const Outcome failed = call(std::string(kRun) + "--out out --jobs 2");
   EXPECT_EQ(failed.code, 4) << failed.text;

@@ -17,6 +17,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
+void none_dies(std::size_t task, const std::string& how) { ADD_FAILURE() << task << ": " << how; }
+
 class Processes : public ::testing::Test {
  protected:
   Processes() {
@@ -42,7 +44,9 @@ class Processes : public ::testing::Test {
             note(i);
             usleep(2000);
           },
-          [](std::size_t i) { return "task " + std::to_string(i); });
+          [](std::size_t i, const std::string& how) {
+            throw bad_input(how, "task " + std::to_string(i), "");
+          });
     } catch (const Error& error) {
       return error;
     }
@@ -61,14 +65,14 @@ TEST_F(Processes, DoEveryTaskOnceBesideEachOther) {
         note(i);
         usleep(5000);
       },
-      [](std::size_t) { return ""; });
+      none_dies);
   EXPECT_EQ(noted(), 20U);
   std::set<std::string> processes;
   for (int i = 0; i < 20; ++i) processes.insert(read_file(folder_ / std::to_string(i)));
   EXPECT_EQ(processes.size(), 3U);
   EXPECT_EQ(processes.count(std::to_string(getpid())), 0U);
   run_in_processes(
-      4, 0, [&](std::size_t i) { note(i); }, [](std::size_t) { return ""; });
+      4, 0, [&](std::size_t i) { note(i); }, none_dies);
   EXPECT_EQ(noted(), 20U);
 }
 
@@ -80,10 +84,30 @@ TEST_F(Processes, AnErrorOfATaskEndsTheRest) {
   EXPECT_LT(noted(), 50U);
 }
 
-TEST_F(Processes, AKilledOneIsAnErrorThatNamesItsTask) {
+TEST_F(Processes, TheTasksOfKilledOnesAreNamedAndTheOthersDone) {
+  for (const int jobs : {1, 3}) {
+    std::vector<std::string> died;
+    run_in_processes(
+        jobs, 20,
+        [&](std::size_t i) {
+          if (i % 5 == 2) kill(getpid(), i == 2 ? SIGKILL : SIGSEGV);
+          if (i == 19) _exit(3);
+          note(i);
+        },
+        [&](std::size_t i, const std::string& how) { died.push_back(std::to_string(i) + " " + how); });
+    EXPECT_THAT(died, ::testing::UnorderedElementsAre(
+                          HasSubstr("2 the process was ended by signal 9 (Killed), as when memory runs out"),
+                          HasSubstr("7 the process was ended by signal 11"), HasSubstr("12 the process"),
+                          HasSubstr("17 the process"), HasSubstr("19 the process ended with exit status 3")));
+    EXPECT_EQ(noted(), 15U);
+    for (int i = 0; i < 20; ++i) std::filesystem::remove(folder_ / std::to_string(i));
+  }
+}
+
+TEST_F(Processes, AnErrorAboutAKilledOneEndsTheRest) {
   const Error error = error_of([] { kill(getpid(), SIGKILL); });
-  EXPECT_EQ(error.code(), ExitCode::kEnvironment);
-  EXPECT_THAT(error.what(), HasSubstr("measured task 7 was ended by signal 9"));
+  EXPECT_EQ(error.code(), ExitCode::kBadInput);
+  EXPECT_THAT(error.what(), HasSubstr("task 7: the process was ended by signal 9"));
   EXPECT_LT(noted(), 50U);
 }
 
@@ -93,7 +117,7 @@ TEST_F(Processes, ABrokenPipeStaysOne) {
     run_in_processes(
         1, 1,
         [](std::size_t) { throw std::system_error(std::make_error_code(std::errc::broken_pipe), "output"); },
-        [](std::size_t) { return ""; });
+        none_dies);
     FAIL() << "nothing was thrown";
   } catch (const std::system_error& error) {
     EXPECT_EQ(error.code(), std::errc::broken_pipe);

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
+
+#include "terrain/error.h"
 
 namespace terrabench {
 namespace {
@@ -41,6 +44,19 @@ TEST(Recorder, SamplesOfOneMetricGatherInOrder) {
   ASSERT_EQ(record.metrics.size(), 2U);
   EXPECT_EQ(record.metrics[0].samples, (std::vector<double>{3, 1}));
   EXPECT_EQ(record.metrics[1].unit, "B");
+}
+
+TEST(Recorder, WhatIsNotFiniteIsRefusedAndWhatIsNotDefinedHasAReason) {
+  Record record;
+  Recorder recorder(record, "out");
+  EXPECT_THROW(recorder.add("error", "m", NAN), Error);
+  EXPECT_THROW(recorder.add_varying("ratio", "", INFINITY), Error);
+  EXPECT_TRUE(record.metrics.empty());
+  recorder.add_ratio("of_relief", 3, 4, "the ground is flat");
+  recorder.add_ratio("of_flat", 3, 0, "the ground is flat");
+  EXPECT_EQ(record.find("of_relief")->samples, std::vector{0.75});
+  EXPECT_EQ(record.find("of_flat"), nullptr);
+  EXPECT_EQ(record.why_absent("of_flat")->reason, "the ground is flat");
 }
 
 }  // namespace

@@ -123,5 +123,31 @@ TEST(LayoutFile, CasesWithAMeasuredXAreNamesAlone) {
   EXPECT_ANY_THROW(with_series(R"({label = "l", experiment = "e", metric = "m", cases = ["c"]})"));
 }
 
+TEST_F(LayoutTest, ACellWithoutAValueSaysWhatTheRecordSays) {
+  const Provenance run = fake_provenance();
+  Store store(folder_);
+  store.begin_run(run);
+  Record flat = fake_record(run, "e", "flat"), failed = fake_record(run, "e", "failed");
+  add(flat, "time", "s", {1});
+  flat.undefined = {{"relative", "the ground is flat"}};
+  failed.outcome = CaseOutcome::kFailed;
+  failed.reason = "out of memory";
+  store.append(flat);
+  store.append(failed);
+  const Paper paper = parse_claims(
+      "paper = \"p\"\ntitle = \"t\"\nsource = \"s\"\n[[table]]\nid = \"p.t\"\ntitle = \"t\"\ncaption = "
+      "\"c\"\n"
+      "experiment = \"e\"\nrows_title = \"r\"\n"
+      "rows = [{label = \"flat\", case = \"flat\"}, {label = \"failed\", case = \"failed\"}]\n"
+      "columns = [{title = \"a\", metric = \"time\", unit = \"s\"}, {title = \"b\", metric = \"relative\"}, "
+      "{title = \"c\", metric = \"other\"}]\n",
+      "test");
+  const Table table = fill(paper.tables.at(0), store, judge(store, {})).table;
+  ASSERT_EQ(table.rows.size(), 2U);
+  EXPECT_EQ(table.rows[0][2].text, "not defined");
+  EXPECT_EQ(table.rows[0][3].text, "–");
+  EXPECT_EQ(table.rows[1][1].text, "failed");
+}
+
 }  // namespace
 }  // namespace terrabench

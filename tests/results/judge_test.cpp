@@ -86,7 +86,8 @@ TEST_F(OneClaim, WithoutItsMethodIsPendingAndFailsNoCheck) {
   const JudgedResults results = judge(Store::open(folder_), papers_);
   EXPECT_EQ(results.judgements.at(0).verdict, Verdict::kPending);
   EXPECT_EQ(results.judgements[0].measured, "the method is not built");
-  EXPECT_TRUE(results.passed());
+  EXPECT_EQ(results.judgements[0].complaint, "");
+  EXPECT_FALSE(results.passed()) << "no claim was judged";
   EXPECT_THAT(check_text(results, {}), HasSubstr("\npending\n  p.1\n"));
 }
 
@@ -372,6 +373,67 @@ TEST_F(JudgeTest, EmptyOrGarbledFolderIsBadInput) {
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::kBadInput);
     }
+  }
+}
+
+TEST_F(JudgeTest, SaysWhyACaseThatFailedLeavesAClaimWithoutRecords) {
+  write_fake_results(folder_, "quick");
+  Store store(folder_);
+  Record failed = fake_record(fake_provenance(), "hybrid.table1", "n=128");
+  failed.outcome = CaseOutcome::kFailed;
+  failed.reason = "out of memory";
+  store.append(failed);
+  const JudgedResults results = judge(store, faked_papers());
+  EXPECT_FALSE(results.passed());
+  EXPECT_EQ(of(results, "hybrid.T1.128").verdict, Verdict::kMissing);
+  EXPECT_THAT(of(results, "hybrid.T1.128").measured, HasSubstr("(failed: out of memory)"));
+  ASSERT_EQ(results.absences.size(), 1U);
+  EXPECT_THAT(results.absences[0].where, testing::ElementsAre("hybrid.table1 n=128"));
+  EXPECT_THAT(check_text(results, {}),
+              HasSubstr("Without measurements\nfailed (1 case): out of memory\n  hybrid.table1 n=128\n"));
+}
+
+// One line more, of a profile that no claim names, must not turn off every claim.
+TEST_F(JudgeTest, ALineOfAnUnknownProfileIsAFault) {
+  write_fake_results(folder_, "quick");
+  const std::string good = content();
+  Record record = fake_record(fake_provenance(), "e", "c");
+  record.profile = "nightly";
+  write_file(file(), good + to_line(record) + "\n");
+  const JudgedResults results = judge(Store::open(folder_), faked_papers());
+  EXPECT_EQ(results.profile, "quick");
+  EXPECT_EQ(of(results, "hybrid.T1.128").verdict, Verdict::kReproduced);
+  EXPECT_FALSE(results.passed());
+}
+
+TEST_F(JudgeTest, NothingJudgedIsNoPass) {
+  write_fake_results(folder_, "quick");
+  const std::vector<std::string> paper_only = {"hybrid.T1.512"};
+  const JudgedResults results = judge(folder_, paper_only);
+  EXPECT_EQ(results.judgements.at(0).complaint, "");
+  EXPECT_FALSE(results.passed());
+  EXPECT_THAT(check_text(results, {}), testing::AllOf(HasSubstr("none of them judged"), HasSubstr("FAIL")));
+}
+
+TEST_F(JudgeTest, AQuickRunHidesNoPaperResults) {
+  write_fake_results(folder_, "paper");
+  write_fake_results(folder_, "quick");
+  const JudgedResults newest = judge(folder_);
+  EXPECT_EQ(newest.profile, "quick");
+  ASSERT_EQ(newest.ignored.size(), 1U);
+  EXPECT_THAT(newest.ignored[0], HasSubstr("of profile paper are not read; --profile paper reads them"));
+  EXPECT_THAT(check_text(newest, {}), HasSubstr("--profile paper"));
+  const JudgedResults chosen = judge(folder_, {}, "paper");
+  EXPECT_EQ(chosen.profile, "paper");
+  EXPECT_EQ(of(chosen, "hybrid.T1.512").verdict, Verdict::kReproduced);
+  std::filesystem::remove(file());
+  write_fake_results(folder_, "quick");
+  try {
+    judge(folder_, {}, "paper");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    EXPECT_THAT(error.what(), HasSubstr("no measurements of profile paper"));
   }
 }
 

@@ -149,7 +149,7 @@ TEST_F(MergeTest, RefusesAnotherSeed) {
   Record record = fake_record(run, "e", "n=1");
   record.seed = 7;
   store.append(record);
-  EXPECT_THAT(error_of({"a", "b"}), HasSubstr("another seed"));
+  EXPECT_THAT(error_of({"a", "b"}), HasSubstr("with seed 7"));
 }
 
 TEST_F(MergeTest, RefusesWhatIsNoResultsFolder) {
@@ -198,6 +198,50 @@ TEST_F(MergeTest, KilledLeavesTheOldRecordsOrAllOfTheNew) {
     }
   }
   EXPECT_GT(killed, 0);
+}
+
+// Also of cases that only one folder holds.
+TEST_F(MergeTest, RefusesAnotherSeedAndAChangedFile) {
+  const auto write = [&](const std::string& name, int i, std::uint64_t seed, const std::string& terrain,
+                         const std::string& content) {
+    Store store(folder_ / name);
+    store.begin_run(fake_provenance());
+    Record record = fake_record(fake_provenance(), "e", fmt(i));
+    record.seed = seed;
+    record.terrain = terrain;
+    record.terrain_checksum = checksum(content);
+    store.append(record);
+  };
+  write("a", 1, 1, "my.tif", "ground");
+  write("seed", 2, 2, "my.tif", "ground");
+  write("changed", 3, 1, "my.tif", "another ground");
+  write("generated", 4, 1, "fractal", "65");
+  write("larger", 5, 1, "fractal", "129");
+  EXPECT_THAT(error_of({"a", "seed"}), testing::AllOf(HasSubstr("seed 2"), HasSubstr("seed 1")));
+  EXPECT_THAT(error_of({"a", "changed"}), testing::AllOf(HasSubstr("my.tif"), HasSubstr("changed/meas")));
+  EXPECT_TRUE(nothing_written());
+  EXPECT_EQ(merge_into("out", {"a", "generated", "larger"}).copied, 3U)
+      << "a name may stand for several sizes";
+}
+
+TEST_F(MergeTest, ACaseThatFailedGivesWayToOneThatDidNot) {
+  write_shard("good", 1, 1);
+  Store store(folder_ / "bad");
+  store.begin_run(fake_provenance());
+  Record failed = fake_record(fake_provenance(), "e", fmt(1));
+  failed.terrain_checksum = "";
+  failed.outcome = CaseOutcome::kFailed;
+  failed.reason = "out of memory";
+  store.append(failed);
+  for (const auto& order : {std::vector<std::string>{"bad", "good"}, {"good", "bad"}}) {
+    std::filesystem::remove_all(folder_ / "out");
+    EXPECT_TRUE(merge_into("out", order).passed());
+    EXPECT_THAT(cases("out"), ElementsAre("n=1"));
+    EXPECT_NE(Store::open(folder_ / "out").find("e", "n=1", "quick")->find("bytes"), nullptr);
+  }
+  std::filesystem::copy(folder_ / "bad", folder_ / "grown");
+  merge_into("grown", {"good"});
+  EXPECT_NE(Store::open(folder_ / "grown").find("e", "n=1", "quick")->find("bytes"), nullptr);
 }
 
 }  // namespace

@@ -144,5 +144,22 @@ TEST_F(RasteriseTest, MissingProgramAndBadInputAreEnvironmentErrors) {
   setenv("PATH", path.c_str(), 1);
 }
 
+// A terminal's Ctrl-C reaches the program that converts, too: no fault of the disk.
+TEST_F(RasteriseTest, AnInterruptedProgramIsAnInterruption) {
+  const std::filesystem::path program = folder_ / "rsvg-convert";
+  write_file(program, std::string_view("#!/bin/sh\nkill -INT $$\n"));
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  write_file(folder_ / "plot.svg", std::string_view(plot_svg(growth())));
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", (folder_.string() + ":" + path).c_str(), 1);
+  try {
+    svg_to_png(folder_ / "plot.svg", folder_ / "plot.png", 100);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kInterrupted);
+  }
+  setenv("PATH", path.c_str(), 1);
+}
+
 }  // namespace
 }  // namespace terrabench

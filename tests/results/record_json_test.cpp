@@ -151,5 +151,40 @@ TEST(RunLine, TimingWarningsAreOptional) {
   EXPECT_EQ(std::get<Provenance>(line.content).id, run.id);
 }
 
+TEST(RecordLine, KeepsWhatBecameOfACaseAndWhatIsNotDefined) {
+  Record failed = fake_record(fake_provenance(), "hybrid.table2", "n=64");
+  failed.outcome = CaseOutcome::kFailed;
+  failed.reason = "it broke";
+  const std::string line = to_line(failed);
+  const auto read = std::get<Record>(parse_line(line, "there:3").content);
+  EXPECT_EQ(read.outcome, CaseOutcome::kFailed);
+  EXPECT_EQ(read.why_absent("generation_time")->word, "failed");
+  EXPECT_EQ(read.why_absent("generation_time")->reason, "it broke");
+  EXPECT_EQ(to_line(read), line);
+  const auto changed = [](std::string text, std::string_view from, std::string_view to) {
+    return text.replace(text.find(from), from.size(), to);
+  };
+  expect_bad_input(changed(line, "\"failed\"", "\"measured\""),
+                   "'outcome' is neither 'failed' nor 'skipped'");
+  expect_bad_input(changed(line, "it broke", ""), "'reason' is empty");
+  expect_bad_input(changed(line, "\"metrics\":[]", R"("metrics":[{"name":"m","samples":[1],"unit":""}])"),
+                   "a case that was not measured has results");
+  Record flat = sample();
+  flat.undefined = {{"relative_error", "the ground is flat"}};
+  const auto undefined = std::get<Record>(parse_line(to_line(flat), "there:3").content);
+  EXPECT_EQ(undefined.why_absent("relative_error")->word, "not defined");
+  EXPECT_FALSE(undefined.why_absent("another"));
+  EXPECT_EQ(to_line(sample()).find("undefined"), std::string::npos);
+  flat.undefined = {{"generation_time", "it has a value, too"}};
+  expect_bad_input(to_line(flat), "generation_time");
+}
+
+// No claim names another profile: its records would be judged by none.
+TEST(RecordLine, RefusesUnknownProfiles) {
+  Record record = sample();
+  record.profile = "nightly";
+  expect_bad_input(to_line(record), "'profile' is neither 'quick' nor 'paper'");
+}
+
 }  // namespace
 }  // namespace terrabench

@@ -61,6 +61,7 @@ class Validator {
       return unless(std::ranges::any_of(types, [&](const Json& type) { return has_type(value, type); }));
     }
     if (word == "const") return unless(value == argument);
+    if (word == "enum") return unless(std::ranges::count(argument, value) > 0);
     if (word == "minimum") return unless(value.get<double>() >= argument.get<double>());
     if (word == "maximum") return unless(value.get<double>() <= argument.get<double>());
     if (word == "minLength") return unless(value.get<std::string>().size() >= argument.get<std::size_t>());
@@ -119,6 +120,17 @@ Record full_record() {
       {"hybrid.F3", "figures/a.png", "A caption.", checksum("a"), FigureLayout{{{1, 2, 3, 4}}, {"a word"}}}};
   record.metrics[0].varies = true;
   record.metrics[0].first_look = 1;
+  record.undefined = {{"ratio", "the ground is flat"}};
+  return record;
+}
+
+// With the fields of one that has no metrics.
+Record failed_record() {
+  Record record = full_record();
+  record.metrics.clear();
+  record.figures.clear();
+  record.outcome = CaseOutcome::kFailed;
+  record.reason = "out of memory";
   return record;
 }
 
@@ -140,6 +152,7 @@ TEST(Schema, WhatIsWrittenIsDocumented) {
   least.metrics[0].first_look = 0;
   least.figures[0].layout.reset();
   EXPECT_EQ(fault(to_line(least)), "");
+  EXPECT_EQ(fault(to_line(failed_record())), "");
   Provenance run = full_run();
   run.timing_warnings.clear();
   run.libraries.clear();
@@ -148,7 +161,9 @@ TEST(Schema, WhatIsWrittenIsDocumented) {
 
 // Each documented field is one that can be written.
 TEST(Schema, WhatIsDocumentedIsWritten) {
-  const Json record = Json::parse(to_line(full_record())), run = Json::parse(to_line(full_run()));
+  Json record = Json::parse(to_line(full_record()));
+  const Json run = Json::parse(to_line(full_run())), failed = Json::parse(to_line(failed_record()));
+  for (const char* field : {"outcome", "reason"}) record[field] = failed.at(field);
   const std::map<std::string, Json> written{
       {"record", record}, {"run", run}, {"metric", record["metrics"][0]}, {"figure", record["figures"][0]}};
   for (const auto& [object, example] : written) {

@@ -50,7 +50,7 @@ TEST_F(StoreTest, GivesBackWhatWasAppended) {
   ASSERT_NE(run, nullptr);
   EXPECT_EQ(run->cpu, fake_provenance().cpu);
   EXPECT_EQ(run->libraries, fake_provenance().libraries);
-  EXPECT_EQ(store.last_profile(), "quick");
+  EXPECT_EQ(store.profile(), "quick");
 }
 
 TEST_F(StoreTest, NewestRecordOfACaseWins) {

@@ -127,7 +127,7 @@ TEST(WhereShown, EveryMeasuredClaimButThoseThatCheckOneDetail) {
     for (const PlotLayout& plot : paper.plots) all.insert(plot.id);
   }
   const WhereShown where_shown(papers(), all);
-  const std::string& profile = store.last_profile();
+  const std::string& profile = store.profile();
   for (const Paper& paper : papers()) {
     for (const Claim& claim : paper.claims) {
       // The ledger links to the picture.

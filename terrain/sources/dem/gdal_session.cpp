@@ -84,9 +84,9 @@ void GdalMessages::collect(CPLErr severity, CPLErrorNum, const char* text) {
   }
 }
 
-Error cannot_write(const std::filesystem::path& path, const std::string& why) {
-  return environment_error(fmt::format("cannot write: {}", why), path.string(),
-                           "check the folder's permissions and the space left on its disk");
+MachineError cannot_write(const std::filesystem::path& path, const std::string& why) {
+  return MachineError(fmt::format("cannot write: {}", why), path.string(),
+                      "check the folder's permissions and the space left on its disk");
 }
 
 }  // namespace terrabench

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "terrain/error.h"
+#include "terrain/machine_error.h"
 
 namespace terrabench {
 
@@ -41,6 +41,6 @@ struct CloseDataset {
 using DatasetPointer = std::unique_ptr<GDALDataset, CloseDataset>;
 
 // environment_error for a file that GDAL cannot write.
-Error cannot_write(const std::filesystem::path& path, const std::string& why);
+MachineError cannot_write(const std::filesystem::path& path, const std::string& why);
 
 }  // namespace terrabench
