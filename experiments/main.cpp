@@ -155,12 +155,14 @@ void add_profile_to_read(CLI::App& command, std::string& profile) {
 void add_results(CLI::App& app, Arguments& a) {
   auto* check = app.add_subcommand(
       "check",
-      "Print the verdict on every claim: first the claims that fail the check, then one line per claim "
+      "Print the verdict on each claim: first the claims that fail the check, then one line per claim "
       "(verdict, the value that decides, its expected range), then one line per paper. Exits with 0 if every "
       "claim is as expected: exactly those of its conditions fail that are known to; else with 1");
   check->add_option("dir", a.check.folder, "Results folder")->capture_default_str();
   check->add_option("--claims,--rows", a.check.claims,
-                    "Check only these claims: ids or globs such as 'hybrid.T1.*'");
+                    "Check only these claims: ids or globs such as 'hybrid.T1.*' (default: those of the "
+                    "experiments that were run)");
+  check->add_flag("--all", a.check.all, "Also claims of experiments that were not run: they fail as missing");
   add_profile_to_read(*check, a.check.profile);
   check->add_flag("--verbose", a.check.verbose, "Print all evidence under each line");
   check->add_flag("--json", a.check.json, "Print JSON");

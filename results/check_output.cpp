@@ -76,6 +76,7 @@ std::string check_json(const JudgedResults& results) {
                      {"ignored", results.ignored},
                      {"without_measurements", absent},
                      {"passed", results.passed()},
+                     {"left_out", results.left_out},
                      {"counts", counts_json(results.judgements)},
                      {"counts_by_paper", papers},
                      {"rows", rows},

@@ -79,6 +79,12 @@ class Writer {
                                                          : "every verdict as expected")
                              : fmt::format("Profile {}: {} of {} claims fail the check\n", results_.profile,
                                            failing.size(), all);
+    if (results_.left_out > 0) {
+      text_ += wrapped(fmt::format("{} further claims read experiments that were not run; --all asks for "
+                                   "them, too",
+                                   results_.left_out),
+                       2, width_);
+    }
     for (const std::string& ignored : results_.ignored) text_ += wrapped(ignored, 2, width_);
     write_lines(failing, true);
   }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
+#include <string_view>
 
 #include "results/glob.h"
 #include "terrain/error.h"
@@ -99,6 +101,26 @@ Judgement judge_claim(const Paper& paper, const Claim& claim, const Store& store
   return judgement;
 }
 
+std::set<std::string_view> experiments_run(const Store& store) {
+  std::set<std::string_view> run;
+  for (const Record& record : store.records()) {
+    if (record.profile == store.profile()) run.insert(record.experiment);
+  }
+  return run;
+}
+
+// Whether each experiment that the claim reads was run, and each picture drawn: no claim says which
+// experiment draws its picture.
+bool can_be_judged(const Claim& claim, const Store& store, const std::set<std::string_view>& run) {
+  return std::ranges::all_of(claim.conditions, [&](const Condition& condition) {
+    const bool figure = condition.kind == Condition::Kind::kFigure;
+    if (figure && store.find_figure(condition.figure, store.profile()).second == nullptr) return false;
+    return std::ranges::all_of(condition.operands, [&](const Operand& operand) {
+      return operand.is_number() || run.contains(operand.experiment);
+    });
+  });
+}
+
 void look_for_altered_pictures(const Store& store, JudgedResults& results) {
   for (const Record& record : store.records()) {
     if (record.profile != results.profile) continue;
@@ -133,7 +155,7 @@ void read_profile(const Store& store, JudgedResults& results) {
 }  // namespace
 
 bool JudgedResults::passed() const {
-  return faults.empty() &&
+  return faults.empty() && std::ranges::count(absences, "failed", &Absence::what) == 0 &&
          std::ranges::any_of(judgements, [](const Judgement& j) { return j.verdict <= Verdict::kDiffers; }) &&
          std::ranges::all_of(judgements, [](const Judgement& j) { return j.complaint.empty(); });
 }
@@ -145,11 +167,12 @@ std::span<const Judgement> JudgedResults::of(const Paper& paper) const {
 }
 
 JudgedResults judge(const std::filesystem::path& folder, std::span<const std::string> globs,
-                    const std::string& profile) {
-  return judge(Store::open(folder, profile), papers(), globs);
+                    const std::string& profile, Demand demand) {
+  return judge(Store::open(folder, profile), papers(), globs, demand);
 }
 
-JudgedResults judge(const Store& store, std::span<const Paper> papers, std::span<const std::string> globs) {
+JudgedResults judge(const Store& store, std::span<const Paper> papers, std::span<const std::string> globs,
+                    Demand demand) {
   std::vector<std::string_view> ids;
   for (const Paper& paper : papers) {
     for (const Claim& claim : paper.claims) ids.push_back(claim.id);
@@ -158,9 +181,13 @@ JudgedResults judge(const Store& store, std::span<const Paper> papers, std::span
   JudgedResults results{store.profile(), {}, store.warnings(), store.faults()};
   read_profile(store, results);
   look_for_altered_pictures(store, results);
+  const std::set<std::string_view> run = experiments_run(store);
   for (const Paper& paper : papers) {
     for (const Claim& claim : paper.claims) {
-      if (matches_any(globs, claim.id)) {
+      if (!matches_any(globs, claim.id)) continue;
+      if (demand == Demand::kRun && !can_be_judged(claim, store, run)) {
+        ++results.left_out;
+      } else {
         results.judgements.push_back(judge_claim(paper, claim, store, results.profile));
       }
     }

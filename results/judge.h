@@ -47,16 +47,24 @@ struct JudgedResults {
   // "18 cases of profile paper are not read; --profile paper reads them": for each other profile in the
   // folder.
   std::vector<std::string> ignored = {};
+  std::size_t left_out = 0;  // claims that were not asked for, since an experiment that they read was not run
 
-  bool passed() const;  // some claim was judged by measurements; no complaint, no fault
+  bool passed() const;  // some claim was judged by measurements; no complaint, no fault, no failed case
   std::span<const Judgement> of(const Paper&) const;
+};
+
+// Which claims of a folder that lacks whole experiments are judged.
+enum class Demand {
+  kAll,  // all: those of the other experiments are missing, and so fail
+  kRun,  // those of whose experiments there is any record
 };
 
 // Judges the claims whose id matches one of the globs (* and ?), or all when there are no globs, on the
 // records of the store's profile. The papers must outlive the result. Throws as Store::open(), and
 // usage_error when a glob matches no claim.
 JudgedResults judge(const std::filesystem::path& folder, std::span<const std::string> globs = {},
-                    const std::string& profile = "");
-JudgedResults judge(const Store&, std::span<const Paper>, std::span<const std::string> globs = {});
+                    const std::string& profile = "", Demand = Demand::kAll);
+JudgedResults judge(const Store&, std::span<const Paper>, std::span<const std::string> globs = {},
+                    Demand = Demand::kAll);
 
 }  // namespace terrabench

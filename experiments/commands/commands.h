@@ -78,9 +78,10 @@ ExitCode render_command(const RenderArguments&);
 
 struct CheckArguments {
   std::filesystem::path folder = "out", junit;
-  std::vector<std::string> claims;  // ids or globs; empty: all
+  std::vector<std::string> claims;  // ids or globs; empty: those of the experiments that were run
   std::string profile;              // empty: the newest record's
   bool json = false, verbose = false;
+  bool all = false;  // also the claims of experiments that were not run
 };
 ExitCode check_command(const CheckArguments&);
 

@@ -17,7 +17,8 @@
 namespace terrabench {
 
 ExitCode check_command(const CheckArguments& arguments) {
-  const JudgedResults results = judge(arguments.folder, arguments.claims, arguments.profile);
+  const Demand demand = arguments.all || !arguments.claims.empty() ? Demand::kAll : Demand::kRun;
+  const JudgedResults results = judge(arguments.folder, arguments.claims, arguments.profile, demand);
   // Before the text, whose reader may close the pipe.
   if (!arguments.junit.empty()) write_file(arguments.junit, check_junit(results));
   TextLook look{.verbose = arguments.verbose};

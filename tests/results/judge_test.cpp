@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "results/check_output.h"
 #include "results/record_json.h"
@@ -362,6 +363,27 @@ TEST_F(JudgeTest, PartialRunFailsForWhatItsProfileShouldHold) {
   EXPECT_FALSE(results.passed());
   EXPECT_EQ(of(results, "hybrid.caves").verdict, Verdict::kMissing);
   EXPECT_EQ(of(results, "hybrid.T1.128").complaint, "");
+}
+
+// A folder of one experiment, as of a run on a GPU: its claims are judged, the others are not asked for.
+TEST_F(JudgeTest, OnlyWhatWasRunIsJudgedWhereAsked) {
+  write_fake_results(folder_, "quick");
+  std::string kept;
+  std::istringstream lines(content());
+  for (std::string line; std::getline(lines, line);) {
+    const bool other =
+        line.find("\"kind\":\"record\"") != line.npos && line.find("hybrid.table1") == line.npos;
+    if (!line.empty() && !other) kept += line + "\n";
+  }
+  write_file(file(), kept);
+  const JudgedResults some = judge(folder_, {}, "", Demand::kRun), all = judge(folder_);
+  EXPECT_TRUE(some.passed());
+  EXPECT_GT(some.judgements.size(), 3U);
+  EXPECT_EQ(some.judgements.size() + some.left_out, all.judgements.size());
+  EXPECT_EQ(of(some, "hybrid.T1.128").verdict, Verdict::kReproduced);
+  EXPECT_FALSE(all.passed());
+  EXPECT_EQ(all.left_out, 0U);
+  EXPECT_THAT(check_text(some, {}), HasSubstr("--all asks for them"));
 }
 
 TEST_F(JudgeTest, EmptyOrGarbledFolderIsBadInput) {
