@@ -336,6 +336,11 @@ void add_render(CLI::App& app, Arguments& a) {
   command->add_option("--size", r.size, "Size of the picture in pixels, such as 1600x1000");
   command->add_option("--eye", r.eye, "Place of the eye in metres: x (east), y (up), z (south)")->expected(3);
   command->add_option("--look-at", r.look_at, "Place in the middle of the picture, likewise")->expected(3);
+  command
+      ->add_option("--up", r.up,
+                   "Direction of the picture's top, likewise (default: up; north in a plan, looking straight "
+                   "down)")
+      ->expected(3);
   command->add_option("--fov", r.field_of_view, "Vertical field of view in degrees")
       ->check(CLI::Range(1.0, 170.0));
   command->add_option("--seconds", r.seconds, "Time of clouds and waves in the first picture")

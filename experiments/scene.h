@@ -30,6 +30,15 @@ Bounds bounds_of(const Heightfield&);
 // and the ground before it.
 View scene_view(const LandscapeStyle&, const Heightfield&, int width, int height);
 
+// Near and far planes for an eye at any place over or beside ground of any size, whose bounds are given. The
+// far plane lies behind the whole ground. The near plane is nearer than the ground that a level look shows
+// before its feet. If nothing but the ground is drawn (`alone`), it lies no nearer than the bounds begin;
+// water and grass may.
+void set_depth_planes(View&, const Heightfield&, const Bounds&, bool alone);
+
+// Throws usage_error for a picture without any ground: says where that is.
+[[noreturn]] void refuse_empty(const View&, const Bounds& ground);
+
 // Throws usage_error for an eye inside the ground: in the solid if the frame draws meshes, otherwise under
 // the heights that it draws. An eye beside or over the ground is good.
 void check_eye(const View&, const Frame&, const TerrainSource&, const Heightfield&);
@@ -50,6 +59,7 @@ class ScenePainter {
   // Draws the frame of the last update(), once; or only uploads it, so that the next picture is the same as
   // if this one had been drawn.
   Image draw(const View&, double seconds = 0);
+  bool shows_ground() { return renderer_.shows_ground(); }  // or water, in the last picture
   void skip();
 
  private:

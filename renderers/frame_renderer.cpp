@@ -105,6 +105,7 @@ struct FrameRenderer::Gl {
   Programs plain{"relief.frag"}, wired{"relief.frag", "wire.geom"}, numbers{"triangle_number.frag"};
   Texture1d ramp = make_ramp_texture();
   FrameBuffers buffers;
+  VisibleQuery ground;
 };
 
 FrameRenderer::FrameRenderer(GlContext& context) : context_(context) {
@@ -125,11 +126,18 @@ void FrameRenderer::draw(const Frame& frame, const View& view, const FrameStyle&
   const CullUndersides culling;
   gl_->buffers.upload(frame);
   glBindTextureUnit(0, gl_->ramp.id());
+  gl_->ground.begin();
   draw_all(gl_->buffers, style.wire_width > 0 ? gl_->wired : gl_->plain, GL_LEQUAL,
            [&](const Program& program) {
              set_matrix(program, world_to_clip(view));
              set_style(program, view, style);
            });
+  gl_->ground.end();
+}
+
+bool FrameRenderer::shows_ground() {
+  context_.make_current();
+  return gl_->ground.any();
 }
 
 void FrameRenderer::finish() {

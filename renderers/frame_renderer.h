@@ -36,6 +36,8 @@ class FrameRenderer {
   // below are not drawn. The first frame is uploaded whole. Does not wait for the GPU. Throws
   // environment_error when the heights do not fit into OpenGL's buffers.
   void draw(const Frame&, const View&, const FrameStyle&);
+  // Whether the last picture shows any of the ground. Waits for the GPU.
+  bool shows_ground();
   void finish();  // waits for the GPU
   Image image();  // the last picture drawn
 

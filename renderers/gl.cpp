@@ -62,6 +62,12 @@ void check_gl(std::string_view where) {
 
 GLint uniform(const Program& program, const char* name) { return glGetUniformLocation(program.id(), name); }
 
+bool VisibleQuery::any() const {
+  GLuint answer = 0;
+  glGetQueryObjectuiv(query_.id(), GL_QUERY_RESULT, &answer);
+  return answer != 0;
+}
+
 Texture1d make_ramp_texture() {
   constexpr int kColors = 256;
   std::array<glm::vec3, kColors> colors;

@@ -100,6 +100,17 @@ Buffer make_buffer(std::span<const T> content) {
   return buffer;
 }
 
+// Whether anything that is drawn between begin() and end() is visible so far: passes the depth test.
+class VisibleQuery {
+ public:
+  void begin() { glBeginQuery(GL_ANY_SAMPLES_PASSED, query_.id()); }
+  void end() { glEndQuery(GL_ANY_SAMPLES_PASSED); }
+  bool any() const;  // waits for the GPU
+
+ private:
+  GlObject<QueryKind<GL_ANY_SAMPLES_PASSED>> query_;
+};
+
 // The shaders of renderers/shaders, built into the program (cmake/embed.cmake), by file name, which must
 // exist.
 using ShaderFile = EmbeddedFile;

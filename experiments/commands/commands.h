@@ -66,6 +66,7 @@ struct RenderArguments {
   std::vector<double> detail;               // the method's knob; empty: its usual setting
   std::string size;                         // "1600x1000"; empty: the path's, or 1600x1000
   std::vector<float> eye, look_at;          // three metres each; empty: chosen
+  std::vector<float> up;                    // direction of the picture's top; empty: upright()
   float field_of_view = 0;                  // degrees, vertical; 0: chosen
   double seconds = 0;                       // time of clouds and waves in the first picture
   int samples = 513;                        // along the sides of a solid's height field

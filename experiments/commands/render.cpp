@@ -13,6 +13,7 @@
 #include "lod/camera/camera_path.h"
 #include "renderers/frame_renderer.h"
 #include "terrain/files.h"
+#include "terrain/framing.h"
 
 namespace terrabench {
 namespace {
@@ -68,8 +69,9 @@ View single_view(const RenderArguments& a, const LandscapeStyle& style, const He
   if (!a.look_at.empty()) view.target = vector_of(a.look_at);
   if (!a.eye.empty()) {
     view.eye = vector_of(a.eye);
-    view.near = std::max(1e-5F * view.far, 0.05F);
+    set_depth_planes(view, field, style.ground, !a.scene);
   }
+  view.up = a.up.empty() ? upright(view.target - view.eye) : vector_of(a.up);
   if (a.field_of_view > 0) view.vertical_fov = a.field_of_view * 3.14159265F / 180;
   return view;
 }
@@ -95,7 +97,9 @@ std::vector<Shot> plan_shots(const RenderArguments& a, const LandscapeStyle& sty
       view.width = size.x;
       view.height = size.y;
     }
-    view.far = std::max(view.far, 4 * std::max(field.extent_x(), field.extent_z()));
+    const float near = view.near;
+    set_depth_planes(view, field, style.ground, !a.scene);
+    if (path.near) view.near = near;
     const double seconds = a.seconds + static_cast<double>(at) / path.frames_per_second;
     shots.push_back({view, seconds, a.frames == 1 ? a.out : a.out / frame_name(k, a.frames)});
   }
@@ -110,8 +114,9 @@ void check_arguments(const RenderArguments& a) {
   if (a.frames > 1 && a.path.empty()) {
     throw usage_error("several frames need a camera path", "--frames", "add --path, such as --path fly");
   }
-  if (!a.path.empty() && (!a.eye.empty() || !a.look_at.empty() || a.field_of_view > 0)) {
-    throw usage_error("a camera path sets the view", "--eye, --look-at, --fov", "leave them out, or --path");
+  if (!a.path.empty() && (!a.eye.empty() || !a.look_at.empty() || !a.up.empty() || a.field_of_view > 0)) {
+    throw usage_error("a camera path sets the view", "--eye, --look-at, --up, --fov",
+                      "leave them out, or --path");
   }
   std::error_code error;
   const fs::file_status status = fs::status(a.out, error);
@@ -124,14 +129,25 @@ void check_arguments(const RenderArguments& a) {
   }
 }
 
+void check_detail(const RenderArguments& a, const LodType& type) {
+  if (a.detail.empty()) return;
+  const Knob& knob = type.knob;
+  const auto [low, high] = std::minmax(knob.finest, knob.coarsest);
+  if (a.detail[0] >= low && a.detail[0] <= high && setting(knob, a.detail[0]) == a.detail[0]) return;
+  throw usage_error(fmt::format("the {} of {} cannot be {}", knob.name, type.name, a.detail[0]), "--detail",
+                    low == high ? "leave it out: this method has a single setting"
+                                : fmt::format("choose a {} from {} to {} {}",
+                                              knob.whole ? "whole number" : "number", low, high, knob.unit));
+}
+
 // What the pictures of a folder depend on, kept in it, so that a later run continues only its own sequence.
 std::string describe(const RenderArguments& a, const TerrainSource& source, const Settings& settings,
                      const std::vector<Shot>& shots, const GlContext& context) {
   std::string views;
   for (const Shot& shot : shots) {
     const View& v = shot.view;
-    views += fmt::format("{} {} {} {} {} {} {} {} {} ", v.eye.x, v.eye.y, v.eye.z, v.target.x, v.target.y,
-                         v.target.z, v.vertical_fov, v.near, v.far);
+    views += fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} ", v.eye.x, v.eye.y, v.eye.z, v.target.x,
+                         v.target.y, v.target.z, v.up.x, v.up.y, v.up.z, v.vertical_fov, v.near, v.far);
   }
   std::string text = fmt::format(
       "terrain = \"{}\"\nchecksum = \"{}\"\nscene = {}\npath = \"{}\"\nframes = {}\n"
@@ -184,6 +200,8 @@ class Painter {
     relief_->draw(frame, shot.view, {.lowest = ground.low.y, .highest = ground.high.y});
     return relief_->image();
   }
+  // Of the last picture drawn.
+  bool shows_ground() { return scene_ ? scene_->shows_ground() : relief_->shows_ground(); }
   // A frame whose picture exists: a method's next frame builds on it.
   void skip(const Frame& frame, const View& view) {
     if (scene_) {
@@ -208,23 +226,37 @@ NearGround render_ground(const TerrainSource& source, const LodType& type, int s
   return {nullptr, scene_heights(source, samples, progress)};
 }
 
-std::size_t paint(const RenderArguments& a, const std::vector<Shot>& shots, Painter& painter,
-                  const TerrainSource& source, const Heightfield& field, Progress& progress) {
-  std::size_t kept = 0;
+struct Painted {
+  std::size_t kept = 0;            // from an earlier run
+  std::vector<const Shot*> empty;  // drawn without any ground in view
+};
+
+Painted paint(const RenderArguments& a, const std::vector<Shot>& shots, Painter& painter,
+              const TerrainSource& source, const Heightfield& field, Progress& progress) {
+  Painted painted;
   progress.begin("render", shots.size());
   for (const Shot& shot : shots) {
     const Frame& frame = painter.update(shot.view);
     check_eye(shot.view, frame, source, field);
     if (a.frames > 1 && fs::exists(shot.file)) {
       painter.skip(frame, shot.view);
-      ++kept;
+      ++painted.kept;
     } else {
-      write_png(shot.file, painter.draw(frame, shot));
+      const Image picture = painter.draw(frame, shot);
+      if (!painter.shows_ground()) {
+        if (shots.size() == 1) refuse_empty(shot.view, bounds_of(field));
+        painted.empty.push_back(&shot);
+      }
+      write_png(shot.file, picture);
     }
     progress.advance();
   }
   progress.end();
-  return kept;
+  if (painted.empty.size() == shots.size()) {
+    for (const Shot& shot : shots) fs::remove(shot.file);  // or the next run would keep them
+    refuse_empty(shots.front().view, bounds_of(field));
+  }
+  return painted;
 }
 
 }  // namespace
@@ -232,6 +264,7 @@ std::size_t paint(const RenderArguments& a, const std::vector<Shot>& shots, Pain
 ExitCode render_command(const RenderArguments& a) {
   check_arguments(a);
   const LodType& type = lod(a.lod);
+  check_detail(a, type);
   const Settings settings = parse_settings(a, type);
   if (!a.size.empty()) parse_size(a.size);
   if (!a.path.empty()) open_camera_path(a.path);  // before work that may take minutes
@@ -249,12 +282,18 @@ ExitCode render_command(const RenderArguments& a) {
   const auto context = open_context(a.renderer, shots[0].view.width, shots[0].view.height);
   if (a.frames > 1) claim_folder(a.out, describe(a, source, settings, shots, *context), shots);
   Painter painter(a, *context, *method, style, settings.grass);
-  const std::size_t kept = paint(a, shots, painter, source, field, progress);
+  const Painted painted = paint(a, shots, painter, source, field, progress);
 
   fmt::print("terrain     {}, checksum {}\n", source.name, source.checksum);
   for (const std::string& note : source.notes) fmt::print("note        {}\n", note);
   fmt::print("method      {}, {}\n", type.name, context->renderer());
-  if (kept > 0) fmt::print("kept        {} of {} pictures from an earlier run\n", kept, shots.size());
+  if (painted.kept > 0) {
+    fmt::print("kept        {} of {} pictures from an earlier run\n", painted.kept, shots.size());
+  }
+  if (!painted.empty.empty()) {
+    fmt::print("warning     no ground is in view in {} of {} pictures, the first {}\n", painted.empty.size(),
+               shots.size(), painted.empty.front()->file.string());
+  }
   fmt::print("rendered    {}\n", a.out.string());
   return ExitCode::kGood;
 }

@@ -131,6 +131,10 @@ void print_fidelity(const Fidelity& fidelity) {
 
 void draw(const RepresentArguments& a, const Representation& built, Bounds bounds, Progress& progress) {
   const TriangleMesh mesh = built.mesh({});
+  if (mesh.triangles() == 0) {
+    throw usage_error("nothing of the terrain is left to draw", "--render",
+                      "leave it out, or dig less (--dig, --set)");
+  }
   const View view = overview(bounds_of(mesh), a.view_width, a.view_height);
   if (a.renderer == kRaytrace) {
     const RayScene scene = relief_scene(mesh, bounds.low.y, bounds.high.y);

@@ -200,6 +200,7 @@ void Drawing::picture(const RenderTarget& target) {
   PassView pass{Pass::kPicture, to_clip_, glm::vec4(0), view_.eye, view_.width, view_.height};
   begin(pass);
   gl_.draw_sky(true);
+  gl_.ground.begin();
   // Depth first, so that each pixel's light is computed once.
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   gl_.draw_ground(Pass::kDepth);
@@ -207,6 +208,7 @@ void Drawing::picture(const RenderTarget& target) {
   glDepthFunc(GL_GEQUAL);
   ground(pass);
   if (style_.has_water) gl_.draw_water(view_.far);
+  gl_.ground.end();
 }
 
 }  // namespace
@@ -214,15 +216,25 @@ void Drawing::picture(const RenderTarget& target) {
 View surroundings(const View& view) {
   constexpr float kWidest = 1.3F, kWide = 1.1F;  // half angles
   const glm::vec3 forward = glm::normalize(view.target - view.eye);
-  const float half = 0.5F * view.vertical_fov, pitch = std::asin(std::clamp(forward.y, -1.0F, 1.0F));
-  const float slope_y = std::tan(half);
-  const float slope_x = slope_y * static_cast<float>(view.width) / static_cast<float>(view.height);
+  const float pitch = std::asin(std::clamp(forward.y, -1.0F, 1.0F));
+  float half = 0.5F * view.vertical_fov;
+  const float picture_y = std::tan(half);
+  const float picture_x = picture_y * static_cast<float>(view.width) / static_cast<float>(view.height);
+  float slope_x = picture_x, slope_y = picture_y;
+  // A picture with a tilted horizon fits into a square around its corners, however much it is tilted.
+  constexpr float kTilted = 1e-3F;
+  if (std::abs(glm::normalize(glm::cross(forward, view.up)).y) > kTilted) {
+    slope_x = slope_y = std::hypot(picture_x, picture_y);
+    half = std::atan(slope_y);
+  }
   View wide = view;
   float reach = std::abs(pitch) + half + 0.05F;
   float slope_wide = std::tan(kWide);
   if (reach < kWidest) {
     // Level, so that what the water mirrors from above the picture is inside.
-    wide.target = view.eye + glm::vec3(forward.x, 0, forward.z);
+    // Farther away than floats round an eye's place to.
+    const float away = std::max(1.0F, 2e-5F * glm::length(view.eye));
+    wide.target = view.eye + away * glm::vec3(forward.x, 0, forward.z);
     wide.up = {0, 1, 0};
     slope_wide = std::max(slope_wide, slope_x * std::cos(half) / std::cos(reach));
   } else {
@@ -235,8 +247,8 @@ View surroundings(const View& view) {
   const auto pixels = [](int count, float factor) {
     return static_cast<int>(std::min(std::ceil(static_cast<float>(count) * factor), 1e8F));
   };
-  wide.height = pixels(view.height, slope_tall / slope_y);
-  wide.width = pixels(view.width, slope_wide / slope_x);
+  wide.height = pixels(view.height, slope_tall / picture_y);
+  wide.width = pixels(view.width, slope_wide / picture_x);
   return wide;
 }
 
@@ -269,6 +281,11 @@ void LandscapeRenderer::draw(const Frame& frame, const View& view, double second
 void LandscapeRenderer::skip(const Frame& frame) {
   context_.make_current();
   gl_->buffers.upload(frame);
+}
+
+bool LandscapeRenderer::shows_ground() {
+  context_.make_current();
+  return gl_->ground.any();
 }
 
 Image LandscapeRenderer::image() {

@@ -62,6 +62,8 @@ class LandscapeRenderer {
   // memory.
   void draw(const Frame&, const View&, double seconds = 0);
   Image image();  // the last picture drawn
+  // Whether it shows any ground or water. Waits for the GPU.
+  bool shows_ground();
   // Takes over a frame without drawing it.
   void skip(const Frame&);
   // Style from the next picture on; textures are kept unless their seed or the clouds' size changes.

@@ -35,6 +35,7 @@ struct LandscapeGl {
   Program sky, water, occlusion, blur;
   VertexArray nothing;  // of shaders that compute their vertices
   FrameBuffers buffers;
+  VisibleQuery ground;  // and water
   GrowingBuffer block{0};
 
   TextureArray materials;

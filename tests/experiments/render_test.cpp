@@ -1,8 +1,10 @@
 // `terrabench render`: pictures, sequences that continue, and clear errors.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <csignal>
 #include <fstream>
+#include <glm/vec3.hpp>
 #include <set>
 #include <thread>
 
@@ -107,13 +109,101 @@ TEST_F(Render, SaysWhatIsWrong) {
   expect("hills.tif --scene --frames 0 --path fly", 2, "--frames");
   expect("hills.tif --scene --eye 300 5 300", 2, "under the ground");
   expect("hills.tif --scene --eye 300 90 300 --look-at 300 90 300", 2, "must be finite and differ");
-  expect("hills.tif --scene --eye nan 90 300 --look-at 300 90 300", 2, "must be finite");
+  expect("hills.tif --scene --eye nan 90 300 --look-at 300 90 300", 2, "must be a finite number");
   expect("hills.tif --scene --path fly --eye 300 90 300", 2, "--path");
   expect("hills.tif --scene --renderer nonsense", 2, "nonsense");
   expect("missing.tif --scene", 3, "missing.tif");
   fs::create_directory(folder_ / "folder");
   expect("hills.tif --scene --out folder", 2, "folder");
   expect("hills.tif --scene --path short.toml --frames 2 --out hills.tif", 2, "is a file");
+}
+
+// The same dome at the size of a garden pot, of a hill and of a country, with the eye as much nearer or
+// farther.
+TEST_F(Render, TheFarPlaneReachesGroundOfAnySizeFromAnyEye) {
+  for (const double cell : {1.0 / 64, 10.0, 15625.0}) {
+    write_geotiff(
+        folder_ / "dome.tif",
+        test::ground_of(
+            65, 65, [&](int i, int j) { return 20 * cell * std::exp(-std::hypot(i - 32, j - 32) / 12); },
+            cell, cell));
+    for (const glm::dvec3 eye : {glm::dvec3(-200, 50, -200), {32, 30, 60}, {32, 3000, 40}, {2000, 100, 32}}) {
+      for (const char* const scene : {"", "--scene --set water=0 "}) {
+        const std::string file = "dome.png";
+        const Outcome outcome = call(fmt::format(
+            "$T render dome.tif {}--size 96x64 --fov 20 --look-at {} {} {} --eye {} {} {} --out {}", scene,
+            32 * cell, 5 * cell, 32 * cell, eye.x * cell, eye.y * cell, eye.z * cell, file));
+        ASSERT_EQ(outcome.code, 0) << outcome.text;
+        const Image image = read_png(folder_ / file);
+        EXPECT_NE(image.pixel(image.width / 2, image.height / 2), (Rgb{255, 255, 255}))
+            << cell << ", eye " << eye.x;
+      }
+    }
+  }
+}
+
+TEST_F(Render, APlanHasNorthAtTheTop) {
+  const std::string plan = "$T render hills.tif --eye 320 1000 320 --look-at 320 0 320 --size 64x64 ";
+  const auto picture = [&](const std::string& more) {
+    const Outcome outcome = call(plan + more + " --out plan.png");
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    return read_png(folder_ / "plan.png");
+  };
+  const Image north = picture("");
+  EXPECT_GT(colours(north), 100U);
+  EXPECT_EQ(north.rgb, picture("--up 0 0 -1").rgb);
+  EXPECT_NE(north.rgb, picture("--up 1 0 0").rgb);
+  EXPECT_NE(picture("--scene --up 0 0 -1").rgb, picture("--scene --up 1 1 0").rgb);
+  const Outcome parallel = call(plan + "--up 0 2 0");
+  EXPECT_EQ(parallel.code, 2);
+  EXPECT_THAT(parallel.text, HasSubstr("up must be finite and not parallel"));
+}
+
+TEST_F(Render, APictureWithoutGroundIsRefused) {
+  for (const char* const view :
+       {"--eye 320 300 320 --look-at 320 900 320", "--eye 320 100 -50 --look-at 320 100 -900",
+        "--scene --eye 320 300 320 --look-at 320 900 330", "--eye 1e9 1e9 1e9 --look-at 0 0 0"}) {
+    const Outcome outcome = call(std::string("$T render hills.tif --size 64x48 --out none.png ") + view);
+    EXPECT_EQ(outcome.code, 2) << outcome.text;
+    EXPECT_THAT(outcome.text, HasSubstr("no ground is in view from (")) << view;
+    EXPECT_THAT(outcome.text, HasSubstr("--look-at 320 ")) << view;
+    EXPECT_FALSE(fs::exists(folder_ / "none.png"));
+  }
+  const Outcome dug = call(
+      "$T represent hills.tif --as layered_stack --dig 320,40,320,9000 --render none.png --crop 0 0 9 9");
+  EXPECT_EQ(dug.code, 2) << dug.text;
+  EXPECT_THAT(dug.text, HasSubstr("nothing of the terrain is left to draw"));
+}
+
+// A path whose every frame is empty is refused and leaves no pictures; some empty frames are counted.
+TEST_F(Render, APathThatLooksAtTheSkyIsRefused) {
+  const auto fly = [&](int from, int to) {
+    write_file(
+        folder_ / "sky.toml",
+        fmt::format("kind = \"fly\"\nfield_of_view = 40\nscreen = [64, 48]\nframes_per_second = 10\n"
+                    "speed = 50\n[[keyframe]]\nat = [100, 300]\nheight = 100\nheading = 90\npitch = {}\n"
+                    "[[keyframe]]\nat = [400, 300]\nheight = 100\nheading = 90\npitch = {}\n",
+                    from, to));
+    return call("$T render hills.tif --path sky.toml --frames 4 --out sky");
+  };
+  const Outcome all = fly(60, 50);
+  EXPECT_EQ(all.code, 2) << all.text;
+  EXPECT_THAT(all.text, HasSubstr("no ground is in view"));
+  for (const auto& entry : fs::directory_iterator(folder_ / "sky"))
+    EXPECT_EQ(entry.path().extension(), ".toml");
+  fs::remove_all(folder_ / "sky");
+  const Outcome some = fly(60, -40);
+  EXPECT_EQ(some.code, 0) << some.text;
+  EXPECT_THAT(some.text, HasSubstr("no ground is in view in 2 of 4 pictures, the first sky/frame_0000.png"));
+}
+
+TEST_F(Render, DetailIsWithinTheMethodsRange) {
+  for (const char* const detail : {"-1", "0", "1e300", "nan"}) {
+    const Outcome outcome = call(std::string("$T render hills.tif --lod geomipmap --detail ") + detail);
+    EXPECT_EQ(outcome.code, 2) << detail << outcome.text;
+    EXPECT_THAT(outcome.text, HasSubstr("--detail")) << detail;
+  }
+  EXPECT_EQ(call("$T render hills.tif --lod brute_force --detail 2").code, 2);
 }
 
 TEST_F(Render, UnusualGroundGivesAPictureOrAnError) {
