@@ -6,9 +6,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <new>
+#include <span>
 #include <system_error>
 #include <thread>
 
@@ -42,11 +47,19 @@ void on_signal(int) {
   Progress::interrupt();
 }
 
+// Whether the text is such a number and nothing else.
+template <class Number>
+bool is_number(std::string_view text, Number& value) {
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && rest == text.data() + text.size();
+}
+
 // "2/8": every 8th case, from the second.
 void parse_shard(const std::string& text, RunPlan& plan) {
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%d/%d%c", &plan.shard, &plan.shards, &rest) != 2 || plan.shard < 1 ||
-      plan.shards < 1 || plan.shard > plan.shards) {
+  const std::size_t slash = std::min(text.find('/'), text.size() - 1);
+  if (!is_number(std::string_view(text).substr(0, slash), plan.shard) ||
+      !is_number(std::string_view(text).substr(slash + 1), plan.shards) || plan.shard < 1 ||
+      plan.shard > plan.shards) {
     throw usage_error(fmt::format("invalid shard '{}': expected i/n, such as 2/8", text), "--shard",
                       "i counts from 1 to n");
   }
@@ -64,6 +77,7 @@ struct Arguments {
   MergeArguments merge;
   ReportArguments report;
   std::filesystem::path info;
+  std::string help;  // the command to describe; empty: the program
   std::string profile = "quick", shard = "1/1", cases = "all";
   int threads = 0;
 };
@@ -230,19 +244,19 @@ void add_represent(CLI::App& app, Arguments& a) {
   // Short forms of --set for parameters of drill.
   const auto budget = [&](const char* option, const char* parameter, const char* help) {
     command
-        ->add_option_function<std::string>(
+        ->add_option_function<double>(
             option,
-            [&a, parameter](const std::string& value) {
+            [&a, parameter](double value) {
               a.represent.assignments.push_back(fmt::format("{}={}", parameter, value));
             },
             help)
         ->check(CLI::Validator(
             [](const std::string& value) {
               double number = 0;
-              const bool above = CLI::detail::lexical_cast(value, number) && number > 0;
+              const bool above = is_number(value, number) && number > 0;
               return above ? std::string() : fmt::format("must be a number above 0, got '{}'", value);
             },
-            "NUMBER"));
+            ""));
   };
   budget("--budget-bytes", "budget_bytes",
          "For drill: choose the parameters so that it takes at most this many bytes");
@@ -283,11 +297,9 @@ void add_represent(CLI::App& app, Arguments& a) {
   };
   stroke("--dig", true, "Dig a sphere (metres, Y up) out of what was built; may be repeated");
   stroke("--add", false, "Add a sphere of bedrock; may be repeated, in order with --dig");
-  command
-      ->add_option("--erode", a.represent.erode,
-                   "After --dig and --add, let material slide until no slope exceeds this talus angle "
-                   "(layered_stack and implicit)")
-      ->type_name("DEGREES");
+  command->add_option("--erode", a.represent.erode,
+                      "After --dig and --add, let material slide until no slope exceeds this talus angle in "
+                      "degrees (layered_stack and implicit)");
   add_renderer(*command, a.represent.renderer, true);
   command
       ->add_option("--samples", a.represent.samples,
@@ -361,6 +373,74 @@ void add_render(CLI::App& app, Arguments& a) {
   command->add_option("--seed", r.seed, "Seed of procedural terrains")->capture_default_str();
 }
 
+void add_help(CLI::App& app, Arguments& a) {
+  app.add_subcommand("help", "Describe the program, or a command: terrabench help run")
+      ->add_option("command", a.help, "One of the commands");
+  app.add_subcommand("version", "Print the version");
+}
+
+// What is wrong with the value of an option of that type, or nothing.
+std::string fault_of(const std::string& type, const std::string& value) {
+  if (value.empty()) return "must not be empty: leave the option out, or give a value";
+  double number = 0;
+  std::int64_t whole = 0;
+  if (type.starts_with("FLOAT") && !(is_number(value, number) && std::isfinite(number))) {
+    return fmt::format("must be a finite number, got '{}'", value);
+  }
+  const bool is_unsigned = type.starts_with("UINT");
+  // CLI11 reads 010 as 8.
+  if ((type.starts_with("INT") || is_unsigned) &&
+      !(is_number(value, whole) && fmt::format("{}", whole) == value && (whole >= 0 || !is_unsigned))) {
+    return fmt::format("must be a whole number{}, got '{}'",
+                       is_unsigned ? fmt::format(" from 0 to {}", INT64_MAX) : "", value);
+  }
+  return {};
+}
+
+// All values of all options, before ranges: CLI11 alone takes an empty value for none, NaN for a number in
+// any range, and -1 for the largest unsigned number.
+void check_values(CLI::App& app) {
+  for (CLI::App* const command : app.get_subcommands([](CLI::App*) { return true; })) {
+    for (CLI::Option* const option : command->get_options()) {
+      if (option->get_items_expected_max() == 0) continue;  // a flag
+      const std::string type = option->get_type_name();
+      option->transform(CLI::Validator([type](std::string& value) { return fault_of(type, value); }, ""));
+    }
+  }
+}
+
+std::vector<std::string_view> names_of_commands(const CLI::App& app) {
+  std::vector<std::string_view> names;
+  for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
+
+// The first word that is no option must be a command. CLI11 would say that a command is missing.
+void check_command(const CLI::App& app, std::span<char*> arguments) {
+  for (const char* const word : arguments) {
+    if (*word == '-') continue;
+    const std::vector<std::string_view> known = names_of_commands(app);
+    if (std::find(known.begin(), known.end(), word) == known.end())
+      throw unknown_name("command", word, known);
+    return;
+  }
+}
+
+ExitCode help_command(const CLI::App& app, const std::string& command) {
+  if (command.empty()) {
+    fmt::print("{}", app.help());
+    return ExitCode::kGood;
+  }
+  const std::vector<std::string_view> known = names_of_commands(app);
+  if (std::find(known.begin(), known.end(), command) == known.end()) {
+    throw unknown_name("command", command, known);
+  }
+  fmt::print("{}", app.get_subcommand(command)->help());
+  return ExitCode::kGood;
+}
+
 // Only for commands that ask Progress whether to stop; in others a signal ends the process at once, as usual.
 void install_signals() {
   std::signal(SIGINT, on_signal);
@@ -368,6 +448,11 @@ void install_signals() {
 }
 
 ExitCode dispatch(const CLI::App& app, Arguments& a) {
+  if (app.got_subcommand("help")) return help_command(app, a.help);
+  if (app.got_subcommand("version")) {
+    fmt::print("{}\n", TERRABENCH_VERSION);
+    return ExitCode::kGood;
+  }
   if (app.got_subcommand("list")) return list_command(a.list);
   if (app.got_subcommand("check")) return check_command(a.check);
   if (app.got_subcommand("report")) return report_command(a.report);
@@ -403,6 +488,9 @@ int main_program(int argc, char** argv) {
   add_results(app, arguments);
   add_represent(app, arguments);
   add_render(app, arguments);
+  add_help(app, arguments);
+  check_values(app);
+  check_command(app, std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -437,6 +525,9 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return fail(ExitCode::kEnvironment, "out of memory",
                 "use a smaller terrain (--crop, --resample) or resolution");
+  } catch (const std::filesystem::filesystem_error& error) {
+    const std::string what = error.path1().string() + ": " + error.code().message();
+    return fail(ExitCode::kEnvironment, what.c_str(), "check that it exists and may be read and written");
   } catch (const std::system_error& error) {
     // Thrown only for standard output and standard error; errors of files are terrabench::Error.
     if (error.code() == std::errc::broken_pipe) return terrabench::kClosedPipe;

@@ -85,6 +85,21 @@ void print_notes(const RunOptions& options) {
   }
 }
 
+// Two names of one file would give two columns of the same figures.
+void check_terrains(const std::vector<std::string>& terrains) {
+  for (const std::string& terrain : terrains) check_terrain(terrain);
+  for (std::size_t k = 0; k < terrains.size(); ++k) {
+    for (std::size_t first = 0; first < k; ++first) {
+      std::error_code ignored;  // names of the catalogue are no files
+      if (terrains[k] != terrains[first] &&
+          !std::filesystem::equivalent(terrains[k], terrains[first], ignored))
+        continue;
+      throw usage_error(fmt::format("'{}' is given twice", terrains[k]), "--terrain",
+                        "name each terrain once");
+    }
+  }
+}
+
 Provenance provenance_of(const RunPlan& plan) {
   return collect_provenance({.command = plan.command,
                              .gl_renderer = renderer_name(plan.options.renderer),
@@ -391,7 +406,7 @@ class Session {
 }  // namespace
 
 std::vector<PlannedCase> plan_cases(const RunPlan& plan) {
-  for (const std::string& terrain : plan.options.terrains) check_terrain(terrain);
+  check_terrains(plan.options.terrains);
   std::vector<std::string_view> ids;
   for (const Experiment& experiment : experiments()) ids.push_back(experiment.id);
   demand_matches(plan.patterns, ids, "experiment");

@@ -113,8 +113,9 @@ void Parameters::set(std::string_view name, const Value& value) {
 void Parameters::set_from_text(std::string_view assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos || equals == 0) {
-    throw usage_error(fmt::format("invalid assignment '{}': expected name=value", assignment), "--set",
-                      "such as --set size=128");
+    throw usage_error(
+        fmt::format("invalid assignment '{}': expected name=value", assignment), "",
+        specs_.empty() ? "" : fmt::format("such as {}={}", specs_[0].name, to_string(specs_[0].fallback)));
   }
   const std::string_view name = assignment.substr(0, equals), text = assignment.substr(equals + 1);
   const ParameterSpec& spec = specs_[find(name)];

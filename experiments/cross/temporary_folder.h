@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "terrain/machine_error.h"
+#include "terrain/temporary_files.h"
 
 namespace terrabench::cross {
 
@@ -18,7 +19,7 @@ namespace terrabench::cross {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "terrabench-XXXXXX").string();
+    std::string name = (temporary_files() / "terrabench-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) {
       throw MachineError(fmt::format("cannot make a folder: {}", std::strerror(errno)), name,
                          "free some space, or set TMPDIR to a folder that has it");

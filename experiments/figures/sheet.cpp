@@ -11,6 +11,7 @@
 
 #include "results/rasterise.h"
 #include "terrain/files.h"
+#include "terrain/temporary_files.h"
 
 namespace terrabench::figures {
 namespace {
@@ -144,8 +145,7 @@ void Sheet::image(double x, double y, double width, double height, const Image& 
     return std::max(1, static_cast<int>(std::lround(kPixels * units / pixels)));
   };
   // Through a file, as write_png() writes files only.
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / fmt::format("terrabench-panel.{}.png", getpid());
+  const std::filesystem::path file = temporary_files() / fmt::format("terrabench-panel.{}.png", getpid());
   write_png(file, enlarged(image, times(width, image.width), times(height, image.height)));
   const std::string bytes = read_file(file);
   std::filesystem::remove(file);

@@ -76,6 +76,8 @@ TEST_F(NamedDrawingTest, RefusesAdjustmentsThatCannotBe) {
   refused(",sea_level=1", "sea_level");
   refused(",smoothing=2000", "smoothing");
   refused(",peak=3,", "");
+  const Failure word = failure_of([&] { parse_drawing("x.png,peak=3,high"); });
+  EXPECT_EQ(word.what, "invalid assignment 'high': expected name=value");
 }
 
 TEST_F(NamedDrawingTest, RefusesWhatIsNoPicture) {

@@ -74,7 +74,7 @@ TEST(Parameters, ErrorsNameWhatIsExpectedWhatWasGivenAndTheHelp) {
       {"offset=west", "offset must be a number in m, got 'west'"},
       {"caves=1", "caves must be true or false, got '1'"},
       {"hieght=1", "unknown parameter 'hieght'; did you mean 'height'?"},
-      {"size", "--set: invalid assignment 'size': expected name=value"},
+      {"size", "invalid assignment 'size': expected name=value"},
   };
   for (const auto& [text, what] : cases) {
     EXPECT_EQ(failure_of([&, text = text] { parameters.set_from_text(text); }).what, what) << text;
