@@ -47,14 +47,21 @@ void measure_geotectonic(const Site& site, Kind kind, Recorder& recorder) {
   record(faulted.model().tree, before, "on_block", recorder);
 }
 
-// With sections of 3 to 12 sides, each in fresh ground.
-void measure_carving(const Site& site, bool cave, Recorder& recorder) {
+// Trees of one carving with sections of 3 to 12 sides, each in fresh ground; fewer if the mountains have no
+// place for the next.
+std::vector<Ght> carved(const Site& site, bool cave) {
+  std::vector<Ght> trees;
   for (int sides = kFewestSides; sides <= kMostSides; ++sides) {
     Ght tree = plain_tree(site.ground);
-    if (!carve(tree, site, cave, sides)) {
-      throw environment_error(fmt::format("the mountains have no place for a carving of {} sides", sides),
-                              "ght.counts", "take another seed");
-    }
+    if (!carve(tree, site, cave, sides)) break;
+    trees.push_back(std::move(tree));
+  }
+  return trees;
+}
+
+void measure_carvings(const std::vector<Ght>& trees, Recorder& recorder) {
+  int sides = kFewestSides;
+  for (const Ght& tree : trees) {
     const auto& nodes = tree.model().tree.nodes();
     const auto count = [&](Area area) {
       return static_cast<double>(std::count_if(nodes.begin(), nodes.end(),
@@ -63,6 +70,7 @@ void measure_carving(const Site& site, bool cave, Recorder& recorder) {
     record(tree.model().tree, 1, fmt::format("sides_{}", sides), recorder);
     recorder.add(fmt::format("borders_sides_{}", sides), "", count(Area::kBorder));
     recorder.add(fmt::format("indoor_sides_{}", sides), "", count(Area::kIndoor));
+    ++sides;
   }
 }
 
@@ -100,11 +108,17 @@ std::vector<Case> cases(const RunOptions&) { return cases_by("event", kSpecs); }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   const int size = at.integer("size");
-  const Site site = make_site(kEventsAlong * size, size, options.seed);
-  recorder.terrain("diamond-square", checksum(site.ground));
   const auto kind = static_cast<Kind>(at.parameters.choice("event"));
+  std::vector<Ght> trees;
+  // Not all mountains have a place for every carving.
+  const Site site = first_site(kEventsAlong * size, size, options.seed, [&](const Site& tried) {
+    if (is_carving(kind)) trees = carved(tried, kind == Kind::kCave);
+    return !is_carving(kind) || trees.size() == kMostSides - kFewestSides + 1;
+  });
+  recorder.terrain("diamond-square", checksum(site.ground));
+  if (site.seed != options.seed) recorder.add("site_seed", "", site.seed);
   if (is_carving(kind)) {
-    measure_carving(site, kind == Kind::kCave, recorder);
+    measure_carvings(trees, recorder);
     if (kind == Kind::kCave) measure_hosts(recorder);
   } else {
     measure_geotectonic(site, kind, recorder);

@@ -1,5 +1,7 @@
 #include "experiments/ght/site.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -119,6 +121,17 @@ Site make_site(int side, int size, std::uint64_t seed) {
   }
   site.middle = low_place(site);
   return site;
+}
+
+Site first_site(int side, int size, std::uint64_t seed, const std::function<bool(const Site&)>& fits) {
+  constexpr std::uint64_t kTries = 100;
+  for (std::uint64_t k = 0; k < kTries; ++k) {
+    Site site = make_site(side, size, seed + k);
+    if (fits(site)) return site;
+  }
+  throw environment_error(
+      fmt::format("the mountains of seeds {} to {} have no place for it", seed, seed + kTries - 1), "ght",
+      "choose a larger size or another seed");
 }
 
 Ght plain_tree(const Heightfield& ground) {

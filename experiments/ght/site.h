@@ -33,6 +33,10 @@ struct Site {
 // side ≥ kEventsAlong · size. O(side²).
 Site make_site(int side, int size, std::uint64_t seed);
 
+// The first of the sites of `seed`, seed + 1, … that fits: not all mountains have a place for what is to be
+// measured. Throws environment_error if none of 100 does.
+Site first_site(int side, int size, std::uint64_t seed, const std::function<bool(const Site&)>& fits);
+
 // The ground as a tree of one node.
 Ght plain_tree(const Heightfield& ground);
 
