@@ -116,6 +116,16 @@ FrameRenderer::FrameRenderer(GlContext& context) : context_(context) {
 FrameRenderer::~FrameRenderer() { context_.make_current_to_delete(); }
 
 void FrameRenderer::draw(const Frame& frame, const View& view, const FrameStyle& style) {
+  upload(frame);
+  draw_uploaded(view, style);
+}
+
+void FrameRenderer::upload(const Frame& frame) {
+  context_.make_current();
+  gl_->buffers.upload(frame);
+}
+
+void FrameRenderer::draw_uploaded(const View& view, const FrameStyle& style) {
   context_.make_current();
   RenderTarget& target = context_.target();
   target.resize(view.width, view.height);
@@ -124,7 +134,6 @@ void FrameRenderer::draw(const Frame& frame, const View& view, const FrameStyle&
   glClearColor(background.r, background.g, background.b, 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   const CullUndersides culling;
-  gl_->buffers.upload(frame);
   glBindTextureUnit(0, gl_->ramp.id());
   gl_->ground.begin();
   draw_all(gl_->buffers, style.wire_width > 0 ? gl_->wired : gl_->plain, GL_LEQUAL,

@@ -38,6 +38,9 @@ class FrameRenderer {
   void draw(const Frame&, const View&, const FrameStyle&);
   // Whether the last picture shows any of the ground. Waits for the GPU.
   bool shows_ground();
+  // The two halves of draw(), so that each can be timed: the second draws the frame that was uploaded last.
+  void upload(const Frame&);
+  void draw_uploaded(const View&, const FrameStyle&);
   void finish();  // waits for the GPU
   Image image();  // the last picture drawn
 
