@@ -78,6 +78,13 @@ bool speaks_alone(const TableLayout& layout, const TableLayout::Row& row) {
   });
 }
 
+// Whether the record has one of the row's metrics.
+bool measured(const TableLayout& layout, const TableLayout::Row& row, const Record* record) {
+  return record != nullptr && std::ranges::any_of(layout.columns, [&](const TableLayout::Column& column) {
+           return record->find(for_row(column, row).metric) != nullptr;
+         });
+}
+
 // The points of a paired series, by x.
 std::vector<PlotPoint> paired_points(const Metric& metric, const Metric& across, double up, double right) {
   std::map<double, std::vector<double>> at;
@@ -145,7 +152,7 @@ FilledTable fill(const TableLayout& layout, const Store& store, const JudgedResu
     const Record* const record = store.find(layout.experiment, row.case_name, results.profile);
     const Record* const above = std::exchange(before, record);
     const Record* const grown_from = row.new_block ? nullptr : above;
-    if (record == nullptr && !speaks_alone(layout, row)) continue;
+    if (!measured(layout, row, record) && !speaks_alone(layout, row)) continue;
     if (record != nullptr) note_run(filled.runs, *record);
     std::vector<Cell> cells = {{row.label}};
     for (const TableLayout::Column& general : layout.columns) {
@@ -159,7 +166,47 @@ FilledTable fill(const TableLayout& layout, const Store& store, const JudgedResu
   return filled;
 }
 
+namespace {
+
+// Where the parts of a row's bar end, one after another from 0; empty if a part was not measured.
+std::vector<double> bar_ends(const PlotLayout& layout, const TableLayout::Row& row, const Store& store,
+                             const std::string& profile) {
+  std::vector<double> ends{0};
+  for (const PlotLayout::Series& part : layout.series) {
+    const Record* const record = store.find(part.experiment, row.case_name, profile);
+    const Metric* const metric = record == nullptr ? nullptr : record->find(for_row(part.metric, row));
+    const std::optional<double> factor =
+        metric == nullptr ? std::nullopt : conversion(metric->unit, layout.x.unit);
+    if (!factor) return {};
+    ends.push_back(ends.back() + median(metric->samples) * *factor);
+  }
+  return ends;
+}
+
+FilledPlot fill_bars(const PlotLayout& layout, const Store& store, const std::string& profile) {
+  FilledPlot filled{{layout.title, layout.x, layout.y, {}}, {}};
+  Plot& plot = filled.plot;
+  for (const PlotLayout::Series& part : layout.series) plot.series.push_back({part.label, {}});
+  std::string group;
+  for (const TableLayout::Row& row : layout.rows) {
+    const std::vector<double> ends = bar_ends(layout, row, store, profile);
+    if (ends.empty()) continue;
+    note_run(filled.runs, *store.find(layout.series[0].experiment, row.case_name, profile));
+    const std::string of = for_row("<group>", row);
+    if (of != group) plot.rows.push_back(group = of);
+    const auto number = static_cast<double>(plot.rows.size());
+    plot.rows.push_back(row.label);
+    for (std::size_t k = 0; k < plot.series.size(); ++k) {
+      plot.series[k].points.push_back({ends[k + 1], number, ends[k], ends[k + 1]});
+    }
+  }
+  return filled;
+}
+
+}  // namespace
+
 FilledPlot fill(const PlotLayout& layout, const Store& store, const std::string& profile) {
+  if (!layout.rows.empty()) return fill_bars(layout, store, profile);
   FilledPlot filled{{layout.title, layout.x, layout.y, {}}, {}};
   for (const PlotLayout::Series& series : layout.series) {
     PlotSeries& line = filled.plot.series.emplace_back();

@@ -10,19 +10,6 @@
 namespace terrabench {
 namespace {
 
-TableLayout::Row row_from(const TomlValue& node) {
-  TomlTable entry(node);
-  TableLayout::Row row{entry.text("label"), entry.text("case"), {}, entry.flag("new_block")};
-  for (const auto& [key, value] : entry.rest()) {
-    if (value.node->is_string()) {
-      row.values.emplace(key, value.text(key));
-    } else {
-      row.values.emplace(key, value.number(key));
-    }
-  }
-  return row;
-}
-
 TableLayout::Column column_from(const TomlValue& node) {
   using Kind = TableLayout::Column::Kind;
   constexpr std::pair<std::string_view, Kind> kKinds[] = {
@@ -87,6 +74,24 @@ PlotLayout::Series series_from(const TomlValue& node) {
   return series;
 }
 
+// The rows and parts of a plot of stacked bars.
+void read_bars(TomlTable& entry, PlotLayout& plot) {
+  const std::string experiment = entry.text("experiment");
+  for (const TomlValue& row : entry.list("rows")) plot.rows.push_back(parse_row(row));
+  for (const TomlValue& value : entry.list("parts")) {
+    TomlTable part(value);
+    PlotLayout::Series& series = plot.series.emplace_back();
+    series.label = part.text("label");
+    series.metric = part.text("metric");
+    series.experiment = experiment;
+    for (std::size_t k = 0; k < plot.rows.size(); ++k) {
+      series.cases.emplace_back(static_cast<double>(k), plot.rows[k].case_name);
+    }
+    part.refuse_unknown();
+  }
+  if (plot.series.empty()) entry.refuse("a plot with rows needs parts");
+}
+
 // The page that a table or a plot names; empty: none.
 std::string page_from(TomlTable& entry, std::span<const PageLayout> pages) {
   const std::string page = entry.text_or("page", "");
@@ -112,6 +117,19 @@ std::vector<PageLayout::Drawn> drawn_from(TomlTable& entry, std::string_view key
 
 }  // namespace
 
+TableLayout::Row parse_row(const TomlValue& node) {
+  TomlTable entry(node);
+  TableLayout::Row row{entry.text("label"), entry.text("case"), {}, entry.flag("new_block")};
+  for (const auto& [key, value] : entry.rest()) {
+    if (value.node->is_string()) {
+      row.values.emplace(key, value.text(key));
+    } else {
+      row.values.emplace(key, value.number(key));
+    }
+  }
+  return row;
+}
+
 PageLayout parse_page(const TomlValue& node) {
   TomlTable entry(node);
   const std::string id = entry.text("id");
@@ -128,7 +146,7 @@ TableLayout parse_table(const TomlValue& node, std::span<const PageLayout> pages
   table.caption = entry.text("caption");
   table.experiment = entry.text("experiment");
   table.rows_title = entry.text("rows_title");
-  for (const TomlValue& row : entry.list("rows")) table.rows.push_back(row_from(row));
+  for (const TomlValue& row : entry.list("rows")) table.rows.push_back(parse_row(row));
   for (const TomlValue& column : entry.list("columns")) {
     table.columns.push_back(column_from(column));
   }
@@ -145,21 +163,29 @@ PlotLayout parse_plot(const TomlValue& node, std::span<const PageLayout> pages) 
   plot.title = entry.text("title");
   plot.caption = entry.text("caption");
   plot.x = axis_from(entry.get("x"));
-  plot.y = axis_from(entry.get("y"));
-  for (const TomlValue& series : entry.list("series")) plot.series.push_back(series_from(series));
-  if (plot.series.empty()) entry.refuse("a plot needs series");
+  if (entry.has("rows")) {
+    read_bars(entry, plot);
+  } else {
+    plot.y = axis_from(entry.get("y"));
+    for (const TomlValue& series : entry.list("series")) plot.series.push_back(series_from(series));
+    if (plot.series.empty()) entry.refuse("a plot needs series");
+  }
   plot.page = page_from(entry, pages);
   entry.refuse_unknown();
   return plot;
 }
 
-TableLayout::Column for_row(TableLayout::Column column, const TableLayout::Row& row) {
-  const std::size_t open = column.metric.find('<'), close = column.metric.find('>', open);
-  if (close == std::string::npos) return column;
-  const auto value = row.values.find(std::string_view(column.metric).substr(open + 1, close - open - 1));
+std::string for_row(std::string metric, const TableLayout::Row& row) {
+  const std::size_t open = metric.find('<'), close = metric.find('>', open);
+  if (close == std::string::npos) return metric;
+  const auto value = row.values.find(std::string_view(metric).substr(open + 1, close - open - 1));
   const std::string* const text =
       value == row.values.end() ? nullptr : std::get_if<std::string>(&value->second);
-  column.metric = text == nullptr ? "" : column.metric.replace(open, close - open + 1, *text);
+  return text == nullptr ? "" : metric.replace(open, close - open + 1, *text);
+}
+
+TableLayout::Column for_row(TableLayout::Column column, const TableLayout::Row& row) {
+  column.metric = for_row(std::move(column.metric), row);
   return column;
 }
 

@@ -33,7 +33,7 @@ struct PageLayout {
 struct TableLayout {
   struct Row {
     std::string label, case_name;
-    std::map<std::string, std::variant<double, std::string>, std::less<>> values;
+    std::map<std::string, std::variant<double, std::string>, std::less<>> values = {};
     bool new_block = false;  // the first row of a block: growth is not from the row above
   };
   struct Column {
@@ -50,10 +50,13 @@ struct TableLayout {
   std::vector<Column> columns;
   std::string page = {};  // id of the page that shows it; empty: the report's main page
 };
-// The column with "<name>" in its metric replaced by the row's text; a row without it leaves no metric.
+// The metric with "<name>" replaced by the row's text; empty for a row without it.
+std::string for_row(std::string metric, const TableLayout::Row&);
+// The column with its metric for the row.
 TableLayout::Column for_row(TableLayout::Column, const TableLayout::Row&);
 
-// A plot of the report: lines through cases of an experiment, or through what the paper printed.
+// A plot of the report: lines through cases of an experiment, or through what the paper printed; or stacked
+// bars.
 struct PlotLayout {
   struct Series {
     std::string label, experiment, metric;
@@ -68,12 +71,17 @@ struct PlotLayout {
   PlotAxis x, y;
   std::vector<Series> series;
   std::string page = {};  // id of the page that shows it; empty: the report's main page
+  // Of a plot of stacked bars: a bar per row, from the top, with a heading before the first of each group,
+  // the rows' text `group`. Each series is a part, whose metric is read for the row as a table's column is;
+  // the x of its cases is the number of the row. Bars are measured along x.
+  std::vector<TableLayout::Row> rows = {};
 };
 
 struct TomlValue;
 // Throw bad_input with file and line for unknown or missing keys, wrong types, and a `page` that is not among
 // the given pages.
 PageLayout parse_page(const TomlValue&);
+TableLayout::Row parse_row(const TomlValue&);
 TableLayout parse_table(const TomlValue&, std::span<const PageLayout>);
 PlotLayout parse_plot(const TomlValue&, std::span<const PageLayout>);
 

@@ -157,6 +157,13 @@ Scale scale_for(const PlotAxis& axis, std::vector<double> values, bool own_ticks
   return scale;
 }
 
+// Rows from the top, at y = 0, -1, …
+Scale scale_of_rows(std::size_t rows) {
+  Scale scale{false, 0.4 - static_cast<double>(rows), 0.6, {}};
+  for (std::size_t row = 0; row < rows; ++row) scale.ticks.push_back(-static_cast<double>(row));
+  return scale;
+}
+
 // Plain digits where format_number would write an exponent, as for small times.
 std::string tick_label(double tick) {
   const double size = std::abs(tick);
@@ -190,16 +197,18 @@ void set_font(vtkTextProperty* property, int size) {
   property->SetColor(0.1, 0.1, 0.1);
 }
 
-void set_axis(vtkAxis* axis, const PlotAxis& what, const Scale& scale, int font) {
+void set_axis(vtkAxis* axis, const PlotAxis& what, const Scale& scale, int font,
+              const std::vector<std::string>& rows = {}) {
   axis->SetTitle(what.unit.empty() ? what.label : fmt::format("{} [{}]", what.label, what.unit));
   axis->SetBehavior(vtkAxis::FIXED);
   axis->SetRange(scale.low, scale.high);
   vtkNew<vtkDoubleArray> positions;
   vtkNew<vtkStringArray> labels;
-  for (const double tick : scale.ticks) {
-    positions->InsertNextValue(scale.chart(tick));
-    labels->InsertNextValue(tick_label(tick));
+  for (std::size_t k = 0; k < scale.ticks.size(); ++k) {
+    positions->InsertNextValue(scale.chart(scale.ticks[k]));
+    labels->InsertNextValue(rows.empty() ? tick_label(scale.ticks[k]) : rows[k]);
   }
+  if (!rows.empty()) axis->SetGridVisible(false);
   axis->SetCustomTickPositions(positions, labels);
   set_font(axis->GetTitleProperties(), font);
   set_font(axis->GetLabelProperties(), font);
@@ -238,6 +247,80 @@ void add_series(vtkChartXY* chart, const PlotSeries& series, const Style& style,
   chart->AddPlot(line);
 }
 
+// One kind of part of stacked bars. In the chart, row 0 is at y = 0 and the others lie below.
+class BarParts : public vtkPlotLine {
+ public:
+  static BarParts* New();
+  vtkTypeMacro(BarParts, vtkPlotLine)
+
+      struct Part {
+    float from, to, y;
+    std::string words;  // after the end; may be empty
+  };
+  void set_parts(std::vector<Part> parts, int font) {
+    parts_ = std::move(parts);
+    set_font(text_, font);
+    text_->SetVerticalJustificationToCentered();
+  }
+  bool Paint(vtkContext2D* painter) override {
+    constexpr float kThick = 0.72F;  // of a row
+    painter->ApplyPen(Pen);
+    painter->GetBrush()->SetColor(Pen->GetColorObject());
+    painter->ApplyTextProp(text_);
+    for (const Part& part : parts_) {
+      painter->DrawRect(part.from, part.y - kThick / 2, part.to - part.from, kThick);
+      if (!part.words.empty()) painter->DrawString(part.to, part.y, part.words.c_str());
+    }
+    return true;
+  }
+  bool PaintLegend(vtkContext2D* painter, const vtkRectf& box, int) override {
+    painter->ApplyPen(Pen);
+    painter->GetBrush()->SetColor(Pen->GetColorObject());
+    painter->DrawRect(box.GetX(), box.GetY(), box.GetWidth(), box.GetHeight());
+    return true;
+  }
+
+ protected:
+  BarParts() = default;
+
+ private:
+  std::vector<Part> parts_;
+  vtkNew<vtkTextProperty> text_;
+};
+vtkStandardNewMacro(BarParts)
+
+    // From dark to light, so that they differ in print without colours, too.
+    constexpr std::array<std::size_t, 3> kPartStyles = {0, 4, 5};
+
+constexpr int kWordsAfterBar = 9;  // letters for which there is room
+
+// `last`: whether the parts end their bars, after which the bar's length is printed.
+void add_parts(vtkChartXY* chart, const PlotSeries& series, std::size_t number, const Scale& x, int font,
+               bool last) {
+  std::vector<BarParts::Part> parts;
+  vtkNew<vtkFloatArray> xs, ys;
+  xs->SetName("x");
+  ys->SetName("y");
+  for (const PlotPoint& point : series.points) {
+    const double from = x.log && point.low <= 0 ? x.low : x.chart(point.low);
+    parts.push_back({static_cast<float>(from), static_cast<float>(x.chart(point.x)),
+                     static_cast<float>(-point.y), last ? "\u00a0" + format_number(point.x) : ""});
+    xs->InsertNextValue(parts.back().to);
+    ys->InsertNextValue(parts.back().y);
+  }
+  vtkNew<vtkTable> table;
+  table->AddColumn(xs);
+  table->AddColumn(ys);
+  const Style& style = kStyles[kPartStyles[number % kPartStyles.size()]];
+  vtkNew<BarParts> bars;
+  bars->SetInputData(table, 0, 1);
+  bars->SetLabel("\u00a0" + series.label);
+  bars->SetColor(style.colour[0], style.colour[1], style.colour[2], 255);
+  bars->SetWidth(0.5F);
+  bars->set_parts(std::move(parts), font);
+  chart->AddPlot(bars);
+}
+
 // The points that both axes can show, from left to right.
 std::vector<PlotSeries> showable(const Plot& plot) {
   std::vector<PlotSeries> all = plot.series;
@@ -249,12 +332,19 @@ std::vector<PlotSeries> showable(const Plot& plot) {
   return all;
 }
 
+// `size` of a line plot without its legend; `line`: pixels per line of text.
+PlotSize size_for(const Plot& plot, PlotSize size, int line) {
+  if (!plot.rows.empty()) size.height = line * (4 + static_cast<int>(plot.rows.size()));
+  size.height += line * static_cast<int>(plot.series.size());
+  return size;
+}
+
 }  // namespace
 
 // The legend stands above the chart, a line per series.
-PlotSize screen_size(const Plot& plot) { return {880, 485 + 25 * static_cast<int>(plot.series.size()), 17}; }
-PlotSize page_size(const Plot& plot) { return {880, 400 + 20 * static_cast<int>(plot.series.size()), 14}; }
-PlotSize column_size(const Plot& plot) { return {440, 310 + 20 * static_cast<int>(plot.series.size()), 15}; }
+PlotSize screen_size(const Plot& plot) { return size_for(plot, {880, 485, 17}, 25); }
+PlotSize page_size(const Plot& plot) { return size_for(plot, {880, 400, 14}, 20); }
+PlotSize column_size(const Plot& plot) { return size_for(plot, {440, 310, 15}, 20); }
 
 std::string plot_svg(const Plot& plot, const PlotSize& size) {
   const std::vector<PlotSeries> all = showable(plot);
@@ -268,18 +358,28 @@ std::string plot_svg(const Plot& plot, const PlotSize& size) {
     }
   }
   if (xs.empty()) throw bad_input("there is no point to plot", plot.title, "measure the cases that it shows");
-  Scale x = scale_for(plot.x, xs, true, 0.06);
-  const Scale y = scale_for(plot.y, ys, false, 0.08);
+  const bool bars = !plot.rows.empty();
+  Scale x = scale_for(plot.x, xs, !bars, 0.06);
+  const Scale y = bars ? scale_of_rows(plot.rows.size()) : scale_for(plot.y, ys, false, 0.08);
   // Beside the labels and the title of the vertical axis.
-  x.ticks = spaced_ticks(x, size.width - 8 * size.font, size.font);
+  int pixels = size.width - 8 * size.font;
+  if (bars) {
+    pixels -= 8 * size.font;
+    x.high += (x.high - x.low) * 0.6 * size.font * kWordsAfterBar / pixels;
+  }
+  x.ticks = spaced_ticks(x, pixels, size.font);
 
   vtkNew<vtkChartXY> chart;
   chart->SetAutoSize(false);
   chart->SetSize(vtkRectf(0, 0, static_cast<float>(size.width) - 12, static_cast<float>(size.height) - 8));
   set_axis(chart->GetAxis(vtkAxis::BOTTOM), plot.x, x, size.font);
-  set_axis(chart->GetAxis(vtkAxis::LEFT), plot.y, y, size.font);
+  set_axis(chart->GetAxis(vtkAxis::LEFT), plot.y, y, size.font, plot.rows);
   std::size_t measured = 0, reported = 0;
   for (const PlotSeries& series : all) {
+    if (bars) {
+      add_parts(chart, series, measured++, x, size.font, &series == &all.back());
+      continue;
+    }
     const Style style =
         series.reported ? kReported[reported++ % kReported.size()] : measured_style(measured++);
     if (!series.points.empty()) add_series(chart, series, style, x, y);

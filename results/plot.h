@@ -1,4 +1,5 @@
-// Line plots with error bars on linear or logarithmic axes, drawn by VTK's charts and written as SVG.
+// Line plots with error bars on linear or logarithmic axes, and stacked bars, drawn by VTK's charts and
+// written as SVG.
 #pragma once
 
 #include <optional>
@@ -27,6 +28,10 @@ struct Plot {
   std::string title;  // for screen readers; the caption belongs to the page
   PlotAxis x, y;
   std::vector<PlotSeries> series;
+  // Labels of rows, from the top. If there are any, the plot shows stacked bars along x in place of lines,
+  // and has no axis y: a point is a part of the bar in row y, from `low` to x, and each series is one kind of
+  // part, in the order in which they are stacked. A row without points is a heading.
+  std::vector<std::string> rows = {};
 };
 
 // Pixels. A picture of `width` pixels with letters of `font` pixels, printed 174 mm wide, has letters of

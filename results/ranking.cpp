@@ -11,7 +11,7 @@ namespace terrabench {
 namespace {
 
 struct Candidate {
-  const std::string* label;
+  const RankingLayout::Entry* entry;
   const Record* record;
   const Metric* metric;
   double median;
@@ -24,21 +24,22 @@ std::vector<Candidate> candidates(const RankingLayout& layout, const Store& stor
   std::vector<Candidate> all;
   for (const RankingLayout::Entry& entry : layout.entries) {
     const Record* const record = store.find(layout.experiment, entry.case_name, profile);
-    const Metric* const metric = record == nullptr ? nullptr : record->find(layout.metric);
+    const Metric* const metric = record == nullptr ? nullptr : record->find(for_row(layout.metric, entry));
     if (metric == nullptr) continue;
     if (conversion(metric->unit, layout.unit) && (all.empty() || all[0].metric->unit == metric->unit)) {
-      all.push_back({&entry.label, record, metric, median(metric->samples)});
+      all.push_back({&entry, record, metric, median(metric->samples)});
     } else {
       left_out.push_back(entry.label);
     }
   }
-  const auto has = [&](const Candidate& c) { return c.record->find(layout.needs) != nullptr; };
+  const auto needed_by = [&](const Candidate& c) { return c.record->find(for_row(layout.needs, *c.entry)); };
+  const auto has = [&](const Candidate& c) { return needed_by(c) != nullptr; };
   if (layout.needs.empty() || std::ranges::none_of(all, has)) return all;
   std::erase_if(all, [&](const Candidate& c) {
-    const Metric* const needed = c.record->find(layout.needs);
+    const Metric* const needed = needed_by(c);
     const double value = needed == nullptr ? layout.needs_low - 1 : median(needed->samples);
     if (value >= layout.needs_low && value <= layout.needs_high) return false;
-    left_out.push_back(*c.label);
+    left_out.push_back(c.entry->label);
     return true;
   });
   return all;
@@ -83,9 +84,7 @@ RankingLayout parse_ranking(const TomlValue& node) {
     needs.refuse_unknown();
   }
   for (const TomlValue& value : entry.list("entries")) {
-    TomlTable one(value);
-    layout.entries.push_back({one.text("label"), one.text("case")});
-    one.refuse_unknown();
+    layout.entries.push_back(parse_row(value));
   }
   entry.refuse_unknown();
   return layout;
@@ -134,7 +133,7 @@ std::optional<Ranking> rank(const RankingLayout& layout, const Store& store, con
     const Summary factor = equal         ? Summary{1, 1, 1, 1}
                            : layout.most ? summarise_ratio(best.metric->samples, c.metric->samples)
                                          : summarise_ratio(c.metric->samples, best.metric->samples);
-    ranking.places.push_back({*c.label, c.median * to_unit, factor});
+    ranking.places.push_back({c.entry->label, c.median * to_unit, factor});
     if (std::ranges::count(ranking.runs, c.record->run) == 0) ranking.runs.push_back(c.record->run);
   }
   ranking.margin = timing ? kTimingMargin : kExactMargin;

@@ -9,22 +9,21 @@
 #include <vector>
 
 #include "results/document.h"
+#include "results/layouts.h"
 #include "results/statistics.h"
 #include "results/store.h"
 
 namespace terrabench {
 
 struct RankingLayout {
-  struct Entry {
-    std::string label, case_name;
-  };
+  using Entry = TableLayout::Row;
   std::string id, task, where;  // task: "Fewest bytes in memory"; where: "on caves"
   // Of the findings in short. `sentence` is the name of the sentence that says who is best at this task, and
   // `brief` how the task begins there: "for the fewest bytes in memory". Both empty: in none.
   std::string sentence, brief;
-  std::string experiment, metric;
-  std::string unit;   // that values are shown in
-  bool most = false;  // the best has the most, otherwise the least
+  std::string experiment, metric;  // `metric` and `needs` are read for the entry as a table's columns are
+  std::string unit;                // that values are shown in
+  bool most = false;               // the best has the most, otherwise the least
   // An entry takes part only if this metric lies in the range, where any entry has it. Empty: none. The text
   // says so: "of types that keep four fifths of the air under roofs".
   std::string needs, needs_text;
@@ -70,7 +69,6 @@ struct Ranking {
   std::string clause() const { return layout->where + ": " + result(); }
 };
 
-struct TomlValue;
 // One [[ranking]], and every one of a claims file. Throw bad_input with file and line.
 RankingLayout parse_ranking(const TomlValue&);
 std::vector<RankingLayout> parse_rankings(std::string_view toml, const std::string& origin);

@@ -85,10 +85,53 @@ TEST_F(LayoutTest, RowsMayNameTheMetricOfAColumn) {
       "columns = [{title = \"slope\", metric = \"<cost>_slope\"}]\n",
       "test");
   const Table table = fill(paper.tables.at(0), store, {"quick", {}, {}, {}}).table;
-  ASSERT_EQ(table.rows.size(), 3U) << "a row that only names a metric has nothing to show without its case";
+  ASSERT_EQ(table.rows.size(), 2U) << "rows without a metric of their case have nothing to show";
   EXPECT_EQ(table.rows[0][1].text, "1.5");
   EXPECT_EQ(table.rows[1][1].text, "0.25");
-  EXPECT_EQ(table.rows[2][1].text, "–");
+}
+
+TEST_F(LayoutTest, StackedBarsStandInGroupsAndNeedAllTheirParts) {
+  const Provenance run = fake_provenance();
+  Store store(folder_);
+  store.begin_run(run);
+  Record record = fake_record(run, "e", "c");
+  add(record, "a_choose", "s", {1, 2, 3});
+  add(record, "a_draw", "s", {10});
+  add(record, "b_choose", "s", {5});
+  add(record, "d_choose", "s", {7});
+  add(record, "d_draw", "s", {1});
+  store.append(record);
+  const auto with_parts = [](const std::string& parts) {
+    return parse_claims(
+        "paper = \"p\"\ntitle = \"t\"\nsource = \"s\"\n"
+        "[[plot]]\nid = \"p.plot\"\ntitle = \"t\"\ncaption = \"c\"\nexperiment = \"e\"\n"
+        "x = {label = \"time\", unit = \"ms\"}\nparts = [" +
+            parts +
+            "]\n"
+            "rows = [{label = \"A\", case = \"c\", group = \"low\", of = \"a\"},"
+            "{label = \"B\", case = \"c\", group = \"low\", of = \"b\"},"
+            "{label = \"gone\", case = \"x\", group = \"none\", of = \"a\"},"
+            "{label = \"D\", case = \"c\", group = \"high\", of = \"d\"}]\n",
+        "test");
+  };
+  const Paper paper = with_parts(
+      R"({label = "choosing", metric = "<of>_choose"}, {label = "drawing", metric = "<of>_draw"})");
+  const FilledPlot filled = fill(paper.plots.at(0), store, "quick");
+  EXPECT_EQ(filled.plot.rows, (std::vector<std::string>{"low", "A", "high", "D"}));
+  EXPECT_EQ(filled.runs.size(), 1U);
+  const auto& choosing = filled.plot.series.at(0).points;
+  const auto& drawing = filled.plot.series.at(1).points;
+  ASSERT_EQ(choosing.size(), 2U) << "B was not drawn";
+  ASSERT_EQ(drawing.size(), 2U);
+  EXPECT_EQ(choosing[0].low, 0);
+  EXPECT_EQ(choosing[0].x, 2000) << "the median, in ms";
+  EXPECT_EQ(drawing[0].low, 2000);
+  EXPECT_EQ(drawing[0].x, 12'000);
+  EXPECT_EQ(drawing[0].y, 1);
+  EXPECT_EQ(drawing[1].x, 8000);
+  EXPECT_EQ(drawing[1].y, 3);
+  EXPECT_ANY_THROW(with_parts(""));
+  EXPECT_ANY_THROW(with_parts(R"({label = "choosing", metric = "m", cases = ["c"]})"));
 }
 
 TEST_F(LayoutTest, GrowthStartsAnewInEachBlock) {

@@ -106,6 +106,25 @@ TEST(PlotTest, OnePointAndHugeRangesStillHaveAnAxis) {
   EXPECT_LT(plot_svg(plot).size(), 50'000U);
 }
 
+TEST(PlotTest, StacksThePartsOfBars) {
+  const std::vector<PlotSeries> parts = {{"choosing", {{0.003, 1, 0, 0.003}, {0.02, 2, 0, 0.02}}},
+                                         {"drawing", {{14, 1, 0.003, 14}, {1230, 2, 0.02, 1230}}}};
+  Plot plot{"Frames", {"time", "ms", true}, {}, parts, {"257² samples", "ROAM", "brute force"}};
+  const std::string both = plot_svg(plot);
+  for (const char* label :
+       {"time [ms]", ">ROAM<", ">brute force<", ">257² samples<", "choosing", "drawing", "14<", "1,230<"}) {
+    EXPECT_THAT(both, HasSubstr(label));
+  }
+  EXPECT_THAT(both, Not(HasSubstr("nan")));
+  EXPECT_EQ(plot_svg(plot), both);
+  EXPECT_GT(screen_size(plot).height, screen_size({"", {}, {}, parts, {"one"}}).height);
+  // Two bars and the legend's key, per part.
+  EXPECT_EQ(count(both, "#0072b2"), 3U);
+  EXPECT_EQ(count(both, "#e69f00"), 3U);
+  plot.series[1].points.pop_back();
+  EXPECT_EQ(count(plot_svg(plot), "#e69f00"), 2U);
+}
+
 TEST(PlotTest, PowerLaw) {
   std::vector<PlotPoint> points;
   for (const double x : {64.0, 128.0, 256.0}) points.push_back({x, 3 * std::pow(x, 2.5), 0, 0});

@@ -86,6 +86,38 @@ TEST_F(RankingTest, SaysWhoWinsByHowMuchAndChangesWithTheFigures) {
             "[1.82, 2.2].");
 }
 
+// Of cases that hold the figures of several methods.
+TEST_F(RankingTest, EntriesMayNameTheirMetrics) {
+  const std::vector<RankingLayout> layouts = parse_rankings(R"(
+[[ranking]]
+id = "frame"
+task = "Cheapest"
+where = "on a hill"
+experiment = "x"
+metric = "<of>_frame"
+unit = "ms"
+best = "least"
+needs = {metric = "<of>_reached", range = [1, 1], text = "of those that come close"}
+entries = [
+  {label = "A", case = "all", of = "a"}, {label = "B", case = "all", of = "b"},
+  {label = "C", case = "all", of = "c"}, {label = "D", case = "all", of = "d"},
+]
+)",
+                                                            "test.toml");
+  Record record = fake_record(run_, "x", "all");
+  for (const auto& [name, time, reached] : {std::tuple{"a", 0.03, 1}, {"b", 0.01, 1}, {"c", 0.001, 0}}) {
+    add(record, std::string(name) + "_frame", "s", {time, time, time});
+    add(record, std::string(name) + "_reached", "", {1.0 * reached});
+  }
+  store_.append(record);
+  const std::optional<Ranking> ranking = rank(layouts.at(0), store_, "quick");
+  ASSERT_TRUE(ranking);
+  ASSERT_EQ(ranking->places.size(), 2U) << "D was not measured";
+  EXPECT_EQ(ranking->places[0].label, "B");
+  EXPECT_EQ(ranking->places[1].label, "A");
+  EXPECT_EQ(ranking->left_out, std::vector<std::string>{"C"});
+}
+
 TEST_F(RankingTest, InShortGroundsWithTheSameBestStandTogether) {
   const auto line = [&] {
     const auto [sentence, text] = in_short(rank(layouts_, store_, "quick")).lines.at(0);
