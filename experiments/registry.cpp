@@ -73,6 +73,7 @@
   UNTIMED(cross, kErrorMaps)                          \
   TIMED(cross, kLodEqualError)                        \
   TIMED(cross, kLodRanks)                             \
+  TIMED(cross, kLodFrames)                            \
   TIMED(cross, kLodJump)                              \
   UNTIMED(cross, kLodSeams)                           \
   TIMED(cross, kLodSurface)                           \

@@ -204,4 +204,14 @@ Tuned tune_to(Flight& flight, const Contender& method, double pixels, Progress& 
   return flight.tuned[key] = search_knob(knob, pixels, error_at);
 }
 
+Distribution errors_along(const Flight& flight, Lod& lod) {
+  SurfaceRaster drawn(flight.ground().width, flight.ground().depth);
+  Distribution errors;
+  for (std::size_t k = 0; k < flight.metered.size(); ++k) {
+    drawn.draw(lod.update(flight.views[flight.metered[k]]));
+    screen_error(drawn, flight.ground(), flight.seen[k], &errors);
+  }
+  return errors;
+}
+
 }  // namespace terrabench::cross

@@ -91,4 +91,7 @@ Contender entered(std::string_view name, const std::string& options);
 // below `pixels` over every other metered frame. Does not depend on what was tuned before.
 Tuned tune_to(Flight&, const Contender&, double pixels, Progress&, Criterion = Criterion::kP99);
 
+// The visible samples' screen-space errors over all metered frames, drawn one after another.
+Distribution errors_along(const Flight&, Lod&);
+
 }  // namespace terrabench::cross

@@ -9,7 +9,6 @@
 #include "experiments/cross/path_cost.h"
 #include "experiments/cross/ranks.h"
 #include "experiments/cross/tuned_cases.h"
-#include "lod/meters/screen_error.h"
 
 namespace terrabench::cross {
 namespace {
@@ -47,25 +46,14 @@ struct Costs {
   }
 };
 
-Distribution errors_along(const Flight& flight, const Contender& method, double knob, Progress& progress) {
-  const Heightfield& ground = flight.ground();
-  const std::unique_ptr<Lod> lod = method.build(ground, progress);
-  lod->tune(knob);
-  SurfaceRaster drawn(ground.width, ground.depth);
-  Distribution errors;
-  for (std::size_t k = 0; k < flight.metered.size(); ++k) {
-    drawn.draw(lod->update(flight.views[flight.metered[k]]));
-    screen_error(drawn, ground, flight.seen[k], &errors);
-  }
-  return errors;
-}
-
 // `prefix`: of the metrics.
 void measure_one(Flight& flight, const Contender& method, const Equalised& what, double pixels,
                  const std::string& prefix, Costs& costs, Recorder& recorder, Progress& progress) {
   const Tuned tuned = tune_to(flight, method, pixels, progress, what.criterion);
   const PathCost cost = fly(flight, method, tuned.knob, progress);
-  const Distribution errors = errors_along(flight, method, tuned.knob, progress);
+  const std::unique_ptr<Lod> lod = method.build(flight.ground(), progress);
+  lod->tune(tuned.knob);
+  const Distribution errors = errors_along(flight, *lod);
   costs.triangles.push_back(std::accumulate(cost.triangles.begin(), cost.triangles.end(), 0.0) /
                             static_cast<double>(cost.triangles.size()));
   costs.uploaded.push_back(cost.uploaded);
