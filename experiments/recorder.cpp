@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "terrain/error.h"
 #include "terrain/files.h"
@@ -59,9 +60,10 @@ std::filesystem::path Recorder::figure(std::string_view id, std::string_view ext
   return path;
 }
 
-void Recorder::terrain(std::string_view name, std::string_view checksum) {
+void Recorder::terrain(std::string_view name, std::string_view checksum, std::vector<std::string> notes) {
   record_.terrain = name;
   record_.terrain_checksum = checksum;
+  record_.terrain_notes = std::move(notes);
 }
 
 }  // namespace terrabench

@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <initializer_list>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "results/record.h"
 #include "terrain/source.h"
@@ -27,12 +29,12 @@ class Recorder {
   // Declares a picture of a claim; returns the path to write it to. `extension` without the dot.
   std::filesystem::path figure(std::string_view id, std::string_view extension, std::string_view caption);
   // Records the ground that was measured. The overload for a temporary returns it.
-  void terrain(const TerrainSource& source) { terrain(source.name, source.checksum); }
+  void terrain(const TerrainSource& source) { terrain(source.name, source.checksum, source.notes); }
   TerrainSource terrain(TerrainSource&& source) {
-    terrain(source.name, source.checksum);
+    terrain(source.name, source.checksum, source.notes);
     return std::move(source);
   }
-  void terrain(std::string_view name, std::string_view checksum);
+  void terrain(std::string_view name, std::string_view checksum, std::vector<std::string> notes = {});
 
  private:
   Record& record_;

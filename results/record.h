@@ -76,7 +76,8 @@ struct Record {
   std::vector<std::string> overrides = {};  // "name=value" of --set; also in case_name, so no claim reads it
   std::string run;                          // Provenance::id
   std::uint64_t seed = 0;
-  std::string terrain, terrain_checksum;  // what was measured on
+  std::string terrain, terrain_checksum;        // what was measured on
+  std::vector<std::string> terrain_notes = {};  // what its reader converted, guessed or left out
   std::vector<std::pair<std::string, Value>> parameters;
   std::vector<Metric> metrics;
   std::vector<RecordedFigure> figures;

@@ -125,6 +125,14 @@ class Fields {
     require(value.is_array(), fmt::format("'{}' is not a list", name));
     return value;
   }
+  std::vector<std::string> texts(const char* name) {
+    std::vector<std::string> all;
+    for (const Json& value : array(name)) {
+      require(value.is_string(), fmt::format("'{}' holds what is not text", name));
+      all.push_back(value.get<std::string>());
+    }
+    return all;
+  }
   const Json& object(const char* name) {
     const Json& value = get(name);
     require(value.is_object(), fmt::format("'{}' is not an object", name));
@@ -263,15 +271,13 @@ Record record_from(Fields& fields, std::string& warning) {
   record.seed = fields.natural("seed");
   record.terrain = fields.text("terrain");
   record.terrain_checksum = fields.text("terrain_checksum");
+  if (fields.has("terrain_notes")) record.terrain_notes = fields.texts("terrain_notes");
   for (const auto& [name, value] : fields.object("parameters").items()) {
     record.parameters.emplace_back(name, value_from(value, name));
   }
   // Records written before this field existed name overrides only at the end of the case.
   if (fields.has("overrides")) {
-    for (const Json& assignment : fields.array("overrides")) {
-      require(assignment.is_string(), "an override is not text");
-      record.overrides.push_back(assignment.get<std::string>());
-    }
+    record.overrides = fields.texts("overrides");
   } else if (const std::size_t at = record.case_name.find(" ("); at != record.case_name.npos) {
     record.overrides.push_back(record.case_name.substr(at + 2, record.case_name.size() - at - 3));
   }
@@ -303,10 +309,7 @@ Provenance provenance_from(Fields& fields) {
     p.libraries.emplace_back(name, version.get<std::string>());
   }
   if (fields.has("timing_warnings")) {
-    for (const Json& warning : fields.array("timing_warnings")) {
-      require(warning.is_string(), "a timing warning is not text");
-      p.timing_warnings.push_back(warning.get<std::string>());
-    }
+    p.timing_warnings = fields.texts("timing_warnings");
   }
   return p;
 }
@@ -378,6 +381,7 @@ std::string to_line(const Record& record) {
              {"parameters", parameters},
              {"metrics", metrics},
              {"figures", figures}});
+  if (!record.terrain_notes.empty()) line["terrain_notes"] = record.terrain_notes;
   if (!record.overrides.empty()) line["overrides"] = record.overrides;
   if (record.outcome != CaseOutcome::kMeasured) {
     line["outcome"] = name(record.outcome);

@@ -34,7 +34,7 @@ class Grounds : public CommandLine {
   }
 };
 
-TEST_F(Grounds, NotesOfADemReachTheTerminal) {
+TEST_F(Grounds, NotesOfADemReachTheTerminalAndTheRecord) {
   const std::string void_note = "1 of 120 samples are -9999", guess = "names no reference system";
   for (const char* const command :
        {"info grid.asc", "render grid.asc --size 40x30 --out a.png", "represent grid.asc --as heightmap",
@@ -43,6 +43,12 @@ TEST_F(Grounds, NotesOfADemReachTheTerminal) {
     EXPECT_EQ(outcome.code, 0) << outcome.text;
     EXPECT_THAT(outcome.text, HasSubstr(void_note)) << command;
     EXPECT_THAT(outcome.text, HasSubstr(guess)) << command;
+  }
+  const Store store = Store::open(folder_ / "out");
+  ASSERT_FALSE(store.records().empty());
+  for (const Record& record : store.records()) {
+    EXPECT_THAT(record.terrain_notes, Contains(HasSubstr(void_note)));
+    EXPECT_THAT(record.terrain_notes, Contains(HasSubstr(guess)));
   }
 }
 

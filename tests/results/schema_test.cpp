@@ -114,6 +114,7 @@ Record full_record() {
   record.overrides = {"n=3"};
   record.terrain = "caves";
   record.terrain_checksum = checksum("caves");
+  record.terrain_notes = {"3 of 24 samples hold no height"};
   record.parameters = {{"n", std::int64_t{3}}, {"x", 0.5}, {"on", true}, {"kind", std::string("a")}};
   add(record, "time", "s", {0.25, 1e-300});
   record.figures = {
@@ -146,6 +147,7 @@ TEST(Schema, WhatIsWrittenIsDocumented) {
   EXPECT_EQ(fault(to_line(full_run())), "");
   Record least = full_record();
   least.overrides.clear();
+  least.terrain_notes.clear();
   least.terrain = least.terrain_checksum = "";
   least.parameters.clear();
   least.metrics[0].varies = false;
