@@ -78,11 +78,13 @@ bool speaks_alone(const TableLayout& layout, const TableLayout::Row& row) {
   });
 }
 
-// Whether the record has one of the row's metrics.
+// Whether the record has one of the row's metrics, or says why the case has none.
 bool measured(const TableLayout& layout, const TableLayout::Row& row, const Record* record) {
-  return record != nullptr && std::ranges::any_of(layout.columns, [&](const TableLayout::Column& column) {
-           return record->find(for_row(column, row).metric) != nullptr;
-         });
+  if (record == nullptr) return false;
+  if (record->outcome != CaseOutcome::kMeasured) return true;
+  return std::ranges::any_of(layout.columns, [&](const TableLayout::Column& column) {
+    return record->find(for_row(column, row).metric) != nullptr;
+  });
 }
 
 // The points of a paired series, by x.

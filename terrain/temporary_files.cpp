@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "terrain/error.h"
+#include "terrain/machine_error.h"
 
 namespace terrabench {
 
@@ -13,7 +13,7 @@ std::filesystem::path temporary_files() {
   const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
   if (!error) return folder;
   const char* const named = std::getenv("TMPDIR");
-  throw environment_error(fmt::format("no folder for temporary files: {}", error.message()),
+  throw MachineError(fmt::format("no folder for temporary files: {}", error.message()),
                           named == nullptr ? "/tmp" : named, "set TMPDIR to a folder that exists");
 }
 

@@ -40,7 +40,7 @@ TEST(Flips, CountPairsThatChangePlaces) {
 // is the one that was asked for.
 TEST(TuneTo, MakesTheFigureOfItsCriterionEqual) {
   Progress progress;
-  Flight flight({"fractal", "low", 65, 6, 1}, progress);
+  Flight flight({"fractal", "low", 257, 6, 1}, progress);
   const Contender method = entered("mrbsp", "");
   for (const Criterion criterion : {Criterion::kLargest, Criterion::kRms, Criterion::kP99}) {
     const Tuned tuned = tune_to(flight, method, 2, progress, criterion);
@@ -49,7 +49,7 @@ TEST(TuneTo, MakesTheFigureOfItsCriterionEqual) {
     lod->tune(tuned.knob);
     Distribution errors;
     for (std::size_t k = 0; k < flight.metered.size(); k += 2) {
-      const SurfaceRaster drawn(lod->update(flight.views[flight.metered[k]]), 65, 65);
+      const SurfaceRaster drawn(lod->update(flight.views[flight.metered[k]]), 257, 257);
       screen_error(drawn, flight.ground(), flight.seen[k], &errors);
     }
     EXPECT_EQ(figure_of(errors, criterion), tuned.error);

@@ -105,11 +105,13 @@ TEST(Morphing, NothingJumps) {
 
 // The knobs give the morph no larger error; patches come into view, and some are cut.
 TEST(Morphing, LowersTheLargestPoppingAlongThePathsAtEqualError) {
-  Heightfield field = hilly(403, 344, 1);
-  field.cell_x = field.cell_z = 5;
+  // The paths of square ground leave this one at its southern side.
+  Heightfield square = hilly(403, 403, 1);
+  square.cell_x = square.cell_z = 5;
+  const Heightfield field = crop(square, 0, 0, 403, 344);
   for (const char* name : {"cross", "fly"}) {
     SCOPED_TRACE(name);
-    const std::vector<View> path = views(camera_path(name), field);
+    const std::vector<View> path = views(camera_path(name), square);
     const Flown without = fly(field, path, 20, false, 2), with = fly(field, path, 20, true, 1.5);
     EXPECT_LE(with.error_p99, without.error_p99);
     EXPECT_LT(with.popping, 0.5 * without.popping);

@@ -155,9 +155,7 @@ TEST(RayCast, RaysThatAreNoneHitNothing) {
 TEST(RayCast, MeshesAndGroundWithoutAreaHaveNone) {
   const TerrainSource source = from_heights(8, 8, std::vector<float>(64, 1.0F));
   EXPECT_EQ(own_ray_caster(*build("procedural_mesh", source)), nullptr);
-  for (const char* type : {"heightmap", "ght"}) {
-    EXPECT_EQ(own_ray_caster(*build(type, from_heights(5, 1, {1, 2, 3, 4, 5}))), nullptr) << type;
-  }
+  EXPECT_EQ(own_ray_caster(*build("heightmap", from_heights(5, 1, {1, 2, 3, 4, 5}))), nullptr);
 }
 
 TEST(RayCast, ThreadsChangeNothing) {

@@ -382,8 +382,11 @@ TEST_F(FurtherGroundsTest, OfTheClaimsFilesHaveAllThatNamedGroundsHave) {
     }
     return all;
   };
+  // Whole frames are timed on the grounds of cross.lod-frames alone, since it sets their sizes.
+  std::vector<std::string> of_any_ground = tasks(ranking_layouts());
+  EXPECT_EQ(std::erase(of_any_ground, "Cheapest whole frame at an error of 2 px"), 1U);
   for (const FurtherGround& ground : further) {
-    EXPECT_EQ(tasks(ground.rankings), tasks(ranking_layouts()));
+    EXPECT_EQ(tasks(ground.rankings), of_any_ground);
     EXPECT_EQ(ground.rankings.size(), tasks(ground.rankings).size()) << "one per task";
   }
 }

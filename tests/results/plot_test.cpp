@@ -119,10 +119,10 @@ TEST(PlotTest, StacksThePartsOfBars) {
   EXPECT_EQ(plot_svg(plot), both);
   EXPECT_GT(screen_size(plot).height, screen_size({"", {}, {}, parts, {"one"}}).height);
   // Two bars and the legend's key, per part.
-  EXPECT_EQ(count(both, "#0072b2"), 3U);
-  EXPECT_EQ(count(both, "#e69f00"), 3U);
+  EXPECT_EQ(count(both, "fill=\"#0072b2\""), 3U);
+  EXPECT_EQ(count(both, "fill=\"#e69f00\""), 3U);
   plot.series[1].points.pop_back();
-  EXPECT_EQ(count(plot_svg(plot), "#e69f00"), 2U);
+  EXPECT_EQ(count(plot_svg(plot), "fill=\"#e69f00\""), 2U);
 }
 
 TEST(PlotTest, PowerLaw) {
