@@ -138,16 +138,17 @@ void FrameBuffers::upload(const Frame& frame) {
   if (indices) upload_indices(frame);
   if (heights) upload_heights(frame);
   if (morphs) upload_morphs(frame);
-  std::size_t named = 0;
+  std::size_t named = 0;  // bytes
   for (const DirtyRange& range : frame.uploads) {
-    const bool sent = range.target == DirtyRange::Target::kIndices  ? indices
-                      : range.target == DirtyRange::Target::kMorphs ? morphs
-                      : range.target == DirtyRange::Target::kMesh   ? true  // upload_meshes() sends it
-                                                                    : heights;
-    if (!sent) upload(frame, range);
-    if (range.target != DirtyRange::Target::kMesh) named += range.bytes();
+    if (range.target == DirtyRange::Target::kMesh) continue;  // upload_meshes() sends it
+    const bool whole = range.target == DirtyRange::Target::kIndices  ? indices
+                       : range.target == DirtyRange::Target::kMorphs ? morphs
+                                                                     : heights;
+    if (!whole) upload(frame, range);
+    named += range.bytes();
   }
-  if (!first) bytes_resent_ += bytes_uploaded() - before - named;
+  const std::size_t sent = bytes_uploaded() - before;
+  if (!first && sent > named) bytes_resent_ += sent - named;
   upload_meshes(frame, describe(frame));
   if constexpr (kChecked) check_contents(frame);
 }
@@ -172,10 +173,15 @@ void FrameBuffers::check_contents(const Frame& frame) const {
   }
   compare(heights_, 0, frame.grid.heights, "heights");
   compare(morphs_, 0, frame.morphs, "morphs");
-  std::size_t at = 0;
-  for (const ClipLevel& level : frame.clip_levels) {
-    compare(heights_, at, level.heights, "heights");
-    at += level.heights.size_bytes();
+  // Of clip levels what this frame named: beyond its window a level's array holds anything.
+  for (const DirtyRange& range : frame.uploads) {
+    if (range.target != DirtyRange::Target::kClipLevel) continue;
+    const ClipLevel& level = frame.clip_levels[range.level];
+    for (std::size_t row = range.z; row < std::size_t{range.z} + range.depth; ++row) {
+      const std::size_t first = row * level.side + range.x;
+      compare(heights_, range.level * level.heights.size_bytes() + first * sizeof(float),
+              level.heights.subspan(first, range.width), "heights");
+    }
   }
 }
 

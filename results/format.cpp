@@ -41,15 +41,6 @@ bool is_formula(std::string_view text) {
   return !is_number(text.substr(0, at)) || !is_number(text.substr(at + kBetween.size()));
 }
 
-// The length of a character that is not printable and begins the text; 0 for others.
-std::size_t unprintable(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0; };
-  if (byte(0) < 0x20 || byte(0) == 0x7F) return 1;
-  if (byte(0) == 0xC2 && byte(1) >= 0x80 && byte(1) < 0xA0) return 2;   // C1
-  if (byte(0) == 0xEF && byte(1) == 0xBF && byte(2) >= 0xBE) return 3;  // U+FFFE, U+FFFF
-  return 0;
-}
-
 std::string with_separators(std::string digits) {
   const std::size_t sign = digits.starts_with('-') ? 1 : 0;
   for (std::size_t at = digits.size(); at > sign + 3;) digits.insert(at -= 3, 1, ',');
@@ -72,17 +63,6 @@ std::string format_quantity(double number, std::string_view unit) {
 }
 
 std::string format_exact(double number) { return fmt::format("{}", number); }
-
-std::string printable(std::string_view text) {
-  std::string out;
-  out.reserve(text.size());
-  while (!text.empty()) {
-    const std::size_t bad = unprintable(text);
-    out += bad > 0 ? ' ' : text[0];
-    text.remove_prefix(std::max<std::size_t>(bad, 1));
-  }
-  return out;
-}
 
 std::string escape_html(std::string_view text) {
   constexpr Replacement kHtml[] = {

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "terrain/printable.h"
+
 namespace terrabench {
 
 // Whole numbers in full with thousands separators, others with four significant digits: 393,216
@@ -15,10 +17,6 @@ inline std::string format_count(std::uint64_t n) { return format_number(static_c
 std::string format_quantity(double, std::string_view unit);
 // The shortest digits that read back the same: for CSV.
 std::string format_exact(double);
-
-// Without control characters, which a terminal would obey (C0, DEL, C1), and without the two characters that
-// XML lacks: a space stands for each.
-std::string printable(std::string_view utf8);
 
 std::string escape_html(std::string_view);  // also XML; what is not printable becomes spaces
 std::string escape_markdown(std::string_view);

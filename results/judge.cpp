@@ -109,15 +109,18 @@ std::set<std::string_view> experiments_run(const Store& store) {
   return run;
 }
 
-// Whether each experiment that the claim reads was run, and each picture drawn: no claim says which
-// experiment draws its picture.
+// Whether each experiment that the claim reads was run. Which one draws a picture is known only from the
+// numbers that the claim asks of it: a picture that was not drawn counts as not run where there are none.
 bool can_be_judged(const Claim& claim, const Store& store, const std::set<std::string_view>& run) {
+  const auto ran = [&](const Operand& operand) {
+    return operand.is_number() || run.contains(operand.experiment);
+  };
   return std::ranges::all_of(claim.conditions, [&](const Condition& condition) {
-    const bool figure = condition.kind == Condition::Kind::kFigure;
-    if (figure && store.find_figure(condition.figure, store.profile()).second == nullptr) return false;
-    return std::ranges::all_of(condition.operands, [&](const Operand& operand) {
-      return operand.is_number() || run.contains(operand.experiment);
-    });
+    const bool drawn = condition.kind != Condition::Kind::kFigure ||
+                       store.find_figure(condition.figure, store.profile()).second != nullptr;
+    const bool asked = !condition.operands.empty() || !condition.brightness.empty();
+    return (drawn || asked) && std::ranges::all_of(condition.operands, ran) &&
+           std::ranges::all_of(condition.brightness, ran);
   });
 }
 

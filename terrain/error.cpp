@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "terrain/spelling.h"
-
 #include "terrain/printable.h"
+#include "terrain/spelling.h"
 
 namespace terrabench {
 namespace {

@@ -6,8 +6,8 @@
 
 namespace terrabench {
 
-// The text with a space for each line break and tab, and '?' for each other control character (U+0000 to
-// U+001F, U+007F to U+009F), which could move a terminal's cursor or hide what was printed. O(n).
-std::string printable(std::string_view text);
+// The text with a space for each control character (C0, DEL, C1), which could move a terminal's cursor or
+// hide what was printed, and for the two characters that XML lacks. O(n).
+std::string printable(std::string_view utf8);
 
 }  // namespace terrabench

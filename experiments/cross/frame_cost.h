@@ -22,11 +22,11 @@ struct FrameCost {
 
 class MethodFrames {
  public:
-  // Uploads the flight's first frame. The flight and the context must outlive it. Throws environment_error
-  // if the renderer has no room for the ground.
+  // Uploads the flight's first frame, and from then on every update: dirty ranges count from the last one, so
+  // that nothing else may update the method. The flight and the context must outlive it. Throws
+  // environment_error if the renderer has no room for the ground.
   MethodFrames(const Flight&, std::unique_ptr<Lod>, GlContext&);
 
-  Lod& lod() { return *lod_; }
   // Means over these frames, indices of Flight::views. A few frames that are not timed lead up to each, so
   // that methods that keep a mesh between frames are in their usual state.
   FrameCost fly(const std::vector<std::size_t>& frames);

@@ -30,6 +30,7 @@
 #include "results/store.h"
 #include "terrain/error.h"
 #include "terrain/files.h"
+#include "terrain/machine_error.h"
 #include "terrain/sources/dem/dem.h"
 #include "terrain/sources/dem/geotiff_rows.h"
 #include "terrain/sources/fractal/diamond_square_bands.h"
@@ -269,10 +270,12 @@ void run_own_program(const std::vector<std::string>& arguments, const std::files
   // A case that failed there has a record that says why.
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   if (code == 0 || code == static_cast<int>(kCasesFailed)) return;
-  throw environment_error(WIFSIGNALED(status)
-                              ? fmt::format("the second process was ended by signal {}", WTERMSIG(status))
-                              : fmt::format("the second process failed: {}", last_line(log)),
-                          "", "run the same experiment by itself");
+  const std::string what = WIFSIGNALED(status)
+                               ? fmt::format("the second process was ended by signal {}", WTERMSIG(status))
+                               : fmt::format("the second process failed: {}", last_line(log));
+  constexpr std::string_view kAdvice = "run the same experiment by itself";
+  if (code == static_cast<int>(ExitCode::kEnvironment)) throw MachineError(what, "", kAdvice);
+  throw environment_error(what, "", kAdvice);
 }
 
 // Peak resident memory of this process (Linux: VmHWM). Throws environment_error where the system does not

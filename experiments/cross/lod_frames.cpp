@@ -23,6 +23,7 @@
 #include "results/power_law.h"
 #include "results/statistics.h"
 #include "terrain/error.h"
+#include "terrain/machine_error.h"
 #include "terrain/memory.h"
 
 namespace terrabench::cross {
@@ -62,24 +63,31 @@ std::unique_ptr<Measured> prepare(const LodType& type, Flight& flight, const Cas
                                   GlContext& context, Recorder& recorder, Progress& progress) {
   const Contender method = contender(type.name, at.parameters.text("options"));
   const std::string prefix = fmt::format("{}{}_", type.name, key);
+  const double pixels = at.parameters.number("error");
   std::unique_ptr<Measured> measured;
+  Tuned tuned;
+  double error = 0;
   try {
-    measured.reset(new Measured{
-        std::string(type.name), prefix, {flight, method.build(flight.ground(), progress), context}});
+    tuned = tune_to(flight, method, pixels, progress);
+    std::unique_ptr<Lod> lod = method.build(flight.ground(), progress);
+    lod->tune(tuned.knob);
+    error = errors_along(flight, *lod).quantile(0.99);
+    // From here on each update is sent to the GPU: dirty ranges count from the update before.
+    measured.reset(new Measured{std::string(type.name), prefix, {flight, std::move(lod), context}});
+  } catch (const SkippedCase&) {
+    recorder.add_varying(prefix + "refused", "", 1);
+    return nullptr;
+  } catch (const MachineError&) {
+    throw;
   } catch (const Error& error) {
     if (error.code() != ExitCode::kEnvironment) throw;
     recorder.add_varying(prefix + "refused", "", 1);
     return nullptr;
   }
-  const double pixels = at.parameters.number("error");
-  const Tuned tuned = tune_to(flight, method, pixels, progress);
-  Lod& lod = measured->frames.lod();
-  lod.tune(tuned.knob);
-  const double error = errors_along(flight, lod).quantile(0.99);
   recorder.add(prefix + "knob", "", tuned.knob);
   recorder.add(prefix + "error", "px", error);
+  recorder.add(prefix + "reached", "", tuned.reached || !method.tunable() ? 1 : 0);
   if (method.tunable()) {
-    recorder.add(prefix + "reached", "", tuned.reached ? 1 : 0);
     recorder.add(prefix + "error_of_asked", "", error / pixels);
   }
   return measured;

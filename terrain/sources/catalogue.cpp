@@ -148,7 +148,8 @@ std::string terrain_file(std::string_view text) {
 namespace {
 
 bool names_event_file(std::string_view text) {
-  return !text.starts_with(kDrawingPrefix) && terrain_file(text).ends_with(events::kExtension);
+  return !text.starts_with(kDrawingPrefix) && !text.starts_with(kDemPrefix) &&
+         terrain_file(text).ends_with(events::kExtension);
 }
 
 }  // namespace

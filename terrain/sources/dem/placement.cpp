@@ -191,6 +191,10 @@ void size_on_ground(const OGRSpatialReference& reference, const DemWindow& windo
         "how its map projection stretches the ground cannot be computed: cells keep the map's size");
   };
   if (to_degrees == nullptr || to_degrees->Transform(5, xs, ys) == 0) return fail();
+  // Some of these systems count in grads.
+  const double in_degrees = sphere->GetAngularUnits() / kRadiansPerDegree;
+  for (double& angle : xs) angle *= in_degrees;
+  for (double& angle : ys) angle *= in_degrees;
   const DegreeLengths degree =
       degree_lengths(ys[0], sphere->GetSemiMajor(nullptr), sphere->GetInvFlattening(nullptr));
   const auto step = [&](int from, int to) {

@@ -158,7 +158,7 @@ GDALDataset* open_rewritten(const GDALOpenInfo& info) {
   std::string text;
   scan_text_grid(path, &text);
   static std::atomic<int> number = 0;
-  const std::string base = fmt::format("/vsimem/terrabench-text-grid-{}", ++number);
+  const std::string base = fmt::format("/vsimem/terrabench-text-grid-{}-{}", format, ++number);
   const std::string copy = base + ".asc", system = base + ".prj";
   const auto write = [](const std::string& name, const void* data, std::size_t size) {
     const std::unique_ptr<VSILFILE, CloseFile> out(VSIFOpenL(name.c_str(), "wb"));
