@@ -369,17 +369,24 @@ class Session {
   }
 
   // Prints which of the planned cases failed or were skipped, and why, from the folder, since other processes
-  // measured some; returns whether any failed.
+  // measured some; returns whether any failed, or was lost by a process that ended between two cases.
   bool list_absent() const {
     const Store store(plan_.folder);
     std::vector<const Record*> records;
+    bool lost = false;
     for (std::size_t i = 0; i < cases_.size(); ++i) {
       const Record planned = begin(i);
       const Record* const record = store.find(planned.experiment, planned.case_name, planned.profile);
-      if (record != nullptr && record->outcome != CaseOutcome::kMeasured) records.push_back(record);
+      if (record == nullptr) {
+        fmt::print(stderr, "not measured: {}\n", title(i));
+        lost = true;
+      } else if (record->outcome != CaseOutcome::kMeasured) {
+        records.push_back(record);
+      }
     }
     fmt::print(stderr, "{}", absences_text(absences(records), false));
-    return std::ranges::any_of(records, [](const Record* r) { return r->outcome == CaseOutcome::kFailed; });
+    return lost ||
+           std::ranges::any_of(records, [](const Record* r) { return r->outcome == CaseOutcome::kFailed; });
   }
 
   Measured look(std::size_t i, Progress::Output output) const {
