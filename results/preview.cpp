@@ -12,7 +12,7 @@ namespace terrabench {
 namespace {
 
 constexpr int kMostRows = 16383;  // of a WebP file
-constexpr float kQuality = 75;    // of 100; the axes' small numbers stay legible
+constexpr float kQuality = 70;    // of 100; the axes' small numbers stay legible
 constexpr int kEffort = 6;        // of 6: the smallest file of that quality
 
 struct Picture : WebPPicture {
