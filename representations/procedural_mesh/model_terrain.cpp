@@ -84,12 +84,14 @@ TerrainSource model_on_ground(std::string_view text, const std::string& name, co
   const auto& mesh = static_cast<const ProceduralMesh&>(*plane);
   const Bounds bounds = mesh.bounds();
   if (!place) place = {bounds.high.x / 2, bounds.high.z / 2, 1};
-  const bool on_ground =
-      place->x >= 0 && place->x <= bounds.high.x && place->z >= 0 && place->z <= bounds.high.z;
-  if (!(on_ground && place->scale > 0 && std::isfinite(place->scale))) {
+  if (!(place->scale > 0 && std::isfinite(place->scale) && std::isfinite(place->x + place->z))) {
+    throw usage_error("a place needs finite numbers and a scale above 0", "place of the model",
+                      "give x, z and scale");
+  }
+  if (std::min(place->x, place->z) < 0 || place->x > bounds.high.x || place->z > bounds.high.z) {
     throw usage_error(
-        "a place needs a point on the ground and a scale above 0", "place of the model",
-        fmt::format("give x of 0 to {:.6g} m, z of 0 to {:.6g} m, and scale", bounds.high.x, bounds.high.z));
+        fmt::format("there is no ground at ({:.6g}, {:.6g}) m", place->x, place->z), "place of the model",
+        fmt::format("give x of 0 to {:.6g} m and z of 0 to {:.6g} m", bounds.high.x, bounds.high.z));
   }
   MeshDescription description = describe(text);
   description.scale = place->scale;
