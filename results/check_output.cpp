@@ -72,16 +72,11 @@ std::string check_json(const JudgedResults& results) {
   for (const Absence& absence : results.absences) {
     absent.push_back({{"what", absence.what}, {"reason", absence.reason}, {"where", absence.where}});
   }
-  const Json json = {{"profile", results.profile},
-                     {"ignored", results.ignored},
-                     {"without_measurements", absent},
-                     {"passed", results.passed()},
-                     {"left_out", results.left_out},
-                     {"counts", counts_json(results.judgements)},
-                     {"counts_by_paper", papers},
-                     {"rows", rows},
-                     {"warnings", results.warnings},
-                     {"faults", results.faults}};
+  const Json json = {{"profile", results.profile},     {"ignored", results.ignored},
+                     {"without_measurements", absent}, {"passed", results.passed()},
+                     {"left_out", results.left_out},   {"counts", counts_json(results.judgements)},
+                     {"counts_by_paper", papers},      {"rows", rows},
+                     {"warnings", results.warnings},   {"faults", results.faults}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -14,7 +14,7 @@ std::filesystem::path temporary_files() {
   if (!error) return folder;
   const char* const named = std::getenv("TMPDIR");
   throw MachineError(fmt::format("no folder for temporary files: {}", error.message()),
-                          named == nullptr ? "/tmp" : named, "set TMPDIR to a folder that exists");
+                     named == nullptr ? "/tmp" : named, "set TMPDIR to a folder that exists");
 }
 
 }  // namespace terrabench
