@@ -22,9 +22,9 @@ struct FrameCost {
 
 class MethodFrames {
  public:
-  // Uploads the flight's first frame, and from then on every update: dirty ranges count from the last one, so
-  // that nothing else may update the method. The flight and the context must outlive it. Throws
-  // environment_error if the renderer has no room for the ground.
+  // Uploads the first frame whole, and afterwards the dirty ranges of each update. These are relative to the
+  // update before, so nothing else may call update() on this method. The flight and the context must outlive
+  // it. Throws environment_error if the renderer has no room for the ground.
   MethodFrames(const Flight&, std::unique_ptr<Lod>, GlContext&);
 
   // Means over these frames, indices of Flight::views. A few frames that are not timed lead up to each, so

@@ -81,7 +81,7 @@ GrowthBlock growth_block(const GrassGrowth& growth, const GrassPlan& plan) {
           {}};
 }
 
-// A run is drawn with an instance for each strand of a triangle.
+// One instanced draw call per run of triangles: instance k draws strand k + 1 of each.
 std::vector<RunCommand> run_commands(const GrassPlan& plan) {
   std::vector<RunCommand> commands;
   for (const GrassPlan::Run& run : plan.runs) {

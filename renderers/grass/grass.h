@@ -14,7 +14,8 @@
 //
 // Three techniques draw the same billboards:
 //   kGeometryShader  as the paper: grown anew from the triangles in each frame; no memory per strand. Each
-//                    run of the shader grows one strand, so that its output is small and many run at once
+//                    invocation of the shader emits one strand, so that its output is small and many run at
+//                    once
 //   kInstancing      grown once, then one instance per strand; 48 B per strand
 //   kIndirect        a compute shader grows the strands that are in view, and one indirect call draws them;
 //                    up to 48 B per strand

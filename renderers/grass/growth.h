@@ -56,7 +56,7 @@ struct GrassGround {
 GrassGround grass_ground(const TriangleMesh&);
 
 struct GrassPlan {
-  // Triangles that grow the same number of strands, above 0, one after the other.
+  // Consecutive triangles with the same number of strands, at least 1.
   struct Run {
     std::uint32_t first = 0, triangles = 0, strands = 0;  // strands of each
   };
