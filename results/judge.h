@@ -44,8 +44,8 @@ struct JudgedResults {
   std::vector<Judgement> judgements;          // by paper, in the claims' order
   std::vector<std::string> warnings, faults;  // of the store and of the pictures that its records drew
   std::vector<Absence> absences = {};         // cases of the profile without measurements, and why
-  // "18 cases of profile paper are not read; --profile paper reads them instead": for each other profile in the
-  // folder.
+  // "18 cases of profile paper are not read; --profile paper reads them instead": for each other profile in
+  // the folder.
   std::vector<std::string> ignored = {};
   std::size_t left_out = 0;  // claims that were not asked for, since an experiment that they read was not run
 
