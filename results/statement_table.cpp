@@ -92,9 +92,8 @@ Table statement_table(const JudgedResults& results, const Paper& paper, Group gr
   Table table{
       fmt::format("{}.{}", paper.id, kIds[index]),
       std::string(kTitles[index]),
-      "Of a statement with several conditions, “Measured” shows the first that fails or, if all hold, "
-      "the one nearest to its bound. Other readings, grounds and settings of a statement are rows of "
-      "the ledger's last table.",
+      "What the paper says in our words, and the condition that decides: one that was not measured, else the "
+      "first that fails, else the one nearest to its bound.",
       {{"Statement"}, {"The paper"}, {"Printed"}, {"Measured"}, {"Tolerance"}, {"Verdict"}, {"Why"}},
       {}};
   for (const Statement& statement : statements(results.of(paper))) {
