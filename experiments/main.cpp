@@ -412,6 +412,15 @@ std::vector<std::string_view> names_of_commands(const CLI::App& app) {
   return names;
 }
 
+// CLI11 would take the next argument for the value of "--junit=".
+void check_empty_values(std::span<char*> arguments) {
+  for (const std::string_view word : arguments) {
+    if (!word.starts_with("--") || word.find('=') != word.size() - 1) continue;
+    throw usage_error("must not be empty", word.substr(0, word.size() - 1),
+                      "leave the option out, or give a value");
+  }
+}
+
 // The first word that is no option must be a command. CLI11 would say that a command is missing.
 void check_command(const CLI::App& app, std::span<char*> arguments) {
   for (const char* const word : arguments) {
@@ -485,7 +494,9 @@ int main_program(int argc, char** argv) {
   add_render(app, arguments);
   add_help(app, arguments);
   check_values(app);
-  check_command(app, std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
+  const std::span<char*> given = std::span(argv, static_cast<std::size_t>(argc)).subspan(1);
+  check_command(app, given);
+  check_empty_values(given);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
