@@ -54,6 +54,7 @@ Fidelity against_heights(const Representation& built, const Heightfield& field, 
     result.lost += row.lost;
   }
   result.rmse = result.columns == 0 ? 0 : std::sqrt(squares / static_cast<double>(result.columns));
+  result.compared = result.columns > 0;
   return result;
 }
 
@@ -83,9 +84,11 @@ Fidelity against_solid(const Representation& built, const Solid& solid, Progress
   const auto sum = [](const std::vector<std::size_t>& counts) {
     return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
   };
-  return {.volume_iou = sum(either) == 0 ? 1 : sum(both) / sum(either),
+  const double solid_samples = sum(either);
+  return {.volume_iou = solid_samples == 0 ? 0 : sum(both) / solid_samples,
           .samples = static_cast<std::size_t>(nx) * ny * nz,
-          .from_heights = false};
+          .from_heights = false,
+          .compared = solid_samples > 0};
 }
 
 }  // namespace

@@ -18,6 +18,9 @@ struct Fidelity {
   double volume_iou = 0;
   std::size_t samples = 0;
   bool from_heights = true;
+  // Whether there was anything to compare: a column with ground in both, or a sample that is solid in either.
+  // If not, the errors above are not defined.
+  bool compared = false;
 };
 
 // Solids are compared at kFidelitySamples lattice points along the longest side: a prime, so that they miss

@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <csignal>
 #include <cstdint>
@@ -21,6 +20,7 @@
 #include "experiments/runner.h"
 #include "renderers/context.h"
 #include "terrain/error.h"
+#include "terrain/number.h"
 #include "terrain/progress.h"
 #include "terrain/sources/dem/network.h"
 
@@ -47,22 +47,17 @@ void on_signal(int) {
   Progress::interrupt();
 }
 
-// Whether the text is such a number and nothing else.
-template <class Number>
-bool is_number(std::string_view text, Number& value) {
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && rest == text.data() + text.size();
-}
-
 // "2/8": every 8th case, from the second.
 void parse_shard(const std::string& text, RunPlan& plan) {
   const std::size_t slash = std::min(text.find('/'), text.size() - 1);
-  if (!is_number(std::string_view(text).substr(0, slash), plan.shard) ||
-      !is_number(std::string_view(text).substr(slash + 1), plan.shards) || plan.shard < 1 ||
-      plan.shard > plan.shards) {
+  const auto shard = parse_number<int>(std::string_view(text).substr(0, slash)),
+             shards = parse_number<int>(std::string_view(text).substr(slash + 1));
+  if (!shard || !shards || *shard < 1 || *shard > *shards) {
     throw usage_error(fmt::format("invalid shard '{}': expected i/n, such as 2/8", text), "--shard",
                       "i counts from 1 to n");
   }
+  plan.shard = *shard;
+  plan.shards = *shards;
 }
 
 // What the options set. Must outlive the parser.
@@ -197,11 +192,12 @@ void add_results(CLI::App& app, Arguments& a) {
           "says whether the same method is best there (default: DIR)")
       ->excludes(latex);
   app.add_subcommand("cite", "Print BibTeX of the papers and of this program");
-  auto* compare =
-      app.add_subcommand("compare",
-                         "Compare two results folders, metric by metric: exact figures on any machines, "
-                         "times within one kind of machine, with confidence intervals, and pictures. Also "
-                         "two folders of PNG files. Exits with 1 if exact figures or pictures differ");
+  auto* compare = app.add_subcommand(
+      "compare",
+      "Compare two results folders, metric by metric: exact figures on any machines, "
+      "times within one kind of machine, with confidence intervals, and pictures. Also "
+      "two folders of PNG files. Exits with 1 if exact figures or pictures differ, with 3 if "
+      "the folders have nothing in common");
   compare->add_option("a", a.compare.before, "Results folder, or folder of PNG files")->required();
   compare->add_option("b", a.compare.after, "The same")->required();
   compare->add_option("--psnr", a.compare.limits.psnr, "Pictures differ below this PSNR, dB")
@@ -211,6 +207,7 @@ void add_results(CLI::App& app, Arguments& a) {
       ->check(CLI::Range(-1.0, 1.0))
       ->capture_default_str();
   compare->add_flag("--json", a.compare.json, "Print JSON");
+  compare->add_flag("--all", a.compare.all, "List every metric, not only those that changed");
   auto* merge = app.add_subcommand(
       "merge",
       "Join results folders, such as those of `run --shard`, into one (docs/sweeps.md). Refuses altered "
@@ -252,8 +249,7 @@ void add_represent(CLI::App& app, Arguments& a) {
             help)
         ->check(CLI::Validator(
             [](const std::string& value) {
-              double number = 0;
-              const bool above = is_number(value, number) && number > 0;
+              const bool above = parse_number<double>(value).value_or(0) > 0;
               return above ? std::string() : fmt::format("must be a number above 0, got '{}'", value);
             },
             ""));
@@ -382,15 +378,14 @@ void add_help(CLI::App& app, Arguments& a) {
 // What is wrong with the value of an option of that type, or nothing.
 std::string fault_of(const std::string& type, const std::string& value) {
   if (value.empty()) return "must not be empty: leave the option out, or give a value";
-  double number = 0;
-  std::int64_t whole = 0;
-  if (type.starts_with("FLOAT") && !(is_number(value, number) && std::isfinite(number))) {
+  if (type.starts_with("FLOAT") && !std::isfinite(parse_number<double>(value).value_or(NAN))) {
     return fmt::format("must be a finite number, got '{}'", value);
   }
   const bool is_unsigned = type.starts_with("UINT");
+  const auto whole = parse_number<std::int64_t>(value);
   // CLI11 reads 010 as 8.
   if ((type.starts_with("INT") || is_unsigned) &&
-      !(is_number(value, whole) && fmt::format("{}", whole) == value && (whole >= 0 || !is_unsigned))) {
+      !(whole && fmt::format("{}", *whole) == value && (*whole >= 0 || !is_unsigned))) {
     return fmt::format("must be a whole number{}, got '{}'",
                        is_unsigned ? fmt::format(" from 0 to {}", INT64_MAX) : "", value);
   }
@@ -415,6 +410,15 @@ std::vector<std::string_view> names_of_commands(const CLI::App& app) {
     names.push_back(command->get_name());
   }
   return names;
+}
+
+// CLI11 would take the next argument for the value of "--junit=".
+void check_empty_values(std::span<char*> arguments) {
+  for (const std::string_view word : arguments) {
+    if (!word.starts_with("--") || word.find('=') != word.size() - 1) continue;
+    throw usage_error("must not be empty", word.substr(0, word.size() - 1),
+                      "leave the option out, or give a value");
+  }
 }
 
 // The first word that is no option must be a command. CLI11 would say that a command is missing.
@@ -490,7 +494,9 @@ int main_program(int argc, char** argv) {
   add_render(app, arguments);
   add_help(app, arguments);
   check_values(app);
-  check_command(app, std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
+  const std::span<char*> given = std::span(argv, static_cast<std::size_t>(argc)).subspan(1);
+  check_command(app, given);
+  check_empty_values(given);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -165,7 +165,8 @@ void FrameBuffers::check_contents(const Frame& frame) const {
     if (std::memcmp(kept.data(), content.data(), kept.size()) == 0) return;
     throw environment_error(
         fmt::format("the GPU's {} are not the frame's", what), "renderer",
-        "report the renderer's name and version: its driver changed the order of commands");
+        "either the level-of-detail method changed them without naming the range in Frame::uploads, or the "
+        "driver changed the order of commands: report the method, and the renderer's name and version");
   };
   for (const Batch& batch : frame.batches) {
     compare(indices_, batch.first_index * sizeof(std::uint32_t),

@@ -8,12 +8,13 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <span>
 #include <tuple>
 #include <utility>
 
-#include "results/format.h"
 #include "results/provenance.h"
+#include "terrain/error.h"
 
 namespace terrabench {
 namespace {
@@ -193,30 +194,6 @@ void ignore_noise(Comparison& comparison) {
   }
 }
 
-bool one_sided(const MetricChange& m) {
-  return m.change == Change::kOnlyBefore || m.change == Change::kOnlyAfter;
-}
-
-// What counts as noise: for all times together, then for those that have an estimate of their own.
-std::string noise_text(const Comparison& comparison) {
-  const auto text_of = [](std::size_t times, const Noise& noise) {
-    return fmt::format("{} times: median ratio × {:.3f}; noise from × {:.3f} to × {:.3f}, {}", times,
-                       noise.median, 1 / noise.threshold, noise.threshold,
-                       noise.by_repeats ? fmt::format("of {} repeats", noise.repeats)
-                                        : fmt::format("three deviations of × {:.3f}", noise.deviation));
-  };
-  const Noise& all = comparison.noise;
-  if (all.timings < Noise::kLeast && !all.by_repeats) return "";
-  std::string text =
-      text_of(all.timings, all) + (comparison.noises.empty() ? "\n" : "; of these, instead:\n");
-  for (const Noise& noise : comparison.noises) {
-    text += fmt::format("  {:<48} {}\n",
-                        noise.experiment + (noise.metric.empty() ? ", other metrics" : " " + noise.metric),
-                        text_of(noise.users, noise));
-  }
-  return text;
-}
-
 // Leaves out each field that there were too few times to estimate.
 Json json_of(const Noise& noise) {
   Json json = Json::object();
@@ -234,24 +211,32 @@ Json json_of(const Noise& noise) {
   return json;
 }
 
-// What differs although only the machine should: exact figures, with both machines.
-std::string machines_text(const Comparison& comparison) {
-  std::string text;
-  std::size_t count = 0;
-  for (const MetricChange& m : comparison.metrics) {
-    if (m.machine_before.empty() || m.change != Change::kDiffers) continue;
-    ++count;
-    text += fmt::format("differs between machines: {} {} {}: {} on {}; {} on {}\n", m.experiment, m.case_name,
-                        m.metric, format_quantity(m.before, m.unit), m.machine_before,
-                        format_quantity(m.after, m.unit), m.machine_after);
+// "paper", "paper and quick"
+std::string profiles_of(const Store& store) {
+  std::set<std::string> profiles;
+  for (const Record& record : store.records()) profiles.insert(record.profile);
+  return fmt::format("{}", fmt::join(profiles, " and "));
+}
+
+// A comparison of nothing must not pass. Pictures count only for folders that hold no figures.
+void demand_common(const Comparison& found, const Store& before, const Store& after) {
+  const bool pictures = std::ranges::any_of(found.pictures.pictures, [](const ComparedPicture& p) {
+    return p.change != PictureChange::kOnlyBefore && p.change != PictureChange::kOnlyAfter;
+  });
+  if (found.metrics.empty() ? pictures : !std::ranges::all_of(found.metrics, &MetricChange::one_sided)) {
+    return;
   }
-  if (count > 0) {
-    text += fmt::format("{} exact figures differ between machines: they should be the same on any\n", count);
-  }
-  return text;
+  const std::string left = profiles_of(before), right = profiles_of(after);
+  throw bad_input(left == right
+                      ? fmt::format("nothing in common: both hold profile {}, but other cases", left)
+                      : fmt::format("nothing in common: {} against {}", left, right),
+                  fmt::format("{} and {}", before.folder().string(), after.folder().string()),
+                  "name two folders that measured the same cases in the same profile");
 }
 
 }  // namespace
+
+bool MetricChange::one_sided() const { return change == Change::kOnlyBefore || change == Change::kOnlyAfter; }
 
 std::string_view name(Change change) { return kNames[static_cast<std::size_t>(change)]; }
 
@@ -292,58 +277,8 @@ Comparison compare(const Store& before, const Store& after, const PictureLimits&
   }
   ignore_noise(out);
   out.pictures = compare_pictures(before, after, limits);
+  demand_common(out, before, after);
   return out;
-}
-
-std::string compare_text(const Comparison& comparison, bool colour) {
-  std::string text, heading;
-  for (const MetricChange& m : comparison.metrics) {
-    const std::string title = fmt::format("{} {} ({}){}", m.experiment, m.case_name, m.profile,
-                                          m.same_ground ? "" : ": seed, terrain or parameters differ");
-    if (title != heading) text += title + "\n";
-    heading = title;
-    const bool marked =
-        m.change != Change::kSame && m.change != Change::kUnresolved && m.change != Change::kElsewhere;
-    const std::string_view paint = !colour || !marked ? "" : "\x1b[33m",
-                           plain = paint.empty() ? "" : "\x1b[0m";
-    text += fmt::format("  {} {:<26} {}{:<11}{}", marked ? '*' : ' ', m.metric, paint, name(m.change), plain);
-    if (one_sided(m)) {
-      text += fmt::format("  {}\n",
-                          format_quantity(m.change == Change::kOnlyBefore ? m.before : m.after, m.unit));
-      continue;
-    }
-    text += fmt::format("  {} → {}", format_quantity(m.before, m.unit), format_quantity(m.after, m.unit));
-    const bool has_interval = m.ratio.low < m.ratio.high;  // not NaN
-    if (m.before != 0 && m.timed && has_interval && m.change != Change::kElsewhere) {
-      text += fmt::format("  × {:.3f} [{:.3f}, {:.3f}]", m.ratio.median, m.ratio.low, m.ratio.high);
-    } else if (m.before != 0 && m.before != m.after) {
-      text += fmt::format("  × {:.4f}", m.ratio.median);
-    }
-    text += '\n';
-  }
-  std::string tally;
-  for (std::size_t i = 0; i < std::size(kNames); ++i) {
-    const std::size_t count = comparison.count(static_cast<Change>(i));
-    if (count > 0) tally += fmt::format("{}{} {}", tally.empty() ? "" : ", ", count, kNames[i]);
-  }
-  text += fmt::format("\n{}\n", tally.empty() ? "no metrics to compare" : tally);
-  text += noise_text(comparison);
-  if (comparison.count(Change::kUnresolved) > 0) {
-    text +=
-        "unresolved: times with fewer than three samples, an interval that spans more than a factor of 4, or "
-        "a ratio "
-        "without a finite value\n";
-  }
-  if (comparison.count(Change::kElsewhere) > 0) {
-    text += "elsewhere: times of different kinds of machine, which are not compared\n";
-  }
-  text += machines_text(comparison);
-  text += pictures_text(comparison.pictures, colour);
-  for (const std::string& warning : comparison.warnings) text += fmt::format("warning: {}\n", warning);
-  if (!comparison.faults.empty()) {
-    text += fmt::format("{} faults: the results cannot be trusted\n", comparison.faults.size());
-  }
-  return text;
 }
 
 std::string compare_json(const Comparison& comparison) {
@@ -353,7 +288,7 @@ std::string compare_json(const Comparison& comparison) {
                   {"metric", m.metric},         {"unit", m.unit},      {"change", name(m.change)}};
     if (m.change != Change::kOnlyAfter) entry["before"] = m.before;
     if (m.change != Change::kOnlyBefore) entry["after"] = m.after;
-    if (!one_sided(m)) {
+    if (!m.one_sided()) {
       // JSON has no infinity: a ratio to zero is null.
       entry["ratio"] = m.ratio.median;
       entry["interval"] = {m.ratio.low, m.ratio.high};

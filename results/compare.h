@@ -41,6 +41,8 @@ struct MetricChange {
   std::vector<double> repeats = {};
   bool same_ground = true;                              // both have the same seed, parameters and terrain
   std::string machine_before = "", machine_after = "";  // machine_name(), where they are of different kinds
+
+  bool one_sided() const;
 };
 
 // Times of two runs of one program differ by more than their confidence intervals say: load, clock rate and
@@ -86,12 +88,15 @@ struct Comparison {
   std::size_t count(Change) const;
 };
 
-// Throws bad_input when a folder holds no results.
+// Throws bad_input when a folder holds no results, and when the two have nothing in common, such as one of
+// the paper profile and one of the quick one.
 Comparison compare(const std::filesystem::path& before, const std::filesystem::path& after,
                    const PictureLimits& = {});
 Comparison compare(const Store& before, const Store& after, const PictureLimits& = {});
 
-std::string compare_text(const Comparison&, bool colour);
+// A summary first; then what only one folder has, counted by experiment, and the metrics that changed. `all`:
+// a line for every metric instead.
+std::string compare_text(const Comparison&, bool colour, bool all = false);
 std::string compare_json(const Comparison&);
 
 }  // namespace terrabench

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <span>
 #include <utility>
+
+#include "terrain/number.h"
 
 namespace terrabench {
 namespace {
@@ -27,18 +28,13 @@ std::string replace(std::string_view text, std::span<const Replacement> replacem
   return out;
 }
 
-bool is_number(std::string_view text) {
-  double number = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && stop == text.data() + text.size();
-}
-
 bool is_formula(std::string_view text) {
   constexpr std::string_view kBetween = " … ";
   if (text.empty() || std::string_view("=+-@\t\r").find(text[0]) == std::string_view::npos) return false;
   const std::size_t at = text.find(kBetween);
-  if (at == text.npos) return !is_number(text);
-  return !is_number(text.substr(0, at)) || !is_number(text.substr(at + kBetween.size()));
+  if (at == text.npos) return !parse_number<double>(text);
+  return !parse_number<double>(text.substr(0, at)) ||
+         !parse_number<double>(text.substr(at + kBetween.size()));
 }
 
 std::string with_separators(std::string digits) {

@@ -1,8 +1,12 @@
 #include "results/glob.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <vector>
 
 #include "terrain/error.h"
+#include "terrain/spelling.h"
 
 namespace terrabench {
 
@@ -32,11 +36,32 @@ bool matches_any(std::span<const std::string> patterns, std::string_view text) {
          });
 }
 
+namespace {
+
+// The names as the pattern would have them: 'hybrid.*' of hybrid.caves for 'hybird.*'.
+std::vector<std::string> like(std::string_view pattern, std::span<const std::string_view> names) {
+  const std::size_t star = std::min(pattern.find_first_of("*?"), pattern.size());
+  const std::string_view rest = pattern.substr(star);
+  std::vector<std::string> all;
+  for (const std::string_view name : names) {
+    std::string one(rest.empty() ? name : name.substr(0, star));
+    all.push_back(one.append(rest));
+  }
+  return all;
+}
+
+}  // namespace
+
 void demand_matches(std::span<const std::string> patterns, std::span<const std::string_view> names,
                     std::string_view kind) {
   for (const std::string& pattern : patterns) {
     const auto matched = [&](std::string_view name) { return matches_glob(pattern, name); };
-    if (std::ranges::none_of(names, matched)) throw unknown_name(kind, pattern, names);
+    if (std::ranges::any_of(names, matched)) continue;
+    const std::vector<std::string> known = like(pattern, names);
+    throw usage_error(
+        fmt::format("unknown {} '{}'{}", kind, pattern,
+                    suggestion(pattern, std::vector<std::string_view>(known.begin(), known.end()))),
+        "", fmt::format("'terrabench list {}s' names all {}", kind, names.size()));
   }
 }
 

@@ -77,17 +77,22 @@ PlotLayout::Series series_from(const TomlValue& node) {
 // The rows and parts of a plot of stacked bars.
 void read_bars(TomlTable& entry, PlotLayout& plot) {
   const std::string experiment = entry.text("experiment");
-  for (const TomlValue& row : entry.list("rows")) plot.rows.push_back(parse_row(row));
+  std::vector<std::string> metrics;
   for (const TomlValue& value : entry.list("parts")) {
     TomlTable part(value);
     PlotLayout::Series& series = plot.series.emplace_back();
     series.label = part.text("label");
-    series.metric = part.text("metric");
+    series.metric = metrics.emplace_back(part.text("metric"));
     series.experiment = experiment;
+    part.refuse_unknown();
+  }
+  std::vector<std::string> known = named_texts(metrics);
+  known.emplace_back("group");
+  for (const TomlValue& row : entry.list("rows")) plot.rows.push_back(parse_row(row, known));
+  for (PlotLayout::Series& series : plot.series) {
     for (std::size_t k = 0; k < plot.rows.size(); ++k) {
       series.cases.emplace_back(static_cast<double>(k), plot.rows[k].case_name);
     }
-    part.refuse_unknown();
   }
   if (plot.series.empty()) entry.refuse("a plot with rows needs parts");
 }
@@ -117,16 +122,19 @@ std::vector<PageLayout::Drawn> drawn_from(TomlTable& entry, std::string_view key
 
 }  // namespace
 
-TableLayout::Row parse_row(const TomlValue& node) {
+TableLayout::Row parse_row(const TomlValue& node, std::span<const std::string> known) {
   TomlTable entry(node);
   TableLayout::Row row{entry.text("label"), entry.text("case"), {}, entry.flag("new_block")};
-  for (const auto& [key, value] : entry.rest()) {
+  for (const std::string& key : known) {
+    if (!entry.has(key)) continue;
+    const TomlValue value = entry.get(key);
     if (value.node->is_string()) {
       row.values.emplace(key, value.text(key));
     } else {
       row.values.emplace(key, value.number(key));
     }
   }
+  entry.refuse_unknown();
   return row;
 }
 
@@ -146,10 +154,14 @@ TableLayout parse_table(const TomlValue& node, std::span<const PageLayout> pages
   table.caption = entry.text("caption");
   table.experiment = entry.text("experiment");
   table.rows_title = entry.text("rows_title");
-  for (const TomlValue& row : entry.list("rows")) table.rows.push_back(parse_row(row));
-  for (const TomlValue& column : entry.list("columns")) {
-    table.columns.push_back(column_from(column));
+  std::vector<std::string> metrics, known{"claim"};  // without a column, too: the row is where it is shown
+  for (const TomlValue& value : entry.list("columns")) {
+    const TableLayout::Column& column = table.columns.emplace_back(column_from(value));
+    metrics.push_back(column.metric);
+    if (!column.key.empty()) known.push_back(column.key);
   }
+  for (std::string& name : named_texts(metrics)) known.push_back(std::move(name));
+  for (const TomlValue& row : entry.list("rows")) table.rows.push_back(parse_row(row, known));
   if (table.rows.empty() || table.columns.empty()) entry.refuse("a table needs rows and columns");
   table.page = page_from(entry, pages);
   entry.refuse_unknown();
@@ -173,6 +185,15 @@ PlotLayout parse_plot(const TomlValue& node, std::span<const PageLayout> pages) 
   plot.page = page_from(entry, pages);
   entry.refuse_unknown();
   return plot;
+}
+
+std::vector<std::string> named_texts(std::span<const std::string> metrics) {
+  std::vector<std::string> names;
+  for (const std::string& metric : metrics) {
+    const std::size_t open = metric.find('<'), close = metric.find('>', open);
+    if (close != std::string::npos) names.push_back(metric.substr(open + 1, close - open - 1));
+  }
+  return names;
 }
 
 std::string for_row(std::string metric, const TableLayout::Row& row) {

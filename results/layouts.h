@@ -50,6 +50,8 @@ struct TableLayout {
   std::vector<Column> columns;
   std::string page = {};  // id of the page that shows it; empty: the report's main page
 };
+// The names of all "<name>" in these metrics.
+std::vector<std::string> named_texts(std::span<const std::string> metrics);
 // The metric with "<name>" replaced by the row's text; empty for a row without it.
 std::string for_row(std::string metric, const TableLayout::Row&);
 // The column with its metric for the row.
@@ -81,7 +83,8 @@ struct TomlValue;
 // Throw bad_input with file and line for unknown or missing keys, wrong types, and a `page` that is not among
 // the given pages.
 PageLayout parse_page(const TomlValue&);
-TableLayout::Row parse_row(const TomlValue&);
+// `known`: which keys the row may have beside its label and its case.
+TableLayout::Row parse_row(const TomlValue&, std::span<const std::string> known);
 TableLayout parse_table(const TomlValue&, std::span<const PageLayout>);
 PlotLayout parse_plot(const TomlValue&, std::span<const PageLayout>);
 

@@ -1,6 +1,9 @@
 #include "results/ranking.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 
 #include "results/embedded.h"
 #include "results/fill.h"
@@ -14,23 +17,40 @@ struct Candidate {
   const RankingLayout::Entry* entry;
   const Record* record;
   const Metric* metric;
+  std::vector<double> samples;  // in the layout's unit
   double median;
 };
 
-// The measured entries, all in one unit; those in another, and those that lack what is needed, are noted in
-// `left_out`.
+// Words for the first entry whose unit cannot be converted, to the layout's or to the other entries'.
+std::string other_unit(const RankingLayout& layout, const RankingLayout::Entry& entry, const Metric& metric,
+                       const std::vector<Candidate>& others) {
+  const auto differs = [&](const std::string& unit) { return !conversion(metric.unit, unit); };
+  const auto unit_of = [](const Candidate& c) { return c.metric->unit; };
+  if (!differs(layout.unit) && std::ranges::none_of(others, differs, unit_of)) return "";
+  return fmt::format("{} is measured in {}, which cannot be converted to {}", entry.label,
+                     metric.unit.empty() ? "no unit" : metric.unit,
+                     differs(layout.unit) && !layout.unit.empty() ? layout.unit : "the unit of the others");
+}
+
+// The measured entries; those that lack what is needed are noted in `left_out`, an entry in a unit that
+// cannot be converted in `not_compared`.
 std::vector<Candidate> candidates(const RankingLayout& layout, const Store& store, const std::string& profile,
-                                  std::vector<std::string>& left_out) {
+                                  Ranking& ranking) {
   std::vector<Candidate> all;
   for (const RankingLayout::Entry& entry : layout.entries) {
     const Record* const record = store.find(layout.experiment, entry.case_name, profile);
     const Metric* const metric = record == nullptr ? nullptr : record->find(for_row(layout.metric, entry));
     if (metric == nullptr) continue;
-    if (conversion(metric->unit, layout.unit) && (all.empty() || all[0].metric->unit == metric->unit)) {
-      all.push_back({&entry, record, metric, median(metric->samples)});
-    } else {
-      left_out.push_back(entry.label);
+    const std::string fault = other_unit(layout, entry, *metric, all);
+    if (!fault.empty()) {
+      ranking.left_out.push_back(entry.label);
+      if (ranking.not_compared.empty()) ranking.not_compared = fault;
+      continue;
     }
+    std::vector<double> samples = metric->samples;
+    for (double& sample : samples) sample *= *conversion(metric->unit, layout.unit);
+    const double middle = median(samples);
+    all.push_back({&entry, record, metric, std::move(samples), middle});
   }
   const auto needed_by = [&](const Candidate& c) { return c.record->find(for_row(layout.needs, *c.entry)); };
   const auto has = [&](const Candidate& c) { return needed_by(c) != nullptr; };
@@ -39,7 +59,7 @@ std::vector<Candidate> candidates(const RankingLayout& layout, const Store& stor
     const Metric* const needed = needed_by(c);
     const double value = needed == nullptr ? layout.needs_low - 1 : median(needed->samples);
     if (value >= layout.needs_low && value <= layout.needs_high) return false;
-    left_out.push_back(c.entry->label);
+    ranking.left_out.push_back(c.entry->label);
     return true;
   });
   return all;
@@ -83,8 +103,9 @@ RankingLayout parse_ranking(const TomlValue& node) {
     layout.needs_high = high.number("range");
     needs.refuse_unknown();
   }
+  const std::vector<std::string> known = named_texts(std::array{layout.metric, layout.needs});
   for (const TomlValue& value : entry.list("entries")) {
-    layout.entries.push_back(parse_row(value));
+    layout.entries.push_back(parse_row(value, known));
   }
   entry.refuse_unknown();
   return layout;
@@ -116,7 +137,7 @@ std::span<const RankingLayout> ranking_layouts() {
 std::optional<Ranking> rank(const RankingLayout& layout, const Store& store, const std::string& profile) {
   Ranking ranking;
   ranking.layout = &layout;
-  std::vector<Candidate> all = candidates(layout, store, profile, ranking.left_out);
+  std::vector<Candidate> all = candidates(layout, store, profile, ranking);
   if (all.size() + ranking.left_out.size() < 2) return std::nullopt;
   if (all.empty()) return ranking;
   std::ranges::stable_sort(all, [&](const Candidate& a, const Candidate& b) {
@@ -124,16 +145,15 @@ std::optional<Ranking> rank(const RankingLayout& layout, const Store& store, con
   });
   const Candidate& best = all[0];
   const bool timing = timed(*best.metric);
-  ranking.not_compared = why_not_compared(all, timing, store);
-  ranking.too_few = timing && all.size() > 1 &&
-                    std::min(best.metric->samples.size(), all[1].metric->samples.size()) < kFewestSamples;
+  if (ranking.not_compared.empty()) ranking.not_compared = why_not_compared(all, timing, store);
+  ranking.too_few =
+      timing && all.size() > 1 && std::min(best.samples.size(), all[1].samples.size()) < kFewestSamples;
   for (const Candidate& c : all) {
-    const double to_unit = *conversion(c.metric->unit, layout.unit);  // candidates have one
-    const bool equal = c.median == best.median;                       // two zeros have no ratio
+    const bool equal = c.median == best.median;  // two zeros have no ratio
     const Summary factor = equal         ? Summary{1, 1, 1, 1}
-                           : layout.most ? summarise_ratio(best.metric->samples, c.metric->samples)
-                                         : summarise_ratio(c.metric->samples, best.metric->samples);
-    ranking.places.push_back({c.entry->label, c.median * to_unit, factor});
+                           : layout.most ? summarise_ratio(best.samples, c.samples)
+                                         : summarise_ratio(c.samples, best.samples);
+    ranking.places.push_back({c.entry->label, c.median, factor});
     if (std::ranges::count(ranking.runs, c.record->run) == 0) ranking.runs.push_back(c.record->run);
   }
   ranking.margin = timing ? kTimingMargin : kExactMargin;

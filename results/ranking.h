@@ -54,7 +54,7 @@ struct Ranking {
   std::size_t tied = 1;               // places that belong to the best
   bool too_few = false;               // a time with fewer than kFewestSamples: no interval, no winner
   std::string not_compared;           // the reason, as words after "as"; empty: they are comparable
-  std::vector<std::string> left_out;  // labels of entries in other units, or that lack what is needed
+  std::vector<std::string> left_out;  // labels of entries in another unit, or that lack what is needed
   std::vector<std::string> runs;
 
   // Whether there is a best method, or several tied: not if times have too few samples or if the values
@@ -75,7 +75,8 @@ std::vector<RankingLayout> parse_rankings(std::string_view toml, const std::stri
 // Of all claims files that are compiled in. Parsed once.
 std::span<const RankingLayout> ranking_layouts();
 
-// Nothing when fewer than two entries were measured. Throws bad_input for a unit that cannot be converted.
+// Nothing when fewer than two entries were measured. If one is in a unit that cannot be converted, none are
+// compared.
 std::optional<Ranking> rank(const RankingLayout&, const Store&, const std::string& profile);
 // All that were measured.
 std::vector<Ranking> rank(std::span<const RankingLayout>, const Store&, const std::string& profile);

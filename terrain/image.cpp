@@ -68,14 +68,14 @@ std::vector<std::byte> encoded(png_image& png, const void* pixels, const void* c
 
 }  // namespace
 
-void write_png(const std::filesystem::path& path, const Image& image) {
+std::vector<std::byte> png_of(const Image& image) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
   png.format = PNG_FORMAT_RGB;
   std::vector<std::byte> bytes = encoded(png, image.rgb.data(), nullptr);
-  if (bytes.empty()) throw environment_error(png.message, path.string(), "the picture cannot be encoded");
+  if (bytes.empty()) throw environment_error(png.message, "PNG", "the picture cannot be encoded");
   const Palette palette = palette_of(image);
   if (!palette.colours.empty()) {
     png.format = PNG_FORMAT_RGB_COLORMAP;
@@ -83,8 +83,10 @@ void write_png(const std::filesystem::path& path, const Image& image) {
     std::vector<std::byte> shorter = encoded(png, palette.pixels.data(), palette.colours.data());
     if (!shorter.empty() && shorter.size() < bytes.size()) bytes = std::move(shorter);
   }
-  write_file(path, bytes);
+  return bytes;
 }
+
+void write_png(const std::filesystem::path& path, const Image& image) { write_file(path, png_of(image)); }
 
 std::array<int, 2> png_size(const std::filesystem::path& path) {
   png_image png{};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
@@ -24,7 +25,10 @@ struct Image {
 // Flat areas keep their colour. O(pixels · log pixels + colours · most).
 Image with_few_colours(Image image, int most = 256);
 
-// Written whole or not at all, as by write_file(); with a palette if 256 colours suffice and that is smaller.
+// A PNG file's bytes; with a palette if 256 colours suffice and that is smaller. Throws environment_error if
+// the picture cannot be encoded.
+std::vector<std::byte> png_of(const Image&);
+// The same as a file, written whole or not at all, as by write_file().
 void write_png(const std::filesystem::path&, const Image&);
 // Width and height, from the file's header alone. Throws bad_input.
 std::array<int, 2> png_size(const std::filesystem::path&);

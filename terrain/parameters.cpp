@@ -3,19 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "terrain/error.h"
+#include "terrain/number.h"
 
 namespace terrabench {
 namespace {
-
-template <class Number>
-bool parse(std::string_view text, Number& out) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-  return error == std::errc() && end == text.data() + text.size();
-}
 
 // "between 1 and 512 samples", "at least 0 m", or nothing where any number will do.
 std::string range_text(const ParameterSpec& spec) {
@@ -120,17 +114,17 @@ void Parameters::set_from_text(std::string_view assignment) {
   const std::string_view name = assignment.substr(0, equals), text = assignment.substr(equals + 1);
   const ParameterSpec& spec = specs_[find(name)];
   Value value;
-  std::int64_t integer = 0;
-  double number = 0;
   if (std::holds_alternative<bool>(spec.fallback)) {
     if (text != "true" && text != "false") throw wrong_type(spec, text);
     value = text == "true";
   } else if (std::holds_alternative<std::int64_t>(spec.fallback)) {
-    if (!parse(text, integer)) throw wrong_type(spec, text);
-    value = integer;
+    const auto integer = parse_number<std::int64_t>(text);
+    if (!integer) throw wrong_type(spec, text);
+    value = *integer;
   } else if (std::holds_alternative<double>(spec.fallback)) {
-    if (!parse(text, number)) throw wrong_type(spec, text);
-    value = number;
+    const auto number = parse_number<double>(text);
+    if (!number) throw wrong_type(spec, text);
+    value = *number;
   } else {
     value = std::string(text);
   }

@@ -1,14 +1,16 @@
 #include "terrain/temporary_name.h"
 
 #include <fmt/format.h>
+#include <sys/utsname.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
-#include <charconv>
 #include <csignal>
-#include <string>
-#include <string_view>
+
+#include "terrain/files.h"
+#include "terrain/number.h"
 
 namespace terrabench {
 namespace {
@@ -21,22 +23,37 @@ constexpr std::string_view kEnding = ".tmp";
 bool is_abandoned(std::string_view name, std::string_view start) {
   if (!name.starts_with(start) || !name.ends_with(kEnding)) return false;
   name.remove_prefix(start.size());
-  const char* const end = name.data() + name.size() - std::min(name.size(), kEnding.size());
-  pid_t process = 0;
-  const auto [stop, error] = std::from_chars(name.data(), end, process);
-  return error == std::errc() && stop == end && process > 0 && kill(process, 0) != 0 && errno == ESRCH;
+  const auto process =
+      parse_number<pid_t>(name.substr(0, name.size() - std::min(name.size(), kEnding.size())));
+  return process && *process > 0 && kill(*process, 0) != 0 && errno == ESRCH;
+}
+
+std::string this_machine() {
+  utsname system{};
+  return machine_in_names(uname(&system) == 0 ? system.nodename : "");
 }
 
 }  // namespace
 
+std::string machine_in_names(std::string_view host) {
+  constexpr std::size_t kLongest = 16, kDigits = 8;
+  std::string name(host);
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_') c = '_';
+  }
+  if (name == host && name.size() <= kLongest && !name.empty()) return name;
+  return name.substr(0, kLongest - kDigits - 1) + "-" + checksum(host).substr(0, kDigits);
+}
+
 fs::path temporary_name(const fs::path& target) {
-  const std::string start = target.filename().string() + ".";
+  static const std::string kMachine = this_machine();
+  const std::string start = fmt::format("{}.{}.", target.filename().string(), kMachine);
   std::error_code error, ignored;
   for (fs::directory_iterator at(target.has_parent_path() ? target.parent_path() : ".", error), end;
        !error && at != end; at.increment(error)) {
     if (is_abandoned(at->path().filename().string(), start)) fs::remove_all(at->path(), ignored);
   }
-  return target.string() + fmt::format(".{}{}", getpid(), kEnding);
+  return target.string() + fmt::format(".{}.{}{}", kMachine, getpid(), kEnding);
 }
 
 }  // namespace terrabench

@@ -89,7 +89,7 @@ ExitCode check_command(const CheckArguments&);
 struct CompareArguments {
   std::filesystem::path before, after;
   PictureLimits limits;
-  bool json = false;
+  bool json = false, all = false;
 };
 ExitCode compare_command(const CompareArguments&);
 

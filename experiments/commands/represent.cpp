@@ -119,6 +119,15 @@ TerrainSource open_source(const RepresentArguments& a, Progress& progress) {
 }
 
 void print_fidelity(const Fidelity& fidelity) {
+  if (!fidelity.compared) {
+    if (fidelity.from_heights) {
+      fmt::print("error       not defined: no column has ground in both; {} have it in only one\n",
+                 fidelity.lost);
+    } else {
+      fmt::print("agreement   not defined: none of {} samples is solid in either\n", fidelity.samples);
+    }
+    return;
+  }
   if (!fidelity.from_heights) {
     fmt::print("agreement   {:.6f} volume IoU over {} samples\n", fidelity.volume_iou, fidelity.samples);
     return;

@@ -74,7 +74,7 @@ ExitCode cite_command() {
 }
 
 ExitCode compare_command(const CompareArguments& arguments) {
-  const auto& [before, after, limits, json] = arguments;
+  const auto& [before, after, limits, json, all] = arguments;
   const bool colour = isatty(STDOUT_FILENO) != 0;
   if (!Store::is_at(before) && !Store::is_at(after)) {
     const PictureComparison pictures = compare_pictures(before, after, limits);
@@ -82,7 +82,7 @@ ExitCode compare_command(const CompareArguments& arguments) {
     return pictures.passed() ? ExitCode::kGood : ExitCode::kClaimFallsShort;
   }
   const Comparison comparison = compare(before, after, limits);
-  fmt::print("{}", json ? compare_json(comparison) : compare_text(comparison, colour));
+  fmt::print("{}", json ? compare_json(comparison) : compare_text(comparison, colour, all));
   return comparison.passed() ? ExitCode::kGood : ExitCode::kClaimFallsShort;
 }
 

@@ -1,17 +1,17 @@
 #include "experiments/figures/sheet.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "results/rasterise.h"
 #include "terrain/files.h"
-#include "terrain/temporary_files.h"
 
 namespace terrabench::figures {
 namespace {
@@ -32,13 +32,13 @@ std::string escaped(std::string_view words) {
   return text;
 }
 
-std::string base64(std::string_view bytes) {
+std::string base64(std::span<const std::byte> bytes) {
   static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t group = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+      group = group << 8 | (i + k < bytes.size() ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0U);
     }
     for (std::size_t k = 0; k < 4; ++k) {
       text += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63U] : '=';
@@ -144,15 +144,12 @@ void Sheet::image(double x, double y, double width, double height, const Image& 
   const auto times = [](double units, int pixels) {
     return std::max(1, static_cast<int>(std::lround(kPixels * units / pixels)));
   };
-  // Through a file, as write_png() writes files only.
-  const std::filesystem::path file = temporary_files() / fmt::format("terrabench-panel.{}.png", getpid());
-  write_png(file, enlarged(image, times(width, image.width), times(height, image.height)));
-  const std::string bytes = read_file(file);
-  std::filesystem::remove(file);
+  const std::vector<std::byte> png =
+      png_of(enlarged(image, times(width, image.width), times(height, image.height)));
   body_ += fmt::format(
       "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
       "image-rendering=\"optimizeSpeed\" href=\"data:image/png;base64,{}\"/>\n",
-      x, y, width, height, base64(bytes));
+      x, y, width, height, base64(png));
 }
 
 void Sheet::colour_bar(double x, double y, double width, const std::function<Rgb(double)>& colour,

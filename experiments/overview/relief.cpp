@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "experiments/cross/scenes.h"
 #include "experiments/fidelity.h"
 #include "experiments/figures/sheet.h"
 #include "experiments/ground.h"
@@ -49,6 +50,21 @@ std::vector<Case> cases(const RunOptions& options) {
   return cases;
 }
 
+void record(const Fidelity& fidelity, Recorder& recorder) {
+  if (!fidelity.from_heights) {
+    if (!fidelity.compared) {
+      return recorder.undefined({"volume_iou"}, "no sample is solid in the representation or the ground");
+    }
+    return recorder.add("volume_iou", "", fidelity.volume_iou);
+  }
+  recorder.add("lost_columns", "", fidelity.lost);
+  if (!fidelity.compared) {
+    return recorder.undefined({"rmse", "largest_error"}, "the representation and the ground share no column");
+  }
+  recorder.add("rmse", "m", fidelity.rmse);
+  recorder.add("largest_error", "m", fidelity.largest_error);
+}
+
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(open_terrain(at.terrain, options.seed));
   const RepresentationType& type = representation(at.parameters.text("representation"));
@@ -56,20 +72,14 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   for (int i = 0; i < kBuilds; ++i) {
     built.reset();
     const Stopwatch watch;
-    built = type.build(source, Parameters(type.parameters), progress);
+    built = cross::unless_refused([&] { return type.build(source, Parameters(type.parameters), progress); });
     recorder.add("build_time", "s", watch.seconds());
   }
   recorder.add("bytes", "B", built->memory().total());
-  const Fidelity fidelity = measure_fidelity(*built, source, progress);
-  if (fidelity.from_heights) {
-    recorder.add("rmse", "m", fidelity.rmse);
-    recorder.add("largest_error", "m", fidelity.largest_error);
-    recorder.add("lost_columns", "", fidelity.lost);
-  } else {
-    recorder.add("volume_iou", "", fidelity.volume_iou);
-  }
+  record(measure_fidelity(*built, source, progress), recorder);
 
   const TriangleMesh mesh = built->mesh({});
+  if (mesh.triangles() == 0) throw SkippedCase("the representation holds no ground to draw");
   recorder.add("triangles", "", mesh.triangles());
   const View view = overview(bounds_of(mesh), at.integer("width"), at.integer("height"));
   const auto context = open_context(options.renderer, view.width, view.height);

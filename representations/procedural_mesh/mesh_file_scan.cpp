@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "terrain/error.h"
+#include "terrain/number.h"
 
 namespace terrabench {
 namespace {
@@ -35,16 +35,13 @@ std::string_view take_line(std::string_view& text) {
 }
 
 template <class T>
-std::optional<T> number_of(std::string_view word) {
-  if (!word.empty() && word[0] == '+') word.remove_prefix(1);
-  T value{};
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return value;
+std::optional<T> signed_number(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  return parse_number<T>(word);
 }
 // A number that a finite float can hold.
 bool is_float(std::string_view word) {
-  const auto value = number_of<double>(word);
+  const auto value = signed_number<double>(word);
   return value && std::abs(*value) <= 3.4028234e38;
 }
 
@@ -124,7 +121,7 @@ class PlyScan {
     }
     if (key == "element") {
       const std::string_view name = take_word(text);
-      const auto count = number_of<std::uint64_t>(take_word(text));
+      const auto count = signed_number<std::uint64_t>(take_word(text));
       if (count) elements_.push_back({name, *count, {}});
       return count.has_value();
     }
@@ -192,7 +189,7 @@ class PlyScan {
     for (; values > 0; --values) {
       const std::string_view word = take_word(rest_);
       if (word.empty()) fail("the file ends early", where());
-      if (!(property.type.real ? is_float(word) : number_of<std::int64_t>(word).has_value())) {
+      if (!(property.type.real ? is_float(word) : signed_number<std::int64_t>(word).has_value())) {
         fail(fmt::format("'{}' is not a finite number of its type", word.substr(0, 40)), where());
       }
     }
@@ -217,7 +214,7 @@ class PlyScan {
   template <class Where>
   std::uint64_t list_length(Type type, const Where& where) {
     if (ascii_) {
-      const auto count = number_of<std::uint64_t>(take_word(rest_));
+      const auto count = signed_number<std::uint64_t>(take_word(rest_));
       if (!count || *count > rest_.size()) fail("a list has no proper length", where());
       return *count;
     }
@@ -289,7 +286,7 @@ class ObjScan {
 
   // From 0; a negative index counts back from the last one so far.
   std::size_t index(std::string_view word, std::size_t so_far, std::size_t all) const {
-    const auto value = number_of<std::int64_t>(word);
+    const auto value = signed_number<std::int64_t>(word);
     if (!value) fail(fmt::format("'{}' is not an index", word.substr(0, 40)));
     const auto known = static_cast<std::int64_t>(*value < 0 ? so_far : all);
     if (*value == 0 || *value > known || *value < -known) {

@@ -156,6 +156,8 @@ TEST_F(CommandLine, TwoProfilesInOneFolderKeepTheirPictures) {
   const auto quick = pictures();
   ASSERT_EQ(call(run + "paper").code, 0);
   EXPECT_EQ(pictures(), 2 * quick);
+  EXPECT_THAT(call("$T check out").text,
+              testing::AllOf(HasSubstr("Profile paper: "), HasSubstr("of profile quick are not read")));
   ASSERT_EQ(call("$T report out").code, 0);
   EXPECT_THAT(call("ls out/report/figures").text, HasSubstr(".paper"));
 }

@@ -74,6 +74,14 @@ TEST_F(FailedCases, ATypeThatCannotHoldTheGroundIsSkipped) {
                                 HasSubstr("skipped ("), Not(HasSubstr("[1/"))));
 }
 
+TEST_F(FailedCases, AReliefOfATypeThatCannotHoldTheGroundIsSkipped) {
+  write_grid("small.asc", 3, 2, [](int i, int j) { return 2.0 * i + j; });
+  const Outcome run =
+      call("$T run overview.relief --terrain small.asc --set width=64,height=64 --again 0 --out out");
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_THAT(run.text, AllOf(HasSubstr("skipped ("), HasSubstr("overview.relief small.asc/drill")));
+}
+
 TEST_F(FailedCases, AFailedCaseIsRecordedListedAndMeasuredAgain) {
   const std::string command =
       "$T run hybrid.fresnel cross.lod-seams --terrain jacksboro --set path=missing.toml --again 0 --out out";

@@ -59,6 +59,9 @@ TEST_F(Options, NumbersAreNumbersAndNothingIsEmpty) {
   for (const auto& [command, start] : kCommands) {
     for (const OptionHelp& option : options_of(command)) {
       expect_refused(start, option, "");
+      if (option.values == 1) {  // not the next argument
+        EXPECT_EQ(call(start + " " + option.name + "= 1").code, 2) << command << ' ' << option.name;
+      }
       if (option.type == "TEXT") {
         ++texts;
         continue;

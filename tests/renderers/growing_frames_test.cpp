@@ -12,6 +12,7 @@
 #include "terrain/frame.h"
 #include "terrain/view.h"
 #include "tests/renderers/virtual_display.h"
+#include "tests/terrain/errors.h"
 #include "tests/terrain/ground.h"
 
 namespace terrabench {
@@ -87,6 +88,25 @@ TEST_P(GrowingFrames, LookAsInANewRenderer) {
     expect_same(kept, frame, view_, step++);
   }
   EXPECT_GT(kept.bytes_resent(), 0U);
+}
+
+// Builds for tests read the arrays back: what a frame forgot to name looks like a driver's fault.
+TEST_P(GrowingFrames, NameBothReasonsForOtherArrays) {
+#ifdef NDEBUG
+  GTEST_SKIP() << "release builds read nothing back";
+#endif
+  Heightfield field = test::flat(5, 5);
+  const std::vector<std::uint32_t> indices{0, 5, 1};
+  const std::vector<Batch> batches{{0, 3}};
+  Frame frame{.grid = {5, 5, 1, 1, field.heights}};
+  frame.indices = indices;
+  frame.batches = batches;
+  FrameRenderer kept(*context_);
+  kept.draw(frame, view_, style_);
+  field.heights[1] += 1;  // and no range in frame.uploads
+  const Failure failure = failure_of([&] { kept.draw(frame, view_, style_); });
+  EXPECT_NE(failure.advice.find("Frame::uploads"), std::string::npos) << failure.advice;
+  EXPECT_NE(failure.advice.find("driver"), std::string::npos) << failure.advice;
 }
 
 // Each method between its coarsest and its finest knob, there and back.

@@ -10,6 +10,7 @@
 #include "results/record_json.h"
 #include "terrain/error.h"
 #include "tests/results/fake_results.h"
+#include "tests/terrain/errors.h"
 
 namespace terrabench {
 namespace {
@@ -347,6 +348,35 @@ TEST_F(CompareTest, SaysWhatOnlyOneSideHasAndWhatWasMeasuredOnOtherGround) {
   EXPECT_EQ(json["only_before"], 1);
   EXPECT_EQ(json["only_after"], 1);
   EXPECT_EQ(json["metrics"][2]["change"], "only after");
+}
+
+// The summary comes first; a line per metric only for what changed, or for all if asked.
+TEST_F(CompareTest, ListsWhatChangedAndCountsTheRest) {
+  write("a", {{"same", "B", {1}}, {"other", "B", {1}}, {"gone", "B", {2}}, {"lost", "B", {2}}});
+  write("b", {{"same", "B", {1}}, {"other", "B", {2}}, {"new", "B", {3}}});
+  const Comparison c = compare(folder_ / "a", folder_ / "b");
+  EXPECT_EQ(compare_text(c, false),
+            "1 same, 1 differs, 2 only before, 1 only after\n"
+            "only before: e (quick), cases: 1, metrics: 2\n"
+            "only after: e (quick), cases: 1, metrics: 1\n"
+            "e c (quick)\n"
+            "  * other                      differs      1 B → 2 B  × 2.0000\n");
+  const std::string all = compare_text(c, false, true);
+  EXPECT_THAT(all, testing::StartsWith("1 same, 1 differs, "));
+  for (const MetricChange& m : c.metrics) EXPECT_THAT(all, HasSubstr(m.metric));
+}
+
+// Such as the reference, of profile paper, against a quick run.
+TEST_F(CompareTest, NothingInCommonIsBadInput) {
+  write_fake_results(folder_ / "a", "quick");
+  write_fake_results(folder_ / "b", "paper");
+  const Failure failure = failure_of([&] { compare(folder_ / "a", folder_ / "b"); });
+  EXPECT_EQ(failure.code, ExitCode::kBadInput);
+  EXPECT_THAT(failure.what, HasSubstr("nothing in common: quick against paper"));
+  write("c", {{"m", "B", {1}}});
+  write("d", {{"n", "B", {1}}});
+  EXPECT_THAT(failure_of([&] { compare(folder_ / "c", folder_ / "d"); }).what,
+              HasSubstr("nothing in common: both hold profile quick, but other cases"));
 }
 
 TEST_F(CompareTest, RatioToZeroIsStillJson) {

@@ -1,5 +1,6 @@
 #include "results/ranking.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 #include "results/report.h"
 #include "terrain/error.h"
 #include "tests/results/fake_results.h"
+#include "tests/terrain/errors.h"
 
 namespace terrabench {
 namespace {
@@ -84,6 +86,61 @@ TEST_F(RankingTest, SaysWhoWinsByHowMuchAndChangesWithTheFigures) {
             "Fastest: Of those that lose little, on a hill: stacks (5 ms), ahead of drills (10 ms) by a "
             "factor of 2 "
             "[1.82, 2.2].");
+}
+
+// An unknown key would be a misspelt one, ignored.
+TEST_F(RankingTest, UnknownKeysOfEntriesAreRefused) {
+  const auto with_entry = [](const std::string& entry) {
+    return parse_rankings(fmt::format(R"(
+[[ranking]]
+id = "r"
+task = "Fastest"
+where = "on a hill"
+experiment = "x"
+metric = "<of>_time"
+best = "least"
+entries = [{}]
+)",
+                                      entry),
+                          "test.toml");
+  };
+  EXPECT_NO_THROW(with_entry(R"({label = "A", case = "a", of = "x"})"));
+  for (const char* const entry :
+       {R"({label = "A", case = "a", off = "x"})", R"({label = "A", case = "a", of = "x", metrik = "y"})",
+        R"({label = "A", case = "a", of = "x", needs = 3})"}) {
+    const Failure failure = failure_of([&] { with_entry(entry); });
+    EXPECT_EQ(failure.code, ExitCode::kBadInput) << entry;
+    EXPECT_THAT(failure.what, HasSubstr("test.toml:9"));
+  }
+  EXPECT_THAT(failure_of([&] { with_entry(R"({label = "A", case = "a", off = "x"})"); }).what,
+              HasSubstr("'off'"));
+}
+
+// Whatever the order of the entries, all are in the layout's unit, or none is compared.
+TEST_F(RankingTest, UnitsOfEntriesAreConvertedOrRefused) {
+  const auto one = [&](const std::string& name, const std::string& unit, std::vector<double> samples) {
+    Record record = fake_record(run_, "x", "hill/" + name);
+    add(record, "time", unit, std::move(samples));
+    store_.append(record);
+  };
+  one("a", "s", {0.010, 0.010, 0.011});
+  one("b", "ms", {5, 5, 5.5});
+  one("c", "µs", {20000, 20000, 22000});
+  EXPECT_EQ(sentence(),
+            "Fastest: Of those that lose little, on a hill: voxels (5 ms), ahead of drills (10 ms) by a "
+            "factor of 2 [1.82, 2.2].");
+  for (const char* const other : {"a", "b", "c"}) {
+    const Record before = *store_.find("x", std::string("hill/") + other, "quick");
+    one(other, "B", {1, 1, 1});
+    EXPECT_THAT(sentence(), AllOf(HasSubstr("not compared, as"),
+                                  HasSubstr("is measured in B, which cannot be converted to ms")))
+        << other;
+    const std::optional<Ranking> ranking = rank(layouts_.at(0), store_, "quick");
+    ASSERT_TRUE(ranking);
+    EXPECT_FALSE(ranking->decided());
+    EXPECT_EQ(ranking->left_out.size(), 1U);
+    store_.append(before);
+  }
 }
 
 // Of cases that hold the figures of several methods.

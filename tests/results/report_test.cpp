@@ -13,6 +13,7 @@
 #include "terrain/image.h"
 #include "tests/results/fake_results.h"
 #include "tests/terrain/dead_process.h"
+#include "tests/terrain/temporary_of.h"
 
 namespace terrabench {
 namespace {
@@ -288,12 +289,13 @@ TEST_F(ReportTest, DoesNotReplaceWhatIsNoReport) {
 
 TEST_F(ReportTest, RemovesWhatKilledProcessesLeft) {
   write_fake_results(folder_, "quick");
-  const std::string mine = std::to_string(getppid()), dead = std::to_string(dead_process());
-  write_file(folder_ / (".report." + dead + ".tmp") / "index.html", std::string_view("half"));
-  write_file(folder_ / (".report." + mine + ".tmp") / "index.html", std::string_view("of one that runs"));
+  const std::filesystem::path mine = folder_ / temporary_of(".report", std::to_string(getppid())),
+                              dead = folder_ / temporary_of(".report", std::to_string(dead_process()));
+  write_file(dead / "index.html", std::string_view("half"));
+  write_file(mine / "index.html", std::string_view("of one that runs"));
   write_report(folder_);
-  EXPECT_FALSE(std::filesystem::exists(folder_ / (".report." + dead + ".tmp")));
-  EXPECT_TRUE(std::filesystem::exists(folder_ / (".report." + mine + ".tmp")));
+  EXPECT_FALSE(std::filesystem::exists(dead));
+  EXPECT_TRUE(std::filesystem::exists(mine));
 }
 
 TEST_F(ReportTest, ALinkOutOfTheFolderIsNoPicture) {

@@ -110,11 +110,21 @@ TEST_F(HeightPyramidTest, RefusesWhatIsNotWhole) {
 TEST_F(HeightPyramidTest, ReplacesOnlyPyramidsAndLeavesNothingHalf) {
   const Heightfield field = ground(40, 40);
   built(field);
-  built(field);  // again, in place
+  const fs::path pyramid = built(field);  // again, in place
+  // Not where something else would be lost.
+  std::ofstream(pyramid / "notes.txt") << "years of work";
+  EXPECT_THROW(built(field), Error);
+  EXPECT_TRUE(fs::exists(pyramid / "notes.txt"));
+  fs::remove(pyramid / "notes.txt");
+  EXPECT_NO_THROW(built(field));
   Progress silent;
   fs::create_directories(folder_ / "mine");
   EXPECT_THROW(HeightPyramid::build((folder_ / "dem.tif").string(), folder_ / "mine", silent), Error);
   EXPECT_TRUE(fs::exists(folder_ / "mine"));
+  // A level alone, as another program may name its tiles, is no pyramid.
+  fs::copy_file(pyramid / "0.tif", folder_ / "mine/0.tif");
+  EXPECT_THROW(HeightPyramid::build((folder_ / "dem.tif").string(), folder_ / "mine", silent), Error);
+  EXPECT_TRUE(fs::exists(folder_ / "mine/0.tif"));
   EXPECT_THROW(HeightPyramid::build((folder_ / "absent.tif").string(), folder_ / "new", silent), Error);
   EXPECT_FALSE(fs::exists(folder_ / "new"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 3);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 #include "terrain/error.h"
@@ -168,6 +169,18 @@ std::uint64_t tiles_missing(GDALRasterBand& band, int x0, int z0, int x1, int z1
   return missing;
 }
 
+// Whether nothing but a pyramid would be lost with the folder.
+bool is_pyramid_alone(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(fs::symlink_status(folder, error))) return false;
+  const auto entries = std::distance(fs::directory_iterator(folder, error), fs::directory_iterator());
+  try {
+    return !error && HeightPyramid::open(folder)->levels() == entries;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 struct HeightPyramid::Levels {
@@ -181,9 +194,9 @@ struct HeightPyramid::Levels {
 void HeightPyramid::build(const std::string& dem, const fs::path& folder, Progress& progress) {
   register_gdal();
   std::error_code error;
-  if (fs::exists(folder, error) && !fs::exists(level_file(folder, 0), error)) {
-    throw usage_error("the folder exists and does not hold a pyramid", folder.string(),
-                      "choose another folder");
+  if (fs::exists(fs::symlink_status(folder, error)) && !is_pyramid_alone(folder)) {
+    throw usage_error("exists, and is not a whole pyramid with nothing beside it", folder.string(),
+                      "choose another folder, or remove this one");
   }
   const RasterSize size = raster_size(dem);
   const fs::path temporary = temporary_name(folder);
@@ -240,6 +253,7 @@ HeightPyramid::~HeightPyramid() = default;
 
 int HeightPyramid::width() const { return levels_->datasets.front()->GetRasterXSize(); }
 int HeightPyramid::depth() const { return levels_->datasets.front()->GetRasterYSize(); }
+int HeightPyramid::levels() const { return static_cast<int>(levels_->datasets.size()); }
 float HeightPyramid::cell_x() const { return levels_->cell_x; }
 float HeightPyramid::cell_z() const { return levels_->cell_z; }
 std::uint64_t HeightPyramid::tiles_read() const { return levels_->tiles_read; }

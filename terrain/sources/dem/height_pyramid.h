@@ -16,8 +16,8 @@ class HeightPyramid {
  public:
   // Converts any DEM that read_dem() takes, in rows of tiles: bounded memory at any size; on disk a third
   // more bytes than the ground alone. Holes are filled from a reduced copy of the ground. The folder is
-  // written whole or not at all; an existing pyramid is replaced, any other existing folder refused
-  // (usage_error).
+  // written whole or not at all. A whole pyramid with nothing beside it is replaced, anything else that
+  // exists is refused (usage_error).
   static void build(const std::string& dem, const std::filesystem::path& folder, Progress&);
 
   // Throws bad_input for a folder that does not hold a whole pyramid.
@@ -26,6 +26,7 @@ class HeightPyramid {
 
   int width() const;  // of level 0, samples
   int depth() const;
+  int levels() const;    // on disk
   float cell_x() const;  // metres
   float cell_z() const;
   // Lattice samples [a, a + columns) × [b, b + rows) of the level, row by row into `out`, rows `stride`

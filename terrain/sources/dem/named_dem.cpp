@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "terrain/error.h"
+#include "terrain/number.h"
 #include "terrain/sources/dem/dem.h"
 #include "terrain/sources/dem/height_values.h"
 #include "terrain/sources/named_file.h"
@@ -33,13 +33,12 @@ std::span<const ParameterSpec> specs() {
 // NaN for "none".
 double parse_no_data(const std::string& text) {
   if (text == "none") return std::nan("");
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) {
+  const std::optional<double> value = parse_number<double>(text);
+  if (!value) {
     throw usage_error(fmt::format("nodata must be a number or none, got '{}'", text), kDemPrefix,
                       "such as nodata=-9999");
   }
-  return value;
+  return *value;
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cctype>
-#include <charconv>
 #include <cstdint>
 #include <memory>
 #include <string_view>
@@ -16,6 +15,7 @@
 
 #include "terrain/error.h"
 #include "terrain/memory.h"
+#include "terrain/number.h"
 
 namespace terrabench {
 namespace {
@@ -46,15 +46,13 @@ bool is_void(std::string_view word) {
 }
 
 // As GDAL reads it: a decimal comma, a leading plus, "nan" and GRASS's "*" for no data are numbers.
-bool is_number(std::string_view word) {
+bool is_height(std::string_view word) {
   if (word == "*") return true;
   std::string text = lower(word.substr(word.starts_with('+') ? 1 : 0));
   std::ranges::replace(text, ',', '.');
   if (text == "nan" || text == "-nan" || text == "inf" || text == "-inf" || text.starts_with("1.#"))
     return true;
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error != std::errc::invalid_argument && end == text.data() + text.size();
+  return parse_number<long double>(text).has_value();  // 1e-400, too
 }
 
 // Follows the words of the file. The values begin after the last line that begins with a key.
@@ -89,7 +87,7 @@ class Scanner {
     }
     first_ = false;
     const bool missing = is_void(word_);
-    if (!header_line_ && !missing && !is_number(word_)) {
+    if (!header_line_ && !missing && !is_height(word_)) {
       throw bad_input(fmt::format("'{}' stands where a height should be", printable()),
                       fmt::format("{}:{}:{}", path_, line_, begin_),
                       "replace it by a number, or by the grid's no-data value");
