@@ -127,6 +127,7 @@ figures::Sheet cross_sections_sheet(const Study& study, std::uint32_t pixel) {
   sections.join(pixel, joined);
 
   figures::Sheet sheet(984, 540);
+  sheet.keep_all_colours();
   sheet.text(kLeft, kTop - 12,
              fmt::format("(a) planes of cross-sections, every tenth of {}, w = {}", CrossSections::kRays, kW),
              13);

@@ -13,8 +13,8 @@
 namespace terrabench::drill {
 namespace {
 
-constexpr double kTurn = 0.42, kRise = 0.66;  // radians: west of south, and above the horizon
-constexpr double kRelief = 0.42;              // drawn height of the relief, of the block's side
+constexpr double kTurn = 0.42, kRise = 0.85;  // radians: west of south, and above the horizon
+constexpr double kRelief = 0.36;              // drawn height of the relief, of the block's side
 constexpr double kBase = 5;                   // samples of rock below the lowest ground
 constexpr Rgb kRock{150, 142, 132}, kPlane{214, 40, 40}, kCut{150, 0, 0};
 

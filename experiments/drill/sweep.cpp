@@ -129,64 +129,80 @@ Held held(const Sweep& sweep) {
   return held;
 }
 
+namespace {
+
+constexpr double kCellWidth = 7.5, kCellHeight = 16, kLeft = 52, kTop = 78, kBelow = 84, kRight = 34;
+constexpr double kMapWidth = kCellWidth * kSweptK, kMapHeight = kCellHeight * kSweptWidths.size();
+
+// The map of one sweep at the first τ, from x0.
+void add_map(figures::Sheet& sheet, double x0, const Sweep& sweep, std::string_view title) {
+  Least least{.rmse = std::numeric_limits<double>::infinity()};
+  for (std::size_t w = 0; w < kSweptWidths.size(); ++w) {
+    for (int k = kLeastK; k <= kMostK; ++k) {
+      if (sweep.at(0, w, k) < least.rmse) least = {0, w, k, sweep.at(0, w, k)};
+    }
+  }
+  const double most = 4 * least.rmse;  // larger errors share a colour: the valley would not show otherwise
+  const auto centre = [&](std::size_t w, int k) {
+    return figures::SheetPoint{x0 + (k - kLeastK + 0.5) * kCellWidth,
+                               kTop + (static_cast<double>(kSweptWidths.size() - 1 - w) + 0.5) * kCellHeight};
+  };
+  sheet.text(x0, kTop - 52, title, 13);
+  sheet.text(
+      x0, kTop - 30,
+      fmt::format("ring: least, {:.4f} at w = {}, k = {}", least.rmse, kSweptWidths[least.width], least.k),
+      12);
+  sheet.text(x0, kTop - 12, fmt::format("cross: w = 10, k = 20, {:.4f}", sweep.at(0, kPaperWidth, kPaperK)),
+             12);
+  sheet.panel(x0, kTop, kMapWidth, kMapHeight);
+  for (std::size_t w = 0; w < kSweptWidths.size(); ++w) {
+    for (int k = kLeastK; k <= kMostK; ++k) {
+      const figures::SheetPoint at = centre(w, k);
+      const double share = (sweep.at(0, w, k) - least.rmse) / (most - least.rmse);
+      sheet.box(at.x - kCellWidth / 2, at.y - kCellHeight / 2, kCellWidth, kCellHeight,
+                figures::error_colour(std::min(1.0, share)));
+    }
+    sheet.text(x0 - 6, centre(w, kLeastK).y + 4, fmt::format("{}", kSweptWidths[w]), 11, "end");
+  }
+  sheet.text(x0 - 36, kTop + kMapHeight / 2, "w", 13, "middle");
+  for (int k = 5; k <= kMostK; k += 5) {
+    sheet.text(centre(0, k).x, kTop + kMapHeight + 15, fmt::format("{}", k), 11, "middle");
+  }
+  sheet.text(x0 + kMapWidth / 2, kTop + kMapHeight + 30, "k", 13, "middle");
+  sheet.ring(centre(least.width, least.k), 5, {0, 0, 0}, 2);
+  sheet.cross(centre(kPaperWidth, kPaperK), 5, {0, 0, 0});
+  const figures::Sheet::Tick ticks[] = {{0, fmt::format("{:.4f}", least.rmse)},
+                                        {0.5, fmt::format("{:.4f}", (least.rmse + most) / 2)},
+                                        {1, fmt::format("≥ {:.4f}", most)}};
+  sheet.colour_bar(x0, kTop + kMapHeight + 42, kMapWidth, figures::error_colour, ticks);
+}
+
+}  // namespace
+
 figures::Sheet sweep_sheet(std::span<const Sweep> sweeps, std::span<const Variant> variants) {
-  constexpr double kCellWidth = 9, kCellHeight = 16, kLeft = 52, kTop = 60, kBelow = 96, kRight = 30;
-  constexpr double kWidth = kCellWidth * kSweptK, kHeight = kCellHeight * kSweptWidths.size();
-  figures::Sheet sheet(kLeft + kWidth + kRight,
-                       static_cast<double>(sweeps.size()) * (kTop + kHeight + kBelow));
-  double y0 = kTop;
-  for (std::size_t s = 0; s < sweeps.size(); ++s, y0 += kTop + kHeight + kBelow) {
-    const Sweep::Plane& plane = sweeps[s].rmse[0];
-    Least least{.rmse = std::numeric_limits<double>::infinity()};
-    double most = 0;
-    for (std::size_t w = 0; w < plane.size(); ++w) {
-      for (int k = kLeastK; k <= kMostK; ++k) {
-        const double rmse = sweeps[s].at(0, w, k);
-        most = std::max(most, rmse);
-        if (rmse < least.rmse) least = {0, w, k, rmse};
-      }
-    }
-    most =
-        std::min(most, 4 * least.rmse);  // larger errors share a colour: the valley would not show otherwise
-    const auto centre = [&](std::size_t w, int k) {
-      return figures::SheetPoint{kLeft + (k - kLeastK + 0.5) * kCellWidth,
-                                 y0 + (static_cast<double>(plane.size() - 1 - w) + 0.5) * kCellHeight};
-    };
-    sheet.text(kLeft, y0 - 30, fmt::format("({:c}) {}", 'a' + static_cast<int>(s), variants[s].words), 14);
-    sheet.text(
-        kLeft, y0 - 12,
-        fmt::format("least {:.4f} at w = {}, k = {} (ring); {:.4f} at w = 10, k = 20 (cross)", least.rmse,
-                    kSweptWidths[least.width], least.k, sweeps[s].at(0, kPaperWidth, kPaperK)),
-        12);
-    sheet.panel(kLeft, y0, kWidth, kHeight);
-    for (std::size_t w = 0; w < plane.size(); ++w) {
-      for (int k = kLeastK; k <= kMostK; ++k) {
-        const figures::SheetPoint at = centre(w, k);
-        sheet.box(
-            at.x - kCellWidth / 2, at.y - kCellHeight / 2, kCellWidth, kCellHeight,
-            figures::error_colour(std::min(1.0, (sweeps[s].at(0, w, k) - least.rmse) / (most - least.rmse))));
-      }
-      sheet.text(kLeft - 6, centre(w, kLeastK).y + 4, fmt::format("{}", kSweptWidths[w]), 11, "end");
-    }
-    sheet.text(kLeft - 34, y0 + kHeight / 2, "w", 13, "middle");
-    for (int k = 5; k <= kMostK; k += 5)
-      sheet.text(centre(0, k).x, y0 + kHeight + 15, fmt::format("{}", k), 11, "middle");
-    sheet.text(kLeft + kWidth / 2, y0 + kHeight + 30, "k", 13, "middle");
-    sheet.ring(centre(least.width, least.k), 5, {0, 0, 0}, 2);
-    sheet.cross(centre(kPaperWidth, kPaperK), 5, {0, 0, 0});
-    const figures::Sheet::Tick ticks[] = {{0, fmt::format("{:.4f}", least.rmse)},
-                                          {0.5, fmt::format("{:.4f}", (least.rmse + most) / 2)},
-                                          {1, fmt::format("{:.4f} or more", most)}};
-    sheet.colour_bar(kLeft, y0 + kHeight + 40, kWidth, figures::error_colour, ticks);
+  constexpr double kColumn = kLeft + kMapWidth + kRight;
+  figures::Sheet sheet(kColumn * static_cast<double>(sweeps.size()), kTop + kMapHeight + kBelow);
+  for (std::size_t s = 0; s < sweeps.size(); ++s) {
+    add_map(sheet, kLeft + kColumn * static_cast<double>(s), sweeps[s],
+            fmt::format("({:c}) {}", 'a' + static_cast<int>(s), variants[s].words));
   }
   return sheet;
 }
 
 namespace {
 
+const std::array kSpecs{
+    ParameterSpec{"side", std::int64_t{16384}, "samples", "largest side of the part that is swept", 64,
+                  16384},
+};
+
 std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
-  for (const std::string& ground : grounds(options)) cases.push_back({ground, {}, ground});
+  // The whole ground takes half a minute of one core.
+  const std::int64_t side = options.profile == Profile::kPaper ? 16384 : 128;
+  for (const std::string& ground : grounds(options)) {
+    cases.push_back({ground, {kSpecs, {{"side", side}}}, ground});
+  }
   return cases;
 }
 
@@ -218,15 +234,18 @@ void record(const Sweep& sweep, const std::string& prefix, Recorder& recorder) {
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
-  if (std::max(source.heights->width, source.heights->depth) < kSweptWidths.back()) {
+  const int side = at.integer("side");
+  const Heightfield ground = crop(*source.heights, 0, 0, std::min(side, source.heights->width),
+                                  std::min(side, source.heights->depth));
+  if (std::max(ground.width, ground.depth) < kSweptWidths.back()) {
     throw SkippedCase("the ground is smaller than the longest cross-section");
   }
   std::vector<Sweep> sweeps;
   for (const Variant& variant : kFits) {
-    sweeps.push_back(sweep(*source.heights, variant.route(*source.heights), variant, progress));
+    sweeps.push_back(sweep(ground, variant.route(ground), variant, progress));
     record(sweeps.back(), std::string(variant.name), recorder);
   }
-  const HeightRange range = height_range(*source.heights);
+  const HeightRange range = height_range(ground);
   if (!(range.highest > range.lowest)) return;  // flat ground has no error to colour
   sweep_sheet(sweeps, kFits)
       .write(recorder.figure(
@@ -238,7 +257,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kSweep{
-    "drill.sweep", "§3.1: best parameters over a fine grid of w and k", {}, cases, measure};
+extern const Experiment kSweep{"drill.sweep", "§3.1: best parameters over a fine grid of w and k", kSpecs,
+                               cases, measure};
 
 }  // namespace terrabench::drill

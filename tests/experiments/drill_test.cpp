@@ -197,8 +197,9 @@ TEST(DrillSweep, CountsTheFactorialsInWhichStatementsHold) {
   EXPECT_EQ(best.tau_first, 0);
   const Held tau = held(swept([](const Setting& s) { return 100.0 * s.tau + s.w + s.k; }));
   EXPECT_EQ(tau.tau_first, tau.all);
-  EXPECT_EQ(tau.best, 0);  // the least k is the best
-  EXPECT_LT(tau.best_width, tau.all);
+  // The least w and k are the best: those of 66 of the 120 pairs of widths, and of 4 of the 28 series.
+  EXPECT_EQ(tau.best_width, 66 * 28);
+  EXPECT_EQ(tau.best, 66 * 4);
   EXPECT_EQ(held(swept([](const Setting& s) { return 1.0 / s.tau; })).every_case, 0);
 }
 
