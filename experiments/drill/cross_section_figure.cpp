@@ -94,8 +94,8 @@ class ProfileChart {
 
 }  // namespace
 
-// A pixel in a clear valley: among the pixels at least kAround from the border and with a flow of at least
-// 200 pixels, the one whose rays rise most on average.
+// A pixel in a clear valley, 0 if there is none: among the pixels at least kAround from the border and with a
+// flow of at least 200 pixels, the one whose rays rise most on average.
 std::uint32_t example_pixel(const Study& study) {
   const CrossSections sections(study.ground, kW);
   std::vector<float> rays(static_cast<std::size_t>(CrossSections::kRays) * kW);
@@ -170,7 +170,9 @@ figures::Sheet cross_sections_sheet(const Study& study, std::uint32_t pixel) {
 
 void draw_cross_sections(const Study& study, Recorder& recorder) {
   if (std::min(study.ground.width, study.ground.depth) <= 2 * kAround) return;
-  cross_sections_sheet(study, example_pixel(study))
+  const std::uint32_t pixel = example_pixel(study);
+  if (pixel == 0) return;  // no channel runs far enough from the border
+  cross_sections_sheet(study, pixel)
       .write(recorder.figure(
           "drill.F2" + study.suffix, "png",
           fmt::format(

@@ -250,9 +250,10 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   sweep_sheet(sweeps, kFits)
       .write(recorder.figure(
           "drill.sweep" + figures::ground_suffix(at.terrain, kMainGround), "png",
-          fmt::format("RMSE ÷ range of elevations over w and k at τ = 25 on {}, for each fit. "
-                      "Colours are linear from the least error; four times it and more are red.",
-                      source.name)));
+          fmt::format(
+              "RMSE ÷ range of elevations over w and k at τ = 25 on {} × {} samples of {}, for each fit. "
+              "Colours are linear from the least error; four times it and more are red.",
+              ground.width, ground.depth, source.name)));
 }
 
 }  // namespace

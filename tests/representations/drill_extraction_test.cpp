@@ -133,7 +133,9 @@ TEST(ProfileFit, IsTheLeastSquaresUnderItsBounds) {
       const double expected = least_error(samples, fit_to, window);
       EXPECT_NEAR(error, expected, 1e-3 * (1 + expected))
           << "fit " << static_cast<int>(fit_to) << ", w " << w;
-      if (fit_to == DrillFit::kVertex) EXPECT_EQ(fit.slope, 0);
+      if (fit_to == DrillFit::kVertex) {
+        EXPECT_EQ(fit.slope, 0);
+      }
       if (fit_to == DrillFit::kPrinted || fit_to == DrillFit::kVertex) continue;
       EXPECT_GE(fit.slope, 0);
       const double end = fit_to == DrillFit::kMonotone ? 1e6 : window;
