@@ -38,6 +38,7 @@
   TIMED(ght, kReach)                                  \
   TIMED(ght, kComplex)                                \
   UNTIMED(drill, kChannels)                           \
+  UNTIMED(drill, kLargestFlow)                        \
   UNTIMED(drill, kFactorial)                          \
   UNTIMED(drill, kEffects)                            \
   UNTIMED(drill, kAhdReadings)                        \
@@ -46,6 +47,8 @@
   UNTIMED(drill, kSize)                               \
   UNTIMED(drill, kExtensions)                         \
   UNTIMED(drill, kPromises)                           \
+  UNTIMED(drill, kHydrography)                        \
+  UNTIMED(drill, kSweep)                              \
   UNTIMED(mrbsp, kHeights)                            \
   TIMED(mrbsp, kWalk)                                 \
   UNTIMED(mrbsp, kThreshold)                          \

@@ -1,4 +1,5 @@
-// Channel networks of the drill paper's §2.1 and §3.1: channel pixels per threshold, and the largest flow.
+// Channel networks of the drill paper's §2.1 and §3.1: channel pixels per threshold, and the largest flow of
+// the whole ground (largest_flow.cpp takes it over crops).
 #include "terrain/hydrology/channels.h"
 
 #include <fmt/format.h>

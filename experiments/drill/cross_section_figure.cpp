@@ -1,4 +1,4 @@
-// Figure 2: the cross-sections of one channel pixel, their union and the shape fitted to it.
+// Figure 2: the cross-sections of one channel pixel, their union and the shapes fitted to it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "experiments/drill/cutting_planes.h"
 #include "experiments/drill/figures.h"
 #include "experiments/figures/maps.h"
 #include "representations/drill/cross_sections.h"
@@ -16,38 +17,23 @@
 namespace terrabench::drill {
 namespace {
 
-constexpr int kW = 20;
+constexpr int kW = 20, kAround = kW + CuttingPlanes::kMargin;
 constexpr double kSide = 420, kTop = 44, kLeft = 24;
-constexpr Rgb kInk{0, 0, 0}, kGrid{225, 225, 225}, kFit{224, 0, 110}, kPrintedFit{0, 120, 60};
+constexpr Rgb kInk{0, 0, 0}, kGrid{225, 225, 225}, kMonotone{224, 0, 110}, kPrinted{0, 120, 60},
+    kVertex{0, 70, 200};
 
-// The ground around the pixel seen from above, with the rays drawn on it.
-void draw_rays(figures::Sheet& sheet, const Heightfield& ground, int i, int j) {
-  constexpr int kAround = kW + 4;
-  const int i0 = std::clamp(i - kAround, 0, std::max(0, ground.width - 2 * kAround - 1));
-  const int j0 = std::clamp(j - kAround, 0, std::max(0, ground.depth - 2 * kAround - 1));
-  const Heightfield around = crop(ground, i0, j0, std::min(2 * kAround + 1, ground.width - i0),
-                                  std::min(2 * kAround + 1, ground.depth - j0));
-  const HeightRange range = height_range(around);
-  // One square per sample, since distances count in samples; pale, so that the rays stand out.
-  const float span = std::max(range.highest - range.lowest, 1e-6F);
-  const auto pale = [&](double t) {
-    Rgb colour = figures::elevation_colour(t);
-    for (std::uint8_t& c : colour) c = static_cast<std::uint8_t>((c + 255) / 2);
-    return colour;
-  };
-  const Image image = figures::shaded_map(
-      around, figures::Light(around), [&](float h) { return pale((h - range.lowest) / span); }, 0.4, 0.5);
-  const double scale = kSide / around.width;
-  sheet.picture(kLeft, kTop, kSide, scale * around.depth, image);
-  const figures::SheetPoint centre{kLeft + (i - i0 + 0.5) * scale, kTop + (j - j0 + 0.5) * scale};
-  for (int m = 0; m < CrossSections::kRays; ++m) {
-    const double turn = static_cast<double>(m) / CrossSections::kRays, angle = 2 * std::numbers::pi * turn;
-    sheet.line(std::array{centre, figures::SheetPoint{centre.x + kW * scale * std::cos(angle),
-                                                      centre.y + kW * scale * std::sin(angle)}},
-               {.colour = figures::direction_colour(turn), .thickness = 1.2});
-  }
-  figures::add_colour_key(sheet, kLeft, kTop + scale * around.depth + 14, "elevation, m", 110, 180, pale,
-                          {fmt::format("{:.0f}", range.lowest), fmt::format("{:.0f}", range.highest)});
+// The left half: the block of ground, cut by planes.
+void draw_planes(figures::Sheet& sheet, const Heightfield& ground, std::uint32_t pixel) {
+  constexpr double kHigh = 392;
+  const CuttingPlanes planes(ground, pixel, kW);
+  sheet.picture(kLeft, kTop, kSide, kHigh,
+                planes.draw(static_cast<int>(kSide) * figures::Sheet::kPixels,
+                            static_cast<int>(kHigh) * figures::Sheet::kPixels));
+  const double cell = std::sqrt(static_cast<double>(ground.cell_x) * ground.cell_z);
+  sheet.text(kLeft, kTop + kHigh + 18,
+             fmt::format("seen from the south-south-west; heights stretched {:.1f} times",
+                         cell / planes.metres_per_sample()),
+             12);
 }
 
 // 1, 2 or 5 times a power of ten: about six steps cover the span.
@@ -93,8 +79,8 @@ class ProfileChart {
     sheet_.line(points, stroke);
   }
   // An entry of the key below the chart, level with the left panel's legend.
-  void key(double x, std::string_view words, const figures::Stroke& stroke) {
-    const double y = kTop + kHeight + 62;
+  void key(double x, std::string_view words, const figures::Stroke& stroke, int row = 0) {
+    const double y = kTop + kHeight + 62 + 20 * row;
     sheet_.line(std::array{figures::SheetPoint{kX + x, y}, figures::SheetPoint{kX + x + 34, y}}, stroke);
     sheet_.text(kX + x + 40, y + 4, words, 12);
   }
@@ -108,8 +94,8 @@ class ProfileChart {
 
 }  // namespace
 
-// A pixel in a clear valley: among the pixels at least w from the border and with a flow of at least 200
-// pixels, the one whose rays rise most on average.
+// A pixel in a clear valley, 0 if there is none: among the pixels at least kAround from the border and with a
+// flow of at least 200 pixels, the one whose rays rise most on average.
 std::uint32_t example_pixel(const Study& study) {
   const CrossSections sections(study.ground, kW);
   std::vector<float> rays(static_cast<std::size_t>(CrossSections::kRays) * kW);
@@ -118,7 +104,10 @@ std::uint32_t example_pixel(const Study& study) {
   for (const std::uint32_t pixel : channel_pixels(study.network, 200)) {
     const int i = static_cast<int>(pixel) % study.ground.width,
               j = static_cast<int>(pixel) / study.ground.width;
-    if (i < kW || j < kW || i >= study.ground.width - kW || j >= study.ground.depth - kW) continue;
+    if (i < kAround || j < kAround || i >= study.ground.width - kAround ||
+        j >= study.ground.depth - kAround) {
+      continue;
+    }
     sections.rays(pixel, rays);
     float rise = 0;
     for (const float h : rays) rise += h - study.ground.heights[pixel];
@@ -137,10 +126,13 @@ figures::Sheet cross_sections_sheet(const Study& study, std::uint32_t pixel) {
   sections.rays(pixel, rays);
   sections.join(pixel, joined);
 
-  figures::Sheet sheet(984, 522);
+  figures::Sheet sheet(984, 540);
+  sheet.keep_all_colours();
   sheet.text(kLeft, kTop - 12,
-             fmt::format("(a) {} cross-sections from above, w = {}, north up", CrossSections::kRays, kW), 13);
-  draw_rays(sheet, ground, static_cast<int>(pixel) % ground.width, static_cast<int>(pixel) / ground.width);
+             fmt::format("(a) planes of cross-sections, every tenth of {}, w = {}", CrossSections::kRays, kW),
+             13);
+  static_assert(CrossSections::kRays == 10 * CuttingPlanes::kPlanes);
+  draw_planes(sheet, ground, pixel);
 
   const float floor = ground.heights[pixel];
   float low = floor, high = floor;
@@ -156,32 +148,38 @@ figures::Sheet cross_sections_sheet(const Study& study, std::uint32_t pixel) {
     chart.curve([&](int r) { return r == 0 ? floor : ray[r - 1]; },
                 {.colour = figures::direction_colour(turn), .thickness = 0.8, .opacity = 0.85});
   }
-  const auto fitted = [&](double rises_to) {
-    const FittedProfile fit = fit_profile(joined, floor, rises_to);
+  const auto fitted = [&](DrillFit to) {
+    const FittedProfile fit = fit_profile(joined, floor, to);
     return [=](int r) { return floor + fit.slope * r + fit.curvature * r * r; };
   };
   const figures::Stroke single{.colour = figures::direction_colour(0), .thickness = 1.2},
-      joint{.colour = kInk, .thickness = 4}, dashed{.colour = kFit, .thickness = 2.5, .dashes = "9,5"},
-      dotted{.colour = kPrintedFit, .thickness = 2.5, .dashes = "2,4"};
+      joint{.colour = kInk, .thickness = 4}, dashed{.colour = kMonotone, .thickness = 2.5, .dashes = "9,5"},
+      dotted{.colour = kPrinted, .thickness = 2.5, .dashes = "2,4"},
+      mixed{.colour = kVertex, .thickness = 2.5, .dashes = "9,4,2,4"};
   chart.curve([&](int r) { return r == 0 ? floor : joined[static_cast<std::size_t>(r) - 1]; }, joint);
-  chart.curve(fitted(kRisesEverywhere), dashed);
-  chart.curve(fitted(kRisesNowhere), dotted);
-  chart.key(-120, "a cross-section", single);
-  chart.key(30, "their union", joint);
-  chart.key(160, "fit, monotone", dashed);
-  chart.key(300, "fit as printed", dotted);
+  chart.curve(fitted(DrillFit::kPrinted), dotted);
+  chart.curve(fitted(DrillFit::kMonotone), dashed);
+  chart.curve(fitted(DrillFit::kVertex), mixed);
+  chart.key(-36, "a cross-section", single);
+  chart.key(104, "their union", joint);
+  chart.key(214, "fit as printed", dotted);
+  chart.key(344, "monotone", dashed);
+  chart.key(214, "vertex at the pixel", mixed, 1);
   return sheet;
 }
 
 void draw_cross_sections(const Study& study, Recorder& recorder) {
-  if (std::min(study.ground.width, study.ground.depth) <= 2 * kW) return;
-  cross_sections_sheet(study, example_pixel(study))
+  if (std::min(study.ground.width, study.ground.depth) <= 2 * kAround) return;
+  const std::uint32_t pixel = example_pixel(study);
+  if (pixel == 0) return;  // no channel runs far enough from the border
+  cross_sections_sheet(study, pixel)
       .write(recorder.figure(
           "drill.F2" + study.suffix, "png",
-          fmt::format("The paper's figure 2: the {} cross-sections at one channel pixel of {} (a), and their "
-                      "elevations in the same colours (b), with the union, which is the highest at each "
-                      "distance, and the quadratics fitted to it: monotone, and as printed in §2.2",
-                      CrossSections::kRays, study.name)));
+          fmt::format(
+              "The paper's figure 2: planes of the {} cross-sections at one channel pixel of {} (a), every "
+              "tenth drawn, and the elevations along all of them (b), coloured by direction, with "
+              "their union and the three fits to it.",
+              CrossSections::kRays, study.name)));
 }
 
 }  // namespace terrabench::drill

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <vector>
 
 #include "experiments/drill/figures.h"
 #include "experiments/figures/maps.h"
@@ -20,11 +20,10 @@ struct Figures {
   std::string of(double error) const { return fmt::format("{:.{}f}", times * error, digits); }
 };
 
-// A logarithmic scale, since the few large errors, of windows that leave plateau uncovered, would hide the
-// rest.
 struct Scale {
   double low, high;
-  double at(double error) const { return high > low ? std::log(error / low) / std::log(high / low) : 0; }
+  double at(double error) const { return high > low ? (error - low) / (high - low) : 0; }
+  double value(double at) const { return low + at * (high - low); }
 };
 
 void add_matrix(figures::Sheet& sheet, double x0, double y0, int w, const std::vector<Outcome>& outcomes,
@@ -58,24 +57,24 @@ void add_column(figures::Sheet& sheet, int column, std::string_view title,
   const auto [least, most] =
       std::minmax_element(outcomes.begin(), outcomes.end(),
                           [&](const Outcome& a, const Outcome& b) { return error(a) < error(b); });
-  const Scale scale{std::max(error(*least), 1e-12), std::max(error(*most), 1e-12)};
+  const Scale scale{error(*least), error(*most)};
   sheet.text(x + kMatrixWidth / 2, 22, title, 15, "middle");
   double y = kTop;
   for (const int w : kWidths) {
     add_matrix(sheet, x, y, w, outcomes, error, scale, figures);
     y += kMatrixHeight + kBelow;
   }
-  const figures::Sheet::Tick ticks[] = {{0, figures.of(scale.low)},
-                                        {0.5, figures.of(std::sqrt(scale.low * scale.high))},
-                                        {1, figures.of(scale.high)}};
-  sheet.colour_bar(x, y - 24, kMatrixWidth - 1, figures::error_colour, ticks);
+  std::vector<figures::Sheet::Tick> ticks;
+  for (const double at : {0.0, 0.25, 0.5, 0.75, 1.0}) ticks.push_back({at, figures.of(scale.value(at))});
+  sheet.text(x, y - 20, fmt::format("{}, linear scale:", title), 12);
+  sheet.colour_bar(x, y - 10, kMatrixWidth - 1, figures::error_colour, ticks);
 }
 
 }  // namespace
 
 figures::Sheet error_matrices_sheet(const std::vector<Outcome>& outcomes) {
   figures::Sheet sheet(2 * (kLeft + kMatrixWidth + kGap),
-                       kTop + kWidths.size() * (kMatrixHeight + kBelow) + 18);
+                       kTop + kWidths.size() * (kMatrixHeight + kBelow) + 34);
   add_column(sheet, 0, "RMSE ÷ range of elevations", outcomes, [](const Outcome& o) { return o.rmse; },
              {1, 4});
   add_column(sheet, 1, "1000 × AHD in plan ÷ diagonal", outcomes, [](const Outcome& o) { return o.ahd[0]; },
@@ -86,10 +85,11 @@ figures::Sheet error_matrices_sheet(const std::vector<Outcome>& outcomes) {
 void draw_error_matrices(const Study& study, const std::vector<Outcome>& outcomes, Recorder& recorder) {
   error_matrices_sheet(outcomes).write(recorder.figure(
       "drill.F4" + study.suffix, "png",
-      fmt::format("The paper's figure 4: normalised errors of the 54 parameter sets on {}, {}; RMSE left and "
-                  "AHD, the mean in plan, right, one matrix per width w. Colours are logarithmic, from the "
-                  "least of each metric (blue) to the largest (red).",
-                  study.name, study.variant.words)));
+      fmt::format(
+          "The paper's figure 4: normalised errors of the 54 parameter sets on {}, {}; RMSE left and "
+          "AHD, the mean in plan, right, one matrix per width w. Colours are linear, from the least of "
+          "each metric (blue) to the largest (red).",
+          study.name, study.variant.words)));
 }
 
 }  // namespace terrabench::drill

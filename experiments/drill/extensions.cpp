@@ -2,8 +2,6 @@
 // untouched pixels, channels that never rise downstream, and parameters chosen for a budget.
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "experiments/drill/factorial.h"
 #include "experiments/drill/ground.h"
 #include "experiments/experiment.h"
@@ -63,14 +61,8 @@ Extended extended(const Heightfield& ground, const FlowNetwork& network, DrillOp
   Drills drills = extract_drills(ground, network, options);
   quantise(drills, automatic_quantum(ground));
   if (options.adaptive_k) return regenerated(ground, drills);
-  Extended best;
-  best.error.rmse = std::numeric_limits<double>::infinity();
-  for (const int k : kInfluences) {
-    drills.k = k;
-    const Extended at = regenerated(ground, drills);
-    if (at.error.rmse < best.error.rmse) best = at;
-  }
-  return best;
+  choose_influence_of_all(ground, drills);
+  return regenerated(ground, drills);
 }
 
 void record(const Extended& result, Recorder& recorder) {
@@ -86,8 +78,8 @@ void record(const Extended& result, Recorder& recorder) {
 void record_choice(const Heightfield& ground, const FlowNetwork& network, const DrillOptions& options,
                    Recorder& recorder, Progress& progress) {
   const Extended one = extended(ground, network, options);
-  const DrillChoice choice = choose_parameters(ground, network, {.bytes = one.bytes, .rmse = 0},
-                                               {.monotone = options.monotone}, &progress);
+  const DrillChoice choice =
+      choose_parameters(ground, network, {.bytes = one.bytes, .rmse = 0}, {.fit = options.fit}, &progress);
   recorder.add("budget", "B", one.bytes);
   recorder.add("drill_bytes", "B", choice.bytes);
   recorder.add("chosen_tau", "pixels", choice.options.tau);
@@ -135,8 +127,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const Heightfield& ground = *source.heights;
   const Variant& variant = variant_of(at.parameters);
   const FlowNetwork network = variant.route(ground);
-  const DrillOptions one{.tau = static_cast<std::uint32_t>(at.parameters.integer("tau")),
-                         .monotone = variant.monotone};
+  const DrillOptions one{.tau = static_cast<std::uint32_t>(at.parameters.integer("tau")), .fit = variant.fit};
   if (at.parameters.flag("choose")) return record_choice(ground, network, one, recorder, progress);
   DrillOptions extract = one;
   extract.monotone_profiles = at.parameters.flag("monotone_profiles");

@@ -11,7 +11,6 @@
 #include "representations/drill/regenerate.h"
 #include "terrain/hydrology/channels.h"
 #include "terrain/hydrology/steepest.h"
-#include "terrain/metrics/elevation_error.h"
 
 namespace terrabench::drill {
 namespace {
@@ -33,7 +32,8 @@ double untouched_share(const Drills& drills, const Heightfield& regenerated) {
 }  // namespace
 
 ParameterSpec variant_parameter() {
-  return choice("variant", kVariantNames, "the reading of §2: monotone or printed shapes, or d8 networks");
+  return choice("variant", kVariantNames,
+                "the reading of §2: how shapes are fitted; d8: on networks by steepest descent");
 }
 
 const Variant& variant_of(const Parameters& parameters) { return kVariants[parameters.choice("variant")]; }
@@ -67,11 +67,25 @@ FlowNetwork Variant::route(const Heightfield& ground) const {
 }
 
 DrillOptions options_for(const Setting& setting, const Variant& variant) {
-  return {.tau = setting.tau, .w = setting.w, .k = setting.k, .monotone = variant.monotone};
+  return {.tau = setting.tau, .w = setting.w, .k = setting.k, .fit = variant.fit};
 }
 
 std::string Reading::name() const {
   return fmt::format("{}-{}", terrabench::name(average), terrabench::name(space));
+}
+
+ElevationError choose_influence_of_all(const Heightfield& ground, Drills& drills) {
+  ElevationError least;
+  int best = 0;
+  for (const int k : kInfluences) {
+    drills.k = k;
+    const ElevationError error = elevation_error(ground, regenerate(drills));
+    if (best != 0 && error.rmse >= least.rmse) continue;
+    least = error;
+    best = k;
+  }
+  drills.k = best;
+  return least;
 }
 
 Outcome compare(const Heightfield& ground, const FlowNetwork& network, const Drills& drills,
@@ -166,9 +180,9 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     add("untouched_share", outcome.untouched);
     add("pits", static_cast<double>(count_pits(regenerated).count));
   }
-  // A third reading of "monotone", between the two: shapes may fall beyond the window.
+  // A weaker reading of "monotone": shapes may fall beyond the window.
   DrillOptions in_window = options_for(setting);
-  in_window.monotone = Monotone::kWindow;
+  in_window.fit = DrillFit::kMonotoneInWindow;
   const Heightfield weaker = regenerate(extract_drills(ground, network, in_window, &progress));
   add_share(recorder, "rmse_monotone_in_window", elevation_error(ground, weaker).normalised());
 }

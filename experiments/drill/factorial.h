@@ -13,6 +13,7 @@
 #include "terrain/heightfield.h"
 #include "terrain/hydrology/flow.h"
 #include "terrain/metrics/channel_distance.h"
+#include "terrain/metrics/elevation_error.h"
 #include "terrain/parameters.h"
 #include "terrain/source.h"
 
@@ -23,34 +24,43 @@ inline constexpr std::array<int, 3> kWidths{5, 10, 20};
 inline constexpr std::array<int, 6> kInfluences{5, 10, 15, 20, 25, 30};
 
 // The paper contradicts itself about shapes: §2.2 constrains the fit at the centre only, §4 calls shapes
-// monotonically increasing. Its network is a hybrid of least-cost search and of plain steepest descent.
+// monotonically increasing, §4.1 counts four values per drill, which a parabola with its vertex at the pixel
+// has. Its network is a hybrid of least-cost search and of plain steepest descent.
 struct Variant {
   std::string_view name;   // the value of the parameter "variant"
   std::string_view words;  // for captions
-  Monotone monotone;
-  bool steepest;  // networks by route_steepest() in place of route_flow()
+  DrillFit fit;
+  bool steepest = false;  // networks by route_steepest() in place of route_flow()
 
   FlowNetwork route(const Heightfield& ground) const;
-  bool is_first() const;  // monotone shapes on least-cost networks
+  bool is_first() const;  // shapes as printed on least-cost networks
 };
 inline constexpr std::array kVariants{
-    Variant{"monotone", "monotone shapes", Monotone::kEverywhere, false},
-    Variant{"printed", "shapes fitted as printed", Monotone::kNowhere, false},
-    Variant{"d8", "monotone shapes, networks by steepest descent", Monotone::kEverywhere, true},
+    Variant{"printed", "shapes fitted as printed", DrillFit::kPrinted},
+    Variant{"monotone", "monotone shapes", DrillFit::kMonotone},
+    Variant{"vertex", "shapes with their vertex at the pixel", DrillFit::kVertex},
+    Variant{"printed-d8", "shapes fitted as printed, networks by steepest descent", DrillFit::kPrinted, true},
+    Variant{"monotone-d8", "monotone shapes, networks by steepest descent", DrillFit::kMonotone, true},
+    Variant{"vertex-d8", "shapes with their vertex at the pixel, networks by steepest descent",
+            DrillFit::kVertex, true},
 };
-inline constexpr std::array<std::string_view, kVariants.size()> kVariantNames{"monotone", "printed", "d8"};
+inline constexpr auto kVariantNames = [] {
+  std::array<std::string_view, kVariants.size()> names;
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = kVariants[i].name;
+  return names;
+}();
 inline bool Variant::is_first() const { return name == kVariantNames[0]; }
-// The two fits: the first two variants.
-inline constexpr std::span<const Variant> kFits = std::span<const Variant>(kVariants).first(2);
+// The three fits: the first three variants.
+inline constexpr std::span<const Variant> kFits = std::span<const Variant>(kVariants).first(3);
 
 ParameterSpec variant_parameter();
 const Variant& variant_of(const Parameters&);
 
-// For experiments that measure both fits: the parameter, and a case per ground and fit, named after the
-// ground and, for the printed fit, "GROUND/printed".
+// For experiments that measure all fits: the parameter, and a case per ground and fit, named "GROUND" for the
+// printed fit, otherwise "GROUND/FIT".
 std::span<const ParameterSpec> fit_specs();
 std::vector<Case> fit_cases(const RunOptions&);
-// `ground`, or with "/printed" or the like behind it for another than the first variant.
+// `ground`, or with "/monotone" or the like behind it for another than the first variant.
 std::string with_variant(std::string_view ground, const Variant&);
 
 // Records a metric without unit if it is finite: errors of a flat ground have no range to divide by, and of
@@ -81,6 +91,9 @@ inline constexpr std::array kReadings = [] {
   }
   return all;
 }();
+
+// Sets the factorial's k of least RMSE in `drills`, and returns its error.
+ElevationError choose_influence_of_all(const Heightfield& ground, Drills& drills);
 
 // The results of one setting. Errors are normalised as in §3.1.
 struct Outcome {

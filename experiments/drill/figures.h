@@ -15,13 +15,13 @@ struct Study {
   const FlowNetwork& network;  // variant.route(ground)
   const Variant& variant;
   std::string name;    // for captions
-  std::string suffix;  // of figure ids; empty for the main ground under monotone shapes
+  std::string suffix;  // of figure ids; empty for the main ground and shapes as printed
 };
 
 // Figure 1: four panels with every channel pixel at a threshold each.
 figures::Sheet channels_sheet(const Study&);
-// Figure 2: the rays of one channel pixel, a path in a clear valley, their union and the fits. The ground is
-// more than 2 · 20 samples wide and deep.
+// Figure 2: the planes and cross-sections of one channel pixel, in a clear valley, their union and the fits.
+// The ground is more than 2 · 24 samples wide and deep.
 std::uint32_t example_pixel(const Study&);
 figures::Sheet cross_sections_sheet(const Study&, std::uint32_t pixel);
 // Figure 3, and the difference of its terrains from the ground.

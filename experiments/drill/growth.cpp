@@ -1,11 +1,12 @@
 // Time of each step against the size of the ground: windows of growing size on the same endless hills of
 // noise, so that the work per pixel stays the same. Flow is routed over whole metres (integer keys) and over
-// the same heights unrounded (heaps).
+// the same heights unrounded (heaps). Shapes are fitted as printed.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
 
+#include "experiments/drill/factorial.h"
 #include "experiments/drill/ground.h"
 #include "experiments/experiment.h"
 #include "experiments/ground.h"
@@ -52,8 +53,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     network.reset();  // one at a time, to bound memory: a network takes as much as the ground
     const double routing = seconds([&] { network = route_flow(whole); });
     Drills drills;
-    const double extraction =
-        seconds([&] { drills = extract_drills(whole, *network, {.tau = 25, .w = 10, .k = 20}); });
+    const double extraction = seconds([&] { drills = extract_drills(whole, *network, options_for({})); });
     network.reset();
     const double regeneration = seconds([&] { regenerate(drills); });
     drilled = drills.count();

@@ -1,4 +1,4 @@
-// The drill paper's statements about regeneration, for both fits: equation 1 never raises a pixel and does
+// The drill paper's statements about regeneration, for each fit: equation 1 never raises a pixel and does
 // not depend on the order of drills; shapes that fall outward, pits and steps at the edges of windows are
 // measured.
 #include <algorithm>
@@ -138,9 +138,15 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   record_rises(drills, recorder);
   record_channels(drills, ground, regenerated, recorder);
 
-  std::size_t falling = 0;
-  for (std::size_t i = 0; i < drills.count(); ++i) falling += drills.slope[i] < 0 || drills.curvature[i] < 0;
+  std::size_t falling = 0, rising = 0;
+  for (std::size_t i = 0; i < drills.count(); ++i) {
+    const bool falls = drills.slope[i] < 0 || drills.curvature[i] < 0;
+    falling += falls;
+    rising += !falls && drills.slope[i] + drills.curvature[i] > 0;  // neither falls nor is flat
+  }
   recorder.add("shapes_that_fall", "", falling);
+  add_share(recorder, "shapes_that_rise_share",
+            static_cast<double>(rising) / static_cast<double>(drills.count()));
   record_pits("original", ground, recorder);
   record_pits("regenerated", regenerated, recorder);
   // §4.1: channels that never rise downstream.

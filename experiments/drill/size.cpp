@@ -25,27 +25,45 @@ namespace {
 constexpr double kPaperShare = 13000.0 / 160000.0;
 
 struct Stored {
-  std::uint32_t tau = 0;
-  int k = 0;
-  std::size_t drills = 0, bytes = 0;
+  Drills drills;
+  std::size_t bytes = 0;
   ElevationError error;
 };
 
-// The least error over the factorial's k, with drills rounded as in their file.
+// With drills rounded as in their file, and the k of least error.
 Stored store(const Heightfield& ground, const FlowNetwork& network, const Variant& variant,
              std::uint32_t tau) {
-  Drills drills = extract_drills(ground, network, options_for({.tau = tau}, variant));
-  quantise(drills, automatic_quantum(ground));
+  Stored stored{extract_drills(ground, network, options_for({.tau = tau}, variant)), 0, {}};
+  quantise(stored.drills, automatic_quantum(ground));
+  stored.error = choose_influence_of_all(ground, stored.drills);
   ByteSink bytes;
-  encode_drills(drills, bytes);
-  Stored best;
-  for (const int k : kInfluences) {
-    drills.k = k;
-    const ElevationError error = elevation_error(ground, regenerate(drills));
-    if (best.k == 0 || error.rmse < best.error.rmse)
-      best = {tau, k, drills.count(), bytes.bytes().size(), error};
+  encode_drills(stored.drills, bytes);
+  stored.bytes = bytes.bytes().size();
+  return stored;
+}
+
+// Numbers of a drill as integers: multiples of the quanta of the file, as stored, or whole metres, metres per
+// sample and metres per sample².
+void record_integers(const Heightfield& ground, const FlowNetwork& network, const Variant& variant,
+                     std::uint32_t tau, const Drills& stored, Recorder& recorder) {
+  Drills exact = extract_drills(ground, network, options_for({.tau = tau}, variant));
+  Drills whole = exact;
+  for (auto* const numbers : {&whole.elevation, &whole.slope, &whole.curvature}) {
+    for (float& number : *numbers) number = std::round(number);
   }
-  return best;
+  const double error = choose_influence_of_all(ground, exact).rmse;
+  recorder.add("rmse_exact", "m", error);
+  const double error_whole = choose_influence_of_all(ground, whole).rmse;
+  recorder.add("rmse_whole", "m", error_whole);
+  double largest = std::max(ground.width, ground.depth);  // of x and y
+  const Quanta quanta(stored.quantum, stored.w);
+  const auto include = [&](const std::vector<float>& values, double quantum) {
+    for (const float value : values) largest = std::max(largest, std::abs(value / quantum));
+  };
+  include(stored.elevation, quanta.elevation);
+  include(stored.slope, quanta.slope);
+  include(stored.curvature, quanta.curvature);
+  recorder.add("largest_integer", "", largest);
 }
 
 // The threshold whose number of channel pixels is nearest to `pixels`.
@@ -89,13 +107,15 @@ void draw_rate_distortion(const TerrainSource& source, const FlowNetwork& networ
   plot.x = {"bits per sample", "", true};
   plot.y = {"RMSE", "m", true};
   constexpr std::array kThresholds{10U, 25U, 50U, 100U, 200U, 400U, 800U};
-  progress.begin("rate and distortion", kThresholds.size() + kPeers.size());
-  PlotSeries& drills = plot.series.emplace_back();
-  drills.label = "drills";
-  for (const std::uint32_t tau : kThresholds) {
-    const Stored stored = store(ground, network, kVariants[0], tau);
-    add_point(drills, stored.bytes, samples, stored.error.rmse);
-    progress.advance();
+  progress.begin("rate and distortion", kFits.size() * kThresholds.size() + kPeers.size());
+  for (const Variant& variant : kFits) {
+    PlotSeries& drills = plot.series.emplace_back();
+    drills.label = fmt::format("drills, {}", variant.name);
+    for (const std::uint32_t tau : kThresholds) {
+      const Stored stored = store(ground, network, variant, tau);
+      add_point(drills, stored.bytes, samples, stored.error.rmse);
+      progress.advance();
+    }
   }
   const Heightfield filled = fill_no_data(ground);
   for (const Peer& peer : kPeers) {
@@ -110,13 +130,11 @@ void draw_rate_distortion(const TerrainSource& source, const FlowNetwork& networ
   // All codecs store flat ground without error, which a logarithmic axis cannot show.
   if (height_range(ground).lowest == height_range(ground).highest) return;
   figures::write_chart(
-      recorder.figure(
-          "drill.rate-distortion" + suffix, "png",
-          fmt::format(
-              "Bits per sample against error for {}: drills in their own file format, with w = 10 and the "
-              "best k at each of seven thresholds, and the same ground in other codecs. Only coded bytes "
-              "count. Drills are entropy-coded, so LERC with DEFLATE is the fair comparison.",
-              source.name)),
+      recorder.figure("drill.rate-distortion" + suffix, "png",
+                      fmt::format("Bits per sample against error for {}: drills of each fit in their own "
+                                  "file format, with w = 10 "
+                                  "and the best k at seven thresholds, and the same ground in other codecs.",
+                                  source.name)),
       plot, 1200);
 }
 
@@ -126,17 +144,22 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const Variant& variant = variant_of(at.parameters);
   const FlowNetwork network = variant.route(ground);
   const auto samples = static_cast<double>(ground.heights.size());
-  const Stored stored =
-      store(ground, network, variant,
-            threshold_for(network, static_cast<std::size_t>(std::lround(kPaperShare * samples))));
-  recorder.add("tau", "pixels", stored.tau);
-  recorder.add("k", "samples", stored.k);
-  recorder.add("drills", "", stored.drills);
-  recorder.add("drills_per_160000", "", static_cast<double>(stored.drills) * 160000 / samples);
-  recorder.add("values_to_samples", "", 4 * static_cast<double>(stored.drills) / samples);
+  const auto wanted = static_cast<std::size_t>(std::lround(kPaperShare * samples));
+  const std::uint32_t tau = threshold_for(network, wanted);
+  const Stored stored = store(ground, network, variant, tau);
+  const auto drills = static_cast<double>(stored.drills.count());
+  recorder.add("tau", "pixels", tau);
+  recorder.add("k", "samples", stored.drills.k);
+  recorder.add("drills", "", drills);
+  recorder.add("drills_per_160000", "", drills * 160000 / samples);
+  recorder.add("values_to_samples", "", 4 * drills / samples);
   recorder.add("rmse", "m", stored.error.rmse);
   add_share(recorder, "rmse_normalised", stored.error.normalised());
   recorder.add("drill_bytes", "B", stored.bytes);
+  record_integers(ground, network, variant, tau, stored.drills, recorder);
+  // Whether so many drills are required: with a quarter of them.
+  add_share(recorder, "quarter_rmse_normalised",
+            store(ground, network, variant, threshold_for(network, wanted / 4)).error.normalised());
   const auto add = [&](std::string_view metric, const CompressedSize& size) {
     recorder.add(fmt::format("{}_bytes", metric), "B", size.bytes);
     recorder.add(fmt::format("{}_rmse", metric), "m", size.rmse);

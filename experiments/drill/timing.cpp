@@ -1,5 +1,5 @@
 // Time of extraction and regeneration against the threshold and against the number of drills, and what the
-// steps of extraction take (the drill paper's §3.1 and §4.1), for both fits. All are processor times on one
+// steps of extraction take (the drill paper's §3.1 and §4.1), for each fit. All are processor times on one
 // thread, as the paper's scripts ran: a busy machine does not change their ratios.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -54,9 +54,7 @@ double median(const std::vector<double>& samples) { return summarise(samples).me
 class ShapeSteps {
  public:
   ShapeSteps(const Heightfield& ground, const Drills& drills, const Variant& variant)
-      : ground_(ground),
-        drills_(drills),
-        rises_to_(variant.monotone == Monotone::kNowhere ? kRisesNowhere : kRisesEverywhere) {}
+      : ground_(ground), drills_(drills), fit_(variant.fit) {}
 
   void collect_unions() {
     const CrossSections sections(ground_, drills_.w);
@@ -67,7 +65,7 @@ class ShapeSteps {
   void fit() {
     shapes_.resize(drills_.count());
     tbb::parallel_for(std::size_t{0}, drills_.count(), [&](std::size_t drill) {
-      shapes_[drill] = fit_profile(at(drill), drills_.elevation[drill], rises_to_);
+      shapes_[drill] = fit_profile(at(drill), drills_.elevation[drill], fit_);
     });
   }
   // Whether they gave the same shapes as extract_drills().
@@ -85,16 +83,16 @@ class ShapeSteps {
 
   const Heightfield& ground_;
   const Drills& drills_;
-  double rises_to_;
+  DrillFit fit_;
   std::vector<float> unions_;  // w heights per drill
   std::vector<FittedProfile> shapes_;
 };
 
 // All that is timed on one ground.
 struct Times {
-  std::vector<double> routing, unions, fitting;           // the last two at the paper's τ
-  std::vector<double> regeneration, regeneration_matrix;  // k = 20, and as the size of the matrix: k = 10
-  std::vector<std::vector<double>> extraction;            // by threshold, without routing
+  std::vector<double> routing, unions, fitting;  // the last two at the paper's τ
+  std::vector<double> regeneration;              // k = 20
+  std::vector<std::vector<double>> extraction;   // by threshold, without routing
 
   void record(Recorder& recorder) const {
     const auto add = [&](std::string_view metric, const std::vector<double>& samples) {
@@ -104,7 +102,6 @@ struct Times {
     add("union_time", unions);
     add("fitting_time", fitting);
     add("regeneration_time", regeneration);
-    add("regeneration_time_matrix", regeneration_matrix);
     for (std::size_t t = 0; t < kTimedTaus.size(); ++t) {
       add(fmt::format("extraction_time_tau_{}", kTimedTaus[t]), extraction[t]);
     }
@@ -117,6 +114,7 @@ void record_lines(const Times& times, const std::vector<Drills>& drills, Recorde
     pixels.push_back(static_cast<double>(drills[t].count()));
     taus.push_back(kTimedTaus[t]);
     medians.push_back(median(times.extraction[t]));
+    recorder.add(fmt::format("drills_tau_{}", kTimedTaus[t]), "", pixels.back());
   }
   const Line line = fit_line(pixels, medians);
   recorder.add("seconds_per_drill", "s", line.slope);
@@ -138,11 +136,9 @@ void record_ratios(const Times& times, Recorder& recorder) {
     if (std::isfinite(value)) recorder.add_varying(metric, "", value);
   };
   const double routing = median(times.routing), shapes = median(times.extraction[kPaperTau]);
-  const double wide = median(times.regeneration), narrow = median(times.regeneration_matrix);
-  add_varying_share("shapes_to_regeneration", shapes / wide);
-  add_varying_share("shapes_to_regeneration_matrix", shapes / narrow);
-  add_varying_share("all_to_regeneration", (routing + shapes) / wide);
-  add_varying_share("all_to_regeneration_matrix", (routing + shapes) / narrow);
+  const double regeneration = median(times.regeneration);
+  add_varying_share("shapes_to_regeneration", shapes / regeneration);
+  add_varying_share("all_to_regeneration", (routing + shapes) / regeneration);
   const double unions = median(times.unions), fitting = median(times.fitting),
                all = routing + unions + fitting;
   add_varying_share("fitting_share", fitting / all);
@@ -176,8 +172,6 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     time(times.fitting, [&] { steps.fit(); });
     agree = agree && steps.agree();
     time(times.regeneration, [&] { regenerate(paper); });
-    paper.k = 10;
-    time(times.regeneration_matrix, [&] { regenerate(paper); });
     if (sample >= 0) progress.advance();
   }
   times.record(recorder);

@@ -48,7 +48,7 @@ class Search {
       for (const int k : kInfluences) {
         at.k = drills.k = k;
         // The shapes depend on k in this reading only.
-        if (at.monotone == Monotone::kWindow) drills = extract_drills(field_, network_, at);
+        if (at.fit == DrillFit::kMonotoneInWindow) drills = extract_drills(field_, network_, at);
         const double error = elevation_error(field_, regenerate(drills)).rmse;
         if (error >= least) continue;
         least = error;

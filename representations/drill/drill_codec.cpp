@@ -26,6 +26,20 @@ struct Numbers {
   std::int32_t rise = 0, turn = 0;
 };
 
+// Which of the numbers that are often all alike the file has for each drill.
+struct Stored {
+  bool influence = false;
+  bool slope = false;  // not for shapes with their vertex at the pixel
+  static constexpr std::uint8_t kInfluence = 1, kNoSlope = 2;
+
+  explicit Stored(const Drills& drills)
+      : influence(!drills.influence.empty()),
+        slope(std::ranges::any_of(drills.slope, [](float slope) { return slope != 0; })) {}
+  explicit Stored(std::uint8_t flags)
+      : influence((flags & kInfluence) != 0), slope((flags & kNoSlope) == 0) {}
+  int flags() const { return (influence ? kInfluence : 0) | (slope ? 0 : kNoSlope); }
+};
+
 // A drill's place in the tree: its pixel, the direction in which it drains, and what is known downstream.
 struct Place {
   std::uint32_t pixel;
@@ -53,19 +67,19 @@ class DrillCoder {
     return children_[place.bend].code(coder_, mask >> 1) << 1;
   }
 
-  Numbers numbers(const Place& place, const Numbers& own, bool with_influence) {
+  Numbers numbers(const Place& place, const Numbers& own, Stored stored) {
     const Numbers& down = place.downstream;
     const auto context = [](std::int32_t number) {
       return std::min(NumberModel::size(number), kContexts - 1);
     };
     Numbers coded;
     coded.rise = rise_[context(down.rise)].code(coder_, own.elevation - down.elevation);
-    coded.turn = turn_[context(down.turn)].code(coder_, own.slope - down.slope);
+    if (stored.slope) coded.turn = turn_[context(down.turn)].code(coder_, own.slope - down.slope);
     coded.elevation = sum(down.elevation, coded.rise);
     coded.slope = sum(down.slope, coded.turn);
     const int level = (down.curvature == 0 ? 1 : 0) + (coded.slope == 0 ? 2 : 0);
     coded.curvature = sum(down.curvature, curvature_[level].code(coder_, own.curvature - down.curvature));
-    if (with_influence)
+    if (stored.influence)
       coded.influence = sum(down.influence, influence_.code(coder_, own.influence - down.influence));
     return coded;
   }
@@ -100,7 +114,8 @@ std::optional<Place> upstream(const Drills& grid, const Place& place, std::uint3
 
 class Encoder {
  public:
-  explicit Encoder(const Drills& drills) : drills_(drills), quanta_(drills.quantum, drills.w), code_(coder_) {
+  explicit Encoder(const Drills& drills)
+      : drills_(drills), stored_(drills), quanta_(drills.quantum, drills.w), code_(coder_) {
     const auto width = static_cast<std::uint32_t>(drills.width);
     row_.resize(static_cast<std::size_t>(drills.depth) + 1);
     for (const std::uint32_t pixel : drills.pixel) ++row_[pixel / width + 1];
@@ -171,7 +186,7 @@ class Encoder {
   }
 
   Numbers put_drill(const Place& place) {
-    const Numbers coded = code_.numbers(place, numbers_of(find(place.pixel)), !drills_.influence.empty());
+    const Numbers coded = code_.numbers(place, numbers_of(find(place.pixel)), stored_);
     std::uint32_t mask = 0;
     for (std::uint32_t e = place.direction == FlowNetwork::kOutlet ? 0 : 1; e < 8; ++e) {
       const auto child = upstream(drills_, place, e, coded);
@@ -186,6 +201,7 @@ class Encoder {
   }
 
   const Drills& drills_;
+  Stored stored_;
   Quanta quanta_;
   RangeEncoder coder_;
   DrillCoder<RangeEncoder> code_;
@@ -195,9 +211,9 @@ class Encoder {
 
 class Decoder {
  public:
-  Decoder(Drills& drills, bool with_influence, std::span<const std::byte> bytes, const ByteSource& source)
+  Decoder(Drills& drills, Stored stored, std::span<const std::byte> bytes, const ByteSource& source)
       : drills_(drills),
-        with_influence_(with_influence),
+        stored_(stored),
         source_(source),
         quanta_(drills.quantum, drills.w),
         coder_(bytes, source),
@@ -265,7 +281,7 @@ class Decoder {
 
   Numbers get_drill(const Place& place) {
     before_growth(drills_.count(), kBytesPerDrill);
-    const Numbers own = code_.numbers(place, {}, with_influence_);
+    const Numbers own = code_.numbers(place, {}, stored_);
     const auto fits = [](std::int32_t number) { return number >= -kMostQuanta && number <= kMostQuanta; };
     if (!fits(own.elevation) || !fits(own.slope) || !fits(own.curvature) || own.influence < 0 ||
         own.influence > drills_.k) {
@@ -276,7 +292,7 @@ class Decoder {
     drills_.elevation.push_back(in_metres(own.elevation, quanta_.elevation));
     drills_.slope.push_back(in_metres(own.slope, quanta_.slope));
     drills_.curvature.push_back(in_metres(own.curvature, quanta_.curvature));
-    if (with_influence_) drills_.influence.push_back(static_cast<std::uint8_t>(own.influence));
+    if (stored_.influence) drills_.influence.push_back(static_cast<std::uint8_t>(own.influence));
     const std::uint32_t mask = code_.children(place, 0);
     for (std::uint32_t e = 0; e < 8; ++e) {
       if ((mask >> e & 1U) == 0) continue;
@@ -309,7 +325,7 @@ class Decoder {
   }
 
   Drills& drills_;
-  bool with_influence_;
+  Stored stored_;
   const ByteSource& source_;
   Quanta quanta_;
   RangeDecoder coder_;
@@ -335,8 +351,7 @@ void encode_drills(const Drills& drills, ByteSink& out) {
   out.put(drills.width);
   out.put(drills.depth);
   for (const float metres : {drills.cell_x, drills.cell_z, drills.plateau, drills.quantum}) out.put(metres);
-  for (const int small :
-       {drills.w, drills.k, drills.influence.empty() ? 0 : 1, drills.interpolated ? 1 : 0}) {
+  for (const int small : {drills.w, drills.k, Stored(drills).flags(), drills.interpolated ? 1 : 0}) {
     out.put(static_cast<std::uint8_t>(small));
   }
   const std::vector<std::byte> coded = Encoder(drills).run();
@@ -352,12 +367,13 @@ Drills decode_drills(ByteSource& in) {
     *metres = in.get<float>();
   drills.w = in.get<std::uint8_t>();
   drills.k = in.get<std::uint8_t>();
-  const auto with_influence = in.get<std::uint8_t>(), interpolated = in.get<std::uint8_t>();
-  if (with_influence > 1 || interpolated > 1) in.fail("the drills' flags are impossible");
+  const auto flags = in.get<std::uint8_t>(), interpolated = in.get<std::uint8_t>();
+  if (flags > (Stored::kInfluence | Stored::kNoSlope) || interpolated > 1)
+    in.fail("the drills' flags are impossible");
   drills.interpolated = interpolated == 1;
   check_frame(drills, in);
   const std::vector<std::byte> coded = in.get_array<std::byte>(in.get<std::uint64_t>());
-  Decoder(drills, with_influence == 1, coded, in).run();
+  Decoder(drills, Stored(flags), coded, in).run();
   return drills;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "representations/column_grid.h"
@@ -16,6 +17,8 @@
 namespace terrabench {
 namespace {
 
+constexpr std::array<std::string_view, 3> kFitNames{"monotone", "printed", "vertex"};
+constexpr std::array kFits{DrillFit::kMonotone, DrillFit::kPrinted, DrillFit::kVertex};
 constexpr float kMostHeight = 1e9F;  // CrossSections treats heights far below as no data
 
 std::vector<ParameterSpec> make_parameters() {
@@ -27,7 +30,10 @@ std::vector<ParameterSpec> make_parameters() {
        {"w", std::int64_t{10}, "samples", "length of the cross-sections", 1, Drills::kMaxInfluence},
        {"k", std::int64_t{10}, "samples", "influence: a drill's window is 2k + 1 wide", 0,
         Drills::kMaxInfluence},
-       {"monotone", true, "", "shapes never fall from the centre outward"},
+       choice(
+           "fit", kFitNames,
+           "shapes: never falling from the centre outward, as printed in §2.2 (free but for the centre), or "
+           "parabolas with their vertex at the centre"),
        {"monotone_profiles", false, "", "elevations never rise downstream, so that no pit is left"},
        {"adaptive_k", false, "", "an influence per drill, up to k"},
        {"interpolate_untouched", false, "", "interpolate pixels that no drill touches"},
@@ -44,7 +50,7 @@ DrillOptions options_from(const Parameters& parameters) {
   options.tau = static_cast<std::uint32_t>(parameters.integer("tau"));
   options.w = static_cast<int>(parameters.integer("w"));
   options.k = static_cast<int>(parameters.integer("k"));
-  options.monotone = parameters.flag("monotone") ? Monotone::kEverywhere : Monotone::kNowhere;
+  options.fit = kFits[parameters.choice("fit")];
   options.monotone_profiles = parameters.flag("monotone_profiles");
   options.adaptive_k = parameters.flag("adaptive_k");
   options.interpolate_untouched = parameters.flag("interpolate_untouched");

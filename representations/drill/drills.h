@@ -1,7 +1,7 @@
 // A terrain as drill operations on a plateau (Stuetzle & Franklin 2012, "Representing terrain with
 // mathematical operators"): for every channel pixel a shape D(r) = elevation + slope·r + curvature·r², r the
 // distance from the pixel in samples, cut into the terrain above it within a square window (eq. 1). 12 bytes
-// of shape and 5 of position per drill.
+// of shape and 5 of position per drill; files of shapes with their vertex at the pixel hold no slope.
 //
 // Distances are counted in samples, as the paper does, also where cells are not square.
 #pragma once

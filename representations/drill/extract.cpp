@@ -9,7 +9,6 @@
 
 #include "representations/drill/cross_sections.h"
 #include "representations/drill/influence.h"
-#include "representations/drill/profile_fit.h"
 #include "terrain/error.h"
 #include "terrain/hydrology/channels.h"
 #include "terrain/memory.h"
@@ -43,9 +42,16 @@ std::vector<float> monotone_elevations(const Heightfield& field, const FlowNetwo
   return elevation;
 }
 
-void shape_drills(const CrossSections& sections, double rises_to, Drills& drills, Progress* progress) {
+// How far shapes of kMonotoneInWindow must not fall: to the window's corners and the cross-section's end.
+double window_of(const DrillOptions& options) {
+  return std::max(static_cast<double>(options.w), options.k * std::numbers::sqrt2);
+}
+
+void shape_drills(const CrossSections& sections, const DrillOptions& options, Drills& drills,
+                  Progress* progress) {
   const std::size_t count = drills.count();
   if (progress != nullptr) progress->begin("drill shapes", (count + kDrillsPerTask - 1) / kDrillsPerTask);
+  const double window = window_of(options);
   drills.slope.resize(count);
   drills.curvature.resize(count);
   tbb::parallel_for(std::size_t{0}, (count + kDrillsPerTask - 1) / kDrillsPerTask, [&](std::size_t step) {
@@ -53,25 +59,16 @@ void shape_drills(const CrossSections& sections, double rises_to, Drills& drills
     for (std::size_t i = step * kDrillsPerTask; i < std::min(count, (step + 1) * kDrillsPerTask); ++i) {
       sections.join(drills.pixel[i], joined);
       const float centre = drills.elevation[i];
-      const FittedProfile profile = fit_profile(joined, centre, rises_to);
+      FittedProfile profile = fit_profile(joined, centre, options.fit, window);
       // A drill that sees no ground around it digs its own pixel only: the plateau is one sample away.
-      drills.slope[i] = profile.determined ? profile.slope : drills.plateau - centre;
+      if (!profile.determined) {
+        (options.fit == DrillFit::kVertex ? profile.curvature : profile.slope) = drills.plateau - centre;
+      }
+      drills.slope[i] = profile.slope;
       drills.curvature[i] = profile.curvature;
     }
     if (progress != nullptr) progress->advance();
   });
-}
-
-double rises_to(const DrillOptions& options) {
-  switch (options.monotone) {
-    case Monotone::kNowhere:
-      return kRisesNowhere;
-    case Monotone::kWindow:
-      return std::max(static_cast<double>(options.w), options.k * std::numbers::sqrt2);
-    case Monotone::kEverywhere:
-      break;
-  }
-  return kRisesEverywhere;
 }
 
 void require(bool good, std::string_view what, std::int64_t given, std::string_view advice) {
@@ -124,7 +121,7 @@ Drills extract_drills(const Heightfield& field, const FlowNetwork& network, cons
   drills.interpolated = options.interpolate_untouched;
   if (drills.count() == 0) return drills;
   require_memory(CrossSections::bytes(field, options.w), "cross-sections");
-  shape_drills(CrossSections(field, options.w), rises_to(options), drills, progress);
+  shape_drills(CrossSections(field, options.w), options, drills, progress);
   if (options.adaptive_k) choose_influence(field, drills, progress);
   return drills;
 }

@@ -5,25 +5,19 @@
 #include <cstdint>
 
 #include "representations/drill/drills.h"
+#include "representations/drill/profile_fit.h"
 #include "terrain/heightfield.h"
 #include "terrain/hydrology/flow.h"
 #include "terrain/progress.h"
 
 namespace terrabench {
 
-// How far from its centre a shape must not fall outward.
-enum class Monotone {
-  kNowhere,    // the fit as printed in §2.2: parabolas may bend down, and then fall without end beyond w
-  kWindow,     // as far as the window and the cross-section reach
-  kEverywhere  // as §4 says of the shapes: slope and curvature ≥ 0
-};
-
 struct DrillOptions {
   std::uint32_t tau = 25;  // least flow of a channel, pixels
   int w = 10;              // length of a cross-section, samples
   int k = 10;              // influence, samples
-  Monotone monotone = Monotone::kEverywhere;
-  // §4.1: elevations never rise downstream. With shapes monotone everywhere no pit can be left (pits.h).
+  DrillFit fit = DrillFit::kMonotone;
+  // §4.1: elevations never rise downstream. With monotone shapes no pit can be left (pits.h).
   bool monotone_profiles = false;
   bool adaptive_k = false;             // §4.1: a k per drill, up to `k` (influence.h)
   bool interpolate_untouched = false;  // §4.1: see regenerate.h

@@ -176,8 +176,8 @@ TEST_F(CommandLine, EveryPictureLeftBehindIsARecordsOwn) {
     EXPECT_GT(read_png(entry.path()).width, 400) << entry.path();
     ++pictures;
   }
-  // Figures 1 and 2, figures 3 and 4 and the differences for both fits, and rate and distortion.
-  EXPECT_EQ(pictures, 9);
+  // Figures 1 and 2, figures 3 and 4 and the differences for three fits, and rate and distortion.
+  EXPECT_EQ(pictures, 12);
   EXPECT_EQ(temporary_files(), 0U);
 }
 

@@ -192,7 +192,7 @@ int wrong_cells(const figures::Sheet& sheet, std::vector<Outcome> outcomes) {
            std::tie(b.setting.w, b.setting.tau, b.setting.k);
   });
   const SheetReader shown(sheet);
-  const double middle = shown.image.width / 4.0, bottom = shown.image.height / 2.0 - 40;
+  const double middle = shown.image.width / 4.0, bottom = shown.image.height / 2.0 - 56;
   int wrong = 0;
   for (const bool left : {true, false}) {
     std::vector<SheetReader::Words> cells;

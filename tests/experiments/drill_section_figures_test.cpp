@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "experiments/drill/cutting_planes.h"
 #include "tests/experiments/drill_figure_grounds.h"
 
 namespace terrabench::drill {
@@ -99,16 +100,14 @@ std::vector<std::string> faults_of_sections(const figures::Sheet& sheet, const H
     std::copy_if(lines.begin(), lines.end(), std::back_inserter(found), test);
     return found;
   };
-  const auto rays =
-      of([](const Drawn& l) { return l.thickness == 1.2 && l.points.size() == 2 && l.points[0].y < 480; });
   const auto sections = of([](const Drawn& l) { return l.opacity == 0.85; });
   const auto joint = of([](const Drawn& l) { return l.thickness == 4 && l.points.size() > 2; });
   const auto printed = of([](const Drawn& l) { return l.dashes == "2,4" && l.points.size() > 2; });
-  if (rays.size() != 120 || sections.size() != 120) faults.push_back("not 120 rays and cross-sections");
+  if (sections.size() != 120) faults.push_back("not 120 cross-sections");
   if (joint.size() != 1 || printed.size() != 1) return {"no union or no fit"};
   std::set<std::string> colours;
-  for (const Drawn& ray : rays) colours.insert(ray.colour);
-  if (colours.size() < 100) faults.push_back("rays share colours");
+  for (const Drawn& section : sections) colours.insert(section.colour);
+  if (colours.size() < 100) faults.push_back("cross-sections share colours");
   // The scale of the elevations, from two labels of the axis, each 4 units below its line.
   std::map<double, double> labels;  // y to elevation
   for (const SheetReader::Words& words : SheetReader(sheet, false).words) {
@@ -140,13 +139,46 @@ TEST(DrillFigures, CrossSectionsTheirUnionAndFit) {
   ASSERT_GT(pixel, 0U);
   const figures::Sheet sheet = cross_sections_sheet(study, pixel);
   EXPECT_EQ(faults_of_sections(sheet, study.ground, pixel), std::vector<std::string>{});
-  EXPECT_EQ(SheetReader(sheet, false).pictures.size(), 2U);  // the map and its key
+  EXPECT_EQ(SheetReader(sheet, false).pictures.size(), 1U);  // the planes
   EXPECT_EQ(read(sheet).fault_of_panels(declared_panels("drill.F2")), "");
   // The sections of the next pixel, and of the same pixel on another ground.
   EXPECT_NE(faults_of_sections(cross_sections_sheet(study, pixel + 1), study.ground, pixel),
             std::vector<std::string>{});
   EXPECT_NE(faults_of_sections(cross_sections_sheet(grounds().mirrored(), pixel), study.ground, pixel),
             std::vector<std::string>{});
+}
+
+// How much redder than green a pixel is.
+int redness(const Image& image, const glm::dvec2& at) {
+  const Rgb colour = image.pixel(static_cast<int>(at.x), static_cast<int>(at.y));
+  return colour[0] - colour[1];
+}
+
+TEST(DrillFigures, PlanesCutTheGroundAlongTheCrossSections) {
+  constexpr int kWidth = 420, kHeight = 400, kW = 20;
+  const Study study = grounds().study();
+  const CuttingPlanes planes(study.ground, example_pixel(study), kW);
+  const Image image = planes.draw(kWidth, kHeight);
+  // Where ground faces the eye, the lines in which planes cut it are redder than the ground between them,
+  // which shows through a plane or two at most.
+  int seen = 0, redder = 0;
+  for (int m = 0; m < CuttingPlanes::kPlanes; ++m) {
+    const double step = 2 * std::numbers::pi / CuttingPlanes::kPlanes;
+    for (const double r : {8.0, 12.0, 16.0}) {
+      const auto at = [&](double turn) {
+        return planes.on_image(r * std::cos(turn), r * std::sin(turn), kWidth, kHeight);
+      };
+      ++seen;
+      redder += redness(image, at(m * step)) > redness(image, at((m + 0.5) * step));
+    }
+  }
+  EXPECT_GE(redder, seen * 3 / 4);
+  // Beyond the planes' ends there is plain ground, and beside the block paper.
+  EXPECT_LT(redness(image, planes.on_image(0, kW + 3, kWidth, kHeight)), 60);
+  EXPECT_EQ(image.pixel(2, 2), (Rgb{255, 255, 255}));
+  // Another ground is another picture.
+  const Image other = CuttingPlanes(grounds().other, example_pixel(study), kW).draw(kWidth, kHeight);
+  EXPECT_NE(image.rgb, other.rgb);
 }
 
 }  // namespace

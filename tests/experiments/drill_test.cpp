@@ -8,6 +8,7 @@
 #include "experiments/drill/analysis.h"
 #include "experiments/drill/edges.h"
 #include "experiments/drill/ground.h"
+#include "experiments/drill/sweep.h"
 #include "experiments/figures/maps.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/hydrology/channels.h"
@@ -154,9 +155,63 @@ TEST(DrillFactorial, ReadsEquationThreeInTwelveWays) {
 
 TEST(DrillFactorial, AllReadingsAndVariantsAreCases) {
   const std::vector<Case> cases = experiment("drill.readings").cases({});
-  EXPECT_EQ(cases.size(), 36U);
+  EXPECT_EQ(cases.size(), 72U);
   for (const Case& at : cases)
     EXPECT_EQ(kReadings[at.parameters.choice("reading")].name(), at.parameters.text("reading"));
+}
+
+// A sweep with the RMSE that `error` gives.
+template <class Error>
+Sweep swept(const Error& error) {
+  Sweep sweep;
+  for (std::size_t t = 0; t < kTaus.size(); ++t) {
+    for (std::size_t w = 0; w < kSweptWidths.size(); ++w) {
+      for (int k = kLeastK; k <= kMostK; ++k) {
+        sweep.rmse[t][w][static_cast<std::size_t>(k - kLeastK)] =
+            error(Setting{kTaus[t], kSweptWidths[w], k});
+      }
+    }
+  }
+  return sweep;
+}
+
+TEST(DrillSweep, LevelsAreThoseThatThePaperAllows) {
+  const std::vector<Levels> all = allowed_levels();
+  // 16 · 15 / 2 pairs of widths beside 10, and the series of six influences in 2 … 40 that hold 20.
+  int series = 0;
+  for (int step = 1; step <= 7; ++step) {
+    for (int place = 0; place < 6; ++place) series += 20 - place * step >= 2 && 20 + (5 - place) * step <= 40;
+  }
+  EXPECT_EQ(all.size(), 120U * static_cast<std::size_t>(series));
+  for (const Levels& levels : all) {
+    EXPECT_TRUE(std::ranges::count(levels.influences, 20) == 1 && std::ranges::is_sorted(levels.influences));
+    EXPECT_EQ(std::set(levels.widths.begin(), levels.widths.end()).size(), 3U);
+  }
+}
+
+TEST(DrillSweep, CountsTheFactorialsInWhichStatementsHold) {
+  const auto bowl = [](const Setting& s) { return std::abs(s.w - 10) + std::abs(s.k - 20) + 0.001 * s.tau; };
+  const Held best = held(swept(bowl));
+  EXPECT_EQ(best.best, best.all);
+  EXPECT_EQ(best.every_case, best.all);
+  EXPECT_EQ(best.tau_first, 0);
+  const Held tau = held(swept([](const Setting& s) { return 100.0 * s.tau + s.w + s.k; }));
+  EXPECT_EQ(tau.tau_first, tau.all);
+  // The least w and k are the best: those of 66 of the 120 pairs of widths, and of 4 of the 28 series.
+  EXPECT_EQ(tau.best_width, 66 * 28);
+  EXPECT_EQ(tau.best, 66 * 4);
+  EXPECT_EQ(held(swept([](const Setting& s) { return 1.0 / s.tau; })).every_case, 0);
+}
+
+TEST(DrillSweep, AgreesWithTheFactorial) {
+  const Heightfield ground = crop(noise_hills(70, 3), 0, 0, 60, 50);
+  Progress progress;
+  const Sweep all = sweep(ground, kVariants[2].route(ground), kVariants[2], progress);
+  for (const Outcome& o : factorial(ground, kVariants[2].route(ground), kVariants[2], progress)) {
+    const auto w = std::ranges::find(kSweptWidths, o.setting.w) - kSweptWidths.begin();
+    const auto t = std::ranges::find(kTaus, o.setting.tau) - kTaus.begin();
+    EXPECT_EQ(all.at(static_cast<std::size_t>(t), static_cast<std::size_t>(w), o.setting.k), o.rmse);
+  }
 }
 
 // One drill that rises by 2 m per sample in a window of 5 × 5 on a plateau of 100 m.

@@ -57,7 +57,7 @@ std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
       options.tau = 2;
       options.w = 1;
       options.k = 3;
-      options.monotone = all ? Monotone::kNowhere : Monotone::kEverywhere;
+      options.fit = all ? DrillFit::kPrinted : DrillFit::kVertex;
       options.adaptive_k = options.interpolate_untouched = all;
       Drills drills = extract_drills(field, route_flow(field), options);
       quantise(drills, 0.5F);

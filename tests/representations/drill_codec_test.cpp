@@ -98,7 +98,7 @@ TEST(DrillCodec, GivesBackEveryBit) {
     for (const std::uint32_t tau : {1U, 10U, 200U, 1000000U}) {
       DrillOptions options;
       options.tau = tau;
-      options.monotone = seed == 4 ? Monotone::kNowhere : Monotone::kEverywhere;
+      options.fit = seed == 4 ? DrillFit::kPrinted : seed == 3 ? DrillFit::kVertex : DrillFit::kMonotone;
       options.adaptive_k = seed == 5;
       options.interpolate_untouched = seed == 2;
       Drills drills = drill(field, options);
@@ -161,6 +161,21 @@ TEST(DrillCodec, CoarserIsSmallerAndAllAreFarSmallerThanPlainNumbers) {
     before = bytes;
   }
   EXPECT_LT(before, drills.count() * 2);
+}
+
+TEST(DrillCodec, ShapesWithTheirVertexAtThePixelHaveNoSlopeInTheFile) {
+  DrillOptions options;
+  options.tau = 10;
+  const Heightfield field = hills(90, 70, 5);
+  Drills full = drill(field, options);
+  options.fit = DrillFit::kVertex;
+  Drills four = drill(field, options);
+  for (Drills* drills : {&full, &four}) quantise(*drills, 0.5F);
+  EXPECT_LT(static_cast<double>(encoded(four).size()), 0.75 * static_cast<double>(encoded(full).size()));
+  EXPECT_TRUE(same_drills(decoded(encoded(four)), four));
+  four.slope.back() = full.slope.back() + 1;  // a single slope is kept
+  quantise(four, 0.5F);
+  EXPECT_TRUE(same_drills(decoded(encoded(four)), four));
 }
 
 TEST(DrillCodec, RefusesQuantaThatMakeNoSense) {

@@ -52,7 +52,7 @@ double squared_error(const std::vector<std::pair<double, double>>& samples, doub
 }
 
 // The least error under the bounds, by nested ternary search: the error is convex in both unknowns.
-double least_error(const std::vector<std::pair<double, double>>& samples, double rises_to) {
+double least_error(const std::vector<std::pair<double, double>>& samples, DrillFit fit, double window) {
   const auto search = [](double low, double high, const std::function<double(double)>& f) {
     for (int i = 0; i < 200; ++i) {
       const double p = low + (high - low) / 3, q = high - (high - low) / 3;
@@ -61,11 +61,12 @@ double least_error(const std::vector<std::pair<double, double>>& samples, double
     return f(low);
   };
   constexpr double kFar = 3000;
-  const bool everywhere = rises_to == kRisesEverywhere;
+  const bool everywhere = fit == DrillFit::kMonotone;
   return search(everywhere ? 0 : -kFar, kFar, [&](double b) {
-    const double least_slope = rises_to == kRisesNowhere ? -kFar * 20
+    const double least_slope = fit == DrillFit::kPrinted ? -kFar * 20
                                : everywhere              ? 0
-                                                         : std::max(0.0, -2 * b * rises_to);
+                                                         : std::max(0.0, -2 * b * window);
+    if (fit == DrillFit::kVertex) return squared_error(samples, 0, b);
     return search(least_slope, least_slope + kFar * 40,
                   [&](double a) { return squared_error(samples, a, b); });
   });
@@ -123,15 +124,21 @@ TEST(ProfileFit, IsTheLeastSquaresUnderItsBounds) {
       if (CrossSections::is_sample(joined[i])) samples.emplace_back(r, joined[i] - 300.0);
     }
     if (samples.size() < 2) continue;
-    for (const double rises_to : {kRisesNowhere, kRisesEverywhere, static_cast<double>(w) * 1.5}) {
-      const FittedProfile fit = fit_profile(joined, 300, rises_to);
+    const double window = static_cast<double>(w) * 1.5;
+    for (const DrillFit fit_to :
+         {DrillFit::kPrinted, DrillFit::kVertex, DrillFit::kMonotone, DrillFit::kMonotoneInWindow}) {
+      const FittedProfile fit = fit_profile(joined, 300, fit_to, window);
       ASSERT_TRUE(fit.determined);
       const double error = squared_error(samples, fit.slope, fit.curvature);
-      const double expected = least_error(samples, rises_to);
-      EXPECT_NEAR(error, expected, 1e-3 * (1 + expected)) << "rises to " << rises_to << ", w " << w;
-      if (rises_to == kRisesNowhere) continue;
+      const double expected = least_error(samples, fit_to, window);
+      EXPECT_NEAR(error, expected, 1e-3 * (1 + expected))
+          << "fit " << static_cast<int>(fit_to) << ", w " << w;
+      if (fit_to == DrillFit::kVertex) {
+        EXPECT_EQ(fit.slope, 0);
+      }
+      if (fit_to == DrillFit::kPrinted || fit_to == DrillFit::kVertex) continue;
       EXPECT_GE(fit.slope, 0);
-      const double end = std::min(rises_to, 1e6);
+      const double end = fit_to == DrillFit::kMonotone ? 1e6 : window;
       EXPECT_GE(fit.slope + 2 * end * fit.curvature, -1e-4);
     }
   }
@@ -140,19 +147,25 @@ TEST(ProfileFit, IsTheLeastSquaresUnderItsBounds) {
 TEST(ProfileFit, FollowsAnExactParabola) {
   std::vector<float> joined;
   for (int r = 1; r <= 10; ++r) joined.push_back(static_cast<float>(100 + 4 * r + 0.5 * r * r));
-  for (const double rises_to : {kRisesNowhere, kRisesEverywhere, 14.0}) {
-    const FittedProfile fit = fit_profile(joined, 100, rises_to);
+  for (const DrillFit fit_to : {DrillFit::kPrinted, DrillFit::kMonotone, DrillFit::kMonotoneInWindow}) {
+    const FittedProfile fit = fit_profile(joined, 100, fit_to, 14);
     EXPECT_NEAR(fit.slope, 4, 1e-4);
     EXPECT_NEAR(fit.curvature, 0.5, 1e-5);
   }
+  for (int r = 1; r <= 10; ++r)
+    joined[static_cast<std::size_t>(r) - 1] = 100 + 0.75F * static_cast<float>(r * r);
+  const FittedProfile vertex = fit_profile(joined, 100, DrillFit::kVertex);
+  EXPECT_EQ(vertex.slope, 0);
+  EXPECT_FLOAT_EQ(vertex.curvature, 0.75F);
 }
 
 TEST(ProfileFit, OfOneSampleIsALineAndOfNoneIsUndetermined) {
   const std::vector<float> one = {CrossSections::kNothing, 130}, none(4, CrossSections::kNothing);
-  const FittedProfile line = fit_profile(one, 100, kRisesEverywhere);
+  const FittedProfile line = fit_profile(one, 100, DrillFit::kMonotone);
   EXPECT_FLOAT_EQ(line.slope, 15);
   EXPECT_EQ(line.curvature, 0);
-  EXPECT_FALSE(fit_profile(none, 100, kRisesEverywhere).determined);
+  EXPECT_FALSE(fit_profile(none, 100, DrillFit::kMonotone).determined);
+  EXPECT_FLOAT_EQ(fit_profile(one, 100, DrillFit::kVertex).curvature, 7.5F);
 }
 
 TEST(Extraction, DrillsAreTheChannelsInRowMajorOrder) {

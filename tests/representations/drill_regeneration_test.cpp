@@ -32,9 +32,9 @@ TEST(Regeneration, IsEquationOneInAnyOrder) {
   // Windows smaller and larger than vectors, tiles and the terrain.
   for (const int k : {0, 1, 3, 7, 20, 64, 255}) {
     const Heightfield field = hills(83, 61, static_cast<unsigned>(k), false, k % 2 == 0 ? 5U : 0U);
-    for (const Monotone monotone : {Monotone::kEverywhere, Monotone::kNowhere}) {
+    for (const DrillFit fit : {DrillFit::kMonotone, DrillFit::kPrinted, DrillFit::kVertex}) {
       DrillOptions options = options_for(30, 6, k);
-      options.monotone = monotone;
+      options.fit = fit;
       const Drills drills = drill(field, options);
       ASSERT_GT(drills.count(), 20U);
       const Heightfield got = regenerate(drills);

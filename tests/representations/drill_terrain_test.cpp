@@ -52,9 +52,9 @@ TEST(DrillTerrain, AnswersWithTheRegeneratedHeights) {
 
 TEST(DrillTerrain, MeshIsWatertightEvenWhereShapesDigThroughTheFloor) {
   const Heightfield field = hills(60, 50, 7, false, 1);
-  for (const bool monotone : {true, false}) {
+  for (const char* const fit : {"monotone", "printed", "vertex"}) {
     const auto built =
-        drilled(field, {{"monotone", monotone}, {"k", std::int64_t{30}}, {"w", std::int64_t{4}}});
+        drilled(field, {{"fit", std::string(fit)}, {"k", std::int64_t{30}}, {"w", std::int64_t{4}}});
     const TriangleMesh mesh = built->mesh({});
     EXPECT_TRUE(check_edges(mesh).watertight());
     EXPECT_GT(volume(mesh), 0);
