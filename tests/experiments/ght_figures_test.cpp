@@ -63,7 +63,8 @@ TEST_P(GhtFigure, HasItsPanelsEachDrawnAndNamed) {
   const auto inked = [](const Rgb& c) { return c != Rgb{255, 255, 255}; };
   const SheetReader::Picture whole{0, 0, shown.image.width / 2.0, shown.image.height / 2.0};
   EXPECT_GT(shown.share(whole, inked), 0.02);
-  EXPECT_LT(shown.bytes, 700'000U);
+  const bool textured = figure.number == 21 || figure.number == 24;
+  EXPECT_LT(shown.bytes, textured ? 1'500'000U : 700'000U);
   if (const int panels = declared_panels(fmt::format("ght.F{}", figure.number)); panels > 0) {
     EXPECT_EQ(shown.fault_of_panels(panels), "");
     EXPECT_NE(shown.fault_of_panels(panels + 1), "");
@@ -123,7 +124,7 @@ TEST(GhtFigures, HeightmapsHoldTheHeights) {
 }
 
 TEST(GhtFigures, WordsSayWhatTheTreeHolds) {
-  const Tree tree = open_tree("canyon").model().tree;
+  const Tree tree = sequence_tree(1).model().tree;
   EXPECT_THAT(words(read(22)), AllOf(Contains(fmt::format("after {} events, solid", tree.events().size())),
                                      Contains(fmt::format("the {} ground planes", tree.nodes().size()))));
   const Heightfield field = fractal::diamond_square({.seed = 1, .side = 5});
@@ -131,7 +132,7 @@ TEST(GhtFigures, WordsSayWhatTheTreeHolds) {
 }
 
 TEST(GhtFigures, TreeShowsEachCellOfEachNode) {
-  const Tree tree = open_tree("canyon").model().tree;
+  const Tree tree = sequence_tree(1).model().tree;
   const SheetReader shown = read(23);
   ASSERT_EQ(shown.pictures.size(), tree.nodes().size());
   const std::map<CellKind, Rgb> colours{{CellKind::kHeight, {200, 200, 200}},
