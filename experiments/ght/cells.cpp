@@ -188,7 +188,7 @@ void measure_inclined(const RunOptions& options, Recorder& recorder) {
   }
 }
 
-// A tunnel 60 m long through a dam, samples 1 m apart.
+// A tunnel 52 m long through a dam, samples 1 m apart.
 Ght noisy_tunnel(std::uint64_t seed, double roughness) {
   constexpr int kWide = 129, kDeep = 65;
   std::vector<float> heights;
@@ -198,7 +198,7 @@ Ght noisy_tunnel(std::uint64_t seed, double roughness) {
     }
   }
   Ght tree({kWide, kDeep, 1, 1, 0, 0}, std::move(heights), -5);
-  Carving tunnel{false, {34, 16, 32}, {94, 16, 32}, {}};
+  Carving tunnel{false, {38, 16, 32}, {90, 16, 32}, {}};
   tunnel.section = {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}};
   tunnel.roughness = roughness;
   tunnel.seed = seed;

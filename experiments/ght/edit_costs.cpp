@@ -152,7 +152,7 @@ class Peer {
                      differences / static_cast<double>(lengths.size()) / cell);
       }
       strokes.undo.paint(*structure_);
-      return time;
+      return columns_time + time;
     });
     recorder.add_varying(fmt::format("ght_per_{}_time{}", name_, suffix), "", tree_time / median);
   }

@@ -190,8 +190,8 @@ View before_the_tunnels() {
   view.eye = {14200, 1900, 8600};
   view.target = {10300, 850, 6250};
   view.vertical_fov = 0.66F;
-  view.width = 1060;
-  view.height = 660;
+  view.width = 1000;
+  view.height = 620;
   view.near = 20;
   view.far = 60000;
   return view;
@@ -271,37 +271,46 @@ Sheet draw_rain(Drawing& drawing) {
 // Figures 14 and 16 list code.
 constexpr std::array<figures::Figure, 10> kFigures{{
     {13, "F13",
-     "the shapes that geotectonic events make of level ground, as ground planes (the root's grey), wireframe "
-     "and solid",
+     "the shapes that geotectonic events make of level ground, for the lateral fault with furrows that show "
+     "its "
+     "slip: ground planes (the root's grey), wireframe (new heightmaps blue) and solid",
      draw_geotectonic_events},
     {15, "F15", "a tunnel and a cave carved into a ridge; on the right the ground is cut open along the axis",
      draw_carving_shapes},
     {17, "F17",
-     "linear and radial erosions, each on the same fresh terrain of 129 × 129; what an event made has a "
-     "colour in the wireframe",
+     "linear and radial erosions, each on the same fresh terrain of 129 × 129; new heightmaps are blue in "
+     "the "
+     "wireframe",
      draw_erosions},
     {18, "F18",
      "a normal and an inverse fault, each on the same fresh terrain; the raised block of the inverse "
      "fault overhangs the sunk one",
      draw_faults},
     {19, "F19",
-     "a tunnel carved through a terrain of 129 × 129; all views but the first show only the ground around it",
+     "a tunnel carved through a terrain of 129 × 129; all views but the first show only 43 × 33 samples "
+     "around it",
      [](Drawing& drawing) { return draw_single(drawing, "tunnel"); }},
     {20, "F20",
-     "a cave carved into a terrain of 129 × 129; all views but the first show only the ground around it",
+     "a cave carved into a terrain of 129 × 129; all views but the first show only 43 × 33 samples around it",
      [](Drawing& drawing) { return draw_single(drawing, "cave"); }},
-    {21, "F21", "the part with two tunnels of a terrain of 129 × 129", draw_two_tunnels},
-    {22, "F22", "a sequence of overlapping events on one terrain, and the ground planes of the tree after it",
+    {21, "F21",
+     "two tunnels through a ridge in a terrain of 129 × 129, as wireframe and with textures by height and "
+     "slope "
+     "under a sky",
+     draw_two_tunnels},
+    {22, "F22",
+     "a sequence of overlapping events on one terrain, the ground planes of the tree after it below; new "
+     "heightmaps are blue in the wireframe",
      draw_sequence},
     {23, "F23",
-     "the tree of figure 22's terrain; edges lead from each heightmap to those that an event attached to it, "
+     "the tree of figure 22's terrain; edges lead from each heightmap to those that events attached to it, "
      "and cells show what they hold",
      draw_tree},
     {24, "F24",
-     "a rain of particles (yellow: the first 250), each of which erodes the ground where it crashes. The "
-     "mountains are those of the measurement at every fourth sample, 257 × 257 of 1025 × 1025; the particles "
-     "follow its law, with radii in cells, so that craters are four times as wide in metres; 2,500 particles "
-     "instead of 10,000",
+     "a rain of particles (yellow: the first 250), each of which erodes the ground where it crashes; "
+     "textures "
+     "by height and slope. The mountains and particles of the measurement at every fourth sample, 257 × 257 "
+     "of 1025 × 1025, with 2,500 of 10,000 particles, whose craters are four times as wide in metres",
      draw_rain},
 }};
 constexpr std::array kNames = names_of(kFigures);

@@ -197,7 +197,12 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("events", "", sculpture->events.size());
   recorder.add("columns", "", all);
   recorder.add("changed_columns", "", change.columns);
-  if (change.columns > 0) recorder.add("missed_share", "", change.missed / change.changed);
+  if (change.columns > 0) {
+    const double cells = static_cast<double>(change.columns) * site.ground.cell_x;
+    recorder.add("changed_cells", "cells", change.changed / cells);
+    recorder.add("missed_cells", "cells", change.missed / cells);
+    recorder.add("missed_share", "", change.missed / change.changed);
+  }
   recorder.add("overhang_columns", "", found.overhangs);
   recorder.add("overhang_share", "", static_cast<double>(found.overhangs) / all);
   recorder.add("most_intervals", "", found.most);
