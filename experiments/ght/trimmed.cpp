@@ -12,7 +12,18 @@ constexpr int kMargin = 8;  // pixels
 struct Range {
   int low = 1 << 30, high = -1;
   void add(int at) { low = std::min(low, at), high = std::max(high, at); }
-  Range widened(int size) const { return {std::max(low - kMargin, 0), std::min(high + kMargin, size - 1)}; }
+  // With a margin, and an even number of pixels, which makes a whole number of the sheet's units.
+  Range widened(int size) const {
+    Range wide{std::max(low - kMargin, 0), std::min(high + kMargin, size - 1)};
+    if ((wide.high - wide.low) % 2 == 0) {
+      if (wide.high + 1 < size) {
+        ++wide.high;
+      } else {
+        --wide.low;
+      }
+    }
+    return wide;
+  }
 };
 
 void add_inked(const Image& image, Range& columns, Range& rows) {

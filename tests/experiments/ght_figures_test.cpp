@@ -305,8 +305,8 @@ TEST(Trimmed, TakesAwayWhatAllPanelsLeaveWhite) {
   right.set(60, 50, kInk);
   const figures::PanelRows rows = trimmed({{{left, "left"}, {right, "right"}}});
   for (const figures::Panel& panel : rows[0]) {
-    EXPECT_EQ(panel.image.width, 60 - 30 + 1 + 2 * 8);
-    EXPECT_EQ(panel.image.height, 50 - 40 + 1 + 2 * 8);
+    EXPECT_EQ(panel.image.width, 60 - 30 + 1 + 2 * 8 + 1);  // to be even
+    EXPECT_EQ(panel.image.height, 50 - 40 + 1 + 2 * 8 + 1);
   }
   EXPECT_EQ(rows[0][0].image.pixel(8, 8), kInk);
   EXPECT_EQ(rows[0][1].image.pixel(8 + 30, 8 + 10), kInk);
