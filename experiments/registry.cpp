@@ -32,6 +32,7 @@
   UNTIMED(ght, kStages)                               \
   UNTIMED(ght, kEventFigures)                         \
   UNTIMED(ght, kCounts)                               \
+  UNTIMED(ght, kCells)                                \
   UNTIMED(ght, kContinuity)                           \
   UNTIMED(ght, kOverhang)                             \
   TIMED(ght, kEdits)                                  \

@@ -61,8 +61,8 @@ std::vector<Case> cases(const RunOptions&) {
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const int n = at.integer("n");
-  const Site site = make_site(n, n / kEventsAlong, options.seed);
-  recorder.terrain("diamond-square", checksum(site.ground));
+  const Site site = event_site(n, n / kEventsAlong, options.seed);
+  record_site(site, options.seed, recorder);
   const bool rains = at.parameters.text("events") == "rain";
   std::vector<Event> events;
   if (!rains) events = overlapping_events(site);
@@ -103,7 +103,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("file_bytes", "B", file.size());
 
   // As text, and built again from the text.
-  const std::string text = to_text(Script{"diamond-square", options.seed, n + 1, events, {}});
+  const std::string text = to_text(Script{"diamond-square", site.seed, n + 1, events, {}});
   recorder.add("text_bytes", "B", text.size());
   const Script again = parse_script(text, "ght.complex");
   Ght repeated = plain_tree(site.ground);

@@ -124,6 +124,20 @@ class Inspection {
   std::uint32_t deepest_ = 0;
 };
 
+// How many kinds of event a sequence has, and how many pairs of its events touch the same ground.
+void write_overlaps(std::span<const Event> events, Recorder& recorder) {
+  std::array<bool, kKinds> seen{};
+  std::size_t overlaps = 0;
+  for (auto event = events.begin(); event != events.end(); ++event) {
+    seen[static_cast<std::size_t>(kind(*event))] = true;
+    overlaps += static_cast<std::size_t>(std::count_if(event + 1, events.end(), [&](const Event& later) {
+      return plan_box(*event).meets(plan_box(later));
+    }));
+  }
+  recorder.add("kinds", "", std::count(seen.begin(), seen.end(), true));
+  recorder.add("overlapping_pairs", "", overlaps);
+}
+
 // Twelve attempts per terrain: as many events as in the planned sequence, if none is refused.
 void play_random(int sequences, std::uint64_t seed, bool wild, Inspection& inspection, Progress& progress) {
   constexpr int kAttempts = 12;
@@ -184,8 +198,8 @@ std::vector<Case> cases(const RunOptions& options) {
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const std::string& what = at.parameters.text("events");
-  const Site site = make_site(kEventsAlong * kSize, kSize, options.seed);
-  recorder.terrain("diamond-square", checksum(site.ground));
+  const Site site = event_site(kEventsAlong * kSize, kSize, options.seed);
+  record_site(site, options.seed, recorder);
   Inspection inspection(recorder);
   if (what == "single-events") {
     for (int k = 0; k < kKinds; ++k) {
@@ -195,7 +209,9 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   } else if (what == "two-tunnels") {
     inspection.play(site, two_tunnels(site));
   } else if (what == "sequence") {
-    inspection.play(site, overlapping_events(site));
+    const std::vector<Event> events = overlapping_events(site);
+    inspection.play(site, events);
+    write_overlaps(events, recorder);
   } else if (what == "rain") {
     Ght tree = plain_tree(site.ground);
     Rain rain(site.ground, options.seed);

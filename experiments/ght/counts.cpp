@@ -115,8 +115,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     if (is_carving(kind)) trees = carved(tried, kind == Kind::kCave);
     return !is_carving(kind) || trees.size() == kMostSides - kFewestSides + 1;
   });
-  recorder.terrain("diamond-square", checksum(site.ground));
-  if (site.seed != options.seed) recorder.add("site_seed", "", site.seed);
+  record_site(site, options.seed, recorder);
   if (is_carving(kind)) {
     measure_carvings(trees, recorder);
     if (kind == Kind::kCave) measure_hosts(recorder);

@@ -1,7 +1,9 @@
 // The cost of an event, compared with layered stacks and OpenVDB's voxels doing the same edit. The tree gets
 // the event. Stacks and voxels get its result, column by column: for erosions and carvings the new air, so
 // that the edit is a subtraction; for faults, which move ground sideways, the air and the ground of every
-// column that changes. Computing that result is part of the tree's times, but not of theirs.
+// column that changes. Computing that result is part of the tree's times. For stacks and voxels it is timed
+// too: their "whole" times add the evaluation of the columns that change. Finding out which these are is not
+// in any time of stacks and voxels.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -59,12 +61,22 @@ struct Strokes {
   };
   List edit, undo;
   std::vector<float> x, z;  // of the columns that change
+  std::shared_ptr<const Evaluation> after;
+
+  // Processor seconds to evaluate them.
+  double time_columns() const {
+    std::vector<Stretch> stretches;
+    return processor_seconds([&] {
+      for (std::size_t c = 0; c < x.size(); ++c) after->column({x[c], z[c]}, stretches);
+    });
+  }
 };
 
 // Columns stand at the samples, as those of the structures do.
 Strokes strokes_of(const Site& site, const Event& event) {
   const Heightfield& ground = site.ground;
-  const Evaluation after(std::make_shared<Sculpture>(Sculpture{ground, {event}}));
+  Strokes strokes;
+  strokes.after = std::make_shared<Evaluation>(std::make_shared<Sculpture>(Sculpture{ground, {event}}));
   PlanBox box = plan_box(event);
   const bool moves = std::holds_alternative<DipFault>(event) || std::holds_alternative<LateralFault>(event);
   if (std::holds_alternative<Carving>(event)) {  // how far it reaches depends on the ground
@@ -74,12 +86,11 @@ Strokes strokes_of(const Site& site, const Event& event) {
   const auto index = [&](double metres, int samples) {
     return std::clamp(static_cast<int>(std::lround(metres / ground.cell_x)), 0, samples - 1);
   };
-  Strokes strokes;
   std::vector<Stretch> stretches;
   for (int j = index(box.low.y, ground.depth); j <= index(box.high.y, ground.depth); ++j) {
     for (int i = index(box.low.x, ground.width); i <= index(box.high.x, ground.width); ++i) {
       const float x = static_cast<float>(i) * ground.cell_x, z = static_cast<float>(j) * ground.cell_z;
-      after.column({x, z}, stretches);
+      strokes.after->column({x, z}, stretches);
       const float before = ground.at(i, j);
       if (stretches.size() == 1 && std::abs(stretches[0].top - before) < 1e-3) continue;
       strokes.x.push_back(x);
@@ -124,8 +135,10 @@ class Peer {
     bool first = true;
     const double median = sample_times([&] {
       const double before = used(structure_->memory());
+      const double columns_time = strokes.time_columns();
       const double time = processor_seconds([&] { strokes.edit.paint(*structure_); });
       recorder.add(fmt::format("{}_time{}", name_, suffix), "s", time);
+      recorder.add(fmt::format("{}_whole_time{}", name_, suffix), "s", columns_time + time);
       if (std::exchange(first, false)) {
         // On the untouched structure only: an undone edit leaves nodes behind.
         if (suffix.empty()) {
@@ -139,7 +152,7 @@ class Peer {
                      differences / static_cast<double>(lengths.size()) / cell);
       }
       strokes.undo.paint(*structure_);
-      return time;
+      return columns_time + time;
     });
     recorder.add_varying(fmt::format("ght_per_{}_time{}", name_, suffix), "", tree_time / median);
   }
@@ -157,7 +170,6 @@ class Comparison {
     source.name = "diamond-square";
     source.checksum = checksum(site.ground);
     source.heights = site.ground;
-    recorder.terrain(source);
     peers_.emplace_back("layered_stack", "stack", source, progress);
     peers_.emplace_back("voxel", "voxel", source, progress);
   }
@@ -202,8 +214,10 @@ class Comparison {
   std::vector<Peer> peers_;
 };
 
-Site site_of(const Case& at, const RunOptions& options) {
-  return make_site(at.integer("n"), at.integer("size"), options.seed);
+Site site_of(const Case& at, const RunOptions& options, Recorder& recorder) {
+  Site site = event_site(at.integer("n"), at.integer("size"), options.seed);
+  record_site(site, options.seed, recorder);
+  return site;
 }
 
 std::vector<Case> edit_cases(const RunOptions& options) {
@@ -219,7 +233,7 @@ std::vector<Case> edit_cases(const RunOptions& options) {
 }
 
 void measure_edit(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const Site site = site_of(at, options);
+  const Site site = site_of(at, options, recorder);
   Comparison(site, recorder, progress).measure(static_cast<Kind>(at.parameters.choice("event")), "");
 }
 
@@ -234,7 +248,7 @@ std::vector<Case> reach_cases(const RunOptions&) {
 }
 
 void measure_reach(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const Site site = site_of(at, options);
+  const Site site = site_of(at, options, recorder);
   Comparison comparison(site, recorder, progress);
   progress.begin(at.name, kKinds);
   for (int k = 0; k < kKinds; ++k) {

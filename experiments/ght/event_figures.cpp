@@ -8,7 +8,10 @@
 #include "experiments/cases.h"
 #include "experiments/ght/figures.h"
 #include "experiments/ght/site.h"
+#include "experiments/ght/textured.h"
 #include "experiments/ght/tree_view.h"
+#include "experiments/ght/trimmed.h"
+#include "renderers/landscape/style.h"
 #include "results/format.h"
 #include "terrain/events/scripts.h"
 
@@ -24,32 +27,46 @@ using figures::panel_sheet;
 using figures::PanelRows;
 using figures::Sheet;
 
-std::vector<Panel> three_views(GlContext& gl, const Ght& ght, const Look& look, std::string_view name) {
-  return {{planes_view(gl, ght, look), fmt::format("{}: ground planes", name)},
+// Ground planes are seen from higher up than the ground, as some rise away from the eye and would be slivers;
+// those of an inverse fault from less high, as one faces down.
+constexpr float kAbove = 1.5F, kAboveOverhang = 0.72F;
+
+std::vector<Panel> three_views(GlContext& gl, const Ght& ght, const Look& look, std::string_view name,
+                               float planes_from = kAbove) {
+  Look higher = look;
+  higher.from.y = planes_from;
+  return {{planes_view(gl, ght, higher), fmt::format("{}: ground planes", name)},
           {wires_view(gl, ght, look), "wireframe"},
           {solid_view(gl, ght, look), "solid"}};
 }
 
-// Samples 10 m apart, height(i, j) metres high.
+// Samples `cell` metres apart, height(x, z) metres high.
 template <class Height>
-Ght small_ground(int wide, int deep, float floor, const Height& height) {
+Ght small_ground(int wide, int deep, float cell, float floor, const Height& height) {
   std::vector<float> heights;
   for (int j = 0; j < deep; ++j) {
-    for (int i = 0; i < wide; ++i) heights.push_back(height(static_cast<float>(i), static_cast<float>(j)));
+    for (int i = 0; i < wide; ++i) {
+      heights.push_back(height(cell * static_cast<float>(i), cell * static_cast<float>(j)));
+    }
   }
-  return {{wide, deep, 10, 10, 0, 0}, std::move(heights), floor};
+  return {{wide, deep, cell, cell, 0, 0}, std::move(heights), floor};
 }
-// Level ground with furrows from north to south.
+Ght level_ground() {
+  return small_ground(41, 41, 10, -75, [](float, float) { return 0.0F; });
+}
+// Level but for furrows from north to south.
 Ght furrows() {
-  return small_ground(41, 41, -75, [](float i, float) { return 6 * std::cos(0.5F * i); });
+  return small_ground(41, 41, 10, -75, [](float x, float) { return 6 * std::cos(0.05F * x); });
 }
 // A ridge from north to south.
 Ght ridge() {
-  return small_ground(61, 41, -60, [](float i, float j) {
-    const float x = (i - 30) / 14, z = (j - 20) / 30;
-    return 170 * std::exp(-x * x) * (1 - 0.25F * z * z);
+  return small_ground(121, 81, 5, -60, [](float x, float z) {
+    const float across = (x - 300) / 140, along = (z - 200) / 300;
+    return 170 * std::exp(-across * across) * (1 - 0.25F * along * along);
   });
 }
+
+constexpr int kSequenceSide = 128;  // cells, as the measurement of ght.complex
 
 constexpr glm::vec3 kHigh{0.4F, 0.62F, 1.0F},
     kLow{0.45F, 0.4F, 1.0F};  // towards the eye; kLow looks under overhangs
@@ -65,25 +82,27 @@ Sheet draw_geotectonic_events(Drawing& drawing) {
   const glm::dvec2 from{110, 230}, to{290, 170};
   const std::array<std::pair<const char*, Event>, 5> events{{
       {"linear erosion", LinearErosion{from, to, 45, 38}},
-      {"radial erosion", RadialErosion{{200, 10, 200}, {110, 70, 80}}},
+      {"radial erosion", RadialErosion{{200, 0, 200}, {110, 60, 80}}},
       {"normal fault", DipFault{false, from, to, 110, 70, 60}},
       {"inverse fault", DipFault{true, from, to, 110, 70, 50}},
       {"lateral fault", LateralFault{from, to, 90, 90}},
   }};
   PanelRows rows;
   for (const auto& [name, event] : events) {
-    Ght ght = furrows();
+    Ght ght = kind(event) == Kind::kLateralFault ? furrows() : level_ground();
     ght.apply(event);
-    const Look look{kind(event) == Kind::kInverseFault ? kLow : kHigh, 640, 380};
-    rows.push_back(three_views(drawing.gl(), ght, look, name));
+    const bool overhangs = kind(event) == Kind::kInverseFault;
+    rows.push_back(three_views(drawing.gl(), ght, {overhangs ? kLow : kHigh, 700, 480}, name,
+                               overhangs ? kAboveOverhang : kAbove));
   }
-  return panel_sheet(rows);
+  return panel_sheet(trimmed(rows));
 }
 
 Sheet draw_erosions(Drawing& drawing) {
   const Look look{{-0.7F, 0.9F, 0.9F}, 760, 480};
-  return panel_sheet({three_views(drawing.gl(), open_tree("linear-erosion"), look, "linear erosion"),
-                      three_views(drawing.gl(), open_tree("radial-erosion"), look, "radial erosion")});
+  return panel_sheet(
+      trimmed({three_views(drawing.gl(), open_tree("linear-erosion"), look, "linear erosion"),
+               three_views(drawing.gl(), open_tree("radial-erosion"), look, "radial erosion")}));
 }
 
 Sheet draw_faults(Drawing& drawing) {
@@ -92,26 +111,28 @@ Sheet draw_faults(Drawing& drawing) {
   for (const char* const name : {"normal", "inverse"}) {
     const std::string script = fmt::format("{}-fault", name);
     const Ght ght = open_tree(script);
-    rows.push_back(three_views(drawing.gl(), ght, {kLow, 760, 430}, fmt::format("{} fault", name)));
+    rows.push_back(three_views(drawing.gl(), ght, {kLow, 760, 480}, fmt::format("{} fault", name),
+                               script == "inverse-fault" ? kAboveOverhang : kAbove));
     cuts.push_back({solid_view(drawing.gl(), ght, {{1.0F, 0.25F, 0.6F}, 1154, 480, {across(script)}}),
                     fmt::format("{} fault, cut across its line", name)});
   }
   rows.push_back(std::move(cuts));
-  return panel_sheet(rows);
+  return panel_sheet(trimmed(rows));
 }
 
 Sheet draw_sequence(Drawing& drawing) {
   GlContext& gl = drawing.gl();
-  const Look look{{0.4F, 0.7F, 1.0F}, 1060, 630};
-  const Ght fresh = open_tree("canyon", false), ght = open_tree("canyon");
+  const Look look{{0.4F, 0.7F, 1.0F}, 1060, 720};
+  const Site site = event_site(kSequenceSide, kSequenceSide / kEventsAlong, drawing.seed());
+  const Ght fresh = plain_tree(site.ground), ght = sequence_tree(drawing.seed());
   const std::size_t events = ght.model().tree.events().size(), nodes = ght.model().tree.nodes().size();
   drawing.record("events", static_cast<double>(events));
   drawing.record("heightmaps", static_cast<double>(nodes));
-  return panel_sheet({{{wires_view(gl, fresh, look), "fresh terrain, wireframe"},
-                       {solid_view(gl, fresh, look), "fresh terrain, solid"}},
-                      {{wires_view(gl, ght, look), fmt::format("after {} events, wireframe", events)},
-                       {solid_view(gl, ght, look), fmt::format("after {} events, solid", events)}},
-                      {{planes_view(gl, ght, look), fmt::format("the {} ground planes", nodes)}}});
+  return panel_sheet(trimmed({{{wires_view(gl, fresh, look), "fresh terrain, wireframe"},
+                               {solid_view(gl, fresh, look), "fresh terrain, solid"}},
+                              {{wires_view(gl, ght, look), fmt::format("after {} events, wireframe", events)},
+                               {solid_view(gl, ght, look), fmt::format("after {} events, solid", events)}},
+                              {{planes_view(gl, ght, look), fmt::format("the {} ground planes", nodes)}}}));
 }
 
 // Figures 15 and 19 to 21: tunnels and caves, and the ground cut open along their axes.
@@ -137,18 +158,18 @@ std::vector<Panel> four_views(GlContext& gl, const Ght& ght, const Carving& carv
 }
 
 // The ridge with the carvings and the valleys on both sides of it.
-std::vector<CutPlane> around_the_ridge(const Ght& ght) { return around(ght, {49, 28}, {111, 73}); }
+std::vector<CutPlane> around_the_ridge(const Ght& ght) { return around(ght, {66, 34}, {108, 66}); }
 
 Sheet draw_single(Drawing& drawing, const char* script) {
   const TerrainSource source = open_named_script(script);
   const Ght ght = open_tree(script);
   const Look look{{0.8F, 0.4F, 1.0F}, 1000, 560, around_the_ridge(ght)};
   const auto& carving = std::get<Carving>(source.events->events.at(0));
-  return panel_sheet(figures::in_rows_of(2, four_views(drawing.gl(), ght, carving, look)));
+  return panel_sheet(trimmed(figures::in_rows_of(2, four_views(drawing.gl(), ght, carving, look))));
 }
 
 Sheet draw_carving_shapes(Drawing& drawing) {
-  const Look look{{0.55F, 0.4F, 1.0F}, 760, 440};
+  const Look look{{0.85F, 0.42F, 0.9F}, 760, 500};
   const glm::dvec3 east{390, 55, 200};
   PanelRows rows;
   for (const bool cave : {false, true}) {
@@ -160,14 +181,32 @@ Sheet draw_carving_shapes(Drawing& drawing) {
     views[0].words = cave ? "cave: ground planes" : "tunnel: ground planes";
     rows.push_back(std::move(views));
   }
-  return panel_sheet(rows);
+  return panel_sheet(trimmed(rows));
+}
+
+// From the valley before the ridge.
+View before_the_tunnels() {
+  View view;
+  view.eye = {14200, 1900, 8600};
+  view.target = {10300, 850, 6250};
+  view.vertical_fov = 0.66F;
+  view.width = 1000;
+  view.height = 620;
+  view.near = 20;
+  view.far = 60000;
+  return view;
 }
 
 Sheet draw_two_tunnels(Drawing& drawing) {
   const Ght ght = open_tree("two-tunnels");
-  const Look look{{0.9F, 0.45F, 1.0F}, 1060, 620, around_the_ridge(ght)};
-  return panel_sheet(
-      {{{wires_view(drawing.gl(), ght, look), "wireframe"}, {solid_view(drawing.gl(), ght, look), "solid"}}});
+  const View view = before_the_tunnels();
+  const Parameters style(
+      landscape_parameters(),
+      {{"water", 0.0}, {"texture", 120.0}, {"bumps", 0.35}, {"fog", 2.5}, {"sun_height", 40.0}});
+  Sheet sheet = panel_sheet({{{wires_view(drawing.gl(), ght, view), "wireframe"},
+                              {textured_view(drawing.gl(), ght, view, style), "textured, under a sky"}}});
+  sheet.keep_all_colours();
+  return sheet;
 }
 
 // Figure 24: the rain of particles (§4.2), as ght.complex measures it.
@@ -199,59 +238,79 @@ TriangleMesh falling(const Ght& ght, Rain rain) {
 
 Sheet draw_rain(Drawing& drawing) {
   GlContext& gl = drawing.gl();
-  const Site site = make_site(kSide, kSide / kEventsAlong, drawing.seed());
+  const Site site = event_site(kSide, kSide / kEventsAlong, drawing.seed());
   Ght ght = plain_tree(site.ground);
   Rain rain(site.ground, drawing.seed());
-  const Look look{{0.45F, 0.7F, 1.0F}, 760, 520};
+  const Look look{{0.45F, 0.7F, 1.0F}, 820, 600};
   Look window = look;
   window.cuts = around(ght, {96, 96}, {160, 160});
+  const TriangleMesh particles = falling(ght, rain);
+  Bounds box = ght.bounds();
+  box.high.y = bounds_of(particles).high.y;
+  const View view = look.at(box);
+  const Parameters style(landscape_parameters(), {{"water", 0.0},
+                                                  {"texture", 200.0},
+                                                  {"bumps", 0.5},
+                                                  {"fog", 1000.0},
+                                                  {"border", 0.0},
+                                                  {"sun_height", 35.0}});
   PanelRows rows{{{planes_view(gl, ght, look), "before: ground plane"},
                   {wires_view(gl, ght, window), "wireframe, a window of 65 × 65"},
-                  {solid_view(gl, ght, look, falling(ght, rain)), "solid, the rain begins"}}};
+                  {textured_block(gl, ght, view, style, particles), "textured, the rain begins"}}};
   for (int k = 0; k < kParticles; ++k) ght.apply(rain.next(ght));
   const auto events = static_cast<double>(ght.model().tree.events().size());
   drawing.record("particles", events);
-  const std::string particles = format_number(events);
-  rows.push_back({{planes_view(gl, ght, look), fmt::format("after {} particles: ground planes", particles)},
-                  {wires_view(gl, ght, window), "wireframe, the same window"},
-                  {solid_view(gl, ght, look), "solid"}});
-  return panel_sheet(rows);
+  const std::string particles_text = format_number(events);
+  rows.push_back(
+      {{planes_view(gl, ght, look), fmt::format("after {} particles: ground planes", particles_text)},
+       {wires_view(gl, ght, window), "wireframe, the same window"},
+       {textured_block(gl, ght, view, style, {}), "textured"}});
+  return panel_sheet(trimmed(rows));
 }
 
 // Figures 14 and 16 list code.
 constexpr std::array<figures::Figure, 10> kFigures{{
     {13, "F13",
-     "the shapes that geotectonic events make of level ground, as ground planes (the root's grey), wireframe "
-     "and solid",
+     "the shapes that geotectonic events make of level ground, for the lateral fault with furrows that show "
+     "its "
+     "slip: ground planes (the root's grey), wireframe (new heightmaps blue) and solid",
      draw_geotectonic_events},
     {15, "F15", "a tunnel and a cave carved into a ridge; on the right the ground is cut open along the axis",
      draw_carving_shapes},
     {17, "F17",
-     "linear and radial erosions, each on the same fresh terrain of 129 × 129; what an event made has a "
-     "colour in the wireframe",
+     "linear and radial erosions, each on the same fresh terrain of 129 × 129; new heightmaps are blue in "
+     "the "
+     "wireframe",
      draw_erosions},
     {18, "F18",
      "a normal and an inverse fault, each on the same fresh terrain; the raised block of the inverse "
      "fault overhangs the sunk one",
      draw_faults},
     {19, "F19",
-     "a tunnel carved through a terrain of 129 × 129; all views but the first show only the ground around it",
+     "a tunnel carved through a terrain of 129 × 129; all views but the first show only 43 × 33 samples "
+     "around it",
      [](Drawing& drawing) { return draw_single(drawing, "tunnel"); }},
     {20, "F20",
-     "a cave carved into a terrain of 129 × 129; all views but the first show only the ground around it",
+     "a cave carved into a terrain of 129 × 129; all views but the first show only 43 × 33 samples around it",
      [](Drawing& drawing) { return draw_single(drawing, "cave"); }},
-    {21, "F21", "the part with two tunnels of a terrain of 129 × 129", draw_two_tunnels},
-    {22, "F22", "a sequence of overlapping events on one terrain, and the ground planes of the tree after it",
+    {21, "F21",
+     "two tunnels through a ridge in a terrain of 129 × 129, as wireframe and with textures by height and "
+     "slope "
+     "under a sky",
+     draw_two_tunnels},
+    {22, "F22",
+     "a sequence of overlapping events on one terrain, the ground planes of the tree after it below; new "
+     "heightmaps are blue in the wireframe",
      draw_sequence},
     {23, "F23",
-     "the tree of figure 22's terrain; edges lead from each heightmap to those that an event attached to it, "
+     "the tree of figure 22's terrain; edges lead from each heightmap to those that events attached to it, "
      "and cells show what they hold",
      draw_tree},
     {24, "F24",
-     "a rain of particles (yellow: the first 250), each of which erodes the ground where it crashes. The "
-     "mountains are those of the measurement at every fourth sample, 257 × 257 of 1025 × 1025; the particles "
-     "follow its law, with radii in cells, so that craters are four times as wide in metres; 2,500 particles "
-     "instead of 10,000",
+     "a rain of particles (yellow: the first 250), each of which erodes the ground where it crashes; "
+     "textures "
+     "by height and slope. The mountains and particles of the measurement at every fourth sample, 257 × 257 "
+     "of 1025 × 1025, with 2,500 of 10,000 particles, whose craters are four times as wide in metres",
      draw_rain},
 }};
 constexpr std::array kNames = names_of(kFigures);
@@ -274,6 +333,13 @@ Ght open_tree(std::string_view script, bool with_events) {
   if (with_events) {
     for (const Event& event : source.events->events) ght.apply(event);
   }
+  return ght;
+}
+
+Ght sequence_tree(std::uint64_t seed) {
+  const Site site = event_site(kSequenceSide, kSequenceSide / kEventsAlong, seed);
+  Ght ght = plain_tree(site.ground);
+  for (const Event& event : overlapping_events(site)) ght.apply(event);
   return ght;
 }
 

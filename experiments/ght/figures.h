@@ -17,4 +17,7 @@ figures::Sheet draw_tree(figures::Drawing&);  // 23: tree_figure.cpp
 // The terrain of that name in terrain/events/scripts as a tree, with or without its events.
 Ght open_tree(std::string_view script, bool with_events = true);
 
+// The terrain of figures 22 and 23: the overlapping events that ght.complex measures (site.h).
+Ght sequence_tree(std::uint64_t seed);
+
 }  // namespace terrabench::ght

@@ -1,7 +1,9 @@
 // Overhangs: columns of more than one solid interval, and the air below the topmost surface, which a
-// heightmap of the same terrain would fill.
+// heightmap of the same terrain would fill. And of all events: how far the tree's ground is from the one that
+// the events' definitions give.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "experiments/cases.h"
 #include "experiments/ght/site.h"
@@ -22,8 +24,11 @@ std::vector<Event> single(const Site& site) {
 }
 constexpr std::array kTerrains{
     Terrain{"no-event", [](const Site&) { return std::vector<Event>(); }},
+    Terrain{"linear-erosion", single<Kind::kLinearErosion>},
+    Terrain{"radial-erosion", single<Kind::kRadialErosion>},
     Terrain{"normal-fault", single<Kind::kNormalFault>},
     Terrain{"inverse-fault", single<Kind::kInverseFault>},
+    Terrain{"lateral-fault", single<Kind::kLateralFault>},
     Terrain{"tunnel", single<Kind::kTunnel>},
     Terrain{"cave", single<Kind::kCave>},
     Terrain{"two-tunnels", two_tunnels},
@@ -52,6 +57,20 @@ struct Hollow {
     most = std::max(most, count);
     for (std::size_t k = 1; k < count; ++k) air += intervals(k).first - intervals(k - 1).second;
     return air - before;
+  }
+};
+
+// Solid metres of columns after the events, in the tree and as their definitions give, over the columns that
+// the definitions change by more than a hundredth of a cell.
+struct Change {
+  std::size_t columns = 0;
+  double changed = 0, missed = 0;  // sums of |defined − before| and |tree − defined|
+
+  void column(double before, double tree, double defined, double cell) {
+    if (std::abs(defined - before) < 0.01 * cell) return;
+    ++columns;
+    changed += std::abs(defined - before);
+    missed += std::abs(tree - defined);
   }
 };
 
@@ -135,15 +154,17 @@ std::vector<Case> cases(const RunOptions& options) {
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   const int size = at.integer("size");
   const int per_cell = at.integer("columns_per_cell");
-  const Site site = make_site(kEventsAlong * size, size, options.seed);
+  const Site site = event_site(kEventsAlong * size, size, options.seed);
   const auto sculpture = std::make_shared<Sculpture>(
       Sculpture{site.ground, kTerrains[at.parameters.choice("events")].events(site)});
   Ght tree = plain_tree(site.ground);
   for (const Event& event : sculpture->events) tree.apply(event);
   const Evaluation evaluation(sculpture);
-  recorder.terrain("diamond-square", checksum(site.ground));
+  record_site(site, options.seed, recorder);
 
   Hollow found, truth;
+  Change change;
+  const double floor = tree.bounds().low.y;
   const int columns = (site.ground.width - 1) * per_cell;
   const double step = static_cast<double>(site.ground.cell_x) / per_cell;
   std::vector<float> x(static_cast<std::size_t>(columns)), z(x.size());
@@ -168,11 +189,20 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
           },
           stretches.size());
       comparison.column(static_cast<int>(i), j, tree_air, evaluated_air);
+      change.column(site.ground.sample(x[i], z[i]) - floor, spans.back().top - floor - tree_air,
+                    stretches.front().top - floor - evaluated_air, site.ground.cell_x);
     }
   }
   const double all = static_cast<double>(columns) * columns;
   recorder.add("events", "", sculpture->events.size());
   recorder.add("columns", "", all);
+  recorder.add("changed_columns", "", change.columns);
+  if (change.columns > 0) {
+    const double cells = static_cast<double>(change.columns) * site.ground.cell_x;
+    recorder.add("changed_cells", "cells", change.changed / cells);
+    recorder.add("missed_cells", "cells", change.missed / cells);
+    recorder.add("missed_share", "", change.missed / change.changed);
+  }
   recorder.add("overhang_columns", "", found.overhangs);
   recorder.add("overhang_share", "", static_cast<double>(found.overhangs) / all);
   recorder.add("most_intervals", "", found.most);

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "experiments/recorder.h"
 #include "representations/ght/ght.h"
 #include "terrain/events/event.h"
 #include "terrain/heightfield.h"
@@ -36,6 +37,14 @@ Site make_site(int side, int size, std::uint64_t seed);
 // The first of the sites of `seed`, seed + 1, … that fits: not all mountains have a place for what is to be
 // measured. Throws environment_error if none of 100 does.
 Site first_site(int side, int size, std::uint64_t seed, const std::function<bool(const Site&)>& fits);
+
+// The first of the sites of `seed`, seed + 1, … whose mountains have a place for every event alone, for two
+// tunnels and for the whole planned sequence, so that all experiments of one seed share their mountains.
+// Throws as first_site() does.
+Site event_site(int side, int size, std::uint64_t seed);
+// The record's ground, and as "site_seed" the seed of the mountains where `asked` had no place for all
+// events.
+void record_site(const Site&, std::uint64_t asked, Recorder&);
 
 // The ground as a tree of one node.
 Ght plain_tree(const Heightfield& ground);
@@ -87,8 +96,9 @@ class Rain {
   double cell_;
 };
 
-// Overlapping events of all kinds (§4.2, figure 22), over a site of one repetition: the planned ones that the
-// tree accepts on these mountains.
+// Overlapping events of all kinds (§4.2, figure 22), over a site of one repetition: those of the
+// kPlannedEvents that the tree accepts on these mountains.
+inline constexpr std::size_t kPlannedEvents = 12;
 std::vector<events::Event> overlapping_events(const Site&);
 
 // The names of all kinds of event, in the order of events::Kind: the values of a parameter "event".

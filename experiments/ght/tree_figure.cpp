@@ -14,6 +14,7 @@ using figures::SheetPoint;
 
 constexpr Rgb kHeight{200, 200, 200}, kLink{213, 94, 0}, kVoid{0, 114, 178}, kEdge{70, 70, 75};
 constexpr double kMargin = 24, kBox = 74, kStep = 128, kRow = 150, kRoot = 150;
+constexpr std::size_t kMostBoxes = 10;  // in a row, unless one event has more
 
 // One pixel per cell. A larger array is reduced to `most` pixels along that axis; a pixel shows the cell at
 // its middle.
@@ -41,15 +42,16 @@ std::string part_name(const Tree& tree, const Applied& event, NodeId n) {
   const std::size_t k = n - event.first;
   const std::vector<const char*>& parts = kParts[static_cast<std::size_t>(event.kind)];
   if (!parts.empty()) return parts.at(k);
-  return tree.nodes()[n].area == Area::kBorder ? "mouth" : fmt::format("wall {}", k + 1);
+  if (tree.nodes()[n].area == Area::kBorder) return "mouth";
+  return event.kind == events::Kind::kCave && k + 1 == event.nodes ? "end" : fmt::format("wall {}", k + 1);
 }
 
 const char* area_name(Area area) {
   return area == Area::kOutdoor ? "outdoor" : area == Area::kIndoor ? "indoor" : "border";
 }
 
-// One row of boxes per event, below its host heightmap and further right. The children of the rightmost box
-// of a row come first, so that no edge crosses a row.
+// Rows of boxes, each of one or more events on the same host, below it and further right. The children of the
+// rightmost box of a row come first, so that no edge crosses a row.
 class TreeSheet {
  public:
   explicit TreeSheet(const Tree& tree) : tree_(tree), box_(tree.nodes().size()) {
@@ -82,14 +84,22 @@ class TreeSheet {
   // Places the rows of all events on the host, from y_ down; `x` is the left of the host.
   void place_children(NodeId host, double x) {
     if (host == 0) box_[0] = {x, kMargin};
+    const double left = x + 40;
+    std::vector<NodeId> row;  // the boxes of the row that is being filled
+    const auto end_row = [&] {
+      y_ += kRow;
+      for (; !row.empty(); row.pop_back()) place_children(row.back(), box_[row.back()].x);
+    };
     for (const Applied& event : tree_.events()) {
       if (event.host != host) continue;
-      const double y = y_;
-      y_ += kRow;
-      for (NodeId k = 0; k < event.nodes; ++k) box_[event.first + k] = {x + 40 + k * kStep, y};
-      right_ = std::max(right_, x + 40 + event.nodes * kStep);
-      for (NodeId k = event.nodes; k-- > 0;) place_children(event.first + k, x + 40 + k * kStep);
+      if (!row.empty() && row.size() + event.nodes > kMostBoxes) end_row();
+      for (NodeId k = 0; k < event.nodes; ++k) {
+        box_[event.first + k] = {left + static_cast<double>(row.size()) * kStep, y_};
+        row.push_back(event.first + k);
+      }
+      right_ = std::max(right_, left + static_cast<double>(row.size()) * kStep);
     }
+    if (!row.empty()) end_row();
   }
 
   void edges(Sheet& sheet, const Applied& event) const {
@@ -149,7 +159,7 @@ class TreeSheet {
 }  // namespace
 
 Sheet draw_tree(figures::Drawing& drawing) {
-  const Ght ght = open_tree("canyon");
+  const Ght ght = sequence_tree(drawing.seed());
   const Tree& tree = ght.model().tree;
   drawing.record("events", static_cast<double>(tree.events().size()));
   drawing.record("heightmaps", static_cast<double>(tree.nodes().size()));

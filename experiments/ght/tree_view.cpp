@@ -15,33 +15,22 @@ namespace {
 using figures::CutPlane;
 using figures::Look;
 
-constexpr Rgb kRoot{110, 110, 115}, kGroundWire{120, 120, 124}, kYellow{240, 200, 20};
+constexpr Rgb kRoot{110, 110, 115}, kGroundWire{120, 120, 124};
 constexpr int kPlaneGrid = 8;  // lines across the root's plane
 
 // Okabe & Ito's colours, without black and without yellow, which is too pale on white.
 constexpr std::array<Rgb, 6> kColours{
     {{213, 94, 0}, {0, 114, 178}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}}};
 
-void extend(Bounds& box, const TriangleMesh& mesh) {
+// The same box for wires and solid, so that both show the tree in one place and size.
+Bounds surface_bounds(const Ght& ght, const TriangleMesh& mesh) {
+  Bounds box{glm::vec3(HUGE_VALF), glm::vec3(-HUGE_VALF)};
   for (const std::uint32_t v : mesh.indices) {  // a cut leaves vertices that no triangle uses
     box.low = glm::min(box.low, mesh.positions[v]);
     box.high = glm::max(box.high, mesh.positions[v]);
   }
-}
-
-// The same box for wires and solid, so that both show the tree in one place and size.
-Bounds surface_bounds(const Ght& ght, const TriangleMesh& mesh) {
-  Bounds box{glm::vec3(HUGE_VALF), glm::vec3(-HUGE_VALF)};
-  extend(box, mesh);
   box.low.y = ght.bounds().low.y;
   return box;
-}
-
-TriangleMesh sides_of(const Ght& ght) {
-  const Tree& tree = ght.model().tree;
-  return figures::block_sides(
-      tree.grid().width, tree.grid().depth, [&](int i, int j) { return tree.position(tree.at_sample(i, j)); },
-      ght.bounds().low.y);
 }
 
 double turn(glm::ivec2 a, glm::ivec2 b, glm::ivec2 c) {
@@ -63,6 +52,13 @@ std::vector<glm::ivec2> convex_hull(const std::vector<glm::ivec2>& points) {
 }
 
 }  // namespace
+
+TriangleMesh sides_of(const Ght& ght) {
+  const Tree& tree = ght.model().tree;
+  return figures::block_sides(
+      tree.grid().width, tree.grid().depth, [&](int i, int j) { return tree.position(tree.at_sample(i, j)); },
+      ght.bounds().low.y);
+}
 
 TreeSurface tree_surface(const Model& model) {
   const Tree& tree = model.tree;
@@ -134,9 +130,9 @@ Image planes_view(GlContext& gl, const Ght& ght, const Look& look) {
   return render_scene(gl, scene, look.at(bounds_of(scene)));  // planes need not be where the ground is
 }
 
-Image wires_view(GlContext& gl, const Ght& ght, const Look& look) {
-  TreeSurface surface = tree_surface(ght.model());
-  for (const CutPlane& cut : look.cuts) figures::cut_away(surface.mesh, cut, &surface.nodes);
+namespace {
+
+Image draw_wires(GlContext& gl, const TreeSurface& surface, const View& view) {
   const std::vector<std::uint8_t> wires = quad_wires(surface.mesh);
   const auto part = [&](bool of_events) {
     const auto keep = [&](std::size_t t) { return (surface.nodes[t] != 0) == of_events; };
@@ -151,10 +147,22 @@ Image wires_view(GlContext& gl, const Ght& ght, const Look& look) {
   Scene scene;
   scene.meshes.push_back(figures::wired(ground, ground_wires, 0.9F, kGroundWire));
   scene.meshes.push_back(figures::wired(made, made_wires, 1.1F, kColours[1]));
-  return render_scene(gl, scene, look.at(surface_bounds(ght, surface.mesh)));
+  return render_scene(gl, scene, view);
 }
 
-Image solid_view(GlContext& gl, const Ght& ght, const Look& look, const TriangleMesh& particles) {
+}  // namespace
+
+Image wires_view(GlContext& gl, const Ght& ght, const Look& look) {
+  TreeSurface surface = tree_surface(ght.model());
+  for (const CutPlane& cut : look.cuts) figures::cut_away(surface.mesh, cut, &surface.nodes);
+  return draw_wires(gl, surface, look.at(surface_bounds(ght, surface.mesh)));
+}
+
+Image wires_view(GlContext& gl, const Ght& ght, const View& view) {
+  return draw_wires(gl, tree_surface(ght.model()), view);
+}
+
+Image solid_view(GlContext& gl, const Ght& ght, const Look& look) {
   TreeSurface surface = tree_surface(ght.model());
   std::vector<TriangleMesh> rocks{sides_of(ght)};
   for (const CutPlane& cut : look.cuts) {
@@ -172,14 +180,7 @@ Image solid_view(GlContext& gl, const Ght& ght, const Look& look, const Triangle
   scene.highest = bounds_of(surface.mesh).high.y;
   scene.meshes.emplace_back().mesh = &surface.mesh;
   for (const TriangleMesh& mesh : rocks) scene.meshes.push_back(figures::rock(mesh));
-  Bounds box = surface_bounds(ght, surface.mesh);
-  if (particles.triangles() > 0) {
-    extend(box, particles);
-    scene.meshes.push_back(
-        figures::wired(particles, std::vector<std::uint8_t>(particles.triangles(), 0), 0.8F));
-    scene.meshes.back().fill = kYellow;
-  }
-  return render_scene(gl, scene, look.at(box));
+  return render_scene(gl, scene, look.at(surface_bounds(ght, surface.mesh)));
 }
 
 std::vector<CutPlane> around(const Ght& ght, glm::ivec2 low, glm::ivec2 high) {

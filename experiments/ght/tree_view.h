@@ -25,8 +25,12 @@ std::vector<glm::vec3> plane_outline(const Tree&, NodeId);
 Image planes_view(GlContext&, const Ght&, const figures::Look&);
 // The triangles of the root grey, those of other nodes blue.
 Image wires_view(GlContext&, const Ght&, const figures::Look&);
-// Lit and coloured by height, as a block of ground; with particles above it, if there are any.
-Image solid_view(GlContext&, const Ght&, const figures::Look&, const TriangleMesh& particles = {});
+Image wires_view(GlContext&, const Ght&, const View&);
+// Lit and coloured by height, as a block of ground.
+Image solid_view(GlContext&, const Ght&, const figures::Look&);
+
+// The upright sides of the tree as a block of ground.
+TriangleMesh sides_of(const Ght&);
 
 // Cuts that leave the ground from sample `low` to sample `high`.
 std::vector<figures::CutPlane> around(const Ght&, glm::ivec2 low, glm::ivec2 high);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "experiments/experiment.h"
@@ -79,6 +80,20 @@ TEST(GhtSite, SequenceOverlapsAndHasAllKinds) {
   }
   EXPECT_GT(overlaps, 10U);
   EXPECT_EQ(two_tunnels(site).size(), 2U);
+}
+
+TEST(GhtSite, IsTheNextWhoseMountainsHaveAPlaceForAllEvents) {
+  EXPECT_EQ(event_site(128, 32, 1).seed, 1U);
+  for (const std::uint64_t seed : {0U, 2U}) {
+    const Site site = event_site(128, 32, seed);
+    EXPECT_GT(site.seed, seed) << "these mountains have no place for one of the events";
+    EXPECT_EQ(overlapping_events(site).size(), kPlannedEvents);
+    EXPECT_EQ(two_tunnels(site).size(), 2U);
+    for (int k = 0; k < events::kKinds; ++k) {
+      Ght tree = plain_tree(site.ground);
+      EXPECT_NO_THROW(tree.apply(single_event(site, static_cast<Kind>(k))));
+    }
+  }
 }
 
 TEST(GhtSite, RainRepeatsAndStaysOnTheTerrain) {
@@ -163,6 +178,19 @@ TEST_F(Measured, CountsAreThePapers) {
   EXPECT_EQ(metric("added_sides_12"), 14);
 }
 
+TEST_F(Measured, CellsAreThoseOfTheRules) {
+  run("ght.cells", "hosts");
+  EXPECT_EQ(metric("wrong_hosts"), 0);
+  EXPECT_GT(metric("hosts_below_root"), metric("hosts_below_those"));
+  run("ght.cells", "links");
+  EXPECT_EQ(metric("wrong_heights"), 0);
+  EXPECT_EQ(metric("endless_as_printed"), metric("cells_over_links"));
+  EXPECT_LT(metric("forgotten_heights"), metric("cells_over_links"));
+  run("ght.cells", "walls");
+  EXPECT_GT(metric("near_correlation"), 0.8);
+  EXPECT_LT(std::abs(metric("far_correlation")), 0.3);
+}
+
 TEST_F(Measured, OverhangsAreWhereTheyAre) {
   run("ght.overhang", "normal-fault");
   EXPECT_EQ(metric("overhang_columns"), 0);
@@ -184,6 +212,7 @@ TEST_F(Measured, AllStructuresDoTheSameEdit) {
     // Of what is several cells deep, in the mean of the columns that change.
     EXPECT_LT(metric("stack_difference"), 0.2) << name;
     EXPECT_LT(metric("voxel_difference"), 0.2) << name;
+    EXPECT_GT(metric("stack_whole_time"), metric("stack_time")) << name;
   }
 }
 
