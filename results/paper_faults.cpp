@@ -60,7 +60,7 @@ class Page {
                 {{"Statement"}, {"The paper"}, {"Printed"}, {"Measured as printed"}},
                 {}};
     if (with_reason) table.columns.push_back({"Why"});
-    table.columns.push_back({"What matches"});
+    table.columns.insert(table.columns.end(), {{"Verdict"}, {"What matches"}});
     for (const Statement& statement : statements_) {
       const Judgement& j = *statement.claim;
       if (j.claim->group == Group::kBeyond || j.claim->cause != cause) continue;
@@ -69,6 +69,7 @@ class Page {
       std::vector<Cell> row = {
           id_cell(*j.claim), {where_and_statement(*j.claim)}, {reported_text(*j.claim)}, {j.deciding.text}};
       if (with_reason) row.push_back({j.claim->reason()});
+      row.push_back(standing_cell(statement));
       row.push_back({matching(statement)});
       table.rows.push_back(std::move(row));
     }

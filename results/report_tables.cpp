@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 #include "results/fill.h"
 #include "results/format.h"
@@ -71,22 +72,28 @@ Table summary_table(const JudgedResults& results, std::span<const Paper> papers)
   Table table{
       "summary",
       "Verdicts",
-      "Of the statements of each paper, how many hold as printed, hold only in another reading of the "
-      "same words, do not hold, and are not judged: not measured in this profile, or not comparable. "
-      "What we ask beyond the papers says nothing about them.",
-      {{"Paper"}, {"Statements"}},
+      "Of the numbers and orders that each paper states, how many hold as printed, hold only in another "
+      "reading of the same words, do not hold, and are not judged: not measured in this profile, or not "
+      "comparable. Apart from them: figures whose picture shows what the paper's does, and what we ask "
+      "beyond the paper, which says nothing about it.",
+      {{"Paper"}, {"statements", "", true}},
       {}};
   for (const Standing standing : kStandings)
     table.columns.push_back({std::string(name(standing, Group::kStated)), "", true});
-  table.columns.push_back({"all", "", true});
+  for (const char* const column : {"figures that hold", "beyond the paper, hold"})
+    table.columns.push_back({column, "", true});
   const auto add = [&](const std::string& title, std::span<const Judgement> judgements) {
-    const std::vector<Statement> all = statements(judgements);
-    for (const auto& [group, counts] : count_standings(all)) {
-      std::vector<Cell> cells = {{title}, {std::string(name(group))}};
-      for (const int count : counts) cells.push_back({std::to_string(count)});
-      cells.push_back({std::to_string(sum(counts))});
-      table.rows.push_back(std::move(cells));
-    }
+    std::map<Group, StandingCounts> counts = count_standings(statements(judgements));
+    const auto share = [&](Group group) -> Cell {
+      const int all = sum(counts[group]);
+      return {all == 0 ? "–" : fmt::format("{} of {}", counts[group][0], all)};
+    };
+    const StandingCounts& stated = counts[Group::kStated];
+    const int all = sum(stated);
+    std::vector<Cell> cells = {{title}, {all == 0 ? "–" : std::to_string(all)}};
+    for (const int count : stated) cells.push_back({all == 0 ? "–" : std::to_string(count)});
+    cells.insert(cells.end(), {share(Group::kFigure), share(Group::kBeyond)});
+    table.rows.push_back(std::move(cells));
   };
   for (const Paper& paper : papers) add(paper.title, results.of(paper));
   if (papers.size() > 1) add("All", results.judgements);

@@ -11,7 +11,7 @@ namespace terrabench {
 
 // "Of 130 statements of the papers in numbers or orders, 100 hold as printed, …": a sentence per group.
 std::string standings_sentence(const JudgedResults&);
-// How many statements of each paper, and of all, hold: one row per group.
+// How many statements of each paper, and of all, hold: one row per paper.
 Table summary_table(const JudgedResults&, std::span<const Paper>);
 // The notes of one paper's claims, except pending ones.
 Facts claim_notes(const JudgedResults&, const Paper&);
