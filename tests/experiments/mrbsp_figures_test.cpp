@@ -218,8 +218,8 @@ TEST(MrbspFigures, Figure1ShowsAHoleAndTheStepThatClosesIt) {
     // Wires and labels lie over some of the painted pixels.
     EXPECT_GT(without.painted, sheet.without.painted * 8 / 10);
     EXPECT_LE(without.painted, sheet.without.painted);
-    EXPECT_NEAR(static_cast<double>(sheet.without.painted) / static_cast<double>(sheet.without.bare), 1,
-                0.02);
+    EXPECT_LE(sheet.without.painted, sheet.without.bare);  // the meter counts holes behind hills too
+    EXPECT_GT(sheet.without.painted, sheet.without.bare * 8 / 10);
     const LodReading with =
         read_lod(shown, shown.pictures[1], ground, closed.update(view), view, closed.short_side());
     EXPECT_EQ(with.wrong, 0);
