@@ -218,8 +218,10 @@ void set_axis(vtkAxis* axis, const PlotAxis& what, const Scale& scale, int font,
   axis->GetGridPen()->SetWidth(1.0F);
 }
 
-void add_series(vtkChartXY* chart, const PlotSeries& series, const Style& style, const Scale& x,
-                const Scale& y) {
+// `above`: the number of series drawn later. Lines that coincide can all be seen, since each is wider than
+// those above it, with larger markers.
+void add_series(vtkChartXY* chart, const PlotSeries& series, const Style& style, std::size_t above,
+                const Scale& x, const Scale& y) {
   vtkNew<vtkFloatArray> xs, ys;
   xs->SetName("x");
   ys->SetName("y");
@@ -239,10 +241,11 @@ void add_series(vtkChartXY* chart, const PlotSeries& series, const Style& style,
   line->SetInputData(table, 0, 1);
   line->SetLabel("\u00a0" + series.label);  // VTK leaves no room between the legend's symbol and its text
   line->SetColor(style.colour[0], style.colour[1], style.colour[2], 255);
-  line->SetWidth(2.5F);
+  const auto wider = static_cast<float>(above);
+  line->SetWidth(2.5F + 0.8F * wider);
   line->GetPen()->SetLineType(style.line);
   line->SetMarkerStyle(style.marker);
-  line->SetMarkerSize(11.0F);
+  line->SetMarkerSize(11.0F + 1.0F * wider);
   line->set_bars(std::move(bars), static_cast<float>((x.high - x.low) * 0.008));
   chart->AddPlot(line);
 }
@@ -382,7 +385,8 @@ std::string plot_svg(const Plot& plot, const PlotSize& size) {
     }
     const Style style =
         series.reported ? kReported[reported++ % kReported.size()] : measured_style(measured++);
-    if (!series.points.empty()) add_series(chart, series, style, x, y);
+    const std::size_t above = static_cast<std::size_t>(&all.back() - &series);
+    if (!series.points.empty()) add_series(chart, series, style, above, x, y);
   }
   chart->SetShowLegend(true);
   set_font(chart->GetLegend()->GetLabelProperties(), size.font);

@@ -82,6 +82,25 @@ void draw_reference(Flight& flight, GlContext& context, Progress& progress) {
   progress.end();
 }
 
+constexpr Rgb kNear{230, 97, 0};
+
+// Tints the pixels of triangles that belong to meshes in space, such as the hybrid's near surface: on a
+// height field they are those of the clipmap that it replaces. Returns how many triangles are in these
+// meshes.
+std::size_t tint_meshes(const Frame& frame, const std::vector<std::uint32_t>& numbers, Image& image) {
+  std::size_t of_heights = 0, of_meshes = 0;
+  for (const Batch& batch : frame.batches) of_heights += batch.index_count / 3;
+  for (const FrameMesh& mesh : frame.meshes) of_meshes += mesh.drawn ? mesh.triangles() : 0;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    if (numbers[k] <= of_heights) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      std::uint8_t& channel = image.rgb[3 * k + c];
+      channel = static_cast<std::uint8_t>((channel + kNear[c]) / 2);
+    }
+  }
+  return of_meshes;
+}
+
 // The figure of one ground: every method's triangles in the same view halfway along the path, each method
 // tuned to `pixels`.
 void draw_wires(Flight& flight, double pixels, const std::string& options, GlContext& context,
@@ -101,9 +120,12 @@ void draw_wires(Flight& flight, double pixels, const std::string& options, GlCon
     FrameRenderer renderer(context);
     draw_ground(renderer, flight, frame, view, 1);
     const auto triangles = static_cast<double>(frame.stats.triangles);
-    panels.push_back(
-        {renderer.image(), fmt::format("({:c}) {}: {} triangles", 'a' + static_cast<int>(panels.size()),
-                                       type.label, format_number(triangles))});
+    Image image = renderer.image();
+    const std::size_t near = tint_meshes(frame, FrameRenderer(context).triangle_numbers(frame, view), image);
+    panels.push_back({std::move(image),
+                      fmt::format("({:c}) {}: {} triangles{}", 'a' + static_cast<int>(panels.size()),
+                                  type.label, format_number(triangles),
+                                  near == 0 ? "" : fmt::format(", {} of them near", format_count(near)))});
     sky = std::min(sky, std::max(0, horizon(panels.back().image, FrameStyle{}.background) - kSky));
     recorder.add(fmt::format("{}_triangles", type.name), "", triangles);
   }
@@ -112,9 +134,11 @@ void draw_wires(Flight& flight, double pixels, const std::string& options, GlCon
   const std::string suffix = figures::ground_suffix(flight.route.terrain, kMainGround);
   sheet.write(recorder.figure(
       "cross.lod-wires" + suffix, "png",
-      fmt::format("{}: every method's triangles in the same view, each tuned to {:g} px at the 99th "
-                  "percentile over the path {}; colours by height from {:.0f} to {:.0f} m",
-                  flight.source.name, pixels, flight.route.path, flight.lowest, flight.highest)));
+      fmt::format(
+          "{}: every method's triangles in the same view, each tuned to {:g} px at the 99th "
+          "percentile over the path {}; colours by height from {:.0f} to {:.0f} m, and orange for the "
+          "near surface that the hybrid puts in the place of the clipmap's centre",
+          flight.source.name, pixels, flight.route.path, flight.lowest, flight.highest)));
 }
 
 void measure_cost(const Flight& flight, const Contender& method, double knob, Recorder& recorder,

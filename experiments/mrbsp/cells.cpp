@@ -14,14 +14,13 @@ constexpr std::array kSpecs{
     ParameterSpec{"views", std::int64_t{36}, "views", "evenly spaced over the walk of table 2", 1, 240},
     ParameterSpec{"rounds", std::int64_t{4}, "rounds", "times that each view is drawn", 1, 100},
 };
-constexpr std::array kCells{4, 8, 16, 32, 64};  // along each side of the ground
 constexpr int kViews = 240;
 
 std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
   std::vector<Case> cases;
   for (const std::string& ground :
-       paper ? grounds(options, true) : terrabench::grounds(options, {"real-257"})) {
+       paper ? grounds(options, true) : terrabench::grounds(options, {std::string(kPapersGround)})) {
     cases.push_back({ground, Parameters(kSpecs), ground});
   }
   return cases;

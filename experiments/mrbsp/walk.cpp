@@ -24,9 +24,14 @@ const std::array kSpecs{
     ParameterSpec{"pictures", std::int64_t{0}, "views",
                   "views in which pixels lost by visibility are counted", 0, 240},
     choice("sets", visibility::kModeNames, "how the visible sets are computed"),
+    ParameterSpec{"cells", std::int64_t{16}, "cells",
+                  "largest number along the longer side; 0 fits it so that visibility alone draws about the "
+                  "paper's share of triangles",
+                  0, 256},
 };
 
 constexpr int kViews = 240, kRounds = 4;
+constexpr std::int64_t kCellsAlong = 16;  // our choice: the paper gives no number
 // Few views would not represent the walk: of 12, LOD and VIS draw almost the same number of triangles.
 constexpr int kTimedViews = 36;
 // A view with a larger share of lost pixels shows an anomaly: at 800 × 600, a patch of 70 × 70 pixels.
@@ -173,26 +178,31 @@ std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   const bool paper = options.profile == Profile::kPaper;
   for (const std::string& ground : grounds(options, true)) {
-    const auto add = [&](std::string_view name, double size, visibility::Mode sets, int frames,
-                         int pictures) {
+    const auto add = [&](std::string_view name, double size, visibility::Mode sets, std::int64_t cells,
+                         int frames, int pictures) {
       cases.push_back({fmt::format("{}/{}", ground, name),
                        {kSpecs,
                         {{"size", size},
                          {"sets", std::string(name_of(sets))},
+                         {"cells", cells},
                          {"frames", std::int64_t{frames}},
                          {"pictures", std::int64_t{pictures}}}},
                        ground});
     };
     // Drawing a frame takes a hundred times as long as counting its triangles.
-    const bool real = ground == "real-257";
     const int pictures = paper ? kViews : ground == "rough-257" ? 0 : 80;
-    add("printed", 1, visibility::Mode::kSampled, paper || real ? kTimedViews : 0, 0);
-    add("fitted", 0, visibility::Mode::kSampled, paper || real ? kTimedViews : 0, pictures);
+    const int frames = paper || ground == kPapersGround ? kTimedViews : 0;
+    add("printed", 1, visibility::Mode::kSampled, kCellsAlong, frames, 0);
+    add("matched", 0, visibility::Mode::kSampled, 0, frames, 0);
+    add("fitted", 0, visibility::Mode::kSampled, kCellsAlong, 0, pictures);
     for (const visibility::Mode sets : {visibility::Mode::kVertices, visibility::Mode::kFacing,
                                         visibility::Mode::kInterior, visibility::Mode::kConservative}) {
       // Of the other readings, a third of the pictures.
       const bool safe = sets == visibility::Mode::kConservative;
-      add(name_of(sets), 0, sets, 0, safe ? pictures : paper || real ? 80 : 0);
+      add(name_of(sets), 0, sets, kCellsAlong, 0,
+          safe                               ? pictures
+          : paper || ground == kPapersGround ? 80
+                                             : 0);
     }
   }
   return cases;
@@ -202,11 +212,16 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   const std::vector<View> views = walk(ground, kViews);
-  Methods methods(ground, static_cast<visibility::Mode>(at.parameters.choice("sets")), progress);
+  const visibility::Options how{.mode = static_cast<visibility::Mode>(at.parameters.choice("sets")),
+                                .cells = at.integer("cells")};
+  const visibility::ChangeTable sets =
+      how.cells > 0 ? sets_over(ground, how, progress) : fitted_sets(ground, how, views, progress);
+  Methods methods(ground, sets, progress);
   const double asked = at.parameters.number("size");
   const double size = asked > 0 ? asked : fitted_size(methods, views);
   methods.tune(size);
   recorder.add("size", "short sides", size);
+  recorder.add("cells", "", std::max(sets.cells.columns, sets.cells.rows));
   recorder.add("triangles_all", "", triangles_unculled(ground, views[0], progress));
   count_triangles(methods, views, recorder);
   for (const View& view : views) {

@@ -137,73 +137,95 @@ TEST(MrbspFigures, Figure2ShowsTheProfileItsNumbersAndTheCellsThatChange) {
 struct LodReading {
   int labels = 0, wrong = 0;       // numbers, and those that no vertex at their place has as its threshold
   std::set<std::string> distinct;  // numbers
-  bool split = false;              // T lies in half of a triangle that the one-vertex rule splits
+  int marked = 0;                  // T lies in a triangle that needs the extra step
+  std::size_t painted = 0;         // pixels in the colour of holes
 };
 
-// Figure 1 against the formula of section 3, worked out here for the vertices of the frame.
-LodReading read_lod(const SheetReader& shown, const Heightfield& ground, const Frame& frame, const View& view,
-                    double short_side) {
+// A panel of figure 1 against the formula of section 3, worked out here for the vertices of the frame.
+LodReading read_lod(const SheetReader& shown, const SheetReader::Picture& panel, const Heightfield& ground,
+                    const Frame& frame, const View& view, double short_side) {
   const glm::mat4 clip = world_to_clip(view);
-  const double width = view.width / 2.0, height = view.height / 2.0;
   const auto world = [&](std::uint32_t v) {
     return glm::vec3(static_cast<float>(v % ground.width) * ground.cell_x, ground.heights[v],
                      static_cast<float>(v / ground.width) * ground.cell_z);
   };
-  const auto place = [&](const glm::vec3& at) {
-    const glm::vec4 c = clip * glm::vec4(at, 1);
+  const auto place = [&](std::uint32_t v) {
+    const glm::vec4 c = clip * glm::vec4(world(v), 1);
     if (c.w <= 0) return glm::dvec2(-1e9);
-    return glm::dvec2(width * (0.5 + 0.5 * c.x / c.w), height * (0.5 - 0.5 * c.y / c.w));
+    return glm::dvec2(panel.x + panel.width * (0.5 + 0.5 * c.x / c.w),
+                      panel.y + panel.height * (0.5 - 0.5 * c.y / c.w));
   };
-  const auto threshold = [&](const glm::vec3& at) {
-    const double d = glm::distance(glm::dvec3(at), glm::dvec3(view.eye));
+  const auto threshold = [&](std::uint32_t v) {
+    const double d = glm::distance(glm::dvec3(world(v)), glm::dvec3(view.eye));
     return std::clamp(static_cast<int>(std::ceil(16 - std::log2(d / short_side))), 1, 16);
   };
   const std::set<std::uint32_t> vertices(frame.indices.begin(), frame.indices.end());
   LodReading reading;
   for (const SheetReader::Words& w : shown.words) {
+    if (w.y < panel.y || w.y > panel.y + panel.height) continue;
     if (w.text == "T") {
       for (std::size_t k = 0; k < frame.indices.size(); k += 3) {
-        const glm::vec3 foot = world(frame.indices[k]), apex = world(frame.indices[k + 1]),
-                        end = world(frame.indices[k + 2]);
-        if (glm::distance((place(foot) + place(apex) + place(end)) / 3.0, {w.x, w.y - 6}) > 0.05) continue;
-        const glm::vec3 other = 2.0F * foot - end;
-        const float y = ground.sample(other.x, other.z);
-        reading.split = threshold(apex) < std::min(threshold(end), threshold({other.x, y, other.z}));
+        const std::uint32_t apex = frame.indices[k], left = frame.indices[k + 1],
+                            right = frame.indices[k + 2];
+        const auto width = static_cast<std::uint32_t>(ground.width);
+        const std::uint32_t foot =
+            (left / width + right / width) / 2 * width + (left % width + right % width) / 2;
+        if (glm::distance((place(apex) + place(left) + place(foot)) / 3.0, {w.x, w.y - 6}) > 0.05) continue;
+        reading.marked += threshold(apex) < std::min(threshold(left), threshold(right));
       }
       continue;
     }
     ++reading.labels;
     reading.distinct.insert(w.text);
-    bool right = false;
-    for (const std::uint32_t v : vertices) {
-      const glm::dvec2 at = place(world(v));
-      right |= std::abs(at.x - w.x) < 0.02 && std::abs(at.y + 4.5 - w.y) < 0.02 &&
-               std::to_string(threshold(world(v))) == w.text;
+    reading.wrong += std::ranges::none_of(vertices, [&](std::uint32_t v) {
+      return glm::distance(place(v), {w.x, w.y - 4.5}) < 0.03 && std::to_string(threshold(v)) == w.text;
+    });
+  }
+  constexpr int kPixels = figures::Sheet::kPixels;
+  for (int y = 0; y < kPixels * panel.height; ++y) {
+    for (int x = 0; x < kPixels * panel.width; ++x) {
+      const Rgb seen =
+          shown.image.pixel(static_cast<int>(kPixels * panel.x) + x, static_cast<int>(kPixels * panel.y) + y);
+      reading.painted += std::abs(seen[0] - kHole[0]) + seen[1] + std::abs(seen[2] - kHole[2]) < 60;
     }
-    reading.wrong += !right;
   }
   return reading;
 }
 
-TEST(MrbspFigures, Figure1NumbersVerticesByTheirThresholds) {
+TEST(MrbspFigures, Figure1ShowsAHoleAndTheStepThatClosesIt) {
   Progress progress;
   const TerrainSource source = open_ground("real-257", 1);
   const Heightfield& ground = *source.heights;
-  Mrbsp lod(ground, {.depth = kDepth, .conforming = false}, progress);
-  const View view = lod_view(ground, lod);
-  const auto read = [&] {
-    const SheetReader shown(lod_sheet(ground, lod, view, {}));
-    EXPECT_EQ(shown.pictures.size(), 1U);
-    return read_lod(shown, ground, lod.update(view), view, lod.short_side());
-  };
-  const LodReading right = read();
-  EXPECT_GT(right.labels, 25);
-  EXPECT_EQ(right.wrong, 0);
-  EXPECT_GE(right.distinct.size(), 3U);
-  EXPECT_TRUE(right.split);
-  // Planted: thresholds for another S.
-  lod.tune(2);
-  EXPECT_GT(read().wrong, 10);
+  Mrbsp open(ground, {.depth = kDepth, .conforming = false, .leave_holes = true}, progress);
+  Mrbsp closed(ground, {.depth = kDepth, .conforming = false}, progress);
+  const View view = lod_view(ground, open);
+  for (const double size : {1.0, 2.0}) {
+    const LodSheet sheet = lod_sheet(ground, size, {}, progress);
+    const SheetReader shown(sheet.sheet);
+    EXPECT_EQ(shown.fault_of_panels(declared_panels("mrbsp.F1")), "");
+    ASSERT_EQ(shown.pictures.size(), 2U);
+    const LodReading without =
+        read_lod(shown, shown.pictures[0], ground, open.update(view), view, open.short_side());
+    if (size == 2) {  // planted: thresholds for another S
+      EXPECT_GT(without.wrong, 10);
+      continue;
+    }
+    EXPECT_GT(without.labels, 25);
+    EXPECT_EQ(without.wrong, 0);
+    EXPECT_GE(without.distinct.size(), 3U);
+    EXPECT_EQ(without.marked, 1);
+    EXPECT_GT(sheet.without.painted, 10000U);
+    // Wires and labels lie over some of the painted pixels.
+    EXPECT_GT(without.painted, sheet.without.painted * 8 / 10);
+    EXPECT_LE(without.painted, sheet.without.painted);
+    EXPECT_LE(sheet.without.painted, sheet.without.bare);  // the meter counts holes behind hills too
+    EXPECT_GT(sheet.without.painted, sheet.without.bare * 8 / 10);
+    const LodReading with =
+        read_lod(shown, shown.pictures[1], ground, closed.update(view), view, closed.short_side());
+    EXPECT_EQ(with.wrong, 0);
+    EXPECT_EQ(with.painted, 0U);
+    EXPECT_EQ(sheet.with.painted + sheet.with.bare, 0U);
+  }
 }
 
 // Faults of a plot of apparent sizes: a triangle at depth M - log2(D/S) has legs that grow with the root of

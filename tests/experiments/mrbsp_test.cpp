@@ -69,6 +69,15 @@ TEST_F(MrbspExperiments, AWalkIsCountedAndTimedInOrder) {
               value(record, "time_share_both"), 1e-9);
 }
 
+// On small ground 64² cells are single samples, and fewer cells draw more.
+TEST_F(MrbspExperiments, FittedCellsDrawThePapersShareAsWellAsAnyNumberDoes) {
+  const double fitted = value(run("mrbsp.walk", kGround, {{"cells", std::int64_t{0}}}), "share_vis");
+  for (const int cells : kCells) {
+    const Record record = run("mrbsp.walk", kGround, {{"cells", std::int64_t{cells}}});
+    EXPECT_GE(std::abs(value(record, "share_vis") - 2755.0 / 7238), std::abs(fitted - 2755.0 / 7238));
+  }
+}
+
 TEST_F(MrbspExperiments, ConservativeSetsLeaveNoPictureOpen) {
   for (const std::string sets : {"interior", "conservative"}) {
     const Record record = run("mrbsp.walk", kGround, {{"sets", sets}, {"pictures", std::int64_t{12}}});
@@ -174,6 +183,7 @@ TEST_F(MrbspExperiments, SmallerCellsAndLevelOfDetailAreComparedWithBruteForce) 
     EXPECT_GE(value(record, "mean_ssim_lod"), value(record, "least_ssim_lod"));
     similar = value(record, "mean_ssim_lod");
     EXPECT_EQ(value(record, "psnr_lod") == 100, size == kFinest);
+    EXPECT_GE(value(record, "share_uniform"), value(record, "share_lod"));
   }
   EXPECT_EQ(similar, 1);
 }
