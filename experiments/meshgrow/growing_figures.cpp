@@ -94,7 +94,7 @@ Image stage_picture(Drawing& drawing, const Model& model, const GrownMesh& mesh,
 Sheet draw_steps(Drawing& drawing) {
   const Model model = parse_model(kCubesAndTent, "figure 6");
   const std::vector<GrownMesh> stages = stages_of(model);
-  const View view = view_of(stages.back().mesh, 520, 760, {0.7F, 0.62F, 1.0F});
+  const View view = view_of(stages.back().mesh, 520, 760, {1.0F, 0.62F, 0.75F});
   constexpr std::array<std::string_view, 4> kWords{"base: A becomes a cube", "step 1: B becomes a tent",
                                                    "step 2: each C becomes a cube", "step 3"};
   constexpr double kGap = 12, kWords0 = 30;

@@ -94,6 +94,14 @@ std::optional<Fork> fork_in(const RuleSystem& system, const GrownMesh& before, c
   return fork;
 }
 
+bool has_face(const FaceMesh& mesh, std::span<const std::uint32_t> corners) {
+  for (std::uint32_t face = 0; face < mesh.faces(); ++face) {
+    const auto own = corners_of(mesh, face);
+    if (std::equal(own.begin(), own.end(), corners.begin(), corners.end())) return true;
+  }
+  return false;
+}
+
 // The middle of these corners and their mean v.
 std::pair<glm::dvec3, double> middle_of(const FaceMesh& mesh, std::span<const std::uint32_t> corners) {
   glm::dvec3 place(0);
@@ -117,8 +125,9 @@ std::vector<StemSection> sections_along(const Model& model, std::span<const std:
     if (subdivisions > 0) return;
     for (std::uint32_t from = 0; from < before.mesh.faces(); ++from) {
       const std::string_view symbol = symbol_of(before.mesh, from);
-      if (symbol.empty()) continue;
-      const auto [start, v] = middle_of(after.mesh, corners_of(before.mesh, from));
+      const auto base = corners_of(before.mesh, from);
+      if (symbol.empty() || has_face(after.mesh, base)) continue;
+      const auto [start, v] = middle_of(after.mesh, base);
       StemSection section{symbol, std::numeric_limits<double>::infinity(), v, 0};
       for (std::uint32_t to = 0; to < after.mesh.faces(); ++to) {
         const auto corners = corners_of(after.mesh, to);

@@ -184,7 +184,7 @@ Sheet draw_frame(Drawing& drawing) {
   const Drawn hill_mesh = drawn(mesh);
   Scene scene;
   scene.meshes.push_back(lit(hill_mesh, 1.8F));
-  const View view = overview({{-2, 0, -2}, {2, 1.3F, 2}}, 1600, 1060, {0.75F, 0.95F, 1.0F});
+  const View view = overview({{-2, 0, -2}, {2, 1.3F, 2}}, 1600, 1060, {1.0F, 0.75F, 0.25F});
   const float s = 2.2F * surface.scales[v];
   const glm::vec3 foot = p + 0.02F * n;
   const std::array<std::tuple<glm::vec3, Rgb, std::string_view>, 3> axes{
