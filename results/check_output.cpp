@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "results/format.h"
-#include "results/tally.h"
+#include "results/statements.h"
 
 namespace terrabench {
 
@@ -14,12 +14,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// {"about the paper": {"reproduced": 3}, …}
+// {"stated in the paper": {"hold as printed": 3}, …}: statements, without their sub-rows.
 Json counts_json(std::span<const Judgement> judgements) {
   Json json = Json::object();
-  for (const auto& [about, counts] : tally(judgements)) {
-    Json& kind = json[std::string(name(about))];
-    for (const auto& [verdict, count] : counts) kind[std::string(name(verdict))] = count;
+  for (const auto& [group, counts] : count_standings(statements(judgements))) {
+    Json& of_group = json[std::string(name(group))];
+    for (const Standing standing : kStandings)
+      of_group[std::string(name(standing, group))] = counts[static_cast<std::size_t>(standing)];
   }
   return json;
 }
@@ -45,8 +46,9 @@ std::string check_json(const JudgedResults& results) {
          {"where", claim.where},
          {"statement", claim.statement},
          {"class", std::string(1, claim.claim_class)},
-         {"counts_as", name(claim.about)},
-         {"repeats", claim.repeats},
+         {"group", name(claim.group)},
+         {"is", name(claim.varies)},
+         {"of", claim.of},
          {"reported", claim.reported},
          {"unit", claim.unit},
          {"tolerance", claim.tolerance},
@@ -59,6 +61,7 @@ std::string check_json(const JudgedResults& results) {
          {"reason",
           claim.known() == Verdict::kDiffers || judgement.verdict == Verdict::kDiffers ? claim.reason() : ""},
          {"matches", claim.matches},
+         {"cause", claim.cause},
          {"note", claim.note},
          {"complaint", judgement.complaint},
          {"runs", judgement.runs}});

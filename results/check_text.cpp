@@ -5,7 +5,7 @@
 
 #include "results/check_output.h"
 #include "results/format.h"
-#include "results/tally.h"
+#include "results/statements.h"
 
 namespace terrabench {
 namespace {
@@ -74,10 +74,10 @@ class Writer {
     std::ranges::copy_if(results_.judgements, std::back_inserter(failing),
                          [](const Judgement& j) { return !j.complaint.empty(); });
     const std::size_t all = results_.judgements.size();
-    text_ += failing.empty() ? fmt::format("Profile {}: {} claims, {}\n", results_.profile, all,
+    text_ += failing.empty() ? fmt::format("Profile {}: {} rows, {}\n", results_.profile, all,
                                            judged_none() ? "none of them judged: none was measured"
                                                          : "every verdict as expected")
-                             : fmt::format("Profile {}: {} of {} claims fail the check\n", results_.profile,
+                             : fmt::format("Profile {}: {} of {} rows fail the check\n", results_.profile,
                                            failing.size(), all);
     if (results_.left_out > 0) {
       text_ += wrapped(fmt::format("{} further claims read experiments that were not run; --all asks for "
@@ -144,12 +144,16 @@ class Writer {
       }
       if (look_.verbose) {
         text_ += wrapped(j.claim->where + ": " + j.claim->statement, 4, width_) +
-                 wrapped("measured: " + j.measured, 4, width_) +
-                 wrapped(fmt::format("counts as: {}", name(j.claim->about)), 4, width_);
+                 wrapped("measured: " + j.measured, 4, width_) + wrapped(counts_as(*j.claim), 4, width_);
         write_expected(*j.claim);
       }
-      if (look_.verbose || j.claim->about != About::kRepeat) write_reason(j);
+      if (look_.verbose || j.claim->of.empty()) write_reason(j);
     }
+  }
+
+  static std::string counts_as(const Claim& claim) {
+    if (claim.of.empty()) return fmt::format("counts as: {}", name(claim.group));
+    return fmt::format("{} of {}: not counted", name(claim.varies), claim.of);
   }
 
   // The conditions that need not hold, one per line.
@@ -173,22 +177,18 @@ class Writer {
     text_ += "\nSummary\n";
     for (const Paper* const paper : papers_) {
       text_ += fmt::format("  {}\n", paper->id);
-      write_counts(results_.of(*paper), 4);
+      for (const auto& [group, counts] : count_standings(statements(results_.of(*paper))))
+        text_ += wrapped(fmt::format("{}: {}", name(group), counts_text(counts, group)), 4, width_);
     }
     const bool passed = results_.passed();
-    text_ += fmt::format("{}{}{}: {} claims\n", paint(passed ? kGreen : kRed), passed ? "PASS" : "FAIL",
-                         paint(kPlain), results_.judgements.size());
-    write_counts(results_.judgements, 2);
+    const auto sub_rows =
+        std::ranges::count_if(results_.judgements, [](const Judgement& j) { return !j.claim->of.empty(); });
+    text_ += fmt::format("{}{}{}: {} claims and {} further readings, settings and grounds of them\n",
+                         paint(passed ? kGreen : kRed), passed ? "PASS" : "FAIL", paint(kPlain),
+                         results_.judgements.size() - sub_rows, sub_rows);
     if (!results_.faults.empty()) {
       text_ += fmt::format("{} faults: the results cannot be trusted, measure again into a new folder\n",
                            results_.faults.size());
-    }
-  }
-
-  // One line for each kind of row.
-  void write_counts(std::span<const Judgement> judgements, std::size_t indent) {
-    for (const auto& [about, counts] : tally(judgements)) {
-      text_ += wrapped(fmt::format("{}: {}", name(about), counts_text(counts)), indent, width_);
     }
   }
 

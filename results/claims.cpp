@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::string_view kVerdicts[] = {
     "reproduced", "reproduced (shape)", "differs", "not comparable", "pending", "not run", "missing"};
-constexpr std::string_view kAbout[] = {"about the paper", "our own rules", "identities", "repeats"};
+constexpr std::string_view kGroupNames[] = {"stated in the paper", "figures drawn", "beyond the paper"};
+constexpr std::string_view kVariations[] = {"claim", "reading", "setting", "ground"};
 constexpr std::string_view kAllProfiles[] = {"quick", "paper"};
 
 // All profiles if the entry names none.
@@ -38,31 +39,43 @@ std::vector<std::string> patterns_from(TomlTable& entry, std::string_view key) {
   return patterns;
 }
 
-About about_from(TomlTable& entry, About usual) {
+// Whether an entry, or a whole file, is beyond the paper.
+bool is_beyond(TomlTable& entry, bool usual) {
   if (!entry.has("about")) return usual;
-  constexpr std::pair<std::string_view, About> kKeys[] = {
-      {"paper", About::kPaper}, {"ours", About::kOurs}, {"identity", About::kIdentity}};
-  const std::string key = entry.text("about");
-  const auto* const at = std::ranges::find(kKeys, key, &std::pair<std::string_view, About>::first);
-  if (at == std::end(kKeys)) entry.refuse("'about' is one of paper, ours, identity");
-  return at->second;
+  const std::string about = entry.text("about");
+  if (about != "paper" && about != "beyond") entry.refuse("'about' is one of paper, beyond");
+  return about == "beyond";
 }
 
-void make_repeat(Claim& claim, const std::string& of) {
-  claim.about = About::kRepeat;
-  claim.repeats = of;
+// What a claim is a sub-row of, if it is one. `first`: the claim that an earlier member of this claim's
+// `each` stands for; null if there is none.
+void read_sub_row(TomlTable& entry, const Claim* first, Claim& claim) {
+  const std::string each_is = entry.text_or("each_is", "setting");
+  constexpr std::string_view kEach[] = {"claim", "reading", "setting"};
+  const auto* const kind = std::ranges::find(kEach, each_is);
+  if (kind == std::end(kEach)) entry.refuse("'each_is' is one of claim, reading, setting");
+  if (first != nullptr && kind != kEach) {
+    claim.of = first->of.empty() ? first->id : first->of;
+    claim.varies = each_is == "reading" ? Variation::kReading : Variation::kSetting;
+  }
+  for (const auto& [key, varies] :
+       {std::pair{"reading_of", Variation::kReading}, std::pair{"setting_of", Variation::kSetting}}) {
+    // Empty for a member of `each` that is a claim of its own.
+    std::string of = entry.text_or(key, "");
+    if (of.empty()) continue;
+    claim.of = std::move(of);
+    claim.varies = varies;
+  }
 }
 
-// `first`: the claim that an earlier member of this claim's `each` stands for; null if there is none.
-Claim claim_from(const TomlValue& node, About usual_about, const Claim* first) {
+// `first`: see read_sub_row().
+Claim claim_from(const TomlValue& node, bool usually_beyond, const Claim* first) {
   TomlTable entry(node);
   Claim claim;
   claim.id = entry.text("id");
   claim.line = static_cast<int>(node.node->source().begin.line);
-  claim.about = about_from(entry, usual_about);
-  const bool each_is_a_row = entry.flag("each_is_a_row");
-  if (first != nullptr && !each_is_a_row) make_repeat(claim, first->id);
-  if (entry.has("repeats")) make_repeat(claim, entry.text("repeats"));
+  const bool beyond = is_beyond(entry, usually_beyond);
+  read_sub_row(entry, first, claim);
   claim.where = entry.text("where");
   claim.statement = entry.text("statement");
   const std::string type = entry.text("class");
@@ -70,6 +83,7 @@ Claim claim_from(const TomlValue& node, About usual_about, const Claim* first) {
     entry.refuse("'class' is one of E, T, S, F, Q");
   }
   claim.claim_class = type[0];
+  claim.group = beyond ? Group::kBeyond : type == "F" ? Group::kFigure : Group::kStated;
   for (const TomlValue& value : entry.list("reported")) claim.reported.push_back(value.number("reported"));
   claim.unit = entry.text_or("unit", "");
   claim.tolerance = entry.text_or("tolerance", "");
@@ -88,9 +102,17 @@ Claim claim_from(const TomlValue& node, About usual_about, const Claim* first) {
   claim.fails = patterns_from(entry, "fails");
   claim.may_fail = patterns_from(entry, "may_fail");
   claim.matches = entry.text_or("matches", "");
+  claim.cause = entry.text_or("cause", "");
   claim.vague = entry.text_or("vague", "");
   entry.refuse_unknown();
   return claim;
+}
+
+Cause cause_from(const TomlValue& node) {
+  TomlTable entry(node);
+  Cause cause{entry.text("id"), entry.text("title"), entry.text("text")};
+  entry.refuse_unknown();
+  return cause;
 }
 
 Reference reference_from(const TomlValue& node) {
@@ -152,7 +174,8 @@ std::vector<Claim> on_further_grounds(const std::vector<Claim>& claims,
     for (const FurtherGround& ground : grounds) {
       Claim again = claim;
       if (!move_to(ground, again)) continue;
-      make_repeat(again, claim.repeats.empty() ? claim.id : claim.repeats);
+      again.of = claim.of.empty() ? claim.id : claim.of;
+      again.varies = Variation::kGround;
       again.id += "." + ground.name;
       again.where += ", on " + ground.label;
       again.profiles = ground.profiles;
@@ -177,39 +200,54 @@ void check_ids(const Paper& paper, const std::string& origin) {
   };
   check(paper.id);
   for (const Claim& claim : paper.claims) check(claim.id);
+  for (const Cause& cause : paper.causes) check(cause.id);
   for (const TableLayout& table : paper.tables) check(table.id);
   for (const PlotLayout& plot : paper.plots) check(plot.id);
   for (const PageLayout& page : paper.pages) check(page.id);
 }
 
-// A repeat names a row of its own; `matches` names a claim that is known to hold, or is a sentence.
-void check_references(const Paper& paper, const std::string& origin) {
-  const auto fail = [&](const Claim& claim, std::string_view what) {
-    throw bad_input(fmt::format("{}: {}", claim.id, what), origin, "correct the claims file");
+// A sub-row names a claim and is of its group; `matches` names a claim that is known to hold, or is a
+// sentence; each cause is that of a claim.
+void check_references(Paper& paper, const std::string& origin) {
+  const auto fail = [&](const std::string& id, std::string_view what) {
+    throw bad_input(fmt::format("{}: {}", id, what), origin, "correct the claims file");
   };
   const auto claim_of = [&](const std::string& id) {
     return std::ranges::find(paper.claims, id, &Claim::id);
   };
-  for (const Claim& claim : paper.claims) {
-    if (!claim.repeats.empty()) {
-      const auto row = claim_of(claim.repeats);
-      if (row == paper.claims.end())
-        fail(claim, fmt::format("repeats the unknown claim '{}'", claim.repeats));
-      if (!row->repeats.empty()) fail(claim, fmt::format("repeats '{}', which is a repeat itself", row->id));
+  for (Claim& claim : paper.claims) {
+    if (!claim.of.empty()) {
+      const auto whole = claim_of(claim.of);
+      if (whole == paper.claims.end())
+        fail(claim.id, fmt::format("is a {} of the unknown claim '{}'", name(claim.varies), claim.of));
+      if (!whole->of.empty())
+        fail(claim.id,
+             fmt::format("is a {} of '{}', which is a sub-row itself", name(claim.varies), claim.of));
+      claim.group = whole->group;
+    }
+    if (!claim.cause.empty()) {
+      const auto cause = std::ranges::find(paper.causes, claim.cause, &Cause::id);
+      if (cause == paper.causes.end()) fail(claim.id, fmt::format("unknown cause '{}'", claim.cause));
+      claim.cause_title = cause->title;
     }
     if (claim.matches.empty() || claim.matches.find(' ') != std::string::npos) continue;
     const auto match = claim_of(claim.matches);
     if (match == paper.claims.end()) {
-      fail(claim, fmt::format("'matches' is neither a claim's id nor a sentence: '{}'", claim.matches));
+      fail(claim.id, fmt::format("'matches' is neither a claim's id nor a sentence: '{}'", claim.matches));
     }
-    if (match->known() > Verdict::kShape) fail(claim, fmt::format("'{}' is not known to hold", match->id));
+    if (!holds(match->known())) fail(claim.id, fmt::format("'{}' is not known to hold", match->id));
+  }
+  for (const Cause& cause : paper.causes) {
+    if (std::ranges::count(paper.claims, cause.id, &Claim::cause) == 0)
+      fail(cause.id, "no claim names this cause");
   }
 }
 
 }  // namespace
 
 std::string_view name(Verdict verdict) { return kVerdicts[static_cast<std::size_t>(verdict)]; }
-std::string_view name(About about) { return kAbout[static_cast<std::size_t>(about)]; }
+std::string_view name(Group group) { return kGroupNames[static_cast<std::size_t>(group)]; }
+std::string_view name(Variation varies) { return kVariations[static_cast<std::size_t>(varies)]; }
 
 Verdict Claim::known() const {
   if (!not_comparable.empty()) return Verdict::kNotComparable;
@@ -220,6 +258,7 @@ Verdict Claim::known() const {
 
 std::string Claim::reason() const {
   if (known() != Verdict::kDiffers && !machine.empty()) return machine;
+  if (note.empty()) return cause_title.empty() ? "" : cause_title + ".";
   const std::size_t end = note.find(". ");
   return end == std::string::npos ? note : note.substr(0, end + 1);
 }
@@ -233,19 +272,20 @@ Paper parse_claims(std::string_view text, const std::string& origin) {
   Paper paper{entry.text("paper"), entry.text("title"), {}, "", {}, {}, {}};
   if (entry.has("reference")) paper.reference = reference_from(entry.get("reference"));
   paper.source = paper.reference ? entry.text_or("source", "") : entry.text("source");
-  const About about = about_from(entry, About::kPaper);
+  const bool beyond = is_beyond(entry, false);
   const toml::node* of_last = nullptr;  // elements of one `each` follow each other
   std::size_t first = 0;
   for (const TomlValue& claim : entry.list("claim")) {
     if (claim.node != of_last) first = paper.claims.size();
     of_last = claim.node;
     const bool again = first < paper.claims.size();
-    paper.claims.push_back(claim_from(claim, about, again ? &paper.claims[first] : nullptr));
+    paper.claims.push_back(claim_from(claim, beyond, again ? &paper.claims[first] : nullptr));
   }
   std::vector<FurtherGround> grounds;
   for (const TomlValue& ground : entry.list("ground")) grounds.push_back(ground_from(ground));
   paper.claims = on_further_grounds(paper.claims, grounds);
   expect_failures(paper.claims, origin);
+  for (const TomlValue& cause : entry.list("cause")) paper.causes.push_back(cause_from(cause));
   for (const TomlValue& page : entry.list("page")) paper.pages.push_back(parse_page(page));
   for (const TomlValue& table : entry.list("table")) paper.tables.push_back(parse_table(table, paper.pages));
   for (const TomlValue& plot : entry.list("plot")) paper.plots.push_back(parse_plot(plot, paper.pages));

@@ -25,6 +25,7 @@ enum class Verdict {
   kMissing,        // it should be measured, but there is no measurement
 };
 std::string_view name(Verdict);
+inline bool holds(Verdict v) { return v <= Verdict::kShape; }
 inline bool was_measured(Verdict v) { return v != Verdict::kPending && v != Verdict::kNotRun; }
 
 // A number, or a metric of a case: "experiment/case/metric". Case names may contain '/'.
@@ -64,22 +65,35 @@ struct Condition {
 // ratio and the other way round for growth, "figure p.F1".
 std::string formula(const Condition&);
 
-// What a row says something about. Rows of different kinds are counted apart: only those about the paper say
-// how much of it is reproduced.
-enum class About {
-  kPaper,     // what the paper reports
-  kOurs,      // a rule of this program, or a comparison that no paper makes
-  kIdentity,  // follows from a definition by arithmetic: it fails only if the program miscounts
-  kRepeat,    // another row again, on further grounds or with other parameters: key `repeats`, a member of
-              // `each` after the first (unless `each_is_a_row`), or a [[ground]]
+// What a claim is about. The groups are counted apart and never added up.
+enum class Group {
+  kStated,  // a number or an order that the paper states
+  kFigure,  // a figure that the paper draws: class F
+  kBeyond,  // what we ask beyond the paper: key about = "beyond"
 };
-std::string_view name(About);
-inline constexpr About kAllAbout[] = {About::kPaper, About::kOurs, About::kIdentity, About::kRepeat};
+std::string_view name(Group);
+inline constexpr Group kGroups[] = {Group::kStated, Group::kFigure, Group::kBeyond};
 
+// What a sub-row changes of the claim that it belongs to. Sub-rows are judged, but not counted.
+enum class Variation {
+  kNone,     // it is a claim of its own
+  kReading,  // another defensible reading of the same words: keys `reading_of`, each_is = "reading"
+  kSetting,  // other parameters or terrain, or a part of it: `setting_of`, a member of `each` after the first
+  kGround,   // the ground of a [[ground]]
+};
+std::string_view name(Variation);
+
+// A reason for which several claims do not hold, stated once: a [[cause]].
+struct Cause {
+  std::string id, title, text;
+};
+
+// One statement, or a sub-row of one.
 struct Claim {
   std::string id, where, statement;
-  About about = About::kPaper;
-  std::string repeats;                // id of the row that this one repeats; else empty
+  Group group = Group::kStated;  // a sub-row's is that of its claim
+  Variation varies = Variation::kNone;
+  std::string of;                     // id of the claim that a sub-row belongs to; else empty
   char claim_class = 'E';             // key `class`: E exact, T tolerance, S shape, F figure, Q qualitative.
                                       // Only S changes a verdict's name; F the report's layout
   std::vector<double> reported;       // as printed in the paper
@@ -96,12 +110,14 @@ struct Claim {
   // For claims known to differ: the id of the claim of the reading that matches, or a sentence that says that
   // none does.
   std::string matches;
-  int line = 0;       // in the claims file
+  std::string cause, cause_title;  // id and title of the Cause for which it does not hold; or both empty
+  int line = 0;                    // in the claims file
   std::string vague;  // what the paper leaves open, where this claim measures several readings; else empty
 
   // The expected verdict: differs if a condition is expected to fail. Those in `may_fail` do not count.
   Verdict known() const;
-  // Why it differs: the first sentence of `note` if it is known to, otherwise `machine`.
+  // Why it differs: if it is known to, the first sentence of `note`, or without a note the cause; otherwise
+  // `machine`.
   std::string reason() const;
 };
 
@@ -129,6 +145,7 @@ struct Paper {
   // The claims file, if it has [further]: its pages are filled for grounds that it does not name as well
   // (further_grounds.h).
   std::optional<ClaimsFile> further = {};
+  std::vector<Cause> causes = {};
 };
 
 // The five papers and the comparison across them, in this order. Parsed once.

@@ -155,8 +155,10 @@ void expect_failures(std::span<Claim> claims, const std::string& origin) {
       if (fails) condition.expected = Condition::Expected::kFails;
       if (may_fail) condition.expected = Condition::Expected::kEither;
     }
-    if (claim.known() == Verdict::kDiffers && (claim.note.empty() || claim.matches.empty())) {
-      fail(claim, "'fails' needs a 'note' with the reason, and 'matches': a claim's id or a sentence");
+    const bool has_reason = !claim.note.empty() || !claim.cause.empty();
+    if (claim.known() == Verdict::kDiffers && (!has_reason || claim.matches.empty())) {
+      fail(claim,
+           "'fails' needs a 'cause' or a 'note' with the reason, and 'matches': a claim's id or a sentence");
     }
     if (claim.may_fail.empty() != claim.machine.empty())
       fail(claim, "'may_fail' and its reason, 'machine', need each other");

@@ -20,11 +20,13 @@ std::string show(const Quantity& q, double value) {
   return q.name.empty() ? text : q.name + " " + text;
 }
 
-// How far a value misses a bound, relative to the bound unless that is 0.
+// How far a value misses a bound: relative to the bound unless that is 0, and as a factor from 3 on.
 std::string missed_by(double value, double bound) {
   const double distance = value - bound;
   if (!std::isfinite(distance)) return "at no finite distance";
   const std::string_view side = distance < 0 ? "below" : "above";
+  if (bound != 0 && value / bound >= 3)
+    return fmt::format("{} times that", format_number(std::round(100 * value / bound) / 100));
   return bound == 0 ? fmt::format("{:.3g} {}", std::abs(distance), side)
                     : fmt::format("{:.3g} % {}", 100 * std::abs(distance / bound), side);
 }

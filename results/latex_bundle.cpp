@@ -12,7 +12,6 @@
 #include "results/format.h"
 #include "results/further_grounds.h"
 #include "results/judge.h"
-#include "results/ledger.h"
 #include "results/lost_columns.h"
 #include "results/new_folder.h"
 #include "results/plot.h"
@@ -20,7 +19,7 @@
 #include "results/rasterise.h"
 #include "results/report_tables.h"
 #include "results/shown_pictures.h"
-#include "results/tally.h"
+#include "results/statement_table.h"
 #include "terrain/error.h"
 #include "terrain/files.h"
 #include "terrain/image.h"
@@ -61,32 +60,6 @@ constexpr std::string_view kPreamble = R"(
 // A paper's own numbers would stand beside the bundle's: "Table 2: Table 1: …".
 std::string title_beside_number(const std::string& title) {
   return title.starts_with("Table ") || title.starts_with("Figure ") ? "The paper's " + title : title;
-}
-
-// What the paper says and how it came out, without the rows that repeat others.
-Table own_rows(const Store& store, const JudgedResults& results, const Paper& paper) {
-  const Table all = ledger_table(store, results, {&paper, 1}, {});
-  constexpr std::size_t kShown[] = {0, 2, 3,
-                                    4, 5, 1};  // claim, the paper, printed, measured, tolerance, verdict
-  Table table{
-      "verdicts-" + paper.id,
-      "Verdicts: " + paper.title,
-      "What the paper says in our words, what it prints, the measurement that decides, its tolerance, and "
-      "the verdict. Of a row with several conditions, the first that fails is shown or, if all hold, the one "
-      "nearest to its bound; an exact row that begins with an equality or a picture shows that. Rows that "
-      "repeat another on further grounds or with other parameters are left out.",
-      {},
-      {}};
-  for (const std::size_t i : kShown) table.columns.push_back(all.columns[i]);
-  const auto judgements = results.of(paper);
-  for (std::size_t row = 0; row < all.rows.size(); ++row) {
-    const Judgement& j = judgements[row];
-    if (j.claim->about == About::kRepeat || !was_measured(j.verdict)) continue;
-    std::vector<Cell> cells;
-    for (const std::size_t i : kShown) cells.push_back(all.rows[row][i]);
-    table.rows.push_back(std::move(cells));
-  }
-  return table;
 }
 
 // A figure of main.tex, without its float.
@@ -159,8 +132,10 @@ class Bundle {
     std::vector<Table> tables = filled_tables(paper);
     const bool judged =
         std::ranges::any_of(results_.of(paper), [](const Judgement& j) { return !j.runs.empty(); });
-    Table verdicts = own_rows(store_, results_, paper);
-    if (judged && !verdicts.rows.empty()) tables.push_back(std::move(verdicts));
+    for (const Group group : kGroups) {
+      Table verdicts = statement_table(results_, paper, group);
+      if (judged && !verdicts.rows.empty()) tables.push_back(std::move(verdicts));
+    }
     std::vector<FigureText> figures = drawn_plots(paper);
     add_pictures(paper, figures);
     if (tables.empty() && figures.empty()) return;

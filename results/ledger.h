@@ -23,11 +23,9 @@ struct LedgerLinks {
   std::vector<Link> grounds = {};  // to the pages of single grounds
 };
 
-// One row per claim, in the papers' order; the id of a claim is the anchor of its row.
+// One row per claim and sub-row, in the papers' order; the id of a row is its anchor.
 Table ledger_table(const Store&, const JudgedResults&, std::span<const Paper>, const LedgerLinks&);
-// How many claims have which verdict, by kind (claims.h, About) and class.
-Table class_table(const JudgedResults&);
-// The page: both tables, the ledger with a field that filters its rows.
+// The page: counts, the statements of each paper by group, and all rows with a field that filters them.
 Document ledger(const Store&, const JudgedResults&, std::span<const Paper>, const LedgerLinks&);
 
 }  // namespace terrabench

@@ -80,6 +80,12 @@ bool is_measured(const Claim& claim, const Store& store) {
   return std::ranges::count(evidence.findings, Outcome::kMissing, &Finding::outcome) == 0;
 }
 
+bool reads_numbers(const Claim& claim) {
+  return std::ranges::any_of(claim.conditions, [](const Condition& condition) {
+    return condition.kind != Condition::Kind::kFigure;
+  });
+}
+
 bool survives(const Claim& claim, const Store& store, Mutant mutant) {
   return std::ranges::all_of(claim.conditions, [&](const Condition& condition) {
     return Trial(condition, store).holds_for_all(mutant);
@@ -114,7 +120,7 @@ std::vector<Survivor> survivors(const Store& store, std::span<const Paper> paper
   std::vector<Survivor> found;
   for (const Paper& paper : papers) {
     for (const Claim& claim : paper.claims) {
-      if (claim.claim_class == 'F' || !is_measured(claim, store)) continue;
+      if (!reads_numbers(claim) || !is_measured(claim, store)) continue;
       std::string reason = weakness(claim, store);
       if (!reason.empty()) found.push_back({&claim, std::move(reason)});
     }

@@ -1,7 +1,7 @@
 // Mutation test of the claims: what would a claim say if its method were replaced by a trivial one? Mutants
 // replace the metrics that a claim's conditions read, and the conditions are evaluated again. A claim that
 // cannot tell the method from a mutant needs another condition, such as a count of the work that was done.
-// Claims of class F are left out: their checks read pictures (evidence.h).
+// Claims that read pictures alone (evidence.h) are left out.
 #pragma once
 
 #include <span>
@@ -30,7 +30,7 @@ struct Survivor {
   std::string reason;  // why the check is too weak
 };
 
-// The claims, measured in this store and outside class F, whose check
+// The claims, measured in this store, that read more than pictures and whose check
 // - holds when every metric that it reads is 0, is 1 or is not a number: the trivial methods; or
 // - reads a metric that no mutant of this metric alone makes it refuse.
 // A claim that differs is tried likewise: a trivial method must not pass it. O(claims · operands² · mutants)

@@ -1,5 +1,5 @@
-// "Where the papers are wrong or vague": a page made from the claims about papers that differ, and from those
-// that settle what a paper leaves open. Repeats stand with the row that they repeat.
+// "Where the papers are wrong or vague": a page made from the statements that do not hold as printed, each
+// under its cause, and from those that settle what a paper leaves open.
 #pragma once
 
 #include <span>
@@ -12,11 +12,7 @@ namespace terrabench {
 
 inline constexpr std::string_view kPaperFaultsTitle = "Where the papers are wrong or vague";
 
-// How many of the measured rows about the papers differ, and of which papers, the largest share first, as one
-// sentence. Empty if none was measured.
-std::string where_papers_differ(const JudgedResults&, std::span<const Paper>);
-
-// Links lead into the report's main page, `report`. Empty if no claim belongs there.
-Document paper_faults(const JudgedResults&, std::span<const Paper>, const std::string& report);
+// Links lead into the page `ledger`. Empty if no claim belongs here.
+Document paper_faults(const JudgedResults&, std::span<const Paper>, const std::string& ledger);
 
 }  // namespace terrabench

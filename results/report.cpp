@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -23,6 +24,7 @@
 #include "results/report_parts.h"
 #include "results/report_tables.h"
 #include "results/shown_pictures.h"
+#include "results/statements.h"
 #include "terrain/files.h"
 
 namespace terrabench {
@@ -85,7 +87,7 @@ class Report {
                                     true,
                                     {{"Which, and why", "#absent"}}});
     }
-    document_.push_back(Paragraph{"Every row with its figure and its run, in one table that can be filtered:",
+    document_.push_back(Paragraph{"Every statement with what was measured and the reason of its verdict:",
                                   false,
                                   {{"Ledger", "ledger.html"}, {"as Markdown", "ledger.md"}}});
     add_paper_faults();
@@ -133,8 +135,8 @@ class Report {
     if (facts.lines.empty()) return;
     write_file(out_ / "findings.json", findings_json(rankings));
     Facts brief = in_short(rankings);
-    if (std::string differ = where_papers_differ(results_, papers_); !differ.empty())
-      brief.lines.emplace_back("Papers and measurements", std::move(differ));
+    if (std::string standings = standings_sentence(results_); !standings.empty())
+      brief.lines.emplace_back("Papers and measurements", std::move(standings));
     write_file(out_ / "findings.md", markdown({facts}));
     write_file(out_ / "findings-short.md", markdown({brief}));
     document_.push_back(Heading{2, "Findings", "findings"});
@@ -217,10 +219,10 @@ class Report {
 
   void add_paper_faults() {
     constexpr std::string_view kHtml = "wrong-or-vague.html", kMarkdown = "wrong-or-vague.md";
-    const Document page = paper_faults(results_, papers_, "index.html");
+    const Document page = paper_faults(results_, papers_, "ledger.html");
     if (page.empty()) return;
     write_file(out_ / kHtml, html(page));
-    write_file(out_ / kMarkdown, markdown(paper_faults(results_, papers_, "report.md")));
+    write_file(out_ / kMarkdown, markdown(paper_faults(results_, papers_, "ledger.md")));
     document_.push_back(Paragraph{
         "Every difference with its reason and the reading that matches:",
         false,
@@ -328,14 +330,16 @@ class Report {
   }
 
   void add_verdicts(const Paper& paper) {
-    Table table = verdict_table(results_, paper);
-    if (table.rows.empty()) return;
+    std::string counts;
+    for (const auto& [group, standings] : count_standings(statements(results_.of(paper)))) {
+      counts +=
+          fmt::format("{}{}: {}", counts.empty() ? "" : ". ", name(group), counts_text(standings, group));
+    }
+    if (counts.empty()) return;
+    counts[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(counts[0])));
     document_.push_back(Heading{3, "Verdicts", paper.id + "-verdicts"});
-    add_table(std::move(table), {});
-    Facts notes = claim_notes(results_, paper);
-    if (notes.lines.empty()) return;
-    document_.push_back(Heading{3, "Notes on these claims", paper.id + "-notes"});
-    document_.push_back(std::move(notes));
+    document_.push_back(Paragraph{
+        counts + ".", false, {{"Each statement", "ledger.html#" + paper.id}, {"as Markdown", "ledger.md"}}});
   }
 
   void add_gallery(const Paper& paper) {

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 #include "results/fill.h"
 #include "results/format.h"
-#include "results/tally.h"
+#include "results/statements.h"
 #include "terrain/files.h"
 
 namespace terrabench {
@@ -55,47 +56,47 @@ std::string picture_name(const RecordedFigure& figure) {
 std::string short_id(const std::string& run) { return run.substr(0, 8); }
 std::string run_anchor(const std::string& run) { return "run-" + short_id(run); }
 
+std::string standings_sentence(const JudgedResults& results) {
+  std::vector<Statement> of_papers = statements(results.judgements);
+  std::string text;
+  for (const auto& [group, counts] : count_standings(of_papers)) {
+    constexpr std::string_view kWhat[] = {"statements of the papers in numbers or orders", "figures",
+                                          "things that we ask beyond the papers"};
+    text += fmt::format("{}Of {} {}, {}.", text.empty() ? "" : " ", sum(counts),
+                        kWhat[static_cast<std::size_t>(group)], counts_text(counts, group));
+  }
+  return text;
+}
+
 Table summary_table(const JudgedResults& results, std::span<const Paper> papers) {
   Table table{
       "summary",
       "Verdicts",
-      "How many claims have which verdict. Rows about a paper, rows about rules of this program, rows "
-      "that hold by arithmetic alone, and repeats of a row on further grounds or with other parameters "
-      "are counted apart: only the first say how much of a paper is reproduced.",
-      {{"Paper"}, {"Rows"}},
+      "Of the numbers and orders that each paper states, how many hold as printed, hold only in another "
+      "reading of the same words, do not hold, and are not judged: not measured in this profile, or not "
+      "comparable. Apart from them: figures whose picture shows what the paper's does, and what we ask "
+      "beyond the paper, which says nothing about it.",
+      {{"Paper"}, {"statements", "", true}},
       {}};
-  for (const Verdict verdict : kVerdictColumns)
-    table.columns.push_back({std::string(name(verdict)), "", true});
-  const auto add = [&](const std::string& title, About about, VerdictCounts counts) {
-    std::vector<Cell> cells = {{title}, {std::string(name(about))}};
-    for (const Verdict verdict : kVerdictColumns) cells.push_back({std::to_string(counts[verdict])});
+  for (const Standing standing : kStandings)
+    table.columns.push_back({std::string(name(standing, Group::kStated)), "", true});
+  for (const char* const column : {"figures that hold", "beyond the paper, hold"})
+    table.columns.push_back({column, "", true});
+  const auto add = [&](const std::string& title, std::span<const Judgement> judgements) {
+    std::map<Group, StandingCounts> counts = count_standings(statements(judgements));
+    const auto share = [&](Group group) -> Cell {
+      const int all = sum(counts[group]);
+      return {all == 0 ? "–" : fmt::format("{} of {}", counts[group][0], all)};
+    };
+    const StandingCounts& stated = counts[Group::kStated];
+    const int all = sum(stated);
+    std::vector<Cell> cells = {{title}, {all == 0 ? "–" : std::to_string(all)}};
+    for (const int count : stated) cells.push_back({all == 0 ? "–" : std::to_string(count)});
+    cells.insert(cells.end(), {share(Group::kFigure), share(Group::kBeyond)});
     table.rows.push_back(std::move(cells));
   };
-  for (const Paper& paper : papers) {
-    for (const auto& [about, counts] : tally(results.of(paper))) add(paper.title, about, counts);
-  }
-  for (const auto& [about, counts] : tally(results.judgements)) add("All", about, counts);
-  return table;
-}
-
-Table verdict_table(const JudgedResults& results, const Paper& paper) {
-  Table table{
-      paper.id + ".verdicts",
-      "Every claim that is measured so far",
-      "What the paper says in our words, the tolerance, what was found, and the verdict that follows.",
-      {{"Claim"}, {"The paper"}, {"Tolerance"}, {"Measured"}, {"Verdict"}, {"Run"}},
-      {}};
-  for (const Judgement& judgement : results.of(paper)) {
-    if (judgement.verdict == Verdict::kPending) continue;
-    const Claim& claim = *judgement.claim;
-    const std::string run = judgement.runs.empty() ? "" : judgement.runs.back();
-    table.rows.push_back({{claim.id},
-                          {where_and_statement(claim)},
-                          {claim.tolerance},
-                          {judgement.measured},
-                          verdict_cell(judgement),
-                          {short_id(run), "", run.empty() ? "" : "#" + run_anchor(run)}});
-  }
+  for (const Paper& paper : papers) add(paper.title, results.of(paper));
+  if (papers.size() > 1) add("All", results.judgements);
   return table;
 }
 

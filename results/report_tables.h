@@ -9,10 +9,11 @@
 
 namespace terrabench {
 
-// How many claims of each paper, and of all, have which verdict: one row for each kind of claim.
+// "Of 130 statements of the papers in numbers or orders, 100 hold as printed, …": a sentence per group.
+std::string standings_sentence(const JudgedResults&);
+// How many statements of each paper, and of all, hold: one row per paper.
 Table summary_table(const JudgedResults&, std::span<const Paper>);
-// The claims of one paper, except pending ones, with what was measured; and the notes that belong to them.
-Table verdict_table(const JudgedResults&, const Paper&);
+// The notes of one paper's claims, except pending ones.
 Facts claim_notes(const JudgedResults&, const Paper&);
 // The claims of all papers whose method is not built yet.
 Table pending_table(const JudgedResults&);

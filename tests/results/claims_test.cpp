@@ -238,9 +238,9 @@ TEST(Claims, EachStandsForEveryMemberOfASet) {
   const Paper paper = parse_claims(text, "x");
   ASSERT_EQ(paper.claims.size(), 2U);
   const Claim& there = paper.claims[1];
-  EXPECT_EQ(paper.claims[0].about, About::kPaper);
-  EXPECT_EQ(there.about, About::kRepeat) << "the first member of a set stands for the row";
-  EXPECT_EQ(there.repeats, "p.a");
+  EXPECT_EQ(paper.claims[0].of, "");
+  EXPECT_EQ(there.varies, Variation::kSetting) << "the first member of a set is the claim";
+  EXPECT_EQ(there.of, "p.a");
   EXPECT_EQ(there.id, "p.b");
   EXPECT_EQ(there.where, "there, b");
   EXPECT_EQ(paper.claims[0].statement, "at a");
@@ -309,31 +309,76 @@ TEST(Claims, ClaimsAreRepeatedOnFurtherGrounds) {
   EXPECT_EQ(claims[1].known(), Verdict::kDiffers);
   EXPECT_EQ(claims[1].note, "n");
   EXPECT_EQ(claims[1].matches, "None does.");
-  EXPECT_EQ(claims[0].about, About::kPaper);
-  EXPECT_EQ(claims[1].about, About::kRepeat);
-  EXPECT_EQ(claims[2].repeats, "p.1");
+  EXPECT_EQ(claims[0].varies, Variation::kNone);
+  EXPECT_EQ(claims[1].varies, Variation::kGround);
+  EXPECT_EQ(claims[2].of, "p.1");
   EXPECT_EQ(claims[2].known(), Verdict::kReproduced);
   EXPECT_EQ(claims[2].profiles.size(), 2U);
   EXPECT_EQ(claims[0].conditions[0].operands[1].case_name, "a");
 }
 
-TEST(Claims, RowsAreCountedAsWhatTheyAreAbout) {
-  const auto about = [](const std::string& file_key, const std::string& key) {
+TEST(Claims, AreOfTheGroupThatTheyAreAbout) {
+  const auto group = [](const std::string& file_key, const std::string& key) {
     const std::string text = std::string(kHead) + file_key + std::string(kClaim) + "pending = \"x\"\n" + key;
-    return parse_claims(text, "x").claims.at(0).about;
+    return parse_claims(text, "x").claims.at(0).group;
   };
-  EXPECT_EQ(about("", ""), About::kPaper);
-  EXPECT_EQ(about("", "about = \"ours\"\n"), About::kOurs);
-  EXPECT_EQ(about("", "about = \"identity\"\n"), About::kIdentity);
-  EXPECT_EQ(about("about = \"ours\"\n", ""), About::kOurs);
-  EXPECT_EQ(about("about = \"ours\"\n", "about = \"paper\"\n"), About::kPaper);
+  EXPECT_EQ(group("", ""), Group::kStated);
+  EXPECT_EQ(group("", "about = \"beyond\"\n"), Group::kBeyond);
+  EXPECT_EQ(group("about = \"beyond\"\n", ""), Group::kBeyond);
+  EXPECT_EQ(group("about = \"beyond\"\n", "about = \"paper\"\n"), Group::kStated);
+  const std::string figure = std::string(kHead) +
+                             "[[claim]]\nid = \"p.F1\"\nwhere = \"w\"\nstatement = \"s\"\nclass = \"F\"\n"
+                             "check = [{figure = \"p.F1\"}]\n";
+  EXPECT_EQ(parse_claims(figure, "x").claims.at(0).group, Group::kFigure);
+  EXPECT_EQ(parse_claims(figure + "about = \"beyond\"\n", "x").claims.at(0).group, Group::kBeyond);
   for (const Paper& paper : papers()) {
     for (const Claim& claim : paper.claims) {
-      EXPECT_EQ(claim.about == About::kRepeat, !claim.repeats.empty()) << claim.id;
-      EXPECT_TRUE(paper.id != "cross" || claim.about != About::kPaper) << claim.id << " is ours";
-      EXPECT_TRUE(claim.known() != Verdict::kDiffers || !claim.matches.empty()) << claim.id;
+      EXPECT_EQ(claim.varies == Variation::kNone, claim.of.empty()) << claim.id;
+      EXPECT_TRUE(paper.id != "cross" || claim.group == Group::kBeyond) << claim.id << " is ours";
     }
   }
+}
+
+// A sub-row is of the group of its claim, wherever that stands in the file.
+TEST(Claims, SubRowsSayWhatTheyVary) {
+  const auto claim = [](const std::string& id, const std::string& more) {
+    return "[[claim]]\nid = \"p." + id + "\"\nwhere = \"w\"\nstatement = \"s\"\nclass = \"T\"\n" +
+           "pending = \"x\"\n" + more;
+  };
+  const Paper paper = parse_claims(
+      std::string(kHead) + "[sets]\nn = [\"1\", \"2\"]\n" + claim("reading", "reading_of = \"p.a\"\n") +
+          claim("a", "about = \"beyond\"\n") + claim("b{n}", "each = [\"n\"]\neach_is = \"reading\"\n") +
+          claim("c{n}", "each = [\"n\"]\neach_is = \"claim\"\n") +
+          claim("d{n}", "each = [\"n\"]\nsetting_of = \"p.a\"\n"),
+      "x");
+  const auto is = [&](std::size_t i, Variation varies, const std::string& of, Group group) {
+    EXPECT_EQ(paper.claims.at(i).varies, varies) << i;
+    EXPECT_EQ(paper.claims.at(i).of, of) << i;
+    EXPECT_EQ(paper.claims.at(i).group, group) << i;
+  };
+  is(0, Variation::kReading, "p.a", Group::kBeyond);
+  is(1, Variation::kNone, "", Group::kBeyond);
+  is(2, Variation::kNone, "", Group::kStated);
+  is(3, Variation::kReading, "p.b1", Group::kStated);
+  is(4, Variation::kNone, "", Group::kStated);
+  is(5, Variation::kNone, "", Group::kStated);
+  is(6, Variation::kSetting, "p.a", Group::kBeyond);
+  is(7, Variation::kSetting, "p.a", Group::kBeyond);
+}
+
+TEST(Claims, ACauseIsTheReasonOfAClaimWithoutANote) {
+  const std::string cause = "[[cause]]\nid = \"p.S\"\ntitle = \"S has two meanings\"\ntext = \"t\"\n",
+                    differs = std::string(kHead) + std::string(kClaim) +
+                              "check = [{equal = [\"e/c/m\", 1]}]\nfails = [\"*\"]\n"
+                              "matches = \"None does.\"\ncause = \"p.S\"\n";
+  const Paper paper = parse_claims(differs + cause, "x");
+  ASSERT_EQ(paper.causes.size(), 1U);
+  EXPECT_EQ(paper.causes[0].text, "t");
+  EXPECT_EQ(paper.claims[0].reason(), "S has two meanings.");
+  EXPECT_EQ(parse_claims(differs + "note = \"First. Second.\"\n" + cause, "x").claims[0].reason(), "First.");
+  expect_refused(differs, "unknown cause 'p.S'", 0);
+  expect_refused(std::string(kHead) + std::string(kClaim) + "pending = \"x\"\n" + cause,
+                 "no claim names this cause", 0);
 }
 
 TEST(Claims, ReadsEveryKindOfCondition) {
@@ -386,16 +431,19 @@ TEST(Claims, RefusesWithFileAndLine) {
   expect_refused(check + "known = \"differs\"\n", "unknown key 'known'", 10);
   expect_refused(check + why + "fails = [\"e/c/n *\"]\n", "no condition matches 'e/c/n *'", 4);
   expect_refused(check + why + "fails = [\"e/c/m\"]\n", "no condition matches 'e/c/m'", 4);
-  expect_refused(check + "fails = [\"e/c/m = 1\"]\nmatches = \"None does.\"\n", "needs a 'note'", 4);
+  expect_refused(check + "fails = [\"e/c/m = 1\"]\nmatches = \"None does.\"\n", "needs a 'cause' or a 'note'",
+                 4);
   expect_refused(check + "fails = [\"e/c/m = 1\"]\nnote = \"n\"\n", "and 'matches'", 4);
   expect_refused(check + "may_fail = [\"e/c/m = 1\"]\n", "'machine', need each other", 4);
   expect_refused(check + "machine = \"m\"\n", "'machine', need each other", 4);
   expect_refused(check + why + "fails = [\"*\"]\nmay_fail = [\"* = 1\"]\nmachine = \"m\"\n",
                  "'fails' and 'may_fail' both name 'e/c/m = 1'", 4);
   expect_refused(claim + "check = [{figure = \"f\"}]\nmatches = \"p.9\"\n", "neither a claim's id", 0);
-  expect_refused(claim + "pending = \"x\"\nrepeats = \"p.9\"\n", "unknown claim 'p.9'", 0);
-  expect_refused(claim + "pending = \"x\"\nrepeats = \"p.1\"\n", "a repeat itself", 0);
-  expect_refused(claim + "pending = \"x\"\nabout = \"you\"\n", "one of paper, ours, identity", 4);
+  expect_refused(claim + "pending = \"x\"\nsetting_of = \"p.9\"\n", "a setting of the unknown claim 'p.9'",
+                 0);
+  expect_refused(claim + "pending = \"x\"\nreading_of = \"p.1\"\n", "which is a sub-row itself", 0);
+  expect_refused(claim + "pending = \"x\"\nabout = \"you\"\n", "one of paper, beyond", 4);
+  expect_refused(claim + "pending = \"x\"\neach_is = \"row\"\n", "one of claim, reading, setting", 4);
   expect_refused(claim + "check = [{within = [\"e/c/m\"], range = [0, 1]}]\n", "holds every share", 9);
   expect_refused(claim + "pending = \"x\"\n" + std::string(kClaim) + "pending = \"x\"\n", "used twice", 0);
   const std::string table =

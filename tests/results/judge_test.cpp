@@ -126,6 +126,7 @@ TEST_F(OneClaim, DifferenceSaysByHowMuch) {
   EXPECT_THAT(text("{within = [\"e/c/m\"], range = [90, 100]}"), HasSubstr("but 10 % above"));
   EXPECT_THAT(text("{ratio = [\"e/c/m\", \"e/c/n\"], range = [2.2, 3]}"), HasSubstr("but 50 % below"));
   EXPECT_THAT(text("{equal = [\"e/c/m\", 100]}"), HasSubstr("≠ 100 (10 % above)"));
+  EXPECT_THAT(text("{within = [\"e/c/m\"], range = [1, 2]}"), HasSubstr("but 55 times that"));
   EXPECT_THAT(text("{order = [\"e/c/m\", \"e/c/n\"]}"), HasSubstr("≥ n 100 B (10 % above)"));
   EXPECT_THAT(text("{within = [\"e/c/m\"], range = [-1, 0]}"), HasSubstr("but 110 above"));
   EXPECT_THAT(text("{ratio = [\"e/c/m\", \"e/c/zero\"], range = [0, 1]}"),

@@ -177,16 +177,16 @@ TEST_F(LatexBundle, HoldsWhatMainNames) {
     }
   }
   EXPECT_EQ(named, all.size());
-  for (const char* file : {"tables/hybrid.table1.tex", "tables/summary.tex", "tables/verdicts-hybrid.tex",
+  for (const char* file : {"tables/hybrid.table1.tex", "tables/summary.tex", "tables/hybrid.stated.tex",
                            "figures/hybrid.table2-growth.pdf", "figures/hybrid.table2-growth-page.pdf",
                            "pictures/hybrid.F3.png", "pictures/relief.jacksboro.heightmap.png"}) {
     EXPECT_TRUE(all.contains(file)) << file;
   }
   EXPECT_THAT(all.at("tables/hybrid.table1.tex"), HasSubstr("6,291,456"));
-  EXPECT_THAT(all.at("tables/verdicts-hybrid.tex"), HasSubstr("hybrid."));
-  EXPECT_THAT(all.at("tables/verdicts-hybrid.tex"),
+  EXPECT_THAT(all.at("tables/hybrid.stated.tex"), HasSubstr("hybrid."));
+  EXPECT_THAT(all.at("tables/hybrid.stated.tex"),
               testing::ContainsRegex(
-                  "Claim[^&]*& The paper &[^&]*Printed[^&]*& Measured &[^&]*Tolerance[^&]*&[^&]*Verdict"));
+                  "Statement[^&]*& The paper &[^&]*Printed[^&]*& Measured &[^&]*Tolerance[^&]*&[^&]*Verdict"));
   EXPECT_THAT(all.at("references.bib"), HasSubstr("@misc{paper:hybrid,"));
   EXPECT_THAT(main, HasSubstr("\\cite{paper:hybrid}"));
 }

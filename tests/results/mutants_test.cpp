@@ -52,8 +52,9 @@ TEST_F(MutantsTest, ACheckThatNeedsTheMethodDoesNot) {
   EXPECT_EQ(reason(R"({growth = ["e/c/small", "e/c/large"], range = [150, 250]})"), "");
 }
 
-TEST_F(MutantsTest, FiguresAndWhatWasNotMeasuredAreLeftOut) {
-  EXPECT_EQ(reason(R"({equal = ["e/c/zero", 0]})", "F"), "");
+TEST_F(MutantsTest, PicturesAloneAndWhatWasNotMeasuredAreLeftOut) {
+  EXPECT_EQ(reason(R"({figure = "f"})", "F"), "");
+  EXPECT_THAT(reason(R"({equal = ["e/c/zero", 0]})", "F"), HasSubstr("is 0"));
   EXPECT_EQ(reason(R"({equal = ["e/c/absent", 0]})"), "");
 }
 
