@@ -66,6 +66,7 @@
   UNTIMED(meshgrow, kStandard)                        \
   UNTIMED(meshgrow, kSpectrum)                        \
   UNTIMED(meshgrow, kLimit)                           \
+  UNTIMED(meshgrow, kHeightField)                     \
   TIMED(meshgrow, kModels)                            \
   UNTIMED(meshgrow, kFork)                            \
   TIMED(meshgrow, kRefinement)                        \

@@ -28,9 +28,11 @@ constexpr std::string_view kKinds[] = {"lazy", "error"};
 
 const std::array kSpecs{
     choice("kind", kKinds, "of the measurement: of lazy expansion, or of its error against full expansion"),
-    ParameterSpec{"instances", std::int64_t{19600}, "", "plants in the forest", 0, 10'000'000},
+    ParameterSpec{"instances", std::int64_t{800}, "", "plants in the forest", 0, 10'000'000},
     ParameterSpec{"spacing", 1.5, "pixels", "a level has one face per square of this side; 0: finest", 0,
                   100},
+    ParameterSpec{"uniform", false, "",
+                  "all plants at one level, with no fewer faces than the view's choice"},
     ParameterSpec{"cache", std::int64_t{512}, "MiB", "bound of the parts in memory", 1, 1 << 20},
     ParameterSpec{"threads", std::int64_t{0}, "", "that trace and expand; 0: all", 0, 1024},
     ParameterSpec{"width", std::int64_t{240}, "pixels", "of the picture", 8, 8192},
@@ -45,6 +47,7 @@ struct Variant {
 constexpr std::array kVariants{Variant{"cache=1024", 1024, 0}, Variant{"cache=512", 512, 0},
                                Variant{"cache=256", 256, 0}, Variant{"threads=1", 1024, 1}};
 constexpr std::array kSpacings{0.0, 0.5, 1.5, 6.0};
+constexpr double kUniformSpacing = 1.5;  // whose faces the uniform choice has to match
 
 std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
@@ -52,7 +55,7 @@ std::vector<Case> cases(const RunOptions& options) {
   const auto add = [&](std::string name) -> Parameters& {
     Parameters& parameters = cases.emplace_back(Case{std::move(name), Parameters(kSpecs)}).parameters;
     if (!paper) {
-      parameters.set("instances", std::int64_t{400});
+      parameters.set("instances", std::int64_t{40});
       parameters.set("width", std::int64_t{96});
     }
     return parameters;
@@ -60,21 +63,24 @@ std::vector<Case> cases(const RunOptions& options) {
   Parameters& picture = add("picture");
   picture.set("figure", true);
   picture.set("cache", std::int64_t{768});
-  picture.set("width", std::int64_t{paper ? 960 : 240});
+  picture.set("width", std::int64_t{paper ? 1600 : 240});
   picture.set("samples", std::int64_t{paper ? 8 : 2});
   for (const Variant& variant : kVariants) {
     Parameters& parameters = add(std::string(variant.name));
     parameters.set("cache", paper ? variant.cache : variant.cache / 8);
     parameters.set("threads", variant.threads);
   }
-  for (const double spacing : kSpacings) {
-    Parameters& parameters = add(fmt::format("spacing={}", spacing));
+  const auto add_error = [&](std::string name, double spacing, bool uniform) {
+    Parameters& parameters = add(std::move(name));
     parameters.set("kind", std::string("error"));
     parameters.set("spacing", spacing);
-    parameters.set("instances", std::int64_t{paper ? 36 : 9});
+    parameters.set("uniform", uniform);
+    parameters.set("instances", std::int64_t{paper ? 12 : 4});
     parameters.set("samples", std::int64_t{paper ? 32 : 16});
     parameters.set("cache", std::int64_t{1024});
-  }
+  };
+  for (const double spacing : kSpacings) add_error(fmt::format("spacing={}", spacing), spacing, false);
+  add_error("uniform", kUniformSpacing, true);
   return cases;
 }
 
@@ -91,14 +97,14 @@ std::shared_ptr<const Forest> forest_of(const ForestSettings& settings, Progress
   return last.second;
 }
 
-// From above the first trees over the forest, or the whole of a small one.
+// From a little above the ground over the first trees into the forest, or the whole of a small one.
 View forest_view(const Forest& forest, int width) {
   const float side = forest.side(), x = 0.5F * side;
   const int height = std::max(8, width * 9 / 16);
   const float ground = forest.height(x, 0.98F * side);
   View view;
-  view.eye = {x, ground + 7, side + 6};
-  view.target = {0.47F * side, ground + 1.5F, side - 22};
+  view.eye = {x, ground + 15, side + 16};
+  view.target = {0.47F * side, ground + 8, side - 22};
   view.vertical_fov = 0.75F;
   view.width = width;
   view.height = height;
@@ -135,7 +141,7 @@ CoherentPicture traced(const LazyForest& lazy, const View& view, const Case& at,
   const CoherentSettings settings{.samples = at.integer("samples"),
                                   .bounces = 1,
                                   .seed = static_cast<std::uint32_t>(options.seed),
-                                  .tile = at.integer("samples") > 4 ? 96 : 192};
+                                  .tile = 192};
   const int threads = at.integer("threads");
   std::optional<tbb::global_control> more;
   if (threads > 0) {
@@ -190,13 +196,16 @@ void measure_lazy(const Case& at, const RunOptions& options, Recorder& recorder,
   recorder.add("checksum", "", checksum(picture));
   if (!at.parameters.flag("figure")) return;
   figures::Sheet sheet = figures::panel_sheet(
-      {{{picture.image(), fmt::format("{} plants", format_count(forest->plants().instances().size()))}}});
+      {{{picture.image(),
+         fmt::format("{} trees and bushes", format_count(forest->plants().instances().size()))}}});
   sheet.keep_all_colours();
   sheet.write(recorder.figure(
       "meshgrow.lazy-forest", "png",
-      fmt::format("A forest of {} plants of {} faces in total, of which {} were expanded",
-                  format_count(forest->plants().instances().size()),
-                  format_count(forest->plants().total_faces()), format_count(lazy.expanded().faces))));
+      fmt::format(
+          "A forest of {} quaking aspens, tamaracks, California black oaks and young black tupelos of {} "
+          "faces in total, of which {} were expanded",
+          format_count(forest->plants().instances().size()), format_count(forest->plants().total_faces()),
+          format_count(lazy.expanded().faces))));
 }
 
 // All instances at their finest level in one scene of the eager path tracer.
@@ -249,19 +258,55 @@ double difference(const Image& a, const Image& b, int block) {
   return count == 0 ? 0 : std::sqrt(sum / count);
 }
 
+// The coarsest level for all plants alike that has no fewer faces than the view's choice.
+std::vector<std::uint8_t> uniform_levels(const growing::PlantedScene& plants,
+                                         const std::vector<std::uint8_t>& chosen) {
+  const auto faces = [&](const std::vector<std::uint8_t>& levels) {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < levels.size(); ++i) sum += plants.faces(i, levels[i]);
+    return sum;
+  };
+  std::vector<std::uint8_t> levels(chosen.size());
+  for (std::size_t level = 16; level-- > 0;) {
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      levels[i] = static_cast<std::uint8_t>(std::min(level, plants.levels(i) - 1));
+    }
+    if (faces(levels) >= faces(chosen)) break;
+  }
+  return levels;
+}
+
+// Two pictures of the full expansion, by different paths. Cases on the same forest share them.
+struct Truth {
+  Image image, other;
+};
+const Truth& truth_of(const Forest& forest, const View& view, const Case& at, std::uint64_t seed) {
+  static std::map<std::array<std::uint64_t, 4>, Truth> known;
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  const std::array key{seed, static_cast<std::uint64_t>(forest.plants().instances().size()),
+                       static_cast<std::uint64_t>(view.width),
+                       static_cast<std::uint64_t>(at.integer("samples"))};
+  const auto found = known.find(key);
+  if (found != known.end()) return found->second;
+  return known.emplace(key, Truth{eager(forest, view, at, seed), eager(forest, view, at, seed + 1)})
+      .first->second;
+}
+
 void measure_error(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const auto instances = static_cast<std::uint64_t>(at.parameters.integer("instances"));
-  const Forest forest({.instances = instances, .seed = options.seed});
+  const Forest forest({.instances = instances, .area = 150, .smoothed = false, .seed = options.seed});
   const View view = forest_view(forest, at.integer("width"));
-  LazyForest lazy(forest, forest.plants().choose_levels(view, {at.parameters.number("spacing")}),
-                  static_cast<std::size_t>(at.parameters.integer("cache")) << 20U);
-  const CoherentPicture picture = traced(lazy, view, at, options, progress);
-  const Image truth = eager(forest, view, at, options.seed);
-  const Image image = picture.image(), other = eager(forest, view, at, options.seed + 1);
-  recorder.add("error", "", difference(image, truth, 1));
-  recorder.add("block_error", "", difference(image, truth, 8));
-  recorder.add("noise", "", difference(truth, other, 1));
-  recorder.add("block_noise", "", difference(truth, other, 8));
+  std::vector<std::uint8_t> levels = forest.plants().choose_levels(view, {at.parameters.number("spacing")});
+  if (at.parameters.flag("uniform")) levels = uniform_levels(forest.plants(), levels);
+  LazyForest lazy(forest, levels, static_cast<std::size_t>(at.parameters.integer("cache")) << 20U);
+  const Image image = traced(lazy, view, at, options, progress).image();
+  const Truth& truth = truth_of(forest, view, at, options.seed);
+  recorder.add("error", "", difference(image, truth.image, 1));
+  recorder.add("block_error", "", difference(image, truth.image, 8));
+  recorder.add("noise", "", difference(truth.image, truth.other, 1));
+  recorder.add("block_noise", "", difference(truth.image, truth.other, 8));
+  recorder.add("faces_chosen", "", static_cast<double>(lazy.faces_chosen()));
   record(lazy.expanded(), forest, recorder);
 }
 

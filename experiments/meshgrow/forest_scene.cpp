@@ -16,10 +16,15 @@ namespace {
 
 using growing::DetailLevel;
 
-// Fewer leaves are larger, so that their area stays about the same.
+// Fewer leaves are larger, so that their area stays about the same; they have fewer faces. `levels`: of
+// stems.
 DetailLevel thinned(double levels, double leaves, double scale) {
   return {.leave_out = {"smooth"},
-          .constants = {{"Levels", levels}, {"Leaves", leaves}, {"LeafScale", scale}}};
+          .constants = {{"LeafDetail", 0},
+                        {"Levels", levels},
+                        {"Leaves", leaves},
+                        {"LeafQuality", 1},
+                        {"LeafScale", scale}}};
 }
 
 struct Plant {
@@ -27,31 +32,47 @@ struct Plant {
   double share;  // of the instances
   std::vector<DetailLevel> levels;
 };
+// Each level has a fraction of the faces of the one before.
 const std::vector<Plant>& forest_plants() {
   static const std::vector<Plant> all{
-      {"branch_aspen",
-       0.6,
-       {{}, {.leave_out = {"smooth"}}, thinned(3, 14, 0.22), thinned(3, 6, 0.35), thinned(2, 25, 0.69)}},
-      {"bush_tupelo",
-       0.06,
-       {{}, {.leave_out = {"smooth"}}, thinned(3, 3, 0.42), thinned(3, 1, 0.73), thinned(2, 8, 1.1)}},
-      {"fork_ridges_random",
-       0.34,
+      {"aspen",
+       0.55,
        {{},
         {.fewer_subdivisions = 1},
-        {.leave_out = {"ridges"}},
-        {.leave_out = {"ridges"}, .fewer_subdivisions = 1},
-        {.leave_out = {"ridges"}, .fewer_subdivisions = 2},
-        {.leave_out = {"ridges", "smooth"}}}},
+        {.leave_out = {"smooth"}},
+        thinned(3, 3, 0.45),
+        thinned(2, 40, 0.55),
+        thinned(2, 10, 1.1)}},
+      {"tamarack",
+       0.25,
+       {{},
+        {.fewer_subdivisions = 1},
+        {.leave_out = {"smooth"}},
+        thinned(3, 1, 0.8),
+        thinned(2, 60, 0.75),
+        thinned(2, 14, 1.5)}},
+      {"oak",
+       0.08,
+       {{},
+        {.leave_out = {"smooth"}},
+        thinned(3, 1, 0.5),
+        thinned(2, 60, 0.7),
+        thinned(2, 14, 1.4)}},
+      {"bush_tupelo",
+       0.12,
+       {{}, {.leave_out = {"smooth"}}, thinned(3, 3, 0.42), thinned(3, 1, 0.73), thinned(2, 8, 1.1)}},
   };
   return all;
 }
 
-std::vector<growing::DetailModel> detail_models() {
+std::vector<growing::DetailModel> detail_models(bool smoothed) {
   std::vector<growing::DetailModel> models;
   for (const Plant& plant : forest_plants()) {
+    std::vector<DetailLevel> levels = plant.levels;
+    const auto is_rough = [](const DetailLevel& level) { return !level.leave_out.empty(); };
+    if (!smoothed) levels.erase(levels.begin(), std::find_if(levels.begin(), levels.end(), is_rough));
     models.push_back(
-        growing::make_detail_model(growing::model_text(plant.model), std::string(plant.model), plant.levels));
+        growing::make_detail_model(growing::model_text(plant.model), std::string(plant.model), levels));
   }
   return models;
 }
@@ -95,15 +116,14 @@ Forest::Forest(const ForestSettings& settings, Progress* progress)
       ground_(fractal_ground(std::max(side_, 1.0F))),
       ground_box_(bounds_of(ground_->mesh)),
       plants_(
-          detail_models(),
+          detail_models(settings.smoothed),
           [&] {
             growing::Planting planting;
             planting.count = settings.instances;
             planting.side = std::max(side_, 1.0F);
             planting.seed = settings.seed;
             for (const Plant& plant : forest_plants()) planting.shares.push_back(plant.share);
-            // Roots reach a little into the ground.
-            return growing::scatter(planting, [&](float x, float z) { return height(x, z) - 0.02F; });
+            return growing::scatter(planting, [&](float x, float z) { return height(x, z); });
           }(),
           progress) {
   ground_box_.low -= 0.01F;
@@ -174,7 +194,10 @@ std::unique_ptr<RayPart> LazyForest::make(std::uint32_t instance) {
     } else {
       again_ += faces.faces();
     }
+    triangles.mesh.positions.shrink_to_fit();
+    triangles.mesh.normals.shrink_to_fit();
     triangles.mesh.indices.shrink_to_fit();
+    triangles.texture.shrink_to_fit();
     triangles.symbols.shrink_to_fit();
     part = std::make_unique<RayPart>(std::move(triangles.mesh), std::move(triangles.texture),
                                      std::move(triangles.symbols));

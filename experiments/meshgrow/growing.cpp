@@ -2,6 +2,7 @@
 // meshes, time of the expansion; and the texture coordinates at a fork (§5, figure 9).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -168,7 +169,35 @@ constexpr std::array<std::string_view, 3> kForks{"fork_ridges", "fork_ridges_ran
 const std::array kForkSpecs{choice("model", kForks, "a model whose trunk forks")};
 std::vector<Case> fork_cases(const RunOptions&) { return cases_by("model", kForkSpecs); }
 
+// v per metre of every section of trunk and branches, and where the branches start.
+void measure_v(const Model& model, Recorder& recorder) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr std::array<std::string_view, 2> kStems{"trunk", "branch"};
+  double least = kInfinity, most = -kInfinity, branches = kInfinity, trunk = -kInfinity;
+  const std::vector<StemSection> sections = sections_along(model, kStems);
+  for (const StemSection& section : sections) {
+    const double per_metre = (section.end_v - section.v) / section.length;
+    least = std::min(least, per_metre);
+    most = std::max(most, per_metre);
+    if (section.symbol == "trunk") {
+      trunk = std::max(trunk, section.end_v);
+    } else {
+      branches = std::min(branches, section.v);
+    }
+  }
+  const auto starts = std::count_if(sections.begin(), sections.end(), [&](const StemSection& section) {
+    return section.symbol == "branch" && section.v == branches;
+  });
+  recorder.add("v_sections", "", static_cast<double>(sections.size()));
+  recorder.add("v_per_metre_least", "1/m", least);
+  recorder.add("v_per_metre_most", "1/m", most);
+  recorder.add("v_end_of_trunk", "", trunk);
+  recorder.add("v_start_of_branches", "", branches);
+  recorder.add("v_branches_start_there", "", static_cast<double>(starts));
+}
+
 void measure_fork(const Case& at, const RunOptions&, Recorder& recorder, Progress&) {
+  measure_v(read_model(at), recorder);
   const Fork fork = find_fork(read_model(at), "branch");
   recorder.add("branches", "", static_cast<double>(fork.faces.size()));
   recorder.add("shared_vertices", "", static_cast<double>(fork.shared.size()));

@@ -9,6 +9,7 @@
 #include "experiments/figures/figure.h"
 #include "experiments/meshgrow/growing_pictures.h"
 #include "experiments/meshgrow/growing_steps.h"
+#include "experiments/meshgrow/models.h"
 #include "renderers/raytrace/raytraced_picture.h"
 #include "results/format.h"
 
@@ -68,11 +69,10 @@ std::vector<GrownMesh> stages_of(const Model& model) {
   return stages;
 }
 
-// Of the mesh's whole box.
-View view_of(const FaceMesh& mesh, int width, int height, const glm::vec3& from) {
+View view_of(const FaceMesh& mesh, int width, int height, const glm::vec3& from, float margin = 1.06F) {
   TriangleMesh points;
   points.positions = mesh.positions;
-  return overview(bounds_of(points), width, height, from);
+  return close_view(mesh.positions, overview(bounds_of(points), width, height, from), margin);
 }
 
 bool grows(const Model& model, const GrownMesh& mesh, std::uint32_t face) {
@@ -82,7 +82,7 @@ bool grows(const Model& model, const GrownMesh& mesh, std::uint32_t face) {
 // Whether a face is seen at an angle at which words on it can be read.
 bool faces_eye(const FaceMesh& mesh, std::uint32_t face, const View& view) {
   const FaceShape shape = face_shape(corners_of(mesh, face), mesh.positions);
-  return glm::dot(shape.frame.z, glm::normalize(glm::dvec3(view.eye) - shape.frame.origin)) > 0.12;
+  return glm::dot(shape.frame.z, glm::normalize(glm::dvec3(view.eye) - shape.frame.origin)) > 0.25;
 }
 
 // Faces that grow next are dark.
@@ -94,10 +94,9 @@ Image stage_picture(Drawing& drawing, const Model& model, const GrownMesh& mesh,
 Sheet draw_steps(Drawing& drawing) {
   const Model model = parse_model(kCubesAndTent, "figure 6");
   const std::vector<GrownMesh> stages = stages_of(model);
-  const View view = view_of(stages.back().mesh, 500, 560, {0.92F, 0.75F, 0.45F});
-  constexpr std::array<std::string_view, 4> kWords{"start: A is replaced by a cube",
-                                                   "step 1: B is replaced by a tent",
-                                                   "step 2: each C is replaced by a cube", "step 3"};
+  const View view = view_of(stages.back().mesh, 520, 760, {1.0F, 0.62F, 0.75F});
+  constexpr std::array<std::string_view, 4> kWords{"base: A becomes a cube", "step 1: B becomes a tent",
+                                                   "step 2: each C becomes a cube", "step 3"};
   constexpr double kGap = 12, kWords0 = 30;
   const double width = view.width / 2.0, height = view.height / 2.0;
   Sheet sheet(static_cast<double>(stages.size()) * (width + kGap) + kGap, height + kGap + kWords0);
@@ -105,7 +104,7 @@ Sheet draw_steps(Drawing& drawing) {
     const GrownMesh& stage = stages[k];
     const SheetPoint corner{kGap + static_cast<double>(k) * (width + kGap), kGap};
     sheet.picture(corner.x, corner.y, width, height, stage_picture(drawing, model, stage, view));
-    sheet.text(corner.x + width / 2, corner.y + height + 16, kWords[std::min(k, kWords.size() - 1)], 13,
+    sheet.text(corner.x + width / 2, corner.y + height + 16, kWords[std::min(k, kWords.size() - 1)], 16,
                "middle");
     const OverPicture over(stage.mesh, view, corner);
     for (std::uint32_t face = 0; face < stage.mesh.faces(); ++face) {
@@ -119,19 +118,39 @@ Sheet draw_steps(Drawing& drawing) {
   return sheet;
 }
 
-// The axes of a frame, `length` metres long.
-void add_axes(Sheet& sheet, const OverPicture& over, const Frame& frame, double length, bool names) {
-  const std::pair<glm::dvec3, Rgb> axes[] = {{frame.x, kRed}, {frame.y, kGreen}, {frame.z, kBlue}};
-  const SheetPoint from = over.at(frame.origin);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const SheetPoint to = over.at(frame.origin + length * axes[k].first);
-    sheet.stroke(from, to, {255, 255, 255}, 4.5);
-    add_arrow(sheet, from, to, axes[k].second, 2.4, 8);
-    if (!names) continue;
-    const SheetPoint words = over.at(frame.origin + 1.22 * length * axes[k].first);
-    add_label(sheet, words, std::string_view("xyz").substr(k, 1), 15, axes[k].second, 6);
+constexpr Stroke kDashed{.colour = kHidden, .thickness = 1, .dashes = "4 4"};
+
+// Each edge that the surface hides, once.
+void add_hidden_edges(Sheet& sheet, const OverPicture& over, const FaceMesh& mesh) {
+  for (std::uint32_t face = 0; face < mesh.faces(); ++face) {
+    const auto corners = corners_of(mesh, face);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const glm::vec3 a = mesh.positions[corners[k]], b = mesh.positions[corners[(k + 1) % corners.size()]];
+      if (corners[k] > corners[(k + 1) % corners.size()] || over.visible(0.5F * (a + b))) continue;
+      sheet.line(std::array{over.at(a), over.at(b)}, kDashed);
+    }
   }
-  sheet.dot(from, 3.4, kInk);
+}
+
+// The axes of a frame, `length` metres long; dashed where the surface hides them.
+void add_axes(Sheet& sheet, const OverPicture& over, const Frame& frame, double length) {
+  constexpr int kPieces = 32;
+  const std::pair<glm::dvec3, Rgb> axes[] = {{frame.x, kRed}, {frame.y, kGreen}, {frame.z, kBlue}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto [axis, colour] = axes[k];
+    const auto place = [&](double share) { return frame.origin + share * length * axis; };
+    // The origin lies on the surface itself: half a piece along the axis decides.
+    for (int piece = 0; piece < kPieces; ++piece) {
+      const bool seen = over.visible(place((piece + 0.5) / kPieces));
+      if (!seen && piece % 4 >= 2) continue;
+      sheet.stroke(over.at(place(1.0 * piece / kPieces)), over.at(place((piece + 1.0) / kPieces)), colour,
+                   seen ? 3.2 : 2);
+    }
+    add_arrow(sheet, over.at(place(0.94)), over.at(place(1)), colour, 2.6, 9);
+    const SheetPoint words = over.at(place(1.16));
+    sheet.text(words.x, words.y + 6, std::string_view("xyz").substr(k, 1), 17, "middle", colour);
+  }
+  sheet.dot(over.at(frame.origin), 3.4, kInk);
 }
 
 // The faces that the expansion of the first growing face of `before` added, in that face's frame, with z up;
@@ -174,40 +193,32 @@ Sheet draw_frame(Drawing& drawing) {
   const std::vector<GrownMesh> stages = stages_of(model);
   const GrownMesh &before = stages[2], &after = stages[3];
   constexpr double kGap = 14, kAxis = 0.62;
-  const glm::vec3 from(1.0F, 0.75F, 0.35F);
-  const View view = view_of(after.mesh, 560, 620, from);
+  const View view = view_of(after.mesh, 540, 760, {1.0F, 0.62F, 0.55F});
   const double width = view.width / 2.0, height = view.height / 2.0;
-  Sheet sheet(3 * (width + kGap) + kGap, height + kGap + 30);
-  const auto words = [&](int column, std::string_view text) {
-    sheet.text(kGap + column * (width + kGap) + width / 2, kGap + height + 16, text, 13, "middle");
-  };
   std::uint32_t base = 0;
   while (!grows(model, before, base)) ++base;
   const Frame frame = before.states.front().shape.frame;
-
-  const SheetPoint first{kGap, kGap}, second{kGap + width + kGap, kGap},
-      third{kGap + 2 * (width + kGap), kGap};
-  sheet.picture(first.x, first.y, width, height,
-                face_picture(drawing.gl(), before.mesh, view,
-                             [&](std::uint32_t face) { return face == base ? kNext : kPlain; }));
-  add_axes(sheet, OverPicture(before.mesh, view, first), frame, kAxis, true);
-  words(0, "a) The face to be expanded, and its frame");
-
   const FaceMesh cube = template_of(before, after, base);
-  View near = view_of(cube, 560, 620, {0.6F, 0.4F, 1.0F});
-  near.vertical_fov *= 1.5F;
-  sheet.picture(second.x, second.y, width, height,
-                face_picture(drawing.gl(), cube, near, [](std::uint32_t) { return kPlain; }));
+  View near = view_of(cube, view.width, view.height, {0.6F, 0.5F, 1.0F}, 1.5F);
   Frame local;  // drawn with z upwards
   local.y = {0, 0, -1};
   local.z = {0, 1, 0};
-  add_axes(sheet, OverPicture(cube, near, second), local, kAxis, true);
-  words(1, "b) The replacement mesh on its first face");
 
-  sheet.picture(third.x, third.y, width, height,
-                face_picture(drawing.gl(), after.mesh, view, [&](std::uint32_t) { return kPlain; }));
-  add_axes(sheet, OverPicture(after.mesh, view, third), frame, kAxis, false);
-  words(2, "c) The replacement attached in this frame");
+  Sheet sheet(3 * (width + kGap) + kGap, height + kGap + 34);
+  const auto panel = [&](int column, const FaceMesh& mesh, const View& from, const Frame& axes, Rgb first,
+                         std::uint32_t dark, std::string_view words) {
+    const SheetPoint corner{kGap + column * (width + kGap), kGap};
+    sheet.picture(corner.x, corner.y, width, height,
+                  face_picture(drawing.gl(), mesh, from,
+                               [&](std::uint32_t face) { return face == dark ? first : kPlain; }));
+    const OverPicture over(mesh, from, corner);
+    add_hidden_edges(sheet, over, mesh);
+    add_axes(sheet, over, axes, kAxis);
+    sheet.text(corner.x + width / 2, corner.y + height + 20, words, 15, "middle");
+  };
+  panel(0, before.mesh, view, frame, kNext, base, "a) the face and its frame");
+  panel(1, cube, near, local, kPlain, 0, "b) the replacement on its first face");
+  panel(2, after.mesh, view, frame, kPlain, 0, "c) attached in this frame");
   return sheet;
 }
 
@@ -215,7 +226,7 @@ Sheet draw_coordinates(Drawing& drawing) {
   const Model model = parse_model(model_text("fork_ridges"), "fork_ridges");
   const Fork fork = find_fork(model, "branch");
   const FaceMesh& mesh = fork.after.mesh;
-  const View view = view_of(mesh, 1100, 1240, {0.12F, 0.4F, 1.0F});
+  const View view = view_of(mesh, 1100, 1240, {0.12F, 0.4F, 1.0F}, 1.15F);
   const double width = view.width / 2.0, height = view.height / 2.0;
   constexpr double kGap = 14;
   Sheet sheet(width + 2 * kGap, height + 2 * kGap + 28);
@@ -223,16 +234,7 @@ Sheet draw_coordinates(Drawing& drawing) {
   sheet.picture(corner.x, corner.y, width, height,
                 face_picture(drawing.gl(), mesh, view, [](std::uint32_t) { return kPlain; }));
   const OverPicture over(mesh, view, corner);
-  // Hidden edges, each drawn once.
-  for (std::uint32_t face = 0; face < mesh.faces(); ++face) {
-    const auto corners = corners_of(mesh, face);
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const glm::vec3 a = mesh.positions[corners[k]], b = mesh.positions[corners[(k + 1) % corners.size()]];
-      if (corners[k] > corners[(k + 1) % corners.size()] || over.visible(0.5F * (a + b))) continue;
-      const SheetPoint ends[] = {over.at(a), over.at(b)};
-      sheet.line(ends, {.colour = kHidden, .thickness = 1, .dashes = "4 4"});
-    }
-  }
+  add_hidden_edges(sheet, over, mesh);
   const auto shared = [&](std::uint32_t vertex) {
     return std::find_if(fork.shared.begin(), fork.shared.end(), [&](auto& s) { return s.vertex == vertex; });
   };
@@ -264,38 +266,41 @@ Sheet draw_coordinates(Drawing& drawing) {
   return sheet;
 }
 
-// A white background, bark in daylight.
-Image traced(const FaceMesh& mesh, bool smooth, const View& view) {
-  Fans fans = fans_of(mesh);
-  if (smooth) compute_normals(fans.mesh);
-  RayMesh bark;
-  bark.mesh = &fans.mesh;
-  bark.material.albedo = {0.5F, 0.42F, 0.33F};
-  if (!smooth) {
-    bark.wire_width = 2;
-    bark.wires = fans.wires;
+// A white background, wood in daylight.
+Image traced(const FaceMesh& mesh, bool wires, const View& view) {
+  const ModelMesh triangles = triangles_of(mesh);
+  RayMesh wood;
+  wood.mesh = &triangles.mesh;
+  wood.material.albedo = {0.5F, 0.42F, 0.33F};
+  if (wires) {
+    wood.wire_width = 2.6F;
+    wood.wires = triangles.wires;
   }
   RayScene scene;
-  scene.add_placed(std::move(bark));
-  scene.light.sun = {-0.25F, 0.8F, 1.0F};
+  scene.add_placed(std::move(wood));
+  scene.light.sun = {-0.6F, 0.8F, 1.0F};
   scene.background = glm::vec3(1);
-  return raytrace(scene, view, {.samples = 32});
+  return raytrace(scene, view, {.samples = 32, .bounces = 2});
 }
 
 constexpr glm::vec3 kTrunkFrom(0.55F, 0.25F, 1.0F);
-constexpr int kTracedWidth = 560, kTracedHeight = 700;
+constexpr int kTracedWidth = 800, kTracedHeight = 1000;
 
 Sheet draw_trunk(Drawing& drawing) {
   const Model model = parse_model(model_text("forking_trunk"), "forking_trunk");
   ExpandOptions growth;
   growth.leave_out = {"smooth"};
   const GrownMesh grown = expand(model, growth), smooth = expand(model);
-  const View view = view_of(grown.mesh, kTracedWidth, kTracedHeight, kTrunkFrom);
+  // Only the fork; trunk and branches leave the picture.
+  const Fork fork = find_fork(model, "branch");
+  const glm::vec3 middle = fork.after.mesh.positions[fork.shared.front().vertex];
+  const Bounds box{middle - glm::vec3(1.1F, 1.3F, 0.6F), middle + glm::vec3(1.1F, 1.5F, 0.6F)};
+  const View view = overview(box, kTracedWidth, kTracedHeight, kTrunkFrom);
   drawing.record("grown_faces", static_cast<double>(grown.mesh.faces()));
   drawing.record("smooth_faces", static_cast<double>(smooth.mesh.faces()));
   return panel_sheet(
-      {{{traced(grown.mesh, false, view), fmt::format("grown: {} faces", format_count(grown.mesh.faces()))},
-        {traced(smooth.mesh, true, view),
+      {{{traced(grown.mesh, true, view), fmt::format("grown: {} faces", format_count(grown.mesh.faces()))},
+        {traced(smooth.mesh, false, view),
          fmt::format("smoothed three times: {} faces", format_count(smooth.mesh.faces()))}}});
 }
 
@@ -306,30 +311,32 @@ Sheet draw_ridges(Drawing&) {
                                     std::pair{"fork_ridges_random", "with random displacements"}}) {
     const GrownMesh mesh = expand(parse_model(model_text(name), name));
     if (panels.empty()) view = view_of(mesh.mesh, kTracedWidth, kTracedHeight, kTrunkFrom);
-    panels.push_back({traced(mesh.mesh, true, view), words});
+    panels.push_back({traced(mesh.mesh, false, view), words});
   }
   return panel_sheet({panels});
 }
 
 constexpr auto kFigures = std::to_array<Figure>({
     {6, "F6",
-     "growing steps; each face shows its symbol, and the dark grey faces are replaced in the next step (s "
-     "and "
-     "t have no rule)",
+     "growing steps; faces show their symbols, and the dark grey ones are replaced in the next step (s and t "
+     "have no rule)",
      draw_steps},
     {7, "F7",
      "the reference frame on a face that is expanded: at the face's centre, z along its normal, x along its "
-     "first edge; the replacement's first face is laid on it",
+     "first edge; the replacement's first face is laid on it; dashed: behind the surface",
      draw_frame},
-    {8, "F8", "a forking trunk: the mesh after growing, and after three smoothing subdivisions", draw_trunk},
+    {8, "F8",
+     "the fork of a trunk: the mesh after growing, and after three smoothing subdivisions; the ends lie "
+     "outside "
+     "of the picture",
+     draw_trunk},
     {9, "F9",
      "u-coordinates of the grown mesh at a fork; the two vertices that both branches share get the averages "
      "u₁ and u₂",
      draw_coordinates},
     {10, "F10",
      "ridges: displacement by a cosine of the u-coordinate in the last two subdivisions; right, with noise "
-     "and "
-     "random displacements",
+     "and random displacements",
      draw_ridges},
 });
 constexpr std::array kNames = names_of(kFigures);

@@ -1,6 +1,9 @@
 #include "experiments/meshgrow/growing_steps.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -91,7 +94,57 @@ std::optional<Fork> fork_in(const RuleSystem& system, const GrownMesh& before, c
   return fork;
 }
 
+bool has_face(const FaceMesh& mesh, std::span<const std::uint32_t> corners) {
+  for (std::uint32_t face = 0; face < mesh.faces(); ++face) {
+    const auto own = corners_of(mesh, face);
+    if (std::equal(own.begin(), own.end(), corners.begin(), corners.end())) return true;
+  }
+  return false;
+}
+
+// The middle of these corners and their mean v.
+std::pair<glm::dvec3, double> middle_of(const FaceMesh& mesh, std::span<const std::uint32_t> corners) {
+  glm::dvec3 place(0);
+  double v = 0;
+  for (const std::uint32_t vertex : corners) {
+    place += glm::dvec3(mesh.positions[vertex]) / static_cast<double>(corners.size());
+    v += static_cast<double>(mesh.texture[vertex].y) / static_cast<double>(corners.size());
+  }
+  return {place, v};
+}
+
 }  // namespace
+
+std::vector<StemSection> sections_along(const Model& model, std::span<const std::string_view> symbols) {
+  const auto symbol_of = [&](const FaceMesh& mesh, std::uint32_t face) {
+    const auto at = std::find(symbols.begin(), symbols.end(), model.system.symbols[mesh.symbols[face]].name);
+    return at == symbols.end() ? std::string_view() : *at;
+  };
+  std::vector<StemSection> sections;
+  expand_in_steps(model, [&](const GrownMesh& before, const GrownMesh& after, int subdivisions) {
+    if (subdivisions > 0) return;
+    for (std::uint32_t from = 0; from < before.mesh.faces(); ++from) {
+      const std::string_view symbol = symbol_of(before.mesh, from);
+      const auto base = corners_of(before.mesh, from);
+      if (symbol.empty() || has_face(after.mesh, base)) continue;
+      const auto [start, v] = middle_of(after.mesh, base);
+      StemSection section{symbol, std::numeric_limits<double>::infinity(), v, 0};
+      for (std::uint32_t to = 0; to < after.mesh.faces(); ++to) {
+        const auto corners = corners_of(after.mesh, to);
+        const bool is_cap = std::all_of(corners.begin(), corners.end(), [&](std::uint32_t vertex) {
+          return vertex >= before.mesh.positions.size();
+        });
+        if (!is_cap || symbol_of(after.mesh, to).empty()) continue;
+        const auto [end, end_v] = middle_of(after.mesh, corners);
+        if (glm::distance(start, end) >= section.length) continue;
+        section.length = glm::distance(start, end);
+        section.end_v = end_v;
+      }
+      if (std::isfinite(section.length)) sections.push_back(section);
+    }
+  });
+  return sections;
+}
 
 Fork find_fork(const Model& model, std::string_view symbol) {
   std::optional<Fork> fork;

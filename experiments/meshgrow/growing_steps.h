@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "representations/procedural_mesh/model.h"
 
@@ -34,6 +35,14 @@ struct Fork {
   // Corners of the faces that are not shared, and how many of them have another u afterwards.
   int others = 0, others_changed = 0;
 };
+
+// A section that a growing face added, from the middle of the face to that of the section's cap.
+struct StemSection {
+  std::string_view symbol;  // of the face: one of those asked for
+  double length = 0;        // metres
+  double v = 0, end_v = 0;  // means over the corners, after the step
+};
+std::vector<StemSection> sections_along(const growing::Model&, std::span<const std::string_view> symbols);
 
 // Throws bad_input if nothing forks.
 Fork find_fork(const growing::Model&, std::string_view symbol);

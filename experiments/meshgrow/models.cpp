@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
 #include <numbers>
 
 #include "representations/procedural_mesh/growing/expression.h"
@@ -28,11 +30,12 @@ RayMaterial chair(std::string_view symbol, const SurfacePoint& at) {
     const float dye = 1 + 0.12F * rough_noise(14.0F * p);
     return {.albedo = dye * glm::vec3(0.42F, 0.06F, 0.05F), .roughness = 1};
   }
-  // Rings of a trunk that lies along z, bent by noise.
-  const float distance = glm::length(glm::vec2(p.x + 0.9F, p.y - 1.6F)) + 0.03F * noise(3.0F * p);
-  const float ring = 0.5F + 0.5F * std::sin(95 * distance + 2 * noise({4 * p.x, 4 * p.y, p.z}));
-  const glm::vec3 wood = glm::mix(glm::vec3(0.36F, 0.19F, 0.08F), glm::vec3(0.24F, 0.11F, 0.045F), ring);
-  return {.albedo = wood, .specular = 0.04F, .roughness = 0.35F};
+  // Fine fibres along the legs and across the seat and the back, and broad, faint figure.
+  const glm::vec3 along = p.y < 0.41F ? glm::vec3(70, 2.5F, 70) : glm::vec3(70, 70, 2.5F);
+  const float fibre = 0.5F + 0.3F * rough_noise(along * p) + 0.25F * noise(0.1F * along * p);
+  const glm::vec3 wood = glm::mix(glm::vec3(0.25F, 0.125F, 0.055F), glm::vec3(0.34F, 0.185F, 0.085F),
+                                  std::clamp(fibre, 0.0F, 1.0F));
+  return {.albedo = wood, .specular = 0.04F, .roughness = 0.4F};
 }
 
 RayMaterial cactus(std::string_view symbol, const SurfacePoint& at) {
@@ -58,16 +61,31 @@ RayMaterial leaf(const SurfacePoint& at, const glm::vec3& dark, const glm::vec3&
   return {.albedo = glm::mix(dark, light, mix), .translucency = 0.35F, .specular = 0.03F, .roughness = 0.5F};
 }
 
+// `grain`: how often the bark's pattern repeats per metre, along each axis.
+RayMaterial bark(const SurfacePoint& at, const glm::vec3& grain, const glm::vec3& dark,
+                 const glm::vec3& light) {
+  const float spots = std::clamp(0.5F + rough_noise(grain * at.local), 0.0F, 1.0F);
+  return {.albedo = glm::mix(dark, light, spots), .roughness = 1};
+}
+
 RayMaterial aspen(std::string_view symbol, const SurfacePoint& at) {
-  if (is_leaf(symbol)) return leaf(at, {0.12F, 0.3F, 0.05F}, {0.3F, 0.46F, 0.09F});
-  const float spots = std::clamp(0.6F + rough_noise(glm::vec3(9, 40, 9) * at.local), 0.0F, 1.0F);
-  return {.albedo = glm::mix(glm::vec3(0.12F, 0.1F, 0.08F), glm::vec3(0.46F, 0.42F, 0.35F), spots)};
+  if (is_leaf(symbol)) return leaf(at, {0.13F, 0.27F, 0.05F}, {0.3F, 0.42F, 0.09F});
+  return bark(at, {9, 40, 9}, {0.2F, 0.18F, 0.15F}, {0.46F, 0.43F, 0.36F});
 }
 
 RayMaterial tupelo(std::string_view symbol, const SurfacePoint& at) {
-  if (is_leaf(symbol)) return leaf(at, {0.06F, 0.2F, 0.04F}, {0.2F, 0.38F, 0.08F});
-  const float spots = std::clamp(0.5F + rough_noise(glm::vec3(20, 8, 20) * at.local), 0.0F, 1.0F);
-  return {.albedo = glm::mix(glm::vec3(0.1F, 0.07F, 0.05F), glm::vec3(0.26F, 0.2F, 0.15F), spots)};
+  if (is_leaf(symbol)) return leaf(at, {0.07F, 0.2F, 0.04F}, {0.2F, 0.36F, 0.08F});
+  return bark(at, {20, 8, 20}, {0.1F, 0.07F, 0.05F}, {0.26F, 0.2F, 0.15F});
+}
+
+RayMaterial tamarack(std::string_view symbol, const SurfacePoint& at) {
+  if (is_leaf(symbol)) return leaf(at, {0.05F, 0.16F, 0.07F}, {0.13F, 0.27F, 0.1F});
+  return bark(at, {14, 5, 14}, {0.13F, 0.09F, 0.07F}, {0.3F, 0.23F, 0.18F});
+}
+
+RayMaterial oak(std::string_view symbol, const SurfacePoint& at) {
+  if (is_leaf(symbol)) return leaf(at, {0.1F, 0.18F, 0.04F}, {0.26F, 0.32F, 0.08F});
+  return bark(at, {18, 5, 18}, {0.08F, 0.07F, 0.06F}, {0.24F, 0.21F, 0.18F});
 }
 
 RayMaterial candle_holder(std::string_view symbol, const SurfacePoint& at) {
@@ -92,6 +110,9 @@ constexpr std::array kPainted{
     PaintedModel{"fork_ridges_random", fork},
     PaintedModel{"branch_aspen", aspen},
     PaintedModel{"bush_tupelo", tupelo},
+    PaintedModel{"aspen", aspen},
+    PaintedModel{"tamarack", tamarack},
+    PaintedModel{"oak", oak},
     PaintedModel{"candle_holder", candle_holder},
 };
 
@@ -105,6 +126,65 @@ const PaintedModel& painted(std::string_view model) {
   }
   throw unknown_name("painted model", model, names);
 }
+
+namespace {
+
+// Normals are smooth where faces meet at less than this angle; elsewhere the surface has an edge, as at the
+// foot of a spike and around a leaf.
+constexpr float kSmoothCosine = 0.64F;  // 50°
+
+glm::vec3 unit(const glm::vec3& v) {
+  const float length = glm::length(v);
+  return length > 0 ? v / length : glm::vec3(0, 1, 0);
+}
+
+// Gives each corner of a triangle the mean normal, by area, of the triangles at its vertex that are smooth
+// with its own; a vertex whose corners differ becomes several. O(triangles · triangles at a vertex)
+void add_normals(ModelMesh& out) {
+  TriangleMesh& mesh = out.mesh;
+  std::vector<glm::vec3> areas(mesh.triangles()), units(mesh.triangles());
+  std::vector<std::uint32_t> first(mesh.positions.size() + 1), uses(mesh.indices.size());
+  for (std::size_t t = 0; t < areas.size(); ++t) {
+    const std::uint32_t* const v = &mesh.indices[3 * t];
+    areas[t] =
+        glm::cross(mesh.positions[v[1]] - mesh.positions[v[0]], mesh.positions[v[2]] - mesh.positions[v[0]]);
+    units[t] = unit(areas[t]);
+    for (int k = 0; k < 3; ++k) ++first[v[k] + 1];
+  }
+  for (std::size_t v = 0; v + 1 < first.size(); ++v) first[v + 1] += first[v];
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  for (std::uint32_t c = 0; c < mesh.indices.size(); ++c) uses[next[mesh.indices[c]]++] = c;
+  const std::size_t vertices = mesh.positions.size();
+  mesh.normals.assign(vertices, glm::vec3(0, 1, 0));
+  std::vector<std::pair<glm::vec3, std::uint32_t>> made;  // the normals at a place, and their vertices
+  for (std::uint32_t v = 0; v < vertices; ++v) {
+    made.clear();
+    for (std::uint32_t k = first[v]; k < first[v + 1]; ++k) {
+      glm::vec3 sum(0);
+      for (std::uint32_t other = first[v]; other < first[v + 1]; ++other) {
+        if (glm::dot(units[uses[k] / 3], units[uses[other] / 3]) >= kSmoothCosine)
+          sum += areas[uses[other] / 3];
+      }
+      const auto same = [&](const auto& each) { return each.first == sum; };
+      auto at = std::find_if(made.begin(), made.end(), same);
+      if (at == made.end()) {
+        const bool another = !made.empty();
+        const auto number = another ? static_cast<std::uint32_t>(mesh.positions.size()) : v;
+        if (another) {
+          mesh.positions.push_back(glm::vec3(mesh.positions[v]));
+          mesh.normals.push_back(unit(sum));
+          if (!out.texture.empty()) out.texture.push_back(glm::vec2(out.texture[v]));
+        } else {
+          mesh.normals[v] = unit(sum);
+        }
+        at = made.insert(made.end(), {sum, number});
+      }
+      mesh.indices[uses[k]] = at->second;
+    }
+  }
+}
+
+}  // namespace
 
 ModelMesh triangles_of(const FaceMesh& faces) {
   ModelMesh out;
@@ -124,7 +204,7 @@ ModelMesh triangles_of(const FaceMesh& faces) {
       out.symbols.push_back(faces.symbols.empty() ? 0 : faces.symbols[f]);
     }
   }
-  compute_normals(out.mesh);
+  add_normals(out);
   return out;
 }
 
@@ -136,9 +216,29 @@ RayMesh in_materials(const ModelMesh& mesh, const PaintedModel& look, const grow
           }};
 }
 
+View close_view(std::span<const glm::vec3> points, View view, float margin) {
+  for (int step = 0; step < 6; ++step) {
+    const glm::mat4 to_clip = world_to_clip(view);
+    glm::vec2 low(1e9F), high(-1e9F);
+    for (const glm::vec3& point : points) {
+      const glm::vec4 at = to_clip * glm::vec4(point, 1);
+      low = glm::min(low, glm::vec2(at) / at.w);
+      high = glm::max(high, glm::vec2(at) / at.w);
+    }
+    const glm::vec3 back = view.eye - view.target, from = glm::normalize(back);
+    const glm::vec3 right = glm::normalize(glm::cross(view.up, from)), above = glm::cross(from, right);
+    const float slope_y = std::tan(0.5F * view.vertical_fov) * glm::length(back);
+    const float slope_x = slope_y * static_cast<float>(view.width) / static_cast<float>(view.height);
+    const glm::vec2 middle = 0.5F * (low + high), half = 0.5F * (high - low);
+    view.target += middle.x * slope_x * right + middle.y * slope_y * above;
+    view.eye = view.target + margin * std::max(half.x, half.y) * back;
+  }
+  return view;
+}
+
 Daylight model_daylight() {
   Daylight light;
-  light.sun = {-0.75F, 0.85F, 0.6F};
+  light.sun = {-0.5F, 1.0F, 0.45F};
   light.sun_irradiance = 3.6F * sun_color(light.turbidity, glm::normalize(light.sun).y);
   light.sun_radius = 0.035F;
   light.sky_irradiance = 1.2F;

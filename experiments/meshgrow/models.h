@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -20,7 +21,7 @@ struct ModelMesh {
 };
 
 // Each polygon becomes a fan of triangles around a corner; a quadrilateral is cut along its shorter diagonal.
-// O(corners)
+// Vertices at sharp edges become several, with a normal each. O(corners)
 ModelMesh triangles_of(const FaceMesh&);
 
 // A model with what its surfaces look like.
@@ -33,6 +34,10 @@ const PaintedModel& painted(std::string_view model);  // throws unknown_name
 
 // The model's mesh in its materials; refers to all arguments. `system` names the symbols.
 RayMesh in_materials(const ModelMesh&, const PaintedModel&, const growing::RuleSystem& system);
+
+// overview() frames a box; this frames the points, seen along the same direction. `margin`: size of the
+// picture per size of what it frames.
+View close_view(std::span<const glm::vec3> points, View, float margin = 1.1F);
 
 // A clear day with the sun on the left, in front of the model; its shadows have soft edges.
 Daylight model_daylight();

@@ -3,11 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/mat4x4.hpp>
-#include <glm/vec4.hpp>
 #include <optional>
 
 #include "experiments/cases.h"
@@ -35,23 +30,24 @@ constexpr std::array kFigures{
     ModelFigure{"F11",
                 11,
                 "chair",
-                "a chair with folds in the cushion",
+                "a chair with folds in the cushion, and its mesh before subdivision",
                 {0.85F, 0.42F, 0.62F},
                 0.85F,
                 glm::vec3(0.55F, 0.53F, 0.5F),
                 ModelFigure::Beside::kWires},
-    ModelFigure{"F12",
-                12,
-                "cactus",
-                "a cactus, grown by alternating growing and subdivision steps",
-                {0.3F, 0.38F, 1.0F},
-                0.85F,
-                glm::vec3(0.62F, 0.5F, 0.34F),
-                ModelFigure::Beside::kWires},
+    ModelFigure{
+        "F12",
+        12,
+        "cactus",
+        "a cactus, grown by alternating growing and subdivision steps, and its mesh before subdivision",
+        {0.3F, 0.38F, 1.0F},
+        0.85F,
+        glm::vec3(0.62F, 0.5F, 0.34F),
+        ModelFigure::Beside::kWires},
     ModelFigure{"F13",
                 13,
                 "fork_ridges_random",
-                "the ridges on a forking branch",
+                "the ridges on a forking branch, and its mesh before subdivision",
                 {0.25F, 0.38F, 1.0F},
                 0.8F,
                 glm::vec3(0.4F, 0.42F, 0.34F),
@@ -60,8 +56,8 @@ constexpr std::array kFigures{
         "F14",
         14,
         "branch_aspen",
-        "a branch of a tree, with a piece of the trunk: quaking aspen, by the parameters of Weber and "
-        "Penn",
+        "a branch of a tree on a piece of its trunk, with and without its leaves: quaking aspen, by the "
+        "parameters of Weber and Penn",
         {0.1F, 0.1F, 1.0F},
         1.0F,
         std::nullopt,
@@ -70,8 +66,8 @@ constexpr std::array kFigures{
         "F15",
         15,
         "bush_tupelo",
-        "a branch with dense foliage, the bush of §6: a young black tupelo, by the parameters of Weber "
-        "and Penn",
+        "dense foliage: a whole young black tupelo, by the parameters of Weber and Penn, with and without "
+        "its leaves. The paper's caption says \"a branch\", its §6 \"the bush\"",
         {0.4F, 0.38F, 1.0F},
         0.78F,
         glm::vec3(0.42F, 0.44F, 0.34F),
@@ -79,7 +75,7 @@ constexpr std::array kFigures{
     ModelFigure{"F16",
                 16,
                 "candle_holder",
-                "a wrought-iron candle holder with rust stains",
+                "a wrought-iron candle holder with rust stains, and its mesh before subdivision",
                 {0.35F, 0.38F, 1.0F},
                 0.8F,
                 glm::vec3(0.55F, 0.53F, 0.5F),
@@ -101,26 +97,14 @@ std::vector<Case> cases(const RunOptions& options) {
       {{"height", std::int64_t{420}}, {"samples", std::int64_t{12}}, {"bounces", std::int64_t{2}}});
 }
 
-// overview() frames the box; this frames the mesh in it, seen along the same direction.
-View close_view(const TriangleMesh& mesh, View view) {
-  constexpr float kMargin = 1.1F;
-  for (int step = 0; step < 6; ++step) {
-    const glm::mat4 to_clip = world_to_clip(view);
-    glm::vec2 low(1e9F), high(-1e9F);
-    for (const glm::vec3& position : mesh.positions) {
-      const glm::vec4 at = to_clip * glm::vec4(position, 1);
-      low = glm::min(low, glm::vec2(at) / at.w);
-      high = glm::max(high, glm::vec2(at) / at.w);
-    }
-    const glm::vec3 back = view.eye - view.target, from = glm::normalize(back);
-    const glm::vec3 right = glm::normalize(glm::cross(view.up, from)), above = glm::cross(from, right);
-    const float slope_y = std::tan(0.5F * view.vertical_fov) * glm::length(back);
-    const float slope_x = slope_y * static_cast<float>(view.width) / static_cast<float>(view.height);
-    const glm::vec2 middle = 0.5F * (low + high), half = 0.5F * (high - low);
-    view.target += middle.x * slope_x * right + middle.y * slope_y * above;
-    view.eye = view.target + kMargin * std::max(half.x, half.y) * back;
-  }
-  return view;
+// The mesh and, on ground, its shadow.
+std::vector<glm::vec3> in_picture(const TriangleMesh& mesh, bool on_ground) {
+  std::vector<glm::vec3> points = mesh.positions;
+  if (!on_ground) return points;
+  const float ground = bounds_of(mesh).low.y;
+  const glm::vec3 sun = model_daylight().sun;
+  for (const glm::vec3& p : mesh.positions) points.push_back(p - (p.y - ground) / sun.y * sun);
+  return points;
 }
 
 // A picture of one state of a figure's model, all by the same camera.
@@ -175,7 +159,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const Bounds box = bounds_of(mesh.mesh);
   const int height = at.integer("height");
   const View view = close_view(
-      mesh.mesh,
+      in_picture(mesh.mesh, figure.ground.has_value()),
       overview(box, static_cast<int>(figure.aspect * static_cast<float>(height)), height, figure.from));
   const Picture picture(figure, view, box,
                         {.samples = at.integer("samples"),

@@ -37,7 +37,7 @@ const std::array kSpecs{
     ParameterSpec{"model", std::string("cactus"), "", "name of the model"},
     ParameterSpec{"left_out", std::string(), "", "names of the steps that are left out, separated by commas"},
     ParameterSpec{"height", std::int64_t{512}, "pixels", "of the square pictures", 16, 4096},
-    ParameterSpec{"samples", std::int64_t{24}, "", "paths per pixel", 1, 65536},
+    ParameterSpec{"samples", std::int64_t{8}, "", "paths per pixel of each picture", 1, 65536},
     ParameterSpec{"far", 8.0, "", "distance of the far view, in distances of the near one", 1.5, 1000},
 };
 
@@ -49,7 +49,6 @@ std::vector<Case> cases(const RunOptions& options) {
     added.parameters.set("left_out", std::string(level.left_out));
     if (options.profile == Profile::kPaper) continue;
     added.parameters.set("height", std::int64_t{160});
-    added.parameters.set("samples", std::int64_t{24});
   }
   return cases;
 }
@@ -84,27 +83,52 @@ Shown show(const ModelMesh& mesh, const PaintedModel& look, const growing::Model
   return shown;
 }
 
+constexpr std::size_t kPairs = 6;
+
 // What the level looks like and what the whole model does, traced with the same random paths.
 struct Pair {
   Shown whole, level;
+  bool shows(std::size_t pixel) const { return whole.covered[pixel] || level.covered[pixel]; }
+  double differs(std::size_t c) const {
+    return static_cast<double>(int{whole.image.rgb[c]} - int{level.image.rgb[c]});
+  }
 };
 
-// Root mean square difference of level and whole model, in channels of 0 to 255, over the pixels that show
-// either: a smaller model in the picture does not have a smaller error for that alone. The noise of single
-// paths is taken out: differences of two pairs of pictures with other paths are multiplied, whose noise has
-// nothing in common. 0 where the mean of these products is not above 0: no difference can be told from none.
-double difference(const Pair& a, const Pair& b) {
-  const auto differs = [](const Pair& pair, std::size_t c) {
-    return static_cast<double>(int{pair.whole.image.rgb[c]} - int{pair.level.image.rgb[c]});
-  };
-  double sum = 0;
-  std::size_t pixels = 0;
-  for (std::size_t k = 0; k < a.whole.covered.size(); ++k) {
-    if (!a.whole.covered[k] && !a.level.covered[k]) continue;
-    ++pixels;
-    for (std::size_t c = 3 * k; c < 3 * k + 3; ++c) sum += differs(a, c) * differs(b, c);
+struct Difference {
+  double error = 0;      // root mean square, in channels of 0 to 255; 0 where the mean square is not above 0
+  double certainty = 0;  // the mean square in its own standard errors
+};
+
+// Over the pixels that show either: a smaller model in the picture does not have a smaller error for that
+// alone. The noise of the paths is taken out: the square of a difference is the mean product of two pairs'
+// differences, whose noise has nothing in common. The standard error is the jackknife's over the pairs.
+Difference difference(const std::array<Pair, kPairs>& pairs) {
+  double all = 0, channels = 0;          // sums of products of different pairs
+  std::array<double, kPairs> without{};  // the same, of all pairs but one
+  for (std::size_t pixel = 0; pixel < pairs[0].whole.covered.size(); ++pixel) {
+    if (!pairs[0].shows(pixel)) continue;
+    channels += 3;
+    for (std::size_t c = 3 * pixel; c < 3 * pixel + 3; ++c) {
+      double sum = 0, squares = 0;
+      for (const Pair& pair : pairs) {
+        sum += pair.differs(c);
+        squares += pair.differs(c) * pair.differs(c);
+      }
+      all += sum * sum - squares;
+      for (std::size_t k = 0; k < kPairs; ++k) {
+        const double own = pairs[k].differs(c);
+        without[k] += (sum - own) * (sum - own) - (squares - own * own);
+      }
+    }
   }
-  return pixels == 0 ? 0 : std::sqrt(std::max(0.0, sum / (3.0 * static_cast<double>(pixels))));
+  if (channels == 0) return {};
+  constexpr double kN = kPairs;
+  double mean = 0, variance = 0;
+  for (double& each : without) each /= channels * (kN - 1) * (kN - 2);
+  for (const double each : without) mean += each / kN;
+  for (const double each : without) variance += (each - mean) * (each - mean) * (kN - 1) / kN;
+  const double square = all / (channels * kN * (kN - 1));
+  return {std::sqrt(std::max(0.0, square)), variance > 0 ? square / std::sqrt(variance) : 0};
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
@@ -126,13 +150,15 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     if (far)
       view.eye = view.target + static_cast<float>(at.parameters.number("far")) * (view.eye - view.target);
     const std::string_view name_of_view = far ? "far" : "near";
-    const auto traced = [&](std::uint32_t seed) {
+    std::array<Pair, kPairs> pairs;
+    for (std::uint32_t k = 0; k < kPairs; ++k) {
       RaytraceSettings paths = settings;
-      paths.seed = seed;
-      return Pair{show(full, look, model, view, paths), show(level, look, model, view, paths)};
-    };
-    recorder.add(fmt::format("{}_error", name_of_view), "",
-                 difference(traced(settings.seed), traced(settings.seed + 0x9E37)));
+      paths.seed = settings.seed + 0x9E37 * k;
+      pairs[k] = {show(full, look, model, view, paths), show(level, look, model, view, paths)};
+    }
+    const Difference differs = difference(pairs);
+    recorder.add(fmt::format("{}_error", name_of_view), "", differs.error);
+    recorder.add(fmt::format("{}_certainty", name_of_view), "", differs.certainty);
   }
 }
 

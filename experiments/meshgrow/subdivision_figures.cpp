@@ -175,30 +175,34 @@ std::uint32_t nearest(const FaceMesh& mesh, const glm::vec3& at) {
 }
 
 Sheet draw_frame(Drawing& drawing) {
-  const FaceMesh mesh = hill(9);
+  const FaceMesh mesh = hill(13);
   const LocalSurface surface =
       local_surface(make_topology(mesh), mesh.positions, mesh.texture, FrameRule{}, true);
-  const std::uint32_t v = nearest(mesh, {0.5F, 0.9F, 0.1F});
+  const std::uint32_t v = nearest(mesh, {0.6F, 0.9F, 0.3F});
   const glm::vec3 p = mesh.positions[v], n = surface.normals[v], t = surface.tangents[v],
                   b = glm::cross(n, t);
   const Drawn hill_mesh = drawn(mesh);
   Scene scene;
-  scene.meshes.push_back(lit(hill_mesh, 1.4F));
-  const View view = overview({{-2, 0, -2}, {2, 1.1F, 2}}, 1200, 800, {1.0F, 0.7F, 0.3F});
-  const float s = 1.6F * surface.scales[v];
+  scene.meshes.push_back(lit(hill_mesh, 1.8F));
+  const View view = overview({{-2, 0, -2}, {2, 1.3F, 2}}, 1600, 1060, {1.0F, 0.75F, 0.25F});
+  const float s = 2.2F * surface.scales[v];
   const glm::vec3 foot = p + 0.02F * n;
   const std::array<std::tuple<glm::vec3, Rgb, std::string_view>, 3> axes{
       {{n, kBlue, "normal n"}, {t, kOrange, "tangent t"}, {b, kGreen, "bitangent b = n × t"}}};
   scene.planes.push_back({{foot - 0.8F * s * (t + b), foot + 0.8F * s * (t - b), foot + 0.8F * s * (t + b),
                            foot - 0.8F * s * (t - b)}});
-  for (const auto& [axis, colour, words] : axes) add_arrow(scene, view, foot, foot + s * axis, colour, 5);
   const Image image = render_scene(drawing.gl(), scene, view);
   Sheet sheet(image.width / 2.0, image.height / 2.0);
   sheet.picture(0, 0, image.width / 2.0, image.height / 2.0, image);
   for (const auto& [axis, colour, words] : axes) {
-    const SheetPoint at = place_of(view, foot + 1.2F * s * axis);
-    const double half = 4.9 * static_cast<double>(words.size());
-    add_label(sheet, {at.x + (axis == b ? half : 0), at.y}, words, 18, colour, half);
+    const SheetPoint from = place_of(view, foot), to = place_of(view, foot + s * axis);
+    sheet.stroke(from, to, {255, 255, 255}, 6);
+    meshgrow::add_arrow(sheet, from, to, colour, 3.4, 13);
+    const double length = std::hypot(to.x - from.x, to.y - from.y), away = 16;
+    const SheetPoint words_at{to.x + away * (to.x - from.x) / length, to.y + away * (to.y - from.y) / length};
+    const bool beside = std::abs(to.x - from.x) > std::abs(to.y - from.y);
+    const std::string_view anchor = !beside ? "middle" : to.x > from.x ? "start" : "end";
+    sheet.text(words_at.x, words_at.y + 7, words, 20, anchor, colour);
   }
   sheet.dot(place_of(view, foot), 5, kInk);
   return sheet;

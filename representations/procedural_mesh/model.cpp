@@ -114,18 +114,44 @@ Model parse_model(std::string_view text, const std::string& origin) {
   return model;
 }
 
+namespace {
+
+struct NamedText {
+  std::string name, text;
+};
+
+// The rules of the tree model follow each species file beside them.
+const std::vector<NamedText>& built_in_models() {
+  static const std::vector<NamedText> all = [] {
+    constexpr std::string_view kRules = "rules", kTrees = "weber_penn";
+    std::string rules;
+    for (const EmbeddedFile& file : embedded_models()) {
+      if (std::filesystem::path(file.name).stem() == kRules) rules = fmt::format("\n{}", file.text);
+    }
+    std::vector<NamedText> models;
+    for (const EmbeddedFile& file : embedded_models()) {
+      const std::filesystem::path path(file.name);
+      if (path.stem() == kRules) continue;
+      const bool tree = path.parent_path().filename() == kTrees;
+      models.push_back({path.stem().string(), std::string(file.text) + (tree ? rules : "")});
+    }
+    std::sort(models.begin(), models.end(), [](auto& a, auto& b) { return a.name < b.name; });
+    return models;
+  }();
+  return all;
+}
+
+}  // namespace
+
 std::vector<std::string> model_names() {
   std::vector<std::string> names;
-  for (const EmbeddedFile& file : embedded_models()) {
-    names.push_back(std::filesystem::path(file.name).stem().string());
-  }
-  std::sort(names.begin(), names.end());
+  for (const NamedText& model : built_in_models()) names.push_back(model.name);
   return names;
 }
 
 std::string_view model_text(std::string_view name) {
-  for (const EmbeddedFile& file : embedded_models()) {
-    if (std::filesystem::path(file.name).stem().string() == name) return file.text;
+  for (const NamedText& model : built_in_models()) {
+    if (model.name == name) return model.text;
   }
   const std::vector<std::string> names = model_names();
   throw unknown_name("model", name, std::vector<std::string_view>(names.begin(), names.end()));

@@ -50,7 +50,8 @@ inline constexpr std::size_t kMostModelBytes = std::size_t{1} << 20U;
 // model.
 Model parse_model(std::string_view text, const std::string& origin);
 
-// The models of the paper, which travel inside the program: models/*.toml, without the extension.
+// The models of the paper, which travel inside the program: models/*.toml, without the extension; and the
+// species of models/weber_penn, each followed by the rules that they share.
 std::vector<std::string> model_names();
 std::string_view model_text(std::string_view name);  // throws unknown_name
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <set>
 #include <string>
@@ -25,6 +26,25 @@ TEST(MeshgrowModelFigures, PolygonsKeepTheirEdgesAsWires) {
   EXPECT_EQ(mesh.symbols, (std::vector<std::uint32_t>{5, 5, 6}));
   EXPECT_EQ(mesh.wires, (std::vector<std::uint8_t>{3, 6, 7}));  // not the edge from 3 to 1
   for (const glm::vec3& normal : mesh.mesh.normals) EXPECT_NEAR(glm::length(normal), 1, 1e-5F);
+}
+
+// The walls of a cube keep their own normals; a roof so flat that it counts as smooth does not.
+TEST(MeshgrowModelFigures, OnlySharpEdgesHaveSeveralNormals) {
+  const auto normals_of = [](float rise) {
+    FaceMesh ridge;  // two quadrilaterals that meet at an edge
+    ridge.positions = {{-1, 0, 0}, {-1, 0, 1}, {0, rise, 1}, {0, rise, 0}, {1, 0, 1}, {1, 0, 0}};
+    ridge.texture.assign(6, glm::vec2(0));
+    ridge.first_corner = {0, 4, 8};
+    ridge.corners = {0, 1, 2, 3, 3, 2, 4, 5};
+    const ModelMesh mesh = triangles_of(ridge);
+    EXPECT_EQ(mesh.texture.size(), mesh.mesh.positions.size());
+    return mesh.mesh.normals;
+  };
+  const std::vector<glm::vec3> flat = normals_of(0.2F), sharp = normals_of(2);
+  EXPECT_EQ(flat.size(), 6U);
+  EXPECT_NEAR(flat[2].y, 1, 1e-6F);
+  ASSERT_EQ(sharp.size(), 8U);
+  for (const glm::vec3& normal : sharp) EXPECT_NEAR(normal.y, 1 / std::sqrt(5.0F), 1e-6F);
 }
 
 TEST(MeshgrowModelFigures, LeavingOutTheSpikesRemovesThemAlone) {
@@ -50,7 +70,7 @@ TEST(MeshgrowModelFigures, EveryLevelLeavesOutStepsOfAPaintedModel) {
     const std::string left_out = at.parameters.text("left_out");
     EXPECT_EQ(left_out.empty(), at.name.ends_with("/full")) << at.name;
   }
-  EXPECT_THROW(painted("oak"), Error);
+  EXPECT_THROW(painted("palm"), Error);
 }
 
 // With two paths per pixel the noise is many times the difference that spikes make from afar.

@@ -1,5 +1,5 @@
-// The tree model of Weber and Penn (1995) as rules of two models: what its parameters mean, counted and
-// measured on the grown meshes.
+// The tree model of Weber and Penn (1995) as rules that all species share: what its parameters mean, counted
+// and measured on the grown meshes.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -34,15 +34,6 @@ std::size_t triangles(const FaceMesh& mesh) {
   for (std::size_t f = 0; f < mesh.faces(); ++f)
     count += mesh.first_corner[f + 1] - mesh.first_corner[f] == 3;
   return count;
-}
-
-TEST(WeberPenn, BothSpeciesGrowByTheSameRules) {
-  const auto rules = [](const std::string& text) {
-    const std::size_t from = text.find("# Internode"), to = text.find("LeafBend*atan2");
-    EXPECT_LT(from, to);
-    return text.substr(from, to - from);
-  };
-  EXPECT_EQ(rules(text_of("branch_aspen")), rules(text_of("bush_tupelo")));
 }
 
 // Every split is a tent with two triangles. A stem of 5 segments has 4 places for splits; the counts of a
