@@ -16,6 +16,9 @@
   UNTIMED(hybrid, kCaves)                             \
   UNTIMED(hybrid, kNoiseStages)                       \
   UNTIMED(hybrid, kFresnel)                           \
+  UNTIMED(hybrid, kWaterPasses)                       \
+  UNTIMED(hybrid, kTexturing)                         \
+  UNTIMED(hybrid, kAir)                               \
   UNTIMED(hybrid, kSky)                               \
   UNTIMED(hybrid, kLandscape)                         \
   UNTIMED(hybrid, kClipmapFigures)                    \

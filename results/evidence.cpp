@@ -64,11 +64,20 @@ bool may_meet(const Condition& condition, const std::vector<Quantity>& quantitie
   return !relates || same_code(a, b);
 }
 
-// The mean of all pixels' channels, 0 black to 1 white.
-double brightness(const Image& image) {
-  double sum = 0;
-  for (const std::uint8_t channel : image.rgb) sum += channel;
-  return sum / (255.0 * static_cast<double>(image.rgb.size()));
+FigureLayout whole_of(const Image& image) { return {{{0, 0, image.width, image.height}}, {}}; }
+
+// The mean of all channels of the panels' pixels, 0 black to 1 white. The panels lie within the picture.
+double brightness(const FigureLayout& layout, const Image& image) {
+  double sum = 0, channels = 0;
+  for (const FigurePanel& panel : layout.panels) {
+    for (int y = panel.y; y < panel.y + panel.height; ++y) {
+      for (int x = panel.x; x < panel.x + panel.width; ++x) {
+        for (const std::uint8_t channel : image.pixel(x, y)) sum += channel;
+      }
+    }
+    channels += 3.0 * panel.width * panel.height;
+  }
+  return sum / (255 * channels);
 }
 
 // Evaluates the conditions of one claim and notes which records they read.
@@ -136,7 +145,7 @@ class Reader {
     try {
       const Image image = read_png(store_.path_of(name));
       if (!store_.intact(figure)) return {false, name + " is not the picture that was drawn"};
-      const FigureLayout whole{{{0, 0, image.width, image.height}}, {}};
+      const FigureLayout whole = whole_of(image);
       if (!layout_fault(whole, image).empty()) return {false, name + " is blank"};
       std::string text = fmt::format("drawn, {} × {} pixels", image.width, image.height);
       const bool declared = condition.panels > 0 || !condition.operands.empty();
@@ -173,8 +182,9 @@ class Reader {
     }
     for (const Operand& operand : condition.brightness) {
       const std::optional<double> value = metric_of(operand);
-      const double seen = brightness(image);
-      if (fault.empty() && (!value || std::abs(seen - *value) > Condition::kBrightness)) {
+      if (!fault.empty()) break;
+      const double seen = brightness(expected > 0 ? layout : whole_of(image), image);
+      if (!value || std::abs(seen - *value) > Condition::kBrightness) {
         fault = fmt::format("its brightness is {:.3f}, not {} of {} {}", seen, operand.metric,
                             operand.experiment, operand.case_name);
       }

@@ -57,6 +57,20 @@ std::vector<TriangleMesh> rings(const Heightfield& field) {
   return levels;
 }
 
+// Upright sides below the border of the outermost level.
+TriangleMesh sides_below(const TriangleMesh& outer, const Heightfield& field, float floor) {
+  TriangleMesh sides;
+  for (std::size_t k = 0; k < outer.indices.size(); ++k) {
+    const glm::vec3 a = outer.positions[outer.indices[k]],
+                    b = outer.positions[outer.indices[k % 3 == 2 ? k - 2 : k + 1]];
+    const bool on_border = std::max(a.x, b.x) <= 0 || std::min(a.x, b.x) >= field.extent_x() ||
+                           std::max(a.z, b.z) <= 0 || std::min(a.z, b.z) >= field.extent_z();
+    if (on_border) add_quad(sides, {glm::vec3(a.x, floor, a.z), glm::vec3(b.x, floor, b.z), b, a});
+  }
+  compute_normals(sides);
+  return sides;
+}
+
 Scene scene_of(const std::vector<TriangleMesh>& levels, bool lit) {
   Scene scene;
   for (std::size_t l = 0; l < levels.size(); ++l) {
@@ -88,7 +102,13 @@ Sheet draw_rings(Drawing& drawing) {
   plan.up = {0, 0, -1};
   plan.vertical_fov = 2 * std::atan(0.5F * field.extent_x() / plan.eye.y) * 1.02F;
   plan.width = plan.height = pixels(kSide);
-  const Scene flat = scene_of(levels, false), lit = scene_of(levels, true);
+  const Scene flat = scene_of(levels, false);
+  Scene lit = scene_of(levels, true);
+  const Bounds ground = bounds_of(lit);
+  const float floor = ground.low.y - 0.15F * ground.size().y;
+  const TriangleMesh sides = sides_below(levels.back(), field, floor);
+  lit.meshes.push_back({.mesh = &sides, .shading = Shading::kLit});
+  lit.meshes.back().colors.assign(sides.positions.size(), Rgb{205, 200, 190});
   const View aslant = overview(bounds_of(lit), pixels(kLong), pixels(kSide), {0.35F, 0.6F, 1.0F});
 
   Sheet sheet(3 * kMargin + kSide + kLong, kTitle + kSide + kKey + kMargin);
@@ -97,6 +117,11 @@ Sheet draw_rings(Drawing& drawing) {
   sheet.text(2 * kMargin + kSide, kTitle - 8, "aslant", 16);
   sheet.picture(2 * kMargin + kSide, kTitle, kLong, kSide, render_scene(gl, lit, aslant));
   sheet.dot({kMargin + kSide / 2, kTitle + kSide / 2}, 5, {0, 0, 0});
+  const glm::vec4 clip =
+      world_to_clip(aslant) * glm::vec4(0.5F * field.extent_x(), floor, field.extent_z(), 1);
+  sheet.text(2 * kMargin + kSide + kLong * (0.5 + 0.5 * clip.x / clip.w),
+             kTitle + kSide * (0.5 - 0.5 * clip.y / clip.w) + 26, fmt::format("{:.0f} m", field.extent_x()),
+             15, "middle");
   double x = kMargin;
   const double y = kTitle + kSide + 18;
   for (std::size_t l = 0; l < levels.size(); ++l) {

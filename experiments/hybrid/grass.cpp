@@ -126,6 +126,39 @@ Difference largest_difference() {
   return most;
 }
 
+// A point's distance from a triangle, in metres.
+double distance_to(const glm::dvec3& p, const std::array<glm::dvec3, 3>& corner) {
+  const glm::dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+  bool inside = true;
+  double nearest = glm::distance(p, corner[0]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const glm::dvec3 from = corner[k], along = corner[(k + 1) % 3] - from;
+    inside = inside && glm::dot(glm::cross(along, p - from), normal) >= 0;
+    const double share = std::clamp(glm::dot(p - from, along) / glm::dot(along, along), 0.0, 1.0);
+    nearest = std::min(nearest, glm::distance(p, from + share * along));
+  }
+  return inside ? std::abs(glm::dot(p - corner[0], normal)) / glm::length(normal) : nearest;
+}
+
+// The largest angle, as printed, of a triangle on which the GPU grew a strand.
+double steepest_with_grass(GlContext& gl, const TriangleMesh& mesh, float limit) {
+  GrassGrowth growth{.steepest = limit};
+  growth.strands = static_cast<std::int64_t>(plan_grass(grass_ground(mesh), growth).growing());
+  const std::vector<GrassStrand> strands = GrassScene(gl, grass_ground(mesh), growth).strands();
+  const GrassPlan plan = plan_grass(grass_ground(mesh), growth);
+  double steepest = 0;
+  for (std::size_t t = 0; t < plan.growing(); ++t) {
+    const glm::uvec4& at = plan.triangles[t];
+    const std::array<glm::dvec3, 3> corner{mesh.positions[at.x], mesh.positions[at.y], mesh.positions[at.z]};
+    const glm::dvec3 normal = glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
+    for (std::uint32_t k = at.w; k < plan.triangles[t + 1].w; ++k) {
+      if (distance_to(glm::dvec3(strands[k].root), corner) < 1e-3)
+        steepest = std::max(steepest, slope_angle(normal.y, SlopeAngle::kPrinted));
+    }
+  }
+  return steepest;
+}
+
 void measure_slope(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   const Difference most = largest_difference();
   recorder.add("largest_difference", "degrees", most.degrees);
@@ -149,6 +182,7 @@ void measure_slope(const Case& at, const RunOptions& options, Recorder& recorder
   recorder.add("billboards_printed", "", count(SlopeAngle::kPrinted));
   recorder.add("billboards_by_true_angle", "", count(SlopeAngle::kTrue));
   recorder.add("billboards_everywhere", "", static_cast<double>(2 * mesh.triangles()));
+  recorder.add("steepest_with_grass", "degrees", steepest_with_grass(*gl, mesh, limit));
 }
 
 constexpr std::array<std::string_view, 3> kPoints = {"sum", "product", "cross-product"};
@@ -164,20 +198,6 @@ std::vector<Case> bary_cases(const RunOptions&) {
     cases.push_back({std::string(point), {kBarySpecs, {{"point", std::string(point)}}}});
   }
   return cases;
-}
-
-// A point's distance from a triangle, in metres.
-double distance_to(const glm::dvec3& p, const std::array<glm::dvec3, 3>& corner) {
-  const glm::dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-  bool inside = true;
-  double nearest = glm::distance(p, corner[0]);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const glm::dvec3 from = corner[k], along = corner[(k + 1) % 3] - from;
-    inside = inside && glm::dot(glm::cross(along, p - from), normal) >= 0;
-    const double share = std::clamp(glm::dot(p - from, along) / glm::dot(along, along), 0.0, 1.0);
-    nearest = std::min(nearest, glm::distance(p, from + share * along));
-  }
-  return inside ? std::abs(glm::dot(p - corner[0], normal)) / glm::length(normal) : nearest;
 }
 
 void measure_bary(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {

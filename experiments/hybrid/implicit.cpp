@@ -1,4 +1,5 @@
-// §3.1.2 of "hybrid": the field's values where the paper states them, and two extractors of its zero set.
+// §3.1.2 of "hybrid": the field's values where the paper states them, that it is linear in the material, and
+// two extractors of its zero set.
 #include <fmt/format.h>
 
 #include <array>
@@ -99,25 +100,50 @@ class Voxels {
   const ColumnGrid& grid_;
 };
 
+// A source of the voxels within `radius` of a corner, those for which solid(offset) is true.
+template <class IsSolid>
+TerrainSource voxels_around(int radius, const IsSolid& solid) {
+  TerrainSource source;
+  source.name = "voxels around a corner";
+  source.solid =
+      Solid{{glm::vec3(0), glm::vec3(static_cast<float>(2 * radius))},
+            "",
+            [=](const ColumnSamples& at, std::span<Material> out) {
+              for (std::size_t k = 0; k < out.size(); ++k) {
+                const glm::ivec3 v(static_cast<int>(at.x), static_cast<int>(k), static_cast<int>(at.z));
+                out[k] = solid(v) ? Material::kBedrock : Material::kAir;
+              }
+            }};
+  return source;
+}
+
 // The voxels around a corner of the terrain's, but on one side of the corner turned into their opposite on
 // the other side: solid where the mirrored voxel is air. Any support that is symmetric about the corner is
 // exactly half full.
 TerrainSource half_full(const Voxels& voxels, glm::ivec3 corner, int radius) {
-  TerrainSource source;
-  source.name = "half full";
-  const auto size = static_cast<float>(2 * radius);
-  source.solid =
-      Solid{{glm::vec3(0), glm::vec3(size)}, "", [=](const ColumnSamples& at, std::span<Material> out) {
-              const glm::ivec3 low = corner - radius;
-              for (std::size_t k = 0; k < out.size(); ++k) {
-                glm::ivec3 v(static_cast<int>(at.x), static_cast<int>(k), static_cast<int>(at.z));
-                const bool mirrored = v.x >= radius;
-                if (mirrored) v = 2 * radius - 1 - v;
-                const bool solid = voxels.solid(low.x + v.x, low.y + v.y, low.z + v.z);
-                out[k] = solid != mirrored ? Material::kBedrock : Material::kAir;
-              }
-            }};
-  return source;
+  return voxels_around(radius, [=](glm::ivec3 v) {
+    const bool mirrored = v.x >= radius;
+    if (mirrored) v = 2 * radius - 1 - v;
+    const glm::ivec3 at = corner - radius + v;
+    return voxels.solid(at.x, at.y, at.z) != mirrored;
+  });
+}
+
+// A number for a voxel, which no pattern of the kernel or the terrain repeats.
+std::uint32_t scrambled(glm::ivec3 v) {
+  std::uint32_t h = static_cast<std::uint32_t>(v.x) * 73856093U ^
+                    static_cast<std::uint32_t>(v.y) * 19349663U ^ static_cast<std::uint32_t>(v.z) * 83492791U;
+  h = (h ^ (h >> 15)) * 0x2c1b3c6dU;
+  h = (h ^ (h >> 12)) * 0x297a2d39U;
+  return h ^ (h >> 15);
+}
+
+// Of the solid voxels around a corner those whose number is even (part 0) or odd (1), or all (2).
+TerrainSource part_of_solid(const Voxels& voxels, glm::ivec3 corner, int radius, int part) {
+  return voxels_around(radius, [=](glm::ivec3 v) {
+    const glm::ivec3 at = corner - radius + v;
+    return voxels.solid(at.x, at.y, at.z) && (part == 2 || static_cast<int>(scrambled(v) & 1U) == part);
+  });
 }
 
 // All lengths in metres.
@@ -156,13 +182,26 @@ void measure_values(const Case& at, const ImplicitSurface& surface, std::uint64_
     }
   }
   const int reach = static_cast<int>(std::ceil(radius)) + 1;
+  double divided = 0, off_sum = 0;
   for (int k = 0; k < 100; ++k) {
     const glm::ivec3 corner(static_cast<int>(unit(random) * grid.width),
                             static_cast<int>(unit(random) * grid.levels),
                             static_cast<int>(unit(random) * grid.depth));
     const auto around = build(half_full(voxels, corner, reach), at, 2 * reach, radius, 0, progress);
     half.add(around->field().at(glm::vec3(static_cast<float>(reach))));
+    // Linear: what two parts of the material add to the field of air, they add together.
+    std::array<double, 3> field{};
+    for (int part = 0; part < 3; ++part) {
+      const auto built =
+          build(part_of_solid(voxels, corner, reach, part), at, 2 * reach, radius, 0, progress);
+      field[static_cast<std::size_t>(part)] = built->field().at(glm::vec3(static_cast<float>(reach)));
+    }
+    if (field[0] == -1 || field[1] == -1) continue;  // one of the parts is empty
+    ++divided;
+    off_sum = std::max(off_sum, std::abs((field[0] + 1) + (field[1] + 1) - (field[2] + 1)));
   }
+  recorder.add("divided_supports", "", divided);
+  recorder.add("off_the_parts_sum", "", off_sum);
   full.record(recorder, "full");
   empty.record(recorder, "empty");
   partial.record(recorder, "partial");

@@ -19,7 +19,9 @@ namespace {
 
 using namespace figures;
 
-constexpr glm::ivec2 kLarge{1000, 560}, kSmall{486, 272};  // pixels
+constexpr glm::ivec2 kLarge{1600, 720}, kSmall{786, 354};  // pixels
+
+constexpr Rgb kAxis{96, 96, 96};
 
 using Settings = std::initializer_list<std::pair<std::string_view, Value>>;
 
@@ -30,11 +32,13 @@ class Land {
     Progress silent;
     field_ = scene_heights(wide_ground({}), kSamples, silent);
     lod_ = lod("clipmap").build(field_, Parameters(lod("clipmap").parameters), silent);
-    lod_->tune(255);
+    lod_->tune(383);
   }
 
   LandscapeStyle style(Settings settings) const {
-    Parameters parameters(landscape_parameters(), {{"water", 0.45}});
+    // Rock where the paper's formula, (1 - n_y)·90°, gives more than 20°: the true angle there is 39°.
+    Parameters parameters(landscape_parameters(),
+                          {{"water", 0.45}, {"slope_rule", std::string("printed")}, {"steep", 20.0}});
     for (const auto& [name, value] : settings) parameters.set(name, value);
     return make_style(parameters, bounds_of(field_));
   }
@@ -46,7 +50,7 @@ class Land {
     view.target = target + water;
     view.width = size.x;
     view.height = size.y;
-    view.vertical_fov = 0.8F;
+    view.vertical_fov = 0.68F;
     view.near = 0.3F;
     view.far = 4 * field_.extent_x();
     return view;
@@ -62,7 +66,7 @@ class Land {
   }
 
  private:
-  static constexpr int kSamples = 769;
+  static constexpr int kSamples = 1025;  // a metre and a half apart
 
   GlContext& gl_;
   Heightfield field_;
@@ -84,7 +88,7 @@ Image image_of(int width, int height, const std::function<Rgb(int, int)>& colour
 
 // As in the paper: red is du, green dv, each from -1 (dark) to 1; and as games store normals.
 Sheet draw_dudv(Drawing& drawing) {
-  constexpr int kSide = 512;
+  constexpr int kSide = 720;
   const Texels map = wave_map(kSide, drawing.seed());
   const auto share = [&](int x, int y, int channel) {
     return 0.5F + 0.5F * map.at(x % kSide, y % kSide, channel);
@@ -101,8 +105,9 @@ Sheet draw_dudv(Drawing& drawing) {
   const Image normals = image_of(kSide, kSide, [&](int x, int y) {
     return Rgb{byte_of(1 - share(x, y, 2)), byte_of(1 - share(x, y, 3)), 255};
   });
-  return panel_sheet({{{both, "du/dv map: red is du, green is dv"}, {grey(0), "du, black −1, white 1"}},
-                      {{normals, "normal map of the same size"}, {grey(1), "dv, black −1, white 1"}}});
+  return panel_sheet(
+      {{{both, "du/dv map, 7 m × 7 m of water: red du, green dv"}, {grey(0), "du, black −1, white 1"}},
+       {{normals, "normal map of the same 7 m × 7 m"}, {grey(1), "dv, black −1, white 1"}}});
 }
 
 Sheet landscape_sheet(const PanelRows& rows) {
@@ -154,39 +159,74 @@ Sheet draw_fog(Drawing& drawing) {
                            {draw(away, 0.85), "away from the sun"}}});
 }
 
-// `turn`: by which the map is moved along the horizon.
-Image grey_map(const Texels& map, double turn) {
+// Rows `from` to `to` of the map, moved along the horizon by `turn`.
+Image grey_map(const Texels& map, double turn, int from, int to) {
   const int moved = static_cast<int>(turn * map.width);
-  return image_of(map.width, map.height, [&](int x, int y) {
-    const std::uint8_t value = byte_of(map.at((x + moved) % map.width, y));
+  return image_of(map.width, to - from, [&](int x, int y) {
+    const std::uint8_t value = byte_of(map.at((x + moved) % map.width, y + from));
     return Rgb{value, value, value};
   });
 }
 
+// Azimuth below the map, the angle above the horizon beside it.
 Sheet draw_sky_noise(Drawing& drawing) {
-  const Texels map = sky_noise(1280, 480, drawing.seed(), 1);
-  return panel_sheet(
-      {{{grey_map(map, 0),
-         "azimuth from north clockwise, from zenith (top) to horizon (bottom); black 0, white 1"}},
-       {{grey_map(map, 0.5), "the same, turned by half: the ends meet in the middle, without a seam"}}});
+  constexpr int kWidth = 1600, kHeight = 600, kStripFrom = 300, kStripTo = 500;
+  constexpr double kLeft = 48, kTop = 28, kRight = 24, kGap = 70, kBelow = 56;
+  constexpr double kUnit = Sheet::kPixels, kWide = kWidth / kUnit;
+  const Texels map = sky_noise(kWidth, kHeight, drawing.seed(), 1);
+  Sheet sheet(kLeft + kWide + kRight, kTop + (kHeight + kStripTo - kStripFrom) / kUnit + kGap + kBelow);
+  const auto panel = [&](double y, double turn, int from, int to) {
+    sheet.picture(kLeft, y, kWide, (to - from) / kUnit, grey_map(map, turn, from, to));
+    for (int k = 0; k <= 4; ++k) {
+      const double x = kLeft + kWide * k / 4, below = y + (to - from) / kUnit;
+      sheet.stroke({x, below}, {x, below + 5}, kAxis, 1);
+      sheet.text(x, below + 18, fmt::format("{}°", static_cast<int>(90 * k + 360 * turn) % 360), 13,
+                 "middle");
+    }
+    for (int elevation = 90; elevation >= 0; elevation -= 30) {
+      const double row = kHeight * (1 - elevation / 90.0);
+      if (row < from || row > to) continue;
+      sheet.stroke({kLeft - 5, y + (row - from) / kUnit}, {kLeft, y + (row - from) / kUnit}, kAxis, 1);
+      sheet.text(kLeft - 8, y + (row - from) / kUnit + 5, fmt::format("{}°", elevation), 13, "end");
+    }
+  };
+  const double strip = kTop + kHeight / kUnit + kGap;
+  sheet.text(kLeft, kTop - 9,
+             "Intensity: black 0, white 1. Up: angle above the horizon; across: azimuth from north", 13);
+  panel(kTop, 0, 0, kHeight);
+  sheet.text(kLeft, strip - 9, "A strip, turned by half: the ends meet in the middle, without a seam", 13);
+  panel(strip, 0.5, kStripFrom, kStripTo);
+  return sheet;
 }
 
 Sheet draw_clouds(Drawing& drawing) {
   Land land(drawing);
   const View large = land.view({300, 30, 1200}, {560, 110, 740}, kLarge), small = resized(large, kSmall);
-  return landscape_sheet({{{land.draw(large, {}), "clouds over the noise terrain"}},
-                          {{land.draw(small, {}, 20), "20 s later"},
-                           {land.draw(small, {{"cloud_cover", 0.75}}), "with more clouds"}}});
+  // The noise map is the intensity itself, and clouds have one colour.
+  const Settings printed{{"cloud_cover", 0.75}, {"cloud_softness", 1.0}, {"cloud_shading", 0.0}};
+  return landscape_sheet(
+      {{{land.draw(large, {}),
+         "i = (n − 0.4) ÷ 0.6, at least 0, of the noise n; clouds shaded by thickness and sun"}},
+       {{land.draw(small, {}, 20), "the same, 20 s later"},
+        {land.draw(small, printed), "as printed: i = n, and one colour of cloud"}}});
 }
 
 constexpr std::array<Figure, 5> kFigures{{
     {20, "F20", "the du/dv map of the water, from the gradient of seamless noise, and its normal map",
      draw_dudv},
-    {21, "F21", "the water as rendered, and its parts: the noise terrain, drawn by the clipmap", draw_water},
-    {23, "F23", "fog that takes the sun's colour towards the sun, 8° above the horizon", draw_fog},
+    {21, "F21",
+     "the water as rendered, and its parts. The ground is the noise terrain's height map, drawn by the "
+     "clipmap; it is rock "
+     "where §4.1's angle, (1 − n_y) · 90°, exceeds 20°",
+     draw_water},
+    {23, "F23",
+     "fog that takes the sun's colour towards the sun, 8° above the horizon; ground as in figure 21",
+     draw_fog},
     {24, "F24", "the noise map of the sky, on a dome of clouds around the eye", draw_sky_noise},
     {25, "F25",
-     "clouds: the share t = (cos(iπ) + 1) ÷ 2 of sky colour where the noise map is i, moving with time",
+     "clouds: the share t = (cos(iπ) + 1) ÷ 2 of sky colour, i from the noise map of figure 24, which moves "
+     "with time; "
+     "ground as in figure 21",
      draw_clouds},
 }};
 constexpr std::array kNames = names_of(kFigures);

@@ -1,6 +1,5 @@
-// Figures 3 to 13 of "hybrid": the noise graph, stage by stage, on one vertical slice. Figure 12 is compared
-// with the product of the figures that it is made of, and the ground that floats is measured in the figures
-// around it.
+// Figures 3 to 13 of "hybrid": the noise graph, stage by stage, on one vertical slice; and of each stage what
+// the paper says that it does to the one before.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -13,6 +12,7 @@
 #include "experiments/experiment.h"
 #include "experiments/figures/sheet.h"
 #include "representations/layered_stack/components.h"
+#include "results/format.h"
 #include "terrain/files.h"
 #include "terrain/image.h"
 #include "terrain/sources/noise/cave_terrain.h"
@@ -26,7 +26,7 @@ constexpr std::int64_t kFirstFigure = 3,
 
 constexpr std::array kSpecs{
     ParameterSpec{"figure", kFirstFigure, "", "number of the figure in the paper", kFirstFigure, kLastFigure},
-    ParameterSpec{"pixels", std::int64_t{512}, "pixels", "side of the square picture", 16, 8192},
+    ParameterSpec{"pixels", std::int64_t{1024}, "pixels", "side of the square picture", 16, 8192},
 };
 
 std::vector<Case> cases(const RunOptions&) {
@@ -68,16 +68,103 @@ Components pieces(const std::vector<float>& values, float extent, int side, Prog
   return find_components(dynamic_cast<const LayeredStack&>(*built));
 }
 
-// Pixels of figure 12 that are not the product of figures 8 and 11.
-double pixels_off_product(const std::vector<float>& values, const noise::CaveOptions& terrain, int side,
-                          Progress& progress) {
-  const std::vector<float> ground =
-      slice(noise::graph_for(noise::Stage::kXYPerturbed, terrain), terrain.extent, side, progress);
-  const std::vector<float> caves =
-      slice(noise::graph_for(noise::Stage::kPerturbedRidged, terrain), terrain.extent, side, progress);
-  double off = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) off += values[i] != ground[i] * caves[i];
-  return off;
+// A stage's values in a square picture, row by row.
+struct Pixels {
+  int side;
+  std::vector<float> values;
+  float at(int i, int row) const {
+    return values[static_cast<std::size_t>(row) * static_cast<std::size_t>(side) +
+                  static_cast<std::size_t>(i)];
+  }
+};
+
+// The largest difference of two values in one column: 0 if the fractal ignores y.
+double column_spread(const Pixels& pixels) {
+  float largest = 0;
+  for (int i = 0; i < pixels.side; ++i) {
+    float least = pixels.at(i, 0), most = least;
+    for (int row = 1; row < pixels.side; ++row) {
+      least = std::min(least, pixels.at(i, row));
+      most = std::max(most, pixels.at(i, row));
+    }
+    largest = std::max(largest, most - least);
+  }
+  return largest;
+}
+
+double share_differing(const Pixels& a, const Pixels& b) {
+  double differing = 0;
+  for (std::size_t k = 0; k < a.values.size(); ++k) differing += a.values[k] != b.values[k];
+  return differing / static_cast<double>(a.values.size());
+}
+
+// What the stage does to those before it.
+void compare_stages(noise::Stage stage, const Pixels& now, const noise::CaveOptions& terrain,
+                    Recorder& recorder, Progress& progress) {
+  using noise::Stage;
+  const auto other = [&](Stage at) {
+    return Pixels{now.side, slice(noise::graph_for(at, terrain), terrain.extent, now.side, progress)};
+  };
+  if (stage == Stage::kFbm || stage == Stage::kFlatFbm) recorder.add("column_spread", "", column_spread(now));
+  if (stage == Stage::kClampedRidged) {
+    // The noise where the map has no cave lies below that where it has one.
+    const Pixels noise = other(Stage::kRidged);
+    float outside = 0, inside = 1;
+    for (std::size_t k = 0; k < now.values.size(); ++k) {
+      if (now.values[k] > 0.5F) {
+        outside = std::max(outside, noise.values[k]);
+      } else {
+        inside = std::min(inside, noise.values[k]);
+      }
+    }
+    recorder.add("highest_noise_outside", "", outside);
+    recorder.add("lowest_noise_inside", "", inside);
+  }
+  if (stage == Stage::kPerturbedRidged)
+    recorder.add("share_moved", "", share_differing(now, other(Stage::kClampedRidged)));
+  if (stage == Stage::kMultiplied) {
+    const Pixels ground = other(Stage::kXYPerturbed);
+    Pixels product = other(Stage::kPerturbedRidged);
+    for (std::size_t k = 0; k < product.values.size(); ++k) product.values[k] *= ground.values[k];
+    recorder.add("share_off_product", "", share_differing(now, product));
+  }
+}
+
+// Whether the stage shows noise, and not one of two values.
+bool has_greys(noise::Stage stage) {
+  using enum noise::Stage;
+  return stage == kGradient || stage == kFbm || stage == kFlatFbm || stage == kRidged;
+}
+
+// The picture with its sides in metres, what its greys mean, and `words` below.
+figures::Sheet sheet_of(const Image& image, const noise::StageInfo& stage, float extent,
+                        std::string_view words) {
+  constexpr double kLeft = 54, kTop = 32, kRight = 26, kBelow = 118;
+  constexpr Rgb kGrey{96, 96, 96};
+  constexpr int kTicks = 4, kText = 15;
+  const double side = image.width / static_cast<double>(figures::Sheet::kPixels), bottom = kTop + side;
+  figures::Sheet sheet(kLeft + side + kRight, bottom + kBelow);
+  sheet.box(kLeft - 1, kTop - 1, side + 2, side + 2, kGrey);
+  sheet.picture(kLeft, kTop, side, side, image);
+  sheet.text(8, kTop - 12, "y, m", kText);
+  sheet.text(kLeft + side / 2, bottom + 42, "x, m", kText, "middle");
+  for (int k = 0; k <= kTicks; ++k) {
+    const double along = side * k / kTicks;
+    const std::string metres = fmt::format("{:g}", extent * static_cast<float>(k) / kTicks);
+    sheet.stroke({kLeft + along, bottom}, {kLeft + along, bottom + 6}, kGrey, 1);
+    sheet.text(kLeft + along, bottom + 22, metres, kText, "middle");
+    sheet.stroke({kLeft - 6, bottom - along}, {kLeft, bottom - along}, kGrey, 1);
+    sheet.text(kLeft - 10, bottom - along + 5, metres, kText, "end");
+  }
+  const bool caves =
+      stage.stage == noise::Stage::kClampedRidged || stage.stage == noise::Stage::kPerturbedRidged;
+  sheet.text(kLeft, bottom + 72,
+             has_greys(stage.stage) ? fmt::format("black: {:g}; white: {:g}", stage.low, stage.high)
+             : caves                ? "black: cave (0); white: none (1)"
+                                    : "black: air (0); white: ground (1)",
+             kText);
+  sheet.text(kLeft, bottom + 96, words, kText);
+  return sheet;
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
@@ -107,21 +194,23 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("mean_shown", "", shown / static_cast<double>(values.size()));  // of 0 black to 1 white
   recorder.add("least", "", *least);
   recorder.add("most", "", *most);
-  if (stage.stage == Stage::kMultiplied)
-    recorder.add("pixels_off_product", "", pixels_off_product(values, terrain, side, progress));
-  if (stage.stage == Stage::kXYPerturbed || stage.stage == Stage::kMultiplied ||
-      stage.stage == Stage::kAttenuated) {
+  std::string words;
+  compare_stages(stage.stage, {side, values}, terrain, recorder, progress);
+  const bool is_ground = stage.stage == Stage::kYPerturbed || stage.stage == Stage::kXYPerturbed ||
+                         stage.stage == Stage::kMultiplied || stage.stage == Stage::kAttenuated;
+  if (is_ground) {
     const Components found = pieces(values, terrain.extent, side, progress);
+    recorder.add("overhang_columns", "", static_cast<double>(found.overhang_columns));
     recorder.add("floating_pieces", "", static_cast<double>(found.floating));
     const double depth = terrain.extent / side;  // m
     recorder.add("floating_area", "m²", found.floating_volume / depth);
+    words = fmt::format("Ground that floats: {} pieces, {} m²", found.floating,
+                        format_number(found.floating_volume / depth));
   }
-  figures::write_picture(
-      recorder.figure(
-          fmt::format("hybrid.F{}", stage.figure), "png",
-          fmt::format("Figure {} of the paper: {}. Vertical slice of {} m × {} m, black {}, white {}",
-                      stage.figure, stage.name, terrain.extent, terrain.extent, stage.low, stage.high)),
-      image);
+  sheet_of(image, stage, terrain.extent, words)
+      .write(recorder.figure(fmt::format("hybrid.F{}", stage.figure), "png",
+                             fmt::format("Figure {} of the paper: {}. Vertical slice of {} m × {} m",
+                                         stage.figure, stage.name, terrain.extent, terrain.extent)));
 }
 
 }  // namespace

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <numbers>
 #include <random>
 
 #include "experiments/experiment.h"
@@ -82,6 +85,55 @@ std::vector<View> walk(const NearGround& ground) {
   return all;
 }
 
+// The angle by which the surface turns at edges of two triangles, radians, weighted by their lengths.
+struct Bend {
+  double sum = 0, length = 0;
+  void add(double angle, double metres) {
+    sum += angle * metres;
+    length += metres;
+  }
+  double degrees() const { return sum / std::max(length, 1e-9) * 180 / std::numbers::pi; }
+};
+
+// Bends within the near surface, within the far ground, and at the rim, where a triangle of each meet.
+struct Bends {
+  Bend near, far, rim;
+};
+
+void add_bends(const Frame& frame, Bends& bends) {
+  struct Side {
+    glm::vec3 normal;
+    bool near;
+  };
+  const auto key = [](const glm::vec3& a, const glm::vec3& b) {
+    return std::array{a.x, a.y, a.z, b.x, b.y, b.z};
+  };
+  std::map<std::array<float, 6>, Side> sides;  // by directed edge
+  const auto collect = [&](const Frame& part, bool near) {
+    triangles(part, [&](std::span<const glm::vec3> corners) {
+      for (std::size_t t = 0; t < corners.size(); t += 3) {
+        const glm::vec3 cross = glm::cross(corners[t + 1] - corners[t], corners[t + 2] - corners[t]);
+        if (!(glm::length(cross) > 0)) continue;
+        for (std::size_t k = 0; k < 3; ++k)
+          sides.insert({key(corners[t + k], corners[t + (k + 1) % 3]), {glm::normalize(cross), near}});
+      }
+    });
+  };
+  Frame near = frame, far = frame;
+  near.batches = {};
+  far.meshes = {};
+  collect(near, true);
+  collect(far, false);
+  for (const auto& [edge, side] : sides) {
+    const glm::vec3 a(edge[0], edge[1], edge[2]), b(edge[3], edge[4], edge[5]);
+    const auto other = sides.find(key(b, a));
+    if (other == sides.end()) continue;
+    const double angle = std::acos(std::clamp(glm::dot(side.normal, other->second.normal), -1.0F, 1.0F));
+    Bend& bend = side.near != other->second.near ? bends.rim : side.near ? bends.near : bends.far;
+    bend.add(angle, glm::distance(a, b));
+  }
+}
+
 void measure_stitch(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(open_terrain(at.terrain, options.seed));
   const NearGround ground = near_ground(source, at.integer("n"), at.integer("finer"), progress);
@@ -95,6 +147,7 @@ void measure_stitch(const Case& at, const RunOptions& options, Recorder& recorde
   const std::size_t late_at_first = lod.late();
   OpenEdges worst;
   BarePixels bare;
+  Bends bends;
   std::size_t with_rim = 0, measured = 0;
   progress.begin(fmt::format("openings on {}", at.name), wanted);
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -102,6 +155,7 @@ void measure_stitch(const Case& at, const RunOptions& options, Recorder& recorde
     if (measured * all.size() > k * wanted) continue;  // evenly spaced
     ++measured;
     with_rim += frame.meshes.empty() ? 0U : 1U;
+    if (measured % 10 == 1) add_bends(frame, bends);
     const OpenEdges open = find_open_edges(frame, ground.heights, all[k]);
     const BarePixels seen = find_bare_pixels(frame, ground.heights, all[k]);
     worst.edges += open.edges;
@@ -116,6 +170,10 @@ void measure_stitch(const Case& at, const RunOptions& options, Recorder& recorde
   recorder.add("open_edges", "", static_cast<double>(worst.edges));
   recorder.add("largest_gap", "m", worst.largest_gap_m);
   recorder.add("largest_gap_on_screen", "pixels", worst.largest_gap_px);
+  recorder.add("bend_near", "degrees", bends.near.degrees());
+  recorder.add("bend_far", "degrees", bends.far.degrees());
+  recorder.add("bend_at_rim", "degrees", bends.rim.degrees());
+  recorder.add("rim_length", "m", bends.rim.length / 2);
   recorder.add("bare_pixels", "pixels", static_cast<double>(bare.bare));
   recorder.add("pixels_covered_twice", "pixels", static_cast<double>(bare.covered));
   if (walking) recorder.add("late_chunks", "", static_cast<double>(lod.late() - late_at_first));

@@ -1,13 +1,18 @@
-// The Fresnel term of "hybrid" (§3.4), "from the dot product of the normal of the water and light reflection
-// vector": what water reflects at grazing and at normal view, in three readings of that vector, and in three
-// of the term: Schlick's approximation, which the landscape uses, the product itself, and one minus the
-// product.
+// Water of "hybrid" (§3.4): the three passes over the scene, and the Fresnel term, "from the dot product of
+// the normal of the water and light reflection vector": what water reflects at grazing and at normal view, in
+// three readings of that vector, and in three of the term: Schlick's approximation, which the landscape uses,
+// the product itself, and one minus the product.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include "experiments/cases.h"
+#include "experiments/hybrid/mesh_frame.h"
+#include "renderers/landscape/landscape.h"
 #include "renderers/landscape/probe.h"
 
 namespace terrabench::hybrid {
@@ -49,8 +54,64 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("rising_share", "", rises / static_cast<double>(shares.size() - kFirst - 1));
 }
 
+constexpr ParameterSpec kPassSpecs[] = {
+    {"points", std::int64_t{1000}, "", "random points around the water that are followed through the passes",
+     1, 1e6},
+};
+
+std::vector<Case> pass_cases(const RunOptions&) { return {{"water", Parameters(kPassSpecs)}}; }
+
+// Clip coordinates relative to their weight, so that points at any distance count alike.
+double difference(const glm::vec4& a, const glm::vec4& b) {
+  double largest = 0;
+  for (int k = 0; k < 4; ++k) largest = std::max(largest, std::abs(double{a[k]} - b[k]));
+  return largest / std::abs(double{b.w});
+}
+
+void measure_passes(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
+  constexpr float kSide = 400, kLevel = 40, kMargin = 1;  // metres
+  const Parameters look(landscape_parameters(), {{"water", 0.4}, {"shadows", false}, {"occlusion", 0.0}});
+  const auto context = open_context(options.renderer, 64, 64);
+  LandscapeRenderer renderer(*context, make_style(look, {glm::vec3(0), {kSide, 100, kSide}}));
+  std::vector<PassView> passes;
+  renderer.also = [&](const PassView& pass) { passes.push_back(pass); };
+  View view;
+  view.eye = {200, 60, 380};
+  view.target = {200, 40, 200};
+  view.width = view.height = 64;
+  const MeshFrame ground(level_ground(kSide));
+  renderer.draw(ground.frame(), view);
+  recorder.add("passes", "", static_cast<double>(passes.size()));
+  if (passes.size() != 3) return;
+
+  std::mt19937 random(static_cast<std::mt19937::result_type>(options.seed));
+  std::uniform_real_distribution<float> across(0, kSide), apart(kMargin, 40);
+  double mirrored = 0, upright = 0;
+  std::array<double, 4> kept{};  // above and below the water, by the first and the second pass
+  const auto points = at.integer("points");
+  for (int k = 0; k < points; ++k) {
+    const float x = across(random), z = across(random), up = apart(random);
+    const glm::vec4 above(x, kLevel + up, z, 1), below(x, kLevel - up, z, 1);
+    mirrored =
+        std::max(mirrored, difference(passes[0].world_to_clip * above, passes[2].world_to_clip * below));
+    upright = std::max(upright, difference(passes[1].world_to_clip * below, passes[2].world_to_clip * below));
+    for (std::size_t pass = 0; pass < 2; ++pass) {
+      kept[2 * pass] += glm::dot(passes[pass].clip_plane, above) > 0;
+      kept[2 * pass + 1] += glm::dot(passes[pass].clip_plane, below) > 0;
+    }
+  }
+  recorder.add("first_off_mirrored", "", mirrored);
+  recorder.add("second_off_upright", "", upright);
+  recorder.add("first_keeps_above", "", kept[0] / points);
+  recorder.add("first_keeps_below", "", kept[1] / points);
+  recorder.add("second_keeps_above", "", kept[2] / points);
+  recorder.add("second_keeps_below", "", kept[3] / points);
+}
+
 }  // namespace
 
+extern const Experiment kWaterPasses{"hybrid.water-passes", "§3.4: the passes in which water is drawn",
+                                     kPassSpecs, pass_cases, measure_passes};
 extern const Experiment kFresnel{"hybrid.fresnel", "§3.4: reflectance of water in five readings", kSpecs,
                                  cases, measure};
 

@@ -17,10 +17,13 @@ void GrassScene::begin(const View& view) {
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
-  glClearColor(0.76F, 0.84F, 0.93F, 1);  // the fog's colour in sRGB
+  glClearColor(background.r, background.g, background.b, 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   ground_.draw(look);
+  if (bare_) bare_->draw(look);
 }
+
+void GrassScene::add_bare(const GrassGround& ground) { bare_.emplace(ground); }
 
 void GrassScene::draw(const View& view, GrassTechnique technique) {
   begin(view);

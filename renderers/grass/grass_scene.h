@@ -1,6 +1,8 @@
 // A piece of plain ground with grass, for pictures and frame times of grass alone.
 #pragma once
 
+#include <optional>
+
 #include "renderers/context.h"
 #include "renderers/grass/grass.h"
 #include "renderers/grass/plain_ground.h"
@@ -22,14 +24,19 @@ class GrassScene {
   std::int64_t count_billboards(const View&, GrassTechnique);
   std::vector<GrassStrand> strands() { return grass_.strands(patch_); }
 
+  // Ground that is drawn without grass, such as the sides of a block.
+  void add_bare(const GrassGround&);
+
   const GrassPatch& patch() const { return patch_; }
-  GrassLook look{};  // the view sets its matrix and eye
+  GrassLook look{};                           // the view sets its matrix and eye
+  glm::vec3 background{0.76F, 0.84F, 0.93F};  // sRGB; the colour of the look's fog
 
  private:
   void begin(const View&);
 
   GlContext& gl_;
   PlainGround ground_;
+  std::optional<PlainGround> bare_;
   GrassPatch patch_;
   GrassRenderer grass_;
 };

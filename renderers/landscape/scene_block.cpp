@@ -15,7 +15,7 @@ SceneBlock describe(const LandscapeStyle& s, double seconds) {
   // Reduced to one period here, so that a float in the shader stays precise after days.
   const double turns = seconds * s.cloud_speed;
   b.cloud_color = glm::vec4(s.cloud_color, turns - std::floor(turns));
-  b.cloud_range = glm::vec4(s.cloud_range, 0, 0);
+  b.cloud_range = glm::vec4(s.cloud_range, s.cloud_shading, 0);
   b.border = glm::vec4(s.ground.low.x, s.ground.low.z, s.ground.high.x, s.ground.high.z);
   b.border_fade = glm::vec4(s.border_width, s.border_distance, 0);
   b.band_tops = glm::vec4(s.band_tops[0], s.band_tops[1], s.band_tops[2], s.band_tops[3]);

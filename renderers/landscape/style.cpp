@@ -46,6 +46,9 @@ const ParameterSpec kSpecs[] = {
     colour("cloud_color", "#f4f4f2", "colour of clouds, #rrggbb"),
     share("cloud_cover", 0.45, "how much of the sky has clouds"),
     number("cloud_softness", 0.6, "", "width of the clouds' edges, in units of the noise", 0.01, 2),
+    share("cloud_shading", 1,
+          "how much clouds are shaded by their thickness and the sun; 0: one colour, as in the "
+          "paper"),
     number("cloud_size", 1, "", "size of clouds", 0.05, 20),
     number("cloud_speed", 1.0 / 900, "1/s", "turns of the sky's dome per second", -1, 1),
     number("haze", 0.16, "", "height up to which fog covers the sky, the sine of its angle", 0.001, 1),
@@ -68,7 +71,9 @@ const ParameterSpec kSpecs[] = {
     number("steep", 38, "°", "angle from which ground is rock", 0, 180),
     number("steep_blend", 7, "°", "half the angle over which ground blends to rock", 0.01, 90),
     number("texture", 6, "m", "width of a texture; repeated wider with the distance", 0.001, 1e6),
-    flag("triplanar", true, "texture rock along three axes, so that steep ground has no stretched texture"),
+    flag("triplanar", true,
+         "texture ground along three axes; otherwise along y alone, as in the paper, whose textures "
+         "are stretched on steep ground"),
     number("bumps", 1, "", "strength of the textures' bumps", 0, 10),
     colour("sand_color", "#b49a6e", "colour of sand, #rrggbb; darker and lighter shades derive from it"),
     colour("grass_color", "#545c36", "colour of grass, likewise"),
@@ -129,6 +134,7 @@ void set_sky(LandscapeStyle& style, const Parameters& p) {
   const float clear = 1 - number_of(p, "cloud_cover");
   style.cloud_range = {clear - 0.25F * number_of(p, "cloud_softness"),
                        clear + 0.75F * number_of(p, "cloud_softness")};
+  style.cloud_shading = number_of(p, "cloud_shading");
   style.cloud_size = number_of(p, "cloud_size");
   style.cloud_speed = number_of(p, "cloud_speed");
   style.haze = number_of(p, "haze");

@@ -42,6 +42,7 @@ struct LandscapeStyle {
   glm::vec3 sky_high{0}, sky_low{0}, cloud_color{1};
   float sky_falloff = 4, haze = 0.2F;     // the fog covers the sky up to this height, the sine of an angle
   glm::vec2 cloud_range{0, 1};            // values of the noise map without cloud and with full cloud
+  float cloud_shading = 1;                // 0: clouds of one colour, as in the paper
   float cloud_size = 1, cloud_speed = 0;  // turns of the dome per second
   std::uint64_t seed = 1;                 // of all textures
 

@@ -35,11 +35,15 @@ vec3 sky_towards(vec3 d) {
   float towards = max(dot(d, sun.xyz), 0.0);
   float thinner = thickness - cloud_thickness(normalize(d + 0.035 * sun.xyz));
   float bright = clamp(0.90 - 0.20 * max(thickness, 0.0) + 0.55 * thinner, 0.45, 1.12);
-  vec3 cloud = cloud_color.rgb * mix(sky_light.rgb / max(sky_light.b, 1e-3), vec3(1.0), 0.75) * bright +
-               sun_light.rgb * 0.06 * pow(towards, 5.0);
+  vec3 shaded = cloud_color.rgb * mix(sky_light.rgb / max(sky_light.b, 1e-3), vec3(1.0), 0.75) * bright +
+                sun_light.rgb * 0.06 * pow(towards, 5.0);
+  vec3 cloud = mix(cloud_color.rgb, shaded, cloud_range.z);
   vec3 sky = share * clear_sky(d) + (1.0 - share) * cloud;
-  float disc = smoothstep(0.99993, 0.99998, dot(d, sun.xyz)) + 0.12 * pow(towards, 1200.0);
-  sky += 4.0 * sun_light.rgb * disc * share * share;
+  // The disc has half a degree of radius. Its glow falls off exponentially: a steeper one shows a ring where it
+  // stops being white.
+  float away = length(d - sun.xyz);
+  float disc = 3.0 * (1.0 - smoothstep(0.006, 0.011, away)) + 0.55 * exp(-away / 0.035) + 0.12 * exp(-away / 0.13);
+  sky += sun_light.rgb * disc * share * share;
   float haze = 1.0 - smoothstep(0.0, sky_low.w, d.y);
   return mix(sky, fog_towards(d), haze * haze);
 }

@@ -101,8 +101,7 @@ Surface surface_at(vec3 world, vec3 n) {
   float used = 0.0;
   for (int layer = 0; layer < 5; ++layer) {
     if (shares[layer] < 0.01) continue;
-    bool whole = layer == kRock && ground_modes.y > 0.5;
-    if (whole) {
+    if (ground_modes.y > 0.5) {
       add(sum, triplanar_surface(layer, p, dx, dy, n), shares[layer]);
     } else {
       add(sum, flat_surface(layer, p.xz, dx.xz, dy.xz), shares[layer]);

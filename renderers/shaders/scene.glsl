@@ -16,7 +16,7 @@ layout(std140, binding = 0) uniform Scene {
   vec4 sky_low;        // colour at the horizon; w: y of the direction up to which the fog covers the sky
   vec4 fog_color;      // w: distance at which the ground keeps the share 1/e of its colour
   vec4 cloud_color;    // w: turns of the dome so far
-  vec4 cloud_range;    // noise value without cloud, and of full cloud
+  vec4 cloud_range;    // noise value without cloud, and of full cloud; share of shading
   vec4 border;         // the ground in plan: low x, low z, high x, high z
   vec4 border_fade;    // width of its blend into the sky; distances from the eye between which the blend sets in
   vec4 band_tops;      // heights up to which sand, grass, earth and rock lie; snow above

@@ -150,6 +150,15 @@ TEST(CaveTerrain, ThePrintedProductOpensWhereEitherMapDoes) {
   EXPECT_LT(shape(either).share, shape(both).share - 0.05);
 }
 
+// Each cave map distorted by a fractal of its own: other caves, of about the same size.
+TEST(CaveTerrain, ASixthFractalMakesSimilarCaves) {
+  const Grid five = sample(cave_terrain({}), 48), six = sample(cave_terrain({.share_roughness = false}), 48);
+  const Grid none = sample(cave_terrain({.caves = false}), 48);
+  EXPECT_NE(five.cells, six.cells);
+  const double carved = shape(none).share - shape(five).share;
+  EXPECT_NEAR(shape(none).share - shape(six).share, carved, 0.5 * carved);
+}
+
 TEST(CaveTerrain, ColumnsHaveFewBoundaries) {
   // 3 bytes per run and 2 per column must stay below the paper's 24 bytes per column.
   for (const int n : {64, 128}) {

@@ -82,7 +82,9 @@ class Builder {
   // The paper's form of the same: 0 in caves.
   Node map(Node cave) { return graph_.scale_offset(cave, -1, 1); }
 
-  Node perturbed(Node cave) { return graph_.translate_domain(cave, graph_.cache(shift(4, kRoughness))); }
+  Node perturbed(Node cave, std::uint64_t which = 4) {
+    return graph_.translate_domain(cave, graph_.cache(shift(which, kRoughness)));
+  }
 
   // In two dimensions one map is enough.
   Node one_cave(bool attenuated) { return perturbed(map(cave(0, attenuated))); }
@@ -90,6 +92,7 @@ class Builder {
   // In three, one ridged multifractal would cut the terrain apart.
   Node both_caves(bool attenuated) {
     const Node first = cave(0, attenuated), second = cave(1, attenuated);
+    if (!options_.share_roughness) return map(graph_.multiply(perturbed(first), perturbed(second, 5)));
     const Node combined = options_.printed_product ? graph_.multiply(map(first), map(second))
                                                    : map(graph_.multiply(first, second));
     return perturbed(combined);
