@@ -7,10 +7,6 @@
 #include <glm/vec3.hpp>
 #include <string_view>
 
-#include "representations/implicit/implicit_surface.h"
-#include "representations/layered_stack/layered_stack.h"
-#include "representations/voxel/dense_grid.h"
-#include "representations/voxel/voxel.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -53,6 +49,12 @@ LevelRange within(double origin, double cell, int count, double centre, double r
   return {index(centre - radius), index(centre + radius)};
 }
 
+const ColumnGrid& edited_columns(const Representation& edited) {
+  if (const ColumnGrid* const columns = edited.edited_columns()) return *columns;
+  throw usage_error("this representation cannot be edited", "edit tool",
+                    "`terrabench list representations` names those that can");
+}
+
 // Edits each column whose axis lies within the disc with the span that span_at(plan, distance²) gives.
 template <class SpanAt>
 std::size_t edit_disc(Representation& edited, const Disc& disc, const SpanAt& span_at) {
@@ -78,16 +80,6 @@ std::size_t edit_disc(Representation& edited, const Disc& disc, const SpanAt& sp
 }
 
 }  // namespace
-
-const ColumnGrid& edited_columns(const Representation& edited) {
-  if (const auto* const stack = dynamic_cast<const LayeredStack*>(&edited)) return stack->grid();
-  if (const auto* const surface = dynamic_cast<const ImplicitSurface*>(&edited))
-    return surface->stack().grid();
-  if (const auto* const voxels = dynamic_cast<const Voxel*>(&edited)) return voxels->grid();
-  if (const auto* const cells = dynamic_cast<const DenseGrid*>(&edited)) return cells->grid();
-  throw usage_error("this representation cannot be edited", "edit tool",
-                    "`terrabench list representations` names those that can");
-}
 
 std::size_t fill_sphere(Representation& edited, const Sphere& sphere, Material material) {
   edited_columns(edited);

@@ -22,9 +22,6 @@ struct Cylinder {  // upright
   float bottom = 0, top = 0;  // metres; infinite ends reach the terrain's bounds
 };
 
-// The columns on which edits of the representation act. Throws usage_error unless it can be edited.
-const ColumnGrid& edited_columns(const Representation&);
-
 // Fills the shape with a material; air digs. A column whose axis meets the shape changes between the two
 // points where it does, rounded as edit() rounds. Returns the number of such columns, which is 0 for a shape
 // that passes between all axes. Throws usage_error, before any change, for a representation that cannot be

@@ -1,15 +1,10 @@
 #include "representations/ray_cast.h"
 
-#include "representations/drill/drill_terrain.h"
-#include "representations/ght/ght_rays.h"
+#include "representations/column_grid.h"
 #include "representations/ground_caster.h"
 #include "representations/heightmap/heightmap.h"
-#include "representations/implicit/field_rays.h"
-#include "representations/layered_stack/layered_stack.h"
 #include "representations/plan_square.h"
 #include "representations/ray_walk.h"
-#include "representations/voxel/dense_grid.h"
-#include "representations/voxel/voxel.h"
 #include "terrain/memory.h"
 
 namespace terrabench {
@@ -173,23 +168,13 @@ struct SpanGround {
 
 }  // namespace
 
-std::unique_ptr<RayCaster> own_ray_caster(const Representation& of) {
-  const auto heights = [](const Heightmap& map) -> std::unique_ptr<RayCaster> {
-    if (map.grid().width < 2 || map.grid().depth < 2) return nullptr;  // no area
-    return std::make_unique<GroundCaster<HeightGround>>(map);
-  };
-  const auto spans = [&](const ColumnGrid& grid) -> std::unique_ptr<RayCaster> {
-    return std::make_unique<GroundCaster<SpanGround>>(of, grid);
-  };
-  if (const auto* const map = dynamic_cast<const Heightmap*>(&of)) return heights(*map);
-  if (const auto* const drills = dynamic_cast<const DrillTerrain*>(&of)) return heights(drills->surface());
-  if (const auto* const stack = dynamic_cast<const LayeredStack*>(&of)) return spans(stack->grid());
-  if (const auto* const voxels = dynamic_cast<const Voxel*>(&of)) return spans(voxels->grid());
-  if (const auto* const cells = dynamic_cast<const DenseGrid*>(&of)) return spans(cells->grid());
-  if (const auto* const tree = dynamic_cast<const Ght*>(&of)) return ght_ray_caster(*tree);
-  if (const auto* const surface = dynamic_cast<const ImplicitSurface*>(&of))
-    return field_ray_caster(*surface);
-  return nullptr;
+std::unique_ptr<RayCaster> height_ray_caster(const Heightmap& map) {
+  if (map.grid().width < 2 || map.grid().depth < 2) return nullptr;  // no area
+  return std::make_unique<GroundCaster<HeightGround>>(map);
+}
+
+std::unique_ptr<RayCaster> span_ray_caster(const Representation& of, const ColumnGrid& columns) {
+  return std::make_unique<GroundCaster<SpanGround>>(of, columns);
 }
 
 }  // namespace terrabench

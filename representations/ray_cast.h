@@ -9,7 +9,7 @@
 // Rays walk over the columns in plan (Amanatides & Woo 1987) and skip blocks of 4^l × 4^l columns whose
 // highest solid point lies below them (maximum mipmaps; Tevs, Ihrke & Seidel 2008). No ray slips through an
 // edge between columns: whether it is in the solid is carried from column to column, and any change is a hit.
-// A procedural_mesh is a mesh already, with no columns to walk over, and has no caster of its own.
+// A procedural_mesh is a mesh already, with no columns to walk over: its caster is null.
 // Any mesh is cast by Embree: renderers/raytrace/ray_index.h.
 #pragma once
 
@@ -36,10 +36,11 @@ class RayCaster {
   virtual std::size_t bytes() const = 0;
 };
 
-// The representation must outlive the caster and not be edited. Null for types that have no caster of their
-// own. Takes a fifteenth of the bytes of the heights; for columns a copy of their spans; for an implicit
-// surface some 15 B per column. Null also for ground without area, and for an implicit surface whose kernel
-// is too small (field_rays.h). O(columns + spans).
-std::unique_ptr<RayCaster> own_ray_caster(const Representation&);
+class Heightmap;
+
+// What Representation::ray_caster() gives for heights, and for columns. Take a fifteenth of the bytes of the
+// heights; for columns a copy of their spans. Null for heights without area. O(columns + spans).
+std::unique_ptr<RayCaster> height_ray_caster(const Heightmap&);
+std::unique_ptr<RayCaster> span_ray_caster(const Representation&, const ColumnGrid&);
 
 }  // namespace terrabench

@@ -66,7 +66,7 @@ std::span<const RepresentationType> representations() {
        "grounded heightmap tree",
        "a tree of heightmaps, each on its own plane",
        "ght §3",
-       {.overhangs = true, .lossless = true},
+       {.overhangs = true, .lossless = true, .events = true},
        Ght::parameters(),
        Ght::build,
        Ght::load},

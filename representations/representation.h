@@ -8,8 +8,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "terrain/events/event.h"
 #include "terrain/files.h"
 #include "terrain/memory.h"
 #include "terrain/mesh.h"
@@ -19,6 +21,11 @@
 #include "terrain/source.h"
 
 namespace terrabench {
+
+struct ColumnGrid;  // column_grid.h
+struct FaceMesh;    // procedural_mesh/face_mesh.h
+struct LineGrid;    // line_grid.h
+class RayCaster;    // ray_cast.h
 
 // A solid stretch of a vertical line: bottom < top, metres.
 struct Span {
@@ -79,6 +86,25 @@ class Representation {
   // Fills each column from the span's bottom to its top with its material (air clears). For types with the
   // trait `editable`; others throw usage_error. Quantises as building does. Throws before any change.
   virtual void edit(Columns where, std::span<const Span> what);
+  // Changes the ground as the event of a grounded heightmap tree does. The default takes a radial erosion
+  // alone, and by edit(); a type that takes all events has the trait `events`. Throws usage_error, before any
+  // change, for an event that it does not take or that does not suit its ground.
+  virtual void apply(const events::Event&);
+
+  // The lattice of columns that the structure consists of; null if it has none.
+  virtual const ColumnGrid* column_grid() const { return nullptr; }
+  // The columns on which edit() acts; null if it does not.
+  virtual const ColumnGrid* edited_columns() const { return column_grid(); }
+  // The vertical lines along which it holds its ground; by default those of the edited columns, or
+  // kDefaultResolution of them along the longer side.
+  virtual LineGrid lines() const;
+  // Closest hits of rays, without a mesh (ray_cast.h). Null for a type that has no caster of its own and no
+  // column grid. The structure must outlive the caster and not be edited.
+  virtual std::unique_ptr<RayCaster> ray_caster() const;
+  // The faces to export; by default the triangles of mesh().
+  virtual FaceMesh polygons() const;
+  // What is particular to the structure, for people: a name and a sentence each.
+  virtual std::vector<std::pair<std::string, std::string>> facts() const { return {}; }
 
   virtual TriangleMesh mesh(MeshDetail detail) const = 0;  // watertight where the method promises it
   virtual Memory memory() const = 0;                       // every heap byte the structure holds
@@ -95,6 +121,7 @@ struct Traits {
   bool materials = false;
   bool lossless = false;  // returns the samples that it was built from, to the bit
   bool editable = false;
+  bool events = false;  // takes all events of a grounded heightmap tree
 };
 
 struct RepresentationType {

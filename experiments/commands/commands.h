@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "representations/export/line_grid.h"
+#include "representations/line_grid.h"
 #include "results/compare_pictures.h"
 #include "terrain/error.h"
 

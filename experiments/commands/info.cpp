@@ -2,8 +2,6 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/named_model.h"
-#include "representations/ght/ght.h"
-#include "representations/ght/invariants.h"
 #include "representations/procedural_mesh/model_terrain.h"
 #include "representations/representation.h"
 #include "results/format.h"
@@ -59,18 +57,8 @@ void describe_drawing(const std::string& name) {
   print_heights(*source.heights, source.notes);
 }
 
-// The parts of a grounded heightmap tree, and whether its invariants hold.
-void print_tree(const Representation& structure) {
-  const auto* const tree = dynamic_cast<const Ght*>(&structure);
-  if (tree == nullptr) return;
-  const ght::Census census = ght::census(tree->model());
-  fmt::print("heightmaps  {} after {} events, the deepest {} below the root\n", census.nodes,
-             tree->model().tree.events().size(), census.deepest);
-  fmt::print("cells       {} heights, {} links, {} void\n", census.heights, census.links, census.voids);
-  fmt::print("surface     {} faces, {} boundary links\n", census.faces, census.boundary_links);
-  const std::vector<std::string> broken = ght::broken_invariants(tree->model());
-  if (broken.empty()) fmt::print("invariants  all hold\n");
-  for (const std::string& what : broken) fmt::print("invariants  broken: {}\n", what);
+void print_facts(const Representation& structure) {
+  for (const auto& [name, what] : structure.facts()) fmt::print("{:<11} {}\n", name, what);
 }
 
 void describe_representation(const std::filesystem::path& path) {
@@ -83,7 +71,7 @@ void describe_representation(const std::filesystem::path& path) {
              format_quantity(static_cast<double>(memory.total()), "B"), memory.payload, memory.index,
              memory.slack);
   print_bounds(loaded.representation->bounds());
-  print_tree(*loaded.representation);
+  print_facts(*loaded.representation);
 }
 
 // A script of events, described by the tree that it builds.
@@ -96,7 +84,7 @@ void describe_script(const std::filesystem::path& path) {
   for (const std::string& note : source.notes) fmt::print("note        {}\n", note);
   fmt::print("checksum    {}\n", source.checksum);
   print_bounds(built->bounds());
-  print_tree(*built);
+  print_facts(*built);
 }
 
 // A model of mesh growing, expanded.

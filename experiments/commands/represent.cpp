@@ -12,14 +12,11 @@
 #include "renderers/raytrace/raytraced_picture.h"
 #include "renderers/raytrace/relief_scene.h"
 #include "renderers/relief.h"
-#include "representations/drill/drill_codec.h"
-#include "representations/drill/drill_terrain.h"
 #include "representations/edit_tools.h"
 #include "representations/export/export.h"
 #include "representations/implicit/implicit_surface.h"
 #include "representations/layered_stack/thermal_erosion.h"
 #include "representations/procedural_mesh/model_terrain.h"
-#include "representations/procedural_mesh/procedural_mesh.h"
 #include "representations/representation.h"
 #include "results/format.h"
 #include "terrain/hydrology/channels.h"
@@ -160,29 +157,6 @@ void draw(const RepresentArguments& a, const Representation& built, Bounds bound
 }
 
 // The drills' number and parameters, which a budget chooses and no other line shows.
-void print_drills(const DrillTerrain& built, const Parameters& parameters) {
-  const Drills& drills = built.drills();
-  ByteSink encoded;
-  encode_drills(drills, encoded);
-  const std::size_t bytes = encoded.bytes().size();
-  fmt::print("drills      {}, w = {}, k = {}, rounded to {} m: {} encoded\n",
-             format_number(static_cast<double>(drills.count())), drills.w, drills.k, drills.quantum,
-             format_quantity(static_cast<double>(bytes), "B"));
-  if (drills.count() == 0) {
-    fmt::print(
-        "warning     no channels: no pixel's flow reaches tau = {}, so the terrain is a "
-        "plateau at {} m; choose a smaller tau\n",
-        parameters.integer("tau"), drills.plateau);
-  }
-}
-
-// What the program holds of a description of so many bytes.
-void print_expansion(const ProceduralMesh& built) {
-  fmt::print("expanded    {} triangles, {}, from a description of {}\n", built.columns().triangles().size(),
-             format_quantity(static_cast<double>(built.expanded_bytes()), "B"),
-             format_quantity(static_cast<double>(built.description_bytes()), "B"));
-}
-
 // Rasters for other programs: how many pixels drain through each pixel, and in which direction.
 void write_flow(const RepresentArguments& a, const TerrainSource& source, Progress& progress) {
   const std::filesystem::path path = a.write_flow;
@@ -273,10 +247,7 @@ ExitCode represent_command(const RepresentArguments& a) {
   fmt::print("memory      {} (payload {}, index {}, slack {})\n",
              format_quantity(static_cast<double>(memory.total()), "B"), memory.payload, memory.index,
              memory.slack);
-  if (const auto* const drills = dynamic_cast<const DrillTerrain*>(built.get())) {
-    print_drills(*drills, parameters);
-  }
-  if (const auto* const mesh = dynamic_cast<const ProceduralMesh*>(built.get())) print_expansion(*mesh);
+  for (const auto& [name, what] : built->facts()) fmt::print("{:<11} {}\n", name, what);
   if (!a.save.empty()) {
     print_export(a.save, type, *built, source.heights ? lines_of(*source.heights) : own_lines(*built),
                  progress);

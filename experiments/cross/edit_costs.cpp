@@ -16,7 +16,6 @@
 #include "experiments/cross/rounds.h"
 #include "experiments/stopwatch.h"
 #include "representations/edit_tools.h"
-#include "representations/ght/ght.h"
 #include "terrain/error.h"
 #include "terrain/events/event.h"
 
@@ -75,7 +74,7 @@ EventPlace find_place(const Scene& scene, Sphere sphere, Progress& progress) {
     if (tried++ == kMostPlaces || top.y - sphere.radius < scene.lines.bounds.low.y) break;
     sphere.centre = top;
     try {
-      dynamic_cast<Ght&>(*built).apply(event_of(sphere));
+      built->apply(event_of(sphere));
       return {event_of(sphere), true};
     } catch (const Error& error) {
       if (!refuses(error)) throw;
@@ -152,14 +151,6 @@ TerrainSource eroded(const TerrainSource& source, const RadialErosion& event) {
     }
   };
   return result;
-}
-
-void apply(Representation& on, const RadialErosion& event) {
-  if (auto* const tree = dynamic_cast<Ght*>(&on)) {
-    tree->apply(event);
-  } else {
-    erode(on, event);
-  }
 }
 
 // The solid metres above and below the event's lower half, on lines within its ellipse.
@@ -315,13 +306,13 @@ void record_event(const Untouched& untouched, const Representation& after, const
 void measure_event(const Untouched& untouched, const RadialErosion& event, Recorder& recorder) {
   {
     const auto edited = untouched.build();
-    apply(*edited, event);
+    edited->apply(event);
     record_event(untouched, *edited, event, recorder);
   }
   Rounds rounds = rounds_of_edits();
   rounds.sample("event_time", "s", [&] {
     const auto fresh = untouched.build();  // a loaded one has no spare capacity for events
-    return seconds([&] { apply(*fresh, event); });
+    return seconds([&] { fresh->apply(event); });
   });
   rounds.run(recorder);
 }
@@ -357,8 +348,7 @@ void measure_edit(const Scene& scene, const RepresentationType& type, const Repr
         "the ground is too flat or too small for an edit as large as its cells");
   }
   const EventPlace& place = place_of_event(scene, sphere, progress);
-  const bool digs = type.traits.editable,
-             erodes = digs || (place.taken && dynamic_cast<const Ght*>(&built) != nullptr);
+  const bool digs = type.traits.editable, erodes = digs || (place.taken && type.traits.events);
   recorder.add("rebuilt", "", digs ? 0 : 1);
   recorder.add("event_rebuilt", "", erodes ? 0 : 1);
   const Untouched untouched{scene, type, built, mesh, progress};

@@ -158,7 +158,7 @@ void measure_rays(const Scene& scene, const Representation& built, const Triangl
   recorder.add("embree_time", "s", watch.seconds());
   recorder.add("embree_bytes", "B", static_cast<double>(index->bytes()));
   watch = {};
-  std::unique_ptr<RayCaster> own = own_ray_caster(built);
+  std::unique_ptr<RayCaster> own = built.ray_caster();
   if (own) {
     recorder.add("ray_index_time", "s", watch.seconds());
     recorder.add("ray_index_bytes", "B", own->bytes());

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "representations/export/line_grid.h"
+#include "representations/line_grid.h"
 
 namespace terrabench::cross {
 

@@ -24,9 +24,9 @@ void measure_file(const Scene&, const RepresentationType&, const Representation&
 void measure_queries(const Scene&, const Representation&, Rounds&);
 TriangleMesh measure_mesh(const Representation&, Recorder&, Rounds&);
 // Rays per second of processor time, on one thread: from above, downward in random directions; and along the
-// ground, from 2 % of its height above it, within 6° of the horizontal. Cast as own_ray_caster() does, or
-// through the mesh; both are compared hit by hit. `ray_agreement`: the share of rays for which the two hit
-// the same place within a cell, or both nothing.
+// ground, from 2 % of its height above it, within 6° of the horizontal. Cast as Representation::ray_caster()
+// does, or through the mesh; both are compared hit by hit. `ray_agreement`: the share of rays for which the
+// two hit the same place within a cell, or both nothing.
 void measure_rays(const Scene&, const Representation&, const TriangleMesh&, int rays, Recorder&, Rounds&);
 
 // Two edits. A sphere is dug where the ground is highest and filled again: dig_*, fill_*, `rebuilt`. And the

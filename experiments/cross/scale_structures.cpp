@@ -19,7 +19,6 @@
 #include "experiments/cross/temporary_folder.h"
 #include "experiments/ground.h"
 #include "representations/edit_tools.h"
-#include "representations/ght/ght.h"
 #include "representations/ray_cast.h"
 #include "representations/representation.h"
 
@@ -144,9 +143,7 @@ double seconds_per_ray(const RayCaster& caster, const Bounds& bounds, Places pla
   return seconds_per_item(next, [&] { caster.closest(rays, distances); });
 }
 
-bool takes_edits(const RepresentationType& type, const Representation& built) {
-  return type.traits.editable || dynamic_cast<const Ght*>(&built) != nullptr;
-}
+bool takes_edits(const RepresentationType& type) { return type.traits.editable || type.traits.events; }
 
 // Of the column; nothing where it is empty.
 std::optional<float> highest_solid(const Representation& structure, const float& x, const float& z) {
@@ -196,7 +193,7 @@ std::pair<Holes, Holes> dig_holes(Representation& structure, float cell, Places 
                                   const ColdCaches& caches) {
   std::vector<float> x(kEdits), z(kEdits);
   places.next(x, z);
-  auto* const tree = dynamic_cast<Ght*>(&structure);
+  const bool digs = structure.edited_columns() != nullptr;
   const float radius = cell * kEditRadius;
   std::pair<Holes, Holes> all;
   for (int i = 0; i < kEdits; ++i) {
@@ -208,10 +205,10 @@ std::pair<Holes, Holes> dig_holes(Representation& structure, float cell, Places 
     Holes& holes = cached ? all.second : all.first;
     const glm::vec3 centre{x[i], *top, z[i]};
     holes.spent += processor_seconds([&] {
-      if (tree != nullptr) {
-        tree->apply(events::RadialErosion{glm::dvec3(centre), glm::dvec3(radius)});
-      } else {
+      if (digs) {
         fill_sphere(structure, {centre, radius}, Material::kAir);
+      } else {
+        structure.apply(events::RadialErosion{glm::dvec3(centre), glm::dvec3(radius)});
       }
     });
     ++holes.dug;
@@ -277,7 +274,7 @@ class Structure {
       run_.add_turns(
           mesh_, mesh_faults_, columns, [&] { drawn = {}; }, [&] { drawn = built->mesh({}); });
     });
-    if (takes_edits(type_, *built)) dig(*built, side);
+    if (takes_edits(type_)) dig(*built, side);
   }
 
   // Away from the borders, which events must not reach.
@@ -313,7 +310,7 @@ class Structure {
       query_.add(columns, seconds_per_query(built, places(built, 1)));
       near_.add(columns, seconds_per_query(built, places(built, near)));
     }
-    const std::unique_ptr<RayCaster> caster = own_ray_caster(built);
+    const std::unique_ptr<RayCaster> caster = built.ray_caster();
     if (!caster) return;
     for (int turn = 0; turn < kQueryTurns; ++turn) {
       ray_.add(columns, seconds_per_ray(*caster, built.bounds(), places(built, 1)));

@@ -12,6 +12,8 @@
 #include "representations/drill/extract.h"
 #include "representations/drill/quantum.h"
 #include "representations/drill/regenerate.h"
+#include "representations/line_grid.h"
+#include "representations/ray_cast.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -144,6 +146,24 @@ std::unique_ptr<Representation> DrillTerrain::load(ByteSource& in) {
   if (grid.width != drills.width || grid.depth != drills.depth)
     in.fail("the drills do not match the grid's size");
   return std::unique_ptr<Representation>(new DrillTerrain(std::move(drills), grid));
+}
+
+LineGrid DrillTerrain::lines() const { return surface_->lines(); }
+
+std::unique_ptr<RayCaster> DrillTerrain::ray_caster() const { return surface_->ray_caster(); }
+
+std::vector<std::pair<std::string, std::string>> DrillTerrain::facts() const {
+  ByteSink encoded;
+  encode_drills(drills_, encoded);
+  std::vector<std::pair<std::string, std::string>> facts = {
+      {"drills", fmt::format("{}, w = {}, k = {}, rounded to {} m: {} B encoded", drills_.count(), drills_.w,
+                             drills_.k, drills_.quantum, encoded.bytes().size())}};
+  if (drills_.count() == 0) {
+    facts.emplace_back("warning", fmt::format("no channels: no pixel's flow reaches tau, so the terrain is a "
+                                              "plateau at {} m; choose a smaller tau",
+                                              drills_.plateau));
+  }
+  return facts;
 }
 
 }  // namespace terrabench

@@ -30,6 +30,9 @@ class DrillTerrain final : public Representation {
   Memory memory() const override;  // payload: drills and regenerated heights; index: positions and directions
   void save(ByteSink&) const override;
   Bounds bounds() const override { return surface_->bounds(); }
+  LineGrid lines() const override;
+  std::unique_ptr<RayCaster> ray_caster() const override;  // as Heightmap's
+  std::vector<std::pair<std::string, std::string>> facts() const override;
 
  private:
   DrillTerrain(Drills drills, HeightGrid grid);

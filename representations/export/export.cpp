@@ -9,7 +9,6 @@
 #include "representations/export/fog_volume.h"
 #include "representations/export/span_table.h"
 #include "representations/procedural_mesh/mesh_files.h"
-#include "representations/procedural_mesh/procedural_mesh.h"
 #include "terrain/error.h"
 #include "terrain/sources/dem/dem.h"
 
@@ -35,22 +34,9 @@ void write_raster(const Path& path, const RepresentationType&, const Representat
                 "m", &progress);
 }
 
-FaceMesh polygons_of(const Representation& built) {
-  if (const auto* const mesh = dynamic_cast<const ProceduralMesh*>(&built)) return mesh->polygons();
-  TriangleMesh triangles = built.mesh({});
-  FaceMesh mesh;
-  mesh.positions = std::move(triangles.positions);
-  mesh.corners = std::move(triangles.indices);
-  mesh.first_corner.reserve(mesh.corners.size() / 3 + 1);
-  for (std::size_t c = 0; c <= mesh.corners.size(); c += 3) {
-    mesh.first_corner.push_back(static_cast<std::uint32_t>(c));
-  }
-  return mesh;
-}
-
 void write_polygons(const Path& path, const RepresentationType&, const Representation& built, const LineGrid&,
                     Progress&) {
-  const FaceMesh mesh = polygons_of(built);
+  const FaceMesh mesh = built.polygons();
   if (mesh.faces() == 0) {
     throw usage_error("there are no faces to write", path.string(), "write it under another extension");
   }

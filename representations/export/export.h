@@ -12,7 +12,7 @@
 #include <span>
 #include <string_view>
 
-#include "representations/export/line_grid.h"
+#include "representations/line_grid.h"
 
 namespace terrabench {
 

@@ -245,8 +245,8 @@ void write_fog(const std::filesystem::path& path, const Representation& built, c
                Progress& progress) {
   openvdb::initialize();
   NewFile file(path);
-  const std::optional<ColumnGrid> own = own_columns(built);
-  const ColumnGrid columns = own ? *own : columns_around(lines, built.bounds());
+  const ColumnGrid* const own = built.column_grid();
+  const ColumnGrid columns = own != nullptr ? *own : columns_around(lines, built.bounds());
   const auto density = openvdb::FloatGrid::create(0.0F);
   const auto material = openvdb::Int32Grid::create(0);
   progress.begin("sampling the volume", static_cast<std::uint64_t>((columns.width + kLeaf - 1) / kLeaf) *

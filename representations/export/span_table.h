@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "representations/export/line_grid.h"
+#include "representations/line_grid.h"
 
 namespace terrabench {
 

@@ -1,11 +1,16 @@
 #include "representations/ght/ght.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "representations/column_grid.h"
+#include "representations/ght/ght_rays.h"
+#include "representations/ght/invariants.h"
 #include "representations/heightmap/heightmap.h"
+#include "representations/line_grid.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -169,6 +174,26 @@ Bounds Ght::bounds() const {
   const SampleGrid& grid = model_.tree.grid();
   return {{grid.x(0), model_.floor, grid.z(0)},
           {grid.x(grid.width - 1), model_.ceiling, grid.z(grid.depth - 1)}};
+}
+
+LineGrid Ght::lines() const {
+  const ght::SampleGrid& grid = model_.tree.grid();
+  return {grid.width, grid.depth, grid.origin_x, grid.origin_z, grid.spacing_x, grid.spacing_z, {}};
+}
+
+std::unique_ptr<RayCaster> Ght::ray_caster() const { return ght_ray_caster(*this); }
+
+std::vector<std::pair<std::string, std::string>> Ght::facts() const {
+  const ght::Census census = ght::census(model_);
+  std::vector<std::pair<std::string, std::string>> facts = {
+      {"heightmaps", fmt::format("{} after {} events, the deepest {} below the root", census.nodes,
+                                 model_.tree.events().size(), census.deepest)},
+      {"cells", fmt::format("{} heights, {} links, {} void", census.heights, census.links, census.voids)},
+      {"surface", fmt::format("{} faces, {} boundary links", census.faces, census.boundary_links)}};
+  const std::vector<std::string> broken = ght::broken_invariants(model_);
+  if (broken.empty()) facts.emplace_back("invariants", "all hold");
+  for (const std::string& what : broken) facts.emplace_back("invariants", "broken: " + what);
+  return facts;
 }
 
 }  // namespace terrabench

@@ -36,7 +36,9 @@ class Ght final : public Representation {
   Ght(const ght::SampleGrid& grid, std::vector<float> heights, float floor);
 
   // Strong guarantee.
-  void apply(const events::Event& event) { apply_event(model_, event, model_.tree.events().size() + 1); }
+  void apply(const events::Event& event) override {
+    apply_event(model_, event, model_.tree.events().size() + 1);
+  }
   void limit_cells(std::uint32_t most) { model_.tree.limit_cells(most); }
   const ght::Model& model() const { return model_; }
 
@@ -47,6 +49,10 @@ class Ght final : public Representation {
   Memory memory() const override;
   void save(ByteSink&) const override;
   Bounds bounds() const override;
+  LineGrid lines() const override;
+  std::unique_ptr<RayCaster> ray_caster() const override;
+  // A census of the tree, and whether its invariants hold.
+  std::vector<std::pair<std::string, std::string>> facts() const override;
 
  private:
   Ght() = default;

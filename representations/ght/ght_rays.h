@@ -14,8 +14,8 @@
 
 namespace terrabench {
 
-// As own_ray_caster(). Null for a tree without area. Takes a fifteenth of the bytes of the root's heights.
-// O(samples + faces).
+// As Representation::ray_caster(). Null for a tree without area. Takes a fifteenth of the bytes of the root's
+// heights. O(samples + faces).
 std::unique_ptr<RayCaster> ght_ray_caster(const Ght&);
 
 }  // namespace terrabench

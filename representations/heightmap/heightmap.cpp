@@ -8,6 +8,8 @@
 
 #include "representations/column_grid.h"
 #include "representations/heightmap/closed_mesh.h"
+#include "representations/line_grid.h"
+#include "representations/ray_cast.h"
 
 namespace terrabench {
 namespace {
@@ -183,5 +185,11 @@ std::unique_ptr<Representation> Heightmap::load(ByteSource& in) {
   }
   return built;
 }
+
+LineGrid Heightmap::lines() const {
+  return {grid_.width, grid_.depth, grid_.origin_x, grid_.origin_z, grid_.cell_x, grid_.cell_z, {}};
+}
+
+std::unique_ptr<RayCaster> Heightmap::ray_caster() const { return height_ray_caster(*this); }
 
 }  // namespace terrabench

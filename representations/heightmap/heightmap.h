@@ -41,6 +41,9 @@ class Heightmap final : public Representation {
   Memory memory() const override;
   void save(ByteSink&) const override;
   Bounds bounds() const override { return grid_.bounds; }
+  LineGrid lines() const override;
+  std::unique_ptr<RayCaster> ray_caster()
+      const override;  // the two triangles of each square, as mesh() draws
 
  private:
   Heightmap() = default;

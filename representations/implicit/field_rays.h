@@ -24,9 +24,9 @@
 
 namespace terrabench {
 
-// As own_ray_caster(). Null for a kernel so small, of less than about 1.6 of the lattice's cells, that the
-// corners of a cell say nothing of its inside. Takes 4 B per column of cells and a fifteenth of that, 8 B per
-// interval, and 2 B per column of the stacks. Samples the lattice once, in parallel.
+// As Representation::ray_caster(). Null for a kernel so small, of less than about 1.6 of the lattice's cells,
+// that the corners of a cell say nothing of its inside. Takes 4 B per column of cells and a fifteenth of
+// that, 8 B per interval, and 2 B per column of the stacks. Samples the lattice once, in parallel.
 std::unique_ptr<RayCaster> field_ray_caster(const ImplicitSurface&);
 
 }  // namespace terrabench

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "representations/implicit/field_rays.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -228,5 +229,7 @@ Memory ImplicitSurface::memory() const {
   memory += {0, heap_bytes(this), 0};
   return memory;
 }
+
+std::unique_ptr<RayCaster> ImplicitSurface::ray_caster() const { return field_ray_caster(*this); }
 
 }  // namespace terrabench

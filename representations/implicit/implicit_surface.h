@@ -45,6 +45,8 @@ class ImplicitSurface final : public Representation, public MeshChunks {
   Memory memory() const override;
   void save(ByteSink&) const override;
   Bounds bounds() const override { return stack_->bounds(); }
+  const ColumnGrid* edited_columns() const override { return &stack_->grid(); }
+  std::unique_ptr<RayCaster> ray_caster() const override;  // the zero set, which mesh() approximates
 
   static constexpr int kMaxCells = 65535;
 

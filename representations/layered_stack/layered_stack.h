@@ -39,6 +39,7 @@ class LayeredStack final : public Representation {
   Memory memory() const override;
   void save(ByteSink&) const override;
   Bounds bounds() const override { return grid_.bounds(); }
+  const ColumnGrid* column_grid() const override { return &grid_; }
 
  private:
   struct Place {

@@ -229,4 +229,10 @@ std::unique_ptr<Representation> ProceduralMesh::load(ByteSource& in) {
   return std::make_unique<ProceduralMesh>(std::move(description), in.origin());
 }
 
+// What the program holds of a description of so many bytes.
+std::vector<std::pair<std::string, std::string>> ProceduralMesh::facts() const {
+  return {{"expanded", fmt::format("{} triangles, {} B, from a description of {} B",
+                                   columns_.triangles().size(), expanded_bytes(), description_bytes())}};
+}
+
 }  // namespace terrabench

@@ -60,7 +60,7 @@ class ProceduralMesh final : public Representation {
   std::size_t expanded_bytes() const { return columns_.memory().total(); }
   const TriangleColumns& columns() const { return columns_; }
   // The polygons, expanded once more.
-  FaceMesh polygons() const { return expand(description_, "model"); }
+  FaceMesh polygons() const override { return expand(description_, "model"); }
 
   void spans(Columns where, SpanSink& out) const override;
   // The triangles that spans() crosses; sheets are closed by walls and a floor. Watertight, but parts that
@@ -70,6 +70,7 @@ class ProceduralMesh final : public Representation {
   Memory memory() const override;
   void save(ByteSink& out) const override { description_.save(out); }
   Bounds bounds() const override { return bounds_; }
+  std::vector<std::pair<std::string, std::string>> facts() const override;
 
  private:
   MeshDescription description_;

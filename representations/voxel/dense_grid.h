@@ -27,6 +27,7 @@ class DenseGrid final : public Representation {
   Memory memory() const override;
   void save(ByteSink&) const override;
   Bounds bounds() const override { return grid_.bounds(); }
+  const ColumnGrid* column_grid() const override { return &grid_; }
 
  private:
   explicit DenseGrid(const ColumnGrid& grid) : grid_(grid) {}

@@ -36,6 +36,7 @@ class Voxel final : public Representation {
   Memory memory() const override;
   void save(ByteSink&) const override;
   Bounds bounds() const override { return grid_.bounds(); }
+  const ColumnGrid* column_grid() const override { return &grid_; }
 
  private:
   struct Layers;  // keeps OpenVDB's headers in one file

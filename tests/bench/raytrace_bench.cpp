@@ -135,7 +135,7 @@ const Cast& cast_of(const std::string& name) {
   Progress progress;
   cast.built = type.build(source_of("mountains", std::move(ground)), Parameters(type.parameters), progress);
   cast.mesh = cast.built->mesh({});
-  cast.own_seconds = seconds([&] { cast.own = own_ray_caster(*cast.built); });
+  cast.own_seconds = seconds([&] { cast.own = cast.built->ray_caster(); });
   cast.index_seconds = seconds([&] { cast.index = std::make_unique<RayIndex>(cast.mesh); });
   return cast;
 }

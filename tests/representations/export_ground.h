@@ -1,7 +1,7 @@
 // What a representation answers along the lines of an export, asked one line at a time.
 #pragma once
 
-#include "representations/export/line_grid.h"
+#include "representations/line_grid.h"
 #include "tests/representations/ground.h"
 
 namespace terrabench::test {

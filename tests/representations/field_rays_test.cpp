@@ -244,7 +244,7 @@ TEST(FieldRays, TopsChangeNoSample) {
 
 TEST(FieldRays, AKernelBelowACellHasNone) {
   const auto built = implicit(hills(20, 20, 1, 1), {.radius = 0.5});
-  EXPECT_EQ(own_ray_caster(*built), nullptr);
+  EXPECT_EQ(built->ray_caster(), nullptr);
 }
 
 TEST(FieldRays, ThreadsChangeNothing) {

@@ -43,7 +43,7 @@ TEST_F(FogVolume, VoxelsOfSeveralMaterialsAreWrittenAsTheyAre) {
   for (const std::string_view type : types([](const Traits& traits) { return traits.materials; })) {
     SCOPED_TRACE(type);
     const auto built = build(type, random_cells(5, 19, 26, 23, 3, 55), 26);
-    const ColumnGrid grid = own_columns(*built).value();
+    const ColumnGrid grid = *built->column_grid();
     const Volume volume = written(*built, own_lines(*built));
     ASSERT_NE(volume.material, nullptr);
     std::uint64_t solid = 0;

@@ -154,8 +154,8 @@ TEST(RayCast, RaysThatAreNoneHitNothing) {
 
 TEST(RayCast, MeshesAndGroundWithoutAreaHaveNone) {
   const TerrainSource source = from_heights(8, 8, std::vector<float>(64, 1.0F));
-  EXPECT_EQ(own_ray_caster(*build("procedural_mesh", source)), nullptr);
-  EXPECT_EQ(own_ray_caster(*build("heightmap", from_heights(5, 1, {1, 2, 3, 4, 5}))), nullptr);
+  EXPECT_EQ(build("procedural_mesh", source)->ray_caster(), nullptr);
+  EXPECT_EQ(build("heightmap", from_heights(5, 1, {1, 2, 3, 4, 5}))->ray_caster(), nullptr);
 }
 
 TEST(RayCast, ThreadsChangeNothing) {
@@ -169,9 +169,9 @@ TEST(RayCast, ThreadsChangeNothing) {
 TEST(RayCast, BytesAreThoseOfTheAllocator) {
   for (const char* type : {"heightmap", "layered_stack", "ght", "implicit"}) {
     const auto built = build(type, from_heights(200, 150, rough(30000, 6, 0)));
-    own_ray_caster(*built);
+    built->ray_caster();
     const HeapScope scope;
-    const auto caster = own_ray_caster(*built);
+    const auto caster = built->ray_caster();
     EXPECT_EQ(static_cast<std::int64_t>(caster->bytes()), scope.held()) << type;
   }
 }

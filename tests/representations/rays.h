@@ -50,7 +50,7 @@ inline std::vector<Ray> random_rays(const Bounds& bounds, unsigned seed, int cou
 
 inline std::vector<float> cast(const Representation& on, std::span<const Ray> rays) {
   std::vector<float> distances(rays.size());
-  const auto caster = own_ray_caster(on);
+  const auto caster = on.ray_caster();
   EXPECT_NE(caster, nullptr);
   if (caster) caster->closest(rays, distances);
   return distances;

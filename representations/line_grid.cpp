@@ -1,4 +1,4 @@
-#include "representations/export/line_grid.h"
+#include "representations/line_grid.h"
 
 #include <tbb/parallel_for.h>
 
@@ -6,53 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "representations/drill/drill_terrain.h"
-#include "representations/ght/ght.h"
-#include "representations/heightmap/heightmap.h"
-#include "representations/implicit/implicit_surface.h"
-#include "representations/layered_stack/layered_stack.h"
-#include "representations/voxel/dense_grid.h"
-#include "representations/voxel/voxel.h"
+#include "representations/representation.h"
 
 namespace terrabench {
-namespace {
-
-LineGrid lines_of(const HeightGrid& grid) {
-  return {grid.width, grid.depth, grid.origin_x, grid.origin_z, grid.cell_x, grid.cell_z, {}};
-}
-
-LineGrid lines_of(const ght::SampleGrid& grid) {
-  return {grid.width, grid.depth, grid.origin_x, grid.origin_z, grid.spacing_x, grid.spacing_z, {}};
-}
-
-// Through the middles of nearly square cells.
-LineGrid lines_over(const Bounds& bounds) {
-  const glm::dvec3 size = bounds.size();
-  const double cell = std::max({size.x, size.z, 1e-6}) / kDefaultResolution;
-  LineGrid lines;
-  lines.width = std::max(1, static_cast<int>(std::lround(size.x / cell)));
-  lines.depth = std::max(1, static_cast<int>(std::lround(size.z / cell)));
-  lines.cell_x = size.x > 0 ? size.x / lines.width : cell;
-  lines.cell_z = size.z > 0 ? size.z / lines.depth : cell;
-  lines.origin_x = bounds.low.x + 0.5 * lines.cell_x;
-  lines.origin_z = bounds.low.z + 0.5 * lines.cell_z;
-  return lines;
-}
-
-LineGrid unplaced_lines(const Representation& built) {
-  if (const auto* heightmap = dynamic_cast<const Heightmap*>(&built)) return lines_of(heightmap->grid());
-  if (const auto* drills = dynamic_cast<const DrillTerrain*>(&built))
-    return lines_of(drills->surface().grid());
-  if (const auto* tree = dynamic_cast<const Ght*>(&built)) return lines_of(tree->model().tree.grid());
-  if (const auto* surface = dynamic_cast<const ImplicitSurface*>(&built)) {
-    return lines_of(surface->stack().grid());
-  }
-  const std::optional<ColumnGrid> columns = own_columns(built);
-  return columns ? lines_of(*columns) : lines_over(built.bounds());
-}
-
-}  // namespace
-
 LineGrid lines_of(const Heightfield& field) {
   return {field.width, field.depth, 0, 0, field.cell_x, field.cell_z, field.georeference};
 }
@@ -68,7 +24,7 @@ LineGrid lines_of(const ColumnGrid& grid) {
 }
 
 LineGrid own_lines(const Representation& built) {
-  LineGrid lines = unplaced_lines(built);
+  LineGrid lines = built.lines();
   if (lines.origin_x != 0 || lines.origin_z != 0) {
     lines.georeference.transform = {lines.origin_x - 0.5 * lines.cell_x,
                                     lines.cell_x,
@@ -93,13 +49,6 @@ Georeference place(const LineGrid& lines, const LineGrid& placed) {
   for (const std::size_t k : {1U, 4U}) t[k] *= ratio_x;
   for (const std::size_t k : {2U, 5U}) t[k] *= ratio_z;
   return georeference;
-}
-
-std::optional<ColumnGrid> own_columns(const Representation& built) {
-  if (const auto* stack = dynamic_cast<const LayeredStack*>(&built)) return stack->grid();
-  if (const auto* voxels = dynamic_cast<const Voxel*>(&built)) return voxels->grid();
-  if (const auto* dense = dynamic_cast<const DenseGrid*>(&built)) return dense->grid();
-  return std::nullopt;
 }
 
 ColumnGrid columns_around(const LineGrid& lines, const Bounds& bounds) {

@@ -2,12 +2,15 @@
 // it is written as voxels.
 #pragma once
 
-#include <optional>
+#include <span>
 
 #include "representations/column_grid.h"
 #include "terrain/heightfield.h"
 
 namespace terrabench {
+
+class Representation;
+class SpanSink;
 
 // Line (i, j) stands at (origin_x + i·cell_x, origin_z + j·cell_z) metres.
 struct LineGrid {
@@ -24,18 +27,15 @@ struct LineGrid {
 LineGrid lines_of(const Heightfield&);
 // A line through the middle of each column.
 LineGrid lines_of(const ColumnGrid&);
-// Along the samples or columns that the structure holds; kDefaultResolution lines along the longer side of
-// one that has none. Without a georeference, except that ground which begins elsewhere than at (0, 0) is
-// placed there, in metres to the east and to the north.
+// Representation::lines() with a place: without a georeference, except that ground which begins elsewhere
+// than at (0, 0) is placed there, in metres to the east and to the north.
 LineGrid own_lines(const Representation&);
 
 // The georeference of `lines`, which stand on the same ground as `placed`. Exactly that of `placed` for equal
 // lines; empty if it has none.
 Georeference place(const LineGrid& lines, const LineGrid& placed);
 
-// The lattice that stacks and voxels hold; nothing for other types.
-std::optional<ColumnGrid> own_columns(const Representation&);
-// Otherwise: a column around each line, cut into levels of the lesser distance between lines, or thicker ones
+// A column around each line, cut into levels of the lesser distance between lines, or thicker ones
 // if there were more than ColumnGrid::kMaxLevels.
 ColumnGrid columns_around(const LineGrid&, const Bounds&);
 
