@@ -200,9 +200,12 @@ View before_the_tunnels() {
 Sheet draw_two_tunnels(Drawing& drawing) {
   const Ght ght = open_tree("two-tunnels");
   const View view = before_the_tunnels();
-  const Parameters style(
-      landscape_parameters(),
-      {{"water", 0.0}, {"texture", 120.0}, {"bumps", 0.35}, {"fog", 2.5}, {"sun_height", 40.0}});
+  const Parameters style(landscape_parameters(), {{"water", 0.0},
+                                                  {"texture", 120.0},
+                                                  {"bumps", 0.35},
+                                                  {"fog", 2.5},
+                                                  {"border", 0.0},
+                                                  {"sun_height", 40.0}});
   Sheet sheet = panel_sheet({{{wires_view(drawing.gl(), ght, view), "wireframe"},
                               {textured_view(drawing.gl(), ght, view, style), "textured, under a sky"}}});
   sheet.keep_all_colours();
