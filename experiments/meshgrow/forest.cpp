@@ -28,7 +28,7 @@ constexpr std::string_view kKinds[] = {"lazy", "error"};
 
 const std::array kSpecs{
     choice("kind", kKinds, "of the measurement: of lazy expansion, or of its error against full expansion"),
-    ParameterSpec{"instances", std::int64_t{800}, "", "plants in the forest", 0, 10'000'000},
+    ParameterSpec{"instances", std::int64_t{500}, "", "plants in the forest", 0, 10'000'000},
     ParameterSpec{"spacing", 1.5, "pixels", "a level has one face per square of this side; 0: finest", 0,
                   100},
     ParameterSpec{"uniform", false, "",
@@ -44,8 +44,8 @@ struct Variant {
   std::string_view name;
   std::int64_t cache, threads;
 };
-constexpr std::array kVariants{Variant{"cache=1024", 1024, 0}, Variant{"cache=512", 512, 0},
-                               Variant{"cache=256", 256, 0}, Variant{"threads=1", 1024, 1}};
+constexpr std::array kVariants{Variant{"cache=1024", 1024, 0}, Variant{"cache=256", 256, 0},
+                               Variant{"cache=128", 128, 0}, Variant{"threads=1", 1024, 1}};
 constexpr std::array kSpacings{0.0, 0.5, 1.5, 6.0};
 constexpr double kUniformSpacing = 1.5;  // whose faces the uniform choice has to match
 
@@ -64,10 +64,11 @@ std::vector<Case> cases(const RunOptions& options) {
   picture.set("figure", true);
   picture.set("cache", std::int64_t{768});
   picture.set("width", std::int64_t{paper ? 1600 : 240});
-  picture.set("samples", std::int64_t{paper ? 8 : 2});
+  picture.set("samples", std::int64_t{paper ? 4 : 2});
+  picture.set("spacing", 4.0);
   for (const Variant& variant : kVariants) {
     Parameters& parameters = add(std::string(variant.name));
-    parameters.set("cache", paper ? variant.cache : variant.cache / 8);
+    parameters.set("cache", paper ? variant.cache : variant.cache / 4);
     parameters.set("threads", variant.threads);
   }
   const auto add_error = [&](std::string name, double spacing, bool uniform) {
@@ -97,15 +98,15 @@ std::shared_ptr<const Forest> forest_of(const ForestSettings& settings, Progress
   return last.second;
 }
 
-// From a little above the ground over the first trees into the forest, or the whole of a small one.
+// From outside, from above the first trees, through a long lens: the whole of the forest.
 View forest_view(const Forest& forest, int width) {
   const float side = forest.side(), x = 0.5F * side;
   const int height = std::max(8, width * 9 / 16);
   const float ground = forest.height(x, 0.98F * side);
   View view;
-  view.eye = {x, ground + 15, side + 16};
-  view.target = {0.47F * side, ground + 8, side - 22};
-  view.vertical_fov = 0.75F;
+  view.eye = {x, ground + 24, side + 60};
+  view.target = {0.5F * side, ground + 9, side};
+  view.vertical_fov = 0.42F;
   view.width = width;
   view.height = height;
   view.near = 0.1F;
@@ -295,7 +296,7 @@ const Truth& truth_of(const Forest& forest, const View& view, const Case& at, st
 
 void measure_error(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const auto instances = static_cast<std::uint64_t>(at.parameters.integer("instances"));
-  const Forest forest({.instances = instances, .area = 150, .smoothed = false, .seed = options.seed});
+  const Forest forest({.instances = instances, .area = 150, .all_leaves = false, .seed = options.seed});
   const View view = forest_view(forest, at.integer("width"));
   std::vector<std::uint8_t> levels = forest.plants().choose_levels(view, {at.parameters.number("spacing")});
   if (at.parameters.flag("uniform")) levels = uniform_levels(forest.plants(), levels);

@@ -1,6 +1,7 @@
 #include "experiments/meshgrow/forest_scene.h"
 
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <array>
@@ -53,11 +54,7 @@ const std::vector<Plant>& forest_plants() {
         thinned(2, 14, 1.5)}},
       {"oak",
        0.08,
-       {{},
-        {.leave_out = {"smooth"}},
-        thinned(3, 1, 0.5),
-        thinned(2, 60, 0.7),
-        thinned(2, 14, 1.4)}},
+       {{}, {.leave_out = {"smooth"}}, thinned(3, 1, 0.5), thinned(2, 60, 0.7), thinned(2, 14, 1.4)}},
       {"bush_tupelo",
        0.12,
        {{}, {.leave_out = {"smooth"}}, thinned(3, 3, 0.42), thinned(3, 1, 0.73), thinned(2, 8, 1.1)}},
@@ -65,12 +62,12 @@ const std::vector<Plant>& forest_plants() {
   return all;
 }
 
-std::vector<growing::DetailModel> detail_models(bool smoothed) {
+std::vector<growing::DetailModel> detail_models(bool all_leaves) {
   std::vector<growing::DetailModel> models;
   for (const Plant& plant : forest_plants()) {
     std::vector<DetailLevel> levels = plant.levels;
-    const auto is_rough = [](const DetailLevel& level) { return !level.leave_out.empty(); };
-    if (!smoothed) levels.erase(levels.begin(), std::find_if(levels.begin(), levels.end(), is_rough));
+    const auto is_thinned = [](const DetailLevel& level) { return !level.constants.empty(); };
+    if (!all_leaves) levels.erase(levels.begin(), std::find_if(levels.begin(), levels.end(), is_thinned));
     models.push_back(
         growing::make_detail_model(growing::model_text(plant.model), std::string(plant.model), levels));
   }
@@ -116,7 +113,7 @@ Forest::Forest(const ForestSettings& settings, Progress* progress)
       ground_(fractal_ground(std::max(side_, 1.0F))),
       ground_box_(bounds_of(ground_->mesh)),
       plants_(
-          detail_models(settings.smoothed),
+          detail_models(settings.all_leaves),
           [&] {
             growing::Planting planting;
             planting.count = settings.instances;
@@ -182,8 +179,10 @@ void LazyForest::open(std::uint32_t part, const std::function<void(const RayPart
 std::unique_ptr<RayPart> LazyForest::make(std::uint32_t instance) {
   std::unique_ptr<RayPart> part;
   // Isolated: a thread that waits for the end of a parallel loop in here must not begin another task, which
-  // may wait for this very part.
-  tbb::this_task_arena::isolate([&] {
+  // may wait for this very part; and when the picture is cancelled, the loops in here must not end half-way.
+  tbb::task_group_context own(tbb::task_group_context::isolated);
+  tbb::task_group group(own);
+  const auto expand = [&] {
     const FaceMesh faces = forest_.plants().expand(instance, levels_[instance]).mesh;
     ModelMesh triangles = triangles_of(faces);
     if (growing::beyond(growing::box_of(faces.positions), forest_.plants().local_box(instance)) > 0)
@@ -201,7 +200,8 @@ std::unique_ptr<RayPart> LazyForest::make(std::uint32_t instance) {
     triangles.symbols.shrink_to_fit();
     part = std::make_unique<RayPart>(std::move(triangles.mesh), std::move(triangles.texture),
                                      std::move(triangles.symbols));
-  });
+  };
+  tbb::this_task_arena::isolate([&] { group.run_and_wait(expand); });
   return part;
 }
 

@@ -13,8 +13,8 @@ namespace terrabench::meshgrow {
 
 struct ForestSettings {
   std::uint64_t instances = 1000;
-  double area = 40;      // square metres per instance
-  bool smoothed = true;  // false: without the levels that are subdivided, for a scene that fits into memory
+  double area = 40;        // square metres per instance
+  bool all_leaves = true;  // false: only levels with fewer leaves, for a forest that fits into memory
   std::uint64_t seed = 1;
 };
 

@@ -280,7 +280,7 @@ Image traced(const FaceMesh& mesh, bool wires, const View& view) {
   scene.add_placed(std::move(wood));
   scene.light.sun = {-0.6F, 0.8F, 1.0F};
   scene.background = glm::vec3(1);
-  return raytrace(scene, view, {.samples = 32, .bounces = 2});
+  return raytrace(scene, view, {.samples = 20, .bounces = 2});
 }
 
 constexpr glm::vec3 kTrunkFrom(0.55F, 0.25F, 1.0F);

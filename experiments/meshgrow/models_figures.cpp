@@ -86,8 +86,8 @@ constexpr auto kFigureNames = names_of(kFigures);
 const std::array kSpecs{
     choice("figure", kFigureNames, "number in the paper"),
     ParameterSpec{"height", std::int64_t{1000}, "pixels", "of the picture", 32, 8192},
-    ParameterSpec{"samples", std::int64_t{32}, "", "paths per pixel", 1, 65536},
-    ParameterSpec{"bounces", std::int64_t{3}, "", "reflections between surfaces", 0, 64},
+    ParameterSpec{"samples", std::int64_t{20}, "", "paths per pixel", 1, 65536},
+    ParameterSpec{"bounces", std::int64_t{2}, "", "reflections between surfaces", 0, 64},
 };
 
 std::vector<Case> cases(const RunOptions& options) {

@@ -10,9 +10,10 @@ namespace {
 
 View small_view(const Forest& forest) {
   View view;
-  view.eye = {0.5F * forest.side(), forest.height(0.5F * forest.side(), forest.side()) + 3,
-              forest.side() + 9};
-  view.target = {0.5F * forest.side(), view.eye.y - 1, 0};
+  view.eye = {0.5F * forest.side(), forest.height(0.5F * forest.side(), forest.side()) + 15,
+              forest.side() + 60};
+  view.target = {0.5F * forest.side(), view.eye.y - 7, 0.5F * forest.side()};
+  view.vertical_fov = 0.4F;
   view.width = 32;
   view.height = 24;
   view.far = 1000;
@@ -20,7 +21,7 @@ View small_view(const Forest& forest) {
 }
 
 TEST(LazyForest, ACacheForOnePartAtATimeGivesTheSamePicture) {
-  const Forest forest({.instances = 7});
+  const Forest forest({.instances = 7, .all_leaves = false});
   const View view = small_view(forest);
   const std::vector<std::uint8_t> levels = forest.plants().choose_levels(view, {.spacing = 2});
   const HeapScope heap;

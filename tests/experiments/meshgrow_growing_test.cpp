@@ -1,6 +1,8 @@
 // Growing one step at a time, the fork of a trunk, and the measurements of the models.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "experiments/meshgrow/growing_steps.h"
 #include "results/store.h"
 #include "terrain/error.h"
@@ -43,6 +45,17 @@ TEST(Fork, SharedVerticesGetTheMeanOfBothBranches) {
   EXPECT_EQ(fork.shared[1].u, 0.75);
   EXPECT_EQ(fork.others, 4);
   EXPECT_EQ(fork.others_changed, 0);
+}
+
+TEST(Fork, SectionsAreAsLongAsTheirRulesSay) {
+  constexpr std::array<std::string_view, 2> kStems{"trunk", "branch"};
+  const std::vector<StemSection> sections = sections_along(model_of("forking_trunk"), kStems);
+  ASSERT_EQ(sections.size(), 12U);  // 3 of the trunk, then 5 and 4 of the branches
+  for (const StemSection& section : sections) {
+    EXPECT_NEAR(section.length, section.symbol == "trunk" ? 0.7 : 0.55, 1e-5);
+    EXPECT_NEAR(section.end_v - section.v, section.length, 1e-5);
+  }
+  EXPECT_TRUE(sections_along(model_of("cactus"), std::span(kStems).last(1)).empty());
 }
 
 TEST(Fork, IsMissingWithoutBranches) { EXPECT_THROW(find_fork(model_of("cactus"), "none such"), Error); }
