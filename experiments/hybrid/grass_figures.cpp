@@ -190,13 +190,14 @@ Sheet draw_diagram(Drawing& drawing) {
 
   Sheet sheet = panel_sheet({{{planes, "The quadrilaterals, 0.8 m × 0.9 m, on the triangle A B C"},
                               {drawn, "The same strand with its texture"}}});
-  const auto label = [&](const glm::vec3& p, double dx, double dy, std::string_view words) {
+  const auto label = [&](const glm::vec3& p, double dx, double dy, std::string_view words,
+                         Rgb colour = kInk) {
     const figures::SheetPoint at = on_picture(view, p);
-    sheet.text(kMargin + at.x + dx, kMargin + at.y + dy, words, 15);
+    sheet.text(kMargin + at.x + dx, kMargin + at.y + dy, words, 15, "start", colour);
   };
   label(strand.root + 1.25F * up, 8, 4, "normal N");
-  label(strand.root + 0.85F * strand.width * strand.side, 8, 12, "along AB");
-  label(strand.root + 0.85F * strand.width * across, 46, -22, "N × AB");
+  label(strand.root + 0.85F * strand.width * strand.side, 8, 12, "along AB", kFirst);
+  label(strand.root + 0.85F * strand.width * across, 46, -22, "N × AB", kSecond);
   const char* const corners[] = {"A", "B", "C"};
   for (std::size_t v = 0; v < 3; ++v) label(ground.positions[v], v == 0 ? -18 : 10, 6, corners[v]);
   return sheet;

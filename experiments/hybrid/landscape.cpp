@@ -122,9 +122,15 @@ View resized(View view, glm::ivec2 size) {
   return view;
 }
 
+// The part of a small picture that shows the water and what is mirrored in it, to keep the file small.
+Image around_the_water(const Image& whole) {
+  constexpr int kFrom = 130, kTo = 330;  // rows
+  return image_of(whole.width, kTo - kFrom, [&](int x, int y) { return whole.pixel(x, y + kFrom); });
+}
+
 Sheet draw_water(Drawing& drawing) {
   Land land(drawing);
-  const View large = land.view({900, 12, 1300}, {760, -6, 900}, kLarge), small = resized(large, kSmall);
+  const View large = land.view({900, 12, 1300}, {760, -6, 900}, {1600, 640}), small = resized(large, kSmall);
   const Value off = 0.0;
   const Image mirror = land.draw(
       small, {{"fresnel_normal", 1.0}, {"distortion", off}, {"wave_slope", off}, {"highlight", off}});
@@ -137,9 +143,11 @@ Sheet draw_water(Drawing& drawing) {
                                         {"highlight", off}});
   const Image still = land.draw(small, {{"distortion", off}, {"wave_slope", off}, {"highlight", off}});
   const Image warped = land.draw(small, {{"wave_slope", off}, {"highlight", off}});
-  return landscape_sheet({{{land.draw(large, {}, 2), "all parts, with a moving normal map and highlights"}},
-                          {{mirror, "reflection alone"}, {glass, "refraction alone"}},
-                          {{still, "mixed by the Fresnel term"}, {warped, "warped by the du/dv map"}}});
+  return landscape_sheet(
+      {{{land.draw(large, {}, 2), "all parts, with a moving normal map and highlights"}},
+       {{around_the_water(mirror), "reflection alone"}, {around_the_water(glass), "refraction alone"}},
+       {{around_the_water(still), "mixed by the Fresnel term"},
+        {around_the_water(warped), "warped by the du/dv map"}}});
 }
 
 Sheet draw_fog(Drawing& drawing) {

@@ -123,7 +123,7 @@ class Mesher {
 };
 
 // Coordinates from low to high, about `spacing` apart.
-std::vector<float> lines(float low, float high, float spacing) {
+std::vector<float> places(float low, float high, float spacing) {
   const int steps = static_cast<int>(
       std::clamp(std::round((high - low) / spacing), 1.0F, static_cast<float>(ColumnGrid::kMaxColumns)));
   std::vector<float> at;
@@ -138,8 +138,8 @@ std::vector<float> lines(float low, float high, float spacing) {
 TriangleMesh Ght::mesh(MeshDetail detail) const {
   const Bounds box = bounds();
   if (!(detail.cell > 0) || box.high.x <= box.low.x || box.high.z <= box.low.z) return Mesher(model_).run();
-  const std::vector<float> x = lines(box.low.x, box.high.x, detail.cell),
-                           z = lines(box.low.z, box.high.z, detail.cell);
+  const std::vector<float> x = places(box.low.x, box.high.x, detail.cell),
+                           z = places(box.low.z, box.high.z, detail.cell);
   require_memory(x.size() * z.size() * sizeof(float), "mesh of a grounded heightmap tree");
   std::vector<float> tops(x.size() * z.size());
   for (std::size_t k = 0; k < tops.size(); ++k) {
