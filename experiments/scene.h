@@ -19,9 +19,9 @@ namespace terrabench {
 // O(samples²), parallel.
 Heightfield surface_heights(const Solid&, int samples, Progress&);
 
-// The source's heights, with holes filled, or those of its solid's surface, without single spikes and with
-// cliffs smoothed over a few samples. Throws bad_input for ground without any heights and usage_error for
-// fewer than 2 × 2 samples.
+// The source's heights, with holes filled, or those of its solid's surface, without single spikes. Of a
+// solid's surface, whose cliffs are steps from sample to sample, all heights are smoothed over a few samples.
+// Throws bad_input for ground without any heights and usage_error for fewer than 2 × 2 samples.
 Heightfield scene_heights(const TerrainSource&, int samples, Progress&);
 
 // The box around a field. O(samples).

@@ -63,6 +63,8 @@ void read_sub_row(TomlTable& entry, const Claim* first, Claim& claim) {
     // Empty for a member of `each` that is a claim of its own.
     std::string of = entry.text_or(key, "");
     if (of.empty()) continue;
+    if (claim.varies != Variation::kNone && key == std::string_view("setting_of") && entry.has("reading_of"))
+      entry.refuse("a claim has either 'reading_of' or 'setting_of'");
     claim.of = std::move(of);
     claim.varies = varies;
   }

@@ -215,7 +215,7 @@ Json json_of(const Noise& noise) {
 std::string profiles_of(const Store& store) {
   std::set<std::string> profiles;
   for (const Record& record : store.records()) profiles.insert(record.profile);
-  return fmt::format("{}", fmt::join(profiles, " and "));
+  return profiles.empty() ? "no cases" : fmt::format("{}", fmt::join(profiles, " and "));
 }
 
 // A comparison of nothing must not pass. Pictures count only for folders that hold no figures.

@@ -63,18 +63,21 @@ class Page {
     table.columns.insert(table.columns.end(), {{"Verdict"}, {"What matches"}});
     for (const Statement& statement : statements_) {
       const Judgement& j = *statement.claim;
-      if (j.claim->group == Group::kBeyond || j.claim->cause != cause) continue;
+      if (j.claim->group == Group::kBeyond || cause_of(j) != cause) continue;
       if (statement.standing != Standing::kOtherReading && statement.standing != Standing::kDoesNotHold)
         continue;
       std::vector<Cell> row = {
           id_cell(*j.claim), {where_and_statement(*j.claim)}, {reported_text(*j.claim)}, {j.deciding.text}};
-      if (with_reason) row.push_back({j.claim->reason()});
+      if (with_reason) row.push_back({why_not(j)});
       row.push_back(standing_cell(statement));
       row.push_back({matching(statement)});
       table.rows.push_back(std::move(row));
     }
     return table;
   }
+
+  // A failure that nobody expected has another reason.
+  static std::string cause_of(const Judgement& j) { return j.complaint.empty() ? j.claim->cause : ""; }
 
   Cell id_cell(const Claim& claim) const { return {.text = claim.id, .link = ledger_ + "#" + claim.id}; }
 

@@ -385,8 +385,12 @@ std::string plot_svg(const Plot& plot, const PlotSize& size) {
     }
     const Style style =
         series.reported ? kReported[reported++ % kReported.size()] : measured_style(measured++);
-    const std::size_t above = static_cast<std::size_t>(&all.back() - &series);
-    if (!series.points.empty()) add_series(chart, series, style, above, x, y);
+    // Of the series drawn later, at most as many as the widest line needs to show below them.
+    constexpr std::ptrdiff_t kMostAbove = 5;
+    const std::ptrdiff_t above = std::count_if(&series + 1, all.data() + all.size(),
+                                               [](const PlotSeries& s) { return !s.points.empty(); });
+    if (!series.points.empty())
+      add_series(chart, series, style, static_cast<std::size_t>(std::min(above, kMostAbove)), x, y);
   }
   chart->SetShowLegend(true);
   set_font(chart->GetLegend()->GetLabelProperties(), size.font);

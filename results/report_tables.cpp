@@ -57,13 +57,18 @@ std::string short_id(const std::string& run) { return run.substr(0, 8); }
 std::string run_anchor(const std::string& run) { return "run-" + short_id(run); }
 
 std::string standings_sentence(const JudgedResults& results) {
-  std::vector<Statement> of_papers = statements(results.judgements);
+  const std::vector<Statement> of_papers = statements(results.judgements);
   std::string text;
   for (const auto& [group, counts] : count_standings(of_papers)) {
-    constexpr std::string_view kWhat[] = {"statements of the papers in numbers or orders", "figures",
-                                          "things that we ask beyond the papers"};
-    text += fmt::format("{}Of {} {}, {}.", text.empty() ? "" : " ", sum(counts),
-                        kWhat[static_cast<std::size_t>(group)], counts_text(counts, group));
+    constexpr std::string_view kWhat[] = {"Statements of the papers in numbers or orders", "Figures drawn",
+                                          "Asked beyond the papers"};
+    text += fmt::format("{}{}: {}, of which {}", text.empty() ? "" : " ",
+                        kWhat[static_cast<std::size_t>(group)], sum(counts), counts_text(counts, group));
+    const int everywhere = count_everywhere(of_papers, group);
+    if (counts[0] > everywhere)
+      text +=
+          fmt::format(" (of those that hold, {} on every further ground and in every setting)", everywhere);
+    text += '.';
   }
   return text;
 }
@@ -74,16 +79,21 @@ Table summary_table(const JudgedResults& results, std::span<const Paper> papers)
       "Verdicts",
       "Of the numbers and orders that each paper states, how many hold as printed, hold only in another "
       "reading of the same words, do not hold, and are not judged: not measured in this profile, or not "
-      "comparable. Apart from them: figures whose picture shows what the paper's does, and what we ask "
+      "comparable. Everywhere: on each further ground and in each setting that was measured. Apart from "
+      "them: "
+      "figures whose picture shows what the paper's does, and what we ask "
       "beyond the paper, which says nothing about it.",
       {{"Paper"}, {"statements", "", true}},
       {}};
-  for (const Standing standing : kStandings)
+  for (const Standing standing : kStandings) {
     table.columns.push_back({std::string(name(standing, Group::kStated)), "", true});
+    if (standing == Standing::kAsPrinted) table.columns.push_back({"of these, everywhere", "", true});
+  }
   for (const char* const column : {"figures that hold", "beyond the paper, hold"})
     table.columns.push_back({column, "", true});
   const auto add = [&](const std::string& title, std::span<const Judgement> judgements) {
-    std::map<Group, StandingCounts> counts = count_standings(statements(judgements));
+    const std::vector<Statement> of_paper = statements(judgements);
+    std::map<Group, StandingCounts> counts = count_standings(of_paper);
     const auto share = [&](Group group) -> Cell {
       const int all = sum(counts[group]);
       return {all == 0 ? "–" : fmt::format("{} of {}", counts[group][0], all)};
@@ -91,7 +101,11 @@ Table summary_table(const JudgedResults& results, std::span<const Paper> papers)
     const StandingCounts& stated = counts[Group::kStated];
     const int all = sum(stated);
     std::vector<Cell> cells = {{title}, {all == 0 ? "–" : std::to_string(all)}};
-    for (const int count : stated) cells.push_back({all == 0 ? "–" : std::to_string(count)});
+    for (const Standing standing : kStandings) {
+      const auto show = [&](int count) { cells.push_back({all == 0 ? "–" : std::to_string(count)}); };
+      show(stated[static_cast<std::size_t>(standing)]);
+      if (standing == Standing::kAsPrinted) show(count_everywhere(of_paper, Group::kStated));
+    }
     cells.insert(cells.end(), {share(Group::kFigure), share(Group::kBeyond)});
     table.rows.push_back(std::move(cells));
   };

@@ -34,7 +34,9 @@ std::string why(const Statement& statement, const Paper& paper) {
   };
   const Claim& claim = *statement.claim->claim;
   const auto cause = std::ranges::find(paper.causes, claim.cause, &Cause::id);
-  if (cause != paper.causes.end() && !holds(statement.claim->verdict)) {
+  // An unexpected failure, or nothing measured, has another reason than the cause.
+  if (cause != paper.causes.end() && statement.claim->verdict == Verdict::kDiffers &&
+      statement.claim->complaint.empty()) {
     add(cause->title + ".");
   } else {
     add(why_not(*statement.claim));

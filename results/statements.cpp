@@ -43,7 +43,12 @@ std::vector<Statement> statements(std::span<const Judgement> judgements) {
     const auto at = by_id.find({j.paper, j.claim->of});
     if (at != by_id.end()) all[at->second].sub_rows.push_back(&j);
   }
-  for (Statement& statement : all) statement.standing = standing_of(statement);
+  for (Statement& statement : all) {
+    statement.standing = standing_of(statement);
+    statement.everywhere = std::ranges::none_of(statement.sub_rows, [](const Judgement* row) {
+      return row->claim->varies != Variation::kReading && row->verdict == Verdict::kDiffers;
+    });
+  }
   return all;
 }
 
@@ -51,6 +56,12 @@ std::map<Group, StandingCounts> count_standings(std::span<const Statement> all) 
   std::map<Group, StandingCounts> counts;
   for (const Statement& s : all) ++counts[s.claim->claim->group][static_cast<std::size_t>(s.standing)];
   return counts;
+}
+
+int count_everywhere(std::span<const Statement> all, Group group) {
+  return static_cast<int>(std::ranges::count_if(all, [&](const Statement& s) {
+    return s.claim->claim->group == group && s.standing == Standing::kAsPrinted && s.everywhere;
+  }));
 }
 
 int sum(const StandingCounts& counts) { return std::accumulate(counts.begin(), counts.end(), 0); }

@@ -29,6 +29,7 @@ struct Statement {
   std::vector<const Judgement*> sub_rows = {};  // in the claims' order
   Standing standing = Standing::kNotJudged;
   const Judgement* reading = nullptr;  // the first that holds, if the standing is kOtherReading
+  bool everywhere = true;              // no further ground or setting that was measured differs
 };
 
 // Of the judgements of one or more papers, in their order. Sub-rows whose claim is not among them are left
@@ -39,6 +40,8 @@ using StandingCounts = std::array<int, std::size(kStandings)>;
 // Without groups that have no statement.
 std::map<Group, StandingCounts> count_standings(std::span<const Statement>);
 int sum(const StandingCounts&);
+// Of those of the group that hold as printed: how many do so on every further ground and in every setting.
+int count_everywhere(std::span<const Statement>, Group);
 
 // "3 hold as printed, 1 does not hold".
 std::string counts_text(const StandingCounts&, Group);

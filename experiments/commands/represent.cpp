@@ -156,7 +156,6 @@ void draw(const RepresentArguments& a, const Representation& built, Bounds bound
   fmt::print("rendered    {} ({} triangles, {})\n", a.render, mesh.triangles(), context->renderer());
 }
 
-// The drills' number and parameters, which a budget chooses and no other line shows.
 // Rasters for other programs: how many pixels drain through each pixel, and in which direction.
 void write_flow(const RepresentArguments& a, const TerrainSource& source, Progress& progress) {
   const std::filesystem::path path = a.write_flow;

@@ -116,17 +116,18 @@ double count(const std::vector<Outcome>& outcomes, const ErrorOf& error, const T
 
 void record_error(const std::vector<Outcome>& outcomes, std::string_view prefix, const ErrorOf& error,
                   Recorder& recorder) {
-  const auto add = [&](std::string_view what, double value) {
-    recorder.add(fmt::format("{}{}", prefix, what), "", value);
+  const auto add_with_unit = [&](std::string_view what, std::string_view unit, double value) {
+    recorder.add(fmt::format("{}{}", prefix, what), unit, value);
   };
+  const auto add = [&](std::string_view what, double value) { add_with_unit(what, "", value); };
   const double infinite = count(outcomes, error, [](double e) { return !std::isfinite(e); });
   add("infinite_sets", infinite);
   if (infinite > 0) return;
   const Outcome& best = least(outcomes, error);
   add("least", error(best));
-  add("best_tau", best.setting.tau);
-  add("best_w", best.setting.w);
-  add("best_k", best.setting.k);
+  add_with_unit("best_tau", "pixels", best.setting.tau);
+  add_with_unit("best_w", "samples", best.setting.w);
+  add_with_unit("best_k", "samples", best.setting.k);
   add("best_untouched", best.untouched);
   const auto in_range = [](double e) { return e >= kPaperLeast && e <= kPaperMost; };
   const std::vector<Outcome> good = without_outliers(outcomes, error);

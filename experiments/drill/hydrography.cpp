@@ -3,7 +3,6 @@
 // of the original, beside a height field of as many values, and beside drills at random pixels.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 
 #include "experiments/drill/factorial.h"
@@ -17,7 +16,10 @@ namespace terrabench::drill {
 namespace {
 
 constexpr std::uint32_t kChannelTau = 100;  // channels that are compared: the paper's second threshold
-constexpr int kValuesPerDrill = 4;          // §4.1
+
+// §4.1 counts four, as many as shapes with their vertex at the pixel have: x, y, elevation and curvature. The
+// other shapes have a slope too.
+std::size_t values_per_drill(DrillFit fit) { return fit == DrillFit::kVertex ? 4 : 5; }
 
 // The share of pixels of `some` with one of `others` among their nine nearest.
 double share_near(const std::vector<std::uint32_t>& some, const std::vector<std::uint32_t>& others, int width,
@@ -73,14 +75,16 @@ Heightfield coarse(const Heightfield& ground, std::size_t values) {
   return resample(resample(ground, of(ground.width), of(ground.depth)), ground.width, ground.depth);
 }
 
-// As many drills at random pixels: a network whose flow is τ there and 1 elsewhere.
+// As many drills at random pixels with data: a network whose flow is τ there and 1 elsewhere.
 FlowNetwork scattered(FlowNetwork network, std::size_t count, std::uint32_t tau, std::uint64_t seed) {
-  std::vector<std::uint32_t> pixels(network.size());
-  std::iota(pixels.begin(), pixels.end(), 0U);
+  std::vector<std::uint32_t> pixels;
+  for (std::size_t i = 0; i < network.size(); ++i) {
+    if (network.direction[i] != FlowNetwork::kNoData) pixels.push_back(static_cast<std::uint32_t>(i));
+  }
   std::mt19937_64 random(seed);
   // std::shuffle differs between standard libraries.
   for (std::size_t i = pixels.size(); i > 1; --i) std::swap(pixels[i - 1], pixels[random() % i]);
-  std::ranges::fill(network.accumulation, 1U);
+  for (const std::uint32_t pixel : pixels) network.accumulation[pixel] = 1;
   for (std::size_t i = 0; i < std::min(count, pixels.size()); ++i) network.accumulation[pixels[i]] = tau;
   return network;
 }
@@ -96,7 +100,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   if (channel_pixels(network, kChannelTau).empty()) throw SkippedCase("no channel of 100 pixels' flow");
   const Channels channels(ground, network);
   channels.record(regenerated_at_best_k(ground, drills), "", recorder);
-  channels.record(coarse(ground, kValuesPerDrill * drills.count()), "coarse_", recorder);
+  channels.record(coarse(ground, values_per_drill(variant.fit) * drills.count()), "coarse_", recorder);
   const FlowNetwork elsewhere = scattered(network, drills.count(), setting.tau, options.seed);
   channels.record(
       regenerated_at_best_k(ground, extract_drills(ground, elsewhere, options_for(setting, variant))),

@@ -17,8 +17,6 @@ const std::array kSpecs{
                   16384},
 };
 constexpr int kColumns = 6, kRows = 4;  // crops, evenly spaced over the ground; neighbours overlap
-// Within a factor 1.5 of the paper's 102,245 of 160,000 pixels.
-constexpr double kPaperShare = 102245.0 / 160000.0, kLow = kPaperShare / 1.5, kHigh = kPaperShare * 1.5;
 
 std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
@@ -32,9 +30,6 @@ double largest_share(const FlowNetwork& network, const Heightfield& ground) {
 }
 
 void record(const std::vector<double>& shares, const std::string& prefix, Recorder& recorder) {
-  const auto inside = std::ranges::count_if(shares, [](double s) { return s >= kLow && s <= kHigh; });
-  recorder.add(prefix + "crops_in_range_share", "",
-               static_cast<double>(inside) / static_cast<double>(shares.size()));
   recorder.add(prefix + "least_share", "", std::ranges::min(shares));
   recorder.add(prefix + "median_share", "", summarise(shares).median);
   recorder.add(prefix + "largest_share", "", std::ranges::max(shares));

@@ -212,24 +212,29 @@ void record(const Sweep& sweep, const std::string& prefix, Recorder& recorder) {
   for (std::size_t w = 0; w < widths.size(); ++w) widths[w] = w;
   for (int k = kLeastK; k <= kMostK; ++k) influences[static_cast<std::size_t>(k - kLeastK)] = k;
   const Least least = least_of(sweep, widths, influences);
-  const auto add = [&](std::string_view metric, double value) {
+  const auto add = [&](std::string_view metric, std::string_view unit, double value) {
+    recorder.add(fmt::format("{}_{}", prefix, metric), unit, value);
+  };
+  const auto add_error = [&](std::string_view metric, double value) {
     add_share(recorder, fmt::format("{}_{}", prefix, metric), value);
   };
-  add("least", least.rmse);
-  add("best_tau", kTaus[least.tau]);
-  add("best_w", kSweptWidths[least.width]);
-  add("best_k", least.k);
+  add_error("least", least.rmse);
+  add("best_tau", "pixels", kTaus[least.tau]);
+  add("best_w", "samples", kSweptWidths[least.width]);
+  add("best_k", "samples", least.k);
   const double paper = std::min({sweep.at(0, kPaperWidth, kPaperK), sweep.at(1, kPaperWidth, kPaperK),
                                  sweep.at(2, kPaperWidth, kPaperK)});
-  add("at_w10_k20", paper);
-  if (least.rmse > 0) add("at_w10_k20_to_least", paper / least.rmse);
+  add_error("at_w10_k20", paper);
+  if (least.rmse > 0) add_error("at_w10_k20_to_least", paper / least.rmse);
   const Held held = drill::held(sweep);
-  add("factorials", held.all);
-  const auto share = [&](int of) { return static_cast<double>(of) / held.all; };
-  add("best_holds_share", share(held.best));
-  add("best_width_holds_share", share(held.best_width));
-  add("tau_first_share", share(held.tau_first));
-  add("every_case_share", share(held.every_case));
+  add("factorials", "", held.all);
+  const auto add_held = [&](std::string_view metric, int count) {
+    add(metric, "", static_cast<double>(count) / held.all);
+  };
+  add_held("best_holds_share", held.best);
+  add_held("best_width_holds_share", held.best_width);
+  add_held("tau_first_share", held.tau_first);
+  add_held("every_case_share", held.every_case);
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {

@@ -253,7 +253,7 @@ void measure_walls(const RunOptions& options, Recorder& recorder) {
   for (std::uint64_t k = 1; k <= kTunnels; ++k) {
     Ght next = noisy_tunnel(options.seed + k, WallNoise::kRoughness);
     const Tree &tree = tunnel.model().tree, &other = next.model().tree;
-    for (NodeId n = 1; n < tree.nodes().size(); ++n) {
+    for (NodeId n = 1; n < std::min(tree.nodes().size(), other.nodes().size()); ++n) {
       if (tree.nodes()[n].area == Area::kIndoor) noise.add(tree, tree.nodes()[n], other, other.nodes()[n]);
     }
     tunnel = std::move(next);

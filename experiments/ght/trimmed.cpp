@@ -14,13 +14,14 @@ struct Range {
   void add(int at) { low = std::min(low, at), high = std::max(high, at); }
   // With a margin, and an even number of pixels, which makes a whole number of the sheet's units.
   Range widened(int size) const {
+    if (high < 0) return {0, size - 1};  // nothing but white
     Range wide{std::max(low - kMargin, 0), std::min(high + kMargin, size - 1)};
     if ((wide.high - wide.low) % 2 == 0) {
       if (wide.high + 1 < size) {
         ++wide.high;
-      } else {
+      } else if (wide.low > 0) {
         --wide.low;
-      }
+      }  // else a picture of an odd size, which is left whole
     }
     return wide;
   }

@@ -21,7 +21,8 @@ struct ModelMesh {
 };
 
 // Each polygon becomes a fan of triangles around a corner; a quadrilateral is cut along its shorter diagonal.
-// Vertices at sharp edges become several, with a normal each. O(corners)
+// Vertices at sharp edges become several, with a normal each. O(corners), and at each
+// vertex O(triangles²), of which most vertices have six.
 ModelMesh triangles_of(const FaceMesh&);
 
 // A model with what its surfaces look like.

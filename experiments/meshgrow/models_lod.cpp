@@ -99,7 +99,8 @@ struct Difference {
   double certainty = 0;  // the mean square in its own standard errors
 };
 
-// Over the pixels that show either: a smaller model in the picture does not have a smaller error for that
+// Over the pixels that show either (all pairs agree on them, since coverage is that of a pixel's middle): a
+// smaller model in the picture does not have a smaller error for that
 // alone. The noise of the paths is taken out: the square of a difference is the mean product of two pairs'
 // differences, whose noise has nothing in common. The standard error is the jackknife's over the pairs.
 Difference difference(const std::array<Pair, kPairs>& pairs) {

@@ -28,7 +28,7 @@ TEST(MeshgrowModelFigures, PolygonsKeepTheirEdgesAsWires) {
   for (const glm::vec3& normal : mesh.mesh.normals) EXPECT_NEAR(glm::length(normal), 1, 1e-5F);
 }
 
-// The walls of a cube keep their own normals; a roof so flat that it counts as smooth does not.
+// Faces that meet at a sharp edge keep their own normals; a roof so flat that it counts as smooth does not.
 TEST(MeshgrowModelFigures, OnlySharpEdgesHaveSeveralNormals) {
   const auto normals_of = [](float rise) {
     FaceMesh ridge;  // two quadrilaterals that meet at an edge

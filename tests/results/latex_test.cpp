@@ -184,9 +184,10 @@ TEST_F(LatexBundle, HoldsWhatMainNames) {
   }
   EXPECT_THAT(all.at("tables/hybrid.table1.tex"), HasSubstr("6,291,456"));
   EXPECT_THAT(all.at("tables/hybrid.stated.tex"), HasSubstr("hybrid."));
-  EXPECT_THAT(all.at("tables/hybrid.stated.tex"),
-              testing::ContainsRegex(
-                  "Statement[^&]*& The paper &[^&]*Printed[^&]*& Measured &[^&]*Tolerance[^&]*&[^&]*Verdict"));
+  EXPECT_THAT(
+      all.at("tables/hybrid.stated.tex"),
+      testing::ContainsRegex(
+          "Statement[^&]*& The paper &[^&]*Printed[^&]*& Measured &[^&]*Tolerance[^&]*&[^&]*Verdict"));
   EXPECT_THAT(all.at("references.bib"), HasSubstr("@misc{paper:hybrid,"));
   EXPECT_THAT(main, HasSubstr("\\cite{paper:hybrid}"));
 }

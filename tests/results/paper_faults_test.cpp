@@ -103,10 +103,11 @@ TEST_F(PaperFaults, ACauseStandsOnceWithAllItsStatements) {
 }
 
 TEST_F(PaperFaults, StatementsAreCountedOnceAndApartFromOurOwn) {
-  EXPECT_THAT(page(),
-              HasSubstr("Of 4 statements of the papers in numbers or orders, 1 holds as printed, 1 holds in "
-                        "another reading, 2 do not hold. Of 1 things that we ask beyond the papers, 1 "
-                        "does not hold."));
+  EXPECT_THAT(
+      page(),
+      HasSubstr(
+          "Statements of the papers in numbers or orders: 4, of which 1 holds as printed, 1 holds in another "
+          "reading, 2 do not hold. Asked beyond the papers: 1, of which 1 does not hold."));
 }
 
 }  // namespace

@@ -347,7 +347,7 @@ TEST(RankingLayouts, OfTheClaimsFilesAreWellFormed) {
     if (!layout.sentence.empty()) sentences.insert(layout.sentence);
   }
   EXPECT_EQ(ids.size(), 61U);
-  EXPECT_EQ(sentences.size(), 4U) << "README has room for five, and where_papers_differ() is the fifth";
+  EXPECT_EQ(sentences.size(), 4U) << "README has room for five, and standings_sentence() is the fifth";
 }
 
 TEST_F(RankingTest, StandOnTheReportsFirstPage) {

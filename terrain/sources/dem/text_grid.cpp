@@ -8,14 +8,15 @@
 #include <algorithm>
 #include <atomic>
 #include <cctype>
+#include <charconv>
 #include <cstdint>
 #include <memory>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "terrain/error.h"
 #include "terrain/memory.h"
-#include "terrain/number.h"
 
 namespace terrabench {
 namespace {
@@ -52,7 +53,10 @@ bool is_height(std::string_view word) {
   std::ranges::replace(text, ',', '.');
   if (text == "nan" || text == "-nan" || text == "inf" || text == "-inf" || text.starts_with("1.#"))
     return true;
-  return parse_number<long double>(text).has_value();  // 1e-400, too
+  // A number out of range, such as 1e-400, is one, too.
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error != std::errc::invalid_argument && end == text.data() + text.size();
 }
 
 // Follows the words of the file. The values begin after the last line that begins with a key.

@@ -92,7 +92,9 @@ class Builder {
   // In three, one ridged multifractal would cut the terrain apart.
   Node both_caves(bool attenuated) {
     const Node first = cave(0, attenuated), second = cave(1, attenuated);
-    if (!options_.share_roughness) return map(graph_.multiply(perturbed(first), perturbed(second, 5)));
+    // Its time alone is of interest, so there is no such form of the printed product.
+    if (!options_.share_roughness && !options_.printed_product)
+      return map(graph_.multiply(perturbed(first), perturbed(second, 5)));
     const Node combined = options_.printed_product ? graph_.multiply(map(first), map(second))
                                                    : map(graph_.multiply(first, second));
     return perturbed(combined);

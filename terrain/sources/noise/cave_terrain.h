@@ -26,7 +26,8 @@ struct CaveOptions {
   // that caves form only where both are. By default both must be 0, which gives tunnels; with this option the
   // product as printed, which gives sheets that cut the ground apart.
   bool printed_product = false;
-  // One fractal distorts both cave maps. Otherwise each has its own: similar caves, with a sixth fractal.
+  // One fractal distorts both cave maps. Otherwise each has its own: similar caves, with a sixth fractal. The
+  // printed product always shares it.
   bool share_roughness = true;
   // Evaluates all fractals in every cell, as the paper's implementation does: the same terrain, more slowly.
   bool every_cell = false;
