@@ -241,7 +241,9 @@ TEST(GroundPages, HaveEveryTableAndPlotWhoseCasesAreAllOnThatGround) {
       for (const PlotLayout::Series& series : plot.series) {
         for (const auto& [x, case_name] : series.cases) grounds.insert(ground_of(case_name));
       }
-      EXPECT_EQ(plot.page, page_for(paper, grounds)) << plot.id;
+      // Parts of frames stand beside their table, which is of several grounds.
+      const bool parts = plot.id.starts_with("cross.lod-frames.bars");
+      EXPECT_EQ(plot.page, parts ? "" : page_for(paper, grounds)) << plot.id;
       plots += plot.page.empty() ? 0 : 1;
     }
   }

@@ -36,7 +36,7 @@ title = "{table.title}"
 caption = "c"
 experiment = "e"
 rows_title = "r"
-rows = [{label = "l", case = "c", claim = "{table.claim}", method = "drill"}, {label = "l", case = "absent"}]
+rows = [{label = "l", case = "c", claim = "{table.claim}", method = "{table.method}"}, {label = "l", case = "absent"}]
 columns = [{title = "n", metric = "{table.metric}"}, {title = "m", metric = "{table.other}"}]
 [[plot]]
 id = "p.plot"
@@ -57,9 +57,9 @@ read = [
   {name = "unmeasured", of = "absent/count"},
 ]
 table = [
-  {name = "whole", title = "Not in the report", claim = "p.first", metric = "unlike", other = "count"},
-  {name = "first", title = "The first", claim = "none", metric = "count", other = "unmeasured"},
-  {name = "second", title = "The second", claim = "p.named", metric = "count", other = "<method>_error"},
+  {name = "whole", title = "Not in the report", claim = "p.first", metric = "unlike", other = "<method>", method = "count"},
+  {name = "first", title = "The first", claim = "none", metric = "count", other = "<method>", method = "unmeasured"},
+  {name = "second", title = "The second", claim = "p.named", metric = "count", other = "<method>_error", method = "drill"},
 ]
 )";
 
