@@ -76,6 +76,13 @@ View single_view(const RenderArguments& a, const LandscapeStyle& style, const He
   return view;
 }
 
+// An eye far outside the ground, such as that of a plan, would see nothing but fog: the nearest ground keeps
+// at least 85 % of its colour.
+void thin_fog(LandscapeStyle& style, const glm::vec3& eye) {
+  const glm::vec3 nearest = glm::clamp(eye, style.ground.low, style.ground.high);
+  style.fog_distance = std::max(style.fog_distance, 2.5F * glm::distance(eye, nearest));
+}
+
 std::string frame_name(int number, int frames) {
   const int digits = std::max(4, static_cast<int>(std::to_string(frames - 1).size()));
   return fmt::format("frame_{:0{}}.png", number, digits);
@@ -273,8 +280,9 @@ ExitCode render_command(const RenderArguments& a) {
   const TerrainSource source = open_terrain(a.terrain, a.seed);
   const NearGround ground = render_ground(source, type, a.samples, progress);
   const Heightfield& field = ground.heights;
-  const LandscapeStyle style = make_style(settings.look, bounds_of(field));
+  LandscapeStyle style = make_style(settings.look, bounds_of(field));
   const std::vector<Shot> shots = plan_shots(a, style, field);
+  if (a.path.empty()) thin_fog(style, shots[0].view.eye);
   const auto method = type.build(ground.lod(), settings.method, progress);
   if (!a.detail.empty()) method->tune(a.detail[0]);
   // Before the renderer's textures are computed, which takes a second or more.

@@ -119,7 +119,9 @@ std::unique_ptr<Representation> DrillTerrain::build(const TerrainSource& source,
   }
   Drills drills = extract_drills(field, network, options, &progress);
   quantise(drills, quantum > 0 ? quantum : automatic_quantum(field));
-  return std::unique_ptr<Representation>(new DrillTerrain(std::move(drills), map.grid()));
+  std::unique_ptr<DrillTerrain> built(new DrillTerrain(std::move(drills), map.grid()));
+  built->tau_ = parameters.integer("tau");
+  return built;
 }
 
 Memory DrillTerrain::memory() const {
@@ -159,9 +161,10 @@ std::vector<std::pair<std::string, std::string>> DrillTerrain::facts() const {
       {"drills", fmt::format("{}, w = {}, k = {}, rounded to {} m: {} B encoded", drills_.count(), drills_.w,
                              drills_.k, drills_.quantum, encoded.bytes().size())}};
   if (drills_.count() == 0) {
-    facts.emplace_back("warning", fmt::format("no channels: no pixel's flow reaches tau, so the terrain is a "
-                                              "plateau at {} m; choose a smaller tau",
-                                              drills_.plateau));
+    facts.emplace_back("warning",
+                       fmt::format("no channels: no pixel's flow reaches tau{}, so the terrain is a "
+                                   "plateau at {} m; choose a smaller tau",
+                                   tau_ > 0 ? fmt::format(" = {}", tau_) : "", drills_.plateau));
   }
   return facts;
 }

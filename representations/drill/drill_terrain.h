@@ -39,6 +39,7 @@ class DrillTerrain final : public Representation {
 
   Drills drills_;
   std::unique_ptr<Heightmap> surface_;
+  std::int64_t tau_ = 0;  // that found the channels, for facts(); 0: not known, of a loaded file
 };
 
 }  // namespace terrabench

@@ -42,7 +42,10 @@ TEST(MeshgrowModelFigures, OnlySharpEdgesHaveSeveralNormals) {
   };
   const std::vector<glm::vec3> flat = normals_of(0.2F), sharp = normals_of(2);
   EXPECT_EQ(flat.size(), 6U);
-  EXPECT_NEAR(flat[2].y, 1, 1e-6F);
+  // Between the two faces' normals, though not in the middle: a quadrilateral may have one triangle at a
+  // corner or two.
+  EXPECT_GT(flat[2].y, 0.99F);
+  EXPECT_LT(flat[0].y, 0.985F);
   ASSERT_EQ(sharp.size(), 8U);
   for (const glm::vec3& normal : sharp) EXPECT_NEAR(normal.y, 1 / std::sqrt(5.0F), 1e-6F);
 }
