@@ -62,13 +62,14 @@ std::vector<Case> cases(const RunOptions& options) {
   };
   Parameters& picture = add("picture");
   picture.set("figure", true);
-  picture.set("cache", std::int64_t{768});
+  picture.set("cache", std::int64_t{1280});
   picture.set("width", std::int64_t{paper ? 1600 : 240});
   picture.set("samples", std::int64_t{paper ? 4 : 2});
-  picture.set("spacing", 4.0);
+  picture.set("spacing", 8.0);
   for (const Variant& variant : kVariants) {
     Parameters& parameters = add(std::string(variant.name));
     parameters.set("cache", paper ? variant.cache : variant.cache / 4);
+    parameters.set("instances", std::int64_t{paper ? 100 : 40});
     parameters.set("threads", variant.threads);
   }
   const auto add_error = [&](std::string name, double spacing, bool uniform) {
@@ -98,15 +99,15 @@ std::shared_ptr<const Forest> forest_of(const ForestSettings& settings, Progress
   return last.second;
 }
 
-// From outside, from above the first trees, through a long lens: the whole of the forest.
+// From outside and above, so far away that leaves are small in the picture: the whole of the forest.
 View forest_view(const Forest& forest, int width) {
   const float side = forest.side(), x = 0.5F * side;
   const int height = std::max(8, width * 9 / 16);
   const float ground = forest.height(x, 0.98F * side);
   View view;
-  view.eye = {x, ground + 24, side + 60};
-  view.target = {0.5F * side, ground + 9, side};
-  view.vertical_fov = 0.42F;
+  view.eye = {x, ground + 40, 2 * side + 60};
+  view.target = {0.5F * side, ground + 12, side};
+  view.vertical_fov = 0.2F;
   view.width = width;
   view.height = height;
   view.near = 0.1F;
