@@ -99,15 +99,16 @@ std::shared_ptr<const Forest> forest_of(const ForestSettings& settings, Progress
   return last.second;
 }
 
-// From outside and above, so far away that leaves are small in the picture: the whole of the forest.
-View forest_view(const Forest& forest, int width) {
+// From outside and above, so far away that leaves are small in the picture: the whole of the forest. `near`:
+// from beside the first trees, where levels differ most.
+View forest_view(const Forest& forest, int width, bool near = false) {
   const float side = forest.side(), x = 0.5F * side;
   const int height = std::max(8, width * 9 / 16);
   const float ground = forest.height(x, 0.98F * side);
   View view;
-  view.eye = {x, ground + 40, 2 * side + 60};
-  view.target = {0.5F * side, ground + 12, side};
-  view.vertical_fov = 0.2F;
+  view.eye = near ? glm::vec3(x, ground + 24, side + 60) : glm::vec3(x, ground + 40, 2 * side + 60);
+  view.target = {x, ground + (near ? 9 : 12), side};
+  view.vertical_fov = near ? 0.42F : 0.2F;
   view.width = width;
   view.height = height;
   view.near = 0.1F;
@@ -298,7 +299,7 @@ const Truth& truth_of(const Forest& forest, const View& view, const Case& at, st
 void measure_error(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const auto instances = static_cast<std::uint64_t>(at.parameters.integer("instances"));
   const Forest forest({.instances = instances, .area = 150, .all_leaves = false, .seed = options.seed});
-  const View view = forest_view(forest, at.integer("width"));
+  const View view = forest_view(forest, at.integer("width"), true);
   std::vector<std::uint8_t> levels = forest.plants().choose_levels(view, {at.parameters.number("spacing")});
   if (at.parameters.flag("uniform")) levels = uniform_levels(forest.plants(), levels);
   LazyForest lazy(forest, levels, static_cast<std::size_t>(at.parameters.integer("cache")) << 20U);
