@@ -46,8 +46,8 @@ struct Variant {
 };
 constexpr std::array kVariants{Variant{"cache=1024", 1024, 0}, Variant{"cache=256", 256, 0},
                                Variant{"cache=128", 128, 0}, Variant{"threads=1", 1024, 1}};
-constexpr std::array kSpacings{0.0, 0.5, 1.5, 6.0};
-constexpr double kUniformSpacing = 1.5;  // whose faces the uniform choice has to match
+constexpr std::array kSpacings{0.0, 0.2, 0.5, 1.5};
+constexpr double kUniformSpacing = 0.5;  // whose faces the uniform choice has to match
 
 std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
