@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "results/record.h"
+#include "results/store/record.h"
 #include "terrain/source.h"
 
 namespace terrabench {

@@ -8,7 +8,7 @@
 
 #include <string>
 
-#include "results/record.h"
+#include "results/store/record.h"
 
 namespace terrabench {
 

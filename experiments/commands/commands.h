@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "representations/line_grid.h"
-#include "results/compare_pictures.h"
+#include "results/compare/compare_pictures.h"
 #include "terrain/error.h"
 
 namespace terrabench {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "experiments/commands/commands.h"
-#include "results/format.h"
+#include "results/store/format.h"
 #include "terrain/sources/dem/dem.h"
 
 namespace terrabench {

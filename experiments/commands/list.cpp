@@ -11,7 +11,7 @@
 #include "renderers/landscape/style.h"
 #include "representations/procedural_mesh/model.h"
 #include "representations/representation.h"
-#include "results/claims.h"
+#include "results/claims/claims.h"
 #include "terrain/source.h"
 #include "terrain/sources/dem/dem.h"
 

@@ -18,7 +18,7 @@
 #include "representations/layered_stack/thermal_erosion.h"
 #include "representations/procedural_mesh/model_terrain.h"
 #include "representations/representation.h"
-#include "results/format.h"
+#include "results/store/format.h"
 #include "terrain/hydrology/channels.h"
 #include "terrain/hydrology/flow.h"
 #include "terrain/hydrology/steepest.h"

@@ -6,12 +6,12 @@
 #include <algorithm>
 
 #include "experiments/commands/commands.h"
-#include "results/check_output.h"
-#include "results/citation.h"
-#include "results/compare.h"
-#include "results/latex_bundle.h"
-#include "results/merge.h"
-#include "results/report.h"
+#include "results/claims/check_output.h"
+#include "results/compare/compare.h"
+#include "results/report/citation.h"
+#include "results/report/latex_bundle.h"
+#include "results/report/report.h"
+#include "results/store/merge.h"
 #include "terrain/files.h"
 
 namespace terrabench {

@@ -5,7 +5,7 @@
 
 #include "experiments/drill/ground.h"
 #include "experiments/experiment.h"
-#include "results/statistics.h"
+#include "results/store/statistics.h"
 #include "terrain/hydrology/flow.h"
 #include "terrain/hydrology/steepest.h"
 

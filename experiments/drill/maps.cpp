@@ -9,7 +9,7 @@
 #include "experiments/drill/figures.h"
 #include "representations/drill/extract.h"
 #include "representations/drill/regenerate.h"
-#include "results/format.h"
+#include "results/store/format.h"
 #include "terrain/hydrology/channels.h"
 
 namespace terrabench::drill {

@@ -14,7 +14,7 @@
 #include "representations/drill/extract.h"
 #include "representations/drill/quantum.h"
 #include "representations/drill/regenerate.h"
-#include "results/plot.h"
+#include "results/plot/plot.h"
 #include "terrain/metrics/elevation_error.h"
 #include "terrain/sources/dem/compressed_sizes.h"
 

@@ -16,7 +16,7 @@
 #include "representations/drill/extract.h"
 #include "representations/drill/profile_fit.h"
 #include "representations/drill/regenerate.h"
-#include "results/statistics.h"
+#include "results/store/statistics.h"
 #include "terrain/hydrology/flow.h"
 
 namespace terrabench::drill {

@@ -1,6 +1,6 @@
 // A figure of a paper: its number, its caption and a function that draws its sheet, most often a grid of
 // panels. An experiment that draws figures has a table of these, and one case per figure, with the figure's
-// name as the parameter "figure". (A figure that a record holds is RecordedFigure, results/record.h.)
+// name as the parameter "figure". (A figure that a record holds is RecordedFigure, results/store/record.h.)
 #pragma once
 
 #include <memory>

@@ -7,7 +7,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "results/ground_name.h"
+#include "results/report/ground_name.h"
 
 namespace terrabench::figures {
 namespace {

@@ -81,8 +81,8 @@ void add_colour_key(Sheet&, double x, double y, std::string_view words, double i
                     const std::function<Rgb(double)>& colour, const std::vector<std::string>& labels);
 
 // The end of the id of a figure that is drawn once per ground: empty for the main ground, which stands for
-// the paper's own; ".name" for others. A path is named by its ground_id() (results/ground_name.h): DEMs of
-// one file name must not draw into one file.
+// the paper's own; ".name" for others. A path is named by its ground_id() (results/report/ground_name.h):
+// DEMs of one file name must not draw into one file.
 std::string ground_suffix(std::string_view ground, std::string_view main_ground);
 
 }  // namespace terrabench::figures

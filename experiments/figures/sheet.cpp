@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "results/rasterise.h"
+#include "results/plot/rasterise.h"
 #include "terrain/files.h"
 
 namespace terrabench::figures {

@@ -8,9 +8,9 @@
 #include <string>
 #include <string_view>
 
-#include "results/figure_layout.h"
-#include "results/plot.h"
-#include "results/rasterise.h"
+#include "results/plot/figure_layout.h"
+#include "results/plot/plot.h"
+#include "results/plot/rasterise.h"
 #include "terrain/image.h"
 
 namespace terrabench::figures {
@@ -43,7 +43,7 @@ class Sheet {
   void text(double x, double y, std::string_view words, int size, std::string_view anchor = "start",
             Rgb colour = {32, 32, 32});
   // Pixels become sharp rectangles, all of the same size if the image is enlarged by a whole number.
-  // Each is a panel of the figure's layout (results/figure_layout.h); the words are those of text().
+  // Each is a panel of the figure's layout (results/plot/figure_layout.h); the words are those of text().
   void picture(double x, double y, double width, double height, const Image& image);
   // Makes a part of the sheet that consists of lines, boxes and words a panel of the layout too.
   void panel(double x, double y, double width, double height);

@@ -12,7 +12,7 @@
 #include "experiments/ght/tree_view.h"
 #include "experiments/ght/trimmed.h"
 #include "renderers/landscape/style.h"
-#include "results/format.h"
+#include "results/store/format.h"
 #include "terrain/events/scripts.h"
 
 namespace terrabench::ght {

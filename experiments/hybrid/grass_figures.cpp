@@ -11,7 +11,7 @@
 #include "experiments/hybrid/grassland.h"
 #include "renderers/grass/grass_scene.h"
 #include "renderers/scene.h"
-#include "results/format.h"
+#include "results/store/format.h"
 
 namespace terrabench::hybrid {
 namespace {

@@ -12,7 +12,7 @@
 #include "experiments/experiment.h"
 #include "experiments/figures/sheet.h"
 #include "representations/layered_stack/components.h"
-#include "results/format.h"
+#include "results/store/format.h"
 #include "terrain/files.h"
 #include "terrain/image.h"
 #include "terrain/sources/noise/cave_terrain.h"

@@ -19,7 +19,7 @@
 #include "experiments/meshgrow/forest_scene.h"
 #include "experiments/stopwatch.h"
 #include "renderers/raytrace/raytraced_picture.h"
-#include "results/format.h"
+#include "results/store/format.h"
 
 namespace terrabench::meshgrow {
 namespace {

@@ -11,7 +11,7 @@
 #include "experiments/meshgrow/growing_steps.h"
 #include "experiments/meshgrow/models.h"
 #include "renderers/raytrace/raytraced_picture.h"
-#include "results/format.h"
+#include "results/store/format.h"
 
 namespace terrabench::meshgrow {
 namespace {

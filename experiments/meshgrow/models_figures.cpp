@@ -10,7 +10,7 @@
 #include "experiments/figures/figure.h"
 #include "experiments/meshgrow/models.h"
 #include "renderers/raytrace/raytraced_picture.h"
-#include "results/format.h"
+#include "results/store/format.h"
 
 namespace terrabench::meshgrow {
 namespace {

@@ -7,7 +7,7 @@
 #include "experiments/figures/sheet.h"
 #include "experiments/mrbsp/extruded_profile.h"
 #include "lod/mrbsp/mrbsp.h"
-#include "results/plot.h"
+#include "results/plot/plot.h"
 #include "terrain/image.h"
 #include "terrain/view.h"
 

@@ -15,7 +15,7 @@
 #include "lod/mrbsp/hole_rule.h"
 #include "renderers/frame_renderer.h"
 #include "renderers/scene.h"
-#include "results/format.h"
+#include "results/store/format.h"
 
 namespace terrabench::mrbsp {
 namespace {

@@ -5,13 +5,13 @@
 
 #include <array>
 
-#include "experiments/cross/scenes.h"
+#include "experiments/cross/representations/scenes.h"
 #include "experiments/fidelity.h"
 #include "experiments/figures/sheet.h"
 #include "experiments/ground.h"
 #include "experiments/stopwatch.h"
 #include "representations/representation.h"
-#include "results/format.h"
+#include "results/store/format.h"
 #include "terrain/files.h"
 #include "terrain/view.h"
 

@@ -8,9 +8,9 @@
 #include <set>
 #include <string>
 
-#include "experiments/cross/flight.h"
-#include "results/claims.h"
-#include "results/statistics.h"
+#include "experiments/cross/lod/flight.h"
+#include "results/claims/claims.h"
+#include "results/store/statistics.h"
 #include "terrain/error.h"
 #include "terrain/files.h"
 

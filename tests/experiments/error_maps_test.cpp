@@ -4,7 +4,7 @@
 #include "experiments/experiment.h"
 #include "experiments/figures/maps.h"
 #include "representations/representation.h"
-#include "results/figure_layout.h"
+#include "results/plot/figure_layout.h"
 #include "terrain/image.h"
 #include "tests/terrain/temporary_folder.h"
 

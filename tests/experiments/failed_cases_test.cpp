@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "results/store.h"
+#include "results/store/store.h"
 #include "terrain/files.h"
 #include "tests/experiments/command_line.h"
 

@@ -1,5 +1,5 @@
 // Differences of representations from ground with known answers.
-#include "experiments/cross/ground_lines.h"
+#include "experiments/cross/representations/ground_lines.h"
 
 #include <gtest/gtest.h>
 

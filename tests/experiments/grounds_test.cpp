@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "results/store.h"
+#include "results/store/store.h"
 #include "terrain/files.h"
 #include "terrain/hydrology/steepest.h"
 #include "terrain/source.h"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "experiments/experiment.h"
-#include "results/statistics.h"
+#include "results/store/statistics.h"
 
 namespace terrabench {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "experiments/runner.h"
 #include "experiments/timing.h"
-#include "results/statistics.h"
-#include "results/store.h"
+#include "results/store/statistics.h"
+#include "results/store/store.h"
 #include "tests/experiments/command_line.h"
 
 namespace terrabench {

@@ -8,9 +8,9 @@
 #include <set>
 #include <string>
 
-#include "experiments/cross/tuned_cases.h"
-#include "results/claims.h"
-#include "results/statistics.h"
+#include "experiments/cross/lod/tuned_cases.h"
+#include "results/claims/claims.h"
+#include "results/store/statistics.h"
 
 namespace terrabench::cross {
 namespace {

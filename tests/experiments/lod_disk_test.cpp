@@ -8,7 +8,7 @@
 #include <map>
 #include <thread>
 
-#include "results/store.h"
+#include "results/store/store.h"
 #include "terrain/heightfield.h"
 #include "terrain/sources/dem/dem.h"
 #include "terrain/sources/dem/height_pyramid.h"

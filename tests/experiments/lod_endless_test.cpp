@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "results/store.h"
+#include "results/store/store.h"
 #include "tests/experiments/command_line.h"
 
 namespace terrabench {

@@ -6,11 +6,11 @@
 #include <set>
 #include <string>
 
-#include "experiments/cross/ranks.h"
-#include "experiments/cross/tuned_cases.h"
+#include "experiments/cross/lod/tuned_cases.h"
+#include "experiments/cross/representations/ranks.h"
 #include "lod/meters/screen_error.h"
-#include "results/claims.h"
-#include "results/statistics.h"
+#include "results/claims/claims.h"
+#include "results/store/statistics.h"
 
 namespace terrabench::cross {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "experiments/meshgrow/growing_steps.h"
-#include "results/store.h"
+#include "results/store/store.h"
 #include "terrain/error.h"
 #include "tests/experiments/command_line.h"
 

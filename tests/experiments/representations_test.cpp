@@ -7,12 +7,12 @@
 #include <set>
 #include <string>
 
-#include "experiments/cross/representation_costs.h"
+#include "experiments/cross/representations/representation_costs.h"
 #include "experiments/experiment.h"
 #include "representations/representation.h"
-#include "results/claims.h"
-#include "results/ranking.h"
-#include "results/statistics.h"
+#include "results/claims/claims.h"
+#include "results/claims/ranking.h"
+#include "results/store/statistics.h"
 #include "terrain/files.h"
 
 namespace terrabench::cross {

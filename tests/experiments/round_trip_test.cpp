@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "experiments/cross/read_back.h"
+#include "experiments/cross/files/read_back.h"
 #include "experiments/experiment.h"
 #include "representations/export/export.h"
 #include "terrain/error.h"

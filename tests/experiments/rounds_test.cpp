@@ -1,4 +1,4 @@
-#include "experiments/cross/rounds.h"
+#include "experiments/cross/lod/rounds.h"
 
 #include <gtest/gtest.h>
 

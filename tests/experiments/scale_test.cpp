@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "experiments/cross/fresh_pages.h"
-#include "experiments/cross/scale_run.h"
-#include "experiments/cross/scaling.h"
+#include "experiments/cross/scale/fresh_pages.h"
+#include "experiments/cross/scale/run.h"
+#include "experiments/cross/scale/scaling.h"
 #include "experiments/experiment.h"
 #include "lod/lod.h"
 #include "representations/representation.h"
-#include "results/claims.h"
+#include "results/claims/claims.h"
 #include "terrain/error.h"
 
 namespace terrabench::cross {

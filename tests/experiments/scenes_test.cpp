@@ -1,12 +1,12 @@
 // The grounds on which representations are compared, and tuning types on the smallest of them.
-#include "experiments/cross/scenes.h"
+#include "experiments/cross/representations/scenes.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "experiments/cross/fitting.h"
+#include "experiments/cross/representations/fitting.h"
 #include "terrain/events/event_file.h"
 #include "terrain/source.h"
 

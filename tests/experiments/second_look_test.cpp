@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/interference.h"
-#include "results/store.h"
+#include "results/store/store.h"
 #include "tests/experiments/command_line.h"
 
 namespace terrabench {

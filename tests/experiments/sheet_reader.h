@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "experiments/figures/sheet.h"
-#include "results/claims.h"
+#include "results/claims/claims.h"
 #include "tests/terrain/temporary_folder.h"
 
 namespace terrabench {

@@ -1,5 +1,5 @@
 // Claims files: any text is read or refused with an Error.
-#include "results/claims.h"
+#include "results/claims/claims.h"
 
 #include <string_view>
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "results/record_json.h"
+#include "results/store/record_json.h"
 #include "terrain/error.h"
 #include "tests/fuzz/fuzz.h"
 

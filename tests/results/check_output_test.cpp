@@ -1,4 +1,4 @@
-#include "results/check_output.h"
+#include "results/claims/check_output.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,10 +1,10 @@
-#include "results/citation.h"
+#include "results/report/citation.h"
 
 #include <gmock/gmock.h>
 
 #include <map>
 
-#include "results/provenance.h"
+#include "results/store/provenance.h"
 
 namespace terrabench {
 namespace {

@@ -1,4 +1,4 @@
-#include "results/claims.h"
+#include "results/claims/claims.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

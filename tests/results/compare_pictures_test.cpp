@@ -1,11 +1,11 @@
-#include "results/compare_pictures.h"
+#include "results/compare/compare_pictures.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "results/compare.h"
+#include "results/compare/compare.h"
 #include "terrain/error.h"
 #include "terrain/image.h"
 #include "tests/results/fake_results.h"

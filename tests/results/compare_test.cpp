@@ -1,4 +1,4 @@
-#include "results/compare.h"
+#include "results/compare/compare.h"
 
 #include <gmock/gmock.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "results/provenance.h"
-#include "results/record_json.h"
+#include "results/store/provenance.h"
+#include "results/store/record_json.h"
 #include "terrain/error.h"
 #include "tests/results/fake_results.h"
 #include "tests/terrain/errors.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "results/record_json.h"
+#include "results/store/record_json.h"
 #include "terrain/image.h"
 
 namespace terrabench {

@@ -7,9 +7,9 @@
 #include <span>
 #include <string>
 
-#include "results/claims.h"
-#include "results/record.h"
-#include "results/store.h"
+#include "results/claims/claims.h"
+#include "results/store/record.h"
+#include "results/store/store.h"
 #include "terrain/files.h"
 
 namespace terrabench {

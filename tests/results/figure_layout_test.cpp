@@ -1,9 +1,9 @@
-#include "results/figure_layout.h"
+#include "results/plot/figure_layout.h"
 
 #include <gmock/gmock.h>
 
-#include "results/judge.h"
-#include "results/record_json.h"
+#include "results/claims/judge.h"
+#include "results/store/record_json.h"
 #include "terrain/error.h"
 #include "tests/results/fake_results.h"
 

@@ -1,4 +1,4 @@
-#include "results/fill.h"
+#include "results/report/fill.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "results/further_cases.h"
+#include "results/report/further_cases.h"
 
 #include <gtest/gtest.h>
 

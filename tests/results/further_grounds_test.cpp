@@ -1,4 +1,4 @@
-#include "results/further_grounds.h"
+#include "results/report/further_grounds.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <set>
 
-#include "results/ground_name.h"
-#include "results/record_json.h"
-#include "results/report.h"
-#include "results/report_tables.h"
+#include "results/report/ground_name.h"
+#include "results/report/report.h"
+#include "results/report/report_tables.h"
+#include "results/store/record_json.h"
 #include "terrain/error.h"
 #include "tests/results/fake_results.h"
 

@@ -6,10 +6,10 @@
 #include <regex>
 #include <set>
 
-#include "results/ground_name.h"
-#include "results/ground_page.h"
-#include "results/latex_bundle.h"
-#include "results/report.h"
+#include "results/report/ground_name.h"
+#include "results/report/ground_page.h"
+#include "results/report/latex_bundle.h"
+#include "results/report/report.h"
 #include "terrain/image.h"
 #include "tests/results/fake_results.h"
 

@@ -1,4 +1,4 @@
-#include "results/glob.h"
+#include "results/store/glob.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "results/ground_name.h"
+#include "results/report/ground_name.h"
 
 #include <gmock/gmock.h>
 
 #include <string>
 #include <vector>
 
-#include "results/report_tables.h"
+#include "results/report/report_tables.h"
 
 namespace terrabench {
 namespace {

@@ -1,4 +1,4 @@
-#include "results/ground_page.h"
+#include "results/report/ground_page.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "results/report.h"
+#include "results/report/report.h"
 #include "terrain/image.h"
 #include "tests/results/fake_results.h"
 

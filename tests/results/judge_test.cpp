@@ -1,4 +1,4 @@
-#include "results/judge.h"
+#include "results/claims/judge.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "results/check_output.h"
-#include "results/record_json.h"
+#include "results/claims/check_output.h"
+#include "results/store/record_json.h"
 #include "terrain/error.h"
 #include "terrain/image.h"
 #include "tests/results/fake_results.h"

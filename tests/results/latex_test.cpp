@@ -5,11 +5,11 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "results/format.h"
-#include "results/latex_bundle.h"
-#include "results/plot.h"
-#include "results/rasterise.h"
-#include "results/table.h"
+#include "results/plot/plot.h"
+#include "results/plot/rasterise.h"
+#include "results/report/latex_bundle.h"
+#include "results/report/table.h"
+#include "results/store/format.h"
 #include "terrain/error.h"
 #include "terrain/image.h"
 #include "tests/results/fake_results.h"

@@ -1,8 +1,8 @@
-#include "results/ledger.h"
+#include "results/report/ledger.h"
 
 #include <gmock/gmock.h>
 
-#include "results/report.h"
+#include "results/report/report.h"
 #include "tests/results/fake_results.h"
 
 namespace terrabench {

@@ -1,4 +1,4 @@
-#include "results/merge.h"
+#include "results/store/merge.h"
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -7,7 +7,7 @@
 #include <csignal>
 #include <random>
 
-#include "results/record_json.h"
+#include "results/store/record_json.h"
 #include "terrain/error.h"
 #include "tests/results/fake_results.h"
 

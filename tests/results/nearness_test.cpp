@@ -1,4 +1,4 @@
-#include "results/nearness.h"
+#include "results/claims/nearness.h"
 
 #include <gmock/gmock.h>
 

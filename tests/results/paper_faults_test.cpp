@@ -1,4 +1,4 @@
-#include "results/paper_faults.h"
+#include "results/report/paper_faults.h"
 
 #include <gmock/gmock.h>
 

@@ -1,11 +1,11 @@
-#include "results/plot.h"
+#include "results/plot/plot.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>
 
-#include "results/rasterise.h"
+#include "results/plot/rasterise.h"
 #include "terrain/error.h"
 #include "terrain/image.h"
 #include "tests/results/fake_results.h"

@@ -1,4 +1,4 @@
-#include "results/power_law.h"
+#include "results/store/power_law.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "results/preview.h"
+#include "results/report/preview.h"
 
 #include <gtest/gtest.h>
 #include <webp/decode.h>

@@ -1,11 +1,11 @@
-#include "results/provenance.h"
+#include "results/store/provenance.h"
 
 #include <gmock/gmock.h>
 #include <sched.h>
 
 #include <algorithm>
 
-#include "results/record_json.h"
+#include "results/store/record_json.h"
 #include "terrain/memory.h"
 
 namespace terrabench {

@@ -1,4 +1,4 @@
-#include "results/ranking.h"
+#include "results/claims/ranking.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "results/record_json.h"
-#include "results/report.h"
+#include "results/report/report.h"
+#include "results/store/record_json.h"
 #include "terrain/error.h"
 #include "tests/results/fake_results.h"
 #include "tests/terrain/errors.h"

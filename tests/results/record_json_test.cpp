@@ -1,4 +1,4 @@
-#include "results/record_json.h"
+#include "results/store/record_json.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "results/report.h"
+#include "results/report/report.h"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "results/ranking.h"
-#include "results/record_json.h"
+#include "results/claims/ranking.h"
+#include "results/store/record_json.h"
 #include "terrain/error.h"
 #include "terrain/image.h"
 #include "tests/results/fake_results.h"

@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "results/record_json.h"
+#include "results/store/record_json.h"
 #include "terrain/error.h"
 #include "tests/results/fake_results.h"
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <sstream>
 
-#include "results/statistics.h"
+#include "results/store/statistics.h"
 #include "tests/results/fake_results.h"
 
 namespace terrabench {

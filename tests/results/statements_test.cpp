@@ -1,4 +1,4 @@
-#include "results/statements.h"
+#include "results/claims/statements.h"
 
 #include <gtest/gtest.h>
 

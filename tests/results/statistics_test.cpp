@@ -1,4 +1,4 @@
-#include "results/statistics.h"
+#include "results/store/statistics.h"
 
 #include <gtest/gtest.h>
 

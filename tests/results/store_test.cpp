@@ -1,4 +1,4 @@
-#include "results/store.h"
+#include "results/store/store.h"
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <thread>
 
-#include "results/record_json.h"
+#include "results/store/record_json.h"
 #include "terrain/error.h"
 #include "tests/results/fake_results.h"
 

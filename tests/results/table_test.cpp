@@ -1,9 +1,9 @@
-#include "results/table.h"
+#include "results/report/table.h"
 
 #include <gmock/gmock.h>
 
-#include "results/document.h"
-#include "results/format.h"
+#include "results/report/document.h"
+#include "results/store/format.h"
 
 namespace terrabench {
 namespace {

@@ -1,4 +1,4 @@
-#include "results/timing_conditions.h"
+#include "results/store/timing_conditions.h"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "results/fill.h"
+#include "results/report/fill.h"
 
 namespace terrabench {
 namespace {

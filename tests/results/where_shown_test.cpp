@@ -1,4 +1,4 @@
-#include "results/where_shown.h"
+#include "results/report/where_shown.h"
 
 #include <gmock/gmock.h>
 

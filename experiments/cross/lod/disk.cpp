@@ -1,0 +1,383 @@
+// A clipmap over ground that stays on disk: steps of one sample, then a walk across, in a process of its own.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <thread>
+
+#include "experiments/cross/files/temporary_folder.h"
+#include "experiments/cross/lod/strips.h"
+#include "experiments/experiment.h"
+#include "experiments/runner.h"
+#include "experiments/stopwatch.h"
+#include "lod/camera/camera_path.h"
+#include "lod/clipmap/clipmap.h"
+#include "results/store/store.h"
+#include "terrain/error.h"
+#include "terrain/files.h"
+#include "terrain/machine_error.h"
+#include "terrain/sources/dem/dem.h"
+#include "terrain/sources/dem/geotiff_rows.h"
+#include "terrain/sources/fractal/diamond_square_bands.h"
+
+namespace terrabench::cross {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::array kSpecs{
+    ParameterSpec{"side", std::int64_t{4096}, "samples", "side of the synthetic mountains", 2, 32768},
+    ParameterSpec{"window", std::int64_t{255}, "samples", "side of each clipmap level", 15, 4095},
+    ParameterSpec{"steps", std::int64_t{1000}, "frames", "steps of one sample before the long walk", 1,
+                  1000000},
+};
+constexpr int kPlanSamples = 1025;  // largest side of the thinned copy of the ground that camera paths use
+constexpr float kEyeHeight = 1.8F;  // metres
+
+// Writes side × side samples, 30 m apart, of diamond-square ground in whole metres, as SRTM has them. Returns
+// a digest of what determines every height. O(side²), in parallel; memory: a grid of 4097², and a row of
+// tiles.
+std::string write_mountains(const fs::path& path, int side, std::uint64_t seed, Progress& progress) {
+  constexpr int kRows = 32;  // per task
+  fractal::DiamondSquareOptions options;
+  options.seed = seed;
+  options.side = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(2, side - 1)))) + 1;
+  options.amplitude = 2000;
+  const fractal::DiamondSquareBands whole(options);
+  GeotiffRows file(path, side, side, options.cell, options.cell);
+  std::vector<float> band;
+  progress.begin("making mountains on disk", static_cast<std::uint64_t>((side - 1) / kGeotiffTile + 1));
+  for (int first = 0; first < side; first += kGeotiffTile) {
+    const int rows = std::min(kGeotiffTile, side - first);
+    band.resize(static_cast<std::size_t>(rows) * side);
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, rows, kRows),
+        [&](const tbb::blocked_range<int>& part) {
+          const auto width = static_cast<std::size_t>(whole.side());
+          std::vector<float> read((part.end() - part.begin()) * width);
+          whole.read(first + part.begin(), part.end() - part.begin(), read);
+          for (int row = part.begin(); row < part.end(); ++row) {
+            const float* const from = &read[(row - part.begin()) * width];
+            std::transform(from, from + side, &band[static_cast<std::size_t>(row) * side],
+                           [](float height) { return std::nearbyint(height); });
+          }
+        },
+        tbb::simple_partitioner());
+    file.write(band);
+    progress.advance();
+  }
+  file.close();
+  return checksum(fmt::format("diamond-square {} {} {} {} {} {} whole metres", seed, side, options.side,
+                              options.cell, options.amplitude, options.hurst));
+}
+
+std::uintmax_t bytes_of(const fs::path& folder) {
+  std::uintmax_t bytes = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) bytes += entry.file_size();
+  return bytes;
+}
+
+// Digest of the pyramid's files, read in parts.
+std::string digest(const fs::path& pyramid) {
+  constexpr std::size_t kPart = std::size_t{1} << 20;
+  std::vector<std::byte> part(kPart);
+  std::string digests;
+  for (int level = 0;; ++level) {
+    const fs::path file = pyramid / fmt::format("{}.tif", level);
+    std::ifstream in(file, std::ios::binary);
+    if (!in) return checksum(digests);
+    do {
+      in.read(reinterpret_cast<char*>(part.data()), static_cast<std::streamsize>(kPart));
+      digests += checksum(std::span(part).first(static_cast<std::size_t>(in.gcount())));
+    } while (in);
+    if (in.bad()) throw bad_input("cannot be read to its end", file.string(), "build the pyramid again");
+  }
+}
+
+// Position after k steps of a walk back and forth between samples 0 and last, from `start`.
+int to_and_fro(std::int64_t start, std::int64_t k, std::int64_t last) {
+  if (last == 0) return 0;
+  const std::int64_t at = (start + k) % (2 * last);
+  return static_cast<int>(at <= last ? at : 2 * last - at);
+}
+
+// Views along the built-in path "cross", laid over a thinned copy of the ground.
+std::vector<View> walk_across(HeightPyramid& pyramid) {
+  int level = 0;
+  while (((std::max(pyramid.width(), pyramid.depth()) - 1) >> level) + 1 > kPlanSamples) ++level;
+  Heightfield plan;
+  plan.width = ((pyramid.width() - 1) >> level) + 1;
+  plan.depth = ((pyramid.depth() - 1) >> level) + 1;
+  plan.cell_x = pyramid.cell_x() * static_cast<float>(1 << level);
+  plan.cell_z = pyramid.cell_z() * static_cast<float>(1 << level);
+  plan.heights.resize(static_cast<std::size_t>(plan.width) * plan.depth);
+  pyramid.read(level, 0, 0, plan.width, plan.depth, plan.heights.data(), plan.width);
+  return views(camera_path("cross"), plan);
+}
+
+// The view from 1.8 m above the sample below the eye.
+View on_the_ground(View view, HeightPyramid& pyramid) {
+  const glm::vec3 sight = view.target - view.eye;
+  float height = 0;
+  pyramid.read(0, static_cast<int>(view.eye.x / static_cast<double>(pyramid.cell_x())),
+               static_cast<int>(view.eye.z / static_cast<double>(pyramid.cell_z())), 1, 1, &height, 1);
+  view.eye.y = height + kEyeHeight;
+  view.target = view.eye + sight;
+  return view;
+}
+
+class Walk {
+ public:
+  Walk(const fs::path& folder, int window) {
+    auto pyramid = HeightPyramid::open(folder);
+    pyramid_ = pyramid.get();
+    clipmap_ = std::make_unique<Clipmap>(heights_on_disk(std::move(pyramid)), window);
+    expected_ = Strips(clipmap_->window());
+    finest_ = finest_level(kEyeHeight, clipmap_->window(), std::max(pyramid_->cell_x(), pyramid_->cell_z()),
+                           clipmap_->levels());
+  }
+
+  void measure(int steps, Recorder& recorder, Progress& progress) {
+    const std::vector<View> across = walk_across(*pyramid_);
+    if (across.empty()) throw usage_error("the ground has a single sample", "", "choose a larger terrain");
+    begin(across.front(), recorder);
+    View view = across.front();
+    const auto start = static_cast<int>(view.eye.x / pyramid_->cell_x());
+    progress.begin("stepping over the ground", static_cast<std::uint64_t>(steps));
+    for (int k = 1; k <= steps; ++k) {
+      // Stays on ground one sample wide; turns back at the border of ground shorter than the steps.
+      const float x = pyramid_->cell_x() * static_cast<float>(to_and_fro(start, k, pyramid_->width() - 1));
+      view.target.x += x - view.eye.x;
+      view.eye.x = x;
+      update(view, "step_time", recorder);
+      progress.advance();
+    }
+    finish("step", recorder);
+    progress.begin("walking across the ground", across.size());
+    for (const View& next : across) {
+      update(next, "walk_time", recorder);
+      progress.advance();
+    }
+    finish("walk", recorder);
+    recorder.add("clipmap_bytes", "B", clipmap_->memory().total());
+  }
+
+ private:
+  // Fills all windows.
+  void begin(const View& view, Recorder& recorder) {
+    update(view, "first_time", recorder);
+    recorder.add("first_bytes", "B", uploaded_);
+    uploaded_ = strips_ = 0;
+  }
+  void update(const View& view, std::string_view metric, Recorder& recorder) {
+    const View at = on_the_ground(view, *pyramid_);
+    const std::uint64_t tiles = pyramid_->tiles_read();
+    const Stopwatch watch;
+    const Frame& frame = clipmap_->update(at);
+    recorder.add(metric, "s", watch.seconds());
+    uploaded_ += frame.stats.bytes_uploaded;
+    strips_ += expected_.follow({at.eye.x / static_cast<double>(pyramid_->cell_x()),
+                                 at.eye.z / static_cast<double>(pyramid_->cell_z())},
+                                finest_, clipmap_->levels());
+    tiles_ += pyramid_->tiles_read() - tiles;
+  }
+  void finish(const std::string& what, Recorder& recorder) {
+    recorder.add(what + "_bytes", "B", uploaded_);
+    recorder.add(what + "_strip_bytes", "B", strips_);
+    recorder.add(what + "_tiles", "", tiles_);
+    uploaded_ = strips_ = tiles_ = 0;
+  }
+
+  HeightPyramid* pyramid_ = nullptr;  // of the clipmap
+  std::unique_ptr<Clipmap> clipmap_;
+  Strips expected_{0};
+  int finest_ = 0;
+  std::size_t uploaded_ = 0, strips_ = 0, tiles_ = 0;
+};
+
+// A second process, to measure what a process can only measure of itself.
+
+constexpr const char* kSelf = "/proc/self/exe";
+
+pid_t start(const std::vector<std::string>& arguments, const std::filesystem::path& log) {
+  std::string program = kSelf;
+  std::vector<char*> argv{program.data()};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  pid_t child = 0;
+  const int error = posix_spawn(&child, kSelf, &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) {
+    throw environment_error(fmt::format("cannot start a second process: {}", std::strerror(error)), kSelf,
+                            "raise the limit on processes (ulimit -u)");
+  }
+  return child;
+}
+
+int wait(pid_t child) {
+  bool told = false;
+  for (;;) {
+    int status = 0;
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended == child) return status;
+    // ECHILD when SIGCHLD is ignored: the exit status is lost, so the results cannot be trusted.
+    if (ended < 0 && errno != EINTR) {
+      throw environment_error(fmt::format("cannot wait for the second process: {}", std::strerror(errno)),
+                              kSelf, "run the program with SIGCHLD at its default");
+    }
+    if (Progress::interrupted() && !told) {
+      kill(child, SIGTERM);
+      told = true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+std::string last_line(const std::filesystem::path& log) {
+  std::ifstream in(log);
+  std::string line, last;
+  while (std::getline(in, line)) {
+    if (!line.empty()) last = line;
+  }
+  return last;
+}
+
+// Runs this executable with these arguments and waits; its output goes to `log`. An interruption is passed on
+// to it. Throws environment_error with the log's last line when it fails, and Error(kInterrupted).
+void run_own_program(const std::vector<std::string>& arguments, const std::filesystem::path& log,
+                     Progress& progress) {
+  const int status = wait(start(arguments, log));
+  progress.advance();  // throws when interrupted
+  // A case that failed there has a record that says why.
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  if (code == 0 || code == static_cast<int>(kCasesFailed)) return;
+  const std::string what = WIFSIGNALED(status)
+                               ? fmt::format("the second process was ended by signal {}", WTERMSIG(status))
+                               : fmt::format("the second process failed: {}", last_line(log));
+  constexpr std::string_view kAdvice = "run the same experiment by itself";
+  if (code == static_cast<int>(ExitCode::kEnvironment)) throw MachineError(what, "", kAdvice);
+  throw environment_error(what, "", kAdvice);
+}
+
+// Peak resident memory of this process (Linux: VmHWM). Throws environment_error where the system does not
+// report it.
+std::uint64_t peak_resident_bytes() {
+  std::ifstream status("/proc/self/status");
+  std::string line;
+  unsigned long long kibibytes = 0;
+  while (std::getline(status, line)) {
+    if (std::sscanf(line.c_str(), "VmHWM: %llu kB", &kibibytes) == 1) return kibibytes * 1024;
+  }
+  throw environment_error("the system does not report peak resident memory", "/proc/self/status",
+                          "measure on Linux");
+}
+
+void walk_here(const fs::path& pyramid, const Case& at, Recorder& recorder, Progress& progress) {
+  recorder.terrain(pyramid.string(), digest(pyramid));
+  Walk(pyramid, at.integer("window")).measure(at.integer("steps"), recorder, progress);
+  recorder.add_varying("peak_resident", "B", static_cast<double>(peak_resident_bytes()));
+}
+
+// The same experiment over the pyramid in a second process, whose peak memory is then that of the walk.
+void walk_apart(const fs::path& pyramid, const fs::path& folder, const Case& at, const RunOptions& options,
+                Recorder& recorder, Progress& progress) {
+  const fs::path results = folder / "walk";
+  progress.begin("walking, in a process of its own", 1);
+  run_own_program(
+      {"run", "cross.lod-disk", "--again", "0", "--terrain", pyramid.string(), "--out", results.string(),
+       "--profile", options.profile == Profile::kPaper ? "paper" : "quick", "--renderer", options.renderer,
+       "--set", fmt::format("window={}", at.parameters.integer("window")), "--set",
+       fmt::format("steps={}", at.parameters.integer("steps"))},
+      folder / "walk.log", progress);
+  const Store store = Store::open(results);
+  if (store.records().size() != 1) {
+    throw environment_error(
+        fmt::format("the second process left {} records, not one", store.records().size()), results.string(),
+        "run the same experiment over the pyramid by itself");
+  }
+  const Record& walk = store.records().front();
+  if (walk.outcome != CaseOutcome::kMeasured) {
+    throw environment_error("the second process failed: " + walk.reason, "",
+                            "run the same experiment by itself");
+  }
+  for (const Metric& metric : walk.metrics) {
+    for (const double sample : metric.samples) {
+      if (metric.varies) {
+        recorder.add_varying(metric.name, metric.unit, sample);
+      } else {
+        recorder.add(metric.name, metric.unit, sample);
+      }
+    }
+  }
+}
+
+std::vector<Case> cases(const RunOptions& options) {
+  std::vector<Case> cases;
+  for (const std::string& terrain : options.terrains) cases.push_back({terrain, Parameters(kSpecs), terrain});
+  if (!cases.empty()) return cases;
+  for (const std::int64_t side : {4096, 16384}) {
+    if (side > 4096 && options.profile == Profile::kQuick) break;
+    cases.push_back({fmt::format("side={}", side), {kSpecs, {{"side", side}}}});
+  }
+  return cases;
+}
+
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  if (!at.terrain.empty() && fs::is_directory(at.terrain))
+    return walk_here(at.terrain, at, recorder, progress);
+  const TemporaryFolder folder;
+  const fs::path pyramid = folder.path() / "pyramid", made = folder.path() / "ground.tif";
+  std::string dem = at.terrain;
+  Stopwatch watch;
+  if (at.terrain.empty()) {
+    const int side = at.integer("side");
+    recorder.terrain(fmt::format("mountains {0} × {0}", side),
+                     write_mountains(made, side, options.seed, progress));
+    dem = made.string();
+  } else {
+    const TerrainSource source = open_terrain(at.terrain, options.seed);
+    recorder.terrain(source);
+    if (!source.heights)
+      throw usage_error("this terrain is a solid, not a height field", at.terrain, "choose a DEM");
+    if (!names_dem_file(at.terrain)) {
+      write_geotiff(made, *source.heights);
+      dem = made.string();
+    }
+  }
+  recorder.add("ground_time", "s", watch.seconds());
+  watch = {};
+  HeightPyramid::build(dem, pyramid, progress);
+  recorder.add("pyramid_time", "s", watch.seconds());
+  recorder.add("pyramid_bytes", "B", bytes_of(pyramid));
+  std::error_code ignored;
+  fs::remove(made, ignored);  // frees disk space
+  const auto tiles = HeightPyramid::open(pyramid);
+  recorder.add("ground_bytes", "B", 4.0 * tiles->width() * tiles->depth());
+  walk_apart(pyramid, folder.path(), at, options, recorder, progress);
+}
+
+}  // namespace
+
+extern const Experiment kLodDisk{"cross.lod-disk", "A clipmap over ground that stays on disk", kSpecs, cases,
+                                 measure};
+
+}  // namespace terrabench::cross

@@ -1,0 +1,113 @@
+// Every level-of-detail method at the same largest error, and again at the same root mean square of the
+// error: what each costs under either, its rank, and how many pairs of methods change places.
+#include "experiments/cross/representations/ranks.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <numeric>
+#include <optional>
+
+#include "experiments/cross/lod/path_cost.h"
+#include "experiments/cross/lod/tuned_cases.h"
+
+namespace terrabench::cross {
+namespace {
+
+// The largest error of a normal distribution's few 10,000 samples is about four times its RMS, hence 4 px and
+// 1 px.
+const std::array kSpecs{
+    ParameterSpec{"options", std::string(), "",
+                  "options of methods, such as geomipmap.patch=32,mrbsp.threshold=area"},
+    ParameterSpec{"largest", 4.0, "px", "required largest screen-space error of a visible sample", 0.01,
+                  1000},
+    ParameterSpec{"rms", 1.0, "px", "required root mean square of the visible samples' error", 0.01, 1000},
+    ParameterSpec{"path", std::string("fly"), "", "camera path: cross, fly, low, turn, walk, or a TOML file"},
+    ParameterSpec{"frames", std::int64_t{24}, "", "frames of the path that are metered", 1, 100000},
+    ParameterSpec{"size", std::int64_t{257}, "samples", "side of the generated grounds, 2^n + 1", 3, 8193},
+};
+
+struct Equalised {
+  std::string_view name;  // in metrics, and of the parameter
+  Criterion criterion;
+};
+constexpr std::array kEqualised{Equalised{"largest", Criterion::kLargest}, Equalised{"rms", Criterion::kRms}};
+
+// By entrant.
+struct Costs {
+  std::vector<double> triangles, uploaded;  // per frame, means
+  std::vector<bool> reached;
+
+  std::vector<std::optional<double>> where_reached(const std::vector<double>& costs) const {
+    std::vector<std::optional<double>> known(costs.size());
+    for (std::size_t k = 0; k < costs.size(); ++k) {
+      if (reached[k]) known[k] = costs[k];
+    }
+    return known;
+  }
+};
+
+// `prefix`: of the metrics.
+void measure_one(Flight& flight, const Contender& method, const Equalised& what, double pixels,
+                 const std::string& prefix, Costs& costs, Recorder& recorder, Progress& progress) {
+  const Tuned tuned = tune_to(flight, method, pixels, progress, what.criterion);
+  const PathCost cost = fly(flight, method, tuned.knob, progress);
+  const std::unique_ptr<Lod> lod = method.build(flight.ground(), progress);
+  lod->tune(tuned.knob);
+  const Distribution errors = errors_along(flight, *lod);
+  costs.triangles.push_back(std::accumulate(cost.triangles.begin(), cost.triangles.end(), 0.0) /
+                            static_cast<double>(cost.triangles.size()));
+  costs.uploaded.push_back(cost.uploaded);
+  // Brute force reaches any error, and its rank is no finding.
+  costs.reached.push_back(method.tunable() && tuned.reached);
+  recorder.add(prefix + "knob", "", tuned.knob);
+  recorder.add(prefix + "reached", "", tuned.reached ? 1 : 0);
+  // Brute force has no error to equalise.
+  if (method.tunable()) recorder.add(prefix + "error_of_asked", "", tuned.error / pixels);
+  recorder.add(prefix + "error_largest", "px", errors.largest());
+  recorder.add(prefix + "error_rms", "px", errors.rms());
+  recorder.add(prefix + "error_p99", "px", errors.quantile(0.99));
+  recorder.add(prefix + "triangles", "", costs.triangles.back());
+  recorder.add(prefix + "uploaded", "B", cost.uploaded);
+  for (const double t : cost.times) recorder.add(prefix + "update_time", "s", t);
+}
+
+std::vector<Case> cases(const RunOptions& options) {
+  std::vector<Case> cases;
+  for (const std::string& terrain : compared_grounds(options))
+    cases.push_back(case_on(terrain, terrain, kSpecs, options));
+  return cases;
+}
+
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  Flight& flight = flight_of(at, options, recorder, progress);
+  const std::vector<Entrant> all = entrants();
+  std::array<Costs, kEqualised.size()> costs;
+  for (std::size_t e = 0; e < kEqualised.size(); ++e) {
+    const Equalised& what = kEqualised[e];
+    for (const Entrant& entrant : all) {
+      measure_one(flight, entered(entrant.name, at.parameters.text("options")), what,
+                  at.parameters.number(what.name), fmt::format("{}_{}_", entrant.name, what.name), costs[e],
+                  recorder, progress);
+    }
+    const std::vector<int> by_triangles = ranks(costs[e].triangles), by_bytes = ranks(costs[e].uploaded);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      recorder.add(fmt::format("{}_{}_rank_triangles", all[k].name, what.name), "", by_triangles[k]);
+      recorder.add(fmt::format("{}_{}_rank_uploaded", all[k].name, what.name), "", by_bytes[k]);
+    }
+  }
+  const auto flips = [&](std::vector<double> Costs::*cost) {
+    return count_flips(costs[0].where_reached(costs[0].*cost), costs[1].where_reached(costs[1].*cost));
+  };
+  recorder.add("pairs", "", flips(&Costs::triangles).pairs);
+  recorder.add("flips_triangles", "", flips(&Costs::triangles).flipped);
+  recorder.add("flips_uploaded", "", flips(&Costs::uploaded).flipped);
+}
+
+}  // namespace
+
+extern const Experiment kLodRanks{"cross.lod-ranks",
+                                  "Level-of-detail methods at the same largest error and at the same RMS",
+                                  kSpecs, cases, measure};
+
+}  // namespace terrabench::cross

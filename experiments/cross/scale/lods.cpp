@@ -1,0 +1,134 @@
+// Level-of-detail methods of cross.scale: each cost against the size of the ground, along one path at one
+// error on the screen.
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+
+#include "experiments/cross/lod/flight.h"
+#include "experiments/cross/scale/run.h"
+#include "experiments/ground.h"
+#include "lod/camera/camera_path.h"
+
+namespace terrabench::cross {
+namespace {
+
+// Every method reads its ground once. A clipmap and the hybrid hold and read windows, of which there are log
+// n. At a given error on the screen, the density of triangles falls with the square of the distance, so that
+// their number grows as log n (ROAM); by the rule printed in the MRBSP paper it falls with the distance, so
+// that their number grows as n^0.5. Brute force and geomipmaps visit every block or patch in view; the
+// patches are set to 16 cells, since by default they are larger on ground of more than 1025² samples.
+struct LodTheory {
+  std::string_view name;
+  double build, memory, update;  // update: also uploads and triangles
+  bool windows = false;          // memory grows as log n
+  std::string_view options = {};
+};
+constexpr std::array kLods{
+    LodTheory{"brute_force", 1, 1, 1},
+    LodTheory{"roam", 1, 1, 0},
+    LodTheory{"geomipmap", 1, 1, 1, false, "geomipmap.patch=16"},
+    LodTheory{"clipmap", 1, 0, 0, true},
+    LodTheory{"hybrid", 1, 0, 0, true},
+    LodTheory{"mrbsp", 1, 1, 0.5},
+};
+
+constexpr std::string_view kPath = "low";
+constexpr int kTunedSide = 257, kTunedFrames = 6;
+constexpr int kFrames = 100, kFramesPerSample = 10;
+constexpr float kMiddle = 3840;  // metres from two sides of every ground to the middle of the path
+// Side of the smallest ground that is walked on. On less, much of what is in view lies beyond the ground's
+// edge, so that the share of the ground in view, which in theory is the same at any size, grows with it.
+constexpr int kSmallestWalk = 513;
+
+// The path `low`, turned by a quarter around a place that has the same ground at any size, so that it looks
+// towards the ground that larger sizes add.
+std::vector<View> same_flight(const Heightfield& ground) {
+  CameraPath path = camera_path(kPath);
+  path.origin = {kMiddle / ground.extent_x(), kMiddle / ground.extent_z()};
+  for (Keyframe& key : path.keyframes) {
+    key.at = {-key.at.y, key.at.x};
+    key.look_at = {-key.look_at.y, key.look_at.x};
+  }
+  std::vector<View> all = views(path, ground);
+  all.resize(std::min<std::size_t>(all.size(), kFrames + 1));
+  return all;
+}
+
+struct LodCosts {
+  explicit LodCosts(const LodTheory& theory)
+      : build("build", "s", theory.build),
+        build_faults("build_faults", "faults", theory.build),
+        bytes("bytes", "B", theory.memory, theory.windows),
+        update("update", "s", theory.update, theory.update == 0),
+        uploaded("uploaded", "B", theory.update, theory.update == 0),
+        triangles("triangles", "", theory.update, theory.update == 0) {}
+  Cost build, build_faults, bytes, update, uploaded, triangles;
+};
+
+// Updates along the path, the mean of kFramesPerSample frames at a time: reading the clock takes a good part
+// of a microsecond.
+void follow(Lod& method, const std::vector<View>& path, double columns, LodCosts& costs) {
+  const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
+  double sent = 0, drawn = 0;
+  for (std::size_t i = 1; i + kFramesPerSample <= path.size(); i += kFramesPerSample) {
+    const double begin = thread_seconds();
+    for (std::size_t k = i; k < i + kFramesPerSample; ++k) {
+      const FrameStats& stats = method.update(path[k]).stats;
+      sent += static_cast<double>(stats.bytes_sent());
+      drawn += static_cast<double>(stats.triangles);
+    }
+    costs.update.add(columns, (thread_seconds() - begin) / kFramesPerSample);
+  }
+  const auto frames = static_cast<double>(path.size() - 1);
+  costs.uploaded.add(columns, sent / frames);
+  costs.triangles.add(columns, drawn / frames);
+}
+
+}  // namespace
+
+void measure_lod(const Run& run, std::string_view name) {
+  const LodTheory& theory = entry(kLods, "level-of-detail method", name);
+  const Contender method = contender(name, theory.options);
+  const Tuned tuned = tune_to(
+      flight_along({"hills", std::string(kPath), kTunedSide, kTunedFrames, run.seed()}, run.progress()),
+      method, run.at().parameters.number("pixels"), run.progress());
+  run.recorder().add("knob", "", tuned.knob);
+  run.recorder().add("tuned_error", "px", tuned.error);
+  SizePlan plan = run.plan("update", 1, {1, 1});
+  LodCosts costs(theory);
+  const std::vector<int> sides = run.sides(false);
+  run.progress().begin(fmt::format("{} on growing ground", name), sides.size());
+  Progress silent;
+  for (const int side : sides) {
+    const double columns = squared(side);
+    run.measured(plan, columns, [&] {
+      const Heightfield ground = noise_hills(side, run.seed());
+      std::unique_ptr<Lod> built;
+      run.add_turns(
+          costs.build, costs.build_faults, columns, [&] { built.reset(); },
+          [&] { built = method.build(ground, silent); });
+      if (side < kSmallestWalk) return;
+      const std::vector<View> path = same_flight(ground);
+      built->tune(tuned.knob);
+      built->update(path.front());
+      follow(*built, path, columns, costs);
+      costs.bytes.add(columns, static_cast<double>(built->memory().total()));
+    });
+    run.progress().advance();
+  }
+  run.progress().end();
+  plan.record(run.recorder());
+  for (const Cost* const cost :
+       {&costs.build, &costs.build_faults, &costs.bytes, &costs.update, &costs.uploaded, &costs.triangles}) {
+    cost->record(run.recorder());
+  }
+}
+
+std::vector<std::string_view> scaled_lods() {
+  std::vector<std::string_view> names;
+  for (const LodTheory& one : kLods) names.push_back(one.name);
+  return names;
+}
+
+}  // namespace terrabench::cross

@@ -1,0 +1,150 @@
+// What the parts of the experiment cross.scale share: the sizes of a case, its budget, and how work is timed.
+#pragma once
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "experiments/cross/scale/cold_caches.h"
+#include "experiments/cross/scale/fresh_pages.h"
+#include "experiments/cross/scale/scaling.h"
+#include "experiments/experiment.h"
+#include "experiments/interference.h"
+#include "experiments/stopwatch.h"
+#include "results/store/statistics.h"
+#include "terrain/error.h"
+#include "terrain/memory.h"
+
+namespace terrabench::cross {
+
+inline double squared(int side) { return static_cast<double>(side) * side; }
+
+// Page faults of the calling thread so far that needed no disk: the first use of memory that the system gave.
+inline double page_faults() {
+  rusage used{};
+  getrusage(RUSAGE_THREAD, &used);
+  return static_cast<double>(used.ru_minflt);
+}
+
+// All the sizes of one case, with one budget per stage.
+class Run {
+ public:
+  Run(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress)
+      : at_(at), options_(options), recorder_(recorder), progress_(progress), base_(HeapCounter::live()) {}
+
+  SizePlan plan(std::string name, double share, Growth growth) const {
+    constexpr double kAvailable = 0.85;  // share of the memory left that is used
+    const double asked = at_.parameters.number("memory") * 1024 * 1024 * 1024;
+    const double left = kAvailable * static_cast<double>(available_memory());
+    return {std::move(name),
+            {share * at_.parameters.number("seconds"), static_cast<std::uint64_t>(std::min(asked, left))},
+            growth};
+  }
+
+  // Does the work at one size if the plan admits it. A structure may refuse a size, but not the first.
+  template <class Work>
+  bool measured(SizePlan& plan, double columns, const Work& work) const {
+    if (!plan.admits(columns)) return false;
+    const auto held = static_cast<std::uint64_t>(std::max<std::int64_t>(0, HeapCounter::live() - base_));
+    const std::uint64_t expected = std::max(held, plan.expected_bytes(columns));
+    // The heap may be fragmented, so that the work cannot use freed blocks again. If too little other memory
+    // is available, the freed pages go back to the system first.
+    if (available_memory() < expected - held) keep_.give_back();
+    keep_.provide(expected - held);
+    HeapCounter::reset_peak();
+    const double begin = process_seconds();
+    try {
+      work();
+    } catch (const Error& error) {
+      if (error.code() == ExitCode::kInterrupted || plan.sizes() == 0) throw;
+      plan.refused(columns);
+      return false;
+    }
+    plan.measured(columns, process_seconds() - begin, HeapCounter::peak() - base_);
+    return true;
+  }
+
+  // Processor seconds and page faults of each turn of the work on one thread. Before each turn, outside the
+  // timed part, clear() frees what the last one made, and the caches are emptied: otherwise they would hold
+  // the data of small sizes, but not of large ones. The time therefore includes cache misses on the code,
+  // too, which matters most at the smallest sizes. Work under 0.2 s is done once uncounted, then five times;
+  // under 2 s three times, all counted; longer work once, since the largest sizes take minutes. Of work under
+  // 0.05 s, turns that are disturbed (interference.h) are repeated, up to ten turns in all, which costs
+  // little time; if at least three are undisturbed, only those are counted.
+  template <class Clear, class Work>
+  void add_turns(Cost& cost, Cost& faults, double columns, const Clear& clear, const Work& work) const {
+    constexpr double kBrief = 0.05, kShort = 0.2, kLong = 2;  // seconds
+    const auto turn = [&] {
+      clear();
+      caches_.evict();
+      const double before = page_faults();
+      const double taken = processor_seconds(work);
+      return std::vector{taken, page_faults() - before};
+    };
+    std::vector<std::vector<double>> kept{turn()};
+    const double first = kept.front().front();
+    if (first < kBrief) {
+      Turns turns;
+      take_turns(turns, 5, turn);
+      kept = turns.kept(kFewestSamples);
+    } else if (first < kLong) {
+      const bool uncounted = first < kShort;
+      if (uncounted) kept.clear();
+      for (int more = 0; more < (uncounted ? 5 : 2); ++more) kept.push_back(turn());
+    }
+    for (const std::vector<double>& one : kept) {
+      cost.add(columns, one[0]);
+      faults.add(columns, one[1]);
+    }
+  }
+
+  std::vector<int> sides(bool solid) const {
+    const int smallest = at_.integer("smallest"), largest = at_.integer("largest");
+    if (largest < smallest) {
+      throw usage_error("the largest ground is smaller than the smallest", "largest", "exchange the two");
+    }
+    return solid ? half_octave_sides(smallest, largest) : doubled_sides(smallest, largest);
+  }
+
+  const Case& at() const { return at_; }
+  std::uint64_t seed() const { return options_.seed; }
+  Recorder& recorder() const { return recorder_; }
+  Progress& progress() const { return progress_; }
+  const ColdCaches& caches() const { return caches_; }
+
+ private:
+  const Case& at_;
+  const RunOptions& options_;
+  Recorder& recorder_;
+  Progress& progress_;
+  ColdCaches caches_;
+  std::int64_t base_;  // heap bytes before the case, with the block of caches_
+  KeepFreedMemory keep_;
+};
+
+// The entry of that name. Throws unknown_name.
+template <class Table>
+const auto& entry(const Table& table, std::string_view kind, std::string_view name) {
+  std::vector<std::string_view> known;
+  for (const auto& one : table) {
+    if (one.name == name) return one;
+    known.push_back(one.name);
+  }
+  throw unknown_name(kind, name, known);
+}
+
+// Structures over height maps or over a solid: scale_structures.cpp.
+void measure_structure(const Run&, bool solid, std::string_view name);
+std::vector<std::string_view> scaled_structures(bool solid);
+
+// Level of detail along a path: scale_lods.cpp.
+void measure_lod(const Run&, std::string_view method);
+std::vector<std::string_view> scaled_lods();
+
+}  // namespace terrabench::cross

@@ -1,0 +1,112 @@
+// Every cost against the size of the ground: structures over height maps and over a solid, level-of-detail
+// methods along a walk, and flow routing. The ground of height maps grows as a window on endless hills does,
+// with the same work per column; the solid is one cube of caves at finer and finer resolution. The theory of
+// each family, and what it measures, is in scale_structures.cpp, scale_lods.cpp and measure_flow().
+#include <fmt/format.h>
+
+#include <array>
+
+#include "experiments/cases.h"
+#include "experiments/cross/scale/run.h"
+#include "experiments/experiment.h"
+#include "experiments/ground.h"
+#include "terrain/files.h"
+#include "terrain/hydrology/flow.h"
+
+namespace terrabench::cross {
+namespace {
+
+constexpr std::array<std::string_view, 4> kFamilies{"heights", "solids", "lods", "flow"};
+constexpr std::string_view kWholeMetres = "whole_metres", kUnrounded = "unrounded";
+
+const std::array kSpecs{
+    choice("family", kFamilies, "what is measured: structures over heights or solids, methods, flow routing"),
+    ParameterSpec{"method", std::string("heightmap"), "",
+                  "a name of `terrabench list`; for flow, whole_metres or unrounded"},
+    ParameterSpec{"smallest", std::int64_t{129}, "samples", "side of the smallest ground", 8, 32769},
+    ParameterSpec{"largest", std::int64_t{1025}, "samples", "side of the largest ground", 8, 32769},
+    ParameterSpec{"seconds", 4.0, "s", "processor time for all sizes; a size that would exceed it is skipped",
+                  0, 1e6},
+    ParameterSpec{"memory", 20.0, "GiB", "largest heap; a size that would exceed it is skipped", 0.001, 1e6},
+    ParameterSpec{"pixels", 2.0, "px", "screen-space error of the methods", 0.05, 200},
+};
+
+// Whole metres are sorted into buckets, in O(n); heights as they are need a heap, in O(n log n).
+void measure_flow(const Run& run, bool whole) {
+  SizePlan plan = run.plan("route", 1, {1, 1});
+  Cost route("route", "s", 1, !whole), route_faults("route_faults", "faults", 1);
+  const std::vector<int> sides = run.sides(false);
+  run.progress().begin(whole ? "flow over whole metres" : "flow over unrounded heights", sides.size());
+  for (const int side : sides) {
+    const double columns = squared(side);
+    run.measured(plan, columns, [&] {
+      Heightfield ground = noise_hills(side, run.seed());
+      if (whole) ground = whole_metres(std::move(ground));
+      FlowNetwork network;
+      run.add_turns(
+          route, route_faults, columns, [&] { network = {}; }, [&] { network = route_flow(ground); });
+    });
+    run.progress().advance();
+  }
+  run.progress().end();
+  plan.record(run.recorder());
+  route.record(run.recorder());
+  route_faults.record(run.recorder());
+}
+
+// The limit of processor time per case, in seconds. With these limits the paper profile took 117 minutes on
+// two cores of an AMD EPYC. A size that is expected to exceed the limit is skipped, and the record gives time
+// as the reason: the mesh of the largest implicit surface, and on slow machines the largest voxels over
+// heights.
+double budget(std::string_view family, Profile profile) {
+  if (profile == Profile::kQuick) return 20;
+  return family == "heights" ? 300 : family == "solids" ? 150 : 120;
+}
+
+std::vector<Case> cases(const RunOptions& options) {
+  const bool paper = options.profile == Profile::kPaper;
+  std::vector<Case> cases;
+  const auto add = [&](std::string_view family, std::string_view method, std::int64_t smallest,
+                       std::int64_t largest) {
+    cases.push_back({fmt::format("{}/{}", family, method),
+                     {kSpecs,
+                      {{"family", std::string(family)},
+                       {"method", std::string(method)},
+                       {"smallest", smallest},
+                       {"largest", largest},
+                       {"seconds", budget(family, options.profile)}}}});
+  };
+  for (const std::string_view one : scaled_structures(false)) {
+    const bool slow = one == "voxel";  // takes seconds from 1025² columns on
+    add("heights", one, 129, paper ? 16385 : slow ? 513 : 1025);
+  }
+  for (const std::string_view one : scaled_structures(true)) add("solids", one, 32, paper ? 1024 : 128);
+  for (const std::string_view one : scaled_lods()) add("lods", one, 129, paper ? 16385 : 2049);
+  for (const std::string_view one : {kWholeMetres, kUnrounded}) add("flow", one, 129, paper ? 16385 : 1025);
+  return cases;
+}
+
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const Run run(at, options, recorder, progress);
+  const std::string &family = at.parameters.text("family"), &method = at.parameters.text("method");
+  if (family == "solids") {
+    recorder.terrain(open_terrain("caves", options.seed));
+    measure_structure(run, true, method);
+    return;
+  }
+  recorder.terrain("noise-hills", checksum(fmt::format("noise-hills {}", options.seed)));
+  if (family == "heights") measure_structure(run, false, method);
+  if (family == "lods") measure_lod(run, method);
+  if (family == "flow") {
+    constexpr std::array<std::string_view, 2> kKnown{kWholeMetres, kUnrounded};
+    if (std::ranges::count(kKnown, method) == 0) throw unknown_name("kind of heights", method, kKnown);
+    measure_flow(run, method == kWholeMetres);
+  }
+}
+
+}  // namespace
+
+extern const Experiment kScale{"cross.scale", "Every cost against the size of the ground", kSpecs, cases,
+                               measure};
+
+}  // namespace terrabench::cross

@@ -1,0 +1,359 @@
+// Structures of cross.scale: each cost against the size of height maps, or of the lattice of a solid.
+//
+// Theory. Over heights, what a structure builds, holds, writes, reads and draws is proportional to the
+// columns; a query, a ray or an edit within a fixed number of columns takes the same time at any size. Over a
+// solid of n columns there are n^1.5 voxels, and surfaces have area in proportion to n: dense voxels hold the
+// former, all others the latter, and building samples every voxel. A ray through finer columns crosses n^0.5
+// of them. What follows from each method's own header stands in the tables below.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "experiments/cross/files/temporary_folder.h"
+#include "experiments/cross/scale/run.h"
+#include "experiments/ground.h"
+#include "representations/edit_tools.h"
+#include "representations/ray_cast.h"
+#include "representations/representation.h"
+
+namespace terrabench::cross {
+namespace {
+
+// Exponents of the number of columns.
+struct StructureTheory {
+  std::string_view name;
+  double build, bytes, query, mesh, ray, edit;
+};
+constexpr double kVoxels = 1.5;  // the number of voxels of a solid
+constexpr double kLevels = 0.5;  // the number of levels of its columns, and of columns along a side
+constexpr std::array kOverHeights{
+    StructureTheory{"heightmap", 1, 1, 0, 1, 0, 0}, StructureTheory{"layered_stack", 1, 1, 0, 1, 0, 0},
+    StructureTheory{"voxel", 1, 1, 0, 1, 0, 0},     StructureTheory{"dense_voxel", 1, 1, 0, 1, 0, 0},
+    StructureTheory{"implicit", 1, 1, 0, 1, 0, 0},  StructureTheory{"drill", 1, 1, 0, 1, 0, 0},
+    StructureTheory{"ght", 1, 1, 0, 1, 0, 0},       StructureTheory{"procedural_mesh", 1, 1, 0, 1, 0, 0},
+};
+// Those that hold overhangs. A column of stacks is as long as its runs; voxels are read level by level.
+constexpr std::array kOverSolids{
+    StructureTheory{"layered_stack", kVoxels, 1, 0, 1, kLevels, 0},
+    StructureTheory{"voxel", kVoxels, 1, kLevels, kVoxels, kLevels, 0},
+    StructureTheory{"dense_voxel", kVoxels, kVoxels, kLevels, kVoxels, kLevels, 0},
+    StructureTheory{"implicit", kVoxels, 1, kLevels, kVoxels, kLevels, 0},
+};
+
+constexpr int kBatch = 1024, kQueries = 1 << 16, kQueryTurns = 3;  // columns per call, and per sample
+constexpr double kQuerySeconds = 0.05;                             // per sample, of slow structures
+constexpr int kNear = 32;         // columns along a side of the window of near queries, which caches hold
+constexpr int kEditRadius = 8;    // columns
+constexpr int kEdits = 32;        // per turn: half of them make one sample, half the other
+constexpr float kHighest = 1600;  // metres, of the hills
+
+// Hills from 0 to kHighest metres exactly, so that no size has more levels than another: two corners are the
+// lowest and the highest sample.
+TerrainSource hills_of_one_range(int side, std::uint64_t seed) {
+  TerrainSource source;
+  source.name = "noise-hills";
+  source.heights = noise_hills(side, seed);
+  for (float& h : source.heights->heights) h = std::clamp(h, 0.0F, kHighest);
+  source.heights->heights.front() = 0;
+  source.heights->heights.back() = kHighest;
+  return source;
+}
+
+// splitmix64 (Steele, Lea & Flood 2014).
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  float unit() {
+    std::uint64_t z = state_ += 0x9E3779B97F4A7C15ULL;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+    return static_cast<float>((z ^ (z >> 31)) >> 40) * 0x1p-24F;
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+// Random places in the middle `share` of the sides of a structure's bounds.
+class Places {
+ public:
+  Places(const Bounds& bounds, double share, Random& random)
+      : middle_(0.5F * (bounds.low + bounds.high)),
+        half_(0.5F * static_cast<float>(share) * bounds.size()),
+        random_(random) {}
+
+  // Columns, as many as the spans have room for.
+  void next(std::span<float> x, std::span<float> z) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      x[i] = middle_.x + half_.x * (2 * random_.unit() - 1);
+      z[i] = middle_.z + half_.z * (2 * random_.unit() - 1);
+    }
+  }
+  float angle() { return 2 * std::numbers::pi_v<float> * random_.unit(); }
+
+ private:
+  glm::vec3 middle_, half_;
+  Random& random_;
+};
+
+// Processor seconds on one thread per item of batches of kBatch. next() chooses what work() then does. The
+// first batch is not counted; no batch repeats another.
+template <class Next, class Work>
+double seconds_per_item(const Next& next, const Work& work) {
+  double spent = 0;
+  int done = -kBatch;
+  while (done < kQueries && spent < kQuerySeconds) {
+    next();
+    const double taken = processor_seconds(work);
+    if (done >= 0) spent += taken;
+    done += kBatch;
+  }
+  return spent / done;
+}
+
+double seconds_per_query(const Representation& structure, Places places) {
+  std::vector<float> x(kBatch), z(kBatch);
+  SpanSink sink;
+  return seconds_per_item([&] { places.next(x, z); },
+                          [&] {
+                            sink.clear();
+                            structure.spans({x, z}, sink);
+                          });
+}
+
+// Rays from a plane above the highest point, 45° down.
+double seconds_per_ray(const RayCaster& caster, const Bounds& bounds, Places places) {
+  const float above = bounds.high.y + 0.01F * bounds.size().y, slope = std::numbers::sqrt2_v<float> / 2;
+  std::vector<float> x(kBatch), z(kBatch), distances(kBatch);
+  std::vector<Ray> rays(kBatch);
+  const auto next = [&] {
+    places.next(x, z);
+    for (int i = 0; i < kBatch; ++i) {
+      const float azimuth = places.angle();
+      rays[i].origin = {x[i], above, z[i]};
+      rays[i].direction = {slope * std::cos(azimuth), -slope, slope * std::sin(azimuth)};
+    }
+  };
+  return seconds_per_item(next, [&] { caster.closest(rays, distances); });
+}
+
+bool takes_edits(const RepresentationType& type) { return type.traits.editable || type.traits.events; }
+
+// Of the column; nothing where it is empty.
+std::optional<float> highest_solid(const Representation& structure, const float& x, const float& z) {
+  SpanSink sink;
+  structure.spans({{&x, 1}, {&z, 1}}, sink);
+  const auto column = sink.column(0);
+  return column.empty() ? std::nullopt : std::optional(column.back().top);
+}
+
+// Reads the square of columns around (x, z) that a hole there can change.
+void read_columns(const Representation& structure, float x, float z, float cell) {
+  std::vector<float> xs, zs;
+  for (int i = -kEditRadius; i <= kEditRadius; ++i) {
+    for (int k = -kEditRadius; k <= kEditRadius; ++k) {
+      xs.push_back(x + cell * static_cast<float>(k));
+      zs.push_back(z + cell * static_cast<float>(i));
+    }
+  }
+  SpanSink sink;
+  structure.spans({xs, zs}, sink);
+}
+
+// Whether all the holes of a size fit into half of a ground that is as high as it is wide. On less the later
+// ones would find the ground dug away.
+bool holes_fit(int side) {
+  const double hole = 2 * std::numbers::pi / 3 * std::pow(kEditRadius, 3);
+  return kQueryTurns * kEdits * hole <= 0.5 * std::pow(side, 3);
+}
+
+// The holes that make one sample: those in columns just read, or the others.
+struct Holes {
+  double spent = 0;  // processor seconds
+  int dug = 0, lower = 0;
+
+  // Per hole. Nothing unless more than half of the times the ground is lower afterwards (where the floor lies
+  // open there is nothing to dig): then it was not digging that took the time.
+  std::optional<double> seconds() const {
+    return 2 * lower > dug ? std::optional(spent / dug) : std::nullopt;
+  }
+};
+
+// Digs half a sphere of kEditRadius columns out of the ground, kEdits times. A tree of heightmaps takes a
+// radial erosion with the same radii, which also removes the ground above the sphere. Before every second
+// hole all columns that it can change are read, so that caches hold them; before the others the caches are
+// emptied, and then the middle column is read. Returns the other holes, then these.
+std::pair<Holes, Holes> dig_holes(Representation& structure, float cell, Places places,
+                                  const ColdCaches& caches) {
+  std::vector<float> x(kEdits), z(kEdits);
+  places.next(x, z);
+  const bool digs = structure.edited_columns() != nullptr;
+  const float radius = cell * kEditRadius;
+  std::pair<Holes, Holes> all;
+  for (int i = 0; i < kEdits; ++i) {
+    const bool cached = i % 2 == 1;
+    if (!cached) caches.evict();
+    const std::optional<float> top = highest_solid(structure, x[i], z[i]);
+    if (!top) continue;
+    if (cached) read_columns(structure, x[i], z[i], cell);
+    Holes& holes = cached ? all.second : all.first;
+    const glm::vec3 centre{x[i], *top, z[i]};
+    holes.spent += processor_seconds([&] {
+      if (digs) {
+        fill_sphere(structure, {centre, radius}, Material::kAir);
+      } else {
+        structure.apply(events::RadialErosion{glm::dvec3(centre), glm::dvec3(radius)});
+      }
+    });
+    ++holes.dug;
+    holes.lower += highest_solid(structure, x[i], z[i]).value_or(-HUGE_VALF) < *top;
+  }
+  return all;
+}
+
+// What one structure costs at all sizes.
+class Structure {
+ public:
+  Structure(const Run& run, bool solid, const StructureTheory& theory)
+      : run_(run),
+        solid_(solid),
+        type_(representation(theory.name)),
+        building_(run.plan("build", 0.5, {theory.build, theory.bytes})),
+        filing_(run.plan("file", 0.2, {theory.bytes, theory.bytes})),
+        meshing_(run.plan("mesh", 0.3, {theory.mesh, std::max(theory.bytes, 1.0)})),
+        build_("build", "s", theory.build),
+        build_faults_("build_faults", "faults", theory.build),
+        bytes_("bytes", "B", theory.bytes),
+        file_("file", "B", theory.bytes),
+        load_("load", "s", theory.bytes),
+        load_faults_("load_faults", "faults", theory.bytes),
+        query_("query", "s", theory.query),
+        near_("query_near", "s", theory.query),
+        ray_("ray", "s", theory.ray),
+        ray_near_("ray_near", "s", theory.ray),
+        mesh_("mesh", "s", theory.mesh),
+        mesh_faults_("mesh_faults", "faults", theory.mesh),
+        edit_("edit", "s", theory.edit),
+        edit_cached_("edit_cached", "s", theory.edit),
+        random_(run.seed()) {}
+
+  void measure() {
+    const std::vector<int> sides = run_.sides(solid_);
+    run_.progress().begin(fmt::format("{} over {}", type_.name, solid_ ? "a solid" : "heights"),
+                          sides.size());
+    for (const int side : sides) {
+      measure(side);
+      run_.progress().advance();
+    }
+    run_.progress().end();
+    for (const SizePlan* const plan : {&building_, &filing_, &meshing_}) plan->record(run_.recorder());
+    for (const Cost* const cost : {&build_, &build_faults_, &bytes_, &file_, &load_, &load_faults_, &query_,
+                                   &near_, &ray_, &ray_near_, &mesh_, &mesh_faults_, &edit_, &edit_cached_}) {
+      cost->record(run_.recorder());
+    }
+  }
+
+ private:
+  void measure(int side) {
+    const double columns = squared(side);
+    std::unique_ptr<Representation> built;
+    const bool exists = run_.measured(building_, columns, [&] {
+      built = build(side);
+      ask(*built, side);
+    });
+    if (!exists) return;
+    run_.measured(filing_, columns, [&] { write_and_read(*built, columns); });
+    run_.measured(meshing_, columns, [&] {
+      TriangleMesh drawn;
+      run_.add_turns(
+          mesh_, mesh_faults_, columns, [&] { drawn = {}; }, [&] { drawn = built->mesh({}); });
+    });
+    if (takes_edits(type_)) dig(*built, side);
+  }
+
+  // Away from the borders, which events must not reach.
+  void dig(Representation& built, int side) {
+    if (!holes_fit(side)) return;
+    const double share = 1 - 2.0 * (kEditRadius + 2) / side;
+    const float cell = built.bounds().size().x / static_cast<float>(solid_ ? side : side - 1);
+    for (int turn = 0; turn < kQueryTurns; ++turn) {
+      const auto [anywhere, cached] = dig_holes(built, cell, places(built, share), run_.caches());
+      if (const auto taken = anywhere.seconds()) edit_.add(squared(side), *taken);
+      if (const auto taken = cached.seconds()) edit_cached_.add(squared(side), *taken);
+    }
+  }
+
+  std::unique_ptr<Representation> build(int side) {
+    const double columns = squared(side);
+    const TerrainSource source =
+        solid_ ? open_terrain("caves", run_.seed()) : hills_of_one_range(side, run_.seed());
+    Parameters parameters(type_.parameters);
+    if (solid_) parameters.set("resolution", std::int64_t{side});
+    std::unique_ptr<Representation> built;
+    Progress silent;  // a structure's own phases would end the case's
+    run_.add_turns(
+        build_, build_faults_, columns, [&] { built.reset(); },
+        [&] { built = type_.build(source, parameters, silent); });
+    bytes_.add(columns, static_cast<double>(built->memory().total()));
+    return built;
+  }
+
+  void ask(const Representation& built, int side) {
+    const double columns = squared(side), near = std::min(1.0, static_cast<double>(kNear) / side);
+    for (int turn = 0; turn < kQueryTurns; ++turn) {
+      query_.add(columns, seconds_per_query(built, places(built, 1)));
+      near_.add(columns, seconds_per_query(built, places(built, near)));
+    }
+    const std::unique_ptr<RayCaster> caster = built.ray_caster();
+    if (!caster) return;
+    for (int turn = 0; turn < kQueryTurns; ++turn) {
+      ray_.add(columns, seconds_per_ray(*caster, built.bounds(), places(built, 1)));
+      ray_near_.add(columns, seconds_per_ray(*caster, built.bounds(), places(built, near)));
+    }
+  }
+
+  void write_and_read(const Representation& built, double columns) {
+    const std::filesystem::path path = folder_.path() / "saved";
+    file_.add(columns, static_cast<double>(save_representation(path, type_, built)));
+    std::unique_ptr<Representation> loaded;
+    run_.add_turns(
+        load_, load_faults_, columns, [&] { loaded.reset(); },
+        [&] { loaded = load_representation(path).representation; });
+  }
+
+  Places places(const Representation& built, double share) { return {built.bounds(), share, random_}; }
+
+  const Run& run_;
+  bool solid_;
+  const RepresentationType& type_;
+  SizePlan building_, filing_, meshing_;
+  Cost build_, build_faults_, bytes_, file_, load_, load_faults_, query_, near_, ray_, ray_near_, mesh_,
+      mesh_faults_, edit_, edit_cached_;
+  TemporaryFolder folder_;
+  Random random_;
+};
+
+}  // namespace
+
+void measure_structure(const Run& run, bool solid, std::string_view name) {
+  Structure(run, solid,
+            solid ? entry(kOverSolids, "structure for solids", name) : entry(kOverHeights, "structure", name))
+      .measure();
+}
+
+std::vector<std::string_view> scaled_structures(bool solid) {
+  std::vector<std::string_view> names;
+  for (const StructureTheory& one : solid ? std::span<const StructureTheory>(kOverSolids)
+                                          : std::span<const StructureTheory>(kOverHeights)) {
+    names.push_back(one.name);
+  }
+  return names;
+}
+
+}  // namespace terrabench::cross

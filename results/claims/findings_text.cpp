@@ -1,0 +1,118 @@
+#include "results/claims/findings_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "results/store/format.h"
+
+namespace terrabench {
+namespace {
+
+std::string spoken(std::string metric) {
+  std::replace(metric.begin(), metric.end(), '_', ' ');
+  return metric;
+}
+
+std::string show(const Quantity& q, double value) {
+  const std::string text = format_quantity(value, q.unit);
+  return q.name.empty() ? text : q.name + " " + text;
+}
+
+// How far a value misses a bound: relative to the bound unless that is 0, and as a factor from 3 on.
+std::string missed_by(double value, double bound) {
+  const double distance = value - bound;
+  if (!std::isfinite(distance)) return "at no finite distance";
+  const std::string_view side = distance < 0 ? "below" : "above";
+  if (bound != 0 && value / bound >= 3)
+    return fmt::format("{} times that", format_number(std::round(100 * value / bound) / 100));
+  return bound == 0 ? fmt::format("{:.3g} {}", std::abs(distance), side)
+                    : fmt::format("{:.3g} % {}", 100 * std::abs(distance / bound), side);
+}
+
+// A remark for the reader if the 95 % interval leaves uncertain what the median decided.
+std::string_view doubt(const Summary& s, double low, double high, bool holds) {
+  if (holds) {
+    return s.low < low || s.high > high ? "; uncertain: the 95 % interval reaches outside" : "";
+  }
+  if (s.low <= high && s.high >= low) return "; uncertain: the 95 % interval reaches in";
+  return s.high - s.low > high - low ? "; uncertain: the 95 % interval is wider than the range" : "";
+}
+
+}  // namespace
+
+Quantity quantity(const Operand& operand, const Metric& metric, bool name_case) {
+  const std::string name = spoken(operand.metric);
+  return {metric.samples, name_case ? operand.case_name + " " + name : name, metric.unit, timed(metric)};
+}
+
+bool names_cases(const Claim& claim) {
+  const Operand* first = nullptr;
+  for (const Condition& condition : claim.conditions) {
+    for (const Operand& operand : condition.operands) {
+      if (operand.is_number()) continue;
+      if (first == nullptr) first = &operand;
+      if (operand.case_name != first->case_name) return true;
+    }
+  }
+  return false;
+}
+
+Finding word_missing(const Operand& o, bool name_case, const std::optional<WhyAbsent>& why) {
+  return {Finding::Outcome::kMissing,
+          fmt::format("no {} of {} {} was measured{}", o.metric, o.experiment, o.case_name,
+                      why ? fmt::format(" ({}: {})", why->word, why->reason) : ""),
+          why ? std::string(why->word) : "not measured", "",
+          (name_case ? o.case_name + " " : "") + spoken(o.metric)};
+}
+
+Finding word_range(const Condition& condition, const std::vector<Quantity>& quantities, const Summary& s,
+                   bool holds) {
+  const Quantity &first = quantities[0], &second = quantities.back();
+  Finding found{outcome(holds), "", "", "", first.name};
+  std::string what = first.name;
+  std::string_view unit = first.unit;
+  if (condition.kind == Condition::Kind::kRatio) {
+    what = fmt::format("{} ÷ {}", first.name, second.name);
+    found.quantity = what;
+    unit = "";
+  } else if (condition.kind == Condition::Kind::kGrowth) {
+    what = fmt::format("{} grows by the factor", second.name);
+    found.quantity = "growth of " + second.name;
+    unit = "";
+  }
+  const double low = condition.low, high = condition.high;
+  found.value = format_quantity(s.median, unit);
+  found.expected = fmt::format("[{}, {}]", format_exact(low), format_exact(high));
+  found.text = what + " " + found.value;
+  if (s.low != s.high) found.text += fmt::format(" [{}, {}]", format_number(s.low), format_number(s.high));
+  found.text += fmt::format(", {} {}", holds ? "in" : "not in", found.expected);
+  if (!holds) found.text += " but " + missed_by(s.median, s.median < low ? low : high);
+  found.text += doubt(s, low, high, holds);
+  return found;
+}
+
+Finding word_chain(bool equal, const std::vector<Quantity>& quantities, const std::vector<double>& medians,
+                   const std::vector<bool>& holds, std::size_t nearest) {
+  const std::string_view sign = equal ? "=" : "<", broken = equal ? "≠" : "≥";
+  const auto failing = std::ranges::find(holds, false);
+  Finding found{outcome(failing == holds.end()), show(quantities[0], medians[0]), "", "", ""};
+  for (std::size_t i = 0; i < holds.size(); ++i) {
+    found.text += fmt::format(" {} {}", holds[i] ? sign : broken, show(quantities[i + 1], medians[i + 1]));
+    if (!holds[i] && medians[i] != medians[i + 1]) {
+      found.text += fmt::format(" ({})", missed_by(medians[i], medians[i + 1]));
+    }
+  }
+  const std::size_t shown = failing == holds.end() ? nearest : failing - holds.begin();
+  // Of the pair, a plain number is the bound; without one, the second operand is.
+  const bool bound_first = quantities[shown].name.empty();
+  const std::size_t bound = bound_first ? shown : shown + 1, measured = bound_first ? shown + 1 : shown;
+  found.value = format_quantity(medians[measured], quantities[measured].unit);
+  found.expected = fmt::format("{} {}", bound_first && !equal ? ">" : sign,
+                               format_quantity(medians[bound], quantities[bound].unit));
+  found.quantity = quantities[measured].name;
+  return found;
+}
+
+}  // namespace terrabench

@@ -1,0 +1,175 @@
+#include "results/claims/ranking.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "results/claims/embedded.h"
+#include "results/claims/toml_reader.h"
+#include "results/report/fill.h"
+#include "results/store/provenance.h"
+
+namespace terrabench {
+namespace {
+
+struct Candidate {
+  const RankingLayout::Entry* entry;
+  const Record* record;
+  const Metric* metric;
+  std::vector<double> samples;  // in the layout's unit
+  double median;
+};
+
+// Words for the first entry whose unit cannot be converted, to the layout's or to the other entries'.
+std::string other_unit(const RankingLayout& layout, const RankingLayout::Entry& entry, const Metric& metric,
+                       const std::vector<Candidate>& others) {
+  const auto differs = [&](const std::string& unit) { return !conversion(metric.unit, unit); };
+  const auto unit_of = [](const Candidate& c) { return c.metric->unit; };
+  if (!differs(layout.unit) && std::ranges::none_of(others, differs, unit_of)) return "";
+  return fmt::format("{} is measured in {}, which cannot be converted to {}", entry.label,
+                     metric.unit.empty() ? "no unit" : metric.unit,
+                     differs(layout.unit) && !layout.unit.empty() ? layout.unit : "the unit of the others");
+}
+
+// The measured entries; those that lack what is needed are noted in `left_out`, an entry in a unit that
+// cannot be converted in `not_compared`.
+std::vector<Candidate> candidates(const RankingLayout& layout, const Store& store, const std::string& profile,
+                                  Ranking& ranking) {
+  std::vector<Candidate> all;
+  for (const RankingLayout::Entry& entry : layout.entries) {
+    const Record* const record = store.find(layout.experiment, entry.case_name, profile);
+    const Metric* const metric = record == nullptr ? nullptr : record->find(for_row(layout.metric, entry));
+    if (metric == nullptr) continue;
+    const std::string fault = other_unit(layout, entry, *metric, all);
+    if (!fault.empty()) {
+      ranking.left_out.push_back(entry.label);
+      if (ranking.not_compared.empty()) ranking.not_compared = fault;
+      continue;
+    }
+    std::vector<double> samples = metric->samples;
+    for (double& sample : samples) sample *= *conversion(metric->unit, layout.unit);
+    const double middle = median(samples);
+    all.push_back({&entry, record, metric, std::move(samples), middle});
+  }
+  const auto needed_by = [&](const Candidate& c) { return c.record->find(for_row(layout.needs, *c.entry)); };
+  const auto has = [&](const Candidate& c) { return needed_by(c) != nullptr; };
+  if (layout.needs.empty() || std::ranges::none_of(all, has)) return all;
+  std::erase_if(all, [&](const Candidate& c) {
+    const Metric* const needed = needed_by(c);
+    const double value = needed == nullptr ? layout.needs_low - 1 : median(needed->samples);
+    if (value >= layout.needs_low && value <= layout.needs_high) return false;
+    ranking.left_out.push_back(c.entry->label);
+    return true;
+  });
+  return all;
+}
+
+// Why the candidates' figures cannot be compared, as words that follow "as"; empty if they can.
+std::string why_not_compared(const std::vector<Candidate>& all, bool timing, const Store& store) {
+  const Provenance* first = nullptr;
+  for (const Candidate& c : all) {
+    const Provenance* const run = store.run(c.record->run);
+    if (run == nullptr) continue;  // the store reports this as a fault
+    if (first == nullptr) first = run;
+    if (timing && !comparable(*first, *run)) return "the times are of different machines or builds";
+    if (!timing && !same_code(*first, *run)) return "the figures are of different revisions";
+  }
+  return "";
+}
+
+}  // namespace
+
+RankingLayout parse_ranking(const TomlValue& node) {
+  TomlTable entry(node);
+  RankingLayout layout;
+  layout.id = entry.text("id");
+  layout.task = entry.text("task");
+  layout.where = entry.text("where");
+  layout.sentence = entry.text_or("sentence", "");
+  if (!layout.sentence.empty()) layout.brief = entry.text("brief");
+  layout.experiment = entry.text("experiment");
+  layout.metric = entry.text("metric");
+  layout.unit = entry.text_or("unit", "");
+  const std::string best = entry.text("best");
+  if (best != "most" && best != "least") entry.refuse("'best' is either most or least");
+  layout.most = best == "most";
+  if (entry.has("needs")) {
+    TomlTable needs(entry.get("needs"));
+    layout.needs = needs.text("metric");
+    layout.needs_text = needs.text("text");
+    const auto [low, high] = needs.get("range").pair("range");
+    layout.needs_low = low.number("range");
+    layout.needs_high = high.number("range");
+    needs.refuse_unknown();
+  }
+  const std::vector<std::string> known = named_texts(std::array{layout.metric, layout.needs});
+  for (const TomlValue& value : entry.list("entries")) {
+    layout.entries.push_back(parse_row(value, known));
+  }
+  entry.refuse_unknown();
+  return layout;
+}
+
+std::vector<RankingLayout> parse_rankings(std::string_view text, const std::string& origin) {
+  const toml::table table = parse_toml(text, origin, "correct the claims file");
+  TomlFile file{origin, {}};
+  read_sets(table, file);
+  TomlTable entry({&table, &file, {}});
+  std::vector<RankingLayout> layouts;
+  for (const TomlValue& value : entry.list("ranking")) layouts.push_back(parse_ranking(value));
+  return layouts;
+}
+
+std::span<const RankingLayout> ranking_layouts() {
+  static const std::vector<RankingLayout> kLayouts = [] {
+    std::vector<RankingLayout> all;
+    for (const EmbeddedFile& file : embedded_claims()) {
+      for (RankingLayout& layout : parse_rankings(file.text, std::string(file.name))) {
+        all.push_back(std::move(layout));
+      }
+    }
+    return all;
+  }();
+  return kLayouts;
+}
+
+std::optional<Ranking> rank(const RankingLayout& layout, const Store& store, const std::string& profile) {
+  Ranking ranking;
+  ranking.layout = &layout;
+  std::vector<Candidate> all = candidates(layout, store, profile, ranking);
+  if (all.size() + ranking.left_out.size() < 2) return std::nullopt;
+  if (all.empty()) return ranking;
+  std::ranges::stable_sort(all, [&](const Candidate& a, const Candidate& b) {
+    return layout.most ? a.median > b.median : a.median < b.median;
+  });
+  const Candidate& best = all[0];
+  const bool timing = timed(*best.metric);
+  if (ranking.not_compared.empty()) ranking.not_compared = why_not_compared(all, timing, store);
+  ranking.too_few =
+      timing && all.size() > 1 && std::min(best.samples.size(), all[1].samples.size()) < kFewestSamples;
+  for (const Candidate& c : all) {
+    const bool equal = c.median == best.median;  // two zeros have no ratio
+    const Summary factor = equal         ? Summary{1, 1, 1, 1}
+                           : layout.most ? summarise_ratio(best.samples, c.samples)
+                                         : summarise_ratio(c.samples, best.samples);
+    ranking.places.push_back({c.entry->label, c.median, factor});
+    if (std::ranges::count(ranking.runs, c.record->run) == 0) ranking.runs.push_back(c.record->run);
+  }
+  ranking.margin = timing ? kTimingMargin : kExactMargin;
+  const auto ties = [&](const Summary& f) { return f.low <= 1 || f.median < ranking.margin; };
+  while (ranking.tied < all.size() && ties(ranking.places[ranking.tied].factor)) ++ranking.tied;
+  return ranking;
+}
+
+std::vector<Ranking> rank(std::span<const RankingLayout> layouts, const Store& store,
+                          const std::string& profile) {
+  std::vector<Ranking> rankings;
+  for (const RankingLayout& layout : layouts) {
+    if (std::optional<Ranking> ranking = rank(layout, store, profile))
+      rankings.push_back(std::move(*ranking));
+  }
+  return rankings;
+}
+
+}  // namespace terrabench

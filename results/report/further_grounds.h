@@ -1,0 +1,60 @@
+// Grounds that were measured and that no claims file names, such as a user's DEM: what the report shows of
+// them. A claims file says with its [further] how its tables, plots, pictures and rankings are had for such a
+// ground (toml_reader.h). "Which method for my ground" ranks the methods there, and compares the result with
+// the rankings on the named grounds, of the same or of another results folder.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "results/claims/claims.h"
+#include "results/claims/ranking.h"
+#include "results/report/fill.h"
+
+namespace terrabench {
+
+struct ProfileOfStore {
+  const Store& store;
+  std::string profile;
+};
+
+// What readers call each ground that was measured (ground_name.h), by Record::terrain.
+using GroundLabels = std::map<std::string, std::string, std::less<>>;
+GroundLabels labels_of_grounds(const Store&, std::string_view profile);
+// The text, such as a case's name, with the label instead of the path of the DEM that was measured.
+std::string labelled(std::string text, const Record&, const GroundLabels&);
+
+struct FurtherGround {
+  std::string name;   // Record::terrain
+  std::string label;  // of labels_of_grounds()
+  std::string id;     // part of file names and of ids
+  // The claims file's page for this ground with the tables and plots that stand on it, all of them, measured
+  // or not; no claims.
+  Paper paper;
+  std::vector<RankingLayout> rankings;  // one per task
+  // Shown to readers: the ground's content changed between its measurements; a method lost many columns
+  // (lost_columns.h).
+  std::vector<std::string> warnings;
+
+  const PageLayout& page() const { return paper.pages.front(); }
+  std::string table_id() const { return "which-method-" + id; }  // of tables_of_further_grounds()
+};
+
+// In the order of measurement. A record tells its ground (Record::terrain), and belongs to it if its case is
+// named "GROUND" or "GROUND/…" and its experiment is one that the page shows. Reads the claims file anew for
+// each ground: milliseconds. Throws bad_input as parse_claims() does.
+std::vector<FurtherGround> further_grounds(std::span<const Paper>, const ProfileOfStore& measured);
+
+// A table per further ground of which methods can be ranked: for each task who is best there and by how much,
+// and which of the `compared` grounds, as measured in `named`, have the same best, or the same methods tied.
+// Without this last column if no task is decided on any of them.
+std::vector<FilledTable> tables_of_further_grounds(std::span<const FurtherGround>,
+                                                   const ProfileOfStore& measured,
+                                                   std::span<const RankingLayout> compared,
+                                                   const ProfileOfStore& named);
+
+}  // namespace terrabench

@@ -1,0 +1,18 @@
+// "Where the papers are wrong or vague": a page made from the statements that do not hold as printed, each
+// under its cause, and from those that settle what a paper leaves open.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "results/claims/judge.h"
+#include "results/report/document.h"
+
+namespace terrabench {
+
+inline constexpr std::string_view kPaperFaultsTitle = "Where the papers are wrong or vague";
+
+// Links lead into the page `ledger`. Empty if no claim belongs here.
+Document paper_faults(const JudgedResults&, std::span<const Paper>, const std::string& ledger);
+
+}  // namespace terrabench

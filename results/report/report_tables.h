@@ -1,0 +1,47 @@
+// The report's own tables, which no claims file lays out: verdicts, notes, pending claims, provenance.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "results/claims/judge.h"
+#include "results/report/document.h"
+
+namespace terrabench {
+
+// "Of 130 statements of the papers in numbers or orders, 100 hold as printed, …": a sentence per group.
+std::string standings_sentence(const JudgedResults&);
+// How many statements of each paper, and of all, hold: one row per paper.
+Table summary_table(const JudgedResults&, std::span<const Paper>);
+// The notes of one paper's claims, except pending ones.
+Facts claim_notes(const JudgedResults&, const Paper&);
+// The claims of all papers whose method is not built yet.
+Table pending_table(const JudgedResults&);
+
+// "Table 1: memory grows …"; what the paper prints, with its unit, or a dash.
+std::string where_and_statement(const Claim&);
+std::string reported_text(const Claim&);
+
+// The id as the name of a file or of a label: other characters than letters, digits, '.', '-', '_' become
+// '_', and a digest follows, so that no two ids have the same name.
+std::string file_name(std::string_view id);
+// A relative path as part of a link: what is not a letter, a digit or one of "-._~/" is percent-encoded.
+std::string url_path(std::string_view path);
+// The name of a picture's copy, without an ending: its own, since two pictures may have one id, with its
+// folder where that is not figures/.
+std::string picture_name(const RecordedFigure&);
+// The report's copy, relative to the report's folder.
+inline std::string picture_file(const RecordedFigure& figure) {
+  return "figures/" + picture_name(figure) + ".webp";
+}
+
+// Where the numbers come from: one run, and every case of a profile with its seed, terrain and parameters.
+Facts run_facts(const Provenance&);
+// Cases without measurements and metrics without a value, by reason.
+Table absence_table(const JudgedResults&);
+Table input_table(const Store&, std::string_view profile);
+// Runs are named by the start of their digest, and have an anchor in the page.
+std::string short_id(const std::string& run);
+std::string run_anchor(const std::string& run);
+
+}  // namespace terrabench

@@ -1,0 +1,48 @@
+#include "results/report/shown_pictures.h"
+
+#include <algorithm>
+
+#include "results/report/ground_name.h"
+
+namespace terrabench {
+namespace {
+
+// Whether a claim of class F is about this figure. Claims of other classes may have it as a condition too.
+bool has_own_claim(std::span<const Judgement> judgements, const std::string& figure) {
+  return std::ranges::any_of(judgements, [&](const Judgement& j) {
+    return j.claim->claim_class == 'F' &&
+           std::ranges::count(j.claim->conditions, figure, &Condition::figure) > 0;
+  });
+}
+
+}  // namespace
+
+std::vector<ShownPicture> claimed_pictures(const Store& store, const JudgedResults& results,
+                                           const Paper& paper) {
+  std::vector<ShownPicture> pictures;
+  const auto judgements = results.of(paper);
+  for (const Judgement& judgement : judgements) {
+    const Claim& claim = *judgement.claim;
+    for (const Condition& condition : claim.conditions) {
+      const auto [record, figure] = store.find_figure(condition.figure, results.profile);
+      if (figure == nullptr || (claim.claim_class != 'F' && has_own_claim(judgements, figure->id))) continue;
+      pictures.push_back({record, figure, claim.where, claim.statement + " " + figure->caption});
+    }
+  }
+  return pictures;
+}
+
+std::vector<ShownPicture> drawn_pictures(const Store& store, std::string_view profile,
+                                         std::span<const PageLayout::Drawn> cases, std::string_view label) {
+  std::vector<ShownPicture> pictures;
+  for (const PageLayout::Drawn& drawn : cases) {
+    const Record* const record = store.find(drawn.experiment, drawn.case_name, profile);
+    if (record == nullptr) continue;
+    for (const RecordedFigure& figure : record->figures) {
+      pictures.push_back({record, &figure, drawn.title, with_label(figure.caption, record->terrain, label)});
+    }
+  }
+  return pictures;
+}
+
+}  // namespace terrabench
