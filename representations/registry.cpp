@@ -6,6 +6,7 @@
 #include "representations/layered_stack/layered_stack.h"
 #include "representations/procedural_mesh/procedural_mesh.h"
 #include "representations/representation.h"
+#include "representations/tin/tin.h"
 #include "representations/voxel/dense_grid.h"
 #include "representations/voxel/voxel.h"
 #include "terrain/error.h"
@@ -70,6 +71,14 @@ std::span<const RepresentationType> representations() {
        Ght::parameters(),
        Ght::build,
        Ght::load},
+      {"tin",
+       "TIN",
+       "triangles between the samples that greedy insertion picks",
+       "Garland & Heckbert 1995",
+       {},
+       Tin::parameters(),
+       Tin::build,
+       Tin::load},
       {"procedural_mesh",
        "subdivision surface",
        "a subdivision surface displaced by heights, or a model that grows by rules",

@@ -1,0 +1,213 @@
+#include "representations/tin/delaunay.h"
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace terrabench::tin {
+namespace {
+
+// The triangle's corners, beginning with number `first`.
+std::array<std::uint32_t, 3> corners_from(const Triangle& t, int first) {
+  const auto at = [&](int k) { return t.vertex[static_cast<std::size_t>((first + k) % 3)]; };
+  return {at(0), at(1), at(2)};
+}
+
+__extension__ typedef __int128 Wide;  // holds in_circle() of sides up to 2¹⁶
+
+int place_of(const std::array<std::uint32_t, 3>& indices, std::uint32_t index) {
+  return indices[0] == index ? 0 : indices[1] == index ? 1 : 2;
+}
+
+// The sign of q's power over the circle through p, b and c: positive inside.
+int in_circle(Sample p, Sample b, Sample c, Sample q) {
+  struct Offset {
+    std::int64_t x, y, square;
+    Offset(Sample a, Sample from)
+        : x(std::int64_t{a.i} - from.i), y(std::int64_t{a.j} - from.j), square(x * x + y * y) {}
+  };
+  const Offset u(p, q), v(b, q), w(c, q);
+  const Wide power = static_cast<Wide>(u.square) * (v.x * w.y - v.y * w.x) +
+                     static_cast<Wide>(v.square) * (w.x * u.y - w.y * u.x) +
+                     static_cast<Wide>(w.square) * (u.x * v.y - u.y * v.x);
+  return power > 0 ? 1 : power < 0 ? -1 : 0;
+}
+
+// 0 … n - 1 by ascending keys, which are all different.
+template <class Key>
+std::vector<std::uint32_t> sorted(std::size_t n, const Key& key) {
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed(n);
+  for (std::uint32_t k = 0; k < n; ++k) keyed[k] = {key(k), k};
+  tbb::parallel_sort(keyed.begin(), keyed.end());
+  std::vector<std::uint32_t> order(n);
+  std::ranges::transform(keyed, order.begin(), [](const auto& pair) { return pair.second; });
+  return order;
+}
+
+std::vector<std::uint32_t> inverse(const std::vector<std::uint32_t>& order) {
+  std::vector<std::uint32_t> place(order.size());
+  for (std::uint32_t k = 0; k < order.size(); ++k) place[order[k]] = k;
+  return place;
+}
+
+}  // namespace
+
+Delaunay::Delaunay(int width, int depth) {
+  const auto east = static_cast<std::uint16_t>(width - 1), south = static_cast<std::uint16_t>(depth - 1);
+  vertices_ = {{0, 0}, {east, 0}, {0, south}, {east, south}};
+  triangles_ = {{{0, 1, 3}, {kNone, 1, kNone}}, {{0, 3, 2}, {kNone, kNone, 0}}};
+}
+
+void Delaunay::reserve(std::size_t vertices) {
+  vertices_.reserve(vertices);
+  triangles_.reserve(2 * vertices);
+}
+
+std::vector<std::uint32_t> Delaunay::put_in_order() {
+  const std::vector<std::uint32_t> former = sorted(vertices_.size(), [&](std::uint32_t v) {
+    return std::uint64_t{vertices_[v].j} << 16 | vertices_[v].i;
+  });
+  const std::vector<std::uint32_t> vertex_now = inverse(former);
+  for (Triangle& t : triangles_) {
+    for (std::uint32_t& v : t.vertex) v = vertex_now[v];
+    const auto first = std::ranges::min_element(t.vertex) - t.vertex.begin();
+    std::ranges::rotate(t.vertex, t.vertex.begin() + first);
+    std::ranges::rotate(t.neighbour, t.neighbour.begin() + first);
+  }
+  const std::vector<std::uint32_t> order = sorted(triangles_.size(), [&](std::uint32_t t) {
+    return std::uint64_t{triangles_[t].vertex[0]} << 32 | triangles_[t].vertex[1];
+  });
+  const std::vector<std::uint32_t> triangle_now = inverse(order);
+  std::vector<Sample> vertices;
+  vertices.reserve(former.size());
+  for (const std::uint32_t v : former) vertices.push_back(vertices_[v]);
+  std::vector<Triangle> triangles;
+  triangles.reserve(order.size());
+  for (const std::uint32_t t : order) {
+    triangles.push_back(triangles_[t]);
+    for (std::uint32_t& n : triangles.back().neighbour) n = n == kNone ? kNone : triangle_now[n];
+  }
+  vertices_ = std::move(vertices);
+  triangles_ = std::move(triangles);
+  suspects_ = std::vector<std::uint32_t>();
+  return former;
+}
+
+std::uint32_t Delaunay::locate(Sample p, std::uint32_t start) const {
+  // In a Delaunay triangulation a walk toward the point never returns to a triangle.
+  for (std::uint32_t at = start;;) {
+    const Triangle& t = triangles_[at];
+    const Sample a = vertex(t, 0), b = vertex(t, 1), c = vertex(t, 2);
+    const int beyond = twice_area(b, c, p) < 0   ? 0
+                       : twice_area(c, a, p) < 0 ? 1
+                       : twice_area(a, b, p) < 0 ? 2
+                                                 : 3;
+    if (beyond == 3) return at;
+    at = t.neighbour[static_cast<std::size_t>(beyond)];
+  }
+}
+
+void Delaunay::replace(std::uint32_t triangle, std::uint32_t neighbour, std::uint32_t by) {
+  if (triangle == kNone) return;
+  auto& neighbours = triangles_[triangle].neighbour;
+  neighbours[static_cast<std::size_t>(place_of(neighbours, neighbour))] = by;
+}
+
+std::uint32_t Delaunay::insert(Sample p, std::uint32_t triangle, std::vector<std::uint32_t>& changed) {
+  const Triangle t = triangles_[triangle];
+  int edge = 3;
+  for (int k = 0; k < 3; ++k) {
+    const Sample from = vertex(t, (k + 1) % 3), to = vertex(t, (k + 2) % 3);
+    if (from == p) return t.vertex[static_cast<std::size_t>((k + 1) % 3)];
+    if (twice_area(from, to, p) == 0) edge = k;
+  }
+  const auto added = static_cast<std::uint32_t>(vertices_.size());
+  vertices_.push_back(p);
+  suspects_.clear();
+  if (edge == 3) {
+    split(triangle, added);
+  } else {
+    split_edge(triangle, edge, added);
+  }
+  flip_from(changed);
+  return added;
+}
+
+// (a, b, c) becomes (p, b, c), (p, c, a) and (p, a, b).
+void Delaunay::split(std::uint32_t first, std::uint32_t p) {
+  const auto [a, b, c] = triangles_[first].vertex;
+  const auto [beyond_a, beyond_b, beyond_c] = triangles_[first].neighbour;
+  const auto second = static_cast<std::uint32_t>(triangles_.size()), third = second + 1;
+  triangles_[first] = {{p, b, c}, {beyond_a, second, third}};
+  triangles_.push_back({{p, c, a}, {beyond_b, third, first}});
+  triangles_.push_back({{p, a, b}, {beyond_c, first, second}});
+  replace(beyond_b, first, second);
+  replace(beyond_c, first, third);
+  suspects_.insert(suspects_.end(), {first, second, third});
+}
+
+// p lies on the edge bc of (a, b, c), which becomes (p, c, a) and (p, a, b); (q, c, b) on its other side, if
+// there is one, becomes (p, q, c) and (p, b, q).
+void Delaunay::split_edge(std::uint32_t near, int edge, std::uint32_t p) {
+  const auto [a, b, c] = corners_from(triangles_[near], edge);
+  const auto near_side = [&](int k) {
+    return triangles_[near].neighbour[static_cast<std::size_t>((edge + k) % 3)];
+  };
+  const std::uint32_t far = near_side(0), beyond_b = near_side(1), beyond_c = near_side(2);
+  const auto near_new = static_cast<std::uint32_t>(triangles_.size());
+  const std::uint32_t far_new = far == kNone ? kNone : near_new + 1;
+  triangles_[near] = {{p, c, a}, {beyond_b, near_new, far}};
+  triangles_.push_back({{p, a, b}, {beyond_c, far_new, near}});
+  replace(beyond_c, near, near_new);
+  suspects_.insert(suspects_.end(), {near, near_new});
+  if (far == kNone) return;
+  const int q_at = place_of(triangles_[far].neighbour, near);
+  const std::uint32_t q = triangles_[far].vertex[static_cast<std::size_t>(q_at)];
+  const auto far_side = [&](int k) {
+    return triangles_[far].neighbour[static_cast<std::size_t>((q_at + k) % 3)];
+  };
+  const std::uint32_t beyond_far_c = far_side(1), beyond_far_b = far_side(2);
+  // (q, c, b): opposite c lies edge bq, opposite b edge qc.
+  triangles_[far] = {{p, q, c}, {beyond_far_b, near, far_new}};
+  triangles_.push_back({{p, b, q}, {beyond_far_c, far, near_new}});
+  replace(beyond_far_c, far, far_new);
+  suspects_.insert(suspects_.end(), {far, far_new});
+}
+
+bool Delaunay::should_flip(const Triangle& t, Sample q) const {
+  const Sample p = vertex(t, 0), b = vertex(t, 1), c = vertex(t, 2);
+  const int side = in_circle(p, b, c, q);
+  if (side != 0) return side > 0;
+  const Sample first = before(b, c) ? b : c;
+  return before(p, first) || before(q, first);
+}
+
+// Each suspect has the new vertex as its corner 0.
+void Delaunay::flip_from(std::vector<std::uint32_t>& changed) {
+  while (!suspects_.empty()) {
+    const std::uint32_t near = suspects_.back();
+    const Triangle t = triangles_[near];
+    const std::uint32_t far = t.neighbour[0];
+    const Triangle other = far == kNone ? Triangle{} : triangles_[far];
+    const int q_at = far == kNone ? 0 : place_of(other.neighbour, near);
+    if (far == kNone || !should_flip(t, vertex(other, q_at))) {
+      suspects_.pop_back();
+      changed.push_back(near);
+      continue;
+    }
+    // (p, b, c) and (q, c, b) become (p, b, q) and (p, q, c).
+    const auto [p, b, c] = t.vertex;
+    const std::uint32_t q = other.vertex[static_cast<std::size_t>(q_at)];
+    const std::uint32_t beyond_bq = other.neighbour[static_cast<std::size_t>((q_at + 1) % 3)];
+    const std::uint32_t beyond_qc = other.neighbour[static_cast<std::size_t>((q_at + 2) % 3)];
+    const std::uint32_t beyond_cp = t.neighbour[1], beyond_pb = t.neighbour[2];
+    triangles_[near] = {{p, b, q}, {beyond_bq, far, beyond_pb}};
+    triangles_[far] = {{p, q, c}, {beyond_qc, beyond_cp, near}};
+    replace(beyond_bq, far, near);
+    replace(beyond_cp, near, far);
+    suspects_.push_back(far);
+  }
+}
+
+}  // namespace terrabench::tin

@@ -1,0 +1,73 @@
+// The Delaunay triangulation of lattice points in a rectangle, built point by point: the triangle that holds
+// a point is split, and edges are flipped until no circumcircle holds a vertex (Lawson 1977).
+//
+// All tests are exact, in whole numbers. Of four points on one circle, which a lattice has everywhere, the
+// diagonal takes the one that comes first in rows from north to south: so the triangulation depends on the
+// set of points alone, not on their order, and a file needs no connectivity.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "terrain/memory.h"
+
+namespace terrabench::tin {
+
+// A sample of the heightmap, column and row. Sides up to 65,536 samples.
+struct Sample {
+  std::uint16_t i, j;
+  bool operator==(const Sample&) const = default;
+};
+// Rows from north to south, each from west to east.
+constexpr bool before(Sample a, Sample b) { return a.j != b.j ? a.j < b.j : a.i < b.i; }
+
+// Twice the area of (a, b, c), in cells; positive where they turn from the first axis to the second.
+constexpr std::int64_t twice_area(Sample a, Sample b, Sample c) {
+  return (std::int64_t{b.i} - a.i) * (std::int64_t{c.j} - a.j) -
+         (std::int64_t{b.j} - a.j) * (std::int64_t{c.i} - a.i);
+}
+
+struct Triangle {
+  std::array<std::uint32_t, 3> vertex;     // twice_area() > 0
+  std::array<std::uint32_t, 3> neighbour;  // across the edge opposite the vertex; kNone beyond the rectangle
+};
+
+class Delaunay {
+ public:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  Delaunay() = default;
+  // The rectangle of the samples [0, width - 1] × [0, depth - 1], both sides at least 2, as two triangles;
+  // its corners are vertices 0 to 3.
+  Delaunay(int width, int depth);
+
+  const std::vector<Sample>& vertices() const { return vertices_; }
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  Sample vertex(const Triangle& t, int k) const { return vertices_[t.vertex[static_cast<std::size_t>(k)]]; }
+
+  // A triangle that holds the point, on its border at least, by a walk from `start`. O(√triangles) at worst.
+  std::uint32_t locate(Sample, std::uint32_t start) const;
+  // Adds a vertex that lies in this triangle; returns its index, or that of the vertex already there.
+  // Triangles keep their indices but change their corners; those that changed or are new are appended to
+  // `changed`, some twice.
+  std::uint32_t insert(Sample, std::uint32_t triangle, std::vector<std::uint32_t>& changed);
+
+  void reserve(std::size_t vertices);
+  // Numbers vertices by rows and triangles by their corners, the first vertex first, so that the same
+  // vertices give the same arrays, without slack. Returns the former index of each vertex. O(n log n).
+  std::vector<std::uint32_t> put_in_order();
+
+ private:
+  void split(std::uint32_t triangle, std::uint32_t vertex);
+  void split_edge(std::uint32_t triangle, int edge, std::uint32_t vertex);
+  void flip_from(std::vector<std::uint32_t>& changed);
+  bool should_flip(const Triangle&, Sample opposite) const;
+  void replace(std::uint32_t triangle, std::uint32_t neighbour, std::uint32_t by);
+
+  std::vector<Sample> vertices_;
+  std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> suspects_;  // triangles whose edge opposite the new vertex is to be tested
+};
+
+}  // namespace terrabench::tin

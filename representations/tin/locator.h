@@ -1,0 +1,34 @@
+// Which triangle of a triangulation holds a point: a coarse grid of triangles to start from, then a walk.
+#pragma once
+
+#include <vector>
+
+#include "representations/tin/delaunay.h"
+
+namespace terrabench::tin {
+
+class Locator {
+ public:
+  Locator() = default;
+  // The samples are those of the rectangle that is triangulated. O(triangles).
+  Locator(const Delaunay&, int width, int depth);
+
+  // The triangle that holds the point, on its border at least; `i` and `j` in cells, inside the rectangle and
+  // multiples of 2⁻²⁰, so that doubles are exact.
+  std::uint32_t find(const Delaunay&, double i, double j) const;
+  Memory memory() const { return index_memory(start_); }
+
+ private:
+  static constexpr double kTrianglesPerCell = 2;
+
+  int columns_ = 1, rows_ = 1;
+  double per_i_ = 1, per_j_ = 1;      // cells of this grid per sample
+  std::vector<std::uint32_t> start_;  // the triangle at each cell's middle
+};
+
+// Twice the area of (a, b, (i, j)).
+inline double twice_area_to(Sample a, Sample b, double i, double j) {
+  return (b.i - a.i) * (j - a.j) - (b.j - a.j) * (i - a.i);
+}
+
+}  // namespace terrabench::tin

@@ -1,0 +1,263 @@
+#include "representations/tin/tin.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <optional>
+
+#include "representations/column_grid.h"
+#include "representations/heightmap/closed_mesh.h"
+#include "representations/line_grid.h"
+#include "representations/procedural_mesh/shell.h"
+#include "representations/tin/triangle_plane.h"
+#include "terrain/error.h"
+
+namespace terrabench {
+namespace {
+
+constexpr double kSteps = 0x1p20;  // per cell, of the positions that Locator takes
+
+// A position in cells: on a sample if it is within a float's rounding of one, else a whole number of steps.
+double in_cells(float at, double origin, double cell, int samples) {
+  const double u = std::clamp((at - origin) / cell, 0.0, static_cast<double>(samples - 1));
+  const double nearest = std::round(u);
+  return std::abs(u - nearest) <= nearest * 0x1p-22 ? nearest : std::round(u * kSteps) / kSteps;
+}
+
+std::vector<ParameterSpec> make_parameters() {
+  std::vector<ParameterSpec> specs(column_parameters().begin(), column_parameters().end());
+  specs.push_back({"max_error", 0.0, "m",
+                   "largest distance of a sample from the surface; 0: 1/256 of the range of heights", 0,
+                   1e9});
+  return specs;
+}
+
+// A saved triangulation: the vertices in rows. Coarse to fine, since row by row each vertex would change many
+// triangles. No value if a corner of the rectangle is missing.
+std::optional<tin::Approximation> triangulate(const HeightGrid& grid, std::span<const tin::Sample> vertices,
+                                              std::span<const float> heights) {
+  tin::Approximation result{tin::Delaunay(grid.width, grid.depth), {}, {}};
+  for (const tin::Sample corner : std::vector(result.surface.vertices())) {
+    const auto at = std::ranges::lower_bound(vertices, corner, tin::before);
+    if (at == vertices.end() || *at != corner) return std::nullopt;
+    result.heights.push_back(heights[static_cast<std::size_t>(at - vertices.begin())]);
+  }
+  result.surface.reserve(vertices.size());
+  std::vector<std::uint32_t> changed;
+  std::uint32_t near = 0;
+  for (std::size_t stride = std::bit_floor(vertices.size()); stride > 0; stride /= 2) {
+    for (std::size_t v = 0; v < vertices.size(); v += stride) {
+      if (v % (2 * stride) == 0 && 2 * stride <= std::bit_floor(vertices.size())) continue;
+      changed.clear();
+      near = result.surface.locate(vertices[v], near);
+      if (result.surface.insert(vertices[v], near, changed) == result.heights.size()) {
+        result.heights.push_back(heights[v]);
+      }
+    }
+  }
+  put_in_order(result);
+  return result;
+}
+
+Heightfield as_field(const Heightmap& map) {
+  Heightfield field = Heightfield::zeros(map.grid().width, map.grid().depth);
+  field.heights.assign(map.heights().begin(), map.heights().end());
+  return field;
+}
+
+}  // namespace
+
+std::span<const ParameterSpec> Tin::parameters() {
+  static const std::vector<ParameterSpec> specs = make_parameters();
+  return specs;
+}
+
+Tin::Tin(const HeightGrid& grid, tin::Approximation approximation)
+    : grid_(grid),
+      surface_(std::move(approximation.surface)),
+      heights_(std::move(approximation.heights)),
+      holes_(std::move(approximation.holes)),
+      locator_(surface_, grid.width, grid.depth) {}
+
+std::unique_ptr<Representation> Tin::build(const TerrainSource& source, const Parameters& parameters,
+                                           Progress& progress) {
+  const auto sampled = Heightmap::build(source, parameters, progress);
+  const auto& map = static_cast<const Heightmap&>(*sampled);
+  const Heightfield field = as_field(map);
+  auto error = static_cast<float>(parameters.number("max_error"));
+  if (error == 0) {
+    const HeightRange range = height_range(field);
+    error = std::max(0.0F, range.highest - range.lowest) / 256;
+  }
+  return std::unique_ptr<Representation>(new Tin(map.grid(), tin::greedy_insertion(field, error, progress)));
+}
+
+float Tin::height_in(const tin::Triangle& t, double i, double j) const {
+  const tin::Plane plane({surface_.vertex(t, 0), surface_.vertex(t, 1), surface_.vertex(t, 2)},
+                         {heights_[t.vertex[0]], heights_[t.vertex[1]], heights_[t.vertex[2]]});
+  return static_cast<float>(plane(i, j));
+}
+
+float Tin::height(float x, float z) const {
+  const Bounds& bounds = grid_.bounds;
+  if (!(x >= bounds.low.x && x <= bounds.high.x && z >= bounds.low.z && z <= bounds.high.z)) {
+    return Heightfield::kNoData;
+  }
+  const double i = in_cells(x, grid_.origin_x, grid_.cell_x, grid_.width),
+               j = in_cells(z, grid_.origin_z, grid_.cell_z, grid_.depth);
+  const std::uint32_t at = locator_.find(surface_, i, j);
+  const tin::Triangle& t = surface_.triangles()[at];
+  if (holes_.empty() || holes_[at] == 0) return height_in(t, i, j);
+  // Inside a hole there is no data. On its rim, and on lines between two holes, lie vertices one cell apart.
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t from = t.vertex[(k + 1) % 3], to = t.vertex[(k + 2) % 3];
+    const tin::Sample a = surface_.vertices()[from], b = surface_.vertices()[to];
+    if (a.i == i && a.j == j) return heights_[from];
+    if (std::abs(a.i - b.i) + std::abs(a.j - b.j) == 1 && tin::twice_area_to(a, b, i, j) == 0) {
+      const auto along = static_cast<float>(std::abs(i - a.i) + std::abs(j - a.j));
+      return heights_[from] + along * (heights_[to] - heights_[from]);
+    }
+  }
+  return Heightfield::kNoData;
+}
+
+void Tin::spans(Columns where, SpanSink& out) const {
+  for (std::size_t c = 0; c < where.size(); ++c) {
+    const float top = height(where.x[c], where.z[c]);
+    if (top > grid_.bounds.low.y) out.add({grid_.bounds.low.y, top, Material::kBedrock});
+    out.end_column();
+  }
+}
+
+TriangleMesh Tin::mesh(MeshDetail detail) const {
+  if (detail.cell > 0) {
+    const auto evenly = [&](float low, float high) {
+      const double cells = std::clamp(std::round((static_cast<double>(high) - low) / detail.cell), 1.0,
+                                      static_cast<double>(ColumnGrid::kMaxColumns));
+      std::vector<float> at;
+      for (int i = 0; i <= static_cast<int>(cells); ++i)
+        at.push_back(static_cast<float>(low + i * (static_cast<double>(high) - low) / cells));
+      at.back() = high;
+      return at;
+    };
+    const std::vector<float> x = evenly(grid_.bounds.low.x, grid_.bounds.high.x),
+                             z = evenly(grid_.bounds.low.z, grid_.bounds.high.z);
+    std::vector<float> heights;
+    heights.reserve(x.size() * z.size());
+    for (const float south : z) {
+      for (const float east : x) heights.push_back(height(east, south));
+    }
+    return closed_mesh(x, z, heights, grid_.bounds.low.y);
+  }
+  std::vector<glm::vec3> positions;
+  positions.reserve(heights_.size());
+  for (std::size_t v = 0; v < heights_.size(); ++v) {
+    const tin::Sample s = surface_.vertices()[v];
+    positions.emplace_back(static_cast<float>(grid_.origin_x + s.i * grid_.cell_x), heights_[v],
+                           static_cast<float>(grid_.origin_z + s.j * grid_.cell_z));
+  }
+  std::vector<glm::u32vec3> triangles;
+  triangles.reserve(surface_.triangles().size());
+  for (std::size_t t = 0; t < surface_.triangles().size(); ++t) {
+    if (!holes_.empty() && holes_[t] != 0) continue;
+    const auto [a, b, c] = surface_.triangles()[t].vertex;
+    triangles.emplace_back(a, c, b);  // seen from above: the second axis points south
+  }
+  add_margin(positions, triangles);
+  return close_down(std::move(positions), std::move(triangles), grid_.bounds.low.y);
+}
+
+// Between the outermost samples and the bounds, half a cell for solids, the border's height continues.
+void Tin::add_margin(std::vector<glm::vec3>& positions, std::vector<glm::u32vec3>& triangles) const {
+  const Bounds& bounds = grid_.bounds;
+  const auto outward = [&](glm::vec3 p) {
+    const bool west = p.x <= positions[0].x, east = p.x >= positions[3].x, north = p.z <= positions[0].z,
+               south = p.z >= positions[3].z;
+    return glm::vec3(west   ? bounds.low.x
+                     : east ? bounds.high.x
+                            : p.x,
+                     p.y,
+                     north   ? bounds.low.z
+                     : south ? bounds.high.z
+                             : p.z);
+  };
+  if (bounds.low.x >= positions[0].x && bounds.high.x <= positions[3].x) return;
+  std::vector<std::uint32_t> copy(positions.size(), tin::Delaunay::kNone);
+  const std::vector<DirectedEdge> border = [&] {
+    std::vector<DirectedEdge> edges;
+    for (std::size_t t = 0; t < surface_.triangles().size(); ++t) {
+      const tin::Triangle& at = surface_.triangles()[t];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const bool hole = !holes_.empty() && holes_[t] != 0;
+        if (at.neighbour[k] == tin::Delaunay::kNone && !hole)
+          edges.push_back({at.vertex[(k + 2) % 3], at.vertex[(k + 1) % 3]});
+      }
+    }
+    return edges;
+  }();
+  const auto copied = [&](std::uint32_t v) {
+    if (copy[v] == tin::Delaunay::kNone) {
+      copy[v] = static_cast<std::uint32_t>(positions.size());
+      positions.push_back(outward(positions[v]));
+    }
+    return copy[v];
+  };
+  for (const auto [from, to] : border) {
+    const std::uint32_t outer_from = copied(from), outer_to = copied(to);
+    triangles.emplace_back(to, from, outer_from);
+    triangles.emplace_back(to, outer_from, outer_to);
+  }
+}
+
+Memory Tin::memory() const {
+  Memory memory = payload_memory(heights_);
+  memory += payload_memory(surface_.vertices());
+  memory += index_memory(surface_.triangles());
+  memory += index_memory(holes_);
+  memory += locator_.memory();
+  memory.index += heap_bytes(this);
+  return memory;
+}
+
+void Tin::save(ByteSink& out) const {
+  grid_.save(out);
+  out.put(static_cast<std::uint64_t>(heights_.size()));
+  out.put_array(std::span(surface_.vertices()));
+  out.put_array(std::span<const float>(heights_));
+  out.put(static_cast<std::uint8_t>(!holes_.empty()));
+  out.put_array(std::span<const std::uint8_t>(holes_));
+}
+
+std::unique_ptr<Representation> Tin::load(ByteSource& in) {
+  const HeightGrid grid = HeightGrid::load(in);
+  if (grid.width < 2 || grid.depth < 2) in.fail("a triangulation has at least 2 × 2 samples");
+  const auto count = in.get<std::uint64_t>();
+  const std::vector<tin::Sample> vertices = in.get_array<tin::Sample>(count);
+  std::vector<float> heights = in.get_array<float>(count);
+  if (std::any_of(heights.begin(), heights.end(), [](float h) { return std::isinf(h); }))
+    in.fail("a height is infinite");
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (vertices[v].i >= grid.width || vertices[v].j >= grid.depth) in.fail("a vertex lies outside the grid");
+    if (v > 0 && !before(vertices[v - 1], vertices[v])) in.fail("the vertices are not in order");
+  }
+  std::optional<tin::Approximation> restored = triangulate(grid, vertices, heights);
+  if (!restored) in.fail("a corner of the grid is no vertex");
+  if (in.get<std::uint8_t>() != 0) {
+    restored->holes = in.get_array<std::uint8_t>(restored->surface.triangles().size());
+    for (std::uint8_t& hole : restored->holes) hole = hole != 0 ? 1 : 0;
+  }
+  return std::unique_ptr<Representation>(new Tin(grid, std::move(*restored)));
+}
+
+LineGrid Tin::lines() const {
+  return {grid_.width, grid_.depth, grid_.origin_x, grid_.origin_z, grid_.cell_x, grid_.cell_z, {}};
+}
+
+std::vector<std::pair<std::string, std::string>> Tin::facts() const {
+  return {{"triangulation", fmt::format("{} vertices, {} triangles", heights_.size(), triangles())}};
+}
+
+}  // namespace terrabench

@@ -1,0 +1,51 @@
+// Triangulated irregular network: the samples of a heightmap that greedy insertion picks (Garland & Heckbert
+// 1995), triangulated by Delaunay; the ground is linear on each triangle. The one knob is the largest error.
+// 56 B per vertex, of which 48 B are the triangles, and 2 to 4 B to find them by; a query walks over a few
+// triangles, O(1) on most ground.
+//
+// To follow a TIN: greedy_insertion.h (which samples), delaunay.h (how they are joined), then here.
+#pragma once
+
+#include <vector>
+
+#include "representations/heightmap/heightmap.h"
+#include "representations/representation.h"
+#include "representations/tin/greedy_insertion.h"
+#include "representations/tin/locator.h"
+
+namespace terrabench {
+
+class Tin final : public Representation {
+ public:
+  static std::span<const ParameterSpec> parameters();
+  // A solid gives its topmost surface. Throws usage_error for fewer than 2 × 2 samples.
+  static std::unique_ptr<Representation> build(const TerrainSource&, const Parameters&, Progress&);
+  static std::unique_ptr<Representation> load(ByteSource&);
+
+  std::size_t triangles() const { return surface_.triangles().size(); }
+  // As Heightmap::height(): no-data outside the bounds and in holes; between the outermost samples and the
+  // bounds the border's height continues.
+  float height(float x, float z) const;
+
+  void spans(Columns where, SpanSink& out) const override;
+  // The triangles, closed by walls along the border and around holes and by the same triangles at the floor.
+  TriangleMesh mesh(MeshDetail) const override;
+  Memory memory() const override;  // payload: vertices and heights; index: triangles and where to find them
+  void save(ByteSink&) const override;  // vertices and heights alone, which determine the triangles
+  Bounds bounds() const override { return grid_.bounds; }
+  LineGrid lines() const override;
+  std::vector<std::pair<std::string, std::string>> facts() const override;
+
+ private:
+  Tin(const HeightGrid& grid, tin::Approximation);
+  float height_in(const tin::Triangle&, double i, double j) const;
+  void add_margin(std::vector<glm::vec3>& positions, std::vector<glm::u32vec3>& triangles) const;
+
+  HeightGrid grid_;
+  tin::Delaunay surface_;
+  std::vector<float> heights_;       // of the vertices, metres
+  std::vector<std::uint8_t> holes_;  // per triangle 1 for no data; empty if there is none
+  tin::Locator locator_;
+};
+
+}  // namespace terrabench
