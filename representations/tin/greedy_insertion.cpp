@@ -2,6 +2,7 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <bit>
@@ -37,27 +38,57 @@ int first_miss(const float* heights, int count, float first, float slope, float 
   return count - 1;
 }
 
-// The columns of row j that an edge bounds. The quotients of whole numbers below 2³² are either whole or far
-// enough from it that doubles round to the right side.
-struct RowEnds {
-  int west, east;
+// A triangle whose candidate is to be inserted.
+struct Due {
+  std::uint32_t place, triangle;
+  auto operator<=>(const Due&) const = default;
+};
 
-  RowEnds(std::array<Sample, 3> p, int j) : west(65535), east(0) {
-    for (int k = 0; k < 3; ++k) {
-      Sample a = p[static_cast<std::size_t>(k)], b = p[static_cast<std::size_t>((k + 1) % 3)];
-      if (a.j > b.j) std::swap(a, b);
-      if (j < a.j || j > b.j) continue;
-      if (a.j == b.j) {
-        west = std::min({west, int{a.i}, int{b.i}});
-        east = std::max({east, int{a.i}, int{b.i}});
-        continue;
-      }
-      const double at = a.i + static_cast<double>(std::int64_t{j - a.j} * (b.i - a.i)) / (b.j - a.j);
-      // The interior lies to one side; the other edge of the row moves the opposite bound.
-      west = std::min(west, static_cast<int>(std::ceil(at)));
-      east = std::max(east, static_cast<int>(std::floor(at)));
-    }
+// The place on a Z-order curve: the bits of both coordinates in turn.
+std::uint32_t along_z_curve(Sample s) {
+  const auto spread = [](std::uint32_t x) {
+    x = (x | x << 8) & 0x00FF00FFU;
+    x = (x | x << 4) & 0x0F0F0F0FU;
+    x = (x | x << 2) & 0x33333333U;
+    return (x | x << 1) & 0x55555555U;
+  };
+  return spread(s.i) | spread(s.j) << 1;
+}
+
+// The samples of a triangle by rows.
+class Rows {
+ public:
+  explicit Rows(std::array<Sample, 3> p) : p_(p) {
+    std::ranges::sort(p_, {}, [](Sample s) { return s.j; });
+    long_ = per_row(p_[0], p_[2]);
+    upper_ = per_row(p_[0], p_[1]);
+    lower_ = per_row(p_[1], p_[2]);
   }
+  int first() const { return p_[0].j; }
+  int last() const { return p_[2].j; }
+  // Of row j, west ≤ east unless it has none.
+  struct Columns {
+    int west, east;
+  };
+  Columns columns(int j) const {
+    const double one = p_[0].i + (j - p_[0].j) * long_;
+    const double other = j < p_[1].j || p_[1].j == p_[2].j ? p_[0].i + (j - p_[0].j) * upper_
+                                                           : p_[1].i + (j - p_[1].j) * lower_;
+    return {static_cast<int>(std::ceil(std::min(one, other) - kOnEdge)),
+            static_cast<int>(std::floor(std::max(one, other) + kOnEdge))};
+  }
+
+ private:
+  // A sample that is not on an edge is at least 2⁻¹⁶ cells from it along its row; rounding moves an edge by
+  // less than 2⁻³⁰.
+  static constexpr double kOnEdge = 0x1p-20;
+
+  static double per_row(Sample a, Sample b) {
+    return a.j == b.j ? 0 : static_cast<double>(b.i - a.i) / (b.j - a.j);
+  }
+
+  std::array<Sample, 3> p_;      // from north to south
+  double long_, upper_, lower_;  // columns per row of the edges
 };
 
 class Insertion {
@@ -94,6 +125,7 @@ class Insertion {
 
  private:
   static constexpr float kFall = 0.5F;  // of the limit from pass to pass
+  static constexpr float kListed = -1;  // the error of a triangle that waits for scan()
 
   float height(Sample s) const { return field_.at(s.i, s.j); }
 
@@ -150,23 +182,30 @@ class Insertion {
   }
 
   // One sample of each triangle that misses more than the limit, unless the pass changed the triangle before;
-  // whether there was one.
+  // whether there was one. In an order that keeps to one region after the other, since what is near in space
+  // then is near in memory.
   bool insert_above(float limit) {
-    std::vector<std::uint32_t> changed;
-    const std::size_t triangles = candidates_.size();
-    for (std::uint32_t t = 0; t < triangles; ++t) {
-      const Candidate c = candidates_[t];
-      if (!(c.error > limit)) continue;
-      const std::size_t first = changed.size();
-      add(c.at, t, changed);
-      candidates_.resize(surface_.triangles().size());
-      for (std::size_t k = first; k < changed.size(); ++k) candidates_[changed[k]].error = 0;
+    std::vector<Due> due;
+    for (std::uint32_t t = 0; t < candidates_.size(); ++t) {
+      if (candidates_[t].error > limit) due.push_back({along_z_curve(candidates_[t].at), t});
     }
-    if (changed.empty()) return false;
-    std::ranges::sort(changed);
-    changed.erase(std::ranges::unique(changed).begin(), changed.end());
+    tbb::parallel_sort(due.begin(), due.end());
+    std::vector<std::uint32_t> changed;
+    std::size_t counted = 0;
+    for (const Due& next : due) {
+      if (!(candidates_[next.triangle].error > limit)) continue;
+      add(candidates_[next.triangle].at, next.triangle, changed);
+      candidates_.resize(surface_.triangles().size());
+      for (std::size_t k = counted; k < changed.size(); ++k) {
+        float& error = candidates_[changed[k]].error;
+        if (error == kListed) continue;
+        error = kListed;
+        changed[counted++] = changed[k];
+      }
+      changed.resize(counted);
+    }
     scan(changed);
-    return true;
+    return !changed.empty();
   }
 
   void scan(const std::vector<std::uint32_t>& triangles) {
@@ -190,17 +229,16 @@ class Insertion {
     if (twice_area(p[0], p[1], p[2]) == 1) return worst;  // holds no other sample
     const Plane plane(p, h);
     const auto slope = static_cast<float>(plane.per_i);
-    const int last = std::max({p[0].j, p[1].j, p[2].j});
-    for (int j = std::min({p[0].j, p[1].j, p[2].j}); j <= last; ++j) {
-      const RowEnds row(p, j);
-      if (row.east < row.west) continue;
-      const float* const heights =
-          field_.heights.data() + static_cast<std::size_t>(j) * field_.width + row.west;
-      const int count = row.east - row.west + 1;
-      const auto first = static_cast<float>(plane(row.west, j));
+    const Rows rows(p);
+    for (int j = rows.first(); j <= rows.last(); ++j) {
+      const auto [west, east] = rows.columns(j);
+      if (east < west) continue;
+      const float* const heights = field_.heights.data() + static_cast<std::size_t>(j) * field_.width + west;
+      const int count = east - west + 1;
+      const auto first = static_cast<float>(plane(west, j));
       const float miss = largest_miss(heights, count, first, slope);
       if (!(miss > worst.error)) continue;
-      const int i = row.west + first_miss(heights, count, first, slope, miss);
+      const int i = west + first_miss(heights, count, first, slope, miss);
       worst = {miss, {static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j)}};
     }
     return worst;

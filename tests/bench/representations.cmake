@@ -1,6 +1,7 @@
 terrabench_benchmark(stack_bench SOURCES stack_bench.cpp LIBRARIES representations)
 terrabench_benchmark(drill_bench SOURCES drill_bench.cpp LIBRARIES representations)
 terrabench_benchmark(ght_bench SOURCES ght_bench.cpp LIBRARIES representations)
+terrabench_benchmark(tin_bench SOURCES tin_bench.cpp LIBRARIES representations)
 # The peer of the implicit surface's marching cubes.
 find_package(VTK QUIET COMPONENTS CommonCore CommonDataModel FiltersCore)
 terrabench_benchmark(implicit_bench SOURCES implicit_bench.cpp LIBRARIES representations TBB::tbb)
