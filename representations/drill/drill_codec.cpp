@@ -8,7 +8,7 @@
 #include <span>
 
 #include "representations/drill/quantum.h"
-#include "representations/drill/range_coder.h"
+#include "representations/coding/range_coder.h"
 #include "terrain/hydrology/flow.h"
 #include "terrain/memory.h"
 

@@ -7,6 +7,8 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -69,5 +71,16 @@ class Delaunay {
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> suspects_;  // triangles whose edge opposite the new vertex is to be tested
 };
+
+// Calls visit(k) once for each k below n, coarse to fine: row by row each vertex would change many triangles.
+template <class Visit>
+void coarse_to_fine(std::size_t n, const Visit& visit) {
+  const std::size_t longest = std::bit_floor(n);
+  for (std::size_t stride = longest; stride > 0; stride /= 2) {
+    for (std::size_t k = 0; k < n; k += stride) {
+      if (stride == longest || k % (2 * stride) != 0) visit(k);
+    }
+  }
+}
 
 }  // namespace terrabench::tin

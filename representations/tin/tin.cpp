@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <optional>
 
@@ -35,8 +34,7 @@ std::vector<ParameterSpec> make_parameters() {
   return specs;
 }
 
-// A saved triangulation: the vertices in rows. Coarse to fine, since row by row each vertex would change many
-// triangles. No value if a corner of the rectangle is missing.
+// A saved triangulation: the vertices in rows. No value if a corner of the rectangle is missing.
 std::optional<tin::Approximation> triangulate(const HeightGrid& grid, std::span<const tin::Sample> vertices,
                                               std::span<const float> heights) {
   tin::Approximation result{tin::Delaunay(grid.width, grid.depth), {}, {}};
@@ -48,16 +46,13 @@ std::optional<tin::Approximation> triangulate(const HeightGrid& grid, std::span<
   result.surface.reserve(vertices.size());
   std::vector<std::uint32_t> changed;
   std::uint32_t near = 0;
-  for (std::size_t stride = std::bit_floor(vertices.size()); stride > 0; stride /= 2) {
-    for (std::size_t v = 0; v < vertices.size(); v += stride) {
-      if (v % (2 * stride) == 0 && 2 * stride <= std::bit_floor(vertices.size())) continue;
-      changed.clear();
-      near = result.surface.locate(vertices[v], near);
-      if (result.surface.insert(vertices[v], near, changed) == result.heights.size()) {
-        result.heights.push_back(heights[v]);
-      }
+  tin::coarse_to_fine(vertices.size(), [&](std::size_t v) {
+    changed.clear();
+    near = result.surface.locate(vertices[v], near);
+    if (result.surface.insert(vertices[v], near, changed) == result.heights.size()) {
+      result.heights.push_back(heights[v]);
     }
-  }
+  });
   put_in_order(result);
   return result;
 }

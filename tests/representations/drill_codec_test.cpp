@@ -3,10 +3,10 @@
 
 #include <functional>
 
+#include "representations/coding/range_coder.h"
 #include "representations/drill/extract.h"
 #include "representations/drill/pits.h"
 #include "representations/drill/quantum.h"
-#include "representations/drill/range_coder.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/memory.h"
 #include "tests/representations/drill_ground.h"

@@ -1,4 +1,4 @@
-#include "representations/drill/range_coder.h"
+#include "representations/coding/range_coder.h"
 
 #include <algorithm>
 #include <utility>
@@ -75,7 +75,7 @@ RangeDecoder::RangeDecoder(std::span<const std::byte> bytes, const ByteSource& s
 }
 
 void RangeDecoder::shift() {
-  if (position_ == bytes_.size()) source_.fail("the coded drills end too early");
+  if (position_ == bytes_.size()) source_.fail("the coded numbers end too early");
   code_ = code_ << 8 | std::to_integer<std::uint32_t>(bytes_[position_++]);
 }
 
