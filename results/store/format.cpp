@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "terrain/number.h"
+#include "terrain/separators.h"
 
 namespace terrabench {
 namespace {
@@ -35,12 +36,6 @@ bool is_formula(std::string_view text) {
   if (at == text.npos) return !parse_number<double>(text);
   return !parse_number<double>(text.substr(0, at)) ||
          !parse_number<double>(text.substr(at + kBetween.size()));
-}
-
-std::string with_separators(std::string digits) {
-  const std::size_t sign = digits.starts_with('-') ? 1 : 0;
-  for (std::size_t at = digits.size(); at > sign + 3;) digits.insert(at -= 3, 1, ',');
-  return digits;
 }
 
 }  // namespace
