@@ -12,6 +12,7 @@
 #include "experiments/figures/figure.h"
 #include "experiments/figures/ground.h"
 #include "experiments/figures/maps.h"
+#include "experiments/figures/projection.h"
 #include "lod/clipmap/clipmap.h"
 #include "renderers/scene.h"
 #include "representations/layered_stack/height_map.h"
@@ -117,10 +118,8 @@ Sheet draw_rings(Drawing& drawing) {
   sheet.text(2 * kMargin + kSide, kTitle - 8, "aslant", 16);
   sheet.picture(2 * kMargin + kSide, kTitle, kLong, kSide, render_scene(gl, lit, aslant));
   sheet.dot({kMargin + kSide / 2, kTitle + kSide / 2}, 5, {0, 0, 0});
-  const glm::vec4 clip =
-      world_to_clip(aslant) * glm::vec4(0.5F * field.extent_x(), floor, field.extent_z(), 1);
-  sheet.text(2 * kMargin + kSide + kLong * (0.5 + 0.5 * clip.x / clip.w),
-             kTitle + kSide * (0.5 - 0.5 * clip.y / clip.w) + 26, fmt::format("{:.0f} m", field.extent_x()),
+  const SheetPoint front = project(aslant, {0.5F * field.extent_x(), floor, field.extent_z()}).at;
+  sheet.text(2 * kMargin + kSide + front.x, kTitle + front.y + 26, fmt::format("{:.0f} m", field.extent_x()),
              15, "middle");
   double x = kMargin;
   const double y = kTitle + kSide + 18;

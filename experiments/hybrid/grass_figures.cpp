@@ -8,6 +8,7 @@
 #include "experiments/cases.h"
 #include "experiments/figures/figure.h"
 #include "experiments/figures/ground.h"
+#include "experiments/figures/projection.h"
 #include "experiments/hybrid/grassland.h"
 #include "renderers/grass/grass_scene.h"
 #include "renderers/scene.h"
@@ -91,16 +92,10 @@ View view_of(const Bounds& box, int width, int height, glm::vec3 from, float zoo
   return view;
 }
 
-// Where a point appears, in units of the sheet from the picture's corner.
-figures::SheetPoint on_picture(const View& view, const glm::vec3& p) {
-  const glm::vec4 clip = world_to_clip(view) * glm::vec4(p, 1);
-  return {(0.5 + 0.5 * clip.x / clip.w) * view.width / Sheet::kPixels,
-          (0.5 - 0.5 * clip.y / clip.w) * view.height / Sheet::kPixels};
-}
-
 // The length of the block's front side, below it. `left`, `top`: of the picture on the sheet.
 void label_length(Sheet& sheet, const View& view, const Block& block, double left, double top) {
-  const figures::SheetPoint low = on_picture(view, block.low), high = on_picture(view, block.high);
+  const figures::SheetPoint low = figures::project(view, block.low).at,
+                            high = figures::project(view, block.high).at;
   sheet.stroke({left + low.x, top + low.y + 7}, {left + high.x, top + high.y + 7}, kInk, 1.5);
   sheet.text(left + (low.x + high.x) / 2, top + (low.y + high.y) / 2 + 26,
              fmt::format("{:.0f} m", block.high.x - block.low.x), 14, "middle");
@@ -192,7 +187,7 @@ Sheet draw_diagram(Drawing& drawing) {
                               {drawn, "The same strand with its texture"}}});
   const auto label = [&](const glm::vec3& p, double dx, double dy, std::string_view words,
                          Rgb colour = kInk) {
-    const figures::SheetPoint at = on_picture(view, p);
+    const figures::SheetPoint at = figures::project(view, p).at;
     sheet.text(kMargin + at.x + dx, kMargin + at.y + dy, words, 15, "start", colour);
   };
   label(strand.root + 1.25F * up, 8, 4, "normal N");

@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
 #include <set>
 
 #include "experiments/cases.h"
 #include "experiments/figures/figure.h"
+#include "experiments/figures/projection.h"
 #include "experiments/meshgrow/growing_pictures.h"
 #include "experiments/meshgrow/subdivision_reference.h"
 #include "renderers/scene.h"
@@ -63,13 +63,6 @@ void add_arrow(Scene& scene, const View& view, glm::vec3 from, glm::vec3 to, Rgb
   scene.lines.push_back({{from, to}, colour, width});
   scene.lines.push_back(
       {{to - 0.22F * along + 0.1F * side, to, to - 0.22F * along - 0.1F * side}, colour, width});
-}
-
-// Where a point of space is in a picture of this view, in units of the sheet from the picture's corner.
-SheetPoint place_of(const View& view, const glm::vec3& p) {
-  const glm::vec4 clip = world_to_clip(view) * glm::vec4(p, 1);
-  return {0.5 * view.width / Sheet::kPixels * (1 + clip.x / clip.w),
-          0.5 * view.height / Sheet::kPixels * (1 - clip.y / clip.w)};
 }
 
 // The mesh's edges in plan.
@@ -195,7 +188,7 @@ Sheet draw_frame(Drawing& drawing) {
   Sheet sheet(image.width / 2.0, image.height / 2.0);
   sheet.picture(0, 0, image.width / 2.0, image.height / 2.0, image);
   for (const auto& [axis, colour, words] : axes) {
-    const SheetPoint from = place_of(view, foot), to = place_of(view, foot + s * axis);
+    const SheetPoint from = project(view, foot).at, to = project(view, foot + s * axis).at;
     sheet.stroke(from, to, {255, 255, 255}, 6);
     meshgrow::add_arrow(sheet, from, to, colour, 3.4, 13);
     const double length = std::hypot(to.x - from.x, to.y - from.y), away = 16;
@@ -204,7 +197,7 @@ Sheet draw_frame(Drawing& drawing) {
     const std::string_view anchor = !beside ? "middle" : to.x > from.x ? "start" : "end";
     sheet.text(words_at.x, words_at.y + 7, words, 20, anchor, colour);
   }
-  sheet.dot(place_of(view, foot), 5, kInk);
+  sheet.dot(project(view, foot).at, 5, kInk);
   return sheet;
 }
 

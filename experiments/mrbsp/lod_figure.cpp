@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "experiments/experiment.h"
+#include "experiments/figures/projection.h"
 #include "experiments/mrbsp/figures.h"
 #include "experiments/mrbsp/ground.h"
 #include "lod/meters/bare_pixels.h"
@@ -65,7 +66,6 @@ class LodPicture {
       : ground_(ground),
         lod_(lod),
         view_(view),
-        clip_(world_to_clip(view)),
         frame_(lod.update(view)),
         walls_(frame_),
         context_(open_context(options.renderer, view.width, view.height)) {
@@ -137,9 +137,8 @@ class LodPicture {
     return image;
   }
   std::optional<SheetPoint> project(const glm::vec3& at) const {
-    const glm::vec4 clip = clip_ * glm::vec4(at, 1);
-    if (!(clip.w > view_.near)) return std::nullopt;
-    const SheetPoint p{kWidth * (0.5 + 0.5 * clip.x / clip.w), kHeight * (0.5 - 0.5 * clip.y / clip.w)};
+    const auto [p, depth] = figures::project(view_, at);
+    if (!(depth > view_.near)) return std::nullopt;
     if (p.x < 14 || p.y < 14 || p.x > kWidth - 14 || p.y > kHeight - 14) return std::nullopt;
     return p;
   }
@@ -207,7 +206,6 @@ class LodPicture {
   const Heightfield& ground_;
   Mrbsp& lod_;
   View view_;
-  glm::mat4 clip_;
   const Frame& frame_;
   Walls walls_;
   std::unique_ptr<GlContext> context_;

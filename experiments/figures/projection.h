@@ -1,0 +1,23 @@
+// Where a point of space appears in a picture on a sheet, for lines and words over the picture.
+#pragma once
+
+#include <glm/vec4.hpp>
+
+#include "experiments/figures/sheet.h"
+#include "terrain/view.h"
+
+namespace terrabench::figures {
+
+struct Projected {
+  SheetPoint at;  // from the picture's upper left corner, in units of the sheet; may lie outside the picture
+  double depth;   // metres in front of the eye; `at` means nothing where it is 0 or less
+};
+
+inline Projected project(const View& view, const glm::vec3& point) {
+  const glm::vec4 clip = world_to_clip(view) * glm::vec4(point, 1);
+  const double x = clip.x / clip.w, y = clip.y / clip.w;
+  return {{(0.5 + 0.5 * x) * view.width / Sheet::kPixels, (0.5 - 0.5 * y) * view.height / Sheet::kPixels},
+          clip.w};
+}
+
+}  // namespace terrabench::figures
