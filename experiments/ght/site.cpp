@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <map>
+#include <mutex>
 #include <numbers>
 
 #include "terrain/error.h"
@@ -150,8 +152,21 @@ Site first_site(int side, int size, std::uint64_t seed, const std::function<bool
 }
 
 Site event_site(int side, int size, std::uint64_t seed) {
-  const Site coarse = first_site(kEventsAlong * kLeastSize, kLeastSize, seed, takes_all_events);
-  return make_site(side, size, coarse.seed);
+  // The mountains found for each seed: the search takes about a second, and every case asks for them. The
+  // search runs without the lock, as a thread that waits in it may take up another case.
+  static std::mutex mutex;
+  static std::map<std::uint64_t, std::uint64_t> found;
+  std::optional<std::uint64_t> mountains;
+  {
+    const std::lock_guard lock(mutex);
+    if (const auto known = found.find(seed); known != found.end()) mountains = known->second;
+  }
+  if (!mountains) {
+    mountains = first_site(kEventsAlong * kLeastSize, kLeastSize, seed, takes_all_events).seed;
+    const std::lock_guard lock(mutex);
+    found.emplace(seed, *mountains);
+  }
+  return make_site(side, size, *mountains);
 }
 
 void record_site(const Site& site, std::uint64_t asked, Recorder& recorder) {
