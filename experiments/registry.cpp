@@ -69,6 +69,8 @@
   UNTIMED(meshgrow, kStandard)                        \
   UNTIMED(meshgrow, kSpectrum)                        \
   UNTIMED(meshgrow, kLimit)                           \
+  UNTIMED(meshgrow, kLimitAt)                         \
+  UNTIMED(meshgrow, kApproximation)                   \
   UNTIMED(meshgrow, kHeightField)                     \
   TIMED(meshgrow, kModels)                            \
   UNTIMED(meshgrow, kFork)                            \

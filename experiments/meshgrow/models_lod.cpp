@@ -36,9 +36,9 @@ constexpr std::array kLevels{
 const std::array kSpecs{
     ParameterSpec{"model", std::string("cactus"), "", "name of the model"},
     ParameterSpec{"left_out", std::string(), "", "names of the steps that are left out, separated by commas"},
-    ParameterSpec{"height", std::int64_t{512}, "pixels", "of the square pictures", 16, 4096},
-    ParameterSpec{"samples", std::int64_t{8}, "", "paths per pixel of each picture", 1, 65536},
-    ParameterSpec{"far", 8.0, "", "distance of the far view, in distances of the near one", 1.5, 1000},
+    ParameterSpec{"height", std::int64_t{512}, "pixels", "of the square pictures from near", 16, 4096},
+    ParameterSpec{"samples", std::int64_t{8}, "", "paths per pixel of each picture from near", 1, 1024},
+    ParameterSpec{"far", std::int64_t{8}, "", "distance of the far view, in distances of the near one", 2, 8},
 };
 
 std::vector<Case> cases(const RunOptions& options) {
@@ -132,6 +132,16 @@ Difference difference(const std::array<Pair, kPairs>& pairs) {
   return {std::sqrt(std::max(0.0, square)), variance > 0 ? square / std::sqrt(variance) : 0};
 }
 
+// The picture from `times` as far away, in pixels of the same angle, cut to what the near view shows. A pixel
+// covers times² as much of the model, and gets as many times the paths: both views have the same number.
+void move_away(int times, View& view, RaytraceSettings& settings) {
+  const auto share = 1 / static_cast<float>(times);
+  view.eye = view.target + static_cast<float>(times) * (view.eye - view.target);
+  view.vertical_fov = 2 * std::atan(share * std::tan(0.5F * view.vertical_fov));
+  view.width = view.height = std::max(1, view.height / times);
+  settings.samples *= times * times;
+}
+
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   const std::string name = at.parameters.text("model");
   const growing::Model model = growing::parse_model(growing::model_text(name), name);
@@ -142,14 +152,13 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("triangles", "", static_cast<double>(level.mesh.triangles()));
   recorder.add("share_of_triangles", "",
                static_cast<double>(level.mesh.triangles()) / static_cast<double>(full.mesh.triangles()));
-  const RaytraceSettings settings{
+  RaytraceSettings settings{
       .samples = at.integer("samples"), .bounces = 1, .seed = static_cast<std::uint32_t>(options.seed)};
   const int height = at.integer("height");
   View view = overview(bounds_of(full.mesh), height, height, {0.45F, 0.3F, 1.0F});
   const PaintedModel& look = painted(name);
   for (const bool far : {false, true}) {
-    if (far)
-      view.eye = view.target + static_cast<float>(at.parameters.number("far")) * (view.eye - view.target);
+    if (far) move_away(at.integer("far"), view, settings);
     const std::string_view name_of_view = far ? "far" : "near";
     std::array<Pair, kPairs> pairs;
     for (std::uint32_t k = 0; k < kPairs; ++k) {
