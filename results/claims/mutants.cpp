@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -39,7 +40,23 @@ double mutated(Mutant mutant, double value, double other) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// Whether the condition holds when these mutants act on its metrics. Medians decide, so one sample is enough.
+// The metrics that a condition reads, in the order of Mutate; of a figure, those of `prints` and
+// `brightness`.
+std::vector<Operand> metrics_of(const Condition& condition) {
+  std::vector<Operand> metrics;
+  for (const auto* const operands : {&condition.operands, &condition.brightness}) {
+    std::ranges::copy_if(*operands, std::back_inserter(metrics), std::not_fn(&Operand::is_number));
+  }
+  return metrics;
+}
+
+const Metric* find(const Operand& operand, const Store& store) {
+  const Record* const record = store.find(operand.experiment, operand.case_name, store.profile());
+  return record == nullptr ? nullptr : record->find(operand.metric);
+}
+
+// Whether the condition holds when these mutants act on its metrics, all of which were measured. Medians
+// decide, so one sample is enough.
 class Trial {
  public:
   Trial(const Condition& condition, const Store& store) : store_(store) { one_.conditions = {condition}; }
@@ -63,11 +80,32 @@ class Trial {
 
  private:
   bool holds(const Mutate& change) const {
+    if (one_.conditions[0].kind == Condition::Kind::kFigure) return figure_holds(change);
     const auto mutate = [&](std::span<Samples> metrics) {
       for (Samples& samples : metrics) samples = {median(samples)};
       if (!metrics.empty()) change(metrics);
     };
     return gather_evidence(one_, store_, store_.profile(), mutate).findings[0].outcome == Outcome::kHolds;
+  }
+
+  // Whether the figure, as drawn, would show the metrics as changed. Reads its layout, not its pixels.
+  bool figure_holds(const Mutate& change) const {
+    const Condition& figure = one_.conditions[0];
+    std::vector<Samples> metrics;
+    for (const Operand& operand : metrics_of(figure)) {
+      metrics.push_back({median(find(operand, store_)->samples)});
+    }
+    if (metrics.empty()) return true;
+    const std::vector<Samples> measured = metrics;
+    change(metrics);
+    const auto& layout = store_.find_figure(figure.figure, store_.profile()).second->layout;
+    for (std::size_t k = 0; k < metrics.size(); ++k) {
+      const bool is_brightness = k >= figure.operands.size();
+      const bool shown = is_brightness ? std::abs(metrics[k][0] - measured[k][0]) <= Condition::kBrightness
+                                       : layout && says(*layout, metrics[k][0]);
+      if (!shown) return false;
+    }
+    return true;
   }
 
   const Store& store_;
@@ -76,14 +114,18 @@ class Trial {
 
 bool is_measured(const Claim& claim, const Store& store) {
   if (claim.conditions.empty() || std::ranges::count(claim.profiles, store.profile()) == 0) return false;
-  const Evidence evidence = gather_evidence(claim, store, store.profile());
-  return std::ranges::count(evidence.findings, Outcome::kMissing, &Finding::outcome) == 0;
+  return std::ranges::all_of(claim.conditions, [&](const Condition& condition) {
+    const bool drawn = condition.kind != Condition::Kind::kFigure ||
+                       store.find_figure(condition.figure, store.profile()).second != nullptr;
+    return drawn && std::ranges::all_of(metrics_of(condition), [&](const Operand& metric) {
+             return find(metric, store) != nullptr;
+           });
+  });
 }
 
-bool reads_numbers(const Claim& claim) {
-  return std::ranges::any_of(claim.conditions, [](const Condition& condition) {
-    return condition.kind != Condition::Kind::kFigure;
-  });
+bool reads_metrics(const Claim& claim) {
+  return std::ranges::any_of(claim.conditions,
+                             [](const Condition& condition) { return !metrics_of(condition).empty(); });
 }
 
 bool survives(const Claim& claim, const Store& store, Mutant mutant) {
@@ -98,15 +140,12 @@ std::string weakness(const Claim& claim, const Store& store) {
     if (survives(claim, store, mutant)) return fmt::format("holds if all that it reads is {}", name(mutant));
   }
   for (const Condition& condition : claim.conditions) {
-    if (condition.kind == Condition::Kind::kFigure) continue;
     const Trial trial(condition, store);
-    std::size_t metric = 0;
-    for (const Operand& operand : condition.operands) {
-      if (operand.is_number()) continue;
-      if (!trial.depends_on(metric++)) {
-        return fmt::format("holds whatever {}/{}/{} is", operand.experiment, operand.case_name,
-                           operand.metric);
-      }
+    const std::vector<Operand> metrics = metrics_of(condition);
+    for (std::size_t k = 0; k < metrics.size(); ++k) {
+      if (trial.depends_on(k)) continue;
+      return fmt::format("holds whatever {}/{}/{} is", metrics[k].experiment, metrics[k].case_name,
+                         metrics[k].metric);
     }
   }
   return "";
@@ -120,7 +159,11 @@ std::vector<Survivor> survivors(const Store& store, std::span<const Paper> paper
   std::vector<Survivor> found;
   for (const Paper& paper : papers) {
     for (const Claim& claim : paper.claims) {
-      if (!reads_numbers(claim) || !is_measured(claim, store)) continue;
+      if (!is_measured(claim, store)) continue;
+      if (!reads_metrics(claim)) {
+        found.push_back({&claim, "reads pictures alone", true});
+        continue;
+      }
       std::string reason = weakness(claim, store);
       if (!reason.empty()) found.push_back({&claim, std::move(reason)});
     }
