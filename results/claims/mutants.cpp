@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -40,23 +39,7 @@ double mutated(Mutant mutant, double value, double other) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// The metrics that a condition reads, in the order of Mutate; of a figure, those of `prints` and
-// `brightness`.
-std::vector<Operand> metrics_of(const Condition& condition) {
-  std::vector<Operand> metrics;
-  for (const auto* const operands : {&condition.operands, &condition.brightness}) {
-    std::ranges::copy_if(*operands, std::back_inserter(metrics), std::not_fn(&Operand::is_number));
-  }
-  return metrics;
-}
-
-const Metric* find(const Operand& operand, const Store& store) {
-  const Record* const record = store.find(operand.experiment, operand.case_name, store.profile());
-  return record == nullptr ? nullptr : record->find(operand.metric);
-}
-
-// Whether the condition holds when these mutants act on its metrics, all of which were measured. Medians
-// decide, so one sample is enough.
+// Whether the condition holds when these mutants act on its metrics. Medians decide, so one sample is enough.
 class Trial {
  public:
   Trial(const Condition& condition, const Store& store) : store_(store) { one_.conditions = {condition}; }
@@ -80,7 +63,6 @@ class Trial {
 
  private:
   bool holds(const Mutate& change) const {
-    if (one_.conditions[0].kind == Condition::Kind::kFigure) return figure_holds(change);
     const auto mutate = [&](std::span<Samples> metrics) {
       for (Samples& samples : metrics) samples = {median(samples)};
       if (!metrics.empty()) change(metrics);
@@ -88,50 +70,42 @@ class Trial {
     return gather_evidence(one_, store_, store_.profile(), mutate).findings[0].outcome == Outcome::kHolds;
   }
 
-  // Whether the figure, as drawn, would show the metrics as changed. Reads its layout, not its pixels.
-  bool figure_holds(const Mutate& change) const {
-    const Condition& figure = one_.conditions[0];
-    std::vector<Samples> metrics;
-    for (const Operand& operand : metrics_of(figure)) {
-      metrics.push_back({median(find(operand, store_)->samples)});
-    }
-    if (metrics.empty()) return true;
-    const std::vector<Samples> measured = metrics;
-    change(metrics);
-    const auto& layout = store_.find_figure(figure.figure, store_.profile()).second->layout;
-    for (std::size_t k = 0; k < metrics.size(); ++k) {
-      const bool is_brightness = k >= figure.operands.size();
-      const bool shown = is_brightness ? std::abs(metrics[k][0] - measured[k][0]) <= Condition::kBrightness
-                                       : layout && says(*layout, metrics[k][0]);
-      if (!shown) return false;
-    }
-    return true;
-  }
-
   const Store& store_;
   Claim one_;
 };
 
-bool is_measured(const Claim& claim, const Store& store) {
-  if (claim.conditions.empty() || std::ranges::count(claim.profiles, store.profile()) == 0) return false;
-  return std::ranges::all_of(claim.conditions, [&](const Condition& condition) {
-    const bool drawn = condition.kind != Condition::Kind::kFigure ||
-                       store.find_figure(condition.figure, store.profile()).second != nullptr;
-    return drawn && std::ranges::all_of(metrics_of(condition), [&](const Operand& metric) {
-             return find(metric, store) != nullptr;
-           });
+bool is_figure(const Condition& condition) { return condition.kind == Condition::Kind::kFigure; }
+
+// Whether the pictures were drawn and the metrics recorded that the condition needs.
+bool is_measured(const Condition& condition, const Store& store) {
+  if (is_figure(condition) && store.find_figure(condition.figure, store.profile()).second == nullptr) {
+    return false;
+  }
+  return std::ranges::all_of(condition.operands, [&](const Operand& operand) {
+    if (operand.is_number()) return true;
+    const Record* const record = store.find(operand.experiment, operand.case_name, store.profile());
+    return record != nullptr && record->find(operand.metric) != nullptr;
   });
 }
 
-bool reads_metrics(const Claim& claim) {
-  return std::ranges::any_of(claim.conditions,
-                             [](const Condition& condition) { return !metrics_of(condition).empty(); });
+bool is_measured(const Claim& claim, const Store& store) {
+  if (claim.conditions.empty() || std::ranges::count(claim.profiles, store.profile()) == 0) return false;
+  return std::ranges::all_of(claim.conditions,
+                             [&](const Condition& condition) { return is_measured(condition, store); });
 }
 
 bool survives(const Claim& claim, const Store& store, Mutant mutant) {
   return std::ranges::all_of(claim.conditions, [&](const Condition& condition) {
-    return Trial(condition, store).holds_for_all(mutant);
+    return is_figure(condition) || Trial(condition, store).holds_for_all(mutant);
   });
+}
+
+// Why a claim of which every condition is a figure judges no method.
+std::string_view without_numbers(const Claim& claim) {
+  const bool prints = std::ranges::any_of(claim.conditions, [](const Condition& condition) {
+    return !condition.operands.empty() || !condition.brightness.empty();
+  });
+  return prints ? "reads pictures, and that they show what was recorded" : "reads pictures alone";
 }
 
 // Empty if the claim's check is strong enough.
@@ -140,12 +114,15 @@ std::string weakness(const Claim& claim, const Store& store) {
     if (survives(claim, store, mutant)) return fmt::format("holds if all that it reads is {}", name(mutant));
   }
   for (const Condition& condition : claim.conditions) {
+    if (is_figure(condition)) continue;
     const Trial trial(condition, store);
-    const std::vector<Operand> metrics = metrics_of(condition);
-    for (std::size_t k = 0; k < metrics.size(); ++k) {
-      if (trial.depends_on(k)) continue;
-      return fmt::format("holds whatever {}/{}/{} is", metrics[k].experiment, metrics[k].case_name,
-                         metrics[k].metric);
+    std::size_t metric = 0;
+    for (const Operand& operand : condition.operands) {
+      if (operand.is_number()) continue;
+      if (!trial.depends_on(metric++)) {
+        return fmt::format("holds whatever {}/{}/{} is", operand.experiment, operand.case_name,
+                           operand.metric);
+      }
     }
   }
   return "";
@@ -160,8 +137,8 @@ std::vector<Survivor> survivors(const Store& store, std::span<const Paper> paper
   for (const Paper& paper : papers) {
     for (const Claim& claim : paper.claims) {
       if (!is_measured(claim, store)) continue;
-      if (!reads_metrics(claim)) {
-        found.push_back({&claim, "reads pictures alone", true});
+      if (std::ranges::all_of(claim.conditions, is_figure)) {
+        found.push_back({&claim, std::string(without_numbers(claim)), true});
         continue;
       }
       std::string reason = weakness(claim, store);
