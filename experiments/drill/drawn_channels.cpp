@@ -94,8 +94,9 @@ DrawnChannels read_channels(const std::vector<Image>& maps, const Heightfield& g
     std::vector<bool> is_channel(before.size());
     std::size_t pixels = 0, low = 0;
     for (std::size_t at = 0; at < is_channel.size(); ++at) {
-      is_channel[at] = map.pixel(static_cast<int>(at % ground.width), static_cast<int>(at / ground.width)) ==
-                       figures::kChannel;
+      const int i = static_cast<int>(at % ground.width), j = static_cast<int>(at / ground.width);
+      is_channel[at] = map.pixel(at_middle(i, ground.width, map.width),
+                                 at_middle(j, ground.depth, map.height)) == figures::kChannel;
       pixels += is_channel[at];
       low += is_channel[at] && is_low[at];
       drawn.outside_denser += is_channel[at] && !before[at];

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "experiments/recorder.h"
@@ -24,8 +25,14 @@ struct DrawnChannels {
   double low_share = 0, low_share_of_ground = 0;
 };
 
-// `maps` have one pixel per sample of `ground`, channels in kChannel; those with a lower threshold come
-// first. O(pixels)
+// The place of cell k of `cells` among `others` over the same length, by its middle. At least as many others:
+// at_middle(at_middle(k, cells, others), others, cells) == k.
+inline int at_middle(int k, int cells, int others) {
+  return static_cast<int>((2 * static_cast<std::int64_t>(k) + 1) * others / (2 * cells));
+}
+
+// `maps` show all of the ground, channels in kChannel; those with a lower threshold come first. A map is read
+// at the middle of each sample. O(samples)
 DrawnChannels read_channels(const std::vector<Image>& maps, const Heightfield& ground);
 
 }  // namespace terrabench::drill

@@ -22,8 +22,7 @@ struct Study {
 // Figure 1: four panels with every channel pixel at a threshold each.
 struct ChannelsSheet {
   figures::Sheet sheet;
-  Heightfield ground;       // as drawn: resampled if it has more samples than a panel has pixels
-  std::vector<Image> maps;  // the panels' pictures, one pixel per sample of `ground`
+  std::vector<Image> maps;  // the panels' pictures
 };
 inline constexpr std::array<std::uint32_t, 4> kDrawnTaus{25, 50, 100, 200};
 ChannelsSheet channels_sheet(const Study&);

@@ -51,21 +51,21 @@ auto colour_between(const HeightRange& range) {
   };
 }
 
-// Colours every image pixel that overlaps a channel pixel; either grid may be the finer one.
+// Colours the image pixels at the middle of a channel pixel, and those whose middle lies in one: none is lost
+// whichever grid is the finer one, and none is widened.
 void draw_channel_pixels(const std::vector<std::uint32_t>& channels, const Heightfield& ground,
                          Image& image) {
   std::vector<bool> is_channel(ground.heights.size());
   for (const std::uint32_t pixel : channels) {
     is_channel[pixel] = true;
-    const std::size_t i = pixel % ground.width, j = pixel / ground.width;
-    image.set(static_cast<int>(i * image.width / ground.width),
-              static_cast<int>(j * image.height / ground.depth), figures::kChannel);
+    const int i = static_cast<int>(pixel) % ground.width, j = static_cast<int>(pixel) / ground.width;
+    image.set(at_middle(i, ground.width, image.width), at_middle(j, ground.depth, image.height),
+              figures::kChannel);
   }
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(x) * ground.width / image.width,
-                        j = static_cast<std::size_t>(y) * ground.depth / image.height;
-      if (is_channel[j * ground.width + i]) image.set(x, y, figures::kChannel);
+      const int i = at_middle(x, image.width, ground.width), j = at_middle(y, image.height, ground.depth);
+      if (is_channel[static_cast<std::size_t>(j) * ground.width + i]) image.set(x, y, figures::kChannel);
     }
   }
 }
@@ -116,9 +116,10 @@ Heightfield difference(const Heightfield& ground, const Heightfield& other) {
 ChannelsSheet channels_sheet(const Study& study) {
   const Layout layout(study.ground, 2);
   const HeightRange range = height_range(study.ground);
-  ChannelsSheet drawn{layout.sheet(), layout.fitted(study.ground), {}};
+  const Heightfield fitted = layout.fitted(study.ground);
+  const Image relief = figures::shaded_map(fitted, figures::Light(fitted), colour_between(range));
+  ChannelsSheet drawn{layout.sheet(), {}};
   figures::Sheet& sheet = drawn.sheet;
-  const Image relief = figures::shaded_map(drawn.ground, figures::Light(drawn.ground), colour_between(range));
   int panel = 0;
   for (const std::uint32_t tau : kDrawnTaus) {
     const auto channels = channel_pixels(study.network, tau);
@@ -139,7 +140,7 @@ ChannelsSheet channels_sheet(const Study& study) {
 
 void draw_channels(const Study& study, Recorder& recorder) {
   const ChannelsSheet drawn = channels_sheet(study);
-  const DrawnChannels seen = read_channels(drawn.maps, drawn.ground);
+  const DrawnChannels seen = read_channels(drawn.maps, study.ground);
   for (std::size_t map = 0; map < kDrawnTaus.size(); ++map) {
     recorder.add(fmt::format("drawn_channel_pixels_tau_{}", kDrawnTaus[map]), "", seen.pixels[map]);
   }

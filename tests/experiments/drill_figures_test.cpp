@@ -105,17 +105,22 @@ TEST(DrillFigures, ChannelsOverTheRelief) {
 
 TEST(DrillFigures, NetworksOfOtherMethodsAreToldFromChannels) {
   const ChannelsSheet drawn = channels_sheet(grounds().study());
-  const DrawnChannels seen = read_channels(drawn.maps, drawn.ground);
+  const DrawnChannels seen = read_channels(drawn.maps, grounds().one);
   for (std::size_t map = 0; map < kDrawnTaus.size(); ++map) {
     EXPECT_EQ(seen.pixels[map], channel_pixels(grounds().network, kDrawnTaus[map]).size());
   }
   EXPECT_EQ(seen.outside_denser + seen.inland, 0U);
   EXPECT_GT(seen.low_share, 1.2 * seen.low_share_of_ground);
+  // Cells that are deeper than wide: a panel has more rows of pixels than samples.
+  Heightfield oblong = grounds().one;
+  oblong.cell_z *= 1.07F;
+  const Study study{oblong, grounds().network, kVariants[0], "hills", ""};
+  EXPECT_EQ(read_channels(channels_sheet(study).maps, oblong).pixels, seen.pixels);
   // Those of another ground are networks, but do not lie in this ground's valleys.
   EXPECT_LT(read_channels(drawn.maps, grounds().other).low_share, 1.2 * seen.low_share_of_ground);
   // Thresholds in another order.
   std::vector<Image> reversed(drawn.maps.rbegin(), drawn.maps.rend());
-  EXPECT_GT(read_channels(reversed, drawn.ground).outside_denser, 100U);
+  EXPECT_GT(read_channels(reversed, grounds().one).outside_denser, 100U);
   // As many pixels, but no network.
   Image moved = drawn.maps[0];
   for (int y = 0; y < moved.height; ++y) {
@@ -123,7 +128,7 @@ TEST(DrillFigures, NetworksOfOtherMethodsAreToldFromChannels) {
       moved.set(x, y, drawn.maps[0].pixel(x * 37 % moved.width, y * 29 % moved.height));
     }
   }
-  EXPECT_GT(read_channels({moved}, drawn.ground).inland, 100U);
+  EXPECT_GT(read_channels({moved}, grounds().one).inland, 100U);
 }
 
 Outcome outcome_at(const Study& study, const Setting& setting) {
