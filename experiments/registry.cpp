@@ -59,6 +59,7 @@
   UNTIMED(mrbsp, kHoles)                              \
   UNTIMED(mrbsp, kLodFigure)                          \
   TIMED(mrbsp, kVisibility)                           \
+  TIMED(mrbsp, kPreprocessing)                        \
   TIMED(mrbsp, kCellSizes)                            \
   UNTIMED(mrbsp, kQuality)                            \
   UNTIMED(mrbsp, kProfile)                            \

@@ -5,10 +5,10 @@
 
 #include <array>
 
-#include "experiments/cross/representations/scenes.h"
 #include "experiments/fidelity.h"
 #include "experiments/figures/sheet.h"
 #include "experiments/ground.h"
+#include "experiments/refusals.h"
 #include "experiments/stopwatch.h"
 #include "representations/representation.h"
 #include "results/store/format.h"
@@ -72,7 +72,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   for (int i = 0; i < kBuilds; ++i) {
     built.reset();
     const Stopwatch watch;
-    built = cross::unless_refused([&] { return type.build(source, Parameters(type.parameters), progress); });
+    built = unless_refused([&] { return type.build(source, Parameters(type.parameters), progress); });
     recorder.add("build_time", "s", watch.seconds());
   }
   recorder.add("bytes", "B", built->memory().total());

@@ -74,22 +74,38 @@ class Trial {
   Claim one_;
 };
 
-bool is_measured(const Claim& claim, const Store& store) {
-  if (claim.conditions.empty() || std::ranges::count(claim.profiles, store.profile()) == 0) return false;
-  const Evidence evidence = gather_evidence(claim, store, store.profile());
-  return std::ranges::count(evidence.findings, Outcome::kMissing, &Finding::outcome) == 0;
+bool is_figure(const Condition& condition) { return condition.kind == Condition::Kind::kFigure; }
+
+// Whether the pictures were drawn and the metrics recorded that the condition needs.
+bool is_measured(const Condition& condition, const Store& store) {
+  if (is_figure(condition) && store.find_figure(condition.figure, store.profile()).second == nullptr) {
+    return false;
+  }
+  return std::ranges::all_of(condition.operands, [&](const Operand& operand) {
+    if (operand.is_number()) return true;
+    const Record* const record = store.find(operand.experiment, operand.case_name, store.profile());
+    return record != nullptr && record->find(operand.metric) != nullptr;
+  });
 }
 
-bool reads_numbers(const Claim& claim) {
-  return std::ranges::any_of(claim.conditions, [](const Condition& condition) {
-    return condition.kind != Condition::Kind::kFigure;
-  });
+bool is_measured(const Claim& claim, const Store& store) {
+  if (claim.conditions.empty() || std::ranges::count(claim.profiles, store.profile()) == 0) return false;
+  return std::ranges::all_of(claim.conditions,
+                             [&](const Condition& condition) { return is_measured(condition, store); });
 }
 
 bool survives(const Claim& claim, const Store& store, Mutant mutant) {
   return std::ranges::all_of(claim.conditions, [&](const Condition& condition) {
-    return Trial(condition, store).holds_for_all(mutant);
+    return is_figure(condition) || Trial(condition, store).holds_for_all(mutant);
   });
+}
+
+// Why a claim of which every condition is a figure judges no method.
+std::string_view without_numbers(const Claim& claim) {
+  const bool prints = std::ranges::any_of(claim.conditions, [](const Condition& condition) {
+    return !condition.operands.empty() || !condition.brightness.empty();
+  });
+  return prints ? "reads pictures, and that they show what was recorded" : "reads pictures alone";
 }
 
 // Empty if the claim's check is strong enough.
@@ -98,7 +114,7 @@ std::string weakness(const Claim& claim, const Store& store) {
     if (survives(claim, store, mutant)) return fmt::format("holds if all that it reads is {}", name(mutant));
   }
   for (const Condition& condition : claim.conditions) {
-    if (condition.kind == Condition::Kind::kFigure) continue;
+    if (is_figure(condition)) continue;
     const Trial trial(condition, store);
     std::size_t metric = 0;
     for (const Operand& operand : condition.operands) {
@@ -120,7 +136,11 @@ std::vector<Survivor> survivors(const Store& store, std::span<const Paper> paper
   std::vector<Survivor> found;
   for (const Paper& paper : papers) {
     for (const Claim& claim : paper.claims) {
-      if (!reads_numbers(claim) || !is_measured(claim, store)) continue;
+      if (!is_measured(claim, store)) continue;
+      if (std::ranges::all_of(claim.conditions, is_figure)) {
+        found.push_back({&claim, std::string(without_numbers(claim)), true});
+        continue;
+      }
       std::string reason = weakness(claim, store);
       if (!reason.empty()) found.push_back({&claim, std::move(reason)});
     }
