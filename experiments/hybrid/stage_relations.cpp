@@ -167,24 +167,24 @@ Pixels moved(Stage before, const Pixels& shift, const Stages& stages) {
   return result;
 }
 
-// The largest distance along its row, in metres, of a pixel that changed from the nearest edge of what was
-// before, measured to the last pixel before the edge. Pixels whose samples come from outside the picture do
-// not count.
-double farthest_from_edge(const Pixels& before, const Pixels& now, const Pixels& shift, float step) {
-  int farthest = 0;
+// Of the pixels that changed, the share that lies farther along x than `reach` pixels from every edge of what
+// was before; tips of caves that are narrower than a pixel have no edge in the picture. Pixels whose samples
+// come from outside the picture do not count.
+double share_far_from_edges(const Pixels& before, const Pixels& now, const Pixels& shift, float step,
+                            int reach) {
+  double changed = 0, far = 0;
   for (int row = 0; row < now.side; ++row) {
     for (int i = 0; i < now.side; ++i) {
       const double from = i + 0.5 + shift.at(i, row) / step;
       if (now.at(i, row) == before.at(i, row) || from < 0 || from >= now.side) continue;
-      int reach = 1;
-      const auto differs = [&](int k) {
-        return k >= 0 && k < now.side && before.at(k, row) != before.at(i, row);
-      };
-      while (reach < now.side && !differs(i - reach) && !differs(i + reach)) ++reach;
-      farthest = std::max(farthest, reach - 1);
+      bool near = false;
+      for (int k = std::max(i - reach, 0); k <= std::min(i + reach, now.side - 1) && !near; ++k)
+        near = before.at(k, row) != before.at(i, row);
+      ++changed;
+      far += !near;
     }
   }
-  return farthest * double{step};
+  return far / std::max(changed, 1.0);
 }
 
 void measure_shift(Stage stage, Stage before, const Pixels& now, const Stages& stages) {
@@ -196,8 +196,9 @@ void measure_shift(Stage stage, Stage before, const Pixels& now, const Stages& s
   for (const float each : shift.values) largest = std::max(largest, std::abs(each));
   stages.recorder.add("share_moved", "", share_differing(now, source));
   stages.recorder.add("share_off_the_shift", "", share_differing(now, moved(before, shift, stages)));
-  stages.recorder.add("largest_shift", "m", largest);
-  stages.recorder.add("farthest_moved", "m", farthest_from_edge(source, now, shift, stages.step()));
+  const int reach = static_cast<int>(std::ceil(largest / stages.step()));  // pixels
+  stages.recorder.add("share_far_from_edges", "",
+                      share_far_from_edges(source, now, shift, stages.step(), reach));
 }
 
 // The mean second difference at the maxima and at the minima of rows: crests are sharp, valleys are round.

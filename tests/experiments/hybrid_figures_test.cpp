@@ -1,6 +1,7 @@
 // The numbers that the claims read from the figures of "hybrid" tell what they show from something unrelated.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -36,15 +37,13 @@ TEST(NoiseStages, OnlyTheStageItselfIsTheOneBeforeItAtMovedPlaces) {
   for (const noise::Stage stage : {kXYPerturbed, kPerturbedRidged}) {
     const Record own = compared(stage, slice(stage)), other = compared(stage, slice(kRidged));
     EXPECT_EQ(value(own, "share_off_the_shift"), 0);
-    EXPECT_GT(value(own, "farthest_moved"), 0);
-    EXPECT_LT(value(own, "farthest_moved"), value(own, "largest_shift"));
     EXPECT_GT(value(other, "share_off_the_shift"), 0.5);
   }
   // A cave map of the same look, turned upside down: cells change far from any edge.
   Pixels turned = slice(kPerturbedRidged);
   std::reverse(turned.values.begin(), turned.values.end());
   const Record unrelated = compared(kPerturbedRidged, turned);
-  EXPECT_GT(value(unrelated, "farthest_moved"), value(unrelated, "largest_shift"));
+  EXPECT_GT(value(unrelated, "share_far_from_edges"), 0.05);
 }
 
 TEST(NoiseStages, HillsFollowTheNoiseAndCrestsAreSharp) {
