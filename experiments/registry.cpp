@@ -12,6 +12,7 @@
   TIMED(hybrid, kImplicit)                            \
   TIMED(hybrid, kTable1)                              \
   TIMED(hybrid, kTable2)                              \
+  TIMED(hybrid, kReuse)                               \
   TIMED(hybrid, kQueryRates)                          \
   UNTIMED(hybrid, kCaves)                             \
   UNTIMED(hybrid, kNoiseStages)                       \

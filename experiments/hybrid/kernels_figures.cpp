@@ -11,6 +11,7 @@
 #include "experiments/figures/figure.h"
 #include "experiments/figures/maps.h"
 #include "experiments/figures/views.h"
+#include "experiments/hybrid/pixels.h"
 #include "representations/implicit/implicit_surface.h"
 
 namespace terrabench::hybrid {
@@ -124,6 +125,13 @@ Image section(const ImplicitSurface& surface, int pixels_per_metre) {
   return image;
 }
 
+// The share of the section's pixels in the colours of 1 and -1.
+double full_or_empty(const Image& section) {
+  const Rgb full = difference_colour(1), empty = difference_colour(0);
+  return mean_over(section, {},
+                   [&](const Rgb& pixel) { return pixel == full || pixel == empty ? 1.0 : 0.0; });
+}
+
 // The outlines of the solid blocks and of the surface's section, as strokes on the sheet.
 void draw_outlines(Sheet& sheet, const ImplicitSurface& surface, const auto& place) {
   const auto solid = [&](int i, int k) {
@@ -211,7 +219,11 @@ Sheet draw_kernel(Drawing& drawing, Kernel kernel) {
 
   const double x0 = kView + 2 * kGap, y0 = kTitle;
   sheet.text(x0, y0 - 8, "c) Section through the middle: the field f, and f = 0 (black line)", 14);
-  sheet.picture(x0, y0, kSectionWidth, kSectionHeight, section(*surface, 14));
+  const Image field = section(*surface, 14);
+  drawing.record("full_or_empty", full_or_empty(field));
+  for (const Marked& mark : kMarked)
+    drawing.record(fmt::format("field_{}", mark.name), surface->field().at(mark.at));
+  sheet.picture(x0, y0, kSectionWidth, kSectionHeight, field);
   const auto place = [&](double x, double y) {
     return SheetPoint{x0 + x * kScale, y0 + (kHeight - y) * kScale};
   };
@@ -230,7 +242,9 @@ Sheet draw_kernel(Drawing& drawing, Kernel kernel) {
 constexpr auto kFigures = std::to_array<Figure>({
     {1, "F1", "the sphere kernel on an arch; the field is +1 in full support, 0 in half-full and −1 in empty",
      [](Drawing& drawing) { return draw_kernel(drawing, Kernel::kSphere); }},
-    {2, "F2", "the cube kernel on the same arch; its surface bends less evenly than the sphere's",
+    {2, "F2",
+     "the cube kernel on the same arch; it contains the sphere, so that fewer points have full or empty "
+     "support",
      [](Drawing& drawing) { return draw_kernel(drawing, Kernel::kCube); }},
 });
 constexpr std::array kNames = names_of(kFigures);

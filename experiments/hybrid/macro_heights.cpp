@@ -1,5 +1,7 @@
 // §3.5 of "hybrid": the height map of the far ground, made from the stacks by both readings of "the sum of
 // the heights of all layers".
+#include "experiments/hybrid/macro_heights.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +13,18 @@
 #include "representations/layered_stack/height_map.h"
 
 namespace terrabench::hybrid {
+
+double largest_step(const Heightfield& field) {
+  float largest = 0;
+  for (int j = 0; j < field.depth; ++j) {
+    for (int i = 0; i < field.width; ++i) {
+      if (i > 0) largest = std::max(largest, std::abs(field.at(i, j) - field.at(i - 1, j)));
+      if (j > 0) largest = std::max(largest, std::abs(field.at(i, j) - field.at(i, j - 1)));
+    }
+  }
+  return largest;
+}
+
 namespace {
 
 const std::vector<ParameterSpec>& specs() {
@@ -79,18 +93,6 @@ std::size_t count_groups(std::vector<char> marked, int width) {
     }
   }
   return groups;
-}
-
-// The largest difference in height of neighbouring samples.
-double largest_step(const Heightfield& field) {
-  float largest = 0;
-  for (int j = 0; j < field.depth; ++j) {
-    for (int i = 0; i < field.width; ++i) {
-      if (i > 0) largest = std::max(largest, std::abs(field.at(i, j) - field.at(i - 1, j)));
-      if (j > 0) largest = std::max(largest, std::abs(field.at(i, j) - field.at(i, j - 1)));
-    }
-  }
-  return largest;
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {

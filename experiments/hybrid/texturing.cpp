@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "experiments/cases.h"
-#include "experiments/hybrid/mesh_frame.h"
+#include "experiments/figures/mesh_frame.h"
+#include "experiments/hybrid/pixels.h"
 #include "renderers/landscape/landscape.h"
 
 namespace terrabench::hybrid {
@@ -117,7 +118,7 @@ double share(const Image& image, const View& view, int band, int slope, Seen mat
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   constexpr int kLevel = 5, kSteep = 35;  // slopes up to 10°, and from 70° on
-  const MeshFrame ground(tiles());
+  const figures::MeshFrame ground(tiles());
   const View view = from_above();
   const auto context = open_context(options.renderer, view.width, view.height);
   LandscapeRenderer renderer(*context, plain_style(at));

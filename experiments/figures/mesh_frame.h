@@ -1,15 +1,12 @@
-// A frame that draws one mesh, for measurements of what the landscape's shaders make of a known surface.
+// A frame that draws one mesh through the landscape's renderer, without a level-of-detail method.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "terrain/frame.h"
-#include "terrain/image.h"
 #include "terrain/mesh.h"
 
-namespace terrabench::hybrid {
+namespace terrabench::figures {
 
 class MeshFrame {
  public:
@@ -41,10 +38,4 @@ inline TriangleMesh level_ground(float side) {
   return mesh;
 }
 
-// The light that a byte of a picture shows, 0 to 1; exact below the display's shoulder (display.glsl).
-inline double light_of(std::uint8_t byte) {
-  const double c = byte / 255.0;
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
-
-}  // namespace terrabench::hybrid
+}  // namespace terrabench::figures
