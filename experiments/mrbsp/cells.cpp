@@ -29,7 +29,7 @@ std::vector<Case> cases(const RunOptions& options) {
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
-  MrbspOptions how{.depth = depth_over(ground), .conforming = false};
+  MrbspOptions how{.depth = depth_over(ground), .holes = HoleRule::kPrinted};
   std::vector<Mrbsp> lods;  // brute force, then by number of cells
   lods.reserve(1 + kCells.size());
   lods.emplace_back(ground, how, progress);
