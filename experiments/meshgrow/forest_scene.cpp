@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "representations/procedural_mesh/growing/expression.h"
-#include "representations/procedural_mesh/growing/hashing.h"
+#include "terrain/splitmix.h"
 
 namespace terrabench::meshgrow {
 namespace {
@@ -144,9 +144,7 @@ RayMaterial Forest::material(const SurfacePoint& at) const {
   }();
   RayMaterial material = looks[instance.model]->material(model.levels[0].system.symbols[at.mesh].name, at);
   // Plants differ a little in colour.
-  const auto hue = [&](std::uint64_t k) {
-    return static_cast<float>(growing::share(instance.seed, 100 + k));
-  };
+  const auto hue = [&](std::uint64_t k) { return static_cast<float>(random_share(instance.seed, 100 + k)); };
   const glm::vec3 tint{0.8F + 0.35F * hue(0), 0.85F + 0.25F * hue(1), 0.8F + 0.25F * hue(2)};
   material.albedo = glm::clamp(material.albedo * tint, 0.0F, 1.0F);
   return material;

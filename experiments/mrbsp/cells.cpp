@@ -31,7 +31,7 @@ bool times(const Case& at) { return at.parameters.integer("views") > 0; }
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
-  MrbspOptions how{.depth = depth_over(ground), .conforming = false};
+  MrbspOptions how{.depth = depth_over(ground), .holes = HoleRule::kPrinted};
   std::vector<Mrbsp> lods;  // brute force, then by number of cells
   lods.reserve(1 + kCells.size());
   lods.emplace_back(ground, how, progress);

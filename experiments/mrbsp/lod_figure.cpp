@@ -253,8 +253,8 @@ View lod_view(const Heightfield& ground, const Mrbsp& lod) {
 
 LodSheet lod_sheet(const Heightfield& ground, double size, const RunOptions& options, Progress& progress) {
   const int depth = depth_over(ground);
-  Mrbsp without(ground, {.depth = depth, .conforming = false, .leave_holes = true}, progress);
-  Mrbsp with(ground, {.depth = depth, .conforming = false}, progress);
+  Mrbsp without(ground, {.depth = depth, .holes = HoleRule::kNone}, progress);
+  Mrbsp with(ground, {.depth = depth, .holes = HoleRule::kPrinted}, progress);
   without.tune(size);
   with.tune(size);
   const View view = lod_view(ground, with);

@@ -32,7 +32,7 @@ struct Bin {
 
 // Geometric means of the apparent short side, per bin of distance.
 std::vector<PlotPoint> apparent_sizes(const Heightfield& ground, bool area, Progress& progress) {
-  Mrbsp lod(ground, {.area_consistent = area, .conforming = false, .cull = false}, progress);
+  Mrbsp lod(ground, {.area_consistent = area, .holes = HoleRule::kPrinted, .cull = false}, progress);
   lod.tune(kSize);
   View view;
   view.eye = {0, 1.8F, 0};

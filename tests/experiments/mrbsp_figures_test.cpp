@@ -203,8 +203,8 @@ TEST(MrbspFigures, Figure1ShowsAHoleAndTheStepThatClosesIt) {
   Progress progress;
   const TerrainSource source = open_ground("real-257", 1);
   const Heightfield& ground = *source.heights;
-  Mrbsp open(ground, {.depth = kDepth, .conforming = false, .leave_holes = true}, progress);
-  Mrbsp closed(ground, {.depth = kDepth, .conforming = false}, progress);
+  Mrbsp open(ground, {.depth = kDepth, .holes = HoleRule::kNone}, progress);
+  Mrbsp closed(ground, {.depth = kDepth, .holes = HoleRule::kPrinted}, progress);
   const View view = lod_view(ground, open);
   for (const double size : {1.0, 2.0}) {
     const LodSheet sheet = lod_sheet(ground, size, {}, progress);

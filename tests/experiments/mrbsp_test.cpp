@@ -12,6 +12,7 @@
 #include "lod/mrbsp/surface_height.h"
 #include "lod/mrbsp/visibility/coarse_squares.h"
 #include "terrain/error.h"
+#include "tests/experiments/value.h"
 #include "tests/terrain/temporary_folder.h"
 
 namespace terrabench::mrbsp {
@@ -32,14 +33,6 @@ class MrbspExperiments : public testing::Test {
     measured.measure({"tiny", {measured.parameters, given}, std::string(terrain)}, RunOptions{}, recorder,
                      progress);
     return record;
-  }
-  static double value(const Record& record, std::string_view metric) {
-    const Metric* const found = record.find(metric);
-    if (found == nullptr || found->samples.empty()) {
-      ADD_FAILURE() << metric << " was not measured";
-      return 0;
-    }
-    return found->samples.front();
   }
 
   TemporaryFolder folder_;

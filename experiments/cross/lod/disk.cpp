@@ -33,7 +33,7 @@
 #include "terrain/machine_error.h"
 #include "terrain/sources/dem/dem.h"
 #include "terrain/sources/dem/geotiff_rows.h"
-#include "terrain/sources/fractal/diamond_square_bands.h"
+#include "terrain/sources/fractal/diamond_square.h"
 
 namespace terrabench::cross {
 namespace {
