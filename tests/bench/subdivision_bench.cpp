@@ -1,0 +1,221 @@
+// Catmull–Clark refinement of a bumpy grid: building tables, and positions from tables that exist, beside
+// OpenSubdiv's evaluators and OpenMesh's subdivider. Rates are vertices of the finest level per second.
+// Arguments: quadrilaterals along the side of the base, levels.
+#include <benchmark/benchmark.h>
+#include <opensubdiv/far/primvarRefiner.h>
+#include <opensubdiv/far/stencilTableFactory.h>
+#include <opensubdiv/far/topologyDescriptor.h>
+#include <opensubdiv/osd/cpuEvaluator.h>
+#include <opensubdiv/osd/ompEvaluator.h>
+
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+#include <OpenMesh/Tools/Subdivider/Uniform/CatmullClarkT.hh>
+#include <cmath>
+
+#include "representations/procedural_mesh/subdivision/refinement.h"
+#include "terrain/memory.h"
+
+namespace {
+
+using namespace terrabench;
+using namespace terrabench::subdivision;
+namespace Far = OpenSubdiv::Far;
+namespace Osd = OpenSubdiv::Osd;
+using OpenMeshPolygons = OpenMesh::PolyMesh_ArrayKernelT<>;
+
+FaceMesh bumpy_grid(std::uint32_t n) {
+  FaceMesh mesh;
+  for (std::uint32_t j = 0; j <= n; ++j) {
+    for (std::uint32_t i = 0; i <= n; ++i) {
+      const auto x = static_cast<float>(i), z = static_cast<float>(j);
+      mesh.positions.push_back({x, std::sin(x * 0.7F) * std::cos(z * 0.9F), z});
+    }
+  }
+  mesh.first_corner = {0};
+  for (std::uint32_t j = 0; j < n; ++j) {
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t a = j * (n + 1) + i, b = a + n + 1;
+      mesh.corners.insert(mesh.corners.end(), {a, b, b + 1, a + 1});
+      mesh.first_corner.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
+    }
+  }
+  return mesh;
+}
+
+FaceMesh base_of(const benchmark::State& state) {
+  return bumpy_grid(static_cast<std::uint32_t>(state.range(0)));
+}
+int levels_of(const benchmark::State& state) { return static_cast<int>(state.range(1)); }
+
+void count(benchmark::State& state, std::size_t vertices, std::size_t quads) {
+  state.counters["quads"] = static_cast<double>(quads);
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(vertices));
+}
+std::size_t quads_of(const benchmark::State& state) {
+  return static_cast<std::size_t>(state.range(0) * state.range(0)) << (2 * state.range(1));
+}
+
+void tables(benchmark::State& state) {
+  const FaceMesh base = base_of(state);
+  std::size_t vertices = 0;
+  for (auto _ : state) {
+    const Refinement refinement(base, levels_of(state), {.keep = Keep::kStencils});
+    vertices = refinement.topology(refinement.levels()).vertices;
+  }
+  count(state, vertices, quads_of(state));
+}
+
+void positions(benchmark::State& state) {
+  const FaceMesh base = base_of(state);
+  const int levels = levels_of(state);
+  const Refinement refinement(base, levels, {.keep = Keep::kStencils});
+  std::vector<std::vector<glm::vec3>> points{base.positions};
+  for (int l = 1; l <= levels; ++l) points.emplace_back(refinement.topology(l).vertices);
+  for (auto _ : state) {
+    for (int l = 0; l < levels; ++l) {
+      const auto at = static_cast<std::size_t>(l);
+      place_standard<glm::vec3>(refinement.topology(l), refinement.stencils(l), points[at], points[at + 1]);
+    }
+    benchmark::ClobberMemory();
+  }
+  count(state, points.back().size(), quads_of(state));
+}
+
+// Everything, from a FaceMesh to a FaceMesh, and its peak memory over the bytes of the result.
+void whole(benchmark::State& state) {
+  const FaceMesh base = base_of(state);
+  const std::vector<PlacementRule> rules(static_cast<std::size_t>(levels_of(state)));
+  std::size_t vertices = 0;
+  double peak = 0, bytes = 1;
+  for (auto _ : state) {
+    const std::int64_t before = HeapCounter::live();
+    HeapCounter::reset_peak();
+    const FaceMesh mesh = subdivide(base, rules);
+    peak = static_cast<double>(HeapCounter::peak() - before);
+    bytes = static_cast<double>(mesh.positions.size() * sizeof(glm::vec3) + mesh.corners.size() * 4);
+    vertices = mesh.positions.size();
+  }
+  count(state, vertices, quads_of(state));
+  state.counters["peak/mesh"] = peak / bytes;
+}
+
+std::unique_ptr<Far::TopologyRefiner> refine_by_opensubdiv(const FaceMesh& base, int levels) {
+  std::vector<int> sizes(base.faces(), 4), corners(base.corners.begin(), base.corners.end());
+  Far::TopologyDescriptor d;
+  d.numVertices = static_cast<int>(base.positions.size());
+  d.numFaces = static_cast<int>(sizes.size());
+  d.numVertsPerFace = sizes.data();
+  d.vertIndicesPerFace = corners.data();
+  OpenSubdiv::Sdc::Options options;
+  options.SetVtxBoundaryInterpolation(OpenSubdiv::Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
+  using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
+  std::unique_ptr<Far::TopologyRefiner> refiner(
+      Factory::Create(d, Factory::Options(OpenSubdiv::Sdc::SCHEME_CATMARK, options)));
+  refiner->RefineUniform(Far::TopologyRefiner::UniformOptions(levels));
+  return refiner;
+}
+
+std::unique_ptr<const Far::StencilTable> stencils_of(const Far::TopologyRefiner& refiner) {
+  Far::StencilTableFactory::Options options;
+  options.generateIntermediateLevels = false;  // the finest level from the base: one pass
+  options.generateOffsets = true;
+  return std::unique_ptr<const Far::StencilTable>(Far::StencilTableFactory::Create(refiner, options));
+}
+
+void opensubdiv_topology(benchmark::State& state) {
+  const FaceMesh base = base_of(state);
+  std::size_t vertices = 0;
+  for (auto _ : state) {
+    const auto refiner = refine_by_opensubdiv(base, levels_of(state));
+    vertices = static_cast<std::size_t>(refiner->GetLevel(levels_of(state)).GetNumVertices());
+  }
+  count(state, vertices, quads_of(state));
+}
+
+void opensubdiv_tables(benchmark::State& state) {
+  const FaceMesh base = base_of(state);
+  std::size_t vertices = 0;
+  for (auto _ : state) {
+    const auto refiner = refine_by_opensubdiv(base, levels_of(state));
+    vertices = static_cast<std::size_t>(stencils_of(*refiner)->GetNumStencils());
+  }
+  count(state, vertices, quads_of(state));
+}
+
+template <class Evaluator>
+void opensubdiv_positions(benchmark::State& state) {
+  const FaceMesh base = base_of(state);
+  const auto table = stencils_of(*refine_by_opensubdiv(base, levels_of(state)));
+  std::vector<glm::vec3> out(static_cast<std::size_t>(table->GetNumStencils()));
+  const Osd::BufferDescriptor vec3(0, 3, 3);
+  for (auto _ : state) {
+    Evaluator::EvalStencils(&base.positions[0].x, vec3, &out[0].x, vec3, table->GetSizes().data(),
+                            table->GetOffsets().data(), table->GetControlIndices().data(),
+                            table->GetWeights().data(), 0, table->GetNumStencils());
+    benchmark::ClobberMemory();
+  }
+  count(state, out.size(), quads_of(state));
+}
+
+struct PrimvarPoint {
+  glm::vec3 at{0};
+  void Clear() { at = glm::vec3(0); }
+  void AddWithWeight(const PrimvarPoint& p, float w) { at += p.at * w; }
+};
+
+// Level by level from the topology alone, as ours, on one thread.
+void opensubdiv_primvar_refiner(benchmark::State& state) {
+  const FaceMesh base = base_of(state);
+  const int levels = levels_of(state);
+  const auto refiner = refine_by_opensubdiv(base, levels);
+  const Far::PrimvarRefiner primvar(*refiner);
+  std::vector<std::vector<PrimvarPoint>> points(1);
+  for (const glm::vec3& p : base.positions) points[0].push_back({p});
+  for (int l = 1; l <= levels; ++l) {
+    points.emplace_back(static_cast<std::size_t>(refiner->GetLevel(l).GetNumVertices()));
+  }
+  for (auto _ : state) {
+    for (int l = 1; l <= levels; ++l) {
+      primvar.Interpolate(l, points[static_cast<std::size_t>(l - 1)], points[static_cast<std::size_t>(l)]);
+    }
+    benchmark::ClobberMemory();
+  }
+  count(state, points.back().size(), quads_of(state));
+}
+
+void openmesh(benchmark::State& state) {
+  const FaceMesh base = base_of(state);
+  OpenMeshPolygons original;
+  std::vector<OpenMeshPolygons::VertexHandle> handles;
+  for (const glm::vec3& p : base.positions) handles.push_back(original.add_vertex({p.x, p.y, p.z}));
+  for (std::size_t f = 0; f < base.faces(); ++f) {
+    const std::uint32_t* c = &base.corners[f * 4];
+    original.add_face({handles[c[0]], handles[c[1]], handles[c[2]], handles[c[3]]});
+  }
+  std::size_t vertices = 0;
+  for (auto _ : state) {
+    OpenMeshPolygons mesh = original;
+    OpenMesh::Subdivider::Uniform::CatmullClarkT<OpenMeshPolygons> subdivider;
+    subdivider.attach(mesh);
+    subdivider(static_cast<std::size_t>(levels_of(state)));
+    subdivider.detach();
+    vertices = mesh.n_vertices();
+  }
+  count(state, vertices, quads_of(state));
+}
+
+void sizes(benchmark::internal::Benchmark* bench) {
+  bench->Args({200, 2})->Args({100, 4})->Args({1600, 1})->Args({50, 6});
+  bench->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+}
+BENCHMARK(positions)->Apply(sizes);
+BENCHMARK(opensubdiv_positions<Osd::CpuEvaluator>)->Apply(sizes);
+BENCHMARK(opensubdiv_positions<Osd::OmpEvaluator>)->Apply(sizes);
+BENCHMARK(opensubdiv_primvar_refiner)->Apply(sizes);
+BENCHMARK(tables)->Apply(sizes);
+BENCHMARK(opensubdiv_topology)->Apply(sizes);
+BENCHMARK(opensubdiv_tables)->Apply(sizes);
+BENCHMARK(whole)->Apply(sizes);
+BENCHMARK(openmesh)->Apply(sizes);
+
+}  // namespace
