@@ -1,4 +1,4 @@
-#include "results/claims/mutants.h"
+#include "tests/results/mutants.h"
 
 #include <gmock/gmock.h>
 
@@ -58,7 +58,7 @@ TEST_F(MutantsTest, PicturesAloneAndWhatWasNotMeasuredAreLeftOut) {
   EXPECT_EQ(reason(R"({equal = ["e/c/absent", 0]})"), "");
 }
 
-// A claim that survives needs another condition: see results/claims/mutants.h.
+// A claim that survives needs another condition: see tests/results/mutants.h.
 TEST(Mutants, NoClaimSurvives) {
   const Store store = Store::open(std::filesystem::path(TERRABENCH_SOURCE_DIR) / "results/reference");
   for (const Survivor& survivor : survivors(store, papers())) {
