@@ -31,7 +31,7 @@ class = "E"
 check = [{equal = ["e/c/unlike", 1]}, {equal = ["e/c/time", 1]}]
 [[table]]
 each = ["table"]
-id = "p.{table}"
+id = "p.{table}-table"
 title = "{table}"
 caption = "c"
 experiment = "e"
@@ -165,12 +165,13 @@ TEST_F(LedgerTest, ARowLinksToTheTableOrPlotThatShowsItsNumbers) {
   }
   const std::vector<Paper> of{paper_of(kShown)};
   using Ids = std::set<std::string, std::less<>>;
-  const auto shown = [&](const std::string& id, const Ids& in_report = {"p.one", "p.two", "p.plot"}) {
+  const auto shown = [&](const std::string& id,
+                         const Ids& in_report = {"p.one-table", "p.two-table", "p.plot"}) {
     return row(ledger_table(store, judge(store, of), of, {.shown = in_report}), id)[kFigure].text;
   };
   EXPECT_EQ(shown("p.named"), "two") << "the table's row names the claim";
   EXPECT_EQ(shown("p.first"), "one");
-  EXPECT_EQ(shown("p.first", {"p.two"}), "two") << "the report leaves the first out";
+  EXPECT_EQ(shown("p.first", {"p.two-table"}), "two") << "the report leaves the first out";
   EXPECT_EQ(shown("p.of-row"), "two") << "the row names the metric";
   EXPECT_EQ(shown("p.plotted"), "plot");
   EXPECT_EQ(shown("p.two"), "plot") << "the claim's second number is shown, its first is not";
