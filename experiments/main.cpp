@@ -18,7 +18,6 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/runner.h"
-#include "renderers/context.h"
 #include "terrain/error.h"
 #include "terrain/number.h"
 #include "terrain/progress.h"
@@ -76,26 +75,6 @@ struct Arguments {
   std::string profile = "quick", shard = "1/1", cases = "all";
   int threads = 0;
 };
-
-// `raytrace`: whether the command also takes the renderer that traces rays.
-void add_renderer(CLI::App& command, std::string& renderer, bool raytrace = false) {
-  std::vector<std::string_view> names(context_names().begin(), context_names().end());
-  std::string help =
-      "OpenGL context: osmesa (software), egl (the first GPU, otherwise software), glfw (a hidden "
-      "window on an X display), auto (egl if there is a GPU, otherwise osmesa)";
-  if (raytrace) {
-    names.push_back(kRaytrace);
-    help += "; or raytrace (Embree: sun, sky and soft shadows, no OpenGL)";
-  }
-  command.add_option("--renderer", renderer, help)
-      ->check(CLI::Validator(
-          [names](const std::string& value) {
-            const bool known = std::find(names.begin(), names.end(), value) != names.end();
-            return known ? std::string() : std::string(unknown_name("renderer", value, names).what());
-          },
-          ""))
-      ->capture_default_str();
-}
 
 void add_list(CLI::App& app, Arguments& a) {
   auto* command = app.add_subcommand("list",
@@ -219,156 +198,6 @@ void add_results(CLI::App& app, Arguments& a) {
   merge->add_option("in", a.merge.folders, "Results folders")->required();
 }
 
-void add_represent(CLI::App& app, Arguments& a) {
-  auto* command = app.add_subcommand("represent",
-                                     "Build one representation; print its bytes and error, save it, draw it");
-  command
-      ->add_option("terrain", a.represent.terrain,
-                   "A name from `terrabench list terrains` or `list models`, the path of a DEM, an event "
-                   "file or a model, "
-                   "dem:FILE,OPTION=VALUE (docs/grounds.md) or drawing:FILE.png")
-      ->required();
-  command->add_option(
-      "--ground", a.represent.ground,
-      "Let a model stand on this terrain, a height field; --crop, --resample and --fill are for it");
-  command
-      ->add_option("--place", a.represent.place,
-                   "Where on the ground a model stands, and how many times its size (default: the middle, 1)")
-      ->type_name("X,Z[,SCALE]");
-  command->add_option("--as", a.represent.as, "A name from `terrabench list representations`")->required();
-  command->add_option("--set", a.represent.assignments,
-                      "Parameters of the representation, name=value or name=value,name=value");
-  // Short forms of --set for parameters of drill.
-  const auto budget = [&](const char* option, const char* parameter, const char* help) {
-    command
-        ->add_option_function<double>(
-            option,
-            [&a, parameter](double value) {
-              a.represent.assignments.push_back(fmt::format("{}={}", parameter, value));
-            },
-            help)
-        ->check(CLI::Validator(
-            [](const std::string& value) {
-              const bool above = parse_number<double>(value).value_or(0) > 0;
-              return above ? std::string() : fmt::format("must be a number above 0, got '{}'", value);
-            },
-            ""));
-  };
-  budget("--budget-bytes", "budget_bytes",
-         "For drill: choose the parameters so that it takes at most this many bytes");
-  budget("--max-rmse", "max_rmse",
-         "For drill: choose the parameters so that the RMSE is at most this many metres");
-  command->add_option("--save", a.represent.save,
-                      "Write the representation to this file: .tb its own form, .tif heights, .ply or .obj "
-                      "polygons, .csv spans, .vdb a volume");
-  command->add_option("--render", a.represent.render, "Write a shaded or ray-traced relief to this PNG");
-  command->add_option("--write-flow", a.represent.write_flow,
-                      "Write flow accumulation to this GeoTIFF, and directions beside it");
-  command
-      ->add_option(
-          "--flow", a.represent.flow,
-          "Where a sample drains, for --write-flow: lowest, as the drill paper says, to the neighbour that "
-          "a search from the border reaches first, lowest first, so that nothing stays in pits; steepest, "
-          "to the neighbour with the largest fall per metre, so that pits keep their flow (D8)")
-      ->check(CLI::IsMember(std::vector<std::string>(kFlows.begin(), kFlows.end())))
-      ->capture_default_str();
-  command
-      ->add_option("--crop", a.represent.crop,
-                   "Part to use, in samples from the north-western one: column, row, width, depth")
-      ->expected(4);
-  command->add_option("--resample", a.represent.resample, "New width and depth in samples")->expected(2);
-  command->add_flag("--fill", a.represent.fill, "Fill samples without data from the samples around them");
-  // Called at each occurrence, so that --dig and --add keep their common order.
-  const auto stroke = [&](const char* option, bool dig, const char* help) {
-    command
-        ->add_option_function<std::string>(
-            option,
-            [&a, dig](const std::string& sphere) {
-              a.represent.strokes.push_back({dig, sphere});
-            },
-            help)
-        ->type_name("X,Y,Z,RADIUS")
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
-        ->trigger_on_parse();
-  };
-  stroke("--dig", true, "Dig a sphere (metres, Y up) out of what was built; may be repeated");
-  stroke("--add", false, "Add a sphere of bedrock; may be repeated, in order with --dig");
-  command->add_option("--erode", a.represent.erode,
-                      "After --dig and --add, let material slide until no slope exceeds this talus angle in "
-                      "degrees (layered_stack and implicit)");
-  add_renderer(*command, a.represent.renderer, true);
-  command
-      ->add_option("--samples", a.represent.samples,
-                   "For --renderer raytrace: samples per pixel; noise halves with four times as many")
-      ->check(CLI::Range(1, 65536))
-      ->capture_default_str();
-  command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
-      ->check(CLI::Range(1, 4096));
-  command->add_option("--seed", a.represent.seed, "Seed of procedural terrains")->capture_default_str();
-  auto* exported = app.add_subcommand("export", "Write a saved representation for other programs");
-  exported->add_option("saved", a.exported.saved, "File that `represent --save NAME.tb` has written")
-      ->required();
-  exported
-      ->add_option("out", a.exported.out,
-                   "File to write: .tif heights, .ply or .obj polygons, .csv spans, .vdb a volume")
-      ->required();
-  exported->add_option("--like", a.exported.like,
-                       "The DEM that it was built from: write along its samples, with its reference system");
-  auto* info = app.add_subcommand(
-      "info",
-      "Describe a DEM, a drawing, an event file, a model, a saved representation or a results folder");
-  info->add_option("file", a.info,
-                   "File or folder, dem:FILE,OPTION=VALUE (docs/grounds.md) or drawing:FILE.png")
-      ->required();
-}
-
-void add_render(CLI::App& app, Arguments& a) {
-  auto* command = app.add_subcommand(
-      "render",
-      "Draw a terrain through a level-of-detail method: a picture, or a sequence along a camera path");
-  RenderArguments& r = a.render;
-  command
-      ->add_option("terrain", r.terrain,
-                   "A name from `terrabench list terrains`, the path of a DEM or an event file, "
-                   "dem:FILE,OPTION=VALUE (docs/grounds.md) or drawing:FILE.png")
-      ->required();
-  command->add_flag(
-      "--scene", r.scene,
-      "A landscape with materials, sky, fog, water and shadows; otherwise the method's triangles "
-      "as shaded relief");
-  command->add_option("--path", r.path,
-                      "Camera path: fly, low, walk, turn or cross, or a TOML file (default: one view)");
-  command->add_option("--frames", r.frames, "Pictures, evenly spaced along the path")->capture_default_str();
-  command->add_option("--lod", r.lod, "A name from `terrabench list lods`")->capture_default_str();
-  command->add_option("--detail", r.detail, "The method's knob (see `terrabench list lods`)")->expected(1);
-  command->add_option("--size", r.size, "Size of the picture in pixels, such as 1600x1000");
-  command->add_option("--eye", r.eye, "Place of the eye in metres: x (east), y (up), z (south)")->expected(3);
-  command->add_option("--look-at", r.look_at, "Place in the middle of the picture, likewise")->expected(3);
-  command
-      ->add_option("--up", r.up,
-                   "Direction of the picture's top, likewise (default: up; north in a plan, looking straight "
-                   "down)")
-      ->expected(3);
-  command->add_option("--fov", r.field_of_view, "Vertical field of view in degrees")
-      ->check(CLI::Range(1.0, 170.0));
-  command->add_option("--seconds", r.seconds, "Time of clouds and waves in the first picture")
-      ->check(CLI::Range(-1e5, 1e5));
-  command->add_option("--samples", r.samples, "Height samples along each side of a solid terrain")
-      ->check(CLI::Range(2, 16385))
-      ->capture_default_str();
-  command->add_option("--set", r.assignments,
-                      "Parameters of the landscape or of the method: name=value or name=value,name=value "
-                      "(see `terrabench list scene`)");
-  command
-      ->add_option("--out", r.out,
-                   "PNG to write, or a folder for several frames: pictures that it holds are kept")
-      ->capture_default_str();
-  add_renderer(*command, r.renderer);
-  command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
-      ->check(CLI::Range(1, 4096));
-  command->add_option("--seed", r.seed, "Seed of procedural terrains")->capture_default_str();
-}
-
 void add_help(CLI::App& app, Arguments& a) {
   app.add_subcommand("help", "Describe the program, or a command: terrabench help run")
       ->add_option("command", a.help, "One of the commands");
@@ -490,8 +319,10 @@ int main_program(int argc, char** argv) {
   add_list(app, arguments);
   add_run(app, arguments);
   add_results(app, arguments);
-  add_represent(app, arguments);
-  add_render(app, arguments);
+  add_represent(app, arguments.represent, arguments.threads);
+  add_export(app, arguments.exported);
+  add_info(app, arguments.info);
+  add_render(app, arguments.render, arguments.threads);
   add_help(app, arguments);
   check_values(app);
   const std::span<char*> given = std::span(argv, static_cast<std::size_t>(argc)).subspan(1);

@@ -47,10 +47,9 @@ std::string renderer_name(const std::string& context) {
 void describe(const std::filesystem::path& folder, RecordedFigure& figure) {
   const std::filesystem::path file = folder / figure.file;
   figure.checksum = checksum(read_file(file));
-  figure.layout = read_layout(file);
-  if (figure.layout) return;
+  if (figure.layout != FigureLayout()) return;
   const Image image = read_png(file);
-  figure.layout = FigureLayout{{{0, 0, image.width, image.height}}, {}};
+  figure.layout.panels = {{0, 0, image.width, image.height}};
 }
 
 std::vector<std::pair<std::string, Value>> values(const Parameters& parameters) {

@@ -99,11 +99,11 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
   recorder.add("triangles", "", static_cast<double>(painter.update(view).stats.triangles));
   recorder.add("strands", "", static_cast<double>(painter.strands()));
-  figures::write_picture(
+  write_png(
       recorder.figure("hybrid.hero", "png",
                       "Noise terrain made as in the paper: an arch over water, in a landscape that ends in "
                       "the sky. The ground near the eye is an implicit surface with grass, the ground "
-                      "beyond a clipmap"),
+                      "beyond a clipmap").path,
       painter.draw(view, 3));
   const std::vector<double> times =
       time_frames(frame_clock(*context), 2, at.integer("frames"),

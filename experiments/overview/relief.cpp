@@ -86,12 +86,13 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const Bounds ground = source.bounds();  // the same colours for every representation of it
   const Image image = render_relief(*context, mesh, view, {.lowest = ground.low.y, .highest = ground.high.y});
   const std::string id = fmt::format("relief.{}.{}", file_name(at.terrain), type.name);
-  figures::write_picture(
+  write_png(
       recorder.figure(
           id, "png",
           fmt::format("{} as {}: {} triangles, from {:.0f} m (dark) to {:.0f} m (light), sun from the "
                       "north-west, view from the south",
-                      source.name, type.label, format_count(mesh.triangles()), ground.low.y, ground.high.y)),
+                      source.name, type.label, format_count(mesh.triangles()), ground.low.y, ground.high.y))
+          .path,
       with_few_colours(image));
 }
 

@@ -4,6 +4,7 @@
 // judge.h and not stored.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -142,8 +143,8 @@ struct Paper {
   std::vector<TableLayout> tables;
   std::vector<PlotLayout> plots;
   std::vector<PageLayout> pages = {};
-  // The claims file, if it has [further]: its pages are filled for grounds that it does not name as well
-  // (further_grounds.h).
+  std::vector<RankingLayout> rankings = {};
+  // The claims file, if it has [further]: its layouts are read again for grounds that it does not name.
   std::optional<ClaimsFile> further = {};
   std::vector<Cause> causes = {};
 };
@@ -154,5 +155,13 @@ std::span<const Paper> papers();
 // Reads one claims file. Throws bad_input with file and line for wrong syntax, unknown or missing keys, wrong
 // types and repeated ids. O(size).
 Paper parse_claims(std::string_view toml, const std::string& origin);
+
+// A ground that no claims file names.
+struct UnnamedGround {
+  std::string name, label, id;  // Record::terrain; what readers call it; part of file names and ids
+};
+// The paper's page for this ground, with the tables, plots and rankings that belong to it; no claims. `has`
+// says which metrics were measured there. Throws bad_input if [further] does not suit the ground.
+Paper layouts_of(const Paper&, const UnnamedGround&, const std::function<bool(std::string_view metric)>& has);
 
 }  // namespace terrabench

@@ -5,31 +5,14 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "results/claims/layouts.h"
+#include "results/claims/claims.h"
 #include "results/report/document.h"
 #include "results/store/statistics.h"
 #include "results/store/store.h"
 
 namespace terrabench {
-
-struct RankingLayout {
-  using Entry = TableLayout::Row;
-  std::string id, task, where;  // task: "Fewest bytes in memory"; where: "on caves"
-  // Of the findings in short. `sentence` is the name of the sentence that says who is best at this task, and
-  // `brief` how the task begins there: "for the fewest bytes in memory". Both empty: in none.
-  std::string sentence, brief;
-  std::string experiment, metric;  // `metric` and `needs` are read for the entry as a table's columns are
-  std::string unit;                // that values are shown in
-  bool most = false;               // the best has the most, otherwise the least
-  // An entry takes part only if this metric lies in the range, where any entry has it. Empty: none. The text
-  // says so: "of types that keep four fifths of the air under roofs".
-  std::string needs, needs_text;
-  double needs_low = 0, needs_high = 0;
-  std::vector<Entry> entries;
-};
 
 // A method is tied with the best if the interval of its factor contains 1 or if the factor is below a margin.
 // Of times and rates: an interval of one run does not cover the differences between runs on one machine. Of
@@ -69,10 +52,7 @@ struct Ranking {
   std::string clause() const { return layout->where + ": " + result(); }
 };
 
-// One [[ranking]], and every one of a claims file. Throw bad_input with file and line.
-RankingLayout parse_ranking(const TomlValue&);
-std::vector<RankingLayout> parse_rankings(std::string_view toml, const std::string& origin);
-// Of all claims files that are compiled in. Parsed once.
+// Of all claims files that are compiled in.
 std::span<const RankingLayout> ranking_layouts();
 
 // Nothing when fewer than two entries were measured. If one is in a unit that cannot be converted, none are

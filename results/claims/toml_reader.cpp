@@ -96,6 +96,12 @@ SetMember member_from(TomlValue element, const std::string& set) {
 
 }  // namespace
 
+std::string TomlFile::named(std::string case_name) const {
+  if (!ground_id.empty() && (case_name == ground_id || case_name.starts_with(ground_id + "/")))
+    case_name.replace(0, ground_id.size(), ground_name);
+  return case_name;
+}
+
 void TomlValue::fail(std::string_view what) const {
   throw bad_input(what, fmt::format("{}:{}", file->origin, node->source().begin.line),
                   "correct the claims file");

@@ -41,6 +41,11 @@ struct SetMember {
 struct TomlFile {
   std::string origin;  // for error messages
   std::map<std::string, std::vector<SetMember>, std::less<>> sets;
+  // Of a ground that the file does not name: what stands for it in names of cases, which can also be part of
+  // a file's name, and its name, which may be a path.
+  std::string ground_id = {}, ground_name = {};
+
+  std::string named(std::string case_name) const;  // with the ground's name in place of its id
 };
 
 // A value in a file, with the set members chosen for it by the `each` of the elements around it.
@@ -53,7 +58,8 @@ struct TomlValue {
   // All of these throw bad_input with file and line. `what` names the value in the message.
   [[noreturn]] void fail(std::string_view what) const;
   std::string text(std::string_view what) const;  // with set names replaced
-  double number(std::string_view what) const;     // finite
+  std::string case_name(std::string_view what) const { return file->named(text(what)); }
+  double number(std::string_view what) const;  // finite
   std::pair<TomlValue, TomlValue> pair(std::string_view what) const;
   std::vector<TomlValue> elements(std::string_view what) const;  // of a list, after `each` is applied
 

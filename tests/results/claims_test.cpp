@@ -7,6 +7,7 @@
 #include <array>
 #include <set>
 
+#include "results/store/format.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -41,106 +42,26 @@ std::vector<const Claim*> claims() {
 TEST(Claims, EveryClaimOfThePapersIsThere) {
   std::set<std::string> ids;
   for (const Claim* claim : claims()) EXPECT_TRUE(ids.insert(claim->id).second) << claim->id << " twice";
-  std::vector<std::string> expected = {"hybrid.T3",
-                                       "hybrid.implicit",
-                                       "hybrid.slope",
-                                       "hybrid.slope.difference",
-                                       "hybrid.bary.sum",
-                                       "hybrid.T1.layout",
-                                       "hybrid.T2.ten",
-                                       "hybrid.T2.256",
-                                       "hybrid.T2.512",
-                                       "hybrid.bary",
-                                       "hybrid.fresnel",
-                                       "hybrid.sky",
-                                       "hybrid.caves",
-                                       "hybrid.stitch",
-                                       "hybrid.less-geometry",
-                                       "ght.count.tunnel",
-                                       "ght.count.cave",
-                                       "ght.continuity",
-                                       "ght.links",
-                                       "ght.host",
-                                       "ght.refused",
-                                       "ght.overhang",
-                                       "ght.effective",
-                                       "drill.channels.25",
-                                       "drill.channels.100",
-                                       "drill.maxflow",
-                                       "drill.error.rmse",
-                                       "drill.error.rmse.best",
-                                       "drill.error.ahd",
-                                       "drill.tau.ahd",
-                                       "drill.tau.ahd-order",
-                                       "drill.best",
-                                       "drill.best.levels",
-                                       "drill.tau.rmse",
-                                       "drill.tau.rmse.levels",
-                                       "drill.every-case",
-                                       "drill.every-case.mean",
-                                       "drill.tau.time",
-                                       "drill.time",
-                                       "drill.time.tau",
-                                       "drill.time.pixels",
-                                       "drill.time.ratio",
-                                       "drill.bottleneck",
-                                       "drill.bottleneck.sections",
-                                       "drill.local-minima",
-                                       "drill.edges",
-                                       "drill.untouched",
-                                       "drill.hydrography",
-                                       "drill.hydrography.traditional",
-                                       "drill.extensions.pits",
-                                       "drill.size",
-                                       "drill.integers",
-                                       "drill.integers.steps",
-                                       "drill.ahd.readings",
-                                       "drill.plateau",
-                                       "drill.extensions",
-                                       "drill.time.growth",
-                                       "mrbsp.tris",
-                                       "mrbsp.T2.tris.brute",
-                                       "mrbsp.T2.tris.lod",
-                                       "mrbsp.T2.tris.vis",
-                                       "mrbsp.T2.tris.both",
-                                       "mrbsp.T2.time",
-                                       "mrbsp.lodtime",
-                                       "mrbsp.threshold",
-                                       "mrbsp.holes",
-                                       "mrbsp.T1",
-                                       "mrbsp.vis-safe",
-                                       "mrbsp.vis-faster",
-                                       "mrbsp.quality",
-                                       "mrbsp.T2.time.fitted",
-                                       "mrbsp.vis-small",
-                                       "mrbsp.grow",
-                                       "mrbsp.landscape",
-                                       "meshgrow.cc",
-                                       "meshgrow.1f",
-                                       "meshgrow.limit-at",
-                                       "meshgrow.converge",
-                                       "meshgrow.error",
-                                       "meshgrow.normals",
-                                       "meshgrow.wellformed",
-                                       "meshgrow.fork-u",
-                                       "meshgrow.size",
-                                       "meshgrow.time",
-                                       "meshgrow.lod",
-                                       "meshgrow.lazy",
-                                       "cross.representations",
-                                       "cross.lod-equal-error",
-                                       "cross.lod-ranks",
-                                       "cross.lod-jump",
-                                       "cross.lod-seams",
-                                       "cross.lod-surface",
-                                       "cross.lod-edit",
-                                       "cross.scale",
-                                       "cross.round-trip",
-                                       "cross.round-trip.lossless",
-                                       "cross.round-trip.levels",
-                                       "cross.round-trip.polygons",
-                                       "cross.round-trip.approximate",
-                                       "cross.round-trip.place"};
+  std::vector<std::string> expected = wrap(
+      "hybrid.T3 hybrid.implicit hybrid.slope hybrid.slope.difference hybrid.bary.sum hybrid.T1.layout "
+      "hybrid.T2.ten hybrid.T2.256 hybrid.T2.512 hybrid.bary hybrid.fresnel hybrid.sky hybrid.caves "
+      "hybrid.stitch hybrid.less-geometry ght.count.tunnel ght.count.cave ght.continuity ght.links "
+      "ght.host ght.refused ght.overhang ght.effective drill.channels.25 drill.channels.100 drill.maxflow "
+      "drill.error.rmse drill.error.rmse.best drill.error.ahd drill.tau.ahd drill.tau.ahd-order drill.best "
+      "drill.best.levels drill.tau.rmse drill.tau.rmse.levels drill.every-case drill.every-case.mean "
+      "drill.tau.time drill.time drill.time.tau drill.time.pixels drill.time.ratio drill.bottleneck "
+      "drill.bottleneck.sections drill.local-minima drill.edges drill.untouched drill.hydrography "
+      "drill.hydrography.traditional drill.extensions.pits drill.size drill.integers drill.integers.steps "
+      "drill.ahd.readings drill.plateau drill.extensions drill.time.growth mrbsp.tris mrbsp.T2.tris.brute "
+      "mrbsp.T2.tris.lod mrbsp.T2.tris.vis mrbsp.T2.tris.both mrbsp.T2.time mrbsp.lodtime mrbsp.threshold "
+      "mrbsp.holes mrbsp.T1 mrbsp.vis-safe mrbsp.vis-faster mrbsp.quality mrbsp.T2.time.fitted "
+      "mrbsp.vis-small mrbsp.grow mrbsp.landscape meshgrow.cc meshgrow.1f meshgrow.limit-at meshgrow.converge meshgrow.error meshgrow.normals "
+      "meshgrow.wellformed meshgrow.fork-u meshgrow.size meshgrow.time meshgrow.lod meshgrow.lazy "
+      "cross.representations cross.lod-equal-error cross.lod-ranks cross.lod-jump cross.lod-seams "
+      "cross.lod-surface cross.lod-edit cross.scale cross.round-trip cross.round-trip.lossless "
+      "cross.round-trip.levels cross.round-trip.polygons cross.round-trip.approximate "
+      "cross.round-trip.place ",
+      0);
   for (const int n : {128, 256, 512}) {
     for (const char* row : {"hybrid.T1", "hybrid.T1.voxels", "hybrid.T1.ratio"}) {
       expected.push_back(fmt::format("{}.{}", row, n));

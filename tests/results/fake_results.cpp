@@ -84,6 +84,17 @@ FolderTest::FolderTest() {
 
 FolderTest::~FolderTest() { std::filesystem::remove_all(folder_); }
 
+Paper paper_of(std::string_view entries) {
+  return parse_claims(fmt::format("paper = \"p\"\ntitle = \"t\"\nsource = \"s\"\n{}", entries),
+                      "claims.toml");
+}
+
+Paper paper_with_claim(std::string_view type, std::string_view check, std::string_view more) {
+  return paper_of(fmt::format(
+      "[[claim]]\nid = \"p.1\"\nwhere = \"w\"\nstatement = \"s\"\nclass = \"{}\"\ncheck = [{}]\n{}", type,
+      check, more));
+}
+
 Provenance fake_provenance() {
   Provenance p;
   p.time = "2024-02-29T12:00:00Z";
@@ -244,6 +255,12 @@ void write_fake_results(const std::filesystem::path& folder, const std::string& 
   add(relief, "bytes", "B", {554528});
   add_picture(relief, folder, "relief.jacksboro.heightmap", "jacksboro as heightmap.");
   store.append(relief);
+}
+
+std::size_t count(std::string_view text, std::string_view part) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++n;
+  return n;
 }
 
 void edit(const std::filesystem::path& file, std::string_view from, std::string_view to) {

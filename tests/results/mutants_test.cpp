@@ -1,4 +1,4 @@
-#include "results/claims/mutants.h"
+#include "tests/results/mutants.h"
 
 #include <gmock/gmock.h>
 
@@ -69,7 +69,7 @@ TEST_F(MutantsTest, WhatWasNotMeasuredIsLeftOut) {
   EXPECT_EQ(reason(R"({figure = "f", prints = ["e/c/absent"]})"), "");
 }
 
-// A claim that survives needs another condition: see results/claims/mutants.h. Only figures from which no
+// A claim that survives needs another condition: see tests/results/mutants.h. Only figures from which no
 // number can be read may survive; the test lists them.
 TEST(Mutants, OnlyFiguresWithoutANumberSurvive) {
   const Store store = Store::open(std::filesystem::path(TERRABENCH_SOURCE_DIR) / "results/reference");

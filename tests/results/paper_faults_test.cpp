@@ -82,7 +82,7 @@ class PaperFaults : public FolderTest {
     store.append(record);
   }
   std::string page() const {
-    return markdown(paper_faults(judge(Store::open(folder_), papers_), papers_, "ledger.md"));
+    return markdown(paper_faults(judge(Store::open(folder_), papers_), papers_));
   }
   std::vector<Paper> papers_;
 };

@@ -109,14 +109,12 @@ TEST(RecordLine, KeepsWhichSamplesTheFirstLookGave) {
   }
 }
 
-TEST(RecordLine, OverridesAreAFieldAndInOlderLinesTheEndOfTheCase) {
+TEST(RecordLine, KeepsOverrides) {
   const auto overrides = [](const std::string& line) {
     return std::get<Record>(parse_line(line, "there:3").content).overrides;
   };
   Record record = sample();
   EXPECT_TRUE(overrides(to_line(record)).empty());
-  record.case_name = "n=64 (n=3)";
-  EXPECT_EQ(overrides(to_line(record)), std::vector<std::string>{"n=3"});  // as older versions wrote it
   record.overrides = {"n=3", "w=4"};
   EXPECT_EQ(overrides(to_line(record)), record.overrides);
 }

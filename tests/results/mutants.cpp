@@ -1,4 +1,4 @@
-#include "results/claims/mutants.h"
+#include "tests/results/mutants.h"
 
 #include <fmt/format.h>
 
