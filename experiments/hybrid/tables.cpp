@@ -175,9 +175,11 @@ void measure_table2(const Case& at, const RunOptions& options, Recorder& recorde
 
 }  // namespace
 
-extern const Experiment kTable1{"hybrid.table1", "Table 1: memory of the discrete data structure", kSizeSpecs,
-                                table1_cases, measure_table1};
-extern const Experiment kTable2{"hybrid.table2", "Table 2: terrain generation times", kTimeSpecs,
-                                table2_cases, measure_table2};
+extern const Experiment kTable1{"hybrid.table1", "Table 1: memory of the discrete data structure",
+                                kSizeSpecs,      table1_cases,
+                                measure_table1,  Experiment::kTimed};
+extern const Experiment kTable2{"hybrid.table2", "Table 2: terrain generation times",
+                                kTimeSpecs,      table2_cases,
+                                measure_table2,  Experiment::kTimed};
 
 }  // namespace terrabench::hybrid

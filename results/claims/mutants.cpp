@@ -75,7 +75,7 @@ class Trial {
 };
 
 bool is_measured(const Claim& claim, const Store& store) {
-  if (claim.conditions.empty() || std::ranges::count(claim.profiles, store.profile()) == 0) return false;
+  if (claim.conditions.empty() || !claim.measured_in(store.profile())) return false;
   const Evidence evidence = gather_evidence(claim, store, store.profile());
   return std::ranges::count(evidence.findings, Outcome::kMissing, &Finding::outcome) == 0;
 }

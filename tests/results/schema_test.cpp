@@ -120,7 +120,6 @@ Record full_record() {
   record.figures = {
       {"hybrid.F3", "figures/a.png", "A caption.", checksum("a"), FigureLayout{{{1, 2, 3, 4}}, {"a word"}}}};
   record.metrics[0].varies = true;
-  record.metrics[0].first_look = 1;
   record.undefined = {{"ratio", "the ground is flat"}};
   return record;
 }
@@ -151,7 +150,6 @@ TEST(Schema, WhatIsWrittenIsDocumented) {
   least.terrain = least.terrain_checksum = "";
   least.parameters.clear();
   least.metrics[0].varies = false;
-  least.metrics[0].first_look = 0;
   least.figures[0].layout.reset();
   EXPECT_EQ(fault(to_line(least)), "");
   EXPECT_EQ(fault(to_line(failed_record())), "");
@@ -170,6 +168,7 @@ TEST(Schema, WhatIsDocumentedIsWritten) {
       {"record", record}, {"run", run}, {"metric", record["metrics"][0]}, {"figure", record["figures"][0]}};
   for (const auto& [object, example] : written) {
     for (const auto& [field, rule] : schema().at("$defs").at(object).at("properties").items()) {
+      if (field == "first_look") continue;  // of older records
       EXPECT_TRUE(example.contains(field)) << object << " " << field;
     }
   }
