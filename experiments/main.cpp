@@ -88,8 +88,11 @@ void add_list(CLI::App& app, Arguments& a) {
 void add_run(CLI::App& app, Arguments& a) {
   auto* command = app.add_subcommand("run", "Measure experiments into a results folder");
   command->add_option("ids", a.run.patterns, "Experiment ids or globs such as 'hybrid.*' (default: all)");
-  command->add_option("--profile", a.profile, "quick: takes minutes; paper: the papers' sizes")
-      ->check(CLI::IsMember({"quick", "paper"}))
+  command
+      ->add_option("--profile", a.profile,
+                   "quick: takes minutes; paper: the papers' sizes; scale: growth with size (cross.scale), "
+                   "kept with the measurements of the profile paper")
+      ->check(CLI::IsMember({"quick", "paper", "scale"}))
       ->capture_default_str();
   command->add_option(
       "--terrain", a.run.options.terrains,
@@ -115,13 +118,6 @@ void add_run(CLI::App& app, Arguments& a) {
           "Measure so many untimed cases beside each other, in processes that share the threads; then "
           "the timed ones, one by one. Takes the memory of so many cases")
       ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--again", a.run.again,
-          "Repeat timed cases of at most so many seconds, except those of cross.scale, once all others are "
-          "done, so that one slow period of the machine does not distort all their samples; 0: no repeats")
-      ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   add_renderer(*command, a.run.options.renderer);
   command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
@@ -192,7 +188,7 @@ void add_results(CLI::App& app, Arguments& a) {
       "Join results folders, such as those of `run --shard`, into one (docs/sweeps.md). Refuses altered "
       "lines, "
       "changed pictures and mixed revisions before it writes anything; after an interruption, give the same "
-      "command again. Exits with 1 if a case was measured twice and its exact figures differ");
+      "command again.");
   merge->add_option("out", a.merge.out, "Folder to write; what it holds counts as the first folder")
       ->required();
   merge->add_option("in", a.merge.folders, "Results folders")->required();
@@ -300,7 +296,9 @@ ExitCode dispatch(const CLI::App& app, Arguments& a) {
   parse_shard(a.shard, a.run);
   a.run.threads = a.threads;
   a.run.part = a.cases == "timed" ? Part::kTimed : a.cases == "untimed" ? Part::kUntimed : Part::kAll;
-  a.run.options.profile = a.profile == "paper" ? Profile::kPaper : Profile::kQuick;
+  a.run.options.profile = a.profile == "paper"   ? Profile::kPaper
+                          : a.profile == "scale" ? Profile::kScale
+                                                 : Profile::kQuick;
   const ExitCode code = run(a.run);
   fmt::print("measurements: {}\nnext: terrabench check {}; terrabench report {}\n",
              (a.run.folder / "measurements.jsonl").string(), a.run.folder.string(), a.run.folder.string());

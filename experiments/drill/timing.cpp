@@ -11,6 +11,7 @@
 #include "experiments/drill/factorial.h"
 #include "experiments/drill/ground.h"
 #include "experiments/experiment.h"
+#include "experiments/samples.h"
 #include "experiments/stopwatch.h"
 #include "representations/drill/cross_sections.h"
 #include "representations/drill/extract.h"
@@ -22,7 +23,6 @@
 namespace terrabench::drill {
 namespace {
 
-constexpr int kSamples = 9;
 constexpr std::array<std::uint32_t, 8> kTimedTaus{10, 15, 25, 50, 100, 200, 400, 800};
 constexpr std::size_t kPaperTau = 2;       // 25: regeneration is timed there
 constexpr std::array kTimedWidths{5, 20};  // at that τ; cross-sections have 120 · w samples
@@ -191,7 +191,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kTime{"drill.time", "§3.1: time against thresholds and channel pixels", fit_specs(),
-                              fit_cases, measure};
+extern const Experiment kTime{"drill.time", "§3.1: time against thresholds and channel pixels",
+                              fit_specs(),  fit_cases,
+                              measure,      Experiment::kTimed};
 
 }  // namespace terrabench::drill

@@ -8,6 +8,7 @@
 
 #include "experiments/experiment.h"
 #include "experiments/hybrid/surface_distance.h"
+#include "experiments/samples.h"
 #include "experiments/stopwatch.h"
 #include "representations/implicit/implicit_surface.h"
 #include "terrain/memory.h"
@@ -226,7 +227,7 @@ TriangleMesh open_surface(const ImplicitSurface& surface, glm::ivec2 begin, glm:
 
 void measure_surface(const Case& at, const TerrainSource& source, const ImplicitSurface& surface,
                      Recorder& recorder, Progress& progress) {
-  constexpr int kSamples = 5, kFiner = 4;
+  constexpr int kFiner = 4;
   for (int k = 0; k < kSamples; ++k) {
     HeapCounter::reset_peak();
     const std::int64_t before = HeapCounter::live();
@@ -259,21 +260,28 @@ void measure_surface(const Case& at, const TerrainSource& source, const Implicit
   recorder.add("mean_distance", "cells", std::max(from_mesh.mean, to_mesh.mean) / cell);
 }
 
+bool times(const Case& at) { return at.parameters.text("measure") == "surface"; }
+
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(noise::cave_source({.seed = options.seed}));
   const std::int64_t n = at.parameters.integer("n");
   const double column = static_cast<double>(source.bounds().size().x) / static_cast<double>(n);
   const auto surface = build(source, at, n, at.parameters.number("radius") * column, 0, progress);
-  if (at.parameters.text("measure") == "values") {
-    measure_values(at, *surface, options.seed, recorder, progress);
-  } else {
+  if (times(at)) {
     measure_surface(at, source, *surface, recorder, progress);
+  } else {
+    measure_values(at, *surface, options.seed, recorder, progress);
   }
 }
 
 }  // namespace
 
-extern const Experiment kImplicit{"hybrid.implicit", "§3.1.2: the implicit surface's field and polygons",
-                                  kSpecs, cases, measure};
+extern const Experiment kImplicit{"hybrid.implicit",
+                                  "§3.1.2: the implicit surface's field and polygons",
+                                  kSpecs,
+                                  cases,
+                                  measure,
+                                  Experiment::kTimed,
+                                  times};
 
 }  // namespace terrabench::hybrid

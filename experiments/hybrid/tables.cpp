@@ -198,11 +198,14 @@ void measure_reuse(const Case& at, const RunOptions& options, Recorder& recorder
 
 }  // namespace
 
-extern const Experiment kTable1{"hybrid.table1", "Table 1: memory of the discrete data structure", kSizeSpecs,
-                                table1_cases, measure_table1};
-extern const Experiment kTable2{"hybrid.table2", "Table 2: terrain generation times", kTimeSpecs,
-                                table2_cases, measure_table2};
+extern const Experiment kTable1{"hybrid.table1", "Table 1: memory of the discrete data structure",
+                                kSizeSpecs,      table1_cases,
+                                measure_table1,  Experiment::kTimed};
+extern const Experiment kTable2{"hybrid.table2", "Table 2: terrain generation times",
+                                kTimeSpecs,      table2_cases,
+                                measure_table2,  Experiment::kTimed};
 extern const Experiment kReuse{"hybrid.reuse", "§3.1.3.3: a fractal that is used twice, or a sixth",
-                               kReuseSpecs, reuse_cases, measure_reuse};
+                               kReuseSpecs,    reuse_cases,
+                               measure_reuse,  Experiment::kTimed};
 
 }  // namespace terrabench::hybrid

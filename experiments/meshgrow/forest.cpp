@@ -355,7 +355,10 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 }  // namespace
 
 extern const Experiment kForest{"meshgrow.forest",
-                                "§6, §8: a forest of 10⁹ faces, expanded only where rays reach it", kSpecs,
-                                cases, measure};
+                                "§6, §8: a forest of 10⁹ faces, expanded only where rays reach it",
+                                kSpecs,
+                                cases,
+                                measure,
+                                Experiment::kTimed};
 
 }  // namespace terrabench::meshgrow

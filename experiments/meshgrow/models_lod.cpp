@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <string>
+#include <utility>
 
 #include "experiments/experiment.h"
 #include "experiments/meshgrow/models.h"
@@ -87,10 +89,10 @@ constexpr std::size_t kPairs = 6;
 
 // What the level looks like and what the whole model does, traced with the same random paths.
 struct Pair {
-  Shown whole, level;
-  bool shows(std::size_t pixel) const { return whole.covered[pixel] || level.covered[pixel]; }
+  const Shown *whole, *level;
+  bool shows(std::size_t pixel) const { return whole->covered[pixel] || level->covered[pixel]; }
   double differs(std::size_t c) const {
-    return static_cast<double>(int{whole.image.rgb[c]} - int{level.image.rgb[c]});
+    return static_cast<double>(int{whole->image.rgb[c]} - int{level->image.rgb[c]});
   }
 };
 
@@ -106,7 +108,7 @@ struct Difference {
 Difference difference(const std::array<Pair, kPairs>& pairs) {
   double all = 0, channels = 0;          // sums of products of different pairs
   std::array<double, kPairs> without{};  // the same, of all pairs but one
-  for (std::size_t pixel = 0; pixel < pairs[0].whole.covered.size(); ++pixel) {
+  for (std::size_t pixel = 0; pixel < pairs[0].whole->covered.size(); ++pixel) {
     if (!pairs[0].shows(pixel)) continue;
     channels += 3;
     for (std::size_t c = 3 * pixel; c < 3 * pixel + 3; ++c) {
@@ -142,6 +144,35 @@ void move_away(int times, View& view, RaytraceSettings& settings) {
   settings.samples *= times * times;
 }
 
+// Of one mesh, from near and from far, each view with the random paths of every pair.
+using Pictures = std::array<std::array<Shown, kPairs>, 2>;
+
+Pictures pictures_of(const ModelMesh& mesh, const Bounds& whole, const growing::Model& model, const Case& at,
+                     const RunOptions& options) {
+  const int height = at.integer("height");
+  View view = overview(whole, height, height, {0.45F, 0.3F, 1.0F});
+  RaytraceSettings settings{.samples = at.integer("samples"), .bounces = 1};
+  Pictures pictures;
+  for (std::array<Shown, kPairs>& of_view : pictures) {
+    for (std::uint32_t k = 0; k < kPairs; ++k) {
+      settings.seed = static_cast<std::uint32_t>(options.seed) + 0x9E37 * k;
+      of_view[k] = show(mesh, painted(at.parameters.text("model")), model, view, settings);
+    }
+    move_away(at.integer("far"), view, settings);
+  }
+  return pictures;
+}
+
+// All levels of a model are compared with the same pictures of the whole, which are kept for the next level.
+const Pictures& pictures_of_whole(const ModelMesh& mesh, const growing::Model& model, const Case& at,
+                                  const RunOptions& options) {
+  static std::pair<std::string, Pictures> kept;
+  const std::string key = fmt::format("{} {} {} {} {}", at.parameters.text("model"), at.integer("height"),
+                                      at.integer("samples"), at.integer("far"), options.seed);
+  if (kept.first != key) kept = {key, pictures_of(mesh, bounds_of(mesh.mesh), model, at, options)};
+  return kept.second;
+}
+
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   const std::string name = at.parameters.text("model");
   const growing::Model model = growing::parse_model(growing::model_text(name), name);
@@ -152,21 +183,14 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("triangles", "", static_cast<double>(level.mesh.triangles()));
   recorder.add("share_of_triangles", "",
                static_cast<double>(level.mesh.triangles()) / static_cast<double>(full.mesh.triangles()));
-  RaytraceSettings settings{
-      .samples = at.integer("samples"), .bounces = 1, .seed = static_cast<std::uint32_t>(options.seed)};
-  const int height = at.integer("height");
-  View view = overview(bounds_of(full.mesh), height, height, {0.45F, 0.3F, 1.0F});
-  const PaintedModel& look = painted(name);
-  for (const bool far : {false, true}) {
-    if (far) move_away(at.integer("far"), view, settings);
-    const std::string_view name_of_view = far ? "far" : "near";
+  const Pictures& whole = pictures_of_whole(full, model, at, options);
+  const Pictures reduced =
+      without.leave_out.empty() ? whole : pictures_of(level, bounds_of(full.mesh), model, at, options);
+  for (std::size_t v = 0; v < whole.size(); ++v) {
     std::array<Pair, kPairs> pairs;
-    for (std::uint32_t k = 0; k < kPairs; ++k) {
-      RaytraceSettings paths = settings;
-      paths.seed = settings.seed + 0x9E37 * k;
-      pairs[k] = {show(full, look, model, view, paths), show(level, look, model, view, paths)};
-    }
+    for (std::size_t k = 0; k < kPairs; ++k) pairs[k] = {&whole[v][k], &reduced[v][k]};
     const Difference differs = difference(pairs);
+    const std::string_view name_of_view = v == 0 ? "near" : "far";
     recorder.add(fmt::format("{}_error", name_of_view), "", differs.error);
     recorder.add(fmt::format("{}_certainty", name_of_view), "", differs.certainty);
   }

@@ -66,7 +66,9 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kCellSizes{
-    "mrbsp.cells", "§4: time per frame against the size of the cells", kSpecs, cases, measure, times};
+extern const Experiment kCellSizes{"mrbsp.cells", "§4: time per frame against the size of the cells",
+                                   kSpecs,        cases,
+                                   measure,       Experiment::kTimed,
+                                   times};
 
 }  // namespace terrabench::mrbsp

@@ -48,7 +48,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kPreprocessing{"mrbsp.preprocessing", "§4: time to find the visible sets", kSpecs,
-                                       cases, measure};
+extern const Experiment kPreprocessing{
+    "mrbsp.preprocessing", "§4: time to find the visible sets", kSpecs, cases, measure, Experiment::kTimed};
 
 }  // namespace terrabench::mrbsp

@@ -4,6 +4,7 @@
 // judge.h and not stored.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <span>
@@ -120,6 +121,13 @@ struct Claim {
   // Why it differs: if it is known to, the first sentence of `note`, or without a note the cause; otherwise
   // `machine`.
   std::string reason() const;
+  // Growth with size is measured with `run --profile scale`, whose records are of the profile paper, and is
+  // judged only where it was measured.
+  bool of_profile_scale() const { return profiles.front() == "scale"; }
+  // Whether records of that profile can hold what it reads.
+  bool measured_in(std::string_view profile) const {
+    return std::ranges::count(profiles, profile) > 0 || (of_profile_scale() && profile == "paper");
+  }
 };
 
 // Bibliographic data, only as far as the paper's text states them.

@@ -109,8 +109,8 @@ std::optional<Ranking> rank(const RankingLayout& layout, const Store& store, con
     if (std::ranges::count(ranking.runs, c.record->run) == 0) ranking.runs.push_back(c.record->run);
   }
   ranking.margin = timing ? kTimingMargin : kExactMargin;
-  const auto ties = [&](const Summary& f) { return f.low <= 1 || f.median < ranking.margin; };
-  while (ranking.tied < all.size() && ties(ranking.places[ranking.tied].factor)) ++ranking.tied;
+  while (ranking.tied < all.size() && !differ(ranking.places[ranking.tied].factor, ranking.margin))
+    ++ranking.tied;
   return ranking;
 }
 

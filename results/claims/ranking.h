@@ -14,14 +14,11 @@
 
 namespace terrabench {
 
-// A method is tied with the best if the interval of its factor contains 1 or if the factor is below a margin.
-// Of times and rates: an interval of one run does not cover the differences between runs on one machine. Of
-// the ranked medians, two thirds differed by less than this between two runs of the whole paper profile.
-inline constexpr double kTimingMargin = 1.25;
-// Of all else, such as bytes, triangles and errors. A smaller lead is exact, but no reason to choose a
+// A method is tied with the best unless they differ() (statistics.h): times and rates by kTimingMargin, all
+// else, such as bytes, triangles and errors, by this. A smaller lead is exact, but no reason to choose a
 // method: stacks take 0.2 % fewer bytes than the implicit surface that is built on them.
 inline constexpr double kExactMargin = 1.01;
-// Both, as a sentence for those who read who is tied.
+// Both margins, as a sentence for those who read who is tied.
 std::string tie_rule();
 
 // One layout, filled: the entries that take part, from best to worst.

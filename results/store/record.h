@@ -25,8 +25,6 @@ struct Metric {
   // The value varies from run to run on one machine although is_timing() of its unit is false: a ratio of
   // times, a fit through times, a peak of memory, the hits of a cache.
   bool varies = false;
-  // How many samples the first measurement gave, of a case that one run measured twice; 0: measured once.
-  std::size_t first_look = 0;
 };
 // Whether its samples vary from run to run of one program: by their unit, or because `varies` says so.
 inline bool timed(const Metric& metric) { return metric.varies || is_timing(metric.unit); }
@@ -49,7 +47,7 @@ struct Provenance {
   std::uint64_t memory = 0;                                    // bytes of the machine
   std::string simd;                                            // instruction set chosen at run time
   std::vector<std::pair<std::string, std::string>> libraries;  // name, version
-  std::vector<std::string> timing_warnings;                    // timing_conditions.h; older stores have none
+  std::vector<std::string> timing_warnings;  // why its times are untrustworthy; older stores have none
 };
 
 // Whether times of the two runs can be compared, and a case of one need not be measured again in the other:

@@ -192,13 +192,8 @@ Metric metric_from(const Json& json, std::string& warning) {
             fmt::format("a sample of '{}' is an integer of more than 53 bits", metric.name));
   }
   if (fields.has("varies")) metric.varies = fields.flag("varies");
-  if (fields.has("first_look")) {
-    const std::uint64_t first = fields.natural("first_look");
-    require(first > 0 && first < metric.samples.size(),
-            fmt::format("'first_look' of '{}' is {}, and there are {} samples", metric.name, first,
-                        metric.samples.size()));
-    metric.first_look = first;
-  }
+  // Of older records: how many of the samples the first of two measurements gave.
+  if (fields.has("first_look")) fields.natural("first_look");
   fields.note_unknown(warning);
   return metric;
 }
@@ -341,7 +336,6 @@ std::string to_line(const Record& record) {
     for (const double sample : metric.samples) check_finite(sample, where + metric.name);
     metrics.push_back({{"name", metric.name}, {"unit", metric.unit}, {"samples", metric.samples}});
     if (metric.varies) metrics.back()["varies"] = true;
-    if (metric.first_look > 0) metrics.back()["first_look"] = metric.first_look;
   }
   for (const RecordedFigure& figure : record.figures) {
     Json& entry = figures.emplace_back(Json{{"id", figure.id},

@@ -116,18 +116,14 @@ TEST(Claims, TheLargestSizeAndFurtherGroundsAreMeasuredInThePaperProfileOnly) {
   for (const Claim* claim : claims()) {
     const bool large =
         (claim->id.starts_with("hybrid.T") && claim->id.ends_with(".512")) ||
-        claim->id == "hybrid.stitch.smooth" || claim->id == "hybrid.reuse" ||
-        claim->id.starts_with("mrbsp.vis-faster") || claim->id == "drill.time.growth" ||
+        claim->id == "hybrid.stitch.smooth" ||
+        (claim->id.starts_with("mrbsp.vis-faster") && claim->id != "mrbsp.vis-faster.triangles") || claim->id == "drill.time.growth" ||
         claim->id.ends_with("best.levels") || claim->id.ends_with("tau.rmse.levels") ||
         claim->id == "cross.lod-disk" || claim->id == "cross.lod-frames.large" ||
         claim->id == "cross.lod-frames.parts.large" || claim->id == "meshgrow.lazy.memory" ||
         claim->id == "meshgrow.lazy.visible" || claim->id == "mrbsp.grow.lod.2049" ||
-        claim->id == "mrbsp.vis-safe.conservative.all" || claim->id == "cross.scale.mesh.heights" ||
-        // Exponents of times near their bound.
-        claim->id == "cross.scale.build" || claim->id == "cross.scale.query.near" ||
-        claim->id == "cross.scale.lod" || claim->id == "cross.scale.flow" ||
-        claim->id == "cross.scale.load" || claim->id.starts_with("cross.scale.edit") ||
-        claim->id.starts_with("cross.scale.ray") || claim->id == "cross.representations.ray-rate.large" ||
+        claim->id == "mrbsp.vis-safe.conservative.all" || claim->of_profile_scale() ||
+        claim->id == "cross.representations.ray-rate.large" ||
         claim->id == "cross.representations.ray-rate.grounds" ||
         // At the quick profile's size the peak is another ground, and voxels are too coarse.
         claim->id.starts_with("cross.lod-equal-error.peak") || claim->id == "cross.lod-ranks.peak" ||

@@ -89,7 +89,7 @@ bool is_measured(const Condition& condition, const Store& store) {
 }
 
 bool is_measured(const Claim& claim, const Store& store) {
-  if (claim.conditions.empty() || std::ranges::count(claim.profiles, store.profile()) == 0) return false;
+  if (claim.conditions.empty() || !claim.measured_in(store.profile())) return false;
   return std::ranges::all_of(claim.conditions,
                              [&](const Condition& condition) { return is_measured(condition, store); });
 }

@@ -32,7 +32,6 @@ Record full_record() {
   record.figures = {
       {"hybrid.F3", "figures/a.png", "A caption.", checksum("a"), FigureLayout{{{1, 2, 3, 4}}, {"a word"}}}};
   record.metrics[0].varies = true;
-  record.metrics[0].first_look = 1;
   record.undefined = {{"ratio", "the ground is flat"}};
   return record;
 }

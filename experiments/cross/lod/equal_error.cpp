@@ -309,8 +309,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kLodEqualError{"cross.lod-equal-error",
-                                       "Level-of-detail methods at the same screen-space error", kSpecs,
-                                       cases, measure};
+extern const Experiment kLodEqualError{
+    "cross.lod-equal-error", "Level-of-detail methods at the same screen-space error", kSpecs, cases, measure,
+    Experiment::kTimed};
 
 }  // namespace terrabench::cross

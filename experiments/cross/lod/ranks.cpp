@@ -108,6 +108,9 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 extern const Experiment kLodRanks{"cross.lod-ranks",
                                   "Level-of-detail methods at the same largest error and at the same RMS",
-                                  kSpecs, cases, measure};
+                                  kSpecs,
+                                  cases,
+                                  measure,
+                                  Experiment::kTimed};
 
 }  // namespace terrabench::cross

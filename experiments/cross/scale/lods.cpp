@@ -105,7 +105,7 @@ void measure_lod(const Run& run, std::string_view name) {
     run.measured(plan, columns, [&] {
       const Heightfield ground = noise_hills(side, run.seed());
       std::unique_ptr<Lod> built;
-      run.add_turns(
+      run.add_samples(
           costs.build, costs.build_faults, columns, [&] { built.reset(); },
           [&] { built = method.build(ground, silent); });
       if (side < kSmallestWalk) return;

@@ -49,18 +49,18 @@ std::vector<int> half_octave_sides(int smallest, int largest) {
 }
 
 bool SizePlan::admits(double columns) {
-  if (!as_refused_.empty()) {
-    as_refused_.push_back(columns);
+  if (refused_ > 0) {
+    ++refused_;
     return false;
   }
   if (sizes_ == 0) return true;
   const double ratio = columns / last_columns_;
   if (expected_bytes(columns) > budget_.bytes) {
-    for_memory_.push_back(columns);
+    ++short_of_memory_;
     return false;
   }
   if (spent_ + last_seconds_ * std::pow(ratio, growth_.time) > budget_.seconds) {
-    for_time_.push_back(columns);
+    ++short_of_time_;
     return false;
   }
   return true;
@@ -81,18 +81,11 @@ void SizePlan::measured(double columns, double seconds, std::int64_t peak_bytes)
   last_peak_ = static_cast<double>(std::max<std::int64_t>(peak_bytes, 0));
 }
 
-void SizePlan::refused(double columns) { as_refused_.push_back(columns); }
-
 void SizePlan::record(Recorder& recorder) const {
   recorder.add_varying(name_ + "_sizes", "", static_cast<double>(sizes_));
-  recorder.add_varying(name_ + "_skipped", "",
-                       static_cast<double>(for_time_.size() + for_memory_.size() + as_refused_.size()));
-  recorder.add_varying(name_ + "_short_of_time", "", static_cast<double>(for_time_.size()));
-  recorder.add_varying(name_ + "_short_of_memory", "", static_cast<double>(for_memory_.size()));
-  recorder.add_varying(name_ + "_refused", "", static_cast<double>(as_refused_.size()));
-  for (const double columns : for_time_) recorder.add_varying(name_ + "_skipped_for_time", "", columns);
-  for (const double columns : for_memory_) recorder.add_varying(name_ + "_skipped_for_memory", "", columns);
-  for (const double columns : as_refused_) recorder.add_varying(name_ + "_skipped_as_refused", "", columns);
+  recorder.add_varying(name_ + "_short_of_time", "", static_cast<double>(short_of_time_));
+  recorder.add_varying(name_ + "_short_of_memory", "", static_cast<double>(short_of_memory_));
+  recorder.add_varying(name_ + "_refused", "", static_cast<double>(refused_));
 }
 
 double Cost::theory() const {

@@ -41,26 +41,21 @@ class SizePlan {
   std::uint64_t expected_bytes(double columns) const;
   void measured(double columns, double seconds, std::int64_t peak_bytes);
   // The structure does not take ground of this size.
-  void refused(double columns);
+  void refused() { ++refused_; }
 
-  // name_sizes and name_skipped, the numbers of sizes; of the latter name_short_of_time, name_short_of_memory
-  // and name_refused, the numbers by reason; name_skipped_for_time, …_for_memory and …_as_refused, the
-  // columns of each skipped size, where there are any.
+  // name_sizes, the number of sizes measured, and the numbers of those skipped: name_short_of_time,
+  // name_short_of_memory and name_refused.
   void record(Recorder&) const;
 
   std::size_t sizes() const { return sizes_; }
-  const std::vector<double>& for_time() const { return for_time_; }
-  const std::vector<double>& for_memory() const { return for_memory_; }
-  const std::vector<double>& as_refused() const { return as_refused_; }
 
  private:
   std::string name_;
   Budget budget_;
   Growth growth_;
-  std::size_t sizes_ = 0;
+  std::size_t sizes_ = 0, short_of_time_ = 0, short_of_memory_ = 0, refused_ = 0;
   double last_columns_ = 0, last_seconds_ = 0, spent_ = 0;
   double last_peak_ = 0;
-  std::vector<double> for_time_, for_memory_, as_refused_;
 };
 
 // One cost at all sizes, each measured once or more.

@@ -46,11 +46,11 @@ constexpr std::array kOverSolids{
     StructureTheory{"implicit", kVoxels, 1, kLevels, kVoxels, kLevels, 0},
 };
 
-constexpr int kBatch = 1024, kQueries = 1 << 16, kQueryTurns = 3;  // columns per call, and per sample
-constexpr double kQuerySeconds = 0.05;                             // per sample, of slow structures
+constexpr int kBatch = 1024, kQueries = 1 << 16;  // columns per call, and per sample
+constexpr double kQuerySeconds = 0.05;            // per sample, of slow structures
 constexpr int kNear = 32;         // columns along a side of the window of near queries, which caches hold
 constexpr int kEditRadius = 8;    // columns
-constexpr int kEdits = 32;        // per turn: half of them make one sample, half the other
+constexpr int kEdits = 16;        // per turn: half of them make one sample, half the other
 constexpr float kHighest = 1600;  // metres, of the hills
 
 // Hills from 0 to kHighest metres exactly, so that no size has more levels than another: two corners are the
@@ -170,7 +170,7 @@ void read_columns(const Representation& structure, float x, float z, float cell)
 // ones would find the ground dug away.
 bool holes_fit(int side) {
   const double hole = 2 * std::numbers::pi / 3 * std::pow(kEditRadius, 3);
-  return kQueryTurns * kEdits * hole <= 0.5 * std::pow(side, 3);
+  return kSamples * kEdits * hole <= 0.5 * std::pow(side, 3);
 }
 
 // The holes that make one sample: those in columns just read, or the others.
@@ -271,7 +271,7 @@ class Structure {
     run_.measured(filing_, columns, [&] { write_and_read(*built, columns); });
     run_.measured(meshing_, columns, [&] {
       TriangleMesh drawn;
-      run_.add_turns(
+      run_.add_samples(
           mesh_, mesh_faults_, columns, [&] { drawn = {}; }, [&] { drawn = built->mesh({}); });
     });
     if (takes_edits(type_)) dig(*built, side);
@@ -282,7 +282,7 @@ class Structure {
     if (!holes_fit(side)) return;
     const double share = 1 - 2.0 * (kEditRadius + 2) / side;
     const float cell = built.bounds().size().x / static_cast<float>(solid_ ? side : side - 1);
-    for (int turn = 0; turn < kQueryTurns; ++turn) {
+    for (int turn = 0; turn < kSamples; ++turn) {
       const auto [anywhere, cached] = dig_holes(built, cell, places(built, share), run_.caches());
       if (const auto taken = anywhere.seconds()) edit_.add(squared(side), *taken);
       if (const auto taken = cached.seconds()) edit_cached_.add(squared(side), *taken);
@@ -297,7 +297,7 @@ class Structure {
     if (solid_) parameters.set("resolution", std::int64_t{side});
     std::unique_ptr<Representation> built;
     Progress silent;  // a structure's own phases would end the case's
-    run_.add_turns(
+    run_.add_samples(
         build_, build_faults_, columns, [&] { built.reset(); },
         [&] { built = type_.build(source, parameters, silent); });
     bytes_.add(columns, static_cast<double>(built->memory().total()));
@@ -306,13 +306,13 @@ class Structure {
 
   void ask(const Representation& built, int side) {
     const double columns = squared(side), near = std::min(1.0, static_cast<double>(kNear) / side);
-    for (int turn = 0; turn < kQueryTurns; ++turn) {
+    for (int turn = 0; turn < kSamples; ++turn) {
       query_.add(columns, seconds_per_query(built, places(built, 1)));
       near_.add(columns, seconds_per_query(built, places(built, near)));
     }
     const std::unique_ptr<RayCaster> caster = built.ray_caster();
     if (!caster) return;
-    for (int turn = 0; turn < kQueryTurns; ++turn) {
+    for (int turn = 0; turn < kSamples; ++turn) {
       ray_.add(columns, seconds_per_ray(*caster, built.bounds(), places(built, 1)));
       ray_near_.add(columns, seconds_per_ray(*caster, built.bounds(), places(built, near)));
     }
@@ -322,7 +322,7 @@ class Structure {
     const std::filesystem::path path = folder_.path() / "saved";
     file_.add(columns, static_cast<double>(save_representation(path, type_, built)));
     std::unique_ptr<Representation> loaded;
-    run_.add_turns(
+    run_.add_samples(
         load_, load_faults_, columns, [&] { loaded.reset(); },
         [&] { loaded = load_representation(path).representation; });
   }
