@@ -64,8 +64,7 @@ Components pieces(const std::vector<float>& values, float extent, int side, Prog
   };
   TerrainSource source;
   source.solid = std::move(solid);
-  const auto built = build_at_resolution("layered_stack", source, side, progress);
-  return find_components(dynamic_cast<const LayeredStack&>(*built));
+  return find_components(*stack_at_resolution(source, side, progress));
 }
 
 // A stage's values in a square picture, row by row.

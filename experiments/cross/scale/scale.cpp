@@ -1,7 +1,7 @@
 // Every cost against the size of the ground: structures over height maps and over a solid, level-of-detail
 // methods along a walk, and flow routing. The ground of height maps grows as a window on endless hills does,
 // with the same work per column; the solid is one cube of caves at finer and finer resolution. The theory of
-// each family, and what it measures, is in scale_structures.cpp, scale_lods.cpp and measure_flow().
+// each family, and what it measures, is in GrowthTheory, LodGrowth and measure_flow().
 #include <fmt/format.h>
 
 #include <array>
@@ -10,6 +10,7 @@
 #include "experiments/cross/scale/run.h"
 #include "experiments/experiment.h"
 #include "experiments/ground.h"
+#include "lod/lod.h"
 #include "terrain/files.h"
 #include "terrain/hydrology/flow.h"
 
@@ -77,11 +78,10 @@ std::vector<Case> cases(const RunOptions& options) {
                        {"seconds", budget(family, options.profile)}}}});
   };
   for (const std::string_view one : scaled_structures(false)) {
-    const bool slow = one == "voxel";  // takes seconds from 1025² columns on
-    add("heights", one, 129, paper ? 16385 : slow ? 513 : 1025);
+    add("heights", one, 129, paper ? 16385 : 1025);
   }
   for (const std::string_view one : scaled_structures(true)) add("solids", one, 32, paper ? 1024 : 128);
-  for (const std::string_view one : scaled_lods()) add("lods", one, 129, paper ? 16385 : 2049);
+  for (const LodType& one : lods()) add("lods", one.name, 129, paper ? 16385 : 2049);
   for (const std::string_view one : {kWholeMetres, kUnrounded}) add("flow", one, 129, paper ? 16385 : 1025);
   return cases;
 }
