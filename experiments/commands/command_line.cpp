@@ -19,6 +19,7 @@
 #include <thread>
 
 #include "experiments/commands/commands.h"
+#include "experiments/method_sets.h"
 #include "experiments/runner.h"
 #include "renderers/context.h"
 #include "terrain/error.h"
@@ -525,6 +526,7 @@ int command_line(int argc, char** argv) {
     return static_cast<int>(code);
   };
   try {
+    declare_methods();
     return main_program(argc, argv);
   } catch (const Error& error) {
     return fail(error.code(), error.what(), error.advice().c_str());
