@@ -185,8 +185,8 @@ Sheet draw_height_map(Drawing& drawing) {
   constexpr double kPicture = 0.5 * kColumns * kFiner;  // units: every sample a whole number of pixels
   Progress silent;
   const TerrainSource source = open_terrain("caves", drawing.seed());
-  const auto built = build_at_resolution("layered_stack", source, kColumns, silent);
-  const auto& stack = dynamic_cast<const LayeredStack&>(*built);
+  const std::unique_ptr<LayeredStack> built = stack_at_resolution(source, kColumns, silent);
+  const LayeredStack& stack = *built;
   const Heightfield columns = column_heights(stack, ColumnHeight::kTop);
   const Heightfield whole = height_map(stack, ColumnHeight::kTop, kFiner);
   const Heightfield map = crop(whole, 0, 0, kColumns * kFiner, kColumns * kFiner);

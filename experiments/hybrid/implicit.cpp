@@ -150,14 +150,13 @@ TerrainSource part_of_solid(const Voxels& voxels, glm::ivec3 corner, int radius,
 // All lengths in metres.
 std::unique_ptr<ImplicitSurface> build(const TerrainSource& source, const Case& at, std::int64_t resolution,
                                        double radius, double cell, Progress& progress) {
-  const RepresentationType& type = representation("implicit");
-  const Parameters parameters(type.parameters, {{"resolution", resolution},
-                                                {"kernel", at.parameters.text("kernel")},
-                                                {"radius", radius},
-                                                {"cell", cell},
-                                                {"extractor", at.parameters.text("extractor")}});
-  return std::unique_ptr<ImplicitSurface>(
-      dynamic_cast<ImplicitSurface*>(type.build(source, parameters, progress).release()));
+  const Parameters parameters(ImplicitSurface::parameters(),
+                              {{"resolution", resolution},
+                               {"kernel", at.parameters.text("kernel")},
+                               {"radius", radius},
+                               {"cell", cell},
+                               {"extractor", at.parameters.text("extractor")}});
+  return ImplicitSurface::build_surface(source, parameters, progress);
 }
 
 void measure_values(const Case& at, const ImplicitSurface& surface, std::uint64_t seed, Recorder& recorder,

@@ -40,15 +40,13 @@ TerrainSource arch() {
 }
 
 std::unique_ptr<ImplicitSurface> smoothed(Kernel kernel) {
-  const RepresentationType& type = representation("implicit");
   Progress progress;
-  const Parameters parameters(type.parameters,
+  const Parameters parameters(ImplicitSurface::parameters(),
                               {{"resolution", std::int64_t{kWidth}},
                                {"kernel", std::string(kKernelNames[static_cast<std::size_t>(kernel)])},
                                {"radius", kRadius},
                                {"cell", 0.5}});
-  return std::unique_ptr<ImplicitSurface>(
-      dynamic_cast<ImplicitSurface*>(type.build(arch(), parameters, progress).release()));
+  return ImplicitSurface::build_surface(arch(), parameters, progress);
 }
 
 // A point whose support is full, half full or empty, and one between; where its words stand in the section.

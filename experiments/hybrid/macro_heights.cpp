@@ -97,8 +97,8 @@ std::size_t count_groups(std::vector<char> marked, int width) {
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(open_terrain(at.terrain, options.seed));
-  const auto built = build_at_resolution("layered_stack", source, at.integer("n"), progress);
-  const auto& stack = dynamic_cast<const LayeredStack&>(*built);
+  const std::unique_ptr<LayeredStack> built = stack_at_resolution(source, at.integer("n"), progress);
+  const LayeredStack& stack = *built;
   const auto reading = static_cast<ColumnHeight>(at.parameters.choice("reading"));
   const Heightfield map = column_heights(stack, reading);
   const Tops tops = tops_of(stack);

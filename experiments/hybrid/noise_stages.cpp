@@ -55,8 +55,7 @@ Components pieces(const Pixels& pixels, float extent, Progress& progress) {
   };
   TerrainSource source;
   source.solid = std::move(solid);
-  const auto built = build_at_resolution("layered_stack", source, side + 2, progress);
-  return find_components(dynamic_cast<const LayeredStack&>(*built));
+  return find_components(*stack_at_resolution(source, side + 2, progress));
 }
 
 // Whether the stage shows noise, and not one of two values.

@@ -59,8 +59,8 @@ Bytes bytes_of(std::string_view name, const TerrainSource& source, std::int64_t 
 // the layers, which the heap bytes here include. Three layers of 8 B in each column would take 24 bytes as
 // well.
 Bytes paper_layout(const TerrainSource& source, std::int64_t n, Progress& progress) {
-  const auto built = build_at_resolution("layered_stack", source, n, progress);
-  const auto& stack = dynamic_cast<const LayeredStack&>(*built);
+  const std::unique_ptr<LayeredStack> built = stack_at_resolution(source, n, progress);
+  const LayeredStack& stack = *built;
   const ColumnGrid& grid = stack.grid();
   const HeapScope scope;
   std::vector<std::vector<Layer>> columns(grid.columns());
@@ -111,8 +111,8 @@ void measure_table1(const Case& at, const RunOptions& options, Recorder& recorde
   const auto columns = static_cast<double>(n * n);
   const TerrainSource source = recorder.terrain(noise::cave_source({.seed = options.seed}));
   const Bytes paper = paper_layout(source, n, progress);
-  const auto built = build_at_resolution("layered_stack", source, n, progress);
-  recorder.add("columns_over_three_layers", "", share_over_three(dynamic_cast<const LayeredStack&>(*built)));
+  const std::unique_ptr<LayeredStack> built = stack_at_resolution(source, n, progress);
+  recorder.add("columns_over_three_layers", "", share_over_three(*built));
   measure_queries(*built, source.bounds(), recorder);
   const Bytes stack = bytes_of("layered_stack", source, n, progress);
   const Bytes dense = bytes_of("dense_voxel", source, n, progress);

@@ -54,9 +54,10 @@ struct Condition {
   std::vector<Operand> operands;
   double low = 0, high = 0;  // range, both ends included
   std::string figure;        // id
-  // Further for figures, all optional: panels = N; alike = [i, j, …]: panels, counted from 1, that may look
-  // the same because their methods may draw the same; prints = [a, …]: metrics that the figure's words give;
-  // brightness = a: the mean of all pixels, 0 black to 1 white, within kBrightness. `prints` are operands.
+  // Further for figures, all optional: panels = N, or their names in the order drawn; alike = [a, b, …]:
+  // names of panels (here counted from 1) that may look the same because their methods may draw the same;
+  // prints = [a, …]: metrics that the figure's words give; brightness = a: the mean of all pixels, 0 black to
+  // 1 white, within kBrightness. `prints` are operands.
   int panels = 0;
   std::vector<int> alike;
   std::vector<Operand> brightness;  // one or none

@@ -85,9 +85,13 @@ TEST_F(FigureLayoutTest, AnEmptyOrRepeatedPanelFails) {
   draw();
   fill(image_, layout_.panels[1], 3);  // the seed of the first
   EXPECT_THAT(fault(", panels = 2"), HasSubstr("panels 1 and 2 show the same"));
-  EXPECT_THAT(fault(", panels = 2, alike = [1, 2]"), HasSubstr("holds: "));
-  for (const char* const wrong : {"panels = 2, alike = [2]", "panels = 2, alike = [1, 1]", "alike = [1, 2]",
-                                  "panels = 2, alike = [2, 3]", "panels = 2, alike = [0.5, 1]"}) {
+  const std::string named = R"(, panels = ["a", "b"])";
+  EXPECT_THAT(fault(named), HasSubstr("panels 1 and 2 show the same"));
+  EXPECT_THAT(fault(named + R"(, alike = ["b", "a"])"), HasSubstr("holds: "));
+  for (const char* const wrong :
+       {R"(panels = ["a", "b"], alike = ["b"])", R"(panels = ["a", "b"], alike = ["a", "a"])",
+        R"(alike = ["a", "b"])", R"(panels = ["a", "b"], alike = ["a", "c"])",
+        R"(panels = 2, alike = ["a", "b"])", R"(panels = ["a", "b"], alike = [1, 2])"}) {
     EXPECT_THROW(judged(std::string(", ") + wrong), Error) << wrong;
   }
 }

@@ -47,22 +47,25 @@ Sphere place_of_edit(const Scene& scene) {
 
 struct EventPlace {
   RadialErosion event;
-  bool taken = false;  // by the tree of heightmaps
+  bool taken = false;  // by a type that takes all events
 };
 
 RadialErosion event_of(const Sphere& sphere) {
   return {glm::dvec3(sphere.centre), glm::dvec3(sphere.radius)};
 }
 
-// An event of the sphere's radius, at the highest line where the tree takes it, and not so low that it would
-// reach below the ground. The event at the sphere's own centre, not taken, if the tree refuses it at all of
-// the kMostPlaces highest lines or cannot be built, such as for lack of memory: trees of solids take no
-// events.
+// An event of the sphere's radius, at the highest line where a tree of heightmaps takes it (the first type
+// with the trait events), and not so low that it would reach below the ground. The event at the sphere's own
+// centre, not taken, if the tree refuses it at all of the kMostPlaces highest lines or cannot be built, such
+// as for lack of memory: trees of solids take no events.
 EventPlace find_place(const Scene& scene, Sphere sphere, Progress& progress) {
   const EventPlace none{event_of(sphere)};
+  const auto types = representations();
+  const auto tree = std::ranges::find_if(types, [](const auto& type) { return type.traits.events; });
+  if (tree == types.end()) return none;
   std::unique_ptr<Representation> built;
   try {
-    built = scene.build(representation("ght"), progress);
+    built = scene.build(*tree, progress);
   } catch (const Error& error) {
     if (!refuses(error) && error.code() != ExitCode::kEnvironment) throw;
     return none;

@@ -114,23 +114,12 @@ class Run {
   KeepFreedMemory keep_;
 };
 
-// The entry of that name. Throws unknown_name.
-template <class Table>
-const auto& entry(const Table& table, std::string_view kind, std::string_view name) {
-  std::vector<std::string_view> known;
-  for (const auto& one : table) {
-    if (one.name == name) return one;
-    known.push_back(one.name);
-  }
-  throw unknown_name(kind, name, known);
-}
-
-// Structures over height maps or over a solid: structures.cpp.
+// Structures over height maps or over a solid: structures.cpp. Of solids those are measured that hold
+// overhangs and are sampled: a lossless type keeps the samples that it was built from, which a solid has not.
 void measure_structure(const Run&, bool solid, std::string_view name);
 std::vector<std::string_view> scaled_structures(bool solid);
 
 // Level of detail along a path: lods.cpp.
 void measure_lod(const Run&, std::string_view method);
-std::vector<std::string_view> scaled_lods();
 
 }  // namespace terrabench::cross

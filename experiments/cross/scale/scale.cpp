@@ -1,7 +1,7 @@
 // Every cost against the size of the ground: structures over height maps and over a solid, level-of-detail
 // methods along a walk, and flow routing. The ground of height maps grows as a window on endless hills does,
 // with the same work per column; the solid is one cube of caves at finer and finer resolution. The theory of
-// each family, and what it measures, is in structures.cpp, lods.cpp and measure_flow().
+// each family, and what it measures, is in GrowthTheory, LodGrowth and measure_flow().
 #include <fmt/format.h>
 
 #include <array>
@@ -10,6 +10,7 @@
 #include "experiments/cross/scale/run.h"
 #include "experiments/experiment.h"
 #include "experiments/ground.h"
+#include "lod/lod.h"
 #include "terrain/files.h"
 #include "terrain/hydrology/flow.h"
 
@@ -73,7 +74,7 @@ std::vector<Case> cases(const RunOptions&) {
   };
   for (const std::string_view one : scaled_structures(false)) add("heights", one, 129, 16385);
   for (const std::string_view one : scaled_structures(true)) add("solids", one, 32, 1024);
-  for (const std::string_view one : scaled_lods()) add("lods", one, 129, 16385);
+  for (const LodType& one : lods()) add("lods", one.name, 129, 16385);
   for (const std::string_view one : {kWholeMetres, kUnrounded}) add("flow", one, 129, 16385);
   return cases;
 }

@@ -88,12 +88,12 @@ void SizePlan::record(Recorder& recorder) const {
   recorder.add_varying(name_ + "_refused", "", static_cast<double>(refused_));
 }
 
-double Cost::theory() const {
-  if (!logarithm_ || columns_.empty()) return theory_;
+std::optional<double> Cost::theory() const {
+  if (!theory_ || !logarithm_ || columns_.empty()) return theory_;
   // The exponent of n^theory · log n between the smallest and the largest size.
   const auto [low, high] = std::minmax_element(columns_.begin(), columns_.end());
   if (!(*low > 1 && *high > *low)) return theory_;
-  return theory_ + std::log(std::log(*high) / std::log(*low)) / std::log(*high / *low);
+  return *theory_ + std::log(std::log(*high) / std::log(*low)) / std::log(*high / *low);
 }
 
 // How many sizes are measured depends on the time that they take, so all that is computed over them varies.
@@ -109,7 +109,8 @@ void Cost::record(Recorder& recorder) const {
   const auto [low, high] = std::minmax_element(columns_.begin(), columns_.end());
   recorder.add_varying(name_ + "_smallest", "", *low);
   recorder.add_varying(name_ + "_largest", "", *high);
-  recorder.add_varying(name_ + "_theory", "", theory());
+  const std::optional<double> expected = theory();
+  if (expected) recorder.add_varying(name_ + "_theory", "", *expected);
   const Medians medians = medians_of(columns_, values_);
   for (std::size_t i = 0; i < medians.values.size(); ++i) {
     if (unit_ == "s" && !(medians.values[i] > 0)) {
@@ -121,7 +122,7 @@ void Cost::record(Recorder& recorder) const {
   if (!law) return;
   recorder.add_varying(name_ + "_fitted", "", static_cast<double>(law->points));
   recorder.add_varying(name_ + "_exponent", unit, law->exponent);
-  recorder.add_varying(name_ + "_excess", unit, law->exponent - theory());
+  if (expected) recorder.add_varying(name_ + "_excess", unit, law->exponent - *expected);
   if (!std::isfinite(law->low)) return;
   recorder.add_varying(name_ + "_low", unit, law->low);
   recorder.add_varying(name_ + "_high", unit, law->high);

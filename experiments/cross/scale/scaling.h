@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,8 +62,9 @@ class SizePlan {
 // One cost at all sizes, each measured once or more.
 class Cost {
  public:
-  // `theory`: exponent of the number of columns; `logarithm`: times the logarithm of that number.
-  Cost(std::string name, std::string unit, double theory, bool logarithm = false)
+  // `theory`: exponent of the number of columns, where one is stated; `logarithm`: times the logarithm of
+  // that number.
+  Cost(std::string name, std::string unit, std::optional<double> theory, bool logarithm = false)
       : name_(std::move(name)), unit_(std::move(unit)), theory_(theory), logarithm_(logarithm) {}
 
   void add(double columns, double value) {
@@ -72,19 +74,19 @@ class Cost {
 
   // The samples as `name`, their sizes as name_columns, pair by pair; each size's samples again as
   // name_at_COLUMNS, since two runs may reach different sizes; name_smallest and name_largest, the range of
-  // sizes; name_theory, the exponent in theory; and from two sizes on name_exponent, the exponent of the
-  // power law through the medians of the sizes, name_excess, that minus the theory, and name_fitted, the
-  // number of sizes. From three sizes on name_low and name_high, the exponent's 95 % interval. Where the
-  // median of a size is 0, as of page faults it may be, there is no exponent. Throws environment_error where
-  // a time is 0: then nothing was measured.
+  // sizes; name_theory, the exponent in theory, if there is one; and from two sizes on name_exponent, the
+  // exponent of the power law through the medians of the sizes, name_excess, that minus the theory, and
+  // name_fitted, the number of sizes. From three sizes on name_low and name_high, the exponent's 95 %
+  // interval. Where the median of a size is 0, as of page faults it may be, there is no exponent. Throws
+  // environment_error where a time is 0: then nothing was measured.
   void record(Recorder&) const;
 
   // In theory, over the sizes measured: with the logarithm the slope depends on them.
-  double theory() const;
+  std::optional<double> theory() const;
 
  private:
   std::string name_, unit_;
-  double theory_;
+  std::optional<double> theory_;
   bool logarithm_;
   std::vector<double> columns_, values_;
 };

@@ -1,4 +1,6 @@
-// The command line: parses options, handles errors in one place, returns the exit codes of README.md.
+// Parses options, handles errors in one place, returns the exit codes of README.md.
+#include "experiments/commands/command_line.h"
+
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
@@ -17,6 +19,7 @@
 #include <thread>
 
 #include "experiments/commands/commands.h"
+#include "experiments/method_sets.h"
 #include "experiments/runner.h"
 #include "terrain/error.h"
 #include "terrain/number.h"
@@ -343,10 +346,8 @@ int main_program(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace terrabench
 
-int main(int argc, char** argv) {
-  using terrabench::ExitCode;
+int command_line(int argc, char** argv) {
   // Not fmt::print, which throws when standard error is closed.
   const auto fail = [](ExitCode code, const char* what, const char* advice) {
     std::fprintf(stderr, "terrabench: %s\n", what);
@@ -354,8 +355,9 @@ int main(int argc, char** argv) {
     return static_cast<int>(code);
   };
   try {
-    return terrabench::main_program(argc, argv);
-  } catch (const terrabench::Error& error) {
+    declare_methods();
+    return main_program(argc, argv);
+  } catch (const Error& error) {
     return fail(error.code(), error.what(), error.advice().c_str());
   } catch (const std::bad_alloc&) {
     return fail(ExitCode::kEnvironment, "out of memory",
@@ -364,10 +366,12 @@ int main(int argc, char** argv) {
     const std::string what = error.path1().string() + ": " + error.code().message();
     return fail(ExitCode::kEnvironment, what.c_str(), "check that it exists and may be read and written");
   } catch (const std::system_error& error) {
-    // Thrown only for standard output and standard error; errors of files are terrabench::Error.
-    if (error.code() == std::errc::broken_pipe) return terrabench::kClosedPipe;
+    // Thrown only for standard output and standard error; errors of files are Error.
+    if (error.code() == std::errc::broken_pipe) return kClosedPipe;
     return fail(ExitCode::kEnvironment, error.what(), "");
   } catch (const std::exception& error) {
     return fail(ExitCode::kEnvironment, error.what(), "");
   }
 }
+
+}  // namespace terrabench
