@@ -2,7 +2,7 @@
 //
 //   [sets]
 //   type = {of = "representations"}
-//   caster = {of = "representations", with = ["rays"], except = ["voxel", "implicit"]}
+//   caster = {of = "representations", with = ["rays"], except = ["voxel"]}
 //   approximate = {of = "representations", without = ["lossless", "materials"]}
 //   open_scene = {of = "scene", without = ["roofed"]}
 //

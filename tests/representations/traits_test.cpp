@@ -13,9 +13,9 @@ namespace {
 class Traits : public testing::TestWithParam<std::string_view> {
  protected:
   Traits() {
-    std::vector<float> heights(9 * 9, 0.0F);
-    heights[40] = 20;  // a spike, which slides
-    built_ = type_.build(from_heights(9, 9, heights), Parameters(type_.parameters), progress_);
+    std::vector<float> heights(17 * 17, 0.0F);
+    heights[144] = 20;  // a spike, which slides
+    built_ = type_.build(from_heights(17, 17, heights), Parameters(type_.parameters), progress_);
   }
 
   Progress progress_;
@@ -34,7 +34,7 @@ TEST_P(Traits, SayWhetherItErodes) {
 }
 
 TEST_P(Traits, SayWhetherItTakesEdits) {
-  const float x = 4, z = 4;
+  const float x = 8, z = 8;
   const Span air{1, 30, Material::kAir};
   if (type_.traits.editable) {
     EXPECT_NO_THROW(built_->edit({{&x, 1}, {&z, 1}}, {&air, 1}));
