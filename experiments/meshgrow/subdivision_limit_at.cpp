@@ -12,10 +12,10 @@
 #include "experiments/meshgrow/growing_steps.h"
 #include "experiments/meshgrow/subdivision_reference.h"
 #include "representations/procedural_mesh/base_mesh.h"
-#include "representations/procedural_mesh/growing/hashing.h"
 #include "representations/procedural_mesh/subdivision/limit.h"
 #include "representations/procedural_mesh/subdivision/limit_at.h"
 #include "representations/procedural_mesh/subdivision/refinement.h"
+#include "terrain/splitmix.h"
 
 namespace terrabench::meshgrow {
 namespace {
@@ -91,8 +91,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const std::uint32_t stride = std::max(1U, mesh.faces() / asked);
   double points = 0, irregular = 0, later_off = 0, vertex_off = 0, face_off = 0;
   for (std::uint32_t face = 0; face < mesh.faces(); face += stride) {
-    const std::uint64_t key = growing::combine(options.seed, face);
-    auto random = [&, k = std::uint64_t{0}]() mutable { return growing::share(key, k++); };
+    const std::uint64_t key = combine(options.seed, face);
+    auto random = [&, k = std::uint64_t{0}]() mutable { return random_share(key, k++); };
     const bool extraordinary = std::any_of(&mesh.corners[4 * face], &mesh.corners[4 * face] + 4,
                                            [&](std::uint32_t v) { return mesh.uses_of(v).size() != 4; });
     for (int k = 0; k < kPerFace; ++k) {
