@@ -1,6 +1,7 @@
 // A representation and a level-of-detail method from outside: terrabench's whole command line, with two more
 // methods in it. They take part in every comparison, ray, edit, picture, claim and table:
 //   own_method run 'cross.lod-*' --out out && own_method check out && own_method report out
+#include <algorithm>
 #include <cmath>
 
 #include "experiments/commands/command_line.h"
@@ -10,7 +11,8 @@
 
 using namespace terrabench;
 
-// One byte per sample: 0 for no data, 255 for the highest point. A query reads the nearest sample, O(1).
+// One byte per sample: 0 for no data, 1 to 255 for heights from the lowest point to the highest. A query
+// reads the nearest sample, O(1).
 struct ByteHeights final : Representation {
   static std::unique_ptr<Representation> build(const TerrainSource& source, const Parameters& parameters,
                                                Progress& progress) {
@@ -27,7 +29,7 @@ struct ByteHeights final : Representation {
   explicit ByteHeights(const Heightmap& map) : grid_(map.grid()), bytes_(map.heights().size()) {
     for (std::size_t k = 0; k < bytes_.size(); ++k) {
       const float scaled = 255 * (map.heights()[k] - grid_.bounds.low.y) / grid_.bounds.size().y;
-      if (!std::isnan(scaled)) bytes_[k] = static_cast<std::uint8_t>(std::lround(scaled));
+      if (!std::isnan(scaled)) bytes_[k] = static_cast<std::uint8_t>(std::max(1L, std::lround(scaled)));
     }
   }
   void spans(Columns where, SpanSink& out) const override {

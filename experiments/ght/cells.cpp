@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "experiments/cases.h"
+#include "experiments/figures/measures.h"
 #include "experiments/ght/site.h"
 #include "terrain/error.h"
 #include "terrain/events/evaluate.h"
@@ -177,19 +178,12 @@ Ght noisy_tunnel(std::uint64_t seed, double roughness) {
   return tree;
 }
 
-// Pearson's correlation of pairs of heights.
-struct Pairs {
-  double n = 0, a = 0, b = 0, ab = 0, aa = 0, bb = 0;
-  void add(double x, double y) { n += 1, a += x, b += y, ab += x * y, aa += x * x, bb += y * y; }
-  double correlation() const { return (n * ab - a * b) / std::sqrt((n * aa - a * a) * (n * bb - b * b)); }
-};
-
 // Heights of walls over their planes: how large they are, and how alike they are at neighbouring cells, at
 // cells 20 m apart along the axis, and at the same cells under another seed.
 struct WallNoise {
   static constexpr double kRoughness = 0.8;  // metres
   static constexpr int kFarRows = 40;        // two rows per metre
-  Pairs near, far, seeds;
+  figures::Correlation near, far, seeds;
   std::size_t cells = 0, beyond = 0;
   double squares = 0;
 
@@ -210,8 +204,8 @@ struct WallNoise {
   }
 
  private:
-  static void pair(Pairs& pairs, double height, const Tree& tree, const GroundedHeightmap& wall, int i,
-                   int j) {
+  static void pair(figures::Correlation& pairs, double height, const Tree& tree,
+                   const GroundedHeightmap& wall, int i, int j) {
     if (i >= wall.columns || j >= wall.rows || tree.kind(wall.cell(i, j)) != CellKind::kHeight) return;
     pairs.add(height, tree.height(wall.cell(i, j)));
   }
@@ -233,9 +227,9 @@ void measure_walls(const RunOptions& options, Recorder& recorder) {
   recorder.add("beyond_roughness", "", noise.beyond);
   recorder.add("height_share", "",
                std::sqrt(noise.squares / static_cast<double>(noise.cells)) / WallNoise::kRoughness);
-  recorder.add("near_correlation", "", noise.near.correlation());
-  recorder.add("far_correlation", "", noise.far.correlation());
-  recorder.add("seed_correlation", "", noise.seeds.correlation());
+  recorder.add("near_correlation", "", noise.near.value());
+  recorder.add("far_correlation", "", noise.far.value());
+  recorder.add("seed_correlation", "", noise.seeds.value());
 }
 
 constexpr std::array kTopics{Topic{"hosts", measure_hosts},

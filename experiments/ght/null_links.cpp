@@ -15,9 +15,9 @@ namespace {
 using namespace events;
 
 // One value per sample of the root.
-class Samples {
+class SampleSet {
  public:
-  explicit Samples(const SampleGrid& grid) : width_(grid.width), depth_(grid.depth), has_(grid.samples()) {}
+  explicit SampleSet(const SampleGrid& grid) : width_(grid.width), depth_(grid.depth), has_(grid.samples()) {}
   void mark(int i, int j) { has_[at(i, j)] = 1; }
   bool operator()(int i, int j) const { return has_[at(i, j)] != 0; }
   std::size_t count() const { return static_cast<std::size_t>(std::count(has_.begin(), has_.end(), 1)); }
@@ -45,10 +45,10 @@ class Samples {
 };
 
 // The samples whose ground the carving takes away, by its definition.
-Samples mouths(const Site& site, const Event& carving, const SampleGrid& grid) {
+SampleSet mouths(const Site& site, const Event& carving, const SampleGrid& grid) {
   constexpr double kSame = 1e-3;  // metres
   const Evaluation defined(std::make_shared<Sculpture>(Sculpture{site.ground, {carving}}));
-  Samples open(grid);
+  SampleSet open(grid);
   std::vector<Stretch> stretches;
   open.each([&](int i, int j) {
     defined.column({grid.x(i), grid.z(j)}, stretches);
@@ -57,8 +57,8 @@ Samples mouths(const Site& site, const Event& carving, const SampleGrid& grid) {
   return open;
 }
 
-Samples null_links(const Tree& tree) {
-  Samples found(tree.grid());
+SampleSet null_links(const Tree& tree) {
+  SampleSet found(tree.grid());
   found.each([&](int i, int j) {
     const CellId root = tree.root_cell(i, j), end = tree.resolve(root);
     const bool is_null = tree.kind(root) == CellKind::kLink && tree.kind(end) == CellKind::kVoid &&
@@ -80,7 +80,7 @@ struct NullLinks {
     Ght ght = plain_tree(site.ground);
     ght.apply(carving);
     const Tree& tree = ght.model().tree;
-    const Samples open = mouths(site, carving, tree.grid()), null = null_links(tree);
+    const SampleSet open = mouths(site, carving, tree.grid()), null = null_links(tree);
     links += null.count();
     open.each([&](int i, int j) {
       const bool is_inside = open.around(i, j, 1) == 9;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <vector>
 
@@ -53,7 +54,13 @@ SpanSink line_at(const Ght& ght, glm::dvec2 plan) {
   return sink;
 }
 
-double top_at(const Ght& ght, glm::dvec2 plan) { return line_at(ght, plan).column(0).back().top; }
+// Of a place inside the terrain, which has no column without ground.
+double top_at(const Ght& ght, glm::dvec2 plan) {
+  const SpanSink sink = line_at(ght, plan);
+  const auto spans = sink.column(0);
+  assert(!spans.empty());
+  return spans.back().top;
+}
 
 // Metres of a line above `floor`; its lowest span reaches down to there, as the floors of two trees differ.
 double solid(std::span<const Span> spans, double floor) {
@@ -81,7 +88,9 @@ double defined_volume(const Ght& before, const Drop& drop) {
   const SpanSink old = grid.spans(before);
   double sum = 0;
   for (std::size_t c = 0; c < grid.x.size(); ++c) {
-    sum += std::max(0.0, drop({grid.x[c], grid.z[c]}, old.column(c).back().top));
+    const auto spans = old.column(c);
+    assert(!spans.empty());
+    sum += std::max(0.0, drop({grid.x[c], grid.z[c]}, spans.back().top));
   }
   return grid.step * grid.step * sum;
 }

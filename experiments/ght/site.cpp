@@ -7,7 +7,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <map>
-#include <mutex>
 #include <numbers>
 
 #include "terrain/error.h"
@@ -152,21 +151,14 @@ Site first_site(int side, int size, std::uint64_t seed, const std::function<bool
 }
 
 Site event_site(int side, int size, std::uint64_t seed) {
-  // The mountains found for each seed: the search takes about a second, and every case asks for them. The
-  // search runs without the lock, as a thread that waits in it may take up another case.
-  static std::mutex mutex;
+  // The mountains found for each seed: the search takes about a second, and every case asks for them.
   static std::map<std::uint64_t, std::uint64_t> found;
-  std::optional<std::uint64_t> mountains;
-  {
-    const std::lock_guard lock(mutex);
-    if (const auto known = found.find(seed); known != found.end()) mountains = known->second;
+  auto known = found.find(seed);
+  if (known == found.end()) {
+    const Site site = first_site(kEventsAlong * kLeastSize, kLeastSize, seed, takes_all_events);
+    known = found.emplace(seed, site.seed).first;
   }
-  if (!mountains) {
-    mountains = first_site(kEventsAlong * kLeastSize, kLeastSize, seed, takes_all_events).seed;
-    const std::lock_guard lock(mutex);
-    found.emplace(seed, *mountains);
-  }
-  return make_site(side, size, *mountains);
+  return make_site(side, size, known->second);
 }
 
 void record_site(const Site& site, std::uint64_t asked, Recorder& recorder) {

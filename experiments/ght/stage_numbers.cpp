@@ -3,6 +3,8 @@
 #include <cmath>
 #include <set>
 
+#include "experiments/figures/measures.h"
+
 namespace terrabench::ght {
 
 Heightfield every_other(const Heightfield& field) {
@@ -15,15 +17,13 @@ Heightfield every_other(const Heightfield& field) {
 }
 
 double correlation(const Image& map, const TriangleMesh& mesh, double cell) {
-  double n = 0, a = 0, b = 0, ab = 0, aa = 0, bb = 0;
+  figures::Correlation found;
   for (const glm::vec3& p : mesh.positions) {
-    const double grey =
-        map.pixel(static_cast<int>(std::lround(p.x / cell)), static_cast<int>(std::lround(p.z / cell)))[1];
-    n += 1, a += grey, b += p.y, ab += grey * p.y, aa += grey * grey;
-    bb += static_cast<double>(p.y) * p.y;
+    found.add(
+        map.pixel(static_cast<int>(std::lround(p.x / cell)), static_cast<int>(std::lround(p.z / cell)))[1],
+        p.y);
   }
-  const double spread = (n * aa - a * a) * (n * bb - b * b);
-  return spread > 0 ? (n * ab - a * b) / std::sqrt(spread) : 0;  // level ground has no correlation
+  return found.exists() ? found.value() : 0;  // none on level ground
 }
 
 double moved_points(const std::vector<float>& earlier, const std::vector<float>& later) {

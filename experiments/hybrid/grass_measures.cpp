@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <limits>
 #include <numbers>
+
+#include "experiments/figures/measures.h"
+#include "experiments/figures/projection.h"
 
 namespace terrabench::hybrid {
 namespace {
@@ -14,14 +18,15 @@ namespace {
 using figures::Drawing;
 
 double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
+  return figures::angle_between(a, b) * 180 / std::numbers::pi;
+}
+
+std::span<const std::uint32_t> corners_of(const TriangleMesh& mesh, std::size_t triangle) {
+  return std::span(mesh.indices).subspan(3 * triangle, 3);
 }
 
 glm::dvec3 face_normal(const TriangleMesh& mesh, std::size_t triangle) {
-  const auto corner = [&](std::size_t k) {
-    return glm::dvec3(mesh.positions[mesh.indices[3 * triangle + k]]);
-  };
-  return glm::normalize(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+  return figures::face_normal(mesh.positions, corners_of(mesh, triangle));
 }
 
 // Whether a point of the picture lies in the quadrilateral or at most `margin` pixels outside it.
@@ -91,10 +96,7 @@ void record_billboards(Drawing& drawing, const std::vector<ScenePlane>& planes, 
   std::vector<std::array<glm::dvec2, 4>> outlines;
   for (const ScenePlane& plane : planes) {
     std::array<glm::dvec2, 4>& outline = outlines.emplace_back();
-    for (std::size_t k = 0; k < 4; ++k) {
-      const glm::vec4 clip = world_to_clip(view) * glm::vec4(plane.corners[k], 1);
-      outline[k] = {(0.5 + 0.5 * clip.x / clip.w) * view.width, (0.5 - 0.5 * clip.y / clip.w) * view.height};
-    }
+    for (std::size_t k = 0; k < 4; ++k) outline[k] = figures::pixel_of(view, plane.corners[k]);
   }
   double grass = 0, outside = 0, of_planes = 0;
   for (int y = 0; y < drawn.height; ++y) {
@@ -122,8 +124,7 @@ void record_steep_strands(Drawing& drawing, const Heightfield& field, const Tria
   double area = 0, steep_area = 0, steep_strands = 0;
   for (std::size_t cell = 0; 2 * cell < mesh.triangles(); ++cell) {
     const auto triangle_area = [&](std::size_t t) {
-      const auto corner = [&](std::size_t k) { return glm::dvec3(mesh.positions[mesh.indices[3 * t + k]]); };
-      return 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+      return 0.5 * glm::length(figures::across_face<glm::dvec3>(mesh.positions, corners_of(mesh, t)));
     };
     const double own = triangle_area(2 * cell) + triangle_area(2 * cell + 1),
                  plan = double{field.cell_x} * field.cell_z;

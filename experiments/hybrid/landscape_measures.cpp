@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "experiments/figures/measures.h"
 #include "experiments/hybrid/pixels.h"
 
 namespace terrabench::hybrid {
@@ -130,24 +131,17 @@ double share_changed(const Image& a, const Image& b, const Image& reflection, co
 
 double cloud_match(const Image& image, const View& view, const Texels& noise, double turns) {
   constexpr int kEvery = 4;  // pixels
-  double n = 0, sum_a = 0, sum_b = 0, squares_a = 0, squares_b = 0, products = 0;
+  figures::Correlation found;
   for (int y = 0; y < image.height / 2; y += kEvery) {
-    for (int x = 0; x < image.width; x += kEvery, ++n) {
+    for (int x = 0; x < image.width; x += kEvery) {
       const glm::dvec3 d = direction(view, x, y);
       const double azimuth = std::atan2(d.x, -d.z) / (2 * std::numbers::pi) + turns + 2,
                    zenith = std::acos(std::clamp(d.y, 0.0, 1.0)) / (0.5 * std::numbers::pi);
-      const double a = image.pixel(x, y)[0],
-                   b = noise.at(static_cast<int>(azimuth * noise.width) % noise.width,
-                                static_cast<int>(zenith * (noise.height - 1)));
-      sum_a += a;
-      sum_b += b;
-      squares_a += a * a;
-      squares_b += b * b;
-      products += a * b;
+      found.add(image.pixel(x, y)[0], noise.at(static_cast<int>(azimuth * noise.width) % noise.width,
+                                               static_cast<int>(zenith * (noise.height - 1))));
     }
   }
-  return (n * products - sum_a * sum_b) /
-         std::sqrt((n * squares_a - sum_a * sum_a) * (n * squares_b - sum_b * sum_b));
+  return found.value();
 }
 
 }  // namespace terrabench::hybrid

@@ -3,12 +3,14 @@
 #include <array>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <glm/vec2.hpp>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "experiments/cases.h"
 #include "experiments/figures/mesh_frame.h"
+#include "experiments/figures/projection.h"
 #include "experiments/hybrid/pixels.h"
 #include "renderers/landscape/landscape.h"
 
@@ -104,9 +106,8 @@ Seen seen(const Rgb& pixel) {
 
 // The share of a tile's pixels, without its border, that show the material.
 double share(const Image& image, const View& view, int band, int slope, Seen material) {
-  const glm::vec4 clip = world_to_clip(view) * glm::vec4(middle(band, slope), 1);
-  const int x = static_cast<int>((0.5F + 0.5F * clip.x / clip.w) * static_cast<float>(view.width)),
-            y = static_cast<int>((0.5F - 0.5F * clip.y / clip.w) * static_cast<float>(view.height));
+  const glm::dvec2 at = figures::pixel_of(view, middle(band, slope));
+  const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
   constexpr int kReach = 3;  // pixels; a tile has 10 or more
   int of_material = 0, all = 0;
   for (int dy = -kReach; dy <= kReach; ++dy) {

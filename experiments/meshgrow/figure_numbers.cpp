@@ -11,6 +11,7 @@
 #include <numbers>
 #include <utility>
 
+#include "experiments/figures/measures.h"
 #include "experiments/meshgrow/growing_pictures.h"
 #include "experiments/meshgrow/root_mean_square.h"
 #include "experiments/meshgrow/subdivision_reference.h"
@@ -18,7 +19,7 @@
 namespace terrabench::meshgrow {
 
 double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
-  return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+  return glm::degrees(figures::angle_between(a, b));
 }
 
 void record_step(figures::Drawing& drawing, const FaceMesh& coarse, std::size_t edges, const FaceMesh& linear,
@@ -58,9 +59,7 @@ double last_displacement(const FaceMesh& base, std::vector<subdivision::Placemen
 }
 
 glm::dvec3 face_normal(const FaceMesh& mesh, std::uint32_t face) {
-  const auto corners = corners_of(mesh, face);
-  const auto at = [&](std::size_t k) { return glm::dvec3(mesh.positions[corners[k % corners.size()]]); };
-  return glm::normalize(glm::cross(at(2) - at(0), at(3) - at(1)));
+  return figures::face_normal(mesh.positions, corners_of(mesh, face));
 }
 
 glm::dvec3 mean_normal(const FaceMesh& mesh, std::uint32_t vertex) {

@@ -13,7 +13,6 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <map>
-#include <mutex>
 #include <optional>
 
 #include "experiments/experiment.h"
@@ -105,9 +104,7 @@ std::vector<Case> cases(const RunOptions& options) {
 
 // Cases on the same forest share it: planting foresees every instance.
 std::shared_ptr<const Forest> forest_of(const ForestSettings& settings, Progress& progress) {
-  static std::mutex mutex;
   static std::pair<std::pair<std::uint64_t, std::uint64_t>, std::shared_ptr<const Forest>> last;
-  const std::lock_guard lock(mutex);
   const std::pair key{settings.instances, settings.seed};
   if (last.second == nullptr || last.first != key) {
     last.second.reset();
@@ -320,8 +317,6 @@ struct Truth {
 };
 const Truth& truth_of(const Forest& forest, const View& view, const Case& at, std::uint64_t seed) {
   static std::map<std::array<std::uint64_t, 4>, Truth> known;
-  static std::mutex mutex;
-  const std::lock_guard lock(mutex);
   const std::array key{seed, static_cast<std::uint64_t>(forest.plants().instances().size()),
                        static_cast<std::uint64_t>(view.width),
                        static_cast<std::uint64_t>(at.integer("samples"))};

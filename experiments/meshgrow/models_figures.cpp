@@ -10,6 +10,7 @@
 #include "experiments/cases.h"
 #include "experiments/experiment.h"
 #include "experiments/figures/figure.h"
+#include "experiments/figures/measures.h"
 #include "experiments/meshgrow/figure_numbers.h"
 #include "experiments/meshgrow/growing_steps.h"
 #include "experiments/meshgrow/models.h"
@@ -161,8 +162,8 @@ class Picture {
 };
 
 double area_of(const TriangleMesh& mesh, std::size_t triangle) {
-  const auto at = [&](std::size_t k) { return mesh.positions[mesh.indices[3 * triangle + k]]; };
-  return 0.5 * static_cast<double>(glm::length(glm::cross(at(1) - at(0), at(2) - at(0))));
+  const auto corners = std::span(mesh.indices).subspan(3 * triangle, 3);
+  return 0.5 * static_cast<double>(glm::length(figures::across_face<glm::vec3>(mesh.positions, corners)));
 }
 
 // Of the triangles whose symbols these are: how many, and their area in square metres.
@@ -223,8 +224,7 @@ void record_rust(const growing::Model& model, const FaceMesh& mesh, const Painte
       height += heights[v] / static_cast<double>(corners.size());
       middle += mesh.positions[v] / static_cast<float>(corners.size());
     }
-    const glm::vec3 across = glm::cross(mesh.positions[corners[2]] - mesh.positions[corners[0]],
-                                        mesh.positions[corners[3]] - mesh.positions[corners[1]]);
+    const auto across = figures::across_face<glm::vec3>(mesh.positions, corners);
     const double area = 0.5 * static_cast<double>(glm::length(across));
     SurfacePoint point;
     point.position = point.local = middle;

@@ -3,10 +3,10 @@
 // grammar.
 //
 // To follow a model from its text to faces: parse_model() and expand() in model.cpp; of the parts that they
-// read, RuleReader in model_rules.cpp; growing/rules.h, what a rule is; growing/grow.h and grow(); Wave::run() in
-// growing/wave.cpp and what it calls, in that order; growing/expansion.h, the new elements of one face. What
-// can wait: expressions (growing/expression.h), templates and their check, textures, limits, and subdivision
-// (model_subdivide.cpp, subdivision/refine.h).
+// read, RuleReader in model_rules.cpp; growing/rules.h, what a rule is; growing/grow.h and grow();
+// Wave::run() in growing/wave.cpp and what it calls, in that order; growing/expansion.h, the new elements of
+// one face. What can wait: expressions (growing/expression.h), templates and their check, textures, limits,
+// and subdivision (model_subdivide.cpp, subdivision/refine.h).
 #pragma once
 
 #include <functional>

@@ -19,7 +19,7 @@ has list.txt right_triangles
 # The comparisons, on a ground of 33 × 33 samples.
 "$program" represent jacksboro --as heightmap --crop 100 100 33 33 --save small.tif
 compared='representations error-maps round-trip lod-equal-error lod-ranks lod-frames lod-jump lod-seams lod-surface lod-edit'
-"$program" run overview.relief $(printf 'cross.%s ' $compared) --terrain small.tif --out ground --again 0
+"$program" run overview.relief $(printf 'cross.%s ' $compared) --terrain small.tif --out ground
 for experiment in $compared; do
   grep "\"experiment\":\"cross.$experiment\"" ground/measurements.jsonl > "$experiment.txt"
   case $experiment in
@@ -33,10 +33,10 @@ has pages.txt 'byte heights'
 has pages.txt 'right triangles'
 
 # Claims judge them beside the others.
-"$program" run cross.round-trip --out claims --again 0
+"$program" run cross.round-trip --out claims
 "$program" check claims --verbose > check.txt
 has check.txt byte_heights
-"$program" run cross.lod-edit --terrain jacksboro --out claims --again 0
+"$program" run cross.lod-edit --terrain jacksboro --out claims
 "$program" check claims --claims cross.lod-edit --verbose > check.txt
 has check.txt right_triangles
 "$program" report claims

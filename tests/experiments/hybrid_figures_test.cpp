@@ -9,15 +9,10 @@
 #include "experiments/hybrid/landscape_measures.h"
 #include "experiments/hybrid/stage_relations.h"
 #include "terrain/mesh.h"
+#include "tests/experiments/value.h"
 
 namespace terrabench::hybrid {
 namespace {
-
-double value(const Record& record, std::string_view metric) {
-  const Metric* const found = record.find(metric);
-  EXPECT_NE(found, nullptr) << metric;
-  return found == nullptr ? -1 : found->samples.front();
-}
 
 Record compared(noise::Stage stage, const Pixels& now) {
   Record record;

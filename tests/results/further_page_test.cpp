@@ -158,6 +158,19 @@ TEST_F(FurtherPageTest, IsNotWrittenIfNothingOnItWasMeasured) {
   EXPECT_THAT(written("index.html"), Not(HasSubstr("Further grounds")));
 }
 
+TEST_F(FurtherPageTest, WarnsOfGroundThatChanged) {
+  measure("/x/alps.tif");
+  write();
+  EXPECT_THAT(page("/x/alps.tif"), Not(HasSubstr("The content of this ground changed")));
+  Record again = fake_record(run_, "cross.representations", "/x/alps.tif/voxel");
+  again.terrain = "/x/alps.tif";
+  again.terrain_checksum = "another";
+  add(again, "rmse", "m", {3});
+  store_.append(again);
+  write();
+  EXPECT_THAT(page("/x/alps.tif"), HasSubstr("The content of this ground changed"));
+}
+
 // Errors leave these columns out, so that a method that loses many of them looks better than it is.
 TEST_F(FurtherPageTest, WarnsOfManyLostColumns) {
   const auto lose = [&](const std::string& rest, double lost) {

@@ -157,6 +157,25 @@ TEST_F(GroundPageTest, WarnsOfAlteredResults) {
   EXPECT_THAT(written("ground-hill.md"), HasSubstr("cannot be trusted"));
 }
 
+// Each page warns of its own ground alone. A hundredth of the columns is many.
+TEST_F(GroundPageTest, WarnsOfManyLostColumns) {
+  for (const auto& [ground, lost] : {std::pair{"hill", 250.0}, std::pair{"cave", 5.0}}) {
+    measure(ground);
+    Record record = fake_record(run_, "e", ground);
+    add(record, "bytes", "B", {1000});
+    add(record, "n", "", {3});
+    add(record, "columns", "", {1000 - lost});
+    add(record, "lost_columns", "", {lost});
+    store_.append(record);
+  }
+  write_report(store_, papers_);
+  for (const char* const form : {"html", "md"}) {
+    EXPECT_THAT(written(fmt::format("ground-hill.{}", form)),
+                HasSubstr("up to 25.0 % of the columns (case hill)"));
+    EXPECT_THAT(written(fmt::format("ground-cave.{}", form)), Not(HasSubstr("leave out columns")));
+  }
+}
+
 std::string ground_of(const std::string& case_name) { return case_name.substr(0, case_name.find('/')); }
 
 // The page where cases of these grounds belong; empty: the main page.

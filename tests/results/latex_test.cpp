@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <sstream>
 
@@ -11,6 +13,7 @@
 #include "terrain/error.h"
 #include "terrain/image.h"
 #include "tests/results/fake_results.h"
+#include "tests/terrain/errors.h"
 
 namespace terrabench {
 namespace {
@@ -215,6 +218,26 @@ TEST_F(LatexBundle, SameMeasurementsSameBytesAndAnEarlierOneIsReplaced) {
   write_file(bundle() / "main.pdf", std::string_view("compiled"));
   write_latex_bundle(folder_, folder_ / "bundle/.");
   EXPECT_EQ(files(), first);
+}
+
+// A file size limit stands in for a full disk.
+TEST_F(LatexBundle, AFullDiskLeavesTheEarlierOne) {
+  write_fake_results(folder_, "quick");
+  write_latex_bundle(folder_, bundle());
+  const auto before = files();
+  const auto entries = [&] { return std::distance(std::filesystem::directory_iterator(folder_), {}); };
+  const auto entries_before = entries();
+  rlimit old{};
+  getrlimit(RLIMIT_FSIZE, &old);
+  auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{2000, old.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  const Failure failure = failure_of([&] { write_latex_bundle(folder_, bundle()); });
+  setrlimit(RLIMIT_FSIZE, &old);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(failure.code, ExitCode::kEnvironment);
+  EXPECT_EQ(files(), before);
+  EXPECT_EQ(entries(), entries_before);
 }
 
 TEST_F(LatexBundle, FiguresHaveTheirPrintSizeAndFonts) {

@@ -206,6 +206,23 @@ TEST_F(ReportTest, NothingFromOutsideBecomesMarkup) {
   }
 }
 
+// Nor is a file named after a picture's id.
+TEST_F(ReportTest, NamesAndCaptionsFromOutsideCannotBreakThePage) {
+  write_fake_results(folder_, "quick");
+  Store store(folder_);
+  Record record = fake_record(fake_provenance(), "<b>x</b>", "\"><script>alert(1)</script>");
+  write_png(folder_ / "figures/x.png", Image(9, 9, {1, 2, 3}));
+  record.figures = {{"../../<script>", "figures/x.png", "</figure><script>alert(2)</script>",
+                     checksum(read_file(folder_ / "figures/x.png"))}};
+  store.append(record);
+  const std::string page = read_file(write_report(folder_).page);
+  EXPECT_THAT(page, HasSubstr("alert(2)"));
+  EXPECT_THAT(page, Not(HasSubstr("<script>")));
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
+    EXPECT_THAT(entry.path().filename().string(), Not(HasSubstr("<script>")));
+  }
+}
+
 TEST_F(ReportTest, EmptyFolderIsBadInput) {
   try {
     write_report(folder_);

@@ -97,7 +97,6 @@ TEST(Schema, ThePageListsTheFieldsThatAreWritten) {
   least.terrain_notes.clear();
   least.undefined.clear();
   least.metrics[0].varies = false;
-  least.metrics[0].first_look = 0;
   Provenance run = full_run();
   run.timing_warnings.clear();
   Fields written;

@@ -1,4 +1,4 @@
-#include "experiments/cross/representations/ranks.h"
+#include "experiments/cross/ranks.h"
 
 #include <algorithm>
 
