@@ -218,7 +218,7 @@ void write_fake_results(const std::filesystem::path& folder, const std::string& 
                                      {7, "heights_off_the_noise", 0.6},
                                      {7, "relief", 200},
                                      {8, "share_off_the_shift", 0},
-                                     {8, "share_far_from_edges", 0.001},
+                                     {8, "share_far_from_edges", 0},
                                      {9, "sharpness_of_maxima", 0.03},
                                      {9, "sharpness_of_minima", 0.003},
                                      {10, "highest_noise_outside", 0.719},

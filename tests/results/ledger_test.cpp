@@ -86,6 +86,7 @@ TEST_F(LedgerTest, EveryClaimHasARowWithAnAnchorAndNoCellIsEmptyWithoutCause) {
   std::size_t claims = 0;
   for (const Paper& paper : papers()) {
     for (const Claim& claim : paper.claims) {
+      if (claim.of_profile_scale()) continue;  // not measured here
       ASSERT_EQ(ledger.rows[claims][0].text, claim.id);
       EXPECT_EQ(ledger.rows[claims][0].anchor, claim.id);
       const bool good = ledger.rows[claims][kVerdict].text.starts_with("reproduced");
