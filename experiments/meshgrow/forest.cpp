@@ -69,11 +69,10 @@ std::vector<Case> cases(const RunOptions& options) {
   Parameters& picture = add("picture");
   picture.set("figure", true);
   picture.set("cache", std::int64_t{1280});
-  picture.set("spacing", 2.0);
+  picture.set("spacing", 8.0);
   if (paper) {
     picture.set("width", std::int64_t{1600});
-    picture.set("samples", std::int64_t{16});
-    picture.set("tile", std::int64_t{96});  // as many paths at once as with 4 per pixel
+    picture.set("samples", std::int64_t{4});
   }
   // So few paths that they cannot reach all plants.
   Parameters& part = add("part");
