@@ -1,10 +1,10 @@
 # One static library per module: libterrabench_<module>.a, which others link as terrabench::<module>: all sources of
-# its folder but a program's main.cpp, and those named (generated ones). A new file is picked up by the next build.
+# its folder but the program's terrabench.cpp, and those named (generated ones). A new file is picked up by the next build.
 # Headers are included by their path from the project's root.
 function(terrabench_module name)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "/terrabench\\.cpp$")
   add_library(${name} STATIC ${sources} ${ARGN})
   add_library(terrabench::${name} ALIAS ${name})
   target_sources(${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})

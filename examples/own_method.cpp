@@ -1,26 +1,41 @@
-// A method added from outside, measured beside the built-in ones: own_method [TERRAIN], a height field.
-#include <fmt/core.h>
-
+// A representation and a level-of-detail method from outside: terrabench's whole command line, with two more
+// methods in it. They take part in every comparison, ray, edit, picture, claim and table:
+//   own_method run 'cross.lod-*' --out out && own_method check out && own_method report out
+#include <algorithm>
 #include <cmath>
 
-#include "experiments/fidelity.h"
+#include "experiments/commands/command_line.h"
+#include "own_lod.h"
+#include "representations/column_grid.h"
 #include "representations/heightmap/heightmap.h"
 
 using namespace terrabench;
-Progress progress;  // silent
 
-// One byte per sample: 0 for no data, 255 for the highest point. A query reads the nearest sample, O(1).
+// One byte per sample: 0 for no data, 1 to 255 for heights from the lowest point to the highest. A query
+// reads the nearest sample, O(1).
 struct ByteHeights final : Representation {
-  ByteHeights(const Heightfield& field, const Bounds& box)
-      : grid_{field.width, field.depth, 0, 0, field.cell_x, field.cell_z, box}, bytes_(field.heights.size()) {
+  static std::unique_ptr<Representation> build(const TerrainSource& source, const Parameters& parameters,
+                                               Progress& progress) {
+    const auto heights = Heightmap::build(source, parameters, progress);
+    return std::make_unique<ByteHeights>(static_cast<const Heightmap&>(*heights));
+  }
+  static std::unique_ptr<Representation> load(ByteSource& in) {
+    auto loaded = std::make_unique<ByteHeights>();
+    loaded->grid_ = HeightGrid::load(in);
+    loaded->bytes_ = in.get_array<std::uint8_t>(std::uint64_t(loaded->grid_.width) * loaded->grid_.depth);
+    return loaded;
+  }
+  ByteHeights() = default;
+  explicit ByteHeights(const Heightmap& map) : grid_(map.grid()), bytes_(map.heights().size()) {
     for (std::size_t k = 0; k < bytes_.size(); ++k) {
-      const float scaled = 255 * (field.heights[k] - box.low.y) / box.size().y;
-      if (!std::isnan(scaled)) bytes_[k] = static_cast<std::uint8_t>(std::lround(scaled));
+      const float scaled = 255 * (map.heights()[k] - grid_.bounds.low.y) / grid_.bounds.size().y;
+      if (!std::isnan(scaled)) bytes_[k] = static_cast<std::uint8_t>(std::max(1L, std::lround(scaled)));
     }
   }
   void spans(Columns where, SpanSink& out) const override {
     for (std::size_t c = 0; c < where.size(); ++c, out.end_column()) {
-      const long i = std::lround(where.x[c] / grid_.cell_x), j = std::lround(where.z[c] / grid_.cell_z);
+      const long i = std::lround((where.x[c] - grid_.origin_x) / grid_.cell_x),
+                 j = std::lround((where.z[c] - grid_.origin_z) / grid_.cell_z);
       if (i < 0 || i >= grid_.width || j < 0 || j >= grid_.depth) continue;
       const std::uint8_t byte = bytes_[static_cast<std::size_t>(j * grid_.width + i)];
       if (byte > 0) out.add({grid_.bounds.low.y, height(byte), Material::kBedrock});
@@ -43,17 +58,23 @@ struct ByteHeights final : Representation {
   std::vector<std::uint8_t> bytes_;
 };
 
-void measure(std::string_view name, std::unique_ptr<Representation> built, const TerrainSource& source) {
-  fmt::print("{:14} {:9.3f} {:>10} {:10} ", name, measure_fidelity(*built, source, progress).rmse,
-             check_edges(built->mesh({})).watertight(), built->memory().total());
-  fmt::print("{:10}\n", destroy_and_count(std::move(built)));
-}
-
 int main(int argc, char** argv) {
-  const TerrainSource source = open_terrain(argc > 1 ? argv[1] : "jacksboro");
-  if (!source.heights) return fmt::print(stderr, "{} is a solid, not a height field\n", source.name), 2;
-  fmt::print("{:14} {:>9} {:>10} {:>10} {:>10}\n", "method", "RMSE, m", "closed", "memory()", "counted");
-  for (const RepresentationType& type : representations())
-    measure(type.name, type.build(source, Parameters(type.parameters), progress), source);
-  measure("byte_heights", std::make_unique<ByteHeights>(*source.heights, source.bounds()), source);
+  add_representation({"byte_heights",
+                      "byte heights",
+                      "one byte per grid point",
+                      "this program",
+                      {},
+                      column_parameters(),
+                      ByteHeights::build,
+                      ByteHeights::load});
+  add_lod({"right_triangles",
+           "right triangles",
+           "bisected where a bound of the error asks for it",
+           "Lindstrom & Pascucci 2001",
+           {},
+           own::RightTriangles::knob(),
+           {},
+           "",
+           own::RightTriangles::build});
+  return command_line(argc, argv);
 }

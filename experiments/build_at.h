@@ -4,6 +4,7 @@
 #include <memory>
 #include <string_view>
 
+#include "representations/layered_stack/layered_stack.h"
 #include "representations/representation.h"
 
 namespace terrabench {
@@ -15,6 +16,11 @@ inline std::unique_ptr<Representation> build_at_resolution(std::string_view name
   Parameters parameters(type.parameters);
   parameters.set("resolution", n);
   return type.build(source, parameters, progress);
+}
+
+inline std::unique_ptr<LayeredStack> stack_at_resolution(const TerrainSource& source, std::int64_t n,
+                                                         Progress& progress) {
+  return LayeredStack::build_stack(source, Parameters(column_parameters(), {{"resolution", n}}), progress);
 }
 
 }  // namespace terrabench

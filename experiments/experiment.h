@@ -17,7 +17,8 @@
 
 namespace terrabench {
 
-enum class Profile { kQuick, kPaper };
+// kScale: growth with size, measured at the paper's sizes and kept with the records of that profile.
+enum class Profile { kQuick, kPaper, kScale };
 
 struct RunOptions {
   Profile profile = Profile::kQuick;
@@ -42,14 +43,21 @@ struct SkippedCase : std::runtime_error {
 };
 
 struct Experiment {
+  // Untimed cases record no times (is_timing() of a unit) and may be measured beside each other. Timed ones
+  // want the machine to themselves. kOwnProcess: timed, and each case has a process of its own, since its
+  // times depend on where in the heap its memory lies, and so on what the process allocated before.
+  enum Kind { kUntimed, kTimed, kOwnProcess };
+
   std::string_view id, title;  // the id is the paper's, a dot and a name: "ght.edits"
   std::span<const ParameterSpec> parameters;
   std::vector<Case> (*cases)(const RunOptions&);
   void (*measure)(const Case&, const RunOptions&, Recorder&, Progress&);
-  // Of an experiment not registered as UNTIMED: whether a case, with its --set values, may record times;
-  // null: every case may.
+  Kind kind = kUntimed;
+  // Of a timed experiment: whether a case, with its --set values, is timed; null: every case is.
   bool (*times)(const Case&) = nullptr;
+  bool profile_scale = false;  // measured in the profile kScale, and in no other
 
+  bool timed(const Case& at) const { return kind != kUntimed && (times == nullptr || times(at)); }
   std::string_view paper() const { return id.substr(0, id.find('.')); }
 };
 

@@ -47,8 +47,7 @@ void Recorder::add_ratio(std::string_view metric, double numerator, double denom
   add(metric, "", numerator / denominator);
 }
 
-std::filesystem::path Recorder::figure(std::string_view id, std::string_view extension,
-                                       std::string_view caption) {
+FigureFile Recorder::figure(std::string_view id, std::string_view extension, std::string_view caption) {
   // Another profile, or a case with overridden parameters, draws a different picture under the same claim
   // id: it must not overwrite the first.
   const std::string variant = record_.overrides.empty() ? "" : "-" + checksum(record_.case_name).substr(0, 8);
@@ -57,7 +56,10 @@ std::filesystem::path Recorder::figure(std::string_view id, std::string_view ext
                         std::string(caption)};
   const std::filesystem::path path = folder_ / figure.file;
   record_.figures.push_back(std::move(figure));
-  return path;
+  const auto note = [this, number = record_.figures.size() - 1](const FigureLayout& layout) {
+    record_.figures[number].layout = layout;
+  };
+  return {path, note};
 }
 
 void Recorder::terrain(std::string_view name, std::string_view checksum, std::vector<std::string> notes) {

@@ -1,108 +1,130 @@
-#include <array>
+// Every experiment: declared, and in the order in which they are listed and measured.
+#include <functional>
 
 #include "experiments/experiment.h"
-#include "experiments/timing.h"
 #include "terrain/error.h"
-
-// One line per experiment, in the order in which they are listed: whether any of its cases records a time
-// (TIMED), and whether each of its cases is measured in a process of its own (FRESH, also timed); the paper's
-// namespace; the value.
-#define TERRABENCH_EXPERIMENTS(TIMED, UNTIMED, FRESH) \
-  UNTIMED(hybrid, kKernels)                           \
-  TIMED(hybrid, kImplicit)                            \
-  TIMED(hybrid, kTable1)                              \
-  TIMED(hybrid, kTable2)                              \
-  TIMED(hybrid, kQueryRates)                          \
-  UNTIMED(hybrid, kCaves)                             \
-  UNTIMED(hybrid, kNoiseStages)                       \
-  UNTIMED(hybrid, kFresnel)                           \
-  UNTIMED(hybrid, kWaterPasses)                       \
-  UNTIMED(hybrid, kTexturing)                         \
-  UNTIMED(hybrid, kAir)                               \
-  UNTIMED(hybrid, kSky)                               \
-  UNTIMED(hybrid, kLandscape)                         \
-  UNTIMED(hybrid, kClipmapFigures)                    \
-  UNTIMED(hybrid, kSumHeights)                        \
-  UNTIMED(hybrid, kStitch)                            \
-  UNTIMED(hybrid, kLessGeometry)                      \
-  TIMED(hybrid, kTable3)                              \
-  UNTIMED(hybrid, kSlope)                             \
-  UNTIMED(hybrid, kBary)                              \
-  UNTIMED(hybrid, kRandom)                            \
-  UNTIMED(hybrid, kGrassFigures)                      \
-  TIMED(hybrid, kHero)                                \
-  UNTIMED(ght, kGenerators)                           \
-  UNTIMED(ght, kStages)                               \
-  UNTIMED(ght, kEventFigures)                         \
-  UNTIMED(ght, kCounts)                               \
-  UNTIMED(ght, kCells)                                \
-  UNTIMED(ght, kContinuity)                           \
-  UNTIMED(ght, kOverhang)                             \
-  TIMED(ght, kEdits)                                  \
-  TIMED(ght, kReach)                                  \
-  TIMED(ght, kComplex)                                \
-  UNTIMED(drill, kChannels)                           \
-  UNTIMED(drill, kLargestFlow)                        \
-  UNTIMED(drill, kFactorial)                          \
-  UNTIMED(drill, kEffects)                            \
-  UNTIMED(drill, kAhdReadings)                        \
-  TIMED(drill, kTime)                                 \
-  TIMED(drill, kGrowth)                               \
-  UNTIMED(drill, kSize)                               \
-  UNTIMED(drill, kExtensions)                         \
-  UNTIMED(drill, kPromises)                           \
-  UNTIMED(drill, kHydrography)                        \
-  UNTIMED(drill, kSweep)                              \
-  UNTIMED(mrbsp, kHeights)                            \
-  TIMED(mrbsp, kWalk)                                 \
-  UNTIMED(mrbsp, kThreshold)                          \
-  UNTIMED(mrbsp, kHoles)                              \
-  UNTIMED(mrbsp, kLodFigure)                          \
-  TIMED(mrbsp, kVisibility)                           \
-  TIMED(mrbsp, kCellSizes)                            \
-  UNTIMED(mrbsp, kQuality)                            \
-  UNTIMED(mrbsp, kProfile)                            \
-  UNTIMED(mrbsp, kLand)                               \
-  UNTIMED(mrbsp, kRoughness)                          \
-  UNTIMED(mrbsp, kDrawing)                            \
-  UNTIMED(meshgrow, kSubdivisionFigures)              \
-  UNTIMED(meshgrow, kStandard)                        \
-  UNTIMED(meshgrow, kSpectrum)                        \
-  UNTIMED(meshgrow, kLimit)                           \
-  UNTIMED(meshgrow, kHeightField)                     \
-  TIMED(meshgrow, kModels)                            \
-  UNTIMED(meshgrow, kFork)                            \
-  TIMED(meshgrow, kRefinement)                        \
-  UNTIMED(meshgrow, kGrowingFigures)                  \
-  UNTIMED(meshgrow, kModelFigures)                    \
-  UNTIMED(meshgrow, kLod)                             \
-  TIMED(meshgrow, kForest)                            \
-  TIMED(cross, kRepresentations)                      \
-  UNTIMED(cross, kErrorMaps)                          \
-  TIMED(cross, kLodEqualError)                        \
-  TIMED(cross, kLodRanks)                             \
-  TIMED(cross, kLodFrames)                            \
-  TIMED(cross, kLodJump)                              \
-  UNTIMED(cross, kLodSeams)                           \
-  TIMED(cross, kLodSurface)                           \
-  TIMED(cross, kLodEdit)                              \
-  FRESH(cross, kScale)                                \
-  UNTIMED(cross, kRoundTrip)                          \
-  TIMED(relief, kRelief)                              \
-  TIMED(cross, kLodDisk)                              \
-  TIMED(cross, kLodEndless)
 
 namespace terrabench {
 
-#define DECLARE(paper, value)    \
-  namespace paper {              \
-  extern const Experiment value; \
-  }
-TERRABENCH_EXPERIMENTS(DECLARE, DECLARE, DECLARE)
+namespace hybrid {
+extern const Experiment kKernels, kImplicit, kTable1, kTable2, kReuse, kQueryRates, kCaves, kNoiseStages,
+    kFresnel, kWaterPasses, kTexturing, kAir, kSky, kLandscape, kClipmapFigures, kSumHeights, kStitch,
+    kLessGeometry, kTable3, kSlope, kBary, kRandom, kGrassFigures, kHero;
+}
+namespace ght {
+extern const Experiment kGenerators, kStages, kEventFigures, kCounts, kCells, kContinuity, kOverhang, kEdits,
+    kReach, kComplex;
+}
+namespace drill {
+extern const Experiment kChannels, kLargestFlow, kFactorial, kEffects, kAhdReadings, kTime, kGrowth, kSize,
+    kExtensions, kPromises, kHydrography, kSweep;
+}
+namespace mrbsp {
+extern const Experiment kHeights, kWalk, kThreshold, kHoles, kLodFigure, kVisibility, kPreprocessing,
+    kCellSizes, kQuality, kProfile, kLand, kRoughness, kDrawing;
+}
+namespace meshgrow {
+extern const Experiment kSubdivisionFigures, kStandard, kSpectrum, kLimit, kLimitAt, kApproximation,
+    kHeightField, kModels, kFork, kRefinement, kGrowingFigures, kModelFigures, kLod, kForest;
+}
+namespace cross {
+extern const Experiment kRepresentations, kErrorMaps, kLodEqualError, kLodRanks, kLodFrames, kLodJump,
+    kLodSeams, kLodSurface, kLodEdit, kScale, kRoundTrip, kLodDisk, kLodEndless;
+}
+namespace relief {
+extern const Experiment kRelief;
+}
 
 std::span<const std::reference_wrapper<const Experiment>> experiments() {
-#define REFER(paper, value) std::cref(paper::value),
-  static const std::array all{TERRABENCH_EXPERIMENTS(REFER, REFER, REFER)};
+  static const std::reference_wrapper<const Experiment> all[] = {
+      hybrid::kKernels,
+      hybrid::kImplicit,
+      hybrid::kTable1,
+      hybrid::kTable2,
+      hybrid::kReuse,
+      hybrid::kQueryRates,
+      hybrid::kCaves,
+      hybrid::kNoiseStages,
+      hybrid::kFresnel,
+      hybrid::kWaterPasses,
+      hybrid::kTexturing,
+      hybrid::kAir,
+      hybrid::kSky,
+      hybrid::kLandscape,
+      hybrid::kClipmapFigures,
+      hybrid::kSumHeights,
+      hybrid::kStitch,
+      hybrid::kLessGeometry,
+      hybrid::kTable3,
+      hybrid::kSlope,
+      hybrid::kBary,
+      hybrid::kRandom,
+      hybrid::kGrassFigures,
+      hybrid::kHero,
+      ght::kGenerators,
+      ght::kStages,
+      ght::kEventFigures,
+      ght::kCounts,
+      ght::kCells,
+      ght::kContinuity,
+      ght::kOverhang,
+      ght::kEdits,
+      ght::kReach,
+      ght::kComplex,
+      drill::kChannels,
+      drill::kLargestFlow,
+      drill::kFactorial,
+      drill::kEffects,
+      drill::kAhdReadings,
+      drill::kTime,
+      drill::kGrowth,
+      drill::kSize,
+      drill::kExtensions,
+      drill::kPromises,
+      drill::kHydrography,
+      drill::kSweep,
+      mrbsp::kHeights,
+      mrbsp::kWalk,
+      mrbsp::kThreshold,
+      mrbsp::kHoles,
+      mrbsp::kLodFigure,
+      mrbsp::kVisibility,
+      mrbsp::kPreprocessing,
+      mrbsp::kCellSizes,
+      mrbsp::kQuality,
+      mrbsp::kProfile,
+      mrbsp::kLand,
+      mrbsp::kRoughness,
+      mrbsp::kDrawing,
+      meshgrow::kSubdivisionFigures,
+      meshgrow::kStandard,
+      meshgrow::kSpectrum,
+      meshgrow::kLimit,
+      meshgrow::kLimitAt,
+      meshgrow::kApproximation,
+      meshgrow::kHeightField,
+      meshgrow::kModels,
+      meshgrow::kFork,
+      meshgrow::kRefinement,
+      meshgrow::kGrowingFigures,
+      meshgrow::kModelFigures,
+      meshgrow::kLod,
+      meshgrow::kForest,
+      cross::kRepresentations,
+      cross::kErrorMaps,
+      cross::kLodEqualError,
+      cross::kLodRanks,
+      cross::kLodFrames,
+      cross::kLodJump,
+      cross::kLodSeams,
+      cross::kLodSurface,
+      cross::kLodEdit,
+      cross::kScale,
+      cross::kRoundTrip,
+      relief::kRelief,
+      cross::kLodDisk,
+      cross::kLodEndless,
+  };
   return all;
 }
 
@@ -114,10 +136,5 @@ const Experiment& experiment(std::string_view id) {
   }
   throw unknown_name("experiment", id, ids);
 }
-
-#define IS(paper, value) &experiment == &paper::value ||
-#define NONE(paper, value)
-bool records_times(const Experiment& experiment) { return TERRABENCH_EXPERIMENTS(IS, NONE, IS) false; }
-bool in_fresh_process(const Experiment& experiment) { return TERRABENCH_EXPERIMENTS(NONE, NONE, IS) false; }
 
 }  // namespace terrabench

@@ -11,11 +11,8 @@
 #include <sstream>
 #include <system_error>
 
-#include "experiments/interference.h"
 #include "experiments/processes.h"
-#include "experiments/second_look.h"
 #include "experiments/stopwatch.h"
-#include "experiments/timing.h"
 #include "renderers/context.h"
 #include "renderers/raytrace/ray_index.h"
 #include "results/store/absences.h"
@@ -47,10 +44,9 @@ std::string renderer_name(const std::string& context) {
 void describe(const std::filesystem::path& folder, RecordedFigure& figure) {
   const std::filesystem::path file = folder / figure.file;
   figure.checksum = checksum(read_file(file));
-  figure.layout = read_layout(file);
-  if (figure.layout) return;
+  if (figure.layout != FigureLayout()) return;
   const Image image = read_png(file);
-  figure.layout = FigureLayout{{{0, 0, image.width, image.height}}, {}};
+  figure.layout.panels = {{0, 0, image.width, image.height}};
 }
 
 std::vector<std::pair<std::string, Value>> values(const Parameters& parameters) {
@@ -124,7 +120,7 @@ Record begin_record(const RunPlan& plan, const PlannedCase& planned, const std::
   record.experiment = planned.experiment->id;
   record.case_name = planned.at.name;
   record.overrides = planned.at.overrides;
-  record.profile = plan.options.profile == Profile::kPaper ? "paper" : "quick";
+  record.profile = plan.options.profile == Profile::kQuick ? "quick" : "paper";
   record.run = run;
   record.seed = plan.options.seed;
   record.parameters = values(planned.at.parameters);
@@ -148,7 +144,7 @@ void check_untimed(const Record& record) {
     if (!is_timing(metric.unit)) continue;
     throw Error(ExitCode::kEnvironment,
                 fmt::format("records the time '{}', but counts as untimed", metric.name), record.experiment,
-                "register it as TIMED or FRESH in experiments/registry.cpp, or let its times() be true for "
+                "let the experiment's kind be kTimed (experiments/experiment.h), or its times() be true for "
                 "this case");
   }
 }
@@ -172,7 +168,7 @@ void measure(const RunPlan& plan, const PlannedCase& planned, Progress::Output o
   Recorder recorder(record, plan.folder);
   planned.experiment->measure(planned.at, plan.options, recorder, progress);
   progress.end();
-  if (!records_times(*planned.experiment, planned.at)) check_untimed(record);
+  if (!planned.experiment->timed(planned.at)) check_untimed(record);
   for (RecordedFigure& figure : record.figures) describe(plan.folder, figure);
 }
 
@@ -237,6 +233,25 @@ void apply(const std::vector<std::string>& assignments, std::vector<PlannedCase>
   }
 }
 
+// Those that the patterns name and the profile measures.
+std::vector<const Experiment*> chosen_experiments(const RunPlan& plan) {
+  std::vector<std::string_view> ids;
+  for (const Experiment& experiment : experiments()) ids.push_back(experiment.id);
+  demand_matches(plan.patterns, ids, "experiment");
+  std::vector<const Experiment*> chosen;
+  const bool scale = plan.options.profile == Profile::kScale;
+  for (const Experiment& experiment : experiments()) {
+    if (experiment.profile_scale == scale && matches_any(plan.patterns, experiment.id))
+      chosen.push_back(&experiment);
+  }
+  if (chosen.empty()) {
+    throw usage_error(fmt::format("not measured in this profile: {}", fmt::join(plan.patterns, " ")),
+                      "--profile",
+                      scale ? "choose quick or paper" : "growth with size is measured with --profile scale");
+  }
+  return chosen;
+}
+
 // The planned cases, measured into one folder.
 class Session {
  public:
@@ -251,101 +266,48 @@ class Session {
   }
 
   ExitCode run() {
-    std::vector<std::size_t> beside, fresh, alone;
+    std::vector<std::size_t> untimed, own_process, alone;
     for (std::size_t i = 0; i < cases_.size(); ++i) {
       if (plan_.resume && is_settled(begin(i), store_, provenance_)) continue;
-      if (in_fresh_process(*cases_[i].experiment)) {
-        fresh.push_back(i);
+      const Experiment& experiment = *cases_[i].experiment;
+      if (experiment.kind == Experiment::kOwnProcess) {
+        own_process.push_back(i);
       } else {
-        (plan_.jobs > 1 && !times(i) ? beside : alone).push_back(i);
+        (plan_.jobs > 1 && !experiment.timed(cases_[i].at) ? untimed : alone).push_back(i);
       }
     }
-    measure_beside(beside);
-    measure_fresh(fresh);
-    measure_alone(alone);
+    const auto output = progress_output();
+    measure_in_processes(untimed, plan_.jobs, Progress::Output::kSilent);
+    for (const std::size_t i : own_process) measure_in_processes({i}, 1, output);
+    for (const std::size_t i : alone) measure_one(i, output);
     store_.sync();
-    const std::size_t skipped = cases_.size() - beside.size() - fresh.size() - alone.size();
+    const std::size_t skipped = cases_.size() - untimed.size() - own_process.size() - alone.size();
     if (skipped > 0)
       fmt::print(stderr, "{} of {} cases were already in the results folder\n", skipped, cases_.size());
-    const bool failed = list_absent();
-    check_differences();
-    return failed ? kCasesFailed : ExitCode::kGood;
+    return list_absent() ? kCasesFailed : ExitCode::kGood;
   }
 
  private:
-  struct Measured : Look {
-    std::size_t at;  // in cases_
-    double seconds;
-  };
-
-  void measure_beside(const std::vector<std::size_t>& cases) {
-    const auto share = static_cast<std::size_t>(std::max(1, provenance_.threads / plan_.jobs));
+  void measure_in_processes(const std::vector<std::size_t>& cases, int jobs, Progress::Output output) {
+    const auto share = static_cast<std::size_t>(std::max(1, provenance_.threads / jobs));
     run_in_processes(
-        plan_.jobs, cases.size(),
+        jobs, cases.size(),
         [&](std::size_t k) {
           const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, share);
-          measure_first(cases[k], Progress::Output::kSilent);
+          measure_one(cases[k], output);
         },
         [&](std::size_t k, const std::string& how) { note_death(cases[k], how); });
   }
 
-  void measure_fresh(const std::vector<std::size_t>& cases) {
-    const auto output = progress_output();
-    for (const std::size_t i : cases) {
-      loop_seconds();  // the case inherits the shortest loop seen so far, and can tell if it is disturbed
-      run_in_processes(
-          1, 1, [&](std::size_t) { measure_first(i, output); },
-          [&](std::size_t, const std::string& how) { note_death(i, how); });
-    }
-  }
-
-  void measure_alone(const std::vector<std::size_t>& cases) {
-    const auto output = progress_output();
-    std::vector<Measured> brief;
-    for (const std::size_t i : cases) {
-      Measured first = measure_first(i, output);
-      // A disturbed one takes up to twice as long, since disturbed samples are taken again.
-      const double most = (disturbed(first.loop) ? 2 : 1) * plan_.again;
-      const bool varies =
-          times(i) && std::ranges::any_of(first.record.metrics, timed);  // not one that failed
-      if (varies && first.seconds <= most) brief.push_back(std::move(first));
-    }
-    for (std::size_t k = 0; k < brief.size(); ++k) {
-      Measured second = look(brief[k].at, output);
-      const bool one_alone = disturbed(brief[k].loop) != disturbed(second.loop);
-      fmt::print(stderr, "[{}/{}] {}, again: {:.2f} s{}\n", k + 1, brief.size(), title(second.at),
-                 second.seconds, one_alone ? ", one of the two disturbed" : "");
-      keep_both(std::move(brief[k]), std::move(second));
-    }
-  }
-
-  // The record of the first look stands if the second differs in what is exact.
-  void keep_both(Measured first, Measured second) {
-    if (const std::string what = exact_difference(first.record, second.record); !what.empty()) {
-      differences_.push_back(fmt::format("{}: {}", title(first.at), what));
-    } else {
-      store_.append(with_second_look(std::move(first), std::move(second)));
-    }
-  }
-
-  // A bug of the program, not of the machine: every run could record something else.
-  void check_differences() const {
-    if (differences_.empty()) return;
-    throw Error(ExitCode::kClaimFallsShort,
-                fmt::format("measured twice, {} cases differ in more than their times: {}",
-                            differences_.size(), fmt::join(differences_, "; ")),
-                plan_.folder.string(), "report it as a bug; what was measured first is kept");
-  }
-
-  Measured measure_first(std::size_t i, Progress::Output output) {
-    Measured first = look(i, output);
-    keep(first.record, i);
-    const Record& record = first.record;
-    fmt::print(stderr, "[{}/{}] {}: {:.2f} s{}\n", i + 1, cases_.size(), title(i), first.seconds,
+  void measure_one(std::size_t i, Progress::Output output) {
+    const Stopwatch watch;
+    Record record = outcome_of(plan_, cases_[i], begin(i), output);
+    const double seconds = watch.seconds();
+    keep(record, i);
+    fmt::print(stderr, "[{}/{}] {}: {:.2f} s{}\n", i + 1, cases_.size(), title(i), seconds,
                record.outcome == CaseOutcome::kMeasured
                    ? ""
                    : fmt::format(", {}: {}", name(record.outcome), record.reason));
-    return first;
   }
 
   // As a failure if the record cannot be written as it is.
@@ -389,16 +351,7 @@ class Session {
            std::ranges::any_of(records, [](const Record* r) { return r->outcome == CaseOutcome::kFailed; });
   }
 
-  Measured look(std::size_t i, Progress::Output output) const {
-    const double before = times(i) ? loop_seconds() : 0;
-    const Stopwatch watch;
-    Record record = outcome_of(plan_, cases_[i], begin(i), output);
-    const double seconds = watch.seconds();
-    return {{std::move(record), times(i) ? std::min(before, loop_seconds()) : 0}, i, seconds};
-  }
-
   Record begin(std::size_t i) const { return begin_record(plan_, cases_[i], provenance_.id); }
-  bool times(std::size_t i) const { return records_times(*cases_[i].experiment, cases_[i].at); }
   std::string title(std::size_t i) const {
     return fmt::format("{} {}", cases_[i].experiment->id, cases_[i].at.name);
   }
@@ -407,20 +360,16 @@ class Session {
   std::vector<PlannedCase> cases_;
   Store store_;
   Provenance provenance_;
-  std::vector<std::string> differences_;  // between two looks
 };
 
 }  // namespace
 
 std::vector<PlannedCase> plan_cases(const RunPlan& plan) {
   check_terrains(plan.options.terrains);
-  std::vector<std::string_view> ids;
-  for (const Experiment& experiment : experiments()) ids.push_back(experiment.id);
-  demand_matches(plan.patterns, ids, "experiment");
+  const std::vector<const Experiment*> chosen = chosen_experiments(plan);
   std::vector<PlannedCase> cases;
-  for (const Experiment& experiment : experiments()) {
-    if (!matches_any(plan.patterns, experiment.id)) continue;
-    for (Case& at : experiment.cases(plan.options)) cases.push_back({&experiment, std::move(at)});
+  for (const Experiment* const experiment : chosen) {
+    for (Case& at : experiment->cases(plan.options)) cases.push_back({experiment, std::move(at)});
   }
   std::vector<ParameterSpec> specs;
   for (const PlannedCase& planned : cases) {
@@ -436,7 +385,7 @@ std::vector<PlannedCase> plan_cases(const RunPlan& plan) {
   }
   if (plan.part != Part::kAll) {
     std::erase_if(cases, [&](const PlannedCase& planned) {
-      return records_times(*planned.experiment, planned.at) != (plan.part == Part::kTimed);
+      return planned.experiment->timed(planned.at) != (plan.part == Part::kTimed);
     });
   }
   std::vector<PlannedCase> mine;

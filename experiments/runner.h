@@ -1,6 +1,5 @@
-// Runs cases of experiments and keeps each record as soon as it is measured: one case after another, or those
-// that record no times beside each other. Cases whose times depend on what was allocated before get a process
-// each (in_fresh_process() of timing.h).
+// Runs cases of experiments and keeps each record as soon as it is measured: one case after another, untimed
+// ones also beside each other, and those of Experiment::kOwnProcess in a process each.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +11,7 @@
 
 namespace terrabench {
 
-enum class Part { kAll, kTimed, kUntimed };  // which cases: see timing.h
+enum class Part { kAll, kTimed, kUntimed };  // which cases: see Experiment::timed()
 
 struct RunPlan {
   std::vector<std::string> patterns;  // experiment ids or globs (* and ?); empty: all
@@ -21,12 +20,9 @@ struct RunPlan {
   std::filesystem::path folder = "out";
   bool resume = false;  // skip cases that the folder already holds, unless they failed
   Part part = Part::kAll;
-  int shard = 1, shards = 1;  // measure only every shards-th case of the part, from the shard-th
-  int threads = 0;            // in use, for the provenance; 0: all
-  int jobs = 1;               // cases without times beside each other, with threads ÷ jobs threads each
-  // Cases with times that took at most so many seconds, except those of in_fresh_process(), are measured
-  // twice; 0: none.
-  double again = 1;
+  int shard = 1, shards = 1;         // measure only every shards-th case of the part, from the shard-th
+  int threads = 0;                   // in use, for the provenance; 0: all
+  int jobs = 1;                      // untimed cases beside each other, with threads ÷ jobs threads each
   std::vector<std::string> command;  // argv, for the provenance
 };
 
@@ -34,7 +30,7 @@ struct RunPlan {
 inline constexpr ExitCode kCasesFailed{5};
 
 // The cases a plan names, in the registry's order. Throws usage_error when a pattern matches nothing (with
-// the nearest id) or an assignment fits no parameter of any chosen experiment.
+// the nearest id), the profile measures none of the experiments, or an assignment fits no parameter of any.
 struct PlannedCase {
   const Experiment* experiment;
   Case at;
@@ -44,15 +40,11 @@ std::vector<PlannedCase> plan_cases(const RunPlan&);
 // Measures all planned cases and appends their records to folder/measurements.jsonl. A case that fails or
 // cannot be measured is recorded as such, with the reason, and does not end the run: kCasesFailed then says
 // that some failed, and a list at the end names them. Only what all cases would meet ends it
-// (MachineError): an interruption, a full disk, no OpenGL. In three parts: with jobs > 1 those without
-// times, beside each other in `jobs` processes, in the order in which they end; those of in_fresh_process(),
-// one after another in a process each; the others, one after another. The last two parts keep the registry's
-// order. At the end, measures short ones of the last part that recorded times a second time and adds these
-// samples to their times, or keeps those of one measurement alone if only the other was disturbed
-// (second_look.h). After an interruption, --resume does not catch up on second measurements. Throws
-// Error(kInterrupted) on Ctrl-C and keeps the records written so far. Throws Error(kClaimFallsShort) at the
-// end if exact figures of a case differ between its two measurements, or only one of them has a metric. Call
-// it before this process has threads (run_in_processes()).
+// (MachineError): an interruption, a full disk, no OpenGL. In three parts: with jobs > 1 the untimed ones,
+// beside each other in `jobs` processes, in the order in which they end; those of Experiment::kOwnProcess,
+// one after another; the others, one after another. The last two parts keep the registry's order. Throws
+// Error(kInterrupted) on Ctrl-C and keeps the records written so far. Call it before this process has threads
+// (run_in_processes()).
 ExitCode run(const RunPlan&);
 
 }  // namespace terrabench

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -67,6 +69,21 @@ struct LodTraits {
   bool near_surface = false;  // draws LodGround::near_surface
 };
 
+// Another value of one option, with which a method is compared as if it were a method of its own.
+struct LodVariant {
+  std::string_view name, label;  // added to the method's: geomipmap_morph, "geomipmap, morphing"
+  std::string_view option;       // "name=value"
+};
+
+// How costs grow in theory with the samples n of the ground, along one path at one error on the screen: upper
+// bounds, as exponents of n. Every method reads its ground once.
+struct LodGrowth {
+  double build = 1, memory = 1;
+  double update = 1;             // also of uploads and triangles; 0: as log n
+  bool windows = false;          // memory grows as n^memory · log n
+  std::string_view option = {};  // "name=value" for which this holds; empty: the defaults
+};
+
 struct LodType {
   std::string_view name, label, summary, paper;  // label: in figures
   LodTraits traits;
@@ -78,11 +95,26 @@ struct LodType {
   // Takes fields of any size from 2 × 2 samples. Throws usage_error for a smaller field or one with no-data
   // (see fill_no_data).
   std::unique_ptr<Lod> (*build)(const LodGround&, const Parameters&, Progress&);
+  std::span<const LodVariant> variants = {};
+  std::optional<LodGrowth> growth = {};  // where none is stated, growth is measured and not judged
+
+  bool tunable() const { return knob.finest != knob.coarsest; }
 };
 
 // The registry, one entry per method: registry.cpp.
 std::span<const LodType> lods();
 const LodType& lod(std::string_view name);  // throws unknown_name
+// Adds a method of another program, which then takes part in everything. To be called before anything else
+// is: references to entries do not stay valid. Throws usage_error for a name that is taken.
+void add_lod(const LodType&);
+
+// What comparisons compare: every method with its defaults, then every variant.
+struct Entrant {
+  std::string name;             // in case names
+  std::string method, options;  // options: such as "geomipmap.morph=true"; empty: the defaults
+  std::string label = {};       // in figures
+};
+std::vector<Entrant> entrants();
 
 // The value, clamped to the knob's range and rounded if it must be whole. Throws usage_error for NaN.
 double setting(const Knob&, double value);

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <vector>
 
 #include "lod/brute_force/brute_force.h"
@@ -10,9 +12,23 @@
 #include "terrain/error.h"
 
 namespace terrabench {
+namespace {
 
-std::span<const LodType> lods() {
-  static const LodType kTypes[] = {
+constexpr LodVariant kMorphing[] = {{"morph", "morphing", "morph=true"}};
+constexpr LodVariant kByArea[] = {{"area", "area threshold", "threshold=area"}};
+
+// A clipmap and the hybrid hold and read windows, of which there are log n.
+constexpr LodGrowth kWindows{.memory = 0, .update = 0, .windows = true};
+// At a given error on the screen, the density of triangles falls with the square of the distance.
+constexpr LodGrowth kByDistanceSquared{.update = 0};
+// By the rule printed in the MRBSP paper it falls with the distance.
+constexpr LodGrowth kByDistance{.update = 0.5};
+// Brute force and geomipmaps visit every block or patch in view. By default patches are larger on ground of
+// more than 1025² samples.
+constexpr LodGrowth kAllInView{}, kAllPatches{.option = "patch=16"};
+
+std::vector<LodType>& table() {
+  static std::vector<LodType> types = {
       {"brute_force",
        "brute force",
        "every triangle of the blocks in view",
@@ -21,7 +37,9 @@ std::span<const LodType> lods() {
        BruteForce::knob(),
        {},
        "",
-       BruteForce::build},
+       BruteForce::build,
+       {},
+       kAllInView},
       {"roam",
        "ROAM",
        "binary triangle trees split and merged by priority as the view moves",
@@ -30,7 +48,9 @@ std::span<const LodType> lods() {
        Roam::knob(),
        Roam::parameters(),
        "",
-       Roam::build},
+       Roam::build,
+       {},
+       kByDistanceSquared},
       {"geomipmap",
        "geomipmap",
        "patches at the coarsest level within the error bound, stitched to their neighbours",
@@ -39,7 +59,9 @@ std::span<const LodType> lods() {
        GeoMipMap::knob(),
        GeoMipMap::parameters(),
        "stitch=false",
-       GeoMipMap::build},
+       GeoMipMap::build,
+       kMorphing,
+       kAllPatches},
       {"clipmap",
        "clipmap",
        "nested windows of samples around the eye, each twice as coarse as the next inner one",
@@ -48,7 +70,9 @@ std::span<const LodType> lods() {
        Clipmap::knob(),
        Clipmap::parameters(),
        "stitch=false",
-       Clipmap::build},
+       Clipmap::build,
+       {},
+       kWindows},
       {"hybrid",
        "hybrid",
        "chunks of a near surface around the eye, in a clipmap with a hole of their outline",
@@ -57,7 +81,9 @@ std::span<const LodType> lods() {
        Hybrid::knob(),
        Hybrid::parameters(),
        "stitch=false",
-       Hybrid::build},
+       Hybrid::build,
+       {},
+       kWindows},
       {"mrbsp",
        "multiresolution BSP",
        "a tree of bisected triangles, drawn at a depth that decreases with distance, without hidden ones",
@@ -66,9 +92,37 @@ std::span<const LodType> lods() {
        Mrbsp::knob(),
        Mrbsp::parameters(),
        "holes=left",
-       Mrbsp::build},
+       Mrbsp::build,
+       kByArea,
+       kByDistance},
   };
-  return kTypes;
+  return types;
+}
+
+}  // namespace
+
+std::span<const LodType> lods() { return table(); }
+
+void add_lod(const LodType& type) {
+  for (const LodType& known : lods()) {
+    if (known.name == type.name)
+      throw usage_error("this name is taken", type.name, "choose another name for the method");
+  }
+  table().push_back(type);
+}
+
+std::vector<Entrant> entrants() {
+  std::vector<Entrant> all;
+  for (const LodType& type : lods())
+    all.push_back({std::string(type.name), std::string(type.name), "", std::string(type.label)});
+  for (const LodType& type : lods()) {
+    for (const LodVariant& variant : type.variants) {
+      all.push_back({fmt::format("{}_{}", type.name, variant.name), std::string(type.name),
+                     fmt::format("{}.{}", type.name, variant.option),
+                     fmt::format("{}, {}", type.label, variant.label)});
+    }
+  }
+  return all;
 }
 
 const LodType& lod(std::string_view name) {

@@ -10,7 +10,6 @@
 
 #include "renderers/frame_buffers.h"
 #include "renderers/gl.h"
-#include "renderers/shader_parts.h"
 #include "renderers/target.h"
 
 namespace terrabench {
@@ -29,22 +28,19 @@ glm::vec3 as_shares(const Rgb& color) { return glm::vec3(color[0], color[1], col
 // a frame first has some.
 class Programs {
  public:
-  explicit Programs(const char* fragment, const char* geometry = nullptr)
-      : fragment_(fragment), geometry_(geometry), heights_(link({"frame_heights.glsl", "frame.vert"})) {}
+  explicit Programs(std::string_view fragment, std::string_view geometry = "")
+      : fragment_(fragment), geometry_(geometry), heights_(link("frame.vert")) {}
 
   const Program& heights() const { return heights_; }
   const Program& meshes() {
-    if (!meshes_) meshes_.emplace(link({"frame_mesh.vert"}));
+    if (!meshes_) meshes_.emplace(link("frame_mesh.vert"));
     return *meshes_;
   }
 
  private:
-  Program link(ShaderParts vertex) const {
-    return geometry_ == nullptr ? link_parts(vertex, {fragment_})
-                                : link_parts(vertex, {fragment_}, {geometry_});
-  }
+  Program link(std::string_view vertex) const { return link_program(vertex, fragment_, geometry_); }
 
-  const char *fragment_, *geometry_;
+  std::string_view fragment_, geometry_;
   Program heights_;
   std::optional<Program> meshes_;
 };

@@ -121,6 +121,8 @@ const ShaderFile& shader_file(std::string_view name);
 // log.
 Program link_program(const ShaderFile& vertex, const ShaderFile& fragment,
                      const ShaderFile* geometry = nullptr);
+// By the files' names; "" for no geometry shader.
+Program link_program(std::string_view vertex, std::string_view fragment, std::string_view geometry = "");
 Program link_compute(const ShaderFile&);
 
 // The location of a uniform; -1, at which OpenGL ignores values, where the driver has removed the uniform

@@ -134,7 +134,7 @@ void draw_overlay(const Scene& scene, const View& view, const glm::mat4& world_t
   for (const SceneLine& line : scene.lines) triangles.add_line(line);
   if (triangles.vertices().empty()) return;
 
-  const Program program = link_program(shader_file("overlay.vert"), shader_file("overlay.frag"));
+  const Program program = link_program("overlay.vert", "overlay.frag");
   const VertexArray array;
   const Buffer buffer = make_buffer(triangles.vertices());
   glVertexArrayVertexBuffer(array.id(), 0, buffer.id(), 0, sizeof(Vertex));

@@ -155,6 +155,11 @@ Program link_program(const ShaderFile& vertex, const ShaderFile& fragment, const
   return link({&first, &between, &last}, fmt::format("{}, {}", names, geometry->name));
 }
 
+Program link_program(std::string_view vertex, std::string_view fragment, std::string_view geometry) {
+  return link_program(shader_file(vertex), shader_file(fragment),
+                      geometry.empty() ? nullptr : &shader_file(geometry));
+}
+
 Program link_compute(const ShaderFile& file) {
   const Shader only(GL_COMPUTE_SHADER, file);
   return link({&only}, file.name);

@@ -6,79 +6,91 @@
 #include "representations/layered_stack/layered_stack.h"
 #include "representations/procedural_mesh/procedural_mesh.h"
 #include "representations/representation.h"
-#include "representations/tin/tin.h"
 #include "representations/voxel/dense_grid.h"
 #include "representations/voxel/voxel.h"
 #include "terrain/error.h"
 
 namespace terrabench {
+namespace {
 
-std::span<const RepresentationType> representations() {
-  static const RepresentationType kTypes[] = {
+constexpr GrowthTheory kPerColumn{};
+// Of a solid: its voxels, and the levels of its columns, which are also the columns that a ray crosses.
+// Building samples every voxel; a column of stacks is as long as its runs, voxels are read level by level.
+constexpr double kVoxels = 1.5, kLevels = 0.5;
+constexpr GrowthTheory kStacks{.build = kVoxels, .ray = kLevels};
+constexpr GrowthTheory kLevelByLevel{.build = kVoxels, .query = kLevels, .mesh = kVoxels, .ray = kLevels};
+constexpr GrowthTheory kAllVoxels{
+    .build = kVoxels, .bytes = kVoxels, .query = kLevels, .mesh = kVoxels, .ray = kLevels};
+
+std::vector<RepresentationType>& table() {
+  static std::vector<RepresentationType> types = {
       {"heightmap",
        "heightmap",
        "one height per grid point, bilinear",
        "hybrid §2.1",
-       {.lossless = true},
+       {.lossless = true, .rays = true},
        column_parameters(),
        Heightmap::build,
-       Heightmap::load},
+       Heightmap::load,
+       kPerColumn},
       {"layered_stack",
        "layered stack",
        "a stack of material runs per column, in flat tiles",
        "hybrid §3.1.1",
-       {.overhangs = true, .materials = true, .editable = true},
+       {.overhangs = true, .materials = true, .editable = true, .erodes = true, .rays = true},
        column_parameters(),
        LayeredStack::build,
-       LayeredStack::load},
+       LayeredStack::load,
+       kPerColumn,
+       kStacks},
       {"voxel",
        "OpenVDB voxels",
        "sparse voxels: one OpenVDB mask tree per material",
        "peer of hybrid Table 1",
-       {.overhangs = true, .materials = true, .editable = true},
+       {.overhangs = true, .materials = true, .editable = true, .rays = true},
        column_parameters(),
        Voxel::build,
-       Voxel::load},
+       Voxel::load,
+       kPerColumn,
+       kLevelByLevel},
       {"dense_voxel",
        "dense voxels",
        "one byte per voxel",
        "hybrid Table 1",
-       {.overhangs = true, .materials = true, .editable = true},
+       {.overhangs = true, .materials = true, .editable = true, .rays = true},
        column_parameters(),
        DenseGrid::build,
-       DenseGrid::load},
+       DenseGrid::load,
+       kPerColumn,
+       kAllVoxels},
       {"implicit",
        "implicit surface",
        "stacks smoothed by a kernel, as the zero set of a field",
        "hybrid §3.1.2",
-       {.overhangs = true, .editable = true},
+       {.overhangs = true, .editable = true, .erodes = true, .rays = true},
        ImplicitSurface::parameters(),
        ImplicitSurface::build,
-       ImplicitSurface::load},
+       ImplicitSurface::load,
+       kPerColumn,
+       kLevelByLevel},
       {"drill",
        "drills",
        "channels drilled into a plateau",
        "drill §2",
-       {},
+       {.rays = true},
        DrillTerrain::parameters(),
        DrillTerrain::build,
-       DrillTerrain::load},
+       DrillTerrain::load,
+       kPerColumn},
       {"ght",
        "grounded heightmap tree",
        "a tree of heightmaps, each on its own plane",
        "ght §3",
-       {.overhangs = true, .lossless = true, .events = true},
+       {.overhangs = true, .lossless = true, .events = true, .rays = true},
        Ght::parameters(),
        Ght::build,
-       Ght::load},
-      {"tin",
-       "TIN",
-       "triangles between the samples that greedy insertion picks",
-       "Garland & Heckbert 1995",
-       {},
-       Tin::parameters(),
-       Tin::build,
-       Tin::load},
+       Ght::load,
+       kPerColumn},
       {"procedural_mesh",
        "subdivision surface",
        "a subdivision surface displaced by heights, or a model that grows by rules",
@@ -86,9 +98,22 @@ std::span<const RepresentationType> representations() {
        {.overhangs = true, .lossless = true},
        ProceduralMesh::parameters(),
        ProceduralMesh::build,
-       ProceduralMesh::load},
+       ProceduralMesh::load,
+       kPerColumn},
   };
-  return kTypes;
+  return types;
+}
+
+}  // namespace
+
+std::span<const RepresentationType> representations() { return table(); }
+
+void add_representation(const RepresentationType& type) {
+  for (const RepresentationType& known : representations()) {
+    if (known.name == type.name)
+      throw usage_error("this name is taken", type.name, "choose another name for the representation");
+  }
+  table().push_back(type);
 }
 
 const RepresentationType& representation(std::string_view name) {

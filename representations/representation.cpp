@@ -5,6 +5,7 @@
 
 #include "representations/column_grid.h"
 #include "representations/edit_tools.h"
+#include "representations/layered_stack/thermal_erosion.h"
 #include "representations/line_grid.h"
 #include "representations/procedural_mesh/face_mesh.h"
 #include "representations/ray_cast.h"
@@ -55,6 +56,11 @@ void Representation::apply(const events::Event& event) {
         "a grounded heightmap tree takes all events; what can be edited takes a radial erosion");
   }
   erode(*this, *erosion);
+}
+
+ThermalErosion Representation::erode_to(double, Progress&) {
+  throw usage_error("this representation cannot be eroded", "erosion",
+                    "choose one with the trait erodes: see `terrabench list representations --json`");
 }
 
 LineGrid Representation::lines() const {

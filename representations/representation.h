@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,10 +23,11 @@
 
 namespace terrabench {
 
-struct ColumnGrid;  // column_grid.h
-struct FaceMesh;    // procedural_mesh/face_mesh.h
-struct LineGrid;    // line_grid.h
-class RayCaster;    // ray_cast.h
+struct ColumnGrid;      // column_grid.h
+struct FaceMesh;        // procedural_mesh/face_mesh.h
+struct LineGrid;        // line_grid.h
+class RayCaster;        // ray_cast.h
+struct ThermalErosion;  // layered_stack/thermal_erosion.h
 
 // A solid stretch of a vertical line: bottom < top, metres.
 struct Span {
@@ -90,6 +92,9 @@ class Representation {
   // alone, and by edit(); a type that takes all events has the trait `events`. Throws usage_error, before any
   // change, for an event that it does not take or that does not suit its ground.
   virtual void apply(const events::Event&);
+  // Lets material slide until no open slope is steeper than the talus angle (degrees, 0 ≤ talus < 90). For
+  // types with the trait `erodes`; others throw usage_error.
+  virtual ThermalErosion erode_to(double talus, Progress&);
 
   // The lattice of columns that the structure consists of; null if it has none.
   virtual const ColumnGrid* column_grid() const { return nullptr; }
@@ -122,6 +127,15 @@ struct Traits {
   bool lossless = false;  // returns the samples that it was built from, to the bit
   bool editable = false;
   bool events = false;  // takes all events of a grounded heightmap tree
+  bool erodes = false;  // erode_to()
+  bool rays = false;    // casts rays on ground with area without a mesh: ray_caster()
+};
+
+// How costs grow in theory: upper bounds, as exponents of the number of columns n. The default is a flat
+// array of columns over heights: what it builds, holds, writes, reads and draws is proportional to the
+// columns; a query, a ray or an edit within a fixed number of columns takes the same time at any size.
+struct GrowthTheory {
+  double build = 1, bytes = 1, query = 0, mesh = 1, ray = 0, edit = 0;
 };
 
 struct RepresentationType {
@@ -131,10 +145,16 @@ struct RepresentationType {
   // Keeps no reference to the source. Throws usage_error for a source that the type cannot represent.
   std::unique_ptr<Representation> (*build)(const TerrainSource&, const Parameters&, Progress&);
   std::unique_ptr<Representation> (*load)(ByteSource&);
+  // Over height maps, and over a solid at growing resolution: n^1.5 voxels, surfaces of area n. Where none is
+  // stated, growth is measured and not judged.
+  std::optional<GrowthTheory> growth = {}, growth_in_solids = {};
 };
 
 // The table, one entry per method: registry.cpp.
 std::span<const RepresentationType> representations();
+// Adds a method of another program, which then takes part in everything. To be called before anything else
+// is: references to entries do not stay valid. Throws usage_error for a name that is taken.
+void add_representation(const RepresentationType&);
 const RepresentationType& representation(std::string_view name);  // throws unknown_name
 
 // Files: a header that names the type, then the structure's bytes, zstd-compressed and checksummed alike for

@@ -8,8 +8,10 @@
 #include <cctype>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 
 #include "terrain/files.h"
+#include "terrain/machine_error.h"
 #include "terrain/number.h"
 
 namespace terrabench {
@@ -54,6 +56,15 @@ fs::path temporary_name(const fs::path& target) {
     if (is_abandoned(at->path().filename().string(), start)) fs::remove_all(at->path(), ignored);
   }
   return target.string() + fmt::format(".{}.{}{}", kMachine, getpid(), kEnding);
+}
+
+std::filesystem::path temporary_files() {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  if (!error) return folder;
+  const char* const named = std::getenv("TMPDIR");
+  throw MachineError(fmt::format("no folder for temporary files: {}", error.message()),
+                     named == nullptr ? "/tmp" : named, "set TMPDIR to a folder that exists");
 }
 
 }  // namespace terrabench

@@ -7,34 +7,13 @@
 #include <optional>
 
 #include "terrain/error.h"
+#include "terrain/printable.h"
 #include "terrain/spelling.h"
 
 namespace terrabench {
 namespace {
 
 bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
-
-struct Character {
-  char32_t code;
-  std::size_t bytes;
-};
-
-// The first character of `text`, which is not empty; nothing where it is not UTF-8 (RFC 3629).
-std::optional<Character> decode(std::string_view text) {
-  const auto lead = static_cast<unsigned char>(text[0]);
-  if (lead < 0x80) return Character{lead, 1};
-  const std::size_t bytes = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC0 || lead > 0xF4 || text.size() < bytes) return std::nullopt;
-  char32_t code = lead & (0x7FU >> bytes);
-  for (std::size_t i = 1; i < bytes; ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    if ((byte & 0xC0U) != 0x80) return std::nullopt;
-    code = code << 6U | (byte & 0x3FU);
-  }
-  constexpr char32_t kLowest[] = {0, 0, 0x80, 0x800, 0x10000};
-  if (code < kLowest[bytes] || code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF)) return std::nullopt;
-  return Character{code, bytes};
-}
 
 // Rewrites a TOML text in ASCII: characters beyond it become escapes in strings (a literal string becomes a
 // basic one) and go from comments; elsewhere they are refused. Lines stay where they are. toml++ thus never

@@ -14,6 +14,10 @@
 #include "results/compare/compare_pictures.h"
 #include "terrain/error.h"
 
+namespace CLI {
+class App;
+}
+
 namespace terrabench {
 
 struct ListArguments {
@@ -116,5 +120,13 @@ void print_export(const std::filesystem::path&, const RepresentationType&, const
 
 // Describes a DEM, a saved structure or a results folder, which it distinguishes by content.
 ExitCode info_command(const std::filesystem::path&);
+
+// Add the command with its options, which set the arguments; these must outlive the parser.
+void add_represent(CLI::App&, RepresentArguments&, int& threads);
+void add_export(CLI::App&, ExportArguments&);
+void add_info(CLI::App&, std::filesystem::path& file);
+void add_render(CLI::App&, RenderArguments&, int& threads);
+// `raytrace`: whether the command also takes the renderer that traces rays.
+void add_renderer(CLI::App& command, std::string& renderer, bool raytrace = false);
 
 }  // namespace terrabench

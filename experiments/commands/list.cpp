@@ -44,6 +44,9 @@ Json list_representations() {
                     {"materials", type.traits.materials},
                     {"lossless", type.traits.lossless},
                     {"editable", type.traits.editable},
+                    {"events", type.traits.events},
+                    {"erodes", type.traits.erodes},
+                    {"rays", type.traits.rays},
                     {"parameters", parameters_json(type.parameters)}});
   }
   return list;
@@ -52,11 +55,17 @@ Json list_representations() {
 Json list_lods() {
   Json list = Json::array();
   for (const LodType& type : lods()) {
+    Json variants = Json::array();
+    for (const LodVariant& variant : type.variants)
+      variants.push_back(
+          {{"name", fmt::format("{}_{}", type.name, variant.name)}, {"option", variant.option}});
     list.push_back({{"name", type.name},
                     {"summary", type.summary},
                     {"paper", type.paper},
                     {"conforming", type.traits.conforming},
                     {"bounds_error", type.traits.bounds_error},
+                    {"near_surface", type.traits.near_surface},
+                    {"variants", std::move(variants)},
                     {"knob",
                      {{"name", type.knob.name},
                       {"unit", type.knob.unit},

@@ -14,7 +14,6 @@
 #include "renderers/relief.h"
 #include "representations/edit_tools.h"
 #include "representations/export/export.h"
-#include "representations/implicit/implicit_surface.h"
 #include "representations/layered_stack/thermal_erosion.h"
 #include "representations/procedural_mesh/model_terrain.h"
 #include "representations/representation.h"
@@ -186,9 +185,13 @@ std::vector<Sphere> check_edits(const RepresentArguments& a, const Representatio
     throw usage_error(fmt::format("'{}' cannot be edited", type.name), a.strokes[0].dig ? "--dig" : "--add",
                       "`terrabench list representations` names those that can");
   }
-  if (a.erode && type.name != "layered_stack" && type.name != "implicit") {
+  if (a.erode && !type.traits.erodes) {
+    std::vector<std::string_view> able;
+    for (const RepresentationType& one : representations()) {
+      if (one.traits.erodes) able.push_back(one.name);
+    }
     throw usage_error(fmt::format("'{}' cannot be eroded", type.name), "--erode",
-                      "choose --as layered_stack or implicit");
+                      fmt::format("choose --as {}", fmt::join(able, " or ")));
   }
   if (a.erode && !(*a.erode >= 0 && *a.erode < 90)) {
     throw usage_error(fmt::format("a talus angle of {} degrees", *a.erode), "--erode",
@@ -206,9 +209,7 @@ void edit(const RepresentArguments& a, std::span<const Sphere> spheres, Represen
                columns == 0 ? "; the sphere lies between all columns: make it larger" : "");
   }
   if (!a.erode) return;
-  const auto* const surface = dynamic_cast<const ImplicitSurface*>(&built);
-  const LayeredStack& stack = surface ? surface->stack() : dynamic_cast<const LayeredStack&>(built);
-  const ThermalErosion erosion = erode_thermally(stack, built, {.talus = *a.erode}, progress);
+  const ThermalErosion erosion = built.erode_to(*a.erode, progress);
   progress.end();
   fmt::print("eroded      to {} degrees in {} steps, {} columns changed{}\n", *a.erode, erosion.steps,
              erosion.columns, erosion.settled ? "" : "; material would still move");

@@ -22,6 +22,59 @@ constexpr double kSide = 420, kTop = 44, kLeft = 24;
 constexpr Rgb kInk{0, 0, 0}, kGrid{225, 225, 225}, kMonotone{224, 0, 110}, kPrinted{0, 120, 60},
     kVertex{0, 70, 200};
 
+// What the right half shows: at distances 1 to kW, the cross-sections of a pixel, their union and its fits.
+struct Profiles {
+  float floor = 0;  // the pixel's elevation, where all curves begin
+  std::vector<float> rays = std::vector<float>(static_cast<std::size_t>(CrossSections::kRays) * kW);
+  std::vector<float> joined = std::vector<float>(kW);
+  std::array<FittedProfile, kFits.size()> fits;
+
+  Profiles(const Heightfield& ground, std::uint32_t pixel) : floor(ground.heights[pixel]) {
+    const CrossSections sections(ground, kW);
+    sections.rays(pixel, rays);
+    sections.join(pixel, joined);
+    for (std::size_t f = 0; f < fits.size(); ++f) fits[f] = fit_profile(joined, floor, kFits[f].fit);
+  }
+  float ray(int m, int r) const { return r == 0 ? floor : rays[static_cast<std::size_t>(m) * kW + r - 1]; }
+  float united(int r) const { return r == 0 ? floor : joined[static_cast<std::size_t>(r) - 1]; }
+  double fitted(std::size_t fit, int r) const {
+    return floor + fits[fit].slope * r + fits[fit].curvature * r * r;
+  }
+};
+
+// Records what only a union of cross-sections through the pixel, and least squares, fulfil.
+void record_profiles(const Profiles& shown, const Heightfield& ground, std::uint32_t pixel,
+                     Recorder& recorder) {
+  constexpr float kRounding = 1e-3F;  // metres: weights of bilinear samples are rounded
+  const int i = static_cast<int>(pixel) % ground.width, j = static_cast<int>(pixel) / ground.width;
+  int above = 0, met = 0, off_ground = 0;
+  for (int r = 1; r <= kW; ++r) {
+    bool on_a_section = false;
+    for (int m = 0; m < CrossSections::kRays; ++m) {
+      above += shown.ray(m, r) > shown.united(r);
+      on_a_section = on_a_section || shown.ray(m, r) == shown.united(r);
+    }
+    met += on_a_section;
+    // Four of the rays run along rows and columns of samples; no ray sees further than one sample past r.
+    const float on_axes =
+        std::max({ground.at(i - r, j), ground.at(i + r, j), ground.at(i, j - r), ground.at(i, j + r)});
+    const HeightRange near = height_range(crop(ground, i - r - 1, j - r - 1, 2 * r + 3, 2 * r + 3));
+    off_ground += on_axes > shown.united(r) + kRounding || shown.united(r) > near.highest + kRounding;
+  }
+  recorder.add("drawn_sections_above_union", "", above);
+  recorder.add("drawn_union_on_sections", "", met);
+  recorder.add("drawn_union_off_ground", "", off_ground);
+  const auto record_error = [&](std::string_view of, const auto& level) {
+    double squares = 0;
+    for (int r = 1; r <= kW; ++r) squares += std::pow(level(r) - shown.united(r), 2);
+    recorder.add(fmt::format("drawn_rms_{}", of), "m", std::sqrt(squares / kW));
+  };
+  for (std::size_t f = 0; f < kFits.size(); ++f) {
+    record_error(kFits[f].name, [&](int r) { return shown.fitted(f, r); });
+  }
+  record_error("level", [&](int) { return shown.floor; });
+}
+
 // The left half: the block of ground, cut by planes.
 void draw_planes(figures::Sheet& sheet, const Heightfield& ground, std::uint32_t pixel) {
   constexpr double kHigh = 392;
@@ -121,11 +174,7 @@ std::uint32_t example_pixel(const Study& study) {
 
 figures::Sheet cross_sections_sheet(const Study& study, std::uint32_t pixel) {
   const Heightfield& ground = study.ground;
-  const CrossSections sections(ground, kW);
-  std::vector<float> rays(static_cast<std::size_t>(CrossSections::kRays) * kW), joined(kW);
-  sections.rays(pixel, rays);
-  sections.join(pixel, joined);
-
+  const Profiles shown(ground, pixel);
   figures::Sheet sheet(984, 540);
   sheet.keep_all_colours();
   sheet.text(kLeft, kTop - 12,
@@ -134,37 +183,33 @@ figures::Sheet cross_sections_sheet(const Study& study, std::uint32_t pixel) {
   static_assert(CrossSections::kRays == 10 * CuttingPlanes::kPlanes);
   draw_planes(sheet, ground, pixel);
 
-  const float floor = ground.heights[pixel];
-  float low = floor, high = floor;
-  for (const float h : rays) {
+  float low = shown.floor, high = shown.floor;
+  for (const float h : shown.rays) {
     if (!CrossSections::is_sample(h)) continue;
     low = std::min(low, h);
     high = std::max(high, h);
   }
   ProfileChart chart(sheet, low, high);
   for (int m = 0; m < CrossSections::kRays; ++m) {
-    const float* const ray = rays.data() + static_cast<std::ptrdiff_t>(m) * kW;
     const double turn = static_cast<double>(m) / CrossSections::kRays;
-    chart.curve([&](int r) { return r == 0 ? floor : ray[r - 1]; },
+    chart.curve([&](int r) { return shown.ray(m, r); },
                 {.colour = figures::direction_colour(turn), .thickness = 0.8, .opacity = 0.85});
   }
-  const auto fitted = [&](DrillFit to) {
-    const FittedProfile fit = fit_profile(joined, floor, to);
-    return [=](int r) { return floor + fit.slope * r + fit.curvature * r * r; };
-  };
   const figures::Stroke single{.colour = figures::direction_colour(0), .thickness = 1.2},
-      joint{.colour = kInk, .thickness = 4}, dashed{.colour = kMonotone, .thickness = 2.5, .dashes = "9,5"},
-      dotted{.colour = kPrinted, .thickness = 2.5, .dashes = "2,4"},
-      mixed{.colour = kVertex, .thickness = 2.5, .dashes = "9,4,2,4"};
-  chart.curve([&](int r) { return r == 0 ? floor : joined[static_cast<std::size_t>(r) - 1]; }, joint);
-  chart.curve(fitted(DrillFit::kPrinted), dotted);
-  chart.curve(fitted(DrillFit::kMonotone), dashed);
-  chart.curve(fitted(DrillFit::kVertex), mixed);
+      joint{.colour = kInk, .thickness = 4};
+  const std::array<figures::Stroke, kFits.size()> strokes{
+      {{.colour = kPrinted, .thickness = 2.5, .dashes = "2,4"},
+       {.colour = kMonotone, .thickness = 2.5, .dashes = "9,5"},
+       {.colour = kVertex, .thickness = 2.5, .dashes = "9,4,2,4"}}};
+  chart.curve([&](int r) { return shown.united(r); }, joint);
+  for (std::size_t f = 0; f < strokes.size(); ++f) {
+    chart.curve([&](int r) { return shown.fitted(f, r); }, strokes[f]);
+  }
   chart.key(-36, "a cross-section", single);
-  chart.key(104, "their union", joint);
-  chart.key(214, "fit as printed", dotted);
-  chart.key(344, "monotone", dashed);
-  chart.key(214, "vertex at the pixel", mixed, 1);
+  chart.key(124, "their union", joint);
+  chart.key(-36, "fit as printed", strokes[0], 1);
+  chart.key(124, "monotone fit", strokes[1], 1);
+  chart.key(276, "vertex at the pixel", strokes[2], 1);
   return sheet;
 }
 
@@ -172,14 +217,14 @@ void draw_cross_sections(const Study& study, Recorder& recorder) {
   if (std::min(study.ground.width, study.ground.depth) <= 2 * kAround) return;
   const std::uint32_t pixel = example_pixel(study);
   if (pixel == 0) return;  // no channel runs far enough from the border
+  record_profiles(Profiles(study.ground, pixel), study.ground, pixel, recorder);
   cross_sections_sheet(study, pixel)
       .write(recorder.figure(
           "drill.F2" + study.suffix, "png",
-          fmt::format(
-              "The paper's figure 2: planes of the {} cross-sections at one channel pixel of {} (a), every "
-              "tenth drawn, and the elevations along all of them (b), coloured by direction, with "
-              "their union and the three fits to it.",
-              CrossSections::kRays, study.name)));
+          fmt::format("The paper's figure 2, at one channel pixel of {}: (a) every tenth plane of the {} "
+                      "cross-sections, (b) the elevations along all of them, coloured by direction, "
+                      "with their union and the three fits to it.",
+                      study.name, CrossSections::kRays)));
 }
 
 }  // namespace terrabench::drill

@@ -74,7 +74,6 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   record_error(outcomes, kAhd.prefix, kAhd.of, recorder);
   using enum ChannelAverage;
   using enum ChannelSpace;
-  record_error(outcomes, "ahd_largest_plane_", reading(kLargest, kPlane), recorder);
   record_error(outcomes, "ahd_mean_space_samples_", reading(kMean, kSpaceSamples), recorder);
   std::size_t complete = 0;
   for (const Reading& each : kReadings) complete += gives_all(outcomes, reading(each.average, each.space));

@@ -10,7 +10,8 @@
 namespace terrabench::drill {
 namespace {
 
-constexpr double kCellWidth = 70, kCellHeight = 36, kLeft = 62, kTop = 64, kBelow = 62, kGap = 20;
+constexpr double kCellWidth = 70, kCellHeight = 36, kLeft = 62, kTop = 64, kBelow = 62, kGap = 20,
+                 kRight = 8;  // for the last label of a scale
 constexpr double kMatrixWidth = kCellWidth * kInfluences.size(), kMatrixHeight = kCellHeight * kTaus.size();
 
 // How errors are printed: multiplied by `times`, with `digits` after the point.
@@ -73,7 +74,7 @@ void add_column(figures::Sheet& sheet, int column, std::string_view title,
 }  // namespace
 
 figures::Sheet error_matrices_sheet(const std::vector<Outcome>& outcomes) {
-  figures::Sheet sheet(2 * (kLeft + kMatrixWidth + kGap),
+  figures::Sheet sheet(2 * (kLeft + kMatrixWidth + kGap) + kRight,
                        kTop + kWidths.size() * (kMatrixHeight + kBelow) + 34);
   add_column(sheet, 0, "RMSE ÷ range of elevations", outcomes, [](const Outcome& o) { return o.rmse; },
              {1, 4});
@@ -83,13 +84,17 @@ figures::Sheet error_matrices_sheet(const std::vector<Outcome>& outcomes) {
 }
 
 void draw_error_matrices(const Study& study, const std::vector<Outcome>& outcomes, Recorder& recorder) {
+  // A cell of each matrix on the right, which prints it multiplied.
+  for (const Outcome& o : outcomes) {
+    if (o.setting.tau != kTaus.front() || o.setting.k != 20) continue;
+    add_share(recorder, fmt::format("drawn_ahd_w_{}", o.setting.w), o.ahd[0]);
+  }
   error_matrices_sheet(outcomes).write(recorder.figure(
       "drill.F4" + study.suffix, "png",
-      fmt::format(
-          "The paper's figure 4: normalised errors of the 54 parameter sets on {}, {}; RMSE left and "
-          "AHD, the mean in plan, right, one matrix per width w. Colours are linear, from the least of "
-          "each metric (blue) to the largest (red).",
-          study.name, study.variant.words)));
+      fmt::format("The paper's figure 4: normalised errors of the 54 parameter sets on {}, {}. "
+                  "Left the RMSE, right the AHD (the mean in plan), with one matrix per width w. "
+                  "Colours are linear, from the least of each metric (blue) to the largest (red).",
+                  study.name, study.variant.words)));
 }
 
 }  // namespace terrabench::drill

@@ -63,6 +63,10 @@ std::vector<Case> fit_cases(const RunOptions&);
 // `ground`, or with "/monotone" or the like behind it for another than the first variant.
 std::string with_variant(std::string_view ground, const Variant&);
 
+// Numbers stored for a drill. §4.1 counts four, as many as shapes with their vertex at the pixel have: x, y,
+// elevation and curvature. The other shapes have a slope too.
+inline std::size_t values_per_drill(DrillFit fit) { return fit == DrillFit::kVertex ? 4 : 5; }
+
 // Records a metric without unit if it is finite: errors of a flat ground have no range to divide by, and of
 // two networks one may be empty.
 void add_share(Recorder&, std::string_view metric, double value);

@@ -1,6 +1,7 @@
 // The drill paper's figures in its layout, and maps of the error of regeneration.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,12 @@ struct Study {
 };
 
 // Figure 1: four panels with every channel pixel at a threshold each.
-figures::Sheet channels_sheet(const Study&);
+struct ChannelsSheet {
+  figures::Sheet sheet;
+  std::vector<Image> maps;  // the panels' pictures
+};
+inline constexpr std::array<std::uint32_t, 4> kDrawnTaus{25, 50, 100, 200};
+ChannelsSheet channels_sheet(const Study&);
 // Figure 2: the planes and cross-sections of one channel pixel, in a clear valley, their union and the fits.
 // The ground is more than 2 · 24 samples wide and deep.
 std::uint32_t example_pixel(const Study&);
@@ -27,6 +33,7 @@ figures::Sheet cross_sections_sheet(const Study&, std::uint32_t pixel);
 // Figure 3, and the difference of its terrains from the ground.
 struct BestSheets {
   figures::Sheet terrains, differences;
+  std::array<Outcome, 2> drawn;  // of the two terrains, compared with the ground again
 };
 BestSheets best_sheets(const Study&, const Outcome& least_rmse, const Outcome& least_ahd);
 // Figure 4.

@@ -72,7 +72,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kGrowth{"drill.growth", "§3.1: time against the size of the ground", kSpecs, cases,
-                                measure};
+extern const Experiment kGrowth{
+    "drill.growth", "§3.1: time against the size of the ground", kSpecs, cases, measure, Experiment::kTimed};
 
 }  // namespace terrabench::drill

@@ -17,10 +17,6 @@ namespace {
 
 constexpr std::uint32_t kChannelTau = 100;  // channels that are compared: the paper's second threshold
 
-// §4.1 counts four, as many as shapes with their vertex at the pixel have: x, y, elevation and curvature. The
-// other shapes have a slope too.
-std::size_t values_per_drill(DrillFit fit) { return fit == DrillFit::kVertex ? 4 : 5; }
-
 // The share of pixels of `some` with one of `others` among their nine nearest.
 double share_near(const std::vector<std::uint32_t>& some, const std::vector<std::uint32_t>& others, int width,
                   int depth) {

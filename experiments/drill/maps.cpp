@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/drill/drawn_channels.h"
 #include "experiments/drill/figures.h"
 #include "representations/drill/extract.h"
 #include "representations/drill/regenerate.h"
@@ -50,21 +51,21 @@ auto colour_between(const HeightRange& range) {
   };
 }
 
-// Colours every image pixel that overlaps a channel pixel; either grid may be the finer one.
+// Colours the image pixels at the middle of a channel pixel, and those whose middle lies in one: none is lost
+// whichever grid is the finer one, and none is widened.
 void draw_channel_pixels(const std::vector<std::uint32_t>& channels, const Heightfield& ground,
                          Image& image) {
   std::vector<bool> is_channel(ground.heights.size());
   for (const std::uint32_t pixel : channels) {
     is_channel[pixel] = true;
-    const std::size_t i = pixel % ground.width, j = pixel / ground.width;
-    image.set(static_cast<int>(i * image.width / ground.width),
-              static_cast<int>(j * image.height / ground.depth), figures::kChannel);
+    const int i = static_cast<int>(pixel) % ground.width, j = static_cast<int>(pixel) / ground.width;
+    image.set(at_middle(i, ground.width, image.width), at_middle(j, ground.depth, image.height),
+              figures::kChannel);
   }
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(x) * ground.width / image.width,
-                        j = static_cast<std::size_t>(y) * ground.depth / image.height;
-      if (is_channel[j * ground.width + i]) image.set(x, y, figures::kChannel);
+      const int i = at_middle(x, image.width, ground.width), j = at_middle(y, image.height, ground.depth);
+      if (is_channel[static_cast<std::size_t>(j) * ground.width + i]) image.set(x, y, figures::kChannel);
     }
   }
 }
@@ -112,14 +113,15 @@ Heightfield difference(const Heightfield& ground, const Heightfield& other) {
 
 }  // namespace
 
-figures::Sheet channels_sheet(const Study& study) {
+ChannelsSheet channels_sheet(const Study& study) {
   const Layout layout(study.ground, 2);
   const HeightRange range = height_range(study.ground);
   const Heightfield fitted = layout.fitted(study.ground);
   const Image relief = figures::shaded_map(fitted, figures::Light(fitted), colour_between(range));
-  figures::Sheet sheet = layout.sheet();
+  ChannelsSheet drawn{layout.sheet(), {}};
+  figures::Sheet& sheet = drawn.sheet;
   int panel = 0;
-  for (const std::uint32_t tau : {25U, 50U, 100U, 200U}) {
+  for (const std::uint32_t tau : kDrawnTaus) {
     const auto channels = channel_pixels(study.network, tau);
     Image image = relief;
     draw_channel_pixels(channels, study.ground, image);
@@ -128,20 +130,30 @@ figures::Sheet channels_sheet(const Study& study) {
     layout.place(sheet, panel++,
                  fmt::format("τ = {}: {} channel pixels, {:.1f} %", tau, format_number(count), 100 * share),
                  image);
+    drawn.maps.push_back(std::move(image));
   }
   const double next = add_swatch(sheet, kGap, layout.legend(), figures::kChannel, "channel");
   add_elevations(sheet, next, layout.legend(), range);
   add_scale(sheet, layout, study.ground);
-  return sheet;
+  return drawn;
 }
 
 void draw_channels(const Study& study, Recorder& recorder) {
-  channels_sheet(study).write(
-      recorder.figure("drill.F1" + study.suffix, "png",
-                      fmt::format("The paper's figure 1: channel networks at four thresholds τ over the "
-                                  "shaded relief of {}, {} × {} samples. Each channel pixel is drawn. "
-                                  "Elevations run from blue, the lowest, over green and brown to white.",
-                                  study.name, study.ground.width, study.ground.depth)));
+  const ChannelsSheet drawn = channels_sheet(study);
+  const DrawnChannels seen = read_channels(drawn.maps, study.ground);
+  for (std::size_t map = 0; map < kDrawnTaus.size(); ++map) {
+    recorder.add(fmt::format("drawn_channel_pixels_tau_{}", kDrawnTaus[map]), "", seen.pixels[map]);
+  }
+  recorder.add("drawn_channel_pixels_outside_denser", "", seen.outside_denser);
+  recorder.add("drawn_inland_networks", "", seen.inland);
+  recorder.add("drawn_channels_low_share", "", seen.low_share);
+  recorder.add("ground_low_share", "", seen.low_share_of_ground);
+  drawn.sheet.write(recorder.figure(
+      "drill.F1" + study.suffix, "png",
+      fmt::format("The paper's figure 1: channel networks at four thresholds τ over the shaded relief of {}, "
+                  "{} × {} samples. Each channel pixel is drawn. "
+                  "Elevations run from blue, the lowest, over green and brown to white.",
+                  study.name, study.ground.width, study.ground.depth)));
 }
 
 BestSheets best_sheets(const Study& study, const Outcome& least_rmse, const Outcome& least_ahd) {
@@ -150,13 +162,15 @@ BestSheets best_sheets(const Study& study, const Outcome& least_rmse, const Outc
   const Heightfield ground = layout.fitted(study.ground);
   const figures::Light light(ground);
   const double most = 4 * std::max(least_rmse.rmse_metres, 1e-3);
-  BestSheets sheets{layout.sheet(), layout.sheet()};
+  BestSheets sheets{layout.sheet(), layout.sheet(), {}};
   figures::Sheet &sheet = sheets.terrains, &maps = sheets.differences;
   for (int panel = 0; panel < 2; ++panel) {
     const Outcome& outcome = panel == 0 ? least_rmse : least_ahd;
     const Drills drills =
         extract_drills(study.ground, study.network, options_for(outcome.setting, study.variant));
     const Heightfield regenerated = regenerate(drills), fitted = layout.fitted(regenerated);
+    sheets.drawn[static_cast<std::size_t>(panel)] =
+        compare(study.ground, study.network, drills, regenerated, outcome.setting, study.variant);
     const auto elevations = colour_between(range);
     const std::string title = title_of(panel == 0 ? "RMSE" : "AHD", outcome);
     layout.place(sheet, panel, fmt::format("{}; {:.1f} % untouched", title, 100 * outcome.untouched),
@@ -181,16 +195,22 @@ BestSheets best_sheets(const Study& study, const Outcome& least_rmse, const Outc
 
 void draw_best(const Study& study, const Outcome& least_rmse, const Outcome& least_ahd, Recorder& recorder) {
   const BestSheets sheets = best_sheets(study, least_rmse, least_ahd);
+  for (const auto& [panel, outcome] : {std::pair{"a", sheets.drawn[0]}, {"b", sheets.drawn[1]}}) {
+    add_share(recorder, fmt::format("drawn_{}_rmse", panel), outcome.rmse);
+    add_share(recorder, fmt::format("drawn_{}_ahd", panel), outcome.ahd[0]);
+    add_share(recorder, fmt::format("drawn_{}_untouched", panel), outcome.untouched);
+  }
   sheets.terrains.write(recorder.figure(
       "drill.F3" + study.suffix, "png",
-      fmt::format("The paper's figure 3: {} regenerated with the parameters of least RMSE (a) and of least "
-                  "AHD, the mean in plan (b), {}. Where no drill reaches, the plateau remains.",
+      fmt::format("The paper's figure 3: {} regenerated, {}: (a) with the parameters of least RMSE, "
+                  "(b) with those of least AHD (the mean in plan). "
+                  "Where no drill reaches, the plateau remains.",
                   study.name, study.variant.words)));
-  sheets.differences.write(
-      recorder.figure("drill.difference" + study.suffix, "png",
-                      fmt::format("The difference of figure 3's two terrains from {}, over its shaded "
-                                  "relief: blue too low, red too high",
-                                  study.name)));
+  sheets.differences.write(recorder.figure(
+      "drill.difference" + study.suffix, "png",
+      fmt::format("The difference of figure 3's two terrains from {}, over its shaded relief. "
+                  "Blue is too low, red too high.",
+                  study.name)));
 }
 
 }  // namespace terrabench::drill

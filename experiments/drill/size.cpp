@@ -130,11 +130,12 @@ void draw_rate_distortion(const TerrainSource& source, const FlowNetwork& networ
   // All codecs store flat ground without error, which a logarithmic axis cannot show.
   if (height_range(ground).lowest == height_range(ground).highest) return;
   figures::write_chart(
-      recorder.figure("drill.rate-distortion" + suffix, "png",
-                      fmt::format("Bits per sample against error for {}: drills of each fit in their own "
-                                  "file format, with w = 10 "
-                                  "and the best k at seven thresholds, and the same ground in other codecs.",
-                                  source.name)),
+      recorder.figure(
+          "drill.rate-distortion" + suffix, "png",
+          fmt::format("Bits per sample against error for {}: drills of each fit in their own file "
+                      "format, with w = 10 and the best k at seven thresholds, "
+                      "and the same ground in other codecs.",
+                      source.name)),
       plot, 1200);
 }
 
@@ -152,7 +153,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("k", "samples", stored.drills.k);
   recorder.add("drills", "", drills);
   recorder.add("drills_per_160000", "", drills * 160000 / samples);
-  recorder.add("values_to_samples", "", 4 * drills / samples);
+  recorder.add("values_to_samples", "",
+               static_cast<double>(values_per_drill(variant.fit)) * drills / samples);
   recorder.add("rmse", "m", stored.error.rmse);
   add_share(recorder, "rmse_normalised", stored.error.normalised());
   recorder.add("drill_bytes", "B", stored.bytes);

@@ -11,6 +11,7 @@
 #include "experiments/drill/factorial.h"
 #include "experiments/drill/ground.h"
 #include "experiments/experiment.h"
+#include "experiments/samples.h"
 #include "experiments/stopwatch.h"
 #include "representations/drill/cross_sections.h"
 #include "representations/drill/extract.h"
@@ -22,9 +23,9 @@
 namespace terrabench::drill {
 namespace {
 
-constexpr int kSamples = 9;
 constexpr std::array<std::uint32_t, 8> kTimedTaus{10, 15, 25, 50, 100, 200, 400, 800};
-constexpr std::size_t kPaperTau = 2;  // 25: regeneration is timed there
+constexpr std::size_t kPaperTau = 2;       // 25: regeneration is timed there
+constexpr std::array kTimedWidths{5, 20};  // at that τ; cross-sections have 120 · w samples
 
 // Least squares of y = intercept + slope · x.
 struct Line {
@@ -93,6 +94,7 @@ struct Times {
   std::vector<double> routing, unions, fitting;  // the last two at the paper's τ
   std::vector<double> regeneration;              // k = 20
   std::vector<std::vector<double>> extraction;   // by threshold, without routing
+  std::array<std::vector<double>, kTimedWidths.size()> extraction_by_width;
 
   void record(Recorder& recorder) const {
     const auto add = [&](std::string_view metric, const std::vector<double>& samples) {
@@ -104,6 +106,9 @@ struct Times {
     add("regeneration_time", regeneration);
     for (std::size_t t = 0; t < kTimedTaus.size(); ++t) {
       add(fmt::format("extraction_time_tau_{}", kTimedTaus[t]), extraction[t]);
+    }
+    for (std::size_t w = 0; w < kTimedWidths.size(); ++w) {
+      add(fmt::format("extraction_time_w_{}", kTimedWidths[w]), extraction_by_width[w]);
     }
   }
 };
@@ -166,6 +171,10 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
       const DrillOptions extract = options_for({.tau = kTimedTaus[t], .k = 20}, variant);
       time(times.extraction[t], [&] { drills[t] = extract_drills(ground, network, extract); });
     }
+    for (std::size_t w = 0; w < kTimedWidths.size(); ++w) {
+      const DrillOptions extract = options_for({.w = kTimedWidths[w]}, variant);
+      time(times.extraction_by_width[w], [&] { extract_drills(ground, network, extract); });
+    }
     Drills& paper = drills[kPaperTau];
     ShapeSteps steps(ground, paper, variant);
     time(times.unions, [&] { steps.collect_unions(); });
@@ -182,7 +191,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kTime{"drill.time", "§3.1: time against thresholds and channel pixels", fit_specs(),
-                              fit_cases, measure};
+extern const Experiment kTime{"drill.time", "§3.1: time against thresholds and channel pixels",
+                              fit_specs(),  fit_cases,
+                              measure,      Experiment::kTimed};
 
 }  // namespace terrabench::drill

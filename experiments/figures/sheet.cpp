@@ -11,26 +11,13 @@
 #include <vector>
 
 #include "results/plot/rasterise.h"
+#include "results/store/format.h"
 #include "terrain/files.h"
 
 namespace terrabench::figures {
 namespace {
 
 std::string css(const Rgb& c) { return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]); }
-
-std::string escaped(std::string_view words) {
-  std::string text;
-  for (const char c : words) {
-    if (c == '&') {
-      text += "&amp;";
-    } else if (c == '<') {
-      text += "&lt;";
-    } else {
-      text += c;
-    }
-  }
-  return text;
-}
 
 std::string base64(std::span<const std::byte> bytes) {
   static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -124,7 +111,7 @@ void Sheet::rays(SheetPoint centre, double radius, int count, double first, Rgb 
 
 void Sheet::text(double x, double y, std::string_view words, int size, std::string_view anchor, Rgb colour) {
   body_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\">{}</text>\n",
-                       x, y, size, anchor, css(colour), escaped(words));
+                       x, y, size, anchor, css(colour), escape_html(words));
   layout_.words.emplace_back(words);
 }
 
@@ -174,21 +161,16 @@ std::string Sheet::svg() const {
       width_, height_, body_);
 }
 
-void Sheet::write(const std::filesystem::path& png) const {
-  svg_text_to_png(svg(), png, kPixels * width_, colours_);
-  write_layout(png, layout_);
+void Sheet::write(const FigureFile& file) const {
+  svg_text_to_png(svg(), file.path, kPixels * width_, colours_);
+  file.contains(layout_);
 }
 
-void write_picture(const std::filesystem::path& png, const Image& image) {
-  write_png(png, image);
-  write_layout(png, {{{0, 0, image.width, image.height}}, {}});
-}
-
-void write_chart(const std::filesystem::path& png, const Plot& plot, int width) {
+void write_chart(const FigureFile& file, const Plot& plot, int width) {
   const std::string svg = plot_svg(plot);
-  svg_text_to_png(svg, png, width);
-  const Image image = read_png(png);
-  write_layout(png, {{{0, 0, image.width, image.height}}, words_of(svg)});
+  svg_text_to_png(svg, file.path, width);
+  const Image image = read_png(file.path);
+  file.contains({{{0, 0, image.width, image.height}}, words_of(svg)});
 }
 
 }  // namespace terrabench::figures

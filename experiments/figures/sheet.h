@@ -57,8 +57,9 @@ class Sheet {
   std::string svg() const;
   // For sheets with rendered landscapes, whose smooth skies need all colours; other sheets have at most 256.
   void keep_all_colours() { colours_ = Colours::kAll; }
-  // Writes a PNG with its layout. Throws environment_error.
-  void write(const std::filesystem::path& png) const;
+  const FigureLayout& layout() const { return layout_; }
+  // Writes a PNG. Throws environment_error.
+  void write(const FigureFile&) const;
 
  private:
   void image(double x, double y, double width, double height, const Image& image);
@@ -73,11 +74,9 @@ class Sheet {
   FigureLayout layout_;
 };
 
-// Writes a picture without words: a figure of one panel. Throws environment_error.
-void write_picture(const std::filesystem::path& png, const Image&);
 // Writes a chart: a figure of one panel, with the words that the chart shows. `width` is in pixels. Throws
 // like plot_svg() and svg_text_to_png().
-void write_chart(const std::filesystem::path& png, const Plot&, int width);
+void write_chart(const FigureFile&, const Plot&, int width);
 
 // A picture with its words.
 struct Panel {

@@ -1,10 +1,14 @@
 // §3.2: the host that an event finds, the number of cells at an angle, what a new heightmap's cells become
-// over links of the host, and the noise on the walls of a carving.
+// over links of the host, and the noise on the walls of a carving. In files of their own (cells.h): the
+// heights of cells at an angle, and null links.
+#include "experiments/ght/cells.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "experiments/cases.h"
+#include "experiments/figures/measures.h"
 #include "experiments/ght/site.h"
 #include "terrain/error.h"
 #include "terrain/events/evaluate.h"
@@ -78,36 +82,9 @@ void measure_hosts(const RunOptions& options, Recorder& recorder) {
   recorder.add("hosts_below_those", "", deeper);
 }
 
-// Follows links as the paper prints them: a new cell over a link of the host links to the host's cell, and
-// the host's cell, whose value was transferred, to the new cell.
-class PrintedLinks {
- public:
-  explicit PrintedLinks(const Tree& before) : next_(before.cells(), kNone) {
-    for (CellId c = 0; c < before.cells(); ++c) {
-      if (before.kind(c) == CellKind::kLink) next_[c] = before.target(c);
-    }
-  }
-  CellId transfer(CellId old) {
-    const bool link = next_[old] != kNone;
-    next_.push_back(link ? old : kNone);
-    next_[old] = static_cast<CellId>(next_.size() - 1);
-    return next_[old];
-  }
-  bool ends(CellId c) const {
-    std::size_t steps = 0;
-    while (next_[c] != kNone && steps <= next_.size()) c = next_[c], ++steps;
-    return steps <= next_.size();
-  }
-
- private:
-  std::vector<CellId> next_;
-};
-
 // A bowl beside and partly over an earlier one, whose cells in the root are links then.
 struct OverLinks {
   std::size_t cells = 0;      // of the second bowl over links of the root
-  std::size_t copied = 0;     // of them, links in the second bowl
-  std::size_t endless = 0;    // of them, cells whose links never end as the paper prints them
   std::size_t wrong = 0;      // of them, heights other than the definition's
   std::size_t lowered = 0;    // of them, heights below those of the first bowl
   std::size_t forgotten = 0;  // of them, heights that the root's own first heights would have made wrong
@@ -121,7 +98,6 @@ struct OverLinks {
     tree.apply(second);
     const Tree& now = tree.model().tree;
     const Evaluation defined(std::make_shared<Sculpture>(Sculpture{site.ground, {first, second}}));
-    PrintedLinks printed(old);
     std::vector<Stretch> stretches;
     const GroundedHeightmap& node = now.nodes().back();
     for (int j = 0; j < node.rows; ++j) {
@@ -130,8 +106,6 @@ struct OverLinks {
         const CellId root = old.root_cell(x, z), cell = node.cell(i, j);
         if (old.kind(root) != CellKind::kLink || now.kind(cell) == CellKind::kVoid) continue;
         ++cells;
-        copied += now.kind(cell) == CellKind::kLink;
-        endless += !printed.ends(printed.transfer(root));
         const glm::dvec2 plan(now.grid().x(x), now.grid().z(z));
         defined.column(plan, stretches);
         const double height = stretches.front().top;
@@ -160,8 +134,6 @@ void measure_links(const RunOptions& options, Recorder& recorder) {
     over.add(site, bowl_at(fresh, at * cell, kRadius), bowl_at(fresh, beside * cell, kRadius));
   }
   recorder.add("cells_over_links", "", over.cells);
-  recorder.add("copied_links", "", over.copied);
-  recorder.add("endless_as_printed", "", over.endless);
   recorder.add("wrong_heights", "", over.wrong);
   recorder.add("lowered_heights", "", over.lowered);
   recorder.add("forgotten_heights", "", over.forgotten);
@@ -206,19 +178,12 @@ Ght noisy_tunnel(std::uint64_t seed, double roughness) {
   return tree;
 }
 
-// Pearson's correlation of pairs of heights.
-struct Pairs {
-  double n = 0, a = 0, b = 0, ab = 0, aa = 0, bb = 0;
-  void add(double x, double y) { n += 1, a += x, b += y, ab += x * y, aa += x * x, bb += y * y; }
-  double correlation() const { return (n * ab - a * b) / std::sqrt((n * aa - a * a) * (n * bb - b * b)); }
-};
-
 // Heights of walls over their planes: how large they are, and how alike they are at neighbouring cells, at
 // cells 20 m apart along the axis, and at the same cells under another seed.
 struct WallNoise {
   static constexpr double kRoughness = 0.8;  // metres
   static constexpr int kFarRows = 40;        // two rows per metre
-  Pairs near, far, seeds;
+  figures::Correlation near, far, seeds;
   std::size_t cells = 0, beyond = 0;
   double squares = 0;
 
@@ -239,8 +204,8 @@ struct WallNoise {
   }
 
  private:
-  static void pair(Pairs& pairs, double height, const Tree& tree, const GroundedHeightmap& wall, int i,
-                   int j) {
+  static void pair(figures::Correlation& pairs, double height, const Tree& tree,
+                   const GroundedHeightmap& wall, int i, int j) {
     if (i >= wall.columns || j >= wall.rows || tree.kind(wall.cell(i, j)) != CellKind::kHeight) return;
     pairs.add(height, tree.height(wall.cell(i, j)));
   }
@@ -262,13 +227,17 @@ void measure_walls(const RunOptions& options, Recorder& recorder) {
   recorder.add("beyond_roughness", "", noise.beyond);
   recorder.add("height_share", "",
                std::sqrt(noise.squares / static_cast<double>(noise.cells)) / WallNoise::kRoughness);
-  recorder.add("near_correlation", "", noise.near.correlation());
-  recorder.add("far_correlation", "", noise.far.correlation());
-  recorder.add("seed_correlation", "", noise.seeds.correlation());
+  recorder.add("near_correlation", "", noise.near.value());
+  recorder.add("far_correlation", "", noise.far.value());
+  recorder.add("seed_correlation", "", noise.seeds.value());
 }
 
-constexpr std::array kTopics{Topic{"hosts", measure_hosts}, Topic{"inclined", measure_inclined},
-                             Topic{"links", measure_links}, Topic{"walls", measure_walls}};
+constexpr std::array kTopics{Topic{"hosts", measure_hosts},
+                             Topic{"inclined", measure_inclined},
+                             Topic{"interpolated", measure_interpolated},
+                             Topic{"links", measure_links},
+                             Topic{"null-links", measure_null_links},
+                             Topic{"walls", measure_walls}};
 constexpr std::array kNames = names_of(kTopics);
 const std::array kSpecs{choice("topic", kNames, "what is measured")};
 
@@ -280,7 +249,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kCells{"ght.cells", "§3.2: hosts, inclined cells, cells over links, walls", kSpecs,
-                               cases, measure};
+extern const Experiment kCells{"ght.cells", "§3.2: hosts, inclined cells, links, walls", kSpecs, cases,
+                               measure};
 
 }  // namespace terrabench::ght

@@ -4,6 +4,7 @@
 
 #include "experiments/cases.h"
 #include "experiments/ght/site.h"
+#include "experiments/samples.h"
 #include "experiments/stopwatch.h"
 #include "representations/ght/invariants.h"
 #include "terrain/events/event_file.h"
@@ -19,8 +20,6 @@ const std::array kSpecs{
     ParameterSpec{"n", std::int64_t{128}, "cells", "along each side of the terrain", 128, 4096},
     ParameterSpec{"particles", std::int64_t{10000}, "", "in the rain", 1, 20000},
 };
-
-constexpr int kSamples = 3;
 
 // Queries of columns at random places, on one thread.
 void time_columns(const Ght& tree, std::uint64_t seed, Recorder& recorder) {
@@ -116,6 +115,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 }  // namespace
 
 extern const Experiment kComplex{"ght.complex", "§4.2: the sequence of events and the rain of particles",
-                                 kSpecs, cases, measure};
+                                 kSpecs,        cases,
+                                 measure,       Experiment::kTimed};
 
 }  // namespace terrabench::ght

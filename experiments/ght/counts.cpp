@@ -1,9 +1,13 @@
 // How many heightmaps each event adds, on the root and on another node: the difference between the trees
-// before and after it.
+// before and after it. And what each of them is: its ground plane, its heights and its links, so that empty
+// heightmaps do not count for anything.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <span>
 
 #include "experiments/cases.h"
 #include "experiments/ght/site.h"
@@ -23,6 +27,69 @@ const std::array kSpecs{
 
 constexpr int kFewestSides = 3, kMostSides = 12;
 
+struct Plane {
+  glm::dvec3 point, normal;
+};
+
+Plane plane_of(const GroundedHeightmap& map) {
+  if (map.aligned) return {{0, 0, 0}, {0, 1, 0}};
+  return {map.plane.origin, glm::normalize(glm::cross(glm::dvec3(map.plane.u), glm::dvec3(map.plane.v)))};
+}
+
+// How many different ground planes the heightmaps have.
+std::size_t planes_of(std::span<const GroundedHeightmap> maps, double spacing) {
+  std::vector<Plane> planes;
+  for (const GroundedHeightmap& map : maps) {
+    const Plane plane = plane_of(map);
+    const bool known = std::ranges::any_of(planes, [&](const Plane& other) {
+      return std::abs(glm::dot(plane.normal, other.normal)) > 1 - 1e-6 &&
+             std::abs(glm::dot(plane.normal, other.point - plane.point)) < 0.01 * spacing;
+    });
+    if (!known) planes.push_back(plane);
+  }
+  return planes.size();
+}
+
+bool is_linked(const Model& model, const GroundedHeightmap& map) {
+  for (CellId c = map.first; c < map.first + map.cells(); ++c) {
+    if (model.tree.kind(c) == CellKind::kLink) return true;
+    const CellId neighbour = model.links.of(c);
+    if (neighbour != kNone && model.tree.node_of(neighbour) != model.tree.node_of(c)) return true;
+  }
+  return false;
+}
+
+// The heightmaps that the last event added.
+struct Added {
+  std::size_t empty = 0;     // that hold neither a height nor a link to one
+  std::size_t unlinked = 0;  // none of whose cells links to a cell of another heightmap
+  std::size_t planes = 0;    // different ground planes
+  double largest_share = 0;  // of the heights of all, those of the largest
+};
+
+Added added_by_last(const Model& model) {
+  const Tree& tree = model.tree;
+  const Applied& last = tree.events().back();
+  const auto maps = std::span(tree.nodes()).subspan(last.first, last.nodes);
+  Added added;
+  added.planes = planes_of(maps, tree.grid().spacing());
+  double all = 0, most = 0;
+  for (const GroundedHeightmap& map : maps) {
+    double heights = 0;
+    bool empty = true;
+    for (CellId c = map.first; c < map.first + map.cells(); ++c) {
+      heights += tree.kind(c) == CellKind::kHeight;
+      empty = empty && tree.kind(tree.resolve(c)) == CellKind::kVoid;
+    }
+    added.empty += empty;
+    added.unlinked += !is_linked(model, map);
+    all += heights;
+    most = std::max(most, heights);
+  }
+  added.largest_share = most / all;
+  return added;
+}
+
 // What the last event did, from the tree's nodes and its list of events.
 void record(const Tree& tree, std::size_t nodes_before, std::string_view where, Recorder& recorder) {
   const Applied& last = tree.events().back();
@@ -30,12 +97,22 @@ void record(const Tree& tree, std::size_t nodes_before, std::string_view where, 
   recorder.add(fmt::format("host_depth_{}", where), "", tree.nodes()[last.host].depth);
 }
 
+Added record_added(const Model& model, std::size_t nodes_before, std::string_view where, Recorder& recorder) {
+  record(model.tree, nodes_before, where, recorder);
+  const Added added = added_by_last(model);
+  recorder.add(fmt::format("empty_{}", where), "", added.empty);
+  recorder.add(fmt::format("unlinked_{}", where), "", added.unlinked);
+  recorder.add(fmt::format("planes_{}", where), "", added.planes);
+  return added;
+}
+
 // On the root. Also, which the paper does not count, on a block of a fault so large that a smaller event lies
 // wholly in it.
 void measure_geotectonic(const Site& site, Kind kind, Recorder& recorder) {
   Ght fresh = plain_tree(site.ground);
   fresh.apply(single_event(site, kind));
-  record(fresh.model().tree, 1, "on_root", recorder);
+  recorder.add("largest_share_on_root", "",
+               record_added(fresh.model(), 1, "on_root", recorder).largest_share);
 
   Ght faulted = plain_tree(site.ground);
   const events::Event fault = geotectonic_event(site, Kind::kNormalFault, site.middle, 1.2 * site.size);
@@ -44,7 +121,8 @@ void measure_geotectonic(const Site& site, Kind kind, Recorder& recorder) {
   const glm::dvec2 block = line.plan({0.5 * line.length, 0.3 * site.size});
   const std::size_t before = faulted.model().tree.nodes().size();
   faulted.apply(geotectonic_event(site, kind, block, 0.3 * site.size));
-  record(faulted.model().tree, before, "on_block", recorder);
+  recorder.add("largest_share_on_block", "",
+               record_added(faulted.model(), before, "on_block", recorder).largest_share);
 }
 
 // Trees of one carving with sections of 3 to 12 sides, each in fresh ground; fewer if the mountains have no
@@ -67,7 +145,7 @@ void measure_carvings(const std::vector<Ght>& trees, Recorder& recorder) {
       return static_cast<double>(std::count_if(nodes.begin(), nodes.end(),
                                                [&](const GroundedHeightmap& n) { return n.area == area; }));
     };
-    record(tree.model().tree, 1, fmt::format("sides_{}", sides), recorder);
+    record_added(tree.model(), 1, fmt::format("sides_{}", sides), recorder);
     recorder.add(fmt::format("borders_sides_{}", sides), "", count(Area::kBorder));
     recorder.add(fmt::format("indoor_sides_{}", sides), "", count(Area::kIndoor));
     ++sides;

@@ -263,9 +263,11 @@ void measure_reach(const Case& at, const RunOptions& options, Recorder& recorder
 
 }  // namespace
 
-extern const Experiment kEdits{"ght.edits", "§4: an event on ever larger terrains, beside stacks and voxels",
-                               kEditSpecs, edit_cases, measure_edit};
-extern const Experiment kReach{"ght.reach", "§4: ever larger events, beside stacks and voxels", kReachSpecs,
-                               reach_cases, measure_reach};
+extern const Experiment kEdits{"ght.edits",  "§4: an event on ever larger terrains, beside stacks and voxels",
+                               kEditSpecs,   edit_cases,
+                               measure_edit, Experiment::kTimed};
+extern const Experiment kReach{"ght.reach",   "§4: ever larger events, beside stacks and voxels",
+                               kReachSpecs,   reach_cases,
+                               measure_reach, Experiment::kTimed};
 
 }  // namespace terrabench::ght

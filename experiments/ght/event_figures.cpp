@@ -7,6 +7,7 @@
 
 #include "experiments/cases.h"
 #include "experiments/ght/figures.h"
+#include "experiments/ght/shown.h"
 #include "experiments/ght/site.h"
 #include "experiments/ght/textured.h"
 #include "experiments/ght/tree_view.h"
@@ -71,10 +72,11 @@ constexpr int kSequenceSide = 128;  // cells, as the measurement of ght.complex
 constexpr glm::vec3 kHigh{0.4F, 0.62F, 1.0F},
     kLow{0.45F, 0.4F, 1.0F};  // towards the eye; kLow looks under overhangs
 
+Event event_of(std::string_view script) { return open_named_script(script).events->events.at(0); }
+
 // Across the middle of the line of the fault in that script.
 CutPlane across(std::string_view script) {
-  const TerrainSource source = open_named_script(script);
-  const Line line = std::get<DipFault>(source.events->events.at(0)).line();
+  const Line line = std::get<DipFault>(event_of(script)).line();
   return {glm::vec2(line.plan({line.length / 2, 0})), glm::vec2(line.along)};
 }
 
@@ -89,20 +91,27 @@ Sheet draw_geotectonic_events(Drawing& drawing) {
   }};
   PanelRows rows;
   for (const auto& [name, event] : events) {
-    Ght ght = kind(event) == Kind::kLateralFault ? furrows() : level_ground();
+    const Ght fresh = kind(event) == Kind::kLateralFault ? furrows() : level_ground();
+    Ght ght = fresh;
     ght.apply(event);
     const bool overhangs = kind(event) == Kind::kInverseFault;
     rows.push_back(three_views(drawing.gl(), ght, {overhangs ? kLow : kHigh, 700, 480}, name,
                                overhangs ? kAboveOverhang : kAbove));
+    record_event(drawing, event, fresh, ght, rows.back()[1].image);
   }
   return panel_sheet(trimmed(rows));
 }
 
 Sheet draw_erosions(Drawing& drawing) {
   const Look look{{-0.7F, 0.9F, 0.9F}, 760, 480};
-  return panel_sheet(
-      trimmed({three_views(drawing.gl(), open_tree("linear-erosion"), look, "linear erosion"),
-               three_views(drawing.gl(), open_tree("radial-erosion"), look, "radial erosion")}));
+  PanelRows rows;
+  for (const char* const name : {"linear", "radial"}) {
+    const std::string script = fmt::format("{}-erosion", name);
+    const Ght fresh = open_tree(script, false), ght = open_tree(script);
+    rows.push_back(three_views(drawing.gl(), ght, look, fmt::format("{} erosion", name)));
+    record_event(drawing, event_of(script), fresh, ght, rows.back()[1].image);
+  }
+  return panel_sheet(trimmed(rows));
 }
 
 Sheet draw_faults(Drawing& drawing) {
@@ -113,6 +122,7 @@ Sheet draw_faults(Drawing& drawing) {
     const Ght ght = open_tree(script);
     rows.push_back(three_views(drawing.gl(), ght, {kLow, 760, 480}, fmt::format("{} fault", name),
                                script == "inverse-fault" ? kAboveOverhang : kAbove));
+    record_event(drawing, event_of(script), open_tree(script, false), ght, rows.back()[1].image);
     cuts.push_back({solid_view(drawing.gl(), ght, {{1.0F, 0.25F, 0.6F}, 1154, 480, {across(script)}}),
                     fmt::format("{} fault, cut across its line", name)});
   }
@@ -128,11 +138,15 @@ Sheet draw_sequence(Drawing& drawing) {
   const std::size_t events = ght.model().tree.events().size(), nodes = ght.model().tree.nodes().size();
   drawing.record("events", static_cast<double>(events));
   drawing.record("heightmaps", static_cast<double>(nodes));
-  return panel_sheet(trimmed({{{wires_view(gl, fresh, look), "fresh terrain, wireframe"},
-                               {solid_view(gl, fresh, look), "fresh terrain, solid"}},
-                              {{wires_view(gl, ght, look), fmt::format("after {} events, wireframe", events)},
-                               {solid_view(gl, ght, look), fmt::format("after {} events, solid", events)}},
-                              {{planes_view(gl, ght, look), fmt::format("the {} ground planes", nodes)}}}));
+  drawing.record("planes", 1 + planes_of_events(ght));
+  const Image before = wires_view(gl, fresh, look), after = wires_view(gl, ght, look);
+  drawing.record("blue_before", blue_share(before));
+  drawing.record("blue_after", blue_share(after));
+  return panel_sheet(
+      trimmed({{{before, "fresh terrain, wireframe"}, {solid_view(gl, fresh, look), "fresh terrain, solid"}},
+               {{after, fmt::format("after {} events, wireframe", events)},
+                {solid_view(gl, ght, look), fmt::format("after {} events, solid", events)}},
+               {{planes_view(gl, ght, look), fmt::format("the {} ground planes", nodes)}}}));
 }
 
 // Figures 15 and 19 to 21: tunnels and caves, and the ground cut open along their axes.
@@ -161,10 +175,10 @@ std::vector<Panel> four_views(GlContext& gl, const Ght& ght, const Carving& carv
 std::vector<CutPlane> around_the_ridge(const Ght& ght) { return around(ght, {66, 34}, {108, 66}); }
 
 Sheet draw_single(Drawing& drawing, const char* script) {
-  const TerrainSource source = open_named_script(script);
   const Ght ght = open_tree(script);
   const Look look{{0.8F, 0.4F, 1.0F}, 1000, 560, around_the_ridge(ght)};
-  const auto& carving = std::get<Carving>(source.events->events.at(0));
+  const auto carving = std::get<Carving>(event_of(script));
+  record_carving(drawing, carving, open_tree(script, false), ght);
   return panel_sheet(trimmed(figures::in_rows_of(2, four_views(drawing.gl(), ght, carving, look))));
 }
 
@@ -174,8 +188,10 @@ Sheet draw_carving_shapes(Drawing& drawing) {
   PanelRows rows;
   for (const bool cave : {false, true}) {
     const Carving carving{cave, east, {cave ? 270.0 : 210.0, 55, 200}, vault(), 1, cave ? 1.2 : 1, 0, 0};
-    Ght ght = ridge();
+    const Ght fresh = ridge();
+    Ght ght = fresh;
     ght.apply(carving);
+    record_carving(drawing, carving, fresh, ght);
     std::vector<Panel> views = four_views(drawing.gl(), ght, carving, look);
     views.erase(views.begin() + 1);
     views[0].words = cave ? "cave: ground planes" : "tunnel: ground planes";
@@ -206,10 +222,14 @@ Sheet draw_two_tunnels(Drawing& drawing) {
                                                   {"fog", 2.5},
                                                   {"border", 0.0},
                                                   {"sun_height", 40.0}});
-  Sheet sheet = panel_sheet({{{wires_view(drawing.gl(), ght, view), "wireframe"},
-                              {textured_view(drawing.gl(), ght, view, style), "textured, under a sky"}}});
-  sheet.keep_all_colours();
-  return sheet;
+  const Image wires = wires_view(drawing.gl(), ght, view),
+              textured = textured_view(drawing.gl(), ght, view, style);
+  drawing.record("open_tunnels", open_tunnels(open_tree("two-tunnels", false), ght,
+                                              open_named_script("two-tunnels").events->events));
+  const Blueness blue = blueness(wires, textured);
+  drawing.record("blue_sky", blue.sky);
+  drawing.record("blue_ground", blue.ground);
+  return panel_sheet({{{wires, "wireframe"}, {textured, "textured, under a sky"}}});
 }
 
 // Figure 24: the rain of particles (§4.2), as ght.complex measures it.
@@ -257,17 +277,28 @@ Sheet draw_rain(Drawing& drawing) {
                                                   {"fog", 1000.0},
                                                   {"border", 0.0},
                                                   {"sun_height", 35.0}});
+  const auto record = [&](const char* when, const std::vector<Panel>& row) {
+    drawing.record(fmt::format("planes_{}", when), planes_of_events(ght));
+    drawing.record(fmt::format("blue_{}", when), blue_share(row[1].image));
+    drawing.record(fmt::format("yellow_{}", when), yellow_share(row[2].image));
+  };
+  const Ght fresh = ght;
   PanelRows rows{{{planes_view(gl, ght, look), "before: ground plane"},
                   {wires_view(gl, ght, window), "wireframe, a window of 65 × 65"},
                   {textured_block(gl, ght, view, style, particles), "textured, the rain begins"}}};
+  record("before", rows.back());
   for (int k = 0; k < kParticles; ++k) ght.apply(rain.next(ght));
   const auto events = static_cast<double>(ght.model().tree.events().size());
-  drawing.record("particles", events);
   const std::string particles_text = format_number(events);
   rows.push_back(
       {{planes_view(gl, ght, look), fmt::format("after {} particles: ground planes", particles_text)},
        {wires_view(gl, ght, window), "wireframe, the same window"},
        {textured_block(gl, ght, view, style, {}), "textured"}});
+  record("after", rows.back());
+  const Change shape = change(fresh, ght);
+  drawing.record("particles", events);
+  drawing.record("removed", shape.removed);
+  drawing.record("added", shape.added);
   return panel_sheet(trimmed(rows));
 }
 

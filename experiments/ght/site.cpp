@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <map>
 #include <numbers>
 
 #include "terrain/error.h"
@@ -150,8 +151,14 @@ Site first_site(int side, int size, std::uint64_t seed, const std::function<bool
 }
 
 Site event_site(int side, int size, std::uint64_t seed) {
-  const Site coarse = first_site(kEventsAlong * kLeastSize, kLeastSize, seed, takes_all_events);
-  return make_site(side, size, coarse.seed);
+  // The mountains found for each seed: the search takes about a second, and every case asks for them.
+  static std::map<std::uint64_t, std::uint64_t> found;
+  auto known = found.find(seed);
+  if (known == found.end()) {
+    const Site site = first_site(kEventsAlong * kLeastSize, kLeastSize, seed, takes_all_events);
+    known = found.emplace(seed, site.seed).first;
+  }
+  return make_site(side, size, known->second);
 }
 
 void record_site(const Site& site, std::uint64_t asked, Recorder& recorder) {

@@ -40,7 +40,7 @@ Site first_site(int side, int size, std::uint64_t seed, const std::function<bool
 
 // The first of the sites of `seed`, seed + 1, … whose mountains have a place for every event alone, for two
 // tunnels and for the whole planned sequence, so that all experiments of one seed share their mountains.
-// Throws as first_site() does.
+// Searches once per seed. Thread-safe. Throws as first_site() does.
 Site event_site(int side, int size, std::uint64_t seed);
 // The record's ground, and as "site_seed" the seed of the mountains where `asked` had no place for all
 // events.

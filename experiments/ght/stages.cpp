@@ -10,6 +10,8 @@
 #include "experiments/figures/ground.h"
 #include "experiments/figures/views.h"
 #include "experiments/ght/figures.h"
+#include "experiments/ght/stage_numbers.h"
+#include "results/store/format.h"
 #include "terrain/sources/fractal/diamond_square.h"
 #include "terrain/sources/fractal/faults.h"
 #include "terrain/sources/fractal/hills.h"
@@ -55,36 +57,44 @@ std::string height_text(float metres) {
 bool is_set(const Heightfield& field, int i, int j) { return !Heightfield::is_no_data(field.at(i, j)); }
 
 // Lines from a point that a step has set to the points whose mean it took: the diagonal neighbours in a
-// diamond step, the straight ones in a square step. Neighbours outside the array get no line.
-void draw_origins(Sheet& sheet, const ArrayPlace& array, int i, int j, int half, bool diamond_step) {
+// diamond step, the straight ones in a square step. Neighbours outside the array get no line. Returns their
+// number.
+int draw_origins(Sheet& sheet, const ArrayPlace& array, int i, int j, int half, bool diamond_step) {
   static constexpr std::array<std::pair<int, int>, 4> kDiagonal{{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
   static constexpr std::array<std::pair<int, int>, 4> kStraight{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+  int lines = 0;
   for (const auto& [dx, dz] : diamond_step ? kDiagonal : kStraight) {
     const int x = i + dx * half, z = j + dz * half;
     if (x < 0 || z < 0 || x >= array.side || z >= array.side) continue;
     sheet.stroke(array.at(x, z), array.at(i, j), kAccent, 1.4);
+    ++lines;
   }
+  return lines;
 }
 
 // The array after `steps` steps: points set by the last one black, earlier ones grey, the rest small.
-void draw_steps(Sheet& sheet, const ArrayPlace& array, const fractal::DiamondSquareOptions& options,
-                int steps) {
+void draw_steps(Drawing& drawing, Sheet& sheet, const ArrayPlace& array,
+                const fractal::DiamondSquareOptions& options, int steps) {
   const Heightfield now = fractal::diamond_square_after(options, steps);
   const Heightfield before = fractal::diamond_square_after(options, std::max(0, steps - 1));
   const int half = (options.side - 1) >> ((steps + 1) / 2);
   draw_grid(sheet, array);
+  int lines = 0, black = 0;
   for (int j = 0; j < options.side; ++j) {
     for (int i = 0; i < options.side; ++i) {
       const bool fresh = steps > 0 && is_set(now, i, j) && !is_set(before, i, j);
-      if (fresh) draw_origins(sheet, array, i, j, half, steps % 2 == 1);
+      if (fresh) lines += draw_origins(sheet, array, i, j, half, steps % 2 == 1);
     }
   }
   for (int j = 0; j < options.side; ++j) {
     for (int i = 0; i < options.side; ++i) {
       const bool set = is_set(now, i, j), earlier = steps > 0 && is_set(before, i, j);
       sheet.dot(array.at(i, j), !set ? 2.5 : earlier ? 6 : 8, !set ? kUnset : earlier ? kSet : kInk);
+      black += set && !earlier;
     }
   }
+  drawing.record(fmt::format("black_{}", steps), black);
+  drawing.record(fmt::format("lines_{}", steps), lines);
 }
 
 Sheet draw_midpoints(Drawing& drawing) {
@@ -95,12 +105,16 @@ Sheet draw_midpoints(Drawing& drawing) {
   for (const float h : fractal::midpoint_displacement({.seed = drawing.seed(), .levels = kLevels.back()})) {
     most = std::max(most, std::abs(h));
   }
+  std::vector<float> earlier;  // of the panel before
   for (std::size_t panel = 0; panel < kLevels.size(); ++panel) {
     const int levels = kLevels[panel];
     const double x0 = kMargin + static_cast<double>(panel % 3) * (kWidth + kMargin);
     const double y0 = kMargin + static_cast<double>(panel / 3) * (kHeight + kLabel + kMargin);
     const std::vector<float> heights =
         fractal::midpoint_displacement({.seed = drawing.seed(), .levels = levels});
+    drawing.record(fmt::format("points_{}", levels), static_cast<double>(heights.size()));
+    if (levels > 0) drawing.record(fmt::format("moved_{}", levels), moved_points(earlier, heights));
+    earlier = heights;
     const auto place = [&](std::size_t i) {
       return SheetPoint{x0 + kWidth * static_cast<double>(i) / static_cast<double>(heights.size() - 1),
                         y0 + kHeight / 2 * (1 - heights[i] / most)};
@@ -119,17 +133,19 @@ Sheet draw_midpoints(Drawing& drawing) {
     label(sheet, x0 + kWidth / 2, y0 + kHeight + 26,
           levels == 0 ? "start" : fmt::format("{} step{}", levels, levels == 1 ? "" : "s"));
   }
+  for (const int level : {7, 8, 9}) {
+    drawing.record(fmt::format("displacement_{}", level), mean_displacement(earlier, level));
+  }
   return sheet;
 }
 
-Sheet draw_neighbourhoods(Drawing&) {
+Sheet draw_neighbourhoods(Drawing& drawing) {
   constexpr double kSize = 220, kStep = kSize + 2.5 * kMargin;
   Sheet sheet(3 * kStep + kMargin, kSize + kLabel + 3 * kMargin);
   const auto array = [&](int panel) {
     return ArrayPlace{1.5 * kMargin + panel * kStep, 1.5 * kMargin, kSize, 5};
   };
-  const auto outline = [&](const ArrayPlace& at, const std::vector<std::pair<int, int>>& corners,
-                           bool closed) {
+  const auto outline = [&](const ArrayPlace& at, const Cells& corners, bool closed) {
     for (std::size_t k = 0; k + (closed ? 0 : 1) < corners.size(); ++k) {
       const auto& [i, j] = corners[k];
       const auto& [x, z] = corners[(k + 1) % corners.size()];
@@ -141,15 +157,22 @@ Sheet draw_neighbourhoods(Drawing&) {
     draw_grid(sheet, array(panel));
     array(panel).make_panel(sheet);
   }
-  outline(array(0), {{1, 1}, {3, 1}, {3, 3}, {1, 3}}, true);
+  const Cells square{{1, 1}, {3, 1}, {3, 3}, {1, 3}}, diamond{{2, 1}, {3, 2}, {2, 3}, {1, 2}};
+  outline(array(0), square, true);
   sheet.ring(array(0).at(2, 2), 7, kInk, 2);
-  outline(array(1), {{2, 1}, {3, 2}, {2, 3}, {1, 2}}, true);
+  outline(array(1), diamond, true);
   sheet.ring(array(1).at(2, 2), 7, kInk, 2);
   // The fourth corner of the diamond around (0, 2) stands one column inside the opposite border.
-  outline(array(2), {{0, 1}, {1, 2}, {0, 3}}, false);
-  outline(array(2), {{4, 1}, {3, 2}, {4, 3}}, false);
+  const Cells west{{0, 1}, {1, 2}, {0, 3}}, east{{4, 1}, {3, 2}, {4, 3}};
+  outline(array(2), west, false);
+  outline(array(2), east, false);
   sheet.ring(array(2).at(0, 2), 7, kInk, 2);
   sheet.ring(array(2).at(4, 2), 7, kInk, 2);
+  Cells both = west;
+  both.insert(both.end(), east.begin(), east.end());
+  drawing.record("square_corners", neighbours_among(square, {2, 2}, true));
+  drawing.record("diamond_corners", neighbours_among(diamond, {2, 2}, false));
+  drawing.record("circular_corners", neighbours_among(both, {0, 2}, false));
   int panel = 0;
   for (const char* const words : {"square", "diamond", "circular diamond"}) {
     label(sheet, array(panel).at(2, 0).x, array(panel).at(0, 4).y + kMargin + 12, words);
@@ -167,7 +190,7 @@ Sheet draw_diamond_square_steps(Drawing& drawing) {
     // Three above, two below them, centred.
     const double x = 1.5 * kMargin + (steps < 3 ? steps : steps - 2.5) * kStepX;
     const ArrayPlace array{x, kMargin + (steps < 3 ? 0 : kStepY), kSize, 5};
-    draw_steps(sheet, array, {.seed = drawing.seed(), .side = 5}, steps);
+    draw_steps(drawing, sheet, array, {.seed = drawing.seed(), .side = 5}, steps);
     array.make_panel(sheet);
     label(sheet, x + kSize / 2, array.at(0, 4).y + kMargin + 8, kWords[static_cast<std::size_t>(steps)]);
   }
@@ -181,6 +204,9 @@ Sheet draw_straddling_diamond(Drawing& drawing) {
                     before = fractal::diamond_square_after(options, 3);
   drawing.record("height_west", field.at(0, 1));
   drawing.record("height_east", field.at(4, 1));
+  const double mean =
+      (static_cast<double>(before.at(0, 0)) + before.at(0, 2) + before.at(1, 1) + before.at(3, 1)) / 4;
+  drawing.record("displacement", std::abs(field.at(0, 1) - mean));
   Sheet sheet(kSize + 10 * kMargin, kSize + 3 * kMargin);
   const ArrayPlace array{5 * kMargin, 1.5 * kMargin, kSize, 5};
   draw_grid(sheet, array);
@@ -215,15 +241,23 @@ Sheet draw_first_fault(Drawing& drawing) {
   Sheet sheet(kSize + 4 * kMargin, kSize + kLabel + 4 * kMargin);
   const ArrayPlace array{2 * kMargin, 2 * kMargin, kSize, kSide};
   array.make_panel(sheet);
+  int stars = 0, crosses = 0, wrong = 0;
   for (int j = 0; j < kSide; ++j) {
     for (int i = 0; i < kSide; ++i) {
-      if (field.at(i, j) > 0) {
+      const bool rose = field.at(i, j) > 0;
+      ++(rose ? stars : crosses);
+      wrong += rose != (line.a * i + line.b * j > line.c);
+      if (rose) {
         sheet.star(array.at(i, j), 6, kAccent);
       } else {
         sheet.cross(array.at(i, j), 5, kSecond);
       }
     }
   }
+  drawing.record("stars", stars);
+  drawing.record("crosses", crosses);
+  drawing.record("wrong_side", wrong);
+  drawing.record("heights", different(field.heights));
   // The line from border to border, half a cell around the array.
   constexpr double kLow = -0.5, kHigh = kSide - 0.5;
   std::vector<SheetPoint> ends;
@@ -247,8 +281,10 @@ Sheet draw_fault_maps(Drawing& drawing) {
   for (const int faults : {1, 4, 16, 64, 256, 1024}) {
     const Heightfield field =
         fractal::fault_terrain({.seed = drawing.seed(), .width = kSide, .depth = kSide, .faults = faults});
-    panels.push_back(
-        {heightmap_image(field), fmt::format("{} iteration{}", faults, faults == 1 ? "" : "s"), 1});
+    panels.push_back({heightmap_image(field),
+                      fmt::format("{} iteration{}", format_number(faults), faults == 1 ? "" : "s"), 1});
+    const std::vector<std::uint8_t>& greys = panels.back().image.rgb;
+    drawing.record(fmt::format("greys_{}", faults), different(greys));
   }
   // Framed, as white is a height too.
   return panel_sheet(in_rows_of(3, std::move(panels)),
@@ -263,14 +299,18 @@ Sheet draw_heightmap_and_wireframe(Drawing& drawing) {
   const Heightfield field = fractal::diamond_square(
       {.seed = drawing.seed(), .side = 129, .cell = 30, .amplitude = 800, .hurst = 0.9F});
   const Look look{.width = 1120, .height = 774};
-  return panel_sheet({{{heightmap_image(field), "heightmap, 129 × 129", 3},
-                       {wire_view(drawing.gl(), ground_mesh(resample(field, 65, 65)), look, 1.2F),
-                        "wireframe, every other sample"}}},
+  const Image map = heightmap_image(field);
+  const TriangleMesh wires = ground_mesh(every_other(field));
+  drawing.record("greys", different(map.rgb));
+  drawing.record("correlation", correlation(map, wires, field.cell_x));
+  return panel_sheet({{{map, "heightmap, 129 × 129", 3},
+                       {wire_view(drawing.gl(), wires, look, 1.2F), "wireframe, every other sample"}}},
                      kStyle);
 }
 
 Sheet draw_diamond_square_terrains(Drawing& drawing) {
   std::vector<Panel> panels;
+  Heightfield earlier = Heightfield::zeros(1, 1);
   for (int n = 1; n <= 6; ++n) {
     const int side = (1 << n) + 1;
     const Heightfield field = fractal::diamond_square({.seed = drawing.seed(),
@@ -279,7 +319,12 @@ Sheet draw_diamond_square_terrains(Drawing& drawing) {
                                                        .amplitude = 900,
                                                        .hurst = 0.9F});
     const Look look{.width = 660, .height = 460};
-    panels.push_back({wire_view(drawing.gl(), ground_mesh(field), look, n < 5 ? 2 : 1.2F),
+    const TriangleMesh mesh = ground_mesh(field);
+    drawing.record(fmt::format("points_{}", n), static_cast<double>(mesh.positions.size()));
+    if (n > 1)
+      drawing.record(fmt::format("moved_{}", n), moved_points(earlier.heights, every_other(field).heights));
+    earlier = field;
+    panels.push_back({wire_view(drawing.gl(), mesh, look, n < 5 ? 2 : 1.2F),
                       fmt::format("{} iteration{}: {} × {}", n, n == 1 ? "" : "s", side, side)});
   }
   return panel_sheet(in_rows_of(3, std::move(panels)), kStyle);
@@ -293,9 +338,16 @@ Sheet draw_hills_one_and_many(Drawing& drawing) {
   const auto view = [&](const Heightfield& field) {
     return wire_view(drawing.gl(), ground_mesh(field), {.width = 1000, .height = 660}, 1.4F);
   };
-  return panel_sheet({{{view(fractal::raise_hills(options, {{32, 32, 19}})), "one hill"},
-                       {view(fractal::hill_terrain(options)), "60 hills"}}},
-                     kStyle);
+  const Heightfield one = fractal::raise_hills(options, {{32, 32, 19}}),
+                    many = fractal::hill_terrain(options);
+  double tallest = 0;
+  for (const fractal::Hill& hill : fractal::draw_hills(options))
+    tallest = std::max<double>(tallest, options.scale * hill.radius * hill.radius);
+  drawing.record("peak", height_range(one).highest);
+  drawing.record("foot", raised_within(one, 32, 32));
+  drawing.record("tallest_of_many", tallest);
+  drawing.record("highest_of_many", height_range(many).highest);
+  return panel_sheet({{{view(one), "one hill"}, {view(many), "60 hills"}}}, kStyle);
 }
 
 // Figure 2 shows a triangulated irregular network, which no method here makes.

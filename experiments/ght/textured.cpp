@@ -1,7 +1,8 @@
 #include "experiments/ght/textured.h"
 
-#include <array>
+#include <utility>
 
+#include "experiments/figures/mesh_frame.h"
 #include "experiments/figures/views.h"
 #include "experiments/ght/tree_view.h"
 #include "renderers/landscape/landscape.h"
@@ -10,13 +11,10 @@
 namespace terrabench::ght {
 
 Image textured_view(GlContext& gl, const Ght& ght, const View& view, const Parameters& style) {
-  const TriangleMesh mesh = tree_surface(ght.model()).mesh;
-  const std::array<FrameMesh, 1> meshes{
-      FrameMesh{.id = 1, .positions = mesh.positions, .normals = mesh.normals, .indices = mesh.indices}};
-  Frame frame;
-  frame.meshes = meshes;
+  TriangleMesh mesh = tree_surface(ght.model()).mesh;
   LandscapeRenderer renderer(gl, make_style(style, bounds_of(mesh)));
-  renderer.draw(frame, view);
+  const figures::MeshFrame ground(std::move(mesh));
+  renderer.draw(ground.frame(), view);
   return renderer.image();
 }
 

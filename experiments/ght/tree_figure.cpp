@@ -59,14 +59,25 @@ class TreeSheet {
     right_ = kMargin + kRoot;
     place_children(0, kMargin);
   }
+  // How many cells of a colour the boxes show.
+  double cells(const Rgb& colour) const {
+    double shown = 0;
+    for (NodeId n = 0; n < tree_.nodes().size(); ++n) {
+      const Image image = picture(n);
+      for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) shown += image.pixel(x, y) == colour;
+      }
+    }
+    return shown;
+  }
   Sheet draw() const {
     Sheet sheet(std::max(right_ + kMargin, 640.0), y_);
     for (const Applied& event : tree_.events()) edges(sheet, event);
-    box(sheet, 0, kRoot, "root");
+    box(sheet, 0, "root");
     for (std::size_t e = 0; e < tree_.events().size(); ++e) {
       const Applied& event = tree_.events()[e];
       for (NodeId n = event.first; n < event.first + event.nodes; ++n) {
-        box(sheet, n, kBox, part_name(tree_, event, n));
+        box(sheet, n, part_name(tree_, event, n));
       }
       std::string words(events::name(event.kind));
       std::replace(words.begin(), words.end(), '-', ' ');
@@ -121,15 +132,20 @@ class TreeSheet {
     }
   }
 
-  // As large as fits a square of that side, with the proportions of the node's array.
-  void box(Sheet& sheet, NodeId n, double side, const std::string& words) const {
+  static double side_of(NodeId n) { return n == 0 ? kRoot : kBox; }
+  Image picture(NodeId n) const {
+    return cells_image(tree_, tree_.nodes()[n], static_cast<int>(2 * side_of(n)));
+  }
+
+  // As large as fits a square of side_of(), with the proportions of the node's array.
+  void box(Sheet& sheet, NodeId n, const std::string& words) const {
     const GroundedHeightmap& node = tree_.nodes()[n];
-    const double scale = side / std::max(node.columns, node.rows);
+    const double side = side_of(n), scale = side / std::max(node.columns, node.rows);
     const double wide = std::max(scale * node.columns, 6.0), high = std::max(scale * node.rows, 6.0);
     const SheetPoint at = box_[n];
     const double x = at.x + (side - wide) / 2;
     sheet.box(x - 1, at.y - 1, wide + 2, high + 2, kEdge);
-    sheet.picture(x, at.y, wide, high, cells_image(tree_, node, static_cast<int>(2 * side)));
+    sheet.picture(x, at.y, wide, high, picture(n));
     const double under = at.y + side + 13;
     const bool root = n == 0;
     sheet.text(root ? at.x + side + 10 : at.x + side / 2, root ? at.y + 14 : under, words, root ? 14 : 12,
@@ -163,7 +179,11 @@ Sheet draw_tree(figures::Drawing& drawing) {
   const Tree& tree = ght.model().tree;
   drawing.record("events", static_cast<double>(tree.events().size()));
   drawing.record("heightmaps", static_cast<double>(tree.nodes().size()));
-  return TreeSheet(tree).draw();
+  const TreeSheet drawn(tree);
+  drawing.record("height_cells", drawn.cells(kHeight));
+  drawing.record("link_cells", drawn.cells(kLink));
+  drawing.record("void_cells", drawn.cells(kVoid));
+  return drawn.draw();
 }
 
 }  // namespace terrabench::ght

@@ -101,31 +101,36 @@ std::vector<glm::vec3> plane_outline(const Tree& tree, NodeId n) {
     cells.emplace_back(i, first);
     if (last > first) cells.emplace_back(i, last);
   }
+  std::vector<glm::ivec2> hull;
+  if (cells.size() >= 3) hull = convex_hull(cells);
+  if (hull.size() < 3)
+    hull = {{0, 0}, {node.columns - 1, 0}, {node.columns - 1, node.rows - 1}, {0, node.rows - 1}};
   std::vector<glm::vec3> corners;
-  if (cells.size() < 3) return corners;
-  for (const glm::ivec2 c : convex_hull(cells)) {
+  for (const glm::ivec2 c : hull) {
     corners.push_back(node.aligned ? glm::vec3(tree.grid().x(node.i0 + c.x), 0, tree.grid().z(node.j0 + c.y))
                                    : glm::vec3(node.plane.at(c.x, c.y, 0)));
   }
   return corners;
 }
 
+std::vector<ScenePlane> ground_planes(const Tree& tree) {
+  std::vector<ScenePlane> planes{{plane_outline(tree, 0), kRoot, 0.06F, 2}};
+  const float line = tree.nodes().size() > 1000 ? 0.7F : 2.5F;
+  for (NodeId n = 1; n < tree.nodes().size(); ++n) {
+    planes.push_back({plane_outline(tree, n), kColours[(n - 1) % kColours.size()], 0.3F, line});
+  }
+  return planes;
+}
+
 Image planes_view(GlContext& gl, const Ght& ght, const Look& look) {
-  const Tree& tree = ght.model().tree;
-  const SampleGrid& grid = tree.grid();
+  const SampleGrid& grid = ght.model().tree.grid();
   Scene scene;
-  scene.planes.push_back({plane_outline(tree, 0), kRoot, 0.06F, 2});
+  scene.planes = ground_planes(ght.model().tree);
   const float x1 = grid.x(grid.width - 1), z1 = grid.z(grid.depth - 1);
   for (int k = 1; k < kPlaneGrid; ++k) {
     const float share = static_cast<float>(k) / kPlaneGrid;
     scene.lines.push_back({{{share * x1, 0, 0}, {share * x1, 0, z1}}, {200, 200, 204}, 1});
     scene.lines.push_back({{{0, 0, share * z1}, {x1, 0, share * z1}}, {200, 200, 204}, 1});
-  }
-  const float line = tree.nodes().size() > 1000 ? 0.7F : 2.5F;
-  for (NodeId n = 1; n < tree.nodes().size(); ++n) {
-    std::vector<glm::vec3> outline = plane_outline(tree, n);
-    if (outline.size() >= 3)
-      scene.planes.push_back({std::move(outline), kColours[(n - 1) % kColours.size()], 0.3F, line});
   }
   return render_scene(gl, scene, look.at(bounds_of(scene)));  // planes need not be where the ground is
 }
@@ -147,7 +152,8 @@ Image draw_wires(GlContext& gl, const TreeSurface& surface, const View& view) {
   Scene scene;
   scene.meshes.push_back(figures::wired(ground, ground_wires, 0.9F, kGroundWire));
   scene.meshes.push_back(figures::wired(made, made_wires, 1.1F, kColours[1]));
-  return render_scene(gl, scene, view);
+  return with_few_colours(render_scene(gl, scene, view),
+                          32);  // enough for two colours of lines: a smaller file
 }
 
 }  // namespace

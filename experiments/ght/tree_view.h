@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiments/figures/views.h"
+#include "renderers/scene.h"
 #include "representations/ght/ght.h"
 
 namespace terrabench::ght {
@@ -17,11 +18,13 @@ struct TreeSurface {
 // O(surface)
 TreeSurface tree_surface(const Model&);
 
-// Corners of the ground plane of a node, in order: the convex hull of its cells that are not void. Empty for
-// fewer than three cells. O(cells of the node)
+// Corners of the ground plane of a node, in order: the convex hull of its cells that are not void, or of all
+// its cells if those lie in one row. O(cells of the node)
 std::vector<glm::vec3> plane_outline(const Tree&, NodeId);
 
-// The root's ground plane grey, those of other nodes in colour.
+// The ground planes as planes_view() draws them: the root's grey, then those of the other nodes in colour.
+// O(cells)
+std::vector<ScenePlane> ground_planes(const Tree&);
 Image planes_view(GlContext&, const Ght&, const figures::Look&);
 // The triangles of the root grey, those of other nodes blue.
 Image wires_view(GlContext&, const Ght&, const figures::Look&);

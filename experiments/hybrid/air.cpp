@@ -9,11 +9,14 @@
 #include <vector>
 
 #include "experiments/cases.h"
-#include "experiments/hybrid/mesh_frame.h"
+#include "experiments/figures/mesh_frame.h"
+#include "experiments/hybrid/pixels.h"
 #include "renderers/landscape/landscape.h"
 
 namespace terrabench::hybrid {
 namespace {
+
+using figures::MeshFrame;
 
 constexpr std::array<std::string_view, 3> kParts{"fog", "border", "border-without-blending"};
 const std::array kSpecs{
@@ -21,6 +24,7 @@ const std::array kSpecs{
     ParameterSpec{"side", 2000.0, "m", "of the ground, whose middle the eye stands over", 100, 1e5},
     ParameterSpec{"eye", 30.0, "m", "height of the eye", 1, 1000},
 };
+constexpr double kFog = 0.2;  // of the side: the distance at which fog leaves 1/e of the ground's colour
 
 std::vector<Case> cases(const RunOptions&) { return cases_by("part", kSpecs); }
 
@@ -60,24 +64,36 @@ LandscapeStyle style_of(const Case& at, std::initializer_list<std::pair<std::str
 
 LandscapeStyle foggy(const Case& at, double sun) {
   return style_of(at, {{"fog_color", std::string("#808080")},
-                       {"fog", 0.2},
+                       {"fog", kFog},
                        {"fog_sun", sun},
                        {"sun_azimuth", 90.0},
                        {"sun_height", 8.0},
                        {"border", 0.0}});
 }
 
-// Red less blue, of the fog before ground 900 m away, in the display's units.
+// The share of fog as the landscape defines it; the paper says only that distance decides it.
+double defined_share(const Case& at, double distance) {
+  const double thick = distance / (kFog * at.parameters.number("side"));
+  return 1 - std::exp(-thick * thick);
+}
+
+// Where the definition leaves less than one step of an 8-bit colour of the ground.
+double hidden_from(const Case& at) {
+  return kFog * at.parameters.number("side") * std::sqrt(std::log(255.0));
+}
+
+// The warmth of fog before ground that it hides.
 double tint(LandscapeRenderer& renderer, const MeshFrame& ground, const Case& at, double from_sun) {
   const View view = level_view(at, 90 + from_sun);
   renderer.draw(ground.frame(), view);
   const Image image = renderer.image();
-  int y = view.height - 1;
-  while (y > 0 && distance_at(view, view.width / 2, y - 1) < 900 &&
-         distance_at(view, view.width / 2, y - 1) > 0)
-    --y;
-  const Rgb pixel = image.pixel(view.width / 2, y);
-  return (pixel[0] - pixel[2]) / 255.0;
+  const auto hidden = [&](int y) {
+    const double distance = distance_at(view, view.width / 2, y);
+    return distance <= 0 || distance > hidden_from(at);
+  };
+  int y = 0;
+  while (y + 1 < view.height && hidden(y + 1)) ++y;  // the nearest such row
+  return warmth(image.pixel(view.width / 2, y));
 }
 
 void measure_fog(const Case& at, const MeshFrame& ground, GlContext& context, Recorder& recorder) {
@@ -95,15 +111,17 @@ void measure_fog(const Case& at, const MeshFrame& ground, GlContext& context, Re
     }
   }
   std::sort(shares.begin(), shares.end());
-  double most = 0, fall = 0;
+  double most = 0, fall = 0, off = 0;
   for (const auto& [distance, share] : shares) {
     fall = std::max(fall, most - share);
     most = std::max(most, share);
+    off = std::max(off, std::abs(share - defined_share(at, distance)));
   }
   recorder.add("nearest_share", "", shares.front().second);
   recorder.add("middle_share", "", shares[shares.size() / 2].second);
   recorder.add("farthest_share", "", shares.back().second);
   recorder.add("largest_fall", "", fall);
+  recorder.add("off_the_definition", "", off);
 
   renderer.restyle(foggy(at, 1));
   for (const int from_sun : {0, 20, 40, 180})
@@ -146,7 +164,7 @@ void measure_border(const Case& at, const MeshFrame& ground, GlContext& context,
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const MeshFrame ground(level_ground(static_cast<float>(at.parameters.number("side"))));
+  const MeshFrame ground(figures::level_ground(static_cast<float>(at.parameters.number("side"))));
   const auto context = open_context(options.renderer, 64, 64);
   if (at.parameters.text("part") == "fog") {
     measure_fog(at, ground, *context, recorder);

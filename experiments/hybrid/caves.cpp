@@ -56,9 +56,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
                                    .attenuation = at.parameters.flag("attenuation"),
                                    .printed_product = at.parameters.flag("printed_product")};
   const TerrainSource source = recorder.terrain(noise::cave_source(terrain));
-  const auto built = build_at_resolution("layered_stack", source, at.parameters.integer("n"), progress);
-  const auto& stack = dynamic_cast<const LayeredStack&>(*built);
-  const Components found = find_components(stack);
+  const Components found =
+      find_components(*stack_at_resolution(source, at.parameters.integer("n"), progress));
 
   recorder.add("overhang_columns", "", found.overhang_columns);
   recorder.add("solid_components", "", found.total);

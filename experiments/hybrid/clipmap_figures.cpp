@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/vec2.hpp>
+#include <limits>
 #include <set>
 #include <tuple>
 
@@ -12,9 +14,12 @@
 #include "experiments/figures/figure.h"
 #include "experiments/figures/ground.h"
 #include "experiments/figures/maps.h"
+#include "experiments/figures/projection.h"
+#include "experiments/hybrid/macro_heights.h"
 #include "lod/clipmap/clipmap.h"
 #include "renderers/scene.h"
 #include "representations/layered_stack/height_map.h"
+#include "results/store/format.h"
 
 namespace terrabench::hybrid {
 namespace {
@@ -57,6 +62,45 @@ std::vector<TriangleMesh> rings(const Heightfield& field) {
   return levels;
 }
 
+// In plan, metres: a level's side, the distance of its vertices, and the area that its triangles cover.
+struct RingSize {
+  float side = 0, spacing = std::numeric_limits<float>::max();
+  double area = 0;
+};
+
+RingSize size_of(const TriangleMesh& ring) {
+  RingSize size;
+  float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
+  for (std::size_t t = 0; t < ring.indices.size(); t += 3) {
+    std::array<glm::dvec2, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::vec3 corner = ring.positions[ring.indices[t + k]],
+                      next = ring.positions[ring.indices[t + (k + 1) % 3]];
+      p[k] = {corner.x, corner.z};
+      low = std::min(low, corner.x);
+      high = std::max(high, corner.x);
+      if (corner.x != next.x) size.spacing = std::min(size.spacing, std::abs(corner.x - next.x));
+    }
+    size.area +=
+        0.5 * std::abs((p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x));
+  }
+  size.side = high - low;
+  return size;
+}
+
+void record_sizes(Drawing& drawing, const std::vector<TriangleMesh>& levels, const Heightfield& field) {
+  double area = 0;
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    const RingSize size = size_of(levels[l]);
+    drawing.record(fmt::format("side_{}", l), size.side);
+    drawing.record(fmt::format("spacing_{}", l), size.spacing);
+    area += size.area;
+  }
+  drawing.record("levels", static_cast<double>(levels.size()));
+  drawing.record("ground_side", field.extent_x());
+  drawing.record("area_to_ground", area / (double{field.extent_x()} * field.extent_z()));
+}
+
 // Upright sides below the border of the outermost level.
 TriangleMesh sides_below(const TriangleMesh& outer, const Heightfield& field, float floor) {
   TriangleMesh sides;
@@ -93,6 +137,7 @@ Sheet draw_rings(Drawing& drawing) {
   const TerrainSource source = open_terrain("hills", drawing.seed());
   const Heightfield field = crop(*source.heights, 100, 100, 161, 161);
   const std::vector<TriangleMesh> levels = rings(field);
+  record_sizes(drawing, levels, field);
   GlContext& gl = drawing.gl();
   const auto pixels = [](double units) { return static_cast<int>(Sheet::kPixels * units); };
 
@@ -117,10 +162,8 @@ Sheet draw_rings(Drawing& drawing) {
   sheet.text(2 * kMargin + kSide, kTitle - 8, "aslant", 16);
   sheet.picture(2 * kMargin + kSide, kTitle, kLong, kSide, render_scene(gl, lit, aslant));
   sheet.dot({kMargin + kSide / 2, kTitle + kSide / 2}, 5, {0, 0, 0});
-  const glm::vec4 clip =
-      world_to_clip(aslant) * glm::vec4(0.5F * field.extent_x(), floor, field.extent_z(), 1);
-  sheet.text(2 * kMargin + kSide + kLong * (0.5 + 0.5 * clip.x / clip.w),
-             kTitle + kSide * (0.5 - 0.5 * clip.y / clip.w) + 26, fmt::format("{:.0f} m", field.extent_x()),
+  const SheetPoint front = project(aslant, {0.5F * field.extent_x(), floor, field.extent_z()}).at;
+  sheet.text(2 * kMargin + kSide + front.x, kTitle + front.y + 26, format_number(field.extent_x()) + " m",
              15, "middle");
   double x = kMargin;
   const double y = kTitle + kSide + 18;
@@ -142,32 +185,56 @@ Sheet draw_height_map(Drawing& drawing) {
   constexpr double kPicture = 0.5 * kColumns * kFiner;  // units: every sample a whole number of pixels
   Progress silent;
   const TerrainSource source = open_terrain("caves", drawing.seed());
-  const auto built = build_at_resolution("layered_stack", source, kColumns, silent);
-  const auto& stack = dynamic_cast<const LayeredStack&>(*built);
+  const std::unique_ptr<LayeredStack> built = stack_at_resolution(source, kColumns, silent);
+  const LayeredStack& stack = *built;
   const Heightfield columns = column_heights(stack, ColumnHeight::kTop);
   const Heightfield whole = height_map(stack, ColumnHeight::kTop, kFiner);
   const Heightfield map = crop(whole, 0, 0, kColumns * kFiner, kColumns * kFiner);
-  const auto window = [&](const Heightfield& field, int scale) {
-    return heightmap_image(crop(field, 28 * scale, 20 * scale, 16 * scale, 16 * scale));
+  float off = 0;  // of the interpolated map over the middles of the stacks
+  for (int j = 0; j < kColumns; ++j) {
+    for (int i = 0; i < kColumns; ++i)
+      off = std::max(off,
+                     std::abs(map.at(kFiner * i + kFiner / 2, kFiner * j + kFiner / 2) - columns.at(i, j)));
+  }
+  drawing.record("largest_step_of_stacks", largest_step(columns));
+  drawing.record("largest_step_interpolated", largest_step(map));
+  drawing.record("off_the_stacks", off);
+  const auto window = [](const Heightfield& field, int scale) {
+    return crop(field, 28 * scale, 20 * scale, 16 * scale, 16 * scale);
   };
   const auto size = [](const Heightfield& field) {
-    return fmt::format("{} × {}, {:.1f} m apart", field.width, field.depth, field.cell_x);
+    return fmt::format("{} × {}, {:g} m apart", field.width, field.depth, field.cell_x);
   };
-  return titled_sheet(2, kPicture, 8,
-                      {{heightmap_image(columns), "stacks: " + size(columns)},
-                       {heightmap_image(map), "interpolated: " + size(map)},
-                       {window(columns, 1), "stacks: a window of 16 × 16"},
-                       {window(map, kFiner), "interpolated: the same window"}});
+  const std::array<std::pair<Heightfield, std::string>, 4> panels{
+      {{columns, "stacks: " + size(columns)},
+       {map, "interpolated: " + size(map)},
+       {window(columns, 1), "stacks: a window of 16 × 16"},
+       {window(map, kFiner), "interpolated: the same window"}}};
+  const PanelGrid grid{.columns = 2,
+                       .rows = 2,
+                       .width = kPicture,
+                       .height = kPicture,
+                       .below = 30,
+                       .title = 30,
+                       .text_size = 16};
+  Sheet sheet(grid.sheet_width(), grid.bottom());
+  for (int k = 0; k < 4; ++k) {
+    const auto& [field, words] = panels[static_cast<std::size_t>(k)];
+    grid.place(sheet, k, words, heightmap_image(field));
+    const HeightRange range = height_range(field);
+    sheet.text(grid.x(k), grid.y(k) + kPicture + 20,
+               fmt::format("black: {:.1f} m, white: {:.1f} m", range.lowest, range.highest), grid.text_size);
+  }
+  return sheet;
 }
 
 constexpr std::array<figures::Figure, 2> kFigures{{
     {14, "F14",
      "the rings of a geometry clipmap with windows of 23 × 23 vertices around the eye; each level has half "
-     "as "
-     "many vertices per metre as the next inner one, and is drawn outside of it",
+     "as many vertices per metre as the next inner one, and is drawn outside of it",
      draw_rings},
     {22, "F22",
-     "the height map made from the stacks of a cave terrain, black lowest and white highest: one sample per "
+     "the height map made from the stacks of a cave terrain, in metres: one sample per "
      "stack, and bilinearly interpolated at ten samples per stack; the windows below have greys of their own",
      draw_height_map},
 }};

@@ -8,6 +8,8 @@
 #include "experiments/cases.h"
 #include "experiments/figures/figure.h"
 #include "experiments/figures/ground.h"
+#include "experiments/figures/projection.h"
+#include "experiments/hybrid/grass_measures.h"
 #include "experiments/hybrid/grassland.h"
 #include "renderers/grass/grass_scene.h"
 #include "renderers/scene.h"
@@ -91,16 +93,10 @@ View view_of(const Bounds& box, int width, int height, glm::vec3 from, float zoo
   return view;
 }
 
-// Where a point appears, in units of the sheet from the picture's corner.
-figures::SheetPoint on_picture(const View& view, const glm::vec3& p) {
-  const glm::vec4 clip = world_to_clip(view) * glm::vec4(p, 1);
-  return {(0.5 + 0.5 * clip.x / clip.w) * view.width / Sheet::kPixels,
-          (0.5 - 0.5 * clip.y / clip.w) * view.height / Sheet::kPixels};
-}
-
 // The length of the block's front side, below it. `left`, `top`: of the picture on the sheet.
 void label_length(Sheet& sheet, const View& view, const Block& block, double left, double top) {
-  const figures::SheetPoint low = on_picture(view, block.low), high = on_picture(view, block.high);
+  const figures::SheetPoint low = figures::project(view, block.low).at,
+                            high = figures::project(view, block.high).at;
   sheet.stroke({left + low.x, top + low.y + 7}, {left + high.x, top + high.y + 7}, kInk, 1.5);
   sheet.text(left + (low.x + high.x) / 2, top + (low.y + high.y) / 2 + 26,
              fmt::format("{:.0f} m", block.high.x - block.low.x), 14, "middle");
@@ -114,6 +110,9 @@ Sheet draw_guides(Drawing& drawing) {
     const glm::vec3 root = block.surface.positions[v];
     scene.lines.push_back(line(root, root + 1.2F * block.surface.normals[v], kGuide, 4));
   }
+  drawing.record("guides", static_cast<double>(scene.lines.size()));
+  drawing.record("vertices", static_cast<double>(block.surface.positions.size()));
+  drawing.record("lean_out_of_faces", lean_out_of_faces(block.surface, scene.lines));
   const View view = view_of(block.box(), 1600, 800, kFromSouth, 0.93F, 0.2F);
   Sheet sheet = panel_sheet({{{render_scene(drawing.gl(), scene, view),
                                "A guide strand of 1.2 m at every vertex, along its normal"}}});
@@ -143,12 +142,20 @@ Sheet draw_interpolated(Drawing& drawing) {
   one.indices = {0, 1, 2};
   Scene single, many;
   single.meshes.push_back(wires(one));
-  add_strands(single, grow(drawing, one, 90), 2);
+  const std::vector<GrassStrand> between = grow(drawing, one, 90);
+  const Interpolation found = interpolation_of(one, between);
+  drawing.record("strands", static_cast<double>(between.size()));
+  drawing.record("off_the_normals", found.off_the_normals);
+  drawing.record("least_coordinate", found.least_coordinate);
+  add_strands(single, between, 2);
   for (std::size_t v = 0; v < 3; ++v) {
     single.lines.push_back(line(one.positions[v], one.positions[v] + 1.2F * one.normals[v], kGuide, 6));
   }
   add_block(many, block);
-  add_strands(many, grow(drawing, mesh, 12 * static_cast<std::int64_t>(mesh.triangles())), 1.5F);
+  const std::vector<GrassStrand> all = grow(drawing, mesh, 12 * static_cast<std::int64_t>(mesh.triangles()));
+  drawing.record("strands_per_triangle",
+                 static_cast<double>(all.size()) / static_cast<double>(mesh.triangles()));
+  add_strands(many, all, 1.5F);
   const View near = view_of(bounds_of(one), kWide, kHigh, {0.1F, 0.75F, 1.0F}, 0.8F, 0.4F);
   const View far = view_of(block.box(), kWide, kHigh, kFromSouth, 0.93F, 0.2F);
   Sheet sheet = panel_sheet(
@@ -187,12 +194,16 @@ Sheet draw_diagram(Drawing& drawing) {
   const Image planes = render_scene(drawing.gl(), scene, view);
   grass.background = kPaper;
   const Image drawn = grass.picture(view, GrassTechnique::kGeometryShader);
+  GrassScene no_grass(drawing.gl(), grass_ground(ground), {});
+  no_grass.background = kPaper;
+  record_billboards(drawing, scene.planes, ground, view, drawn,
+                    no_grass.picture(view, GrassTechnique::kGeometryShader));
 
   Sheet sheet = panel_sheet({{{planes, "The quadrilaterals, 0.8 m × 0.9 m, on the triangle A B C"},
                               {drawn, "The same strand with its texture"}}});
   const auto label = [&](const glm::vec3& p, double dx, double dy, std::string_view words,
                          Rgb colour = kInk) {
-    const figures::SheetPoint at = on_picture(view, p);
+    const figures::SheetPoint at = figures::project(view, p).at;
     sheet.text(kMargin + at.x + dx, kMargin + at.y + dy, words, 15, "start", colour);
   };
   label(strand.root + 1.25F * up, 8, 4, "normal N");
@@ -234,6 +245,9 @@ Sheet draw_billboards(Drawing& drawing) {
       planted(drawing, block,
               {.strands = kStrands, .steepest = 180, .by_area = true, .height = 0.45F, .width = 0.5F});
   const View all = view_of(block.box(), kWide, kLow, kFromSouth, 0.97F, -1.5F);
+  drawing.record("billboards",
+                 static_cast<double>(scene->count_billboards(all, GrassTechnique::kGeometryShader)));
+  record_steep_strands(drawing, field, block.surface, scene->strands());
   const Image whole = scene->picture(all, GrassTechnique::kGeometryShader);
   scene->look.fog_density = 0.006F;
   scene->background = kSky;
@@ -270,7 +284,7 @@ Sheet draw_limit(Drawing& drawing) {
     drawing.record(metric, share);
     growth.strands = std::llround(kPerArea * area);
     return Panel{planted(drawing, block, growth)->picture(view, GrassTechnique::kGeometryShader),
-                 fmt::format("{}: {} % of the area", words, share)};
+                 fmt::format("{}: {:.1f} % of the area", words, share)};
   };
   const Panel bare = panel(180, SlopeAngle::kPrinted, "area_everywhere", "No limit");
   Sheet sheet = panel_sheet(
@@ -292,10 +306,9 @@ constexpr std::array<Figure, 5> kFigures{{
     {18, "F18", "grass as billboards, interpolated over the ground", draw_billboards},
     {19, "F19",
      "grass limited by the angle of the ground, on a block with terraces; n is the y component of the "
-     "normal. Strands "
-     "are even over the area that is not too steep; the rest is bare rock. At the same limit, the printed "
-     "formula lets "
-     "grass grow on steeper ground than the true angle does",
+     "normal. Strands are even over the area that is not too steep; the rest is bare rock. At the same "
+     "limit, "
+     "the printed formula lets grass grow on steeper ground than the true angle does",
      draw_limit},
 }};
 constexpr std::array kNames = names_of(kFigures);

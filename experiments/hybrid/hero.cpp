@@ -12,7 +12,6 @@
 #include "experiments/hybrid/noise_ground.h"
 #include "experiments/near_ground.h"
 #include "experiments/scene.h"
-#include "renderers/frame_timer.h"
 
 namespace terrabench::hybrid {
 namespace {
@@ -39,7 +38,6 @@ const ParameterSpec kSpecs[] = {
     {"sun_height", 24.0, "°", "height of the sun above the horizon", 0, 90},
     {"width", std::int64_t{1600}, "pixels", "width of the picture", 16, 16384},
     {"height", std::int64_t{900}, "pixels", "height of the picture", 16, 16384},
-    {"frames", std::int64_t{5}, "frames", "frames to time at that size", 0, 100'000},
 };
 
 std::vector<Case> cases(const RunOptions& options) {
@@ -50,7 +48,6 @@ std::vector<Case> cases(const RunOptions& options) {
     one.parameters.set("columns", std::int64_t{768});
     one.parameters.set("radius", std::int64_t{2});
     one.parameters.set("window", 255.0);
-    one.parameters.set("frames", std::int64_t{0});
   }
   return {one};
 }
@@ -99,16 +96,13 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
   recorder.add("triangles", "", static_cast<double>(painter.update(view).stats.triangles));
   recorder.add("strands", "", static_cast<double>(painter.strands()));
-  figures::write_picture(
-      recorder.figure("hybrid.hero", "png",
-                      "Noise terrain made as in the paper: an arch over water, in a landscape that ends in "
-                      "the sky. The ground near the eye is an implicit surface with grass, the ground "
-                      "beyond a clipmap"),
-      painter.draw(view, 3));
-  const std::vector<double> times =
-      time_frames(frame_clock(*context), 2, at.integer("frames"),
-                  [&](int frame) { painter.renderer().draw(painter.update(view), view, 3 + frame / 60.0); });
-  for (const double seconds : times) recorder.add("frame_time", "s", seconds);
+  write_png(recorder
+                .figure("hybrid.hero", "png",
+                        "Noise terrain made as in the paper: an arch over water, in a landscape that ends in "
+                        "the sky. The ground near the eye is an implicit surface with grass, the ground "
+                        "beyond a clipmap")
+                .path,
+            painter.draw(view, 3));
 }
 
 }  // namespace

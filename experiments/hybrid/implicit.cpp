@@ -8,6 +8,7 @@
 
 #include "experiments/experiment.h"
 #include "experiments/hybrid/surface_distance.h"
+#include "experiments/samples.h"
 #include "experiments/stopwatch.h"
 #include "representations/implicit/implicit_surface.h"
 #include "terrain/memory.h"
@@ -149,14 +150,13 @@ TerrainSource part_of_solid(const Voxels& voxels, glm::ivec3 corner, int radius,
 // All lengths in metres.
 std::unique_ptr<ImplicitSurface> build(const TerrainSource& source, const Case& at, std::int64_t resolution,
                                        double radius, double cell, Progress& progress) {
-  const RepresentationType& type = representation("implicit");
-  const Parameters parameters(type.parameters, {{"resolution", resolution},
-                                                {"kernel", at.parameters.text("kernel")},
-                                                {"radius", radius},
-                                                {"cell", cell},
-                                                {"extractor", at.parameters.text("extractor")}});
-  return std::unique_ptr<ImplicitSurface>(
-      dynamic_cast<ImplicitSurface*>(type.build(source, parameters, progress).release()));
+  const Parameters parameters(ImplicitSurface::parameters(),
+                              {{"resolution", resolution},
+                               {"kernel", at.parameters.text("kernel")},
+                               {"radius", radius},
+                               {"cell", cell},
+                               {"extractor", at.parameters.text("extractor")}});
+  return ImplicitSurface::build_surface(source, parameters, progress);
 }
 
 void measure_values(const Case& at, const ImplicitSurface& surface, std::uint64_t seed, Recorder& recorder,
@@ -226,7 +226,7 @@ TriangleMesh open_surface(const ImplicitSurface& surface, glm::ivec2 begin, glm:
 
 void measure_surface(const Case& at, const TerrainSource& source, const ImplicitSurface& surface,
                      Recorder& recorder, Progress& progress) {
-  constexpr int kSamples = 5, kFiner = 4;
+  constexpr int kFiner = 4;
   for (int k = 0; k < kSamples; ++k) {
     HeapCounter::reset_peak();
     const std::int64_t before = HeapCounter::live();
@@ -259,21 +259,28 @@ void measure_surface(const Case& at, const TerrainSource& source, const Implicit
   recorder.add("mean_distance", "cells", std::max(from_mesh.mean, to_mesh.mean) / cell);
 }
 
+bool times(const Case& at) { return at.parameters.text("measure") == "surface"; }
+
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(noise::cave_source({.seed = options.seed}));
   const std::int64_t n = at.parameters.integer("n");
   const double column = static_cast<double>(source.bounds().size().x) / static_cast<double>(n);
   const auto surface = build(source, at, n, at.parameters.number("radius") * column, 0, progress);
-  if (at.parameters.text("measure") == "values") {
-    measure_values(at, *surface, options.seed, recorder, progress);
-  } else {
+  if (times(at)) {
     measure_surface(at, source, *surface, recorder, progress);
+  } else {
+    measure_values(at, *surface, options.seed, recorder, progress);
   }
 }
 
 }  // namespace
 
-extern const Experiment kImplicit{"hybrid.implicit", "§3.1.2: the implicit surface's field and polygons",
-                                  kSpecs, cases, measure};
+extern const Experiment kImplicit{"hybrid.implicit",
+                                  "§3.1.2: the implicit surface's field and polygons",
+                                  kSpecs,
+                                  cases,
+                                  measure,
+                                  Experiment::kTimed,
+                                  times};
 
 }  // namespace terrabench::hybrid

@@ -11,6 +11,7 @@
 #include "experiments/figures/figure.h"
 #include "experiments/figures/maps.h"
 #include "experiments/figures/views.h"
+#include "experiments/hybrid/pixels.h"
 #include "representations/implicit/implicit_surface.h"
 
 namespace terrabench::hybrid {
@@ -39,15 +40,13 @@ TerrainSource arch() {
 }
 
 std::unique_ptr<ImplicitSurface> smoothed(Kernel kernel) {
-  const RepresentationType& type = representation("implicit");
   Progress progress;
-  const Parameters parameters(type.parameters,
+  const Parameters parameters(ImplicitSurface::parameters(),
                               {{"resolution", std::int64_t{kWidth}},
                                {"kernel", std::string(kKernelNames[static_cast<std::size_t>(kernel)])},
                                {"radius", kRadius},
                                {"cell", 0.5}});
-  return std::unique_ptr<ImplicitSurface>(
-      dynamic_cast<ImplicitSurface*>(type.build(arch(), parameters, progress).release()));
+  return ImplicitSurface::build_surface(arch(), parameters, progress);
 }
 
 // A point whose support is full, half full or empty, and one between; where its words stand in the section.
@@ -122,6 +121,13 @@ Image section(const ImplicitSurface& surface, int pixels_per_metre) {
     }
   }
   return image;
+}
+
+// The share of the section's pixels in the colours of 1 and -1.
+double full_or_empty(const Image& section) {
+  const Rgb full = difference_colour(1), empty = difference_colour(0);
+  return mean_over(section, {},
+                   [&](const Rgb& pixel) { return pixel == full || pixel == empty ? 1.0 : 0.0; });
 }
 
 // The outlines of the solid blocks and of the surface's section, as strokes on the sheet.
@@ -211,7 +217,11 @@ Sheet draw_kernel(Drawing& drawing, Kernel kernel) {
 
   const double x0 = kView + 2 * kGap, y0 = kTitle;
   sheet.text(x0, y0 - 8, "c) Section through the middle: the field f, and f = 0 (black line)", 14);
-  sheet.picture(x0, y0, kSectionWidth, kSectionHeight, section(*surface, 14));
+  const Image field = section(*surface, 14);
+  drawing.record("full_or_empty", full_or_empty(field));
+  for (const Marked& mark : kMarked)
+    drawing.record(fmt::format("field_{}", mark.name), surface->field().at(mark.at));
+  sheet.picture(x0, y0, kSectionWidth, kSectionHeight, field);
   const auto place = [&](double x, double y) {
     return SheetPoint{x0 + x * kScale, y0 + (kHeight - y) * kScale};
   };
@@ -230,7 +240,9 @@ Sheet draw_kernel(Drawing& drawing, Kernel kernel) {
 constexpr auto kFigures = std::to_array<Figure>({
     {1, "F1", "the sphere kernel on an arch; the field is +1 in full support, 0 in half-full and −1 in empty",
      [](Drawing& drawing) { return draw_kernel(drawing, Kernel::kSphere); }},
-    {2, "F2", "the cube kernel on the same arch; its surface bends less evenly than the sphere's",
+    {2, "F2",
+     "the cube kernel on the same arch; it contains the sphere, so that fewer points have full or empty "
+     "support",
      [](Drawing& drawing) { return draw_kernel(drawing, Kernel::kCube); }},
 });
 constexpr std::array kNames = names_of(kFigures);

@@ -10,7 +10,9 @@
 
 #include "experiments/cases.h"
 #include "experiments/figures/figure.h"
+#include "experiments/hybrid/landscape_measures.h"
 #include "experiments/hybrid/noise_ground.h"
+#include "experiments/hybrid/pixels.h"
 #include "experiments/scene.h"
 #include "renderers/landscape/textures.h"
 
@@ -90,6 +92,11 @@ Image image_of(int width, int height, const std::function<Rgb(int, int)>& colour
 Sheet draw_dudv(Drawing& drawing) {
   constexpr int kSide = 720;
   const Texels map = wave_map(kSide, drawing.seed());
+  const SlopeMap warp = measure_slopes(map, 0, 1), normal = measure_slopes(map, 2, 3);
+  drawing.record("warp_curl", warp.curl);
+  drawing.record("normal_curl", normal.curl);
+  drawing.record("seam_step", warp.seam_step);
+  drawing.record("largest_step", warp.largest_step);
   const auto share = [&](int x, int y, int channel) {
     return 0.5F + 0.5F * map.at(x % kSide, y % kSide, channel);
   };
@@ -143,6 +150,14 @@ Sheet draw_water(Drawing& drawing) {
                                         {"highlight", off}});
   const Image still = land.draw(small, {{"distortion", off}, {"wave_slope", off}, {"highlight", off}});
   const Image warped = land.draw(small, {{"wave_slope", off}, {"highlight", off}});
+  const WaterMix mix = measure_mix(mirror, glass, still, small);
+  drawing.record("between_the_parts", mix.between);
+  drawing.record("reflected_near", mix.near);
+  drawing.record("reflected_near_schlick", mix.near_schlick);
+  drawing.record("reflected_far", mix.far);
+  drawing.record("reflected_far_schlick", mix.far_schlick);
+  drawing.record("warped_water", share_changed(still, warped, mirror, glass, true));
+  drawing.record("warped_land", share_changed(still, warped, mirror, glass, false));
   return landscape_sheet(
       {{{land.draw(large, {}, 2), "all parts, with a moving normal map and highlights"}},
        {{around_the_water(mirror), "reflection alone"}, {around_the_water(glass), "refraction alone"}},
@@ -162,9 +177,17 @@ Sheet draw_fog(Drawing& drawing) {
   };
   const View towards = land.view({300, 45, 1200}, {600, 25, 740}, kLarge);
   const View away = land.view({1150, 60, 300}, {850, 35, 760}, kSmall);
-  return landscape_sheet({{{draw(towards, 0.85), "towards the sun"}},
-                          {{draw(resized(towards, kSmall), 0), "towards the sun, fog of one colour"},
-                           {draw(away, 0.85), "away from the sun"}}});
+  const Image coloured = draw(towards, 0.85), plain = draw(resized(towards, kSmall), 0),
+              behind = draw(away, 0.85);
+  // Far hills in fog: under the sun, and where the view is farthest from it.
+  constexpr Part kUnderSun{0.4, 0.6, 0.42, 0.52}, kLeft{0, 0.2, 0.42, 0.52}, kRight{0.8, 1, 0.42, 0.52};
+  drawing.record("warmth_under_the_sun", mean_over(coloured, kUnderSun, warmth));
+  drawing.record("warmth_left", mean_over(coloured, kLeft, warmth));
+  drawing.record("warmth_right", mean_over(coloured, kRight, warmth));
+  drawing.record("warmth_of_one_colour", mean_over(plain, kUnderSun, warmth));
+  drawing.record("warmth_away", mean_over(behind, kUnderSun, warmth));
+  return landscape_sheet({{{coloured, "towards the sun"}},
+                          {{plain, "towards the sun, fog of one colour"}, {behind, "away from the sun"}}});
 }
 
 // Rows `from` to `to` of the map, moved along the horizon by `turn`.
@@ -182,6 +205,14 @@ Sheet draw_sky_noise(Drawing& drawing) {
   constexpr double kLeft = 48, kTop = 28, kRight = 24, kGap = 70, kBelow = 56;
   constexpr double kUnit = Sheet::kPixels, kWide = kWidth / kUnit;
   const Texels map = sky_noise(kWidth, kHeight, drawing.seed(), 1);
+  const Seam seam = measure_seam(map);
+  drawing.record("seam_step", seam.at_seam);
+  drawing.record("largest_step", seam.elsewhere);
+  const auto [least, most] = std::minmax_element(map.values.begin(), map.values.begin() + kWidth);
+  drawing.record("zenith_spread", *most - *least);
+  drawing.record("share_below_half",
+                 static_cast<double>(std::ranges::count_if(map.values, [](float v) { return v < 0.5F; })) /
+                     static_cast<double>(map.values.size()));
   Sheet sheet(kLeft + kWide + kRight, kTop + (kHeight + kStripTo - kStripFrom) / kUnit + kGap + kBelow);
   const auto panel = [&](double y, double turn, int from, int to) {
     sheet.picture(kLeft, y, kWide, (to - from) / kUnit, grey_map(map, turn, from, to));
@@ -191,7 +222,7 @@ Sheet draw_sky_noise(Drawing& drawing) {
       sheet.text(x, below + 18, fmt::format("{}°", static_cast<int>(90 * k + 360 * turn) % 360), 13,
                  "middle");
     }
-    for (int elevation = 90; elevation >= 0; elevation -= 30) {
+    for (int elevation = 90; elevation >= 0; elevation -= 15) {
       const double row = kHeight * (1 - elevation / 90.0);
       if (row < from || row > to) continue;
       sheet.stroke({kLeft - 5, y + (row - from) / kUnit}, {kLeft, y + (row - from) / kUnit}, kAxis, 1);
@@ -212,11 +243,20 @@ Sheet draw_clouds(Drawing& drawing) {
   const View large = land.view({300, 30, 1200}, {560, 110, 740}, kLarge), small = resized(large, kSmall);
   // The noise map is the intensity itself, and clouds have one colour.
   const Settings printed{{"cloud_cover", 0.75}, {"cloud_softness", 1.0}, {"cloud_shading", 0.0}};
+  constexpr double kLater = 20;  // seconds
+  const Image now = land.draw(large, {}), later = land.draw(small, {}, kLater),
+              as_printed = land.draw(small, printed);
+  const LandscapeStyle style = land.style({});
+  const Texels noise = sky_noise(2048, 768, style.seed, style.cloud_size);
+  const double turned = kLater * style.cloud_speed;
+  drawing.record("match", cloud_match(now, large, noise, 0));
+  drawing.record("match_of_later_clouds", cloud_match(now, large, noise, turned));
+  drawing.record("later_match", cloud_match(later, small, noise, turned));
+  drawing.record("later_match_of_first_clouds", cloud_match(later, small, noise, 0));
+  drawing.record("printed_match", cloud_match(as_printed, small, noise, 0));
   return landscape_sheet(
-      {{{land.draw(large, {}),
-         "i = (n − 0.4) ÷ 0.6, at least 0, of the noise n; clouds shaded by thickness and sun"}},
-       {{land.draw(small, {}, 20), "the same, 20 s later"},
-        {land.draw(small, printed), "as printed: i = n, and one colour of cloud"}}});
+      {{{now, "i = (n − 0.4) ÷ 0.6, at least 0, of the noise n; clouds shaded by thickness and sun"}},
+       {{later, "the same, 20 s later"}, {as_printed, "as printed: i = n, and one colour of cloud"}}});
 }
 
 constexpr std::array<Figure, 5> kFigures{{
@@ -224,8 +264,7 @@ constexpr std::array<Figure, 5> kFigures{{
      draw_dudv},
     {21, "F21",
      "the water as rendered, and its parts. The ground is the noise terrain's height map, drawn by the "
-     "clipmap; it is rock "
-     "where §4.1's angle, (1 − n_y) · 90°, exceeds 20°",
+     "clipmap; it is rock where §4.1's angle, (1 − n_y) · 90°, exceeds 20°",
      draw_water},
     {23, "F23",
      "fog that takes the sun's colour towards the sun, 8° above the horizon; ground as in figure 21",
@@ -233,8 +272,7 @@ constexpr std::array<Figure, 5> kFigures{{
     {24, "F24", "the noise map of the sky, on a dome of clouds around the eye", draw_sky_noise},
     {25, "F25",
      "clouds: the share t = (cos(iπ) + 1) ÷ 2 of sky colour, i from the noise map of figure 24, which moves "
-     "with time; "
-     "ground as in figure 21",
+     "with time; ground as in figure 21",
      draw_clouds},
 }};
 constexpr std::array kNames = names_of(kFigures);

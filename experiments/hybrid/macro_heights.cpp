@@ -1,5 +1,7 @@
 // §3.5 of "hybrid": the height map of the far ground, made from the stacks by both readings of "the sum of
 // the heights of all layers".
+#include "experiments/hybrid/macro_heights.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +13,18 @@
 #include "representations/layered_stack/height_map.h"
 
 namespace terrabench::hybrid {
+
+double largest_step(const Heightfield& field) {
+  float largest = 0;
+  for (int j = 0; j < field.depth; ++j) {
+    for (int i = 0; i < field.width; ++i) {
+      if (i > 0) largest = std::max(largest, std::abs(field.at(i, j) - field.at(i - 1, j)));
+      if (j > 0) largest = std::max(largest, std::abs(field.at(i, j) - field.at(i, j - 1)));
+    }
+  }
+  return largest;
+}
+
 namespace {
 
 const std::vector<ParameterSpec>& specs() {
@@ -81,22 +95,10 @@ std::size_t count_groups(std::vector<char> marked, int width) {
   return groups;
 }
 
-// The largest difference in height of neighbouring samples.
-double largest_step(const Heightfield& field) {
-  float largest = 0;
-  for (int j = 0; j < field.depth; ++j) {
-    for (int i = 0; i < field.width; ++i) {
-      if (i > 0) largest = std::max(largest, std::abs(field.at(i, j) - field.at(i - 1, j)));
-      if (j > 0) largest = std::max(largest, std::abs(field.at(i, j) - field.at(i, j - 1)));
-    }
-  }
-  return largest;
-}
-
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(open_terrain(at.terrain, options.seed));
-  const auto built = build_at_resolution("layered_stack", source, at.integer("n"), progress);
-  const auto& stack = dynamic_cast<const LayeredStack&>(*built);
+  const std::unique_ptr<LayeredStack> built = stack_at_resolution(source, at.integer("n"), progress);
+  const LayeredStack& stack = *built;
   const auto reading = static_cast<ColumnHeight>(at.parameters.choice("reading"));
   const Heightfield map = column_heights(stack, reading);
   const Tops tops = tops_of(stack);

@@ -1,7 +1,6 @@
 // Figures 3 to 13 of "hybrid": the noise graph, stage by stage, on one vertical slice; and of each stage what
 // the paper says that it does to the one before.
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -10,13 +9,14 @@
 
 #include "experiments/build_at.h"
 #include "experiments/experiment.h"
+#include "experiments/figures/maps.h"
 #include "experiments/figures/sheet.h"
+#include "experiments/hybrid/stage_relations.h"
 #include "representations/layered_stack/components.h"
 #include "results/store/format.h"
 #include "terrain/files.h"
 #include "terrain/image.h"
 #include "terrain/sources/noise/cave_terrain.h"
-#include "terrain/sources/noise/program.h"
 
 namespace terrabench::hybrid {
 namespace {
@@ -37,97 +37,25 @@ std::vector<Case> cases(const RunOptions&) {
   return cases;
 }
 
-// Rows run upwards in the slice and downwards in the picture; samples are at pixel centres.
-std::vector<float> slice(const noise::CaveGraph& graph, float extent, int side, Progress& progress) {
-  const noise::Program program(graph.graph, graph.root);
-  const float step = extent / static_cast<float>(side);
-  std::vector<float> values(static_cast<std::size_t>(side) * side);
-  progress.begin("slice", side);
-  tbb::parallel_for(0, side, [&](int row) {
-    program.slice({step / 2, (static_cast<float>(row) + 0.5F) * step, step, step, extent / 2, side, 1},
-                  std::span(values).subspan(static_cast<std::size_t>(row) * side, side));
-    progress.advance();
-  });
-  return values;
-}
-
 // The connected pieces of ground in the picture, as hybrid.caves finds them in space: a pixel is a cell of a
-// terrain that is one cell deep.
-Components pieces(const std::vector<float>& values, float extent, int side, Progress& progress) {
+// terrain that is one cell deep. What the picture's sides cut off may be joined to the ground beyond them, so
+// an upright wall at each side joins it here.
+Components pieces(const Pixels& pixels, float extent, Progress& progress) {
+  const int side = pixels.side;
   const float step = extent / static_cast<float>(side);
   Solid solid;
-  solid.bounds = {glm::vec3(0), glm::vec3(extent, extent, step)};
+  solid.bounds = {glm::vec3(0), glm::vec3(extent + 2 * step, extent, step)};
   solid.column = [&](const ColumnSamples& at, std::span<Material> out) {
-    const auto column = static_cast<std::size_t>(at.x / step);
-    for (std::size_t row = 0; row < out.size(); ++row)
-      out[row] = values[row * side + column] > 0.5F ? Material::kBedrock : Material::kAir;
+    const int i = static_cast<int>(at.x / step) - 1;
+    const bool wall = i < 0 || i >= side;
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      const int row = static_cast<int>((at.y0 + static_cast<float>(k) * at.dy) / step);
+      out[k] = wall || pixels.at(i, row) > 0.5F ? Material::kBedrock : Material::kAir;
+    }
   };
   TerrainSource source;
   source.solid = std::move(solid);
-  const auto built = build_at_resolution("layered_stack", source, side, progress);
-  return find_components(dynamic_cast<const LayeredStack&>(*built));
-}
-
-// A stage's values in a square picture, row by row.
-struct Pixels {
-  int side;
-  std::vector<float> values;
-  float at(int i, int row) const {
-    return values[static_cast<std::size_t>(row) * static_cast<std::size_t>(side) +
-                  static_cast<std::size_t>(i)];
-  }
-};
-
-// The largest difference of two values in one column: 0 if the fractal ignores y.
-double column_spread(const Pixels& pixels) {
-  float largest = 0;
-  for (int i = 0; i < pixels.side; ++i) {
-    float least = pixels.at(i, 0), most = least;
-    for (int row = 1; row < pixels.side; ++row) {
-      least = std::min(least, pixels.at(i, row));
-      most = std::max(most, pixels.at(i, row));
-    }
-    largest = std::max(largest, most - least);
-  }
-  return largest;
-}
-
-double share_differing(const Pixels& a, const Pixels& b) {
-  double differing = 0;
-  for (std::size_t k = 0; k < a.values.size(); ++k) differing += a.values[k] != b.values[k];
-  return differing / static_cast<double>(a.values.size());
-}
-
-// What the stage does to those before it.
-void compare_stages(noise::Stage stage, const Pixels& now, const noise::CaveOptions& terrain,
-                    Recorder& recorder, Progress& progress) {
-  using noise::Stage;
-  const auto other = [&](Stage at) {
-    return Pixels{now.side, slice(noise::graph_for(at, terrain), terrain.extent, now.side, progress)};
-  };
-  if (stage == Stage::kFbm || stage == Stage::kFlatFbm) recorder.add("column_spread", "", column_spread(now));
-  if (stage == Stage::kClampedRidged) {
-    // The noise where the map has no cave lies below that where it has one.
-    const Pixels noise = other(Stage::kRidged);
-    float outside = 0, inside = 1;
-    for (std::size_t k = 0; k < now.values.size(); ++k) {
-      if (now.values[k] > 0.5F) {
-        outside = std::max(outside, noise.values[k]);
-      } else {
-        inside = std::min(inside, noise.values[k]);
-      }
-    }
-    recorder.add("highest_noise_outside", "", outside);
-    recorder.add("lowest_noise_inside", "", inside);
-  }
-  if (stage == Stage::kPerturbedRidged)
-    recorder.add("share_moved", "", share_differing(now, other(Stage::kClampedRidged)));
-  if (stage == Stage::kMultiplied) {
-    const Pixels ground = other(Stage::kXYPerturbed);
-    Pixels product = other(Stage::kPerturbedRidged);
-    for (std::size_t k = 0; k < product.values.size(); ++k) product.values[k] *= ground.values[k];
-    recorder.add("share_off_product", "", share_differing(now, product));
-  }
+  return find_components(*stack_at_resolution(source, side + 2, progress));
 }
 
 // Whether the stage shows noise, and not one of two values.
@@ -136,14 +64,24 @@ bool has_greys(noise::Stage stage) {
   return stage == kGradient || stage == kFbm || stage == kFlatFbm || stage == kRidged;
 }
 
+Rgb grey_of(double share) {
+  const auto byte = static_cast<std::uint8_t>(std::lround(255 * share));
+  return {byte, byte, byte};
+}
+
+std::string number(float value) {
+  return value < 0 ? fmt::format("−{:g}", -value) : fmt::format("{:g}", value);
+}
+
 // The picture with its sides in metres, what its greys mean, and `words` below.
 figures::Sheet sheet_of(const Image& image, const noise::StageInfo& stage, float extent,
                         std::string_view words) {
-  constexpr double kLeft = 54, kTop = 32, kRight = 26, kBelow = 118;
+  constexpr double kLeft = 54, kTop = 32, kRight = 26;
+  const double below = words.empty() ? 96 : 112;
   constexpr Rgb kGrey{96, 96, 96};
   constexpr int kTicks = 4, kText = 15;
   const double side = image.width / static_cast<double>(figures::Sheet::kPixels), bottom = kTop + side;
-  figures::Sheet sheet(kLeft + side + kRight, bottom + kBelow);
+  figures::Sheet sheet(kLeft + side + kRight, bottom + below);
   sheet.box(kLeft - 1, kTop - 1, side + 2, side + 2, kGrey);
   sheet.picture(kLeft, kTop, side, side, image);
   sheet.text(8, kTop - 12, "y, m", kText);
@@ -156,13 +94,20 @@ figures::Sheet sheet_of(const Image& image, const noise::StageInfo& stage, float
     sheet.stroke({kLeft - 6, bottom - along}, {kLeft, bottom - along}, kGrey, 1);
     sheet.text(kLeft - 10, bottom - along + 5, metres, kText, "end");
   }
-  const bool caves =
-      stage.stage == noise::Stage::kClampedRidged || stage.stage == noise::Stage::kPerturbedRidged;
-  sheet.text(kLeft, bottom + 72,
-             has_greys(stage.stage) ? fmt::format("black: {:g}; white: {:g}", stage.low, stage.high)
-             : caves                ? "black: cave (0); white: none (1)"
-                                    : "black: air (0); white: ground (1)",
-             kText);
+  if (has_greys(stage.stage)) {
+    figures::add_colour_key(sheet, kLeft, bottom + 58, "value", 44, 240, grey_of,
+                            {number(stage.low), number(stage.high)});
+  } else {
+    const bool caves =
+        stage.stage == noise::Stage::kClampedRidged || stage.stage == noise::Stage::kPerturbedRidged;
+    const auto swatch = [&](double x, Rgb colour, std::string_view meaning) {
+      sheet.box(x - 1, bottom + 58, 24, 18, kGrey);
+      sheet.box(x, bottom + 59, 22, 16, colour);
+      sheet.text(x + 30, bottom + 72, meaning, kText);
+    };
+    swatch(kLeft + 1, {0, 0, 0}, caves ? "0: cave" : "0: air");
+    swatch(kLeft + 141, {255, 255, 255}, caves ? "1: no cave" : "1: ground");
+  }
   sheet.text(kLeft, bottom + 96, words, kText);
   return sheet;
 }
@@ -175,31 +120,30 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const noise::CaveOptions terrain{.seed = options.seed};
   const noise::CaveGraph graph = noise::graph_for(stage.stage, terrain);
   recorder.terrain(fmt::format("caves ({})", stage.name), checksum(graph.graph.describe()));
-  const std::vector<float> values = slice(graph, terrain.extent, side, progress);
+  const Pixels pixels = slice_of(stage.stage, terrain, side, progress);
 
   Image image(side, side, {});
   double sum = 0, shown = 0;
   for (int row = 0; row < side; ++row) {
     for (int i = 0; i < side; ++i) {
-      const float value = values[static_cast<std::size_t>(row) * side + i];
+      const float value = pixels.at(i, row);
       sum += value;
       const float grey = std::clamp((value - stage.low) / (stage.high - stage.low), 0.0F, 1.0F);
       shown += grey;
-      const auto byte = static_cast<std::uint8_t>(std::lround(grey * 255));
-      image.set(i, side - 1 - row, {byte, byte, byte});
+      image.set(i, side - 1 - row, grey_of(grey));
     }
   }
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  recorder.add("mean", "", sum / static_cast<double>(values.size()));
-  recorder.add("mean_shown", "", shown / static_cast<double>(values.size()));  // of 0 black to 1 white
+  const auto [least, most] = std::minmax_element(pixels.values.begin(), pixels.values.end());
+  recorder.add("mean", "", sum / static_cast<double>(pixels.values.size()));
+  recorder.add("mean_shown", "", shown / static_cast<double>(pixels.values.size()));  // of 0 black to 1 white
   recorder.add("least", "", *least);
   recorder.add("most", "", *most);
   std::string words;
-  compare_stages(stage.stage, {side, values}, terrain, recorder, progress);
+  compare_stages(stage.stage, pixels, terrain, recorder, progress);
   const bool is_ground = stage.stage == Stage::kYPerturbed || stage.stage == Stage::kXYPerturbed ||
                          stage.stage == Stage::kMultiplied || stage.stage == Stage::kAttenuated;
   if (is_ground) {
-    const Components found = pieces(values, terrain.extent, side, progress);
+    const Components found = pieces(pixels, terrain.extent, progress);
     recorder.add("overhang_columns", "", static_cast<double>(found.overhang_columns));
     recorder.add("floating_pieces", "", static_cast<double>(found.floating));
     const double depth = terrain.extent / side;  // m

@@ -13,6 +13,7 @@
 
 #include "experiments/build_at.h"
 #include "experiments/experiment.h"
+#include "experiments/samples.h"
 #include "experiments/stopwatch.h"
 #include "terrain/sources/noise/cave_terrain.h"
 
@@ -22,7 +23,7 @@ namespace {
 constexpr std::array kSpecs{
     ParameterSpec{"n", std::int64_t{128}, "cells", "cells along each side of the cube", 2, 1024},
     ParameterSpec{"coherent", false, "", "queries along straight lines instead of random positions"},
-    ParameterSpec{"rounds", std::int64_t{9}, "", "turns of each structure", 3, 1000},
+    ParameterSpec{"rounds", std::int64_t{kSamples}, "", "turns of each structure", 3, 1000},
 };
 
 constexpr std::size_t kQueries = 1 << 19, kLine = 256;  // a line has this many queries
@@ -131,6 +132,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 }  // namespace
 
 extern const Experiment kQueryRates{"hybrid.queries", "§3.1: queries of stacks, OpenVDB and dense voxels",
-                                    kSpecs, cases, measure};
+                                    kSpecs,           cases,
+                                    measure,          Experiment::kTimed};
 
 }  // namespace terrabench::hybrid

@@ -3,12 +3,15 @@
 #include <array>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <glm/vec2.hpp>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "experiments/cases.h"
-#include "experiments/hybrid/mesh_frame.h"
+#include "experiments/figures/mesh_frame.h"
+#include "experiments/figures/projection.h"
+#include "experiments/hybrid/pixels.h"
 #include "renderers/landscape/landscape.h"
 
 namespace terrabench::hybrid {
@@ -103,9 +106,8 @@ Seen seen(const Rgb& pixel) {
 
 // The share of a tile's pixels, without its border, that show the material.
 double share(const Image& image, const View& view, int band, int slope, Seen material) {
-  const glm::vec4 clip = world_to_clip(view) * glm::vec4(middle(band, slope), 1);
-  const int x = static_cast<int>((0.5F + 0.5F * clip.x / clip.w) * static_cast<float>(view.width)),
-            y = static_cast<int>((0.5F - 0.5F * clip.y / clip.w) * static_cast<float>(view.height));
+  const glm::dvec2 at = figures::pixel_of(view, middle(band, slope));
+  const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
   constexpr int kReach = 3;  // pixels; a tile has 10 or more
   int of_material = 0, all = 0;
   for (int dy = -kReach; dy <= kReach; ++dy) {
@@ -117,7 +119,7 @@ double share(const Image& image, const View& view, int band, int slope, Seen mat
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   constexpr int kLevel = 5, kSteep = 35;  // slopes up to 10°, and from 70° on
-  const MeshFrame ground(tiles());
+  const figures::MeshFrame ground(tiles());
   const View view = from_above();
   const auto context = open_context(options.renderer, view.width, view.height);
   LandscapeRenderer renderer(*context, plain_style(at));

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "experiments/cases.h"
-#include "experiments/hybrid/mesh_frame.h"
+#include "experiments/figures/mesh_frame.h"
 #include "renderers/landscape/landscape.h"
 #include "renderers/landscape/probe.h"
 
@@ -61,11 +61,14 @@ constexpr ParameterSpec kPassSpecs[] = {
 
 std::vector<Case> pass_cases(const RunOptions&) { return {{"water", Parameters(kPassSpecs)}}; }
 
-// Clip coordinates relative to their weight, so that points at any distance count alike.
-double difference(const glm::vec4& a, const glm::vec4& b) {
-  double largest = 0;
-  for (int k = 0; k < 4; ++k) largest = std::max(largest, std::abs(double{a[k]} - b[k]));
-  return largest / std::abs(double{b.w});
+// How far apart two points lie in a picture, in pixels along the axis on which they differ most.
+double pixels_apart(const glm::vec4& a, const glm::vec4& b, const View& view) {
+  return 0.5 * std::max(view.width * std::abs(double{a.x} / a.w - double{b.x} / b.w),
+                        view.height * std::abs(double{a.y} / a.w - double{b.y} / b.w));
+}
+
+bool in_picture(const glm::vec4& clip) {
+  return clip.w > 0 && std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w && std::abs(clip.z) <= clip.w;
 }
 
 void measure_passes(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
@@ -79,29 +82,33 @@ void measure_passes(const Case& at, const RunOptions& options, Recorder& recorde
   view.eye = {200, 60, 380};
   view.target = {200, 40, 200};
   view.width = view.height = 64;
-  const MeshFrame ground(level_ground(kSide));
+  const figures::MeshFrame ground(figures::level_ground(kSide));
   renderer.draw(ground.frame(), view);
   recorder.add("passes", "", static_cast<double>(passes.size()));
   if (passes.size() != 3) return;
 
   std::mt19937 random(static_cast<std::mt19937::result_type>(options.seed));
   std::uniform_real_distribution<float> across(0, kSide), apart(kMargin, 40);
-  double mirrored = 0, upright = 0;
+  double mirrored = 0, upright = 0, shown = 0;
   std::array<double, 4> kept{};  // above and below the water, by the first and the second pass
   const auto points = at.integer("points");
   for (int k = 0; k < points; ++k) {
     const float x = across(random), z = across(random), up = apart(random);
     const glm::vec4 above(x, kLevel + up, z, 1), below(x, kLevel - up, z, 1);
-    mirrored =
-        std::max(mirrored, difference(passes[0].world_to_clip * above, passes[2].world_to_clip * below));
-    upright = std::max(upright, difference(passes[1].world_to_clip * below, passes[2].world_to_clip * below));
+    const glm::vec4 in_the_picture = passes[2].world_to_clip * below;
+    if (in_picture(in_the_picture)) {
+      ++shown;
+      mirrored = std::max(mirrored, pixels_apart(passes[0].world_to_clip * above, in_the_picture, view));
+      upright = std::max(upright, pixels_apart(passes[1].world_to_clip * below, in_the_picture, view));
+    }
     for (std::size_t pass = 0; pass < 2; ++pass) {
       kept[2 * pass] += glm::dot(passes[pass].clip_plane, above) > 0;
       kept[2 * pass + 1] += glm::dot(passes[pass].clip_plane, below) > 0;
     }
   }
-  recorder.add("first_off_mirrored", "", mirrored);
-  recorder.add("second_off_upright", "", upright);
+  recorder.add("points_shown", "", shown);
+  recorder.add("first_off_mirrored", "pixels", mirrored);
+  recorder.add("second_off_upright", "pixels", upright);
   recorder.add("first_keeps_above", "", kept[0] / points);
   recorder.add("first_keeps_below", "", kept[1] / points);
   recorder.add("second_keeps_above", "", kept[2] / points);

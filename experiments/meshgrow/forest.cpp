@@ -7,11 +7,12 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <glm/geometric.hpp>
 #include <map>
-#include <mutex>
 #include <optional>
 
 #include "experiments/experiment.h"
@@ -37,6 +38,10 @@ const std::array kSpecs{
     ParameterSpec{"threads", std::int64_t{0}, "", "that trace and expand; 0: all", 0, 1024},
     ParameterSpec{"width", std::int64_t{240}, "pixels", "of the picture", 8, 8192},
     ParameterSpec{"samples", std::int64_t{2}, "", "paths per pixel", 1, 65536},
+    ParameterSpec{"tile", std::int64_t{192}, "pixels",
+                  "sides of the parts of the picture whose rays are sorted together", 1, 4096},
+    ParameterSpec{"bounces", std::int64_t{1}, "", "reflections between surfaces", 0, 64},
+    ParameterSpec{"shown", 0.75, "", "width of the picture, per side of the forest", 0.01, 10},
     ParameterSpec{"figure", false, "", "whether the picture is kept"},
 };
 
@@ -46,7 +51,8 @@ struct Variant {
 };
 constexpr std::array kVariants{Variant{"cache=1024", 1024, 0}, Variant{"cache=256", 256, 0},
                                Variant{"cache=128", 128, 0}, Variant{"threads=1", 1024, 1}};
-constexpr std::array kSpacings{0.0, 0.2, 0.5, 1.5};
+// The finest level, and from a face per pixel down by halves.
+constexpr std::array kSpacings{0.0, 0.25, 0.5, 1.0};
 constexpr double kUniformSpacing = 0.5;  // whose faces the uniform choice has to match
 
 std::vector<Case> cases(const RunOptions& options) {
@@ -63,9 +69,18 @@ std::vector<Case> cases(const RunOptions& options) {
   Parameters& picture = add("picture");
   picture.set("figure", true);
   picture.set("cache", std::int64_t{1280});
-  picture.set("width", std::int64_t{paper ? 1600 : 240});
-  picture.set("samples", std::int64_t{paper ? 4 : 2});
   picture.set("spacing", 8.0);
+  if (paper) {
+    picture.set("width", std::int64_t{1600});
+    picture.set("samples", std::int64_t{4});
+  }
+  // So few paths that they cannot reach all plants.
+  Parameters& part = add("part");
+  part.set("instances", std::int64_t{40});
+  part.set("shown", 0.3);
+  part.set("bounces", std::int64_t{0});
+  part.set("width", std::int64_t{8});
+  part.set("samples", std::int64_t{1});
   for (const Variant& variant : kVariants) {
     Parameters& parameters = add(std::string(variant.name));
     parameters.set("cache", paper ? variant.cache : variant.cache / 4);
@@ -88,9 +103,7 @@ std::vector<Case> cases(const RunOptions& options) {
 
 // Cases on the same forest share it: planting foresees every instance.
 std::shared_ptr<const Forest> forest_of(const ForestSettings& settings, Progress& progress) {
-  static std::mutex mutex;
   static std::pair<std::pair<std::uint64_t, std::uint64_t>, std::shared_ptr<const Forest>> last;
-  const std::lock_guard lock(mutex);
   const std::pair key{settings.instances, settings.seed};
   if (last.second == nullptr || last.first != key) {
     last.second.reset();
@@ -99,21 +112,32 @@ std::shared_ptr<const Forest> forest_of(const ForestSettings& settings, Progress
   return last.second;
 }
 
-// From outside and above, so far away that leaves are small in the picture: the whole of the forest. `near`:
-// from beside the first trees, where levels differ most.
-View forest_view(const Forest& forest, int width, bool near = false) {
-  const float side = forest.side(), x = 0.5F * side;
-  const int height = std::max(8, width * 9 / 16);
-  const float ground = forest.height(x, 0.98F * side);
+View view_of(const glm::vec3& eye, const glm::vec3& target, float vertical_fov, int width) {
   View view;
-  view.eye = near ? glm::vec3(x, ground + 24, side + 60) : glm::vec3(x, ground + 40, 2 * side + 60);
-  view.target = {x, ground + (near ? 9 : 12), side};
-  view.vertical_fov = near ? 0.42F : 0.2F;
+  view.eye = eye;
+  view.target = target;
+  view.vertical_fov = vertical_fov;
   view.width = width;
-  view.height = height;
+  view.height = std::max(8, width / 2);
   view.near = 0.1F;
-  view.far = 10 * side + 100;
+  view.far = 4 * glm::distance(eye, target);
   return view;
+}
+
+// From the air, so far away that leaves are small in the picture. It shows the middle of the forest, so that
+// trees or the ground between them fill it to all edges.
+View view_from_the_air(const Forest& forest, int width, float shown) {
+  constexpr float kAway = 2.5F;  // the eye, in sides of the forest
+  const float side = forest.side(), middle = 0.5F * side;
+  const glm::vec3 target(middle, forest.height(middle, middle) + 4, middle);
+  const glm::vec3 from = glm::normalize(glm::vec3(0.1F, 0.52F, 0.85F));
+  return view_of(target + kAway * side * from, target, 2 * std::atan(0.25F * shown / kAway), width);
+}
+
+// From beside the first trees, where levels differ most.
+View view_from_beside(const Forest& forest, int width) {
+  const float side = forest.side(), x = 0.5F * side, ground = forest.height(x, 0.98F * side);
+  return view_of({x, ground + 24, side + 60}, {x, ground + 9, side}, 0.42F, width);
 }
 
 double checksum(const CoherentPicture& picture) {
@@ -142,9 +166,9 @@ double peak_resident() {
 CoherentPicture traced(const LazyForest& lazy, const View& view, const Case& at, const RunOptions& options,
                        Progress& progress) {
   const CoherentSettings settings{.samples = at.integer("samples"),
-                                  .bounces = 1,
+                                  .bounces = at.integer("bounces"),
                                   .seed = static_cast<std::uint32_t>(options.seed),
-                                  .tile = 192};
+                                  .tile = at.integer("tile")};
   const int threads = at.integer("threads");
   std::optional<tbb::global_control> more;
   if (threads > 0) {
@@ -176,7 +200,8 @@ void measure_lazy(const Case& at, const RunOptions& options, Recorder& recorder,
   const auto instances = static_cast<std::uint64_t>(at.parameters.integer("instances"));
   const auto forest = forest_of({.instances = instances, .seed = options.seed}, progress);
   recorder.add("planting_seconds", "s", planting.seconds());
-  const View view = forest_view(*forest, at.integer("width"));
+  const View view =
+      view_from_the_air(*forest, at.integer("width"), static_cast<float>(at.parameters.number("shown")));
   const auto bound = static_cast<std::size_t>(at.parameters.integer("cache")) << 20U;
 
   reset_peak_resident();
@@ -198,10 +223,16 @@ void measure_lazy(const Case& at, const RunOptions& options, Recorder& recorder,
   record(lazy.expanded(), *forest, recorder);
   recorder.add("checksum", "", checksum(picture));
   if (!at.parameters.flag("figure")) return;
-  figures::Sheet sheet = figures::panel_sheet(
+  const auto ground = static_cast<std::uint32_t>(forest->plants().instances().size()) + 1;
+  const auto share = [&](std::uint32_t object) {
+    return static_cast<double>(std::ranges::count(picture.objects, object)) /
+           static_cast<double>(picture.objects.size());
+  };
+  recorder.add("sky_shown", "", share(0));
+  recorder.add("ground_shown", "", share(ground));
+  const figures::Sheet sheet = figures::panel_sheet(
       {{{picture.image(),
          fmt::format("{} trees and bushes", format_count(forest->plants().instances().size()))}}});
-  sheet.keep_all_colours();
   sheet.write(recorder.figure(
       "meshgrow.lazy-forest", "png",
       fmt::format(
@@ -285,8 +316,6 @@ struct Truth {
 };
 const Truth& truth_of(const Forest& forest, const View& view, const Case& at, std::uint64_t seed) {
   static std::map<std::array<std::uint64_t, 4>, Truth> known;
-  static std::mutex mutex;
-  const std::lock_guard lock(mutex);
   const std::array key{seed, static_cast<std::uint64_t>(forest.plants().instances().size()),
                        static_cast<std::uint64_t>(view.width),
                        static_cast<std::uint64_t>(at.integer("samples"))};
@@ -299,7 +328,7 @@ const Truth& truth_of(const Forest& forest, const View& view, const Case& at, st
 void measure_error(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const auto instances = static_cast<std::uint64_t>(at.parameters.integer("instances"));
   const Forest forest({.instances = instances, .area = 150, .all_leaves = false, .seed = options.seed});
-  const View view = forest_view(forest, at.integer("width"), true);
+  const View view = view_from_beside(forest, at.integer("width"));
   std::vector<std::uint8_t> levels = forest.plants().choose_levels(view, {at.parameters.number("spacing")});
   if (at.parameters.flag("uniform")) levels = uniform_levels(forest.plants(), levels);
   LazyForest lazy(forest, levels, static_cast<std::size_t>(at.parameters.integer("cache")) << 20U);
@@ -320,7 +349,10 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 }  // namespace
 
 extern const Experiment kForest{"meshgrow.forest",
-                                "§6, §8: a forest of 10⁹ faces, expanded only where rays reach it", kSpecs,
-                                cases, measure};
+                                "§6, §8: a forest of 10⁹ faces, expanded only where rays reach it",
+                                kSpecs,
+                                cases,
+                                measure,
+                                Experiment::kTimed};
 
 }  // namespace terrabench::meshgrow

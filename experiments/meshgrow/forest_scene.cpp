@@ -10,15 +10,15 @@
 #include <glm/geometric.hpp>
 
 #include "representations/procedural_mesh/growing/expression.h"
-#include "representations/procedural_mesh/growing/hashing.h"
+#include "terrain/splitmix.h"
 
 namespace terrabench::meshgrow {
 namespace {
 
 using growing::DetailLevel;
 
-// Fewer leaves are larger, so that their area stays about the same; they have fewer faces. `levels`: of
-// stems.
+// Fewer, larger leaves of fewer faces. `levels`: of stems. The leaves still cover the crown several times: at
+// the last levels less often, so that they need not be as large as to show.
 DetailLevel thinned(double levels, double leaves, double scale) {
   return {.leave_out = {"smooth"},
           .constants = {{"LeafDetail", 0},
@@ -42,22 +42,22 @@ const std::vector<Plant>& forest_plants() {
         {.fewer_subdivisions = 1},
         {.leave_out = {"smooth"}},
         thinned(3, 3, 0.45),
-        thinned(2, 40, 0.55),
-        thinned(2, 10, 1.1)}},
+        thinned(2, 40, 0.4),
+        thinned(2, 12, 0.5)}},
       {"tamarack",
        0.25,
        {{},
         {.fewer_subdivisions = 1},
         {.leave_out = {"smooth"}},
         thinned(3, 1, 0.8),
-        thinned(2, 60, 0.75),
-        thinned(2, 14, 1.5)}},
+        thinned(2, 60, 0.6),
+        thinned(2, 18, 0.8)}},
       {"oak",
        0.08,
-       {{}, {.leave_out = {"smooth"}}, thinned(3, 1, 0.5), thinned(2, 60, 0.7), thinned(2, 14, 1.4)}},
+       {{}, {.leave_out = {"smooth"}}, thinned(3, 1, 0.5), thinned(2, 60, 0.5), thinned(2, 30, 0.6)}},
       {"bush_tupelo",
        0.12,
-       {{}, {.leave_out = {"smooth"}}, thinned(3, 3, 0.42), thinned(3, 1, 0.73), thinned(2, 8, 1.1)}},
+       {{}, {.leave_out = {"smooth"}}, thinned(3, 3, 0.42), thinned(3, 1, 0.6), thinned(2, 10, 0.6)}},
   };
   return all;
 }
@@ -144,9 +144,7 @@ RayMaterial Forest::material(const SurfacePoint& at) const {
   }();
   RayMaterial material = looks[instance.model]->material(model.levels[0].system.symbols[at.mesh].name, at);
   // Plants differ a little in colour.
-  const auto hue = [&](std::uint64_t k) {
-    return static_cast<float>(growing::share(instance.seed, 100 + k));
-  };
+  const auto hue = [&](std::uint64_t k) { return static_cast<float>(random_share(instance.seed, 100 + k)); };
   const glm::vec3 tint{0.8F + 0.35F * hue(0), 0.85F + 0.25F * hue(1), 0.8F + 0.25F * hue(2)};
   material.albedo = glm::clamp(material.albedo * tint, 0.0F, 1.0F);
   return material;

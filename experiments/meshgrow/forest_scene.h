@@ -13,7 +13,7 @@ namespace terrabench::meshgrow {
 
 struct ForestSettings {
   std::uint64_t instances = 1000;
-  double area = 40;        // square metres per instance
+  double area = 60;        // square metres per instance
   bool all_leaves = true;  // false: only levels with fewer leaves, for a forest that fits into memory
   std::uint64_t seed = 1;
 };

@@ -213,7 +213,8 @@ void measure_fork(const Case& at, const RunOptions&, Recorder& recorder, Progres
 }  // namespace
 
 extern const Experiment kModels{
-    "meshgrow.models", "§4, §7: every model at every step, its bytes and its time", kSpecs, cases, measure};
+    "meshgrow.models", "§4, §7: every model at every step, its bytes and its time", kSpecs, cases, measure,
+    Experiment::kTimed};
 extern const Experiment kFork{"meshgrow.fork", "Figure 9: texture coordinates at a fork", kForkSpecs,
                               fork_cases, measure_fork};
 

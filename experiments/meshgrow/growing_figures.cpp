@@ -7,6 +7,7 @@
 
 #include "experiments/cases.h"
 #include "experiments/figures/figure.h"
+#include "experiments/meshgrow/figure_numbers.h"
 #include "experiments/meshgrow/growing_pictures.h"
 #include "experiments/meshgrow/growing_steps.h"
 #include "experiments/meshgrow/models.h"
@@ -102,6 +103,8 @@ Sheet draw_steps(Drawing& drawing) {
   Sheet sheet(static_cast<double>(stages.size()) * (width + kGap) + kGap, height + kGap + kWords0);
   for (std::size_t k = 0; k < stages.size(); ++k) {
     const GrownMesh& stage = stages[k];
+    drawing.record(fmt::format("faces_{}", k), static_cast<double>(stage.mesh.faces()));
+    drawing.record(fmt::format("growing_{}", k), static_cast<double>(stage.states.size()));
     const SheetPoint corner{kGap + static_cast<double>(k) * (width + kGap), kGap};
     sheet.picture(corner.x, corner.y, width, height, stage_picture(drawing, model, stage, view));
     sheet.text(corner.x + width / 2, corner.y + height + 16, kWords[std::min(k, kWords.size() - 1)], 16,
@@ -147,8 +150,7 @@ void add_axes(Sheet& sheet, const OverPicture& over, const Frame& frame, double 
                    seen ? 3.2 : 2);
     }
     add_arrow(sheet, over.at(place(0.94)), over.at(place(1)), colour, 2.6, 9);
-    const SheetPoint words = over.at(place(1.16));
-    sheet.text(words.x, words.y + 6, std::string_view("xyz").substr(k, 1), 17, "middle", colour);
+    add_label(sheet, over.at(place(1.25)), std::string_view("xyz").substr(k, 1), 17, colour, 8);
   }
   sheet.dot(over.at(frame.origin), 3.4, kInk);
 }
@@ -193,13 +195,14 @@ Sheet draw_frame(Drawing& drawing) {
   const std::vector<GrownMesh> stages = stages_of(model);
   const GrownMesh &before = stages[2], &after = stages[3];
   constexpr double kGap = 14, kAxis = 0.62;
-  const View view = view_of(after.mesh, 540, 760, {1.0F, 0.62F, 0.55F});
+  const View view = view_of(after.mesh, 540, 760, {1.0F, 0.6F, -0.25F});
   const double width = view.width / 2.0, height = view.height / 2.0;
   std::uint32_t base = 0;
   while (!grows(model, before, base)) ++base;
   const Frame frame = before.states.front().shape.frame;
+  record_frame(drawing, before, after, base);
   const FaceMesh cube = template_of(before, after, base);
-  View near = view_of(cube, view.width, view.height, {0.6F, 0.5F, 1.0F}, 1.5F);
+  View near = view_of(cube, view.width, view.height, {-0.45F, 0.55F, 1.0F}, 1.5F);
   Frame local;  // drawn with z upwards
   local.y = {0, 0, -1};
   local.z = {0, 1, 0};
@@ -225,6 +228,7 @@ Sheet draw_frame(Drawing& drawing) {
 Sheet draw_coordinates(Drawing& drawing) {
   const Model model = parse_model(model_text("fork_ridges"), "fork_ridges");
   const Fork fork = find_fork(model, "branch");
+  record_coordinates(drawing, model, fork);
   const FaceMesh& mesh = fork.after.mesh;
   const View view = view_of(mesh, 1100, 1240, {0.12F, 0.4F, 1.0F}, 1.15F);
   const double width = view.width / 2.0, height = view.height / 2.0;
@@ -291,25 +295,36 @@ Sheet draw_trunk(Drawing& drawing) {
   ExpandOptions growth;
   growth.leave_out = {"smooth"};
   const GrownMesh grown = expand(model, growth), smooth = expand(model);
-  // Only the fork; trunk and branches leave the picture.
-  const Fork fork = find_fork(model, "branch");
-  const glm::vec3 middle = fork.after.mesh.positions[fork.shared.front().vertex];
-  const Bounds box{middle - glm::vec3(1.1F, 1.3F, 0.6F), middle + glm::vec3(1.1F, 1.5F, 0.6F)};
-  const View view = overview(box, kTracedWidth, kTracedHeight, kTrunkFrom);
+  const View view = view_of(grown.mesh, kTracedWidth, kTracedHeight, kTrunkFrom);
   drawing.record("grown_faces", static_cast<double>(grown.mesh.faces()));
   drawing.record("smooth_faces", static_cast<double>(smooth.mesh.faces()));
-  return panel_sheet(
-      {{{traced(grown.mesh, true, view), fmt::format("grown: {} faces", format_count(grown.mesh.faces()))},
-        {traced(smooth.mesh, false, view),
-         fmt::format("smoothed three times: {} faces", format_count(smooth.mesh.faces()))}}});
+  // One quadrilateral per corner, of which two further steps make 16.
+  drawing.record("faces_of_three_steps", 16 * static_cast<double>(grown.mesh.corners.size()));
+  std::vector<Panel> panels{
+      {traced(grown.mesh, true, view), fmt::format("grown: {} faces", format_count(grown.mesh.faces()))},
+      {traced(smooth.mesh, false, view),
+       fmt::format("smoothed three times: {} faces", format_count(smooth.mesh.faces()))}};
+  for (const bool smoothed : {false, true}) {
+    const std::string_view name = smoothed ? "smooth" : "grown";
+    const Image& image = panels[smoothed ? 1 : 0].image;
+    drawing.record(fmt::format("{}_stems_below", name), parts_in_row(image, 0.75));
+    drawing.record(fmt::format("{}_stems_above", name), parts_in_row(image, 0.25));
+    drawing.record(fmt::format("{}_largest_bend", name),
+                   bends_of(smoothed ? smooth.mesh : grown.mesh).largest);
+  }
+  return panel_sheet({std::move(panels)});
 }
 
-Sheet draw_ridges(Drawing&) {
+Sheet draw_ridges(Drawing& drawing) {
   std::vector<Panel> panels;
   View view;
   for (const auto& [name, words] : {std::pair{"fork_ridges", "ridges along u"},
                                     std::pair{"fork_ridges_random", "with random displacements"}}) {
-    const GrownMesh mesh = expand(parse_model(model_text(name), name));
+    const Model model = parse_model(model_text(name), name);
+    const GrownMesh mesh = expand(model);
+    const std::string_view kind = panels.empty() ? "even" : "random";
+    drawing.record(fmt::format("{}_ridges", kind), ridges_along_u(model, mesh.mesh));
+    drawing.record(fmt::format("{}_mean_bend", kind), bends_of(mesh.mesh).mean);
     if (panels.empty()) view = view_of(mesh.mesh, kTracedWidth, kTracedHeight, kTrunkFrom);
     panels.push_back({traced(mesh.mesh, false, view), words});
   }
@@ -325,10 +340,7 @@ constexpr auto kFigures = std::to_array<Figure>({
      "the reference frame on a face that is expanded: at the face's centre, z along its normal, x along its "
      "first edge; the replacement's first face is laid on it; dashed: behind the surface",
      draw_frame},
-    {8, "F8",
-     "the fork of a trunk: the mesh after growing, and after three smoothing subdivisions; the ends lie "
-     "outside "
-     "of the picture",
+    {8, "F8", "the fork of a trunk: the mesh after growing, and after three smoothing subdivisions",
      draw_trunk},
     {9, "F9",
      "u-coordinates of the grown mesh at a fork; the two vertices that both branches share get the averages "

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <deque>
 #include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
 
+#include "experiments/figures/projection.h"
 #include "experiments/meshgrow/growing_steps.h"
 #include "renderers/scene.h"
 
@@ -69,13 +69,11 @@ Image face_picture(GlContext& gl, const FaceMesh& mesh, const View& view,
 }
 
 OverPicture::OverPicture(const FaceMesh& mesh, const View& view, SheetPoint corner)
-    : mesh_(fans_of(mesh).mesh), view_(view), to_clip_(world_to_clip(view)), corner_(corner) {}
+    : mesh_(fans_of(mesh).mesh), view_(view), corner_(corner) {}
 
 SheetPoint OverPicture::at(const glm::vec3& p) const {
-  const glm::vec4 clip = to_clip_ * glm::vec4(p, 1);
-  const double x = (0.5 + 0.5 * static_cast<double>(clip.x / clip.w)) * view_.width;
-  const double y = (0.5 - 0.5 * static_cast<double>(clip.y / clip.w)) * view_.height;
-  return {corner_.x + x / Sheet::kPixels, corner_.y + y / Sheet::kPixels};
+  const SheetPoint at = figures::project(view_, p).at;
+  return {corner_.x + at.x, corner_.y + at.y};
 }
 
 bool OverPicture::visible(const glm::vec3& p) const {

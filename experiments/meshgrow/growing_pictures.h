@@ -39,7 +39,6 @@ class OverPicture {
  private:
   TriangleMesh mesh_;
   View view_;
-  glm::mat4 to_clip_;
   figures::SheetPoint corner_;
 };
 

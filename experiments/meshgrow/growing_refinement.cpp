@@ -220,7 +220,8 @@ void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress&) {
 
 }  // namespace
 
-extern const Experiment kRefinement{"meshgrow.refinement", "§7: the same refinement by three subdividers",
-                                    kSpecs, cases, measure};
+extern const Experiment kRefinement{
+    "meshgrow.refinement", "§7: the same refinement by three subdividers", kSpecs, cases, measure,
+    Experiment::kTimed};
 
 }  // namespace terrabench::meshgrow

@@ -138,18 +138,29 @@ glm::vec3 unit(const glm::vec3& v) {
   return length > 0 ? v / length : glm::vec3(0, 1, 0);
 }
 
-// Gives each corner of a triangle the mean normal, by area, of the triangles at its vertex that are smooth
-// with its own; a vertex whose corners differ becomes several. O(triangles · triangles at a vertex)
+// Radians between the sides of a triangle at `at`; 0 for a triangle without area, which has no normal.
+float angle_at(const glm::vec3& at, const glm::vec3& a, const glm::vec3& b) {
+  const glm::vec3 to_a = a - at, to_b = b - at;
+  return std::atan2(glm::length(glm::cross(to_a, to_b)), glm::dot(to_a, to_b));
+}
+
+// Gives each corner of a triangle the mean normal of the triangles at its vertex that are smooth with its
+// own, weighted by their angles there (Thürmer and Wüthrich 1998): by area, the mean would depend on the
+// diagonals along which polygons are cut. A vertex whose corners differ becomes several. O(triangles ·
+// triangles at a vertex)
 void add_normals(ModelMesh& out) {
   TriangleMesh& mesh = out.mesh;
-  std::vector<glm::vec3> areas(mesh.triangles()), units(mesh.triangles());
+  std::vector<glm::vec3> units(mesh.triangles());
+  std::vector<float> angles(mesh.indices.size());
   std::vector<std::uint32_t> first(mesh.positions.size() + 1), uses(mesh.indices.size());
-  for (std::size_t t = 0; t < areas.size(); ++t) {
+  for (std::size_t t = 0; t < units.size(); ++t) {
     const std::uint32_t* const v = &mesh.indices[3 * t];
-    areas[t] =
-        glm::cross(mesh.positions[v[1]] - mesh.positions[v[0]], mesh.positions[v[2]] - mesh.positions[v[0]]);
-    units[t] = unit(areas[t]);
-    for (int k = 0; k < 3; ++k) ++first[v[k] + 1];
+    const auto at = [&](std::size_t k) { return mesh.positions[v[k % 3]]; };
+    units[t] = unit(glm::cross(at(1) - at(0), at(2) - at(0)));
+    for (std::size_t k = 0; k < 3; ++k) {
+      angles[3 * t + k] = angle_at(at(k), at(k + 1), at(k + 2));
+      ++first[v[k] + 1];
+    }
   }
   for (std::size_t v = 0; v + 1 < first.size(); ++v) first[v + 1] += first[v];
   std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
@@ -162,8 +173,8 @@ void add_normals(ModelMesh& out) {
     for (std::uint32_t k = first[v]; k < first[v + 1]; ++k) {
       glm::vec3 sum(0);
       for (std::uint32_t other = first[v]; other < first[v + 1]; ++other) {
-        if (glm::dot(units[uses[k] / 3], units[uses[other] / 3]) >= kSmoothCosine)
-          sum += areas[uses[other] / 3];
+        const glm::vec3& normal = units[uses[other] / 3];
+        if (glm::dot(units[uses[k] / 3], normal) >= kSmoothCosine) sum += angles[uses[other]] * normal;
       }
       const auto same = [&](const auto& each) { return each.first == sum; };
       auto at = std::find_if(made.begin(), made.end(), same);

@@ -3,12 +3,18 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/geometric.hpp>
 #include <optional>
+#include <span>
 
 #include "experiments/cases.h"
 #include "experiments/experiment.h"
 #include "experiments/figures/figure.h"
+#include "experiments/figures/measures.h"
+#include "experiments/meshgrow/figure_numbers.h"
+#include "experiments/meshgrow/growing_steps.h"
 #include "experiments/meshgrow/models.h"
+#include "experiments/meshgrow/root_mean_square.h"
 #include "renderers/raytrace/raytraced_picture.h"
 #include "results/store/format.h"
 
@@ -128,8 +134,12 @@ class Picture {
             fmt::format("{}{} triangles", words, format_count(mesh.mesh.triangles()))};
   }
 
+  // From the same direction, as large as the picture allows.
   figures::Panel in_wires(const ModelMesh& mesh) const {
     RaytraceSettings settings = settings_;
+    View view = view_;
+    view.width = view.width * 3 / 4;
+    view = close_view(mesh.mesh.positions, view);
     settings.samples = std::max(settings.samples / 2, 4);
     RayScene scene;
     scene.light.sky = SkyKind::kUniform;
@@ -140,7 +150,7 @@ class Picture {
                       .material = {.albedo = glm::vec3(0.85F)},
                       .wire_width = 1.6F,
                       .wires = mesh.wires});
-    return {raytrace(scene, view_, settings, {}, &progress_), "before subdivision"};
+    return {raytrace(scene, view, settings, {}, &progress_), "before subdivision"};
   }
 
  private:
@@ -151,11 +161,111 @@ class Picture {
   Progress& progress_;
 };
 
+double area_of(const TriangleMesh& mesh, std::size_t triangle) {
+  const auto corners = std::span(mesh.indices).subspan(3 * triangle, 3);
+  return 0.5 * static_cast<double>(glm::length(figures::across_face<glm::vec3>(mesh.positions, corners)));
+}
+
+// Of the triangles whose symbols these are: how many, and their area in square metres.
+struct Amount {
+  double triangles = 0, area = 0;
+};
+Amount amount_of(const ModelMesh& mesh, const growing::RuleSystem& system, std::string_view symbol) {
+  Amount amount;
+  for (std::size_t t = 0; t < mesh.symbols.size(); ++t) {
+    if (system.symbols[mesh.symbols[t]].name != symbol) continue;
+    ++amount.triangles;
+    amount.area += area_of(mesh.mesh, t);
+  }
+  return amount;
+}
+
+// The chair: how far the folds move the cloth, and all that is not cloth.
+void record_folds(const growing::Model& model, const FaceMesh& mesh, Recorder& recorder) {
+  const std::vector<double> heights = heights_over(mesh, without_displacements(model, "folds").mesh);
+  RootMeanSquare cloth, rest;
+  for (std::uint32_t face = 0; face < mesh.faces(); ++face) {
+    const bool is_cloth = model.system.symbols[mesh.symbols[face]].name == "cloth";
+    for (const std::uint32_t v : corners_of(mesh, face)) (is_cloth ? cloth : rest).add(heights[v]);
+  }
+  recorder.add("folds_of_cloth", "m", cloth.value());
+  recorder.add("folds_elsewhere", "m", rest.value());
+}
+
+// The cactus: its spikes, of four triangles each, and what they add to the model without them. A spike's
+// template puts four quadrilaterals and the spike in the place of a quadrilateral.
+void record_spikes(const growing::Model& model, const ModelMesh& mesh, Recorder& recorder) {
+  growing::ExpandOptions bare, grown;
+  bare.leave_out = {"spikes"};
+  grown.most_steps = 1;
+  const ModelMesh without = triangles_of(growing::expand(model, bare).mesh);
+  const ModelMesh before = triangles_of(growing::expand(model, grown).mesh);
+  const double spikes = amount_of(mesh, model.system, "spike").triangles / 4;
+  recorder.add("spikes", "", spikes);
+  recorder.add("triangles_of_spikes", "", (4 * 2 + 4 - 2) * spikes);
+  recorder.add("triangles_more", "",
+               static_cast<double>(mesh.mesh.triangles()) - static_cast<double>(without.mesh.triangles()));
+  recorder.add("spikes_before", "", amount_of(before, model.system, "spike").triangles);
+}
+
+// The candle holder: the share of the iron's area that is rusty, and how deep rust and clean iron lie against
+// the model without the step that rust eats.
+void record_rust(const growing::Model& model, const FaceMesh& mesh, const PaintedModel& look,
+                 Recorder& recorder) {
+  const std::vector<double> heights = heights_over(mesh, without_displacements(model, "rust").mesh);
+  double iron_area = 0, rusty_area = 0, rusty_height = 0, clean_height = 0;
+  for (std::uint32_t face = 0; face < mesh.faces(); ++face) {
+    const std::string_view symbol = model.system.symbols[mesh.symbols[face]].name;
+    if (symbol == "wax") continue;
+    const auto corners = corners_of(mesh, face);
+    double height = 0;
+    glm::vec3 middle(0);
+    for (const std::uint32_t v : corners) {
+      height += heights[v] / static_cast<double>(corners.size());
+      middle += mesh.positions[v] / static_cast<float>(corners.size());
+    }
+    const auto across = figures::across_face<glm::vec3>(mesh.positions, corners);
+    const double area = 0.5 * static_cast<double>(glm::length(across));
+    SurfacePoint point;
+    point.position = point.local = middle;
+    const bool rusty = look.material(symbol, point).metal < 0.35F;  // half of clean iron's
+    iron_area += area;
+    (rusty ? rusty_height : clean_height) += area * height;
+    rusty_area += rusty ? area : 0;
+  }
+  recorder.add("rusty_share", "", rusty_area / iron_area);
+  recorder.add("rusty_height", "m", rusty_height / rusty_area);
+  recorder.add("clean_height", "m", clean_height / (iron_area - rusty_area));
+}
+
+// Leaves: their area per area of ground under the model's box, and the share of green pixels in both
+// pictures.
+void record_leaves(const growing::Model& model, const ModelMesh& mesh, const ModelMesh& without,
+                   std::span<const figures::Panel> panels, Recorder& recorder) {
+  const Amount leaves = amount_of(mesh, model.system, "green");
+  const glm::vec3 size = bounds_of(mesh.mesh).size();
+  recorder.add("bare_triangles", "", static_cast<double>(without.mesh.triangles()));
+  recorder.add("leaf_triangles", "", leaves.triangles);
+  recorder.add("triangles_more", "",
+               static_cast<double>(mesh.mesh.triangles()) - static_cast<double>(without.mesh.triangles()));
+  // Both sides of a leaf are faces.
+  recorder.add("leaf_area_index", "", 0.5 * leaves.area / static_cast<double>(size.x * size.z));
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Image& image = panels[k].image;
+    double green = 0;
+    for (std::size_t p = 0; p < image.rgb.size(); p += 3) {
+      green += 4 * image.rgb[p + 1] > 5 * std::max(image.rgb[p], image.rgb[p + 2]) ? 1 : 0;
+    }
+    recorder.add(k == 0 ? "green_pixels" : "green_pixels_bare", "", green);
+  }
+}
+
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const ModelFigure& figure = kFigures[at.parameters.choice("figure")];
   const growing::Model model =
       growing::parse_model(growing::model_text(figure.model), std::string(figure.model));
-  const ModelMesh mesh = triangles_of(growing::expand(model).mesh);
+  const FaceMesh faces = growing::expand(model).mesh;
+  const ModelMesh mesh = triangles_of(faces);
   const Bounds box = bounds_of(mesh.mesh);
   const int height = at.integer("height");
   const View view = close_view(
@@ -176,9 +286,13 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     growing::ExpandOptions bare;
     bare.leave_out = {"leaves"};
     const ModelMesh without = triangles_of(growing::expand(model, bare).mesh);
-    recorder.add("bare_triangles", "", static_cast<double>(without.mesh.triangles()));
     panels.push_back(picture.in_daylight(without, model.system, "without leaves: "));
+    record_leaves(model, mesh, without, panels, recorder);
   }
+  if (figure.number == 11) record_folds(model, faces, recorder);
+  if (figure.number == 12) record_spikes(model, mesh, recorder);
+  if (figure.number == 13) recorder.add("ridges", "", ridges_along_u(model, faces));
+  if (figure.number == 16) record_rust(model, faces, painted(figure.model), recorder);
   recorder.add("figure", "", figure.number);
   recorder.add("triangles", "", static_cast<double>(mesh.mesh.triangles()));
   figures::Sheet sheet = figures::panel_sheet({std::move(panels)});

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <string>
+#include <utility>
 
 #include "experiments/experiment.h"
 #include "experiments/meshgrow/models.h"
@@ -36,9 +38,9 @@ constexpr std::array kLevels{
 const std::array kSpecs{
     ParameterSpec{"model", std::string("cactus"), "", "name of the model"},
     ParameterSpec{"left_out", std::string(), "", "names of the steps that are left out, separated by commas"},
-    ParameterSpec{"height", std::int64_t{512}, "pixels", "of the square pictures", 16, 4096},
-    ParameterSpec{"samples", std::int64_t{8}, "", "paths per pixel of each picture", 1, 65536},
-    ParameterSpec{"far", 8.0, "", "distance of the far view, in distances of the near one", 1.5, 1000},
+    ParameterSpec{"height", std::int64_t{512}, "pixels", "of the square pictures from near", 16, 4096},
+    ParameterSpec{"samples", std::int64_t{8}, "", "paths per pixel of each picture from near", 1, 1024},
+    ParameterSpec{"far", std::int64_t{8}, "", "distance of the far view, in distances of the near one", 2, 8},
 };
 
 std::vector<Case> cases(const RunOptions& options) {
@@ -87,10 +89,10 @@ constexpr std::size_t kPairs = 6;
 
 // What the level looks like and what the whole model does, traced with the same random paths.
 struct Pair {
-  Shown whole, level;
-  bool shows(std::size_t pixel) const { return whole.covered[pixel] || level.covered[pixel]; }
+  const Shown *whole, *level;
+  bool shows(std::size_t pixel) const { return whole->covered[pixel] || level->covered[pixel]; }
   double differs(std::size_t c) const {
-    return static_cast<double>(int{whole.image.rgb[c]} - int{level.image.rgb[c]});
+    return static_cast<double>(int{whole->image.rgb[c]} - int{level->image.rgb[c]});
   }
 };
 
@@ -106,7 +108,7 @@ struct Difference {
 Difference difference(const std::array<Pair, kPairs>& pairs) {
   double all = 0, channels = 0;          // sums of products of different pairs
   std::array<double, kPairs> without{};  // the same, of all pairs but one
-  for (std::size_t pixel = 0; pixel < pairs[0].whole.covered.size(); ++pixel) {
+  for (std::size_t pixel = 0; pixel < pairs[0].whole->covered.size(); ++pixel) {
     if (!pairs[0].shows(pixel)) continue;
     channels += 3;
     for (std::size_t c = 3 * pixel; c < 3 * pixel + 3; ++c) {
@@ -132,6 +134,45 @@ Difference difference(const std::array<Pair, kPairs>& pairs) {
   return {std::sqrt(std::max(0.0, square)), variance > 0 ? square / std::sqrt(variance) : 0};
 }
 
+// The picture from `times` as far away, in pixels of the same angle, cut to what the near view shows. A pixel
+// covers times² as much of the model, and gets as many times the paths: both views have the same number.
+void move_away(int times, View& view, RaytraceSettings& settings) {
+  const auto share = 1 / static_cast<float>(times);
+  view.eye = view.target + static_cast<float>(times) * (view.eye - view.target);
+  view.vertical_fov = 2 * std::atan(share * std::tan(0.5F * view.vertical_fov));
+  view.width = view.height = std::max(1, view.height / times);
+  settings.samples *= times * times;
+}
+
+// Of one mesh, from near and from far, each view with the random paths of every pair.
+using Pictures = std::array<std::array<Shown, kPairs>, 2>;
+
+Pictures pictures_of(const ModelMesh& mesh, const Bounds& whole, const growing::Model& model, const Case& at,
+                     const RunOptions& options) {
+  const int height = at.integer("height");
+  View view = overview(whole, height, height, {0.45F, 0.3F, 1.0F});
+  RaytraceSettings settings{.samples = at.integer("samples"), .bounces = 1};
+  Pictures pictures;
+  for (std::array<Shown, kPairs>& of_view : pictures) {
+    for (std::uint32_t k = 0; k < kPairs; ++k) {
+      settings.seed = static_cast<std::uint32_t>(options.seed) + 0x9E37 * k;
+      of_view[k] = show(mesh, painted(at.parameters.text("model")), model, view, settings);
+    }
+    move_away(at.integer("far"), view, settings);
+  }
+  return pictures;
+}
+
+// All levels of a model are compared with the same pictures of the whole, which are kept for the next level.
+const Pictures& pictures_of_whole(const ModelMesh& mesh, const growing::Model& model, const Case& at,
+                                  const RunOptions& options) {
+  static std::pair<std::string, Pictures> kept;
+  const std::string key = fmt::format("{} {} {} {} {}", at.parameters.text("model"), at.integer("height"),
+                                      at.integer("samples"), at.integer("far"), options.seed);
+  if (kept.first != key) kept = {key, pictures_of(mesh, bounds_of(mesh.mesh), model, at, options)};
+  return kept.second;
+}
+
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   const std::string name = at.parameters.text("model");
   const growing::Model model = growing::parse_model(growing::model_text(name), name);
@@ -142,22 +183,14 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("triangles", "", static_cast<double>(level.mesh.triangles()));
   recorder.add("share_of_triangles", "",
                static_cast<double>(level.mesh.triangles()) / static_cast<double>(full.mesh.triangles()));
-  const RaytraceSettings settings{
-      .samples = at.integer("samples"), .bounces = 1, .seed = static_cast<std::uint32_t>(options.seed)};
-  const int height = at.integer("height");
-  View view = overview(bounds_of(full.mesh), height, height, {0.45F, 0.3F, 1.0F});
-  const PaintedModel& look = painted(name);
-  for (const bool far : {false, true}) {
-    if (far)
-      view.eye = view.target + static_cast<float>(at.parameters.number("far")) * (view.eye - view.target);
-    const std::string_view name_of_view = far ? "far" : "near";
+  const Pictures& whole = pictures_of_whole(full, model, at, options);
+  const Pictures reduced =
+      without.leave_out.empty() ? whole : pictures_of(level, bounds_of(full.mesh), model, at, options);
+  for (std::size_t v = 0; v < whole.size(); ++v) {
     std::array<Pair, kPairs> pairs;
-    for (std::uint32_t k = 0; k < kPairs; ++k) {
-      RaytraceSettings paths = settings;
-      paths.seed = settings.seed + 0x9E37 * k;
-      pairs[k] = {show(full, look, model, view, paths), show(level, look, model, view, paths)};
-    }
+    for (std::size_t k = 0; k < kPairs; ++k) pairs[k] = {&whole[v][k], &reduced[v][k]};
     const Difference differs = difference(pairs);
+    const std::string_view name_of_view = v == 0 ? "near" : "far";
     recorder.add(fmt::format("{}_error", name_of_view), "", differs.error);
     recorder.add(fmt::format("{}_certainty", name_of_view), "", differs.certainty);
   }

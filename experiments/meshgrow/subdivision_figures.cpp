@@ -5,11 +5,12 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
 #include <set>
 
 #include "experiments/cases.h"
 #include "experiments/figures/figure.h"
+#include "experiments/figures/projection.h"
+#include "experiments/meshgrow/figure_numbers.h"
 #include "experiments/meshgrow/growing_pictures.h"
 #include "experiments/meshgrow/subdivision_reference.h"
 #include "renderers/scene.h"
@@ -65,15 +66,9 @@ void add_arrow(Scene& scene, const View& view, glm::vec3 from, glm::vec3 to, Rgb
       {{to - 0.22F * along + 0.1F * side, to, to - 0.22F * along - 0.1F * side}, colour, width});
 }
 
-// Where a point of space is in a picture of this view, in units of the sheet from the picture's corner.
-SheetPoint place_of(const View& view, const glm::vec3& p) {
-  const glm::vec4 clip = world_to_clip(view) * glm::vec4(p, 1);
-  return {0.5 * view.width / Sheet::kPixels * (1 + clip.x / clip.w),
-          0.5 * view.height / Sheet::kPixels * (1 - clip.y / clip.w)};
-}
-
-// The mesh's edges in plan.
-void add_edges(Sheet& sheet, const FaceMesh& mesh, const std::vector<SheetPoint>& at, const Stroke& stroke) {
+// The mesh's edges in plan; returns how many.
+std::size_t add_edges(Sheet& sheet, const FaceMesh& mesh, const std::vector<SheetPoint>& at,
+                      const Stroke& stroke) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
   for (const auto& face : plain(mesh).faces) {
     for (std::size_t k = 0; k < face.size(); ++k) {
@@ -81,9 +76,10 @@ void add_edges(Sheet& sheet, const FaceMesh& mesh, const std::vector<SheetPoint>
       if (seen.insert(edge).second) sheet.line(std::array{at[edge.first], at[edge.second]}, stroke);
     }
   }
+  return seen.size();
 }
 
-Sheet draw_step(Drawing&) {
+Sheet draw_step(Drawing& drawing) {
   constexpr double kSide = 380, kGap = 16, kTitle = 30;
   const FaceMesh coarse = shape("patch");
   const FaceMesh linear = subdivide(coarse, std::array{PlacementRule{.base = Base::kLinear}});
@@ -109,7 +105,8 @@ Sheet draw_step(Drawing&) {
     }
   };
   const auto before = place(coarse, 0), middle = place(linear, 1), after = place(fine, 2);
-  add_edges(sheet, coarse, before, {.colour = kInk, .thickness = 2});
+  const std::size_t edges = add_edges(sheet, coarse, before, {.colour = kInk, .thickness = 2});
+  record_step(drawing, coarse, edges, linear, fine);
   dots(before, before.size());
   add_edges(sheet, linear, middle, {.colour = kInk, .thickness = 1.4});
   dots(middle, middle.size());
@@ -127,12 +124,13 @@ Sheet draw_step(Drawing&) {
   return sheet;
 }
 
-FaceMesh fractal(FaceMesh base, int steps, float amplitude, std::uint64_t seed) {
+constexpr RefinementOptions kCornersStay{.boundary = Boundary::kEdgeAndCorner};
+
+std::vector<PlacementRule> fractal_rules(int steps, float amplitude, std::uint64_t seed) {
   PlacementRule rule;
   rule.displacements.resize(1);
   rule.displacements[0].amount = {.kind = Signal::Kind::kUniform, .amplitude = amplitude, .seed = seed};
-  return subdivide(base, std::vector(static_cast<std::size_t>(steps), rule),
-                   {.boundary = Boundary::kEdgeAndCorner});
+  return std::vector(static_cast<std::size_t>(steps), rule);
 }
 
 Sheet draw_fractal(Drawing& drawing) {
@@ -140,7 +138,13 @@ Sheet draw_fractal(Drawing& drawing) {
   for (const bool sphere : {false, true}) {
     const FaceMesh base = sphere ? growing::sphere(1, 2).mesh : growing::plane({4, 4}, 4, 4).mesh;
     for (const int steps : {0, 1, 2, 6}) {
-      const Drawn mesh = drawn(fractal(base, steps, sphere ? 0.14F : 0.16F, drawing.seed() + 3));
+      const auto rules = fractal_rules(steps, sphere ? 0.14F : 0.16F, drawing.seed() + 3);
+      const FaceMesh displaced = subdivide(base, rules, kCornersStay);
+      const std::string_view name = sphere ? "sphere" : "plane";
+      drawing.record(fmt::format("{}_faces_{}", name, steps), static_cast<double>(displaced.faces()));
+      drawing.record(fmt::format("{}_displacement_{}", name, steps),
+                     last_displacement(base, rules, kCornersStay, displaced));
+      const Drawn mesh = drawn(displaced);
       Scene scene;
       scene.meshes.push_back(lit(mesh, steps < 3 ? 1.6F : 0));
       if (sphere) scene.sun = {-0.5F, 0.7F, 0.6F};  // seen from the south, it shows the lit side
@@ -181,6 +185,11 @@ Sheet draw_frame(Drawing& drawing) {
   const std::uint32_t v = nearest(mesh, {0.6F, 0.9F, 0.3F});
   const glm::vec3 p = mesh.positions[v], n = surface.normals[v], t = surface.tangents[v],
                   b = glm::cross(n, t);
+  drawing.record("off_mean_normal", degrees_between(n, mean_normal(mesh, v)));
+  drawing.record("tilt", degrees_between(n, {0, 1, 0}));
+  drawing.record("largest_cosine",
+                 static_cast<double>(std::max(
+                     {std::abs(glm::dot(n, t)), std::abs(glm::dot(t, b)), std::abs(glm::dot(b, n))})));
   const Drawn hill_mesh = drawn(mesh);
   Scene scene;
   scene.meshes.push_back(lit(hill_mesh, 1.8F));
@@ -195,16 +204,18 @@ Sheet draw_frame(Drawing& drawing) {
   Sheet sheet(image.width / 2.0, image.height / 2.0);
   sheet.picture(0, 0, image.width / 2.0, image.height / 2.0, image);
   for (const auto& [axis, colour, words] : axes) {
-    const SheetPoint from = place_of(view, foot), to = place_of(view, foot + s * axis);
+    const SheetPoint from = project(view, foot).at, to = project(view, foot + s * axis).at;
     sheet.stroke(from, to, {255, 255, 255}, 6);
     meshgrow::add_arrow(sheet, from, to, colour, 3.4, 13);
     const double length = std::hypot(to.x - from.x, to.y - from.y), away = 16;
     const SheetPoint words_at{to.x + away * (to.x - from.x) / length, to.y + away * (to.y - from.y) / length};
+    // On a white plate, beside the arrow's head or over and under it.
+    const double half_width = 5.6 * static_cast<double>(words.size()) + 4;
     const bool beside = std::abs(to.x - from.x) > std::abs(to.y - from.y);
-    const std::string_view anchor = !beside ? "middle" : to.x > from.x ? "start" : "end";
-    sheet.text(words_at.x, words_at.y + 7, words, 20, anchor, colour);
+    const double x = words_at.x + (!beside ? 0 : to.x > from.x ? half_width : -half_width);
+    add_label(sheet, {x, words_at.y}, words, 20, colour, half_width);
   }
-  sheet.dot(place_of(view, foot), 5, kInk);
+  sheet.dot(project(view, foot).at, 5, kInk);
   return sheet;
 }
 
@@ -220,9 +231,11 @@ Sheet draw_shift(Drawing& drawing) {
     shift.amount.seed = drawing.seed() + (axis == Axis::kTangent ? 1 : 2);
     shifting.displacements.push_back(shift);
   }
-  const RefinementOptions corners_stay{.boundary = Boundary::kEdgeAndCorner};
-  const FaceMesh smooth = subdivide(base, std::array{PlacementRule{}}, corners_stay),
-                 shifted = subdivide(base, std::array{shifting}, corners_stay);
+  const FaceMesh smooth = subdivide(base, std::array{PlacementRule{}}, kCornersStay),
+                 shifted = subdivide(base, std::array{shifting}, kCornersStay);
+  const LocalSurface surface =
+      local_surface(make_topology(smooth), smooth.positions, smooth.texture, FrameRule{}, false);
+  double moved = 0, out_of_plane = 0;
   const View view = overview({{-2, 0, -2}, {2, 1, 2}}, 1000, 760, {0.25F, 1.1F, 1.0F});
   PanelRows rows(1);
   for (const bool after : {false, true}) {
@@ -232,11 +245,17 @@ Sheet draw_shift(Drawing& drawing) {
     for (std::size_t v = 0; !after && v < smooth.positions.size(); ++v) {
       const glm::vec3 by = shifted.positions[v] - smooth.positions[v], up{0, 0.02F, 0};
       if (glm::length(by) < 0.08F) continue;
+      ++moved;
+      const float along_normal = std::abs(glm::dot(by, surface.normals[v])) / glm::length(by);
+      out_of_plane = std::max(out_of_plane, static_cast<double>(along_normal));
       add_arrow(scene, view, smooth.positions[v] + up, shifted.positions[v] + up, kOrange, 2.5F);
     }
     rows[0].push_back({render_scene(drawing.gl(), scene, view),
                        after ? "the vertices after the shift" : "standard placement, and the shifts"});
   }
+  drawing.record("arrows", moved);
+  drawing.record("arrows_per_vertex", moved / static_cast<double>(smooth.positions.size()));
+  drawing.record("out_of_plane", out_of_plane);
   return panel_sheet(rows);
 }
 
@@ -295,7 +314,11 @@ Sheet draw_stretched(Drawing& drawing) {
   panel(moved, 0, "its four quadrilaterals are stretched");
   PlacementRule smooth;
   smooth.texture = Base::kLinear;
-  panel(subdivide(moved, std::vector(3, smooth)), 3, "after three standard steps");
+  const FaceMesh smoothed = subdivide(moved, std::vector(3, smooth));
+  panel(smoothed, 3, "after three standard steps");
+  record_stretch(drawing, "before", flat, 1);
+  record_stretch(drawing, "after", moved, 1);
+  record_stretch(drawing, "smoothed", smoothed, 1.0F / kCells);
   return panel_sheet(rows);
 }
 

@@ -17,6 +17,7 @@
 
 #include "experiments/cases.h"
 #include "experiments/meshgrow/ring_eigenvalue.h"
+#include "experiments/meshgrow/root_mean_square.h"
 #include "experiments/meshgrow/subdivision_reference.h"
 #include "representations/procedural_mesh/base_mesh.h"
 #include "representations/procedural_mesh/subdivision/limit.h"
@@ -46,15 +47,6 @@ FaceMesh base_of(std::string_view name) {
 struct Distances {
   double rms = 0, largest = 0;
   std::map<std::size_t, double> vertices, rings;  // root mean square by the number of faces
-};
-
-struct RootMeanSquare {
-  double sum = 0, count = 0;
-  void add(double d) {
-    sum += d * d;
-    ++count;
-  }
-  double value() const { return std::sqrt(sum / count); }
 };
 
 // `followed`: the number of faces at each vertex of the first mesh, 0 for those at the boundary.

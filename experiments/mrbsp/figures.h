@@ -16,20 +16,27 @@ namespace terrabench::mrbsp {
 // Figure 1 (lod_figure.cpp): the triangles that level of detail of the given size draws without the extra
 // step against holes and with it, with thresholds at vertices, and the triangle that shows the largest hole.
 inline constexpr Rgb kHole{255, 0, 170};  // of pixels that look through a hole
-struct HolePixels {
-  std::size_t painted = 0;
-  std::size_t bare = 0;  // by the meter of all methods (bare_pixels.h), which counts hidden holes too
+struct LodPanel {
+  std::size_t hole_pixels = 0;
+  std::size_t bare_pixels = 0;  // by the meter of all methods (bare_pixels.h), which counts hidden holes too
+  std::size_t triangles = 0;
 };
 struct LodSheet {
   figures::Sheet sheet;
-  HolePixels without, with;
+  LodPanel without, with;
+  // Thresholds of the triangle T: at its right angle, and the lower one of the other two; 0 if there is none.
+  int threshold_at_right_angle = 0, threshold_beside = 0;
 };
 View lod_view(const Heightfield&, const Mrbsp&);
 LodSheet lod_sheet(const Heightfield&, double size, const RunOptions&, Progress&);
 
 // Figure 2 and table 1 (profile_figures.cpp). The table has printed and computed rows side by side, for all
 // steps in either.
-figures::Sheet profile_sheet(std::span<const float> profile, std::span<const ProfileStep>);
+struct ProfileSheet {
+  figures::Sheet sheet;
+  int fine_segments = 0, coarse_segments = 0, cells = 0, dark_cells = 0;  // drawn
+};
+ProfileSheet profile_sheet(std::span<const float> profile, std::span<const ProfileStep>);
 figures::Sheet table_sheet(std::span<const PrintedStep>, std::span<const ProfileStep>);
 
 // Apparent size of triangles against distance on level ground of side² samples (threshold.cpp): the formula

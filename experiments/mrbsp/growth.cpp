@@ -41,7 +41,7 @@ void measure_land(const Case& at, const RunOptions& options, Recorder& recorder,
   // On every ground the walk has the extent that it has on the smallest.
   const float reach = 0.6F * (kSmallest - 1) / static_cast<float>(std::max(n, kSmallest) - 1);
   const std::vector<View> views = walk(ground, kViews, reach);
-  Mrbsp lod(ground, {.conforming = false}, progress);
+  Mrbsp lod(ground, {.holes = HoleRule::kPrinted}, progress);
   lod.tune(kFinest);
   const double all = mean_triangles(lod, views);
   lod.tune(kTunedSize);
@@ -79,7 +79,7 @@ void measure_roughness(const Case& at, const RunOptions& options, Recorder& reco
                                  .hurst = static_cast<float>(at.parameters.number("hurst"))});
     if (k == 0) recorder.terrain("diamond-square", checksum(ground));
     const std::vector<View> views = walk(ground, kViews);
-    MrbspOptions how{.depth = kDepth, .conforming = false};
+    MrbspOptions how{.depth = kDepth, .holes = HoleRule::kPrinted};
     const auto mean_drawn = [&] {
       Mrbsp lod(ground, how, progress);
       lod.tune(kFinest);

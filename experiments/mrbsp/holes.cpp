@@ -38,7 +38,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   Mrbsp lod(ground,
             {.depth = depth_over(ground),
              .area_consistent = at.parameters.flag("area"),
-             .conforming = at.parameters.flag("conforming")},
+             .holes = at.parameters.flag("conforming") ? HoleRule::kConforming : HoleRule::kPrinted},
             progress);
   const std::vector<View> views = walk(ground, options.profile == Profile::kPaper ? 240 : 40);
   CrackReport all;

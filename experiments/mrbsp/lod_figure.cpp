@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "experiments/experiment.h"
+#include "experiments/figures/projection.h"
 #include "experiments/mrbsp/figures.h"
 #include "experiments/mrbsp/ground.h"
 #include "lod/meters/bare_pixels.h"
@@ -65,7 +66,6 @@ class LodPicture {
       : ground_(ground),
         lod_(lod),
         view_(view),
-        clip_(world_to_clip(view)),
         frame_(lod.update(view)),
         walls_(frame_),
         context_(open_context(options.renderer, view.width, view.height)) {
@@ -81,7 +81,10 @@ class LodPicture {
   std::size_t hole_pixels() const {
     return std::ranges::count_if(numbers_, [&](auto n) { return is_hole(n); });
   }
-  std::size_t bare_pixels() const { return find_bare_pixels(frame_, ground_, view_).bare; }
+  LodPanel numbers() const {
+    return {hole_pixels(), find_bare_pixels(frame_, ground_, view_).bare, triangles()};
+  }
+  int threshold(std::uint32_t vertex) const { return lod_.threshold(view_.eye, position(vertex)); }
 
   // The triangle that needs the extra step and shows most pixels of its hole: apex, left, right.
   std::optional<std::array<std::uint32_t, 3>> culprit() const {
@@ -118,7 +121,6 @@ class LodPicture {
   glm::vec3 position(std::uint32_t vertex) const {
     return vertex_position(frame_, frame_.batches[0], vertex);
   }
-  int threshold(std::uint32_t vertex) const { return lod_.threshold(view_.eye, position(vertex)); }
 
   Image picture() const {
     const HeightRange range = height_range(ground_);
@@ -137,9 +139,8 @@ class LodPicture {
     return image;
   }
   std::optional<SheetPoint> project(const glm::vec3& at) const {
-    const glm::vec4 clip = clip_ * glm::vec4(at, 1);
-    if (!(clip.w > view_.near)) return std::nullopt;
-    const SheetPoint p{kWidth * (0.5 + 0.5 * clip.x / clip.w), kHeight * (0.5 - 0.5 * clip.y / clip.w)};
+    const auto [p, depth] = figures::project(view_, at);
+    if (!(depth > view_.near)) return std::nullopt;
     if (p.x < 14 || p.y < 14 || p.x > kWidth - 14 || p.y > kHeight - 14) return std::nullopt;
     return p;
   }
@@ -207,7 +208,6 @@ class LodPicture {
   const Heightfield& ground_;
   Mrbsp& lod_;
   View view_;
-  glm::mat4 clip_;
   const Frame& frame_;
   Walls walls_;
   std::unique_ptr<GlContext> context_;
@@ -221,17 +221,19 @@ std::vector<Case> cases(const RunOptions&) { return {Case{"real-257", Parameters
 void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const LodSheet drawn = lod_sheet(*source.heights, 1, options, progress);
-  recorder.add("hole_pixels_without", "px", drawn.without.painted);
-  recorder.add("bare_pixels_without", "px", drawn.without.bare);
-  recorder.add("hole_pixels_with", "px", drawn.with.painted);
-  recorder.add("bare_pixels_with", "px", drawn.with.bare);
+  for (const auto& [panel, numbers] : {std::pair{"without", drawn.without}, {"with", drawn.with}}) {
+    recorder.add(fmt::format("hole_pixels_{}", panel), "px", numbers.hole_pixels);
+    recorder.add(fmt::format("bare_pixels_{}", panel), "px", numbers.bare_pixels);
+    recorder.add(fmt::format("triangles_{}", panel), "", numbers.triangles);
+  }
+  recorder.add("threshold_at_right_angle", "", drawn.threshold_at_right_angle);
+  recorder.add("threshold_beside", "", drawn.threshold_beside);
   drawn.sheet.write(recorder.figure(
       "mrbsp.F1", "png",
-      "Figure 1 of the paper, on real mountains: the triangles of level of detail with the threshold at each "
-      "vertex that has room for it, (a) without and (b) with the extra step. Pixels that look through a hole "
-      "are magenta. T needs the step, since the vertex at its right angle alone has a lower threshold; in "
-      "(b) "
-      "it is drawn as two halves (dashed)"));
+      "Figure 1 of the paper, on real mountains: triangles of level of detail, with thresholds at vertices, "
+      "(a) without and (b) with the extra step. Pixels that look through a hole are magenta. "
+      "T needs the step, since the threshold at its right angle alone is lower; "
+      "in (b) it is drawn as two halves (dashed)."));
 }
 
 }  // namespace
@@ -251,22 +253,26 @@ View lod_view(const Heightfield& ground, const Mrbsp& lod) {
 
 LodSheet lod_sheet(const Heightfield& ground, double size, const RunOptions& options, Progress& progress) {
   const int depth = depth_over(ground);
-  Mrbsp without(ground, {.depth = depth, .conforming = false, .leave_holes = true}, progress);
-  Mrbsp with(ground, {.depth = depth, .conforming = false}, progress);
+  Mrbsp without(ground, {.depth = depth, .holes = HoleRule::kNone}, progress);
+  Mrbsp with(ground, {.depth = depth, .holes = HoleRule::kPrinted}, progress);
   without.tune(size);
   with.tune(size);
   const View view = lod_view(ground, with);
   LodPicture open(ground, without, view, options), closed(ground, with, view, options);
-  LodSheet drawn{Sheet(kWidth, 2 * (kTitle + kHeight)),
-                 {open.hole_pixels(), open.bare_pixels()},
-                 {closed.hole_pixels(), closed.bare_pixels()}};
+  LodSheet drawn{Sheet(kWidth, 2 * (kTitle + kHeight)), open.numbers(), closed.numbers()};
+  const auto marked = open.culprit();
+  if (marked) {
+    const auto [apex, left, right] = *marked;
+    drawn.threshold_at_right_angle = open.threshold(apex);
+    drawn.threshold_beside = std::min(open.threshold(left), open.threshold(right));
+  }
   const auto title = [&](double top, std::string_view words, std::size_t pixels) {
     drawn.sheet.text(8, top + 21, fmt::format("{}: {} pixels show holes", words, format_count(pixels)), 15);
   };
-  title(0, "(a) Without the extra step", drawn.without.painted);
-  open.draw(drawn.sheet, kTitle, open.culprit(), false);
-  title(kTitle + kHeight, "(b) With the extra step", drawn.with.painted);
-  closed.draw(drawn.sheet, 2 * kTitle + kHeight, open.culprit(), true);
+  title(0, "(a) Without the extra step", drawn.without.hole_pixels);
+  open.draw(drawn.sheet, kTitle, marked, false);
+  title(kTitle + kHeight, "(b) With the extra step", drawn.with.hole_pixels);
+  closed.draw(drawn.sheet, 2 * kTitle + kHeight, marked, true);
   return drawn;
 }
 

@@ -13,7 +13,7 @@ namespace terrabench::mrbsp {
 namespace {
 
 MrbspOptions as_printed(const Heightfield& ground) {
-  return {.depth = depth_over(ground), .conforming = false};
+  return {.depth = depth_over(ground), .holes = HoleRule::kPrinted};
 }
 
 }  // namespace

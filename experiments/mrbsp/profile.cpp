@@ -47,16 +47,21 @@ void measure(const Case&, const RunOptions& options, Recorder& recorder, Progres
   // Saved and loaded again.
   const visibility::ChangeTable again = visibility::decode_text(encode_text(table), "table 1");
   recorder.add("lost_in_the_file", "", again == table ? 0 : 1);
-  profile_sheet(table1_profile(), steps)
-      .write(recorder.figure("mrbsp.F2", "png",
-                             "Figure 2 of the paper: fine segments (black) and coarse ones (grey) with "
-                             "their numbers in the tree, and cells. Cells next to a change of visibility "
-                             "are dark, with the coarse segments that change"));
+  const ProfileSheet drawn = profile_sheet(table1_profile(), steps);
+  recorder.add("drawn_fine_segments", "", drawn.fine_segments);
+  recorder.add("drawn_coarse_segments", "", drawn.coarse_segments);
+  recorder.add("drawn_cells", "", drawn.cells);
+  recorder.add("drawn_dark_cells", "", drawn.dark_cells);
+  drawn.sheet.write(recorder.figure(
+      "mrbsp.F2", "png",
+      "Figure 2 of the paper: fine segments (black) and coarse ones (grey), "
+      "with their numbers in the tree, and cells. Cells next to a change of visibility are dark, "
+      "with the coarse segments that change."));
   table_sheet(table1(), steps)
       .write(recorder.figure("mrbsp.T1", "png",
-                             "Table 1 of the paper, cell-to-cell changes in visibility, and the changes that "
-                             "we compute on figure 2's profile extruded sideways, by triangles that face an "
-                             "eye at a corner of the cell: coarse changes as stored, fine ones as drawn"));
+                             "Table 1 of the paper, cell-to-cell changes in visibility, beside those that we "
+                             "compute on figure 2's profile extruded sideways, by triangles that face an eye "
+                             "at a corner of the cell. Coarse changes are as stored, fine ones as drawn."));
 }
 
 }  // namespace

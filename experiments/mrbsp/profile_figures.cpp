@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "experiments/mrbsp/figures.h"
 #include "lod/mrbsp/visibility/codec.h"
@@ -18,16 +19,16 @@ constexpr Rgb kInk{0, 0, 0}, kCoarse{165, 165, 165}, kDark{110, 110, 110}, kPale
 class ProfileDrawing {
  public:
   ProfileDrawing(std::span<const float> profile, std::span<const ProfileStep> steps)
-      : profile_(profile), steps_(steps), sheet_(kSheet.x, kSheet.y) {}
+      : profile_(profile), steps_(steps) {}
 
-  const Sheet& draw() {
+  ProfileSheet draw() {
     sheet_.panel(0, 0, kSheet.x, kSheet.y);
     cells();
     // Coarse under fine, so that both show where they nearly coincide.
     outline(profile_.size() >> kCoarseDigits, {.colour = kCoarse, .thickness = 5}, 9);
     outline(1, {.colour = kInk, .thickness = 2}, 5);
-    numbers(kFineDigits, kTop + kHeight + 34, 12, kInk);
-    numbers(kCoarseDigits, kTop + kHeight + 58, 14, kDark);
+    drawn_.fine_segments = numbers(kFineDigits, kTop + kHeight + 34, 12, kInk);
+    drawn_.coarse_segments = numbers(kCoarseDigits, kTop + kHeight + 58, 14, kDark);
     caption(kTop + kHeight + 34, "fine", kWords);
     caption(kTop + kHeight + 58, "coarse", kDark);
     caption(kTop + kHeight + 94, "cell (2 m)", kWords);
@@ -35,7 +36,7 @@ class ProfileDrawing {
     for (const int height : {0, 5, 10}) {
       caption(at(0, static_cast<float>(height)).y + 4, std::to_string(height), kWords);
     }
-    return sheet_;
+    return std::move(drawn_);
   }
 
  private:
@@ -56,12 +57,14 @@ class ProfileDrawing {
       sheet_.line(std::array{SheetPoint{p.x, p.y - tick}, SheetPoint{p.x, p.y + tick}}, stroke);
     }
   }
-  void numbers(int digits, double y, int size, Rgb colour) {
+  // Returns how many.
+  int numbers(int digits, double y, int size, Rgb colour) {
     const std::uint32_t count = 1U << digits;
     for (std::uint32_t k = 0; k < count; ++k) {
       sheet_.text(kLeft + kWidth * (k + 0.5) / count, y, segment_labels(std::array{k}, digits), size,
                   "middle", colour);
     }
+    return static_cast<int>(count);
   }
   bool changes(std::size_t step) const { return step < steps_.size() && !steps_[step].coarse.empty(); }
   // Dark where a step to a neighbouring cell changes visibility.
@@ -69,6 +72,8 @@ class ProfileDrawing {
     const double side = kWidth / kProfileCells, y = kTop + kHeight + 74;
     for (std::size_t c = 0; c < kProfileCells; ++c) {
       const bool dark = changes(c) || (c > 0 && changes(c - 1));
+      ++drawn_.cells;
+      drawn_.dark_cells += dark;
       const double x = kLeft + static_cast<double>(c) * side;
       sheet_.box(x + 1, y, side - 2, 30, dark ? kDark : kPale);
       sheet_.text(x + 0.5 * side, y + 20,
@@ -88,7 +93,8 @@ class ProfileDrawing {
 
   std::span<const float> profile_;
   std::span<const ProfileStep> steps_;
-  Sheet sheet_;
+  ProfileSheet drawn_{Sheet(kSheet.x, kSheet.y)};
+  Sheet& sheet_ = drawn_.sheet;
 };
 
 }  // namespace
@@ -107,7 +113,7 @@ std::string step_name(std::size_t step) {
   return cell_name(cells, {cell, 0}) + "-" + cell_name(cells, {cell + 1, 0});
 }
 
-Sheet profile_sheet(std::span<const float> profile, std::span<const ProfileStep> steps) {
+ProfileSheet profile_sheet(std::span<const float> profile, std::span<const ProfileStep> steps) {
   return ProfileDrawing(profile, steps).draw();
 }
 

@@ -32,7 +32,7 @@ struct Bin {
 
 // Geometric means of the apparent short side, per bin of distance.
 std::vector<PlotPoint> apparent_sizes(const Heightfield& ground, bool area, Progress& progress) {
-  Mrbsp lod(ground, {.area_consistent = area, .conforming = false, .cull = false}, progress);
+  Mrbsp lod(ground, {.area_consistent = area, .holes = HoleRule::kPrinted, .cull = false}, progress);
   lod.tune(kSize);
   View view;
   view.eye = {0, 1.8F, 0};
@@ -82,11 +82,10 @@ void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress& pr
   }
   figures::write_chart(
       recorder.figure("mrbsp.threshold", "png",
-                      "The paper's section 3: apparent size of triangles against their distance, on level "
-                      "ground, by the printed formula and by the one that accounts for halved areas. The "
-                      "paper says that the size stays the same. S is 16 times the short side of the finest "
-                      "triangles; 800 × 600 pixels, 40° wide. The steps come from whole levels and two bins "
-                      "per doubling of distance"),
+                      "The paper's section 3: apparent size of triangles against distance, on level ground, "
+                      "by the printed formula, which is to keep it, and by the one for halved areas. "
+                      "S is 16 short sides of the finest triangles; 800 × 600 pixels, 40° wide. "
+                      "Steps come from whole levels and two bins per doubling of distance."),
       plot, kPictureWidth);
 }
 

@@ -187,7 +187,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kVisibility{"mrbsp.visibility", "§4: what the stored sets miss, and their bytes",
-                                    kSpecs, cases, measure};
+extern const Experiment kVisibility{
+    "mrbsp.visibility", "§4: what the stored sets miss, and their bytes", kSpecs, cases, measure,
+    Experiment::kTimed};
 
 }  // namespace terrabench::mrbsp

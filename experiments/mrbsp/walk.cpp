@@ -240,7 +240,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kWalk{"mrbsp.walk", "Table 2: triangles and time of LOD, visibility and both", kSpecs,
-                              cases, measure};
+extern const Experiment kWalk{"mrbsp.walk", "Table 2: triangles and time of LOD, visibility and both",
+                              kSpecs,       cases,
+                              measure,      Experiment::kTimed};
 
 }  // namespace terrabench::mrbsp

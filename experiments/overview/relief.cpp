@@ -5,10 +5,11 @@
 
 #include <array>
 
-#include "experiments/cross/representations/scenes.h"
 #include "experiments/fidelity.h"
 #include "experiments/figures/sheet.h"
 #include "experiments/ground.h"
+#include "experiments/refusals.h"
+#include "experiments/samples.h"
 #include "experiments/stopwatch.h"
 #include "representations/representation.h"
 #include "results/store/format.h"
@@ -24,7 +25,6 @@ const std::array kSpecs{
     ParameterSpec{"width", std::int64_t{1600}, "pixels", "width of the picture", 1, 16384},
     ParameterSpec{"height", std::int64_t{1000}, "pixels", "height of the picture", 1, 16384},
 };
-constexpr int kBuilds = 9;
 
 // Part of a file name: the catalogue name; for a path its stem and a digest, since two folders may hold files
 // of one name.
@@ -69,10 +69,10 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const TerrainSource source = recorder.terrain(open_terrain(at.terrain, options.seed));
   const RepresentationType& type = representation(at.parameters.text("representation"));
   std::unique_ptr<Representation> built;
-  for (int i = 0; i < kBuilds; ++i) {
+  for (int i = 0; i < kSamples; ++i) {
     built.reset();
     const Stopwatch watch;
-    built = cross::unless_refused([&] { return type.build(source, Parameters(type.parameters), progress); });
+    built = unless_refused([&] { return type.build(source, Parameters(type.parameters), progress); });
     recorder.add("build_time", "s", watch.seconds());
   }
   recorder.add("bytes", "B", built->memory().total());
@@ -86,18 +86,21 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const Bounds ground = source.bounds();  // the same colours for every representation of it
   const Image image = render_relief(*context, mesh, view, {.lowest = ground.low.y, .highest = ground.high.y});
   const std::string id = fmt::format("relief.{}.{}", file_name(at.terrain), type.name);
-  figures::write_picture(
-      recorder.figure(
-          id, "png",
-          fmt::format("{} as {}: {} triangles, from {:.0f} m (dark) to {:.0f} m (light), sun from the "
+  write_png(
+      recorder
+          .figure(id, "png",
+                  fmt::format(
+                      "{} as {}: {} triangles, from {:.0f} m (dark) to {:.0f} m (light), sun from the "
                       "north-west, view from the south",
-                      source.name, type.label, format_count(mesh.triangles()), ground.low.y, ground.high.y)),
+                      source.name, type.label, format_count(mesh.triangles()), ground.low.y, ground.high.y))
+          .path,
       with_few_colours(image));
 }
 
 }  // namespace
 
-extern const Experiment kRelief{"overview.relief", "Shaded relief of each terrain in each representation",
-                                kSpecs, cases, measure};
+extern const Experiment kRelief{
+    "overview.relief", "Shaded relief of each terrain in each representation", kSpecs, cases, measure,
+    Experiment::kTimed};
 
 }  // namespace terrabench::relief

@@ -18,6 +18,19 @@ struct Block {
   std::uint32_t first_row = 0;  // in WindowPattern::rows
 };
 
+// The blocks of ring (r) and middle (m), by index, and where they meet:
+//
+//          0    m-1    2m    3m-1  4m-2
+//        0 +-----+-----+-----+-----+
+//          | r0  | r1  | r2  | r3  |
+//      m-1 +-----+-----+-----+-----+
+//          | r4  | m0  | m1  | r5  |
+//       2m +-----+-----+-----+-----+
+//          | r6  | m2  | m3  | r7  |
+//     3m-1 +-----+-----+-----+-----+
+//          | r8  | r9  | r10 | r11 |
+//     4m-2 +-----+-----+-----+-----+
+//
 // The outer border conforms to the next coarser level: its odd vertices are left out, so its edges are the
 // coarser level's and there are no T-junctions. (The paper covers T-junctions with triangles without area.)
 struct WindowPattern {

@@ -14,6 +14,10 @@
 //
 // Without a near surface (LodGround::near_surface), the heights themselves are cut into chunks. update():
 // O(triangles of the chunks that changed) besides the clipmap's own cost, and O(radius²) to list chunks.
+//
+// To follow a frame: Hybrid::update() and collect() in hybrid.cpp; ChunkStore::get() and build()
+// (chunk_store.cpp); join() in hybrid.cpp and in rim.cpp. What can wait: the clipmap (clipmap.h), chunks cut
+// from heights (height_chunks.h), building ahead, edits.
 #pragma once
 
 #include <memory>

@@ -33,12 +33,6 @@ std::uint64_t BisectionTree::vertices() const {
   return depth_ % 2 == 1 ? along * along : (along * along + 1) / 2;
 }
 
-bool BisectionTree::has_vertex(glm::ivec2 at) const {
-  const int step = spacing();
-  if (at.x % step != 0 || at.y % step != 0) return false;
-  return depth_ % 2 == 1 || (at.x / step + at.y / step) % 2 == 0;
-}
-
 std::array<PlanTriangle, 2> BisectionTree::roots() const {
   const int n = side();
   return {{{{n, 0}, {0, 0}, {n, n}}, {{0, n}, {n, n}, {0, 0}}}};
@@ -50,14 +44,6 @@ PlanTriangle BisectionTree::triangle(NodeNumber node) const {
   PlanTriangle t = roots()[(node >> (depth - 1)) & 1];
   for (int bit = depth - 2; bit >= 0; --bit) t = child(t, (node >> bit) & 1);
   return t;
-}
-
-int BisectionTree::split_depth(glm::ivec2 vertex) const {
-  const int bit = std::countr_zero(static_cast<unsigned>(vertex.x | vertex.y));
-  if (bit >= side_bits_) return 0;
-  const int halvings = side_bits_ - bit - 1;  // it lies in a square of side 2^(k - halvings)
-  const bool both = (((vertex.x & vertex.y) >> bit) & 1) != 0;
-  return (both ? 1 : 2) + 2 * halvings;
 }
 
 std::string label(NodeNumber node) {

@@ -52,8 +52,6 @@ class BisectionTree {
   int spacing() const { return side() >> (depth_ / 2); }
   // Side of the squares whose borders consist of edges of triangles at that depth.
   int square_at(int depth) const { return side() >> ((depth - 1) / 2); }
-  // Whether a triangle at the greatest depth has this corner.
-  bool has_vertex(glm::ivec2 at) const;
 
   // The two halves of the square.
   std::array<PlanTriangle, 2> roots() const;
@@ -64,10 +62,8 @@ class BisectionTree {
   PlanTriangle triangle(NodeNumber node) const;  // O(depth)
 
   // A vertex splits the triangles (two, or one at the border) whose hypotenuse it is the centre of. Returns
-  // their depth; 0 for the corners of the square, which split nothing. O(1).
-  int split_depth(glm::ivec2 vertex) const;
-  // The vertices (one or two) that must split before this one may, or a hole opens: the right angles of the
-  // triangles that it splits. None for the centre and the corners of the square. O(1).
+  // the vertices (one or two) that must split before this one may, or a hole opens: the right angles of those
+  // triangles. None for the centre and the corners of the square. O(1).
   struct Parents {
     std::array<glm::ivec2, 2> at;
     int count = 0;

@@ -9,12 +9,16 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "lod/mrbsp/bisection_tree.h"
 #include "terrain/memory.h"
 
 namespace terrabench {
+
+enum class HoleRule : std::uint8_t { kConforming, kPrinted, kNone };  // kNone: for measurements
+inline constexpr std::string_view kHoleRuleNames[] = {"conforming", "printed", "left"};
 
 // The printed rule: whether a hole may open at the centre of the hypotenuse, given the corners' thresholds.
 inline bool may_open(int apex, int left, int right, int deepest) {

@@ -16,8 +16,7 @@ using mrbsp::visibility::ChangeTable, mrbsp::visibility::ground_checksum, mrbsp:
 
 namespace {
 
-constexpr std::string_view kThresholds[] = {"printed", "area"}, kHoles[] = {"conforming", "printed", "left"},
-                           kHeights[] = {"samples", "nearest"},
+constexpr std::string_view kThresholds[] = {"printed", "area"}, kHeights[] = {"samples", "nearest"},
                            kVisibility[] = {"off",         kModeNames[0], kModeNames[1],
                                             kModeNames[2], kModeNames[3], kModeNames[4]};
 static_assert(std::size(kVisibility) == kModeNames.size() + 1);
@@ -26,8 +25,7 @@ MrbspOptions options_of(const Parameters& parameters) {
   MrbspOptions options;
   options.depth = static_cast<int>(parameters.integer("depth"));
   options.area_consistent = parameters.choice("threshold") == 1;
-  options.conforming = parameters.choice("holes") == 0;
-  options.leave_holes = parameters.choice("holes") == 2;
+  options.holes = static_cast<HoleRule>(parameters.choice("holes"));
   options.three_nearest = parameters.choice("heights") == 1;
   options.cull = parameters.flag("cull");
   const std::size_t visibility = parameters.choice("visibility");
@@ -63,7 +61,7 @@ std::span<const ParameterSpec> Mrbsp::parameters() {
       {"depth", std::int64_t{0}, "levels", "depth of the finest triangles; 0: down to every sample", 0,
        BisectionTree::kDeepest},
       choice("threshold", kThresholds, "LOD threshold: printed M - log2(D/S), area M - 2 log2(D/S)"),
-      choice("holes", kHoles,
+      choice("holes", kHoleRuleNames,
              "printed: the paper's one-vertex rule; conforming: no holes; left: no rule, for measurements"),
       choice("heights", kHeights, "samples, or interpolated from the three nearest samples"),
       {"cull", true, "", "skip triangles outside the view frustum"},
@@ -105,7 +103,7 @@ Mrbsp::Mrbsp(const Heightfield& ground, const MrbspOptions& options, ChangeTable
   const double area = static_cast<double>(grid_.cell_x) * grid_.cell_z * tree_.side() * tree_.side();
   short_side_ = static_cast<float>(std::sqrt(2 * area / static_cast<double>(tree_.triangles())));
   bounds_ = TriangleBounds(grid_, tree_, progress);
-  if (options_.conforming) splits_.emplace(tree_);
+  if (options_.holes == HoleRule::kConforming) splits_.emplace(tree_);
   if (visibility.depth > 0) use_visibility(std::move(visibility));
 }
 
@@ -165,7 +163,7 @@ const Frame& Mrbsp::update(const View& view) {
   next_.clear();
   const WalkEye eye{view.eye, options_.cull ? &frustum : nullptr, hide ? &flags_ : nullptr};
   walk_tree({grid_, tree_, bounds_}, rule(), eye,
-            {splits_ ? &*splits_ : nullptr, pending_, !options_.leave_holes}, next_);
+            {splits_ ? &*splits_ : nullptr, pending_, options_.holes == HoleRule::kPrinted}, next_);
   publish(toggled);
   return frame_;
 }

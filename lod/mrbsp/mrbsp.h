@@ -8,6 +8,11 @@
 // hole_rule.h        §3  how triangles of different depth meet
 // visibility/sets.h  §4  which triangles the ground hides
 // tree_walk.h            the traversal that applies them; update() is O(triangles drawn)
+//
+// To follow a frame: bisection_tree.h to the numbering of nodes; LodRule; HoleRule; TreeWalk in
+// tree_walk.cpp; Mrbsp::update() and publish(). Then visibility: the opening comment of visibility/sets.h,
+// find_sets(), and Flags::move_to(). What can wait: heights by interpolation, area_occlusion.h, the codec and
+// its two forms.
 #pragma once
 
 #include <filesystem>
@@ -24,11 +29,10 @@ namespace terrabench {
 struct MrbspOptions {
   int depth = 0;                 // M; 0: down to every sample
   bool area_consistent = false;  // threshold M - 2·log2(D/S); false: the printed one
-  bool conforming = true;        // no holes; false: the printed rule
-  bool leave_holes = false;      // neither rule, when not conforming; for measurements
-  bool cull = true;              // skip triangles outside the view frustum
-  bool three_nearest = false;    // heights by the paper's interpolation; false: the samples themselves
-  bool visibility = false;       // skip triangles that the ground hides
+  HoleRule holes = HoleRule::kConforming;
+  bool cull = true;            // skip triangles outside the view frustum
+  bool three_nearest = false;  // heights by the paper's interpolation; false: the samples themselves
+  bool visibility = false;     // skip triangles that the ground hides
   mrbsp::visibility::Options visible{};  // how the visible sets are computed
 };
 

@@ -42,7 +42,7 @@ struct WalkEye {
 struct WalkScratch {
   SplitVertices* splits;  // null: not the conforming hole rule
   std::vector<PendingTriangle>& pending;
-  bool printed_rule = true;  // without `splits`; false: no hole rule
+  bool printed_rule;  // without `splits`; false: no hole rule
 };
 
 // Appends the vertices of the triangles to draw, three per triangle, to `out`.

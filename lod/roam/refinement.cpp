@@ -45,8 +45,7 @@ void Roam::refine() {
     if (highest < kMaxErrorBucket) return;
     const std::uint32_t id = splits_.first(highest);
     if (const std::size_t cost = cost_of_split(id); !full(cost)) {
-      mesh_.make_room(cost);  // before the split: it must not fail half-way for lack of memory
-      labels_valid_until_.resize(mesh_.nodes().size());
+      grow_nodes(cost);  // before the split: it must not fail half-way for lack of memory
       prefetch_next_splits(id);
       force_split(id);
     } else if (!split_diamonds_.empty()) {
@@ -57,6 +56,12 @@ void Roam::refine() {
       return;
     }
   }
+}
+
+// Room for this many more leaves, in all that is held per node.
+void Roam::grow_nodes(std::size_t leaves) {
+  mesh_.make_room(leaves);
+  labels_valid_until_.resize(mesh_.nodes().size());
 }
 
 // Splits the triangle's diamond. While its base neighbour is one level coarser, with another triangle as its
@@ -82,7 +87,6 @@ void Roam::split_diamond(std::uint32_t id) {
   }
   mesh_.bisect_diamond(id);
   ++changes_;
-  labels_valid_until_.resize(nodes.size());
   const auto [at_apex, at_left, at_right] = mesh_.corners(nodes[id]).at;
   const ViewedCorner middle = view_.corner(mesh_.apex(nodes[nodes[id].child]));
   const ViewedCorner left = view_.corner(at_left), right = view_.corner(at_right);

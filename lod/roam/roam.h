@@ -31,6 +31,8 @@
 //   degenerate   of a triangle: its corners are collinear in plan, so it must always be split. Only where
 //                Lattice::exact is false; skip it at a first reading
 //   deferred     not ranked again before the camera has moved so far that the rank may matter
+//   exact_from_  the bucket from which up priorities are exact, to a bucket: a little below the one where the
+//                queues meet, since nothing splits or merges further below
 #pragma once
 
 #include <array>
@@ -103,6 +105,7 @@ class Roam : public Lod {
   void force_merge(std::uint32_t id);
   void merge_diamond(std::uint32_t id);
   std::size_t cost_of_split(std::uint32_t id) const;
+  void grow_nodes(std::size_t leaves);
   void prefetch_next_splits(std::uint32_t id) const;
   bool lower_exact_bucket();
   bool out_of_time() const;
@@ -147,9 +150,10 @@ class Roam : public Lod {
   std::vector<Batch> batches_;
   std::vector<DirtyRange> uploads_, edits_;  // edits_: for the next frame
   Frame frame_;
-  // When deferred priorities are computed again. Leaves from this bucket up: as soon as the motion may have
-  // changed them by 1/16. Leaves below: before they may have risen to it. Diamonds: before they may have
-  // fallen 1/16 below it. That is this bucket as it was when they were ranked; it may have risen since.
+  // When deferred priorities are computed again (rank_leaf(), rank_diamond()). Leaves from this bucket up: as
+  // soon as the motion may have changed them by 1/16. Leaves below: before they may have risen to it.
+  // Diamonds: before they may have fallen 1/16 below it. That is this bucket as it was when they were ranked;
+  // it may have risen since.
   int exact_from_ = kMaxErrorBucket;
   std::size_t changes_ = 0;
   std::chrono::steady_clock::time_point start_;

@@ -232,9 +232,8 @@ struct GrassRenderer::Gl {
   void draw_by_strand(const GrassPatch::Gl&, bool indirect) const;
   void draw(std::span<GrassPatch::Gl* const>, GrassTechnique);
 
-  Program by_triangle = link_program(shader_file("grass_corner.vert"), shader_file("grass.frag"),
-                                     &shader_file("grass.geom")),
-          by_strand = link_program(shader_file("grass_instance.vert"), shader_file("grass.frag")),
+  Program by_triangle = link_program("grass_corner.vert", "grass.frag", "grass.geom"),
+          by_strand = link_program("grass_instance.vert", "grass.frag"),
           place = link_compute(shader_file("grass_place.comp"));
   LookBlock look;
   Texture2dArray texture = make_texture();

@@ -21,7 +21,7 @@ struct PlainGround::Gl {
     check_gl("uploading the ground");
   }
 
-  Program program = link_program(shader_file("grass_soil.vert"), shader_file("grass_soil.frag"));
+  Program program = link_program("grass_soil.vert", "grass_soil.frag");
   LookBlock look;
   VertexArray array;
   Buffer positions, normals, indices;

@@ -13,13 +13,8 @@ constexpr GLuint kMaterialMaps = 0, kSkyNoise = 1, kWaveMap = 2, kReflection = 3
 constexpr int kMaterialSide = 512, kWaveSide = 512, kSkyWidth = 2048, kSkyHeight = 768;
 
 Program ground_program(bool meshes, bool lit) {
-  const auto link = [&](ShaderParts vertex) {
-    return lit ? link_parts(vertex, {"scene.glsl", "display.glsl", "sky_blend.glsl", "atmosphere.glsl",
-                                     "shadow.glsl", "ground_slope.glsl", "materials.glsl", "ground.frag"})
-               : link_parts(vertex, {"depth.frag"});
-  };
-  return meshes ? link({"scene.glsl", "ground_mesh.vert"})
-                : link({"scene.glsl", "frame_heights.glsl", "ground_heights.vert"});
+  return link_program(meshes ? "ground_mesh.vert" : "ground_heights.vert",
+                      lit ? "ground.frag" : "depth.frag");
 }
 
 // Keeps a target of this size, or replaces it; none if it is not needed.
@@ -38,13 +33,10 @@ void fit(std::optional<PassTarget>& target, bool needed, int width, int height, 
 LandscapeGl::LandscapeGl(const LandscapeStyle& style)
     : depth{ground_program(false, false), ground_program(true, false)},
       lit{ground_program(false, true), ground_program(true, true)},
-      sky(link_parts({"fullscreen.vert"},
-                     {"scene.glsl", "display.glsl", "sky_blend.glsl", "atmosphere.glsl", "sky.frag"})),
-      water(link_parts({"scene.glsl", "water.vert"},
-                       {"scene.glsl", "display.glsl", "sky_blend.glsl", "atmosphere.glsl", "shadow.glsl",
-                        "fresnel.glsl", "water.frag"})),
-      occlusion(link_parts({"fullscreen.vert"}, {"scene.glsl", "occlusion.frag"})),
-      blur(link_parts({"fullscreen.vert"}, {"occlusion_blur.frag"})) {
+      sky(link_program("fullscreen.vert", "sky.frag")),
+      water(link_program("water.vert", "water.frag")),
+      occlusion(link_program("fullscreen.vert", "occlusion.frag")),
+      blur(link_program("fullscreen.vert", "occlusion_blur.frag")) {
   block.reserve(sizeof(SceneBlock));
   glTextureStorage3D(materials.id(), mip_levels(kMaterialSide, kMaterialSide), GL_RGBA8, kMaterialSide,
                      kMaterialSide, kMaterials);

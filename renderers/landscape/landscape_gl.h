@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "renderers/frame_buffers.h"
+#include "renderers/gl.h"
 #include "renderers/landscape/landscape.h"
 #include "renderers/landscape/pass_target.h"
 #include "renderers/landscape/scene_block.h"
-#include "renderers/shader_parts.h"
 
 namespace terrabench {
 

@@ -3,22 +3,16 @@
 #include <array>
 #include <cassert>
 
+#include "renderers/gl.h"
 #include "renderers/landscape/pass_target.h"
-#include "renderers/shader_parts.h"
 
 namespace terrabench {
 namespace {
 
-Program link(Probe probe) {
-  switch (probe) {
-    case Probe::kSkyShare:
-      return link_parts({"fullscreen.vert"}, {"sky_blend.glsl", "probe_sky.frag"});
-    case Probe::kReflectance:
-      return link_parts({"fullscreen.vert"}, {"fresnel.glsl", "probe_fresnel.frag"});
-    case Probe::kSlope:
-      break;
-  }
-  return link_parts({"fullscreen.vert"}, {"ground_slope.glsl", "probe_slope.frag"});
+constexpr std::string_view fragment_of(Probe probe) {
+  return probe == Probe::kSkyShare      ? "probe_sky.frag"
+         : probe == Probe::kReflectance ? "probe_fresnel.frag"
+                                        : "probe_slope.frag";
 }
 
 }  // namespace
@@ -28,7 +22,7 @@ std::vector<float> evaluate(GlContext& context, Probe probe, std::span<const glm
   if (inputs.empty()) return values;
   assert(inputs.size() <= 16384);
   context.make_current();
-  const Program program = link(probe);
+  const Program program = link_program("fullscreen.vert", fragment_of(probe));
   const Buffer buffer = make_buffer(inputs);
   const PassTarget target(static_cast<int>(inputs.size()), 1, GL_R32F, false);
   const VertexArray nothing;

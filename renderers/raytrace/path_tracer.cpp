@@ -26,25 +26,14 @@ const RayScene& checked(const RayScene& scene, const RaytraceSettings& settings)
     throw usage_error(fmt::format("invalid number of bounces {}", settings.bounces), "ray tracing",
                       "it must be 0 to 64");
   }
-  if (!(settings.occlusion_distance > 0)) {
-    throw usage_error("the distance of ambient occlusion is not above 0", "ray tracing",
-                      "give it in metres, or leave it out");
-  }
   check_scene(scene);
   return scene;
 }
 
-RayIndex index_of(const RayScene& scene, std::uint64_t budget, Progress* progress) {
+RayIndex index_of(const RayScene& scene, Progress* progress) {
   std::vector<const TriangleMesh*> meshes;
   for (const RayMesh& mesh : scene.meshes) meshes.push_back(mesh.mesh);
-  return {meshes, scene.instances, budget, progress};
-}
-
-// Materials of a function may emit: that is known only where it is called.
-bool may_emit(const RayScene& scene) {
-  return std::any_of(scene.meshes.begin(), scene.meshes.end(), [](const RayMesh& mesh) {
-    return mesh.material_at || mesh.material.emission != glm::vec3(0);
-  });
+  return {meshes, scene.instances, progress};
 }
 
 glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
@@ -62,10 +51,9 @@ T interpolate(std::span<const T> values, const std::uint32_t* corners, const Ray
 PathTracer::PathTracer(const RayScene& scene, const RaytraceSettings& settings, Progress* progress)
     : scene_(checked(scene, settings)),
       settings_(settings),
-      index_(index_of(scene, settings.budget, progress)),
+      index_(index_of(scene, progress)),
       sky_(scene.light),
-      sun_(scene.light),
-      emits_(may_emit(scene)) {}
+      sun_(scene.light) {}
 
 PathTracer::Surface PathTracer::surface(const Ray& ray, const RayHit& hit) const {
   const MeshPlacement& placement = scene_.instances[hit.placement];
@@ -107,15 +95,10 @@ PathTracer::Surface PathTracer::surface(const Ray& ray, const RayHit& hit) const
 RayMaterial PathTracer::material(const Surface& s, const RayHit& hit) const {
   const RayMesh& mesh = scene_.meshes[s.point.mesh];
   const std::uint32_t* const corners = &mesh.mesh->indices[3 * std::size_t{hit.triangle}];
-  if (mesh.material_at) {
-    SurfacePoint point = s.point;
-    if (!mesh.texture.empty()) point.texture = interpolate(mesh.texture, corners, hit);
-    return mesh.material_at(point);
-  }
-  RayMaterial material = mesh.material;
-  if (!mesh.face_albedo.empty()) material.albedo = mesh.face_albedo[hit.triangle];
-  if (!mesh.vertex_albedo.empty()) material.albedo = interpolate(mesh.vertex_albedo, corners, hit);
-  return material;
+  if (!mesh.material_at) return mesh.material;
+  SurfacePoint point = s.point;
+  if (!mesh.texture.empty()) point.texture = interpolate(mesh.texture, corners, hit);
+  return mesh.material_at(point);
 }
 
 Ray PathTracer::ray_from(const Surface& s, const glm::vec3& direction) const {
@@ -131,14 +114,6 @@ glm::vec3 PathTracer::sunlight(const Surface& s, const Scattering& scattering,
   return light == glm::vec3(0) || index_.occluded(ray_from(s, to_sun)) ? glm::vec3(0) : light;
 }
 
-glm::vec3 PathTracer::occlusion(const Surface& s, SampleSequence& samples) const {
-  const glm::vec3 direction = UnitFrame(s.normal).to_world(cosine_direction(samples.next()));
-  if (glm::dot(direction, s.facet) <= 0) return glm::vec3(0);
-  Ray ray = ray_from(s, direction);
-  ray.far = settings_.occlusion_distance;
-  return glm::vec3(index_.occluded(ray) ? 0.0F : 1.0F);
-}
-
 glm::vec3 PathTracer::radiance(const Ray& from_eye, const RayHit& first, SampleSequence& samples) const {
   if (!first.hit()) return sky_.radiance(from_eye.direction) + sun_.radiance(from_eye.direction);
   glm::vec3 light(0), weight(1);
@@ -146,11 +121,8 @@ glm::vec3 PathTracer::radiance(const Ray& from_eye, const RayHit& first, SampleS
   RayHit hit = first;
   for (int bounce = 0;; ++bounce) {
     const Surface s = surface(ray, hit);
-    if (settings_.mode == RaytraceMode::kAmbientOcclusion) return occlusion(s, samples);
     RayMaterial made_of = material(s, hit);
     if (bounce > 0) made_of.roughness = std::max(made_of.roughness, kIndirectRoughness);
-    light += weight * made_of.emission;
-    if (bounce > settings_.bounces) return light;
     const Scattering scattering(made_of, s.facet, s.normal, -ray.direction);
     light += weight * sunlight(s, scattering, samples);
     glm::vec3 direction, part;
@@ -158,7 +130,7 @@ glm::vec3 PathTracer::radiance(const Ray& from_eye, const RayHit& first, SampleS
     if (!scattering.sample(lobe, samples.next(), direction, part)) return light;
     weight *= part;
     ray = ray_from(s, direction);
-    if (bounce == settings_.bounces && !emits_) {  // only the sky is left to be found
+    if (bounce == settings_.bounces) {  // only the sky is left to be found
       return index_.occluded(ray) ? light : light + weight * sky_.radiance(direction);
     }
     hit = index_.closest(ray);

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <limits>
 #include <vector>
 
 #include "renderers/raytrace/ray_index.h"
@@ -17,19 +16,10 @@
 
 namespace terrabench {
 
-enum class RaytraceMode : std::uint8_t {
-  kDaylight,
-  kAmbientOcclusion,  // the cosine-weighted share of directions that are open; materials do not matter
-};
-
 struct RaytraceSettings {
   int samples = 64;  // per pixel, 1 to 65536
   int bounces = 2;   // 0 to 64: reflections between surfaces before the light of sun or sky
-  RaytraceMode mode = RaytraceMode::kDaylight;
-  float occlusion_distance =
-      std::numeric_limits<float>::infinity();  // metres; farther surfaces do not occlude
   std::uint32_t seed = 1;
-  std::uint64_t budget = 0;  // bytes that Embree may take; 0: no bound
 };
 
 class PathTracer {
@@ -55,14 +45,12 @@ class PathTracer {
   RayMaterial material(const Surface&, const RayHit&) const;
   Ray ray_from(const Surface&, const glm::vec3& direction) const;
   glm::vec3 sunlight(const Surface&, const Scattering&, SampleSequence&) const;
-  glm::vec3 occlusion(const Surface&, SampleSequence&) const;
 
   const RayScene& scene_;
   RaytraceSettings settings_;
   RayIndex index_;
   Sky sky_;
   Sun sun_;
-  bool emits_;
 };
 
 }  // namespace terrabench

@@ -59,10 +59,9 @@ struct RayIndex::Embree {
   std::vector<RTCScene> prototypes;     // per mesh; null if no placement moves it
   std::vector<RTCGeometry> geometries;  // per mesh; null if it has no triangles
   std::atomic<std::int64_t> bytes{0};
-  std::int64_t budget = 0;  // bytes; 0: no bound
 
-  Embree(std::size_t meshes, std::uint64_t most);
-  Embree(std::size_t meshes, std::shared_ptr<SharedDevice>);
+  // Without a shared device, it has its own.
+  explicit Embree(std::size_t meshes, std::shared_ptr<SharedDevice> = nullptr);
   ~Embree();
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;
@@ -76,8 +75,8 @@ struct RayIndex::Embree {
   // Embree calls it before it allocates and after it frees; false makes the build fail.
   static bool count(void* self, ssize_t bytes, bool /*post*/) {
     auto& embree = *static_cast<Embree*>(self);
-    const std::int64_t held = embree.bytes.fetch_add(bytes, std::memory_order_relaxed) + bytes;
-    return bytes <= 0 || embree.budget == 0 || held <= embree.budget;
+    embree.bytes.fetch_add(bytes, std::memory_order_relaxed);
+    return true;
   }
   // The index that this thread builds on the shared device, whose monitor does not know the index.
   static thread_local Embree* building;
@@ -89,13 +88,13 @@ struct RayIndex::Embree {
 
 thread_local RayIndex::Embree* RayIndex::Embree::building = nullptr;
 
-RayIndex::Embree::Embree(std::size_t meshes, std::uint64_t most)
-    : device(new_device()), prototypes(meshes), geometries(meshes), budget(static_cast<std::int64_t>(most)) {
-  rtcSetDeviceMemoryMonitorFunction(device, count, this);
-}
-
 RayIndex::Embree::Embree(std::size_t meshes, std::shared_ptr<SharedDevice> with)
-    : shared(std::move(with)), device(shared->device), prototypes(meshes), geometries(meshes) {}
+    : shared(std::move(with)),
+      device(shared == nullptr ? new_device() : shared->device),
+      prototypes(meshes),
+      geometries(meshes) {
+  if (shared == nullptr) rtcSetDeviceMemoryMonitorFunction(device, count, this);
+}
 
 RayIndex::Embree::~Embree() {
   if (top != nullptr) rtcReleaseScene(top);
@@ -115,10 +114,8 @@ void RayIndex::Embree::check() const {
     throw Error(ExitCode::kInterrupted, "interrupted", "ray tracing", "");
   }
   if (error == RTC_ERROR_OUT_OF_MEMORY) {
-    throw environment_error(
-        budget == 0 ? "not enough memory to index the triangles"
-                    : fmt::format("indexing the triangles needs more than the budget of {} bytes", budget),
-        "ray tracing", "use fewer triangles, instances instead of copies, or a larger budget");
+    throw environment_error("not enough memory to index the triangles", "ray tracing",
+                            "use fewer triangles, or instances instead of copies");
   }
   throw environment_error(fmt::format("Embree error {}", static_cast<int>(error)), "ray tracing",
                           "check Debian's libembree3-3, or use --renderer osmesa");
@@ -167,8 +164,8 @@ void RayIndex::Embree::place(std::uint32_t id, const MeshPlacement& placement) {
 }
 
 // One thread builds: the order of triangles within a leaf, which decides between hits at equal distances,
-// must not depend on the number of threads. Several meshes are built at once. rtcJoinCommitScene() would build
-// in the device's own arena, with all threads.
+// must not depend on the number of threads. Several meshes are built at once. rtcJoinCommitScene() would
+// build in the device's own arena, with all threads.
 void RayIndex::Embree::commit(RTCScene scene) const {
   rtcSetSceneProgressMonitorFunction(scene, keep_building, nullptr);
   tbb::task_arena alone(1);
@@ -229,7 +226,7 @@ RTCRay to_embree(const Ray& ray) {
 }  // namespace
 
 RayIndex::RayIndex(std::span<const TriangleMesh* const> meshes, std::span<const MeshPlacement> placements,
-                   std::uint64_t budget, Progress* progress) {
+                   Progress* progress) {
   std::vector<std::uint8_t> moved(meshes.size());
   for (std::size_t m = 0; m < meshes.size(); ++m) check_mesh(*meshes[m], fmt::format("mesh {}", m));
   for (std::size_t p = 0; p < placements.size(); ++p) {
@@ -237,7 +234,7 @@ RayIndex::RayIndex(std::span<const TriangleMesh* const> meshes, std::span<const 
     if (placements[p].to_world != glm::mat4(1)) moved[placements[p].mesh] = 1;
   }
   if (progress != nullptr) progress->begin("index triangles", meshes.size() + 1);
-  embree_ = std::make_unique<Embree>(meshes.size(), budget);
+  embree_ = std::make_unique<Embree>(meshes.size());
   tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t m) {
     embree_->index(m, *meshes[m], moved[m] != 0);
     if (progress != nullptr) progress->advance();
@@ -254,7 +251,7 @@ RayIndex::RayIndex(std::span<const TriangleMesh* const> meshes, std::span<const 
 }
 
 RayIndex::RayIndex(const TriangleMesh& mesh, Progress* progress)
-    : RayIndex(std::array{&mesh}, std::array{MeshPlacement{}}, 0, progress) {}
+    : RayIndex(std::array{&mesh}, std::array{MeshPlacement{}}, progress) {}
 
 RayIndex RayIndex::on_shared_device(const TriangleMesh& mesh) {
   check_mesh(mesh, "mesh 0");

@@ -35,12 +35,12 @@ struct MeshPlacement {
 
 class RayIndex {
  public:
-  // The meshes must stay unchanged for as long as the index lives. `budget` bounds Embree's bytes; 0: no
-  // bound. Throws bad_input for a mesh that check_mesh() refuses or a transform that is not finite, affine
-  // and invertible; environment_error without a device or when memory or the budget is too small;
-  // Error(kInterrupted) after Progress::interrupt(). O(triangles log triangles).
+  // The meshes must stay unchanged for as long as the index lives. Throws bad_input for a mesh that
+  // check_mesh() refuses or a transform that is not finite, affine and invertible; environment_error without
+  // a device or when memory is too small; Error(kInterrupted) after Progress::interrupt(). O(triangles log
+  // triangles).
   RayIndex(std::span<const TriangleMesh* const> meshes, std::span<const MeshPlacement> placements,
-           std::uint64_t budget = 0, Progress* = nullptr);
+           Progress* = nullptr);
   explicit RayIndex(const TriangleMesh&, Progress* = nullptr);  // one mesh, placed where it is
   // The same for one of very many indices that exist at once. Each other index has a device of its own, and
   // Embree keeps a thread-local key per device, of which a process has 1024. Threads may call it at once.

@@ -18,32 +18,16 @@ bool is_light(const glm::vec3& v) { return is_light(v.x) && is_light(v.y) && is_
 
 void check_material(const RayMaterial& m, const std::string& where) {
   if (is_share(m.albedo) && is_share(m.translucency) && is_share(m.specular) && is_share(m.metal) &&
-      is_share(m.roughness) && is_light(m.emission)) {
+      is_share(m.roughness)) {
     return;
   }
-  throw bad_input("a value of the material is out of range", where,
-                  "all must be 0 to 1, emission at least 0");
-}
-
-void check_albedo(std::span<const glm::vec3> albedo, std::size_t n, const char* per,
-                  const std::string& where) {
-  if (!albedo.empty() && albedo.size() != n) {
-    throw bad_input(fmt::format("{} albedo values for {} {}", albedo.size(), n, per), where,
-                    "give one for each, or none");
-  }
-  const auto bad = std::find_if(albedo.begin(), albedo.end(), [](auto& a) { return !is_share(a); });
-  if (bad != albedo.end()) {
-    throw bad_input(fmt::format("albedo {} is out of range", bad - albedo.begin()), where,
-                    "each must be 0 to 1");
-  }
+  throw bad_input("a value of the material is out of range", where, "all must be 0 to 1");
 }
 
 void check_mesh(const RayMesh& m, std::size_t number) {
   const std::string where = fmt::format("mesh {}", number);
   if (m.mesh == nullptr) throw bad_input("there is no mesh", where, "set RayMesh::mesh");
   check_material(m.material, where);
-  check_albedo(m.vertex_albedo, m.mesh->positions.size(), "positions", where);
-  check_albedo(m.face_albedo, m.mesh->triangles(), "triangles", where);
   if (!m.texture.empty() && m.texture.size() != m.mesh->positions.size()) {
     throw bad_input(
         fmt::format("{} texture coordinates for {} positions", m.texture.size(), m.mesh->positions.size()),
@@ -91,33 +75,6 @@ TriangleMesh ground_plane(const Bounds& bounds, float times, std::optional<float
   plane.normals.assign(4, {0, 1, 0});
   plane.indices = {0, 1, 2, 2, 1, 3};
   return plane;
-}
-
-TriangleMesh terrain_triangles(const Heightfield& field) {
-  TriangleMesh mesh;
-  mesh.positions.reserve(field.heights.size());
-  for (int j = 0; j < field.depth; ++j) {
-    for (int i = 0; i < field.width; ++i) {
-      const float height = field.at(i, j);
-      // No triangle uses the position of a sample without data, but it must be finite.
-      mesh.positions.emplace_back(static_cast<float>(i) * field.cell_x,
-                                  Heightfield::is_no_data(height) ? 0 : height,
-                                  static_cast<float>(j) * field.cell_z);
-    }
-  }
-  mesh.indices.reserve(field.heights.size() * 6);
-  for (int j = 0; j + 1 < field.depth; ++j) {
-    for (int i = 0; i + 1 < field.width; ++i) {
-      const float sum = field.at(i, j) + field.at(i + 1, j) + field.at(i, j + 1) + field.at(i + 1, j + 1);
-      if (Heightfield::is_no_data(sum)) continue;
-      const auto a = static_cast<std::uint32_t>(j) * static_cast<std::uint32_t>(field.width) +
-                     static_cast<std::uint32_t>(i);
-      const auto b = a + 1, c = a + static_cast<std::uint32_t>(field.width), d = c + 1;
-      mesh.indices.insert(mesh.indices.end(), {a, c, b, b, c, d});
-    }
-  }
-  compute_normals(mesh);
-  return mesh;
 }
 
 }  // namespace terrabench

@@ -14,7 +14,6 @@
 
 #include "renderers/raytrace/ray_index.h"
 #include "renderers/raytrace/sky.h"
-#include "terrain/heightfield.h"
 
 namespace terrabench {
 
@@ -24,7 +23,6 @@ struct RayMaterial {
   float specular = 0;      // 0 to 1: mirrored share straight from the front; 0.04 for paint or wet rock
   float metal = 0;         // 0 to 1: 1 mirrors with the albedo's colour and has no diffuse light
   float roughness = 0.5F;  // 0 to 1: of the mirroring (GGX, alpha = roughness²); at least 0.6 in reflections
-  glm::vec3 emission{0};   // radiance of its own, as in sky.h
 };
 
 // A place on a surface, for materials that vary over it.
@@ -38,10 +36,9 @@ struct SurfacePoint {
 struct RayMesh {
   const TriangleMesh* mesh = nullptr;  // without normals, facets are flat
   RayMaterial material{};
-  // The albedo per position, per triangle, or of neither; a function of the surface replaces all.
-  std::span<const glm::vec3> vertex_albedo{}, face_albedo{};
-  std::span<const glm::vec2> texture{};                           // per position, or empty
-  std::function<RayMaterial(const SurfacePoint&)> material_at{};  // called from many threads at once
+  std::span<const glm::vec2> texture{};  // per position, or empty
+  // In place of `material`; called from many threads at once.
+  std::function<RayMaterial(const SurfacePoint&)> material_at{};
 
   float wire_width = 0;  // pixels; 0 draws no wires
   glm::vec3 wire_color{0.004F, 0.004F, 0.005F};
@@ -69,9 +66,5 @@ void check_scene(const RayScene&);
 // A square of ground around the middle of the box in plan, at its lowest height or at `height`, whose sides
 // are `times` the longer side of the box. Two triangles.
 TriangleMesh ground_plane(const Bounds&, float times = 100, std::optional<float> height = {});
-
-// The surface of a height field: its samples are the positions, row by row; cells that touch a sample without
-// data are left out. With normals. O(samples)
-TriangleMesh terrain_triangles(const Heightfield&);
 
 }  // namespace terrabench

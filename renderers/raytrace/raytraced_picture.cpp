@@ -28,7 +28,7 @@ float distance_to_line(const glm::vec2& at, const glm::vec3& a, const glm::vec3&
 const View& with_memory(const View& view) {
   const auto pixels = static_cast<std::uint64_t>(std::max(view.width, 0)) *
                       static_cast<std::uint64_t>(std::max(view.height, 0));
-  require_memory(pixels * 24, "a ray-traced picture", "choose a smaller picture");
+  require_memory(pixels * 20, "a ray-traced picture", "choose a smaller picture");
   return view;
 }
 
@@ -52,7 +52,6 @@ RaytracedPicture::RaytracedPicture(const RayScene& scene, const View& view, cons
   const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   sums_.resize(pixels);
   counted_.resize(pixels);
-  depth_.resize(pixels, std::numeric_limits<float>::infinity());
   objects_.resize(pixels);
 }
 
@@ -81,7 +80,6 @@ void RaytracedPicture::trace(Tile& tile, int until) {
       if (tile.samples == 0) {
         const RayHit hit =
             tracer_.closest(camera_.ray({static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F}));
-        depth_[at] = hit.distance;
         objects_[at] = hit.placement + 1;  // RayHit::kNone + 1 is 0
       }
       glm::vec3 sum = sums_[at], radiance;

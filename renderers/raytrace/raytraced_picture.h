@@ -20,7 +20,7 @@ namespace terrabench {
 class RaytracedPicture {
  public:
   // Throws as PathTracer and RayCamera do, environment_error for lack of memory. The scene must outlive it.
-  // 24 bytes per pixel.
+  // 20 bytes per pixel.
   RaytracedPicture(const RayScene&, const View&, const RaytraceSettings& = {}, Progress* = nullptr);
 
   // Until every pixel has so many samples; settings.samples if 0. In parallel, tile by tile, in passes over
@@ -34,8 +34,6 @@ class RaytracedPicture {
   glm::vec3 radiance(int x, int y) const;
   // Surfaces and sky are tone mapped, the background is not.
   Image image(const ToneMapping& = {}) const;
-  // Metres from the eye to what lies in the middle of the pixel; infinite for the sky.
-  float depth(int x, int y) const { return depth_[pixel(x, y)]; }
   // The number of the instance in the middle of the pixel, plus 1; 0 for the sky.
   std::uint32_t object(int x, int y) const { return objects_[pixel(x, y)]; }
 
@@ -64,7 +62,6 @@ class RaytracedPicture {
   std::vector<Tile> tiles_;
   std::vector<glm::vec3> sums_;         // per pixel
   std::vector<std::uint32_t> counted_;  // samples in the sum
-  std::vector<float> depth_;
   std::vector<std::uint32_t> objects_;
 };
 

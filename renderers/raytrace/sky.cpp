@@ -50,8 +50,8 @@ void check_daylight(const Daylight& light) {
   if (!(length > 0) || !std::isfinite(length)) {
     refuse("the sun's direction is zero or not finite", "give a direction towards it");
   }
-  if (!in_range(light.sun_irradiance) || !in_range(light.zenith) || !in_range(light.horizon) ||
-      !in_range(light.below) || !(light.sky_irradiance >= 0) || !std::isfinite(light.sky_irradiance)) {
+  if (!in_range(light.sun_irradiance) || !in_range(light.zenith) || !in_range(light.below) ||
+      !(light.sky_irradiance >= 0) || !std::isfinite(light.sky_irradiance)) {
     refuse("a colour of light is negative or not finite", "give three values of at least 0");
   }
   if (!(light.sun_radius >= 0 && light.sun_radius <= 0.5F)) {
@@ -102,9 +102,6 @@ glm::vec3 Sky::clear_sky(const glm::vec3& direction) const {
 glm::vec3 Sky::radiance(const glm::vec3& direction) const {
   if (light_.sky == SkyKind::kUniform) return light_.zenith;
   if (direction.y < 0) return light_.below;
-  if (light_.sky == SkyKind::kGradient) {
-    return glm::mix(light_.horizon, light_.zenith, std::sqrt(std::min(direction.y, 1.0F)));
-  }
   return clear_sky(direction);
 }
 

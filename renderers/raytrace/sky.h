@@ -9,7 +9,6 @@ namespace terrabench {
 
 enum class SkyKind : std::uint8_t {
   kUniform,   // `zenith` from all directions, from below, too
-  kGradient,  // from `horizon` to `zenith`, and `below` from below
   kPreetham,  // a clear sky of the given turbidity (Preetham, Shirley & Smits 1999), and `below` from below
 };
 
@@ -18,7 +17,7 @@ struct Daylight {
   glm::vec3 sun_irradiance{2.75F, 2.5F, 2.2F};  // on a surface that faces it; zero: no sun
   float sun_radius = 0.00465F;                  // radians, 0 to 0.5; half of what it spans in the sky
   SkyKind sky = SkyKind::kPreetham;
-  glm::vec3 zenith{0.18F, 0.3F, 0.55F}, horizon{0.5F, 0.55F, 0.6F}, below{0.16F, 0.15F, 0.14F};
+  glm::vec3 zenith{0.18F, 0.3F, 0.55F}, below{0.16F, 0.15F, 0.14F};
   float turbidity = 3;          // of kPreetham: 2 (very clear) to 10 (hazy)
   float sky_irradiance = 0.8F;  // of kPreetham: the sky's luminous irradiance on level ground
 };

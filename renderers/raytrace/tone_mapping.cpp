@@ -6,7 +6,7 @@
 namespace terrabench {
 
 glm::vec3 tone_mapped(const glm::vec3& radiance, const ToneMapping& mapping) {
-  const glm::vec3 color = mapping.exposure * radiance;
+  const glm::vec3 color = radiance;
   if (mapping.curve == ToneCurve::kLinear) return glm::clamp(color, 0.0F, 1.0F);
   // The published curve also subtracts the mirrored light of paint from dark colours, which terrain lacks.
   constexpr float kStart = 0.8F, kDesaturation = 0.15F;

@@ -12,7 +12,6 @@ enum class ToneCurve : std::uint8_t {
 };
 
 struct ToneMapping {
-  float exposure = 1;  // factor of radiance; above 0
   ToneCurve curve = ToneCurve::kNeutral;
 };
 

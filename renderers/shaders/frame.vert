@@ -1,4 +1,6 @@
-// A vertex of a frame's heights, lit flat by relief.frag. Follows frame_heights.glsl.
+#version 450 core
+// A vertex of a frame's heights, lit flat by relief.frag.
+#include "frame_heights.glsl"
 uniform mat4 world_to_clip;
 
 out Vertex {

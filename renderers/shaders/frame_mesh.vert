@@ -1,3 +1,4 @@
+#version 450 core
 // A vertex of a frame's mesh (FrameMesh), lit flat by relief.frag.
 layout(location = 0) in vec3 position;
 layout(location = 2) in uint mesh_first_triangle;  // one value per mesh

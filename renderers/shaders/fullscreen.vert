@@ -1,3 +1,4 @@
+#version 450 core
 // One triangle over the whole picture, at the far plane. Without vertex data.
 out vec2 at;  // clip space
 

@@ -1,5 +1,12 @@
-// Lit and fogged ground. Follows scene.glsl, sky_blend.glsl, atmosphere.glsl, shadow.glsl, ground_slope.glsl and
-// materials.glsl.
+#version 450 core
+// Lit and fogged ground.
+#include "scene.glsl"
+#include "display.glsl"
+#include "sky_blend.glsl"
+#include "atmosphere.glsl"
+#include "shadow.glsl"
+#include "ground_slope.glsl"
+#include "materials.glsl"
 in vec3 world, normal;
 
 layout(binding = 7) uniform sampler2D occlusion_map;  // of the picture's pixels

@@ -1,4 +1,7 @@
-// A vertex of a frame's heights with the slope of the ground. Follows scene.glsl and frame_heights.glsl.
+#version 450 core
+// A vertex of a frame's heights with the slope of the ground.
+#include "scene.glsl"
+#include "frame_heights.glsl"
 out vec3 world, normal;
 invariant gl_Position;
 

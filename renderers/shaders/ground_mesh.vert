@@ -1,4 +1,6 @@
-// A vertex of a frame's mesh. Follows scene.glsl.
+#version 450 core
+// A vertex of a frame's mesh.
+#include "scene.glsl"
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 position_normal;
 

@@ -1,5 +1,7 @@
+#version 450 core
 // Ambient occlusion from the depth of the picture, after McGuire et al. 2011 ("The Alchemy screen-space ambient
-// obscurance algorithm"): how much of the sky near ground hides, at pixels around. Follows scene.glsl.
+// obscurance algorithm"): how much of the sky near ground hides, at pixels around.
+#include "scene.glsl"
 in vec2 at;
 
 layout(binding = 5) uniform sampler2D depth_map;

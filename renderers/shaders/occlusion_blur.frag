@@ -1,3 +1,4 @@
+#version 450 core
 // The mean of a pixel's neighbours at about its own depth: removes the pattern of occlusion.frag's turned samples.
 in vec2 at;
 

@@ -1,4 +1,6 @@
-// Values of reflectance() over level water, by angles as in probe.h. Follows fresnel.glsl.
+#version 450 core
+// Values of reflectance() over level water, by angles as in probe.h.
+#include "fresnel.glsl"
 layout(std430, binding = 4) readonly buffer Inputs { vec4 inputs[]; };
 layout(location = 0) out float value;
 

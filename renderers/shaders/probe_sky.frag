@@ -1,4 +1,6 @@
-// Values of sky_share(). Follows sky_blend.glsl.
+#version 450 core
+// Values of sky_share().
+#include "sky_blend.glsl"
 layout(std430, binding = 4) readonly buffer Inputs { vec4 inputs[]; };
 layout(location = 0) out float value;
 

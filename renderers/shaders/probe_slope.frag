@@ -1,4 +1,6 @@
-// Values of slope_degrees(). Follows ground_slope.glsl.
+#version 450 core
+// Values of slope_degrees().
+#include "ground_slope.glsl"
 layout(std430, binding = 4) readonly buffer Inputs { vec4 inputs[]; };
 layout(location = 0) out float value;
 

@@ -1,4 +1,9 @@
-// The sky behind everything. Follows scene.glsl, sky_blend.glsl and atmosphere.glsl.
+#version 450 core
+// The sky behind everything.
+#include "scene.glsl"
+#include "display.glsl"
+#include "sky_blend.glsl"
+#include "atmosphere.glsl"
 in vec2 at;
 
 uniform bool shown;  // in the picture, not in a pass that others read

@@ -1,6 +1,12 @@
+#version 450 core
 // Water (hybrid paper, §3.4): the reflected and the refracted scene, warped by a moving du/dv map, mixed by the
-// Fresnel term; highlights of the sun by a moving normal map. Follows scene.glsl, sky_blend.glsl, atmosphere.glsl,
-// shadow.glsl and fresnel.glsl.
+// Fresnel term; highlights of the sun by a moving normal map.
+#include "scene.glsl"
+#include "display.glsl"
+#include "sky_blend.glsl"
+#include "atmosphere.glsl"
+#include "shadow.glsl"
+#include "fresnel.glsl"
 in vec3 world;
 
 layout(binding = 2) uniform sampler2D wave_map;  // du, dv; slope along x and z

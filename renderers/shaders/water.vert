@@ -1,4 +1,6 @@
-// The water's surface: one square around the eye, at the water's level. Follows scene.glsl.
+#version 450 core
+// The water's surface: one square around the eye, at the water's level.
+#include "scene.glsl"
 uniform float reach;  // metres from the eye
 
 out vec3 world;

@@ -15,6 +15,7 @@
 #include "representations/line_grid.h"
 #include "representations/ray_cast.h"
 #include "terrain/error.h"
+#include "terrain/separators.h"
 
 namespace terrabench {
 namespace {
@@ -158,8 +159,9 @@ std::vector<std::pair<std::string, std::string>> DrillTerrain::facts() const {
   ByteSink encoded;
   encode_drills(drills_, encoded);
   std::vector<std::pair<std::string, std::string>> facts = {
-      {"drills", fmt::format("{}, w = {}, k = {}, rounded to {} m: {} B encoded", drills_.count(), drills_.w,
-                             drills_.k, drills_.quantum, encoded.bytes().size())}};
+      {"drills",
+       fmt::format("{}, w = {}, k = {}, rounded to {} m: {} B encoded", with_separators(drills_.count()),
+                   drills_.w, drills_.k, drills_.quantum, with_separators(encoded.bytes().size()))}};
   if (drills_.count() == 0) {
     facts.emplace_back("warning",
                        fmt::format("no channels: no pixel's flow reaches tau{}, so the terrain is a "

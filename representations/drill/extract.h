@@ -1,5 +1,10 @@
 // Drills from a terrain (Stuetzle & Franklin 2012, §2.1 and §2.2): one for every channel pixel, its shape the
 // quadratic fitted to the union of the cross-sections around it. O(pixels + drills · w).
+//
+// To follow one drill: FlowNetwork (terrain/hydrology/flow.h); extract_drills() in extract.cpp;
+// shape_drills() above it, which joins the cross-sections (cross_sections.h) and fits a profile
+// (fit_profile(), profile_fit.h); then back to ground by regenerate.h. What can wait: the options of §4.1,
+// holes, the codec (drill_codec.h).
 #pragma once
 
 #include <cstdint>

@@ -186,40 +186,6 @@ Georeference georeference_of(const openvdb::MetaMap& meta) {
   return place;
 }
 
-Error no_fog(std::string_view what, const std::filesystem::path& path) {
-  return bad_input(what, path.string(), "give a file that `terrabench represent --save NAME.vdb` wrote");
-}
-
-struct Density {
-  openvdb::FloatGrid::Ptr grid;
-  openvdb::Vec2i columns{0, 0};
-  Georeference georeference;
-};
-
-Density read_density(const std::filesystem::path& path) {
-  openvdb::initialize();
-  Density density;
-  try {
-    openvdb::io::File file(path.string());
-    file.setCopyMaxBytes(0);  // otherwise a small file is copied into the temporary folder first
-    file.open();
-    density.grid = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("density"));
-    const auto meta = file.getMetadata();
-    density.georeference = georeference_of(*meta);
-    density.columns = meta->metaValue<openvdb::Vec2i>("columns");
-  } catch (const std::exception& error) {
-    throw no_fog(fmt::format("OpenVDB cannot read it: {}", error.what()), path);
-  }
-  const openvdb::CoordBBox box =
-      density.grid ? density.grid->evalActiveVoxelBoundingBox() : openvdb::CoordBBox();
-  if (box.empty() || box.min().x() < 0 || box.min().y() < 0 || box.min().z() < 0 ||
-      box.max().x() >= density.columns.x() || box.max().z() >= density.columns.y() ||
-      density.columns.x() > ColumnGrid::kMaxColumns || density.columns.y() > ColumnGrid::kMaxColumns) {
-    throw no_fog("its cells are no terrain", path);
-  }
-  return density;
-}
-
 // As io::File, which does not notice a full disk.
 class Archive : private openvdb::io::Archive {
  public:
@@ -269,13 +235,24 @@ void write_fog(const std::filesystem::path& path, const Representation& built, c
 }
 
 Heightfield read_fog_heights(const std::filesystem::path& path) {
-  const Density density = read_density(path);
-  const openvdb::Vec3d cell = density.grid->voxelSize(), first = density.grid->indexToWorld(Coord(0, 0, 0));
-  Heightfield field = Heightfield::zeros(density.columns.x(), density.columns.y(),
-                                         static_cast<float>(cell.x()), static_cast<float>(cell.z()));
-  field.georeference = density.georeference;
+  openvdb::initialize();
+  openvdb::FloatGrid::Ptr density;
+  Heightfield field;
+  try {
+    openvdb::io::File file(path.string());
+    file.setCopyMaxBytes(0);  // otherwise a small file is copied into the temporary folder first
+    file.open();
+    density = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("density"));
+    const auto columns = file.getMetadata()->metaValue<openvdb::Vec2i>("columns");
+    field = Heightfield::zeros(columns.x(), columns.y(), static_cast<float>(density->voxelSize().x()),
+                               static_cast<float>(density->voxelSize().z()));
+    field.georeference = georeference_of(*file.getMetadata());
+  } catch (const std::exception& error) {
+    throw bad_input(fmt::format("OpenVDB cannot read it: {}", error.what()), path.string(),
+                    "give a file that `terrabench represent --save NAME.vdb` wrote");
+  }
   std::vector<double> levels(field.heights.size(), -1);  // of the surface, above the floor
-  for (auto value = std::as_const(*density.grid).cbeginValueOn(); value; ++value) {
+  for (auto value = std::as_const(*density).cbeginValueOn(); value; ++value) {
     const openvdb::CoordBBox cells = value.getBoundingBox();
     const double top = cells.max().y() + static_cast<double>(*value);
     for (int j = cells.min().z(); j <= cells.max().z(); ++j) {
@@ -283,10 +260,10 @@ Heightfield read_fog_heights(const std::filesystem::path& path) {
       for (int i = cells.min().x(); i <= cells.max().x(); ++i) row[i] = std::max(row[i], top);
     }
   }
-  const double floor = first.y() - 0.5 * cell.y();
+  const double cell = density->voxelSize().y(),
+               floor = density->indexToWorld(Coord(0, 0, 0)).y() - 0.5 * cell;
   for (std::size_t c = 0; c < levels.size(); ++c) {
-    field.heights[c] =
-        levels[c] < 0 ? Heightfield::kNoData : static_cast<float>(floor + levels[c] * cell.y());
+    field.heights[c] = levels[c] < 0 ? Heightfield::kNoData : static_cast<float>(floor + levels[c] * cell);
   }
   return field;
 }

@@ -28,48 +28,6 @@ void append_row(const Representation& built, const LineGrid& lines, int j, std::
   }
 }
 
-// Numbers of the table, row by row.
-class Reader {
- public:
-  Reader(std::string_view text, const std::string& origin) : text_(text), origin_(origin) {}
-
-  bool next_line() {
-    if (text_.empty()) return false;
-    const std::size_t end = std::min(text_.find('\n'), text_.size());
-    line_ = text_.substr(0, end);
-    if (line_.ends_with('\r')) line_.remove_suffix(1);
-    text_.remove_prefix(std::min(end + 1, text_.size()));
-    ++number_;
-    return true;
-  }
-  std::string_view line() const { return line_; }
-
-  // The next number of the line, and the comma behind it unless it is the last.
-  template <class Number>
-  Number number(const char* what, bool last = false) {
-    Number value{};
-    const auto [end, error] = std::from_chars(line_.data(), line_.data() + line_.size(), value);
-    if (error != std::errc()) fail(fmt::format("{} is not a number", what));
-    line_.remove_prefix(static_cast<std::size_t>(end - line_.data()));
-    if (last ? !line_.empty() : !line_.starts_with(','))
-      fail(fmt::format("{} is not followed by {}", what, last ? "the end of the line" : "a comma"));
-    if (!last) line_.remove_prefix(1);
-    if constexpr (std::is_floating_point_v<Number>) {
-      if (!std::isfinite(value)) fail(fmt::format("{} is not finite", what));
-    }
-    return value;
-  }
-  [[noreturn]] void fail(std::string_view what) const {
-    throw bad_input(what, fmt::format("{}:{}", origin_, number_),
-                    "give a table of spans as `terrabench represent --save NAME.csv` writes it");
-  }
-
- private:
-  std::string_view text_, line_;
-  const std::string& origin_;
-  std::size_t number_ = 0;
-};
-
 // The number of the line at `at`; -1 if none stands there.
 int line_at(float at, double origin, double cell, int count, const auto& position) {
   const double nearest = std::round((at - origin) / cell);
@@ -99,29 +57,32 @@ void write_spans(const std::filesystem::path& path, const Representation& built,
   file.keep();
 }
 
-SpanTable parse_spans(std::string_view text, const std::string& origin) {
-  Reader reader(text, origin);
-  if (!reader.next_line() || reader.line() != kSpanHeader) {
-    reader.fail(fmt::format("the first line is not '{}'", kSpanHeader));
-  }
+SpanTable read_spans(const std::filesystem::path& path) {
+  const std::string text = read_file(path, std::uint64_t{1} << 32);
+  const auto fail = [&](const char* at) {
+    throw bad_input(fmt::format("no table of spans from byte {} on", at - text.data()), path.string(),
+                    "give a table as `terrabench represent --save NAME.csv` writes it");
+  };
+  if (!text.starts_with(kSpanHeader)) fail(text.data());
+  const char* at = text.data() + std::min(kSpanHeader.size() + 1, text.size());
+  const char* const end = text.data() + text.size();
+  const auto read = [&](auto& number) {
+    const auto [next, error] = std::from_chars(at, end, number);
+    if (error != std::errc() || next == end) fail(at);
+    at = next + 1;  // behind the comma or the end of the line
+  };
   SpanTable table;
-  while (reader.next_line()) {
-    table.x.push_back(reader.number<float>("x"));
-    table.z.push_back(reader.number<float>("z"));
-    Span span{};
-    span.bottom = reader.number<float>("the bottom");
-    span.top = reader.number<float>("the top");
-    if (!(span.bottom < span.top)) reader.fail("the bottom is not below the top");
-    const auto material = reader.number<unsigned>("the material", true);
-    if (material < 1 || material > 255) reader.fail(fmt::format("there is no material {}", material));
+  while (at < end) {
+    read(table.x.emplace_back());
+    read(table.z.emplace_back());
+    Span& span = table.spans.emplace_back();
+    read(span.bottom);
+    read(span.top);
+    unsigned material = 0;
+    read(material);
     span.material = static_cast<Material>(material);
-    table.spans.push_back(span);
   }
   return table;
-}
-
-SpanTable read_spans(const std::filesystem::path& path, std::uint64_t limit) {
-  return parse_spans(read_file(path, limit), path.string());
 }
 
 Heightfield heights_of(const SpanTable& table, const LineGrid& lines) {

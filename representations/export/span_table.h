@@ -26,11 +26,9 @@ struct SpanTable {
   std::vector<Span> spans;
 };
 
-// Throws bad_input, with the line, for anything but such a table: another header, a row of other than five
-// numbers, a number that is not finite, a span whose bottom is not below its top, a material outside 1 to
-// 255. Spans need not be in order. Files over `limit` bytes are refused. O(bytes).
-SpanTable read_spans(const std::filesystem::path&, std::uint64_t limit = std::uint64_t{1} << 32);
-SpanTable parse_spans(std::string_view text, const std::string& origin);
+// For files that write_spans() wrote: throws bad_input for another header, and where a number is missing.
+// O(bytes).
+SpanTable read_spans(const std::filesystem::path&);
 
 // The highest end of a span on each line, no-data where there is none; spans at other places than the lines'
 // own are not used. O(rows).

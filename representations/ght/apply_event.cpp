@@ -90,7 +90,7 @@ void apply_event(Model& model, const events::Event& event, std::size_t number) {
     // The region that a carving opens depends on the ground; append_walls() finds its host.
     const bool carving = std::holds_alternative<events::Carving>(event);
     Edit edit(model, carving ? 0 : identify_host(model, events::outline(event)), where);
-    std::visit([&](const auto& e) { record(edit, e); }, event);
+    std::visit([&](const auto& e) { stage(edit, e); }, event);
     edit.commit(events::kind(event));
   } catch (const std::bad_alloc&) {
     throw environment_error(kNoMemory, where, kFewer);

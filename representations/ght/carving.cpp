@@ -184,7 +184,7 @@ void close_end(Edit& edit, const CarvingWalls& walls, const Loop& rim) {
 
 }  // namespace
 
-void record(Edit& edit, const events::Carving& e) {
+void stage(Edit& edit, const events::Carving& e) {
   const CarvingWalls walls = append_walls(edit, e);
   const std::vector<Loop> ends = rims_of(edit.faces());
   if (ends.size() != 2) refuse_mouth(edit);

@@ -16,7 +16,7 @@
 // to the scarp. Old cells inside the cut, of whatever heightmap, are links to the nearest cell of a block.
 // Faces, which are in Model::surface and not in the tree, cover the three heightmaps and the ring around
 // them. A height cell holds the old ground's height over its heightmap's plane: when the plane moves, the
-// ground on it moves too. To follow one fault: record(), at the end of this file; the end of apply_event.cpp,
+// ground on it moves too. To follow one fault: stage(), at the end of this file; the end of apply_event.cpp,
 // which calls it; edit.h; steps 2 and 4 in along_line.cpp; Edit::commit() in edit.cpp.
 #include <algorithm>
 #include <cmath>
@@ -150,7 +150,7 @@ std::vector<CellId> outline(const DipFaultMaps& maps) {
 
 }  // namespace
 
-void record(Edit& edit, const events::DipFault& e) {
+void stage(Edit& edit, const events::DipFault& e) {
   const events::Line line = e.line();
   // Step 1: cut out.
   const RemovedPart old = cut_out_with_margin(edit, {line, 0, line.length, -e.extent, e.extent});

@@ -147,53 +147,48 @@ void Edit::check_faces() const {
   }
 }
 
-// First allocates, then applies.
-void Edit::commit(events::Kind kind) {
-  Tree& tree = model_.tree;
+Edit::Prepared Edit::prepare() {
   check_faces();
-  model_.surface.prepare(tree, covered_, faces_);
-  const std::vector<ComposedSurface::Placed> placed = model_.surface.place(tree, faces_);
-  std::vector<FaceId> ids(faces_.size());
-  const auto indexed = [](const GroundedHeightmap& node) { return node.area == Area::kOutdoor; };
+  model_.surface.prepare(tree(), covered_, faces_);
+  Prepared made{model_.surface.place(tree(), faces_),
+                std::vector<FaceId>(faces_.size()),
+                {},
+                {},
+                HUGE_VALF,
+                -HUGE_VALF};
   std::size_t tiles = 0;
-  for (std::size_t n = nodes_before_; n < tree.nodes().size(); ++n) {
-    const GroundedHeightmap& node = tree.nodes()[n];
-    if (indexed(node)) tiles += NodeIndex::tiles(model_.range(node));
-  }
+  each_outdoor([&](NodeId, const auto& range) { tiles += NodeIndex::tiles(range); });
   model_.index.prepare(tiles);
-  std::vector<CellId> gone;
-  gone.reserve(superseded_.size());
-  for (const auto& [old, by] : superseded_) gone.push_back(old);
-  std::sort(gone.begin(), gone.end());
-  const auto first_new = static_cast<NodeId>(nodes_before_);
-  const RimChange rim = rim_change(model_, covered_, removed_, gone, faces_, first_new);
-  model_.links.prepare(rim.most);
-  tree.reserve_event();
-  float lowest = HUGE_VALF, highest = -HUGE_VALF;
-  for (CellId c = tree.nodes()[nodes_before_].first; c < tree.cells(); ++c) {
-    if (tree.kind(c) != CellKind::kHeight) continue;
-    const float y = tree.position(c).y;
-    lowest = std::min(lowest, y);
-    highest = std::max(highest, y);
+  made.superseded.reserve(superseded_.size());
+  for (const auto& [old, by] : superseded_) made.superseded.push_back(old);
+  std::sort(made.superseded.begin(), made.superseded.end());
+  made.rim = rim_change(model_, covered_, removed_, made.superseded, faces_, first_new());
+  model_.links.prepare(made.rim.most);
+  model_.tree.reserve_event();
+  for (CellId c = tree().nodes()[first_new()].first; c < tree().cells(); ++c) {
+    if (tree().kind(c) != CellKind::kHeight) continue;
+    const float y = tree().position(c).y;
+    made.lowest = std::min(made.lowest, y);
+    made.highest = std::max(made.highest, y);
   }
+  return made;
+}
 
-  // Nothing fails from here on. The new nodes are in the tree already; of the tree, only the superseded cells
-  // and the list of events (append(Applied)) change here, the rest is surface and index. Faces are found by
-  // the places of their cells, so they are removed before the cells change.
+// Nothing fails here. The new nodes are in the tree already; of the tree, only the superseded cells and the
+// list of events change, the rest is surface and index. Faces are found by the places of their cells, so they
+// are removed before the cells change.
+void Edit::apply(events::Kind kind, Prepared made) {
+  Tree& tree = model_.tree;
   for (const FaceId f : removed_) model_.surface.remove(tree, f);
   for (const auto& [old, by] : superseded_) tree.set_link(old, by);
   for (const Square s : covered_) model_.surface.set_covered(s, true);
   for (const Square s : plain_) model_.surface.set_covered(s, false);
-  model_.surface.add(faces_, placed, ids);
-  relink(model_, rim, gone, faces_, first_new);
-  for (std::size_t n = nodes_before_; n < tree.nodes().size(); ++n) {
-    const GroundedHeightmap& node = tree.nodes()[n];
-    if (indexed(node)) model_.index.add(model_.range(node), static_cast<NodeId>(n));
-  }
-  tree.append(Applied{kind, host_, static_cast<NodeId>(nodes_before_),
-                      static_cast<NodeId>(tree.nodes().size() - nodes_before_)});
-  if (lowest <= model_.floor) model_.floor = lowest - tree.grid().spacing();
-  model_.ceiling = std::max(model_.ceiling, highest);
+  model_.surface.add(faces_, made.placed, made.ids);
+  relink(model_, made.rim, made.superseded, faces_, first_new());
+  each_outdoor([&](NodeId n, const auto& range) { model_.index.add(range, n); });
+  tree.append(Applied{kind, host_, first_new(), static_cast<NodeId>(tree.nodes().size() - nodes_before_)});
+  if (made.lowest <= model_.floor) model_.floor = made.lowest - tree.grid().spacing();
+  model_.ceiling = std::max(model_.ceiling, made.highest);
   model_.carved = model_.carved || is_carving(kind);
   committed_ = true;
 }

@@ -1,17 +1,17 @@
 // One event's change to a grounded heightmap tree, all of it or nothing. Every event is a function that
-// records the same four steps in an Edit (ours; for the paper's four, figure 12, see apply_event.h):
+// stages the same four steps in an Edit (ours; for the paper's four, figure 12, see apply_event.h):
 //   1. cut out: the part of the surface that the event touches is removed, up to a simple loop of cells;
 //   2. new heightmaps are appended to the tree and their quadrilaterals become faces;
 //   3. the outline of the new heightmaps lists their boundary cells;
 //   4. join: triangles close the ring between loop and outline; superseded cells become links to new ones.
 // The ring's corners are cells of the old and of the new heightmaps, so the surface stays closed, whatever
-// earlier events left there. commit() also records which cells now meet along the boundaries of heightmaps:
+// earlier events left there. commit() also notes which cells now meet along the boundaries of heightmaps:
 // the boundary links of §3.2 (boundary_links.h), which are not link cells.
 //
 // Square: between four of the root's samples; plain (two triangles) or covered by faces. Face: a triangle
 // between any three cells, kept in Model::surface, not in the tree. Cell: a height, a link to a later cell,
 // or void. Loop: the cells around the removed part. Outline: the boundary cells of the new heightmaps. Host:
-// the parent of the new heightmaps. apply_event() finds it, creates the Edit, calls record() and then
+// the parent of the new heightmaps. apply_event() finds it, creates the Edit, calls stage() and then
 // commit().
 //
 // Before commit(), an Edit only appends nodes to the tree. The destructor removes them unless commit()
@@ -83,10 +83,28 @@ class Edit {
   // Refuses the event if a new height lies less than one sample spacing above the roof of a tunnel or cave.
   void keep_clear_of_carvings() const;
 
-  // Applies everything recorded, or throws and changes nothing.
-  void commit(events::Kind kind);
+  // Applies everything staged, or throws and changes nothing.
+  void commit(events::Kind kind) { apply(kind, prepare()); }
 
  private:
+  // All that apply() needs, so that it cannot fail.
+  struct Prepared {
+    std::vector<ComposedSurface::Placed> placed;  // per new face
+    std::vector<FaceId> ids;                      // room for theirs
+    std::vector<CellId> superseded;               // ascending
+    RimChange rim;
+    float lowest, highest;  // of the new heights
+  };
+  Prepared prepare();
+  void apply(events::Kind, Prepared);
+  NodeId first_new() const { return static_cast<NodeId>(nodes_before_); }
+  // Visits the new nodes that are indexed.
+  template <class Visit>
+  void each_outdoor(const Visit& visit) const {
+    for (NodeId n = first_new(); n < tree().nodes().size(); ++n) {
+      if (tree().nodes()[n].area == Area::kOutdoor) visit(n, model_.range(tree().nodes()[n]));
+    }
+  }
   void check_faces() const;
   void check_joined(std::span<const CellId> outline) const;
   std::vector<std::pair<CellId, CellId>> joined_cells(std::span<const CellId> loop) const;

@@ -12,6 +12,7 @@
 #include "representations/heightmap/heightmap.h"
 #include "representations/line_grid.h"
 #include "terrain/error.h"
+#include "terrain/separators.h"
 
 namespace terrabench {
 namespace {
@@ -186,10 +187,13 @@ std::unique_ptr<RayCaster> Ght::ray_caster() const { return ght_ray_caster(*this
 std::vector<std::pair<std::string, std::string>> Ght::facts() const {
   const ght::Census census = ght::census(model_);
   std::vector<std::pair<std::string, std::string>> facts = {
-      {"heightmaps", fmt::format("{} after {} events, the deepest {} below the root", census.nodes,
-                                 model_.tree.events().size(), census.deepest)},
-      {"cells", fmt::format("{} heights, {} links, {} void", census.heights, census.links, census.voids)},
-      {"surface", fmt::format("{} faces, {} boundary links", census.faces, census.boundary_links)}};
+      {"heightmaps",
+       fmt::format("{} after {} events, the deepest {} below the root", with_separators(census.nodes),
+                   with_separators(model_.tree.events().size()), census.deepest)},
+      {"cells", fmt::format("{} heights, {} links, {} void", with_separators(census.heights),
+                            with_separators(census.links), with_separators(census.voids))},
+      {"surface", fmt::format("{} faces, {} boundary links", with_separators(census.faces),
+                              with_separators(census.boundary_links))}};
   const std::vector<std::string> broken = ght::broken_invariants(model_);
   if (broken.empty()) facts.emplace_back("invariants", "all hold");
   for (const std::string& what : broken) facts.emplace_back("invariants", "broken: " + what);

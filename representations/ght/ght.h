@@ -13,8 +13,8 @@
 //   Carving (tunnel and cave)        §3.2, figures 15, 16    carving.cpp, carving_walls.cpp
 //
 // To follow one event, such as a dip fault: the opening comment of edit.h; the event's file (dip_fault.cpp),
-// its opening comment and then from record() at the end; join_to_ground() in along_line.cpp; the second half
-// of Edit::commit() in edit.cpp. What can wait: the formula as data (terrain/events/event.h), cut_out.h, the
+// its opening comment and then from stage() at the end; join_to_ground() in along_line.cpp; Edit::apply()
+// in edit.cpp. What can wait: the formula as data (terrain/events/event.h), cut_out.h, the
 // triangles of the ring (close_ring()).
 #pragma once
 

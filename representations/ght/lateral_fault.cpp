@@ -46,7 +46,7 @@ std::vector<CellId> outline(const LateralFaultMaps& maps) {
 
 }  // namespace
 
-void record(Edit& edit, const events::LateralFault& e) {
+void stage(Edit& edit, const events::LateralFault& e) {
   const events::Line line = e.line();
   const RemovedPart old = cut_out_with_margin(edit, {line, 0, line.length, -e.extent, e.extent});
   check_ground(edit, {line, -e.slip / 2, line.length + e.slip / 2, -e.extent, e.extent});

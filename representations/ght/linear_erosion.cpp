@@ -113,7 +113,7 @@ CellId nearest(const LinearErosionMaps& maps, glm::dvec2 p) {
 
 }  // namespace
 
-void record(Edit& edit, const events::LinearErosion& e) {
+void stage(Edit& edit, const events::LinearErosion& e) {
   const events::Line line = e.line();
   const double w = e.width();
   const RemovedPart old = cut_out_with_margin(edit, {line, -w, line.length + w, -w, w});

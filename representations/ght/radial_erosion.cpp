@@ -122,7 +122,7 @@ void record_over_heightmaps(Edit& edit, const events::RadialErosion& e, const Sa
 
 }  // namespace
 
-void record(Edit& edit, const events::RadialErosion& e) {
+void stage(Edit& edit, const events::RadialErosion& e) {
   const SampleGrid& grid = edit.grid();
   const SampleRange range = samples_inside(grid, e, 0);
   if (!any_inside(grid, e, range, [&](int i, int j, double y) { return y < ground(edit, i, j); })) {

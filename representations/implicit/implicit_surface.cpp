@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "representations/implicit/field_rays.h"
+#include "representations/layered_stack/thermal_erosion.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -63,10 +64,20 @@ ImplicitSurface::ImplicitSurface(std::unique_ptr<LayeredStack> stack, Kernel ker
 
 std::unique_ptr<Representation> ImplicitSurface::build(const TerrainSource& source,
                                                        const Parameters& parameters, Progress& progress) {
+  return build_surface(source, parameters, progress);
+}
+
+std::unique_ptr<ImplicitSurface> ImplicitSurface::build_surface(const TerrainSource& source,
+                                                                const Parameters& parameters,
+                                                                Progress& progress) {
   return std::make_unique<ImplicitSurface>(LayeredStack::build_stack(source, parameters, progress),
                                            static_cast<Kernel>(parameters.choice("kernel")),
                                            parameters.number("radius"), parameters.number("cell"),
                                            static_cast<Extractor>(parameters.choice("extractor")));
+}
+
+ThermalErosion ImplicitSurface::erode_to(double talus, Progress& progress) {
+  return erode_thermally(*stack_, *this, {.talus = talus}, progress);
 }
 
 void ImplicitSurface::save(ByteSink& out) const {

@@ -24,6 +24,7 @@ class ImplicitSurface final : public Representation, public MeshChunks {
  public:
   static std::span<const ParameterSpec> parameters();
   static std::unique_ptr<Representation> build(const TerrainSource&, const Parameters&, Progress&);
+  static std::unique_ptr<ImplicitSurface> build_surface(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<Representation> load(ByteSource&);
 
   // `radius` and `cell` in metres; 0 for automatic ones: a kernel of two columns, and cells of one column, or
@@ -41,6 +42,7 @@ class ImplicitSurface final : public Representation, public MeshChunks {
   void materials(Points where, std::span<Material> out) const override;
   // Edits the stacks; versions grow of all chunks that the kernel around the columns reaches.
   void edit(Columns where, std::span<const Span> what) override;
+  ThermalErosion erode_to(double talus, Progress&) override;
   TriangleMesh mesh(MeshDetail) const override;
   Memory memory() const override;
   void save(ByteSink&) const override;

@@ -34,6 +34,7 @@ class LayeredStack final : public Representation {
   void materials(Points where, std::span<Material> out) const override;
   // Clipped to bounds(); columns outside are skipped. Later spans replace earlier ones. Strong guarantee.
   void edit(Columns where, std::span<const Span> what) override;
+  ThermalErosion erode_to(double talus, Progress&) override;
   // The cells' boundary as blocks, watertight. A coarser detail takes every n-th column.
   TriangleMesh mesh(MeshDetail) const override;
   Memory memory() const override;

@@ -367,4 +367,8 @@ ThermalErosion erode_thermally(const LayeredStack& stack, Representation& edited
   return result;
 }
 
+ThermalErosion LayeredStack::erode_to(double talus, Progress& progress) {
+  return erode_thermally(*this, *this, {.talus = talus}, progress);
+}
+
 }  // namespace terrabench

@@ -1,6 +1,12 @@
 // Models of "meshgrow" (Tobler, Maierhofer and Wilkie) as text: a base mesh, rules that let it grow (§4), and
 // a schedule in which growing and subdivision steps alternate in any order (§5). docs/models.md is the
 // grammar.
+//
+// To follow a model from its text to faces: parse_model() and expand() in model.cpp; of the parts that they
+// read, RuleReader in model_rules.cpp; growing/rules.h, what a rule is; growing/grow.h and grow();
+// Wave::run() in growing/wave.cpp and what it calls, in that order; growing/expansion.h, the new elements of
+// one face. What can wait: expressions (growing/expression.h), templates and their check, textures, limits,
+// and subdivision (model_subdivide.cpp, subdivision/refine.h).
 #pragma once
 
 #include <functional>

@@ -1,52 +1,19 @@
-// Reads the TOML of a model by type, with line and column in every error. Only for the model_*.cpp files.
+// What the readers of a model's parts share. Only for the model_*.cpp files.
 #pragma once
 
 #include <map>
 #include <optional>
-#include <set>
 
 #include "representations/procedural_mesh/model.h"
-#include "terrain/toml.h"
+#include "terrain/toml_table.h"
 
 namespace terrabench::growing {
+
+using Table = TomlReader;
 
 inline Place place_of(const toml::node& node) {
   return {node.source().begin.line, node.source().begin.column};
 }
-[[noreturn]] void fail_at(const toml::node&, const std::string& file, std::string_view what,
-                          std::string_view advice);
-
-// The keys of one table. What was not asked for is refused by done().
-class Table {
- public:
-  Table(const toml::node& node, const std::string& file, std::string_view what);
-
-  const toml::node* find(std::string_view key);
-  const toml::node& get(std::string_view key);
-  const toml::node& node() const { return table_; }
-  // In the order of the file. All keys count as known.
-  std::vector<std::pair<std::string, const toml::node*>> entries();
-
-  std::string text_or(std::string_view key, std::string_view otherwise);
-  double number_or(std::string_view key, double otherwise);
-  std::int64_t integer_or(std::string_view key, std::int64_t otherwise, std::int64_t least,
-                          std::int64_t most);
-  bool flag_or(std::string_view key, bool otherwise);
-  glm::dvec3 vector_or(std::string_view key, glm::dvec3 otherwise);
-  void done() const;  // throws for a key that was not asked for
-
- private:
-  const toml::table& table_;
-  const std::string& file_;
-  std::set<std::string, std::less<>> known_;
-};
-
-double number_of(const toml::node&, const std::string& file, std::string_view what);
-std::string text_of(const toml::node&, const std::string& file, std::string_view what);
-// Throws unless it is a list with this number of entries; 0: any number.
-const toml::array& list_of(const toml::node&, const std::string& file, std::string_view what,
-                           std::size_t size);
-
 // The edges of polygons: sorted once, O(log corners) for each question.
 class EdgeSet {
  public:

@@ -4,10 +4,10 @@
 #include <atomic>
 #include <cmath>
 
-#include "representations/procedural_mesh/growing/hashing.h"
 #include "representations/procedural_mesh/model.h"
 #include "representations/procedural_mesh/subdivision/refinement.h"
 #include "terrain/error.h"
+#include "terrain/splitmix.h"
 
 namespace terrabench::growing {
 namespace {

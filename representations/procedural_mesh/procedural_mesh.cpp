@@ -11,6 +11,7 @@
 #include "representations/heightmap/heightmap.h"
 #include "representations/procedural_mesh/shell.h"
 #include "terrain/error.h"
+#include "terrain/separators.h"
 
 namespace terrabench {
 namespace {
@@ -232,7 +233,8 @@ std::unique_ptr<Representation> ProceduralMesh::load(ByteSource& in) {
 // What the program holds of a description of so many bytes.
 std::vector<std::pair<std::string, std::string>> ProceduralMesh::facts() const {
   return {{"expanded", fmt::format("{} triangles, {} B, from a description of {} B",
-                                   columns_.triangles().size(), expanded_bytes(), description_bytes())}};
+                                   with_separators(columns_.triangles().size()),
+                                   with_separators(expanded_bytes()), with_separators(description_bytes()))}};
 }
 
 }  // namespace terrabench

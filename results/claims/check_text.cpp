@@ -20,32 +20,15 @@ std::string_view colour_of(const Judgement& judgement) {
   return good ? kGreen : kYellow;
 }
 
-// UTF-8 code points, each one column wide.
-std::size_t columns(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 std::string cut(const std::string& text, std::size_t width) {
-  if (columns(text) <= width) return text;
+  if (characters(text) <= width) return text;
   return width == 0 ? "" : fmt::format("{:.{}}…", text, width - 1);
 }
 
 // Breaks the text into indented lines of at most this width.
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t width) {
-  std::string out, line;
-  const auto flush = [&] {
-    if (!line.empty()) out += std::string(indent, ' ') + line + "\n";
-    line.clear();
-  };
-  while (!text.empty()) {
-    const std::size_t space = std::min(text.find(' '), text.size());
-    const std::string_view word = text.substr(0, space);
-    if (!line.empty() && indent + columns(line) + 1 + columns(word) > width) flush();
-    if (!line.empty()) line += ' ';
-    line += word;
-    text.remove_prefix(std::min(space + 1, text.size()));
-  }
-  flush();
+  std::string out;
+  for (const std::string& line : wrap(text, width - indent)) out += std::string(indent, ' ') + line + "\n";
   return out;
 }
 
@@ -122,18 +105,18 @@ class Writer {
   void write_lines(const std::vector<Judgement>& judgements, bool with_complaints) {
     std::size_t id = 0, verdict = 0, value = 0, expected = 0;
     for (const Judgement& j : judgements) {
-      id = std::max(id, std::min(kWidestId, columns(j.claim->id)));
-      verdict = std::max(verdict, columns(name(j.verdict)));
-      value = std::max(value, columns(j.deciding.value));
-      expected = std::max(expected, columns(j.deciding.expected));
+      id = std::max(id, std::min(kWidestId, characters(j.claim->id)));
+      verdict = std::max(verdict, characters(name(j.verdict)));
+      value = std::max(value, characters(j.deciding.value));
+      expected = std::max(expected, characters(j.deciding.expected));
     }
     for (const Judgement& j : judgements) {
       const std::string start = fmt::format("  {:<{}}  ", j.claim->id, id);
-      const std::size_t used = columns(start) + verdict + 2, left = width_ > used ? width_ - used : 0;
+      const std::size_t used = characters(start) + verdict + 2, left = width_ > used ? width_ - used : 0;
       std::string rest = j.measured;  // the reason, where nothing was measured
       if (!j.deciding.value.empty()) {
         rest = fmt::format("{:<{}}  {:<{}}  ", j.deciding.value, value, j.deciding.expected, expected);
-        if (columns(rest) + kLeastName <= left) rest += j.deciding.quantity;
+        if (characters(rest) + kLeastName <= left) rest += j.deciding.quantity;
         rest.erase(rest.find_last_not_of(' ') + 1);
       }
       text_ += fmt::format("{}{}{:<{}}{}  {}\n", start, paint(colour_of(j)), name(j.verdict), verdict,

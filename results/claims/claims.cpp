@@ -133,22 +133,22 @@ Reference reference_from(const TomlValue& node) {
 }
 
 // Another ground for claims: the same conditions, read from other cases.
-struct FurtherGround {
+struct OtherGround {
   std::string name;   // appended to the id of each claim and of its figures
   std::string of;     // the ground that the claims' conditions name: the case, or its first part
   std::string label;  // appended to where the claim stands in the paper
   std::vector<std::string> profiles;
 };
 
-FurtherGround ground_from(const TomlValue& node) {
+OtherGround ground_from(const TomlValue& node) {
   TomlTable entry(node);
-  FurtherGround ground{entry.text("name"), entry.text("of"), entry.text("label"), profiles_from(entry)};
+  OtherGround ground{entry.text("name"), entry.text("of"), entry.text("label"), profiles_from(entry)};
   entry.refuse_unknown();
   return ground;
 }
 
 // Makes the claim's conditions read this ground in place of `of`. False if none of them reads `of`.
-bool move_to(const FurtherGround& ground, Claim& claim) {
+bool move_to(const OtherGround& ground, Claim& claim) {
   bool moved = false;
   for (Condition& condition : claim.conditions) {
     if (condition.kind == Condition::Kind::kFigure) {
@@ -169,11 +169,11 @@ bool move_to(const FurtherGround& ground, Claim& claim) {
 
 // All claims; after each claim that is measured on a ground's `of`, its copy for that ground.
 std::vector<Claim> on_further_grounds(const std::vector<Claim>& claims,
-                                      const std::vector<FurtherGround>& grounds) {
+                                      const std::vector<OtherGround>& grounds) {
   std::vector<Claim> all;
   for (const Claim& claim : claims) {
     all.push_back(claim);
-    for (const FurtherGround& ground : grounds) {
+    for (const OtherGround& ground : grounds) {
       Claim again = claim;
       if (!move_to(ground, again)) continue;
       again.of = claim.of.empty() ? claim.id : claim.of;
@@ -185,6 +185,13 @@ std::vector<Claim> on_further_grounds(const std::vector<Claim>& claims,
     }
   }
   return all;
+}
+
+void read_layouts(TomlTable& entry, Paper& paper) {
+  for (const TomlValue& page : entry.list("page")) paper.pages.push_back(parse_page(page));
+  for (const TomlValue& table : entry.list("table")) paper.tables.push_back(parse_table(table, paper.pages));
+  for (const TomlValue& plot : entry.list("plot")) paper.plots.push_back(parse_plot(plot, paper.pages));
+  for (const TomlValue& ranking : entry.list("ranking")) paper.rankings.push_back(parse_ranking(ranking));
 }
 
 // Ids become file names and anchors.
@@ -283,19 +290,44 @@ Paper parse_claims(std::string_view text, const std::string& origin) {
     const bool again = first < paper.claims.size();
     paper.claims.push_back(claim_from(claim, beyond, again ? &paper.claims[first] : nullptr));
   }
-  std::vector<FurtherGround> grounds;
+  std::vector<OtherGround> grounds;
   for (const TomlValue& ground : entry.list("ground")) grounds.push_back(ground_from(ground));
   paper.claims = on_further_grounds(paper.claims, grounds);
   expect_failures(paper.claims, origin);
   for (const TomlValue& cause : entry.list("cause")) paper.causes.push_back(cause_from(cause));
-  for (const TomlValue& page : entry.list("page")) paper.pages.push_back(parse_page(page));
-  for (const TomlValue& table : entry.list("table")) paper.tables.push_back(parse_table(table, paper.pages));
-  for (const TomlValue& plot : entry.list("plot")) paper.plots.push_back(parse_plot(plot, paper.pages));
-  entry.has("ranking");  // read by parse_rankings()
+  read_layouts(entry, paper);
   if (entry.has("further")) paper.further = ClaimsFile{std::string(text), origin};
   entry.refuse_unknown();
   check_ids(paper, origin);
   check_references(paper, origin);
+  return paper;
+}
+
+Paper layouts_of(const Paper& named, const UnnamedGround& ground,
+                 const std::function<bool(std::string_view metric)>& has) {
+  const auto& [text, origin] = *named.further;
+  const toml::table table = parse_toml(text, origin, "correct the claims file");
+  TomlFile file{origin, {}};
+  read_sets(table, file);
+  replace_sets(table, SetMember{{{"name", ground.id}, {"label", ground.label}}}, has, file);
+  file.ground_id = ground.id;
+  file.ground_name = ground.name;
+  TomlTable entry({&table, &file, {}});
+  Paper paper{named.id, named.title, {}, "", {}, {}, {}};
+  paper.pages = named.pages;  // tables may stand on these
+  read_layouts(entry, paper);
+  const auto elsewhere = [&](const auto& layout) { return layout.page != ground.id; };
+  std::erase_if(paper.pages, [&](const PageLayout& page) { return page.id != ground.id; });
+  std::erase_if(paper.tables, elsewhere);
+  std::erase_if(paper.plots, elsewhere);
+  std::erase_if(paper.rankings, [&](const RankingLayout& ranking) {
+    return ranking.entries.empty() ||
+           std::ranges::any_of(ranking.entries, [&](const RankingLayout::Entry& entry) {
+             return !entry.case_name.starts_with(ground.name + "/");
+           });
+  });
+  if (paper.pages.size() != 1) entry.refuse("[further] must leave one [[page]] for a further ground");
+  paper.pages[0].label = ground.label;
   return paper;
 }
 

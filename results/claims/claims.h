@@ -4,6 +4,8 @@
 // judge.h and not stored.
 #pragma once
 
+#include <algorithm>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,9 +54,10 @@ struct Condition {
   std::vector<Operand> operands;
   double low = 0, high = 0;  // range, both ends included
   std::string figure;        // id
-  // Further for figures, all optional: panels = N; alike = [i, j, …]: panels, counted from 1, that may look
-  // the same because their methods may draw the same; prints = [a, …]: metrics that the figure's words give;
-  // brightness = a: the mean of all pixels, 0 black to 1 white, within kBrightness. `prints` are operands.
+  // Further for figures, all optional: panels = N, or their names in the order drawn; alike = [a, b, …]:
+  // names of panels (here counted from 1) that may look the same because their methods may draw the same;
+  // prints = [a, …]: metrics that the figure's words give; brightness = a: the mean of all pixels, 0 black to
+  // 1 white, within kBrightness. `prints` are operands.
   int panels = 0;
   std::vector<int> alike;
   std::vector<Operand> brightness;  // one or none
@@ -119,6 +122,13 @@ struct Claim {
   // Why it differs: if it is known to, the first sentence of `note`, or without a note the cause; otherwise
   // `machine`.
   std::string reason() const;
+  // Growth with size is measured with `run --profile scale`, whose records are of the profile paper, and is
+  // judged only where it was measured.
+  bool of_profile_scale() const { return profiles.front() == "scale"; }
+  // Whether records of that profile can hold what it reads.
+  bool measured_in(std::string_view profile) const {
+    return std::ranges::count(profiles, profile) > 0 || (of_profile_scale() && profile == "paper");
+  }
 };
 
 // Bibliographic data, only as far as the paper's text states them.
@@ -142,8 +152,8 @@ struct Paper {
   std::vector<TableLayout> tables;
   std::vector<PlotLayout> plots;
   std::vector<PageLayout> pages = {};
-  // The claims file, if it has [further]: its pages are filled for grounds that it does not name as well
-  // (further_grounds.h).
+  std::vector<RankingLayout> rankings = {};
+  // The claims file, if it has [further]: its layouts are read again for grounds that it does not name.
   std::optional<ClaimsFile> further = {};
   std::vector<Cause> causes = {};
 };
@@ -154,5 +164,13 @@ std::span<const Paper> papers();
 // Reads one claims file. Throws bad_input with file and line for wrong syntax, unknown or missing keys, wrong
 // types and repeated ids. O(size).
 Paper parse_claims(std::string_view toml, const std::string& origin);
+
+// A ground that no claims file names.
+struct UnnamedGround {
+  std::string name, label, id;  // Record::terrain; what readers call it; part of file names and ids
+};
+// The paper's page for this ground, with the tables, plots and rankings that belong to it; no claims. `has`
+// says which metrics were measured there. Throws bad_input if [further] does not suit the ground.
+Paper layouts_of(const Paper&, const UnnamedGround&, const std::function<bool(std::string_view metric)>& has);
 
 }  // namespace terrabench

@@ -35,18 +35,23 @@ bool is_count(double number, int most) {
   return number >= 1 && number <= most && number == std::floor(number);
 }
 
+// A count of panels, or their names in the order drawn.
 void read_panels(TomlTable& entry, Condition& condition) {
-  if (entry.has("panels")) {
+  std::vector<std::string> names;
+  if (entry.has("panels") && entry.get("panels").node->is_array()) {
+    for (const TomlValue& name : entry.list("panels")) names.push_back(name.text("panels"));
+    condition.panels = static_cast<int>(names.size());
+  } else if (entry.has("panels")) {
     const double panels = entry.get("panels").number("panels");
-    if (!is_count(panels, 1000)) entry.refuse("'panels' is a count");
+    if (!is_count(panels, 1000)) entry.refuse("'panels' is a count, or a list of names");
     condition.panels = static_cast<int>(panels);
   }
   for (const TomlValue& node : entry.list("alike")) {
-    const double panel = node.number("alike");
-    const bool known = is_count(panel, condition.panels) &&
-                       std::ranges::count(condition.alike, static_cast<int>(panel)) == 0;
-    if (!known) entry.refuse("'alike' must list different panels, as numbers from 1 to 'panels'");
-    condition.alike.push_back(static_cast<int>(panel));
+    const auto at = std::ranges::find(names, node.text("alike"));
+    const int panel = static_cast<int>(at - names.begin()) + 1;
+    if (at == names.end() || std::ranges::count(condition.alike, panel) > 0)
+      entry.refuse("'alike' must list different names of 'panels'");
+    condition.alike.push_back(panel);
   }
   if (condition.alike.size() == 1) entry.refuse("'alike' must list two panels or more");
 }

@@ -11,7 +11,6 @@
 #include <optional>
 
 #include "results/claims/findings_text.h"
-#include "results/claims/nearness.h"
 #include "results/store/provenance.h"
 #include "terrain/error.h"
 #include "terrain/image.h"
@@ -21,6 +20,24 @@ namespace {
 
 using Kind = Condition::Kind;
 using Outcome = Finding::Outcome;
+
+// How near two values are: |a - b| ÷ max(|a|, |b|), at most 1: 0 if they are equal, 1 if the signs differ.
+double room_between(double a, double b) {
+  const double distance = std::abs(b - a), scale = std::max(std::abs(a), std::abs(b));
+  if (distance == 0) return 0;
+  return std::isfinite(scale) ? std::min(1.0, distance / scale) : 1;
+}
+
+// The least of those to the bounds of the range in which the value lies. Some do not count: a lower bound of
+// 0, since counts, bytes, times and shares are never less; and an upper bound of 1 of a condition `within`
+// whose lower bound is above 0, since the value is a share, of which 1 is the best. None for a range of one
+// value, as for an equality.
+std::optional<double> room_in_range(double value, const Condition& condition) {
+  const double low = condition.low, high = condition.high;
+  const bool share = condition.kind == Kind::kWithin && low > 0 && high == 1;
+  if (low == high) return std::nullopt;
+  return std::min(low != 0 ? room_between(low, value) : 1.0, share ? 1.0 : room_between(value, high));
+}
 
 // Decides whether the condition holds; word_range() and word_chain() make a finding of that. Medians decide.
 Finding compare(const Condition& condition, const std::vector<Quantity>& quantities) {
@@ -148,10 +165,7 @@ class Reader {
       const FigureLayout whole = whole_of(image);
       if (!layout_fault(whole, image).empty()) return {false, name + " is blank"};
       std::string text = fmt::format("drawn, {} × {} pixels", image.width, image.height);
-      const bool declared = condition.panels > 0 || !condition.operands.empty();
-      if (declared && !figure.layout)
-        return {false, name + " has no layout to compare with what is declared"};
-      const std::string fault = content_fault(condition, figure.layout.value_or(whole), image);
+      const std::string fault = content_fault(condition, figure.layout, image);
       if (!fault.empty()) return {false, fmt::format("{}: {}", name, fault)};
       if (condition.panels > 0) text += fmt::format(", panels: {}", condition.panels);
       if (!condition.operands.empty())

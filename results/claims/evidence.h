@@ -20,8 +20,9 @@ struct Finding {
   // In short: the figure that decides ("0.12 s"), what it must be ("[0, 1]", "< 3 s"), and its name ("time"),
   // which begins with the case's if the claim reads several cases.
   std::string value, expected, quantity;
-  std::optional<double> room =
-      std::nullopt;  // to the bound (nearness.h); none: it fails, or knows no distance
+  // From 0, at a bound of the condition, to 1: of several that hold, the one with the least room says most
+  // about the verdict. None: it fails, or knows no distance (room_in_range() in evidence.cpp).
+  std::optional<double> room = std::nullopt;
 };
 
 struct Evidence {
@@ -31,7 +32,8 @@ struct Evidence {
   bool incomparable = false;      // a ratio, growth or order of times mixes machines or builds
 };
 
-// Changes the samples of a condition's operands that are metrics, in their order (mutants.h).
+// Changes the samples of a condition's operands that are metrics, in their order: what would the claim say of
+// a trivial method?
 using Mutate = std::function<void(std::span<std::vector<double>> samples)>;
 
 // Reads the records of one profile. Medians decide; a 95 % interval is reported beside each. With `mutate`,

@@ -92,7 +92,7 @@ Judgement judge_claim(const Paper& paper, const Claim& claim, const Store& store
   } else if (!claim.pending.empty()) {
     judgement.verdict = Verdict::kPending;
     judgement.measured = claim.pending;
-  } else if (std::ranges::count(claim.profiles, profile) == 0) {
+  } else if (!claim.measured_in(profile)) {
     judgement.verdict = Verdict::kNotRun;
     judgement.measured = fmt::format("measured in profile {}", fmt::join(claim.profiles, ", "));
   } else {
@@ -188,7 +188,8 @@ JudgedResults judge(const Store& store, std::span<const Paper> papers, std::span
   for (const Paper& paper : papers) {
     for (const Claim& claim : paper.claims) {
       if (!matches_any(globs, claim.id)) continue;
-      if (demand == Demand::kRun && !can_be_judged(claim, store, run)) {
+      const bool left_to_choose = demand == Demand::kRun || claim.of_profile_scale();
+      if (left_to_choose && !can_be_judged(claim, store, run)) {
         ++results.left_out;
       } else {
         results.judgements.push_back(judge_claim(paper, claim, store, results.profile));

@@ -30,7 +30,7 @@ struct Judgement {
   std::string measured;                 // the findings in full; or why nothing was measured
   std::string stated;                   // that on the first condition, which is what the claim states
   // Decides the verdict: the first condition that was not measured, else the first that fails, else the one
-  // with the least room (nearness.h). Conditions without room (equalities, pictures, ranges of one value,
+  // with the least room (Finding::room). Conditions without room (equalities, pictures, ranges of one value,
   // a lower bound of 0 alone) decide only if an exact claim begins with one, or if no other has room. Empty
   // if nothing was measured.
   Finding deciding;
@@ -55,7 +55,7 @@ struct JudgedResults {
 
 // Which claims of a folder that lacks whole experiments are judged.
 enum class Demand {
-  kAll,  // all: those of the other experiments are missing, and so fail
+  kAll,  // all: those of the other experiments are missing, and so fail, but for those of the profile scale
   kRun,  // those of whose experiments there is any record
 };
 

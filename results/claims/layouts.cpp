@@ -3,12 +3,40 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 #include "results/claims/toml_reader.h"
 
 namespace terrabench {
 namespace {
+
+// The names of all "<name>" in these metrics.
+std::vector<std::string> named_texts(std::span<const std::string> metrics) {
+  std::vector<std::string> names;
+  for (const std::string& metric : metrics) {
+    const std::size_t open = metric.find('<'), close = metric.find('>', open);
+    if (close != std::string::npos) names.push_back(metric.substr(open + 1, close - open - 1));
+  }
+  return names;
+}
+
+// `known`: which keys the row may have beside its label and its case.
+TableLayout::Row row_from(const TomlValue& node, std::span<const std::string> known) {
+  TomlTable entry(node);
+  TableLayout::Row row{entry.text("label"), entry.get("case").case_name("case"), {}, entry.flag("new_block")};
+  for (const std::string& key : known) {
+    if (!entry.has(key)) continue;
+    const TomlValue value = entry.get(key);
+    if (value.node->is_string()) {
+      row.values.emplace(key, value.text(key));
+    } else {
+      row.values.emplace(key, value.number(key));
+    }
+  }
+  entry.refuse_unknown();
+  return row;
+}
 
 TableLayout::Column column_from(const TomlValue& node) {
   using Kind = TableLayout::Column::Kind;
@@ -59,11 +87,11 @@ PlotLayout::Series series_from(const TomlValue& node) {
   if (series.paired && series.x_metric.empty()) entry.refuse("a paired series needs an 'x_metric'");
   for (const TomlValue& point : entry.list("cases")) {
     if (!series.x_metric.empty()) {
-      series.cases.emplace_back(0, point.text("cases"));
+      series.cases.emplace_back(0, point.case_name("cases"));
       continue;
     }
     const auto [x, case_name] = point.pair("cases");
-    series.cases.emplace_back(x.number("cases"), case_name.text("cases"));
+    series.cases.emplace_back(x.number("cases"), case_name.case_name("cases"));
   }
   if (series.values.empty() == series.cases.empty()) entry.refuse("a series has either 'values' or 'cases'");
   if (!series.cases.empty()) {
@@ -88,7 +116,7 @@ void read_bars(TomlTable& entry, PlotLayout& plot) {
   }
   std::vector<std::string> known = named_texts(metrics);
   known.emplace_back("group");
-  for (const TomlValue& row : entry.list("rows")) plot.rows.push_back(parse_row(row, known));
+  for (const TomlValue& row : entry.list("rows")) plot.rows.push_back(row_from(row, known));
   for (PlotLayout::Series& series : plot.series) {
     for (std::size_t k = 0; k < plot.rows.size(); ++k) {
       series.cases.emplace_back(static_cast<double>(k), plot.rows[k].case_name);
@@ -114,29 +142,12 @@ std::vector<PageLayout::Drawn> drawn_from(TomlTable& entry, std::string_view key
     if (slash == path.npos || slash == 0 || slash + 1 == path.size()) {
       node.fail(fmt::format("'{}' lists cases that draw figures, as \"experiment/case\"", key));
     }
-    const std::string experiment = path.substr(0, slash), case_name = path.substr(slash + 1);
-    drawn.push_back({experiment, case_name, fmt::format("{} {}", experiment, case_name)});
+    drawn.push_back({path.substr(0, slash), node.file->named(path.substr(slash + 1))});
   }
   return drawn;
 }
 
 }  // namespace
-
-TableLayout::Row parse_row(const TomlValue& node, std::span<const std::string> known) {
-  TomlTable entry(node);
-  TableLayout::Row row{entry.text("label"), entry.text("case"), {}, entry.flag("new_block")};
-  for (const std::string& key : known) {
-    if (!entry.has(key)) continue;
-    const TomlValue value = entry.get(key);
-    if (value.node->is_string()) {
-      row.values.emplace(key, value.text(key));
-    } else {
-      row.values.emplace(key, value.number(key));
-    }
-  }
-  entry.refuse_unknown();
-  return row;
-}
 
 PageLayout parse_page(const TomlValue& node) {
   TomlTable entry(node);
@@ -161,7 +172,7 @@ TableLayout parse_table(const TomlValue& node, std::span<const PageLayout> pages
     if (!column.key.empty()) known.push_back(column.key);
   }
   for (std::string& name : named_texts(metrics)) known.push_back(std::move(name));
-  for (const TomlValue& row : entry.list("rows")) table.rows.push_back(parse_row(row, known));
+  for (const TomlValue& row : entry.list("rows")) table.rows.push_back(row_from(row, known));
   if (table.rows.empty() || table.columns.empty()) entry.refuse("a table needs rows and columns");
   table.page = page_from(entry, pages);
   entry.refuse_unknown();
@@ -187,13 +198,35 @@ PlotLayout parse_plot(const TomlValue& node, std::span<const PageLayout> pages) 
   return plot;
 }
 
-std::vector<std::string> named_texts(std::span<const std::string> metrics) {
-  std::vector<std::string> names;
-  for (const std::string& metric : metrics) {
-    const std::size_t open = metric.find('<'), close = metric.find('>', open);
-    if (close != std::string::npos) names.push_back(metric.substr(open + 1, close - open - 1));
+RankingLayout parse_ranking(const TomlValue& node) {
+  TomlTable entry(node);
+  RankingLayout layout;
+  layout.id = entry.text("id");
+  layout.task = entry.text("task");
+  layout.where = entry.text("where");
+  layout.sentence = entry.text_or("sentence", "");
+  if (!layout.sentence.empty()) layout.brief = entry.text("brief");
+  layout.experiment = entry.text("experiment");
+  layout.metric = entry.text("metric");
+  layout.unit = entry.text_or("unit", "");
+  const std::string best = entry.text("best");
+  if (best != "most" && best != "least") entry.refuse("'best' is either most or least");
+  layout.most = best == "most";
+  if (entry.has("needs")) {
+    TomlTable needs(entry.get("needs"));
+    layout.needs = needs.text("metric");
+    layout.needs_text = needs.text("text");
+    const auto [low, high] = needs.get("range").pair("range");
+    layout.needs_low = low.number("range");
+    layout.needs_high = high.number("range");
+    needs.refuse_unknown();
   }
-  return names;
+  const std::vector<std::string> known = named_texts(std::array{layout.metric, layout.needs});
+  for (const TomlValue& value : entry.list("entries")) {
+    layout.entries.push_back(row_from(value, known));
+  }
+  entry.refuse_unknown();
+  return layout;
 }
 
 std::string for_row(std::string metric, const TableLayout::Row& row) {

@@ -1,5 +1,4 @@
-// Which tables, plots and pages the report has: the [[table]], [[plot]] and [[page]] entries of a claims
-// file.
+// Which tables, plots, pages and rankings the report has: the entries of that name in a claims file.
 #pragma once
 
 #include <map>
@@ -19,7 +18,6 @@ struct PageLayout {
   // The case that draws the figures; in a claims file "experiment/case".
   struct Drawn {
     std::string experiment, case_name;
-    std::string title;  // of its figures: the experiment and the case, as readers call it
     bool operator==(const Drawn&) const = default;
   };
   std::string id, about;        // about: a sentence that says what the ground is
@@ -50,8 +48,6 @@ struct TableLayout {
   std::vector<Column> columns;
   std::string page = {};  // id of the page that shows it; empty: the report's main page
 };
-// The names of all "<name>" in these metrics.
-std::vector<std::string> named_texts(std::span<const std::string> metrics);
 // The metric with "<name>" replaced by the row's text; empty for a row without it.
 std::string for_row(std::string metric, const TableLayout::Row&);
 // The column with its metric for the row.
@@ -79,13 +75,29 @@ struct PlotLayout {
   std::vector<TableLayout::Row> rows = {};
 };
 
+// What methods are ranked by.
+struct RankingLayout {
+  using Entry = TableLayout::Row;
+  std::string id, task, where;  // task: "Fewest bytes in memory"; where: "on caves"
+  // Of the findings in short. `sentence` is the name of the sentence that says who is best at this task, and
+  // `brief` how the task begins there: "for the fewest bytes in memory". Both empty: in none.
+  std::string sentence, brief;
+  std::string experiment, metric;  // `metric` and `needs` are read for the entry as a table's columns are
+  std::string unit;                // that values are shown in
+  bool most = false;               // the best has the most, otherwise the least
+  // An entry takes part only if this metric lies in the range, where any entry has it. Empty: none. The text
+  // says so: "of types that keep four fifths of the air under roofs".
+  std::string needs, needs_text;
+  double needs_low = 0, needs_high = 0;
+  std::vector<Entry> entries;
+};
+
 struct TomlValue;
 // Throw bad_input with file and line for unknown or missing keys, wrong types, and a `page` that is not among
 // the given pages.
 PageLayout parse_page(const TomlValue&);
-// `known`: which keys the row may have beside its label and its case.
-TableLayout::Row parse_row(const TomlValue&, std::span<const std::string> known);
 TableLayout parse_table(const TomlValue&, std::span<const PageLayout>);
 PlotLayout parse_plot(const TomlValue&, std::span<const PageLayout>);
+RankingLayout parse_ranking(const TomlValue&);
 
 }  // namespace terrabench

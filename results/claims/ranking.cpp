@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
-#include "results/claims/embedded.h"
-#include "results/claims/toml_reader.h"
 #include "results/report/fill.h"
 #include "results/store/provenance.h"
 
@@ -80,55 +77,10 @@ std::string why_not_compared(const std::vector<Candidate>& all, bool timing, con
 
 }  // namespace
 
-RankingLayout parse_ranking(const TomlValue& node) {
-  TomlTable entry(node);
-  RankingLayout layout;
-  layout.id = entry.text("id");
-  layout.task = entry.text("task");
-  layout.where = entry.text("where");
-  layout.sentence = entry.text_or("sentence", "");
-  if (!layout.sentence.empty()) layout.brief = entry.text("brief");
-  layout.experiment = entry.text("experiment");
-  layout.metric = entry.text("metric");
-  layout.unit = entry.text_or("unit", "");
-  const std::string best = entry.text("best");
-  if (best != "most" && best != "least") entry.refuse("'best' is either most or least");
-  layout.most = best == "most";
-  if (entry.has("needs")) {
-    TomlTable needs(entry.get("needs"));
-    layout.needs = needs.text("metric");
-    layout.needs_text = needs.text("text");
-    const auto [low, high] = needs.get("range").pair("range");
-    layout.needs_low = low.number("range");
-    layout.needs_high = high.number("range");
-    needs.refuse_unknown();
-  }
-  const std::vector<std::string> known = named_texts(std::array{layout.metric, layout.needs});
-  for (const TomlValue& value : entry.list("entries")) {
-    layout.entries.push_back(parse_row(value, known));
-  }
-  entry.refuse_unknown();
-  return layout;
-}
-
-std::vector<RankingLayout> parse_rankings(std::string_view text, const std::string& origin) {
-  const toml::table table = parse_toml(text, origin, "correct the claims file");
-  TomlFile file{origin, {}};
-  read_sets(table, file);
-  TomlTable entry({&table, &file, {}});
-  std::vector<RankingLayout> layouts;
-  for (const TomlValue& value : entry.list("ranking")) layouts.push_back(parse_ranking(value));
-  return layouts;
-}
-
 std::span<const RankingLayout> ranking_layouts() {
   static const std::vector<RankingLayout> kLayouts = [] {
     std::vector<RankingLayout> all;
-    for (const EmbeddedFile& file : embedded_claims()) {
-      for (RankingLayout& layout : parse_rankings(file.text, std::string(file.name))) {
-        all.push_back(std::move(layout));
-      }
-    }
+    for (const Paper& paper : papers()) all.insert(all.end(), paper.rankings.begin(), paper.rankings.end());
     return all;
   }();
   return kLayouts;
@@ -157,8 +109,8 @@ std::optional<Ranking> rank(const RankingLayout& layout, const Store& store, con
     if (std::ranges::count(ranking.runs, c.record->run) == 0) ranking.runs.push_back(c.record->run);
   }
   ranking.margin = timing ? kTimingMargin : kExactMargin;
-  const auto ties = [&](const Summary& f) { return f.low <= 1 || f.median < ranking.margin; };
-  while (ranking.tied < all.size() && ties(ranking.places[ranking.tied].factor)) ++ranking.tied;
+  while (ranking.tied < all.size() && !differ(ranking.places[ranking.tied].factor, ranking.margin))
+    ++ranking.tied;
   return ranking;
 }
 

@@ -5,40 +5,20 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "results/claims/layouts.h"
+#include "results/claims/claims.h"
 #include "results/report/document.h"
 #include "results/store/statistics.h"
 #include "results/store/store.h"
 
 namespace terrabench {
 
-struct RankingLayout {
-  using Entry = TableLayout::Row;
-  std::string id, task, where;  // task: "Fewest bytes in memory"; where: "on caves"
-  // Of the findings in short. `sentence` is the name of the sentence that says who is best at this task, and
-  // `brief` how the task begins there: "for the fewest bytes in memory". Both empty: in none.
-  std::string sentence, brief;
-  std::string experiment, metric;  // `metric` and `needs` are read for the entry as a table's columns are
-  std::string unit;                // that values are shown in
-  bool most = false;               // the best has the most, otherwise the least
-  // An entry takes part only if this metric lies in the range, where any entry has it. Empty: none. The text
-  // says so: "of types that keep four fifths of the air under roofs".
-  std::string needs, needs_text;
-  double needs_low = 0, needs_high = 0;
-  std::vector<Entry> entries;
-};
-
-// A method is tied with the best if the interval of its factor contains 1 or if the factor is below a margin.
-// Of times and rates: an interval of one run does not cover the differences between runs on one machine. Of
-// the ranked medians, two thirds differed by less than this between two runs of the whole paper profile.
-inline constexpr double kTimingMargin = 1.25;
-// Of all else, such as bytes, triangles and errors. A smaller lead is exact, but no reason to choose a
+// A method is tied with the best unless they differ() (statistics.h): times and rates by kTimingMargin, all
+// else, such as bytes, triangles and errors, by this. A smaller lead is exact, but no reason to choose a
 // method: stacks take 0.2 % fewer bytes than the implicit surface that is built on them.
 inline constexpr double kExactMargin = 1.01;
-// Both, as a sentence for those who read who is tied.
+// Both margins, as a sentence for those who read who is tied.
 std::string tie_rule();
 
 // One layout, filled: the entries that take part, from best to worst.
@@ -69,10 +49,7 @@ struct Ranking {
   std::string clause() const { return layout->where + ": " + result(); }
 };
 
-// One [[ranking]], and every one of a claims file. Throw bad_input with file and line.
-RankingLayout parse_ranking(const TomlValue&);
-std::vector<RankingLayout> parse_rankings(std::string_view toml, const std::string& origin);
-// Of all claims files that are compiled in. Parsed once.
+// Of all claims files that are compiled in.
 std::span<const RankingLayout> ranking_layouts();
 
 // Nothing when fewer than two entries were measured. If one is in a unit that cannot be converted, none are

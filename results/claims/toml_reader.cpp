@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "results/claims/sets.h"
 #include "terrain/error.h"
 #include "terrain/spelling.h"
 
@@ -95,6 +96,12 @@ SetMember member_from(TomlValue element, const std::string& set) {
 }
 
 }  // namespace
+
+std::string TomlFile::named(std::string case_name) const {
+  if (!ground_id.empty() && (case_name == ground_id || case_name.starts_with(ground_id + "/")))
+    case_name.replace(0, ground_id.size(), ground_name);
+  return case_name;
+}
 
 void TomlValue::fail(std::string_view what) const {
   throw bad_input(what, fmt::format("{}:{}", file->origin, node->source().begin.line),
@@ -193,11 +200,13 @@ void read_sets(const toml::table& table, TomlFile& file) {
   const toml::node* const sets = table.get("sets");
   if (sets == nullptr) return;
   for (const auto& [name, node] : TomlTable({sets, &file, {}}).rest()) {
+    if (node.node->is_table()) continue;  // derived from those listed
     std::vector<SetMember> members;
     for (const TomlValue& element : node.elements(name)) members.push_back(member_from(element, name));
     if (members.empty()) node.fail(fmt::format("the set '{}' is empty", name));
     file.sets.emplace(name, std::move(members));
   }
+  derive_sets(*sets->as_table(), file);
 }
 
 void replace_sets(const toml::table& table, const SetMember& ground,

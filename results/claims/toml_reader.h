@@ -8,7 +8,8 @@
 //
 // A list element with each = ["ground", "size"] stands for one element per pair of members. In its texts,
 // {size}, {ground} (the member's name) and {ground.where} are replaced by those of the pair. A member's
-// text may take {set.field} from other fields of the same member, one level deep. In a list of texts, a text
+// text may take {set.field} from other fields of the same member, one level deep. A set that is a table is
+// derived from another (sets.h). In a list of texts, a text
 // with a set that no `each` names stands for one text per member. Numbers are not replaced.
 //
 // Tables, plots, pages and rankings that are stated for a set of grounds can also be made for a ground that
@@ -41,6 +42,11 @@ struct SetMember {
 struct TomlFile {
   std::string origin;  // for error messages
   std::map<std::string, std::vector<SetMember>, std::less<>> sets;
+  // Of a ground that the file does not name: what stands for it in names of cases, which can also be part of
+  // a file's name, and its name, which may be a path.
+  std::string ground_id = {}, ground_name = {};
+
+  std::string named(std::string case_name) const;  // with the ground's name in place of its id
 };
 
 // A value in a file, with the set members chosen for it by the `each` of the elements around it.
@@ -53,7 +59,8 @@ struct TomlValue {
   // All of these throw bad_input with file and line. `what` names the value in the message.
   [[noreturn]] void fail(std::string_view what) const;
   std::string text(std::string_view what) const;  // with set names replaced
-  double number(std::string_view what) const;     // finite
+  std::string case_name(std::string_view what) const { return file->named(text(what)); }
+  double number(std::string_view what) const;  // finite
   std::pair<TomlValue, TomlValue> pair(std::string_view what) const;
   std::vector<TomlValue> elements(std::string_view what) const;  // of a list, after `each` is applied
 

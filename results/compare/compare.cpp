@@ -3,14 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
-#include <span>
-#include <tuple>
 #include <utility>
 
 #include "results/store/provenance.h"
@@ -32,8 +27,7 @@ Change change_of(const Metric& before, const Metric& after, const Summary& ratio
   const bool has_interval = std::min(before.samples.size(), after.samples.size()) >= kFewestSamples &&
                             std::isfinite(ratio.median) && !std::isnan(ratio.low);
   if (!has_interval) return Change::kUnresolved;
-  if (ratio.low > 1) return Change::kRose;
-  if (ratio.high < 1) return Change::kFell;
+  if (differ(ratio)) return ratio.median > 1 ? Change::kRose : Change::kFell;
   constexpr double kWide = 4;  // an interval around 1 that spans more does not say whether the time changed
   return ratio.high > kWide * ratio.low ? Change::kUnresolved : Change::kSame;
 }
@@ -64,15 +58,6 @@ struct Pair {
   }
 };
 
-// Second ÷ first measurement of a case that was measured twice, if the ratio is positive and finite and
-// neither median rests on too few samples.
-std::optional<double> repeat_ratio(const Metric& metric) {
-  const std::span<const double> samples(metric.samples);
-  if (std::min(metric.first_look, samples.size() - metric.first_look) < kFewestSamples) return std::nullopt;
-  const double ratio = median(samples.subspan(metric.first_look)) / median(samples.first(metric.first_look));
-  return std::isfinite(ratio) && ratio > 0 ? std::optional(ratio) : std::nullopt;
-}
-
 void add_both(const Pair& pair, const Metric& before, const Metric& after, Comparison& out) {
   const Summary ratio = summarise_ratio(after.samples, before.samples);
   const bool one_machine = pair.one_machine();
@@ -82,133 +67,23 @@ void add_both(const Pair& pair, const Metric& before, const Metric& after, Compa
   change.after = summarise(after.samples).median;
   change.ratio = ratio;
   change.timed = timed(before) || timed(after);
-  change.equal = before.samples == after.samples;
   change.same_ground = same_ground(pair.before, pair.after);
-  if (one_machine) {
-    for (const Metric* const metric : {&before, &after}) {
-      if (const auto ratio = repeat_ratio(*metric)) change.repeats.push_back(*ratio);
-    }
-    return;
-  }
+  if (one_machine) return;
   change.machine_before = machine_name(*pair.run_before);
   change.machine_after = machine_name(*pair.run_after);
 }
-
-double log_ratio(const MetricChange& m) { return std::log(m.ratio.median); }
 
 bool resolved(const MetricChange& m) {
   return m.timed && m.ratio.median > 0 &&
          (m.change == Change::kSame || m.change == Change::kRose || m.change == Change::kFell);
 }
 
-// Logarithms of the ratios of a group of times: after ÷ before, and second ÷ first measurement in one run.
-struct Ratios {
-  std::vector<double> between, within;
-};
-
-// The factor that 99 of 100 do not exceed, nor its inverse.
-double spread_of(std::vector<double> logs) {
-  constexpr double kShare = 0.99;
-  for (double& log : logs) log = std::abs(log);
-  const auto rank = logs.begin() + std::lround(std::ceil(kShare * static_cast<double>(logs.size()))) - 1;
-  std::nth_element(logs.begin(), rank, logs.end());
-  return std::exp(*rank);
-}
-
-// The standard deviation is estimated from the median distance to the median, so that outliers do not count:
-// between the runs they may be changes of the program.
-Noise noise_of(Ratios ratios) {
-  constexpr double kNormal = 1.4826;  // standard deviation ÷ median distance, of a normal distribution
-  constexpr double kDeviations = 3;
-  auto& [between, within] = ratios;
-  Noise noise{.timings = between.size(), .repeats = within.size()};
-  if (between.empty()) return noise;
-  const double middle = median(between);
-  noise.median = std::exp(middle);
-  if (noise.timings >= Noise::kLeast) {
-    for (double& log : between) log = std::abs(log - middle);
-    noise.deviation = std::exp(kNormal * median(between));
-    noise.threshold = std::pow(noise.deviation, kDeviations);
-  }
-  if (noise.repeats < Noise::kRepeats) return noise;
-  const double spread = spread_of(std::move(within));
-  noise.by_repeats = spread > 1;  // counters may be the same each time of one run, and not in the next
-  if (noise.by_repeats) noise.threshold = spread;
-  return noise;
-}
-
-// Profile, experiment and metric of times, or none of all three for all times.
-using Kind = std::array<std::string, 3>;
-
-// The groups that a time belongs to, the most alike first. The last one holds all times.
-std::array<Kind, 3> kinds_of(const MetricChange& m) {
-  return {Kind{m.profile, m.experiment, m.metric}, Kind{m.profile, m.experiment, ""}, Kind{}};
-}
-
-// Times with the same samples in both folders, such as sizes that only long runs change, tell nothing of it.
-std::map<Kind, Noise> estimate_noise(const std::vector<MetricChange>& metrics) {
-  std::map<Kind, Ratios> ratios{{Kind{}, Ratios{}}};
+double median_ratio(const std::vector<MetricChange>& metrics) {
+  std::vector<double> ratios;
   for (const MetricChange& m : metrics) {
-    if (!resolved(m) || m.equal) continue;
-    for (const Kind& kind : kinds_of(m)) {
-      ratios[kind].between.push_back(log_ratio(m));
-      for (const double ratio : m.repeats) ratios[kind].within.push_back(std::log(ratio));
-    }
+    if (resolved(m)) ratios.push_back(m.ratio.median);
   }
-  std::map<Kind, Noise> noises;
-  for (auto& [kind, values] : ratios) {
-    Noise noise = noise_of(std::move(values));
-    if (kind != Kind{} && noise.threshold == 1) continue;  // too few, or most have one ratio
-    std::tie(noise.profile, noise.experiment, noise.metric) = std::tie(kind[0], kind[1], kind[2]);
-    noises[kind] = std::move(noise);
-  }
-  return noises;
-}
-
-Noise& noise_for(const MetricChange& m, std::map<Kind, Noise>& noises) {
-  Noise* known = nullptr;
-  for (const Kind& kind : kinds_of(m)) {
-    const auto found = noises.find(kind);
-    if (found == noises.end()) continue;
-    if (kind != Kind{} && found->second.by_repeats) return found->second;
-    if (known == nullptr) known = &found->second;
-  }
-  return *known;  // all times have an entry
-}
-
-void ignore_noise(Comparison& comparison) {
-  std::map<Kind, Noise> noises = estimate_noise(comparison.metrics);
-  for (MetricChange& m : comparison.metrics) {
-    if (!resolved(m)) continue;
-    Noise& noise = noise_for(m, noises);
-    m.threshold = noise.threshold;
-    ++noise.users;
-    if (std::abs(log_ratio(m)) <= std::log(m.threshold)) m.change = Change::kSame;
-  }
-  for (const auto& [kind, noise] : noises) {
-    if (kind == Kind{}) {
-      comparison.noise = noise;
-    } else if (noise.users > 0) {
-      comparison.noises.push_back(noise);
-    }
-  }
-}
-
-// Leaves out each field that there were too few times to estimate.
-Json json_of(const Noise& noise) {
-  Json json = Json::object();
-  if (!noise.experiment.empty()) {
-    json["profile"] = noise.profile;
-    json["experiment"] = noise.experiment;
-  }
-  if (!noise.metric.empty()) json["metric"] = noise.metric;
-  json["timings"] = noise.timings;
-  json["repeats"] = noise.repeats;
-  json["users"] = noise.users;
-  if (noise.timings > 0) json["median"] = noise.median;
-  if (noise.timings >= Noise::kLeast) json["deviation"] = noise.deviation;
-  if (noise.timings >= Noise::kLeast || noise.by_repeats) json["threshold"] = noise.threshold;
-  return json;
+  return ratios.empty() ? NAN : median(ratios);
 }
 
 // "paper", "paper and quick"
@@ -275,7 +150,7 @@ Comparison compare(const Store& before, const Store& after, const PictureLimits&
         add_only(record, metric, Change::kOnlyAfter, out);
     }
   }
-  ignore_noise(out);
+  out.median_ratio = median_ratio(out.metrics);
   out.pictures = compare_pictures(before, after, limits);
   demand_common(out, before, after);
   return out;
@@ -289,22 +164,19 @@ std::string compare_json(const Comparison& comparison) {
     if (m.change != Change::kOnlyAfter) entry["before"] = m.before;
     if (m.change != Change::kOnlyBefore) entry["after"] = m.after;
     if (!m.one_sided()) {
-      // JSON has no infinity: a ratio to zero is null.
+      // JSON has no infinity and no NaN: a ratio to zero is null.
       entry["ratio"] = m.ratio.median;
       entry["interval"] = {m.ratio.low, m.ratio.high};
       entry["timed"] = m.timed;
-      if (resolved(m)) entry["threshold"] = m.threshold;
       entry["same_ground"] = m.same_ground;
       if (!m.machine_before.empty()) entry["machines"] = {m.machine_before, m.machine_after};
     }
     list.push_back(std::move(entry));
   }
-  Json noises = Json::array();
-  for (const Noise& noise : comparison.noises) noises.push_back(json_of(noise));
   const Json json = {{"passed", comparison.passed()},
                      {"exact_equal", comparison.exact_equal()},
-                     {"noise", json_of(comparison.noise)},
-                     {"noises", noises},
+                     {"margin", kTimingMargin},
+                     {"median_ratio", comparison.median_ratio},
                      {"only_before", comparison.count(Change::kOnlyBefore)},
                      {"only_after", comparison.count(Change::kOnlyAfter)},
                      {"metrics", list},

@@ -11,26 +11,6 @@
 namespace terrabench {
 namespace {
 
-// What counts as noise: for all times together, then for those that have an estimate of their own.
-std::string noise_text(const Comparison& comparison) {
-  const auto text_of = [](std::size_t times, const Noise& noise) {
-    return fmt::format("{} times: median ratio × {:.3f}; noise from × {:.3f} to × {:.3f}, {}", times,
-                       noise.median, 1 / noise.threshold, noise.threshold,
-                       noise.by_repeats ? fmt::format("of {} repeats", noise.repeats)
-                                        : fmt::format("three deviations of × {:.3f}", noise.deviation));
-  };
-  const Noise& all = comparison.noise;
-  if (all.timings < Noise::kLeast && !all.by_repeats) return "";
-  std::string text =
-      text_of(all.timings, all) + (comparison.noises.empty() ? "\n" : "; of these, instead:\n");
-  for (const Noise& noise : comparison.noises) {
-    text += fmt::format("  {:<48} {}\n",
-                        noise.experiment + (noise.metric.empty() ? ", other metrics" : " " + noise.metric),
-                        text_of(noise.users, noise));
-  }
-  return text;
-}
-
 // What differs although only the machine should: exact figures, with both machines.
 std::string machines_text(const Comparison& comparison) {
   std::string text;
@@ -134,7 +114,11 @@ std::string tally_of(const Comparison& comparison) {
 }  // namespace
 
 std::string compare_text(const Comparison& comparison, bool colour, bool all) {
-  std::string text = tally_of(comparison) + noise_text(comparison);
+  std::string text = tally_of(comparison);
+  if (std::isfinite(comparison.median_ratio)) {
+    text += fmt::format("times: median ratio × {:.3f}; a change below × {} counts as none\n",
+                        comparison.median_ratio, kTimingMargin);
+  }
   if (comparison.count(Change::kUnresolved) > 0) {
     text +=
         "unresolved: times with fewer than three samples, an interval that spans more than a factor of 4, or "

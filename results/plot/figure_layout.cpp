@@ -1,65 +1,14 @@
 #include "results/plot/figure_layout.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <nlohmann/json.hpp>
-
-#include "terrain/error.h"
-#include "terrain/files.h"
 
 namespace terrabench {
 namespace {
-
-using Json = nlohmann::json;
-
-// https://www.w3.org/TR/png: the signature, then chunks of length, type, content and CRC. IHDR comes first.
-constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n", kType = "tEXt";
-constexpr std::string_view kKey("terrabench layout\0", 18);
-constexpr std::size_t kHeader = 8 + 12 + 13;            // signature and IHDR
-constexpr std::size_t kLongest = std::size_t{1} << 20;  // bytes of a layout
-constexpr std::size_t kMostPanels = 1000;
-
-std::string big_endian(std::uint32_t value) {
-  std::string bytes(4, '\0');
-  for (std::size_t i = 0; i < 4; ++i) bytes[i] = static_cast<char>(value >> (24 - 8 * i) & 0xFF);
-  return bytes;
-}
-
-std::size_t read_length(std::string_view bytes) {
-  std::size_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[i]);
-  return value;
-}
-
-std::string to_text(const FigureLayout& layout) {
-  Json panels = Json::array();
-  for (const FigurePanel& p : layout.panels) panels.push_back({p.x, p.y, p.width, p.height});
-  // tEXt is Latin-1: JSON in ASCII escapes everything else.
-  return Json{{"panels", panels}, {"words", layout.words}}.dump(-1, ' ', true,
-                                                                Json::error_handler_t::replace);
-}
-
-std::optional<FigureLayout> from_text(std::string_view text) {
-  const Json json = Json::parse(text, nullptr, false);
-  if (json.is_discarded()) return std::nullopt;
-  try {
-    FigureLayout layout;
-    for (const Json& p : json.at("panels")) {
-      layout.panels.push_back(
-          {p.at(0).get<int>(), p.at(1).get<int>(), p.at(2).get<int>(), p.at(3).get<int>()});
-    }
-    if (layout.panels.size() > kMostPanels) return std::nullopt;
-    layout.words = json.at("words").get<std::vector<std::string>>();
-    return layout;
-  } catch (const Json::exception&) {
-    return std::nullopt;
-  }
-}
 
 bool blank(const Image& image, const FigurePanel& p) {
   const Rgb first = image.pixel(p.x, p.y);
@@ -84,34 +33,6 @@ bool same(const Image& image, const FigurePanel& a, const FigurePanel& b) {
 }
 
 }  // namespace
-
-void write_layout(const std::filesystem::path& png, const FigureLayout& layout) {
-  std::string bytes = read_file(png);
-  if (bytes.size() < kHeader || !bytes.starts_with(kSignature)) {
-    throw bad_input("is not a PNG", png.string(), "draw the figure again");
-  }
-  std::string chunk = std::string(kType) + std::string(kKey) + to_text(layout);
-  const auto crc = static_cast<std::uint32_t>(
-      crc32(0, reinterpret_cast<const Bytef*>(chunk.data()), static_cast<uInt>(chunk.size())));
-  chunk = big_endian(static_cast<std::uint32_t>(chunk.size() - kType.size())) + chunk + big_endian(crc);
-  write_file(png, bytes.insert(kHeader, chunk));
-}
-
-std::optional<FigureLayout> read_layout(const std::filesystem::path& png) {
-  const std::string bytes = read_file(png);
-  const std::string_view all(bytes);
-  if (!all.starts_with(kSignature)) return std::nullopt;
-  for (std::size_t at = kSignature.size(); at + 12 <= all.size();) {
-    const std::size_t length = read_length(all.substr(at));
-    if (length > all.size() - at - 12) return std::nullopt;
-    const std::string_view content = all.substr(at + 8, length);
-    if (all.substr(at + 4, 4) == kType && content.starts_with(kKey) && length <= kLongest) {
-      return from_text(content.substr(kKey.size()));
-    }
-    at += length + 12;
-  }
-  return std::nullopt;
-}
 
 std::string layout_fault(const FigureLayout& layout, const Image& image, std::span<const int> alike) {
   const auto may_be_alike = [&](std::size_t panel) {

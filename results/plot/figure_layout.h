@@ -1,10 +1,9 @@
-// What a figure contains: its panels and its words. A figure's PNG file carries them as a text chunk, which
-// is written by the sheet that drew it and read when the case is recorded; the claims' checks compare them
-// with the picture's pixels and with the run's metrics (evidence.h).
+// What a figure contains: its panels and its words. The sheet that draws it says so to the record; the
+// claims' checks compare them with the picture's pixels and with the run's metrics (evidence.h).
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,11 +24,12 @@ struct FigureLayout {
   bool operator==(const FigureLayout&) const = default;
 };
 
-// Adds the layout to a PNG file, which keeps its pixels. Throws bad_input if the file is no PNG,
-// environment_error if it cannot be written.
-void write_layout(const std::filesystem::path& png, const FigureLayout&);
-// Nothing if the file has none that can be read. Reads at most 1 MiB of layout.
-std::optional<FigureLayout> read_layout(const std::filesystem::path& png);
+// A figure that is to be drawn: the file to write, and what takes its layout; nothing needs to. One of which
+// nothing is said is recorded as a single panel.
+struct FigureFile {
+  std::filesystem::path path;
+  std::function<void(const FigureLayout&)> contains = [](const FigureLayout&) {};
+};
 
 // Why the picture does not look as the layout says; empty if it does: each panel lies within the picture and
 // shows something, and no two panels show the same, except those of `alike` (from 1).

@@ -22,6 +22,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "results/plot/axis_scale.h"
 #include "results/plot/svg_device.h"
 #include "results/store/format.h"
 #include "results/store/power_law.h"
@@ -99,94 +100,7 @@ class ErrorBarLine : public vtkPlotLine {
 };
 vtkStandardNewMacro(ErrorBarLine)
 
-    // What an axis shows: chart coordinates are logarithms on a logarithmic axis, so VTK needs to know of
-    // none.
-    struct Scale {
-  bool log = false;
-  double low = 0, high = 1;   // chart coordinates
-  std::vector<double> ticks;  // true values
-
-  double chart(double value) const { return log ? std::log10(value) : value; }
-};
-
-bool shown(const PlotAxis& axis, double value) { return std::isfinite(value) && (!axis.log || value > 0); }
-
-// 1, 2 or 5 times a power of ten; about five steps cover the span.
-double round_step(double span) {
-  const double step = span / 5, power = std::pow(10, std::floor(std::log10(step)));
-  const double mantissa = step / power;
-  return power * (mantissa <= 1.5 ? 1 : mantissa <= 3.5 ? 2 : mantissa <= 7.5 ? 5 : 10);
-}
-
-std::vector<double> log_ticks(double low, double high) {
-  std::vector<double> ticks;
-  const bool few = high - low < 2;  // decades
-  const int stride = std::max(1, static_cast<int>((high - low) / 8));
-  for (int power = static_cast<int>(std::floor(low)); power <= high; power += stride) {
-    for (const double digit : {1.0, 2.0, 5.0}) {
-      const double value = digit * std::pow(10, power), at = std::log10(value);
-      if ((digit == 1 || few) && at >= low && at <= high) ticks.push_back(value);
-    }
-  }
-  return ticks;
-}
-
-// `values` are those of all points. On a logarithmic axis with few values and own_ticks, each is a tick.
-Scale scale_for(const PlotAxis& axis, std::vector<double> values, bool own_ticks, double margin) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  Scale scale{axis.log, 0, 1, {}};
-  scale.low = scale.chart(values.front());
-  scale.high = scale.chart(values.back());
-  // A linear axis starts at zero, so that differences are not exaggerated.
-  if (!axis.log) scale.low = std::min(scale.low, 0.0);
-  double span = scale.high - scale.low;
-  if (span <= 0) span = axis.log ? 1 : std::max(1e-12, std::abs(scale.high));
-  // A marker on the axis itself would be cut in half.
-  if (axis.log || values.front() <= 0) scale.low -= margin * span;
-  scale.high += margin * span;
-  if (axis.log && own_ticks && values.size() <= 8) {
-    scale.ticks = values;
-  } else if (axis.log) {
-    scale.ticks = log_ticks(scale.low, scale.high);
-  } else {
-    const double step = round_step(scale.high - scale.low);
-    for (double at = std::ceil(scale.low / step); at * step <= scale.high; ++at)
-      scale.ticks.push_back(at * step);
-  }
-  return scale;
-}
-
-// Rows from the top, at y = 0, -1, …
-Scale scale_of_rows(std::size_t rows) {
-  Scale scale{false, 0.4 - static_cast<double>(rows), 0.6, {}};
-  for (std::size_t row = 0; row < rows; ++row) scale.ticks.push_back(-static_cast<double>(row));
-  return scale;
-}
-
-// Plain digits where format_number would write an exponent, as for small times.
-std::string tick_label(double tick) {
-  const double size = std::abs(tick);
-  if (size < 1e-7 || size >= 1e-4) return format_number(tick);
-  return fmt::format("{:.{}f}", tick, -static_cast<int>(std::floor(std::log10(size) + 1e-9)));
-}
-
-// The ticks of a horizontal axis of this many pixels whose labels keep clear of the label before.
-std::vector<double> spaced_ticks(const Scale& scale, double pixels, int font) {
-  constexpr double kDigit = 0.64;  // width of a DejaVu Sans digit, in font sizes
-  std::vector<double> kept;
-  double end = -pixels;
-  for (const double tick : scale.ticks) {
-    const double at = (scale.chart(tick) - scale.low) / (scale.high - scale.low) * pixels;
-    const double half = kDigit * font * static_cast<double>(tick_label(tick).size()) / 2;
-    if (at - half < end + font / 2.0) continue;
-    kept.push_back(tick);
-    end = at + half;
-  }
-  return kept;
-}
-
-void set_font(vtkTextProperty* property, int size) {
+    void set_font(vtkTextProperty* property, int size) {
   if (std::filesystem::exists(kFont)) {
     property->SetFontFamily(VTK_FONT_FILE);
     property->SetFontFile(kFont);
@@ -197,7 +111,7 @@ void set_font(vtkTextProperty* property, int size) {
   property->SetColor(0.1, 0.1, 0.1);
 }
 
-void set_axis(vtkAxis* axis, const PlotAxis& what, const Scale& scale, int font,
+void set_axis(vtkAxis* axis, const PlotAxis& what, const AxisScale& scale, int font,
               const std::vector<std::string>& rows = {}) {
   axis->SetTitle(what.unit.empty() ? what.label : fmt::format("{} [{}]", what.label, what.unit));
   axis->SetBehavior(vtkAxis::FIXED);
@@ -218,27 +132,32 @@ void set_axis(vtkAxis* axis, const PlotAxis& what, const Scale& scale, int font,
   axis->GetGridPen()->SetWidth(1.0F);
 }
 
+void set_points(vtkPlot* plot, const std::vector<std::array<float, 2>>& points) {
+  vtkNew<vtkTable> table;
+  for (const std::size_t axis : {0U, 1U}) {
+    vtkNew<vtkFloatArray> values;
+    values->SetName(axis == 0 ? "x" : "y");
+    for (const auto& point : points) values->InsertNextValue(point[axis]);
+    table->AddColumn(values);
+  }
+  plot->SetInputData(table, 0, 1);
+}
+
 // `above`: the number of series drawn later. Lines that coincide can all be seen, since each is wider than
 // those above it, with larger markers.
 void add_series(vtkChartXY* chart, const PlotSeries& series, const Style& style, std::size_t above,
-                const Scale& x, const Scale& y) {
-  vtkNew<vtkFloatArray> xs, ys;
-  xs->SetName("x");
-  ys->SetName("y");
+                const AxisScale& x, const AxisScale& y) {
+  std::vector<std::array<float, 2>> points;
   std::vector<std::array<float, 3>> bars;
   for (const PlotPoint& point : series.points) {
-    xs->InsertNextValue(static_cast<float>(x.chart(point.x)));
-    ys->InsertNextValue(static_cast<float>(y.chart(point.y)));
+    points.push_back({static_cast<float>(x.chart(point.x)), static_cast<float>(y.chart(point.y))});
     if (point.low < point.high && (!y.log || point.low > 0)) {
       bars.push_back({static_cast<float>(x.chart(point.x)), static_cast<float>(y.chart(point.low)),
                       static_cast<float>(y.chart(point.high))});
     }
   }
-  vtkNew<vtkTable> table;
-  table->AddColumn(xs);
-  table->AddColumn(ys);
   vtkNew<ErrorBarLine> line;
-  line->SetInputData(table, 0, 1);
+  set_points(line, points);
   line->SetLabel("\u00a0" + series.label);  // VTK leaves no room between the legend's symbol and its text
   line->SetColor(style.colour[0], style.colour[1], style.colour[2], 255);
   const auto wider = static_cast<float>(above);
@@ -298,25 +217,19 @@ vtkStandardNewMacro(BarParts)
 constexpr int kWordsAfterBar = 9;  // letters for which there is room
 
 // `last`: whether the parts end their bars, after which the bar's length is printed.
-void add_parts(vtkChartXY* chart, const PlotSeries& series, std::size_t number, const Scale& x, int font,
+void add_parts(vtkChartXY* chart, const PlotSeries& series, std::size_t number, const AxisScale& x, int font,
                bool last) {
   std::vector<BarParts::Part> parts;
-  vtkNew<vtkFloatArray> xs, ys;
-  xs->SetName("x");
-  ys->SetName("y");
+  std::vector<std::array<float, 2>> ends;
   for (const PlotPoint& point : series.points) {
     const double from = x.log && point.low <= 0 ? x.low : x.chart(point.low);
     parts.push_back({static_cast<float>(from), static_cast<float>(x.chart(point.x)),
                      static_cast<float>(-point.y), last ? "\u00a0" + format_number(point.x) : ""});
-    xs->InsertNextValue(parts.back().to);
-    ys->InsertNextValue(parts.back().y);
+    ends.push_back({parts.back().to, parts.back().y});
   }
-  vtkNew<vtkTable> table;
-  table->AddColumn(xs);
-  table->AddColumn(ys);
   const Style& style = kStyles[kPartStyles[number % kPartStyles.size()]];
   vtkNew<BarParts> bars;
-  bars->SetInputData(table, 0, 1);
+  set_points(bars, ends);
   bars->SetLabel("\u00a0" + series.label);
   bars->SetColor(style.colour[0], style.colour[1], style.colour[2], 255);
   bars->SetWidth(0.5F);
@@ -349,6 +262,40 @@ PlotSize screen_size(const Plot& plot) { return size_for(plot, {880, 485, 17}, 2
 PlotSize page_size(const Plot& plot) { return size_for(plot, {880, 400, 14}, 20); }
 PlotSize column_size(const Plot& plot) { return size_for(plot, {440, 310, 15}, 20); }
 
+namespace {
+
+void set_legend(vtkChartLegend* legend, int font) {
+  set_font(legend->GetLabelProperties(), font);
+  legend->SetSymbolWidth(44);
+  legend->SetPadding(8);
+  // Above the plot, where it covers nothing.
+  legend->SetInline(false);
+  legend->SetHorizontalAlignment(vtkChartLegend::CENTER);
+  legend->SetVerticalAlignment(vtkChartLegend::TOP);
+  legend->GetPen()->SetColor(200, 200, 200);
+}
+
+void add_all(vtkChartXY* chart, const std::vector<PlotSeries>& all, bool bars, const AxisScale& x,
+             const AxisScale& y, int font) {
+  std::size_t measured = 0, reported = 0;
+  for (const PlotSeries& series : all) {
+    if (bars) {
+      add_parts(chart, series, measured++, x, font, &series == &all.back());
+      continue;
+    }
+    const Style style =
+        series.reported ? kReported[reported++ % kReported.size()] : measured_style(measured++);
+    // Of the series drawn later, at most as many as the widest line needs to show below them.
+    constexpr std::ptrdiff_t kMostAbove = 5;
+    const std::ptrdiff_t above = std::count_if(&series + 1, all.data() + all.size(),
+                                               [](const PlotSeries& s) { return !s.points.empty(); });
+    if (!series.points.empty())
+      add_series(chart, series, style, static_cast<std::size_t>(std::min(above, kMostAbove)), x, y);
+  }
+}
+
+}  // namespace
+
 std::string plot_svg(const Plot& plot, const PlotSize& size) {
   const std::vector<PlotSeries> all = showable(plot);
   std::vector<double> xs, ys;
@@ -362,8 +309,8 @@ std::string plot_svg(const Plot& plot, const PlotSize& size) {
   }
   if (xs.empty()) throw bad_input("there is no point to plot", plot.title, "measure the cases that it shows");
   const bool bars = !plot.rows.empty();
-  Scale x = scale_for(plot.x, xs, !bars, 0.06);
-  const Scale y = bars ? scale_of_rows(plot.rows.size()) : scale_for(plot.y, ys, false, 0.08);
+  AxisScale x = scale_for(plot.x, xs, !bars, 0.06);
+  const AxisScale y = bars ? scale_of_rows(plot.rows.size()) : scale_for(plot.y, ys, false, 0.08);
   // Beside the labels and the title of the vertical axis.
   int pixels = size.width - 8 * size.font;
   if (bars) {
@@ -377,30 +324,9 @@ std::string plot_svg(const Plot& plot, const PlotSize& size) {
   chart->SetSize(vtkRectf(0, 0, static_cast<float>(size.width) - 12, static_cast<float>(size.height) - 8));
   set_axis(chart->GetAxis(vtkAxis::BOTTOM), plot.x, x, size.font);
   set_axis(chart->GetAxis(vtkAxis::LEFT), plot.y, y, size.font, plot.rows);
-  std::size_t measured = 0, reported = 0;
-  for (const PlotSeries& series : all) {
-    if (bars) {
-      add_parts(chart, series, measured++, x, size.font, &series == &all.back());
-      continue;
-    }
-    const Style style =
-        series.reported ? kReported[reported++ % kReported.size()] : measured_style(measured++);
-    // Of the series drawn later, at most as many as the widest line needs to show below them.
-    constexpr std::ptrdiff_t kMostAbove = 5;
-    const std::ptrdiff_t above = std::count_if(&series + 1, all.data() + all.size(),
-                                               [](const PlotSeries& s) { return !s.points.empty(); });
-    if (!series.points.empty())
-      add_series(chart, series, style, static_cast<std::size_t>(std::min(above, kMostAbove)), x, y);
-  }
+  add_all(chart, all, bars, x, y, size.font);
   chart->SetShowLegend(true);
-  set_font(chart->GetLegend()->GetLabelProperties(), size.font);
-  chart->GetLegend()->SetSymbolWidth(44);
-  chart->GetLegend()->SetPadding(8);
-  // Above the plot, where it covers nothing.
-  chart->GetLegend()->SetInline(false);
-  chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::CENTER);
-  chart->GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);
-  chart->GetLegend()->GetPen()->SetColor(200, 200, 200);
+  set_legend(chart->GetLegend(), size.font);
 
   vtkNew<vtkContextScene> scene;
   scene->AddItem(chart);

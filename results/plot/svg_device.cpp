@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 
 #include "results/store/format.h"
@@ -130,14 +129,6 @@ void SvgDevice::DrawLines(float* points, int n, unsigned char*, int) {
   if (!text.empty()) emit(fmt::format("<path d=\"{}\" fill=\"none\"{}/>", text, stroke()));
 }
 
-void SvgDevice::DrawPoints(float* points, int n, unsigned char* colors, int components) {
-  DrawMarkers(VTK_MARKER_CIRCLE, false, points, n, colors, components);
-}
-
-void SvgDevice::DrawPointSprites(vtkImageData*, float* points, int n, unsigned char* colors, int components) {
-  DrawMarkers(VTK_MARKER_CIRCLE, false, points, n, colors, components);
-}
-
 // VTK passes the marker's size as the pen's width. A white rim separates overlapping markers.
 void SvgDevice::DrawMarkers(int shape, bool, float* points, int n, unsigned char*, int) {
   const double r = Pen->GetWidth() / 2;
@@ -180,24 +171,6 @@ void SvgDevice::DrawColoredPolygon(float* points, int n, unsigned char*, int) {
   if (n > 2) emit(fmt::format("<path d=\"{}Z\"{} stroke=\"none\"/>", path(points, n), fill()));
 }
 
-void SvgDevice::DrawEllipseWedge(float x, float y, float outer_x, float outer_y, float, float, float, float) {
-  const float at[2] = {x, y};
-  const Point p = place(at);
-  emit(fmt::format("<ellipse cx=\"{}\" cy=\"{}\" rx=\"{}\" ry=\"{}\"{}/>", number(p.x), number(p.y),
-                   number(outer_x), number(outer_y), fill()));
-}
-
-void SvgDevice::DrawEllipticArc(float x, float y, float radius_x, float radius_y, float start, float stop) {
-  constexpr int kSegments = 48;
-  std::vector<float> points;
-  for (int i = 0; i <= kSegments; ++i) {
-    const double angle = (start + (stop - start) * i / kSegments) * std::numbers::pi / 180;
-    points.push_back(static_cast<float>(x + radius_x * std::cos(angle)));
-    points.push_back(static_cast<float>(y + radius_y * std::sin(angle)));
-  }
-  DrawPoly(points.data(), kSegments + 1, nullptr, 0);
-}
-
 void SvgDevice::DrawString(float* point, const vtkStdString& text) {
   const Point p = place(point);
   const int size = TextProp->GetFontSize();
@@ -220,9 +193,6 @@ void SvgDevice::DrawString(float* point, const vtkStdString& text) {
                   TextProp->GetBold() != 0 ? " font-weight=\"bold\"" : "", colour(bytes), escape_html(text)));
 }
 
-// Never called: charts draw byte strings only, but VTK's interface demands this overload.
-void SvgDevice::DrawString(float*, const vtkUnicodeString&) {}
-
 void SvgDevice::ComputeStringBounds(const vtkStdString& text, float bounds[4]) {
   int box[4] = {0, 0, 0, 0};
   std::fill(bounds, bounds + 4, 0.0F);
@@ -231,28 +201,10 @@ void SvgDevice::ComputeStringBounds(const vtkStdString& text, float bounds[4]) {
   bounds[3] = static_cast<float>(box[3] - box[2] + 1);
 }
 
-void SvgDevice::ComputeStringBounds(const vtkUnicodeString&, float bounds[4]) {
-  std::fill(bounds, bounds + 4, 0.0F);
-}
-
-void SvgDevice::ComputeJustifiedStringBounds(const char* text, float bounds[4]) {
-  ComputeStringBounds(text, bounds);
-}
-
-void SvgDevice::DrawMathTextString(float* point, const vtkStdString& text) { DrawString(point, text); }
-
 void SvgDevice::SetColor4(unsigned char color[4]) {
   Pen->SetColor(color);
   Brush->SetColor(color);
 }
-
-void SvgDevice::SetPointSize(float size) { Pen->SetWidth(size); }
-void SvgDevice::SetLineWidth(float width) { Pen->SetWidth(width); }
-void SvgDevice::SetLineType(int type) { Pen->SetLineType(type); }
-
-void SvgDevice::SetMatrix(vtkMatrix3x3* matrix) { matrix_->DeepCopy(matrix); }
-void SvgDevice::GetMatrix(vtkMatrix3x3* matrix) { matrix->DeepCopy(matrix_); }
-void SvgDevice::MultiplyMatrix(vtkMatrix3x3* matrix) { vtkMatrix3x3::Multiply3x3(matrix_, matrix, matrix_); }
 
 void SvgDevice::PushMatrix() {
   matrices_.insert(matrices_.end(), matrix_->GetData(), matrix_->GetData() + 9);

@@ -5,7 +5,10 @@
 #include <vtkContextDevice2D.h>
 #include <vtkMatrix3x3.h>
 #include <vtkNew.h>
+#include <vtkPen.h>
+#include <vtkStdString.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -24,31 +27,35 @@ class SvgDevice : public vtkContextDevice2D {
 
   void DrawPoly(float* points, int n, unsigned char* colors, int components) override;
   void DrawLines(float* points, int n, unsigned char* colors, int components) override;
-  void DrawPoints(float* points, int n, unsigned char* colors, int components) override;
-  void DrawPointSprites(vtkImageData*, float* points, int n, unsigned char* colors, int components) override;
   void DrawMarkers(int shape, bool highlight, float* points, int n, unsigned char* colors,
                    int components) override;
   void DrawQuad(float* points, int n) override;
   void DrawColoredPolygon(float* points, int n, unsigned char* colors, int components) override;
-  void DrawEllipseWedge(float x, float y, float outer_x, float outer_y, float inner_x, float inner_y,
-                        float start, float stop) override;
-  void DrawEllipticArc(float x, float y, float radius_x, float radius_y, float start, float stop) override;
   void DrawString(float* point, const vtkStdString& text) override;
-  void DrawString(float* point, const vtkUnicodeString& text) override;
   void ComputeStringBounds(const vtkStdString& text, float bounds[4]) override;
-  void ComputeStringBounds(const vtkUnicodeString& text, float bounds[4]) override;
-  void ComputeJustifiedStringBounds(const char* text, float bounds[4]) override;
-  void DrawMathTextString(float* point, const vtkStdString& text) override;
+  void ComputeJustifiedStringBounds(const char* text, float bounds[4]) override {
+    ComputeStringBounds(vtkStdString(text), bounds);
+  }
+  void DrawMathTextString(float* point, const vtkStdString& text) override { DrawString(point, text); }
+  // VTK demands these, and charts of lines, bars and markers call none of them.
+  void DrawPoints(float*, int, unsigned char*, int) override {}
+  void DrawPointSprites(vtkImageData*, float*, int, unsigned char*, int) override {}
+  void DrawEllipseWedge(float, float, float, float, float, float, float, float) override {}
+  void DrawEllipticArc(float, float, float, float, float, float) override {}
+  void DrawString(float*, const vtkUnicodeString&) override {}
+  void ComputeStringBounds(const vtkUnicodeString&, float bounds[4]) override {
+    std::fill_n(bounds, 4, 0.0F);
+  }
   void DrawImage(float[2], float, vtkImageData*) override {}
   void DrawImage(const vtkRectf&, vtkImageData*) override {}
-  void SetColor4(unsigned char color[4]) override;
   void SetTexture(vtkImageData*, int) override {}
-  void SetPointSize(float size) override;
-  void SetLineWidth(float width) override;
-  void SetLineType(int type) override;
-  void SetMatrix(vtkMatrix3x3* matrix) override;
-  void GetMatrix(vtkMatrix3x3* matrix) override;
-  void MultiplyMatrix(vtkMatrix3x3* matrix) override;
+  void SetColor4(unsigned char color[4]) override;
+  void SetPointSize(float size) override { Pen->SetWidth(size); }
+  void SetLineWidth(float width) override { Pen->SetWidth(width); }
+  void SetLineType(int type) override { Pen->SetLineType(type); }
+  void SetMatrix(vtkMatrix3x3* matrix) override { matrix_->DeepCopy(matrix); }
+  void GetMatrix(vtkMatrix3x3* matrix) override { matrix->DeepCopy(matrix_); }
+  void MultiplyMatrix(vtkMatrix3x3* matrix) override { vtkMatrix3x3::Multiply3x3(matrix_, matrix, matrix_); }
   void PushMatrix() override;
   void PopMatrix() override;
   void SetClipping(int* rectangle) override;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -14,27 +13,6 @@ namespace {
 
 using Fields = std::vector<std::pair<std::string_view, std::string>>;
 
-// BibTeX counts braces also after a backslash.
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (;;) {
-    const std::size_t brace = std::min(text.find_first_of("{}"), text.size());
-    out += escape_latex(text.substr(0, brace));
-    if (brace == text.size()) return out;
-    out += text[brace] == '{' ? "\\textbraceleft{}" : "\\textbraceright{}";
-    text.remove_prefix(brace + 1);
-  }
-}
-
-std::string joined(const std::vector<std::string>& authors, std::string_view between, std::string_view last) {
-  std::string text;
-  for (std::size_t i = 0; i < authors.size(); ++i) {
-    if (i > 0) text += i + 1 == authors.size() ? last : between;
-    text += authors[i];
-  }
-  return text;
-}
-
 std::string title_of(const Reference& reference) {
   return reference.title.empty() ? "[" + reference.subject + "]" : reference.title;
 }
@@ -45,7 +23,7 @@ std::string unstated(const Reference& reference) {
   if (reference.title.empty()) missing.emplace_back("title");
   if (reference.year == 0) missing.emplace_back("year");
   missing.emplace_back("place of publication");
-  return "Not stated in the text that was reproduced: " + joined(missing, ", ", " and ");
+  return "Not stated in the text that was reproduced: " + list_of(missing, ", ", " and ");
 }
 
 std::string entry(std::string_view key, const Fields& fields) {
@@ -59,16 +37,17 @@ std::string paper_entry(const Paper& paper) {
   Fields fields;
   if (!reference.authors.empty()) {
     std::vector<std::string> authors;
-    for (const std::string& author : reference.authors) authors.push_back(escaped(author));
-    fields.emplace_back("author", joined(authors, " and ", " and "));
+    for (const std::string& author : reference.authors) authors.push_back(escape_latex(author));
+    fields.emplace_back("author", list_of(authors, " and ", " and "));
   } else {
     fields.emplace_back("key", paper.id);  // BibTeX sorts by it in place of authors
   }
   // Inner braces keep the title's capitals.
-  fields.emplace_back("title", fmt::format("{{{}}}", escaped(title_of(reference))));
-  if (!reference.institution.empty()) fields.emplace_back("howpublished", escaped(reference.institution));
+  fields.emplace_back("title", fmt::format("{{{}}}", escape_latex(title_of(reference))));
+  if (!reference.institution.empty())
+    fields.emplace_back("howpublished", escape_latex(reference.institution));
   if (reference.year != 0) fields.emplace_back("year", std::to_string(reference.year));
-  fields.emplace_back("note", escaped(unstated(reference)));
+  fields.emplace_back("note", escape_latex(unstated(reference)));
   return entry(citation_key(paper), fields);
 }
 
@@ -84,7 +63,7 @@ std::string program_entry() {
 }  // namespace
 
 std::string reference_text(const Reference& reference) {
-  std::string text = joined(reference.authors, ", ", " and ");
+  std::string text = list_of(reference.authors, ", ", " and ");
   text += fmt::format("{}{}.", text.empty() ? "" : ": ", title_of(reference));
   if (!reference.institution.empty()) text += fmt::format(" {}.", reference.institution);
   if (reference.year != 0) text += fmt::format(" {}.", reference.year);

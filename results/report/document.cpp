@@ -4,6 +4,7 @@
 
 #include "results/claims/embedded.h"
 #include "results/store/format.h"
+#include "terrain/files.h"
 
 namespace terrabench {
 namespace {
@@ -53,10 +54,9 @@ struct HtmlWriter {
       const std::string id =
           picture.anchor.empty() ? "" : fmt::format(" id=\"{}\"", escape_html(picture.anchor));
       text += fmt::format(
-          "<figure{5}>\n<a href=\"{4}\"><img src=\"{0}\" alt=\"{1}: {2}\" loading=\"lazy\"></a>\n"
+          "<figure{4}>\n<a href=\"{0}\"><img src=\"{0}\" alt=\"{1}: {2}\" loading=\"lazy\"></a>\n"
           "<figcaption><strong>{1}.</strong> {2}</figcaption>\n{3}</figure>\n",
-          file, title, escape_html(picture.caption), links(picture.links),
-          picture.original.empty() ? file : escape_html(picture.original), id);
+          file, title, escape_html(picture.caption), links(picture.links), id);
     }
     text += "</div>\n";
   }
@@ -104,7 +104,44 @@ struct MarkdownWriter {
   }
 };
 
+// With the targets of all links as they are in that form.
+Document in_form(Document document, const PageForm& form, bool is_main) {
+  const auto resolve = [&](std::string& target) {
+    if (target == "main" || target.starts_with("main#"))
+      target.replace(0, 4, is_main ? std::string_view() : form.main_page);
+    if (const std::size_t at = target.find(".*"); at != target.npos)
+      target.replace(at + 1, 1, form.extension);
+  };
+  const auto resolve_all = [&](std::vector<Link>& links) {
+    for (Link& link : links) resolve(link.target);
+  };
+  for (Block& block : document) {
+    if (auto* const paragraph = std::get_if<Paragraph>(&block)) resolve_all(paragraph->links);
+    if (auto* const gallery = std::get_if<Gallery>(&block)) {
+      for (Picture& picture : gallery->pictures) resolve_all(picture.links);
+    }
+    if (auto* const table = std::get_if<TableBlock>(&block)) {
+      resolve_all(table->links);
+      for (std::vector<Cell>& row : table->table.rows) {
+        for (Cell& cell : row) resolve(cell.link);
+      }
+    }
+  }
+  return document;
+}
+
 }  // namespace
+
+void write_page(const std::filesystem::path& folder, std::string_view stem, const Document& document,
+                std::string_view first_line) {
+  for (const PageForm& form : {kHtmlForm, kMarkdownForm}) {
+    const bool is_html = form.extension == kHtmlForm.extension, is_main = stem.empty();
+    const Document page = in_form(document, form, is_main);
+    const std::string file =
+        is_main ? std::string(form.main_page) : fmt::format("{}.{}", stem, form.extension);
+    write_file(folder / file, is_html ? std::string(first_line) + html(page) : markdown(page));
+  }
+}
 
 std::string html(const Document& document) {
   std::string title, contents;

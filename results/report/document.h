@@ -1,7 +1,9 @@
 // The report as a list of blocks, written as one self-contained HTML page and as Markdown.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -10,9 +12,16 @@
 
 namespace terrabench {
 
+// The target is a relative file, or #id. Pages are written in two forms, HTML and Markdown, and those of a
+// form lead to each other: "main" at the start of a target stands for the form's main page, or for nothing on
+// that page itself, and ".*" for the form's extension.
 struct Link {
-  std::string text, target;  // a relative file, or #id
+  std::string text, target;
 };
+struct PageForm {
+  std::string_view extension, main_page;
+};
+inline constexpr PageForm kHtmlForm{"html", "index.html"}, kMarkdownForm{"md", "report.md"};
 
 struct Heading {
   int level;  // 1 is the page's title, 2 appears in the table of contents
@@ -33,11 +42,10 @@ struct TableBlock {
   bool filter = false;      // HTML: with a field that filters the rows by text
 };
 struct Picture {
-  std::string title, caption, file;  // file: for HTML
+  std::string title, caption, file;  // file: for HTML; a click leads to it
   std::string bitmap;                // for Markdown, when it differs
   std::vector<Link> links;
-  std::string original = {};  // at full size, where a click leads; empty: the file
-  std::string anchor = {};    // id of the picture, for links to it; empty: none
+  std::string anchor = {};  // id of the picture, for links to it; empty: none
 };
 // Pictures side by side where they fit; a single picture is wide.
 struct Gallery {
@@ -49,5 +57,10 @@ using Document = std::vector<Block>;
 
 std::string html(const Document&);
 std::string markdown(const Document&);
+
+// Writes both forms of a page. `stem`: its name without the extension; empty for the main page, which begins
+// with `first_line` in HTML.
+void write_page(const std::filesystem::path& folder, std::string_view stem, const Document&,
+                std::string_view first_line = "");
 
 }  // namespace terrabench

@@ -8,10 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "results/claims/toml_reader.h"
 #include "results/report/ground_name.h"
-#include "results/report/lost_columns.h"
-#include "terrain/toml.h"
 
 namespace terrabench {
 namespace {
@@ -21,12 +18,6 @@ struct Measured {
   std::string ground;
   std::vector<const Record*> records;
 };
-
-bool stands_on(const Record& record) {
-  const std::string_view name = record.case_name;
-  return !record.terrain.empty() && name.starts_with(record.terrain) &&
-         (name.size() == record.terrain.size() || name[record.terrain.size()] == '/');
-}
 
 // The experiments whose tables, plots or figures stand on pages of grounds.
 std::set<std::string, std::less<>> experiments_on_pages(const Paper& paper) {
@@ -52,7 +43,8 @@ std::vector<Measured> unnamed_grounds(const Paper& paper, const ProfileOfStore& 
   std::vector<Measured> grounds;
   for (const Record& record : measured.store.records()) {
     if (record.profile != measured.profile || !experiments.contains(record.experiment) ||
-        !stands_on(record) || std::ranges::count(paper.pages, record.terrain, &PageLayout::id) > 0) {
+        !is_case_of(record, record.terrain) ||
+        std::ranges::count(paper.pages, record.terrain, &PageLayout::id) > 0) {
       continue;
     }
     auto at = std::ranges::find(grounds, record.terrain, &Measured::ground);
@@ -71,103 +63,20 @@ bool has_changed(std::span<const Record* const> records) {
   });
 }
 
-// The claims file knows the ground by its id, which can stand in ids and in file names. Cases have its name.
-void move_case(std::string& case_name, const FurtherGround& ground) {
-  if (case_name == ground.id || case_name.starts_with(ground.id + "/"))
-    case_name.replace(0, ground.id.size(), ground.name);
-}
-
-void move_figures(std::vector<PageLayout::Drawn>& figures, const FurtherGround& ground) {
-  for (PageLayout::Drawn& drawn : figures) {
-    if (const std::size_t at = drawn.title.find(ground.id); at != std::string::npos)
-      drawn.title.replace(at, ground.id.size(), ground.label);
-    move_case(drawn.case_name, ground);
-  }
-}
-
-void move_cases(FurtherGround& ground) {
-  for (TableLayout& table : ground.paper.tables) {
-    for (TableLayout::Row& row : table.rows) move_case(row.case_name, ground);
-  }
-  for (PlotLayout& plot : ground.paper.plots) {
-    for (PlotLayout::Series& series : plot.series) {
-      for (auto& [x, case_name] : series.cases) move_case(case_name, ground);
-    }
-  }
-  for (RankingLayout& ranking : ground.rankings) {
-    for (RankingLayout::Entry& entry : ranking.entries) move_case(entry.case_name, ground);
-  }
-  for (PageLayout& page : ground.paper.pages) {
-    page.label = ground.label;
-    move_figures(page.sheets, ground);
-    move_figures(page.pictures, ground);
-  }
-}
-
-bool ranks_cases_of(const RankingLayout& ranking, std::string_view id) {
-  return !ranking.entries.empty() &&
-         std::ranges::all_of(ranking.entries, [&](const RankingLayout::Entry& entry) {
-           return entry.case_name.starts_with(fmt::format("{}/", id));
-         });
-}
-
-// Reads the page, tables, plots and rankings of the ground's id, with `file` as the sets are for it.
-void read_layouts(const toml::table& table, const TomlFile& file, const Paper& named, FurtherGround& ground) {
-  TomlTable entry({&table, &file, {}});
-  Paper& paper = ground.paper;
-  std::vector<PageLayout> pages = named.pages;  // tables of named grounds are read too, and left out
-  for (const TomlValue& value : entry.list("page")) {
-    PageLayout page = parse_page(value);
-    if (page.id != ground.id) continue;
-    pages.push_back(page);
-    paper.pages.push_back(std::move(page));
-  }
-  if (paper.pages.size() != 1) entry.refuse("[further] must leave one [[page]] for a further ground");
-  for (const TomlValue& value : entry.list("table")) {
-    TableLayout layout = parse_table(value, pages);
-    if (layout.page == ground.id) paper.tables.push_back(std::move(layout));
-  }
-  for (const TomlValue& value : entry.list("plot")) {
-    PlotLayout layout = parse_plot(value, pages);
-    if (layout.page == ground.id) paper.plots.push_back(std::move(layout));
-  }
-  for (const TomlValue& value : entry.list("ranking")) {
-    RankingLayout layout = parse_ranking(value);
-    if (ranks_cases_of(layout, ground.id)) ground.rankings.push_back(std::move(layout));
-  }
-}
-
-std::vector<std::string> warnings_of(const FurtherGround& ground, std::span<const Record* const> records,
-                                     const ProfileOfStore& in) {
-  std::vector<std::string> warnings;
-  if (has_changed(records)) {
-    warnings.emplace_back(
+FurtherGround lay_out(const Paper& named, const Measured& measured, const std::string& label,
+                      const ProfileOfStore& in) {
+  FurtherGround ground{{measured.ground, label, ground_id(measured.ground)}, {}, {}};
+  ground.paper = layouts_of(named, ground, [&](std::string_view metric) {
+    return std::ranges::any_of(measured.records,
+                               [&](const Record* record) { return record->find(metric) != nullptr; });
+  });
+  if (has_changed(measured.records)) {
+    ground.warnings.emplace_back(
         "The content of this ground changed between its measurements, so that values of different cases may "
         "belong to different ground. Measure all of them again.");
   }
-  std::string lost = lost_columns(ground.paper, ground.page(), in.store, in.profile);
-  if (!lost.empty()) warnings.push_back(std::move(lost));
-  return warnings;
-}
-
-FurtherGround lay_out(const Paper& named, const Measured& measured, const std::string& label,
-                      const ProfileOfStore& in) {
-  FurtherGround ground{measured.ground, label, ground_id(measured.ground), {}, {}, {}};
-  ground.paper.id = named.id;
-  ground.paper.title = named.title;
-  const ClaimsFile& claims = *named.further;
-  const toml::table table = parse_toml(claims.text, claims.origin, "correct the claims file");
-  TomlFile file{claims.origin, {}};
-  read_sets(table, file);
-  const SetMember names{{{"name", ground.id}, {"label", label}}};
-  const auto has = [&](std::string_view metric) {
-    return std::ranges::any_of(measured.records,
-                               [&](const Record* record) { return record->find(metric) != nullptr; });
-  };
-  replace_sets(table, names, has, file);
-  read_layouts(table, file, named, ground);
-  move_cases(ground);
-  ground.warnings = warnings_of(ground, measured.records, in);
+  std::string lost = lost_columns(in.store, in.profile, ground.name, label);
+  if (!lost.empty()) ground.warnings.push_back(std::move(lost));
   return ground;
 }
 
@@ -202,59 +111,79 @@ std::string beside_named(const Ranking& here, std::span<const Ranking> named) {
   return same + (same.empty() || others.empty() ? "" : "; ") + others;
 }
 
-// `compared`: whether the table has the column of the other grounds.
-std::string caption(const ProfileOfStore& measured, const ProfileOfStore& named, bool compared) {
-  const bool same_folder = &measured.store == &named.store;
-  std::string text =
+// What the table says of its columns. `compared`: whether it has that of the other grounds.
+std::string caption(bool same_folder, bool compared) {
+  const std::string text =
       "For each task: the best method on this ground and by which factor it is ahead of the next, with the "
       "factor's 95 % interval in brackets. " +
       tie_rule();
-  if (compared) {
-    text += fmt::format(
-        " The last column lists the grounds measured in {} where the task is decided: first those where the "
-        "same method is best or the same methods are tied, then which methods are best on the others. "
-        "Its parentheses hold the factor by which the best is ahead of the next there, or within which the "
-        "best are tied, with its interval.",
-        same_folder ? "the same results folder" : "the results folder that was named for comparison");
-  } else if (!same_folder) {
-    text += " No task is decided in the results folder that was named for comparison.";
-  }
-  if (compared && measured.profile != named.profile) {
-    text += fmt::format(" This ground was measured in profile {}, those in profile {}.", measured.profile,
-                        named.profile);
-  }
-  return text;
+  if (!compared)
+    return text +
+           (same_folder ? "" : " No task is decided in the results folder that was named for comparison.");
+  return fmt::format(
+      "{} The last column lists the grounds measured in {} where the task is decided: first those where the "
+      "same method is best or the same methods are tied, then which methods are best on the others. "
+      "Its parentheses hold the factor by which the best is ahead of the next there, or within which the "
+      "best are tied, with its interval.",
+      text, same_folder ? "the same results folder" : "the results folder that was named for comparison");
 }
 
-FilledTable empty_table(const FurtherGround& ground, const ProfileOfStore& measured,
-                        const ProfileOfStore& named, bool compared) {
+// `elsewhere`: rankings on the compared grounds; the table has no column of them if none is decided.
+FilledTable table_of(const FurtherGround& ground, const ProfileOfStore& measured, const ProfileOfStore& named,
+                     std::span<const Ranking> elsewhere) {
+  const bool compared = std::ranges::any_of(elsewhere, &Ranking::decided);
   FilledTable filled{{ground.table_id(),
                       fmt::format("Which method for {}", ground.label),
-                      caption(measured, named, compared),
+                      caption(&measured.store == &named.store, compared),
                       {{"Task"}, {"Best on this ground"}},
                       {}},
                      {}};
-  if (!compared) return filled;
-  std::vector<Column>& columns = filled.table.columns;
-  columns.push_back({"On the compared grounds"});
-  if (measured.profile != named.profile) {
-    columns[1].title += fmt::format(", profile {}", measured.profile);
-    columns[2].title += fmt::format(", profile {}", named.profile);
+  Table& table = filled.table;
+  if (compared) table.columns.push_back({"On the compared grounds"});
+  if (compared && measured.profile != named.profile) {
+    table.columns[1].title += fmt::format(", profile {}", measured.profile);
+    table.columns[2].title += fmt::format(", profile {}", named.profile);
+  }
+  for (const Ranking& here : rank(ground.paper.rankings, measured.store, measured.profile)) {
+    const std::string& needs = here.layout->needs_text;
+    table.rows.push_back({{here.layout->task + (needs.empty() ? "" : ", " + needs)}, {here.result()}});
+    if (compared) table.rows.back().push_back({beside_named(here, elsewhere)});
+    for (const std::string& run : here.runs) {
+      if (std::ranges::count(filled.runs, run) == 0) filled.runs.push_back(run);
+    }
   }
   return filled;
 }
 
-void add_row(const Ranking& here, std::span<const Ranking> named, bool compared, FilledTable& filled) {
-  const std::string& needs = here.layout->needs_text;
-  std::vector<Cell> row{{here.layout->task + (needs.empty() ? "" : ", " + needs)}, {here.result()}};
-  if (compared) row.push_back({beside_named(here, named)});
-  filled.table.rows.push_back(std::move(row));
-  for (const std::string& run : here.runs) {
-    if (std::ranges::count(filled.runs, run) == 0) filled.runs.push_back(run);
-  }
+double lost_share(const Record& record) {
+  const Metric *const lost = record.find("lost_columns"), *const kept = record.find("columns");
+  if (lost == nullptr || kept == nullptr || lost->samples.empty() || kept->samples.empty()) return 0;
+  return lost->samples[0] / std::max(lost->samples[0] + kept->samples[0], 1.0);
 }
 
 }  // namespace
+
+bool is_case_of(const Record& record, std::string_view ground) {
+  const std::string_view name = record.case_name;
+  return !ground.empty() && name.starts_with(ground) &&
+         (name.size() == ground.size() || name[ground.size()] == '/');
+}
+
+std::string lost_columns(const Store& store, std::string_view profile, std::string_view ground,
+                         std::string_view label) {
+  constexpr double kMany = 0.01;
+  const Record* most = nullptr;
+  for (const Record& record : store.records()) {
+    if (record.profile != profile || !record.overrides.empty() || !is_case_of(record, ground)) continue;
+    if (most == nullptr || lost_share(record) > lost_share(*most)) most = &record;
+  }
+  if (most == nullptr || lost_share(*most) < kMany) return "";
+  return fmt::format(
+      "RMSE and other errors of height leave out columns where only one of ground and method has a height "
+      "(beside samples without data, or in holes): up to {:.1f} % of the columns (case {}). A method that "
+      "loses many columns may therefore have a smaller error. Errors of volume leave out none.",
+      100 * lost_share(*most), with_label(most->case_name, most->terrain, label));
+}
 
 GroundLabels labels_of_grounds(const Store& store, std::string_view profile) {
   GroundLabels labels;
@@ -290,12 +219,9 @@ std::vector<FilledTable> tables_of_further_grounds(std::span<const FurtherGround
                                                    std::span<const RankingLayout> compared,
                                                    const ProfileOfStore& named) {
   const std::vector<Ranking> elsewhere = rank(compared, named.store, named.profile);
-  const bool decided = std::ranges::any_of(elsewhere, &Ranking::decided);
   std::vector<FilledTable> tables;
   for (const FurtherGround& ground : further) {
-    FilledTable filled = empty_table(ground, measured, named, decided);
-    for (const Ranking& here : rank(ground.rankings, measured.store, measured.profile))
-      add_row(here, elsewhere, decided, filled);
+    FilledTable filled = table_of(ground, measured, named, elsewhere);
     if (!filled.table.rows.empty()) tables.push_back(std::move(filled));
   }
   return tables;

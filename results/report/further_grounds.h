@@ -4,7 +4,6 @@
 // the rankings on the named grounds, of the same or of another results folder.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -28,25 +27,26 @@ GroundLabels labels_of_grounds(const Store&, std::string_view profile);
 // The text, such as a case's name, with the label instead of the path of the DEM that was measured.
 std::string labelled(std::string text, const Record&, const GroundLabels&);
 
-struct FurtherGround {
-  std::string name;   // Record::terrain
-  std::string label;  // of labels_of_grounds()
-  std::string id;     // part of file names and of ids
-  // The claims file's page for this ground with the tables and plots that stand on it, all of them, measured
-  // or not; no claims.
-  Paper paper;
-  std::vector<RankingLayout> rankings;  // one per task
-  // Shown to readers: the ground's content changed between its measurements; a method lost many columns
-  // (lost_columns.h).
+// Whether the case is named "GROUND" or "GROUND/…".
+bool is_case_of(const Record&, std::string_view ground);
+
+// A warning if a case of this ground has no height in 1 % of its columns or more, where only one of ground
+// and method has one: beside samples without data, or in holes. Errors of height leave such columns out, so
+// that a method that loses many seems better than it is. Empty if none does. O(records).
+std::string lost_columns(const Store&, std::string_view profile, std::string_view ground,
+                         std::string_view label);
+
+struct FurtherGround : UnnamedGround {  // the label is that of labels_of_grounds()
+  Paper paper;                          // layouts_of(): all that the ground's page may show, measured or not
+  // Shown to readers: the ground's content changed between its measurements; lost_columns().
   std::vector<std::string> warnings;
 
   const PageLayout& page() const { return paper.pages.front(); }
   std::string table_id() const { return "which-method-" + id; }  // of tables_of_further_grounds()
 };
 
-// In the order of measurement. A record tells its ground (Record::terrain), and belongs to it if its case is
-// named "GROUND" or "GROUND/…" and its experiment is one that the page shows. Reads the claims file anew for
-// each ground: milliseconds. Throws bad_input as parse_claims() does.
+// In the order of measurement. A record tells its ground (Record::terrain), and belongs to it if
+// is_case_of() and if its experiment is one that the page shows. Throws bad_input as layouts_of() does.
 std::vector<FurtherGround> further_grounds(std::span<const Paper>, const ProfileOfStore& measured);
 
 // A table per further ground of which methods can be ranked: for each task who is best there and by how much,

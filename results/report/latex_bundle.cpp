@@ -14,7 +14,6 @@
 #include "results/report/citation.h"
 #include "results/report/fill.h"
 #include "results/report/further_grounds.h"
-#include "results/report/lost_columns.h"
 #include "results/report/report_tables.h"
 #include "results/report/shown_pictures.h"
 #include "results/report/statement_table.h"
@@ -62,23 +61,25 @@ std::string title_beside_number(const std::string& title) {
   return title.starts_with("Table ") || title.starts_with("Figure ") ? "The paper's " + title : title;
 }
 
-// A figure of main.tex, without its float.
-struct FigureText {
-  std::string text;
-  bool column;  // 84 mm wide, so that two stand side by side; otherwise a line of its own
-};
+// Its copy's name, without an ending: its own, since two pictures may have one id, with its folder where that
+// is not figures/.
+std::string picture_name(const RecordedFigure& figure) {
+  constexpr std::string_view kFolder = "figures/", kEnding = ".png";
+  std::string_view name = figure.file;
+  // No name of the other kind begins with a slash.
+  if (!name.starts_with(kFolder) || !name.ends_with(kEnding)) return file_name(fmt::format("/{}", name));
+  name.remove_prefix(kFolder.size());
+  name.remove_suffix(kEnding.size());
+  return file_name(name);
+}
 
-// `include`: what shows it.
-FigureText figure_text(bool column, std::string_view include, const std::string& title,
-                       std::string_view caption, std::string_view id) {
-  const std::string body =
-      fmt::format("{}\n    \\caption{{{}. {}}}\n    \\label{{fig:{}}}\n", include,
-                  escape_latex(title_beside_number(title)), escape_latex(caption), file_name(id));
-  if (!column) return {"    \\centering\n    " + body, false};
-  return {fmt::format("  \\begin{{minipage}}[t]{{{}mm}}\n    \\vspace{{0pt}}\\centering\n    {}"
-                      "  \\end{{minipage}}\n",
-                      kColumn, body),
-          true};
+// A figure of main.tex. `include`: what shows it.
+std::string figure_text(std::string_view include, const std::string& title, std::string_view caption,
+                        std::string_view id) {
+  return fmt::format(
+      "\\begin{{figure}}[htbp]\n  \\centering\n  {}\n  \\caption{{{}. {}}}\n  \\label{{fig:{}}}\n"
+      "\\end{{figure}}\n",
+      include, escape_latex(title_beside_number(title)), escape_latex(caption), file_name(id));
 }
 
 class Bundle {
@@ -136,18 +137,20 @@ class Bundle {
       Table verdicts = statement_table(results_, paper, group);
       if (judged && !verdicts.rows.empty()) tables.push_back(std::move(verdicts));
     }
-    std::vector<FigureText> figures = drawn_plots(paper);
-    add_pictures(paper, figures);
+    std::string figures = plots(paper);
+    for (const ShownPicture& shown : claimed_pictures(store_, results_, paper))
+      figures += picture(shown, kPage);
+    for (const PageLayout& page : paper.pages) figures += pictures(page);
     if (tables.empty() && figures.empty()) return;
     begin_section(paper.title, paper.id);
     if (paper.reference) text_ += fmt::format("The paper is~\\cite{{{}}}. ", citation_key(paper));
     paragraph(paper.source);
     for (const PageLayout& page : paper.pages) {
-      const std::string lost = lost_columns(paper, page, store_, results_.profile);
+      const std::string lost = lost_columns(store_, results_.profile, page.id, page.label);
       if (!lost.empty()) warn(fmt::format("Ground {}. {}", page.label, lost));
     }
     for (const Table& table : tables) add_table(table);
-    add_figures(figures);
+    text_ += figures;
   }
 
   // A section per ground that no claims file names, with the tables, plots and pictures of its page in the
@@ -163,19 +166,17 @@ class Bundle {
           std::ranges::find(which, ground.table_id(),
                             [](const FilledTable& filled) -> const std::string& { return filled.table.id; });
       if (best != which.end()) tables.push_back(std::move(best->table));
-      std::vector<FigureText> figures = drawn_plots(ground.paper);
-      add_pictures(ground.page(), figures);
+      const std::string figures = plots(ground.paper) + pictures(ground.page());
       if (tables.empty() && figures.empty()) continue;
       begin_section("Ground " + ground.label, "ground-" + ground.id);
       paragraph(ground.page().about);
       for (const std::string& warning : ground.warnings) warn(warning);
       for (const Table& table : tables) add_table(table);
-      add_figures(figures);
+      text_ += figures;
     }
   }
 
   void begin_section(const std::string& title, const std::string& id) {
-    floating_ = false;
     text_ +=
         fmt::format("\\clearpage\n\\section{{{}}}\n\\label{{sec:{}}}\n", escape_latex(title), file_name(id));
   }
@@ -191,61 +192,47 @@ class Bundle {
     return tables;
   }
 
-  std::vector<FigureText> drawn_plots(const Paper& paper) const {
-    std::vector<FigureText> figures;
+  // Writes both files of each plot that has measurements, 84 mm and 174 mm wide, and shows the first.
+  std::string plots(const Paper& paper) const {
+    std::string figures;
     for (const PlotLayout& layout : paper.plots) {
-      if (std::optional<FigureText> figure = draw(layout)) figures.push_back(std::move(*figure));
+      const FilledPlot filled = fill(layout, store_, results_.profile);
+      if (filled.runs.empty()) continue;
+      const std::string stem = "figures/" + file_name(layout.id);
+      std::filesystem::create_directories(out_ / "figures");
+      svg_text_to_pdf(plot_svg(filled.plot, column_size(filled.plot)), out_ / (stem + ".pdf"), kColumn);
+      svg_text_to_pdf(plot_svg(filled.plot, page_size(filled.plot)), out_ / (stem + "-page.pdf"), kPage);
+      figures += figure_text(fmt::format("\\includegraphics{{{}.pdf}}", stem), layout.title, layout.caption,
+                             layout.id);
     }
     return figures;
   }
 
-  // Writes both files of a plot, 84 mm and 174 mm wide. Returns the figure with the 84 mm one; nothing, and
-  // no files, if the plot has no measurements.
-  std::optional<FigureText> draw(const PlotLayout& layout) const {
-    const FilledPlot filled = fill(layout, store_, results_.profile);
-    if (filled.runs.empty()) return std::nullopt;
-    const std::string stem = "figures/" + file_name(layout.id);
-    std::filesystem::create_directories(out_ / "figures");
-    svg_text_to_pdf(plot_svg(filled.plot, column_size(filled.plot)), out_ / (stem + ".pdf"), kColumn);
-    svg_text_to_pdf(plot_svg(filled.plot, page_size(filled.plot)), out_ / (stem + "-page.pdf"), kPage);
-    return figure_text(true, fmt::format("\\includegraphics{{{}.pdf}}", stem), layout.title, layout.caption,
-                       layout.id);
-  }
-
-  // Those of claims, then those of grounds; each once.
-  void add_pictures(const Paper& paper, std::vector<FigureText>& figures) {
-    for (const ShownPicture& shown : claimed_pictures(store_, results_, paper)) {
-      add_picture(shown, kPage, figures);
-    }
-    for (const PageLayout& page : paper.pages) add_pictures(page, figures);
-  }
-
   // A ground's `pictures` have no words, so that a column is wide enough.
-  void add_pictures(const PageLayout& page, std::vector<FigureText>& figures) {
-    for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, page.sheets, page.label)) {
-      add_picture(shown, kPage, figures);
+  std::string pictures(const PageLayout& page) {
+    std::string figures;
+    for (const auto& [cases, widest] : {std::pair{&page.sheets, kPage}, std::pair{&page.pictures, kColumn}}) {
+      for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, *cases, page.label))
+        figures += picture(shown, widest);
     }
-    for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, page.pictures, page.label)) {
-      add_picture(shown, kColumn, figures);
-    }
+    return figures;
   }
 
-  // `widest`: millimetres.
-  void add_picture(const ShownPicture& shown, double widest, std::vector<FigureText>& figures) {
+  // Nothing if it stands elsewhere, or cannot be shown. `widest`: millimetres.
+  std::string picture(const ShownPicture& shown, double widest) {
     const std::string& from = shown.figure->file;
-    if (!pictures_.insert(from).second) return;
+    if (!pictures_.insert(from).second) return "";
     const std::optional<Image> image = read_intact(*shown.figure);
     if (!image) {
       left_out_.push_back(from);
-      return;
+      return "";
     }
     const std::string to = "pictures/" + picture_name(*shown.figure) + ".png";
     write_file(out_ / to, read_file(store_.path_of(from)));
     const double width =
         std::min({image->width / kPixelsPerMillimetre, widest, kHighest * image->width / image->height});
-    figures.push_back(figure_text(width <= kColumn,
-                                  fmt::format("\\includegraphics[width={:.1f}mm]{{{}}}", width, to),
-                                  shown.title, shown.caption, shown.figure->id));
+    return figure_text(fmt::format("\\includegraphics[width={:.1f}mm]{{{}}}", width, to), shown.title,
+                       shown.caption, shown.figure->id);
   }
 
   // Nothing if LaTeX could not read it either, or if it is not the picture that was drawn.
@@ -259,25 +246,9 @@ class Bundle {
     }
   }
 
-  // Two of a column's width in a line, where they follow each other.
-  void add_figures(const std::vector<FigureText>& figures) {
-    for (std::size_t i = 0; i < figures.size(); ++i) {
-      text_ += "\\begin{figure}[htbp]\n" + figures[i].text;
-      if (figures[i].column && i + 1 < figures.size() && figures[i + 1].column) {
-        text_ += "  \\hfill\n" + figures[++i].text;
-      }
-      text_ += "\\end{figure}\n";
-    }
-  }
-
   void add_table(const Table& table) {
     const std::string file = "tables/" + file_name(table.id) + ".tex";
-    const std::string text = latex(table);
-    write_file(out_ / file, text);
-    // Tables that float would otherwise come after a longtable that follows them.
-    const bool floats = text.find("\\begin{longtable}") == text.npos;
-    if (!floats && floating_) text_ += "\\clearpage\n";
-    floating_ = floats;
+    write_file(out_ / file, latex(table));
     text_ += fmt::format("\\input{{{}}}\n", file);
   }
 
@@ -292,7 +263,6 @@ class Bundle {
   const std::filesystem::path& out_;
   JudgedResults results_;
   std::string text_;                   // main.tex
-  bool floating_ = false;              // whether a table since the last clearpage may still move
   std::set<std::string> pictures_;     // files of all that were asked for so far
   std::vector<std::string> left_out_;  // files of those among them that cannot be shown
 };

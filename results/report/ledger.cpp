@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+#include <optional>
 #include <set>
 #include <utility>
+#include <variant>
 
 #include "results/report/fill.h"
 #include "results/report/report_tables.h"
@@ -12,11 +16,88 @@
 namespace terrabench {
 namespace {
 
+// Finds the table or plot that shows the numbers of a claim.
+class WhereShown {
+ public:
+  struct Place {
+    std::string_view id, title, page;
+    bool same_quantity = true;  // false: it shows a case that the claim reads, but other metrics of it
+  };
+
+  // Tables come before plots, both in the papers' order.
+  WhereShown(std::span<const Paper> papers, const LedgerLinks& links) {
+    for (const Paper& paper : papers) {
+      for (const TableLayout& table : paper.tables) {
+        if (links.shown.contains(table.id)) add(table);
+      }
+    }
+    for (const Paper& paper : papers) {
+      for (const PlotLayout& plot : paper.plots) {
+        if (!links.shown.contains(plot.id)) continue;
+        for (const PlotLayout::Series& series : plot.series) {
+          for (const auto& [x, name] : series.cases)
+            by_case_[{series.experiment, name}].push_back(
+                {{series.metric, series.x_metric}, {plot.id, plot.title, plot.page}});
+        }
+      }
+    }
+  }
+
+  // The first with a row that names the claim; otherwise the first that shows one of the metrics that the
+  // claim reads; otherwise that with the metric of a case it reads whose name starts most alike, such as
+  // rmse_mean for rmse_largest. Nothing if no such case was measured and is shown.
+  std::optional<Place> find(const Claim& claim, const Store& store, std::string_view profile) const {
+    if (const auto named = by_claim_.find(claim.id); named != by_claim_.end()) return named->second;
+    std::optional<Place> best;
+    std::ptrdiff_t most = -1;  // letters alike
+    for (const Condition& condition : claim.conditions) {
+      for (const Operand& read : condition.operands) {
+        const auto of_case = by_case_.find({read.experiment, read.case_name});
+        const Record* const record = store.find(read.experiment, read.case_name, profile);
+        if (record == nullptr || of_case == by_case_.end()) continue;
+        for (const auto& [metrics, place] : of_case->second) {
+          for (const std::string& metric : metrics) {
+            const auto alike = std::ranges::mismatch(metric, read.metric).in1 - metric.begin();
+            const bool same = metric == read.metric;
+            if (record->find(metric) == nullptr || (best && best->same_quantity)) continue;
+            if (!same && alike <= most) continue;
+            best = place;
+            best->same_quantity = same;
+            most = alike;
+          }
+        }
+      }
+    }
+    return best;
+  }
+
+ private:
+  void add(const TableLayout& table) {
+    const Place place{table.id, table.title, table.page};
+    for (const TableLayout::Row& row : table.rows) {
+      for (const auto& [key, value] : row.values) {
+        // Other texts of a row do no harm.
+        if (const auto* const text = std::get_if<std::string>(&value)) by_claim_.try_emplace(*text, place);
+      }
+      std::vector<std::string> metrics;
+      for (const TableLayout::Column& column : table.columns) metrics.push_back(for_row(column, row).metric);
+      by_case_[{table.experiment, row.case_name}].push_back({std::move(metrics), place});
+    }
+  }
+
+  struct Shown {
+    std::vector<std::string> metrics;
+    Place place;
+  };
+  std::map<std::string_view, Place> by_claim_;
+  std::map<std::pair<std::string_view, std::string_view>, std::vector<Shown>> by_case_;
+};
+
 class Rows {
  public:
   Rows(const Store& store, const JudgedResults& results, std::span<const Paper> papers,
        const LedgerLinks& links)
-      : store_(store), results_(results), links_(links), where_shown_(papers, links.shown) {}
+      : store_(store), results_(results), links_(links), where_shown_(papers, links) {}
 
   std::vector<Cell> row(const Judgement& j) const {
     const Claim& claim = *j.claim;
@@ -50,9 +131,9 @@ class Rows {
     }
     const auto place = where_shown_.find(*j.claim, store_, results_.profile);
     if (!place) return {"–"};
-    const auto& [id, title, ground] = place->layout;
-    return {.text = fmt::format("{}{}", title, place->same_quantity ? "" : " (same case, other quantities)"),
-            .link = fmt::format("{}#{}", page_file(ground, links_.form), id)};
+    const auto& [id, title, page, same_quantity] = *place;
+    return {.text = fmt::format("{}{}", title, same_quantity ? "" : " (same case, other quantities)"),
+            .link = (page.empty() ? "main" : ground_page(page) + ".*") + fmt::format("#{}", id)};
   }
 
   // The run that was read last, and the lines of measurements.jsonl that were.
@@ -78,7 +159,7 @@ class Rows {
       ++shown;
     }
     if (lines.size() > shown) text += fmt::format(" and {} more", lines.size() - shown);
-    return {.text = text, .link = std::string(links_.form.main_page) + "#" + run_anchor(j.runs.back())};
+    return {.text = text, .link = "main#" + run_anchor(j.runs.back())};
   }
 
   void note_line(std::set<std::size_t>& lines, const Record* record) const {
@@ -121,7 +202,7 @@ Table ledger_table(const Store& store, const JudgedResults& results, std::span<c
 
 Document ledger(const Store& store, const JudgedResults& results, std::span<const Paper> papers,
                 const LedgerLinks& links) {
-  std::vector<Link> pages = {{"Report", std::string(links.form.main_page)}};
+  std::vector<Link> pages = {{"Report", "main"}};
   pages.insert(pages.end(), links.grounds.begin(), links.grounds.end());
   Document document = {
       Heading{1, "Ledger", "top"},

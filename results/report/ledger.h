@@ -2,6 +2,7 @@
 // from, as a page of its own. The report's other pages show parts of it in more detail.
 #pragma once
 
+#include <functional>
 #include <set>
 #include <span>
 #include <string>
@@ -9,18 +10,15 @@
 
 #include "results/claims/judge.h"
 #include "results/report/document.h"
-#include "results/report/ground_page.h"
-#include "results/report/where_shown.h"
 #include "results/store/store.h"
 
 namespace terrabench {
 
 // Where rows may point, all relative to the report's folder.
 struct LedgerLinks {
-  ReportForm form = kHtmlForm;
-  std::set<std::string> pictures = {};  // files
-  ShownIds shown = {};
-  std::vector<Link> grounds = {};  // to the pages of single grounds
+  std::set<std::string> pictures = {};            // files
+  std::set<std::string, std::less<>> shown = {};  // ids of the tables and plots that the report contains
+  std::vector<Link> grounds = {};                 // to the pages of single grounds
 };
 
 // One row per claim and sub-row, in the papers' order; the id of a row is its anchor.

@@ -15,8 +15,8 @@ namespace {
 
 class Page {
  public:
-  Page(const JudgedResults& results, const Paper& paper, const std::string& ledger)
-      : paper_(paper), ledger_(ledger), statements_(statements(results.of(paper))) {}
+  Page(const JudgedResults& results, const Paper& paper)
+      : paper_(paper), statements_(statements(results.of(paper))) {}
 
   // The statements of each cause under its text, and those that have a reason of their own.
   Document differing() const {
@@ -79,7 +79,7 @@ class Page {
   // A failure that nobody expected has another reason.
   static std::string cause_of(const Judgement& j) { return j.complaint.empty() ? j.claim->cause : ""; }
 
-  Cell id_cell(const Claim& claim) const { return {.text = claim.id, .link = ledger_ + "#" + claim.id}; }
+  static Cell id_cell(const Claim& claim) { return {.text = claim.id, .link = "ledger.*#" + claim.id}; }
 
   std::string matching(const Statement& statement) const {
     const std::string& matches = statement.claim->claim->matches;
@@ -96,14 +96,12 @@ class Page {
   }
 
   const Paper& paper_;
-  const std::string& ledger_;
   std::vector<Statement> statements_;
 };
 
 }  // namespace
 
-Document paper_faults(const JudgedResults& results, std::span<const Paper> papers,
-                      const std::string& ledger) {
+Document paper_faults(const JudgedResults& results, std::span<const Paper> papers) {
   Document document = {Heading{1, std::string(kPaperFaultsTitle), "top"},
                        Paragraph{fmt::format(
                            "Statements of the papers that the measurements of profile “{}” do not confirm as "
@@ -111,7 +109,7 @@ Document paper_faults(const JudgedResults& results, std::span<const Paper> paper
                            results.profile, standings_sentence(results))}};
   const std::size_t empty = document.size();
   for (const Paper& paper : papers) {
-    const Page page(results, paper, ledger);
+    const Page page(results, paper);
     Document differing = page.differing();
     Table vague = page.vague();
     if (differing.empty() && vague.rows.empty()) continue;

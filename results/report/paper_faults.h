@@ -3,7 +3,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 
 #include "results/claims/judge.h"
 #include "results/report/document.h"
@@ -12,7 +11,7 @@ namespace terrabench {
 
 inline constexpr std::string_view kPaperFaultsTitle = "Where the papers are wrong or vague";
 
-// Links lead into the page `ledger`. Empty if no claim belongs here.
-Document paper_faults(const JudgedResults&, std::span<const Paper>, const std::string& ledger);
+// Links lead into the ledger. Empty if no claim belongs here.
+Document paper_faults(const JudgedResults&, std::span<const Paper>);
 
 }  // namespace terrabench

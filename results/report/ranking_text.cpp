@@ -14,15 +14,6 @@
 namespace terrabench {
 namespace {
 
-std::string joined(const std::vector<std::string>& parts, std::string_view last) {
-  std::string text;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (i > 0) text += i + 1 == parts.size() ? last : ", ";
-    text += parts[i];
-  }
-  return text;
-}
-
 // Clauses become a sentence.
 void finish(std::string& text) {
   text += ".";
@@ -55,7 +46,7 @@ const Summary& factor_of(const Ranking& ranking) {
 }
 
 // Grounds of one task with the same outcome, a subject and a verb: "drills and stacks tied".
-struct Group {
+struct SameOutcome {
   std::string outcome;
   std::vector<std::string> where;
   bool tied = false;
@@ -71,12 +62,12 @@ std::string outcome_of(const Ranking& ranking) {
   for (std::size_t i = 0; i < ranking.tied; ++i) best.push_back(ranking.places[i].label);
   if (best.size() == 1) return best[0] + " led";
   std::ranges::sort(best);
-  return joined(best, " and ") + " tied";
+  return list_of(best, ", ", " and ") + " tied";
 }
 
-void add_to(std::vector<Group>& groups, const Ranking& ranking) {
+void add_to(std::vector<SameOutcome>& groups, const Ranking& ranking) {
   const std::string outcome = outcome_of(ranking);
-  auto at = std::ranges::find(groups, outcome, &Group::outcome);
+  auto at = std::ranges::find(groups, outcome, &SameOutcome::outcome);
   if (at == groups.end()) at = groups.insert(at, {outcome, {}, ranking.tied > 1, {}});
   at->where.push_back(ranking.layout->where);
   if (!ranking.decided() || ranking.places.size() == 1) return;
@@ -84,8 +75,8 @@ void add_to(std::vector<Group>& groups, const Ranking& ranking) {
   if (factor.median != 1) at->factors.push_back(factor);
 }
 
-std::string text_of(const Group& group) {
-  const std::string text = joined(group.where, " and ") + ", " + group.outcome;
+std::string text_of(const SameOutcome& group) {
+  const std::string text = list_of(group.where, ", ", " and ") + ", " + group.outcome;
   if (group.factors.empty()) return text;
   const auto [least, most] = std::ranges::minmax_element(group.factors, {}, &Summary::median);
   std::string factors = fmt::format("{} to {}", factor_text(*least), factor_text(*most));
@@ -112,7 +103,7 @@ std::string Ranking::result() const {
   if (tied > 1 && !too_few) {
     std::vector<std::string> best;
     for (std::size_t i = 0; i < tied; ++i) best.push_back(with_value(places[i]));
-    std::string text = joined(best, " and ") + " are tied";
+    std::string text = list_of(best, ", ", " and ") + " are tied";
     const Summary& last = factor_of(*this);
     if (last.median != 1) text += fmt::format(", within a factor of {}", factor_text(last));
     if (last.low > 1) text += fmt::format(", less than the margin of {}", margin);
@@ -147,11 +138,11 @@ Facts in_short(std::span<const Ranking> rankings) {
   Facts facts;
   for (auto first = rankings.begin(); first != rankings.end();) {
     const RankingLayout& layout = *first->layout;
-    std::vector<Group> groups;
+    std::vector<SameOutcome> groups;
     for (; first != rankings.end() && first->layout->task == layout.task; ++first) add_to(groups, *first);
     if (layout.sentence.empty()) continue;
     std::vector<std::string> texts;
-    for (const Group& group : groups) texts.push_back(text_of(group));
+    for (const SameOutcome& group : groups) texts.push_back(text_of(group));
     const std::string clause = fmt::format("{}: {}", layout.brief, fmt::join(texts, "; "));
     const auto line =
         std::ranges::find(facts.lines, layout.sentence, &std::pair<std::string, std::string>::first);

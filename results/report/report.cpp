@@ -16,9 +16,7 @@
 #include "results/report/fill.h"
 #include "results/report/further_cases.h"
 #include "results/report/further_grounds.h"
-#include "results/report/ground_page.h"
 #include "results/report/ledger.h"
-#include "results/report/lost_columns.h"
 #include "results/report/paper_faults.h"
 #include "results/report/report_parts.h"
 #include "results/report/report_tables.h"
@@ -30,7 +28,7 @@
 namespace terrabench {
 namespace {
 
-constexpr std::string_view kMainPage = "";  // TableLayout::page of what stands on it
+constexpr std::string_view kMainPage = "";  // its name, and TableLayout::page of what stands on it
 
 constexpr FolderMark kMark{"report", "index.html",
                            "<!-- Written by terrabench report: a later one replaces this folder. -->"};
@@ -45,7 +43,7 @@ class Report {
         out_(out),
         results_(judge(store, papers)),
         further_(further_grounds(papers, {store, results_.profile})),
-        parts_(store, results_.profile, out) {}
+        parts_(store, results_, out) {}
 
   // Of the reference too, if it is another folder.
   std::vector<std::string> faults() const {
@@ -60,13 +58,13 @@ class Report {
       if (has_results(paper)) add_paper(paper);
     }
     add_further_cases();
-    add_absences();
+    add_section({2, "Without measurements", "absent"}, absence_table(results_));
     add_other_pictures();
-    add_pending();
-    add_provenance();
+    add_section({2, "Pending", "pending"}, pending_table(results_));
+    add(provenance(store_));
+    add_table(input_table(store_, results_.profile), {});
     write_ledger();
-    write_file(out_ / kMark.file, fmt::format("{}\n{}", kMark.line, html(document_)));
-    write_file(out_ / "report.md", markdown(document_));
+    write_page(out_, kMainPage, document_, fmt::format("{}\n", kMark.line));
   }
 
  private:
@@ -81,8 +79,7 @@ class Report {
     add_warning(document_);
     add_complaints();
     add_summary();
-    if (const std::size_t failed = std::ranges::count(results_.absences, "failed", &Absence::what);
-        failed > 0) {
+    if (std::ranges::count(results_.absences, "failed", &Absence::what) > 0) {
       document_.push_back(Paragraph{"Some cases failed: what they should have measured is missing.",
                                     true,
                                     {{"Which, and why", "#absent"}}});
@@ -109,14 +106,13 @@ class Report {
       }
     }
     if (unmeasured.empty()) return;
-    const std::size_t count = unmeasured.size();
-    if (count > kNamed) unmeasured.resize(kNamed);
-    document_.push_back(
-        Paragraph{fmt::format("Verdict “missing”, since nothing of them was measured: {}{}.",
-                              fmt::join(unmeasured, ", "),
-                              count > kNamed ? fmt::format(" and {} more claims", count - kNamed) : ""),
-                  true,
-                  {{"All in the ledger", "ledger.html"}, {"as Markdown", "ledger.md"}}});
+    std::string more;
+    if (unmeasured.size() > kNamed) more = fmt::format(" and {} more claims", unmeasured.size() - kNamed);
+    if (unmeasured.size() > kNamed) unmeasured.resize(kNamed);
+    document_.push_back(Paragraph{fmt::format("Verdict “missing”, since nothing of them was measured: {}{}.",
+                                              fmt::join(unmeasured, ", "), more),
+                                  true,
+                                  {{"All in the ledger", "ledger.html"}, {"as Markdown", "ledger.md"}}});
   }
 
   // On the main page and on every ground's.
@@ -192,41 +188,39 @@ class Report {
 
   void write_further_pages() {
     for (const FurtherGround& ground : further_) {
-      GroundPage page = filled_page(ground.paper, ground.page(), ground.warnings);
-      page.elsewhere =
-          "Which method is best on this ground, the measurements on other grounds, and the machine and code "
-          "of each run:";
-      page.section = {"Further grounds", "#grounds"};
-      if (!write_page(page)) continue;
+      if (!parts_.write_ground_page(
+              ground.paper, ground.page(), remarks(ground.warnings),
+              "Which method is best on this ground, the measurements on other grounds, and the machine and "
+              "code of each run:",
+              {"Further grounds", "main#grounds"}))
+        continue;
       further_pages_.push_back(ground.page());
-      keep_off_main_page(ground.page());
+      // Their figures do not stand on the main page, too.
+      for (const auto* const cases : {&ground.page().sheets, &ground.page().pictures}) {
+        for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, *cases, ground.label))
+          claimed_.insert(shown.figure->id);
+      }
     }
   }
 
   void write_ledger() {
-    set_form(kHtmlForm);
-    write_file(out_ / "ledger.html", html(ledger(store_, results_, papers_, links_)));
-    write_file(out_ / "tables/ledger.csv", csv(ledger_table(store_, results_, papers_, links_)));
-    set_form(kMarkdownForm);
-    write_file(out_ / "ledger.md", markdown(ledger(store_, results_, papers_, links_)));
-  }
-
-  void set_form(const ReportForm& form) {
-    links_.form = form;
-    links_.grounds = ground_links(grounds_, form);
-    std::ranges::move(ground_links(further_pages_, form), std::back_inserter(links_.grounds));
+    LedgerLinks& links = parts_.links();
+    for (const std::vector<PageLayout>* const pages : {&grounds_, &further_pages_}) {
+      for (const PageLayout& page : *pages)
+        links.grounds.push_back({"Ground " + page.label, ground_page(page.id) + ".*"});
+    }
+    write_page(out_, "ledger", ledger(store_, results_, papers_, links));
+    write_file(out_ / "tables/ledger.csv", csv(ledger_table(store_, results_, papers_, links)));
   }
 
   void add_paper_faults() {
-    constexpr std::string_view kHtml = "wrong-or-vague.html", kMarkdown = "wrong-or-vague.md";
-    const Document page = paper_faults(results_, papers_, "ledger.html");
+    const Document page = paper_faults(results_, papers_);
     if (page.empty()) return;
-    write_file(out_ / kHtml, html(page));
-    write_file(out_ / kMarkdown, markdown(paper_faults(results_, papers_, "ledger.md")));
+    write_page(out_, "wrong-or-vague", page);
     document_.push_back(Paragraph{
         "Every difference with its reason and the reading that matches:",
         false,
-        {{std::string(kPaperFaultsTitle), std::string(kHtml)}, {"as Markdown", std::string(kMarkdown)}}});
+        {{std::string(kPaperFaultsTitle), "wrong-or-vague.html"}, {"as Markdown", "wrong-or-vague.md"}}});
   }
 
   // Drops the folder's path: it is private, and changes when the folder is copied.
@@ -248,6 +242,7 @@ class Report {
         row[0].link = "#pending";
       }
     }
+    write_file(out_ / "tables/summary.md", markdown(table));  // README.md shows it
     add_table(std::move(table), {});
   }
 
@@ -265,10 +260,8 @@ class Report {
     document_.push_back(
         Paragraph{reference + (reference.empty() || paper.source.empty() ? "" : " ") + paper.source});
     add_ground_pages(paper);
-    for (FilledTable& filled : filled_tables(paper, kMainPage)) {
-      add_table(std::move(filled.table), filled.runs);
-    }
-    add_plots(paper, kMainPage, document_);
+    add(parts_.tables(paper, kMainPage));
+    add(parts_.plots(paper, kMainPage));
     add_verdicts(paper);
     add_gallery(paper);
   }
@@ -278,55 +271,26 @@ class Report {
     std::vector<PageLayout> written;
     for (const PageLayout& layout : paper.pages) {
       std::vector<std::string> warnings;
-      std::string lost = lost_columns(paper, layout, store_, results_.profile);
+      std::string lost = lost_columns(store_, results_.profile, layout.id, layout.label);
       if (!lost.empty()) warnings.push_back(std::move(lost));
-      GroundPage page = filled_page(paper, layout, warnings);
-      page.elsewhere =
-          "The verdicts on these measurements, the other comparisons, and the machine and code of each run:";
-      page.section = {paper.title, "#" + paper.id};
-      if (write_page(page)) written.push_back(layout);
+      if (parts_.write_ground_page(
+              paper, layout, remarks(warnings),
+              "The verdicts on these measurements, the other comparisons, and the machine "
+              "and code of each run:",
+              {paper.title, "main#" + paper.id}))
+        written.push_back(layout);
     }
     if (written.empty()) return;
     document_.push_back(TableBlock{ground_table(paper.id + ".grounds", "One page per ground", written), {}});
     grounds_.insert(grounds_.end(), written.begin(), written.end());
   }
 
-  // Writes the page in both forms unless it is empty. Returns whether it was written.
-  bool write_page(const GroundPage& page) const {
-    if (page.empty()) return false;
-    const std::string& id = page.layout->id;
-    write_file(out_ / page_file(id, kHtmlForm), html(ground_page(page, kHtmlForm)));
-    write_file(out_ / page_file(id, kMarkdownForm), markdown(ground_page(page, kMarkdownForm)));
-    return true;
-  }
-
-  GroundPage filled_page(const Paper& paper, const PageLayout& layout,
-                         const std::vector<std::string>& warnings) {
-    GroundPage page{&layout, "", {}, {}, {}, {}, {}};
-    page.remarks.push_back(Paragraph{fmt::format("Measured in profile “{}”.", results_.profile)});
-    add_warning(page.remarks);
-    for (const std::string& warning : warnings) page.remarks.push_back(Paragraph{warning, true});
-    for (FilledTable& filled : filled_tables(paper, layout.id)) {
-      links_.shown.insert(filled.table.id);
-      page.tables.push_back(parts_.table(std::move(filled.table), filled.runs));
-    }
-    add_plots(paper, layout.id, page.plots);
-    for (const PageLayout::Drawn& sheet : layout.sheets) {
-      add_pictures(std::span(&sheet, 1), layout.label, page.pictures);
-    }
-    add_pictures(layout.pictures, layout.label, page.pictures);
-    return page;
-  }
-
-  // The paper's tables of which something was measured, as far as they stand on this page.
-  std::vector<FilledTable> filled_tables(const Paper& paper, std::string_view page) const {
-    std::vector<FilledTable> tables;
-    for (const TableLayout& layout : paper.tables) {
-      if (layout.page != page) continue;
-      FilledTable filled = fill(layout, store_, results_);
-      if (!filled.runs.empty()) tables.push_back(std::move(filled));
-    }
-    return tables;
+  // At the top of a ground's page.
+  Document remarks(const std::vector<std::string>& warnings) const {
+    Document remarks{Paragraph{fmt::format("Measured in profile “{}”.", results_.profile)}};
+    add_warning(remarks);
+    for (const std::string& warning : warnings) remarks.push_back(Paragraph{warning, true});
+    return remarks;
   }
 
   void add_verdicts(const Paper& paper) {
@@ -343,112 +307,54 @@ class Report {
   }
 
   void add_gallery(const Paper& paper) {
-    Gallery gallery;
-    for (ShownPicture& shown : claimed_pictures(store_, results_, paper)) {
-      claimed_.insert(shown.figure->id);
-      add_picture(gallery, std::move(shown));
-    }
-    if (gallery.pictures.empty()) return;
-    document_.push_back(Heading{3, "Figures, in the paper's order", paper.id + "-figures"});
-    document_.push_back(std::move(gallery));
+    const std::vector<ShownPicture> shown = claimed_pictures(store_, results_, paper);
+    for (const ShownPicture& picture : shown) claimed_.insert(picture.figure->id);
+    add_with_heading({3, "Figures, in the paper's order", paper.id + "-figures"}, parts_.pictures(shown));
   }
 
+  // Nothing if there are no blocks.
+  void add_with_heading(Heading heading, Document blocks) {
+    if (blocks.empty()) return;
+    document_.push_back(std::move(heading));
+    add(std::move(blocks));
+  }
+  void add(Document blocks) { std::ranges::move(blocks, std::back_inserter(document_)); }
+
   void add_further_cases() {
-    const std::vector<TableLayout> layouts = further_cases(store_, papers_, further_, results_.profile);
-    if (layouts.empty()) return;
-    document_.push_back(Heading{2, "Further cases", "further"});
-    for (const TableLayout& layout : layouts) {
+    Document tables;
+    for (const TableLayout& layout : further_cases(store_, papers_, further_, results_.profile)) {
       FilledTable filled = fill(layout, store_, results_);
-      add_table(std::move(filled.table), filled.runs);
+      tables.push_back(parts_.table(std::move(filled.table), filled.runs));
     }
+    add_with_heading({2, "Further cases", "further"}, std::move(tables));
   }
 
   void add_other_pictures() {
     const GroundLabels labels = labels_of_grounds(store_, results_.profile);
-    Gallery gallery;
+    std::vector<ShownPicture> shown;
     for (const Record& record : store_.records()) {
       if (record.profile != results_.profile) continue;
       for (const RecordedFigure& figure : record.figures) {
-        if (!claimed_.contains(figure.id)) {
-          add_picture(gallery,
-                      {&record, &figure, labelled(record.experiment + " " + record.case_name, record, labels),
-                       labelled(figure.caption, record, labels)});
-        }
+        if (claimed_.contains(figure.id)) continue;
+        shown.push_back({&record, &figure,
+                         labelled(record.experiment + " " + record.case_name, record, labels),
+                         labelled(figure.caption, record, labels)});
       }
     }
-    if (gallery.pictures.empty()) return;
-    document_.push_back(Heading{2, "Terrains", "terrains"});
-    document_.push_back(Paragraph{"The measured terrains, as each representation stores them."});
-    document_.push_back(std::move(gallery));
-  }
-
-  void add_picture(Gallery& gallery, ShownPicture shown) {
-    std::optional<Picture> picture =
-        parts_.picture(*shown.record, *shown.figure, std::move(shown.title), std::move(shown.caption));
-    if (!picture) return;
-    links_.pictures.insert(picture->file);
-    gallery.pictures.push_back(std::move(*picture));
-  }
-
-  // The figures that these cases drew, side by side.
-  void add_pictures(std::span<const PageLayout::Drawn> cases, const std::string& label, Document& to) {
-    Gallery gallery;
-    for (ShownPicture& shown : drawn_pictures(store_, results_.profile, cases, label)) {
-      add_picture(gallery, std::move(shown));
-    }
-    if (!gallery.pictures.empty()) to.push_back(std::move(gallery));
-  }
-
-  // Keeps the figures that this page shows from standing on the main page too.
-  void keep_off_main_page(const PageLayout& page) {
-    for (const auto* const cases : {&page.sheets, &page.pictures}) {
-      for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, *cases, page.label)) {
-        claimed_.insert(shown.figure->id);
-      }
-    }
-  }
-
-  void add_plots(const Paper& paper, std::string_view page, Document& to) {
-    for (const PlotLayout& layout : paper.plots) {
-      if (layout.page != page) continue;
-      std::optional<Gallery> plot = parts_.plot(layout);
-      if (!plot) continue;
-      links_.shown.insert(layout.id);
-      to.push_back(std::move(*plot));
-    }
+    Document pictures = parts_.pictures(shown);
+    if (pictures.empty()) return;
+    pictures.insert(pictures.begin(),
+                    Paragraph{"The measured terrains, as each representation stores them."});
+    add_with_heading({2, "Terrains", "terrains"}, std::move(pictures));
   }
 
   void add_table(Table table, const std::vector<std::string>& runs) {
-    links_.shown.insert(table.id);
     document_.push_back(parts_.table(std::move(table), runs));
   }
 
-  void add_absences() {
-    Table table = absence_table(results_);
-    if (table.rows.empty()) return;
-    document_.push_back(Heading{2, "Without measurements", "absent"});
-    add_table(std::move(table), {});
-  }
-
-  void add_pending() {
-    Table table = pending_table(results_);
-    if (table.rows.empty()) return;
-    document_.push_back(Heading{2, "Pending", "pending"});
-    add_table(std::move(table), {});
-  }
-
-  void add_provenance() {
-    document_.push_back(Heading{2, "Provenance", "provenance"});
-    std::vector<const Provenance*> runs;
-    for (const Record& record : store_.records()) {
-      const Provenance* const run = store_.run(record.run);
-      if (run != nullptr && std::ranges::count(runs, run) == 0) runs.push_back(run);
-    }
-    for (const Provenance* const run : runs) {
-      document_.push_back(Heading{3, "Run " + short_id(run->id), run_anchor(run->id)});
-      document_.push_back(run_facts(*run));
-    }
-    add_table(input_table(store_, results_.profile), {});
+  // Nothing if it has no rows.
+  void add_section(Heading heading, Table table) {
+    if (!table.rows.empty()) add_with_heading(std::move(heading), {parts_.table(std::move(table), {})});
   }
 
   const Store &store_, &reference_;
@@ -458,7 +364,6 @@ class Report {
   std::vector<FurtherGround> further_;
   ReportParts parts_;
   Document document_;
-  LedgerLinks links_;                                // filled while the report is written
   std::vector<PageLayout> grounds_, further_pages_;  // those with a page
   std::set<std::string>
       claimed_;  // ids of pictures that belong to a claim or stand on a further ground's page

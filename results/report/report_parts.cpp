@@ -1,80 +1,103 @@
 #include "results/report/report_parts.h"
 
-#include <tbb/parallel_for_each.h>
+#include <algorithm>
+#include <iterator>
 
 #include "results/plot/plot.h"
 #include "results/plot/rasterise.h"
 #include "results/report/fill.h"
-#include "results/report/preview.h"
 #include "results/report/report_tables.h"
-#include "terrain/error.h"
 #include "terrain/files.h"
 
 namespace terrabench {
 namespace {
 
 constexpr int kBitmapWidth = 1760;  // twice the plots' own size: sharp in print
-constexpr int kPreviewWidth = 896;  // as the page shows them: 56 rem
 
 std::vector<Link> run_links(const std::vector<std::string>& runs) {
   std::vector<Link> links;
-  for (const std::string& run : runs) links.push_back({"run " + short_id(run), "#" + run_anchor(run)});
+  for (const std::string& run : runs) links.push_back({"run " + short_id(run), "main#" + run_anchor(run)});
   return links;
 }
 
+void append(Document& document, Document blocks) { std::ranges::move(blocks, std::back_inserter(document)); }
+
 }  // namespace
 
-ReportParts::ReportParts(const Store& store, std::string profile, std::filesystem::path out)
-    : store_(store), profile_(std::move(profile)), out_(std::move(out)) {
-  for (const Record& record : store_.records()) {
-    if (record.profile != profile_) continue;
-    for (const RecordedFigure& figure : record.figures) {
-      if (store_.intact(figure)) previews_[{figure.checksum, figure.file}];
-    }
-  }
-  tbb::parallel_for_each(previews_, [&](auto& picture_and_preview) {
-    auto& [picture, preview] = picture_and_preview;
-    try {
-      preview = webp_preview(read_png(store_.folder() / picture.second), kPreviewWidth);
-    } catch (const Error& error) {
-      if (error.code() != ExitCode::kBadInput) throw;
-    }
-  });
-}
-
-TableBlock ReportParts::table(Table table, const std::vector<std::string>& runs) const {
-  const std::string stem = "tables/" + file_name(table.id);
-  write_file(out_ / (stem + ".csv"), csv(table));
-  write_file(out_ / (stem + ".md"), markdown(table));
-  write_file(out_ / (stem + ".tex"), latex(table));
+TableBlock ReportParts::table(Table table, const std::vector<std::string>& runs) {
+  const std::string file = "tables/" + file_name(table.id) + ".csv";
+  write_file(out_ / file, csv(table));
+  links_.shown.insert(table.id);
   std::vector<Link> links = run_links(runs);
-  links.push_back({"CSV", stem + ".csv"});
-  links.push_back({"Markdown", stem + ".md"});
-  links.push_back({"LaTeX", stem + ".tex"});
+  links.push_back({"CSV", file});
   return {std::move(table), std::move(links)};
 }
 
-std::optional<Gallery> ReportParts::plot(const PlotLayout& layout) const {
-  const FilledPlot filled = fill(layout, store_, profile_);
-  if (filled.runs.empty()) return std::nullopt;
-  const std::string stem = "figures/" + file_name(layout.id);
-  write_file(out_ / (stem + ".svg"), plot_svg(filled.plot));
-  svg_to_png(out_ / (stem + ".svg"), out_ / (stem + ".png"), kBitmapWidth);
-  std::vector<Link> links = run_links(filled.runs);
-  links.push_back({"PNG", stem + ".png"});
-  return Gallery{
-      {{layout.title, layout.caption, stem + ".svg", stem + ".png", std::move(links), "", layout.id}}};
+Document ReportParts::tables(const Paper& paper, std::string_view page) {
+  Document blocks;
+  for (const TableLayout& layout : paper.tables) {
+    if (layout.page != page) continue;
+    FilledTable filled = fill(layout, store_, results_);
+    if (!filled.runs.empty()) blocks.push_back(table(std::move(filled.table), filled.runs));
+  }
+  return blocks;
 }
 
-std::optional<Picture> ReportParts::picture(const Record& record, const RecordedFigure& figure,
-                                            std::string title, std::string caption) const {
-  const auto preview = previews_.find({figure.checksum, figure.file});
-  if (preview == previews_.end() || preview->second.empty()) return std::nullopt;
-  const std::string to = picture_file(figure), original = "../" + url_path(figure.file);
-  write_file(out_ / to, preview->second);
-  std::vector<Link> links = run_links({record.run});
-  links.push_back({"Full size", original});
-  return Picture{std::move(title), std::move(caption), to, "", std::move(links), original};
+Document ReportParts::plots(const Paper& paper, std::string_view page) {
+  Document blocks;
+  for (const PlotLayout& layout : paper.plots) {
+    if (layout.page != page) continue;
+    const FilledPlot filled = fill(layout, store_, results_.profile);
+    if (filled.runs.empty()) continue;  // the paper's own curve is not shown alone
+    const std::string stem = "figures/" + file_name(layout.id);
+    write_file(out_ / (stem + ".svg"), plot_svg(filled.plot));
+    svg_to_png(out_ / (stem + ".svg"), out_ / (stem + ".png"), kBitmapWidth);
+    links_.shown.insert(layout.id);
+    std::vector<Link> links = run_links(filled.runs);
+    links.push_back({"PNG", stem + ".png"});
+    blocks.push_back(
+        Gallery{{{layout.title, layout.caption, stem + ".svg", stem + ".png", std::move(links), layout.id}}});
+  }
+  return blocks;
+}
+
+Document ReportParts::pictures(const std::vector<ShownPicture>& shown) {
+  Gallery gallery;
+  for (const auto& [record, figure, title, caption] : shown) {
+    if (!store_.intact(*figure)) continue;
+    const std::string file = picture_file(*figure);
+    links_.pictures.insert(file);
+    gallery.pictures.push_back({title, caption, file, "", run_links({record->run})});
+  }
+  if (gallery.pictures.empty()) return {};
+  return {std::move(gallery)};
+}
+
+bool ReportParts::write_ground_page(const Paper& paper, const PageLayout& layout, Document remarks,
+                                    std::string elsewhere, Link section) {
+  Document page{Heading{1, "Ground " + layout.label, "top"}, Paragraph{layout.about}};
+  append(page, std::move(remarks));
+  const std::size_t empty = page.size();
+  const auto add_part = [&](const char* heading, const char* id, Document blocks) {
+    if (blocks.empty()) return;
+    page.push_back(Heading{2, heading, id});
+    append(page, std::move(blocks));
+  };
+  add_part("Tables", "tables", tables(paper, layout.id));
+  add_part("Plots", "plots", plots(paper, layout.id));
+  Document shown;
+  const auto show = [&](std::span<const PageLayout::Drawn> cases) {
+    append(shown, pictures(drawn_pictures(store_, results_.profile, cases, layout.label)));
+  };
+  for (const PageLayout::Drawn& sheet : layout.sheets) show(std::span(&sheet, 1));
+  show(layout.pictures);
+  add_part("Pictures", "pictures", std::move(shown));
+  if (page.size() == empty) return false;
+  page.push_back(Heading{2, "Other pages", "pages"});
+  page.push_back(Paragraph{
+      std::move(elsewhere), false, {std::move(section), {"Report", "main"}, {"Ledger", "ledger.*"}}});
+  write_page(out_, ground_page(layout.id), page);
+  return true;
 }
 
 }  // namespace terrabench

@@ -1,43 +1,47 @@
-// The parts of the report's pages: each function writes the files of a table, plot or picture into the
-// report's folder and returns the block that shows it, with links to its files and to the runs that it came
-// from.
+// The parts of the report's pages: each function writes the files of tables or plots into the report's folder
+// and returns the blocks that show them, with links to their files and to the runs that they came from.
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "results/claims/layouts.h"
-#include "results/report/document.h"
-#include "results/store/store.h"
+#include "results/report/ledger.h"
+#include "results/report/shown_pictures.h"
 
 namespace terrabench {
 
 class ReportParts {
  public:
-  // `out`: the report's folder. The store must outlive the object. Reads every picture of the profile:
-  // O(pixels), in parallel.
-  ReportParts(const Store&, std::string profile, std::filesystem::path out);
+  // `out`: the report's folder. The store and the results must outlive the object.
+  ReportParts(const Store& store, const JudgedResults& results, std::filesystem::path out)
+      : store_(store), results_(results), out_(std::move(out)) {}
 
   // `runs`: ids of those that the table's figures come from; a link leads to the run on the main page.
-  TableBlock table(Table, const std::vector<std::string>& runs) const;
-  // Nothing if no series was measured: the paper's own curve is not shown alone.
-  std::optional<Gallery> plot(const PlotLayout&) const;
-  // Shows a small copy, which lies in the report's folder and moves with it, and links to the original
-  // outside it. Nothing if the picture is altered, damaged or gone.
-  std::optional<Picture> picture(const Record&, const RecordedFigure&, std::string title,
-                                 std::string caption) const;
+  TableBlock table(Table, const std::vector<std::string>& runs);
+  // The paper's tables and plots that stand on this page (TableLayout::page), without those of which nothing
+  // was measured.
+  Document tables(const Paper&, std::string_view page);
+  Document plots(const Paper&, std::string_view page);
+  // Shows pictures where they lie, outside the report's folder; one gallery, or nothing if all of them are
+  // altered or gone.
+  Document pictures(const std::vector<ShownPicture>&);
+  // All that belongs to a ground, as a page in both forms. `elsewhere`: what `section` of the main page
+  // holds, as words before the link to it. Returns whether there was anything to show.
+  bool write_ground_page(const Paper&, const PageLayout&, Document remarks, std::string elsewhere,
+                         Link section);
+
+  // Tables, plots and pictures so far. For the ledger, which links to them.
+  LedgerLinks& links() { return links_; }
 
  private:
   const Store& store_;
-  std::string profile_;
+  const JudgedResults& results_;
   std::filesystem::path out_;
-  // The small copies, by checksum and file of the picture. Altered pictures have none: the pages say at their
-  // top that they were altered. Those that cannot be read have an empty one.
-  std::map<std::pair<std::string, std::string>, std::string> previews_;
+  LedgerLinks links_;
 };
 
 }  // namespace terrabench

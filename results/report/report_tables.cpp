@@ -43,14 +43,20 @@ std::string url_path(std::string_view path) {
   return url;
 }
 
-std::string picture_name(const RecordedFigure& figure) {
-  constexpr std::string_view kFolder = "figures/", kEnding = ".png";
-  std::string_view name = figure.file;
-  // No name of the other kind begins with a slash.
-  if (!name.starts_with(kFolder) || !name.ends_with(kEnding)) return file_name(fmt::format("/{}", name));
-  name.remove_prefix(kFolder.size());
-  name.remove_suffix(kEnding.size());
-  return file_name(name);
+std::string ground_page(std::string_view ground) { return "ground-" + file_name(ground); }
+
+Table ground_table(std::string id, std::string title, std::span<const PageLayout> layouts) {
+  Table table{std::move(id),
+              std::move(title),
+              "Each has the tables, plots and pictures that show that ground alone.",
+              {{"Ground"}, {"What it is"}, {"As Markdown"}},
+              {}};
+  for (const PageLayout& layout : layouts) {
+    const std::string page = ground_page(layout.id);
+    table.rows.push_back(
+        {{layout.label, "", page + ".html"}, {layout.about}, {page + ".md", "", page + ".md"}});
+  }
+  return table;
 }
 
 std::string short_id(const std::string& run) { return run.substr(0, 8); }
@@ -143,6 +149,8 @@ Table pending_table(const JudgedResults& results) {
   return table;
 }
 
+namespace {
+
 Facts run_facts(const Provenance& run) {
   std::string libraries;
   for (const auto& [name, version] : run.libraries) {
@@ -163,6 +171,21 @@ Facts run_facts(const Provenance& run) {
     facts.lines.emplace_back("Times", fmt::format("untrustworthy: {}", fmt::join(run.timing_warnings, "; ")));
   }
   return facts;
+}
+
+}  // namespace
+
+Document provenance(const Store& store) {
+  Document document{Heading{2, "Provenance", "provenance"}};
+  std::vector<const Provenance*> runs;
+  for (const Record& record : store.records()) {
+    const Provenance* const run = store.run(record.run);
+    if (run == nullptr || std::ranges::count(runs, run) > 0) continue;
+    runs.push_back(run);
+    document.push_back(Heading{3, "Run " + short_id(run->id), run_anchor(run->id)});
+    document.push_back(run_facts(*run));
+  }
+  return document;
 }
 
 Table absence_table(const JudgedResults& results) {

@@ -27,16 +27,17 @@ std::string reported_text(const Claim&);
 std::string file_name(std::string_view id);
 // A relative path as part of a link: what is not a letter, a digit or one of "-._~/" is percent-encoded.
 std::string url_path(std::string_view path);
-// The name of a picture's copy, without an ending: its own, since two pictures may have one id, with its
-// folder where that is not figures/.
-std::string picture_name(const RecordedFigure&);
-// The report's copy, relative to the report's folder.
-inline std::string picture_file(const RecordedFigure& figure) {
-  return "figures/" + picture_name(figure) + ".webp";
-}
+// The name of a ground's page, without its extension: "ground-caves".
+std::string ground_page(std::string_view ground);
+// The pages of grounds with links to both forms, for the main page.
+Table ground_table(std::string id, std::string title, std::span<const PageLayout>);
 
-// Where the numbers come from: one run, and every case of a profile with its seed, terrain and parameters.
-Facts run_facts(const Provenance&);
+// The picture, relative to the report's folder.
+inline std::string picture_file(const RecordedFigure& figure) { return "../" + url_path(figure.file); }
+
+// Where the numbers come from: each run that a record names, and every case of a profile with its seed,
+// terrain and parameters.
+Document provenance(const Store&);
 // Cases without measurements and metrics without a value, by reason.
 Table absence_table(const JudgedResults&);
 Table input_table(const Store&, std::string_view profile);

@@ -1,6 +1,7 @@
 #include "results/report/shown_pictures.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "results/report/ground_name.h"
 
@@ -39,7 +40,11 @@ std::vector<ShownPicture> drawn_pictures(const Store& store, std::string_view pr
     const Record* const record = store.find(drawn.experiment, drawn.case_name, profile);
     if (record == nullptr) continue;
     for (const RecordedFigure& figure : record->figures) {
-      pictures.push_back({record, &figure, drawn.title, with_label(figure.caption, record->terrain, label)});
+      const auto labelled = [&](std::string text) {
+        return with_label(std::move(text), record->terrain, label);
+      };
+      pictures.push_back({record, &figure, labelled(record->experiment + " " + record->case_name),
+                          labelled(figure.caption)});
     }
   }
   return pictures;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "terrain/number.h"
+#include "terrain/separators.h"
 
 namespace terrabench {
 namespace {
@@ -37,12 +38,6 @@ bool is_formula(std::string_view text) {
          !parse_number<double>(text.substr(at + kBetween.size()));
 }
 
-std::string with_separators(std::string digits) {
-  const std::size_t sign = digits.starts_with('-') ? 1 : 0;
-  for (std::size_t at = digits.size(); at > sign + 3;) digits.insert(at -= 3, 1, ',');
-  return digits;
-}
-
 }  // namespace
 
 std::string format_number(double number) {
@@ -59,6 +54,35 @@ std::string format_quantity(double number, std::string_view unit) {
 }
 
 std::string format_exact(double number) { return fmt::format("{}", number); }
+
+std::size_t characters(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::vector<std::string> wrap(std::string_view text, std::size_t width) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    const std::string_view word = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (word.empty()) continue;
+    if (lines.empty() || characters(lines.back()) + 1 + characters(word) > width) {
+      lines.emplace_back(word);
+    } else {
+      lines.back().append(" ").append(word);
+    }
+  }
+  return lines;
+}
+
+std::string list_of(const std::vector<std::string>& parts, std::string_view between, std::string_view last) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i > 0) text += i + 1 == parts.size() ? last : between;
+    text += parts[i];
+  }
+  return text;
+}
 
 std::string escape_html(std::string_view text) {
   constexpr Replacement kHtml[] = {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "terrain/printable.h"
 
@@ -17,6 +18,14 @@ inline std::string format_count(std::uint64_t n) { return format_number(static_c
 std::string format_quantity(double, std::string_view unit);
 // The shortest digits that read back the same: for CSV.
 std::string format_exact(double);
+
+// Code points of UTF-8, each one column wide.
+std::size_t characters(std::string_view);
+// Lines of at most `width` characters, unless a word is longer: with 0, a line per word.
+std::vector<std::string> wrap(std::string_view text, std::size_t width);
+
+// "a, b and c": with `between` after each part but the last two, and `last` after the last but one.
+std::string list_of(const std::vector<std::string>& parts, std::string_view between, std::string_view last);
 
 std::string escape_html(std::string_view);  // also XML; what is not printable becomes spaces
 std::string escape_markdown(std::string_view);

@@ -94,15 +94,11 @@ class SweepCheck {
 };
 
 void check_same_case(const Source& kept, const Source& other) {
-  const auto sorted = [](auto parameters) {
-    std::ranges::sort(parameters);
-    return parameters;
-  };
   const Record &a = *kept.record, &b = *other.record;
   // A case that failed may not know its terrain's.
   const bool checksums = !a.terrain_checksum.empty() && !b.terrain_checksum.empty();
   const char* const what = checksums && a.terrain_checksum != b.terrain_checksum ? "terrain"
-                           : sorted(a.parameters) != sorted(b.parameters)        ? "parameters"
+                           : !same_values(a.parameters, b.parameters)            ? "parameters"
                                                                                  : nullptr;
   if (what == nullptr) return;
   throw bad_input(

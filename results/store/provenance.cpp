@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gdal_version.h>
 #include <png.h>
+#include <sched.h>
 #include <sys/utsname.h>
 #include <tbb/version.h>
 #include <vtkVersionMacros.h>
@@ -13,6 +14,7 @@
 #include <chrono>
 #include <fstream>
 #include <glm/detail/setup.hpp>
+#include <thread>
 #include <tuple>
 #if __has_include(<openvdb/version.h>)
 #include <openvdb/version.h>
@@ -21,7 +23,6 @@
 #include "results/build_info.h"
 #include "results/store/format.h"
 #include "results/store/record_json.h"
-#include "results/store/timing_conditions.h"
 #include "terrain/memory.h"
 
 namespace terrabench {
@@ -47,6 +48,15 @@ std::string operating_system() {
   const std::string system = value_in("/etc/os-release", "PRETTY_NAME", '=');
   return uname(&name) == 0 ? fmt::format("{}, {} {} {}", system, name.sysname, name.release, name.machine)
                            : system;
+}
+
+// Fewer than the machine's in a container or under taskset.
+int allowed_processors() {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  return sched_getaffinity(0, sizeof allowed, &allowed) == 0
+             ? std::max(1, CPU_COUNT(&allowed))
+             : static_cast<int>(std::thread::hardware_concurrency());
 }
 
 std::string utc_time() {
@@ -154,7 +164,8 @@ Provenance collect_provenance(const RunFacts& facts) {
     p.libraries.push_back(library);
   }
   std::sort(p.libraries.begin(), p.libraries.end());
-  p.timing_warnings = timing_warnings(read_timing_conditions());
+  if (p.build_type != "Release")
+    p.timing_warnings = {fmt::format("this is no release build ({}): times are longer", p.build_type)};
   p.id = digest(p);
   return p;
 }

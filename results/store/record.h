@@ -25,8 +25,6 @@ struct Metric {
   // The value varies from run to run on one machine although is_timing() of its unit is false: a ratio of
   // times, a fit through times, a peak of memory, the hits of a cache.
   bool varies = false;
-  // How many samples the first measurement gave, of a case that one run measured twice; 0: measured once.
-  std::size_t first_look = 0;
 };
 // Whether its samples vary from run to run of one program: by their unit, or because `varies` says so.
 inline bool timed(const Metric& metric) { return metric.varies || is_timing(metric.unit); }
@@ -37,7 +35,7 @@ struct RecordedFigure {
   std::string file;           // figures/hybrid.F3.png
   std::string caption;        // names the paper's figure and what is seen
   std::string checksum = "";  // of the file's bytes, so that another picture in its place is noticed
-  std::optional<FigureLayout> layout = {};  // what it contains; older stores have none
+  FigureLayout layout = {};   // what it contains
 };
 
 // Where numbers came from: one per run of the program. Each record names its run.
@@ -49,7 +47,7 @@ struct Provenance {
   std::uint64_t memory = 0;                                    // bytes of the machine
   std::string simd;                                            // instruction set chosen at run time
   std::vector<std::pair<std::string, std::string>> libraries;  // name, version
-  std::vector<std::string> timing_warnings;                    // timing_conditions.h; older stores have none
+  std::vector<std::string> timing_warnings;  // why its times are untrustworthy; older stores have none
 };
 
 // Whether times of the two runs can be compared, and a case of one need not be measured again in the other:
@@ -57,13 +55,24 @@ struct Provenance {
 // code, although they may differ, so that an interrupted run can be resumed.
 bool comparable(const Provenance&, const Provenance&);
 
+// Of parameters, in any order.
+using NamedValues = std::vector<std::pair<std::string, Value>>;
+inline bool same_values(NamedValues a, NamedValues b) {
+  std::ranges::sort(a);
+  std::ranges::sort(b);
+  return a == b;
+}
+
 // What became of a case. Only kMeasured has metrics and figures; the others give a reason instead.
 enum class CaseOutcome {
   kMeasured,
   kFailed,   // an error stopped it: measured again by --resume
   kSkipped,  // it cannot be measured, such as a method on ground that it cannot hold
 };
-std::string_view name(CaseOutcome);  // "failed"
+inline std::string_view name(CaseOutcome outcome) {
+  constexpr std::string_view kNames[] = {"measured", "failed", "skipped"};
+  return kNames[static_cast<std::size_t>(outcome)];
+}
 
 // Why a metric is absent: "skipped", "needs 2 × 2 samples"; or "not defined", "the ground is flat".
 struct WhyAbsent {
@@ -91,7 +100,11 @@ struct Record {
     return it == metrics.end() ? nullptr : &*it;
   }
   // Of a metric that find() does not find; nothing when the record does not say.
-  std::optional<WhyAbsent> why_absent(std::string_view metric) const;
+  std::optional<WhyAbsent> why_absent(std::string_view metric) const {
+    if (outcome != CaseOutcome::kMeasured) return WhyAbsent{name(outcome), reason};
+    const auto it = std::ranges::find(undefined, metric, &std::pair<std::string, std::string>::first);
+    return it == undefined.end() ? std::nullopt : std::optional(WhyAbsent{"not defined", it->second});
+  }
 };
 
 }  // namespace terrabench

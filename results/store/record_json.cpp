@@ -55,24 +55,27 @@ Json to_json(const Value& value, const std::string& name) {
   return std::visit([](const auto& v) { return Json(v); }, value);
 }
 
+constexpr std::pair<const char*, std::string Provenance::*> kRunTexts[] = {
+    {"time", &Provenance::time},
+    {"command", &Provenance::command},
+    {"git_revision", &Provenance::git_revision},
+    {"compiler", &Provenance::compiler},
+    {"flags", &Provenance::flags},
+    {"build_type", &Provenance::build_type},
+    {"cpu", &Provenance::cpu},
+    {"os", &Provenance::os},
+    {"gl_renderer", &Provenance::gl_renderer},
+    {"simd", &Provenance::simd}};
+
 Json to_json(const Provenance& p) {
   Json libraries = Json::object();
   for (const auto& [name, version] : p.libraries) libraries[name] = version;
   Json json = {{"kind", "run"},
-               {"time", p.time},
-               {"command", p.command},
-               {"git_revision", p.git_revision},
                {"git_dirty", p.git_dirty},
-               {"compiler", p.compiler},
-               {"flags", p.flags},
-               {"build_type", p.build_type},
-               {"cpu", p.cpu},
                {"threads", p.threads},
                {"memory", p.memory},
-               {"os", p.os},
-               {"gl_renderer", p.gl_renderer},
-               {"simd", p.simd},
                {"libraries", libraries}};
+  for (const auto& [name, member] : kRunTexts) json[name] = p.*member;
   if (!p.timing_warnings.empty()) json["timing_warnings"] = p.timing_warnings;
   return json;
 }
@@ -189,13 +192,8 @@ Metric metric_from(const Json& json, std::string& warning) {
             fmt::format("a sample of '{}' is an integer of more than 53 bits", metric.name));
   }
   if (fields.has("varies")) metric.varies = fields.flag("varies");
-  if (fields.has("first_look")) {
-    const std::uint64_t first = fields.natural("first_look");
-    require(first > 0 && first < metric.samples.size(),
-            fmt::format("'first_look' of '{}' is {}, and there are {} samples", metric.name, first,
-                        metric.samples.size()));
-    metric.first_look = first;
-  }
+  // Of older records: how many of the samples the first of two measurements gave.
+  if (fields.has("first_look")) fields.natural("first_look");
   fields.note_unknown(warning);
   return metric;
 }
@@ -213,10 +211,7 @@ FigureLayout layout_from(Fields& fields) {
   for (std::size_t i = 0; i < numbers.size(); i += 4) {
     layout.panels.push_back({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]});
   }
-  for (const Json& words : fields.array("words")) {
-    require(words.is_string(), "a figure's words are not text");
-    layout.words.push_back(words.get<std::string>());
-  }
+  layout.words = fields.texts("words");
   return layout;
 }
 
@@ -224,7 +219,7 @@ RecordedFigure figure_from(const Json& json, std::string& warning) {
   Fields fields(json, "a figure");
   RecordedFigure figure{fields.name("id"), fields.name("file"), fields.text("caption"),
                         fields.text("checksum")};
-  if (fields.has("panels")) figure.layout = layout_from(fields);
+  if (fields.has("panels")) figure.layout = layout_from(fields);  // older records may have none
   const std::filesystem::path path(figure.file);
   require(path.is_relative() && std::find(path.begin(), path.end(), "..") == path.end(),
           fmt::format("figure '{}' lies outside the results folder", figure.id));
@@ -275,12 +270,7 @@ Record record_from(Fields& fields, std::string& warning) {
   for (const auto& [name, value] : fields.object("parameters").items()) {
     record.parameters.emplace_back(name, value_from(value, name));
   }
-  // Records written before this field existed name overrides only at the end of the case.
-  if (fields.has("overrides")) {
-    record.overrides = fields.texts("overrides");
-  } else if (const std::size_t at = record.case_name.find(" ("); at != record.case_name.npos) {
-    record.overrides.push_back(record.case_name.substr(at + 2, record.case_name.size() - at - 3));
-  }
+  if (fields.has("overrides")) record.overrides = fields.texts("overrides");
   for (const Json& metric : fields.array("metrics")) record.metrics.push_back(metric_from(metric, warning));
   for (const Json& figure : fields.array("figures")) record.figures.push_back(figure_from(figure, warning));
   read_absences(fields, record);
@@ -289,21 +279,12 @@ Record record_from(Fields& fields, std::string& warning) {
 
 Provenance provenance_from(Fields& fields) {
   Provenance p;
-  p.time = fields.text("time");
-  p.command = fields.text("command");
-  p.git_revision = fields.text("git_revision");
+  for (const auto& [name, member] : kRunTexts) p.*member = fields.text(name);
   p.git_dirty = fields.flag("git_dirty");
-  p.compiler = fields.text("compiler");
-  p.flags = fields.text("flags");
-  p.build_type = fields.text("build_type");
-  p.cpu = fields.text("cpu");
   const std::uint64_t threads = fields.natural("threads");
   require(threads < 1'000'000, "'threads' is too large");
   p.threads = static_cast<int>(threads);
   p.memory = fields.natural("memory");
-  p.os = fields.text("os");
-  p.gl_renderer = fields.text("gl_renderer");
-  p.simd = fields.text("simd");
   for (const auto& [name, version] : fields.object("libraries").items()) {
     require(version.is_string(), fmt::format("the version of '{}' is not text", name));
     p.libraries.emplace_back(name, version.get<std::string>());
@@ -355,19 +336,17 @@ std::string to_line(const Record& record) {
     for (const double sample : metric.samples) check_finite(sample, where + metric.name);
     metrics.push_back({{"name", metric.name}, {"unit", metric.unit}, {"samples", metric.samples}});
     if (metric.varies) metrics.back()["varies"] = true;
-    if (metric.first_look > 0) metrics.back()["first_look"] = metric.first_look;
   }
   for (const RecordedFigure& figure : record.figures) {
     Json& entry = figures.emplace_back(Json{{"id", figure.id},
                                             {"file", figure.file},
                                             {"caption", figure.caption},
                                             {"checksum", figure.checksum}});
-    if (!figure.layout) continue;
     entry["panels"] = Json::array();
-    for (const FigurePanel& p : figure.layout->panels) {
+    for (const FigurePanel& p : figure.layout.panels) {
       for (const int number : {p.x, p.y, p.width, p.height}) entry["panels"].push_back(number);
     }
-    entry["words"] = figure.layout->words;
+    entry["words"] = figure.layout.words;
   }
   Json line({{"kind", "record"},
              {"schema", kSchema},

@@ -1,6 +1,6 @@
 // The lines of measurements.jsonl: one JSON object each, with a digest of its own content, so that a figure
-// altered by hand is found. Nothing here reads or writes files. docs/results.md and
-// docs/measurements.schema.json state every field; a test compares them with what is written.
+// altered by hand is found. Nothing here reads or writes files. docs/results.md states every field; a test
+// compares it with what is written.
 #pragma once
 
 #include <cstdint>

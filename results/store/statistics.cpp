@@ -112,6 +112,10 @@ Summary summarise_ratio(std::span<const double> numerator, std::span<const doubl
   return with_interval(std::min(numerator.size(), denominator.size()), ratio, draws);
 }
 
+bool differ(const Summary& ratio, double margin) {
+  return (ratio.low > 1 && ratio.median >= margin) || (ratio.high < 1 && ratio.median <= 1 / margin);
+}
+
 bool is_timing(std::string_view unit) {
   // "exponent" is the unit of an exponent: the slope of a time's logarithm.
   constexpr std::array<std::string_view, 8> kUnits = {"s",  "ms", "µs",       "us",

@@ -106,12 +106,6 @@ class LockedFile {
   int descriptor_ = -1;
 };
 
-using Named = std::vector<std::pair<std::string, Value>>;
-Named by_name(Named parameters) {
-  std::sort(parameters.begin(), parameters.end());
-  return parameters;
-}
-
 }  // namespace
 
 Store::Store(std::filesystem::path folder) : folder_(std::move(folder)), file_(folder_ / kMeasurements) {
@@ -160,9 +154,8 @@ void Store::read(std::string_view content) {
   }
   for (std::size_t i = 0; i < records_.size(); ++i) {
     if (run(records_[i].run) != nullptr) continue;
-    faults_.push_back(fmt::format("{}: {} {} names a run that is not in the file", file_.string(),
-                                  records_[i].experiment, records_[i].case_name));
-    warnings_.push_back(faults_.back());
+    note_fault(fmt::format("{}: {} {} names a run that is not in the file", file_.string(),
+                           records_[i].experiment, records_[i].case_name));
   }
   if (records_.empty() && runs_.empty() && !faults_.empty()) {
     throw bad_input("holds no measurements", file_.string(), "the first fault: " + faults_.front());
@@ -174,10 +167,7 @@ void Store::read_line(std::string_view text) {
   try {
     Line line = parse_line(text, where);
     if (!line.warning.empty()) warnings_.push_back(where + ": " + line.warning);
-    if (line.altered) {
-      faults_.push_back(where + ": altered: the digest does not match the content");
-      warnings_.push_back(faults_.back());
-    }
+    if (line.altered) note_fault(where + ": altered: the digest does not match the content");
     if (auto* record = std::get_if<Record>(&line.content)) {
       keep(std::move(*record), line.altered);
     } else {
@@ -186,24 +176,27 @@ void Store::read_line(std::string_view text) {
   } catch (const NewerSchema&) {
     throw;
   } catch (const Error& error) {
-    faults_.push_back(fmt::format("{}; the line is not used", error.what()));
-    warnings_.push_back(faults_.back());
+    note_fault(fmt::format("{}; the line is not used", error.what()));
   }
+}
+
+void Store::note_fault(const std::string& fault) {
+  faults_.push_back(fault);
+  warnings_.push_back(fault);
 }
 
 void Store::keep(Record record, bool altered) {
   profile_ = record.profile;
   const auto [at, added] =
       places_.try_emplace({record.experiment, record.case_name, record.profile}, records_.size());
-  if (!added) {
-    records_[at->second] = std::move(record);
-    altered_[at->second] = altered;
-    lines_[at->second] = last_line_;
-    return;
+  if (added) {
+    records_.emplace_back();
+    altered_.emplace_back();
+    lines_.emplace_back();
   }
-  records_.push_back(std::move(record));
-  altered_.push_back(altered);
-  lines_.push_back(last_line_);
+  records_[at->second] = std::move(record);
+  altered_[at->second] = altered;
+  lines_[at->second] = last_line_;
 }
 
 void Store::add_run(Provenance run) {
@@ -280,7 +273,7 @@ const Record* Store::find(const CaseKey& key, const Provenance& now) const {
   if (record == nullptr || altered(*record)) return nullptr;
   const Provenance* const measured_under = run(record->run);
   if (measured_under == nullptr || !comparable(*measured_under, now)) return nullptr;
-  if (record->seed != key.seed || by_name(record->parameters) != by_name(key.parameters)) return nullptr;
+  if (record->seed != key.seed || !same_values(record->parameters, key.parameters)) return nullptr;
   if (key.terrain_checksum && record->terrain_checksum != *key.terrain_checksum) return nullptr;
   const bool pictures =
       std::ranges::all_of(record->figures, [&](const RecordedFigure& figure) { return intact(figure); });

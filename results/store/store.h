@@ -86,6 +86,7 @@ class Store {
  private:
   void read(std::string_view content);
   void read_line(std::string_view text);
+  void note_fault(const std::string& fault);
   void keep(Record record, bool altered);
   void add_run(Provenance);
   std::size_t index(const Record& record) const {

@@ -2,16 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "terrain/error.h"
 #include "terrain/events/evaluate.h"
 #include "terrain/sources/fractal/diamond_square.h"
-#include "terrain/spelling.h"
-#include "terrain/toml.h"
+#include "terrain/toml_table.h"
 
 namespace terrabench::events {
 namespace {
@@ -21,97 +18,25 @@ constexpr int kMostSamples = 8193;  // per side
 
 std::string place(const std::string& origin, std::size_t line) { return fmt::format("{}:{}", origin, line); }
 
-[[noreturn]] void fail(const toml::node& node, const std::string& origin, std::string_view what,
-                       std::string_view advice) {
-  throw bad_input(what, place(origin, node.source().begin.line), advice);
+Kind kind_of(TomlReader& entry) {
+  std::vector<std::string_view> names;
+  for (int k = 0; k < kKinds; ++k) names.push_back(name(static_cast<Kind>(k)));
+  return static_cast<Kind>(entry.word("kind", names));
 }
 
-// Reads the keys of one table by type; a key that was not read is an error.
-class Entry {
- public:
-  Entry(const toml::table& table, const std::string& origin) : table_(table), origin_(origin) {}
-
-  const toml::node* find(std::string_view key) {
-    known_.insert(key);
-    return table_.get(key);
+void read(TomlReader& entry, std::string_view key, double& value) { value = entry.number(key); }
+void read(TomlReader& entry, std::string_view key, std::uint64_t& value) {
+  value = static_cast<std::uint64_t>(entry.integer_or(key, 0, 0, INT64_MAX));
+}
+template <class Vector>
+void read(TomlReader& entry, std::string_view key, Vector& point) {
+  point = entry.vector<Vector>(key);
+}
+void read(TomlReader& entry, std::string_view key, std::vector<glm::dvec2>& points, const std::string& file) {
+  for (const toml::node& node : entry.list(key)) {
+    const toml::array& pair = list_of(node, file, key, 2);
+    points.emplace_back(number_of(pair[0], file, key), number_of(pair[1], file, key));
   }
-  const toml::node& get(std::string_view key) {
-    const toml::node* const node = find(key);
-    if (node == nullptr) fail(table_, origin_, missing_key(key, table_), "add it");
-    return *node;
-  }
-  std::string text(std::string_view key) {
-    const toml::node& node = get(key);
-    if (!node.is_string()) fail(node, origin_, fmt::format("'{}' must be text", key), "put it in quotes");
-    return node.ref<std::string>();
-  }
-  std::int64_t integer_or(std::string_view key, std::int64_t fallback, std::int64_t lowest,
-                          std::int64_t highest) {
-    const toml::node* const node = find(key);
-    if (node == nullptr) return fallback;
-    if (!node->is_integer() || node->ref<std::int64_t>() < lowest || node->ref<std::int64_t>() > highest) {
-      fail(*node, origin_, fmt::format("'{}' must be an integer from {} to {}", key, lowest, highest),
-           "correct the value");
-    }
-    return node->ref<std::int64_t>();
-  }
-  void read(std::string_view key, double& value) { value = number_of(get(key), key); }
-  void read(std::string_view key, std::uint64_t& value) {
-    value = static_cast<std::uint64_t>(integer_or(key, 0, 0, INT64_MAX));
-  }
-  void read(std::string_view key, glm::dvec2& point) { point = pair_of(get(key), key); }
-  void read(std::string_view key, glm::dvec3& point) {
-    const toml::array& array = list_of(get(key), key, 3);
-    point = {number_of(array[0], key), number_of(array[1], key), number_of(array[2], key)};
-  }
-  void read(std::string_view key, std::vector<glm::dvec2>& points) {
-    for (const toml::node& node : list_of(get(key), key, 0)) points.push_back(pair_of(node, key));
-  }
-  void refuse_unknown() const {
-    for (const auto& [key, value] : table_) {
-      if (known_.contains(key.str())) continue;
-      fail(value, origin_,
-           unknown_key(key.str(), std::vector<std::string_view>(known_.begin(), known_.end())),
-           fmt::format("known: {}", fmt::join(known_, ", ")));
-    }
-  }
-
- private:
-  double number_of(const toml::node& node, std::string_view key) const {
-    const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!value) fail(node, origin_, fmt::format("expected a number in '{}'", key), "write a number here");
-    return *value;
-  }
-  // Of any size when `size` is 0.
-  const toml::array& list_of(const toml::node& node, std::string_view key, std::size_t size) const {
-    const toml::array* const array = node.as_array();
-    if (array == nullptr || (size > 0 && array->size() != size)) {
-      fail(node, origin_,
-           fmt::format("expected a list of {} in '{}'", size > 0 ? fmt::format("{} numbers", size) : "points",
-                       key),
-           "write numbers in square brackets");
-    }
-    return *array;
-  }
-  glm::dvec2 pair_of(const toml::node& node, std::string_view key) const {
-    const toml::array& array = list_of(node, key, 2);
-    return {number_of(array[0], key), number_of(array[1], key)};
-  }
-
-  const toml::table& table_;
-  const std::string& origin_;
-  std::set<std::string_view> known_;
-};
-
-Kind kind_of(Entry& entry, const toml::table& table, const std::string& origin) {
-  const std::string text = entry.text("kind");
-  std::vector<std::string_view> names;
-  for (int k = 0; k < kKinds; ++k) {
-    if (name(static_cast<Kind>(k)) == text) return static_cast<Kind>(k);
-    names.push_back(name(static_cast<Kind>(k)));
-  }
-  fail(*table.get("kind"), origin, fmt::format("unknown kind of event '{}'", text),
-       fmt::format("known: {}", fmt::join(names, ", ")));
 }
 
 constexpr bool kOptional = true;
@@ -143,15 +68,18 @@ Event default_event(Kind kind) {
 }
 
 Event event_from(const toml::node& node, const std::string& origin) {
-  if (!node.is_table()) fail(node, origin, "an event must be a table", "begin each with [[event]]");
-  const toml::table& table = *node.as_table();
-  Entry entry(table, origin);
-  Event event = default_event(kind_of(entry, table, origin));
-  const auto read = [&](std::string_view key, auto& field, bool optional = false) {
-    if (!optional || entry.find(key) != nullptr) entry.read(key, field);
+  TomlReader entry(node, origin, "event");
+  Event event = default_event(kind_of(entry));
+  const auto read_field = [&](std::string_view key, auto& field, bool optional = false) {
+    if (optional && !entry.has(key)) return;
+    if constexpr (requires { field.push_back({}); }) {
+      read(entry, key, field, origin);
+    } else {
+      read(entry, key, field);
+    }
   };
-  std::visit([&](auto& e) { each_field(e, read); }, event);
-  entry.refuse_unknown();
+  std::visit([&](auto& e) { each_field(e, read_field); }, event);
+  entry.done();
   return event;
 }
 
@@ -196,25 +124,23 @@ Script parse_script(std::string_view text, const std::string& origin) {
                     origin, "split it, or remove events");
   }
   const toml::table file = parse_toml(text, origin, "correct the file");
-  Entry entry(file, origin);
+  TomlReader entry(file, origin, "file");
   Script script;
   script.terrain = entry.text("terrain");
   script.seed = static_cast<std::uint64_t>(entry.integer_or("seed", 0, 0, INT64_MAX));
   script.size = static_cast<int>(entry.integer_or("size", 0, 2, kMostSamples));
   if (const toml::node* const events = entry.find("event"); events != nullptr) {
-    if (!events->is_array())
-      fail(*events, origin, "'event' must be a list of tables", "begin each event with [[event]]");
-    const toml::array& list = *events->as_array();
+    const toml::array& list = list_of(*events, origin, "event", 0);
     if (list.size() > kMostEvents) {
-      fail(list, origin, fmt::format("there must be at most {} events, got {}", kMostEvents, list.size()),
-           "remove some");
+      fail_at(list, origin, fmt::format("there must be at most {} events, got {}", kMostEvents, list.size()),
+              "remove some");
     }
     for (const toml::node& node : list) {
       script.events.push_back(event_from(node, origin));
       script.lines.push_back(static_cast<int>(node.source().begin.line));
     }
   }
-  entry.refuse_unknown();
+  entry.done();
   return script;
 }
 

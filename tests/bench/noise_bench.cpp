@@ -1,5 +1,5 @@
 // Noise compared with libnoise on the same fractals and points, and the cave terrain column by column.
-// times_libnoise is the ratio of thread times measured in the same run.
+// vs_libnoise is the ratio of thread times measured in the same run.
 #include <benchmark/benchmark.h>
 #include <hwy/targets.h>
 #include <libnoise/noise.h>
@@ -138,7 +138,7 @@ void ours(benchmark::State& state, Case of, std::int64_t target) {
     benchmark::DoNotOptimize(out.data());
   });
   state.SetLabel(std::string(noise::simd_name()));
-  state.counters["times_libnoise"] = best / g_libnoise[of.subject][of.where];
+  state.counters["vs_libnoise"] = best / g_libnoise[of.subject][of.where];
 }
 
 // All n³ samples, on all cores; cpu_s is the time of all threads together.

@@ -162,7 +162,7 @@ std::vector<Ray> rays_over(const Cast& cast, bool along) {
   return rays;
 }
 
-// `of Embree`: the ratio of both rates, measured one after the other.
+// `vs_embree`: our rate over Embree's, measured one after the other.
 void own_rays(benchmark::State& state, const std::string& name, bool along) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const Cast& cast = cast_of(name);
@@ -179,7 +179,7 @@ void own_rays(benchmark::State& state, const std::string& name, bool along) {
   const auto n = static_cast<double>(rays.size()), rounds = static_cast<double>(state.iterations());
   state.counters["rays/s"] = n * rounds / own;
   state.counters["Embree rays/s"] = n * rounds / embree;
-  state.counters["of Embree"] = embree / own;
+  state.counters["vs_embree"] = embree / own;
   state.counters["make s"] = cast.own_seconds;
   state.counters["Embree make s"] = cast.index_seconds;
   state.counters["MB"] = 1e-6 * static_cast<double>(cast.own->bytes());

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "experiments/drill/analysis.h"
+#include "experiments/drill/drawn_channels.h"
 #include "experiments/figures/maps.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/hydrology/channels.h"
@@ -92,13 +93,42 @@ std::vector<std::string> faults_of_channels(const SheetReader& shown, const Stud
 }
 
 TEST(DrillFigures, ChannelsOverTheRelief) {
-  const SheetReader shown = read(channels_sheet(grounds().study()));
+  const SheetReader shown = read(channels_sheet(grounds().study()).sheet);
   EXPECT_EQ(faults_of_channels(shown, grounds().study()), std::vector<std::string>{});
   EXPECT_EQ(shown.fault_of_panels(declared_panels("drill.F1")), "");
   // Another ground; and the right ground with the channels of the other.
-  EXPECT_GE(faults_of_channels(read(channels_sheet(grounds().mirrored())), grounds().study()).size(), 8U);
+  EXPECT_GE(faults_of_channels(read(channels_sheet(grounds().mirrored()).sheet), grounds().study()).size(),
+            8U);
   const Study mixed{grounds().one, grounds().other_network, kVariants[0], "hills", ""};
-  EXPECT_GE(faults_of_channels(read(channels_sheet(mixed)), grounds().study()).size(), 4U);
+  EXPECT_GE(faults_of_channels(read(channels_sheet(mixed).sheet), grounds().study()).size(), 4U);
+}
+
+TEST(DrillFigures, NetworksOfOtherMethodsAreToldFromChannels) {
+  const ChannelsSheet drawn = channels_sheet(grounds().study());
+  const DrawnChannels seen = read_channels(drawn.maps, grounds().one);
+  for (std::size_t map = 0; map < kDrawnTaus.size(); ++map) {
+    EXPECT_EQ(seen.pixels[map], channel_pixels(grounds().network, kDrawnTaus[map]).size());
+  }
+  EXPECT_EQ(seen.outside_denser + seen.inland, 0U);
+  EXPECT_GT(seen.low_share, 1.2 * seen.low_share_of_ground);
+  // Cells that are deeper than wide: a panel has more rows of pixels than samples.
+  Heightfield oblong = grounds().one;
+  oblong.cell_z *= 1.07F;
+  const Study study{oblong, grounds().network, kVariants[0], "hills", ""};
+  EXPECT_EQ(read_channels(channels_sheet(study).maps, oblong).pixels, seen.pixels);
+  // Those of another ground are networks, but do not lie in this ground's valleys.
+  EXPECT_LT(read_channels(drawn.maps, grounds().other).low_share, 1.2 * seen.low_share_of_ground);
+  // Thresholds in another order.
+  std::vector<Image> reversed(drawn.maps.rbegin(), drawn.maps.rend());
+  EXPECT_GT(read_channels(reversed, grounds().one).outside_denser, 100U);
+  // As many pixels, but no network.
+  Image moved = drawn.maps[0];
+  for (int y = 0; y < moved.height; ++y) {
+    for (int x = 0; x < moved.width; ++x) {
+      moved.set(x, y, drawn.maps[0].pixel(x * 37 % moved.width, y * 29 % moved.height));
+    }
+  }
+  EXPECT_GT(read_channels({moved}, grounds().one).inland, 100U);
 }
 
 Outcome outcome_at(const Study& study, const Setting& setting) {
@@ -158,6 +188,8 @@ TEST(DrillFigures, TerrainsOfLeastErrorAndTheirDifference) {
     const BestSheets best = best_sheets(study, rmse, ahd);
     EXPECT_EQ(faults_of_best(best, study, rmse, ahd), std::vector<std::string>{});
     EXPECT_EQ(read(best.terrains).fault_of_panels(declared_panels("drill.F3")), "");
+    EXPECT_EQ(best.drawn[0].rmse, rmse.rmse);
+    EXPECT_EQ(best.drawn[1].ahd, ahd.ahd);
     EXPECT_EQ(read(best_sheets(study, rmse, rmse).terrains).fault_of_panels(2),
               "panels 1 and 2 show the same");
     if (!variant.is_first()) continue;

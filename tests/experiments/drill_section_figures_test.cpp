@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <numbers>
 #include <set>
@@ -11,6 +12,7 @@
 
 #include "experiments/drill/cutting_planes.h"
 #include "tests/experiments/drill_figure_grounds.h"
+#include "tests/terrain/temporary_folder.h"
 
 namespace terrabench::drill {
 namespace {
@@ -146,6 +148,27 @@ TEST(DrillFigures, CrossSectionsTheirUnionAndFit) {
             std::vector<std::string>{});
   EXPECT_NE(faults_of_sections(cross_sections_sheet(grounds().mirrored(), pixel), study.ground, pixel),
             std::vector<std::string>{});
+}
+
+TEST(DrillFigures, OnlyAUnionOfSectionsAndLeastSquaresGiveTheRecordedNumbers) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "figures");
+  Record record;
+  Recorder recorder(record, folder.path());
+  draw_cross_sections(grounds().study(), recorder);
+  const auto value = [&](std::string_view metric) { return record.find(metric)->samples[0]; };
+  EXPECT_EQ(value("drawn_sections_above_union"), 0);
+  EXPECT_EQ(value("drawn_union_on_sections"), 20);
+  EXPECT_EQ(value("drawn_union_off_ground"), 0);
+  EXPECT_LT(value("drawn_rms_printed"), value("drawn_rms_vertex"));
+  EXPECT_LE(value("drawn_rms_printed"), value("drawn_rms_monotone"));
+  EXPECT_LT(value("drawn_rms_vertex"), value("drawn_rms_level"));
+  // Worked out once more.
+  const std::vector<double> united = union_at(grounds().one, example_pixel(grounds().study()), 20);
+  const std::vector<double> fitted = parabola(united);
+  double squares = 0;
+  for (std::size_t r = 1; r <= 20; ++r) squares += std::pow(fitted[r] - united[r], 2);
+  EXPECT_NEAR(value("drawn_rms_printed"), std::sqrt(squares / 20), 1e-3);
 }
 
 // How much redder than green a pixel is.

@@ -13,6 +13,7 @@
 #include "results/store/statistics.h"
 #include "terrain/error.h"
 #include "terrain/files.h"
+#include "tests/experiments/value.h"
 
 namespace terrabench::cross {
 namespace {
@@ -209,11 +210,6 @@ class EqualError : public ::testing::TestWithParam<std::string_view> {
     Progress progress;
     compared.measure(at, {}, recorder, progress);
     return record;
-  }
-  static double value(const Record& record, std::string_view metric) {
-    const Metric* const found = record.find(metric);
-    EXPECT_NE(found, nullptr) << metric;
-    return found == nullptr ? -1 : summarise(found->samples).median;
   }
 };
 

@@ -31,10 +31,9 @@ TEST_P(ErrorMaps, ShowEveryTypeWithItsBytesAndItsError) {
   maps.measure(at, {}, recorder, progress);
   ASSERT_EQ(record.figures.size(), 1U);
   const std::filesystem::path file = folder.path() / record.figures[0].file;
-  const auto layout = read_layout(file);
-  ASSERT_TRUE(layout);
-  EXPECT_EQ(layout->panels.size(), representations().size());
-  EXPECT_EQ(layout_fault(*layout, read_png(file)), "");
+  const FigureLayout& layout = record.figures[0].layout;
+  EXPECT_EQ(layout.panels.size(), representations().size());
+  EXPECT_EQ(layout_fault(layout, read_png(file)), "");
   const Metric *const kept = record.find("columns"), *const lost = record.find("lost_columns");
   ASSERT_TRUE(kept != nullptr && lost != nullptr);
   EXPECT_GT(kept->samples[0], 80 * 70);
@@ -44,7 +43,7 @@ TEST_P(ErrorMaps, ShowEveryTypeWithItsBytesAndItsError) {
       const Metric* const found = record.find(std::string(type.name) + metric);
       ASSERT_NE(found, nullptr) << type.name;
       EXPECT_GT(found->samples[0], 0) << type.name;
-      EXPECT_TRUE(says(*layout, found->samples[0])) << type.name << metric;
+      EXPECT_TRUE(says(layout, found->samples[0])) << type.name << metric;
     }
   }
 }

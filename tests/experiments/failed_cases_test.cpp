@@ -38,8 +38,7 @@ class FailedCases : public CommandLine {
 
 TEST_F(FailedCases, RatiosToAReliefOfZeroAreNotDefined) {
   write_grid("flat.asc", 12, 12, [](int, int) { return 5.0; });
-  const Outcome run =
-      call("$T run cross.representations --terrain flat.asc --set rays=64 --again 0 --out out");
+  const Outcome run = call("$T run cross.representations --terrain flat.asc --set rays=64 --out out");
   EXPECT_EQ(run.code, 0) << run.text;
   const Store store = results();
   const Record& asked = record(store, "cross.representations", "flat.asc/heightmap/rmse=0.5% (rays=64)");
@@ -57,8 +56,7 @@ TEST_F(FailedCases, RatiosToAReliefOfZeroAreNotDefined) {
 
 TEST_F(FailedCases, ATypeThatCannotHoldTheGroundIsSkipped) {
   write_grid("small.asc", 3, 2, [](int i, int j) { return 2.0 * i + j; });
-  const std::string command =
-      "$T run cross.representations --terrain small.asc --set rays=64 --again 0 --out out";
+  const std::string command = "$T run cross.representations --terrain small.asc --set rays=64 --out out";
   const Outcome run = call(command);
   EXPECT_EQ(run.code, 0) << run.text;
   const Store store = results();
@@ -76,15 +74,14 @@ TEST_F(FailedCases, ATypeThatCannotHoldTheGroundIsSkipped) {
 
 TEST_F(FailedCases, AReliefOfATypeThatCannotHoldTheGroundIsSkipped) {
   write_grid("small.asc", 3, 2, [](int i, int j) { return 2.0 * i + j; });
-  const Outcome run =
-      call("$T run overview.relief --terrain small.asc --set width=64,height=64 --again 0 --out out");
+  const Outcome run = call("$T run overview.relief --terrain small.asc --set width=64,height=64 --out out");
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_THAT(run.text, AllOf(HasSubstr("skipped ("), HasSubstr("overview.relief small.asc/drill")));
 }
 
 TEST_F(FailedCases, AFailedCaseIsRecordedListedAndMeasuredAgain) {
   const std::string command =
-      "$T run hybrid.fresnel cross.lod-seams --terrain jacksboro --set path=missing.toml --again 0 --out out";
+      "$T run hybrid.fresnel cross.lod-seams --terrain jacksboro --set path=missing.toml --out out";
   const Outcome run = call(command);
   EXPECT_EQ(run.code, 5) << run.text;
   const Store store = results();

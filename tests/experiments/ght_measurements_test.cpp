@@ -173,6 +173,7 @@ TEST_F(Measured, CountsAreThePapers) {
   EXPECT_EQ(metric("added_on_root"), 2);
   EXPECT_EQ(metric("added_on_block"), 2);
   EXPECT_EQ(metric("host_depth_on_block"), 1);
+  EXPECT_NEAR(metric("largest_share_on_root"), 0.5, 0.01);
   run("ght.counts", "cave");
   EXPECT_EQ(metric("added_sides_3"), 5);
   EXPECT_EQ(metric("added_sides_12"), 14);
@@ -184,8 +185,13 @@ TEST_F(Measured, CellsAreThoseOfTheRules) {
   EXPECT_GT(metric("hosts_below_root"), metric("hosts_below_those"));
   run("ght.cells", "links");
   EXPECT_EQ(metric("wrong_heights"), 0);
-  EXPECT_EQ(metric("endless_as_printed"), metric("cells_over_links"));
   EXPECT_LT(metric("forgotten_heights"), metric("cells_over_links"));
+  run("ght.cells", "interpolated");
+  EXPECT_EQ(metric("wrong_interpolated"), 0);
+  EXPECT_GT(metric("unlike_nearest"), 0.5 * metric("interpolated_cells"));
+  run("ght.cells", "null-links");
+  EXPECT_EQ(metric("mouth_without_null"), 0);
+  EXPECT_EQ(metric("null_links"), metric("empty_cells"));
   run("ght.cells", "walls");
   EXPECT_GT(metric("near_correlation"), 0.8);
   EXPECT_LT(std::abs(metric("far_correlation")), 0.3);

@@ -5,6 +5,7 @@
 
 #include "experiments/experiment.h"
 #include "results/store/statistics.h"
+#include "tests/experiments/value.h"
 
 namespace terrabench {
 namespace {
@@ -25,12 +26,6 @@ Record measured(std::string_view id, std::string_view case_name, std::string_vie
   }
   ADD_FAILURE() << "no case " << case_name;
   return {};
-}
-
-double value(const Record& record, std::string_view metric) {
-  const Metric* const found = record.find(metric);
-  EXPECT_NE(found, nullptr) << metric;
-  return found == nullptr ? -1 : found->samples.front();
 }
 
 TEST(HybridRim, HasNoOpeningsUnlessItIsOnlyCut) {

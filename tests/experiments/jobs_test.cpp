@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "experiments/runner.h"
-#include "experiments/timing.h"
 #include "results/store/statistics.h"
 #include "results/store/store.h"
 #include "tests/experiments/command_line.h"
@@ -35,7 +34,7 @@ TEST(Timing, UntimedCasesRecordedNoTimeInTheReference) {
   const Store reference = Store::open(TERRABENCH_SOURCE_DIR "/results/reference");
   std::size_t timed = 0, untimed = 0;
   for (const Record& record : reference.records()) {
-    if (records_times(experiment(record.experiment)) &&
+    if (experiment(record.experiment).kind != Experiment::kUntimed &&
         !untimed_cases.contains({record.experiment, record.case_name})) {
       ++timed;
       continue;
@@ -55,12 +54,12 @@ TEST(Timing, PartsOfAPlanAreTheWholeAndShardsCountWithinAPart) {
   plan.part = Part::kTimed;
   const std::size_t timed = plan_cases(plan).size();
   for (const PlannedCase& planned : plan_cases(plan)) {
-    EXPECT_TRUE(records_times(*planned.experiment, planned.at));
+    EXPECT_TRUE(planned.experiment->timed(planned.at));
   }
   plan.part = Part::kUntimed;
   const std::size_t untimed = plan_cases(plan).size();
   for (const PlannedCase& planned : plan_cases(plan)) {
-    EXPECT_FALSE(records_times(*planned.experiment, planned.at));
+    EXPECT_FALSE(planned.experiment->timed(planned.at));
   }
   EXPECT_EQ(timed + untimed, all);
   EXPECT_GT(timed, 0U);
@@ -97,10 +96,8 @@ TEST_F(CommandLine, JobsRecordTheSameInOneRun) {
 // The first process that the run starts is not the case's: it finds out the provenance. It has ended when
 // there are results.
 TEST_F(CommandLine, ACaseOfScaleIsMeasuredInAProcessOfItsOwn) {
-  EXPECT_TRUE(in_fresh_process(experiment("cross.scale")));
-  EXPECT_FALSE(in_fresh_process(experiment("hybrid.table2")));
   const Outcome killed = call(
-      "$T run cross.scale --shard 1/20 --set largest=4097,seconds=1000 --out out & run=$!\n"
+      "$T run --profile scale --shard 1/20 --set largest=4097,seconds=1000 --out out & run=$!\n"
       "for try in $(seq 3000); do [ -s out/measurements.jsonl ] && break; sleep 0.01; done\n"
       "for try in $(seq 300); do\n"
       "  kill -KILL $(grep -ls \"^PPid:.$run\\$\" /proc/[0-9]*/status | cut -d/ -f3) && break; sleep 0.01\n"
@@ -118,8 +115,8 @@ TEST_F(CommandLine, CtrlCDuringACaseOfScaleLeavesNoTemporaryFiles) {
     return std::distance(std::filesystem::directory_iterator(folder_ / "tmp"), {});
   };
   std::filesystem::create_directory(folder_ / "tmp");
-  const pid_t child =
-      start("TMPDIR=$PWD/tmp exec $T run cross.scale --shard 1/20 --set largest=4097,seconds=1000 --out out");
+  const pid_t child = start(
+      "TMPDIR=$PWD/tmp exec $T run --profile scale --shard 1/20 --set largest=4097,seconds=1000 --out out");
   for (int i = 0; i < 600 && entries() == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   EXPECT_GT(entries(), 0);
   kill(-child, SIGINT);

@@ -11,6 +11,7 @@
 #include "experiments/cross/lod/tuned_cases.h"
 #include "results/claims/claims.h"
 #include "results/store/statistics.h"
+#include "tests/experiments/value.h"
 
 namespace terrabench::cross {
 namespace {
@@ -81,11 +82,6 @@ class TunedCase : public ::testing::TestWithParam<std::string> {
     Progress progress;
     compared.measure(at, {}, recorder, progress);
     return record;
-  }
-  static double value(const Record& record, std::string_view metric) {
-    const Metric* const found = record.find(metric);
-    EXPECT_NE(found, nullptr) << metric;
-    return found == nullptr ? -1 : summarise(found->samples).median;
   }
   static bool is_brute() { return GetParam() == "brute_force"; }
 };

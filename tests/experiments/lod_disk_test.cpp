@@ -23,7 +23,7 @@ class LodDisk : public CommandLine {
  protected:
   void SetUp() override { fs::create_directories(temporary_); }
   std::string run(const std::string& rest) const {
-    return "TMPDIR=" + temporary_.string() + " exec $T run cross.lod-disk --again 0 --out out " + rest;
+    return "TMPDIR=" + temporary_.string() + " exec $T run cross.lod-disk --out out " + rest;
   }
   double only(const Record& record, std::string_view metric) const {
     const Metric* const found = record.find(metric);

@@ -19,7 +19,7 @@ class LodEndless : public CommandLine {
 
 TEST_F(LodEndless, FliesAndComesHome) {
   const Outcome outcome = call(
-      "exec $T run cross.lod-endless --again 0 --out out --set window=31 --set distance=40 --set step=500 "
+      "exec $T run cross.lod-endless --out out --set window=31 --set distance=40 --set step=500 "
       "--set far=20");
   ASSERT_EQ(outcome.code, 0) << outcome.text;
   const Store store = Store::open(folder_ / "out");

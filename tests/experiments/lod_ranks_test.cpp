@@ -7,7 +7,7 @@
 #include <string>
 
 #include "experiments/cross/lod/tuned_cases.h"
-#include "experiments/cross/representations/ranks.h"
+#include "experiments/cross/ranks.h"
 #include "lod/meters/screen_error.h"
 #include "results/claims/claims.h"
 #include "results/store/statistics.h"

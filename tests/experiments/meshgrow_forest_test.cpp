@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "experiments/meshgrow/forest_scene.h"
+#include "renderers/raytrace/raytraced_picture.h"
 #include "terrain/error.h"
 
 namespace terrabench::meshgrow {
@@ -68,6 +69,36 @@ TEST(LazyForest, ZeroInstancesShowTheGround) {
   EXPECT_GT(std::count(picture.objects.begin(), picture.objects.end(), 1U), 0);
   EXPECT_EQ(lazy.expanded().parts, 0U);
   EXPECT_THROW(Forest({.instances = 1'000'000'000}), Error);
+}
+
+// Each level with fewer leaves covers as much of a picture as the level with all of them, unsmoothed.
+TEST(ForestPlants, KeepTheirCoverWithFewerLeaves) {
+  const Forest forest({.instances = 16});
+  const growing::PlantedScene& plants = forest.plants();
+  std::vector<bool> seen(plants.models().size());
+  for (std::uint32_t i = 0; i < plants.instances().size(); ++i) {
+    const std::uint32_t model = plants.instances()[i].model;
+    if (seen[model]) continue;
+    seen[model] = true;
+    auto covered = [&, view = View{}](std::size_t level) mutable {
+      const ModelMesh mesh = triangles_of(plants.expand(i, level).mesh);
+      if (view.target.y == 0) view = overview(bounds_of(mesh.mesh), 96, 96, {0, 0.3F, 1});
+      RayScene scene;
+      scene.add_placed({.mesh = &mesh.mesh});
+      RaytracedPicture picture(scene, view, {.samples = 1, .bounces = 0});
+      picture.accumulate();
+      double count = 0;
+      for (int pixel = 0; pixel < 96 * 96; ++pixel)
+        count += picture.object(pixel % 96, pixel / 96) != 0 ? 1 : 0;
+      return count;
+    };
+    const auto& growth = plants.models()[model].growth;
+    const std::size_t last = static_cast<std::size_t>(std::ranges::count(growth, 0U)) - 1;
+    const double whole = covered(last);
+    for (std::size_t level = last + 1; level < growth.size(); ++level) {
+      EXPECT_NEAR(covered(level), whole, 0.1 * whole) << plants.models()[model].name << ", level " << level;
+    }
+  }
 }
 
 }  // namespace

@@ -42,10 +42,9 @@ TEST(MeshgrowModelFigures, OnlySharpEdgesHaveSeveralNormals) {
   };
   const std::vector<glm::vec3> flat = normals_of(0.2F), sharp = normals_of(2);
   EXPECT_EQ(flat.size(), 6U);
-  // Between the two faces' normals, though not in the middle: a quadrilateral may have one triangle at a
-  // corner or two.
-  EXPECT_GT(flat[2].y, 0.99F);
-  EXPECT_LT(flat[0].y, 0.985F);
+  // Each quadrilateral has a right angle at the ridge, whether one of its triangles lies there or both.
+  for (const int v : {2, 3}) EXPECT_NEAR(flat[v].y, 1, 1e-6F);
+  EXPECT_NEAR(flat[0].y, 1 / std::sqrt(1.04F), 1e-6F);
   ASSERT_EQ(sharp.size(), 8U);
   for (const glm::vec3& normal : sharp) EXPECT_NEAR(normal.y, 1 / std::sqrt(5.0F), 1e-6F);
 }
@@ -76,7 +75,6 @@ TEST(MeshgrowModelFigures, EveryLevelLeavesOutStepsOfAPaintedModel) {
   EXPECT_THROW(painted("palm"), Error);
 }
 
-// With two paths per pixel the noise is many times the difference that spikes make from afar.
 TEST(MeshgrowLevels, ErrorsAreThoseOfTheModelsWithoutTheNoiseOfTheirPictures) {
   const Experiment& levels = experiment("meshgrow.lod");
   const auto errors = [&](std::string_view left_out, std::int64_t samples) {

@@ -124,14 +124,21 @@ int profile_faults(const SheetReader& shown, std::span<const float> profile) {
 
 TEST(MrbspFigures, Figure2ShowsTheProfileItsNumbersAndTheCellsThatChange) {
   const std::vector<ProfileStep> steps = steps_of(table1_profile(), Mode::kFacing);
-  const SheetReader shown(profile_sheet(table1_profile(), steps));
+  const ProfileSheet drawn = profile_sheet(table1_profile(), steps);
+  EXPECT_EQ(drawn.fine_segments, 16);
+  EXPECT_EQ(drawn.coarse_segments, 4);
+  EXPECT_EQ(drawn.cells, 8);
+  EXPECT_EQ(drawn.dark_cells, 6);
+  const SheetReader shown(drawn.sheet);
   EXPECT_EQ(profile_faults(shown, table1_profile()), 0);
   EXPECT_EQ(shown.fault_of_panels(declared_panels("mrbsp.F2")), "");
   std::vector<float> other(table1_profile().begin(), table1_profile().end());
   other[6] += 2;
-  EXPECT_GT(profile_faults(SheetReader(profile_sheet(other, steps)), table1_profile()), 0);
+  EXPECT_GT(profile_faults(SheetReader(profile_sheet(other, steps).sheet), table1_profile()), 0);
   const std::vector<ProfileStep> none(steps.size());
-  EXPECT_GT(profile_faults(SheetReader(profile_sheet(table1_profile(), none)), table1_profile()), 0);
+  const ProfileSheet unchanging = profile_sheet(table1_profile(), none);
+  EXPECT_EQ(unchanging.dark_cells, 0);
+  EXPECT_GT(profile_faults(SheetReader(unchanging.sheet), table1_profile()), 0);
 }
 
 struct LodReading {
@@ -196,8 +203,8 @@ TEST(MrbspFigures, Figure1ShowsAHoleAndTheStepThatClosesIt) {
   Progress progress;
   const TerrainSource source = open_ground("real-257", 1);
   const Heightfield& ground = *source.heights;
-  Mrbsp open(ground, {.depth = kDepth, .conforming = false, .leave_holes = true}, progress);
-  Mrbsp closed(ground, {.depth = kDepth, .conforming = false}, progress);
+  Mrbsp open(ground, {.depth = kDepth, .holes = HoleRule::kNone}, progress);
+  Mrbsp closed(ground, {.depth = kDepth, .holes = HoleRule::kPrinted}, progress);
   const View view = lod_view(ground, open);
   for (const double size : {1.0, 2.0}) {
     const LodSheet sheet = lod_sheet(ground, size, {}, progress);
@@ -214,17 +221,20 @@ TEST(MrbspFigures, Figure1ShowsAHoleAndTheStepThatClosesIt) {
     EXPECT_EQ(without.wrong, 0);
     EXPECT_GE(without.distinct.size(), 3U);
     EXPECT_EQ(without.marked, 1);
-    EXPECT_GT(sheet.without.painted, 10000U);
+    EXPECT_GT(sheet.without.hole_pixels, 10000U);
     // Wires and labels lie over some of the painted pixels.
-    EXPECT_GT(without.painted, sheet.without.painted * 8 / 10);
-    EXPECT_LE(without.painted, sheet.without.painted);
-    EXPECT_LE(sheet.without.painted, sheet.without.bare);  // the meter counts holes behind hills too
-    EXPECT_GT(sheet.without.painted, sheet.without.bare * 8 / 10);
+    EXPECT_GT(without.painted, sheet.without.hole_pixels * 8 / 10);
+    EXPECT_LE(without.painted, sheet.without.hole_pixels);
+    EXPECT_LE(sheet.without.hole_pixels,
+              sheet.without.bare_pixels);  // the meter counts holes behind hills too
+    EXPECT_GT(sheet.without.hole_pixels, sheet.without.bare_pixels * 8 / 10);
     const LodReading with =
         read_lod(shown, shown.pictures[1], ground, closed.update(view), view, closed.short_side());
     EXPECT_EQ(with.wrong, 0);
     EXPECT_EQ(with.painted, 0U);
-    EXPECT_EQ(sheet.with.painted + sheet.with.bare, 0U);
+    EXPECT_LT(sheet.without.triangles, sheet.with.triangles);
+    EXPECT_EQ(sheet.threshold_beside, sheet.threshold_at_right_angle + 1);
+    EXPECT_EQ(sheet.with.hole_pixels + sheet.with.bare_pixels, 0U);
   }
 }
 

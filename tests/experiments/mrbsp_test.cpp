@@ -12,6 +12,7 @@
 #include "lod/mrbsp/surface_height.h"
 #include "lod/mrbsp/visibility/coarse_squares.h"
 #include "terrain/error.h"
+#include "tests/experiments/value.h"
 #include "tests/terrain/temporary_folder.h"
 
 namespace terrabench::mrbsp {
@@ -32,14 +33,6 @@ class MrbspExperiments : public testing::Test {
     measured.measure({"tiny", {measured.parameters, given}, std::string(terrain)}, RunOptions{}, recorder,
                      progress);
     return record;
-  }
-  static double value(const Record& record, std::string_view metric) {
-    const Metric* const found = record.find(metric);
-    if (found == nullptr || found->samples.empty()) {
-      ADD_FAILURE() << metric << " was not measured";
-      return 0;
-    }
-    return found->samples.front();
   }
 
   TemporaryFolder folder_;
@@ -65,8 +58,8 @@ TEST_F(MrbspExperiments, AWalkIsCountedAndTimedInOrder) {
   EXPECT_LT(value(record, "lod_frame_share"), 1);
   EXPECT_EQ(value(record, "triangles_shown"), 2 * 119 * 90);
   EXPECT_EQ(value(record, "time_share_brute"), 1);
-  EXPECT_NEAR(value(record, "time_both_to_vis") * value(record, "time_share_vis"),
-              value(record, "time_share_both"), 1e-9);
+  const auto first = [&](const char* metric) { return record.find(metric)->samples.at(0); };
+  EXPECT_NEAR(first("time_both_to_vis") * first("time_share_vis"), first("time_share_both"), 1e-9);
 }
 
 // On small ground 64² cells are single samples, and fewer cells draw more.

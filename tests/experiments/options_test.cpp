@@ -77,11 +77,11 @@ TEST_F(Options, NumbersAreNumbersAndNothingIsEmpty) {
       if (option.type == "UINT") expect_refused(start, option, "-1");
     }
   }
-  // --again, --jobs, --threads and --seed of run; --budget-bytes, --max-rmse, --crop, --resample, --erode,
+  // --jobs, --threads and --seed of run; --budget-bytes, --max-rmse, --crop, --resample, --erode,
   // --samples, --threads and --seed of represent; --frames, --detail, --eye, --look-at, --up, --fov,
   // --seconds,
   // --samples, --threads and --seed of render.
-  EXPECT_GE(numbers, 22U);
+  EXPECT_GE(numbers, 21U);
   EXPECT_GE(texts, 20U);
 }
 

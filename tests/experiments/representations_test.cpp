@@ -14,6 +14,7 @@
 #include "results/claims/ranking.h"
 #include "results/store/statistics.h"
 #include "terrain/files.h"
+#include "tests/experiments/value.h"
 
 namespace terrabench::cross {
 namespace {
@@ -38,12 +39,6 @@ Record measure(std::string_view type, const std::string& terrain, double share, 
   Progress progress;
   compared.measure(at, {}, recorder, progress);
   return record;
-}
-
-double value(const Record& record, std::string_view metric) {
-  const Metric* const found = record.find(metric);
-  EXPECT_NE(found, nullptr) << metric;
-  return found == nullptr ? -1 : summarise(found->samples).median;
 }
 
 TEST(RepresentationCases, NameEveryTypeAndTheLedgerReadsThem) {

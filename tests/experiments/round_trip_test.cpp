@@ -7,17 +7,12 @@
 #include "experiments/experiment.h"
 #include "representations/export/export.h"
 #include "terrain/error.h"
+#include "tests/experiments/value.h"
 
 namespace terrabench::cross {
 namespace {
 
 constexpr std::string_view kId = "cross.round-trip";
-
-double value(const Record& record, std::string_view metric) {
-  const Metric* const found = record.find(metric);
-  EXPECT_NE(found, nullptr) << metric;
-  return found == nullptr ? -1 : found->samples.at(0);
-}
 
 // On the first 40² samples; levels of 6 m.
 Record measure(const Case& listed) {

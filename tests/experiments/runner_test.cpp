@@ -22,7 +22,7 @@ std::vector<std::string> names(const RunPlan& plan) {
 }
 
 TEST(Plan, ExperimentIdsAndCasesAreUnique) {
-  for (const Profile profile : {Profile::kQuick, Profile::kPaper}) {
+  for (const Profile profile : {Profile::kQuick, Profile::kPaper, Profile::kScale}) {
     RunPlan plan;
     plan.options.profile = profile;
     const auto all = names(plan);
@@ -37,6 +37,23 @@ TEST(Plan, PaperProfileHasThePrintedSizes) {
   plan.patterns = {"hybrid.table1"};
   EXPECT_EQ(names(plan),
             (std::vector<std::string>{"hybrid.table1 n=128", "hybrid.table1 n=256", "hybrid.table1 n=512"}));
+}
+
+TEST(Plan, GrowthWithSizeIsMeasuredInAProfileOfItsOwn) {
+  RunPlan plan;
+  plan.patterns = {"cross.*"};
+  for (const Profile profile : {Profile::kQuick, Profile::kPaper}) {
+    plan.options.profile = profile;
+    for (const std::string& name : names(plan)) EXPECT_FALSE(name.starts_with("cross.scale ")) << name;
+  }
+  plan.options.profile = Profile::kScale;
+  EXPECT_FALSE(names(plan).empty());
+  for (const std::string& name : names(plan)) EXPECT_TRUE(name.starts_with("cross.scale ")) << name;
+  plan.patterns = {"hybrid.table1"};
+  EXPECT_THROW(plan_cases(plan), Error);
+  plan.options.profile = Profile::kQuick;
+  plan.patterns = {"cross.scale"};
+  EXPECT_THROW(plan_cases(plan), Error);
 }
 
 TEST(Plan, ShardsPartitionTheCases) {

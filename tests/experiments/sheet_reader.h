@@ -51,9 +51,9 @@ class SheetReader {
     }
     if (!with_file) return;
     const TemporaryFolder folder;
-    sheet.write(folder / "sheet.png");
+    sheet.write({folder / "sheet.png"});
     image = read_png(folder / "sheet.png");
-    layout = read_layout(folder / "sheet.png").value_or(FigureLayout());
+    layout = sheet.layout();
     bytes = std::filesystem::file_size(folder / "sheet.png");
   }
 

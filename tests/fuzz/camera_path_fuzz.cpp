@@ -12,13 +12,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   ground.depth = 2;
   ground.heights = {1, 2, 3, 4, 5, 6};
   try {
-    views(parse_camera_path({reinterpret_cast<const char*>(data), size}, "fuzz", "fuzz"), ground);
+    views(parse_camera_path(fuzz_text(data, size), "fuzz", "fuzz"), ground);
   } catch (const Error&) {
   }
   return 0;
 }
 
-std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
+FuzzSeeds fuzz_seeds() {
   constexpr std::string_view kHead = R"(field_of_view = 60
 screen = [800, 600]
 frames_per_second = 25
@@ -35,7 +35,7 @@ near = 0.1
       "k\u00efnd = 1\n",
       "kind = \u03c4\n",  // beyond ASCII: toml++ 3.3.0 alone has undefined behaviour here
       "'kind' = \"\"\"\\\n \u00e9\"\"\" # \u03c4\n"};
-  std::vector<std::vector<std::uint8_t>> seeds;
+  FuzzSeeds seeds;
   for (const std::string_view path : kPaths) {
     std::vector<std::uint8_t> seed(kHead.begin(), kHead.end());
     seed.insert(seed.end(), path.begin(), path.end());

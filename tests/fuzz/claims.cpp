@@ -31,6 +31,7 @@ check = [{equal = ["e/c/m", 3]}, {order = [1, "e/c/m"]}, {within = ["e/c/m"], ra
 px = ["1", "2"]
 on = [{name = "a", at = "b"}]
 of = ["x", "y"]
+out = {of = "on", with = ["at"], without = ["a"], except = []}
 [[claim]]
 each = ["on", "px"]
 id = "p.{on}.{px}"

@@ -60,7 +60,7 @@ void require(bool holds) {
 
 }  // namespace
 
-std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
+FuzzSeeds fuzz_seeds() {
   GDALAllRegister();
   return {
       written_seed(kTif, "GTiff", "COMPRESS=NONE"),

@@ -45,8 +45,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
-  std::vector<std::vector<std::uint8_t>> seeds;
+FuzzSeeds fuzz_seeds() {
+  FuzzSeeds seeds;
   for (const int size : {1, 5, 24}) {
     Heightfield field{size, size + 2, 30, 20, {}, {}};
     for (int i = 0; i < size * (size + 2); ++i) {

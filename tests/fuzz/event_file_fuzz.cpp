@@ -27,7 +27,7 @@ void evaluate_columns(const Script& script) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    const Script script = parse_script({reinterpret_cast<const char*>(data), size}, "fuzz");
+    const Script script = parse_script(fuzz_text(data, size), "fuzz");
     const std::string text = to_text(script);
     if (to_text(parse_script(text, "copy")) != text) std::abort();
     evaluate_columns(script);
@@ -36,7 +36,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
+FuzzSeeds fuzz_seeds() {
   constexpr std::string_view kSeeds[] = {
       R"(terrain = "t"
 seed = 1
@@ -91,7 +91,5 @@ section = [[-1, 0], [1, 0], [0, 1]]
       "\"t\u00e9\" = 1\n",  // beyond ASCII: toml++ 3.3.0 alone has undefined behaviour for some of them
       "t\u00e9 = 1\n",     "terrain = \u03c4\n",
       "seed = 1\u00a1\n",  "terrain = \"\"\"\\\n \u00e9\"\"\" # \u03c4\nsize = 65\n"};
-  std::vector<std::vector<std::uint8_t>> seeds;
-  for (const std::string_view seed : kSeeds) seeds.emplace_back(seed.begin(), seed.end());
-  return seeds;
+  return seeds_of(kSeeds);
 }

@@ -65,7 +65,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
+FuzzSeeds fuzz_seeds() {
   using namespace terrabench::events;
   const std::vector<std::vector<Event>> sequences = {
       {},
@@ -73,7 +73,7 @@ std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
       {LinearErosion{{7, 7}, {10, 9}, 1, 40}, RadialErosion{{9, 10, 9}, {4, 3, 3}}},
       {DipFault{true, {6, 7}, {11, 9}, 3, 1, 50}},
       {LateralFault{{6, 7}, {11, 9}, 3, 2}, DipFault{false, {5, 8}, {11, 8}, 3, 1, 60}}};
-  std::vector<std::vector<std::uint8_t>> seeds;
+  FuzzSeeds seeds;
   const auto add = [&](const Heightfield& field, std::span<const Event> sequence) {
     Ght tree(ght::SampleGrid{field.width, field.depth, 1, 1, 0, 0}, field.heights, -10);
     for (const Event& event : sequence) tree.apply(event);

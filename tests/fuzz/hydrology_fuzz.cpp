@@ -83,8 +83,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
-  std::vector<std::vector<std::uint8_t>> seeds;
+FuzzSeeds fuzz_seeds() {
+  FuzzSeeds seeds;
   for (const float scale : {1.0F, 0.3F, 1e-42F, 1e36F}) {
     std::vector<std::uint8_t> seed{23};
     for (unsigned i = 0; i < 24 * 20; ++i) {

@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace terrabench;
   using namespace terrabench::growing;
   try {
-    Model model = parse_model({reinterpret_cast<const char*>(data), size}, "fuzz");
+    Model model = parse_model(fuzz_text(data, size), "fuzz");
     const Limits limits{.faces = 2000, .steps = 30};
     if (model.base.faces() > limits.faces) return 0;
     model.limits = limits;
@@ -28,8 +28,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
-  std::vector<std::vector<std::uint8_t>> seeds;
+FuzzSeeds fuzz_seeds() {
+  FuzzSeeds seeds;
   for (const std::string& name : terrabench::growing::model_names()) {
     const std::string_view text = terrabench::growing::model_text(name);
     seeds.emplace_back(text.begin(), text.end());

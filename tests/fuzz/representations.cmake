@@ -2,4 +2,3 @@ terrabench_fuzz(representations_fuzz SOURCES representations_fuzz.cpp LIBRARIES 
 terrabench_fuzz(drill_codec_fuzz SOURCES drill_codec_fuzz.cpp LIBRARIES representations)
 terrabench_fuzz(ght_codec_fuzz SOURCES ght_codec_fuzz.cpp LIBRARIES representations)
 terrabench_fuzz(model_fuzz SOURCES model_fuzz.cpp LIBRARIES representations)
-terrabench_fuzz(span_table_fuzz SOURCES span_table_fuzz.cpp LIBRARIES representations)

@@ -62,7 +62,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
+FuzzSeeds fuzz_seeds() {
   TerrainSource boxes, heights;
   boxes.name = heights.name = "seed";
   boxes.solid = Solid{{{0, 0, 0}, {20, 40, 20}}, "", [](const ColumnSamples& at, std::span<Material> out) {
@@ -77,7 +77,7 @@ std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
   TerrainSource model =
       model_on_ground("[limits]\nfaces = 500\n[base]\nshape = \"cube\"\n[[step]]\nsubdivide = 1\n", "model",
                       source_of("ground", Heightfield::zeros(3, 3, 2, 2)), std::nullopt);
-  std::vector<std::vector<std::uint8_t>> seeds;
+  FuzzSeeds seeds;
   Progress progress;
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
   for (std::size_t t = 0; t < representations().size(); ++t) {

@@ -11,7 +11,7 @@ using terrabench::Line;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    const Line line = terrabench::parse_line({reinterpret_cast<const char*>(data), size}, "fuzz");
+    const Line line = terrabench::parse_line(fuzz_text(data, size), "fuzz");
     const std::string again =
         std::visit([](const auto& content) { return terrabench::to_line(content); }, line.content);
     if (terrabench::parse_line(again, "again").altered) std::abort();
@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
+FuzzSeeds fuzz_seeds() {
   terrabench::Record record;
   record.experiment = "e";
   record.case_name = "c";
@@ -31,7 +31,7 @@ std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
   record.figures = {{"p.F1", "figures/p.F1.png", "caption", "0123"}};
   terrabench::Provenance run;
   run.libraries = {{"GDAL", "3.6.2"}};
-  std::vector<std::vector<std::uint8_t>> seeds;
+  FuzzSeeds seeds;
   for (const std::string& line : {terrabench::to_line(record), terrabench::to_line(run)}) {
     seeds.emplace_back(line.begin(), line.end());
   }

@@ -61,8 +61,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-std::vector<std::vector<std::uint8_t>> fuzz_seeds() {
-  std::vector<std::vector<std::uint8_t>> seeds;
+FuzzSeeds fuzz_seeds() {
+  FuzzSeeds seeds;
   for (const ChangeTable& table : {some_table(8, 1), some_table(3, 4)}) {
     std::vector<std::uint8_t>& text = seeds.emplace_back(1, std::uint8_t{0});
     const std::string words = encode_text(table);

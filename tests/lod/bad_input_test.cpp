@@ -24,14 +24,6 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kLargest = std::numeric_limits<float>::max();
 
-std::vector<glm::vec3> corners_of(const Frame& frame) {
-  std::vector<glm::vec3> corners;
-  triangles(frame, [&](std::span<const glm::vec3> some) {
-    corners.insert(corners.end(), some.begin(), some.end());
-  });
-  return corners;
-}
-
 double plan_area(const std::vector<glm::vec3>& corners) {
   double area = 0;
   for (std::size_t k = 0; k < corners.size(); k += 3) {

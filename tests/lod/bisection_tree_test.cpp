@@ -80,35 +80,29 @@ TEST(BisectionTree, EveryDepthIsRightAngledEqualAndCounterClockwise) {
     EXPECT_EQ(sum, 2LL * 16 * 16);
     const BisectionTree shallow(4, depth);
     EXPECT_EQ(corners.size(), shallow.vertices());
-    for (int j = 0; j <= 16; ++j) {
-      for (int i = 0; i <= 16; ++i) EXPECT_EQ(corners.count({i, j}) == 1, shallow.has_vertex({i, j}));
-    }
   }
 }
 
-// A vertex's depth and parents, against all triangles that it splits.
+// A vertex's parents, against all triangles that it splits.
 TEST(BisectionTree, ParentsAreTheRightAnglesOfTheTrianglesSplit) {
   const BisectionTree tree(4, 9);
-  std::map<Place, std::pair<int, std::set<Place>>> splits;
+  std::map<Place, std::set<Place>> splits;
   for (int depth = 1; depth < 9; ++depth) {
     for (const PlanTriangle& t : bisect(tree, depth)) {
-      auto& [split_depth, parents] = splits[key((t.left + t.right) / 2)];
-      split_depth = depth;
+      std::set<Place>& parents = splits[key((t.left + t.right) / 2)];
       if (depth > 1) parents.insert(key(t.apex));
     }
   }
   EXPECT_EQ(splits.size(), 17U * 17 - 4);
   for (const auto& [at, expected] : splits) {
     const glm::ivec2 vertex(at.first, at.second);
-    EXPECT_EQ(tree.split_depth(vertex), expected.first);
     const auto parents = tree.parents(vertex);
     std::set<Place> found;
     for (int k = 0; k < parents.count; ++k) found.insert(key(parents.at[k]));
-    EXPECT_EQ(found, expected.second) << at.first << ", " << at.second;
+    EXPECT_EQ(found, expected) << at.first << ", " << at.second;
   }
   for (const glm::ivec2 corner : {glm::ivec2(0, 0), {16, 0}, {0, 16}, {16, 16}}) {
     EXPECT_EQ(tree.parents(corner).count, 0);
-    EXPECT_EQ(tree.split_depth(corner), 0);
   }
 }
 

@@ -268,7 +268,7 @@ TEST(CameraPath, RefusesGarbageByLine) {
   };
   refused("[10, 20]", "[nan, 20]", 7, "'at'");
   refused("[10, 20]", "[10, inf]", 7, "'at'");
-  refused("[10, 20]", "[10]", 7, "pair");
+  refused("[10, 20]", "[10]", 7, "list of 2");
   refused("[10, 20]", "[10, \"x\"]", 7, "'at'");
   refused("[10, 20]", "[20, 20]", 8, "must differ");
   refused("speed = 4", "speed = 0", 10, "'speed'");
@@ -277,11 +277,11 @@ TEST(CameraPath, RefusesGarbageByLine) {
   refused("frames_per_second", "frames_per_secnd", 1, "by 'frames_per_secnd' in line 4?");
   refused("\nat = [20, 20]", "\natt = [20, 20]", 8, "is it meant by 'att' in line 9?");
   refused("speed = 4", "look_ta = [4, 4]", 10, "did you mean 'look_at'?");
-  refused("speed = 4", "up = [0, 0, -1]", 10, "'up' has no meaning here");
-  refused("speed = 2", "speed = 2\nup = [0, 1]", 6, "three numbers");
+  refused("speed = 4", "up = [0, 0, -1]", 10, "unknown key 'up'");
+  refused("speed = 2", "speed = 2\nup = [0, 1]", 6, "list of 3");
   refused("speed = 2", "speed = 2\nup = [0, 1, nan]", 6, "'up'");
   refused("speed = 2", "speed = 2\nshrink = 1", 6, "true or false");
-  refused("speed = 2", "speed = 2\nunit = \"extent\"\nshrink = true", 7, "'shrink' has no meaning here");
+  refused("speed = 2", "speed = 2\nunit = \"extent\"\nshrink = true", 7, "unknown key 'shrink'");
   refused("speed = 2", "speed = 2\nnear = 0", 6, "'near'");
   refused("speed = 4", "speed = ", 10, "");
   refused("speed = 4", "heading = 4", 8, "all keyframes must");

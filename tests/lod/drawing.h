@@ -25,6 +25,15 @@ inline View from_above(const Heightfield& field) {
   return view;
 }
 
+// Of all triangles that the frame draws.
+inline std::vector<glm::vec3> corners_of(const Frame& frame) {
+  std::vector<glm::vec3> corners;
+  triangles(frame, [&](std::span<const glm::vec3> some) {
+    corners.insert(corners.end(), some.begin(), some.end());
+  });
+  return corners;
+}
+
 // Builds a frame over a field triangle by triangle.
 class Drawing {
  public:

@@ -27,14 +27,6 @@ std::vector<View> path_over(const Heightfield& field) {
   return some;
 }
 
-std::vector<glm::vec3> corners_of(const Frame& frame) {
-  std::vector<glm::vec3> corners;
-  triangles(frame, [&](std::span<const glm::vec3> some) {
-    corners.insert(corners.end(), some.begin(), some.end());
-  });
-  return corners;
-}
-
 class EachMethod : public ::testing::TestWithParam<Variant> {
  protected:
   std::unique_ptr<Lod> build() { return test::build(GetParam(), field_, silent_); }

@@ -90,12 +90,4 @@ inline std::size_t openings_inside(const Heightfield& field, const Frame& frame)
   return inside;
 }
 
-inline std::vector<glm::vec3> corners_of(const Frame& frame) {
-  std::vector<glm::vec3> corners;
-  triangles(frame, [&](std::span<const glm::vec3> some) {
-    corners.insert(corners.end(), some.begin(), some.end());
-  });
-  return corners;
-}
-
 }  // namespace terrabench::test

@@ -33,7 +33,7 @@ MrbspOptions options_of(bool area, bool conforming, int depth = 0) {
   MrbspOptions options;
   options.depth = depth;
   options.area_consistent = area;
-  options.conforming = conforming;
+  options.holes = conforming ? HoleRule::kConforming : HoleRule::kPrinted;
   return options;
 }
 

@@ -145,18 +145,5 @@ TEST(Sky, TheSunIsWhiteAtTheZenithAndRedAtTheHorizon) {
   EXPECT_EQ(low.x, 1);
 }
 
-TEST(RayScene, HeightfieldsBecomeTrianglesWithoutTheHoles) {
-  Heightfield field = Heightfield::zeros(4, 3, 2, 5);
-  field.at(1, 1) = 7;
-  EXPECT_EQ(terrain_triangles(field).triangles(), 12U);
-  EXPECT_EQ(terrain_triangles(field).positions[5], glm::vec3(2, 7, 5));
-  EXPECT_GT(terrain_triangles(field).normals[0].y, 0.5F);
-  field.at(0, 0) = Heightfield::kNoData;
-  const TriangleMesh holed = terrain_triangles(field);
-  EXPECT_EQ(holed.triangles(), 10U);
-  EXPECT_NO_THROW(RayIndex{holed});
-  EXPECT_EQ(terrain_triangles(Heightfield::zeros(1, 1)).triangles(), 0U);
-}
-
 }  // namespace
 }  // namespace terrabench

@@ -122,5 +122,11 @@ TEST_F(PlantedFault, AWrongBoundaryLink) {
   EXPECT_EQ(check_boundary_links(model_).wrong, 2U);
 }
 
+TEST(GhtFacts, HaveThousandsSeparators) {
+  const Ght ght({129, 129, 1, 1, 0, 0}, std::vector<float>(129 * 129, 5.0F), 0);
+  const auto facts = ght.facts();
+  EXPECT_EQ(facts.at(1).second, "16,641 heights, 0 links, 0 void");
+}
+
 }  // namespace
 }  // namespace terrabench::test

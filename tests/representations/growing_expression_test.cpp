@@ -7,7 +7,6 @@
 #include <random>
 
 #include "representations/procedural_mesh/growing/expression.h"
-#include "representations/procedural_mesh/growing/hashing.h"
 #include "terrain/error.h"
 
 namespace terrabench::growing {

@@ -42,12 +42,6 @@ auto columns(const std::string& line) {
   return std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
 }
 
-std::size_t count(const std::string& text, std::string_view what) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + 1)) ++n;
-  return n;
-}
-
 TEST_F(CheckOutput, OneLinePerMeasuredClaimFitsTheWidth) {
   const JudgedResults results = passing();
   for (const int width : {80, 100}) {

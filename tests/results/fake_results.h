@@ -30,11 +30,19 @@ Record fake_record(const Provenance&, std::string experiment, std::string case_n
                    std::string profile = "quick");
 void add(Record&, std::string metric, std::string unit, std::vector<double> samples);
 
+// The paper "p" with these entries of a claims file.
+Paper paper_of(std::string_view entries);
+// The paper with one claim, "p.1", of this class: its `check`, and further lines after it.
+Paper paper_with_claim(std::string_view type, std::string_view check, std::string_view more = "");
+
 // The papers that write_fake_results() measures.
 std::span<const Paper> faked_papers();
 
 // All that the hybrid experiments measure in this profile, figures included, every known verdict met.
 void write_fake_results(const std::filesystem::path& folder, const std::string& profile);
+
+// How often a text holds a part.
+std::size_t count(std::string_view text, std::string_view part);
 
 // Replaces one stretch of the measurements file, as an editor would.
 void edit(const std::filesystem::path& file, std::string_view from, std::string_view to);

@@ -9,13 +9,11 @@ namespace {
 
 // One claims file with a plot of these series.
 Paper with_series(const std::string& series) {
-  return parse_claims(
-      "paper = \"p\"\ntitle = \"t\"\nsource = \"s\"\n"
+  return paper_of(
       "[[plot]]\nid = \"p.plot\"\ntitle = \"t\"\ncaption = \"c\"\nx = {label = \"error\", unit = \"px\"}\n"
       "y = {label = \"time\", unit = \"ms\"}\n"
       "series = [" +
-          series + "]\n",
-      "test");
+      series + "]\n");
 }
 
 using LayoutTest = FolderTest;
@@ -76,14 +74,12 @@ TEST_F(LayoutTest, RowsMayNameTheMetricOfAColumn) {
   add(record, "build_slope", "", {1.5});
   add(record, "query_slope", "", {0.25});
   store.append(record);
-  const Paper paper = parse_claims(
-      "paper = \"p\"\ntitle = \"t\"\nsource = \"s\"\n"
+  const Paper paper = paper_of(
       "[[table]]\nid = \"p.t\"\ntitle = \"t\"\ncaption = \"c\"\nexperiment = \"e\"\nrows_title = \"r\"\n"
       "rows = [{label = \"a\", case = \"c\", cost = \"build\"}, {label = \"b\", case = \"c\", cost = "
       "\"query\"}, "
       "{label = \"d\", case = \"c\"}, {label = \"not run\", case = \"x\", cost = \"build\"}]\n"
-      "columns = [{title = \"slope\", metric = \"<cost>_slope\"}]\n",
-      "test");
+      "columns = [{title = \"slope\", metric = \"<cost>_slope\"}]\n");
   const Table table = fill(paper.tables.at(0), store, {"quick", {}, {}, {}}).table;
   ASSERT_EQ(table.rows.size(), 2U) << "rows without a metric of their case have nothing to show";
   EXPECT_EQ(table.rows[0][1].text, "1.5");
@@ -102,17 +98,15 @@ TEST_F(LayoutTest, StackedBarsStandInGroupsAndNeedAllTheirParts) {
   add(record, "d_draw", "s", {1});
   store.append(record);
   const auto with_parts = [](const std::string& parts) {
-    return parse_claims(
-        "paper = \"p\"\ntitle = \"t\"\nsource = \"s\"\n"
+    return paper_of(
         "[[plot]]\nid = \"p.plot\"\ntitle = \"t\"\ncaption = \"c\"\nexperiment = \"e\"\n"
         "x = {label = \"time\", unit = \"ms\"}\nparts = [" +
-            parts +
-            "]\n"
-            "rows = [{label = \"A\", case = \"c\", group = \"low\", of = \"a\"},"
-            "{label = \"B\", case = \"c\", group = \"low\", of = \"b\"},"
-            "{label = \"gone\", case = \"x\", group = \"none\", of = \"a\"},"
-            "{label = \"D\", case = \"c\", group = \"high\", of = \"d\"}]\n",
-        "test");
+        parts +
+        "]\n"
+        "rows = [{label = \"A\", case = \"c\", group = \"low\", of = \"a\"},"
+        "{label = \"B\", case = \"c\", group = \"low\", of = \"b\"},"
+        "{label = \"gone\", case = \"x\", group = \"none\", of = \"a\"},"
+        "{label = \"D\", case = \"c\", group = \"high\", of = \"d\"}]\n");
   };
   const Paper paper = with_parts(
       R"({label = "choosing", metric = "<of>_choose"}, {label = "drawing", metric = "<of>_draw"})");
@@ -143,13 +137,11 @@ TEST_F(LayoutTest, GrowthStartsAnewInEachBlock) {
     add(record, "time", "s", {i == 3 ? 0.5 : 10.0 * i});
     store.append(record);
   }
-  const Paper paper = parse_claims(
-      "paper = \"p\"\ntitle = \"t\"\nsource = \"s\"\n"
+  const Paper paper = paper_of(
       "[[table]]\nid = \"p.t\"\ntitle = \"t\"\ncaption = \"c\"\nexperiment = \"e\"\nrows_title = \"r\"\n"
       "rows = [{label = \"a\", case = \"c1\"}, {label = \"b\", case = \"c2\"}, "
       "{label = \"c\", case = \"c3\", new_block = true}, {label = \"d\", case = \"c4\"}]\n"
-      "columns = [{title = \"growth\", unit = \"×\", growth = \"time\"}]\n",
-      "test");
+      "columns = [{title = \"growth\", unit = \"×\", growth = \"time\"}]\n");
   const Table table = fill(paper.tables.at(0), store, {"quick", {}, {}, {}}).table;
   ASSERT_EQ(table.rows.size(), 4U);
   EXPECT_EQ(table.rows[0][1].text, "–");
@@ -177,14 +169,13 @@ TEST_F(LayoutTest, ACellWithoutAValueSaysWhatTheRecordSays) {
   failed.reason = "out of memory";
   store.append(flat);
   store.append(failed);
-  const Paper paper = parse_claims(
-      "paper = \"p\"\ntitle = \"t\"\nsource = \"s\"\n[[table]]\nid = \"p.t\"\ntitle = \"t\"\ncaption = "
+  const Paper paper = paper_of(
+      "[[table]]\nid = \"p.t\"\ntitle = \"t\"\ncaption = "
       "\"c\"\n"
       "experiment = \"e\"\nrows_title = \"r\"\n"
       "rows = [{label = \"flat\", case = \"flat\"}, {label = \"failed\", case = \"failed\"}]\n"
       "columns = [{title = \"a\", metric = \"time\", unit = \"s\"}, {title = \"b\", metric = \"relative\"}, "
-      "{title = \"c\", metric = \"other\"}]\n",
-      "test");
+      "{title = \"c\", metric = \"other\"}]\n");
   const Table table = fill(paper.tables.at(0), store, judge(store, {})).table;
   ASSERT_EQ(table.rows.size(), 2U);
   EXPECT_EQ(table.rows[0][2].text, "not defined");

@@ -9,10 +9,7 @@ namespace {
 
 using FurtherCases = FolderTest;
 
-constexpr std::string_view kClaims = R"(paper = "p"
-title = "t"
-source = "s"
-[[claim]]
+constexpr std::string_view kClaims = R"([[claim]]
 id = "p.1"
 where = "w"
 statement = "s"
@@ -61,7 +58,7 @@ TEST_F(FurtherCases, AreThoseThatNothingElseShows) {
   measure("e", "picture", "peaks", "");
   measure("f", "first", "a", "px");
   measure("f", "second", "b", "");
-  const std::vector<Paper> papers{parse_claims(kClaims, "claims.toml")};
+  const std::vector<Paper> papers{paper_of(kClaims)};
 
   const std::vector<TableLayout> tables = further_cases(store, papers, {}, "quick");
   ASSERT_EQ(tables.size(), 2U);

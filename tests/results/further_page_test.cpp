@@ -3,13 +3,12 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <regex>
 #include <set>
 
 #include "results/report/ground_name.h"
-#include "results/report/ground_page.h"
 #include "results/report/latex_bundle.h"
 #include "results/report/report.h"
+#include "results/report/report_tables.h"
 #include "terrain/image.h"
 #include "tests/results/fake_results.h"
 
@@ -47,8 +46,8 @@ class FurtherPageTest : public FolderTest {
   }
   void write() { write_report(store_, papers()); }
   std::string written(const std::string& name) const { return read_file(folder_ / "report" / name); }
-  std::string page(const std::string& ground, const ReportForm& form = kHtmlForm) const {
-    return written(page_file(ground_id(ground), form));
+  std::string page(const std::string& ground, const PageForm& form = kHtmlForm) const {
+    return written(fmt::format("{}.{}", ground_page(ground_id(ground)), form.extension));
   }
   std::set<std::string> pages() const {
     std::set<std::string> names;
@@ -66,12 +65,12 @@ class FurtherPageTest : public FolderTest {
 TEST_F(FurtherPageTest, HasTheTablesPlotsAndPicturesOfItsGround) {
   measure("/x/alps.tif");
   write();
-  for (const ReportForm& form : {kHtmlForm, kMarkdownForm}) {
+  for (const PageForm& form : {kHtmlForm, kMarkdownForm}) {
     const std::string text = page("/x/alps.tif", form), id = ground_id("/x/alps.tif");
     for (const std::string& part :
          {std::string("Ground alps.tif"), "id=\"cross.representations-" + id + "\"",
           "id=\"cross.representations-" + id + "-bytes\"", "figures/cross.representations-" + id + "-pareto.",
-          "figures/cross.error-maps." + id + ".webp", std::string("cross.error-maps alps.tif")}) {
+          "../figures/cross.error-maps." + id + ".png", std::string("cross.error-maps alps.tif")}) {
       EXPECT_THAT(text, HasSubstr(part)) << form.extension;
     }
     EXPECT_THAT(text, Not(HasSubstr("cross.lod-"))) << "nothing of it was measured";
@@ -86,7 +85,7 @@ TEST_F(FurtherPageTest, HasNoPathsInItsCaptions) {
   measure("/x/alps.tif");
   measure("/y/alps.tif");
   write();
-  for (const ReportForm& form : {kHtmlForm, kMarkdownForm}) {
+  for (const PageForm& form : {kHtmlForm, kMarkdownForm}) {
     const std::string text = page("/y/alps.tif", form);
     EXPECT_THAT(text, HasSubstr("Maps of &lt;y/alps.tif&gt;.")) << form.extension;
     EXPECT_THAT(text, Not(HasSubstr("/y/alps.tif"))) << form.extension;
@@ -113,29 +112,13 @@ TEST_F(FurtherPageTest, IsListedOnTheMainPageWhichDoesNotRepeatIt) {
   measure("/x/alps.tif");
   write();
   const std::string main_page = written("index.html"), id = ground_id("/x/alps.tif");
-  for (const ReportForm& form : {kHtmlForm, kMarkdownForm}) {
-    EXPECT_THAT(main_page, HasSubstr(fmt::format("href=\"{}\"", page_file(id, form))));
+  for (const PageForm& form : {kHtmlForm, kMarkdownForm}) {
+    EXPECT_THAT(main_page, HasSubstr(fmt::format("href=\"{}.{}\"", ground_page(id), form.extension)));
   }
   EXPECT_THAT(main_page, HasSubstr("<a href=\"#grounds\">Further grounds</a>")) << "in the navigation";
-  EXPECT_THAT(written("ledger.html"), HasSubstr(fmt::format("href=\"{}\"", page_file(id, kHtmlForm))));
+  EXPECT_THAT(written("ledger.html"), HasSubstr(fmt::format("href=\"{}.html\"", ground_page(id))));
   EXPECT_THAT(main_page, Not(HasSubstr("Further cases")));
   EXPECT_THAT(main_page, Not(HasSubstr("cross.error-maps." + id)));
-}
-
-TEST_F(FurtherPageTest, LeadsOnlyToPlacesThatExist) {
-  measure("/x/alps.tif");
-  write();
-  const std::string text = page("/x/alps.tif");
-  const std::regex link("(?:href|src)=\"([^\"#]*)(?:#([^\"]*))?\"");
-  int links = 0;
-  for (std::sregex_iterator at(text.begin(), text.end(), link), end; at != end; ++at, ++links) {
-    const std::string file = (*at)[1], anchor = (*at)[2];
-    EXPECT_TRUE(file.empty() || std::filesystem::is_regular_file(folder_ / "report" / file)) << file;
-    if (!anchor.empty()) {
-      EXPECT_THAT(file.empty() ? text : written(file), HasSubstr("id=\"" + anchor + "\"")) << file;
-    }
-  }
-  EXPECT_GE(links, 20);
 }
 
 TEST_F(FurtherPageTest, EscapesTheNamesOfFiles) {
@@ -208,22 +191,6 @@ TEST_F(FurtherPageTest, WarnsOfManyLostColumns) {
   EXPECT_THAT(page("/x/alps.tif"), HasSubstr("up to 25.0 % of the columns (case alps.tif/voxel/5%)"));
   EXPECT_THAT(page("/x/alps.tif"), HasSubstr("Errors of volume leave out none."));
   EXPECT_THAT(written("index.html"), HasSubstr("up to 25.0 % of the columns (case alps.tif/voxel/5%)"));
-}
-
-// The map of errors alone, which the README names for a DEM of the user's.
-TEST_F(FurtherPageTest, WarnsOfColumnsThatOnlyTheErrorMapsLost) {
-  Record maps = fake_record(run_, "cross.error-maps", "/x/alps.tif");
-  maps.terrain = "/x/alps.tif";
-  add(maps, "drill_rmse", "m", {3});
-  add(maps, "columns", "", {750});
-  add(maps, "lost_columns", "", {250});
-  const std::string file = "figures/cross.error-maps." + ground_id("/x/alps.tif") + ".png";
-  write_png(folder_ / file, Image(40, 20, {200, 40, 40}));
-  maps.figures.push_back(
-      {"cross.error-maps." + ground_id("/x/alps.tif"), file, "Maps.", checksum(read_file(folder_ / file))});
-  store_.append(maps);
-  write();
-  EXPECT_THAT(page("/x/alps.tif"), HasSubstr("up to 25.0 % of the columns (case alps.tif)"));
 }
 
 TEST_F(FurtherPageTest, WarnsInTheLatexBundleToo) {

@@ -141,17 +141,6 @@ TEST_F(MergeTest, ComparesExactFiguresOfACaseMeasuredTwice) {
   EXPECT_FALSE(merge_into("out3", {"a", "one byte more"}).passed());
 }
 
-TEST_F(MergeTest, RefusesAnotherSeed) {
-  write_shard("a", 1, 1);
-  const Provenance run = fake_provenance();
-  Store store(folder_ / "b");
-  store.begin_run(run);
-  Record record = fake_record(run, "e", "n=1");
-  record.seed = 7;
-  store.append(record);
-  EXPECT_THAT(error_of({"a", "b"}), HasSubstr("with seed 7"));
-}
-
 TEST_F(MergeTest, RefusesWhatIsNoResultsFolder) {
   EXPECT_THAT(error_of({"nowhere"}), HasSubstr("holds no measurements"));
   write_shard("out", 1, 1);
@@ -214,10 +203,12 @@ TEST_F(MergeTest, RefusesAnotherSeedAndAChangedFile) {
   };
   write("a", 1, 1, "my.tif", "ground");
   write("seed", 2, 2, "my.tif", "ground");
+  write("seed of a case", 1, 7, "my.tif", "ground");
   write("changed", 3, 1, "my.tif", "another ground");
   write("generated", 4, 1, "fractal", "65");
   write("larger", 5, 1, "fractal", "129");
   EXPECT_THAT(error_of({"a", "seed"}), testing::AllOf(HasSubstr("seed 2"), HasSubstr("seed 1")));
+  EXPECT_THAT(error_of({"a", "seed of a case"}), HasSubstr("with seed 7"));
   EXPECT_THAT(error_of({"a", "changed"}), testing::AllOf(HasSubstr("my.tif"), HasSubstr("changed/meas")));
   EXPECT_TRUE(nothing_written());
   EXPECT_EQ(merge_into("out", {"a", "generated", "larger"}).copied, 3U)

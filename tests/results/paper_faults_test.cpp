@@ -81,9 +81,7 @@ class PaperFaults : public FolderTest {
     add(record, "m", "", {2});
     store.append(record);
   }
-  std::string page() const {
-    return markdown(paper_faults(judge(Store::open(folder_), papers_), papers_, "ledger.md"));
-  }
+  std::string page() const { return markdown(paper_faults(judge(Store::open(folder_), papers_), papers_)); }
   std::vector<Paper> papers_;
 };
 

@@ -25,12 +25,6 @@ Plot growth() {
        {"this <program>", {{256, 1.3, 1.2, 1.9}, {64, 0.02, 0.018, 0.03}, {128, 0.15, 0.15, 0.15}}, false}}};
 }
 
-std::size_t count(const std::string& text, std::string_view what) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + 1)) ++n;
-  return n;
-}
-
 TEST(PlotTest, ShowsLabelsUnitsTicksAndEveryPoint) {
   const std::string svg = plot_svg(growth());
   for (const char* label : {"samples along each side, n", "generation time [s]", ">64<", ">512<", ">0.01<",

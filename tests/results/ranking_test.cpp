@@ -70,7 +70,7 @@ class RankingTest : public FolderTest {
 
   Provenance run_ = fake_provenance();
   Store store_;
-  std::vector<RankingLayout> layouts_ = parse_rankings(kLayout, "test.toml");
+  std::vector<RankingLayout> layouts_ = paper_of(kLayout).rankings;
 };
 
 TEST_F(RankingTest, SaysWhoWinsByHowMuchAndChangesWithTheFigures) {
@@ -91,7 +91,7 @@ TEST_F(RankingTest, SaysWhoWinsByHowMuchAndChangesWithTheFigures) {
 // An unknown key would be a misspelt one, ignored.
 TEST_F(RankingTest, UnknownKeysOfEntriesAreRefused) {
   const auto with_entry = [](const std::string& entry) {
-    return parse_rankings(fmt::format(R"(
+    return paper_of(fmt::format(R"(
 [[ranking]]
 id = "r"
 task = "Fastest"
@@ -101,8 +101,8 @@ metric = "<of>_time"
 best = "least"
 entries = [{}]
 )",
-                                      entry),
-                          "test.toml");
+                                entry))
+        .rankings;
   };
   EXPECT_NO_THROW(with_entry(R"({label = "A", case = "a", of = "x"})"));
   for (const char* const entry :
@@ -110,7 +110,7 @@ entries = [{}]
         R"({label = "A", case = "a", of = "x", needs = 3})"}) {
     const Failure failure = failure_of([&] { with_entry(entry); });
     EXPECT_EQ(failure.code, ExitCode::kBadInput) << entry;
-    EXPECT_THAT(failure.what, HasSubstr("test.toml:9"));
+    EXPECT_THAT(failure.what, HasSubstr("claims.toml:12"));
   }
   EXPECT_THAT(failure_of([&] { with_entry(R"({label = "A", case = "a", off = "x"})"); }).what,
               HasSubstr("'off'"));
@@ -145,7 +145,7 @@ TEST_F(RankingTest, UnitsOfEntriesAreConvertedOrRefused) {
 
 // Of cases that hold the figures of several methods.
 TEST_F(RankingTest, EntriesMayNameTheirMetrics) {
-  const std::vector<RankingLayout> layouts = parse_rankings(R"(
+  const std::vector<RankingLayout> layouts = paper_of(R"(
 [[ranking]]
 id = "frame"
 task = "Cheapest"
@@ -159,8 +159,8 @@ entries = [
   {label = "A", case = "all", of = "a"}, {label = "B", case = "all", of = "b"},
   {label = "C", case = "all", of = "c"}, {label = "D", case = "all", of = "d"},
 ]
-)",
-                                                            "test.toml");
+)")
+                                                 .rankings;
   Record record = fake_record(run_, "x", "all");
   for (const auto& [name, time, reached] : {std::tuple{"a", 0.03, 1}, {"b", 0.01, 1}, {"c", 0.001, 0}}) {
     add(record, std::string(name) + "_frame", "s", {time, time, time});
@@ -336,7 +336,7 @@ TEST_F(RankingTest, CountsOfDifferentRevisionsAreNotCompared) {
 TEST_F(RankingTest, OneMethodAloneIsNoFinding) {
   measure("hill/a", {0.010});
   EXPECT_EQ(sentence(), "");
-  EXPECT_THROW(parse_rankings("[[ranking]]\nid = \"x\"\n", "bad.toml"), Error);
+  EXPECT_THROW(paper_of("[[ranking]]\nid = \"x\"\n"), Error);
 }
 
 TEST(RankingLayouts, OfTheClaimsFilesAreWellFormed) {

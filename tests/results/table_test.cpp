@@ -81,7 +81,7 @@ TEST(TableTest, MarkdownKeepsRowsOnOneLine) {
 TEST(TableTest, LatexIsBooktabsAndEscaped) {
   const std::string text = latex(awkward());
   EXPECT_THAT(text, HasSubstr("\\toprule"));
-  EXPECT_THAT(text, HasSubstr("\\begin{tabular}{@{}lr@{}}"));
+  EXPECT_THAT(text, HasSubstr("\\begin{longtable}{@{}lr@{}}"));
   EXPECT_THAT(text, HasSubstr("50 \\% of \\$x\\_1\\$"));
   EXPECT_THAT(text, HasSubstr("\\# \\{4\\} \\textasciitilde{}\\textasciicircum{}\\textbackslash{}"));
   EXPECT_EQ(escape_latex("64³ × 2"), "64\\textsuperscript{3} $\\times$ 2");
@@ -93,7 +93,7 @@ TEST(DocumentTest, PageNeedsNothingFromOutside) {
                              Paragraph{"a & b", true},
                              Facts{{{"x", "<y>"}}},
                              TableBlock{awkward(), {{"CSV", "a.csv"}}},
-                             Gallery{{{"P", "c", "p.svg", "p.png", {}, "", "p.p"}}}};
+                             Gallery{{{"P", "c", "p.svg", "p.png", {}, "p.p"}}}};
   const std::string page = html(document);
   EXPECT_THAT(page, HasSubstr("<html lang=\"en\">"));
   EXPECT_THAT(page, HasSubstr("<li><a href=\"#part\">Part</a></li>"));

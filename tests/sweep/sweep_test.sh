@@ -24,7 +24,7 @@ sweep --unlock >/dev/null
 sweep
 
 # shellcheck disable=SC2086
-"$program" run $ids $options --again 0 --out whole 2>/dev/null
+"$program" run $ids $options --out whole 2>/dev/null
 "$program" compare whole sweep/merged | tail -3
 records() { grep -c '"case"' "$1/measurements.jsonl"; }
 [[ $(records whole) == "$(records sweep/merged)" ]]

@@ -1,5 +1,5 @@
 // Bands hold the very bits of the whole terrain, wherever they begin.
-#include "terrain/sources/fractal/diamond_square_bands.h"
+#include "terrain/sources/fractal/diamond_square.h"
 
 #include <gtest/gtest.h>
 

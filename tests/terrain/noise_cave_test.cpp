@@ -102,13 +102,6 @@ TEST(CaveTerrain, HillsAloneAreAHeightmapAndXMakesOverhangs) {
   EXPECT_GT(shape(sample(cave_terrain(options), 96)).overhangs, 96 * 96 / 200);
 }
 
-TEST(CaveTerrain, FlatGroundFillsTheLowerHalf) {
-  const Solid flat = cave_terrain({.perturb_y = false, .perturb_x = true, .caves = false});
-  const Shape s = shape(sample(flat, 32));
-  EXPECT_DOUBLE_EQ(s.share, 0.5);
-  EXPECT_EQ(s.overhangs, 0);
-}
-
 TEST(CaveTerrain, AttenuationKeepsFloatingIslandsOut) {
   std::size_t with = 0, without = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -214,7 +207,6 @@ TEST(CaveTerrain, ChecksumNamesWhatShapesIt) {
   const CaveOptions variants[] = {{},
                                   {.seed = 2},
                                   {.extent = 64},
-                                  {.perturb_y = false},
                                   {.perturb_x = false},
                                   {.caves = false},
                                   {.attenuation = false},

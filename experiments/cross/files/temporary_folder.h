@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "terrain/machine_error.h"
-#include "terrain/temporary_files.h"
+#include "terrain/temporary_name.h"
 
 namespace terrabench::cross {
 

@@ -113,7 +113,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kLodEdit{"cross.lod-edit", "Level of detail after an edit of the ground", kTunedSpecs,
-                                 tuned_cases, measure};
+extern const Experiment kLodEdit{"cross.lod-edit", "Level of detail after an edit of the ground",
+                                 kTunedSpecs,      tuned_cases,
+                                 measure,          Experiment::kTimed};
 
 }  // namespace terrabench::cross

@@ -230,7 +230,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kLodEndless{"cross.lod-endless", "A clipmap over ground without bounds", kSpecs,
-                                    cases, measure};
+extern const Experiment kLodEndless{
+    "cross.lod-endless", "A clipmap over ground without bounds", kSpecs, cases, measure, Experiment::kTimed};
 
 }  // namespace terrabench::cross

@@ -28,8 +28,8 @@ constexpr std::string_view kAll = "all";      // in place of a method
 
 const std::array kSpecs{
     ParameterSpec{"method", std::string("roam"), "",
-                  "a name of `terrabench list lods`, geomipmap_morph, mrbsp_area, or all for a picture of "
-                  "their triangles side by side"},
+                  "a name of `terrabench list lods`: a method, a variant such as geomipmap_morph, or all for "
+                  "a picture of their triangles side by side"},
     ParameterSpec{"options", std::string(), "",
                   "options of methods, such as geomipmap.patch=32,mrbsp.threshold=area"},
     ParameterSpec{"error", 1.0, "px", "required 99th percentile of the screen-space error", 0.01, 1000},
@@ -309,8 +309,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kLodEqualError{"cross.lod-equal-error",
-                                       "Level-of-detail methods at the same screen-space error", kSpecs,
-                                       cases, measure};
+extern const Experiment kLodEqualError{
+    "cross.lod-equal-error", "Level-of-detail methods at the same screen-space error", kSpecs, cases, measure,
+    Experiment::kTimed};
 
 }  // namespace terrabench::cross

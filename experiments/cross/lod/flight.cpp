@@ -143,14 +143,6 @@ Contender contender(std::string_view method, std::string_view options) {
   return built;
 }
 
-std::vector<Entrant> entrants() {
-  std::vector<Entrant> all;
-  for (const LodType& type : lods()) all.push_back({std::string(type.name), std::string(type.name), ""});
-  all.push_back({"geomipmap_morph", "geomipmap", "geomipmap.morph=true"});
-  all.push_back({"mrbsp_area", "mrbsp", "mrbsp.threshold=area"});
-  return all;
-}
-
 Contender entered(std::string_view name, const std::string& options) {
   static const std::vector<Entrant> kAll = entrants();
   std::vector<std::string_view> known;

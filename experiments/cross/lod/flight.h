@@ -71,18 +71,12 @@ struct Contender {
 
   std::unique_ptr<Lod> build(const Heightfield&, Progress&) const;
   // Brute force has a single setting.
-  bool tunable() const { return type->knob.finest != type->knob.coarsest; }
+  bool tunable() const { return type->tunable(); }
 };
 // `options` is a list such as "geomipmap.patch=32,mrbsp.threshold=area"; those of other methods are ignored.
 // Throws unknown_name and usage_error.
 Contender contender(std::string_view method, std::string_view options);
 
-// What is compared: every method with its defaults, and some also with another value of one option.
-struct Entrant {
-  std::string name;  // in case names
-  std::string method, options;
-};
-std::vector<Entrant> entrants();
 // The entrant of this name, with the user's `options` after its own, which they override. Throws like
 // contender().
 Contender entered(std::string_view name, const std::string& options);

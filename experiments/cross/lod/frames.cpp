@@ -15,10 +15,9 @@
 #include <memory>
 
 #include "experiments/cross/lod/frame_cost.h"
-#include "experiments/cross/lod/rounds.h"
 #include "experiments/cross/scale/scaling.h"
 #include "experiments/ground.h"
-#include "experiments/interference.h"
+#include "experiments/samples.h"
 #include "experiments/stopwatch.h"
 #include "results/store/power_law.h"
 #include "results/store/statistics.h"
@@ -142,22 +141,20 @@ void measure_ground(Flight& flight, const Case& at, const std::string& key, GlCo
   }
   std::vector<std::size_t> timed;
   for (std::size_t k = 0; k < flight.metered.size(); k += 2) timed.push_back(flight.metered[k]);
-  progress.begin(fmt::format("drawing {} by {} methods", flight.source.name, methods.size()),
-                 2 * Rounds::kMost + 1);
+  progress.begin(fmt::format("drawing {} by {} methods", flight.source.name, methods.size()), kSamples + 1);
   repetition(methods, timed);  // warms up
   for (const auto& method : methods) {
     recorder.add(method->prefix + "triangles", "", method->frames.triangles());
     recorder.add(method->prefix + "sent", "B", method->frames.bytes_sent());
   }
-  Turns turns;
-  take_turns(turns, Rounds::kMost, [&] {
+  std::vector<std::vector<double>> repetitions;
+  for (int k = 0; k < kSamples; ++k) {
     progress.advance();
-    return repetition(methods, timed);
-  });
+    repetitions.push_back(repetition(methods, timed));
+  }
   progress.end();
   const Heightfield& ground = flight.ground();
-  record(turns.kept(Rounds::kMost), methods, static_cast<double>(ground.width) * ground.depth, recorder,
-         curves);
+  record(repetitions, methods, static_cast<double>(ground.width) * ground.depth, recorder, curves);
 }
 
 // What the sizes show together: they depend on how many sizes the time allows, so all varies.
@@ -227,7 +224,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kLodFrames{"cross.lod-frames", "Whole frames at the same screen-space error", kSpecs,
-                                   cases, measure};
+extern const Experiment kLodFrames{
+    "cross.lod-frames", "Whole frames at the same screen-space error", kSpecs, cases, measure,
+    Experiment::kTimed};
 
 }  // namespace terrabench::cross

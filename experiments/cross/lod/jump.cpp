@@ -94,7 +94,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kLodJump{"cross.lod-jump", "Level of detail after a jump of the camera", kTunedSpecs,
-                                 tuned_cases, measure};
+extern const Experiment kLodJump{"cross.lod-jump", "Level of detail after a jump of the camera",
+                                 kTunedSpecs,      tuned_cases,
+                                 measure,          Experiment::kTimed};
 
 }  // namespace terrabench::cross

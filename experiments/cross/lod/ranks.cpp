@@ -1,6 +1,6 @@
 // Every level-of-detail method at the same largest error, and again at the same root mean square of the
 // error: what each costs under either, its rank, and how many pairs of methods change places.
-#include "experiments/cross/representations/ranks.h"
+#include "experiments/cross/ranks.h"
 
 #include <fmt/format.h>
 
@@ -108,6 +108,9 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 extern const Experiment kLodRanks{"cross.lod-ranks",
                                   "Level-of-detail methods at the same largest error and at the same RMS",
-                                  kSpecs, cases, measure};
+                                  kSpecs,
+                                  cases,
+                                  measure,
+                                  Experiment::kTimed};
 
 }  // namespace terrabench::cross

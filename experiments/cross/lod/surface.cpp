@@ -136,7 +136,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kLodSurface{"cross.lod-surface", "The drawn ground against the true ground",
-                                    kTunedSpecs, tuned_cases, measure};
+extern const Experiment kLodSurface{
+    "cross.lod-surface", "The drawn ground against the true ground", kTunedSpecs, tuned_cases, measure,
+    Experiment::kTimed};
 
 }  // namespace terrabench::cross

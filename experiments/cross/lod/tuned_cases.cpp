@@ -8,7 +8,7 @@ namespace terrabench::cross {
 
 const std::array<ParameterSpec, 6> kTunedSpecs{
     ParameterSpec{"method", std::string("roam"), "",
-                  "a name of `terrabench list lods`, geomipmap_morph or mrbsp_area"},
+                  "a name of `terrabench list lods`: a method, or a variant such as geomipmap_morph"},
     ParameterSpec{"options", std::string(), "",
                   "options of methods, such as geomipmap.patch=32,mrbsp.threshold=area"},
     ParameterSpec{"error", 2.0, "px", "required 99th percentile of the screen-space error", 0.01, 1000},

@@ -12,8 +12,8 @@
 #include <string>
 #include <utility>
 
-#include "experiments/cross/lod/rounds.h"
 #include "experiments/cross/representations/representation_costs.h"
+#include "experiments/samples.h"
 #include "experiments/stopwatch.h"
 #include "representations/edit_tools.h"
 #include "terrain/error.h"
@@ -47,22 +47,25 @@ Sphere place_of_edit(const Scene& scene) {
 
 struct EventPlace {
   RadialErosion event;
-  bool taken = false;  // by the tree of heightmaps
+  bool taken = false;  // by a type that takes all events
 };
 
 RadialErosion event_of(const Sphere& sphere) {
   return {glm::dvec3(sphere.centre), glm::dvec3(sphere.radius)};
 }
 
-// An event of the sphere's radius, at the highest line where the tree takes it, and not so low that it would
-// reach below the ground. The event at the sphere's own centre, not taken, if the tree refuses it at all of
-// the kMostPlaces highest lines or cannot be built, such as for lack of memory: trees of solids take no
-// events.
+// An event of the sphere's radius, at the highest line where a tree of heightmaps takes it (the first type
+// with the trait events), and not so low that it would reach below the ground. The event at the sphere's own
+// centre, not taken, if the tree refuses it at all of the kMostPlaces highest lines or cannot be built, such
+// as for lack of memory: trees of solids take no events.
 EventPlace find_place(const Scene& scene, Sphere sphere, Progress& progress) {
   const EventPlace none{event_of(sphere)};
+  const auto types = representations();
+  const auto tree = std::ranges::find_if(types, [](const auto& type) { return type.traits.events; });
+  if (tree == types.end()) return none;
   std::unique_ptr<Representation> built;
   try {
-    built = scene.build(representation("ght"), progress);
+    built = scene.build(*tree, progress);
   } catch (const Error& error) {
     if (!refuses(error) && error.code() != ExitCode::kEnvironment) throw;
     return none;
@@ -259,10 +262,6 @@ TriangleMesh record_step(const std::string& step, const Representation& after, c
   return now;
 }
 
-// At least five samples, unless one edit (dig and fill together) takes more than 1 s, or all edits with the
-// builds before them more than 30 s.
-Rounds rounds_of_edits() { return Rounds(1, 5); }
-
 void measure_sphere(const Untouched& untouched, const Sphere& sphere, Recorder& recorder) {
   const auto edit = [&](Representation& on, Material material) { fill_sphere(on, sphere, material); };
   {
@@ -272,13 +271,13 @@ void measure_sphere(const Untouched& untouched, const Sphere& sphere, Recorder& 
     edit(*edited, Material::kBedrock);
     record_step("fill", *edited, untouched, dug_mesh, recorder);
   }
-  Rounds rounds = rounds_of_edits();
-  rounds.sample({"dig_time", "fill_time"}, "s", [&] {
+  Samples samples;
+  samples.add({"dig_time", "fill_time"}, "s", [&] {
     const auto fresh = untouched.build();
     const double dig = seconds([&] { edit(*fresh, Material::kAir); });
     return std::vector{dig, seconds([&] { edit(*fresh, Material::kBedrock); })};
   });
-  rounds.run(recorder);
+  samples.take(recorder);
 }
 
 void measure_rebuilt_sphere(const Untouched& untouched, const Sphere& sphere, Recorder& recorder) {
@@ -289,11 +288,11 @@ void measure_rebuilt_sphere(const Untouched& untouched, const Sphere& sphere, Re
         record_step("dig", *untouched.build_from(dug), untouched, untouched.mesh, recorder);
     record_step("fill", *untouched.build_from(filled), untouched, dug_mesh, recorder);
   }
-  Rounds rounds = rounds_of_edits();
-  rounds.sample("dig_time", "s", [&] { return seconds_to_make([&] { return untouched.build_from(dug); }); });
-  rounds.sample("fill_time", "s",
-                [&] { return seconds_to_make([&] { return untouched.build_from(filled); }); });
-  rounds.run(recorder);
+  Samples samples;
+  samples.add("dig_time", "s", [&] { return seconds_to_make([&] { return untouched.build_from(dug); }); });
+  samples.add("fill_time", "s",
+              [&] { return seconds_to_make([&] { return untouched.build_from(filled); }); });
+  samples.take(recorder);
 }
 
 void record_event(const Untouched& untouched, const Representation& after, const RadialErosion& event,
@@ -309,21 +308,20 @@ void measure_event(const Untouched& untouched, const RadialErosion& event, Recor
     edited->apply(event);
     record_event(untouched, *edited, event, recorder);
   }
-  Rounds rounds = rounds_of_edits();
-  rounds.sample("event_time", "s", [&] {
+  Samples samples;
+  samples.add("event_time", "s", [&] {
     const auto fresh = untouched.build();  // a loaded one has no spare capacity for events
     return seconds([&] { fresh->apply(event); });
   });
-  rounds.run(recorder);
+  samples.take(recorder);
 }
 
 void measure_rebuilt_event(const Untouched& untouched, const RadialErosion& event, Recorder& recorder) {
   const TerrainSource cut = eroded(untouched.scene.source, event);
   record_event(untouched, *untouched.build_from(cut), event, recorder);
-  Rounds rounds = rounds_of_edits();
-  rounds.sample("event_time", "s",
-                [&] { return seconds_to_make([&] { return untouched.build_from(cut); }); });
-  rounds.run(recorder);
+  Samples samples;
+  samples.add("event_time", "s", [&] { return seconds_to_make([&] { return untouched.build_from(cut); }); });
+  samples.take(recorder);
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ std::size_t agreeing(std::span<const float> a, std::span<const float> b, float w
   return n;
 }
 
-// What casts the rays of one case; kept alive until its rounds have run.
+// What casts the rays of one case; kept alive until its samples are taken.
 struct Casters {
   Casters(const Scene& scene, std::unique_ptr<RayIndex> mesh, std::unique_ptr<RayCaster> own_way,
           std::size_t n)
@@ -124,34 +124,34 @@ struct Casters {
 };
 
 // All in one piece of work, so that sums are of one round.
-void add_rounds(const std::shared_ptr<Casters>& casters, double n, Rounds& rounds) {
+void add_samples(const std::shared_ptr<Casters>& casters, double n, Samples& samples) {
   if (!casters->own) {
-    rounds.sample({"embree_above", "rays_above", "embree_along", "rays_along"}, "1/s", [casters, n] {
+    samples.add({"embree_above", "rays_above", "embree_along", "rays_along"}, "1/s", [casters, n] {
       const double above = n / casters->above.seconds_through_mesh(),
                    along = n / casters->along.seconds_through_mesh();
       return std::vector{above, above, along, along};
     });
     return;
   }
-  rounds.sample({"embree_above", "rays_above", "embree_along", "rays_along", "rays", "embree_rays"}, "1/s",
-                [casters, n] {
-                  const double mesh_above = casters->above.seconds_through_mesh(),
-                               own_above = casters->above.seconds_own_way(),
-                               mesh_along = casters->along.seconds_through_mesh(),
-                               own_along = casters->along.seconds_own_way();
-                  return std::vector{n / mesh_above,
-                                     n / own_above,
-                                     n / mesh_along,
-                                     n / own_along,
-                                     2 * n / (own_above + own_along),
-                                     2 * n / (mesh_above + mesh_along)};
-                });
+  samples.add({"embree_above", "rays_above", "embree_along", "rays_along", "rays", "embree_rays"}, "1/s",
+              [casters, n] {
+                const double mesh_above = casters->above.seconds_through_mesh(),
+                             own_above = casters->above.seconds_own_way(),
+                             mesh_along = casters->along.seconds_through_mesh(),
+                             own_along = casters->along.seconds_own_way();
+                return std::vector{n / mesh_above,
+                                   n / own_above,
+                                   n / mesh_along,
+                                   n / own_along,
+                                   2 * n / (own_above + own_along),
+                                   2 * n / (mesh_above + mesh_along)};
+              });
 }
 
 }  // namespace
 
 void measure_rays(const Scene& scene, const Representation& built, const TriangleMesh& mesh, int count,
-                  Recorder& recorder, Rounds& rounds) {
+                  Recorder& recorder, Samples& samples) {
   const auto n = static_cast<std::size_t>(count);
   Stopwatch watch;
   auto index = std::make_unique<RayIndex>(mesh);
@@ -176,7 +176,7 @@ void measure_rays(const Scene& scene, const Representation& built, const Triangl
   if (casters->own) {
     recorder.add("ray_agreement", "", static_cast<double>(agree) / static_cast<double>(2 * n));
   }
-  add_rounds(casters, static_cast<double>(n), rounds);
+  add_samples(casters, static_cast<double>(n), samples);
 }
 
 }  // namespace terrabench::cross

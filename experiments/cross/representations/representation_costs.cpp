@@ -81,7 +81,7 @@ class Queries {
 
 std::unique_ptr<Representation> measure_build(const Scene& scene, const RepresentationType& type,
                                               const Parameters& parameters, Recorder& recorder,
-                                              Rounds& rounds, Progress& progress) {
+                                              Samples& samples, Progress& progress) {
   const auto build = [&scene, &type, &progress, parameters] {
     return type.build(scene.source, parameters, progress);
   };
@@ -92,12 +92,12 @@ std::unique_ptr<Representation> measure_build(const Scene& scene, const Represen
   recorder.add("slack", "B", memory.slack);
   recorder.add("bytes", "B", memory.total());
   recorder.add("heap_bytes", "B", static_cast<double>(destroy_and_count(std::move(built))));
-  rounds.sample("build_time", "s", [build] { return seconds_to_make(build); });
+  samples.add("build_time", "s", [build] { return seconds_to_make(build); });
   return build();
 }
 
 void measure_file(const Scene& scene, const RepresentationType& type, const Representation& built,
-                  Recorder& recorder, Rounds& rounds) {
+                  Recorder& recorder, Samples& samples) {
   const auto folder = std::make_shared<TemporaryFolder>();  // as long as the work that uses it
   const std::filesystem::path file = folder->path() / "scratch";
   const std::size_t bytes = save_representation(file, type, built);
@@ -114,23 +114,22 @@ void measure_file(const Scene& scene, const RepresentationType& type, const Repr
   std::size_t differ = 0;
   for (std::size_t c = 0; c < n; ++c) differ += !std::ranges::equal(own.column(c), loaded.column(c));
   recorder.add("loaded_differs", "", differ);
-  rounds.time("save_time", [folder, file, &type, &built] { save_representation(file, type, built); });
-  rounds.sample("load_time", "s", [folder, file] {
+  samples.time("save_time", [folder, file, &type, &built] { save_representation(file, type, built); });
+  samples.add("load_time", "s", [folder, file] {
     return seconds_to_make([&] { return load_representation(file).representation; });
   });
 }
 
-void measure_queries(const Scene& scene, const Representation& built, Rounds& rounds) {
+void measure_queries(const Scene& scene, const Representation& built, Samples& samples) {
   const auto queries = std::make_shared<Queries>(scene.lines.bounds);
-  rounds.sample("points_per_second", "1/s", [queries, &built] { return queries->points_per_second(built); });
-  rounds.sample("columns_per_second", "1/s",
-                [queries, &built] { return queries->columns_per_second(built); });
+  samples.add("points_per_second", "1/s", [queries, &built] { return queries->points_per_second(built); });
+  samples.add("columns_per_second", "1/s", [queries, &built] { return queries->columns_per_second(built); });
 }
 
-TriangleMesh measure_mesh(const Representation& built, Recorder& recorder, Rounds& rounds) {
+TriangleMesh measure_mesh(const Representation& built, Recorder& recorder, Samples& samples) {
   TriangleMesh mesh = built.mesh({});
   recorder.add("triangles", "", mesh.triangles());
-  rounds.sample("mesh_time", "s", [&built] { return seconds_to_make([&] { return built.mesh({}); }); });
+  samples.add("mesh_time", "s", [&built] { return seconds_to_make([&] { return built.mesh({}); }); });
   return mesh;
 }
 

@@ -4,30 +4,30 @@
 
 #include <memory>
 
-#include "experiments/cross/lod/rounds.h"
 #include "experiments/cross/representations/scenes.h"
 #include "experiments/recorder.h"
+#include "experiments/samples.h"
 #include "terrain/mesh.h"
 
 namespace terrabench::cross {
 
-// What is timed is added to the rounds, which must run while the scene, the structure and the mesh are there.
+// What is timed is added to the samples, to be taken while the scene, the structure and the mesh are there.
 
 // Seconds to build, the bytes of each part, and the bytes that operator new takes back. Returns what was
 // built.
 std::unique_ptr<Representation> measure_build(const Scene&, const RepresentationType&, const Parameters&,
-                                              Recorder&, Rounds&, Progress&);
+                                              Recorder&, Samples&, Progress&);
 // Bytes on disk, seconds to save and to load, and how many of some thousand lines the loaded copy answers
 // differently.
-void measure_file(const Scene&, const RepresentationType&, const Representation&, Recorder&, Rounds&);
+void measure_file(const Scene&, const RepresentationType&, const Representation&, Recorder&, Samples&);
 // Points and columns per second of processor time, on one thread, at random places.
-void measure_queries(const Scene&, const Representation&, Rounds&);
-TriangleMesh measure_mesh(const Representation&, Recorder&, Rounds&);
+void measure_queries(const Scene&, const Representation&, Samples&);
+TriangleMesh measure_mesh(const Representation&, Recorder&, Samples&);
 // Rays per second of processor time, on one thread: from above, downward in random directions; and along the
 // ground, from 2 % of its height above it, within 6° of the horizontal. Cast as Representation::ray_caster()
 // does, or through the mesh; both are compared hit by hit. `ray_agreement`: the share of rays for which the
 // two hit the same place within a cell, or both nothing.
-void measure_rays(const Scene&, const Representation&, const TriangleMesh&, int rays, Recorder&, Rounds&);
+void measure_rays(const Scene&, const Representation&, const TriangleMesh&, int rays, Recorder&, Samples&);
 
 // Two edits. A sphere is dug where the ground is highest and filled again: dig_*, fill_*, `rebuilt`. And the
 // tree of heightmaps' radial erosion, which also removes the ground above it, with the same radius at the

@@ -156,11 +156,11 @@ void measure_at_error(const Scene& scene, const RepresentationType& type, double
   if (!fitted) return;
   if (fitted->trial.setting > 0) recorder.add("setting", "", static_cast<double>(fitted->trial.setting));
   recorder.add("of_asked", "", used);
-  Rounds rounds;
-  const auto built = measure_build(scene, type, fitted->parameters, recorder, rounds, progress);
-  measure_file(scene, type, *built, recorder, rounds);
-  measure_queries(scene, *built, rounds);
-  rounds.run(recorder);
+  Samples samples;
+  const auto built = measure_build(scene, type, fitted->parameters, recorder, samples, progress);
+  measure_file(scene, type, *built, recorder, samples);
+  measure_queries(scene, *built, samples);
+  samples.take(recorder);
   record(differences(*built, scene.source, scene.lines, kMargin * scene.cell), scene.source, recorder);
 }
 
@@ -181,25 +181,26 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     measure_at_error(ground, type, share, recorder, progress);
     return;
   }
-  Rounds rounds;
-  const auto built = measure_build(ground, type, ground.parameters(type), recorder, rounds, progress);
-  measure_file(ground, type, *built, recorder, rounds);
-  measure_queries(ground, *built, rounds);
+  Samples samples;
+  const auto built = measure_build(ground, type, ground.parameters(type), recorder, samples, progress);
+  measure_file(ground, type, *built, recorder, samples);
+  measure_queries(ground, *built, samples);
   record(differences(*built, ground.source, ground.lines, kMargin * ground.cell), ground.source, recorder);
-  const TriangleMesh mesh = measure_mesh(*built, recorder, rounds);
-  measure_rays(ground, *built, mesh, at.integer("rays"), recorder, rounds);
-  rounds.run(recorder);
+  const TriangleMesh mesh = measure_mesh(*built, recorder, samples);
+  measure_rays(ground, *built, mesh, at.integer("rays"), recorder, samples);
+  samples.take(recorder);
   measure_edit(ground, type, *built, mesh, recorder, progress);
 }
 
 }  // namespace
 
 extern const Experiment kRepresentations{
-    "cross.representations",
-    "Representations on the same ground, at the same bytes, at the same error",
-    kSpecs,
-    cases,
-    measure,
-    times};
+    .id = "cross.representations",
+    .title = "Representations on the same ground, at the same bytes, at the same error",
+    .parameters = kSpecs,
+    .cases = cases,
+    .measure = measure,
+    .kind = Experiment::kTimed,
+    .times = times};
 
 }  // namespace terrabench::cross

@@ -61,10 +61,6 @@ double relief_of(const Scene& scene) {
   return static_cast<double>(highest) - lowest;
 }
 
-bool refuses(const Error& error) {
-  return error.code() == ExitCode::kBadInput || error.code() == ExitCode::kUsage;
-}
-
 std::size_t file_bytes(const RepresentationType& type, const Representation& built) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "scratch";

@@ -9,8 +9,8 @@
 
 #include "experiments/cross/representations/ground_lines.h"
 #include "experiments/experiment.h"
+#include "experiments/refusals.h"
 #include "representations/representation.h"
-#include "terrain/error.h"
 #include "terrain/progress.h"
 #include "terrain/source.h"
 
@@ -49,21 +49,6 @@ bool is_solid(const std::string& terrain);
 
 // Kept until another one is asked for.
 const Scene& scene(const SceneOptions&, Progress&);
-
-// Whether a type refuses the input or a setting; false where the machine failed or the user interrupted.
-bool refuses(const Error&);
-
-// What `work` returns. Where it throws because a type cannot hold the ground, nothing is at fault:
-// SkippedCase.
-template <class Work>
-auto unless_refused(const Work& work) {
-  try {
-    return work();
-  } catch (const Error& error) {
-    if (!refuses(error)) throw;
-    throw SkippedCase(error.what());
-  }
-}
 
 // Bytes of the file that save_representation() writes.
 std::size_t file_bytes(const RepresentationType&, const Representation&);

@@ -1,9 +1,9 @@
 // Level-of-detail methods of cross.scale: each cost against the size of the ground, along one path at one
-// error on the screen.
+// error on the screen. The theory is that of the registry (LodGrowth).
 #include <fmt/format.h>
 
-#include <array>
 #include <memory>
+#include <optional>
 
 #include "experiments/cross/lod/flight.h"
 #include "experiments/cross/scale/run.h"
@@ -12,26 +12,6 @@
 
 namespace terrabench::cross {
 namespace {
-
-// Every method reads its ground once. A clipmap and the hybrid hold and read windows, of which there are log
-// n. At a given error on the screen, the density of triangles falls with the square of the distance, so that
-// their number grows as log n (ROAM); by the rule printed in the MRBSP paper it falls with the distance, so
-// that their number grows as n^0.5. Brute force and geomipmaps visit every block or patch in view; the
-// patches are set to 16 cells, since by default they are larger on ground of more than 1025² samples.
-struct LodTheory {
-  std::string_view name;
-  double build, memory, update;  // update: also uploads and triangles
-  bool windows = false;          // memory grows as log n
-  std::string_view options = {};
-};
-constexpr std::array kLods{
-    LodTheory{"brute_force", 1, 1, 1},
-    LodTheory{"roam", 1, 1, 0},
-    LodTheory{"geomipmap", 1, 1, 1, false, "geomipmap.patch=16"},
-    LodTheory{"clipmap", 1, 0, 0, true},
-    LodTheory{"hybrid", 1, 0, 0, true},
-    LodTheory{"mrbsp", 1, 1, 0.5},
-};
 
 constexpr std::string_view kPath = "low";
 constexpr int kTunedSide = 257, kTunedFrames = 6;
@@ -56,13 +36,18 @@ std::vector<View> same_flight(const Heightfield& ground) {
 }
 
 struct LodCosts {
-  explicit LodCosts(const LodTheory& theory)
-      : build("build", "s", theory.build),
-        build_faults("build_faults", "faults", theory.build),
-        bytes("bytes", "B", theory.memory, theory.windows),
-        update("update", "s", theory.update, theory.update == 0),
-        uploaded("uploaded", "B", theory.update, theory.update == 0),
-        triangles("triangles", "", theory.update, theory.update == 0) {}
+  explicit LodCosts(const std::optional<LodGrowth>& theory)
+      : build("build", "s", of(theory, &LodGrowth::build)),
+        build_faults("build_faults", "faults", of(theory, &LodGrowth::build)),
+        bytes("bytes", "B", of(theory, &LodGrowth::memory), theory && theory->windows),
+        update("update", "s", of(theory, &LodGrowth::update), theory && theory->update == 0),
+        uploaded("uploaded", "B", of(theory, &LodGrowth::update), theory && theory->update == 0),
+        triangles("triangles", "", of(theory, &LodGrowth::update), theory && theory->update == 0) {}
+
+  static std::optional<double> of(const std::optional<LodGrowth>& theory, double LodGrowth::*cost) {
+    return theory ? std::optional((*theory).*cost) : std::nullopt;
+  }
+
   Cost build, build_faults, bytes, update, uploaded, triangles;
 };
 
@@ -88,8 +73,9 @@ void follow(Lod& method, const std::vector<View>& path, double columns, LodCosts
 }  // namespace
 
 void measure_lod(const Run& run, std::string_view name) {
-  const LodTheory& theory = entry(kLods, "level-of-detail method", name);
-  const Contender method = contender(name, theory.options);
+  Contender method = contender(name, "");
+  const std::optional<LodGrowth>& theory = method.type->growth;
+  if (theory && !theory->option.empty()) method.options.set_from_text(std::string(theory->option));
   const Tuned tuned = tune_to(
       flight_along({"hills", std::string(kPath), kTunedSide, kTunedFrames, run.seed()}, run.progress()),
       method, run.at().parameters.number("pixels"), run.progress());
@@ -105,7 +91,7 @@ void measure_lod(const Run& run, std::string_view name) {
     run.measured(plan, columns, [&] {
       const Heightfield ground = noise_hills(side, run.seed());
       std::unique_ptr<Lod> built;
-      run.add_turns(
+      run.add_samples(
           costs.build, costs.build_faults, columns, [&] { built.reset(); },
           [&] { built = method.build(ground, silent); });
       if (side < kSmallestWalk) return;
@@ -123,12 +109,6 @@ void measure_lod(const Run& run, std::string_view name) {
        {&costs.build, &costs.build_faults, &costs.bytes, &costs.update, &costs.uploaded, &costs.triangles}) {
     cost->record(run.recorder());
   }
-}
-
-std::vector<std::string_view> scaled_lods() {
-  std::vector<std::string_view> names;
-  for (const LodTheory& one : kLods) names.push_back(one.name);
-  return names;
 }
 
 }  // namespace terrabench::cross

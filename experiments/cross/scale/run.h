@@ -15,9 +15,8 @@
 #include "experiments/cross/scale/fresh_pages.h"
 #include "experiments/cross/scale/scaling.h"
 #include "experiments/experiment.h"
-#include "experiments/interference.h"
+#include "experiments/samples.h"
 #include "experiments/stopwatch.h"
-#include "results/store/statistics.h"
 #include "terrain/error.h"
 #include "terrain/memory.h"
 
@@ -63,7 +62,7 @@ class Run {
       work();
     } catch (const Error& error) {
       if (error.code() == ExitCode::kInterrupted || plan.sizes() == 0) throw;
-      plan.refused(columns);
+      plan.refused();
       return false;
     }
     plan.measured(columns, process_seconds() - begin, HeapCounter::peak() - base_);
@@ -73,34 +72,21 @@ class Run {
   // Processor seconds and page faults of each turn of the work on one thread. Before each turn, outside the
   // timed part, clear() frees what the last one made, and the caches are emptied: otherwise they would hold
   // the data of small sizes, but not of large ones. The time therefore includes cache misses on the code,
-  // too, which matters most at the smallest sizes. Work under 0.2 s is done once uncounted, then five times;
-  // under 2 s three times, all counted; longer work once, since the largest sizes take minutes. Of work under
-  // 0.05 s, turns that are disturbed (interference.h) are repeated, up to ten turns in all, which costs
-  // little time; if at least three are undisturbed, only those are counted.
+  // too, which matters most at the smallest sizes. There are six turns, or as many as take 2 s together,
+  // since the largest sizes take minutes; before them one that is not counted, if it takes under 0.2 s.
   template <class Clear, class Work>
-  void add_turns(Cost& cost, Cost& faults, double columns, const Clear& clear, const Work& work) const {
-    constexpr double kBrief = 0.05, kShort = 0.2, kLong = 2;  // seconds
-    const auto turn = [&] {
+  void add_samples(Cost& cost, Cost& faults, double columns, const Clear& clear, const Work& work) const {
+    constexpr double kShort = 0.2, kMost = 2;  // seconds
+    bool first = true;
+    for (Repetitions repetitions(kMost); repetitions.more();) {
       clear();
       caches_.evict();
       const double before = page_faults();
-      const double taken = processor_seconds(work);
-      return std::vector{taken, page_faults() - before};
-    };
-    std::vector<std::vector<double>> kept{turn()};
-    const double first = kept.front().front();
-    if (first < kBrief) {
-      Turns turns;
-      take_turns(turns, 5, turn);
-      kept = turns.kept(kFewestSamples);
-    } else if (first < kLong) {
-      const bool uncounted = first < kShort;
-      if (uncounted) kept.clear();
-      for (int more = 0; more < (uncounted ? 5 : 2); ++more) kept.push_back(turn());
-    }
-    for (const std::vector<double>& one : kept) {
-      cost.add(columns, one[0]);
-      faults.add(columns, one[1]);
+      const double taken = processor_seconds(work), faulted = page_faults() - before;
+      if (std::exchange(first, false) && taken < kShort) continue;
+      cost.add(columns, taken);
+      faults.add(columns, faulted);
+      repetitions.add(taken);
     }
   }
 
@@ -128,23 +114,12 @@ class Run {
   KeepFreedMemory keep_;
 };
 
-// The entry of that name. Throws unknown_name.
-template <class Table>
-const auto& entry(const Table& table, std::string_view kind, std::string_view name) {
-  std::vector<std::string_view> known;
-  for (const auto& one : table) {
-    if (one.name == name) return one;
-    known.push_back(one.name);
-  }
-  throw unknown_name(kind, name, known);
-}
-
-// Structures over height maps or over a solid: scale_structures.cpp.
+// Structures over height maps or over a solid: structures.cpp. Of solids those are measured that hold
+// overhangs and are sampled: a lossless type keeps the samples that it was built from, which a solid has not.
 void measure_structure(const Run&, bool solid, std::string_view name);
 std::vector<std::string_view> scaled_structures(bool solid);
 
-// Level of detail along a path: scale_lods.cpp.
+// Level of detail along a path: lods.cpp.
 void measure_lod(const Run&, std::string_view method);
-std::vector<std::string_view> scaled_lods();
 
 }  // namespace terrabench::cross

@@ -1,7 +1,7 @@
 // Every cost against the size of the ground: structures over height maps and over a solid, level-of-detail
 // methods along a walk, and flow routing. The ground of height maps grows as a window on endless hills does,
 // with the same work per column; the solid is one cube of caves at finer and finer resolution. The theory of
-// each family, and what it measures, is in scale_structures.cpp, scale_lods.cpp and measure_flow().
+// each family, and what it measures, is in GrowthTheory, LodGrowth and measure_flow().
 #include <fmt/format.h>
 
 #include <array>
@@ -10,6 +10,7 @@
 #include "experiments/cross/scale/run.h"
 #include "experiments/experiment.h"
 #include "experiments/ground.h"
+#include "lod/lod.h"
 #include "terrain/files.h"
 #include "terrain/hydrology/flow.h"
 
@@ -43,7 +44,7 @@ void measure_flow(const Run& run, bool whole) {
       Heightfield ground = noise_hills(side, run.seed());
       if (whole) ground = whole_metres(std::move(ground));
       FlowNetwork network;
-      run.add_turns(
+      run.add_samples(
           route, route_faults, columns, [&] { network = {}; }, [&] { network = route_flow(ground); });
     });
     run.progress().advance();
@@ -54,17 +55,12 @@ void measure_flow(const Run& run, bool whole) {
   route_faults.record(run.recorder());
 }
 
-// The limit of processor time per case, in seconds. With these limits the paper profile took 117 minutes on
-// two cores of an AMD EPYC. A size that is expected to exceed the limit is skipped, and the record gives time
-// as the reason: the mesh of the largest implicit surface, and on slow machines the largest voxels over
-// heights.
-double budget(std::string_view family, Profile profile) {
-  if (profile == Profile::kQuick) return 20;
-  return family == "heights" ? 300 : family == "solids" ? 150 : 120;
-}
+// The limit of processor time per case, in seconds. With these limits all cases took 23 minutes on two cores
+// of an AMD EPYC. A size that is expected to exceed the limit is skipped, and the record gives time as the
+// reason: the mesh of the largest implicit surface, and on slow machines the largest voxels over heights.
+double budget(std::string_view family) { return family == "heights" ? 300 : family == "solids" ? 150 : 120; }
 
-std::vector<Case> cases(const RunOptions& options) {
-  const bool paper = options.profile == Profile::kPaper;
+std::vector<Case> cases(const RunOptions&) {
   std::vector<Case> cases;
   const auto add = [&](std::string_view family, std::string_view method, std::int64_t smallest,
                        std::int64_t largest) {
@@ -74,15 +70,12 @@ std::vector<Case> cases(const RunOptions& options) {
                        {"method", std::string(method)},
                        {"smallest", smallest},
                        {"largest", largest},
-                       {"seconds", budget(family, options.profile)}}}});
+                       {"seconds", budget(family)}}}});
   };
-  for (const std::string_view one : scaled_structures(false)) {
-    const bool slow = one == "voxel";  // takes seconds from 1025² columns on
-    add("heights", one, 129, paper ? 16385 : slow ? 513 : 1025);
-  }
-  for (const std::string_view one : scaled_structures(true)) add("solids", one, 32, paper ? 1024 : 128);
-  for (const std::string_view one : scaled_lods()) add("lods", one, 129, paper ? 16385 : 2049);
-  for (const std::string_view one : {kWholeMetres, kUnrounded}) add("flow", one, 129, paper ? 16385 : 1025);
+  for (const std::string_view one : scaled_structures(false)) add("heights", one, 129, 16385);
+  for (const std::string_view one : scaled_structures(true)) add("solids", one, 32, 1024);
+  for (const LodType& one : lods()) add("lods", one.name, 129, 16385);
+  for (const std::string_view one : {kWholeMetres, kUnrounded}) add("flow", one, 129, 16385);
   return cases;
 }
 
@@ -106,7 +99,12 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kScale{"cross.scale", "Every cost against the size of the ground", kSpecs, cases,
-                               measure};
+extern const Experiment kScale{.id = "cross.scale",
+                               .title = "Every cost against the size of the ground",
+                               .parameters = kSpecs,
+                               .cases = cases,
+                               .measure = measure,
+                               .kind = Experiment::kOwnProcess,
+                               .profile_scale = true};
 
 }  // namespace terrabench::cross

@@ -49,18 +49,18 @@ std::vector<int> half_octave_sides(int smallest, int largest) {
 }
 
 bool SizePlan::admits(double columns) {
-  if (!as_refused_.empty()) {
-    as_refused_.push_back(columns);
+  if (refused_ > 0) {
+    ++refused_;
     return false;
   }
   if (sizes_ == 0) return true;
   const double ratio = columns / last_columns_;
   if (expected_bytes(columns) > budget_.bytes) {
-    for_memory_.push_back(columns);
+    ++short_of_memory_;
     return false;
   }
   if (spent_ + last_seconds_ * std::pow(ratio, growth_.time) > budget_.seconds) {
-    for_time_.push_back(columns);
+    ++short_of_time_;
     return false;
   }
   return true;
@@ -81,26 +81,19 @@ void SizePlan::measured(double columns, double seconds, std::int64_t peak_bytes)
   last_peak_ = static_cast<double>(std::max<std::int64_t>(peak_bytes, 0));
 }
 
-void SizePlan::refused(double columns) { as_refused_.push_back(columns); }
-
 void SizePlan::record(Recorder& recorder) const {
   recorder.add_varying(name_ + "_sizes", "", static_cast<double>(sizes_));
-  recorder.add_varying(name_ + "_skipped", "",
-                       static_cast<double>(for_time_.size() + for_memory_.size() + as_refused_.size()));
-  recorder.add_varying(name_ + "_short_of_time", "", static_cast<double>(for_time_.size()));
-  recorder.add_varying(name_ + "_short_of_memory", "", static_cast<double>(for_memory_.size()));
-  recorder.add_varying(name_ + "_refused", "", static_cast<double>(as_refused_.size()));
-  for (const double columns : for_time_) recorder.add_varying(name_ + "_skipped_for_time", "", columns);
-  for (const double columns : for_memory_) recorder.add_varying(name_ + "_skipped_for_memory", "", columns);
-  for (const double columns : as_refused_) recorder.add_varying(name_ + "_skipped_as_refused", "", columns);
+  recorder.add_varying(name_ + "_short_of_time", "", static_cast<double>(short_of_time_));
+  recorder.add_varying(name_ + "_short_of_memory", "", static_cast<double>(short_of_memory_));
+  recorder.add_varying(name_ + "_refused", "", static_cast<double>(refused_));
 }
 
-double Cost::theory() const {
-  if (!logarithm_ || columns_.empty()) return theory_;
+std::optional<double> Cost::theory() const {
+  if (!theory_ || !logarithm_ || columns_.empty()) return theory_;
   // The exponent of n^theory · log n between the smallest and the largest size.
   const auto [low, high] = std::minmax_element(columns_.begin(), columns_.end());
   if (!(*low > 1 && *high > *low)) return theory_;
-  return theory_ + std::log(std::log(*high) / std::log(*low)) / std::log(*high / *low);
+  return *theory_ + std::log(std::log(*high) / std::log(*low)) / std::log(*high / *low);
 }
 
 // How many sizes are measured depends on the time that they take, so all that is computed over them varies.
@@ -116,7 +109,8 @@ void Cost::record(Recorder& recorder) const {
   const auto [low, high] = std::minmax_element(columns_.begin(), columns_.end());
   recorder.add_varying(name_ + "_smallest", "", *low);
   recorder.add_varying(name_ + "_largest", "", *high);
-  recorder.add_varying(name_ + "_theory", "", theory());
+  const std::optional<double> expected = theory();
+  if (expected) recorder.add_varying(name_ + "_theory", "", *expected);
   const Medians medians = medians_of(columns_, values_);
   for (std::size_t i = 0; i < medians.values.size(); ++i) {
     if (unit_ == "s" && !(medians.values[i] > 0)) {
@@ -128,7 +122,7 @@ void Cost::record(Recorder& recorder) const {
   if (!law) return;
   recorder.add_varying(name_ + "_fitted", "", static_cast<double>(law->points));
   recorder.add_varying(name_ + "_exponent", unit, law->exponent);
-  recorder.add_varying(name_ + "_excess", unit, law->exponent - theory());
+  if (expected) recorder.add_varying(name_ + "_excess", unit, law->exponent - *expected);
   if (!std::isfinite(law->low)) return;
   recorder.add_varying(name_ + "_low", unit, law->low);
   recorder.add_varying(name_ + "_high", unit, law->high);

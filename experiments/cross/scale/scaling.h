@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,33 +42,29 @@ class SizePlan {
   std::uint64_t expected_bytes(double columns) const;
   void measured(double columns, double seconds, std::int64_t peak_bytes);
   // The structure does not take ground of this size.
-  void refused(double columns);
+  void refused() { ++refused_; }
 
-  // name_sizes and name_skipped, the numbers of sizes; of the latter name_short_of_time, name_short_of_memory
-  // and name_refused, the numbers by reason; name_skipped_for_time, …_for_memory and …_as_refused, the
-  // columns of each skipped size, where there are any.
+  // name_sizes, the number of sizes measured, and the numbers of those skipped: name_short_of_time,
+  // name_short_of_memory and name_refused.
   void record(Recorder&) const;
 
   std::size_t sizes() const { return sizes_; }
-  const std::vector<double>& for_time() const { return for_time_; }
-  const std::vector<double>& for_memory() const { return for_memory_; }
-  const std::vector<double>& as_refused() const { return as_refused_; }
 
  private:
   std::string name_;
   Budget budget_;
   Growth growth_;
-  std::size_t sizes_ = 0;
+  std::size_t sizes_ = 0, short_of_time_ = 0, short_of_memory_ = 0, refused_ = 0;
   double last_columns_ = 0, last_seconds_ = 0, spent_ = 0;
   double last_peak_ = 0;
-  std::vector<double> for_time_, for_memory_, as_refused_;
 };
 
 // One cost at all sizes, each measured once or more.
 class Cost {
  public:
-  // `theory`: exponent of the number of columns; `logarithm`: times the logarithm of that number.
-  Cost(std::string name, std::string unit, double theory, bool logarithm = false)
+  // `theory`: exponent of the number of columns, where one is stated; `logarithm`: times the logarithm of
+  // that number.
+  Cost(std::string name, std::string unit, std::optional<double> theory, bool logarithm = false)
       : name_(std::move(name)), unit_(std::move(unit)), theory_(theory), logarithm_(logarithm) {}
 
   void add(double columns, double value) {
@@ -77,19 +74,19 @@ class Cost {
 
   // The samples as `name`, their sizes as name_columns, pair by pair; each size's samples again as
   // name_at_COLUMNS, since two runs may reach different sizes; name_smallest and name_largest, the range of
-  // sizes; name_theory, the exponent in theory; and from two sizes on name_exponent, the exponent of the
-  // power law through the medians of the sizes, name_excess, that minus the theory, and name_fitted, the
-  // number of sizes. From three sizes on name_low and name_high, the exponent's 95 % interval. Where the
-  // median of a size is 0, as of page faults it may be, there is no exponent. Throws environment_error where
-  // a time is 0: then nothing was measured.
+  // sizes; name_theory, the exponent in theory, if there is one; and from two sizes on name_exponent, the
+  // exponent of the power law through the medians of the sizes, name_excess, that minus the theory, and
+  // name_fitted, the number of sizes. From three sizes on name_low and name_high, the exponent's 95 %
+  // interval. Where the median of a size is 0, as of page faults it may be, there is no exponent. Throws
+  // environment_error where a time is 0: then nothing was measured.
   void record(Recorder&) const;
 
   // In theory, over the sizes measured: with the logarithm the slope depends on them.
-  double theory() const;
+  std::optional<double> theory() const;
 
  private:
   std::string name_, unit_;
-  double theory_;
+  std::optional<double> theory_;
   bool logarithm_;
   std::vector<double> columns_, values_;
 };

@@ -1,10 +1,5 @@
-// Structures of cross.scale: each cost against the size of height maps, or of the lattice of a solid.
-//
-// Theory. Over heights, what a structure builds, holds, writes, reads and draws is proportional to the
-// columns; a query, a ray or an edit within a fixed number of columns takes the same time at any size. Over a
-// solid of n columns there are n^1.5 voxels, and surfaces have area in proportion to n: dense voxels hold the
-// former, all others the latter, and building samples every voxel. A ray through finer columns crosses n^0.5
-// of them. What follows from each method's own header stands in the tables below.
+// Structures of cross.scale: each cost against the size of height maps, or of the lattice of a solid. The
+// theory is that of the registry (GrowthTheory).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,32 +20,16 @@
 namespace terrabench::cross {
 namespace {
 
-// Exponents of the number of columns.
-struct StructureTheory {
-  std::string_view name;
-  double build, bytes, query, mesh, ray, edit;
-};
-constexpr double kVoxels = 1.5;  // the number of voxels of a solid
-constexpr double kLevels = 0.5;  // the number of levels of its columns, and of columns along a side
-constexpr std::array kOverHeights{
-    StructureTheory{"heightmap", 1, 1, 0, 1, 0, 0}, StructureTheory{"layered_stack", 1, 1, 0, 1, 0, 0},
-    StructureTheory{"voxel", 1, 1, 0, 1, 0, 0},     StructureTheory{"dense_voxel", 1, 1, 0, 1, 0, 0},
-    StructureTheory{"implicit", 1, 1, 0, 1, 0, 0},  StructureTheory{"drill", 1, 1, 0, 1, 0, 0},
-    StructureTheory{"ght", 1, 1, 0, 1, 0, 0},       StructureTheory{"procedural_mesh", 1, 1, 0, 1, 0, 0},
-};
-// Those that hold overhangs. A column of stacks is as long as its runs; voxels are read level by level.
-constexpr std::array kOverSolids{
-    StructureTheory{"layered_stack", kVoxels, 1, 0, 1, kLevels, 0},
-    StructureTheory{"voxel", kVoxels, 1, kLevels, kVoxels, kLevels, 0},
-    StructureTheory{"dense_voxel", kVoxels, kVoxels, kLevels, kVoxels, kLevels, 0},
-    StructureTheory{"implicit", kVoxels, 1, kLevels, kVoxels, kLevels, 0},
-};
+// What sizes are planned by where a method states no theory: a flat array of columns, or of voxels.
+GrowthTheory assumed(bool solid) {
+  return solid ? GrowthTheory{.build = 1.5, .bytes = 1.5, .mesh = 1.5} : GrowthTheory{};
+}
 
-constexpr int kBatch = 1024, kQueries = 1 << 16, kQueryTurns = 3;  // columns per call, and per sample
-constexpr double kQuerySeconds = 0.05;                             // per sample, of slow structures
+constexpr int kBatch = 1024, kQueries = 1 << 16;  // columns per call, and per sample
+constexpr double kQuerySeconds = 0.05;            // per sample, of slow structures
 constexpr int kNear = 32;         // columns along a side of the window of near queries, which caches hold
 constexpr int kEditRadius = 8;    // columns
-constexpr int kEdits = 32;        // per turn: half of them make one sample, half the other
+constexpr int kEdits = 16;        // per turn: half of them make one sample, half the other
 constexpr float kHighest = 1600;  // metres, of the hills
 
 // Hills from 0 to kHighest metres exactly, so that no size has more levels than another: two corners are the
@@ -170,7 +149,7 @@ void read_columns(const Representation& structure, float x, float z, float cell)
 // ones would find the ground dug away.
 bool holes_fit(int side) {
   const double hole = 2 * std::numbers::pi / 3 * std::pow(kEditRadius, 3);
-  return kQueryTurns * kEdits * hole <= 0.5 * std::pow(side, 3);
+  return kSamples * kEdits * hole <= 0.5 * std::pow(side, 3);
 }
 
 // The holes that make one sample: those in columns just read, or the others.
@@ -220,27 +199,29 @@ std::pair<Holes, Holes> dig_holes(Representation& structure, float cell, Places 
 // What one structure costs at all sizes.
 class Structure {
  public:
-  Structure(const Run& run, bool solid, const StructureTheory& theory)
+  Structure(const Run& run, bool solid, const RepresentationType& type)
       : run_(run),
         solid_(solid),
-        type_(representation(theory.name)),
-        building_(run.plan("build", 0.5, {theory.build, theory.bytes})),
-        filing_(run.plan("file", 0.2, {theory.bytes, theory.bytes})),
-        meshing_(run.plan("mesh", 0.3, {theory.mesh, std::max(theory.bytes, 1.0)})),
-        build_("build", "s", theory.build),
-        build_faults_("build_faults", "faults", theory.build),
-        bytes_("bytes", "B", theory.bytes),
-        file_("file", "B", theory.bytes),
-        load_("load", "s", theory.bytes),
-        load_faults_("load_faults", "faults", theory.bytes),
-        query_("query", "s", theory.query),
-        near_("query_near", "s", theory.query),
-        ray_("ray", "s", theory.ray),
-        ray_near_("ray_near", "s", theory.ray),
-        mesh_("mesh", "s", theory.mesh),
-        mesh_faults_("mesh_faults", "faults", theory.mesh),
-        edit_("edit", "s", theory.edit),
-        edit_cached_("edit_cached", "s", theory.edit),
+        type_(type),
+        theory_(solid ? type.growth_in_solids : type.growth),
+        planned_(theory_.value_or(assumed(solid))),
+        building_(run.plan("build", 0.5, {planned_.build, planned_.bytes})),
+        filing_(run.plan("file", 0.2, {planned_.bytes, planned_.bytes})),
+        meshing_(run.plan("mesh", 0.3, {planned_.mesh, std::max(planned_.bytes, 1.0)})),
+        build_("build", "s", theory_of(&GrowthTheory::build)),
+        build_faults_("build_faults", "faults", theory_of(&GrowthTheory::build)),
+        bytes_("bytes", "B", theory_of(&GrowthTheory::bytes)),
+        file_("file", "B", theory_of(&GrowthTheory::bytes)),
+        load_("load", "s", theory_of(&GrowthTheory::bytes)),
+        load_faults_("load_faults", "faults", theory_of(&GrowthTheory::bytes)),
+        query_("query", "s", theory_of(&GrowthTheory::query)),
+        near_("query_near", "s", theory_of(&GrowthTheory::query)),
+        ray_("ray", "s", theory_of(&GrowthTheory::ray)),
+        ray_near_("ray_near", "s", theory_of(&GrowthTheory::ray)),
+        mesh_("mesh", "s", theory_of(&GrowthTheory::mesh)),
+        mesh_faults_("mesh_faults", "faults", theory_of(&GrowthTheory::mesh)),
+        edit_("edit", "s", theory_of(&GrowthTheory::edit)),
+        edit_cached_("edit_cached", "s", theory_of(&GrowthTheory::edit)),
         random_(run.seed()) {}
 
   void measure() {
@@ -260,6 +241,10 @@ class Structure {
   }
 
  private:
+  std::optional<double> theory_of(double GrowthTheory::*cost) const {
+    return theory_ ? std::optional((*theory_).*cost) : std::nullopt;
+  }
+
   void measure(int side) {
     const double columns = squared(side);
     std::unique_ptr<Representation> built;
@@ -271,7 +256,7 @@ class Structure {
     run_.measured(filing_, columns, [&] { write_and_read(*built, columns); });
     run_.measured(meshing_, columns, [&] {
       TriangleMesh drawn;
-      run_.add_turns(
+      run_.add_samples(
           mesh_, mesh_faults_, columns, [&] { drawn = {}; }, [&] { drawn = built->mesh({}); });
     });
     if (takes_edits(type_)) dig(*built, side);
@@ -282,7 +267,7 @@ class Structure {
     if (!holes_fit(side)) return;
     const double share = 1 - 2.0 * (kEditRadius + 2) / side;
     const float cell = built.bounds().size().x / static_cast<float>(solid_ ? side : side - 1);
-    for (int turn = 0; turn < kQueryTurns; ++turn) {
+    for (int turn = 0; turn < kSamples; ++turn) {
       const auto [anywhere, cached] = dig_holes(built, cell, places(built, share), run_.caches());
       if (const auto taken = anywhere.seconds()) edit_.add(squared(side), *taken);
       if (const auto taken = cached.seconds()) edit_cached_.add(squared(side), *taken);
@@ -297,7 +282,7 @@ class Structure {
     if (solid_) parameters.set("resolution", std::int64_t{side});
     std::unique_ptr<Representation> built;
     Progress silent;  // a structure's own phases would end the case's
-    run_.add_turns(
+    run_.add_samples(
         build_, build_faults_, columns, [&] { built.reset(); },
         [&] { built = type_.build(source, parameters, silent); });
     bytes_.add(columns, static_cast<double>(built->memory().total()));
@@ -306,13 +291,13 @@ class Structure {
 
   void ask(const Representation& built, int side) {
     const double columns = squared(side), near = std::min(1.0, static_cast<double>(kNear) / side);
-    for (int turn = 0; turn < kQueryTurns; ++turn) {
+    for (int turn = 0; turn < kSamples; ++turn) {
       query_.add(columns, seconds_per_query(built, places(built, 1)));
       near_.add(columns, seconds_per_query(built, places(built, near)));
     }
     const std::unique_ptr<RayCaster> caster = built.ray_caster();
     if (!caster) return;
-    for (int turn = 0; turn < kQueryTurns; ++turn) {
+    for (int turn = 0; turn < kSamples; ++turn) {
       ray_.add(columns, seconds_per_ray(*caster, built.bounds(), places(built, 1)));
       ray_near_.add(columns, seconds_per_ray(*caster, built.bounds(), places(built, near)));
     }
@@ -322,7 +307,7 @@ class Structure {
     const std::filesystem::path path = folder_.path() / "saved";
     file_.add(columns, static_cast<double>(save_representation(path, type_, built)));
     std::unique_ptr<Representation> loaded;
-    run_.add_turns(
+    run_.add_samples(
         load_, load_faults_, columns, [&] { loaded.reset(); },
         [&] { loaded = load_representation(path).representation; });
   }
@@ -332,6 +317,8 @@ class Structure {
   const Run& run_;
   bool solid_;
   const RepresentationType& type_;
+  std::optional<GrowthTheory> theory_;
+  GrowthTheory planned_;
   SizePlan building_, filing_, meshing_;
   Cost build_, build_faults_, bytes_, file_, load_, load_faults_, query_, near_, ray_, ray_near_, mesh_,
       mesh_faults_, edit_, edit_cached_;
@@ -342,16 +329,16 @@ class Structure {
 }  // namespace
 
 void measure_structure(const Run& run, bool solid, std::string_view name) {
-  Structure(run, solid,
-            solid ? entry(kOverSolids, "structure for solids", name) : entry(kOverHeights, "structure", name))
-      .measure();
+  const std::vector<std::string_view> known = scaled_structures(solid);
+  if (std::ranges::count(known, name) == 0)
+    throw unknown_name(solid ? "structure for solids" : "structure", name, known);
+  Structure(run, solid, representation(name)).measure();
 }
 
 std::vector<std::string_view> scaled_structures(bool solid) {
   std::vector<std::string_view> names;
-  for (const StructureTheory& one : solid ? std::span<const StructureTheory>(kOverSolids)
-                                          : std::span<const StructureTheory>(kOverHeights)) {
-    names.push_back(one.name);
+  for (const RepresentationType& type : representations()) {
+    if (!solid || (type.traits.overhangs && !type.traits.lossless)) names.push_back(type.name);
   }
   return names;
 }

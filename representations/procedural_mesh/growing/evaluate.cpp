@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include "representations/procedural_mesh/growing/expression.h"
-#include "representations/procedural_mesh/growing/hashing.h"
 #include "representations/procedural_mesh/growing/operations.h"
+#include "terrain/splitmix.h"
 
 namespace terrabench::growing {
 namespace {
@@ -150,11 +150,11 @@ double evaluate(const Expression& expression, const Values& values) {
         if (*--top == 0) at = operation.where - 1;
         continue;
       case Code::kRandom:
-        *top++ = share(values.random, operation.where);
+        *top++ = random_share(values.random, operation.where);
         continue;
       case Code::kRandomBetween:
         --top;
-        top[-1] += (*top - top[-1]) * share(values.random, operation.where);
+        top[-1] += (*top - top[-1]) * random_share(values.random, operation.where);
         break;
       default:
         if (operation.arguments == 1) {

@@ -123,7 +123,7 @@ class Reader {
   void number();
   void function(std::string_view name, std::size_t begin);
   std::uint32_t emit(Operation, int pushes);
-  void finish(Expression&);
+  Expression read(void (Reader::*rule)());
   void skip_space();
 
   std::string_view text_;

@@ -118,29 +118,19 @@ std::uint32_t Reader::emit(Operation operation, int pushes) {
   return static_cast<std::uint32_t>(code_.size() - 1);
 }
 
-void Reader::finish(Expression& result) { result.code = std::move(code_); }
-
-Expression Reader::expression() {
+Expression Reader::read(void (Reader::*rule)()) {
   Expression result;
   skip_space();
   result.place = place();
   code_.clear();
   stack_ = nesting_ = 0;
-  choice();
-  finish(result);
+  (this->*rule)();
+  result.code = std::move(code_);
   return result;
 }
 
-Expression Reader::condition() {
-  Expression result;
-  skip_space();
-  result.place = place();
-  code_.clear();
-  stack_ = nesting_ = 0;
-  either();
-  finish(result);
-  return result;
-}
+Expression Reader::expression() { return read(&Reader::choice); }
+Expression Reader::condition() { return read(&Reader::either); }
 
 namespace {
 

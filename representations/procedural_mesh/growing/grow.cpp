@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "representations/procedural_mesh/growing/expansion.h"
-#include "representations/procedural_mesh/growing/hashing.h"
 #include "representations/procedural_mesh/growing/wave.h"
 #include "terrain/error.h"
+#include "terrain/splitmix.h"
 
 namespace terrabench::growing {
 namespace {

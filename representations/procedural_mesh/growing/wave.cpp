@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "representations/procedural_mesh/growing/hashing.h"
 #include "representations/procedural_mesh/growing/operations.h"
 #include "terrain/error.h"
+#include "terrain/splitmix.h"
 
 namespace terrabench::growing {
 namespace {
@@ -86,7 +86,7 @@ const Rule* Wave::rule_for(const Active& active, Failure& failure) const {
     sum += probability;
     return false;
   });
-  double left = share(combine(combine(system_.seed ^ kChoice, state.path), grown_.steps), kChoice);
+  double left = random_share(combine(combine(system_.seed ^ kChoice, state.path), grown_.steps), kChoice);
   left *= std::max(1.0, sum);
   const Rule* chosen = nullptr;
   each([&](const Rule& rule, double probability) {

@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "representations/procedural_mesh/growing/hashing.h"
 #include "terrain/error.h"
 #include "terrain/frustum.h"
+#include "terrain/splitmix.h"
 
 namespace terrabench::growing {
 namespace {
@@ -110,12 +110,13 @@ std::vector<Instance> scatter(const Planting& planting,
     const std::uint64_t key = combine(planting.seed, i);
     Instance& instance = instances[i];
     const std::size_t row = i / across;  // the last row may be short
-    instance.position.x = static_cast<float>((static_cast<double>(i % across) + share(key, 0)) * cell);
-    instance.position.z = static_cast<float>((static_cast<double>(row) + share(key, 1)) * cell);
+    instance.position.x = static_cast<float>((static_cast<double>(i % across) + random_share(key, 0)) * cell);
+    instance.position.z = static_cast<float>((static_cast<double>(row) + random_share(key, 1)) * cell);
     instance.position.y = height(instance.position.x, instance.position.z);
-    instance.turn = static_cast<float>(2 * std::numbers::pi * share(key, 2));
-    instance.scale = std::lerp(planting.least_scale, planting.most_scale, static_cast<float>(share(key, 3)));
-    instance.model = chosen(planting.shares, share(key, 4));
+    instance.turn = static_cast<float>(2 * std::numbers::pi * random_share(key, 2));
+    instance.scale =
+        std::lerp(planting.least_scale, planting.most_scale, static_cast<float>(random_share(key, 3)));
+    instance.model = chosen(planting.shares, random_share(key, 4));
     instance.seed = key;
   });
   return instances;

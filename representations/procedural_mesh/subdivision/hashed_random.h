@@ -6,18 +6,12 @@
 #include <cstdint>
 #include <numbers>
 
+#include "terrain/splitmix.h"
+
 namespace terrabench::subdivision {
 
-// The finaliser of SplitMix64 (Steele, Lea and Flood 2014): a bijection of 64 bits that mixes all of them.
-constexpr std::uint64_t mixed(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9U;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBU;
-  return x ^ (x >> 31);
-}
-
 constexpr std::uint64_t vertex_hash(std::uint64_t seed, std::uint32_t level, std::uint32_t vertex) {
-  constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15U;
-  return mixed(mixed(seed + kGolden) + kGolden * ((std::uint64_t{level} << 32 | vertex) + 1));
+  return mixed(scramble(seed) + kGolden * ((std::uint64_t{level} << 32 | vertex) + 1));
 }
 
 // Uniform in [-1, 1), of the upper 24 bits.

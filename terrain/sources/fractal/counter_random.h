@@ -4,15 +4,9 @@
 
 #include <cstdint>
 
-namespace terrabench::fractal {
+#include "terrain/splitmix.h"
 
-// A bijection of 64 bits in which every input bit reaches every output bit (Steele et al. 2014, SplitMix).
-constexpr std::uint64_t scramble(std::uint64_t v) {
-  v += 0x9E3779B97F4A7C15U;
-  v = (v ^ (v >> 30)) * 0xBF58476D1CE4E5B9U;
-  v = (v ^ (v >> 27)) * 0x94D049BB133111EBU;
-  return v ^ (v >> 31);
-}
+namespace terrabench::fractal {
 
 // The random numbers of one item: number `which` of a kind, for a seed.
 class CounterRandom {
@@ -20,11 +14,9 @@ class CounterRandom {
   constexpr CounterRandom(std::uint64_t seed, std::uint64_t kind, std::uint64_t which)
       : key_(scramble(scramble(scramble(seed) ^ kind) ^ which)) {}
 
-  constexpr std::uint64_t bits(std::uint64_t counter) const { return scramble(key_ ^ scramble(counter)); }
+  constexpr std::uint64_t bits(std::uint64_t counter) const { return combine(key_, counter); }
   // In [0, 1).
-  constexpr double share(std::uint64_t counter) const {
-    return static_cast<double>(bits(counter) >> 11) * 0x1p-53;
-  }
+  constexpr double share(std::uint64_t counter) const { return unit_of(bits(counter)); }
   // In [0, n), n ≤ 2^32; the bias of at most n / 2^32 does not show in a terrain.
   constexpr std::uint64_t below(std::uint64_t n, std::uint64_t counter) const {
     return (bits(counter) >> 32) * n >> 32;

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
-#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -21,110 +20,49 @@ namespace {
 constexpr char kWhere[] = "diamond-square";
 constexpr int kLargestLevels = 15;
 
-// One level: a diamond and a square step from a grid of `points` on a side, stored row after row, to one of
-// 2·points − 1. Far faster than the textbook's steps within the final array, which touch each of its cache
-// lines once per level.
-class Subdivision {
- public:
-  Subdivision(const DiamondSquareOptions& options, int level)
-      : seed_(options.seed), level_(level), points_((1 << level) + 1) {
-    range_ = level_range(options.amplitude, options.hurst, level);
-  }
+// Rows are circular: the last row equals the first.
+int around(int row, int period) { return (row % period + period) % period; }
 
-  int points() const { return points_; }
-  int fine_side() const { return 2 * points_ - 1; }
-  std::size_t coarse_size() const { return static_cast<std::size_t>(points_) * points_; }
-  std::size_t fine_size() const { return static_cast<std::size_t>(fine_side()) * fine_side(); }
-
-  // Fine rows 2·begin … 2·end − 1, with end < points. `coarse` holds the rows from `first` on, up to the
-  // last; rows 0 and points − 2 must be among them when begin is 0. Fine rows go to `fine`, where row 0 would
-  // start.
-  void expand(const float* coarse, int first, int begin, int end, float* fine) const {
-    constexpr int kBand =
-        32;  // rows per task; neighbouring tasks both compute the row of middles between them
-    tbb::parallel_for(
-        tbb::blocked_range<int>(begin, end, kBand),
-        [&](const tbb::blocked_range<int>& band) {
-          expand_band(coarse, first, band.begin(), band.end(), fine);
-        },
-        tbb::simple_partitioner());
-  }
-
- private:
-  // Displacements of one fine row; opposite borders have one key.
-  RowDisplacement displacement_of(int fine_row) const {
-    const auto row = static_cast<std::uint64_t>(level_) << 32 | static_cast<std::uint32_t>(fine_row);
-    return {row_key(seed_, kDiamondSquare, row), range_};
-  }
-
-  void expand_band(const float* coarse, int first, int begin, int end, float* fine) const {
-    const auto width = static_cast<std::size_t>(points_);
-    const auto row = [&](int r) { return coarse + static_cast<std::size_t>(r - first) * width; };
-    const auto fine_row = [&](int z) { return fine + static_cast<std::size_t>(z) * fine_side(); };
-    // One value before each row of middles: the array is circular.
-    std::vector<float> above(width), below(width);
-    const auto middles = [&](int r, std::vector<float>& out) {
-      diamond_row(row(r), row(r + 1), points_, displacement_of(2 * r + 1), out.data() + 1);
-      out[0] = out[width - 1];
-    };
-    middles(begin > 0 ? begin - 1 : points_ - 2, above);
-    for (int r = begin; r < end; ++r) {
-      middles(r, below);
-      even_row(row(r), above.data() + 1, below.data() + 1, points_, displacement_of(2 * r), fine_row(2 * r));
-      odd_row(row(r), row(r + 1), below.data() + 1, points_, displacement_of(2 * r + 1), fine_row(2 * r + 1));
-      std::swap(above, below);
-    }
-  }
-
-  std::uint64_t seed_;
-  int level_, points_;
-  float range_ = 0;
-};
-
-// The last level fills the array whose tail holds that level's input. Fine rows grow four times as fast as
-// coarse rows are used up, so the first three quarters can be written at once, then three quarters of the
-// rest, and so on; the last few rows are made from a copy.
-void expand_in_place(const Subdivision& level, float* heights) {
-  const int points = level.points();
-  const auto width = static_cast<std::size_t>(points),
-             fine_side = static_cast<std::size_t>(level.fine_side());
-  const std::size_t tail = level.fine_size() - level.coarse_size();
-  const float* const coarse = heights + tail;
-  for (int begin = 0; begin < points - 1;) {
-    const int first = std::max(0, begin - 1);  // the lowest coarse row that is still needed
-    const std::size_t writable = tail + static_cast<std::size_t>(first) * width;
-    const int end = std::min(points - 1, static_cast<int>(writable / fine_side / 2));
-    constexpr int kFew = 8;
-    if (end - begin >= kFew) {
-      level.expand(coarse, 0, begin, end, heights);
-      begin = end;
-    } else {
-      const std::vector<float> rest(coarse + static_cast<std::size_t>(first) * width,
-                                    coarse + level.coarse_size());
-      level.expand(rest.data(), first, begin, points - 1, heights);
-      begin = points - 1;
-    }
-  }
+// The first and the number of the coarse rows that so many fine rows stand on or between, and one more on
+// both sides.
+std::pair<int, int> coarse_rows(int first, int rows) {
+  const int low = (first >> 1) - 1;
+  return {low, ((first + rows - 1) >> 1) + 2 - low};
 }
 
-// The grids of successive levels lie at alternate ends of the array, so that the last level's input lies at
-// its tail.
-void run(const DiamondSquareOptions& options, int levels, float* heights, std::size_t size) {
-  const auto place = [&](int level) {  // where the input of this level starts
-    const auto points = (std::size_t{1} << level) + 1;
-    return (levels - 1 - level) % 2 == 0 ? heights + size - points * points : heights;
+// One level: a diamond and a square step, from the grid of 2^level + 1 samples per side to some rows of the
+// next. Grids are stored whole, row after row: far faster than the textbook's steps within the final array,
+// which touch each of its cache lines once per level. coarse(r) is row r, circular, of coarse_rows().
+template <class CoarseRow>
+void expand(const DiamondSquareOptions& options, int level, const CoarseRow& coarse, int first, int rows,
+            float* out) {
+  const int points = (1 << level) + 1, period = 2 << level;
+  const float range = level_range(options.amplitude, options.hurst, level);
+  // Of one fine row; opposite borders have one key.
+  const auto displacement_of = [&](int row) {
+    const auto which =
+        static_cast<std::uint64_t>(level) << 32 | static_cast<std::uint32_t>(around(row, period));
+    return RowDisplacement{row_key(options.seed, kDiamondSquare, which), range};
   };
-  std::fill_n(place(0), 4, options.corner);
-  for (int l = 0; l < levels; ++l) {
-    const Subdivision level(options, l);
-    float* const fine = l + 1 == levels ? heights : place(l + 1);
-    if (l + 1 == levels) {
-      expand_in_place(level, heights);
-    } else {
-      level.expand(place(l), 0, 0, level.points() - 1, fine);
+  // Middles between a coarse row and the next, with the last one repeated before the first.
+  std::vector<float> above(static_cast<std::size_t>(points)), below(above.size());
+  const auto middles = [&](int row, std::vector<float>& into) {
+    diamond_row(coarse(row), coarse(row + 1), points, displacement_of(2 * row + 1), into.data() + 1);
+    into[0] = into.back();
+  };
+  int made = coarse_rows(first, rows).first;
+  middles(made, below);  // `below` holds those after this coarse row, `above` those before it
+  for (int row = first; row < first + rows; ++row, out += period + 1) {
+    const int r = row >> 1;
+    for (; made < r; ++made) {
+      std::swap(above, below);
+      middles(made + 1, below);
     }
-    const auto side = static_cast<std::size_t>(level.fine_side());
-    std::memcpy(fine + side * (side - 1), fine, side * sizeof(float));
+    if (row % 2 == 0) {
+      even_row(coarse(r), above.data() + 1, below.data() + 1, points, displacement_of(row), out);
+    } else {
+      odd_row(coarse(r), coarse(r + 1), below.data() + 1, points, displacement_of(row), out);
+    }
   }
 }
 
@@ -134,7 +72,12 @@ void check(const DiamondSquareOptions& options) {
   check_between(options.amplitude, 0, kLargestMetres, "amplitude", kWhere);
   check_between(options.hurst, 0, 1, "hurst", kWhere);
   levels_of_side(options.side);
-  check_memory(options.side, options.side, kWhere);
+}
+
+DiamondSquareOptions reduced(DiamondSquareOptions options, int levels) {
+  check_between(levels, 1, levels_of_side(options.side), "kept", kWhere);
+  options.side = (1 << levels) + 1;
+  return options;
 }
 
 }  // namespace
@@ -149,9 +92,25 @@ int levels_of_side(int side) {
 
 Heightfield diamond_square(const DiamondSquareOptions& options) {
   check(options);
-  Heightfield field = Heightfield::zeros(options.side, options.side, options.cell, options.cell);
-  run(options, levels_of_side(options.side), field.heights.data(), field.heights.size());
-  return field;
+  check_memory(options.side, options.side + options.side / 4, kWhere);
+  std::vector<float> grid(4, options.corner);
+  for (int level = 0; level < levels_of_side(options.side); ++level) {
+    const int points = (1 << level) + 1, side = (2 << level) + 1;
+    std::vector<float> fine(static_cast<std::size_t>(side) * side);
+    const auto coarse = [&](int row) {
+      return &grid[static_cast<std::size_t>(around(row, points - 1)) * points];
+    };
+    constexpr int kBand = 64;  // rows per task; neighbouring tasks both compute a row of middles
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, side, kBand),
+        [&](const tbb::blocked_range<int>& band) {
+          expand(options, level, coarse, band.begin(), static_cast<int>(band.size()),
+                 &fine[static_cast<std::size_t>(band.begin()) * side]);
+        },
+        tbb::simple_partitioner());
+    grid = std::move(fine);
+  }
+  return {options.side, options.side, options.cell, options.cell, std::move(grid), {}};
 }
 
 Heightfield diamond_square_after(const DiamondSquareOptions& options, int steps) {
@@ -170,6 +129,34 @@ Heightfield diamond_square_after(const DiamondSquareOptions& options, int steps)
     }
   }
   return field;
+}
+
+DiamondSquareBands::DiamondSquareBands(const DiamondSquareOptions& options, int kept)
+    : options_(options),
+      kept_(std::min(kept, levels_of_side(options.side))),
+      coarse_(diamond_square(reduced(options, kept_))) {}
+
+void DiamondSquareBands::read(int first, int rows, std::span<float> out) const {
+  assert(first >= 0 && rows >= 0 && first + rows <= side());
+  assert(out.size() == static_cast<std::size_t>(rows) * side());
+  read_level(levels_of_side(options_.side), first, rows, out.data());
+}
+
+void DiamondSquareBands::read_level(int level, int first, int rows, float* out) const {
+  const int period = 1 << level;
+  const auto width = static_cast<std::size_t>(period) + 1;
+  if (level == kept_) {
+    for (int k = 0; k < rows; ++k, out += width) {
+      std::copy_n(&coarse_.heights[static_cast<std::size_t>(around(first + k, period)) * width], width, out);
+    }
+    return;
+  }
+  const auto [low, count] = coarse_rows(first, rows);
+  const auto points = static_cast<std::size_t>(period / 2 + 1);
+  std::vector<float> grid(static_cast<std::size_t>(count) * points);
+  read_level(level - 1, low, count, grid.data());
+  const auto coarse = [&, low = low](int row) { return &grid[static_cast<std::size_t>(row - low) * points]; };
+  expand(options_, level - 1, coarse, first, rows, out);
 }
 
 }  // namespace terrabench::fractal

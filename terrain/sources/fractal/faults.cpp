@@ -5,8 +5,7 @@
 #include <cstddef>
 
 #include "terrain/sources/fractal/counter_random.h"
-#include "terrain/sources/fractal/fault_steps.h"
-#include "terrain/sources/fractal/limits.h"
+#include "terrain/sources/fractal/sum_of_faults.h"
 
 namespace terrabench::fractal {
 namespace {
@@ -33,11 +32,10 @@ FaultLine fault_line(const FaultOptions& options, int number) {
 }
 
 // Adds what the line does to row j: to the sum at its west end, and where it crosses.
-void cross(const FaultLine& line, std::int64_t step, int j, int width, std::int64_t& sum,
-           std::vector<std::int64_t>& turns) {
+void cross(const FaultLine& line, int j, int width, int& sum, std::vector<int>& turns) {
   const std::int64_t rest = line.c - line.b * j;
   if (line.a == 0) {
-    sum += rest < 0 ? step : -step;
+    sum += rest < 0 ? 1 : -1;
     return;
   }
   // All numbers have at most 32 bits, and a fraction over a ≤ 2^15 is at least 2^-15 from a whole number it
@@ -45,23 +43,17 @@ void cross(const FaultLine& line, std::int64_t step, int j, int width, std::int6
   const double at = static_cast<double>(rest) / static_cast<double>(line.a);
   const bool rises_in_the_east = line.a > 0;
   const double first = rises_in_the_east ? std::floor(at) + 1 : std::ceil(at);  // sample of the other side
-  const std::int64_t west = rises_in_the_east ? -step : step;
+  const int west = rises_in_the_east ? -1 : 1;
   const double inside = std::clamp(first, 0.0, static_cast<double>(width));
   sum += west;
   turns[static_cast<std::size_t>(inside)] -= 2 * west;
 }
 
-FaultSteps checked_steps(const FaultOptions& options) {
-  check_side(options.width, "width", kWhere);
-  check_side(options.depth, "depth", kWhere);
-  check_between(options.cell, 1e-6, kLargestMetres, "cell", kWhere);
-  return fault_steps(options, kWhere);
-}
-
 }  // namespace
 
 std::vector<FaultLine> fault_lines(const FaultOptions& options) {
-  checked_steps(options);
+  check_faults(options, kWhere);
+  check_between(options.cell, 1e-6, kLargestMetres, "cell", kWhere);
   std::vector<FaultLine> lines;
   lines.reserve(static_cast<std::size_t>(options.faults));
   for (int k = 0; k < options.faults; ++k) lines.push_back(fault_line(options, k));
@@ -69,12 +61,11 @@ std::vector<FaultLine> fault_lines(const FaultOptions& options) {
 }
 
 Heightfield fault_terrain(const FaultOptions& options) {
-  const FaultSteps steps = checked_steps(options);
-  check_memory(options.width, options.depth, kWhere);
   const std::vector<FaultLine> lines = fault_lines(options);
-  Heightfield field = sum_of_faults(steps, options.width, options.depth, options.width, [&](int j) {
-    return [&, j](std::size_t k, std::int64_t step, std::int64_t& sum, std::vector<std::int64_t>& turns) {
-      cross(lines[k], step, j, options.width, sum, turns);
+  check_memory(options.width, options.depth, kWhere);
+  Heightfield field = sum_of_faults(options, options.width, [&](int j) {
+    return [&, j](std::size_t k, int& sum, std::vector<int>& turns) {
+      cross(lines[k], j, options.width, sum, turns);
     };
   });
   field.cell_x = field.cell_z = options.cell;

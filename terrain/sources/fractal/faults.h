@@ -3,8 +3,8 @@
 //
 // A line crosses each row of the field once, so that a row's heights are sums over the crossings before them:
 // O(faults · depth + width · depth) instead of the O(faults · width · depth) of the method as printed. Which
-// side a sample is on is decided in whole numbers and steps are summed in whole numbers: the result does not
-// depend on threads or machines.
+// side a sample is on is decided in whole numbers and steps are counted: the result does not depend on
+// threads or machines.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +19,7 @@ struct FaultOptions {
   int width = 513, depth = 513;  // samples
   float cell = 30;               // metres between samples
   int faults = 400;              // 0 to 1,000,000
-  float step = 20;               // metres by which the first fault moves each side
-  // Each fault moves the ground by `decay` times the step of the fault before, but by no less than
-  // `least_step`. At 1, as printed, all steps are equal; a smaller decay gives large forms first, then
-  // detail.
-  float decay = 1;
-  float least_step = 0;  // metres, up to `step`
+  float step = 20;               // metres by which a fault moves each side
 };
 
 // Sample (i, j) rises when a·i + b·j > c and sinks otherwise.
@@ -45,11 +40,10 @@ Heightfield fault_terrain(const FaultOptions&);
 // equator. O(faults · depth + width · depth).
 struct PlanetFaultOptions {
   std::uint64_t seed = 1;
-  int width = 1025, depth = 513;               // samples, both borders included
-  float radius = 100'000;                      // metres, of the sphere
-  int faults = 1000;                           // 0 to 1,000,000
-  float step = 50, decay = 1, least_step = 0;  // metres, as FaultOptions
-  bool great_circles = false;  // all planes through the centre: opposite points have opposite heights
+  int width = 1025, depth = 513;  // samples, both borders included
+  float radius = 100'000;         // metres, of the sphere
+  int faults = 1000;              // 0 to 1,000,000
+  float step = 50;                // metres
 };
 
 // A point p of the unit sphere rises when x·px + y·py + z·pz > offset; y points to the north pole.

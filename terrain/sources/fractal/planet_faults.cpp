@@ -6,9 +6,8 @@
 #include <numbers>
 
 #include "terrain/sources/fractal/counter_random.h"
-#include "terrain/sources/fractal/fault_steps.h"
 #include "terrain/sources/fractal/faults.h"
-#include "terrain/sources/fractal/limits.h"
+#include "terrain/sources/fractal/sum_of_faults.h"
 
 namespace terrabench::fractal {
 namespace {
@@ -78,17 +77,17 @@ Wave wave_of(const FaultPlane& plane, const SineTable& table) {
 }
 
 // Adds what the plane does to the parallel at sine and cosine of its latitude.
-void cross(const Wave& wave, const SineTable& table, double sine, double cosine, std::int64_t step,
-           std::int64_t& sum, std::vector<std::int64_t>& turns) {
+void cross(const Wave& wave, const SineTable& table, double sine, double cosine, int& sum,
+           std::vector<int>& turns) {
   const int n = table.turn;
   const double level = wave.plane.offset - wave.plane.y * sine;
   const auto rises = [&](int column) { return cosine * height_along(wave.plane, table, column) > level; };
   if (!rises(wave.summit)) {
-    sum -= step;
+    --sum;
     return;
   }
   if (rises(wave.bottom)) {
-    sum += step;
+    ++sum;
     return;
   }
   const double half_turns =
@@ -103,11 +102,11 @@ void cross(const Wave& wave, const SineTable& table, double sine, double cosine,
 
   // Columns west … east rise, in coordinates of the middle turn.
   const auto column = [&](int i) { return static_cast<std::size_t>((i % n + n) % n); };
-  sum -= step;
+  --sum;
   const std::size_t first = column(west), after = column(east + 1);
-  turns[first] += 2 * step;
-  turns[after] -= 2 * step;
-  if (after <= first) sum += 2 * step;  // the arc holds the date line
+  turns[first] += 2;
+  turns[after] -= 2;
+  if (after <= first) sum += 2;  // the arc holds the date line
 }
 
 FaultPlane fault_plane(const PlanetFaultOptions& options, int number) {
@@ -123,22 +122,16 @@ FaultPlane fault_plane(const PlanetFaultOptions& options, int number) {
   plane.x /= length;
   plane.y /= length;
   plane.z /= length;
-  plane.offset = options.great_circles ? 0 : 2 * random.share(drawn) - 1;
+  plane.offset = 2 * random.share(drawn) - 1;
   return plane;
-}
-
-FaultSteps checked_steps(const PlanetFaultOptions& options) {
-  check_side(options.width, "width", kWhere);
-  check_side(options.depth, "depth", kWhere);
-  check_between(options.width, 5, kLargestSide, "width", kWhere);  // four columns around, and the first again
-  check_between(options.radius, 1e-3, kLargestMetres, "radius", kWhere);
-  return fault_steps(options, kWhere);
 }
 
 }  // namespace
 
 std::vector<FaultPlane> fault_planes(const PlanetFaultOptions& options) {
-  checked_steps(options);
+  check_faults(options, kWhere);
+  check_between(options.width, 5, kLargestSide, "width", kWhere);  // four columns around, and the first again
+  check_between(options.radius, 1e-3, kLargestMetres, "radius", kWhere);
   std::vector<FaultPlane> planes;
   planes.reserve(static_cast<std::size_t>(options.faults));
   for (int k = 0; k < options.faults; ++k) planes.push_back(fault_plane(options, k));
@@ -146,20 +139,19 @@ std::vector<FaultPlane> fault_planes(const PlanetFaultOptions& options) {
 }
 
 Heightfield planet_faults(const PlanetFaultOptions& options) {
-  const FaultSteps steps = checked_steps(options);
+  const std::vector<FaultPlane> planes = fault_planes(options);
   check_memory(options.width, options.depth, kWhere);
   const int columns = options.width - 1, parallels = options.depth - 1;
   const SineTable table(columns);
   std::vector<Wave> waves;
-  for (const FaultPlane& plane : fault_planes(options)) waves.push_back(wave_of(plane, table));
-  Heightfield field = sum_of_faults(steps, options.width, options.depth, columns, [&](int j) {
+  for (const FaultPlane& plane : planes) waves.push_back(wave_of(plane, table));
+  Heightfield field = sum_of_faults(options, columns, [&](int j) {
     // Row j is j half-turns of parallels from the north pole: its sine is the cosine of that angle.
     const std::int64_t whole = 8 * static_cast<std::int64_t>(parallels),
                        part = 4 * static_cast<std::int64_t>(j);
     const double sine = sine_of_turn((part + whole / 4) % whole, whole), cosine = sine_of_turn(part, whole);
-    return [&, sine, cosine](std::size_t k, std::int64_t step, std::int64_t& sum,
-                             std::vector<std::int64_t>& turns) {
-      cross(waves[k], table, sine, cosine, step, sum, turns);
+    return [&, sine, cosine](std::size_t k, int& sum, std::vector<int>& turns) {
+      cross(waves[k], table, sine, cosine, sum, turns);
     };
   });
   for (int j = 0; j < options.depth; ++j) field.at(columns, j) = field.at(0, j);

@@ -156,7 +156,7 @@ Node stage_node(Builder& b, Stage stage) {
 
 CaveGraph terrain_graph(const CaveOptions& o) {
   Builder b(o);
-  Node root = !o.perturb_y ? b.ground() : o.perturb_x ? b.xy_perturbed() : b.y_perturbed();
+  Node root = o.perturb_x ? b.xy_perturbed() : b.y_perturbed();
   if (o.caves) root = b.carved(root, b.both_caves(o.attenuation));
   return {b.take(), root};
 }

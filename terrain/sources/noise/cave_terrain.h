@@ -18,8 +18,7 @@ namespace terrabench::noise {
 struct CaveOptions {
   std::uint64_t seed = 1;
   float extent = 128.0F;  // metres, side of the cube; features scale with it
-  bool perturb_y = true;  // hills
-  bool perturb_x = true;  // overhangs; without hills it moves nothing
+  bool perturb_x = true;  // overhangs
   bool caves = true;
   bool attenuation = true;  // caves fade with height
   // The paper multiplies two maps that are 0 in caves; the product is 0 where either is, yet the text says

@@ -30,10 +30,9 @@ enum class Op : std::uint8_t {
   kAdd,
   kMultiply,  // 0 where a is 0, else a·b
   kClamp,     // to [p, q]
-  kStep,      // 0 below p - q, 1 from p + q, quintic between
-  kMix,       // c where t = a is 0, b at 1, else c + t(b - c): operands (t, high, low)
+  kStep,      // 0 below p, 1 from p on
+  kMix,       // c where a is 0, b where it is 1
   kBias,
-  kGain,
   kFbm,
   kRidged,
   kBillow,

@@ -69,7 +69,6 @@ class Compiler {
   Id constant(float value) { return add({.op = Op::kConstant, .p = value}); }
   Id scale_offset(Id a, float scale, float offset);
   Id sum(Id a, Id b);
-  Id mix(Id t, Id high, Id low);
   Id fractal(Op op, const Fractal& fractal, const Coordinates& at);
   Id gradient(const Module& module, const Coordinates& at);
   Id evaluate(Node node, const Coordinates& at);
@@ -144,8 +143,6 @@ Id Compiler::sum(Id a, Id b) {
   return add_operation(Op::kAdd, {a, b, kNone});
 }
 
-Id Compiler::mix(Id t, Id high, Id low) { return add_operation(Op::kMix, {t, high, low}); }
-
 Id Compiler::fractal(Op op, const Fractal& f, const Coordinates& at) {
   const std::array<std::uint32_t, 6> key = {
       static_cast<std::uint32_t>(f.seed),         static_cast<std::uint32_t>(f.seed >> 32),
@@ -204,23 +201,17 @@ Id Compiler::evaluate_module(const Module& m, const Coordinates& at) {
     case Kind::kClamp:
       return add_operation(Op::kClamp, {input(0), kNone, kNone}, p[0], p[1]);
     case Kind::kSelect: {
-      const Id t = add_operation(Op::kStep, {input(2), kNone, kNone}, p[0], p[1]);
+      const Id t = add_operation(Op::kStep, {input(2), kNone, kNone}, p[0]);
       const Id low = input(0), high = input(1);
       const auto is = [&](Id id, float value) {
         return values_[id].op == Op::kConstant && values_[id].p == value && !std::signbit(values_[id].p);
       };
-      return is(low, 0) && is(high, 1) ? t : mix(t, high, low);
-    }
-    case Kind::kBlend: {
-      const Id t = add_operation(Op::kClamp, {input(2), kNone, kNone}, 0.0F, 1.0F);
-      return mix(t, input(1), input(0));
+      return is(low, 0) && is(high, 1) ? t : add_operation(Op::kMix, {t, high, low});
     }
     case Kind::kScaleOffset:
       return scale_offset(input(0), p[0], p[1]);
     case Kind::kBias:
       return add_operation(Op::kBias, {input(0), kNone, kNone}, 1.0F / p[0] - 2.0F);
-    case Kind::kGain:
-      return add_operation(Op::kGain, {input(0), kNone, kNone}, 1.0F / p[0] - 2.0F);
     case Kind::kAdd:
       return sum(input(0), input(1));
     case Kind::kMultiply:
@@ -353,7 +344,6 @@ void Compiler::emit_lazily(Id user, int slot) {
     skip.op = Op::kSkipIfDecided;
     skip.out = registers_[user];
     skip.p = v.p;
-    skip.q = v.q;
     skip.first = static_cast<std::uint32_t>(code_.intervals.size());
     skip.count = static_cast<std::uint32_t>(steps.size());
     code_.intervals.insert(code_.intervals.end(), steps.begin(), steps.end());

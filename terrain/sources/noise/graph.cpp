@@ -10,11 +10,10 @@
 namespace terrabench::noise {
 namespace {
 
-constexpr std::string_view kKindNames[] = {
-    "constant", "gradient", "fbm",      "ridged_multifractal", "billow",
-    "clamp",    "select",   "blend",    "scale_offset",        "bias",
-    "gain",     "add",      "multiply", "translate_domain",    "scale_domain",
-    "cache"};
+constexpr std::string_view kKindNames[] = {"constant",     "gradient", "fbm",      "ridged_multifractal",
+                                           "billow",       "clamp",    "select",   "scale_offset",
+                                           "bias",         "add",      "multiply", "translate_domain",
+                                           "scale_domain", "cache"};
 
 }  // namespace
 
@@ -56,13 +55,8 @@ Node Graph::clamp(Node source, float low, float high) {
   return add_module({Kind::kClamp, {source}, {low, high}, {}});
 }
 
-Node Graph::select(Node low, Node high, Node control, float threshold, float falloff) {
-  assert(falloff >= 0);
-  return add_module({Kind::kSelect, {low, high, control}, {threshold, falloff}, {}});
-}
-
-Node Graph::blend(Node low, Node high, Node control) {
-  return add_module({Kind::kBlend, {low, high, control}, {}, {}});
+Node Graph::select(Node low, Node high, Node control, float threshold) {
+  return add_module({Kind::kSelect, {low, high, control}, {threshold}, {}});
 }
 
 Node Graph::scale_offset(Node source, float scale, float offset) {
@@ -72,11 +66,6 @@ Node Graph::scale_offset(Node source, float scale, float offset) {
 Node Graph::bias(Node source, float bias) {
   assert(bias > 0 && bias < 1);
   return add_module({Kind::kBias, {source}, {bias}, {}});
-}
-
-Node Graph::gain(Node source, float gain) {
-  assert(gain > 0 && gain < 1);
-  return add_module({Kind::kGain, {source}, {gain}, {}});
 }
 
 Node Graph::add(Node a, Node b) { return add_module({Kind::kAdd, {a, b}, {}, {}}); }

@@ -23,10 +23,8 @@ enum class Kind : std::uint8_t {
   kBillow,
   kClamp,
   kSelect,
-  kBlend,
   kScaleOffset,
   kBias,
-  kGain,
   kAdd,
   kMultiply,
   kTranslateDomain,
@@ -78,20 +76,15 @@ class Graph {
 
   // min(max(source, low), high), low ≤ high.
   Node clamp(Node source, float low, float high);
-  // low where control < threshold, else high. With a falloff f > 0 the two are mixed by a quintic fade for
-  // control in threshold ± f. Where the mix is wholly one operand, the other is not evaluated and its value,
-  // NaN included, does not matter.
-  Node select(Node low, Node high, Node control, float threshold, float falloff = 0.0F);
-  // low + t (high - low), t = clamp(control, 0, 1). At t = 0 and 1 as for select.
-  Node blend(Node low, Node high, Node control);
+  // low where control < threshold, else high. The other is not evaluated, and its value, NaN included, does
+  // not matter.
+  Node select(Node low, Node high, Node control, float threshold);
 
   // source·scale + offset.
   Node scale_offset(Node source, float scale, float offset);
   // Schlick's bias of t = clamp(source, 0, 1): t / ((1/bias - 2)(1 - t) + 1), bias in (0, 1). Range [0, 1],
   // keeps 0 and 1, maps 1/2 to bias. The rational form instead of a power: it is exact on every machine.
   Node bias(Node source, float bias);
-  // Schlick's gain: bias(2t)/2 below 1/2, 1 - bias(2 - 2t)/2 above. Range [0, 1], keeps 0, 1/2 and 1.
-  Node gain(Node source, float gain);
 
   Node add(Node a, Node b);
   // a·b, and 0 where the mask a is 0, whatever b (NaN included): there b is not evaluated.

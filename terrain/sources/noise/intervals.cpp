@@ -19,14 +19,7 @@ Interval multiply(Interval a, Interval b) {
   return {*low, *high};
 }
 
-// low + t (high - low) with t in [0, 1] may round past either end, by at most this share of the larger.
-Interval mix(Interval high, Interval low) {
-  const Interval both = hull(high, low);
-  const float slack = 1e-6F * std::max(std::max(both.high, -both.high), std::max(both.low, -both.low));
-  return {both.low - slack, both.high + slack};
-}
-
-// Bias and gain are monotone except for rounding.
+// Bias is monotone except for rounding.
 Interval growing(Interval at_ends) { return {at_ends.low - 1e-6F, at_ends.high + 1e-6F}; }
 
 float bias(float t, float p) {
@@ -49,11 +42,9 @@ Interval bound(const IntervalStep& step, const Interval* at, const float* scratc
     case Op::kClamp:
       return {std::clamp(at[step.a].low, step.p, step.q), std::clamp(at[step.a].high, step.p, step.q)};
     case Op::kMix:
-      return mix(at[step.b], at[step.c]);
+      return hull(at[step.b], at[step.c]);
     case Op::kBias:
       return growing({bias(at[step.a].low, step.p), bias(at[step.a].high, step.p)});
-    case Op::kGain:
-      return {0.0F, 1.0F};
     default:
       return {step.p, step.q};  // a leaf of known range
   }
@@ -61,7 +52,7 @@ Interval bound(const IntervalStep& step, const Interval* at, const float* scratc
 
 }  // namespace
 
-int decide_step(std::span<const IntervalStep> steps, const float* scratch, Interval y, float p, float q) {
+int decide_step(std::span<const IntervalStep> steps, const float* scratch, Interval y, float p) {
   Interval at[kMaxIntervalSteps];
   for (std::size_t i = 0; i < steps.size(); ++i) {
     at[i] = bound(steps[i], at, scratch, y);
@@ -69,10 +60,8 @@ int decide_step(std::span<const IntervalStep> steps, const float* scratch, Inter
     if (!std::isfinite(at[i].low) || !std::isfinite(at[i].high)) return -1;
   }
   const Interval control = at[steps.size() - 1];
-  // With a falloff the ends of the ramp are computed by a division: leave a margin for its rounding.
-  const float margin = q == 0 ? 0.0F : 1e-5F * (q + std::abs(p));
-  if (control.low >= p + q + margin) return 1;
-  if (control.high < p - q - margin) return 0;
+  if (control.low >= p) return 1;
+  if (control.high < p) return 0;
   return -1;
 }
 

@@ -13,7 +13,7 @@ struct Interval {
   float low = 0, high = 0;
 };
 
-// 0 or 1 when kStep(control, p, q) has that value everywhere, -1 when the bounds do not decide.
-int decide_step(std::span<const IntervalStep> steps, const float* scratch, Interval y, float p, float q);
+// 0 or 1 when kStep(control, p) has that value everywhere, -1 when the bounds do not decide.
+int decide_step(std::span<const IntervalStep> steps, const float* scratch, Interval y, float p);
 
 }  // namespace terrabench::noise

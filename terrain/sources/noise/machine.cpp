@@ -40,31 +40,10 @@ HWY_INLINE VF clamp(VF v, VF low, VF high) {
 
 HWY_INLINE VF clamp01(VF v) { return clamp(v, hn::Zero(F()), hn::Set(F(), 1.0F)); }
 
-// 0 below p - q, 1 from p + q on, quintic between; NaN gives 0.
-HWY_INLINE VF step(VF v, float p, float q) {
-  const F f;
-  const VF one = hn::Set(f, 1.0F);
-  if (q == 0) return hn::IfThenElseZero(hn::Ge(v, hn::Set(f, p)), one);
-  const VF t = hn::Div(hn::Sub(v, hn::Set(f, p - q)), hn::Set(f, q + q));
-  const VF inner =
-      hn::Add(hn::Mul(hn::Sub(hn::Mul(t, hn::Set(f, 6.0F)), hn::Set(f, 15.0F)), t), hn::Set(f, 10.0F));
-  const VF fade = hn::Mul(hn::Mul(hn::Mul(t, t), t), inner);
-  const VF low = hn::IfThenElseZero(hn::Gt(t, hn::Zero(f)), fade);
-  return hn::IfThenElse(hn::Ge(t, one), one, low);
-}
-
 // p = 1/bias - 2.
 HWY_INLINE VF schlick_bias(VF t, VF p) {
   const VF one = hn::Set(F(), 1.0F);
   return hn::Div(t, hn::Add(hn::Mul(p, hn::Sub(one, t)), one));
-}
-
-HWY_INLINE VF schlick_gain(VF t, VF p) {
-  const F f;
-  const VF half = hn::Set(f, 0.5F), two_t = hn::Add(t, t);
-  const VF low = hn::Mul(schlick_bias(two_t, p), half);
-  const VF high = hn::Sub(hn::Set(f, 1.0F), hn::Mul(schlick_bias(hn::Sub(hn::Set(f, 2.0F), two_t), p), half));
-  return hn::IfThenElse(hn::Lt(t, half), low, high);
 }
 
 // Noise of octave `k` of a fractal for the whole batch.
@@ -162,7 +141,7 @@ HWY_INLINE bool all_equal(const Machine& m, const Operand& a, float value) {
 HWY_INLINE int decided(const Machine& m, const Instruction& in) {
   const float first = m.scratch[m.code.y.offset], last = m.scratch[m.code.y.offset + m.count - 1];
   const Interval y = first < last ? Interval{first, last} : Interval{last, first};
-  return decide_step(std::span(m.code.intervals).subspan(in.first, in.count), m.scratch, y, in.p, in.q);
+  return decide_step(std::span(m.code.intervals).subspan(in.first, in.count), m.scratch, y, in.p);
 }
 
 void run(const Machine& m, std::span<const Instruction> program) {
@@ -195,20 +174,16 @@ void run(const Machine& m, std::span<const Instruction> program) {
         m.each(in.out, [&](std::uint32_t i) { return clamp(m.load(in.a, i), p, q); });
         break;
       case Op::kStep:
-        m.each(in.out, [&](std::uint32_t i) { return step(m.load(in.a, i), in.p, in.q); });
+        // NaN gives 0.
+        m.each(in.out, [&](std::uint32_t i) { return hn::IfThenElseZero(hn::Ge(m.load(in.a, i), p), one); });
         break;
       case Op::kMix:
         m.each(in.out, [&](std::uint32_t i) {
-          const VF t = m.load(in.a, i), high = m.load(in.b, i), low = m.load(in.c, i);
-          const VF mixed = hn::Add(low, hn::Mul(t, hn::Sub(high, low)));
-          return hn::IfThenElse(hn::Eq(t, zero), low, hn::IfThenElse(hn::Eq(t, one), high, mixed));
+          return hn::IfThenElse(hn::Eq(m.load(in.a, i), zero), m.load(in.c, i), m.load(in.b, i));
         });
         break;
       case Op::kBias:
         m.each(in.out, [&](std::uint32_t i) { return schlick_bias(clamp01(m.load(in.a, i)), p); });
-        break;
-      case Op::kGain:
-        m.each(in.out, [&](std::uint32_t i) { return schlick_gain(clamp01(m.load(in.a, i)), p); });
         break;
       case Op::kFbm:
       case Op::kRidged:
