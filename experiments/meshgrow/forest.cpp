@@ -71,8 +71,15 @@ std::vector<Case> cases(const RunOptions& options) {
   picture.set("cache", std::int64_t{1280});
   picture.set("spacing", 8.0);
   if (paper) {
+    picture.set("instances", std::int64_t{120});
     picture.set("width", std::int64_t{1600});
     picture.set("samples", std::int64_t{4});
+    // Too many plants to draw at that size in minutes.
+    Parameters& memory = add("memory");
+    memory.set("cache", std::int64_t{1280});
+    memory.set("spacing", 8.0);
+    memory.set("width", std::int64_t{320});
+    memory.set("samples", std::int64_t{1});
   }
   // So few paths that they cannot reach all plants.
   Parameters& part = add("part");

@@ -46,7 +46,7 @@ std::vector<Case> cases(const RunOptions& options) {
   for (const std::string& ground : grounds(options, paper)) {
     for (const auto& [name, size] : {std::pair{"printed", 1.0}, {"fitted", 0.0}}) {
       cases.push_back({fmt::format("{}/{}", ground, name),
-                       {kSpecs, {{"size", size}, {"views", std::int64_t{paper ? 20 : 10}}}},
+                       {kSpecs, {{"size", size}, {"views", std::int64_t{20}}}},
                        ground});
     }
   }

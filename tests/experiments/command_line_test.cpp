@@ -159,8 +159,7 @@ TEST_F(CommandLine, TwoProfilesInOneFolderKeepTheirPictures) {
   EXPECT_THAT(call("$T check out").text,
               testing::AllOf(HasSubstr("Profile paper: "), HasSubstr("of profile quick are not read")));
   ASSERT_EQ(call("$T report out").code, 0);
-  EXPECT_THAT(call("grep -rho 'figures/hybrid[^\"]*' out/report --include=*.html").text,
-              HasSubstr(".paper.png"));
+  EXPECT_THAT(call("grep -rho 'figures/hybrid[^\"]*' out/report --include=*.html").text, HasSubstr(".paper"));
 }
 
 TEST_F(CommandLine, EveryPictureLeftBehindIsARecordsOwn) {
