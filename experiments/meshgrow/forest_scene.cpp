@@ -17,8 +17,8 @@ namespace {
 
 using growing::DetailLevel;
 
-// Fewer, larger leaves of fewer faces. `levels`: of stems. The leaves still cover the crown several times: at
-// the last levels less often, so that they need not be as large as to show.
+// Fewer leaves of fewer faces, so much larger that the plant covers as much of a picture, to a tenth.
+// `levels`: of stems.
 DetailLevel thinned(double levels, double leaves, double scale) {
   return {.leave_out = {"smooth"},
           .constants = {{"LeafDetail", 0},
@@ -42,22 +42,22 @@ const std::vector<Plant>& forest_plants() {
         {.fewer_subdivisions = 1},
         {.leave_out = {"smooth"}},
         thinned(3, 3, 0.45),
-        thinned(2, 40, 0.4),
-        thinned(2, 12, 0.5)}},
+        thinned(2, 40, 0.68),
+        thinned(2, 12, 1.15)}},
       {"tamarack",
        0.25,
        {{},
         {.fewer_subdivisions = 1},
         {.leave_out = {"smooth"}},
-        thinned(3, 1, 0.8),
-        thinned(2, 60, 0.6),
-        thinned(2, 18, 0.8)}},
+        thinned(3, 1, 0.93),
+        thinned(2, 60, 0.95),
+        thinned(2, 18, 1.37)}},
       {"oak",
        0.08,
-       {{}, {.leave_out = {"smooth"}}, thinned(3, 1, 0.5), thinned(2, 60, 0.5), thinned(2, 30, 0.6)}},
+       {{}, {.leave_out = {"smooth"}}, thinned(3, 1, 0.5), thinned(2, 60, 0.88), thinned(2, 30, 1.17)}},
       {"bush_tupelo",
        0.12,
-       {{}, {.leave_out = {"smooth"}}, thinned(3, 3, 0.42), thinned(3, 1, 0.6), thinned(2, 10, 0.6)}},
+       {{}, {.leave_out = {"smooth"}}, thinned(3, 3, 0.42), thinned(3, 1, 0.5), thinned(2, 10, 0.74)}},
   };
   return all;
 }
