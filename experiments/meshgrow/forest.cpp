@@ -76,9 +76,10 @@ std::vector<Case> cases(const RunOptions& options) {
     picture.set("samples", std::int64_t{4});
     // Too many plants to draw at that size in minutes.
     Parameters& memory = add("memory");
+    memory.set("instances", std::int64_t{300});
     memory.set("cache", std::int64_t{1024});
     memory.set("spacing", 8.0);
-    memory.set("width", std::int64_t{96});
+    memory.set("width", std::int64_t{320});
     memory.set("samples", std::int64_t{1});
   }
   // So few paths that they cannot reach all plants.
