@@ -72,7 +72,7 @@ void choose_triangles(benchmark::State& state) {
   MrbspOptions options;
   options.depth = depth;
   options.area_consistent = state.range(1) != 0;
-  options.conforming = state.range(2) != 0;
+  options.holes = state.range(2) != 0 ? HoleRule::kConforming : HoleRule::kPrinted;
   Mrbsp lod(field, options, silent());
   lod.tune(static_cast<double>(state.range(3)));
   const std::vector<View> views = walk(field);
