@@ -163,8 +163,8 @@ Sheet draw_rings(Drawing& drawing) {
   sheet.picture(2 * kMargin + kSide, kTitle, kLong, kSide, render_scene(gl, lit, aslant));
   sheet.dot({kMargin + kSide / 2, kTitle + kSide / 2}, 5, {0, 0, 0});
   const SheetPoint front = project(aslant, {0.5F * field.extent_x(), floor, field.extent_z()}).at;
-  sheet.text(2 * kMargin + kSide + front.x, kTitle + front.y + 26, format_number(field.extent_x()) + " m",
-             15, "middle");
+  sheet.text(2 * kMargin + kSide + front.x, kTitle + front.y + 26, format_number(field.extent_x()) + " m", 15,
+             "middle");
   double x = kMargin;
   const double y = kTitle + kSide + 18;
   for (std::size_t l = 0; l < levels.size(); ++l) {

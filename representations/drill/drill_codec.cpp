@@ -7,8 +7,8 @@
 #include <optional>
 #include <span>
 
-#include "representations/drill/quantum.h"
 #include "representations/coding/range_coder.h"
+#include "representations/drill/quantum.h"
 #include "terrain/hydrology/flow.h"
 #include "terrain/memory.h"
 

@@ -1,12 +1,11 @@
 // Bands hold the very bits of the whole terrain, wherever they begin.
-#include "terrain/sources/fractal/diamond_square.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
 #include <vector>
 
 #include "terrain/error.h"
+#include "terrain/sources/fractal/diamond_square.h"
 
 namespace terrabench::fractal {
 namespace {

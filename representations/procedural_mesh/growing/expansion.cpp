@@ -1,10 +1,10 @@
 #include "representations/procedural_mesh/growing/expansion.h"
-#include "terrain/splitmix.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "terrain/splitmix.h"
 
 namespace terrabench::growing {
 namespace {
