@@ -91,7 +91,7 @@ std::vector<Case> cases(const RunOptions& options) {
   part.set("samples", std::int64_t{1});
   for (const Variant& variant : kVariants) {
     Parameters& parameters = add(std::string(variant.name));
-    parameters.set("cache", paper ? variant.cache : variant.cache / 4);
+    parameters.set("cache", paper ? variant.cache : variant.cache / 2);
     parameters.set("instances", std::int64_t{40});  // or the small caches expand the same parts for minutes
     parameters.set("threads", variant.threads);
   }
