@@ -42,8 +42,8 @@ class Samples {
   void add(std::string metric, std::string unit, std::function<double()> work);
   void time(std::string metric, std::function<void()> work);  // the seconds that it takes
 
-  // Calls each piece of work once per round as long as its Repetitions last, which count what it prepares
-  // too, and records the samples. What the work refers to must still be there. Then forgets the work.
+  // Calls each piece of work once per round until its Repetitions end (their time limit includes what it
+  // prepares), records the samples and discards the work. What the work refers to must still exist.
   void take(Recorder&);
 
  private:

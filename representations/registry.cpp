@@ -14,8 +14,8 @@ namespace terrabench {
 namespace {
 
 constexpr GrowthTheory kPerColumn{};
-// Of a solid: its voxels, and the levels of its columns, which are also the columns that a ray crosses.
-// Building samples every voxel; a column of stacks is as long as its runs, voxels are read level by level.
+// A solid with n columns has n^1.5 voxels and n^0.5 levels per column; a ray crosses n^0.5 columns. Building
+// samples every voxel. A query reads the runs of a stack's column alone, but voxels level by level.
 constexpr double kVoxels = 1.5, kLevels = 0.5;
 constexpr GrowthTheory kStacks{.build = kVoxels, .ray = kLevels};
 constexpr GrowthTheory kLevelByLevel{.build = kVoxels, .query = kLevels, .mesh = kVoxels, .ray = kLevels};

@@ -42,7 +42,8 @@ struct Profiles {
   }
 };
 
-// Records what only a union of cross-sections through the pixel, and least squares, fulfil.
+// Records measures that reach the expected values only if the curve is the union of the pixel's
+// cross-sections and the fits are least-squares fits.
 void record_profiles(const Profiles& shown, const Heightfield& ground, std::uint32_t pixel,
                      Recorder& recorder) {
   constexpr float kRounding = 1e-3F;  // metres: weights of bilinear samples are rounded

@@ -51,8 +51,9 @@ auto colour_between(const HeightRange& range) {
   };
 }
 
-// Colours the image pixels at the middle of a channel pixel, and those whose middle lies in one: none is lost
-// whichever grid is the finer one, and none is widened.
+// Colours each image pixel that contains the centre of a channel pixel, and each whose own centre lies in
+// one. So no channel pixel is lost where the image is coarser than the ground, and none is widened where it
+// is finer.
 void draw_channel_pixels(const std::vector<std::uint32_t>& channels, const Heightfield& ground,
                          Image& image) {
   std::vector<bool> is_channel(ground.heights.size());

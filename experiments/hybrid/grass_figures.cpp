@@ -199,8 +199,9 @@ Sheet draw_diagram(Drawing& drawing) {
   record_billboards(drawing, scene.planes, ground, view, drawn,
                     no_grass.picture(view, GrassTechnique::kGeometryShader));
 
-  Sheet sheet = panel_sheet({{{planes, "The quadrilaterals, 0.8 m × 0.9 m, on the triangle A B C"},
-                              {drawn, "The same strand with its texture"}}});
+  const std::string words = fmt::format("The quadrilaterals, {:.2f} m × {:.2f} m, on the triangle A B C",
+                                        strand.width * glm::length(strand.side), glm::length(up));
+  Sheet sheet = panel_sheet({{{planes, words}, {drawn, "The same strand with its texture"}}});
   const auto label = [&](const glm::vec3& p, double dx, double dy, std::string_view words,
                          Rgb colour = kInk) {
     const figures::SheetPoint at = figures::project(view, p).at;

@@ -12,9 +12,9 @@
 
 namespace terrabench::hybrid {
 
-// By how many degrees the guide farthest from its vertex's faces leans out of them: how much more its angle
-// with the normal of a face at its vertex is than the largest between two of these normals. A mean of the
-// normals leans out of none.
+// The largest excess over all guides, in degrees. A guide's excess is its largest angle with the normal of a
+// face at its vertex, minus the largest angle between two of these normals: not above 0 for a guide along a
+// mean of the normals.
 double lean_out_of_faces(const TriangleMesh&, std::span<const SceneLine> guides);
 
 // Strands on one triangle: their largest angle with the mean of its corners' normals, weighted by the

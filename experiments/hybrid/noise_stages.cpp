@@ -38,8 +38,8 @@ std::vector<Case> cases(const RunOptions&) {
 }
 
 // The connected pieces of ground in the picture, as hybrid.caves finds them in space: a pixel is a cell of a
-// terrain that is one cell deep. What the picture's sides cut off may be joined to the ground beyond them, so
-// an upright wall at each side joins it here.
+// terrain that is one cell deep. A piece that touches a side of the picture may be connected to the ground
+// outside it, so a vertical wall of ground at each side connects such pieces.
 Components pieces(const Pixels& pixels, float extent, Progress& progress) {
   const int side = pixels.side;
   const float step = extent / static_cast<float>(side);

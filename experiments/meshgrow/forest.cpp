@@ -14,6 +14,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <optional>
+#include <tuple>
 
 #include "experiments/experiment.h"
 #include "experiments/figures/figure.h"
@@ -30,6 +31,7 @@ constexpr std::string_view kKinds[] = {"lazy", "error"};
 const std::array kSpecs{
     choice("kind", kKinds, "of the measurement: of lazy expansion, or of its error against full expansion"),
     ParameterSpec{"instances", std::int64_t{500}, "", "plants in the forest", 0, 10'000'000},
+    ParameterSpec{"area", 60.0, "m²", "of ground per plant", 1, 1e6},
     ParameterSpec{"spacing", 1.5, "pixels", "a level has one face per square of this side; 0: finest", 0,
                   100},
     ParameterSpec{"uniform", false, "",
@@ -68,8 +70,9 @@ std::vector<Case> cases(const RunOptions& options) {
   };
   Parameters& picture = add("picture");
   picture.set("figure", true);
+  picture.set("area", 150.0);  // open woodland: the ground shows between the crowns
   picture.set("cache", std::int64_t{1280});
-  picture.set("spacing", 8.0);
+  picture.set("spacing", 4.0);
   if (paper) {
     picture.set("instances", std::int64_t{120});
     picture.set("width", std::int64_t{1600});
@@ -100,8 +103,9 @@ std::vector<Case> cases(const RunOptions& options) {
     parameters.set("kind", std::string("error"));
     parameters.set("spacing", spacing);
     parameters.set("uniform", uniform);
-    parameters.set("instances", std::int64_t{paper ? 12 : 4});
-    parameters.set("samples", std::int64_t{paper ? 32 : 16});
+    parameters.set("instances", std::int64_t{12});
+    parameters.set("width", std::int64_t{240});
+    parameters.set("samples", std::int64_t{32});
     parameters.set("cache", std::int64_t{1024});
   };
   for (const double spacing : kSpacings) add_error(fmt::format("spacing={}", spacing), spacing, false);
@@ -111,8 +115,8 @@ std::vector<Case> cases(const RunOptions& options) {
 
 // Cases on the same forest share it: planting foresees every instance.
 std::shared_ptr<const Forest> forest_of(const ForestSettings& settings, Progress& progress) {
-  static std::pair<std::pair<std::uint64_t, std::uint64_t>, std::shared_ptr<const Forest>> last;
-  const std::pair key{settings.instances, settings.seed};
+  static std::pair<std::tuple<std::uint64_t, double, std::uint64_t>, std::shared_ptr<const Forest>> last;
+  const std::tuple key{settings.instances, settings.area, settings.seed};
   if (last.second == nullptr || last.first != key) {
     last.second.reset();
     last = {key, std::make_shared<const Forest>(settings, &progress)};
@@ -206,7 +210,8 @@ void record(const Expanded& expanded, const Forest& forest, Recorder& recorder) 
 void measure_lazy(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   Stopwatch planting;
   const auto instances = static_cast<std::uint64_t>(at.parameters.integer("instances"));
-  const auto forest = forest_of({.instances = instances, .seed = options.seed}, progress);
+  const auto forest = forest_of(
+      {.instances = instances, .area = at.parameters.number("area"), .seed = options.seed}, progress);
   recorder.add("planting_seconds", "s", planting.seconds());
   const View view =
       view_from_the_air(*forest, at.integer("width"), static_cast<float>(at.parameters.number("shown")));

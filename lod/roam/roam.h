@@ -31,8 +31,8 @@
 //   degenerate   of a triangle: its corners are collinear in plan, so it must always be split. Only where
 //                Lattice::exact is false; skip it at a first reading
 //   deferred     not ranked again before the camera has moved so far that the rank may matter
-//   exact_from_  the bucket from which up priorities are exact, to a bucket: a little below the one where the
-//                queues meet, since nothing splits or merges further below
+//   exact_from_  lowest bucket in which priorities are kept exact to within one bucket. It lies a little
+//                below the bucket where the queues meet; nothing splits or merges further down
 #pragma once
 
 #include <array>
@@ -150,10 +150,10 @@ class Roam : public Lod {
   std::vector<Batch> batches_;
   std::vector<DirtyRange> uploads_, edits_;  // edits_: for the next frame
   Frame frame_;
-  // When deferred priorities are computed again (rank_leaf(), rank_diamond()). Leaves from this bucket up: as
-  // soon as the motion may have changed them by 1/16. Leaves below: before they may have risen to it.
-  // Diamonds: before they may have fallen 1/16 below it. That is this bucket as it was when they were ranked;
-  // it may have risen since.
+  // Decides when a deferred priority is computed again (rank_leaf(), rank_diamond()). Of a leaf in this
+  // bucket or above: as soon as the motion may have changed it by 1/16. Of a leaf below: before it may have
+  // risen to this bucket. Of a diamond: before it may have fallen 1/16 below the value that this bucket had
+  // when the diamond was ranked; the bucket may have risen since.
   int exact_from_ = kMaxErrorBucket;
   std::size_t changes_ = 0;
   std::chrono::steady_clock::time_point start_;

@@ -181,9 +181,9 @@ class Insertion {
     return largest;
   }
 
-  // One sample of each triangle that misses more than the limit, unless the pass changed the triangle before;
-  // whether there was one. In an order that keeps to one region after the other, since what is near in space
-  // then is near in memory.
+  // Inserts the worst sample of each triangle whose error exceeds the limit, unless this pass has already
+  // changed the triangle. Returns whether any was inserted. The order follows a Z-order curve, so that
+  // triangles near in space are near in memory.
   bool insert_above(float limit) {
     std::vector<Due> due;
     for (std::uint32_t t = 0; t < candidates_.size(); ++t) {

@@ -98,7 +98,7 @@ class TinCoder {
     for (std::uint32_t t = 0; t < holes.size(); ++t) {
       std::size_t known = 0, are = 0;
       for (const std::uint32_t n : surface.triangles()[t].neighbour) {
-        if (n >= t) continue;  // of no triangle, too
+        if (n >= t) continue;  // also skips kNone
         ++known;
         are += holes[n];
       }

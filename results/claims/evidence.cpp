@@ -21,17 +21,18 @@ namespace {
 using Kind = Condition::Kind;
 using Outcome = Finding::Outcome;
 
-// How near two values are: |a - b| ÷ max(|a|, |b|), at most 1: 0 if they are equal, 1 if the signs differ.
+// Relative difference of two values: |a - b| ÷ max(|a|, |b|), at most 1. 0 if they are equal, 1 if their
+// signs differ.
 double room_between(double a, double b) {
   const double distance = std::abs(b - a), scale = std::max(std::abs(a), std::abs(b));
   if (distance == 0) return 0;
   return std::isfinite(scale) ? std::min(1.0, distance / scale) : 1;
 }
 
-// The least of those to the bounds of the range in which the value lies. Some do not count: a lower bound of
-// 0, since counts, bytes, times and shares are never less; and an upper bound of 1 of a condition `within`
-// whose lower bound is above 0, since the value is a share, of which 1 is the best. None for a range of one
-// value, as for an equality.
+// The smaller of the relative differences to the two bounds of the range in which the value lies. Some do not
+// count: a lower bound of 0, since counts, bytes, times and shares are never less; and an upper bound of 1 of
+// a condition `within` whose lower bound is above 0, since the value is a share, of which 1 is the best. None
+// for a range of one value, as for an equality.
 std::optional<double> room_in_range(double value, const Condition& condition) {
   const double low = condition.low, high = condition.high;
   const bool share = condition.kind == Kind::kWithin && low > 0 && high == 1;

@@ -55,7 +55,7 @@ struct JudgedResults {
 
 // Which claims of a folder that lacks whole experiments are judged.
 enum class Demand {
-  kAll,  // all: those of the other experiments are missing, and so fail, but for those of the profile scale
+  kAll,  // all: claims of experiments without records are missing, and fail, except those of profile scale
   kRun,  // those of whose experiments there is any record
 };
 

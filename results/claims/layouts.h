@@ -79,8 +79,9 @@ struct PlotLayout {
 struct RankingLayout {
   using Entry = TableLayout::Row;
   std::string id, task, where;  // task: "Fewest bytes in memory"; where: "on caves"
-  // Of the findings in short. `sentence` is the name of the sentence that says who is best at this task, and
-  // `brief` how the task begins there: "for the fewest bytes in memory". Both empty: in none.
+  // For the summary of findings: `sentence` names the sentence that says which method is best at this task;
+  // `brief` is the task's wording in it: "for the fewest bytes in memory". Both are empty if no sentence
+  // mentions the task.
   std::string sentence, brief;
   std::string experiment, metric;  // `metric` and `needs` are read for the entry as a table's columns are
   std::string unit;                // that values are shown in

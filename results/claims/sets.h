@@ -8,9 +8,9 @@
 //
 // The members of `of` that have all fields of `with`, none of `without`, and are not named in `except`, in
 // their order. `of` is a listed set of the file, or one that was declared. results/ knows no method, so the
-// program declares the methods at start-up (experiments/method_sets.h). Records could not tell them: then
-// what a claim states would depend on the folder that is judged, and a method that was not measured would not
-// be missed.
+// program declares the methods at start-up (experiments/method_sets.h). The methods are
+// not taken from the records: a claim's content would then depend on the folder that is judged, and a method
+// that was not measured would go unnoticed.
 #pragma once
 
 #include "results/claims/toml_reader.h"

@@ -9,8 +9,8 @@
 // A list element with each = ["ground", "size"] stands for one element per pair of members. In its texts,
 // {size}, {ground} (the member's name) and {ground.where} are replaced by those of the pair. A member's
 // text may take {set.field} from other fields of the same member, one level deep. A set that is a table is
-// derived from another (sets.h). In a list of texts, a text
-// with a set that no `each` names stands for one text per member. Numbers are not replaced.
+// derived from another (sets.h). In a list of texts, a text with a set that no `each` names stands for one
+// text per member. Numbers are not replaced.
 //
 // Tables, plots, pages and rankings that are stated for a set of grounds can also be made for a ground that
 // the file does not name. [further] lists, per set, the members that then replace the set's own. The first

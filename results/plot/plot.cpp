@@ -285,7 +285,8 @@ void add_all(vtkChartXY* chart, const std::vector<PlotSeries>& all, bool bars, c
     }
     const Style style =
         series.reported ? kReported[reported++ % kReported.size()] : measured_style(measured++);
-    // Of the series drawn later, at most as many as the widest line needs to show below them.
+    // Number of series drawn after this one, which widens its line so that it shows below them; at most
+    // kMostAbove, for the widest line.
     constexpr std::ptrdiff_t kMostAbove = 5;
     const std::ptrdiff_t above = std::count_if(&series + 1, all.data() + all.size(),
                                                [](const PlotSeries& s) { return !s.points.empty(); });

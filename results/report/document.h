@@ -12,9 +12,9 @@
 
 namespace terrabench {
 
-// The target is a relative file, or #id. Pages are written in two forms, HTML and Markdown, and those of a
-// form lead to each other: "main" at the start of a target stands for the form's main page, or for nothing on
-// that page itself, and ".*" for the form's extension.
+// The target is a relative file, or #id. Each page is written as HTML and as Markdown, and links
+// lead to pages of the same format. In a target, a leading "main" is replaced by the main page's file name
+// (by nothing on the main page itself), and ".*" by the format's extension.
 struct Link {
   std::string text, target;
 };

@@ -61,8 +61,8 @@ std::string title_beside_number(const std::string& title) {
   return title.starts_with("Table ") || title.starts_with("Figure ") ? "The paper's " + title : title;
 }
 
-// Its copy's name, without an ending: its own, since two pictures may have one id, with its folder where that
-// is not figures/.
+// Name of the picture's copy, without extension. It is made from the file's name, because two pictures may
+// share an id, and includes the folder unless that is figures/.
 std::string picture_name(const RecordedFigure& figure) {
   constexpr std::string_view kFolder = "figures/", kEnding = ".png";
   std::string_view name = figure.file;

@@ -25,10 +25,10 @@ Summary summarise(std::span<const double> samples);  // at least one sample, all
 // be zero gives infinities or NaN, which lie in no range.
 Summary summarise_ratio(std::span<const double> numerator, std::span<const double> denominator);
 
-// The one rule for times: of which two, whose ratio this is, one may be called the longer. The interval
-// excludes 1, and the ratio is kTimingMargin or more, or its inverse is: an interval of one run does not
-// cover the differences between runs on one machine. Of the ranked medians, two thirds differed by less
-// between two runs of the whole paper profile.
+// Whether two times with this ratio count as different; every comparison of times uses this rule. They do if
+// the interval excludes 1 and the ratio or its inverse is at least kTimingMargin. The margin is needed
+// because the interval of one run does not cover the differences between runs on one machine. Of the ranked
+// medians, two thirds differed by less between two runs of the whole paper profile.
 inline constexpr double kTimingMargin = 1.25;
 bool differ(const Summary& ratio, double margin = kTimingMargin);
 

@@ -54,10 +54,10 @@ RadialErosion event_of(const Sphere& sphere) {
   return {glm::dvec3(sphere.centre), glm::dvec3(sphere.radius)};
 }
 
-// An event of the sphere's radius, at the highest line where a tree of heightmaps takes it (the first type
-// with the trait events), and not so low that it would reach below the ground. The event at the sphere's own
-// centre, not taken, if the tree refuses it at all of the kMostPlaces highest lines or cannot be built, such
-// as for lack of memory: trees of solids take no events.
+// Returns an event with the sphere's radius, on the highest vertical line where the first type with the trait
+// events (the grounded heightmap tree) accepts it, and high enough not to reach below the ground. If the tree
+// accepts none of the kMostPlaces highest lines or cannot be built, for example for lack of memory, returns
+// the event at the sphere's own centre with taken = false. Trees of solids take no events.
 EventPlace find_place(const Scene& scene, Sphere sphere, Progress& progress) {
   const EventPlace none{event_of(sphere)};
   const auto types = representations();

@@ -114,8 +114,9 @@ class Run {
   KeepFreedMemory keep_;
 };
 
-// Structures over height maps or over a solid: structures.cpp. Of solids those are measured that hold
-// overhangs and are sampled: a lossless type keeps the samples that it was built from, which a solid has not.
+// Structures over height maps or over a solid: structures.cpp. Over a solid, only types that hold
+// overhangs and are not lossless are measured: a lossless type keeps the samples that it was built from, and
+// a solid has none.
 void measure_structure(const Run&, bool solid, std::string_view name);
 std::vector<std::string_view> scaled_structures(bool solid);
 

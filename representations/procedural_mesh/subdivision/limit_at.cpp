@@ -135,8 +135,8 @@ glm::dvec3 limit_at(const Topology& topology, std::span<const glm::dvec3> points
   };
   Patch patch = around(topology, points, face);
   for (int step = 0;; ++step) {
-    // One refinement gives the patches of all children. What it makes of the patch's rim, whose other faces
-    // are missing, is not around a child.
+    // One refinement gives the patches of all children. The refined points on the patch's rim are
+    // wrong, because the faces beyond it are missing; they are never among the points around a child.
     const Refinement refinement(patch.mesh, 1);
     const Topology& t = refinement.topology(0);
     if (is_regular(t)) return spline_at(t, patch.points, at);
