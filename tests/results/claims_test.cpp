@@ -122,9 +122,8 @@ TEST(Claims, TheLargestSizeAndFurtherGroundsAreMeasuredInThePaperProfileOnly) {
         claim->id.ends_with("tau.rmse.levels") || claim->id == "cross.lod-disk" ||
         claim->id == "cross.lod-frames.large" || claim->id == "cross.lod-frames.parts.large" ||
         claim->id == "meshgrow.lazy.memory" || claim->id == "meshgrow.lazy.visible" ||
-        claim->id == "meshgrow.lazy.forest" || claim->id == "mrbsp.grow.lod.2049" ||
-        claim->id == "mrbsp.vis-safe.conservative.all" || claim->of_profile_scale() ||
-        claim->id == "cross.representations.ray-rate.large" ||
+        claim->id == "mrbsp.grow.lod.2049" || claim->id == "mrbsp.vis-safe.conservative.all" ||
+        claim->of_profile_scale() || claim->id == "cross.representations.ray-rate.large" ||
         claim->id == "cross.representations.ray-rate.grounds" ||
         // At the quick profile's size the peak is another ground, and voxels are too coarse.
         claim->id.starts_with("cross.lod-equal-error.peak") || claim->id == "cross.lod-ranks.peak" ||
