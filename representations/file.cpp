@@ -1,5 +1,6 @@
-// The container: magic, format version, type name, sizes, the zstd frame, and XXH3-128 of everything before
-// it. The checksum is verified before unpacking, so that a damaged file cannot make the program allocate.
+// The container: magic, format version, type name, whether the structure is encoded, sizes, the zstd frame,
+// and XXH3-128 of everything before it. The checksum is verified before unpacking, so that a damaged file
+// cannot make the program allocate.
 #include <fmt/format.h>
 #include <zstd.h>
 
@@ -14,7 +15,7 @@ namespace terrabench {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'T', 'e', 'r', 'r', 'a', 'R', 'e', 'p'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr int kLevel = 9;  // zstd level, the same for all methods
 constexpr std::size_t kChecksum = 32;
 // A zstd block of 128 KiB takes at least 4 bytes: no valid file unpacks to more than this many times its
@@ -44,13 +45,15 @@ std::vector<std::byte> decompress(std::span<const std::byte> packed, std::uint64
 }  // namespace
 
 std::size_t save_representation(const std::filesystem::path& path, const RepresentationType& type,
-                                const Representation& structure) {
+                                const Representation& structure, std::optional<double> largest_error) {
   ByteSink raw, file;
-  structure.save(raw);
+  const bool encoded = largest_error && structure.encode(*largest_error, raw);
+  if (!encoded) structure.save(raw);
   const std::vector<std::byte> packed = compress(raw.bytes());
   file.put(kMagic);
   file.put(kVersion);
   file.put_text(type.name);
+  file.put(static_cast<std::uint8_t>(encoded));
   file.put(static_cast<std::uint64_t>(raw.bytes().size()));
   file.put(static_cast<std::uint64_t>(packed.size()));
   file.put_array(std::span<const std::byte>(packed));
@@ -81,12 +84,14 @@ Loaded load_representation(std::span<const std::byte> file, const std::string& o
   const auto type = std::find_if(types.begin(), types.end(), [&](const auto& t) { return t.name == name; });
   if (type == types.end()) in.fail(fmt::format("unknown representation '{}'", name));
   loaded.type = &*type;
+  const auto encoded = in.get<std::uint8_t>();
+  if (encoded > (type->decode != nullptr ? 1 : 0)) in.fail("the structure's form is unknown");
   const auto raw_size = in.get<std::uint64_t>(), packed_size = in.get<std::uint64_t>();
   if (packed_size + kChecksum != in.left()) in.fail("the content's size does not match the file");
   const std::vector<std::byte> raw =
       decompress(content.last(static_cast<std::size_t>(packed_size)), raw_size, in);
   ByteSource structure(raw, origin);
-  loaded.representation = loaded.type->load(structure);
+  loaded.representation = encoded != 0 ? type->decode(structure) : type->load(structure);
   if (structure.left() > 0) structure.fail("bytes are left over after the structure");
   return loaded;
 }

@@ -31,6 +31,8 @@ LineGrid lines_over(const Bounds& bounds) {
 
 }  // namespace
 
+bool Representation::encode(double, ByteSink&) const { return false; }
+
 void Representation::materials(Points where, std::span<Material> out) const {
   SpanSink sink;
   spans({where.x, where.z}, sink);

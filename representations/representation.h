@@ -113,7 +113,11 @@ class Representation {
 
   virtual TriangleMesh mesh(MeshDetail detail) const = 0;  // watertight where the method promises it
   virtual Memory memory() const = 0;                       // every heap byte the structure holds
-  virtual void save(ByteSink& out) const = 0;              // its own compact form, uncompressed
+  virtual void save(ByteSink& out) const = 0;              // to the bit, uncompressed
+  // Appends its smallest form, by the coders of representations/coding: its heights are kept to within
+  // `largest_error` metres, ≥ 0, or to 2⁻²⁰ of their range; all else exactly. Returns false, and appends
+  // nothing, for a type that has no such form.
+  virtual bool encode(double largest_error, ByteSink& out) const;
   virtual Bounds bounds() const = 0;
 };
 
@@ -145,6 +149,7 @@ struct RepresentationType {
   // Keeps no reference to the source. Throws usage_error for a source that the type cannot represent.
   std::unique_ptr<Representation> (*build)(const TerrainSource&, const Parameters&, Progress&);
   std::unique_ptr<Representation> (*load)(ByteSource&);
+  std::unique_ptr<Representation> (*decode)(ByteSource&) = nullptr;  // what encode() wrote
   // Over height maps, and over a solid at growing resolution: n^1.5 voxels, surfaces of area n. Where none is
   // stated, growth is measured and not judged.
   std::optional<GrowthTheory> growth = {}, growth_in_solids = {};
@@ -158,10 +163,10 @@ void add_representation(const RepresentationType&);
 const RepresentationType& representation(std::string_view name);  // throws unknown_name
 
 // Files: a header that names the type, then the structure's bytes, zstd-compressed and checksummed alike for
-// all methods, so that sizes on disk are comparable. Reading a truncated or altered file throws bad_input.
-// Returns the bytes on disk.
+// all methods. Reading a truncated or altered file throws bad_input. Returns the bytes on disk.
+// With `largest_error` the structure is encoded, if its type can; without, it is kept to the bit.
 std::size_t save_representation(const std::filesystem::path&, const RepresentationType&,
-                                const Representation&);
+                                const Representation&, std::optional<double> largest_error = {});
 struct Loaded {
   const RepresentationType* type = nullptr;
   std::unique_ptr<Representation> representation;

@@ -108,6 +108,23 @@ ColumnsOfRuns columns_of(const Representation& built, const ColumnGrid& grid) {
   return columns;
 }
 
+void fill(Representation& empty, const ColumnGrid& grid, const ColumnsOfRuns& columns) {
+  std::vector<float> x, z;
+  std::vector<Span> what;
+  for (int j = 0; j < grid.depth; ++j) {
+    x.clear(), z.clear(), what.clear();
+    for (int i = 0; i < grid.width; ++i) {
+      for (const Run& run : columns.column(grid.index(i, j))) {
+        if (run.material == Material::kAir) continue;
+        x.push_back(grid.centre_x(i));
+        z.push_back(grid.centre_z(j));
+        what.push_back({grid.edge_y(run.bottom), grid.edge_y(run.top), run.material});
+      }
+    }
+    empty.edit({x, z}, what);
+  }
+}
+
 void encode_columns(const ColumnGrid& grid, const ColumnsOfRuns& columns, ByteSink& out) {
   grid.save(out);
   std::vector<float> tops;

@@ -25,6 +25,9 @@ struct ColumnsOfRuns {
 // Of a structure on this lattice, by its spans. O(columns + runs).
 ColumnsOfRuns columns_of(const Representation&, const ColumnGrid&);
 
+// Fills an empty structure on this lattice by its edit().
+void fill(Representation&, const ColumnGrid&, const ColumnsOfRuns&);
+
 // O(columns + runs), about 0.2 µs each.
 void encode_columns(const ColumnGrid&, const ColumnsOfRuns&, ByteSink&);
 // Throws bad_input for bytes that encode_columns() cannot have written.

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "representations/coding/range_coder.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 namespace {
@@ -217,8 +218,10 @@ std::vector<float> decode_heights(ByteSource& in, int width, int depth) {
   const std::vector<std::byte> coded = in.get_array<std::byte>(in.get<std::uint64_t>());
   RangeDecoder coder(coded, in);
   HeightCoder<RangeDecoder> rows(coder, width, holes == 1);
+  const auto count = static_cast<std::size_t>(width) * static_cast<std::size_t>(depth);
+  if (count > available_memory() / sizeof(float)) in.fail("more heights than fit the memory");
   std::vector<float> heights;
-  heights.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(depth));
+  heights.reserve(count);
   std::vector<std::int32_t> steps(static_cast<std::size_t>(width));
   std::vector<std::uint8_t> absent(static_cast<std::size_t>(width));
   for (int j = 0; j < depth; ++j) {
@@ -230,6 +233,12 @@ std::vector<float> decode_heights(ByteSource& in, int width, int depth) {
   }
   if (!coder.at_end()) in.fail("bytes follow the last height");
   return heights;
+}
+
+void clamp_heights(std::span<float> heights, float lowest, float highest) {
+  for (float& h : heights) {
+    if (!std::isnan(h)) h = std::clamp(h, lowest, highest);
+  }
 }
 
 }  // namespace terrabench

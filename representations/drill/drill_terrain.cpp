@@ -151,6 +151,13 @@ std::unique_ptr<Representation> DrillTerrain::load(ByteSource& in) {
   return std::unique_ptr<Representation>(new DrillTerrain(std::move(drills), grid));
 }
 
+bool DrillTerrain::encode(double, ByteSink& out) const {
+  save(out);
+  return true;
+}
+
+std::unique_ptr<Representation> DrillTerrain::decode(ByteSource& in) { return load(in); }
+
 LineGrid DrillTerrain::lines() const { return surface_->lines(); }
 
 std::unique_ptr<RayCaster> DrillTerrain::ray_caster() const { return surface_->ray_caster(); }

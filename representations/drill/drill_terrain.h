@@ -21,6 +21,7 @@ class DrillTerrain final : public Representation {
   // bad_input for heights beyond 10⁹ m.
   static std::unique_ptr<Representation> build(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<Representation> load(ByteSource&);
+  static std::unique_ptr<Representation> decode(ByteSource&);
 
   const Drills& drills() const { return drills_; }
   const Heightmap& surface() const { return *surface_; }  // the regenerated terrain
@@ -29,6 +30,7 @@ class DrillTerrain final : public Representation {
   TriangleMesh mesh(MeshDetail detail) const override { return surface_->mesh(detail); }  // as Heightmap's
   Memory memory() const override;  // payload: drills and regenerated heights; index: positions and directions
   void save(ByteSink&) const override;
+  bool encode(double largest_error, ByteSink&) const override;  // as save(): building rounds
   Bounds bounds() const override { return surface_->bounds(); }
   LineGrid lines() const override;
   std::unique_ptr<RayCaster> ray_caster() const override;  // as Heightmap's

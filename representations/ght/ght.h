@@ -32,6 +32,7 @@ class Ght final : public Representation {
   // topmost surface. Throws as ght::apply_event() does.
   static std::unique_ptr<Representation> build(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<Representation> load(ByteSource&);
+  static std::unique_ptr<Representation> decode(ByteSource&);
   // The root only, from heights that check_heights() accepts. `floor` is the lowest height of the solid.
   Ght(const ght::SampleGrid& grid, std::vector<float> heights, float floor);
 
@@ -48,6 +49,7 @@ class Ght final : public Representation {
   TriangleMesh mesh(MeshDetail) const override;
   Memory memory() const override;
   void save(ByteSink&) const override;
+  bool encode(double largest_error, ByteSink&) const override;
   Bounds bounds() const override;
   LineGrid lines() const override;
   std::unique_ptr<RayCaster> ray_caster() const override;
@@ -56,6 +58,7 @@ class Ght final : public Representation {
 
  private:
   Ght() = default;
+  static std::unique_ptr<Representation> with_tree(ght::Tree, ByteSource& rest);
 
   ght::Model model_;
 };

@@ -3,7 +3,9 @@
 // every query can safely read the tree.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "representations/coding/height_codec.h"
 #include "representations/column_grid.h"
 #include "representations/ght/ght.h"
 
@@ -126,6 +128,44 @@ void check_plain(const Model& model, ByteSource& in) {
       }
     }
   }
+}
+
+// The heights of all cells, NaN for those without.
+std::vector<float> heights_of(const Tree& tree) {
+  std::vector<float> heights(tree.cells(), std::numeric_limits<float>::quiet_NaN());
+  for (CellId c = 0; c < tree.cells(); ++c) {
+    if (tree.kind(c) == CellKind::kHeight) heights[c] = tree.height(c);
+  }
+  return heights;
+}
+
+// The tree with all heights 0, which compresses well, and the heights of each node.
+void encode(const Tree& tree, double largest_error, ByteSink& out) {
+  const std::vector<float> heights = heights_of(tree);
+  Tree bare = tree;
+  for (CellId c = 0; c < tree.cells(); ++c) {
+    if (tree.kind(c) == CellKind::kHeight) bare.set_height(c, 0);
+  }
+  bare.save(out);
+  const double step = step_for(heights, largest_error);
+  for (const GroundedHeightmap& node : tree.nodes())
+    encode_heights(std::span(heights).subspan(node.first, node.cells()), node.columns, step, out);
+}
+
+Tree decode_tree(ByteSource& in) {
+  Tree tree = Tree::load(in);
+  for (const GroundedHeightmap& node : tree.nodes()) {
+    const std::vector<float> heights = decode_heights(in, node.columns, node.rows);
+    for (CellId c = node.first; c < node.first + node.cells(); ++c) {
+      const float height = heights[c - node.first];
+      if (std::isnan(height) == (tree.kind(c) == CellKind::kHeight))
+        in.fail("heights are not where they belong");
+      if (std::isnan(height)) continue;
+      if (!sane(height)) in.fail("a height is too large");
+      tree.set_height(c, height);
+    }
+  }
+  return tree;
 }
 
 }  // namespace
@@ -258,9 +298,19 @@ void Ght::save(ByteSink& out) const {
   put(out, model_.floor, model_.ceiling);
 }
 
-std::unique_ptr<Representation> Ght::load(ByteSource& in) {
+bool Ght::encode(double largest_error, ByteSink& out) const {
+  ght::encode(model_.tree, largest_error, out);
+  model_.surface.save(out);
+  put(out, model_.floor, model_.ceiling);
+  return true;
+}
+
+std::unique_ptr<Representation> Ght::load(ByteSource& in) { return with_tree(Tree::load(in), in); }
+std::unique_ptr<Representation> Ght::decode(ByteSource& in) { return with_tree(decode_tree(in), in); }
+
+std::unique_ptr<Representation> Ght::with_tree(Tree tree, ByteSource& in) {
   std::unique_ptr<Ght> loaded(new Ght);
-  Model& model = loaded->model_ = Model(Tree::load(in), 0, 0);
+  Model& model = loaded->model_ = Model(std::move(tree), 0, 0);
   model.surface = ComposedSurface::load(in, model.tree);
   get(in, model.floor, model.ceiling);
   if (!sane(model.floor) || !sane(model.ceiling) || model.floor > model.ceiling) in.fail("invalid bounds");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "representations/coding/height_codec.h"
 #include "representations/column_grid.h"
 #include "representations/heightmap/closed_mesh.h"
 #include "representations/line_grid.h"
@@ -183,6 +184,20 @@ std::unique_ptr<Representation> Heightmap::load(ByteSource& in) {
   if (std::any_of(built->heights_.begin(), built->heights_.end(), [](float h) { return std::isinf(h); })) {
     in.fail("a height is infinite");
   }
+  return built;
+}
+
+bool Heightmap::encode(double largest_error, ByteSink& out) const {
+  grid_.save(out);
+  encode_heights(heights_, grid_.width, step_for(heights_, largest_error), out);
+  return true;
+}
+
+std::unique_ptr<Representation> Heightmap::decode(ByteSource& in) {
+  std::unique_ptr<Heightmap> built(new Heightmap);
+  built->grid_ = HeightGrid::load(in);
+  built->heights_ = decode_heights(in, built->grid_.width, built->grid_.depth);
+  clamp_heights(built->heights_, built->grid_.bounds.low.y, built->grid_.bounds.high.y);
   return built;
 }
 

@@ -24,6 +24,7 @@ class Heightmap final : public Representation {
  public:
   static std::unique_ptr<Representation> build(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<Representation> load(ByteSource&);
+  static std::unique_ptr<Representation> decode(ByteSource&);
   // Row-major, NaN where there is no data.
   Heightmap(const HeightGrid& grid, std::vector<float> heights) : grid_(grid), heights_(std::move(heights)) {}
 
@@ -40,6 +41,7 @@ class Heightmap final : public Representation {
   TriangleMesh mesh(MeshDetail) const override;
   Memory memory() const override;
   void save(ByteSink&) const override;
+  bool encode(double largest_error, ByteSink&) const override;
   Bounds bounds() const override { return grid_.bounds; }
   LineGrid lines() const override;
   std::unique_ptr<RayCaster> ray_caster()

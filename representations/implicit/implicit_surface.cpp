@@ -80,16 +80,33 @@ ThermalErosion ImplicitSurface::erode_to(double talus, Progress& progress) {
   return erode_thermally(*stack_, *this, {.talus = talus}, progress);
 }
 
-void ImplicitSurface::save(ByteSink& out) const {
-  stack_->save(out);
+void ImplicitSurface::save_field(ByteSink& out) const {
   out.put(field_.radius());
   out.put(lattice_.cell);
   out.put(static_cast<std::uint8_t>(field_.kernel()));
   out.put(static_cast<std::uint8_t>(extractor_));
 }
 
+void ImplicitSurface::save(ByteSink& out) const {
+  stack_->save(out);
+  save_field(out);
+}
+
+bool ImplicitSurface::encode(double largest_error, ByteSink& out) const {
+  stack_->encode(largest_error, out);
+  save_field(out);
+  return true;
+}
+
 std::unique_ptr<Representation> ImplicitSurface::load(ByteSource& in) {
-  std::unique_ptr<Representation> stack = LayeredStack::load(in);
+  return with_field(LayeredStack::load(in), in);
+}
+std::unique_ptr<Representation> ImplicitSurface::decode(ByteSource& in) {
+  return with_field(LayeredStack::decode(in), in);
+}
+
+std::unique_ptr<Representation> ImplicitSurface::with_field(std::unique_ptr<Representation> stack,
+                                                            ByteSource& in) {
   const auto radius = in.get<double>();
   const auto cell = in.get<float>();
   const auto kernel = in.get<std::uint8_t>(), extractor = in.get<std::uint8_t>();

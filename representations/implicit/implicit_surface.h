@@ -26,6 +26,7 @@ class ImplicitSurface final : public Representation, public MeshChunks {
   static std::unique_ptr<Representation> build(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<ImplicitSurface> build_surface(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<Representation> load(ByteSource&);
+  static std::unique_ptr<Representation> decode(ByteSource&);
 
   // `radius` and `cell` in metres; 0 for automatic ones: a kernel of two columns, and cells of one column, or
   // larger if the terrain would have more than 1024 of them along y. Throws usage_error as StackField, and
@@ -46,6 +47,7 @@ class ImplicitSurface final : public Representation, public MeshChunks {
   TriangleMesh mesh(MeshDetail) const override;
   Memory memory() const override;
   void save(ByteSink&) const override;
+  bool encode(double largest_error, ByteSink&) const override;
   Bounds bounds() const override { return stack_->bounds(); }
   const ColumnGrid* edited_columns() const override { return &stack_->grid(); }
   std::unique_ptr<RayCaster> ray_caster() const override;  // the zero set, which mesh() approximates
@@ -67,6 +69,8 @@ class ImplicitSurface final : public Representation, public MeshChunks {
     return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(chunks_.x) +
            static_cast<std::size_t>(at.x);
   }
+  void save_field(ByteSink&) const;
+  static std::unique_ptr<Representation> with_field(std::unique_ptr<Representation> stack, ByteSource&);
   void touch(int column_i, int column_j);
 
   std::unique_ptr<LayeredStack> stack_;

@@ -8,6 +8,7 @@
 #include <array>
 
 #include "representations/block_mesh.h"
+#include "representations/coding/column_codec.h"
 
 namespace terrabench {
 
@@ -270,6 +271,28 @@ std::unique_ptr<Representation> LayeredStack::load(ByteSource& in) {
     stack->tiles_[t] = builder.finish();
   }
   return stack;
+}
+
+bool LayeredStack::encode(double, ByteSink& out) const {
+  encode_columns(grid_, columns_of(*this, grid_), out);
+  return true;
+}
+
+std::unique_ptr<Representation> LayeredStack::decode(ByteSource& in) {
+  ColumnGrid grid;
+  const ColumnsOfRuns columns = decode_columns(in, grid);
+  std::unique_ptr<LayeredStack> built(new LayeredStack(grid));
+  TileBuilder builder;
+  RunList runs;
+  for (std::size_t t = 0; t < built->tiles_.size(); ++t) {
+    built->tiles_[t] = built->make_tile(t, builder, [&](int i, int j, TileBuilder& tile) {
+      runs.clear();
+      for (const Run& run : columns.column(grid.index(i, j))) runs.add(run.top, run.material);
+      runs.drop_trailing_air();
+      tile.add(runs.runs());
+    });
+  }
+  return built;
 }
 
 }  // namespace terrabench

@@ -20,6 +20,7 @@ class LayeredStack final : public Representation {
   static std::unique_ptr<Representation> build(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<LayeredStack> build_stack(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<Representation> load(ByteSource&);
+  static std::unique_ptr<Representation> decode(ByteSource&);
 
   const ColumnGrid& grid() const { return grid_; }
   // Valid until the next edit. i in [0, width), j in [0, depth).
@@ -39,6 +40,7 @@ class LayeredStack final : public Representation {
   TriangleMesh mesh(MeshDetail) const override;
   Memory memory() const override;
   void save(ByteSink&) const override;
+  bool encode(double largest_error, ByteSink&) const override;
   Bounds bounds() const override { return grid_.bounds(); }
   const ColumnGrid* column_grid() const override { return &grid_; }
 

@@ -1,8 +1,10 @@
 // The description of a procedural mesh: its file, and its expansion into polygons.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "representations/coding/height_codec.h"
 #include "representations/column_grid.h"
 #include "representations/procedural_mesh/model.h"
 #include "representations/procedural_mesh/procedural_mesh.h"
@@ -24,24 +26,54 @@ void check_lines(const std::vector<float>& at, const ByteSource& in) {
   }
 }
 
-void load_ground(ByteSource& in, MeshDescription& out) {
+// Positions of evenly spaced lines as what compresses to almost nothing: the second differences of their
+// bits.
+std::vector<std::uint32_t> second_differences(std::span<const float> at) {
+  std::vector<std::uint32_t> differences;
+  std::uint32_t last = 0, step = 0;
+  for (const float v : at) {
+    const auto bits = std::bit_cast<std::uint32_t>(v);
+    differences.push_back(bits - last - step);
+    step = bits - last;
+    last = bits;
+  }
+  return differences;
+}
+
+std::vector<float> from_second_differences(std::span<const std::uint32_t> differences) {
+  std::vector<float> at;
+  std::uint32_t last = 0, step = 0;
+  for (const std::uint32_t difference : differences) {
+    step += difference;
+    last += step;
+    at.push_back(std::bit_cast<float>(last));
+  }
+  return at;
+}
+
+void load_ground(ByteSource& in, bool encoded, MeshDescription& out) {
   const int width = in.get<int>(), depth = in.get<int>();
   if (width < 1 || depth < 1 || width > kMostLines || depth > kMostLines) {
     in.fail("the ground's sizes are impossible");
   }
   out.levels = in.get<int>();
   if (out.levels < 0 || out.levels > 16) in.fail("the number of subdivisions is impossible");
-  out.ground.x = in.get_array<float>(static_cast<std::uint64_t>(width));
-  out.ground.z = in.get_array<float>(static_cast<std::uint64_t>(depth));
+  const auto lines = [&](int count) {
+    return from_second_differences(in.get_array<std::uint32_t>(static_cast<std::uint64_t>(count)));
+  };
+  out.ground.x = lines(width);
+  out.ground.z = lines(depth);
   check_lines(out.ground.x, in);
   check_lines(out.ground.z, in);
   out.ground.heights =
-      in.get_array<float>(static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(depth));
+      encoded ? decode_heights(in, width, depth)
+              : in.get_array<float>(static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(depth));
   out.ground_bounds = in.get<Bounds>();
   const Bounds& bounds = out.ground_bounds;
   if (!(finite(bounds.low) && finite(bounds.high) && glm::min(bounds.low, bounds.high) == bounds.low)) {
     in.fail("the bounds are impossible");
   }
+  if (encoded) clamp_heights(out.ground.heights, bounds.low.y, bounds.high.y);
   const auto outside = [&](float height) { return height < bounds.low.y || height > bounds.high.y; };
   if (std::any_of(out.ground.heights.begin(), out.ground.heights.end(), outside)) {
     in.fail("a height lies outside the bounds");
@@ -94,14 +126,19 @@ void append(FaceMesh& to, const FaceMesh& from) {
 
 }  // namespace
 
-void MeshDescription::save(ByteSink& out) const {
+void MeshDescription::save(ByteSink& out, std::optional<double> largest_error) const {
   out.put((has_ground() ? kGround : 0) | (model.empty() ? 0 : kModel));
   if (has_ground()) {
     out.put(static_cast<int>(ground.x.size()));
     out.put(static_cast<int>(ground.z.size()));
     out.put(levels);
-    for (const auto* values : {&ground.x, &ground.z, &ground.heights}) {
-      out.put_array(std::span<const float>(*values));
+    for (const auto* lines : {&ground.x, &ground.z})
+      out.put_array(std::span<const std::uint32_t>(second_differences(*lines)));
+    if (largest_error) {
+      encode_heights(ground.heights, static_cast<int>(ground.x.size()),
+                     step_for(ground.heights, *largest_error), out);
+    } else {
+      out.put_array(std::span<const float>(ground.heights));
     }
     out.put(ground_bounds);
   }
@@ -113,11 +150,11 @@ void MeshDescription::save(ByteSink& out) const {
   out.put(leave_out);
 }
 
-MeshDescription MeshDescription::load(ByteSource& in) {
+MeshDescription MeshDescription::load(ByteSource& in, bool encoded) {
   MeshDescription description;
   const auto parts = in.get<std::uint32_t>();
   if (parts == 0 || parts > (kGround | kModel)) in.fail("neither a ground nor a model");
-  if ((parts & kGround) != 0) load_ground(in, description);
+  if ((parts & kGround) != 0) load_ground(in, encoded, description);
   if ((parts & kModel) != 0) {
     const std::string text = in.get_text();
     if (text.empty()) in.fail("the model is empty");

@@ -230,6 +230,15 @@ std::unique_ptr<Representation> ProceduralMesh::load(ByteSource& in) {
   return std::make_unique<ProceduralMesh>(std::move(description), in.origin());
 }
 
+bool ProceduralMesh::encode(double largest_error, ByteSink& out) const {
+  description_.save(out, largest_error);
+  return true;
+}
+
+std::unique_ptr<Representation> ProceduralMesh::decode(ByteSource& in) {
+  return std::make_unique<ProceduralMesh>(MeshDescription::load(in, true), in.origin());
+}
+
 // What the program holds of a description of so many bytes.
 std::vector<std::pair<std::string, std::string>> ProceduralMesh::facts() const {
   return {{"expanded", fmt::format("{} triangles, {} B, from a description of {} B",

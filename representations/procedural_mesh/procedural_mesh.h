@@ -38,8 +38,9 @@ struct MeshDescription {
   int leave_out = 0;  // of the last subdivisions, of the plane and of the model
 
   bool has_ground() const { return !ground.x.empty(); }
-  void save(ByteSink&) const;
-  static MeshDescription load(ByteSource&);
+  // With `largest_error` as Representation::encode() does.
+  void save(ByteSink&, std::optional<double> largest_error = {}) const;
+  static MeshDescription load(ByteSource&, bool encoded = false);
 };
 
 // The polygons that a description gives; `leave_out` more of the last levels are left out, as far as there
@@ -52,6 +53,7 @@ class ProceduralMesh final : public Representation {
   // A source that was opened from a model (model_terrain.h) is expanded again from its own description.
   static std::unique_ptr<Representation> build(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<Representation> load(ByteSource&);
+  static std::unique_ptr<Representation> decode(ByteSource&);
   // Throws as expand(), and bad_input for a model whose open sheets look down.
   ProceduralMesh(MeshDescription, const std::string& origin);
 
@@ -69,6 +71,7 @@ class ProceduralMesh final : public Representation {
   // Payload: description and triangles; index: the bins of columns.
   Memory memory() const override;
   void save(ByteSink& out) const override { description_.save(out); }
+  bool encode(double largest_error, ByteSink&) const override;
   Bounds bounds() const override { return bounds_; }
   std::vector<std::pair<std::string, std::string>> facts() const override;
 

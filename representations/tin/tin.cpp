@@ -7,10 +7,12 @@
 #include <cmath>
 #include <optional>
 
+#include "representations/coding/height_codec.h"
 #include "representations/column_grid.h"
 #include "representations/heightmap/closed_mesh.h"
 #include "representations/line_grid.h"
 #include "representations/procedural_mesh/shell.h"
+#include "representations/tin/tin_codec.h"
 #include "representations/tin/triangle_plane.h"
 #include "terrain/error.h"
 
@@ -245,6 +247,20 @@ std::unique_ptr<Representation> Tin::load(ByteSource& in) {
     for (std::uint8_t& hole : restored->holes) hole = hole != 0 ? 1 : 0;
   }
   return std::unique_ptr<Representation>(new Tin(grid, std::move(*restored)));
+}
+
+bool Tin::encode(double largest_error, ByteSink& out) const {
+  grid_.save(out);
+  tin::encode({surface_, heights_, holes_}, grid_.width, grid_.depth, step_for(heights_, largest_error), out);
+  return true;
+}
+
+std::unique_ptr<Representation> Tin::decode(ByteSource& in) {
+  const HeightGrid grid = HeightGrid::load(in);
+  if (grid.width < 2 || grid.depth < 2) in.fail("a triangulation has at least 2 × 2 samples");
+  tin::Approximation decoded = tin::decode(in, grid.width, grid.depth);
+  clamp_heights(decoded.heights, grid.bounds.low.y, grid.bounds.high.y);
+  return std::unique_ptr<Representation>(new Tin(grid, std::move(decoded)));
 }
 
 LineGrid Tin::lines() const {

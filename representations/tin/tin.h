@@ -21,6 +21,7 @@ class Tin final : public Representation {
   // A solid gives its topmost surface. Throws usage_error for fewer than 2 × 2 samples.
   static std::unique_ptr<Representation> build(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<Representation> load(ByteSource&);
+  static std::unique_ptr<Representation> decode(ByteSource&);
 
   std::size_t triangles() const { return surface_.triangles().size(); }
   // As Heightmap::height(): no-data outside the bounds and in holes; between the outermost samples and the
@@ -32,6 +33,7 @@ class Tin final : public Representation {
   TriangleMesh mesh(MeshDetail) const override;
   Memory memory() const override;  // payload: vertices and heights; index: triangles and where to find them
   void save(ByteSink&) const override;  // vertices and heights alone, which determine the triangles
+  bool encode(double largest_error, ByteSink&) const override;
   Bounds bounds() const override { return grid_.bounds; }
   LineGrid lines() const override;
   std::vector<std::pair<std::string, std::string>> facts() const override;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "representations/block_mesh.h"
+#include "representations/coding/column_codec.h"
 #include "representations/runs.h"
 #include "representations/voxel/voxel.h"
 
@@ -102,6 +103,21 @@ void DenseGrid::save(ByteSink& out) const {
 std::unique_ptr<Representation> DenseGrid::load(ByteSource& in) {
   std::unique_ptr<DenseGrid> built(new DenseGrid(ColumnGrid::load(in)));
   built->voxels_ = in.get_array<Material>(voxels_of(built->grid_));
+  return built;
+}
+
+bool DenseGrid::encode(double, ByteSink& out) const {
+  encode_columns(grid_, columns_of(*this, grid_), out);
+  return true;
+}
+
+std::unique_ptr<Representation> DenseGrid::decode(ByteSource& in) {
+  ColumnGrid grid;
+  const ColumnsOfRuns columns = decode_columns(in, grid);
+  if (voxels_of(grid) > available_memory()) in.fail("more voxels than fit the memory");
+  std::unique_ptr<DenseGrid> built(new DenseGrid(grid));
+  built->voxels_.resize(voxels_of(grid));
+  fill(*built, grid, columns);
   return built;
 }
 

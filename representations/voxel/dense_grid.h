@@ -13,6 +13,7 @@ class DenseGrid final : public Representation {
  public:
   static std::unique_ptr<Representation> build(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<Representation> load(ByteSource&);
+  static std::unique_ptr<Representation> decode(ByteSource&);
 
   const ColumnGrid& grid() const { return grid_; }
   // All levels of a column, bottom up.
@@ -26,6 +27,7 @@ class DenseGrid final : public Representation {
   TriangleMesh mesh(MeshDetail) const override;  // the voxels' boundary as blocks, watertight
   Memory memory() const override;
   void save(ByteSink&) const override;
+  bool encode(double largest_error, ByteSink&) const override;
   Bounds bounds() const override { return grid_.bounds(); }
   const ColumnGrid* column_grid() const override { return &grid_; }
 

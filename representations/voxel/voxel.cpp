@@ -11,6 +11,7 @@
 #include <bit>
 #include <set>
 
+#include "representations/coding/column_codec.h"
 #include "representations/runs.h"
 #include "representations/voxel/leaf_masks.h"
 #include "terrain/error.h"
@@ -393,6 +394,19 @@ std::unique_ptr<Representation> Voxel::load(ByteSource& in) {
       in.fail("two materials fill the same voxel");
   }
   built->layers_->count_leaves();
+  return built;
+}
+
+bool Voxel::encode(double, ByteSink& out) const {
+  encode_columns(grid_, columns_of(*this, grid_), out);
+  return true;
+}
+
+std::unique_ptr<Representation> Voxel::decode(ByteSource& in) {
+  ColumnGrid grid;
+  const ColumnsOfRuns columns = decode_columns(in, grid);
+  std::unique_ptr<Voxel> built(new Voxel(grid));
+  fill(*built, grid, columns);
   return built;
 }
 

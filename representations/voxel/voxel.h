@@ -18,6 +18,7 @@ class Voxel final : public Representation {
  public:
   static std::unique_ptr<Representation> build(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<Representation> load(ByteSource&);
+  static std::unique_ptr<Representation> decode(ByteSource&);
   ~Voxel() override;
 
   const ColumnGrid& grid() const { return grid_; }
@@ -35,6 +36,7 @@ class Voxel final : public Representation {
   // of the root's map and the tree objects' own blocks.
   Memory memory() const override;
   void save(ByteSink&) const override;
+  bool encode(double largest_error, ByteSink&) const override;
   Bounds bounds() const override { return grid_.bounds(); }
   const ColumnGrid* column_grid() const override { return &grid_; }
 

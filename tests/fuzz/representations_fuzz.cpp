@@ -15,8 +15,8 @@ namespace {
 
 using namespace terrabench;
 
-// The first byte of an input: a type's own reader, or the container.
-constexpr std::uint8_t kContainer = 255;
+// The first byte of an input: a type's own reader, that of its encoded form, or the container.
+constexpr std::uint8_t kEncoded = 128, kContainer = 255;
 
 // A loaded structure must also answer queries, and save the bytes that it was loaded from.
 void use(const RepresentationType& type, Representation& structure) {
@@ -50,9 +50,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (data[0] == kContainer) {
       loaded = load_representation(bytes, "fuzz");
     } else {
-      loaded.type = &representations()[data[0] % representations().size()];
+      loaded.type = &representations()[data[0] % kEncoded % representations().size()];
       ByteSource in(bytes, "fuzz");
-      loaded.representation = loaded.type->load(in);
+      loaded.representation = data[0] < kEncoded ? loaded.type->load(in) : loaded.type->decode(in);
     }
   } catch (const Error& error) {
     if (error.code() != ExitCode::kBadInput) throw;
@@ -89,11 +89,16 @@ FuzzSeeds fuzz_seeds() {
         if (parameters.has(name)) parameters.set(name, std::int64_t{1});
       }
       const auto built = type.build(*source, parameters, progress);
-      ByteSink sink;
-      built->save(sink);
-      const auto* own = reinterpret_cast<const std::uint8_t*>(sink.bytes().data());
-      seeds.emplace_back(1, static_cast<std::uint8_t>(t))
-          .insert(seeds.back().end(), own, own + sink.bytes().size());
+      for (const std::uint8_t form : {std::uint8_t{0}, kEncoded}) {
+        ByteSink sink;
+        if (form == 0)
+          built->save(sink);
+        else
+          built->encode(0.5, sink);
+        const auto* own = reinterpret_cast<const std::uint8_t*>(sink.bytes().data());
+        seeds.emplace_back(1, static_cast<std::uint8_t>(t + form))
+            .insert(seeds.back().end(), own, own + sink.bytes().size());
+      }
       const std::filesystem::path path = folder / ("terrabench_fuzz_seed_" + std::to_string(getpid()));
       save_representation(path, type, *built);
       const std::string file = read_file(path);

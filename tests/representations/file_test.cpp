@@ -57,6 +57,69 @@ TEST_F(SavedFile, ComesBack) {
   }
 }
 
+// The tops at the samples of heights between hills, with a hole.
+std::vector<float> tops_of(const Representation& built, int width, int depth) {
+  std::vector<float> x, z, tops;
+  for (int j = 0; j < depth; ++j) {
+    for (int i = 0; i < width; ++i) x.push_back(static_cast<float>(i)), z.push_back(static_cast<float>(j));
+  }
+  SpanSink sink;
+  built.spans({x, z}, sink);
+  for (std::size_t c = 0; c < x.size(); ++c)
+    tops.push_back(sink.column(c).empty() ? Heightfield::kNoData : sink.column(c).back().top);
+  return tops;
+}
+
+TEST_F(SavedFile, EncodedKeepsHeightsToWithinTheLargestError) {
+  constexpr int kWidth = 41, kDepth = 33;
+  std::vector<float> heights;
+  for (int j = 0; j < kDepth; ++j) {
+    for (int i = 0; i < kWidth; ++i) {
+      const bool hole = i >= 10 && i < 14 && j >= 5 && j < 9;
+      heights.push_back(hole ? Heightfield::kNoData
+                             : 500 + 80 * std::sin(0.21F * static_cast<float>(i)) *
+                                         std::cos(0.17F * static_cast<float>(j)));
+    }
+  }
+  for (const RepresentationType& type : representations()) {
+    ASSERT_NE(type.decode, nullptr) << type.name;
+    const auto built = build(type.name, from_heights(kWidth, kDepth, heights));
+    const std::vector<float> before = tops_of(*built, kWidth, kDepth);
+    std::size_t last = save(type.name, *built).size();
+    for (const double error : {0.0, 0.5, 5.0}) {
+      const std::size_t bytes = save_representation(path_, type, *built, error);
+      EXPECT_LE(bytes, last) << type.name << " within " << error;
+      last = bytes;
+      const Loaded loaded = load_representation(path_);
+      EXPECT_EQ(loaded.type, &type);
+      const std::vector<float> after = tops_of(*loaded.representation, kWidth, kDepth);
+      for (std::size_t c = 0; c < before.size(); ++c) {
+        ASSERT_EQ(std::isnan(before[c]), std::isnan(after[c])) << type.name << " at " << c;
+        if (std::isnan(before[c])) continue;
+
+        ASSERT_NEAR(before[c], after[c], error + 0.001) << type.name << " at " << c;
+      }
+    }
+  }
+}
+
+TEST_F(SavedFile, EncodedColumnsAndModelsAreExact) {
+  for (const RepresentationType& type : representations()) {
+    if (!type.traits.overhangs) continue;
+    const auto built = build(type.name, random_boxes(4, 30, 40, 2), 30);
+    save_representation(path_, type, *built, 0);
+    const Lattice lattice(built->bounds(), 30, 30);
+    const auto was = spans_of(*built, lattice.columns()),
+               is = spans_of(*load_representation(path_).representation, lattice.columns());
+    if (built->column_grid() != nullptr) {
+      EXPECT_TRUE(same_spans(was, is)) << type.name;
+      continue;
+    }
+    for (std::size_t c = 0; c < lattice.columns().size(); ++c)
+      EXPECT_EQ(was.column(c).size(), is.column(c).size()) << type.name;
+  }
+}
+
 TEST_F(SavedFile, CutOrAlteredAnywhereIsRefused) {
   for (const RepresentationType& type : representations()) {
     const std::string file = save(type.name, *build(type.name, random_boxes(4, 12, 20, 2), 12));
@@ -81,7 +144,7 @@ TEST_F(SavedFile, ForeignFilesAreRefused) {
 TEST_F(SavedFile, ClaimsThatCannotBeAreRefused) {
   const std::string file = save("heightmap", *build("heightmap", from_heights(2, 2, {1, 2, 3, 4})));
   ASSERT_FALSE(refused(resealed(file)));
-  const std::size_t sizes = 8 + 4 + 4 + std::string_view("heightmap").size();
+  const std::size_t sizes = 8 + 4 + 4 + std::string_view("heightmap").size() + 1;
   for (const std::uint64_t claim :
        {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{1} << 40, ~std::uint64_t{0}}) {
     std::string larger = file;
@@ -97,6 +160,9 @@ TEST_F(SavedFile, ClaimsThatCannotBeAreRefused) {
   other = file;
   other[16] = 'H';
   EXPECT_TRUE(refused(resealed(other)));  // type
+  other = file;
+  other[sizes - 1] = 2;
+  EXPECT_TRUE(refused(resealed(other)));  // form
 }
 
 TEST_F(SavedFile, AnUnwritablePlaceIsAnError) {
