@@ -28,8 +28,8 @@ extern const Experiment kSubdivisionFigures, kStandard, kSpectrum, kLimit, kLimi
     kHeightField, kModels, kFork, kRefinement, kGrowingFigures, kModelFigures, kLod, kForest;
 }
 namespace cross {
-extern const Experiment kRepresentations, kErrorMaps, kLodEqualError, kLodRanks, kLodFrames, kLodJump,
-    kLodSeams, kLodSurface, kLodEdit, kScale, kRoundTrip, kLodDisk, kLodEndless;
+extern const Experiment kRepresentations, kErrorMaps, kFileSize, kLodEqualError, kLodRanks, kLodFrames,
+    kLodJump, kLodSeams, kLodSurface, kLodEdit, kScale, kRoundTrip, kLodDisk, kLodEndless;
 }
 namespace relief {
 extern const Experiment kRelief;
@@ -112,6 +112,7 @@ std::span<const std::reference_wrapper<const Experiment>> experiments() {
       meshgrow::kForest,
       cross::kRepresentations,
       cross::kErrorMaps,
+      cross::kFileSize,
       cross::kLodEqualError,
       cross::kLodRanks,
       cross::kLodFrames,

@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 #include <string_view>
 
+#include "representations/line_grid.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -41,16 +42,16 @@ void check_reach(const Bounds& bounds, const Disc& disc, double bottom, double t
                                 bounds.low.y, bounds.low.z, bounds.high.x, bounds.high.y, bounds.high.z));
 }
 
-// Indices of the cells whose centres lie within `radius` of `centre` along one axis.
+// Indices of the lines that lie within `radius` of `centre` along one axis.
 LevelRange within(double origin, double cell, int count, double centre, double radius) {
   const auto index = [&](double at) {
-    return static_cast<int>(std::clamp(std::floor((at - origin) / cell + 0.5), 0.0, 1.0 * count));
+    return static_cast<int>(std::clamp(std::floor((at - origin) / cell + 1), 0.0, 1.0 * count));
   };
   return {index(centre - radius), index(centre + radius)};
 }
 
-const ColumnGrid& edited_columns(const Representation& edited) {
-  if (const ColumnGrid* const columns = edited.edited_columns()) return *columns;
+LineGrid edited_lines(const Representation& edited) {
+  if (const std::optional<LineGrid> lines = edited.edited_lines()) return *lines;
   throw usage_error("this representation cannot be edited", "edit tool",
                     "`terrabench list representations` names those that can");
 }
@@ -58,20 +59,20 @@ const ColumnGrid& edited_columns(const Representation& edited) {
 // Edits each column whose axis lies within the disc with the span that span_at(plan, distance²) gives.
 template <class SpanAt>
 std::size_t edit_disc(Representation& edited, const Disc& disc, const SpanAt& span_at) {
-  const ColumnGrid& grid = edited_columns(edited);
+  const LineGrid grid = edited_lines(edited);
   const LevelRange columns = within(grid.origin_x, grid.cell_x, grid.width, disc.x, disc.radius),
                    rows = within(grid.origin_z, grid.cell_z, grid.depth, disc.z, disc.radius);
   std::vector<float> x, z;
   std::vector<Span> spans;
   for (int j = rows.begin; j < rows.end; ++j) {
     for (int i = columns.begin; i < columns.end; ++i) {
-      const double dx = grid.centre_x(i) - disc.x, dz = grid.centre_z(j) - disc.z;
+      const double dx = grid.x(i) - disc.x, dz = grid.z(j) - disc.z;
       const double squared = dx * dx + dz * dz;
       if (!(squared < disc.radius * disc.radius)) continue;
-      const Span span = span_at(glm::dvec2(grid.centre_x(i), grid.centre_z(j)), squared);
+      const Span span = span_at(glm::dvec2(grid.x(i), grid.z(j)), squared);
       if (!(span.bottom < span.top)) continue;  // empty, or thinner than floats tell apart
-      x.push_back(grid.centre_x(i));
-      z.push_back(grid.centre_z(j));
+      x.push_back(grid.x(i));
+      z.push_back(grid.z(j));
       spans.push_back(span);
     }
   }
@@ -82,7 +83,7 @@ std::size_t edit_disc(Representation& edited, const Disc& disc, const SpanAt& sp
 }  // namespace
 
 std::size_t fill_sphere(Representation& edited, const Sphere& sphere, Material material) {
-  edited_columns(edited);
+  edited_lines(edited);
   const glm::vec3 c = sphere.centre;
   check_radius(sphere.radius);
   check_position("a sphere", glm::dvec3(c));
@@ -96,7 +97,7 @@ std::size_t fill_sphere(Representation& edited, const Sphere& sphere, Material m
 }
 
 std::size_t fill_cylinder(Representation& edited, const Cylinder& cylinder, Material material) {
-  edited_columns(edited);
+  edited_lines(edited);
   check_radius(cylinder.radius);
   if (!std::isfinite(cylinder.x) || !std::isfinite(cylinder.z) || !(cylinder.bottom < cylinder.top)) {
     throw usage_error(fmt::format("a cylinder at ({}, {}) from {} to {} m", cylinder.x, cylinder.z,
@@ -111,7 +112,7 @@ std::size_t fill_cylinder(Representation& edited, const Cylinder& cylinder, Mate
 }
 
 std::size_t erode(Representation& edited, const events::RadialErosion& event) {
-  edited_columns(edited);
+  edited_lines(edited);
   for (const double radius : {event.radii.x, event.radii.y, event.radii.z}) check_radius(radius);
   const glm::dvec3 c = event.centre;
   check_position("an event", c);

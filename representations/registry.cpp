@@ -6,6 +6,7 @@
 #include "representations/layered_stack/layered_stack.h"
 #include "representations/procedural_mesh/procedural_mesh.h"
 #include "representations/representation.h"
+#include "representations/tin/tin.h"
 #include "representations/voxel/dense_grid.h"
 #include "representations/voxel/voxel.h"
 #include "terrain/error.h"
@@ -22,13 +23,27 @@ constexpr GrowthTheory kLevelByLevel{.build = kVoxels, .query = kLevels, .mesh =
 constexpr GrowthTheory kAllVoxels{
     .build = kVoxels, .bytes = kVoxels, .query = kLevels, .mesh = kVoxels, .ray = kLevels};
 
+// What a search for the best files varies.
+constexpr FileKnob kStepKnob[] = {{"step", 0x1p-11, 0x1p-4, FileKnob::kRelief}};
+constexpr FileKnob kImplicitKnobs[] = {kStepKnob[0], {"kernel"}};
+constexpr FileKnob kDrillKnobs[] = {{"tau", 0x1p-15, 0x1p-8, FileKnob::kSamples},
+                                    {"w", 3, 24},
+                                    {"k", 4, 40},
+                                    {"fit"},
+                                    {"monotone_profiles"},
+                                    {"adaptive_k"},
+                                    {"interpolate_untouched"},
+                                    {"quantum", 0x1p-12, 0x1p-4, FileKnob::kRelief}};
+constexpr FileKnob kTinKnobs[] = {{"max_error", 0x1p-12, 0x1p-3, FileKnob::kRelief}};
+constexpr FileKnob kMeshKnobs[] = {{"leave_out", 0, 3}};
+
 std::vector<RepresentationType>& table() {
   static std::vector<RepresentationType> types = {
       {"heightmap",
        "heightmap",
        "one height per grid point, bilinear",
        "hybrid §2.1",
-       {.lossless = true, .rays = true},
+       {.lossless = true, .editable = true, .rays = true},
        column_parameters(),
        Heightmap::build,
        Heightmap::load,
@@ -44,7 +59,8 @@ std::vector<RepresentationType>& table() {
        LayeredStack::load,
        LayeredStack::decode,
        kPerColumn,
-       kStacks},
+       kStacks,
+       kStepKnob},
       {"voxel",
        "OpenVDB voxels",
        "sparse voxels: one OpenVDB mask tree per material",
@@ -55,7 +71,8 @@ std::vector<RepresentationType>& table() {
        Voxel::load,
        Voxel::decode,
        kPerColumn,
-       kLevelByLevel},
+       kLevelByLevel,
+       kStepKnob},
       {"dense_voxel",
        "dense voxels",
        "one byte per voxel",
@@ -66,7 +83,8 @@ std::vector<RepresentationType>& table() {
        DenseGrid::load,
        DenseGrid::decode,
        kPerColumn,
-       kAllVoxels},
+       kAllVoxels,
+       kStepKnob},
       {"implicit",
        "implicit surface",
        "stacks smoothed by a kernel, as the zero set of a field",
@@ -77,7 +95,8 @@ std::vector<RepresentationType>& table() {
        ImplicitSurface::load,
        ImplicitSurface::decode,
        kPerColumn,
-       kLevelByLevel},
+       kLevelByLevel,
+       kImplicitKnobs},
       {"drill",
        "drills",
        "channels drilled into a plateau",
@@ -87,7 +106,9 @@ std::vector<RepresentationType>& table() {
        DrillTerrain::build,
        DrillTerrain::load,
        DrillTerrain::decode,
-       kPerColumn},
+       kPerColumn,
+       {},
+       kDrillKnobs},
       {"ght",
        "grounded heightmap tree",
        "a tree of heightmaps, each on its own plane",
@@ -98,6 +119,18 @@ std::vector<RepresentationType>& table() {
        Ght::load,
        Ght::decode,
        kPerColumn},
+      {"tin",
+       "TIN",
+       "a triangulated irregular network by greedy insertion",
+       "Garland & Heckbert 1995; ght §2.2",
+       {},
+       Tin::parameters(),
+       Tin::build,
+       Tin::load,
+       Tin::decode,
+       kPerColumn,
+       {},
+       kTinKnobs},
       {"procedural_mesh",
        "subdivision surface",
        "a subdivision surface displaced by heights, or a model that grows by rules",
@@ -107,7 +140,9 @@ std::vector<RepresentationType>& table() {
        ProceduralMesh::build,
        ProceduralMesh::load,
        ProceduralMesh::decode,
-       kPerColumn},
+       kPerColumn,
+       {},
+       kMeshKnobs},
   };
   return types;
 }

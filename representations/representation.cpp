@@ -52,7 +52,7 @@ void Representation::edit(Columns, std::span<const Span>) {
 
 void Representation::apply(const events::Event& event) {
   const auto* const erosion = std::get_if<events::RadialErosion>(&event);
-  if (erosion == nullptr || edited_columns() == nullptr) {
+  if (erosion == nullptr || !edited_lines()) {
     throw usage_error(
         "this representation does not take this event", "event",
         "a grounded heightmap tree takes all events; what can be edited takes a radial erosion");
@@ -65,9 +65,14 @@ ThermalErosion Representation::erode_to(double, Progress&) {
                     "choose one with the trait erodes: see `terrabench list representations --json`");
 }
 
+std::optional<LineGrid> Representation::edited_lines() const {
+  const ColumnGrid* const columns = column_grid();
+  return columns != nullptr ? std::optional(lines_of(*columns)) : std::nullopt;
+}
+
 LineGrid Representation::lines() const {
-  const ColumnGrid* const columns = edited_columns();
-  return columns != nullptr ? lines_of(*columns) : lines_over(bounds());
+  const std::optional<LineGrid> edited = edited_lines();
+  return edited ? *edited : lines_over(bounds());
 }
 
 std::unique_ptr<RayCaster> Representation::ray_caster() const {

@@ -98,10 +98,10 @@ class Representation {
 
   // The lattice of columns that the structure consists of; null if it has none.
   virtual const ColumnGrid* column_grid() const { return nullptr; }
-  // The columns on which edit() acts; null if it does not.
-  virtual const ColumnGrid* edited_columns() const { return column_grid(); }
-  // The vertical lines along which it holds its ground; by default those of the edited columns, or
-  // kDefaultResolution of them along the longer side.
+  // The vertical lines on which edit() acts; nothing if it does not. By default those of the columns.
+  virtual std::optional<LineGrid> edited_lines() const;
+  // The vertical lines along which it holds its ground; by default the edited ones, or kDefaultResolution of
+  // them along the longer side.
   virtual LineGrid lines() const;
   // Closest hits of rays, without a mesh (ray_cast.h). Null for a type that has no caster of its own and no
   // column grid. The structure must outlive the caster and not be edited.
@@ -142,6 +142,15 @@ struct GrowthTheory {
   double build = 1, bytes = 1, query = 0, mesh = 1, ray = 0, edit = 0;
 };
 
+// A parameter that decides how large a file is and how closely it keeps the ground, which a search for the
+// best files varies (besides `resolution`). Numbers from a low one above 0 are searched by their logarithm; a
+// flag and a choice take all their values.
+struct FileKnob {
+  std::string_view parameter;
+  double low = 0, high = 0;                         // as multiples of `of`
+  enum Unit { kOne, kRelief, kSamples } of = kOne;  // kSamples: all samples of the ground
+};
+
 struct RepresentationType {
   std::string_view name, label, summary, paper;  // label: in figures
   Traits traits;
@@ -153,6 +162,7 @@ struct RepresentationType {
   // Over height maps, and over a solid at growing resolution: n^1.5 voxels, surfaces of area n. Where none is
   // stated, growth is measured and not judged.
   std::optional<GrowthTheory> growth = {}, growth_in_solids = {};
+  std::span<const FileKnob> file_knobs = {};
 };
 
 // The table, one entry per method: registry.cpp.

@@ -125,6 +125,28 @@ std::vector<float> Heightmap::lines(float cell, float low, float high, double or
   return at;
 }
 
+void Heightmap::edit(Columns where, std::span<const Span> what) {
+  check_edit(where, what);
+  Bounds& bounds = grid_.bounds;
+  for (std::size_t c = 0; c < where.size(); ++c) {
+    const float x = where.x[c], z = where.z[c];
+    if (!(x >= bounds.low.x && x <= bounds.high.x && z >= bounds.low.z && z <= bounds.high.z)) continue;
+    const auto nearest = [](double at, int samples) {
+      return static_cast<std::size_t>(std::clamp(std::lround(at), 0L, static_cast<long>(samples - 1)));
+    };
+    float& height = heights_[nearest((z - grid_.origin_z) / grid_.cell_z, grid_.depth) *
+                                 static_cast<std::size_t>(grid_.width) +
+                             nearest((x - grid_.origin_x) / grid_.cell_x, grid_.width)];
+    const float bottom = std::max(what[c].bottom, bounds.low.y), top = std::min(what[c].top, bounds.high.y);
+    if (what[c].material == Material::kAir) {
+      if (what[c].top < height || !(bottom < height)) continue;  // a roof stays, or nothing was there
+      height = bottom > bounds.low.y ? bottom : Heightfield::kNoData;
+    } else if (bottom < top && !(height >= top)) {
+      height = top;
+    }
+  }
+}
+
 TriangleMesh Heightmap::mesh(MeshDetail detail) const {
   const std::vector<float> x =
       lines(detail.cell, grid_.bounds.low.x, grid_.bounds.high.x, grid_.origin_x, grid_.cell_x, grid_.width);
@@ -204,6 +226,8 @@ std::unique_ptr<Representation> Heightmap::decode(ByteSource& in) {
 LineGrid Heightmap::lines() const {
   return {grid_.width, grid_.depth, grid_.origin_x, grid_.origin_z, grid_.cell_x, grid_.cell_z, {}};
 }
+
+std::optional<LineGrid> Heightmap::edited_lines() const { return lines(); }
 
 std::unique_ptr<RayCaster> Heightmap::ray_caster() const { return height_ray_caster(*this); }
 

@@ -36,6 +36,9 @@ class Heightmap final : public Representation {
   float height(float x, float z) const;
 
   void spans(Columns where, SpanSink& out) const override;
+  // Afterwards a sample is the topmost ground of what its line would be: a roof over dug air fills it.
+  void edit(Columns where, std::span<const Span> what) override;
+  std::optional<LineGrid> edited_lines() const override;
   // The block between surface and floor, closed by walls along the border and around no-data; always
   // watertight. Empty for a single row of samples, which has no area.
   TriangleMesh mesh(MeshDetail) const override;

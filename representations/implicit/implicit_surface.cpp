@@ -7,6 +7,7 @@
 
 #include "representations/implicit/field_rays.h"
 #include "representations/layered_stack/thermal_erosion.h"
+#include "representations/line_grid.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -79,6 +80,8 @@ std::unique_ptr<ImplicitSurface> ImplicitSurface::build_surface(const TerrainSou
 ThermalErosion ImplicitSurface::erode_to(double talus, Progress& progress) {
   return erode_thermally(*stack_, *this, {.talus = talus}, progress);
 }
+
+std::optional<LineGrid> ImplicitSurface::edited_lines() const { return stack_->edited_lines(); }
 
 void ImplicitSurface::save_field(ByteSink& out) const {
   out.put(field_.radius());

@@ -49,7 +49,7 @@ class ImplicitSurface final : public Representation, public MeshChunks {
   void save(ByteSink&) const override;
   bool encode(double largest_error, ByteSink&) const override;
   Bounds bounds() const override { return stack_->bounds(); }
-  const ColumnGrid* edited_columns() const override { return &stack_->grid(); }
+  std::optional<LineGrid> edited_lines() const override;
   std::unique_ptr<RayCaster> ray_caster() const override;  // the zero set, which mesh() approximates
 
   static constexpr int kMaxCells = 65535;

@@ -170,9 +170,9 @@ TriangleMesh Tin::mesh(MeshDetail detail) const {
 // Between the outermost samples and the bounds, half a cell for solids, the border's height continues.
 void Tin::add_margin(std::vector<glm::vec3>& positions, std::vector<glm::u32vec3>& triangles) const {
   const Bounds& bounds = grid_.bounds;
+  const glm::vec3 first = positions.front(), last = positions.back();  // in order: two corners
   const auto outward = [&](glm::vec3 p) {
-    const bool west = p.x <= positions[0].x, east = p.x >= positions[3].x, north = p.z <= positions[0].z,
-               south = p.z >= positions[3].z;
+    const bool west = p.x <= first.x, east = p.x >= last.x, north = p.z <= first.z, south = p.z >= last.z;
     return glm::vec3(west   ? bounds.low.x
                      : east ? bounds.high.x
                             : p.x,
@@ -181,7 +181,7 @@ void Tin::add_margin(std::vector<glm::vec3>& positions, std::vector<glm::u32vec3
                      : south ? bounds.high.z
                              : p.z);
   };
-  if (bounds.low.x >= positions[0].x && bounds.high.x <= positions[3].x) return;
+  if (bounds.low.x >= first.x && bounds.high.x <= last.x) return;
   std::vector<std::uint32_t> copy(positions.size(), tin::Delaunay::kNone);
   const std::vector<DirectedEdge> border = [&] {
     std::vector<DirectedEdge> edges;

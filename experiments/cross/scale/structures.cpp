@@ -14,6 +14,7 @@
 #include "experiments/cross/scale/run.h"
 #include "experiments/ground.h"
 #include "representations/edit_tools.h"
+#include "representations/line_grid.h"
 #include "representations/ray_cast.h"
 #include "representations/representation.h"
 
@@ -172,7 +173,7 @@ std::pair<Holes, Holes> dig_holes(Representation& structure, float cell, Places 
                                   const ColdCaches& caches) {
   std::vector<float> x(kEdits), z(kEdits);
   places.next(x, z);
-  const bool digs = structure.edited_columns() != nullptr;
+  const bool digs = structure.edited_lines().has_value();
   const float radius = cell * kEditRadius;
   std::pair<Holes, Holes> all;
   for (int i = 0; i < kEdits; ++i) {

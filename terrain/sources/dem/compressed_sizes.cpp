@@ -18,7 +18,7 @@ namespace terrabench {
 namespace {
 
 constexpr RasterCodec kCodecs[] = {RasterCodec::kZstd, RasterCodec::kZstdDifferences, RasterCodec::kJpeg2000,
-                                   RasterCodec::kLerc, RasterCodec::kLercDeflate};
+                                   RasterCodec::kLerc, RasterCodec::kLercDeflate,     RasterCodec::kPng};
 constexpr double kMostSteps = 65535;
 constexpr int kZstdLevel = 19;
 
@@ -71,13 +71,14 @@ double natural_step(const Heightfield& field) {
 }
 
 template <class Height>
-double rmse(const Heightfield& field, const Height& height) {
-  double sum = 0;
+CompressedSize compared(const Heightfield& field, std::size_t bytes, double setting, const Height& height) {
+  double sum = 0, largest = 0;
   for (std::size_t i = 0; i < field.heights.size(); ++i) {
     const double error = height(i) - field.heights[i];
     sum += error * error;
+    largest = std::max(largest, std::abs(error));
   }
-  return std::sqrt(sum / static_cast<double>(field.heights.size()));
+  return {bytes, std::sqrt(sum / static_cast<double>(field.heights.size())), largest, setting};
 }
 
 CompressedSize zstd_size(const Heightfield& field, double step, bool differences) {
@@ -94,7 +95,7 @@ CompressedSize zstd_size(const Heightfield& field, double step, bool differences
   std::vector<char> packed(ZSTD_compressBound(raw));
   const std::size_t bytes = ZSTD_compress(packed.data(), packed.size(), numbers.data(), raw, kZstdLevel);
   if (ZSTD_isError(bytes) != 0) throw std::bad_alloc();  // the only way left to fail
-  return {bytes, rmse(field, [&](std::size_t i) { return steps.height(steps.numbers[i]); }), step};
+  return compared(field, bytes, step, [&](std::size_t i) { return steps.height(steps.numbers[i]); });
 }
 
 Error gdal_failed(RasterCodec codec, const GdalMessages& messages) {
@@ -126,29 +127,41 @@ bool read_back(const MemoryFile& file, const Heightfield& field, GDALDataType ty
                                              field.width, field.depth, type, 0, 0, nullptr) == CE_None;
 }
 
+// The steps as 16-bit pixels in a format that GDAL only copies into, read back.
+CompressedSize copied_size(const Heightfield& field, RasterCodec codec, Steps steps, const char* format,
+                           const CPLStringList& options, double setting) {
+  register_gdal();
+  const GdalMessages messages;
+  const MemoryFile plain, packed;
+  auto* const driver = GetGDALDriverManager()->GetDriverByName(format);
+  const DatasetPointer source = make_tiff(plain, field, GDT_UInt16, steps.numbers.data(), {});
+  if (driver == nullptr || source == nullptr) throw gdal_failed(codec, messages);
+  DatasetPointer copy(
+      driver->CreateCopy(packed.path.c_str(), source.get(), FALSE, options.List(), nullptr, nullptr));
+  if (copy == nullptr) throw gdal_failed(codec, messages);
+  copy.reset();
+  std::vector<std::uint16_t> numbers;
+  if (!read_back(packed, field, GDT_UInt16, numbers)) throw gdal_failed(codec, messages);
+  return compared(field, packed.size(), setting, [&](std::size_t i) { return steps.height(numbers[i]); });
+}
+
+CompressedSize png_size(const Heightfield& field, double step) {
+  CPLStringList options;
+  options.SetNameValue("ZLEVEL", "9");
+  return copied_size(field, RasterCodec::kPng, Steps(field, step), "PNG", options, step);
+}
+
 CompressedSize jpeg2000_size(const Heightfield& field, double quality) {
   if (!(quality > 0 && quality <= 100)) {
     throw usage_error(fmt::format("quality must be above 0 and at most 100, got {}", quality),
                       "compressed size", "it is a percentage of the uncompressed size");
   }
-  Steps steps(field, natural_step(field));
-  register_gdal();
-  const GdalMessages messages;
-  const MemoryFile plain, packed;
-  auto* const driver = GetGDALDriverManager()->GetDriverByName("JP2OpenJPEG");
-  const DatasetPointer source = make_tiff(plain, field, GDT_UInt16, steps.numbers.data(), {});
-  if (driver == nullptr || source == nullptr) throw gdal_failed(RasterCodec::kJpeg2000, messages);
   CPLStringList options;
   options.SetNameValue("CODEC", "J2K");
   options.SetNameValue("QUALITY", fmt::format("{:.6f}", quality).c_str());
   options.SetNameValue("REVERSIBLE", quality == 100 ? "YES" : "NO");
-  DatasetPointer copy(
-      driver->CreateCopy(packed.path.c_str(), source.get(), FALSE, options.List(), nullptr, nullptr));
-  if (copy == nullptr) throw gdal_failed(RasterCodec::kJpeg2000, messages);
-  copy.reset();
-  std::vector<std::uint16_t> numbers;
-  if (!read_back(packed, field, GDT_UInt16, numbers)) throw gdal_failed(RasterCodec::kJpeg2000, messages);
-  return {packed.size(), rmse(field, [&](std::size_t i) { return steps.height(numbers[i]); }), quality};
+  return copied_size(field, RasterCodec::kJpeg2000, Steps(field, natural_step(field)), "JP2OpenJPEG", options,
+                     quality);
 }
 
 // The bytes of a GeoTIFF's first block: the rest is the container's, not the codec's.
@@ -180,8 +193,8 @@ CompressedSize lerc_size(const Heightfield& field, double largest_error, bool de
   if (messages.failed() || !read_back(packed, field, GDT_Float32, heights)) {
     throw gdal_failed(codec, messages);
   }
-  return {block_bytes(packed), rmse(field, [&](std::size_t i) { return static_cast<double>(heights[i]); }),
-          largest_error};
+  return compared(field, block_bytes(packed), largest_error,
+                  [&](std::size_t i) { return static_cast<double>(heights[i]); });
 }
 
 // The range of settings that bisection searches, from the finest to the coarsest.
@@ -213,6 +226,8 @@ std::string_view name(RasterCodec codec) {
       return "JPEG 2000";
     case RasterCodec::kLerc:
       return "LERC";
+    case RasterCodec::kPng:
+      return "PNG, 16 bits";
     default:
       return "LERC + DEFLATE";
   }
@@ -230,12 +245,15 @@ CompressedSize compressed_size(const Heightfield& field, RasterCodec codec, doub
     case RasterCodec::kLerc:
     case RasterCodec::kLercDeflate:
       return lerc_size(field, setting, codec == RasterCodec::kLercDeflate);
+    case RasterCodec::kPng:
+      return png_size(field, setting);
     default:
       return zstd_size(field, setting, codec == RasterCodec::kZstdDifferences);
   }
 }
 
-CompressedSize compressed_size_at(const Heightfield& field, RasterCodec codec, double rmse) {
+CompressedSize compressed_size_at(const Heightfield& field, RasterCodec codec, double most,
+                                  double CompressedSize::*error) {
   constexpr int kSteps = 14;
   auto [fine, coarse] = setting_range(field, codec);
   CompressedSize best = compressed_size(field, codec, fine);
@@ -243,7 +261,7 @@ CompressedSize compressed_size_at(const Heightfield& field, RasterCodec codec, d
   for (int i = 0; i < kSteps; ++i) {
     const double middle = std::sqrt(fine * coarse);
     const CompressedSize at = compressed_size(field, codec, middle);
-    if (at.rmse > rmse) {
+    if (at.*error > most) {
       coarse = middle;
       continue;
     }

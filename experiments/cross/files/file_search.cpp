@@ -1,0 +1,259 @@
+#include "experiments/cross/files/file_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "experiments/cross/files/temporary_folder.h"
+#include "terrain/splitmix.h"
+
+namespace terrabench::cross {
+namespace {
+
+using Setting = std::vector<double>;  // each in [0, 1]: the error to add, the resolution, the type's knobs
+
+constexpr double kLeastError = 0x1p-14, kMostError = 0x1p-4;  // of the relief
+constexpr double kCoarsest = 1.0 / 32;                        // of the ground's own resolution
+
+double between(double low, double high, double at) {
+  return low > 0 ? low * std::pow(high / low, at) : low + (high - low) * at;
+}
+
+// The inverse of between().
+double place(double value, double low, double high) {
+  return low > 0 ? std::log(std::max(value, low) / low) / std::log(high / low) : (value - low) / (high - low);
+}
+
+class Search {
+ public:
+  Search(const Scene& scene, const RepresentationType& type, Progress& progress)
+      : scene_(scene), type_(type), progress_(progress), relief_(relief_of(scene)) {
+    const auto& heights = scene.source.heights;
+    columns_ = heights ? std::max(heights->width, heights->depth) : scene.options.resolution;
+  }
+
+  std::size_t knobs() const { return 2 + type_.file_knobs.size(); }
+
+  // The type's own settings at the ground's own resolution, with metres to be added by encode() and by the
+  // type.
+  Setting own(double added, double built) const {
+    const auto of_relief = [&](double metres, double low, double high) {
+      return std::clamp(place(std::max(metres / relief_, low), low, high), 0.0, 1.0);
+    };
+    Setting at{of_relief(added, kLeastError, kMostError), 1};
+    const Parameters fallback(type_.parameters);
+    for (const FileKnob& knob : type_.file_knobs) {
+      at.push_back(knob.of == FileKnob::kRelief ? of_relief(built, knob.low, knob.high)
+                                                : place_of_fallback(knob, fallback));
+    }
+    return at;
+  }
+  // What an error of interest is in metres: of a solid, about that share of its height.
+  double metres(double aim) const { return scene_.source.heights ? aim : aim * relief_; }
+
+  std::optional<BuiltFile> make(const Setting& at) const {
+    BuiltFile file;
+    file.within = between(kLeastError, kMostError, at[0]) * relief_;
+    const auto columns = static_cast<std::int64_t>(std::lround(between(kCoarsest, 1, at[1]) * columns_));
+    file.parameters =
+        scene_.parameters(type_, columns < columns_ ? std::max<std::int64_t>(columns, 4) : std::int64_t{0});
+    for (std::size_t k = 0; k < type_.file_knobs.size(); ++k)
+      set(type_.file_knobs[k], at[k + 2], file.parameters);
+    try {
+      const auto built = type_.build(scene_.source, file.parameters, progress_);
+      const TemporaryFolder folder;
+      const std::filesystem::path path = folder.path() / "scratch";
+      file.bytes = save_representation(path, type_, *built, file.within);
+      const auto read = load_representation(path).representation;
+      const Differences found = top_and_volume_differences(*read, scene_.source, scene_.lines);
+      if (found.columns == 0) return {};
+      file.largest = found.largest;
+      file.rmse = found.rmse;
+      file.volume_error = 1 - found.volume_iou.value_or(1);
+      return file;
+    } catch (const Error& error) {
+      if (!refuses(error)) throw;
+      return {};
+    }
+  }
+
+ private:
+  double unit(const FileKnob& knob) const {
+    const auto columns = static_cast<double>(columns_);
+    return knob.of == FileKnob::kRelief ? relief_ : knob.of == FileKnob::kSamples ? columns * columns : 1.0;
+  }
+
+  double place_of_fallback(const FileKnob& knob, const Parameters& fallback) const {
+    const auto& specs = fallback.specs();
+    const auto spec = std::ranges::find(specs, knob.parameter, &ParameterSpec::name);
+    if (const bool* flag = std::get_if<bool>(&spec->fallback)) return *flag ? 1 : 0;
+    if (std::holds_alternative<std::string>(spec->fallback)) return 0;  // the first of its choices
+    const double number = std::holds_alternative<double>(spec->fallback)
+                              ? std::get<double>(spec->fallback)
+                              : static_cast<double>(std::get<std::int64_t>(spec->fallback));
+    return std::clamp(place(number / unit(knob), knob.low, knob.high), 0.0, 1.0);
+  }
+
+  void set(const FileKnob& knob, double at, Parameters& parameters) const {
+    const auto& specs = parameters.specs();
+    const auto spec = std::ranges::find(specs, knob.parameter, &ParameterSpec::name);
+    const double number = between(knob.low, knob.high, at) * unit(knob);
+    const auto one_of = [&](std::size_t n) {
+      return std::min(static_cast<std::size_t>(at * static_cast<double>(n)), n - 1);
+    };
+    if (std::holds_alternative<bool>(spec->fallback)) return parameters.set(knob.parameter, at >= 0.5);
+    if (std::holds_alternative<std::string>(spec->fallback))
+      return parameters.set(knob.parameter, std::string(spec->allowed[one_of(spec->allowed.size())]));
+    if (std::holds_alternative<double>(spec->fallback))
+      return parameters.set(knob.parameter, std::clamp(number, spec->lowest, spec->highest));
+    parameters.set(knob.parameter,
+                   static_cast<std::int64_t>(std::llround(std::clamp(number, spec->lowest, spec->highest))));
+  }
+
+  const Scene& scene_;
+  const RepresentationType& type_;
+  Progress& progress_;
+  double relief_;
+  std::int64_t columns_;
+};
+
+// Point k of a sequence that fills the cube evenly (Roberts 2018), the middle first.
+Setting spread(std::size_t k, std::size_t dimensions) {
+  double root = 2;  // of x^(d + 1) = x + 1
+  for (int i = 0; i < 60; ++i) root = std::pow(1 + root, 1.0 / static_cast<double>(dimensions + 1));
+  Setting at;
+  for (std::size_t i = 0; i < dimensions; ++i) {
+    const double x = 0.5 + static_cast<double>(k) * std::pow(root, -static_cast<double>(i + 1));
+    at.push_back(x - std::floor(x));
+  }
+  return at;
+}
+
+struct Made {
+  Setting at;
+  BuiltFile file;
+};
+
+// The best of those made, as best_files().
+std::vector<const Made*> best(const std::vector<Made>& all, FileError error) {
+  std::vector<const Made*> order;
+  for (const Made& made : all) order.push_back(&made);
+  std::ranges::stable_sort(order, [&](const Made* a, const Made* b) {
+    return a->file.bytes != b->file.bytes ? a->file.bytes < b->file.bytes : a->file.*error < b->file.*error;
+  });
+  double least = std::numeric_limits<double>::infinity();
+  std::erase_if(order, [&](const Made* made) {
+    const bool beaten = made->file.*error >= least;
+    least = std::min(least, made->file.*error);
+    return beaten;
+  });
+  return order;
+}
+
+class Variation {
+ public:
+  Variation(const RepresentationType& type, std::uint64_t seed) : type_(type), random_(seed) {}
+
+  // Near one of the best files.
+  Setting vary(const std::vector<const Made*>& best) {
+    Setting at = best[static_cast<std::size_t>(share() * static_cast<double>(best.size()))]->at;
+    disturb(at, 0.15);
+    return at;
+  }
+
+  // Near the one whose error is nearest to `aim`, finer or coarser by what it misses. Files far below it,
+  // such as those without error, say little about the settings.
+  Setting aim(std::vector<const Made*> best, FileError error, double aim) {
+    const auto miss = [&](const Made* made) {
+      return std::log(aim / std::max(made->file.*error, 1e-3 * aim));
+    };
+    const auto far = [&](const Made* made) { return miss(made) > 2; };
+    if (!std::ranges::all_of(best, far)) std::erase_if(best, far);
+    const Made* nearest =
+        *std::ranges::min_element(best, {}, [&](const Made* m) { return std::abs(miss(m)); });
+    const double coarser = miss(nearest) - 0.02;
+    Setting at = nearest->at;
+    if (coarser > -0.02 && coarser < 0.05) disturb(at, 0.05);  // as near as it gets: others of this error
+    const auto move = [&](double& x, double log_range, double by) {
+      x = std::clamp(x + by / log_range, 0.0, 1.0);
+    };
+    move(at[0], std::log(kMostError / kLeastError), coarser);
+    if (coarser < 0) move(at[1], -std::log(kCoarsest), -0.5 * coarser);
+    for (std::size_t k = 0; k < type_.file_knobs.size(); ++k) {
+      const FileKnob& knob = type_.file_knobs[k];
+      if (knob.of == FileKnob::kRelief) move(at[k + 2], std::log(knob.high / knob.low), coarser);
+    }
+    return at;
+  }
+
+ private:
+  double share() { return unit_of(random_.next()); }
+  double normal() { return std::sqrt(-2 * std::log(1 - share())) * std::cos(2 * std::numbers::pi * share()); }
+  void disturb(Setting& at, double spread) {
+    for (double& x : at) {
+      if (share() < 0.6) x = std::clamp(x + spread * normal(), 0.0, 1.0);
+    }
+  }
+
+  const RepresentationType& type_;
+  SplitMix random_;
+};
+
+}  // namespace
+
+std::vector<BuiltFile> best_files(std::vector<BuiltFile> files, FileError error) {
+  std::vector<Made> all;
+  for (BuiltFile& file : files) all.push_back({{}, std::move(file)});
+  std::vector<BuiltFile> front;
+  for (const Made* made : best(all, error)) front.push_back(made->file);
+  return front;
+}
+
+const BuiltFile* smallest_within(const std::vector<BuiltFile>& files, FileError error, double most) {
+  const BuiltFile* found = nullptr;
+  for (const BuiltFile& file : files) {
+    if (file.*error <= most && (found == nullptr || file.bytes < found->bytes)) found = &file;
+  }
+  return found;
+}
+
+const BuiltFile* closest_within(const std::vector<BuiltFile>& files, FileError error, double most_bytes) {
+  const BuiltFile* found = nullptr;
+  for (const BuiltFile& file : files) {
+    if (static_cast<double>(file.bytes) <= most_bytes && (found == nullptr || file.*error < found->*error))
+      found = &file;
+  }
+  return found;
+}
+
+std::vector<BuiltFile> search_files(const Scene& scene, const RepresentationType& type, int builds,
+                                    std::span<const double> aims, Progress& progress) {
+  const Search search(scene, type, progress);
+  const FileError error = scene.source.heights ? &BuiltFile::largest : &BuiltFile::volume_error;
+  std::vector<Made> all;
+  Variation variation(type, scene.options.seed);
+  for (std::size_t k = 0, aimed = 0; k < static_cast<std::size_t>(builds); ++k) {
+    const auto next = [&]() -> Setting {
+      const std::size_t evenly = (static_cast<std::size_t>(builds) + 3) / 4;
+      if (k < evenly) return spread(k, search.knobs());
+      if (k < evenly + 2 * aims.size()) {
+        const double metres = search.metres(aims[(k - evenly) / 2]),
+                     built = (k - evenly) % 2 == 0 ? 0.05 : 0.6;
+        return search.own((1 - built) * metres, built * metres);
+      }
+      if (all.empty()) return spread(k, search.knobs());
+      if (k % 2 == 0) return variation.aim(best(all, error), error, aims[aimed++ % aims.size()]);
+      // By turns for both errors, so that both curves are searched.
+      return variation.vary(best(all, k % 4 == 1 ? error : &BuiltFile::rmse));
+    };
+    const Setting at = next();
+    if (std::optional<BuiltFile> file = search.make(at)) all.push_back({at, std::move(*file)});
+  }
+  std::vector<BuiltFile> files;
+  for (Made& made : all) files.push_back(std::move(made.file));
+  return files;
+}
+
+}  // namespace terrabench::cross

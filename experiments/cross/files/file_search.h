@@ -1,0 +1,41 @@
+// The best files of a type: of all its settings, those whose file is small and close to the ground.
+//
+// One search with a number of builds, the same for all types. The settings are what RepresentationType::
+// file_knobs says, the resolution, and the error that encode() may add. A quarter of the builds spreads over
+// all settings evenly (Roberts 2018). For each error of interest two follow at the ground's own resolution
+// and the type's own settings, which give the error to encode() or to its knobs. Of the others, every second
+// varies a file that is among the best so far; the rest aim at an error of interest: the nearest of the best
+// files is made again, finer or coarser by the factor by which it misses. Every file is written, read back
+// and compared.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "experiments/cross/representations/scenes.h"
+
+namespace terrabench::cross {
+
+struct BuiltFile {
+  Parameters parameters;
+  double within = 0;      // metres that encode() may add
+  std::size_t bytes = 0;  // on disk
+  // Of what the file gives back. Heights in metres at every sample; of a solid its tops on the lines.
+  double largest = 0, rmse = 0;
+  double volume_error = 0;  // 1 - IoU
+};
+
+using FileError = double BuiltFile::*;
+// Those of which no other has both fewer bytes and less error, the smallest first. O(n log n).
+std::vector<BuiltFile> best_files(std::vector<BuiltFile>, FileError);
+// The smallest within an error, and the closest within bytes; null if there is none.
+const BuiltFile* smallest_within(const std::vector<BuiltFile>&, FileError, double most);
+const BuiltFile* closest_within(const std::vector<BuiltFile>&, FileError, double most_bytes);
+
+// All files that were made; settings that the type refuses are builds without a file. `aims`: errors of
+// interest, largest errors in metres or, of a solid, shares of its volume. The same for every number of
+// threads.
+std::vector<BuiltFile> search_files(const Scene&, const RepresentationType&, int builds,
+                                    std::span<const double> aims, Progress&);
+
+}  // namespace terrabench::cross

@@ -1,0 +1,164 @@
+// How small a file keeps how much of the ground: every type with its best coder, its settings searched by the
+// same search, and the formats that GDAL writes beside them.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "experiments/cross/files/file_search.h"
+#include "experiments/experiment.h"
+#include "experiments/ground.h"
+#include "representations/coding/height_codec.h"
+#include "terrain/heightfield.h"
+#include "terrain/sources/dem/compressed_sizes.h"
+
+namespace terrabench::cross {
+namespace {
+
+constexpr std::string_view kFormats = "formats";
+
+const std::array kSpecs{
+    ParameterSpec{"representation", std::string("heightmap"), "",
+                  "a name of `terrabench list representations`; formats: those that GDAL writes, of heights"},
+    ParameterSpec{"builds", std::int64_t{120}, "", "of each type, to search its settings", 1, 100000},
+    ParameterSpec{"size", std::int64_t{257}, "samples", "side of the fractal ground, 2^n + 1", 3, 8193},
+    ParameterSpec{"resolution", std::int64_t{64}, "columns", "along solid ground, at most", 2, 4096},
+    ParameterSpec{"lines", std::int64_t{101}, "", "along solid ground, on which volumes are compared", 2,
+                  4001},
+};
+
+// Percent of the relief for the largest error of heights; percent of the volume that differs for solids.
+constexpr std::array kHeightErrors{0.03, 0.1, 0.3, 1.0, 3.0, 10.0};
+constexpr std::array kSolidErrors{1.0, 3.0, 10.0};
+constexpr std::array kShares{1.0, 5.0, 20.0};  // percent of the ground's own bytes
+
+struct Format {
+  RasterCodec codec;
+  std::string_view name;
+};
+constexpr std::array kGdalFormats{
+    Format{RasterCodec::kJpeg2000, "jpeg2000"}, Format{RasterCodec::kLercDeflate, "lerc_deflate"},
+    Format{RasterCodec::kPng, "png"}, Format{RasterCodec::kZstdDifferences, "differences_zstd"}};
+
+std::vector<Case> cases(const RunOptions& options) {
+  const bool paper = options.profile == Profile::kPaper;
+  std::vector<Case> cases;
+  for (const std::string& terrain :
+       grounds(options, paper ? own_grounds() : std::vector{own_grounds().front()})) {
+    const auto add = [&](std::string_view representation) {
+      cases.push_back({fmt::format("{}/{}", terrain, representation),
+                       {kSpecs,
+                        {{"representation", std::string(representation)},
+                         {"builds", std::int64_t{paper ? 120 : 24}},
+                         {"size", std::int64_t{paper ? 513 : 257}},
+                         {"resolution", std::int64_t{paper ? 128 : 64}},
+                         {"lines", std::int64_t{paper ? 211 : 101}}}},
+                       terrain});
+    };
+    for (const RepresentationType& type : representations()) add(type.name);
+    if (!is_solid(terrain)) add(kFormats);
+  }
+  return cases;
+}
+
+// The bytes of the ground as it came: 16-bit samples where whole metres fit them, else floats; of a solid the
+// heights of its columns as floats.
+double own_bytes(const Scene& scene) {
+  if (!scene.source.heights) return static_cast<double>(scene.heightmap_bytes);
+  const Heightfield& field = *scene.source.heights;
+  const bool whole = std::ranges::all_of(field.heights, [](float h) {
+    return Heightfield::is_no_data(h) || (h == std::round(h) && std::abs(h) < 32768);
+  });
+  return static_cast<double>(field.heights.size()) * (whole ? 2 : 4);
+}
+
+void record_smallest(const std::vector<BuiltFile>& files, FileError error, double percent, double unit,
+                     double own, Recorder& recorder) {
+  const std::string bytes = fmt::format("bytes_within_{:g}%", percent),
+                    share = fmt::format("share_within_{:g}%", percent);
+  if (const BuiltFile* file = smallest_within(files, error, percent / 100 * unit)) {
+    recorder.add(bytes, "B", static_cast<double>(file->bytes));
+    recorder.add(share, "", static_cast<double>(file->bytes) / own);
+  } else {
+    recorder.undefined({bytes, share}, "no file that the search made is so close to the ground");
+  }
+}
+
+void record_closest(const std::vector<BuiltFile>& files, double percent, double own, Recorder& recorder) {
+  const auto add = [&](std::string_view metric, std::string_view unit, FileError error) {
+    const std::string name = fmt::format("{}_at_{:g}%", metric, percent);
+    const BuiltFile* file = closest_within(files, error, percent / 100 * own);
+    if (file != nullptr)
+      recorder.add(name, unit, file->*error);
+    else
+      recorder.undefined({name}, "no file that the search made is so small");
+  };
+  add("rmse", "m", &BuiltFile::rmse);
+  add("volume_error", "", &BuiltFile::volume_error);
+}
+
+void measure_type(const Scene& scene, const RepresentationType& type, int builds, Recorder& recorder,
+                  Progress& progress) {
+  const bool heights = scene.source.heights.has_value();
+  const FileError error = heights ? &BuiltFile::largest : &BuiltFile::volume_error;
+  const std::span<const double> percents = heights ? std::span<const double>(kHeightErrors) : kSolidErrors;
+  const double unit = heights ? relief_of(scene) : 1, own = own_bytes(scene);
+  std::vector<double> aims;
+  for (const double percent : percents) aims.push_back(percent / 100 * unit);
+  const std::vector<BuiltFile> files = search_files(scene, type, builds, aims, progress);
+  recorder.add("files", "", static_cast<double>(files.size()));
+  if (files.empty()) throw SkippedCase("the type cannot hold this ground at any setting that was tried");
+  for (const BuiltFile& file : best_files(files, error)) {
+    recorder.add("best_bytes", "B", static_cast<double>(file.bytes));
+    recorder.add("best_error", heights ? "m" : "", file.*error);
+  }
+  for (const BuiltFile& file : best_files(files, &BuiltFile::rmse)) {
+    recorder.add("best_rmse_bytes", "B", static_cast<double>(file.bytes));
+    recorder.add("best_rmse", "m", file.rmse);
+  }
+  for (const double percent : percents) record_smallest(files, error, percent, unit, own, recorder);
+  for (const double percent : kShares) record_closest(files, percent, own, recorder);
+}
+
+// GDAL's formats have no holes: these are filled first, and take no part in the error.
+void measure_formats(const Scene& scene, Recorder& recorder) {
+  const Heightfield field = fill_no_data(*scene.source.heights);
+  const double relief = relief_of(scene), own = own_bytes(scene);
+  for (const auto& [codec, name] : kGdalFormats) {
+    for (const double percent : kHeightErrors) {
+      const double most = percent / 100 * relief;
+      // Steps as those of our own coder, so that whole metres keep their advantage.
+      const bool steps = codec == RasterCodec::kPng || codec == RasterCodec::kZstdDifferences;
+      const CompressedSize size =
+          codec == RasterCodec::kJpeg2000
+              ? compressed_size_at(field, codec, most, &CompressedSize::largest)
+              : compressed_size(field, codec, steps ? step_for(field.heights, most) : most);
+      if (size.largest > most * 1.001) continue;
+      recorder.add(fmt::format("{}_bytes", name), "B", static_cast<double>(size.bytes));
+      recorder.add(fmt::format("{}_error", name), "m", size.largest);
+      recorder.add(fmt::format("{}_rmse", name), "m", size.rmse);
+      recorder.add(fmt::format("{}_within_{:g}%", name, percent), "B", static_cast<double>(size.bytes));
+      recorder.add(fmt::format("{}_share_within_{:g}%", name, percent), "",
+                   static_cast<double>(size.bytes) / own);
+    }
+  }
+}
+
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const Scene& ground =
+      scene({at.terrain, at.integer("size"), at.integer("resolution"), at.integer("lines"), options.seed},
+            progress);
+  recorder.terrain(ground.source);
+  if (relief_of(ground) == 0) throw SkippedCase("the ground is flat: an error has no share of its relief");
+  recorder.add("own_bytes", "B", own_bytes(ground));
+  const std::string& name = at.parameters.text("representation");
+  if (name == kFormats) return measure_formats(ground, recorder);
+  measure_type(ground, representation(name), at.integer("builds"), recorder, progress);
+}
+
+}  // namespace
+
+extern const Experiment kFileSize{"cross.file-size", "How small a file keeps how much of the ground", kSpecs,
+                                  cases, measure};
+
+}  // namespace terrabench::cross
