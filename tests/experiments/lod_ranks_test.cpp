@@ -6,8 +6,8 @@
 #include <set>
 #include <string>
 
+#include "experiments/cross/lod/ranks.h"
 #include "experiments/cross/lod/tuned_cases.h"
-#include "experiments/cross/ranks.h"
 #include "lod/meters/screen_error.h"
 #include "results/claims/claims.h"
 #include "results/store/statistics.h"

@@ -119,7 +119,6 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("rmse_of_range", "",
                whole.rmse / std::max(1e-9, static_cast<double>(range.highest) - range.lowest));
   recorder.add("file_largest_error", "m", of_file.largest);
-  recorder.add("file_rmse", "m", of_file.rmse);
   recorder.add("file_lost", "", of_file.lost);
   recorder.add("file_bytes", "B", static_cast<double>(written.bytes));
   recorder.add("bytes_per_sample", "B", static_cast<double>(written.bytes) / static_cast<double>(own.size()));

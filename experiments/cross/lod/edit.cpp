@@ -86,12 +86,11 @@ std::size_t take_edit(Edited& edited, const SampleRect& rect, const View& view, 
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TunedMethod tuned = tune_case(at, options, recorder, progress);
+  recorder.add("reached", "", tuned.tuned.reached ? 1 : 0);
   const Flight& flight = tuned.flight;
   const std::size_t k = flight.metered.size() / 2, last = flight.metered[k];
   const View& view = flight.views[last];
   const SampleRect rect = crater_before(flight.seen[k]);
-  const glm::ivec2 side = rect.high - rect.low + 1;
-  recorder.add("edited_samples", "", static_cast<double>(side.x) * side.y);
   Heightfield ground = flight.ground();
   const std::unique_ptr<Lod> lod = tuned.build(ground, progress);
   for (std::size_t i = last - std::min(last, kLead); i < last; ++i) lod->update(flight.views[i]);

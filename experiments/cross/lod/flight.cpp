@@ -8,6 +8,7 @@
 
 #include "experiments/cross/representations/scenes.h"
 #include "experiments/ground.h"
+#include "experiments/stopwatch.h"
 #include "lod/camera/camera_path.h"
 #include "lod/meters/screen_error.h"
 #include "terrain/error.h"
@@ -204,6 +205,27 @@ Distribution errors_along(const Flight& flight, Lod& lod) {
     screen_error(drawn, flight.ground(), flight.seen[k], &errors);
   }
   return errors;
+}
+
+PathCost fly(const Flight& flight, const Contender& method, double knob, Progress& progress) {
+  PathCost cost;
+  cost.times.reserve(flight.views.size());
+  cost.triangles.reserve(flight.views.size());
+  const HeapScope heap;
+  const std::unique_ptr<Lod> lod = method.build(flight.ground(), progress);
+  lod->tune(knob);
+  cost.first_uploaded = lod->update(flight.views.front()).stats.bytes_sent();
+  for (std::size_t i = 1; i < flight.views.size(); ++i) {
+    const Stopwatch watch;
+    const Frame& frame = lod->update(flight.views[i]);
+    cost.times.push_back(watch.seconds());
+    cost.triangles.push_back(static_cast<double>(frame.stats.triangles));
+    cost.uploaded += static_cast<double>(frame.stats.bytes_sent());
+  }
+  cost.uploaded /= static_cast<double>(cost.times.size());
+  cost.bytes_held = lod->memory().total();  // first: waits for threads that still allocate
+  cost.heap_growth = heap.held();
+  return cost;
 }
 
 }  // namespace terrabench::cross

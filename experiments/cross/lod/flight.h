@@ -88,4 +88,17 @@ Tuned tune_to(Flight&, const Contender&, double pixels, Progress&, Criterion = C
 // The visible samples' screen-space errors over all metered frames, drawn one after another.
 Distribution errors_along(const Flight&, Lod&);
 
+// Over every frame of a path, with nothing between two updates. The first update, which builds what later
+// ones keep, is reported separately.
+struct PathCost {
+  std::size_t first_uploaded = 0;        // bytes
+  double uploaded = 0;                   // bytes per frame, mean
+  std::vector<double> times, triangles;  // per frame: seconds, triangles drawn
+  std::size_t bytes_held = 0;            // by the method's own count, after the path
+  std::int64_t heap_growth = 0;          // by the count of operator new
+};
+
+// Builds the method, sets its knob and updates it for every view of the flight.
+PathCost fly(const Flight&, const Contender&, double knob, Progress&);
+
 }  // namespace terrabench::cross

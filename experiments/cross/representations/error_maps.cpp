@@ -10,7 +10,6 @@
 #include "experiments/cross/representations/fitting.h"
 #include "experiments/experiment.h"
 #include "experiments/figures/maps.h"
-#include "experiments/ground.h"
 
 namespace terrabench::cross {
 namespace {
@@ -34,9 +33,9 @@ constexpr Rgb kMissing{120, 120, 128};  // where only one of ground and type has
 std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
   std::vector<Case> cases;
-  for (const std::string& terrain : grounds(options, own_grounds())) {
+  for (const std::string& terrain : compared_scenes(options)) {
     // In a file of 5 % of 64² heights, stacks and dense voxels have the same few columns and the same map.
-    const std::int64_t resolution = solid_resolution(terrain, paper || terrain == "caves");
+    const std::int64_t resolution = std::max<std::int64_t>(128, solid_resolution(terrain, paper));
     cases.push_back({terrain,
                      {kSpecs,
                       {{"size", std::int64_t{paper ? 1025 : 257}},
@@ -170,7 +169,6 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     const Map& map =
         maps.emplace_back(map_of(ground, type, surface, compared, at.parameters.number("share"), progress));
     const std::string name(type.name);
-    recorder.add(name + "_fits", "", map.fits ? 1 : 0);
     recorder.add(name + "_file", "kB", static_cast<double>(map.file_bytes) / 1000);
     if (map.columns > 0) recorder.add(name + "_rmse", "m", map.rmse);
   }
