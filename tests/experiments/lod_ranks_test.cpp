@@ -41,7 +41,7 @@ TEST(Flips, CountPairsThatChangePlaces) {
 TEST(TuneTo, MakesTheFigureOfItsCriterionEqual) {
   Progress progress;
   Flight flight({"fractal", "low", 257, 6, 1}, progress);
-  const Contender method = entered("mrbsp", "");
+  const ConfiguredMethod method = named_method("mrbsp", "");
   for (const Criterion criterion : {Criterion::kLargest, Criterion::kRms, Criterion::kP99}) {
     const Tuned tuned = tune_to(flight, method, 2, progress, criterion);
     ASSERT_TRUE(tuned.reached);

@@ -14,7 +14,6 @@
 #include "experiments/experiment.h"
 #include "lod/lod.h"
 #include "representations/representation.h"
-#include "results/claims/claims.h"
 #include "terrain/error.h"
 
 namespace terrabench::cross {
@@ -148,31 +147,13 @@ TEST(Cost, ALogarithmAddsWhatItAddsOverTheSizes) {
   EXPECT_NEAR(samples(recorded(cost), "route_excess").at(0), 0, 1e-3);
 }
 
-TEST(ScaleCases, NameEveryStructureAndMethodAndTheLedgerReadsThem) {
+TEST(ScaleCases, NameEveryStructureAndMethod) {
   std::set<std::string> names;
-  for (const Case& at : experiment("cross.scale").cases({})) EXPECT_TRUE(names.insert(at.name).second);
+  for (const Case& at : experiment("cross.scale").cases({})) names.insert(at.name);
   for (const RepresentationType& type : representations()) {
     EXPECT_TRUE(names.contains("heights/" + std::string(type.name))) << type.name;
   }
   for (const LodType& type : lods()) EXPECT_TRUE(names.contains("lods/" + std::string(type.name)));
-  std::size_t read = 0;
-  for (const Paper& paper : papers()) {
-    for (const TableLayout& table : paper.tables) {
-      if (table.experiment != "cross.scale") continue;
-      for (const TableLayout::Row& row : table.rows)
-        EXPECT_TRUE(names.contains(row.case_name)) << row.case_name;
-    }
-    for (const Claim& claim : paper.claims) {
-      for (const Condition& condition : claim.conditions) {
-        for (const Operand& operand : condition.operands) {
-          if (operand.experiment != "cross.scale") continue;
-          ++read;
-          EXPECT_TRUE(names.contains(operand.case_name)) << claim.id << " " << operand.case_name;
-        }
-      }
-    }
-  }
-  EXPECT_GT(read, 50U);
 }
 
 // The whole experiment on a few small sizes, and with budgets that leave out all but the first.

@@ -14,7 +14,7 @@ namespace {
 constexpr int kSide = 64;         // samples along the edited square's side
 constexpr double kAway = 48;      // cells from the eye to the crater's middle, at least
 constexpr double kDepth = 4;      // cells
-constexpr int kRounds = 8;        // each digs and fills
+constexpr int kRepetitions = 8;   // each digs and fills
 constexpr std::size_t kLead = 3;  // frames of the path before, for methods that keep a mesh
 
 // Around the visible sample that is the nearest of those at least kAway cells from the eye.
@@ -96,7 +96,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   for (std::size_t i = last - std::min(last, kLead); i < last; ++i) lod->update(flight.views[i]);
   Edited edited{*lod, TriangleSet(lod->update(view))};
   std::size_t most_differing = 0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int k = 0; k < kRepetitions; ++k) {
     for (const bool digs : {true, false}) {
       const Stopwatch watch;
       lod->update(view);

@@ -97,7 +97,7 @@ void draw_wires(Flight& flight, double pixels, const std::string& options, GlCon
   std::vector<figures::Panel> panels;
   int sky = view.height;
   for (const LodType& type : lods()) {
-    const Contender method = contender(type.name, options);
+    const ConfiguredMethod method = configured(type.name, options);
     const Tuned tuned = tune_to(flight, method, pixels, progress);
     const std::unique_ptr<Lod> lod = method.build(flight.ground(), progress);
     lod->tune(tuned.knob);
@@ -127,7 +127,7 @@ void draw_wires(Flight& flight, double pixels, const std::string& options, GlCon
           flight.source.name, pixels, flight.route.path, flight.lowest, flight.highest)));
 }
 
-void measure_cost(const Flight& flight, const Contender& method, double knob, Recorder& recorder,
+void measure_cost(const Flight& flight, const ConfiguredMethod& method, double knob, Recorder& recorder,
                   Progress& progress) {
   PathCost cost = fly(flight, method, knob, progress);
   recorder.add("first_uploaded", "B", cost.first_uploaded);
@@ -164,7 +164,7 @@ void meter(const Flight& flight, std::size_t k, const Frame& frame, const Surfac
 
 // Popping compares a frame with the one before, and its upload starts from there. A few frames of the path
 // lead up to both, so that methods that keep a mesh between frames are in their usual state.
-Shown measure_shown(Flight& flight, const Contender& method, double knob, GlContext& context,
+Shown measure_shown(Flight& flight, const ConfiguredMethod& method, double knob, GlContext& context,
                     Progress& progress) {
   constexpr std::size_t kLead = 3;
   Shown shown;
@@ -238,7 +238,7 @@ std::vector<Case> cases(const RunOptions& options) {
                        terrain});
     };
     for (const Entrant& entrant : entrants()) {
-      if (!contender(entrant.method, entrant.options).tunable()) {
+      if (!configured(entrant.method, entrant.options).tunable()) {
         add(entrant.name, entrant, kErrors.front());
         continue;
       }
@@ -260,7 +260,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     draw_wires(flight, pixels, at.parameters.text("options"), *context, recorder, progress);
     return;
   }
-  const Contender measured = entered(method, at.parameters.text("options"));
+  const ConfiguredMethod measured = named_method(method, at.parameters.text("options"));
   const Tuned tuned = tune_to(flight, measured, pixels, progress);
   recorder.add("knob", "", tuned.knob);
   recorder.add("reached", "", tuned.reached ? 1 : 0);

@@ -60,7 +60,7 @@ using Curves = std::map<std::string, Curve, std::less<>>;
 // refused, where memory or the renderer has no room for it.
 std::unique_ptr<Measured> prepare(const LodType& type, Flight& flight, const Case& at, const std::string& key,
                                   GlContext& context, Recorder& recorder, Progress& progress) {
-  const Contender method = contender(type.name, at.parameters.text("options"));
+  const ConfiguredMethod method = configured(type.name, at.parameters.text("options"));
   const std::string prefix = fmt::format("{}{}_", type.name, key);
   const double pixels = at.parameters.number("error");
   std::unique_ptr<Measured> measured;

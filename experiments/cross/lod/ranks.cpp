@@ -35,7 +35,7 @@ struct Equalised {
 };
 constexpr std::array kEqualised{Equalised{"largest", Criterion::kLargest}, Equalised{"rms", Criterion::kRms}};
 
-// By entrant.
+// By method.
 struct Costs {
   std::vector<double> triangles, uploaded;  // per frame, means
   std::vector<bool> reached;
@@ -50,7 +50,7 @@ struct Costs {
 };
 
 // `prefix`: of the metrics.
-void measure_one(Flight& flight, const Contender& method, const Equalised& what, double pixels,
+void measure_one(Flight& flight, const ConfiguredMethod& method, const Equalised& what, double pixels,
                  const std::string& prefix, Costs& costs, Recorder& recorder, Progress& progress) {
   const Tuned tuned = tune_to(flight, method, pixels, progress, what.criterion);
   const PathCost cost = fly(flight, method, tuned.knob, progress);
@@ -84,7 +84,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   for (std::size_t e = 0; e < kEqualised.size(); ++e) {
     const Equalised& what = kEqualised[e];
     for (const Entrant& entrant : all) {
-      measure_one(flight, entered(entrant.name, at.parameters.text("options")), what,
+      measure_one(flight, named_method(entrant.name, at.parameters.text("options")), what,
                   at.parameters.number(what.name), fmt::format("{}_{}_", entrant.name, what.name), costs[e],
                   recorder, progress);
     }

@@ -19,7 +19,7 @@ struct Seams {
   double largest_gap = 0;  // pixels
 };
 
-Seams seams_along(const Flight& flight, const Contender& method, double knob, Progress& progress) {
+Seams seams_along(const Flight& flight, const ConfiguredMethod& method, double knob, Progress& progress) {
   const std::unique_ptr<Lod> lod = method.build(flight.ground(), progress);
   lod->tune(knob);
   Seams seams;
@@ -60,7 +60,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("covered_pixels", "", joined.covered);
   const LodType& type = *tuned.method.type;
   if (type.unstitched.empty()) return;
-  Contender unjoined = tuned.method;
+  ConfiguredMethod unjoined = tuned.method;
   unjoined.options.set_from_text(std::string(type.unstitched));
   const Seams open = seams_along(flight, unjoined, tuned.tuned.knob, progress);
   record(open, "open_", recorder);

@@ -60,7 +60,7 @@ std::unique_ptr<Lod> TunedMethod::build(const Heightfield& ground, Progress& pro
 
 TunedMethod tune_case(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   Flight& flight = flight_of(at, options, recorder, progress);
-  Contender method = entered(at.parameters.text("method"), at.parameters.text("options"));
+  ConfiguredMethod method = named_method(at.parameters.text("method"), at.parameters.text("options"));
   const Tuned tuned = tune_to(flight, method, at.parameters.number("error"), progress);
   return {flight, std::move(method), tuned};
 }

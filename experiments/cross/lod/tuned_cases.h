@@ -19,7 +19,7 @@ extern const std::array<ParameterSpec, 6> kTunedSpecs;
 Case case_on(const std::string& terrain, const std::string& name, std::span<const ParameterSpec> specs,
              const RunOptions&);
 std::vector<std::string> compared_grounds(const RunOptions&);  // those that the user names, or our own
-// One case per ground and entrant, named GROUND/ENTRANT, with kTunedSpecs.
+// One case per ground and method or variant, named GROUND/METHOD, with kTunedSpecs.
 std::vector<Case> tuned_cases(const RunOptions&);
 
 // The flight of a case made by case_on(). Records its ground.
@@ -27,7 +27,7 @@ Flight& flight_of(const Case&, const RunOptions&, Recorder&, Progress&);
 
 struct TunedMethod {
   Flight& flight;
-  Contender method;
+  ConfiguredMethod method;
   Tuned tuned;
 
   // With its knob set. Over a ground of the same size as the flight's, or over the flight's own.

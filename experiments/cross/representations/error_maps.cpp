@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "experiments/cross/representations/fitting.h"
+#include "experiments/cross/representations/setting_search.h"
 #include "experiments/experiment.h"
 #include "experiments/figures/maps.h"
 
@@ -40,6 +40,7 @@ std::vector<Case> cases(const RunOptions& options) {
                      {kSpecs,
                       {{"size", std::int64_t{paper ? 1025 : 257}},
                        {"resolution", resolution},
+                       {"lines", std::int64_t{paper ? 400 : 200}},
                        {"compared", std::int64_t{paper ? 211 : 101}}}},
                      terrain});
   }
@@ -68,10 +69,10 @@ Map map_of(const Scene& scene, const RepresentationType& type, const Heightfield
            const GroundLines& compared, double share, Progress& progress) {
   Map map;
   map.type = &type;
-  Fitting fitting(scene, type, progress);
-  const auto fitted = fitting.for_bytes(share * static_cast<double>(scene.heightmap_bytes));
-  map.fits = fitted.has_value();
-  const auto built = type.build(scene.source, fitted ? fitted->parameters : scene.parameters(type), progress);
+  SettingSearch search(scene, type, progress);
+  const auto chosen = search.for_bytes(share * static_cast<double>(scene.heightmap_bytes));
+  map.fits = chosen.has_value();
+  const auto built = type.build(scene.source, chosen ? chosen->parameters : scene.parameters(type), progress);
   map.file_bytes = file_bytes(type, *built);
   map.error = tops(lines_of(*built, scene.lines), scene.lines);
   map.rmse = top_and_volume_differences(*built, scene.source, compared).rmse;

@@ -114,7 +114,7 @@ struct Casters {
   Shots above, along;
 };
 
-// All in one piece of work, so that sums are of one round.
+// All in one piece of work, so that sums are of the same repetition.
 void add_samples(const std::shared_ptr<Casters>& casters, double n, Samples& samples) {
   if (!casters->own) {
     samples.add({"embree_above", "rays_above", "embree_along", "rays_along"}, "1/s", [casters, n] {

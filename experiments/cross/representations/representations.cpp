@@ -7,9 +7,9 @@
 #include <cmath>
 #include <optional>
 
-#include "experiments/cross/representations/fitting.h"
 #include "experiments/cross/representations/representation_costs.h"
 #include "experiments/cross/representations/scenes.h"
+#include "experiments/cross/representations/setting_search.h"
 #include "experiments/experiment.h"
 
 namespace terrabench::cross {
@@ -104,8 +104,8 @@ void record(const Differences& found, const TerrainSource& source, Recorder& rec
 }
 
 // Every setting that was tried, for the plot of error against bytes.
-void record_trials(const Fitting& fitting, Recorder& recorder) {
-  for (const Trial& trial : fitting.trials()) {
+void record_trials(const SettingSearch& search, Recorder& recorder) {
+  for (const Trial& trial : search.trials()) {
     recorder.add("tried_bytes", "B", static_cast<double>(trial.file_bytes));
     recorder.add("tried_rmse", "m", trial.rmse);
     recorder.add("tried_volume_error", "", trial.volume_error);
@@ -115,22 +115,22 @@ void record_trials(const Fitting& fitting, Recorder& recorder) {
 void measure_at_bytes(const Scene& scene, const RepresentationType& type, double share, Recorder& recorder,
                       Progress& progress) {
   const double budget = share * static_cast<double>(scene.heightmap_bytes);
-  Fitting fitting(scene, type, progress);
-  const std::optional<Fitted> fitted = fitting.for_bytes(budget);
-  recorder.add("fits", "", fitted ? 1 : 0);
-  const double used = fitted ? static_cast<double>(fitted->trial.file_bytes) / budget : 0;
+  SettingSearch search(scene, type, progress);
+  const std::optional<FoundSetting> chosen = search.for_bytes(budget);
+  recorder.add("fits", "", chosen ? 1 : 0);
+  const double used = chosen ? static_cast<double>(chosen->trial.file_bytes) / budget : 0;
   recorder.add("same_bytes", "", used >= kLeastOfBytes ? 1 : 0);
-  record_trials(fitting, recorder);
-  if (!fitted) {
-    if (const auto trials = fitting.trials(); !trials.empty()) {
+  record_trials(search, recorder);
+  if (!chosen) {
+    if (const auto trials = search.trials(); !trials.empty()) {
       const Trial& smallest = *std::ranges::min_element(trials, {}, &Trial::file_bytes);
       recorder.add("smallest_of_budget", "", static_cast<double>(smallest.file_bytes) / budget);
     }
     return;
   }
-  const auto built = type.build(scene.source, fitted->parameters, progress);
-  recorder.add("setting", "", static_cast<double>(fitted->trial.setting));
-  recorder.add("file_bytes", "B", fitted->trial.file_bytes);
+  const auto built = type.build(scene.source, chosen->parameters, progress);
+  recorder.add("setting", "", static_cast<double>(chosen->trial.setting));
+  recorder.add("file_bytes", "B", chosen->trial.file_bytes);
   recorder.add("of_budget", "", used);
   recorder.add("bytes", "B", built->memory().total());
   record(differences(*built, scene.source, scene.lines, kMargin * scene.cell), scene.source, recorder);
@@ -143,20 +143,20 @@ void measure_at_error(const Scene& scene, const RepresentationType& type, double
     return recorder.undefined({"same_error", "least_of_relief", "of_asked"},
                               "the ground is flat: an error has no share of its relief");
   }
-  Fitting fitting(scene, type, progress);
-  const std::optional<Fitted> fitted = fitting.for_error(asked);
-  const double used = fitted ? fitted->trial.rmse / asked : 0;
+  SettingSearch search(scene, type, progress);
+  const std::optional<FoundSetting> chosen = search.for_error(asked);
+  const double used = chosen ? chosen->trial.rmse / asked : 0;
   recorder.add("same_error", "", used >= kLeastOfError ? 1 : 0);
-  record_trials(fitting, recorder);
-  if (const auto trials = fitting.trials(); !trials.empty()) {
+  record_trials(search, recorder);
+  if (const auto trials = search.trials(); !trials.empty()) {
     const Trial& best = *std::ranges::min_element(trials, {}, &Trial::rmse);
     recorder.add("least_of_relief", "", best.rmse / relief);
   }
-  if (!fitted) return;
-  if (fitted->trial.setting > 0) recorder.add("setting", "", static_cast<double>(fitted->trial.setting));
+  if (!chosen) return;
+  if (chosen->trial.setting > 0) recorder.add("setting", "", static_cast<double>(chosen->trial.setting));
   recorder.add("of_asked", "", used);
   Samples samples;
-  const auto built = measure_build(scene, type, fitted->parameters, recorder, samples, progress);
+  const auto built = measure_build(scene, type, chosen->parameters, recorder, samples, progress);
   measure_file(scene, type, *built, recorder, samples);
   measure_queries(scene, *built, samples);
   samples.take(recorder);

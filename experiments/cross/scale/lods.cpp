@@ -72,7 +72,7 @@ void follow(Lod& method, const std::vector<View>& path, double columns, LodCosts
 }  // namespace
 
 void measure_lod(const Run& run, std::string_view name) {
-  Contender method = contender(name, "");
+  ConfiguredMethod method = configured(name, "");
   const std::optional<LodGrowth>& theory = method.type->growth;
   if (theory && !theory->option.empty()) method.options.set_from_text(std::string(theory->option));
   const Tuned tuned = tune_to(

@@ -28,7 +28,7 @@ GrowthTheory assumed(bool solid) {
 
 constexpr int kNear = 32;         // columns along a side of the window of near queries, which caches hold
 constexpr int kEditRadius = 8;    // columns
-constexpr int kEdits = 16;        // per turn: half of them make one sample, half the other
+constexpr int kEdits = 16;        // half of them make one sample, half the other
 constexpr float kHighest = 1600;  // metres, of the hills
 
 // Hills from 0 to kHighest metres exactly, so that no size has more levels than another: two corners are the
@@ -201,7 +201,7 @@ class Structure {
     if (!holes_fit(side)) return;
     const double share = 1 - 2.0 * (kEditRadius + 2) / side;
     const float cell = built.bounds().size().x / static_cast<float>(solid_ ? side : side - 1);
-    for (int turn = 0; turn < kSamples; ++turn) {
+    for (int k = 0; k < kSamples; ++k) {
       const auto [anywhere, cached] = dig_holes(built, cell, places(built, share), run_.caches());
       if (const auto taken = anywhere.seconds()) edit_.add(squared(side), *taken);
       if (const auto taken = cached.seconds()) edit_cached_.add(squared(side), *taken);
@@ -224,13 +224,13 @@ class Structure {
 
   void ask(const Representation& built, int side) {
     const double columns = squared(side), near = std::min(1.0, static_cast<double>(kNear) / side);
-    for (int turn = 0; turn < kSamples; ++turn) {
+    for (int k = 0; k < kSamples; ++k) {
       query_.add(columns, seconds_per_column(built, places(built, 1)));
       near_.add(columns, seconds_per_column(built, places(built, near)));
     }
     const std::unique_ptr<RayCaster> caster = built.ray_caster();
     if (!caster) return;
-    for (int turn = 0; turn < kSamples; ++turn) {
+    for (int k = 0; k < kSamples; ++k) {
       ray_.add(columns, seconds_per_ray(*caster, built.bounds(), places(built, 1), numbers_));
       ray_near_.add(columns, seconds_per_ray(*caster, built.bounds(), places(built, near), numbers_));
     }
