@@ -164,8 +164,9 @@ TEST(TuneTo, GivesTheSameWhateverWasTunedBefore) {
 
 TEST(EqualErrorCases, NameEveryMethodOnEveryGroundAndTheTablesShowThem) {
   std::set<std::string> names;
-  for (const Case& at : experiment("cross.lod-equal-error").cases({.profile = Profile::kPaper}))
-    names.insert(at.name);
+  RunOptions options;
+  options.profile = Profile::kPaper;
+  for (const Case& at : experiment("cross.lod-equal-error").cases(options)) names.insert(at.name);
   for (const char* const ground : {"jacksboro", "fractal", "peak"}) {
     for (const Entrant& entrant : entrants()) {
       const std::string start =

@@ -23,7 +23,9 @@ TEST(TunedCases, TakeEveryMethodAndTheTablesShowThem) {
   for (const std::string_view id : kExperiments) {
     for (const Profile profile : {Profile::kQuick, Profile::kPaper}) {
       const std::size_t grounds = profile == Profile::kQuick ? 2 : 3;
-      EXPECT_EQ(experiment(id).cases({.profile = profile}).size(), grounds * entrants().size());
+      RunOptions options;
+      options.profile = profile;
+      EXPECT_EQ(experiment(id).cases(options).size(), grounds * entrants().size());
     }
     std::size_t tables = 0;
     for (const Paper& paper : papers()) {

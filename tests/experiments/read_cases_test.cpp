@@ -1,7 +1,7 @@
 // What claims, tables, plots and rankings read is measured: each of their cases is one of its experiment's.
 #include <gtest/gtest.h>
 
-#include <map>
+#include <algorithm>
 #include <set>
 #include <string>
 #include <utility>
@@ -20,9 +20,11 @@ using Names = std::set<std::pair<std::string, std::string>>;  // experiments and
 // As `run --profile` chooses them.
 Names measured_in(Profile profile) {
   Names names;
+  RunOptions options;
+  options.profile = profile;
   for (const Experiment& one : experiments()) {
     if (one.profile_scale != (profile == Profile::kScale)) continue;
-    for (const Case& at : one.cases({.profile = profile})) {
+    for (const Case& at : one.cases(options)) {
       EXPECT_TRUE(names.emplace(one.id, at.name).second) << one.id << ' ' << at.name << " is there twice";
     }
   }

@@ -42,7 +42,9 @@ Record measure(std::string_view type, const std::string& terrain, double share, 
 
 TEST(RepresentationCases, NameEveryType) {
   std::set<std::string> names;
-  for (const Case& at : experiment(kId).cases({.profile = Profile::kPaper})) names.insert(at.name);
+  RunOptions options;
+  options.profile = Profile::kPaper;
+  for (const Case& at : experiment(kId).cases(options)) names.insert(at.name);
   for (const RepresentationType& type : representations()) {
     const std::string heights = fmt::format("fractal/{}", type.name),
                       solid = fmt::format("caves/{}", type.name);
