@@ -10,7 +10,7 @@
 #include "experiments/cross/lod/tuned_cases.h"
 #include "lod/meters/screen_error.h"
 #include "results/claims/claims.h"
-#include "results/store/statistics.h"
+#include "tests/experiments/value.h"
 
 namespace terrabench::cross {
 namespace {
@@ -71,11 +71,7 @@ TEST(LodRanks, MeasuresEveryMethodUnderBothErrors) {
   Recorder recorder(record, "unused");
   Progress progress;
   compared.measure(at, {}, recorder, progress);
-  const auto value = [&](const std::string& metric) {
-    const Metric* const found = record.find(metric);
-    EXPECT_NE(found, nullptr) << metric;
-    return found == nullptr ? -1 : summarise(found->samples).median;
-  };
+  const auto value = [&](const std::string& metric) { return terrabench::value(record, metric); };
   std::set<double> rank_of_largest;
   for (const Entrant& entrant : entrants()) {
     for (const char* const criterion : {"largest", "rms"}) {

@@ -80,10 +80,8 @@ void measure_lod(const Run& run, std::string_view name) {
       method, run.at().parameters.number("pixels"), run.progress());
   SizePlan plan = run.plan("update", 1, {1, 1});
   LodCosts costs(theory);
-  const std::vector<int> sides = run.sides(false);
-  run.progress().begin(fmt::format("{} on growing ground", name), sides.size());
   Progress silent;
-  for (const int side : sides) {
+  run.at_each_side(fmt::format("{} on growing ground", name), false, [&](int side) {
     const double columns = squared(side);
     run.measured(plan, columns, [&] {
       const Heightfield ground = noise_hills(side, run.seed());
@@ -97,9 +95,7 @@ void measure_lod(const Run& run, std::string_view name) {
       follow(*built, path, columns, costs);
       costs.bytes.add(columns, static_cast<double>(built->memory().total()));
     });
-    run.progress().advance();
-  }
-  run.progress().end();
+  });
   plan.record(run.recorder());
   for (const Cost* const cost :
        {&costs.build, &costs.bytes, &costs.update, &costs.uploaded, &costs.triangles}) {

@@ -78,12 +78,21 @@ class Run {
     }
   }
 
-  std::vector<int> sides(bool solid) const {
+  // Calls work(side) for every size of the case, in ascending order.
+  template <class Work>
+  void at_each_side(std::string_view what, bool solid, const Work& work) const {
     const int smallest = at_.integer("smallest"), largest = at_.integer("largest");
     if (largest < smallest) {
       throw usage_error("the largest ground is smaller than the smallest", "largest", "exchange the two");
     }
-    return solid ? half_octave_sides(smallest, largest) : doubled_sides(smallest, largest);
+    const std::vector<int> sides =
+        solid ? half_octave_sides(smallest, largest) : doubled_sides(smallest, largest);
+    progress_.begin(what, sides.size());
+    for (const int side : sides) {
+      work(side);
+      progress_.advance();
+    }
+    progress_.end();
   }
 
   const Case& at() const { return at_; }

@@ -36,9 +36,7 @@ const std::array kSpecs{
 void measure_flow(const Run& run, bool whole) {
   SizePlan plan = run.plan("route", 1, {1, 1});
   Cost route("route", "s", 1, !whole);
-  const std::vector<int> sides = run.sides(false);
-  run.progress().begin(whole ? "flow over whole metres" : "flow over unrounded heights", sides.size());
-  for (const int side : sides) {
+  run.at_each_side(whole ? "flow over whole metres" : "flow over unrounded heights", false, [&](int side) {
     const double columns = squared(side);
     run.measured(plan, columns, [&] {
       Heightfield ground = noise_hills(side, run.seed());
@@ -47,9 +45,7 @@ void measure_flow(const Run& run, bool whole) {
       run.add_samples(
           route, columns, [&] { network = {}; }, [&] { network = route_flow(ground); });
     });
-    run.progress().advance();
-  }
-  run.progress().end();
+  });
   plan.record(run.recorder());
   route.record(run.recorder());
 }

@@ -159,14 +159,8 @@ class Structure {
         numbers_(run.seed()) {}
 
   void measure() {
-    const std::vector<int> sides = run_.sides(solid_);
-    run_.progress().begin(fmt::format("{} over {}", type_.name, solid_ ? "a solid" : "heights"),
-                          sides.size());
-    for (const int side : sides) {
-      measure(side);
-      run_.progress().advance();
-    }
-    run_.progress().end();
+    run_.at_each_side(fmt::format("{} over {}", type_.name, solid_ ? "a solid" : "heights"), solid_,
+                      [this](int side) { measure(side); });
     for (const SizePlan* const plan : {&building_, &filing_, &meshing_}) plan->record(run_.recorder());
     for (const Cost* const cost : {&build_, &bytes_, &file_, &load_, &query_, &near_, &ray_, &ray_near_,
                                    &mesh_, &edit_, &edit_cached_}) {
