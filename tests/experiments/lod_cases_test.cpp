@@ -19,27 +19,20 @@ namespace {
 constexpr std::string_view kExperiments[] = {"cross.lod-jump", "cross.lod-seams", "cross.lod-surface",
                                              "cross.lod-edit"};
 
-TEST(TunedCases, TakeEveryEntrantAndTheLedgerReadsThem) {
+TEST(TunedCases, TakeEveryMethodAndTheTablesShowThem) {
   for (const std::string_view id : kExperiments) {
-    std::set<std::string> names;
-    for (const Case& at : experiment(id).cases({})) EXPECT_TRUE(names.insert(at.name).second);
-    EXPECT_EQ(names.size(), 3 * entrants().size());
+    for (const Profile profile : {Profile::kQuick, Profile::kPaper}) {
+      const std::size_t grounds = profile == Profile::kQuick ? 2 : 3;
+      RunOptions options;
+      options.profile = profile;
+      EXPECT_EQ(experiment(id).cases(options).size(), grounds * entrants().size());
+    }
     std::size_t tables = 0;
     for (const Paper& paper : papers()) {
       for (const TableLayout& table : paper.tables) {
         if (table.experiment != id) continue;
         ++tables;
         EXPECT_EQ(table.rows.size(), entrants().size()) << table.id;
-        for (const TableLayout::Row& row : table.rows) EXPECT_TRUE(names.contains(row.case_name));
-      }
-      for (const Claim& claim : paper.claims) {
-        for (const Condition& condition : claim.conditions) {
-          for (const Operand& operand : condition.operands) {
-            if (operand.experiment == id) {
-              EXPECT_TRUE(names.contains(operand.case_name)) << claim.id;
-            }
-          }
-        }
       }
     }
     EXPECT_GE(tables, 3U) << id;
@@ -144,7 +137,6 @@ TEST_P(TunedCase, StandsTheSameForAnyNumberOfThreads) {
 
 TEST_P(TunedCase, DrawsAnEditAsIfBuiltAnew) {
   const Record record = measure("cross.lod-edit");
-  EXPECT_EQ(value(record, "edited_samples"), 4096);
   const Metric* const differing = record.find("triangles_differing_most");
   ASSERT_NE(differing, nullptr);
   EXPECT_THAT(differing->samples, testing::Each(0));

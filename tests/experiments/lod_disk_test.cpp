@@ -82,16 +82,6 @@ TEST_F(LodDisk, APyramidIsKnownByItsContent) {
   EXPECT_NE(digests["one"], digests["other"]);
 }
 
-// With SIGCHLD ignored the second process's exit status is lost: an error, not success.
-TEST_F(LodDisk, ALostProcessIsAnError) {
-  const Outcome outcome =
-      call("export TMPDIR=" + temporary_.string() +
-           "; exec env --ignore-signal=CHLD $T run cross.lod-disk --out out --set side=100");
-  EXPECT_EQ(outcome.code, 5) << outcome.text;
-  EXPECT_THAT(outcome.text, testing::HasSubstr("cannot wait for the second process"));
-  EXPECT_TRUE(fs::is_empty(temporary_));
-}
-
 TEST_F(LodDisk, WalksOverFilesAndRefusesWhatHasNoHeights) {
   Heightfield field;
   field.width = 90;
@@ -109,10 +99,10 @@ TEST_F(LodDisk, WalksOverFilesAndRefusesWhatHasNoHeights) {
   EXPECT_TRUE(fs::is_empty(temporary_));
 }
 
-// Once while the ground is made, once while the second process walks.
+// Once while the ground is made, once while the clipmap walks.
 TEST_F(LodDisk, AnInterruptionLeavesNothing) {
   for (const auto& [rest, sign] : {std::pair{"--set side=16384", "ground.tif"},
-                                   std::pair{"--set side=300 --set steps=1000000", "walk.log"}}) {
+                                   std::pair{"--set side=300 --set steps=1000000", "pyramid"}}) {
     const pid_t child = start(run(rest));
     const auto walking = [&, file = sign] {
       const fs::directory_iterator all(temporary_);

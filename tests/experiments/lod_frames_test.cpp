@@ -101,10 +101,10 @@ TEST_F(LodFrames, MeasuresEveryMethodAtEverySize) {
     const std::string name(type.name);
     check(record, name + "_65", "brute_force_65");
     check(record, name + "_129", "brute_force_129");
-    EXPECT_THAT(samples(record, name + "_ratios_samples"), testing::ElementsAre(65 * 65, 129 * 129));
-    EXPECT_DOUBLE_EQ(samples(record, name + "_ratios")[1], median(samples(record, name + "_129_of_brute")));
     EXPECT_TRUE(std::isfinite(value(record, name + "_draw_exponent")));
     if (name == "brute_force") continue;
+    EXPECT_THAT(samples(record, name + "_ratios_samples"), testing::ElementsAre(65 * 65, 129 * 129));
+    EXPECT_DOUBLE_EQ(samples(record, name + "_ratios")[1], median(samples(record, name + "_129_of_brute")));
     const bool crosses = record.find(name + "_cheaper_from") != nullptr;
     EXPECT_EQ(value(record, name + "_cheaper_everywhere") + value(record, name + "_cheaper_nowhere") +
                   (crosses ? 1 : 0),

@@ -6,11 +6,11 @@
 #include <set>
 #include <string>
 
+#include "experiments/cross/lod/ranks.h"
 #include "experiments/cross/lod/tuned_cases.h"
-#include "experiments/cross/ranks.h"
 #include "lod/meters/screen_error.h"
 #include "results/claims/claims.h"
-#include "results/store/statistics.h"
+#include "tests/experiments/value.h"
 
 namespace terrabench::cross {
 namespace {
@@ -41,7 +41,7 @@ TEST(Flips, CountPairsThatChangePlaces) {
 TEST(TuneTo, MakesTheFigureOfItsCriterionEqual) {
   Progress progress;
   Flight flight({"fractal", "low", 257, 6, 1}, progress);
-  const Contender method = entered("mrbsp", "");
+  const ConfiguredMethod method = named_method("mrbsp", "");
   for (const Criterion criterion : {Criterion::kLargest, Criterion::kRms, Criterion::kP99}) {
     const Tuned tuned = tune_to(flight, method, 2, progress, criterion);
     ASSERT_TRUE(tuned.reached);
@@ -71,11 +71,7 @@ TEST(LodRanks, MeasuresEveryMethodUnderBothErrors) {
   Recorder recorder(record, "unused");
   Progress progress;
   compared.measure(at, {}, recorder, progress);
-  const auto value = [&](const std::string& metric) {
-    const Metric* const found = record.find(metric);
-    EXPECT_NE(found, nullptr) << metric;
-    return found == nullptr ? -1 : summarise(found->samples).median;
-  };
+  const auto value = [&](const std::string& metric) { return terrabench::value(record, metric); };
   std::set<double> rank_of_largest;
   for (const Entrant& entrant : entrants()) {
     for (const char* const criterion : {"largest", "rms"}) {

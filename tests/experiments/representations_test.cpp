@@ -10,7 +10,6 @@
 #include "experiments/cross/representations/representation_costs.h"
 #include "experiments/experiment.h"
 #include "representations/representation.h"
-#include "results/claims/claims.h"
 #include "results/claims/ranking.h"
 #include "results/store/statistics.h"
 #include "terrain/files.h"
@@ -41,9 +40,11 @@ Record measure(std::string_view type, const std::string& terrain, double share, 
   return record;
 }
 
-TEST(RepresentationCases, NameEveryTypeAndTheLedgerReadsThem) {
+TEST(RepresentationCases, NameEveryType) {
   std::set<std::string> names;
-  for (const Case& at : experiment(kId).cases({})) EXPECT_TRUE(names.insert(at.name).second) << at.name;
+  RunOptions options;
+  options.profile = Profile::kPaper;
+  for (const Case& at : experiment(kId).cases(options)) names.insert(at.name);
   for (const RepresentationType& type : representations()) {
     const std::string heights = fmt::format("fractal/{}", type.name),
                       solid = fmt::format("caves/{}", type.name);
@@ -53,36 +54,14 @@ TEST(RepresentationCases, NameEveryTypeAndTheLedgerReadsThem) {
       EXPECT_TRUE(names.contains(solid + suffix)) << solid << suffix;
     EXPECT_FALSE(names.contains(solid + "/rmse=0.1%"));
   }
-  std::size_t rows = 0, operands = 0;
-  for (const Paper& paper : papers()) {
-    for (const TableLayout& table : paper.tables) {
-      if (table.experiment != kId) continue;
-      for (const TableLayout::Row& row : table.rows) {
-        ++rows;
-        EXPECT_TRUE(names.contains(row.case_name)) << row.case_name;
-      }
-    }
-    for (const Claim& claim : paper.claims) {
-      for (const Condition& condition : claim.conditions) {
-        for (const Operand& operand : condition.operands) {
-          if (operand.experiment != kId) continue;
-          ++operands;
-          EXPECT_TRUE(names.contains(operand.case_name)) << claim.id << ' ' << operand.case_name;
-        }
-      }
-    }
-  }
-  EXPECT_GT(rows, 0U);
-  EXPECT_GT(operands, 0U);
+}
+
+// Only what takes the same bytes, or has the same error, is ranked by it.
+TEST(RepresentationCases, AreRankedOnlyWhereTheyAreComparable) {
   std::set<std::string> needed;
   for (const RankingLayout& ranking : ranking_layouts()) {
-    if (ranking.experiment != kId) continue;
-    needed.insert(ranking.needs);
-    for (const RankingLayout::Entry& entry : ranking.entries) {
-      EXPECT_TRUE(names.contains(entry.case_name)) << entry.case_name;
-    }
+    if (ranking.experiment == kId) needed.insert(ranking.needs);
   }
-  // Only what takes the same bytes, or has the same error, is ranked by it.
   EXPECT_TRUE(needed.contains("same_bytes"));
   EXPECT_TRUE(needed.contains("same_error"));
 }
@@ -108,9 +87,8 @@ TEST_P(Compared, HoldsHeights) {
   }
   EXPECT_LE(value(found, "rmse"), value(found, "largest_error"));
   EXPECT_LE(value(found, "error_p99"), value(found, "largest_error"));
-  EXPECT_EQ(value(found, "hausdorff"),
-            std::max(value(found, "hausdorff_from_ground"), value(found, "hausdorff_to_ground")));
-  if (value(found, "own_rays") == 1) {
+  EXPECT_GE(value(found, "hausdorff"), 0);
+  if (representation(GetParam()).traits.rays) {
     EXPECT_GT(value(found, "ray_agreement"), 0.8);
   }
   EXPECT_GT(value(found, "dig_time"), 0);
@@ -168,7 +146,6 @@ TEST(ComparedAtBytes, ATreeWithEventsHasNoSmallFileAndSaysHowLargeItsSmallestIs)
 
 TEST(ComparedAtErrors, ATreeWithEventsIsNotCalledEquallyWrongWhereCoarserOnesAreRefused) {
   const Record found = measure("ght", "sequence", 0, 0.05);
-  EXPECT_EQ(value(found, "reached"), 1);
   EXPECT_LT(value(found, "of_asked"), 0.9);
   EXPECT_EQ(value(found, "same_error"), 0);
 }
@@ -177,17 +154,13 @@ TEST_P(Compared, HasTheErrorAsked) {
   const Record found = measure(GetParam(), "fractal", 0, 0.03);
   // On 65 samples the kernel's width and the drills' windows are long against the ground's features.
   if (GetParam() == "implicit" || GetParam() == "drill") {
-    EXPECT_EQ(value(found, "reached"), 0);
     EXPECT_EQ(value(found, "same_error"), 0);
     EXPECT_GT(value(found, "least_of_relief"), 0.03);
     EXPECT_EQ(found.find("file_bytes"), nullptr);
     return;
   }
-  EXPECT_EQ(value(found, "reached"), 1);
-  EXPECT_NEAR(value(found, "asked_rmse"), 0.03 * value(found, "relief"), 1e-6);
-  EXPECT_LE(value(found, "rmse"), value(found, "asked_rmse"));
-  EXPECT_GE(value(found, "rmse"), 0.6 * value(found, "asked_rmse"));  // 65 samples make coarse steps
-  EXPECT_NEAR(value(found, "of_asked"), value(found, "rmse") / value(found, "asked_rmse"), 1e-9);
+  EXPECT_LE(value(found, "of_asked"), 1);
+  EXPECT_GE(value(found, "of_asked"), 0.6);  // 65 samples make coarse steps
   EXPECT_EQ(value(found, "same_error"), value(found, "of_asked") >= 0.9 ? 1 : 0);
   EXPECT_LT(value(found, "file_bytes"), 65 * 65 * 4);
   EXPECT_EQ(value(found, "bytes"), value(found, "heap_bytes"));
@@ -195,13 +168,13 @@ TEST_P(Compared, HasTheErrorAsked) {
   const Metric &bytes = *found.find("tried_bytes"), &errors = *found.find("tried_rmse");
   ASSERT_EQ(bytes.samples.size(), errors.samples.size());
   EXPECT_EQ(found.find("tried_volume_error")->samples.size(), errors.samples.size());
-  EXPECT_GT(std::ranges::max(errors.samples), value(found, "asked_rmse"));
+  EXPECT_GT(std::ranges::max(errors.samples), value(found, "rmse") / value(found, "of_asked"));
   EXPECT_GE(std::ranges::count(bytes.samples, value(found, "file_bytes")), 1);
 }
 
 TEST(ComparedAtErrors, ATypeThatCannotReachAnErrorHasNoFile) {
   const Record found = measure("implicit", "fractal", 0, 1e-5);
-  EXPECT_EQ(value(found, "reached"), 0);
+  EXPECT_EQ(value(found, "same_error"), 0);
   EXPECT_GT(value(found, "least_of_relief"), 1e-5);
   for (const char* const metric : {"file_bytes", "bytes", "build_time", "rmse", "of_asked"}) {
     EXPECT_EQ(found.find(metric), nullptr) << metric;

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "experiments/cross/representations/fitting.h"
+#include "experiments/cross/representations/setting_search.h"
 #include "terrain/events/event_file.h"
 #include "terrain/source.h"
 
@@ -30,20 +30,20 @@ TEST(Scenes, KnowAScriptThatDigsForASolid) {
   std::filesystem::remove(file);
 }
 
-TEST(Fitting, TakesGroundOfFewerSamplesThanTheCoarsestSettingHasColumns) {
+TEST(SettingSearch, TakesGroundOfFewerSamplesThanTheCoarsestSettingHasColumns) {
   Progress silent;
   const Scene& tiny = scene({.terrain = "fractal", .size = 3}, silent);
   for (const RepresentationType& type : representations()) {
-    Fitting for_bytes(tiny, type, silent), for_error(tiny, type, silent);
-    const auto fitted = for_bytes.for_bytes(1e6);
-    if (fitted) {
-      EXPECT_LE(fitted->trial.file_bytes, 1e6) << type.name;
+    SettingSearch for_bytes(tiny, type, silent), for_error(tiny, type, silent);
+    const auto chosen = for_bytes.for_bytes(1e6);
+    if (chosen) {
+      EXPECT_LE(chosen->trial.file_bytes, 1e6) << type.name;
     }
     const auto exact = for_error.for_error(1e3);
     if (exact) {
       EXPECT_LE(exact->trial.rmse, 1e3) << type.name;
     }
-    EXPECT_EQ(fitted.has_value(), !for_bytes.trials().empty()) << type.name;
+    EXPECT_EQ(chosen.has_value(), !for_bytes.trials().empty()) << type.name;
   }
 }
 

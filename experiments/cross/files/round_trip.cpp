@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 
 #include "experiments/cross/files/read_back.h"
 #include "experiments/cross/files/temporary_folder.h"
 #include "experiments/experiment.h"
 #include "experiments/ground.h"
 #include "representations/export/export.h"
-#include "terrain/error.h"
+#include "terrain/metrics/elevation_error.h"
 #include "terrain/sources/dem/dem.h"
 
 namespace terrabench::cross {
@@ -57,31 +56,6 @@ Parameters settings(const RepresentationType& type, double step) {
   return parameters;
 }
 
-struct HeightErrors {
-  double largest = 0, rmse = 0;
-  std::size_t samples = 0, lost = 0;  // lost: only one of the two has a height
-};
-
-HeightErrors compare(std::span<const float> truth, std::span<const float> kept, const std::string& where) {
-  if (truth.size() != kept.size()) {
-    throw bad_input(fmt::format("{} heights came back as {}", truth.size(), kept.size()), where,
-                    "the writer or the reader of this form is at fault");
-  }
-  HeightErrors errors;
-  double squares = 0;
-  for (std::size_t c = 0; c < truth.size(); ++c) {
-    const bool none = Heightfield::is_no_data(truth[c]);
-    if (none != Heightfield::is_no_data(kept[c])) ++errors.lost;
-    if (none || Heightfield::is_no_data(kept[c])) continue;
-    const double error = static_cast<double>(kept[c]) - truth[c];
-    errors.largest = std::max(errors.largest, std::abs(error));
-    squares += error * error;
-    ++errors.samples;
-  }
-  errors.rmse = errors.samples == 0 ? 0 : std::sqrt(squares / static_cast<double>(errors.samples));
-  return errors;
-}
-
 // The six numbers of the georeference and the reference system; none where the file states nothing.
 void compare_places(const Georeference& truth, const Georeference& kept, Recorder& recorder) {
   int fields = 0, equal = 0;
@@ -101,28 +75,25 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const RepresentationType& type = representation(at.parameters.text("representation"));
   const auto built = type.build(source, settings(type, at.parameters.number("step")), progress);
   const LineGrid lines = lines_of(ground);
-  std::vector<float> own(ground.heights.size());
-  topmost(*built, lines, 0, own);
+  Heightfield own = ground;
+  topmost(*built, lines, 0, own.heights);
 
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / ("ground." + at.parameters.text("form"));
   const Exported written = export_representation(file, type, *built, lines, progress);
   const Heightfield kept = read_back(file, lines);
 
-  const HeightErrors whole = compare(ground.heights, kept.heights, at.name),
-                     of_file = compare(own, kept.heights, at.name);
-  const HeightRange range = height_range(ground);
-  recorder.add("samples", "", whole.samples);
-  recorder.add("lost", "", whole.lost);
+  const ElevationError whole = elevation_error(ground, kept), of_file = elevation_error(own, kept);
+  recorder.add("samples", "", whole.pixels);
+  recorder.add("lost", "", whole.unmatched);
   recorder.add("largest_error", "m", whole.largest);
   recorder.add("rmse", "m", whole.rmse);
-  recorder.add("rmse_of_range", "",
-               whole.rmse / std::max(1e-9, static_cast<double>(range.highest) - range.lowest));
+  recorder.add_ratio("rmse_of_range", whole.rmse, whole.range, "the ground is flat");
   recorder.add("file_largest_error", "m", of_file.largest);
-  recorder.add("file_rmse", "m", of_file.rmse);
-  recorder.add("file_lost", "", of_file.lost);
+  recorder.add("file_lost", "", of_file.unmatched);
   recorder.add("file_bytes", "B", static_cast<double>(written.bytes));
-  recorder.add("bytes_per_sample", "B", static_cast<double>(written.bytes) / static_cast<double>(own.size()));
+  recorder.add("bytes_per_sample", "B",
+               static_cast<double>(written.bytes) / static_cast<double>(own.heights.size()));
   compare_places(ground.georeference, kept.georeference, recorder);
 }
 

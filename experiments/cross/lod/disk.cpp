@@ -1,36 +1,25 @@
-// A clipmap over ground that stays on disk: steps of one sample, then a walk across, in a process of its own.
-#include <fcntl.h>
+// A clipmap over ground that stays on disk: steps of one sample, then a walk across. The case has a process
+// of its own, whose peak memory is that of the walk.
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
+#include <malloc.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cerrno>
-#include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <fstream>
-#include <thread>
 
 #include "experiments/cross/files/temporary_folder.h"
 #include "experiments/cross/lod/strips.h"
 #include "experiments/experiment.h"
-#include "experiments/runner.h"
 #include "experiments/stopwatch.h"
 #include "lod/camera/camera_path.h"
 #include "lod/clipmap/clipmap.h"
-#include "results/store/store.h"
 #include "terrain/error.h"
 #include "terrain/files.h"
-#include "terrain/machine_error.h"
 #include "terrain/sources/dem/dem.h"
 #include "terrain/sources/dem/geotiff_rows.h"
 #include "terrain/sources/fractal/diamond_square.h"
@@ -181,7 +170,6 @@ class Walk {
   // Fills all windows.
   void begin(const View& view, Recorder& recorder) {
     update(view, "first_time", recorder);
-    recorder.add("first_bytes", "B", uploaded_);
     uploaded_ = strips_ = 0;
   }
   void update(const View& view, std::string_view metric, Recorder& recorder) {
@@ -210,76 +198,8 @@ class Walk {
   std::size_t uploaded_ = 0, strips_ = 0, tiles_ = 0;
 };
 
-// A second process, to measure what a process can only measure of itself.
-
-constexpr const char* kSelf = "/proc/self/exe";
-
-pid_t start(const std::vector<std::string>& arguments, const std::filesystem::path& log) {
-  std::string program = kSelf;
-  std::vector<char*> argv{program.data()};
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  pid_t child = 0;
-  const int error = posix_spawn(&child, kSelf, &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) {
-    throw environment_error(fmt::format("cannot start a second process: {}", std::strerror(error)), kSelf,
-                            "raise the limit on processes (ulimit -u)");
-  }
-  return child;
-}
-
-int wait(pid_t child) {
-  bool told = false;
-  for (;;) {
-    int status = 0;
-    const pid_t ended = waitpid(child, &status, WNOHANG);
-    if (ended == child) return status;
-    // ECHILD when SIGCHLD is ignored: the exit status is lost, so the results cannot be trusted.
-    if (ended < 0 && errno != EINTR) {
-      throw environment_error(fmt::format("cannot wait for the second process: {}", std::strerror(errno)),
-                              kSelf, "run the program with SIGCHLD at its default");
-    }
-    if (Progress::interrupted() && !told) {
-      kill(child, SIGTERM);
-      told = true;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-}
-
-std::string last_line(const std::filesystem::path& log) {
-  std::ifstream in(log);
-  std::string line, last;
-  while (std::getline(in, line)) {
-    if (!line.empty()) last = line;
-  }
-  return last;
-}
-
-// Runs this executable with these arguments and waits; its output goes to `log`. An interruption is passed on
-// to it. Throws environment_error with the log's last line when it fails, and Error(kInterrupted).
-void run_own_program(const std::vector<std::string>& arguments, const std::filesystem::path& log,
-                     Progress& progress) {
-  const int status = wait(start(arguments, log));
-  progress.advance();  // throws when interrupted
-  // A case that failed there has a record that says why.
-  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  if (code == 0 || code == static_cast<int>(kCasesFailed)) return;
-  const std::string what = WIFSIGNALED(status)
-                               ? fmt::format("the second process was ended by signal {}", WTERMSIG(status))
-                               : fmt::format("the second process failed: {}", last_line(log));
-  constexpr std::string_view kAdvice = "run the same experiment by itself";
-  if (code == static_cast<int>(ExitCode::kEnvironment)) throw MachineError(what, "", kAdvice);
-  throw environment_error(what, "", kAdvice);
-}
-
-// Peak resident memory of this process (Linux: VmHWM). Throws environment_error where the system does not
-// report it.
+// Peak resident memory of this process (Linux: VmHWM) since forget_peak(). Throws environment_error where the
+// system does not report it.
 std::uint64_t peak_resident_bytes() {
   std::ifstream status("/proc/self/status");
   std::string line;
@@ -291,42 +211,21 @@ std::uint64_t peak_resident_bytes() {
                           "measure on Linux");
 }
 
-void walk_here(const fs::path& pyramid, const Case& at, Recorder& recorder, Progress& progress) {
-  recorder.terrain(pyramid.string(), digest(pyramid));
-  Walk(pyramid, at.integer("window")).measure(at.integer("steps"), recorder, progress);
-  recorder.add_varying("peak_resident", "B", static_cast<double>(peak_resident_bytes()));
+// Gives back what making the ground freed, so that the peak is that of the walk.
+void forget_peak() {
+  malloc_trim(0);
+  std::ofstream file("/proc/self/clear_refs");
+  file << 5 << std::flush;  // proc(5): resets VmHWM
+  if (!file) {
+    throw environment_error("the system does not forget peak resident memory", "/proc/self/clear_refs",
+                            "measure on Linux");
+  }
 }
 
-// The same experiment over the pyramid in a second process, whose peak memory is then that of the walk.
-void walk_apart(const fs::path& pyramid, const fs::path& folder, const Case& at, const RunOptions& options,
-                Recorder& recorder, Progress& progress) {
-  const fs::path results = folder / "walk";
-  progress.begin("walking, in a process of its own", 1);
-  run_own_program({"run", "cross.lod-disk", "--terrain", pyramid.string(), "--out", results.string(),
-                   "--profile", options.profile == Profile::kPaper ? "paper" : "quick", "--renderer",
-                   options.renderer, "--set", fmt::format("window={}", at.parameters.integer("window")),
-                   "--set", fmt::format("steps={}", at.parameters.integer("steps"))},
-                  folder / "walk.log", progress);
-  const Store store = Store::open(results);
-  if (store.records().size() != 1) {
-    throw environment_error(
-        fmt::format("the second process left {} records, not one", store.records().size()), results.string(),
-        "run the same experiment over the pyramid by itself");
-  }
-  const Record& walk = store.records().front();
-  if (walk.outcome != CaseOutcome::kMeasured) {
-    throw environment_error("the second process failed: " + walk.reason, "",
-                            "run the same experiment by itself");
-  }
-  for (const Metric& metric : walk.metrics) {
-    for (const double sample : metric.samples) {
-      if (metric.varies) {
-        recorder.add_varying(metric.name, metric.unit, sample);
-      } else {
-        recorder.add(metric.name, metric.unit, sample);
-      }
-    }
-  }
+void walk(const fs::path& pyramid, const Case& at, Recorder& recorder, Progress& progress) {
+  forget_peak();
+  Walk(pyramid, at.integer("window")).measure(at.integer("steps"), recorder, progress);
+  recorder.add_varying("peak_resident", "B", static_cast<double>(peak_resident_bytes()));
 }
 
 std::vector<Case> cases(const RunOptions& options) {
@@ -341,12 +240,13 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  if (!at.terrain.empty() && fs::is_directory(at.terrain))
-    return walk_here(at.terrain, at, recorder, progress);
+  if (!at.terrain.empty() && fs::is_directory(at.terrain)) {
+    recorder.terrain(at.terrain, digest(at.terrain));
+    return walk(at.terrain, at, recorder, progress);
+  }
   const TemporaryFolder folder;
   const fs::path pyramid = folder.path() / "pyramid", made = folder.path() / "ground.tif";
   std::string dem = at.terrain;
-  Stopwatch watch;
   if (at.terrain.empty()) {
     const int side = at.integer("side");
     recorder.terrain(fmt::format("mountains {0} × {0}", side),
@@ -362,21 +262,19 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
       dem = made.string();
     }
   }
-  recorder.add("ground_time", "s", watch.seconds());
-  watch = {};
   HeightPyramid::build(dem, pyramid, progress);
-  recorder.add("pyramid_time", "s", watch.seconds());
   recorder.add("pyramid_bytes", "B", bytes_of(pyramid));
   std::error_code ignored;
   fs::remove(made, ignored);  // frees disk space
   const auto tiles = HeightPyramid::open(pyramid);
   recorder.add("ground_bytes", "B", 4.0 * tiles->width() * tiles->depth());
-  walk_apart(pyramid, folder.path(), at, options, recorder, progress);
+  walk(pyramid, at, recorder, progress);
 }
 
 }  // namespace
 
-extern const Experiment kLodDisk{
-    "cross.lod-disk", "A clipmap over ground that stays on disk", kSpecs, cases, measure, Experiment::kTimed};
+extern const Experiment kLodDisk{"cross.lod-disk", "A clipmap over ground that stays on disk",
+                                 kSpecs,           cases,
+                                 measure,          Experiment::kOwnProcess};
 
 }  // namespace terrabench::cross

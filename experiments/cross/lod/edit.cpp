@@ -14,7 +14,7 @@ namespace {
 constexpr int kSide = 64;         // samples along the edited square's side
 constexpr double kAway = 48;      // cells from the eye to the crater's middle, at least
 constexpr double kDepth = 4;      // cells
-constexpr int kRounds = 8;        // each digs and fills
+constexpr int kRepetitions = 8;   // each digs and fills
 constexpr std::size_t kLead = 3;  // frames of the path before, for methods that keep a mesh
 
 // Around the visible sample that is the nearest of those at least kAway cells from the eye.
@@ -86,18 +86,17 @@ std::size_t take_edit(Edited& edited, const SampleRect& rect, const View& view, 
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TunedMethod tuned = tune_case(at, options, recorder, progress);
+  recorder.add("reached", "", tuned.tuned.reached ? 1 : 0);
   const Flight& flight = tuned.flight;
   const std::size_t k = flight.metered.size() / 2, last = flight.metered[k];
   const View& view = flight.views[last];
   const SampleRect rect = crater_before(flight.seen[k]);
-  const glm::ivec2 side = rect.high - rect.low + 1;
-  recorder.add("edited_samples", "", static_cast<double>(side.x) * side.y);
   Heightfield ground = flight.ground();
   const std::unique_ptr<Lod> lod = tuned.build(ground, progress);
   for (std::size_t i = last - std::min(last, kLead); i < last; ++i) lod->update(flight.views[i]);
   Edited edited{*lod, TriangleSet(lod->update(view))};
   std::size_t most_differing = 0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int k = 0; k < kRepetitions; ++k) {
     for (const bool digs : {true, false}) {
       const Stopwatch watch;
       lod->update(view);

@@ -8,10 +8,8 @@
 #include <numeric>
 #include <optional>
 
-#include "experiments/cross/lod/flight.h"
-#include "experiments/cross/lod/path_cost.h"
+#include "experiments/cross/lod/tuned_cases.h"
 #include "experiments/figures/maps.h"
-#include "experiments/ground.h"
 #include "experiments/stopwatch.h"
 #include "lod/brute_force/brute_force.h"
 #include "lod/meters/cracks.h"
@@ -25,18 +23,6 @@ namespace {
 
 constexpr std::array kErrors{1.0, 2.0, 4.0};  // pixels
 constexpr std::string_view kAll = "all";      // in place of a method
-
-const std::array kSpecs{
-    ParameterSpec{"method", std::string("roam"), "",
-                  "a name of `terrabench list lods`: a method, a variant such as geomipmap_morph, or all for "
-                  "a picture of their triangles side by side"},
-    ParameterSpec{"options", std::string(), "",
-                  "options of methods, such as geomipmap.patch=32,mrbsp.threshold=area"},
-    ParameterSpec{"error", 1.0, "px", "required 99th percentile of the screen-space error", 0.01, 1000},
-    ParameterSpec{"path", std::string("fly"), "", "camera path: cross, fly, low, turn, walk, or a TOML file"},
-    ParameterSpec{"frames", std::int64_t{24}, "", "frames of the path that are metered", 1, 100000},
-    ParameterSpec{"size", std::int64_t{257}, "samples", "side of the generated grounds, 2^n + 1", 3, 8193},
-};
 
 constexpr double kPanel = 400;  // units of the sheet
 constexpr int kColumns = 3;
@@ -111,7 +97,7 @@ void draw_wires(Flight& flight, double pixels, const std::string& options, GlCon
   std::vector<figures::Panel> panels;
   int sky = view.height;
   for (const LodType& type : lods()) {
-    const Contender method = contender(type.name, options);
+    const ConfiguredMethod method = configured(type.name, options);
     const Tuned tuned = tune_to(flight, method, pixels, progress);
     const std::unique_ptr<Lod> lod = method.build(flight.ground(), progress);
     lod->tune(tuned.knob);
@@ -141,11 +127,9 @@ void draw_wires(Flight& flight, double pixels, const std::string& options, GlCon
           flight.source.name, pixels, flight.route.path, flight.lowest, flight.highest)));
 }
 
-void measure_cost(const Flight& flight, const Contender& method, double knob, Recorder& recorder,
+void measure_cost(const Flight& flight, const ConfiguredMethod& method, double knob, Recorder& recorder,
                   Progress& progress) {
   PathCost cost = fly(flight, method, knob, progress);
-  recorder.add("build_time", "s", cost.build_time);
-  recorder.add("first_update_time", "s", cost.first_update_time);
   recorder.add("first_uploaded", "B", cost.first_uploaded);
   recorder.add("bytes_held", "B", cost.bytes_held);
   recorder.add_varying("heap_growth", "B", cost.heap_growth);
@@ -160,8 +144,7 @@ void measure_cost(const Flight& flight, const Contender& method, double knob, Re
 struct Shown {
   Distribution error, popping;  // of visible samples, pixels
   double largest_anywhere = 0;  // error of any sample in the frustum, hidden ones included; pixels
-  double largest_gap = 0;       // pixels
-  std::size_t undrawn = 0, gaps = 0, bare_edges = 0, overlaps = 0, t_junctions = 0;
+  std::size_t undrawn = 0, cracks = 0;
   std::vector<double> frame_times;  // seconds, with the upload
   std::vector<double> noise;        // per picture: mean squared error, as a share of the squared peak
   std::vector<double> ssim;
@@ -176,16 +159,12 @@ void meter(const Flight& flight, std::size_t k, const Frame& frame, const Surfac
   shown.undrawn += error.visible.undrawn;
   popping(before, drawn, seen, &shown.popping);
   const CrackReport cracks = find_cracks(frame, ground.width, ground.depth, seen.view());
-  shown.gaps += cracks.gaps;
-  shown.bare_edges += cracks.bare_edges;
-  shown.overlaps += cracks.overlaps + cracks.covered_again + cracks.flipped;
-  shown.t_junctions += cracks.t_junctions;
-  shown.largest_gap = std::max(shown.largest_gap, cracks.largest_gap_px);
+  shown.cracks += cracks.gaps + cracks.bare_edges + cracks.overlaps + cracks.covered_again + cracks.flipped;
 }
 
 // Popping compares a frame with the one before, and its upload starts from there. A few frames of the path
 // lead up to both, so that methods that keep a mesh between frames are in their usual state.
-Shown measure_shown(Flight& flight, const Contender& method, double knob, GlContext& context,
+Shown measure_shown(Flight& flight, const ConfiguredMethod& method, double knob, GlContext& context,
                     Progress& progress) {
   constexpr std::size_t kLead = 3;
   Shown shown;
@@ -222,22 +201,15 @@ Shown measure_shown(Flight& flight, const Contender& method, double knob, GlCont
   return shown;
 }
 
-void record(const Shown& shown, const Flight& flight, Recorder& recorder) {
+void record(const Shown& shown, Recorder& recorder) {
   recorder.add("error_p99", "px", shown.error.quantile(0.99));
   recorder.add("error_mean", "px", shown.error.mean());
   recorder.add("error_largest", "px", shown.error.largest());
-  recorder.add("error_largest_anywhere", "px", shown.largest_anywhere);
   recorder.add("popping_p99", "px", shown.popping.quantile(0.99));
   recorder.add("popping_largest", "px", shown.popping.largest());
   recorder.add("samples", "", shown.error.samples());
   recorder.add("undrawn_samples", "", shown.undrawn);
-  recorder.add("gaps", "", shown.gaps);
-  recorder.add("bare_edges", "", shown.bare_edges);
-  recorder.add("overlaps", "", shown.overlaps);
-  recorder.add("cracks", "", shown.gaps + shown.bare_edges + shown.overlaps);
-  recorder.add("t_junctions", "", shown.t_junctions);
-  recorder.add("largest_gap", "px", shown.largest_gap);
-  recorder.add("frames", "", flight.metered.size());
+  recorder.add("cracks", "", shown.cracks);
   for (const double t : shown.frame_times) recorder.add("frame_time", "s", t);
   for (const double s : shown.ssim) recorder.add("ssim", "", s);
   // Over all pictures together; identical pictures have no signal-to-noise ratio.
@@ -249,15 +221,15 @@ void record(const Shown& shown, const Flight& flight, Recorder& recorder) {
 std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
   std::vector<Case> cases;
-  for (const std::string& terrain : grounds(options, {std::string(kMainGround), "fractal", "peak"})) {
+  for (const std::string& terrain : compared_grounds(options)) {
     // The path `fly` suits the width of the other grounds. The fractal is 123 km wide in the paper profile; a
     // flight as high as that width implies would not resolve its samples, and brute force takes ten seconds
     // and more per frame.
     const bool fractal = terrain == "fractal", large = paper && fractal;
-    const std::int64_t frames = large ? 12 : paper ? 48 : 24, size = large ? 4097 : paper ? 1025 : 257;
+    const std::int64_t frames = large ? 12 : paper ? 48 : 12, size = large ? 4097 : paper ? 1025 : 257;
     const auto add = [&](const std::string& name, const Entrant& entrant, double error) {
       cases.push_back({fmt::format("{}/{}", terrain, name),
-                       {kSpecs,
+                       {kTunedSpecs,
                         {{"method", entrant.name},
                          {"error", error},
                          {"path", std::string(fractal ? "low" : "fly")},
@@ -266,7 +238,7 @@ std::vector<Case> cases(const RunOptions& options) {
                        terrain});
     };
     for (const Entrant& entrant : entrants()) {
-      if (!contender(entrant.method, entrant.options).tunable()) {
+      if (!configured(entrant.method, entrant.options).tunable()) {
         add(entrant.name, entrant, kErrors.front());
         continue;
       }
@@ -280,10 +252,7 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  Flight& flight = flight_along(
-      {at.terrain, at.parameters.text("path"), at.integer("size"), at.integer("frames"), options.seed},
-      progress);
-  recorder.terrain(flight.source);
+  Flight& flight = flight_of(at, options, recorder, progress);
   const double pixels = at.parameters.number("error");
   const std::string& method = at.parameters.text("method");
   const auto context = open_context(options.renderer, flight.views[0].width, flight.views[0].height);
@@ -291,15 +260,14 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     draw_wires(flight, pixels, at.parameters.text("options"), *context, recorder, progress);
     return;
   }
-  const Contender measured = entered(method, at.parameters.text("options"));
+  const ConfiguredMethod measured = named_method(method, at.parameters.text("options"));
   const Tuned tuned = tune_to(flight, measured, pixels, progress);
   recorder.add("knob", "", tuned.knob);
-  recorder.add("tuned_error", "px", tuned.error);
   recorder.add("reached", "", tuned.reached ? 1 : 0);
   measure_cost(flight, measured, tuned.knob, recorder, progress);
   draw_reference(flight, *context, progress);
   const Shown shown = measure_shown(flight, measured, tuned.knob, *context, progress);
-  record(shown, flight, recorder);
+  record(shown, recorder);
   recorder.add("error_of_asked", "", shown.error.quantile(0.99) / pixels);
   // For methods whose knob bounds the error: the largest error of a sample in the frustum, relative to the
   // bound.
@@ -309,8 +277,11 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kLodEqualError{
-    "cross.lod-equal-error", "Level-of-detail methods at the same screen-space error", kSpecs, cases, measure,
-    Experiment::kTimed};
+extern const Experiment kLodEqualError{"cross.lod-equal-error",
+                                       "Level-of-detail methods at the same screen-space error",
+                                       kTunedSpecs,
+                                       cases,
+                                       measure,
+                                       Experiment::kTimed};
 
 }  // namespace terrabench::cross

@@ -8,6 +8,7 @@
 
 #include "experiments/cross/representations/scenes.h"
 #include "experiments/ground.h"
+#include "experiments/stopwatch.h"
 #include "lod/camera/camera_path.h"
 #include "lod/meters/screen_error.h"
 #include "terrain/error.h"
@@ -122,13 +123,13 @@ Flight& flight_along(const Route& route, Progress& progress) {
   return *last;
 }
 
-std::unique_ptr<Lod> Contender::build(const Heightfield& ground, Progress& progress) const {
+std::unique_ptr<Lod> ConfiguredMethod::build(const Heightfield& ground, Progress& progress) const {
   return unless_refused([&] { return type->build(ground, options, progress); });
 }
 
-Contender contender(std::string_view method, std::string_view options) {
+ConfiguredMethod configured(std::string_view method, std::string_view options) {
   const LodType& type = lod(method);
-  Contender built{&type, Parameters(type.parameters)};
+  ConfiguredMethod built{&type, Parameters(type.parameters)};
   while (!options.empty()) {
     const std::string_view option = options.substr(0, options.find(','));
     options.remove_prefix(std::min(option.size() + 1, options.size()));
@@ -143,13 +144,13 @@ Contender contender(std::string_view method, std::string_view options) {
   return built;
 }
 
-Contender entered(std::string_view name, const std::string& options) {
+ConfiguredMethod named_method(std::string_view name, const std::string& options) {
   static const std::vector<Entrant> kAll = entrants();
   std::vector<std::string_view> known;
   for (const Entrant& one : kAll) {
     if (one.name == name)
-      return contender(one.method, one.options.empty() || options.empty() ? one.options + options
-                                                                          : one.options + "," + options);
+      return configured(one.method, one.options.empty() || options.empty() ? one.options + options
+                                                                           : one.options + "," + options);
     known.push_back(one.name);
   }
   throw unknown_name("level-of-detail method", name, known);
@@ -166,7 +167,7 @@ double figure_of(const Distribution& errors, Criterion criterion) {
   }
 }
 
-Tuned tune_to(Flight& flight, const Contender& method, double pixels, Progress& progress,
+Tuned tune_to(Flight& flight, const ConfiguredMethod& method, double pixels, Progress& progress,
               Criterion criterion) {
   const Knob& knob = method.type->knob;
   if (!method.tunable()) return {knob.fallback, 0, true};
@@ -204,6 +205,27 @@ Distribution errors_along(const Flight& flight, Lod& lod) {
     screen_error(drawn, flight.ground(), flight.seen[k], &errors);
   }
   return errors;
+}
+
+PathCost fly(const Flight& flight, const ConfiguredMethod& method, double knob, Progress& progress) {
+  PathCost cost;
+  cost.times.reserve(flight.views.size());
+  cost.triangles.reserve(flight.views.size());
+  const HeapScope heap;
+  const std::unique_ptr<Lod> lod = method.build(flight.ground(), progress);
+  lod->tune(knob);
+  cost.first_uploaded = lod->update(flight.views.front()).stats.bytes_sent();
+  for (std::size_t i = 1; i < flight.views.size(); ++i) {
+    const Stopwatch watch;
+    const Frame& frame = lod->update(flight.views[i]);
+    cost.times.push_back(watch.seconds());
+    cost.triangles.push_back(static_cast<double>(frame.stats.triangles));
+    cost.uploaded += static_cast<double>(frame.stats.bytes_sent());
+  }
+  cost.uploaded /= static_cast<double>(cost.times.size());
+  cost.bytes_held = lod->memory().total();  // first: waits for threads that still allocate
+  cost.heap_growth = heap.held();
+  return cost;
 }
 
 }  // namespace terrabench::cross

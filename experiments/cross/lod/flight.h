@@ -65,7 +65,7 @@ std::vector<std::size_t> pictured(const Flight&);
 Flight& flight_along(const Route&, Progress&);
 
 // A method with its options set.
-struct Contender {
+struct ConfiguredMethod {
   const LodType* type;
   Parameters options;
 
@@ -75,17 +75,30 @@ struct Contender {
 };
 // `options` is a list such as "geomipmap.patch=32,mrbsp.threshold=area"; those of other methods are ignored.
 // Throws unknown_name and usage_error.
-Contender contender(std::string_view method, std::string_view options);
+ConfiguredMethod configured(std::string_view method, std::string_view options);
 
-// The entrant of this name, with the user's `options` after its own, which they override. Throws like
-// contender().
-Contender entered(std::string_view name, const std::string& options);
+// The method or variant of this name, with the user's `options` after its own, which they override. Throws
+// like configured().
+ConfiguredMethod named_method(std::string_view name, const std::string& options);
 
 // The coarsest setting of the knob with which the criterion's figure of the screen-space error stays at or
 // below `pixels` over every other metered frame. Does not depend on what was tuned before.
-Tuned tune_to(Flight&, const Contender&, double pixels, Progress&, Criterion = Criterion::kP99);
+Tuned tune_to(Flight&, const ConfiguredMethod&, double pixels, Progress&, Criterion = Criterion::kP99);
 
 // The visible samples' screen-space errors over all metered frames, drawn one after another.
 Distribution errors_along(const Flight&, Lod&);
+
+// Over every frame of a path, with nothing between two updates. The first update, which builds what later
+// ones keep, is reported separately.
+struct PathCost {
+  std::size_t first_uploaded = 0;        // bytes
+  double uploaded = 0;                   // bytes per frame, mean
+  std::vector<double> times, triangles;  // per frame: seconds, triangles drawn
+  std::size_t bytes_held = 0;            // by the method's own count, after the path
+  std::int64_t heap_growth = 0;          // by the count of operator new
+};
+
+// Builds the method, sets its knob and updates it for every view of the flight.
+PathCost fly(const Flight&, const ConfiguredMethod&, double knob, Progress&);
 
 }  // namespace terrabench::cross

@@ -60,7 +60,7 @@ using Curves = std::map<std::string, Curve, std::less<>>;
 // refused, where memory or the renderer has no room for it.
 std::unique_ptr<Measured> prepare(const LodType& type, Flight& flight, const Case& at, const std::string& key,
                                   GlContext& context, Recorder& recorder, Progress& progress) {
-  const Contender method = contender(type.name, at.parameters.text("options"));
+  const ConfiguredMethod method = configured(type.name, at.parameters.text("options"));
   const std::string prefix = fmt::format("{}{}_", type.name, key);
   const double pixels = at.parameters.number("error");
   std::unique_ptr<Measured> measured;
@@ -160,14 +160,14 @@ void measure_ground(Flight& flight, const Case& at, const std::string& key, GlCo
 // What the sizes show together: they depend on how many sizes the time allows, so all varies.
 void record_growth(const Curves& curves, Recorder& recorder) {
   for (const auto& [name, curve] : curves) {
-    for (std::size_t k = 0; k < curve.samples.size(); ++k) {
-      recorder.add_varying(name + "_ratios", "", curve.of_brute[k]);
-      recorder.add_varying(name + "_ratios_samples", "", curve.samples[k]);
-    }
     if (const auto law = fit_power_law(curve.samples, curve.draw)) {
       recorder.add(name + "_draw_exponent", "exponent", law->exponent);
     }
     if (name == kReference) continue;
+    for (std::size_t k = 0; k < curve.samples.size(); ++k) {
+      recorder.add_varying(name + "_ratios", "", curve.of_brute[k]);
+      recorder.add_varying(name + "_ratios_samples", "", curve.samples[k]);
+    }
     const Crossing found = crossing(curve.samples, curve.of_brute);
     recorder.add_varying(name + "_cheaper_everywhere", "", found.everywhere ? 1 : 0);
     recorder.add_varying(name + "_cheaper_nowhere", "", found.nowhere ? 1 : 0);
@@ -218,6 +218,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     plan.measured(samples, watch.seconds(), HeapCounter::peak() - held);
   }
   if (!growing) return;
+  recorder.add_varying("frame_sizes", "", static_cast<double>(plan.sizes()));
   plan.record(recorder);
   record_growth(curves, recorder);
 }

@@ -64,8 +64,6 @@ Frames jump(const TunedMethod& tuned, std::size_t from, std::size_t to, Recorder
     if (!as_good && no_worse(now.error, goal.error)) as_good = k;
   }
   const Frames needed{equal.value_or(kMostFrames + 1), as_good.value_or(kMostFrames + 1)};
-  recorder.add("frames_to_equal", "", needed.to_equal);
-  recorder.add("frames_to_error", "", needed.to_error);
   recorder.add("triangles_differing", "", differing);
   recorder.add("first_error_p99", "px", first.p99);
   recorder.add("first_error_largest", "px", first.largest);

@@ -1,14 +1,14 @@
 // Every level-of-detail method at the same largest error, and again at the same root mean square of the
 // error: what each costs under either, its rank, and how many pairs of methods change places.
-#include "experiments/cross/ranks.h"
+#include "experiments/cross/lod/ranks.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 #include <optional>
 
-#include "experiments/cross/lod/path_cost.h"
 #include "experiments/cross/lod/tuned_cases.h"
 
 namespace terrabench::cross {
@@ -27,13 +27,15 @@ const std::array kSpecs{
     ParameterSpec{"size", std::int64_t{257}, "samples", "side of the generated grounds, 2^n + 1", 3, 8193},
 };
 
+bool clearly_less(double a, double b) { return a * (1 + kFlipMargin) <= b && a < b; }
+
 struct Equalised {
   std::string_view name;  // in metrics, and of the parameter
   Criterion criterion;
 };
 constexpr std::array kEqualised{Equalised{"largest", Criterion::kLargest}, Equalised{"rms", Criterion::kRms}};
 
-// By entrant.
+// By method.
 struct Costs {
   std::vector<double> triangles, uploaded;  // per frame, means
   std::vector<bool> reached;
@@ -48,7 +50,7 @@ struct Costs {
 };
 
 // `prefix`: of the metrics.
-void measure_one(Flight& flight, const Contender& method, const Equalised& what, double pixels,
+void measure_one(Flight& flight, const ConfiguredMethod& method, const Equalised& what, double pixels,
                  const std::string& prefix, Costs& costs, Recorder& recorder, Progress& progress) {
   const Tuned tuned = tune_to(flight, method, pixels, progress, what.criterion);
   const PathCost cost = fly(flight, method, tuned.knob, progress);
@@ -60,13 +62,9 @@ void measure_one(Flight& flight, const Contender& method, const Equalised& what,
   costs.uploaded.push_back(cost.uploaded);
   // Brute force reaches any error, and its rank is no finding.
   costs.reached.push_back(method.tunable() && tuned.reached);
-  recorder.add(prefix + "knob", "", tuned.knob);
   recorder.add(prefix + "reached", "", tuned.reached ? 1 : 0);
-  // Brute force has no error to equalise.
-  if (method.tunable()) recorder.add(prefix + "error_of_asked", "", tuned.error / pixels);
   recorder.add(prefix + "error_largest", "px", errors.largest());
   recorder.add(prefix + "error_rms", "px", errors.rms());
-  recorder.add(prefix + "error_p99", "px", errors.quantile(0.99));
   recorder.add(prefix + "triangles", "", costs.triangles.back());
   recorder.add(prefix + "uploaded", "B", cost.uploaded);
   for (const double t : cost.times) recorder.add(prefix + "update_time", "s", t);
@@ -86,7 +84,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   for (std::size_t e = 0; e < kEqualised.size(); ++e) {
     const Equalised& what = kEqualised[e];
     for (const Entrant& entrant : all) {
-      measure_one(flight, entered(entrant.name, at.parameters.text("options")), what,
+      measure_one(flight, named_method(entrant.name, at.parameters.text("options")), what,
                   at.parameters.number(what.name), fmt::format("{}_{}_", entrant.name, what.name), costs[e],
                   recorder, progress);
     }
@@ -105,6 +103,27 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 }
 
 }  // namespace
+
+std::vector<int> ranks(std::span<const double> costs) {
+  std::vector<int> ranks;
+  for (const double cost : costs) {
+    ranks.push_back(1 + static_cast<int>(std::ranges::count_if(costs, [&](double c) { return c < cost; })));
+  }
+  return ranks;
+}
+
+Flips count_flips(std::span<const std::optional<double>> one, std::span<const std::optional<double>> other) {
+  Flips flips;
+  for (std::size_t a = 0; a < one.size(); ++a) {
+    for (std::size_t b = a + 1; b < one.size(); ++b) {
+      if (!one[a] || !one[b] || !other[a] || !other[b]) continue;
+      ++flips.pairs;
+      flips.flipped += (clearly_less(*one[a], *one[b]) && clearly_less(*other[b], *other[a])) ||
+                       (clearly_less(*one[b], *one[a]) && clearly_less(*other[a], *other[b]));
+    }
+  }
+  return flips;
+}
 
 extern const Experiment kLodRanks{"cross.lod-ranks",
                                   "Level-of-detail methods at the same largest error and at the same RMS",

@@ -19,7 +19,7 @@ struct Seams {
   double largest_gap = 0;  // pixels
 };
 
-Seams seams_along(const Flight& flight, const Contender& method, double knob, Progress& progress) {
+Seams seams_along(const Flight& flight, const ConfiguredMethod& method, double knob, Progress& progress) {
   const std::unique_ptr<Lod> lod = method.build(flight.ground(), progress);
   lod->tune(knob);
   Seams seams;
@@ -44,14 +44,9 @@ Seams seams_along(const Flight& flight, const Contender& method, double knob, Pr
 }
 
 void record(const Seams& seams, const std::string& prefix, Recorder& recorder) {
-  recorder.add(prefix + "frames", "", seams.frames);
   recorder.add(prefix + "crack_pixels", "", seams.pixels);
-  recorder.add(prefix + "covered_pixels", "", seams.covered);
-  recorder.add(prefix + "crack_share", "",
-               static_cast<double>(seams.pixels) / static_cast<double>(seams.pixels_of));
   recorder.add(prefix + "gaps", "", seams.gaps);
   recorder.add(prefix + "t_junctions", "", seams.t_junctions);
-  recorder.add(prefix + "largest_gap", "px", seams.largest_gap);
   recorder.add(prefix + "triangles", "",
                static_cast<double>(seams.triangles) / static_cast<double>(seams.frames));
 }
@@ -59,12 +54,19 @@ void record(const Seams& seams, const std::string& prefix, Recorder& recorder) {
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TunedMethod tuned = tune_case(at, options, recorder, progress);
   const Flight& flight = tuned.flight;
-  record(seams_along(flight, tuned.method, tuned.knob, progress), "", recorder);
+  const Seams joined = seams_along(flight, tuned.method, tuned.tuned.knob, progress);
+  record(joined, "", recorder);
+  recorder.add("frames", "", joined.frames);
+  recorder.add("covered_pixels", "", joined.covered);
   const LodType& type = *tuned.method.type;
   if (type.unstitched.empty()) return;
-  Contender open = tuned.method;
-  open.options.set_from_text(std::string(type.unstitched));
-  record(seams_along(flight, open, tuned.knob, progress), "open_", recorder);
+  ConfiguredMethod unjoined = tuned.method;
+  unjoined.options.set_from_text(std::string(type.unstitched));
+  const Seams open = seams_along(flight, unjoined, tuned.tuned.knob, progress);
+  record(open, "open_", recorder);
+  recorder.add("open_crack_share", "",
+               static_cast<double>(open.pixels) / static_cast<double>(open.pixels_of));
+  recorder.add("open_largest_gap", "px", open.largest_gap);
 }
 
 }  // namespace

@@ -108,7 +108,6 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const Flight& flight = tuned.flight;
   const Heightfield& ground = flight.ground();
   const double water = flight.lowest + kWater * (flight.highest - flight.lowest);
-  recorder.add("water", "m", water);
   const std::unique_ptr<Lod> lod = tuned.build(progress);
   SignedError error(water);
   Collisions in_view, near;

@@ -8,7 +8,8 @@ namespace terrabench::cross {
 
 const std::array<ParameterSpec, 6> kTunedSpecs{
     ParameterSpec{"method", std::string("roam"), "",
-                  "a name of `terrabench list lods`: a method, or a variant such as geomipmap_morph"},
+                  "a name of `terrabench list lods`: a method, or a variant such as geomipmap_morph; for "
+                  "cross.lod-equal-error also all, for a picture of their triangles side by side"},
     ParameterSpec{"options", std::string(), "",
                   "options of methods, such as geomipmap.patch=32,mrbsp.threshold=area"},
     ParameterSpec{"error", 2.0, "px", "required 99th percentile of the screen-space error", 0.01, 1000},
@@ -19,14 +20,17 @@ const std::array<ParameterSpec, 6> kTunedSpecs{
 
 Case case_on(const std::string& terrain, const std::string& name, std::span<const ParameterSpec> specs,
              const RunOptions& options) {
-  const std::int64_t size = options.profile == Profile::kPaper ? 1025 : 257;
+  const bool paper = options.profile == Profile::kPaper;
+  const std::int64_t size = paper ? 1025 : 257, frames = paper ? 24 : 12;
   // As in cross.lod-equal-error.
   const std::string path = terrain == "fractal" ? "low" : "fly";
-  return {name, {specs, {{"path", path}, {"size", size}}}, terrain};
+  return {name, {specs, {{"path", path}, {"frames", frames}, {"size", size}}}, terrain};
 }
 
 std::vector<std::string> compared_grounds(const RunOptions& options) {
-  return grounds(options, {std::string(kMainGround), "fractal", "peak"});
+  std::vector<std::string> own{std::string(kMainGround), "fractal"};
+  if (options.profile != Profile::kQuick) own.push_back("peak");
+  return grounds(options, std::move(own));
 }
 
 std::vector<Case> tuned_cases(const RunOptions& options) {
@@ -50,17 +54,15 @@ Flight& flight_of(const Case& at, const RunOptions& options, Recorder& recorder,
 
 std::unique_ptr<Lod> TunedMethod::build(const Heightfield& ground, Progress& progress) const {
   std::unique_ptr<Lod> lod = method.build(ground, progress);
-  lod->tune(knob);
+  lod->tune(tuned.knob);
   return lod;
 }
 
 TunedMethod tune_case(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   Flight& flight = flight_of(at, options, recorder, progress);
-  Contender method = entered(at.parameters.text("method"), at.parameters.text("options"));
+  ConfiguredMethod method = named_method(at.parameters.text("method"), at.parameters.text("options"));
   const Tuned tuned = tune_to(flight, method, at.parameters.number("error"), progress);
-  recorder.add("knob", "", tuned.knob);
-  recorder.add("reached", "", tuned.reached ? 1 : 0);
-  return {flight, std::move(method), tuned.knob};
+  return {flight, std::move(method), tuned};
 }
 
 }  // namespace terrabench::cross

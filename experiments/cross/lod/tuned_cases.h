@@ -15,11 +15,11 @@ namespace terrabench::cross {
 extern const std::array<ParameterSpec, 6> kTunedSpecs;
 
 // A case on a ground, along the path that suits it; `specs` must contain path, frames and size. Generated
-// grounds have 257² samples, in the paper profile 1025².
+// grounds have 257² samples, in the paper profile 1025²; 12 frames are metered, or 24.
 Case case_on(const std::string& terrain, const std::string& name, std::span<const ParameterSpec> specs,
              const RunOptions&);
-std::vector<std::string> compared_grounds(const RunOptions&);
-// One case per ground and entrant, named GROUND/ENTRANT, with kTunedSpecs.
+std::vector<std::string> compared_grounds(const RunOptions&);  // those that the user names, or our own
+// One case per ground and method or variant, named GROUND/METHOD, with kTunedSpecs.
 std::vector<Case> tuned_cases(const RunOptions&);
 
 // The flight of a case made by case_on(). Records its ground.
@@ -27,8 +27,8 @@ Flight& flight_of(const Case&, const RunOptions&, Recorder&, Progress&);
 
 struct TunedMethod {
   Flight& flight;
-  Contender method;
-  double knob;
+  ConfiguredMethod method;
+  Tuned tuned;
 
   // With its knob set. Over a ground of the same size as the flight's, or over the flight's own.
   std::unique_ptr<Lod> build(const Heightfield&, Progress&) const;
@@ -36,7 +36,7 @@ struct TunedMethod {
 };
 
 // The method of a case of tuned_cases(), tuned so that 99 % of the visible samples keep the case's error.
-// Records the ground, the knob, and whether the error was reached.
+// Records the ground.
 TunedMethod tune_case(const Case&, const RunOptions&, Recorder&, Progress&);
 
 }  // namespace terrabench::cross

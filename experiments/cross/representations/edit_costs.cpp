@@ -95,65 +95,63 @@ const EventPlace& place_of_event(const Scene& scene, const Sphere& sphere, Progr
   return kept->second;
 }
 
-// Heights: dug to the sphere's lower half, or filled up to its upper half within the ground's bounds.
-void change_heights(Heightfield& field, const Sphere& sphere, Material material, float highest) {
-  for (int j = 0; j < field.depth; ++j) {
-    for (int i = 0; i < field.width; ++i) {
-      const float dx = static_cast<float>(i) * field.cell_x - sphere.centre.x,
-                  dz = static_cast<float>(j) * field.cell_z - sphere.centre.z;
-      const float rest = sphere.radius * sphere.radius - dx * dx - dz * dz;
-      float& height = field.at(i, j);
-      if (!(rest > 0) || Heightfield::is_no_data(height)) continue;
-      const float reach = std::sqrt(rest);
-      height = material == Material::kAir ? std::min(height, sphere.centre.y - reach)
-                                          : std::max(height, std::min(highest, sphere.centre.y + reach));
-    }
-  }
-}
-
-TerrainSource changed(const TerrainSource& source, const Sphere& sphere, Material material) {
+// The ground without its events after `heights` changed a height field, column by column, or `solid` a solid,
+// line by line.
+template <class Heights, class Solid>
+TerrainSource changed(const TerrainSource& source, const Heights& heights, const Solid& solid) {
   TerrainSource result = source;
   result.events = nullptr;
-  if (result.heights) {
-    change_heights(*result.heights, sphere, material, source.bounds().high.y);
+  if (!result.heights) {
+    result.solid->column = [inner = source.solid->column, solid](const ColumnSamples& at,
+                                                                 std::span<Material> out) {
+      inner(at, out);
+      solid(at, out);
+    };
     return result;
   }
-  result.solid->column = [inner = source.solid->column, sphere, material](const ColumnSamples& at,
-                                                                          std::span<Material> out) {
-    inner(at, out);
+  Heightfield& field = *result.heights;
+  for (int j = 0; j < field.depth; ++j) {
+    for (int i = 0; i < field.width; ++i) {
+      float& height = field.at(i, j);
+      if (Heightfield::is_no_data(height)) continue;
+      height = heights(static_cast<float>(i) * field.cell_x, static_cast<float>(j) * field.cell_z, height);
+    }
+  }
+  return result;
+}
+
+// Heights are dug to the sphere's lower half, or filled up to its upper half within the ground's bounds.
+TerrainSource with_sphere(const TerrainSource& source, const Sphere& sphere, Material material) {
+  const auto squared_rest = [sphere](float x, float z) {
+    const float dx = x - sphere.centre.x, dz = z - sphere.centre.z;
+    return sphere.radius * sphere.radius - dx * dx - dz * dz;
+  };
+  const auto heights = [&, highest = source.bounds().high.y](float x, float z, float height) {
+    const float rest = squared_rest(x, z);
+    if (!(rest > 0)) return height;
+    const float reach = std::sqrt(rest);
+    return material == Material::kAir ? std::min(height, sphere.centre.y - reach)
+                                      : std::max(height, std::min(highest, sphere.centre.y + reach));
+  };
+  return changed(source, heights, [=](const ColumnSamples& at, std::span<Material> out) {
     const float dx = at.x - sphere.centre.x, dz = at.z - sphere.centre.z;
     for (std::size_t k = 0; k < out.size(); ++k) {
       const float dy = at.y0 + static_cast<float>(k) * at.dy - sphere.centre.y;
       if (dx * dx + dy * dy + dz * dz < sphere.radius * sphere.radius) out[k] = material;
     }
-  };
-  return result;
+  });
 }
 
 TerrainSource eroded(const TerrainSource& source, const RadialErosion& event) {
-  TerrainSource result = source;
-  result.events = nullptr;
-  if (result.heights) {
-    Heightfield& field = *result.heights;
-    for (int j = 0; j < field.depth; ++j) {
-      for (int i = 0; i < field.width; ++i) {
-        float& height = field.at(i, j);
-        if (Heightfield::is_no_data(height)) continue;
-        const glm::dvec2 plan(i * field.cell_x, j * field.cell_z);
-        height = std::min(height, static_cast<float>(event.bottom(plan)));
-      }
-    }
-    return result;
-  }
-  result.solid->column = [inner = source.solid->column, event](const ColumnSamples& at,
-                                                               std::span<Material> out) {
-    inner(at, out);
+  const auto heights = [&](float x, float z, float height) {
+    return std::min(height, static_cast<float>(event.bottom({x, z})));
+  };
+  return changed(source, heights, [event](const ColumnSamples& at, std::span<Material> out) {
     const double bottom = event.bottom({at.x, at.z});
     for (std::size_t k = 0; k < out.size(); ++k) {
       if (at.y0 + static_cast<float>(k) * at.dy > bottom) out[k] = Material::kAir;
     }
-  };
-  return result;
+  });
 }
 
 // The solid metres above and below the event's lower half, on lines within its ellipse.
@@ -233,7 +231,7 @@ std::vector<std::uint64_t> hashes(const TriangleMesh& mesh) {
 }
 
 // A type on a ground before any edit, with which all edits are compared.
-struct Untouched {
+struct Baseline {
   const Scene& scene;
   const RepresentationType& type;
   const Representation& built;
@@ -252,75 +250,51 @@ struct Untouched {
   }
 };
 
-// After a step, "dig", "fill" or "event"; `mesh` is that before the step. Returns the new mesh.
-TriangleMesh record_step(const std::string& step, const Representation& after, const Untouched& untouched,
-                         const TriangleMesh& mesh, Recorder& recorder) {
-  TriangleMesh now = after.mesh({});
-  const auto bytes_before = static_cast<double>(untouched.built.memory().total());
-  recorder.add(step + "_bytes", "B", static_cast<double>(after.memory().total()) - bytes_before);
-  recorder.add(step + "_triangles", "", static_cast<double>(new_triangles(mesh, now)));
-  return now;
-}
+// One of the edits that follow each other on a structure: "dig", "fill" or "event".
+struct Step {
+  std::string name;
+  std::function<void(Representation&)> edit;
+  std::function<TerrainSource()> ground;  // from which a type that does not take the edit is built again
+};
 
-void measure_sphere(const Untouched& untouched, const Sphere& sphere, Recorder& recorder) {
-  const auto edit = [&](Representation& on, Material material) { fill_sphere(on, sphere, material); };
-  {
-    const auto edited = untouched.build();
-    edit(*edited, Material::kAir);
-    const TriangleMesh dug_mesh = record_step("dig", *edited, untouched, untouched.mesh, recorder);
-    edit(*edited, Material::kBedrock);
-    record_step("fill", *edited, untouched, dug_mesh, recorder);
+// Records the steps, and times them. Calls last() with the structure after all of them.
+template <class Last>
+void measure_steps(const Baseline& baseline, std::span<const Step> steps, bool rebuilds, Recorder& recorder,
+                   const Last& last) {
+  std::vector<TerrainSource> grounds;
+  for (const Step& step : steps) {
+    if (rebuilds) grounds.push_back(step.ground());
   }
+  const auto bytes_before = static_cast<double>(baseline.built.memory().total());
+  std::unique_ptr<Representation> after = rebuilds ? nullptr : baseline.build();
+  TriangleMesh mesh = baseline.mesh;
   Samples samples;
-  samples.add({"dig_time", "fill_time"}, "s", [&] {
-    const auto fresh = untouched.build();
-    const double dig = seconds([&] { edit(*fresh, Material::kAir); });
-    return std::vector{dig, seconds([&] { edit(*fresh, Material::kBedrock); })};
-  });
-  samples.take(recorder);
-}
-
-void measure_rebuilt_sphere(const Untouched& untouched, const Sphere& sphere, Recorder& recorder) {
-  const TerrainSource dug = changed(untouched.scene.source, sphere, Material::kAir),
-                      filled = changed(untouched.scene.source, sphere, Material::kBedrock);
-  {
-    const TriangleMesh dug_mesh =
-        record_step("dig", *untouched.build_from(dug), untouched, untouched.mesh, recorder);
-    record_step("fill", *untouched.build_from(filled), untouched, dug_mesh, recorder);
+  std::vector<std::string> times;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    if (rebuilds) {
+      after = baseline.build_from(grounds[k]);
+      samples.add(steps[k].name + "_time", "s", [&baseline, &ground = grounds[k]] {
+        return seconds_to_make([&] { return baseline.build_from(ground); });
+      });
+    } else {
+      steps[k].edit(*after);
+    }
+    TriangleMesh now = after->mesh({});
+    recorder.add(steps[k].name + "_bytes", "B", static_cast<double>(after->memory().total()) - bytes_before);
+    recorder.add(steps[k].name + "_triangles", "", static_cast<double>(new_triangles(mesh, now)));
+    mesh = std::move(now);
+    times.push_back(steps[k].name + "_time");
   }
-  Samples samples;
-  samples.add("dig_time", "s", [&] { return seconds_to_make([&] { return untouched.build_from(dug); }); });
-  samples.add("fill_time", "s",
-              [&] { return seconds_to_make([&] { return untouched.build_from(filled); }); });
-  samples.take(recorder);
-}
-
-void record_event(const Untouched& untouched, const Representation& after, const RadialErosion& event,
-                  Recorder& recorder) {
-  record_step("event", after, untouched, untouched.mesh, recorder);
-  const EventLines lines(event);
-  record_misplaced(lines.metres(untouched.built), lines.metres(after), recorder);
-}
-
-void measure_event(const Untouched& untouched, const RadialErosion& event, Recorder& recorder) {
-  {
-    const auto edited = untouched.build();
-    edited->apply(event);
-    record_event(untouched, *edited, event, recorder);
+  last(*after);
+  after.reset();
+  if (!rebuilds) {
+    samples.add(times, "s", [&baseline, steps] {
+      const auto fresh = baseline.build();  // a loaded one has no spare capacity for events
+      std::vector<double> all;
+      for (const Step& step : steps) all.push_back(seconds([&] { step.edit(*fresh); }));
+      return all;
+    });
   }
-  Samples samples;
-  samples.add("event_time", "s", [&] {
-    const auto fresh = untouched.build();  // a loaded one has no spare capacity for events
-    return seconds([&] { fresh->apply(event); });
-  });
-  samples.take(recorder);
-}
-
-void measure_rebuilt_event(const Untouched& untouched, const RadialErosion& event, Recorder& recorder) {
-  const TerrainSource cut = eroded(untouched.scene.source, event);
-  record_event(untouched, *untouched.build_from(cut), event, recorder);
-  Samples samples;
-  samples.add("event_time", "s", [&] { return seconds_to_make([&] { return untouched.build_from(cut); }); });
   samples.take(recorder);
 }
 
@@ -349,9 +323,19 @@ void measure_edit(const Scene& scene, const RepresentationType& type, const Repr
   const bool digs = type.traits.editable, erodes = digs || (place.taken && type.traits.events);
   recorder.add("rebuilt", "", digs ? 0 : 1);
   recorder.add("event_rebuilt", "", erodes ? 0 : 1);
-  const Untouched untouched{scene, type, built, mesh, progress};
-  (digs ? measure_sphere : measure_rebuilt_sphere)(untouched, sphere, recorder);
-  (erodes ? measure_event : measure_rebuilt_event)(untouched, place.event, recorder);
+  const Baseline baseline{scene, type, built, mesh, progress};
+  const auto sphere_step = [&](const char* name, Material material) {
+    return Step{name, [=](Representation& on) { fill_sphere(on, sphere, material); },
+                [&, material] { return with_sphere(scene.source, sphere, material); }};
+  };
+  const std::array spheres{sphere_step("dig", Material::kAir), sphere_step("fill", Material::kBedrock)};
+  measure_steps(baseline, spheres, !digs, recorder, [](const Representation&) {});
+  const std::array events{Step{"event", [&](Representation& on) { on.apply(place.event); },
+                               [&] { return eroded(scene.source, place.event); }}};
+  measure_steps(baseline, events, !erodes, recorder, [&](const Representation& after) {
+    const EventLines lines(place.event);
+    record_misplaced(lines.metres(built), lines.metres(after), recorder);
+  });
 }
 
 }  // namespace terrabench::cross

@@ -7,10 +7,9 @@
 #include <cmath>
 #include <optional>
 
-#include "experiments/cross/representations/fitting.h"
+#include "experiments/cross/representations/setting_search.h"
 #include "experiments/experiment.h"
 #include "experiments/figures/maps.h"
-#include "experiments/ground.h"
 
 namespace terrabench::cross {
 namespace {
@@ -34,13 +33,14 @@ constexpr Rgb kMissing{120, 120, 128};  // where only one of ground and type has
 std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
   std::vector<Case> cases;
-  for (const std::string& terrain : grounds(options, own_grounds())) {
+  for (const std::string& terrain : compared_scenes(options)) {
     // In a file of 5 % of 64² heights, stacks and dense voxels have the same few columns and the same map.
-    const std::int64_t resolution = solid_resolution(terrain, paper || terrain == "caves");
+    const std::int64_t resolution = std::max<std::int64_t>(128, solid_resolution(terrain, paper));
     cases.push_back({terrain,
                      {kSpecs,
                       {{"size", std::int64_t{paper ? 1025 : 257}},
                        {"resolution", resolution},
+                       {"lines", std::int64_t{paper ? 400 : 200}},
                        {"compared", std::int64_t{paper ? 211 : 101}}}},
                      terrain});
   }
@@ -69,10 +69,10 @@ Map map_of(const Scene& scene, const RepresentationType& type, const Heightfield
            const GroundLines& compared, double share, Progress& progress) {
   Map map;
   map.type = &type;
-  Fitting fitting(scene, type, progress);
-  const auto fitted = fitting.for_bytes(share * static_cast<double>(scene.heightmap_bytes));
-  map.fits = fitted.has_value();
-  const auto built = type.build(scene.source, fitted ? fitted->parameters : scene.parameters(type), progress);
+  SettingSearch search(scene, type, progress);
+  const auto chosen = search.for_bytes(share * static_cast<double>(scene.heightmap_bytes));
+  map.fits = chosen.has_value();
+  const auto built = type.build(scene.source, chosen ? chosen->parameters : scene.parameters(type), progress);
   map.file_bytes = file_bytes(type, *built);
   map.error = tops(lines_of(*built, scene.lines), scene.lines);
   map.rmse = top_and_volume_differences(*built, scene.source, compared).rmse;
@@ -170,7 +170,6 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     const Map& map =
         maps.emplace_back(map_of(ground, type, surface, compared, at.parameters.number("share"), progress));
     const std::string name(type.name);
-    recorder.add(name + "_fits", "", map.fits ? 1 : 0);
     recorder.add(name + "_file", "kB", static_cast<double>(map.file_bytes) / 1000);
     if (map.columns > 0) recorder.add(name + "_rmse", "m", map.rmse);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "representations/line_grid.h"
 #include "terrain/metrics/nearest_point.h"
 
 namespace terrabench::cross {
@@ -91,8 +92,7 @@ std::vector<SpacePoint> surface_points(const GroundLines& at, const LineParts& p
   };
   for (int j = 0; j < at.depth; ++j) {
     for (int i = 0; i < at.width; ++i) {
-      const std::size_t c =
-          static_cast<std::size_t>(j) * static_cast<std::size_t>(at.width) + static_cast<std::size_t>(i);
+      const std::size_t c = at.index(i, j);
       for (const Part& part : parts.line(c)) {
         if (part.bottom > lowest + 0.5 * step) points.push_back({at.x[c], part.bottom, at.z[c]});
         points.push_back({at.x[c], part.top, at.z[c]});
@@ -135,33 +135,14 @@ void compare_tops(std::vector<double> errors, Differences& found) {
 }
 
 void compare_tops(const Representation& built, const Heightfield& field, Differences& found) {
-  const auto width = static_cast<std::size_t>(field.width);
-  std::vector<double> errors(field.heights.size(), 0);
-  std::vector<std::uint8_t> kind(errors.size(), 0);  // 0: neither has ground, 1: both, 2: one
-  tbb::parallel_for(0, field.depth, [&](int j) {
-    thread_local std::vector<float> x, z;
-    thread_local SpanSink sink;
-    x.resize(width);
-    z.assign(width, static_cast<float>(j) * field.cell_z);
-    for (std::size_t i = 0; i < width; ++i) x[i] = static_cast<float>(i) * field.cell_x;
-    sink.clear();
-    built.spans({x, z}, sink);
-    for (std::size_t i = 0; i < width; ++i) {
-      const float height = field.at(static_cast<int>(i), j);
-      const auto column = sink.column(i);
-      const std::size_t at = static_cast<std::size_t>(j) * width + i;
-      kind[at] = static_cast<std::uint8_t>(Heightfield::is_no_data(height) != column.empty() ? 2
-                                           : column.empty()                                  ? 0
-                                                                                             : 1);
-      if (kind[at] == 1) errors[at] = static_cast<double>(column.back().top) - height;
-    }
-  });
-  std::size_t kept = 0;
-  for (std::size_t at = 0; at < errors.size(); ++at) {
-    if (kind[at] == 1) errors[kept++] = errors[at];
-    found.lost_columns += kind[at] == 2;
+  std::vector<float> tops(field.heights.size());
+  topmost(built, lines_of(field), 0, tops);
+  std::vector<double> errors;
+  for (std::size_t c = 0; c < tops.size(); ++c) {
+    const bool lacking = Heightfield::is_no_data(field.heights[c]), empty = Heightfield::is_no_data(tops[c]);
+    found.lost_columns += lacking != empty;
+    if (!lacking && !empty) errors.push_back(static_cast<double>(tops[c]) - field.heights[c]);
   }
-  errors.resize(kept);
   compare_tops(std::move(errors), found);
 }
 
@@ -177,10 +158,7 @@ void compare_tops(const GroundLines& ground, const LineParts& built, Differences
 
 // The cavities of a line without what is near a solid part of any line within the margin.
 std::vector<Part> core(const GroundLines& ground, int i, int j, float margin) {
-  const auto width = static_cast<std::size_t>(ground.width);
-  const auto line = [&](int a, int b) {
-    return ground.parts.line(static_cast<std::size_t>(b) * width + static_cast<std::size_t>(a));
-  };
+  const auto line = [&](int a, int b) { return ground.parts.line(ground.index(a, b)); };
   std::vector<Part> left = cavities(line(i, j), ground.bounds.low.y);
   const int reach = static_cast<int>(std::ceil(margin / ground.step));
   for (int b = std::max(0, j - reach); b <= std::min(ground.depth - 1, j + reach) && !left.empty(); ++b) {
@@ -197,8 +175,7 @@ void compare_cavities(const GroundLines& ground, const LineParts& built, float m
   tbb::parallel_for(0, ground.depth, [&](int j) {
     Differences& row = rows[static_cast<std::size_t>(j)];
     for (int i = 0; i < ground.width; ++i) {
-      const std::size_t c =
-          static_cast<std::size_t>(j) * static_cast<std::size_t>(ground.width) + static_cast<std::size_t>(i);
+      const std::size_t c = ground.index(i, j);
       const std::vector<Part> gaps = cavities(ground.parts.line(c), ground.bounds.low.y);
       if (gaps.empty()) continue;
       const std::vector<Part> deep = core(ground, i, j, margin);
@@ -295,8 +272,7 @@ GroundLines ground_lines(const TerrainSource& source, int along) {
   }
   lines.parts = in_rows(lines.depth, [&](int j, LineParts& out) {
     for (int i = 0; i < lines.width; ++i) {
-      const std::size_t c =
-          static_cast<std::size_t>(j) * static_cast<std::size_t>(lines.width) + static_cast<std::size_t>(i);
+      const std::size_t c = lines.index(i, j);
       if (source.solid) {
         sample_solid(*source.solid, lines.x[c], lines.z[c], lines.step, out);
         continue;

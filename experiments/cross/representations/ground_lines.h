@@ -44,6 +44,10 @@ struct GroundLines {
   std::vector<float> x, z;   // per line, row by row
   Bounds bounds;
   LineParts parts;
+
+  std::size_t index(int i, int j) const {
+    return static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i);
+  }
 };
 
 // `along` lines on the longer side. O(lines · height / step), parallel, the same for any number of threads.

@@ -1,10 +1,10 @@
 // Rays on a representation, its own way and through its mesh.
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <utility>
 
 #include "experiments/cross/representations/representation_costs.h"
+#include "experiments/cross/workloads.h"
 #include "experiments/stopwatch.h"
 #include "renderers/raytrace/ray_index.h"
 #include "representations/ray_cast.h"
@@ -13,16 +13,7 @@
 namespace terrabench::cross {
 namespace {
 
-class Numbers {
- public:
-  float between(float low, float high) {
-    return low + (high - low) * 0x1p-24F * static_cast<float>(random_() >> 8);
-  }
-  std::size_t below(std::size_t n) { return random_() % n; }
-
- private:
-  std::mt19937 random_{2};
-};
+constexpr std::uint64_t kSeed = 2;
 
 glm::vec3 towards(float azimuth, float elevation) {
   return {std::cos(elevation) * std::cos(azimuth), std::sin(elevation),
@@ -34,7 +25,7 @@ std::vector<Ray> rays_from_above(const GroundLines& lines, std::size_t n) {
   constexpr float kTurn = 2 * std::numbers::pi_v<float>;
   const Bounds& bounds = lines.bounds;
   const float height = bounds.high.y + 0.1F * bounds.size().y;
-  Numbers numbers;
+  Numbers numbers(kSeed);
   std::vector<Ray> rays(n);
   for (Ray& ray : rays) {
     ray.origin = {numbers.between(bounds.low.x, bounds.high.x), height,
@@ -49,7 +40,7 @@ std::vector<Ray> rays_from_above(const GroundLines& lines, std::size_t n) {
 std::vector<Ray> rays_along_ground(const GroundLines& lines, std::size_t n) {
   constexpr float kTurn = 2 * std::numbers::pi_v<float>, kSteepest = kTurn / 60;
   const float lift = 0.02F * lines.bounds.size().y;
-  Numbers numbers;
+  Numbers numbers(kSeed);
   std::vector<Ray> rays;
   rays.reserve(n);
   while (rays.size() < n) {
@@ -123,7 +114,7 @@ struct Casters {
   Shots above, along;
 };
 
-// All in one piece of work, so that sums are of one round.
+// All in one piece of work, so that sums are of the same repetition.
 void add_samples(const std::shared_ptr<Casters>& casters, double n, Samples& samples) {
   if (!casters->own) {
     samples.add({"embree_above", "rays_above", "embree_along", "rays_along"}, "1/s", [casters, n] {
@@ -153,17 +144,10 @@ void add_samples(const std::shared_ptr<Casters>& casters, double n, Samples& sam
 void measure_rays(const Scene& scene, const Representation& built, const TriangleMesh& mesh, int count,
                   Recorder& recorder, Samples& samples) {
   const auto n = static_cast<std::size_t>(count);
-  Stopwatch watch;
   auto index = std::make_unique<RayIndex>(mesh);
-  recorder.add("embree_time", "s", watch.seconds());
   recorder.add("embree_bytes", "B", static_cast<double>(index->bytes()));
-  watch = {};
   std::unique_ptr<RayCaster> own = built.ray_caster();
-  if (own) {
-    recorder.add("ray_index_time", "s", watch.seconds());
-    recorder.add("ray_index_bytes", "B", own->bytes());
-  }
-  recorder.add("own_rays", "", own ? 1 : 0);
+  if (own) recorder.add("ray_index_bytes", "B", own->bytes());
   const auto casters = std::make_shared<Casters>(scene, std::move(index), std::move(own), n);
   std::size_t agree = 0, hits = 0;
   for (Shots* const shots : {&casters->above, &casters->along}) {

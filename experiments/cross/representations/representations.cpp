@@ -7,11 +7,10 @@
 #include <cmath>
 #include <optional>
 
-#include "experiments/cross/representations/fitting.h"
 #include "experiments/cross/representations/representation_costs.h"
 #include "experiments/cross/representations/scenes.h"
+#include "experiments/cross/representations/setting_search.h"
 #include "experiments/experiment.h"
-#include "experiments/ground.h"
 
 namespace terrabench::cross {
 namespace {
@@ -30,10 +29,11 @@ const std::array kSpecs{
     ParameterSpec{"rays", std::int64_t{8192}, "", "of each kind", 1, 1 << 24},
 };
 
-constexpr std::array kShares{0.01, 0.05, 0.2};
+constexpr double kLeastShare = 0.01, kQuickError = 0.02;
+constexpr std::array kShares{kLeastShare, 0.05, 0.2};
 // Of the relief. A cliff or the lip of an overhang lies somewhere between two columns, so that few types come
 // within 0.5 % of a solid's top.
-constexpr std::array kErrorsOfHeights{0.001, 0.005, 0.02}, kErrorsOfSolids{0.01, 0.02, 0.05};
+constexpr std::array kErrorsOfHeights{0.001, 0.005, kQuickError}, kErrorsOfSolids{0.01, kQuickError, 0.05};
 // Cells between the core of a cavity and what is solid. The centre of the cell around a point is less than
 // 0.87 cells away, so that cells sampled at their centres keep a core as air.
 constexpr float kMargin = 1;
@@ -41,7 +41,7 @@ constexpr float kMargin = 1;
 std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
   std::vector<Case> cases;
-  for (const std::string& terrain : grounds(options, own_grounds())) {
+  for (const std::string& terrain : compared_scenes(options)) {
     const std::int64_t resolution = solid_resolution(terrain, paper);
     const auto& errors = is_solid(terrain) ? kErrorsOfSolids : kErrorsOfHeights;
     for (const RepresentationType& type : representations()) {
@@ -58,8 +58,12 @@ std::vector<Case> cases(const RunOptions& options) {
                          terrain});
       };
       add("", 0, 0);
-      for (const double share : kShares) add(fmt::format("/{:.0f}%", 100 * share), share, 0);
-      for (const double error : errors) add(fmt::format("/rmse={:g}%", 100 * error), 0, error);
+      for (const double share : kShares) {
+        if (paper || share != kLeastShare) add(fmt::format("/{:.0f}%", 100 * share), share, 0);
+      }
+      for (const double error : errors) {
+        if (paper || error == kQuickError) add(fmt::format("/rmse={:g}%", 100 * error), 0, error);
+      }
     }
   }
   return cases;
@@ -81,10 +85,8 @@ void record(const Differences& found, const TerrainSource& source, Recorder& rec
   record_tops(found, recorder);
   if (found.distance) {
     recorder.add("hausdorff", "m", found.distance->hausdorff());
-    recorder.add("hausdorff_from_ground", "m", found.distance->from_ground);
-    recorder.add("hausdorff_to_ground", "m", found.distance->to_ground);
   } else {
-    recorder.undefined({"hausdorff", "hausdorff_from_ground", "hausdorff_to_ground"},
+    recorder.undefined({"hausdorff"},
                        "the type or the ground has no surface on the lines on which they are compared");
   }
   if (found.volume_iou) {
@@ -102,8 +104,8 @@ void record(const Differences& found, const TerrainSource& source, Recorder& rec
 }
 
 // Every setting that was tried, for the plot of error against bytes.
-void record_trials(const Fitting& fitting, Recorder& recorder) {
-  for (const Trial& trial : fitting.trials()) {
+void record_trials(const SettingSearch& search, Recorder& recorder) {
+  for (const Trial& trial : search.trials()) {
     recorder.add("tried_bytes", "B", static_cast<double>(trial.file_bytes));
     recorder.add("tried_rmse", "m", trial.rmse);
     recorder.add("tried_volume_error", "", trial.volume_error);
@@ -113,22 +115,22 @@ void record_trials(const Fitting& fitting, Recorder& recorder) {
 void measure_at_bytes(const Scene& scene, const RepresentationType& type, double share, Recorder& recorder,
                       Progress& progress) {
   const double budget = share * static_cast<double>(scene.heightmap_bytes);
-  Fitting fitting(scene, type, progress);
-  const std::optional<Fitted> fitted = fitting.for_bytes(budget);
-  recorder.add("fits", "", fitted ? 1 : 0);
-  const double used = fitted ? static_cast<double>(fitted->trial.file_bytes) / budget : 0;
+  SettingSearch search(scene, type, progress);
+  const std::optional<FoundSetting> chosen = search.for_bytes(budget);
+  recorder.add("fits", "", chosen ? 1 : 0);
+  const double used = chosen ? static_cast<double>(chosen->trial.file_bytes) / budget : 0;
   recorder.add("same_bytes", "", used >= kLeastOfBytes ? 1 : 0);
-  record_trials(fitting, recorder);
-  if (!fitted) {
-    if (const auto trials = fitting.trials(); !trials.empty()) {
+  record_trials(search, recorder);
+  if (!chosen) {
+    if (const auto trials = search.trials(); !trials.empty()) {
       const Trial& smallest = *std::ranges::min_element(trials, {}, &Trial::file_bytes);
       recorder.add("smallest_of_budget", "", static_cast<double>(smallest.file_bytes) / budget);
     }
     return;
   }
-  const auto built = type.build(scene.source, fitted->parameters, progress);
-  recorder.add("setting", "", static_cast<double>(fitted->trial.setting));
-  recorder.add("file_bytes", "B", fitted->trial.file_bytes);
+  const auto built = type.build(scene.source, chosen->parameters, progress);
+  recorder.add("setting", "", static_cast<double>(chosen->trial.setting));
+  recorder.add("file_bytes", "B", chosen->trial.file_bytes);
   recorder.add("of_budget", "", used);
   recorder.add("bytes", "B", built->memory().total());
   record(differences(*built, scene.source, scene.lines, kMargin * scene.cell), scene.source, recorder);
@@ -137,27 +139,24 @@ void measure_at_bytes(const Scene& scene, const RepresentationType& type, double
 void measure_at_error(const Scene& scene, const RepresentationType& type, double share, Recorder& recorder,
                       Progress& progress) {
   const double relief = relief_of(scene), asked = share * relief;
-  recorder.add("relief", "m", relief);
   if (relief == 0) {
-    return recorder.undefined({"asked_rmse", "reached", "same_error", "least_of_relief", "of_asked"},
+    return recorder.undefined({"same_error", "least_of_relief", "of_asked"},
                               "the ground is flat: an error has no share of its relief");
   }
-  recorder.add("asked_rmse", "m", asked);
-  Fitting fitting(scene, type, progress);
-  const std::optional<Fitted> fitted = fitting.for_error(asked);
-  recorder.add("reached", "", fitted ? 1 : 0);
-  const double used = fitted ? fitted->trial.rmse / asked : 0;
+  SettingSearch search(scene, type, progress);
+  const std::optional<FoundSetting> chosen = search.for_error(asked);
+  const double used = chosen ? chosen->trial.rmse / asked : 0;
   recorder.add("same_error", "", used >= kLeastOfError ? 1 : 0);
-  record_trials(fitting, recorder);
-  if (const auto trials = fitting.trials(); !trials.empty()) {
+  record_trials(search, recorder);
+  if (const auto trials = search.trials(); !trials.empty()) {
     const Trial& best = *std::ranges::min_element(trials, {}, &Trial::rmse);
     recorder.add("least_of_relief", "", best.rmse / relief);
   }
-  if (!fitted) return;
-  if (fitted->trial.setting > 0) recorder.add("setting", "", static_cast<double>(fitted->trial.setting));
+  if (!chosen) return;
+  if (chosen->trial.setting > 0) recorder.add("setting", "", static_cast<double>(chosen->trial.setting));
   recorder.add("of_asked", "", used);
   Samples samples;
-  const auto built = measure_build(scene, type, fitted->parameters, recorder, samples, progress);
+  const auto built = measure_build(scene, type, chosen->parameters, recorder, samples, progress);
   measure_file(scene, type, *built, recorder, samples);
   measure_queries(scene, *built, samples);
   samples.take(recorder);

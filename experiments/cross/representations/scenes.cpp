@@ -6,6 +6,7 @@
 
 #include "experiments/cross/files/temporary_folder.h"
 #include "experiments/ght/site.h"
+#include "experiments/ground.h"
 #include "terrain/events/event_file.h"
 #include "terrain/files.h"
 #include "terrain/sources/fractal/diamond_square.h"
@@ -67,7 +68,10 @@ std::size_t file_bytes(const RepresentationType& type, const Representation& bui
   return save_representation(file, type, built);
 }
 
-std::vector<std::string> own_grounds() { return {"jacksboro", "fractal", "caves", "canyon", "sequence"}; }
+std::vector<std::string> compared_scenes(const RunOptions& options) {
+  if (options.profile == Profile::kQuick) return grounds(options, {"jacksboro", "caves", "canyon"});
+  return grounds(options, {"jacksboro", "fractal", "caves", "canyon", "sequence"});
+}
 
 std::int64_t solid_resolution(std::string_view terrain, bool paper_profile) {
   if (paper_profile) return 256;

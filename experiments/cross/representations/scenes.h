@@ -41,8 +41,9 @@ struct Scene {
 // Metres from the lowest to the highest top of the ground's columns: samples of heights, lines of a solid.
 double relief_of(const Scene&);
 
-// The grounds on which types are compared unless others are named, and the columns along solid ground.
-std::vector<std::string> own_grounds();
+// The grounds on which types are compared, those that the user names or our own, and the columns along solid
+// ground.
+std::vector<std::string> compared_scenes(const RunOptions&);
 std::int64_t solid_resolution(std::string_view terrain, bool paper_profile);
 // Whether the ground is a solid, by its name. A script of events is read for it.
 bool is_solid(const std::string& terrain);

@@ -38,7 +38,6 @@ std::vector<View> same_flight(const Heightfield& ground) {
 struct LodCosts {
   explicit LodCosts(const std::optional<LodGrowth>& theory)
       : build("build", "s", of(theory, &LodGrowth::build)),
-        build_faults("build_faults", "faults", of(theory, &LodGrowth::build)),
         bytes("bytes", "B", of(theory, &LodGrowth::memory), theory && theory->windows),
         update("update", "s", of(theory, &LodGrowth::update), theory && theory->update == 0),
         uploaded("uploaded", "B", of(theory, &LodGrowth::update), theory && theory->update == 0),
@@ -48,7 +47,7 @@ struct LodCosts {
     return theory ? std::optional((*theory).*cost) : std::nullopt;
   }
 
-  Cost build, build_faults, bytes, update, uploaded, triangles;
+  Cost build, bytes, update, uploaded, triangles;
 };
 
 // Updates along the path, the mean of kFramesPerSample frames at a time: reading the clock takes a good part
@@ -73,27 +72,22 @@ void follow(Lod& method, const std::vector<View>& path, double columns, LodCosts
 }  // namespace
 
 void measure_lod(const Run& run, std::string_view name) {
-  Contender method = contender(name, "");
+  ConfiguredMethod method = configured(name, "");
   const std::optional<LodGrowth>& theory = method.type->growth;
   if (theory && !theory->option.empty()) method.options.set_from_text(std::string(theory->option));
   const Tuned tuned = tune_to(
       flight_along({"hills", std::string(kPath), kTunedSide, kTunedFrames, run.seed()}, run.progress()),
       method, run.at().parameters.number("pixels"), run.progress());
-  run.recorder().add("knob", "", tuned.knob);
-  run.recorder().add("tuned_error", "px", tuned.error);
   SizePlan plan = run.plan("update", 1, {1, 1});
   LodCosts costs(theory);
-  const std::vector<int> sides = run.sides(false);
-  run.progress().begin(fmt::format("{} on growing ground", name), sides.size());
   Progress silent;
-  for (const int side : sides) {
+  run.at_each_side(fmt::format("{} on growing ground", name), false, [&](int side) {
     const double columns = squared(side);
     run.measured(plan, columns, [&] {
       const Heightfield ground = noise_hills(side, run.seed());
       std::unique_ptr<Lod> built;
       run.add_samples(
-          costs.build, costs.build_faults, columns, [&] { built.reset(); },
-          [&] { built = method.build(ground, silent); });
+          costs.build, columns, [&] { built.reset(); }, [&] { built = method.build(ground, silent); });
       if (side < kSmallestWalk) return;
       const std::vector<View> path = same_flight(ground);
       built->tune(tuned.knob);
@@ -101,12 +95,10 @@ void measure_lod(const Run& run, std::string_view name) {
       follow(*built, path, columns, costs);
       costs.bytes.add(columns, static_cast<double>(built->memory().total()));
     });
-    run.progress().advance();
-  }
-  run.progress().end();
+  });
   plan.record(run.recorder());
   for (const Cost* const cost :
-       {&costs.build, &costs.build_faults, &costs.bytes, &costs.update, &costs.uploaded, &costs.triangles}) {
+       {&costs.build, &costs.bytes, &costs.update, &costs.uploaded, &costs.triangles}) {
     cost->record(run.recorder());
   }
 }

@@ -1,8 +1,6 @@
 // What the parts of the experiment cross.scale share: the sizes of a case, its budget, and how work is timed.
 #pragma once
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -11,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/cross/scale/cold_caches.h"
-#include "experiments/cross/scale/fresh_pages.h"
+#include "experiments/cross/scale/memory_state.h"
 #include "experiments/cross/scale/scaling.h"
 #include "experiments/experiment.h"
 #include "experiments/samples.h"
@@ -23,13 +20,6 @@
 namespace terrabench::cross {
 
 inline double squared(int side) { return static_cast<double>(side) * side; }
-
-// Page faults of the calling thread so far that needed no disk: the first use of memory that the system gave.
-inline double page_faults() {
-  rusage used{};
-  getrusage(RUSAGE_THREAD, &used);
-  return static_cast<double>(used.ru_minflt);
-}
 
 // All the sizes of one case, with one budget per stage.
 class Run {
@@ -69,33 +59,40 @@ class Run {
     return true;
   }
 
-  // Processor seconds and page faults of each turn of the work on one thread. Before each turn, outside the
-  // timed part, clear() frees what the last one made, and the caches are emptied: otherwise they would hold
-  // the data of small sizes, but not of large ones. The time therefore includes cache misses on the code,
-  // too, which matters most at the smallest sizes. There are six turns, or as many as take 2 s together,
-  // since the largest sizes take minutes; before them one that is not counted, if it takes under 0.2 s.
+  // Processor seconds of each repetition of the work on one thread. Before each, outside the timed part,
+  // clear() frees what the last one made, and the caches are emptied: otherwise they would hold the data of
+  // small sizes, but not of large ones. The time therefore includes cache misses on the code, too, which
+  // matters most at the smallest sizes. There are six repetitions, or as many as take 2 s together, since the
+  // largest sizes take minutes; before them one that is not counted, if it takes under 0.2 s.
   template <class Clear, class Work>
-  void add_samples(Cost& cost, Cost& faults, double columns, const Clear& clear, const Work& work) const {
+  void add_samples(Cost& cost, double columns, const Clear& clear, const Work& work) const {
     constexpr double kShort = 0.2, kMost = 2;  // seconds
     bool first = true;
     for (Repetitions repetitions(kMost); repetitions.more();) {
       clear();
       caches_.evict();
-      const double before = page_faults();
-      const double taken = processor_seconds(work), faulted = page_faults() - before;
+      const double taken = processor_seconds(work);
       if (std::exchange(first, false) && taken < kShort) continue;
       cost.add(columns, taken);
-      faults.add(columns, faulted);
       repetitions.add(taken);
     }
   }
 
-  std::vector<int> sides(bool solid) const {
+  // Calls work(side) for every size of the case, in ascending order.
+  template <class Work>
+  void at_each_side(std::string_view what, bool solid, const Work& work) const {
     const int smallest = at_.integer("smallest"), largest = at_.integer("largest");
     if (largest < smallest) {
       throw usage_error("the largest ground is smaller than the smallest", "largest", "exchange the two");
     }
-    return solid ? half_octave_sides(smallest, largest) : doubled_sides(smallest, largest);
+    const std::vector<int> sides =
+        solid ? half_octave_sides(smallest, largest) : doubled_sides(smallest, largest);
+    progress_.begin(what, sides.size());
+    for (const int side : sides) {
+      work(side);
+      progress_.advance();
+    }
+    progress_.end();
   }
 
   const Case& at() const { return at_; }

@@ -35,24 +35,19 @@ const std::array kSpecs{
 // Whole metres are sorted into buckets, in O(n); heights as they are need a heap, in O(n log n).
 void measure_flow(const Run& run, bool whole) {
   SizePlan plan = run.plan("route", 1, {1, 1});
-  Cost route("route", "s", 1, !whole), route_faults("route_faults", "faults", 1);
-  const std::vector<int> sides = run.sides(false);
-  run.progress().begin(whole ? "flow over whole metres" : "flow over unrounded heights", sides.size());
-  for (const int side : sides) {
+  Cost route("route", "s", 1, !whole);
+  run.at_each_side(whole ? "flow over whole metres" : "flow over unrounded heights", false, [&](int side) {
     const double columns = squared(side);
     run.measured(plan, columns, [&] {
       Heightfield ground = noise_hills(side, run.seed());
       if (whole) ground = whole_metres(std::move(ground));
       FlowNetwork network;
       run.add_samples(
-          route, route_faults, columns, [&] { network = {}; }, [&] { network = route_flow(ground); });
+          route, columns, [&] { network = {}; }, [&] { network = route_flow(ground); });
     });
-    run.progress().advance();
-  }
-  run.progress().end();
+  });
   plan.record(run.recorder());
   route.record(run.recorder());
-  route_faults.record(run.recorder());
 }
 
 // The limit of processor time per case, in seconds. With these limits all cases took 23 minutes on two cores

@@ -82,7 +82,6 @@ void SizePlan::measured(double columns, double seconds, std::int64_t peak_bytes)
 }
 
 void SizePlan::record(Recorder& recorder) const {
-  recorder.add_varying(name_ + "_sizes", "", static_cast<double>(sizes_));
   recorder.add_varying(name_ + "_short_of_time", "", static_cast<double>(short_of_time_));
   recorder.add_varying(name_ + "_short_of_memory", "", static_cast<double>(short_of_memory_));
   recorder.add_varying(name_ + "_refused", "", static_cast<double>(refused_));
@@ -104,7 +103,6 @@ void Cost::record(Recorder& recorder) const {
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     recorder.add_varying(name_, unit_, values_[i]);
     recorder.add_varying(name_ + "_columns", "", columns_[i]);
-    recorder.add(fmt::format("{}_at_{:.0f}", name_, columns_[i]), unit_, values_[i]);
   }
   const auto [low, high] = std::minmax_element(columns_.begin(), columns_.end());
   recorder.add_varying(name_ + "_smallest", "", *low);

@@ -44,8 +44,7 @@ class SizePlan {
   // The structure does not take ground of this size.
   void refused() { ++refused_; }
 
-  // name_sizes, the number of sizes measured, and the numbers of those skipped: name_short_of_time,
-  // name_short_of_memory and name_refused.
+  // The numbers of sizes skipped: name_short_of_time, name_short_of_memory and name_refused.
   void record(Recorder&) const;
 
   std::size_t sizes() const { return sizes_; }
@@ -72,13 +71,12 @@ class Cost {
     values_.push_back(value);
   }
 
-  // The samples as `name`, their sizes as name_columns, pair by pair; each size's samples again as
-  // name_at_COLUMNS, since two runs may reach different sizes; name_smallest and name_largest, the range of
-  // sizes; name_theory, the exponent in theory, if there is one; and from two sizes on name_exponent, the
-  // exponent of the power law through the medians of the sizes, name_excess, that minus the theory, and
-  // name_fitted, the number of sizes. From three sizes on name_low and name_high, the exponent's 95 %
-  // interval. Where the median of a size is 0, as of page faults it may be, there is no exponent. Throws
-  // environment_error where a time is 0: then nothing was measured.
+  // The samples as `name`, their sizes as name_columns, pair by pair; name_smallest and name_largest, the
+  // range of sizes; name_theory, the exponent in theory, if there is one; and from two sizes on
+  // name_exponent, the exponent of the power law through the medians of the sizes, name_excess, that minus
+  // the theory, and name_fitted, the number of sizes. From three sizes on name_low and name_high, the
+  // exponent's 95 % interval. Where the median of a size is 0, as of uploaded bytes it may be, there is no
+  // exponent. Throws environment_error where a time is 0: then nothing was measured.
   void record(Recorder&) const;
 
   // In theory, over the sizes measured: with the logarithm the slope depends on them.

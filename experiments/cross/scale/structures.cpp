@@ -12,6 +12,7 @@
 
 #include "experiments/cross/files/temporary_folder.h"
 #include "experiments/cross/scale/run.h"
+#include "experiments/cross/workloads.h"
 #include "experiments/ground.h"
 #include "representations/edit_tools.h"
 #include "representations/line_grid.h"
@@ -26,11 +27,9 @@ GrowthTheory assumed(bool solid) {
   return solid ? GrowthTheory{.build = 1.5, .bytes = 1.5, .mesh = 1.5} : GrowthTheory{};
 }
 
-constexpr int kBatch = 1024, kQueries = 1 << 16;  // columns per call, and per sample
-constexpr double kQuerySeconds = 0.05;            // per sample, of slow structures
 constexpr int kNear = 32;         // columns along a side of the window of near queries, which caches hold
 constexpr int kEditRadius = 8;    // columns
-constexpr int kEdits = 16;        // per turn: half of them make one sample, half the other
+constexpr int kEdits = 16;        // half of them make one sample, half the other
 constexpr float kHighest = 1600;  // metres, of the hills
 
 // Hills from 0 to kHighest metres exactly, so that no size has more levels than another: two corners are the
@@ -45,77 +44,15 @@ TerrainSource hills_of_one_range(int side, std::uint64_t seed) {
   return source;
 }
 
-// splitmix64 (Steele, Lea & Flood 2014).
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  float unit() {
-    std::uint64_t z = state_ += 0x9E3779B97F4A7C15ULL;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    return static_cast<float>((z ^ (z >> 31)) >> 40) * 0x1p-24F;
-  }
-
- private:
-  std::uint64_t state_;
-};
-
-// Random places in the middle `share` of the sides of a structure's bounds.
-class Places {
- public:
-  Places(const Bounds& bounds, double share, Random& random)
-      : middle_(0.5F * (bounds.low + bounds.high)),
-        half_(0.5F * static_cast<float>(share) * bounds.size()),
-        random_(random) {}
-
-  // Columns, as many as the spans have room for.
-  void next(std::span<float> x, std::span<float> z) {
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      x[i] = middle_.x + half_.x * (2 * random_.unit() - 1);
-      z[i] = middle_.z + half_.z * (2 * random_.unit() - 1);
-    }
-  }
-  float angle() { return 2 * std::numbers::pi_v<float> * random_.unit(); }
-
- private:
-  glm::vec3 middle_, half_;
-  Random& random_;
-};
-
-// Processor seconds on one thread per item of batches of kBatch. next() chooses what work() then does. The
-// first batch is not counted; no batch repeats another.
-template <class Next, class Work>
-double seconds_per_item(const Next& next, const Work& work) {
-  double spent = 0;
-  int done = -kBatch;
-  while (done < kQueries && spent < kQuerySeconds) {
-    next();
-    const double taken = processor_seconds(work);
-    if (done >= 0) spent += taken;
-    done += kBatch;
-  }
-  return spent / done;
-}
-
-double seconds_per_query(const Representation& structure, Places places) {
-  std::vector<float> x(kBatch), z(kBatch);
-  SpanSink sink;
-  return seconds_per_item([&] { places.next(x, z); },
-                          [&] {
-                            sink.clear();
-                            structure.spans({x, z}, sink);
-                          });
-}
-
 // Rays from a plane above the highest point, 45° down.
-double seconds_per_ray(const RayCaster& caster, const Bounds& bounds, Places places) {
+double seconds_per_ray(const RayCaster& caster, const Bounds& bounds, Places places, Numbers& numbers) {
   const float above = bounds.high.y + 0.01F * bounds.size().y, slope = std::numbers::sqrt2_v<float> / 2;
   std::vector<float> x(kBatch), z(kBatch), distances(kBatch);
   std::vector<Ray> rays(kBatch);
   const auto next = [&] {
-    places.next(x, z);
+    places.columns(x, z);
     for (int i = 0; i < kBatch; ++i) {
-      const float azimuth = places.angle();
+      const float azimuth = numbers.between(0, 2 * std::numbers::pi_v<float>);
       rays[i].origin = {x[i], above, z[i]};
       rays[i].direction = {slope * std::cos(azimuth), -slope, slope * std::sin(azimuth)};
     }
@@ -172,7 +109,7 @@ struct Holes {
 std::pair<Holes, Holes> dig_holes(Representation& structure, float cell, Places places,
                                   const ColdCaches& caches) {
   std::vector<float> x(kEdits), z(kEdits);
-  places.next(x, z);
+  places.columns(x, z);
   const bool digs = structure.edited_lines().has_value();
   const float radius = cell * kEditRadius;
   std::pair<Holes, Holes> all;
@@ -210,33 +147,24 @@ class Structure {
         filing_(run.plan("file", 0.2, {planned_.bytes, planned_.bytes})),
         meshing_(run.plan("mesh", 0.3, {planned_.mesh, std::max(planned_.bytes, 1.0)})),
         build_("build", "s", theory_of(&GrowthTheory::build)),
-        build_faults_("build_faults", "faults", theory_of(&GrowthTheory::build)),
         bytes_("bytes", "B", theory_of(&GrowthTheory::bytes)),
         file_("file", "B", theory_of(&GrowthTheory::bytes)),
         load_("load", "s", theory_of(&GrowthTheory::bytes)),
-        load_faults_("load_faults", "faults", theory_of(&GrowthTheory::bytes)),
         query_("query", "s", theory_of(&GrowthTheory::query)),
         near_("query_near", "s", theory_of(&GrowthTheory::query)),
         ray_("ray", "s", theory_of(&GrowthTheory::ray)),
         ray_near_("ray_near", "s", theory_of(&GrowthTheory::ray)),
         mesh_("mesh", "s", theory_of(&GrowthTheory::mesh)),
-        mesh_faults_("mesh_faults", "faults", theory_of(&GrowthTheory::mesh)),
         edit_("edit", "s", theory_of(&GrowthTheory::edit)),
         edit_cached_("edit_cached", "s", theory_of(&GrowthTheory::edit)),
-        random_(run.seed()) {}
+        numbers_(run.seed()) {}
 
   void measure() {
-    const std::vector<int> sides = run_.sides(solid_);
-    run_.progress().begin(fmt::format("{} over {}", type_.name, solid_ ? "a solid" : "heights"),
-                          sides.size());
-    for (const int side : sides) {
-      measure(side);
-      run_.progress().advance();
-    }
-    run_.progress().end();
+    run_.at_each_side(fmt::format("{} over {}", type_.name, solid_ ? "a solid" : "heights"), solid_,
+                      [this](int side) { measure(side); });
     for (const SizePlan* const plan : {&building_, &filing_, &meshing_}) plan->record(run_.recorder());
-    for (const Cost* const cost : {&build_, &build_faults_, &bytes_, &file_, &load_, &load_faults_, &query_,
-                                   &near_, &ray_, &ray_near_, &mesh_, &mesh_faults_, &edit_, &edit_cached_}) {
+    for (const Cost* const cost : {&build_, &bytes_, &file_, &load_, &query_, &near_, &ray_, &ray_near_,
+                                   &mesh_, &edit_, &edit_cached_}) {
       cost->record(run_.recorder());
     }
   }
@@ -258,7 +186,7 @@ class Structure {
     run_.measured(meshing_, columns, [&] {
       TriangleMesh drawn;
       run_.add_samples(
-          mesh_, mesh_faults_, columns, [&] { drawn = {}; }, [&] { drawn = built->mesh({}); });
+          mesh_, columns, [&] { drawn = {}; }, [&] { drawn = built->mesh({}); });
     });
     if (takes_edits(type_)) dig(*built, side);
   }
@@ -268,7 +196,7 @@ class Structure {
     if (!holes_fit(side)) return;
     const double share = 1 - 2.0 * (kEditRadius + 2) / side;
     const float cell = built.bounds().size().x / static_cast<float>(solid_ ? side : side - 1);
-    for (int turn = 0; turn < kSamples; ++turn) {
+    for (int k = 0; k < kSamples; ++k) {
       const auto [anywhere, cached] = dig_holes(built, cell, places(built, share), run_.caches());
       if (const auto taken = anywhere.seconds()) edit_.add(squared(side), *taken);
       if (const auto taken = cached.seconds()) edit_cached_.add(squared(side), *taken);
@@ -284,23 +212,22 @@ class Structure {
     std::unique_ptr<Representation> built;
     Progress silent;  // a structure's own phases would end the case's
     run_.add_samples(
-        build_, build_faults_, columns, [&] { built.reset(); },
-        [&] { built = type_.build(source, parameters, silent); });
+        build_, columns, [&] { built.reset(); }, [&] { built = type_.build(source, parameters, silent); });
     bytes_.add(columns, static_cast<double>(built->memory().total()));
     return built;
   }
 
   void ask(const Representation& built, int side) {
     const double columns = squared(side), near = std::min(1.0, static_cast<double>(kNear) / side);
-    for (int turn = 0; turn < kSamples; ++turn) {
-      query_.add(columns, seconds_per_query(built, places(built, 1)));
-      near_.add(columns, seconds_per_query(built, places(built, near)));
+    for (int k = 0; k < kSamples; ++k) {
+      query_.add(columns, seconds_per_column(built, places(built, 1)));
+      near_.add(columns, seconds_per_column(built, places(built, near)));
     }
     const std::unique_ptr<RayCaster> caster = built.ray_caster();
     if (!caster) return;
-    for (int turn = 0; turn < kSamples; ++turn) {
-      ray_.add(columns, seconds_per_ray(*caster, built.bounds(), places(built, 1)));
-      ray_near_.add(columns, seconds_per_ray(*caster, built.bounds(), places(built, near)));
+    for (int k = 0; k < kSamples; ++k) {
+      ray_.add(columns, seconds_per_ray(*caster, built.bounds(), places(built, 1), numbers_));
+      ray_near_.add(columns, seconds_per_ray(*caster, built.bounds(), places(built, near), numbers_));
     }
   }
 
@@ -309,11 +236,10 @@ class Structure {
     file_.add(columns, static_cast<double>(save_representation(path, type_, built)));
     std::unique_ptr<Representation> loaded;
     run_.add_samples(
-        load_, load_faults_, columns, [&] { loaded.reset(); },
-        [&] { loaded = load_representation(path).representation; });
+        load_, columns, [&] { loaded.reset(); }, [&] { loaded = load_representation(path).representation; });
   }
 
-  Places places(const Representation& built, double share) { return {built.bounds(), share, random_}; }
+  Places places(const Representation& built, double share) { return {built.bounds(), share, numbers_}; }
 
   const Run& run_;
   bool solid_;
@@ -321,10 +247,9 @@ class Structure {
   std::optional<GrowthTheory> theory_;
   GrowthTheory planned_;
   SizePlan building_, filing_, meshing_;
-  Cost build_, build_faults_, bytes_, file_, load_, load_faults_, query_, near_, ray_, ray_near_, mesh_,
-      mesh_faults_, edit_, edit_cached_;
+  Cost build_, bytes_, file_, load_, query_, near_, ray_, ray_near_, mesh_, edit_, edit_cached_;
   TemporaryFolder folder_;
-  Random random_;
+  Numbers numbers_;
 };
 
 }  // namespace

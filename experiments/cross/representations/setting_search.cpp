@@ -1,4 +1,4 @@
-#include "experiments/cross/representations/fitting.h"
+#include "experiments/cross/representations/setting_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,11 +41,11 @@ Parameters with(Parameters parameters, std::string_view name, std::int64_t setti
 
 }  // namespace
 
-Fitting::Fitting(const Scene& scene, const RepresentationType& type, Progress& progress)
+SettingSearch::SettingSearch(const Scene& scene, const RepresentationType& type, Progress& progress)
     : scene_(scene), type_(type), progress_(progress), parameters_(scene.parameters(type)) {}
 
 // Nothing where the type refuses the setting, or keeps no column whose top could be compared.
-std::optional<Trial> Fitting::attempt(const Parameters& parameters, std::int64_t setting) {
+std::optional<Trial> SettingSearch::attempt(const Parameters& parameters, std::int64_t setting) {
   try {
     const auto built = type_.build(scene_.source, parameters, progress_);
     const Differences found = top_and_volume_differences(*built, scene_.source, scene_.lines);
@@ -60,7 +60,7 @@ std::optional<Trial> Fitting::attempt(const Parameters& parameters, std::int64_t
 
 // For types that choose their settings for a budget. The budget excludes the file's own head, which the first
 // attempt tells.
-std::optional<Fitted> Fitting::within_budget(double budget) {
+std::optional<FoundSetting> SettingSearch::within_budget(double budget) {
   double asked = budget;
   for (int k = 0; k < 2 && asked >= 1; ++k) {
     const auto setting = static_cast<std::int64_t>(std::llround(asked));
@@ -68,7 +68,7 @@ std::optional<Fitted> Fitting::within_budget(double budget) {
     const std::optional<Trial> trial = attempt(parameters, setting);
     if (!trial) return {};
     const double excess = static_cast<double>(trial->file_bytes) - budget;
-    if (excess <= 0) return Fitted{parameters, *trial};
+    if (excess <= 0) return FoundSetting{parameters, *trial};
     asked = budget - excess;
   }
   return {};
@@ -76,8 +76,8 @@ std::optional<Fitted> Fitting::within_budget(double budget) {
 
 // Bytes grow about as the square of the columns; their square root is searched, because search_knob() expects
 // an error proportional to the knob. Its finest end is here the fewest columns, whose file is the smallest.
-std::optional<Fitted> Fitting::finest_within(double budget) {
-  std::optional<Fitted> best;
+std::optional<FoundSetting> SettingSearch::finest_within(double budget) {
+  std::optional<FoundSetting> best;
   const double most = most_columns(scene_);
   const double own = scene_.source.heights ? most : static_cast<double>(scene_.options.resolution);
   const double guess = std::round(own * std::sqrt(budget / static_cast<double>(scene_.heightmap_bytes))),
@@ -91,44 +91,44 @@ std::optional<Fitted> Fitting::finest_within(double budget) {
     if (!trial) return -std::numeric_limits<double>::infinity();
     const auto bytes = static_cast<double>(trial->file_bytes);
     if (bytes <= budget && (!best || trial->file_bytes > best->trial.file_bytes)) {
-      best = Fitted{parameters, *trial};
+      best = FoundSetting{parameters, *trial};
     }
     return std::sqrt(bytes);
   });
   return best;
 }
 
-std::optional<Fitted> Fitting::for_bytes(double budget) {
+std::optional<FoundSetting> SettingSearch::for_bytes(double budget) {
   if (has("budget_bytes")) return within_budget(budget);
   return has("resolution") ? finest_within(budget) : std::nullopt;
 }
 
-std::optional<Fitted> Fitting::drills_for_error(double rmse) {
+std::optional<FoundSetting> SettingSearch::drills_for_error(double rmse) {
   constexpr double kNoLimit = 1e12;  // bytes
   Parameters parameters = parameters_;
   parameters.set("max_rmse", rmse);
   const std::optional<Trial> trial = attempt(parameters, 0);
   if (!trial) attempt(with(parameters_, "budget_bytes", static_cast<std::int64_t>(kNoLimit)), 0);
   // On a solid the drills' own error is that of the columns, to which that of sampling them is added.
-  return trial && trial->rmse <= rmse ? std::optional(Fitted{parameters, *trial}) : std::nullopt;
+  return trial && trial->rmse <= rmse ? std::optional(FoundSetting{parameters, *trial}) : std::nullopt;
 }
 
-std::optional<Fitted> Fitting::coarsest_for_error(double rmse) {
-  std::optional<Fitted> best;
+std::optional<FoundSetting> SettingSearch::coarsest_for_error(double rmse) {
+  std::optional<FoundSetting> best;
   const Tuned tuned = search_knob(resolution_knob(scene_), rmse, [&](double value) {
     const auto setting = static_cast<std::int64_t>(value);
     const Parameters parameters = scene_.parameters(type_, setting);
     const std::optional<Trial> trial = attempt(parameters, setting);
     if (!trial) return std::numeric_limits<double>::infinity();
     if (trial->rmse <= rmse && (!best || trial->file_bytes < best->trial.file_bytes)) {
-      best = Fitted{parameters, *trial};
+      best = FoundSetting{parameters, *trial};
     }
     return trial->rmse;
   });
   return tuned.reached ? best : std::nullopt;
 }
 
-std::optional<Fitted> Fitting::for_error(double rmse) {
+std::optional<FoundSetting> SettingSearch::for_error(double rmse) {
   if (has("max_rmse")) return drills_for_error(rmse);
   return has("resolution") ? coarsest_for_error(rmse) : std::nullopt;
 }

@@ -1,9 +1,24 @@
-// Gives timed work memory that it can use without page faults.
+// What timed work finds in memory: caches that hold nothing of it, and pages that are there already.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 
 namespace terrabench::cross {
+
+// Evicts what the processor's caches hold, so that timed work starts with cold caches.
+class ColdCaches {
+ public:
+  ColdCaches();
+  // Writes to a block of twice the size of the largest cache that Linux reports, but of 64 to 256 MiB. A
+  // cache of more than 256 MiB would keep a part of its data. Writing 64 MiB takes about 10 ms.
+  void evict() const;
+
+ private:
+  std::size_t bytes_;
+  std::unique_ptr<char[]> block_;
+};
 
 // While it lives, the process keeps the memory that is freed, and uses it again without page faults. By
 // default glibc keeps more of it the larger the blocks are that were freed before, so the number of faults

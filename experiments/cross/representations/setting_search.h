@@ -25,24 +25,24 @@ struct Trial {
   double rmse = 0, volume_error = 0;  // of tops, metres; 1 - IoU, 0 where neither has volume
 };
 
-struct Fitted {
+struct FoundSetting {
   Parameters parameters;
   Trial trial;
 };
 
-class Fitting {
+class SettingSearch {
  public:
   // Keeps references.
-  Fitting(const Scene&, const RepresentationType&, Progress&);
+  SettingSearch(const Scene&, const RepresentationType&, Progress&);
 
   // The setting found whose file takes the most bytes, at most `budget`; nothing if there is none; trials()
   // then has the smallest file found. A resolution at which the type cannot hold the ground counts as too
   // coarse. About five builds, for drills one or two.
-  std::optional<Fitted> for_bytes(double budget);
+  std::optional<FoundSetting> for_bytes(double budget);
   // The coarsest setting found whose error is at most `rmse` metres, which is above 0; nothing if the finest
   // setting exceeds it, or the coarsest stays below. About eight builds. Drills that cannot are tried once
   // more for their least error.
-  std::optional<Fitted> for_error(double rmse);
+  std::optional<FoundSetting> for_error(double rmse);
 
   // All settings tried so far at which the type held the ground, in order.
   std::span<const Trial> trials() const { return trials_; }
@@ -50,10 +50,10 @@ class Fitting {
  private:
   bool has(std::string_view parameter) const { return parameters_.has(parameter); }
   std::optional<Trial> attempt(const Parameters&, std::int64_t setting);
-  std::optional<Fitted> within_budget(double budget);
-  std::optional<Fitted> finest_within(double budget);
-  std::optional<Fitted> drills_for_error(double rmse);
-  std::optional<Fitted> coarsest_for_error(double rmse);
+  std::optional<FoundSetting> within_budget(double budget);
+  std::optional<FoundSetting> finest_within(double budget);
+  std::optional<FoundSetting> drills_for_error(double rmse);
+  std::optional<FoundSetting> coarsest_for_error(double rmse);
 
   const Scene& scene_;
   const RepresentationType& type_;
