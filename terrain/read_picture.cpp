@@ -6,12 +6,14 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "terrain/error.h"
 #include "terrain/files.h"
 #include "terrain/grey_image.h"
 #include "terrain/memory.h"
+#include "terrain/webp.h"
 
 namespace terrabench {
 namespace {
@@ -23,8 +25,8 @@ constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28;
 // one converts nothing but the number of bits.
 class Decoder {
  public:
-  Decoder(const std::filesystem::path& path, int bits)
-      : path_(path.string()), bytes_(read_file(path, kLargestFile)) {
+  Decoder(const std::filesystem::path& path, std::string bytes, int bits)
+      : path_(path.string()), bytes_(std::move(bytes)) {
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, fail, ignore);
     info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
     if (info_ == nullptr) {
@@ -131,8 +133,10 @@ std::uint16_t luma(const std::array<std::uint32_t, 3>& c) {
 
 }  // namespace
 
-Image read_png(const std::filesystem::path& path) {
-  const Decoder png(path, 8);
+Image read_picture(const std::filesystem::path& path) {
+  std::string bytes = read_file(path, kLargestFile);
+  if (is_webp(bytes)) return decode_webp(bytes, path.string());
+  const Decoder png(path, std::move(bytes), 8);
   Image image(png.width, png.height, {255, 255, 255});
   for (std::size_t i = 0; i < image.rgb.size() / 3; ++i) {
     const auto colour = over_white(png.pixels<std::uint8_t>(), i, png.channels);
@@ -142,7 +146,7 @@ Image read_png(const std::filesystem::path& path) {
 }
 
 GreyImage read_grey_png(const std::filesystem::path& path) {
-  const Decoder png(path, 16);
+  const Decoder png(path, read_file(path, kLargestFile), 16);
   GreyImage image{png.width, png.height, {}};
   image.values.resize(static_cast<std::size_t>(png.width) * static_cast<std::size_t>(png.height));
   for (std::size_t i = 0; i < image.values.size(); ++i) {
