@@ -47,12 +47,11 @@ void Recorder::add_ratio(std::string_view metric, double numerator, double denom
   add(metric, "", numerator / denominator);
 }
 
-FigureFile Recorder::figure(std::string_view id, std::string_view extension, std::string_view caption) {
+FigureFile Recorder::figure(std::string_view id, std::string_view caption) {
   // Another profile, or a case with overridden parameters, draws a different picture under the same claim
   // id: it must not overwrite the first.
   const std::string variant = record_.overrides.empty() ? "" : "-" + checksum(record_.case_name).substr(0, 8);
-  RecordedFigure figure{std::string(id),
-                        fmt::format("figures/{}.{}{}.{}", id, record_.profile, variant, extension),
+  RecordedFigure figure{std::string(id), fmt::format("figures/{}.{}{}.webp", id, record_.profile, variant),
                         std::string(caption)};
   const std::filesystem::path path = folder_ / figure.file;
   record_.figures.push_back(std::move(figure));

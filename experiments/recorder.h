@@ -26,9 +26,9 @@ class Recorder {
   // Adds numerator ÷ denominator; if the denominator is 0, records that it is undefined and why.
   void add_ratio(std::string_view metric, double numerator, double denominator,
                  std::string_view why_undefined);
-  // Declares a picture of a claim; returns where to write it and say what it contains, as long as the
-  // recorder lives. `extension` without the dot.
-  FigureFile figure(std::string_view id, std::string_view extension, std::string_view caption);
+  // Declares a picture of a claim; returns where to write it, as WebP, and say what it contains, as long as
+  // the recorder lives.
+  FigureFile figure(std::string_view id, std::string_view caption);
   // Records the ground that was measured. The overload for a temporary returns it.
   void terrain(const TerrainSource& source) { terrain(source.name, source.checksum, source.notes); }
   TerrainSource terrain(TerrainSource&& source) {

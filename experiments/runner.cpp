@@ -42,11 +42,11 @@ std::string renderer_name(const std::string& context) {
 
 // What the picture is and contains. One that was drawn without a sheet is a single panel.
 void describe(const std::filesystem::path& folder, RecordedFigure& figure) {
-  const std::filesystem::path file = folder / figure.file;
-  figure.checksum = checksum(read_file(file));
+  const std::string bytes = read_file(folder / figure.file);
+  figure.checksum = checksum(bytes);
   if (figure.layout != FigureLayout()) return;
-  const Image image = read_png(file);
-  figure.layout.panels = {{0, 0, image.width, image.height}};
+  const auto [width, height] = picture_size(bytes, figure.file);
+  figure.layout.panels = {{0, 0, width, height}};
 }
 
 std::vector<std::pair<std::string, Value>> values(const Parameters& parameters) {

@@ -16,8 +16,8 @@ struct GreyImage {
 // Luma of BT.601, which gives a grey pixel its own value.
 GreyImage grey(const Image&);
 
-// Any PNG; transparent pixels become white. As in read_png(), numbers are taken as they are stored: gamma and
-// colour profiles, which say how bright a screen shows them, change nothing. Throws bad_input.
+// Any PNG; transparent pixels become white. As in read_picture(), numbers are taken as they are stored: gamma
+// and colour profiles, which say how bright a screen shows them, change nothing. Throws bad_input.
 GreyImage read_grey_png(const std::filesystem::path&);
 
 }  // namespace terrabench

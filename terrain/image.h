@@ -1,10 +1,11 @@
-// 8-bit RGB pictures in memory and as PNG.
+// 8-bit RGB pictures in memory, as PNG and as WebP.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 namespace terrabench {
@@ -21,18 +22,13 @@ struct Image {
   void set(int x, int y, Rgb);
 };
 
-// The same picture in at most `most` colours chosen for it: as PNG, 256 colours take a third of the bytes.
-// Flat areas keep their colour. O(pixels · log pixels + colours · most).
-Image with_few_colours(Image image, int most = 256);
-
-// A PNG file's bytes; with a palette if 256 colours suffice and that is smaller. Throws environment_error if
-// the picture cannot be encoded.
+// A PNG file's bytes. Throws environment_error if the picture cannot be encoded.
 std::vector<std::byte> png_of(const Image&);
-// The same as a file, written whole or not at all, as by write_file().
-void write_png(const std::filesystem::path&, const Image&);
-// Width and height, from the file's header alone. Throws bad_input.
-std::array<int, 2> png_size(const std::filesystem::path&);
-// Any PNG, converted to RGB; transparent pixels become white. Throws bad_input.
-Image read_png(const std::filesystem::path&);
+// Writes WebP if the name ends in .webp (webp.h), otherwise PNG; whole or not at all, as write_file() does.
+void write_picture(const std::filesystem::path&, const Image&);
+// Width and height, from the header of a PNG or WebP file with these bytes. Throws bad_input.
+std::array<int, 2> picture_size(std::string_view bytes, std::string_view origin);
+// Any PNG or WebP, converted to RGB; transparent pixels become white. Throws bad_input.
+Image read_picture(const std::filesystem::path&);
 
 }  // namespace terrabench

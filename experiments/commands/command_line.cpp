@@ -162,7 +162,7 @@ void add_results(CLI::App& app, Arguments& a) {
       "--latex", a.report.latex,
       "Write this folder instead: tables, plots and pictures for a paper, which `latexmk -pdf` compiles "
       "(Debian: latexmk, texlive-latex-recommended, lmodern). Plots are PDF, a column (84 mm) "
-      "and a page (174 mm) wide; pictures are PNG as drawn");
+      "and a page (174 mm) wide; pictures are PNG");
   report
       ->add_option(
           "--reference", a.report.reference,
@@ -174,9 +174,9 @@ void add_results(CLI::App& app, Arguments& a) {
       "compare",
       "Compare two results folders, metric by metric: exact figures on any machines, "
       "times within one kind of machine, with confidence intervals, and pictures. Also "
-      "two folders of PNG files. Exits with 1 if exact figures or pictures differ, with 3 if "
+      "two folders of PNG and WebP files. Exits with 1 if exact figures or pictures differ, with 3 if "
       "the folders have nothing in common");
-  compare->add_option("a", a.compare.before, "Results folder, or folder of PNG files")->required();
+  compare->add_option("a", a.compare.before, "Results folder, or folder of pictures")->required();
   compare->add_option("b", a.compare.after, "The same")->required();
   compare->add_option("--psnr", a.compare.limits.psnr, "Pictures differ below this PSNR, dB")
       ->check(CLI::Range(0.0, 1000.0))

@@ -254,7 +254,7 @@ Painted paint(const RenderArguments& a, const std::vector<Shot>& shots, Painter&
         if (shots.size() == 1) refuse_empty(shot.view, bounds_of(field));
         painted.empty.push_back(&shot);
       }
-      write_png(shot.file, picture);
+      write_picture(shot.file, picture);
     }
     progress.advance();
   }

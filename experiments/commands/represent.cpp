@@ -144,14 +144,14 @@ void draw(const RepresentArguments& a, const Representation& built, Bounds bound
   if (a.renderer == kRaytrace) {
     const RayScene scene = relief_scene(mesh, bounds.low.y, bounds.high.y);
     const Stopwatch watch;
-    write_png(a.render, raytrace(scene, view, {.samples = a.samples}, {}, &progress));
+    write_picture(a.render, raytrace(scene, view, {.samples = a.samples}, {}, &progress));
     fmt::print("rendered    {} ({} triangles, Embree {}, {} samples per pixel in {:.3g} s)\n", a.render,
                mesh.triangles(), RayIndex::embree_version(), a.samples, watch.seconds());
     return;
   }
   const auto context = open_context(a.renderer, view.width, view.height);
-  write_png(a.render,
-            render_relief(*context, mesh, view, {.lowest = bounds.low.y, .highest = bounds.high.y}));
+  write_picture(a.render,
+                render_relief(*context, mesh, view, {.lowest = bounds.low.y, .highest = bounds.high.y}));
   fmt::print("rendered    {} ({} triangles, {})\n", a.render, mesh.triangles(), context->renderer());
 }
 

@@ -177,7 +177,6 @@ figures::Sheet cross_sections_sheet(const Study& study, std::uint32_t pixel) {
   const Heightfield& ground = study.ground;
   const Profiles shown(ground, pixel);
   figures::Sheet sheet(984, 540);
-  sheet.keep_all_colours();
   sheet.text(kLeft, kTop - 12,
              fmt::format("(a) planes of cross-sections, every tenth of {}, w = {}", CrossSections::kRays, kW),
              13);
@@ -221,7 +220,7 @@ void draw_cross_sections(const Study& study, Recorder& recorder) {
   record_profiles(Profiles(study.ground, pixel), study.ground, pixel, recorder);
   cross_sections_sheet(study, pixel)
       .write(recorder.figure(
-          "drill.F2" + study.suffix, "png",
+          "drill.F2" + study.suffix,
           fmt::format("The paper's figure 2, at one channel pixel of {}: (a) every tenth plane of the {} "
                       "cross-sections, (b) the elevations along all of them, coloured by direction, "
                       "with their union and the three fits to it.",

@@ -150,7 +150,7 @@ void draw_channels(const Study& study, Recorder& recorder) {
   recorder.add("drawn_channels_low_share", "", seen.low_share);
   recorder.add("ground_low_share", "", seen.low_share_of_ground);
   drawn.sheet.write(recorder.figure(
-      "drill.F1" + study.suffix, "png",
+      "drill.F1" + study.suffix,
       fmt::format("The paper's figure 1: channel networks at four thresholds τ over the shaded relief of {}, "
                   "{} × {} samples. Each channel pixel is drawn. "
                   "Elevations run from blue, the lowest, over green and brown to white.",
@@ -202,13 +202,13 @@ void draw_best(const Study& study, const Outcome& least_rmse, const Outcome& lea
     add_share(recorder, fmt::format("drawn_{}_untouched", panel), outcome.untouched);
   }
   sheets.terrains.write(recorder.figure(
-      "drill.F3" + study.suffix, "png",
+      "drill.F3" + study.suffix,
       fmt::format("The paper's figure 3: {} regenerated, {}: (a) with the parameters of least RMSE, "
                   "(b) with those of least AHD (the mean in plan). "
                   "Where no drill reaches, the plateau remains.",
                   study.name, study.variant.words)));
   sheets.differences.write(recorder.figure(
-      "drill.difference" + study.suffix, "png",
+      "drill.difference" + study.suffix,
       fmt::format("The difference of figure 3's two terrains from {}, over its shaded relief. "
                   "Blue is too low, red too high.",
                   study.name)));

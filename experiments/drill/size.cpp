@@ -131,7 +131,7 @@ void draw_rate_distortion(const TerrainSource& source, const FlowNetwork& networ
   if (height_range(ground).lowest == height_range(ground).highest) return;
   figures::write_chart(
       recorder.figure(
-          "drill.rate-distortion" + suffix, "png",
+          "drill.rate-distortion" + suffix,
           fmt::format("Bits per sample against error for {}: drills of each fit in their own file "
                       "format, with w = 10 and the best k at seven thresholds, "
                       "and the same ground in other codecs.",

@@ -254,7 +254,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   if (!(range.highest > range.lowest)) return;  // flat ground has no error to colour
   sweep_sheet(sweeps, kFits)
       .write(recorder.figure(
-          "drill.sweep" + figures::ground_suffix(at.terrain, kMainGround), "png",
+          "drill.sweep" + figures::ground_suffix(at.terrain, kMainGround),
           fmt::format(
               "RMSE ÷ range of elevations over w and k at τ = 25 on {} × {} samples of {}, for each fit. "
               "Colours are linear from the least error; four times it and more are red.",

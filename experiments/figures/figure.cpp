@@ -18,7 +18,7 @@ void draw_figure(std::span<const Figure> figures, std::string_view paper, const 
   recorder.add("figure", "", figure.number);
   Drawing drawing(options, &recorder);
   const Sheet sheet = figure.draw(drawing);
-  sheet.write(recorder.figure(fmt::format("{}.{}", paper, figure.name), "png",
+  sheet.write(recorder.figure(fmt::format("{}.{}", paper, figure.name),
                               fmt::format("Figure {} of the paper: {}", figure.number, figure.caption)));
 }
 

@@ -41,7 +41,7 @@ struct Figure {
   Sheet (*draw)(Drawing&);
 };
 
-// Draws the case's figure as "PAPER.NAME.png", and records its number as the metric "figure".
+// Draws the case's figure as "PAPER.NAME", and records its number as the metric "figure".
 void draw_figure(std::span<const Figure>, std::string_view paper, const Case&, const RunOptions&, Recorder&);
 
 using PanelRows = std::vector<std::vector<Panel>>;  // rows are not empty

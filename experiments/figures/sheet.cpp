@@ -162,14 +162,12 @@ std::string Sheet::svg() const {
 }
 
 void Sheet::write(const FigureFile& file) const {
-  svg_text_to_png(svg(), file.path, kPixels * width_, colours_);
-  file.contains(layout_);
+  file.contains(with_repeats(layout_, write_svg(svg(), file.path, kPixels * width_)));
 }
 
 void write_chart(const FigureFile& file, const Plot& plot, int width) {
   const std::string svg = plot_svg(plot);
-  svg_text_to_png(svg, file.path, width);
-  const Image image = read_png(file.path);
+  const Image image = write_svg(svg, file.path, width);
   file.contains({{{0, 0, image.width, image.height}}, words_of(svg)});
 }
 

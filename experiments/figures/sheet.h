@@ -55,10 +55,8 @@ class Sheet {
   void colour_bar(double x, double y, double width, const std::function<Rgb(double)>& colour,
                   std::span<const Tick> ticks);
   std::string svg() const;
-  // For sheets with rendered landscapes, whose smooth skies need all colours; other sheets have at most 256.
-  void keep_all_colours() { colours_ = Colours::kAll; }
   const FigureLayout& layout() const { return layout_; }
-  // Writes a PNG. Throws environment_error.
+  // Throws as write_svg().
   void write(const FigureFile&) const;
 
  private:
@@ -69,13 +67,12 @@ class Sheet {
   void rays(SheetPoint centre, double radius, int count, double first, Rgb colour);
 
   int width_, height_;
-  Colours colours_ = Colours::kFew;
   std::string body_;
   FigureLayout layout_;
 };
 
 // Writes a chart: a figure of one panel, with the words that the chart shows. `width` is in pixels. Throws
-// like plot_svg() and svg_text_to_png().
+// as plot_svg() and write_svg().
 void write_chart(const FigureFile&, const Plot&, int width);
 
 // A picture with its words.

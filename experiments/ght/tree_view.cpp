@@ -152,8 +152,7 @@ Image draw_wires(GlContext& gl, const TreeSurface& surface, const View& view) {
   Scene scene;
   scene.meshes.push_back(figures::wired(ground, ground_wires, 0.9F, kGroundWire));
   scene.meshes.push_back(figures::wired(made, made_wires, 1.1F, kColours[1]));
-  return with_few_colours(render_scene(gl, scene, view),
-                          32);  // enough for two colours of lines: a smaller file
+  return render_scene(gl, scene, view);
 }
 
 }  // namespace

@@ -96,13 +96,14 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
   recorder.add("triangles", "", static_cast<double>(painter.update(view).stats.triangles));
   recorder.add("strands", "", static_cast<double>(painter.strands()));
-  write_png(recorder
-                .figure("hybrid.hero", "png",
-                        "Noise terrain made as in the paper: an arch over water, in a landscape that ends in "
-                        "the sky. The ground near the eye is an implicit surface with grass, the ground "
-                        "beyond a clipmap")
-                .path,
-            painter.draw(view, 3));
+  write_picture(
+      recorder
+          .figure("hybrid.hero",
+                  "Noise terrain made as in the paper: an arch over water, in a landscape that ends in "
+                  "the sky. The ground near the eye is an implicit surface with grass, the ground "
+                  "beyond a clipmap")
+          .path,
+      painter.draw(view, 3));
 }
 
 }  // namespace

@@ -119,7 +119,6 @@ Sheet draw_dudv(Drawing& drawing) {
 
 Sheet landscape_sheet(const PanelRows& rows) {
   Sheet sheet = panel_sheet(rows);
-  sheet.keep_all_colours();
   return sheet;
 }
 

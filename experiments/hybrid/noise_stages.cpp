@@ -152,7 +152,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
                         format_number(found.floating_volume / depth));
   }
   sheet_of(image, stage, terrain.extent, words)
-      .write(recorder.figure(fmt::format("hybrid.F{}", stage.figure), "png",
+      .write(recorder.figure(fmt::format("hybrid.F{}", stage.figure),
                              fmt::format("Figure {} of the paper: {}. Vertical slice of {} m × {} m",
                                          stage.figure, stage.name, terrain.extent, terrain.extent)));
 }

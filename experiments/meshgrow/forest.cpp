@@ -247,7 +247,7 @@ void measure_lazy(const Case& at, const RunOptions& options, Recorder& recorder,
       {{{picture.image(),
          fmt::format("{} trees and bushes", format_count(forest->plants().instances().size()))}}});
   sheet.write(recorder.figure(
-      "meshgrow.lazy-forest", "png",
+      "meshgrow.lazy-forest",
       fmt::format(
           "A forest of {} quaking aspens, tamaracks, California black oaks and young black tupelos of {} "
           "faces in total, of which {} were expanded",

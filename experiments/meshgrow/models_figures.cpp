@@ -296,8 +296,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("figure", "", figure.number);
   recorder.add("triangles", "", static_cast<double>(mesh.mesh.triangles()));
   figures::Sheet sheet = figures::panel_sheet({std::move(panels)});
-  sheet.keep_all_colours();
-  sheet.write(recorder.figure(fmt::format("meshgrow.{}", figure.name), "png",
+  sheet.write(recorder.figure(fmt::format("meshgrow.{}", figure.name),
                               fmt::format("Figure {} of the paper: {}", figure.number, figure.caption)));
 }
 

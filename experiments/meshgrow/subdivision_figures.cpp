@@ -158,7 +158,6 @@ Sheet draw_fractal(Drawing& drawing) {
     }
   }
   Sheet sheet = panel_sheet(rows);
-  sheet.keep_all_colours();
   return sheet;
 }
 

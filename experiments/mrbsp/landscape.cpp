@@ -118,7 +118,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   }
   recorder.add("mountain_samples_moved", "", moved);
   landscape_sheet(picture, land, options)
-      .write(recorder.figure("mrbsp.landscape", "png",
+      .write(recorder.figure("mrbsp.landscape",
                              "The paper's section 1: a drawing of grey clouds with lightened ridges "
                              "and a river and a lake in black, and the ground made from it."));
 }

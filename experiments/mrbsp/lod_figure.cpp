@@ -131,7 +131,7 @@ class LodPicture {
     scene.lowest = range.lowest;
     scene.highest = range.highest;
     scene.meshes = {{.mesh = &mesh, .wire_width = 2}};
-    Image image = with_few_colours(render_scene(*context_, scene, view_));
+    Image image = render_scene(*context_, scene, view_);
     for (std::size_t k = 0; k < numbers_.size(); ++k) {
       if (is_hole(numbers_[k]))
         std::ranges::copy(kHole, image.rgb.begin() + static_cast<std::ptrdiff_t>(3 * k));
@@ -229,7 +229,7 @@ void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progres
   recorder.add("threshold_at_right_angle", "", drawn.threshold_at_right_angle);
   recorder.add("threshold_beside", "", drawn.threshold_beside);
   drawn.sheet.write(recorder.figure(
-      "mrbsp.F1", "png",
+      "mrbsp.F1",
       "Figure 1 of the paper, on real mountains: triangles of level of detail, with thresholds at vertices, "
       "(a) without and (b) with the extra step. Pixels that look through a hole are magenta. "
       "T needs the step, since the threshold at its right angle alone is lower; "

@@ -53,12 +53,12 @@ void measure(const Case&, const RunOptions& options, Recorder& recorder, Progres
   recorder.add("drawn_cells", "", drawn.cells);
   recorder.add("drawn_dark_cells", "", drawn.dark_cells);
   drawn.sheet.write(recorder.figure(
-      "mrbsp.F2", "png",
+      "mrbsp.F2",
       "Figure 2 of the paper: fine segments (black) and coarse ones (grey), "
       "with their numbers in the tree, and cells. Cells next to a change of visibility are dark, "
       "with the coarse segments that change."));
   table_sheet(table1(), steps)
-      .write(recorder.figure("mrbsp.T1", "png",
+      .write(recorder.figure("mrbsp.T1",
                              "Table 1 of the paper, cell-to-cell changes in visibility, beside those that we "
                              "compute on figure 2's profile extruded sideways, by triangles that face an eye "
                              "at a corner of the cell. Coarse changes are as stored, fine ones as drawn."));

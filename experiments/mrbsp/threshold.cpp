@@ -81,7 +81,7 @@ void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress& pr
     recorder.add("size_far_" + name, "pixels", points.back().y);
   }
   figures::write_chart(
-      recorder.figure("mrbsp.threshold", "png",
+      recorder.figure("mrbsp.threshold",
                       "The paper's section 3: apparent size of triangles against distance, on level ground, "
                       "by the printed formula, which is to keep it, and by the one for halved areas. "
                       "S is 16 short sides of the finest triangles; 800 × 600 pixels, 40° wide. "

@@ -86,15 +86,15 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const Bounds ground = source.bounds();  // the same colours for every representation of it
   const Image image = render_relief(*context, mesh, view, {.lowest = ground.low.y, .highest = ground.high.y});
   const std::string id = fmt::format("relief.{}.{}", file_name(at.terrain), type.name);
-  write_png(
+  write_picture(
       recorder
-          .figure(id, "png",
+          .figure(id,
                   fmt::format(
                       "{} as {}: {} triangles, from {:.0f} m (dark) to {:.0f} m (light), sun from the "
                       "north-west, view from the south",
                       source.name, type.label, format_count(mesh.triangles()), ground.low.y, ground.high.y))
           .path,
-      with_few_colours(image));
+      image);
 }
 
 }  // namespace

@@ -161,7 +161,7 @@ class Reader {
   std::pair<bool, std::string> inspect(const Condition& condition, const RecordedFigure& figure) const {
     const std::string& name = figure.file;
     try {
-      const Image image = read_png(store_.path_of(name));
+      const Image image = read_picture(store_.path_of(name));
       if (!store_.intact(figure)) return {false, name + " is not the picture that was drawn"};
       const FigureLayout whole = whole_of(image);
       if (!layout_fault(whole, image).empty()) return {false, name + " is blank"};

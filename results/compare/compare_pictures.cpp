@@ -55,22 +55,32 @@ Pictures recorded(const Store& store) {
   return pictures;
 }
 
-bool is_png_name(const fs::path& file) {
+bool is_picture_name(const fs::path& file) {
   std::string ending = file.extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending == ".png";
+  return ending == ".png" || ending == ".webp";
+}
+
+// The file's name in the other folder, where the picture may have been written in another form.
+std::string twin(const std::string& file, const Pictures& other) {
+  if (other.checksums.contains(file)) return file;
+  for (const char* ending : {".webp", ".png"}) {
+    const std::string name = fs::path(file).replace_extension(ending).string();
+    if (other.checksums.contains(name)) return name;
+  }
+  return "";
 }
 
 Pictures found_in(const fs::path& folder) {
   Pictures pictures{folder, nullptr, {}};
   try {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-      if (entry.is_regular_file() && is_png_name(entry.path()))
+      if (entry.is_regular_file() && is_picture_name(entry.path()))
         pictures.checksums[entry.path().lexically_relative(folder).string()];
     }
   } catch (const fs::filesystem_error& error) {
     throw bad_input(fmt::format("cannot be read: {}", error.code().message()), folder.string(),
-                    "name a results folder, or a folder of PNG files");
+                    "name a results folder, or a folder of pictures");
   }
   return pictures;
 }
@@ -110,14 +120,14 @@ std::optional<Pair> settle(const Pictures& before, const Pictures& after, Compar
   std::optional<Pair> pair;
   or_not_compared(result, [&] {
     const std::string bytes_before = content(before, result.file, "before"),
-                      bytes_after = content(after, result.file, "after");
+                      bytes_after = content(after, result.file_after, "after");
     if (bytes_before == bytes_after) {
       result.change = PictureChange::kIdentical;
       return;
     }
-    const fs::path path_before = before.path_of(result.file), path_after = after.path_of(result.file);
-    const auto [width, height] = result.size = png_size(path_before);
-    const auto [width_after, height_after] = png_size(path_after);
+    const fs::path path_before = before.path_of(result.file), path_after = after.path_of(result.file_after);
+    const auto [width, height] = result.size = picture_size(bytes_before, path_before.string());
+    const auto [width_after, height_after] = picture_size(bytes_after, path_after.string());
     if (width != width_after || height != height_after) {
       result.reason =
           fmt::format("{} × {} pixels before, {} × {} after", width, height, width_after, height_after);
@@ -133,7 +143,7 @@ std::optional<Pair> settle(const Pictures& before, const Pictures& after, Compar
 void decode(const Pair& pair, const PictureLimits& limits) {
   ComparedPicture& result = *pair.result;
   or_not_compared(result, [&] {
-    const Image before = read_png(pair.before), after = read_png(pair.after);
+    const Image before = read_picture(pair.before), after = read_picture(pair.after);
     result.psnr = psnr(before, after);
     result.ssim = ssim(before, after);
     result.differing = differing_pixels(before, after);
@@ -146,11 +156,12 @@ PictureComparison compare_all(const Pictures& before, const Pictures& after, con
   PictureComparison comparison{limits, {}};
   std::vector<ComparedPicture>& pictures = comparison.pictures;
   for (const auto& [file, checksum] : before.checksums) {
-    const bool both = after.checksums.contains(file);
-    pictures.push_back({file, both ? PictureChange::kNotCompared : PictureChange::kOnlyBefore});
+    std::string other = twin(file, after);
+    const auto change = other.empty() ? PictureChange::kOnlyBefore : PictureChange::kNotCompared;
+    pictures.push_back({.file = file, .file_after = std::move(other), .change = change});
   }
   for (const auto& [file, checksum] : after.checksums) {
-    if (!before.checksums.contains(file)) pictures.push_back({file, PictureChange::kOnlyAfter});
+    if (twin(file, before).empty()) pictures.push_back({.file = file, .change = PictureChange::kOnlyAfter});
   }
   std::vector<Pair> beside, alone;
   for (ComparedPicture& picture : pictures) {
@@ -200,9 +211,9 @@ PictureComparison compare_pictures(const fs::path& before, const fs::path& after
                                    const PictureLimits& limits) {
   PictureComparison comparison = compare_all(found_in(before), found_in(after), limits);
   if (std::ranges::all_of(comparison.pictures, one_sided)) {
-    throw bad_input("no results, and no PNG files of the same names",
+    throw bad_input("no results, and no pictures of the same names",
                     fmt::format("{} and {}", before.string(), after.string()),
-                    "name two results folders, or two folders of PNG files with the same names");
+                    "name two results folders, or two folders of PNG or WebP files with the same names");
   }
   return comparison;
 }

@@ -1,5 +1,6 @@
-// Compares the pictures of two results folders, or of any two folders of PNG files: whether they are the same
-// file, and if not, by PSNR and SSIM (terrain/metrics/image_error.h). Plots and previews of a report are not
+// Compares the pictures of two results folders, or of any two folders of PNG and WebP files: whether they are
+// the same file, and if not, by PSNR and SSIM (terrain/metrics/image_error.h). A PNG file and a WebP file of
+// one name are two files of one picture. Plots and previews of a report are not
 // among them: `report` makes them anew from the records and the pictures.
 #pragma once
 
@@ -30,7 +31,8 @@ enum class PictureChange {
 std::string_view name(PictureChange);
 
 struct ComparedPicture {
-  std::string file;  // relative to both folders
+  std::string file;             // relative to the folder before, or after if only there
+  std::string file_after = {};  // of both: relative to the folder after
   PictureChange change = PictureChange::kNotCompared;
   std::string reason = "";       // why it was not compared
   std::array<int, 2> size = {};  // width and height; of kDiffers and kClose, as the rest
@@ -51,8 +53,8 @@ struct PictureComparison {
 // of pictures per thread, or one pair of more than 4 million pixels. Throws environment_error when memory
 // does not suffice for such a pair.
 PictureComparison compare_pictures(const Store& before, const Store& after, const PictureLimits& = {});
-// All *.png of both folders and of the folders in them. Throws bad_input when the folders have none of the
-// same name.
+// All *.png and *.webp of both folders and of the folders in them. Throws bad_input when the folders have
+// none of the same name.
 PictureComparison compare_pictures(const std::filesystem::path& before, const std::filesystem::path& after,
                                    const PictureLimits& = {});
 

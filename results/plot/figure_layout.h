@@ -21,6 +21,9 @@ struct FigurePanel {
 struct FigureLayout {
   std::vector<FigurePanel> panels;  // colour keys are none
   std::vector<std::string> words;   // every text on the sheet, in the order drawn
+  // Panels that show the same, from 1: of each such panel the first that shows it and its own number. Taken
+  // from the picture as it was drawn, since two parts of a WebP file with losses are never the same.
+  std::vector<int> repeats = {};
   bool operator==(const FigureLayout&) const = default;
 };
 
@@ -31,9 +34,11 @@ struct FigureFile {
   std::function<void(const FigureLayout&)> contains = [](const FigureLayout&) {};
 };
 
+// The layout with `repeats` as this picture has them. O(panels² · pixels of a panel)
+FigureLayout with_repeats(FigureLayout, const Image&);
 // Why the picture does not look as the layout says; empty if it does: each panel lies within the picture and
-// shows something, and no two panels show the same, except those of `alike` (from 1).
-// O(pixels + panels² · pixels of a panel)
+// shows something that the eye can see, and no panel repeats another, except those of `alike` (from 1).
+// O(pixels)
 std::string layout_fault(const FigureLayout&, const Image&, std::span<const int> alike = {});
 // Whether a number in the words equals the value: exactly, or to its digits if these round by 1/20 at most.
 bool says(const FigureLayout&, double value);

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "terrain/files.h"
-#include "terrain/image.h"
 #include "terrain/machine_error.h"
 #include "terrain/progress.h"
 #include "terrain/temporary_name.h"
@@ -46,7 +45,7 @@ void run_rsvg(std::vector<std::string> arguments) {
   // A C library may report a missing program only as the child's exit status 127.
   if (error != 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 127)) {
     throw MachineError(fmt::format("cannot be run: {}", std::strerror(error != 0 ? error : ENOENT)), program,
-                       "install Debian's librsvg2-bin, which turns plots into PNG and PDF");
+                       "install Debian's librsvg2-bin, which turns plots into pictures and PDF");
   }
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (signal == SIGINT || signal == SIGTERM || (status != 0 && Progress::interrupted())) {
@@ -76,20 +75,14 @@ void with_svg_file(std::string_view svg, const std::filesystem::path& result, Co
 
 }  // namespace
 
-void svg_to_png(const std::filesystem::path& svg, const std::filesystem::path& png, int width,
-                Colours colours) {
-  try {
-    run_rsvg({"--width", std::to_string(width), "--output", png.string(), svg.string()});
-    if (colours == Colours::kFew) write_png(png, with_few_colours(read_png(png)));
-  } catch (...) {
-    std::error_code ignored;
-    std::filesystem::remove(png, ignored);
-    throw;
-  }
-}
-
-void svg_text_to_png(std::string_view svg, const std::filesystem::path& png, int width, Colours colours) {
-  with_svg_file(svg, png, [&](const std::filesystem::path& file) { svg_to_png(file, png, width, colours); });
+Image write_svg(std::string_view svg, const std::filesystem::path& picture, int width) {
+  Image image;
+  with_svg_file(svg, picture, [&](const std::filesystem::path& file) {
+    run_rsvg({"--width", std::to_string(width), "--output", picture.string(), file.string()});
+    image = read_picture(picture);  // still PNG, whatever its name
+    write_picture(picture, image);
+  });
+  return image;
 }
 
 void svg_text_to_pdf(std::string_view svg, const std::filesystem::path& pdf, double millimetres) {

@@ -1,21 +1,16 @@
-// SVG to PNG and PDF, through librsvg's rsvg-convert.
+// SVG to pictures and PDF, through librsvg's rsvg-convert.
 #pragma once
 
 #include <filesystem>
 #include <string_view>
 
+#include "terrain/image.h"
+
 namespace terrabench {
 
-// Drawings need few colours and become small files; in rendered landscapes few would make bands.
-enum class Colours { kFew, kAll };
-
-// Writes a picture `width` pixels wide, with at most 256 colours if few, on white. Throws environment_error
-// when rsvg-convert is missing or fails; then no picture is left.
-void svg_to_png(const std::filesystem::path& svg, const std::filesystem::path& png, int width,
-                Colours = Colours::kFew);
-// The same for an SVG text; its temporary file is removed.
-void svg_text_to_png(std::string_view svg, const std::filesystem::path& png, int width,
-                     Colours = Colours::kFew);
+// Writes a picture `width` pixels wide, on white, as write_picture() does, and returns it before that loses
+// anything. Throws environment_error when rsvg-convert is missing or fails; then no picture is left.
+Image write_svg(std::string_view svg, const std::filesystem::path& picture, int width);
 
 // Writes a page of the picture's own shape, `millimetres` wide, with its fonts embedded; equal pictures give
 // equal bytes. Throws as above.

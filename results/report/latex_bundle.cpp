@@ -64,7 +64,7 @@ std::string title_beside_number(const std::string& title) {
 // Name of the picture's copy, without extension. It is made from the file's name, because two pictures may
 // share an id, and includes the folder unless that is figures/.
 std::string picture_name(const RecordedFigure& figure) {
-  constexpr std::string_view kFolder = "figures/", kEnding = ".png";
+  constexpr std::string_view kFolder = "figures/", kEnding = ".webp";
   std::string_view name = figure.file;
   // No name of the other kind begins with a slash.
   if (!name.starts_with(kFolder) || !name.ends_with(kEnding)) return file_name(fmt::format("/{}", name));
@@ -228,7 +228,7 @@ class Bundle {
       return "";
     }
     const std::string to = "pictures/" + picture_name(*shown.figure) + ".png";
-    write_file(out_ / to, read_file(store_.path_of(from)));
+    write_picture(out_ / to, *image);
     const double width =
         std::min({image->width / kPixelsPerMillimetre, widest, kHighest * image->width / image->height});
     return figure_text(fmt::format("\\includegraphics[width={:.1f}mm]{{{}}}", width, to), shown.title,
@@ -239,7 +239,7 @@ class Bundle {
   std::optional<Image> read_intact(const RecordedFigure& figure) const {
     if (!store_.intact(figure)) return std::nullopt;
     try {
-      return read_png(store_.path_of(figure.file));
+      return read_picture(store_.path_of(figure.file));
     } catch (const Error& error) {
       if (error.code() != ExitCode::kBadInput) throw;
       return std::nullopt;

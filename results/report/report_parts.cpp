@@ -50,13 +50,14 @@ Document ReportParts::plots(const Paper& paper, std::string_view page) {
     const FilledPlot filled = fill(layout, store_, results_.profile);
     if (filled.runs.empty()) continue;  // the paper's own curve is not shown alone
     const std::string stem = "figures/" + file_name(layout.id);
-    write_file(out_ / (stem + ".svg"), plot_svg(filled.plot));
-    svg_to_png(out_ / (stem + ".svg"), out_ / (stem + ".png"), kBitmapWidth);
+    const std::string svg = plot_svg(filled.plot);
+    write_file(out_ / (stem + ".svg"), svg);
+    write_svg(svg, out_ / (stem + ".webp"), kBitmapWidth);
     links_.shown.insert(layout.id);
     std::vector<Link> links = run_links(filled.runs);
-    links.push_back({"PNG", stem + ".png"});
-    blocks.push_back(
-        Gallery{{{layout.title, layout.caption, stem + ".svg", stem + ".png", std::move(links), layout.id}}});
+    links.push_back({"WebP", stem + ".webp"});
+    blocks.push_back(Gallery{
+        {{layout.title, layout.caption, stem + ".svg", stem + ".webp", std::move(links), layout.id}}});
   }
   return blocks;
 }

@@ -198,20 +198,26 @@ Metric metric_from(const Json& json, std::string& warning) {
   return metric;
 }
 
+std::vector<int> numbers_of(Fields& fields, const char* name, std::size_t per_entry) {
+  std::vector<int> numbers;
+  for (const Json& number : fields.array(name)) {
+    require(number.is_number_unsigned() && number.get<std::uint64_t>() < 1'000'000,
+            fmt::format("'{}' holds what is no natural number", name));
+    numbers.push_back(number.get<int>());
+  }
+  require(numbers.size() % per_entry == 0 && numbers.size() <= 4000, fmt::format("'{}' is damaged", name));
+  return numbers;
+}
+
 // Panels as one flat list: x, y, width and height of each.
 FigureLayout layout_from(Fields& fields) {
   FigureLayout layout;
-  std::vector<int> numbers;
-  for (const Json& number : fields.array("panels")) {
-    require(number.is_number_unsigned() && number.get<std::uint64_t>() < 1'000'000,
-            "a panel's place is not a natural number");
-    numbers.push_back(number.get<int>());
-  }
-  require(numbers.size() % 4 == 0 && numbers.size() <= 4000, "'panels' is damaged");
+  const std::vector<int> numbers = numbers_of(fields, "panels", 4);
   for (std::size_t i = 0; i < numbers.size(); i += 4) {
     layout.panels.push_back({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]});
   }
   layout.words = fields.texts("words");
+  if (fields.has("repeats")) layout.repeats = numbers_of(fields, "repeats", 2);
   return layout;
 }
 
@@ -347,6 +353,7 @@ std::string to_line(const Record& record) {
       for (const int number : {p.x, p.y, p.width, p.height}) entry["panels"].push_back(number);
     }
     entry["words"] = figure.layout.words;
+    if (!figure.layout.repeats.empty()) entry["repeats"] = figure.layout.repeats;
   }
   Json line({{"kind", "record"},
              {"schema", kSchema},

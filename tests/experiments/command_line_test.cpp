@@ -55,7 +55,7 @@ TEST_F(CommandLine, WrongUseExits2AndSuggests) {
 }
 
 TEST_F(CommandLine, APictureIsLandWhenItIsCalledADrawing) {
-  write_png(folder_ / "my.png", example_drawing(48, 1));
+  write_picture(folder_ / "my.png", example_drawing(48, 1));
   const Outcome info = call("$T info drawing:my.png,peak=500");
   EXPECT_EQ(info.code, 0) << info.text;
   EXPECT_THAT(info.text, HasSubstr("black is -50 m"));
@@ -85,7 +85,7 @@ TEST_F(CommandLine, BadInputExits3) {
 
 TEST_F(CommandLine, CompareExits1ForPicturesThatDiffer) {
   const auto draw = [&](const char* file, std::uint8_t grey) {
-    write_png(folder_ / file, Image(20, 20, {grey, grey, grey}));
+    write_picture(folder_ / file, Image(20, 20, {grey, grey, grey}));
   };
   draw("a/x.png", 100);
   EXPECT_EQ(call("$T compare a b").code, 3) << "no second folder";
@@ -129,7 +129,7 @@ TEST_F(CommandLine, RepresentSavesRendersAndInfoReadsBack) {
       call("$T represent jacksboro --as layered_stack --crop 10 20 64 48 --save s.tb --render s.png");
   EXPECT_EQ(built.code, 0) << built.text;
   EXPECT_THAT(built.text, HasSubstr("RMSE"));
-  EXPECT_EQ(read_png(folder_ / "s.png").width, 1600);
+  EXPECT_EQ(read_picture(folder_ / "s.png").width, 1600);
   const Outcome info = call("$T info s.tb");
   EXPECT_EQ(info.code, 0) << info.text;
   EXPECT_THAT(info.text, HasSubstr("layered_stack"));
@@ -173,7 +173,7 @@ TEST_F(CommandLine, EveryPictureLeftBehindIsARecordsOwn) {
   int pictures = 0;
   for (const auto& entry : fs::directory_iterator(folder_ / "out/figures")) {
     EXPECT_THAT(records, HasSubstr("figures/" + entry.path().filename().string()));
-    EXPECT_GT(read_png(entry.path()).width, 400) << entry.path();
+    EXPECT_GT(read_picture(entry.path()).width, 400) << entry.path();
     ++pictures;
   }
   // Figures 1 and 2, figures 3 and 4 and the differences for three fits, and rate and distortion.

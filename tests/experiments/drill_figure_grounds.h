@@ -27,9 +27,6 @@ inline const Grounds& grounds() {
   return both;
 }
 
-inline SheetReader read(figures::Sheet sheet) {
-  sheet.keep_all_colours();
-  return SheetReader(sheet);
-}
+inline SheetReader read(figures::Sheet sheet) { return SheetReader(sheet); }
 
 }  // namespace terrabench::drill

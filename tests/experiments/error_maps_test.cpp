@@ -33,7 +33,7 @@ TEST_P(ErrorMaps, ShowEveryTypeWithItsBytesAndItsError) {
   const std::filesystem::path file = folder.path() / record.figures[0].file;
   const FigureLayout& layout = record.figures[0].layout;
   EXPECT_EQ(layout.panels.size(), representations().size());
-  EXPECT_EQ(layout_fault(layout, read_png(file)), "");
+  EXPECT_EQ(layout_fault(layout, read_picture(file)), "");
   const Metric *const kept = record.find("columns"), *const lost = record.find("lost_columns");
   ASSERT_TRUE(kept != nullptr && lost != nullptr);
   EXPECT_GT(kept->samples[0], 80 * 70);

@@ -17,7 +17,7 @@ std::filesystem::path picture(const std::string& profile, const std::string& cas
   record.profile = profile;
   record.case_name = case_name;
   record.overrides = std::move(overrides);
-  const std::filesystem::path path = Recorder(record, "out").figure("drill.F1", "png", "channels").path;
+  const std::filesystem::path path = Recorder(record, "out").figure("drill.F1", "channels").path;
   EXPECT_EQ(record.figures.size(), 1U);
   EXPECT_EQ(std::filesystem::path("out") / record.figures.front().file, path);
   EXPECT_EQ(record.figures.front().id, "drill.F1");
@@ -31,7 +31,7 @@ TEST(Recorder, ProfilesAndChangedParametersDrawPicturesOfTheirOwn) {
   EXPECT_EQ(paths.size(), 4U);
   for (const std::filesystem::path& path : paths) {
     EXPECT_EQ(path.parent_path(), "out/figures");
-    EXPECT_EQ(path.extension(), ".png");
+    EXPECT_EQ(path.extension(), ".webp");
   }
 }
 

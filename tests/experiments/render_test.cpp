@@ -46,12 +46,12 @@ class Render : public CommandLine {
 TEST_F(Render, MakesAPicture) {
   const Outcome outcome = call("$T render hills.tif --scene --size 120x80 --out a.png");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
-  const Image image = read_png(folder_ / "a.png");
+  const Image image = read_picture(folder_ / "a.png");
   EXPECT_EQ(image.width, 120);
   EXPECT_EQ(image.height, 80);
   EXPECT_GT(colours(image), 500U);
   EXPECT_EQ(call("$T render hills.tif --scene --size 120x80 --set water=0 --out dry.png").code, 0);
-  EXPECT_NE(image.rgb, read_png(folder_ / "dry.png").rgb);
+  EXPECT_NE(image.rgb, read_picture(folder_ / "dry.png").rgb);
   EXPECT_EQ(call("$T render hills.tif --size 120x80 --out relief.png --lod geomipmap --detail 2").code, 0);
 }
 
@@ -66,11 +66,11 @@ TEST_F(Render, ASequenceContinuesWhereItEnded) {
   EXPECT_NE(read_file(file("whole", 0)), read_file(file("whole", 4)));
   fs::remove(file("parts", 1));
   fs::remove(file("parts", 3));
-  write_png(file("parts", 0), Image(2, 2, {1, 2, 3}));  // is kept as it is
+  write_picture(file("parts", 0), Image(2, 2, {1, 2, 3}));  // is kept as it is
   const Outcome outcome = call(sequence + "--out parts");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_THAT(outcome.text, HasSubstr("3 of 5 pictures from an earlier run"));
-  EXPECT_EQ(read_png(file("parts", 0)).width, 2);
+  EXPECT_EQ(read_picture(file("parts", 0)).width, 2);
   for (int k = 1; k < 5; ++k) EXPECT_EQ(read_file(file("parts", k)), read_file(file("whole", k))) << k;
   const Outcome other = call(sequence + "--set fog=1 --out parts");
   EXPECT_EQ(other.code, 2);
@@ -86,7 +86,7 @@ TEST_F(Render, AnInterruptedSequenceLeavesWholePictures) {
   EXPECT_EQ(temporary_files(), 0U);
   for (const auto& entry : fs::directory_iterator(folder_ / "many")) {
     if (entry.path().extension() != ".png") continue;
-    EXPECT_EQ(read_png(entry.path()).width, 80);
+    EXPECT_EQ(read_picture(entry.path()).width, 80);
   }
 }
 
@@ -134,7 +134,7 @@ TEST_F(Render, TheFarPlaneReachesGroundOfAnySizeFromAnyEye) {
             "$T render dome.tif {}--size 96x64 --fov 20 --look-at {} {} {} --eye {} {} {} --out {}", scene,
             32 * cell, 5 * cell, 32 * cell, eye.x * cell, eye.y * cell, eye.z * cell, file));
         ASSERT_EQ(outcome.code, 0) << outcome.text;
-        const Image image = read_png(folder_ / file);
+        const Image image = read_picture(folder_ / file);
         EXPECT_NE(image.pixel(image.width / 2, image.height / 2), (Rgb{255, 255, 255}))
             << cell << ", eye " << eye.x;
       }
@@ -147,7 +147,7 @@ TEST_F(Render, APlanHasNorthAtTheTop) {
   const auto picture = [&](const std::string& more) {
     const Outcome outcome = call(plan + more + " --out plan.png");
     EXPECT_EQ(outcome.code, 0) << outcome.text;
-    return read_png(folder_ / "plan.png");
+    return read_picture(folder_ / "plan.png");
   };
   const Image north = picture("");
   EXPECT_GT(colours(north), 100U);
@@ -232,7 +232,7 @@ TEST_F(Render, UnusualGroundGivesAPictureOrAnError) {
 TEST_F(Render, DrawsASolidsSurface) {
   const Outcome outcome = call("$T render caves --scene --samples 65 --size 96x64 --seed 2 --out caves.png");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
-  EXPECT_GT(colours(read_png(folder_ / "caves.png")), 500U);
+  EXPECT_GT(colours(read_picture(folder_ / "caves.png")), 500U);
 }
 
 TEST_F(Render, ListsTheScenesParameters) {

@@ -32,7 +32,7 @@ TEST_F(RendererOption, TracesRaysWithAsManySamplesAsAsked) {
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_THAT(outcome.text, HasSubstr("Embree 3."));
   EXPECT_THAT(outcome.text, HasSubstr("2 samples per pixel"));
-  const Image picture = read_png(folder_ / "out.png");
+  const Image picture = read_picture(folder_ / "out.png");
   EXPECT_EQ(picture.pixel(0, 0), (Rgb{255, 255, 255}));
   EXPECT_NE(picture.pixel(picture.width / 2, picture.height / 2), (Rgb{255, 255, 255}));
   EXPECT_EQ(call(trace + "--render out.png --samples 0").code, 2);

@@ -28,7 +28,7 @@ TEST(SheetLayout, HasThePicturesAndTheWordsButNoColourKeys) {
       std::array{Sheet::Tick{0, "0 m"}});
   sheet.write({file});
   const FigureLayout& layout = sheet.layout();
-  const Image image = read_png(file);
+  const Image image = read_picture(file);
   EXPECT_EQ(layout.panels, (std::vector<FigurePanel>{{20, 10, 40, 40}, {80, 10, 40, 40}}));
   EXPECT_EQ(layout.words, (std::vector<std::string>{"a & b < 3", "0 m"}));
   EXPECT_EQ(layout_fault(layout, image), "");
@@ -38,14 +38,15 @@ TEST(SheetLayout, HasThePicturesAndTheWordsButNoColourKeys) {
 
 TEST(SheetLayout, DrawnPartsArePanelsToo) {
   const TemporaryFolder folder;
-  const std::filesystem::path file = folder / "drawn.png";
+  const std::filesystem::path file = folder / "drawn.webp";
   const auto fault = [&](SheetPoint to) {
     Sheet sheet(100, 60);
     for (const double x : {10.0, 60.0}) sheet.panel(x, 10, 30, 30);
     sheet.stroke({15, 15}, {35, 35}, {0, 0, 0}, 2);
     sheet.stroke({65, 15}, to, {0, 0, 0}, 2);
-    sheet.write({file});
-    return layout_fault(sheet.layout(), read_png(file));
+    FigureLayout layout;
+    sheet.write({file, [&](const FigureLayout& of) { layout = of; }});
+    return layout_fault(layout, read_picture(file));
   };
   EXPECT_EQ(fault({85, 25}), "");
   EXPECT_EQ(fault({65, 5}), "") << "part of the line lies above the panel";
@@ -65,7 +66,7 @@ TEST(SheetLayout, ChartsSayTheNumbersOfTheirLegend) {
   plot.series.push_back({"slope 0.25", {{1, 4, 4, 4}, {2, 4, 4, 4}}, false});
   FigureLayout layout;
   write_chart({folder / "chart.png", [&](const FigureLayout& of) { layout = of; }}, plot, 600);
-  const Image image = read_png(folder / "chart.png");
+  const Image image = read_picture(folder / "chart.png");
   EXPECT_EQ(layout.panels, (std::vector<FigurePanel>{{0, 0, image.width, image.height}}));
   EXPECT_EQ(layout_fault(layout, image), "");
   const std::vector<std::string> shown = {"a &amp; b", "y [m]", kSpace + "slope −0.52",

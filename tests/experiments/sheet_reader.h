@@ -51,10 +51,8 @@ class SheetReader {
     }
     if (!with_file) return;
     const TemporaryFolder folder;
-    sheet.write({folder / "sheet.png"});
-    image = read_png(folder / "sheet.png");
-    layout = sheet.layout();
-    bytes = std::filesystem::file_size(folder / "sheet.png");
+    sheet.write({folder / "sheet.png", [&](const FigureLayout& of) { layout = of; }});
+    image = read_picture(folder / "sheet.png");
   }
 
   // Why a check that declares this many panels would refuse the figure; empty if it would not.
@@ -94,7 +92,6 @@ class SheetReader {
   std::vector<Words> words;
   Image image;
   FigureLayout layout;
-  std::uintmax_t bytes = 0;  // of the file
 };
 
 }  // namespace terrabench

@@ -73,8 +73,8 @@ class Landscape : public ::testing::Test {
   static Image reference(const std::string& name, const Image& now) {
     const std::filesystem::path file =
         std::filesystem::path(TERRABENCH_SOURCE_DIR) / "tests/renderers/reference" / (name + ".png");
-    if (std::getenv("TERRABENCH_WRITE_REFERENCES") != nullptr) write_png(file, now);
-    return read_png(file);
+    if (std::getenv("TERRABENCH_WRITE_REFERENCES") != nullptr) write_picture(file, now);
+    return read_picture(file);
   }
 
   std::unique_ptr<GlContext> context_ = open_context("osmesa", 16, 16);

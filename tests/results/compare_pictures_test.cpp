@@ -34,7 +34,7 @@ double decibels(double mean_square) { return 10 * std::log10(255 * 255 / mean_sq
 class ComparePictures : public FolderTest {
  protected:
   void draw(const std::string& side, const std::string& file, const Image& image) {
-    write_png(folder_ / side / file, image);
+    write_picture(folder_ / side / file, image);
   }
   PictureComparison compared(const PictureLimits& limits = {}) {
     return compare_pictures(folder_ / "a", folder_ / "b", limits);
@@ -114,6 +114,19 @@ TEST_F(ComparePictures, EqualPixelsInOtherBytesAreClose) {
   EXPECT_NEAR(picture.ssim, 1, 1e-12);
   EXPECT_TRUE(compared({1000, 1 - 1e-9}).passed());
   EXPECT_THAT(text(), HasSubstr("all pixels equal, in other bytes"));
+}
+
+TEST_F(ComparePictures, PngAndWebpOfOneNameAreTheSamePicture) {
+  draw("a", "x.png", slope(0));
+  draw("b", "x.webp", slope(0));
+  draw("a", "y.webp", slope(0));
+  draw("b", "y.png", slope(9));
+  const PictureComparison comparison = compared();
+  ASSERT_EQ(comparison.pictures.size(), 2U);
+  EXPECT_EQ(comparison.pictures[0].file, "y.webp");
+  EXPECT_EQ(comparison.pictures[0].file_after, "y.png");
+  EXPECT_EQ(comparison.pictures[0].change, PictureChange::kDiffers);
+  EXPECT_EQ(comparison.pictures[1].change, PictureChange::kClose);
 }
 
 TEST_F(ComparePictures, TheWorstIsFirst) {

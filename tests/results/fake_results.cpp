@@ -35,8 +35,8 @@ double mean_brightness(const Image& image) {
 // A figure of one panel.
 void add_picture(Record& record, const std::filesystem::path& folder, const std::string& id,
                  std::string caption, std::vector<std::string> words = {}) {
-  const std::string file = "figures/" + id + ".png";
-  write_png(folder / file, gradient(kWidth, kHeight));
+  const std::string file = "figures/" + id + ".webp";
+  write_picture(folder / file, gradient(kWidth, kHeight));
   record.figures.push_back({id, file, std::move(caption), checksum(read_file(folder / file)),
                             FigureLayout{{{0, 0, kWidth, kHeight}}, std::move(words)}});
 }

@@ -37,7 +37,8 @@ class FigureLayoutTest : public FolderTest {
   }
   // The verdict on the figure as it was drawn, with these conditions.
   Judgement judged(const std::string& conditions) {
-    write_png(png(), image_);
+    write_picture(png(), image_);
+    layout_ = with_repeats(layout_, image_);
     const RecordedFigure figure{"p.F1", "figures/f.png", "", checksum(read_file(png())), layout_};
     std::filesystem::remove(file());
     {

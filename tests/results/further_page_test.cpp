@@ -40,7 +40,7 @@ class FurtherPageTest : public FolderTest {
     maps.terrain = ground;
     add(maps, "drill_rmse", "m", {3});
     const std::string id = "cross.error-maps." + ground_id(ground), file = "figures/" + id + ".png";
-    write_png(folder_ / file, Image(40, 20, {200, 40, 40}));
+    write_picture(folder_ / file, Image(40, 20, {200, 40, 40}));
     maps.figures.push_back({id, file, "Maps of <" + ground + ">.", checksum(read_file(folder_ / file))});
     store_.append(maps);
   }
@@ -98,7 +98,7 @@ TEST_F(FurtherPageTest, LeavesCasesToTheMainPageByTheirLabels) {
   Record curve = fake_record(run_, "drill.size", "/x/alps.tif/printed");
   curve.terrain = "/x/alps.tif";
   add(curve, "bits", "", {1000});
-  write_png(folder_ / "figures/curve.png", Image(40, 20, {200, 40, 40}));
+  write_picture(folder_ / "figures/curve.png", Image(40, 20, {200, 40, 40}));
   curve.figures.push_back({"curve", "figures/curve.png", "Bits for /x/alps.tif",
                            checksum(read_file(folder_ / "figures/curve.png"))});
   store_.append(curve);

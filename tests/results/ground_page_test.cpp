@@ -80,7 +80,7 @@ class GroundPageTest : public FolderTest {
     for (const char* const kind : {"maps", "view"}) {
       Record drawing = fake_record(run_, "e", fmt::format("{}/{}", ground, kind));
       const std::string id = fmt::format("p.{}-{}", kind, ground), file = "figures/" + id + ".png";
-      write_png(folder_ / file, Image(40, 20, {200, 40, 40}));
+      write_picture(folder_ / file, Image(40, 20, {200, 40, 40}));
       drawing.figures.push_back({id, file, "Picture.", checksum(read_file(folder_ / file))});
       store_.append(drawing);
     }

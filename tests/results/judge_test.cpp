@@ -310,11 +310,11 @@ TEST_F(OneClaim, FigureMustBeThereDecodeAndShowSomething) {
   write_file(folder_ / "figures/f.png", std::string_view("no picture"));
   EXPECT_EQ(verdict(check, "F"), Verdict::kDiffers);
   Image image(8, 8, {10, 20, 30});
-  write_png(folder_ / "figures/f.png", image);
+  write_picture(folder_ / "figures/f.png", image);
   drawn();
   EXPECT_THAT(judge_one(check, "F").measured, HasSubstr("blank"));
-  image.set(7, 7, {10, 20, 31});
-  write_png(folder_ / "figures/f.png", image);
+  image.set(7, 7, {10, 20, 61});
+  write_picture(folder_ / "figures/f.png", image);
   EXPECT_THAT(judge_one(check, "F").measured, HasSubstr("is not the picture that was drawn"));
   EXPECT_EQ(verdict(check, "F"), Verdict::kDiffers);
   drawn();
@@ -349,7 +349,7 @@ TEST_F(JudgeTest, PictureAlteredByHandIsAFault) {
   write_fake_results(folder_, "quick");
   // Even one that no claim is about.
   Image image(8, 8, {10, 20, 30});
-  write_png(folder_ / "figures/relief.jacksboro.heightmap.png", image);
+  write_picture(folder_ / "figures/relief.jacksboro.heightmap.png", image);
   const JudgedResults results = judge(folder_);
   ASSERT_EQ(results.faults.size(), 1U);
   EXPECT_THAT(results.faults[0], HasSubstr("relief.jacksboro.heightmap.png: picture altered"));

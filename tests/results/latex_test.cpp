@@ -142,8 +142,8 @@ TEST_F(LatexBundle, HoldsWhatMainNames) {
       EXPECT_EQ(count(main, "\\includegraphics{" + file + "}"), file.ends_with("-page.pdf") ? 0U : 1U);
       ++named;
     } else if (file.starts_with("pictures/")) {
-      const std::filesystem::path drawn = std::filesystem::path("figures") / file.substr(9);
-      EXPECT_EQ(content, read_file(folder_ / drawn)) << file;
+      const auto drawn = (std::filesystem::path("figures") / file.substr(9)).replace_extension(".webp");
+      EXPECT_EQ(read_picture(bundle() / file).rgb, read_picture(folder_ / drawn).rgb) << file;
       EXPECT_EQ(count(main, "mm]{" + file + "}"), 1U);
       EXPECT_EQ(count(main, "\\label{fig:" + drawn.stem().string() + "}"), 1U);
       ++named;
@@ -171,8 +171,8 @@ TEST_F(LatexBundle, NothingFromARecordBecomesACommand) {
   Store store(folder_);
   Record record = fake_record(fake_provenance(), "cross.error-maps", evil);
   record.terrain = evil;
-  const std::string file = "figures/" + std::string("y}%.png");
-  write_png(folder_ / file, Image(9, 9, {1, 2, 3}));
+  const std::string file = "figures/" + std::string("y}%.webp");
+  write_picture(folder_ / file, Image(9, 9, {1, 2, 3}));
   record.figures = {{evil, file, evil, checksum(read_file(folder_ / file))}};
   store.append(record);
   write_latex_bundle(folder_, bundle());
@@ -191,18 +191,18 @@ TEST_F(LatexBundle, NothingFromARecordBecomesACommand) {
 
 TEST_F(LatexBundle, PicturesThatAreGoneOrAlteredAreNamed) {
   write_fake_results(folder_, "quick");
-  std::filesystem::remove(folder_ / "figures/hybrid.F4.png");
-  write_file(folder_ / "figures/hybrid.F6.png", std::string_view("altered"));
+  std::filesystem::remove(folder_ / "figures/hybrid.F4.webp");
+  write_file(folder_ / "figures/hybrid.F6.webp", std::string_view("altered"));
   // As it was drawn, but not readable.
-  write_file(folder_ / "figures/x.png", std::string_view("no picture"));
+  write_file(folder_ / "figures/x.webp", std::string_view("no picture"));
   Record newer = fake_record(fake_provenance(), "x", "y");
-  newer.figures = {{"hybrid.F7", "figures/x.png", "No picture", checksum("no picture")}};
+  newer.figures = {{"hybrid.F7", "figures/x.webp", "No picture", checksum("no picture")}};
   Store(folder_).append(newer);
   EXPECT_THAT(write_latex_bundle(folder_, bundle()).left_out,
-              testing::ElementsAre("figures/hybrid.F4.png", "figures/hybrid.F6.png", "figures/x.png"));
+              testing::ElementsAre("figures/hybrid.F4.webp", "figures/hybrid.F6.webp", "figures/x.webp"));
   const auto all = files();
-  EXPECT_THAT(all.at("main.tex"), HasSubstr("(missing, altered or not readable): figures/hybrid.F4.png, "
-                                            "figures/hybrid.F6.png, figures/x.png."));
+  EXPECT_THAT(all.at("main.tex"), HasSubstr("(missing, altered or not readable): figures/hybrid.F4.webp, "
+                                            "figures/hybrid.F6.webp, figures/x.webp."));
   for (int k = 3; k <= 13; ++k) {
     const std::string name = "pictures/hybrid.F" + std::to_string(k) + ".png";
     const bool there = k != 4 && k != 6 && k != 7;

@@ -133,22 +133,20 @@ TEST(PlotTest, PowerLaw) {
 using RasteriseTest = FolderTest;
 
 TEST_F(RasteriseTest, MakesAPicture) {
-  write_file(folder_ / "plot.svg", std::string_view(plot_svg(growth())));
-  svg_to_png(folder_ / "plot.svg", folder_ / "plot.png", 880);
-  const Image image = read_png(folder_ / "plot.png");
+  const Image image = write_svg(plot_svg(growth()), folder_ / "plot.webp", 880);
+  EXPECT_EQ(image.rgb, read_picture(folder_ / "plot.webp").rgb) << "a drawing loses nothing";
   EXPECT_EQ(image.width, 880);
   EXPECT_EQ(image.height, screen_size(growth()).height);
   EXPECT_EQ(image.pixel(0, 0), (Rgb{255, 255, 255}));
 }
 
 TEST_F(RasteriseTest, MissingProgramAndBadInputAreEnvironmentErrors) {
-  write_file(folder_ / "bad.svg", std::string_view("<svg"));
-  EXPECT_THROW(svg_to_png(folder_ / "bad.svg", folder_ / "bad.png", 100), Error);
+  EXPECT_THROW(write_svg("<svg", folder_ / "bad.png", 100), Error);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "bad.png"));
   const std::string path = std::getenv("PATH");
   setenv("PATH", folder_.c_str(), 1);
   try {
-    svg_to_png(folder_ / "bad.svg", folder_ / "bad.png", 100);
+    write_svg("<svg", folder_ / "bad.png", 100);
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kEnvironment);
@@ -162,11 +160,10 @@ TEST_F(RasteriseTest, AnInterruptedProgramIsAnInterruption) {
   const std::filesystem::path program = folder_ / "rsvg-convert";
   write_file(program, std::string_view("#!/bin/sh\nkill -INT $$\n"));
   std::filesystem::permissions(program, std::filesystem::perms::owner_all);
-  write_file(folder_ / "plot.svg", std::string_view(plot_svg(growth())));
   const std::string path = std::getenv("PATH");
   setenv("PATH", (folder_.string() + ":" + path).c_str(), 1);
   try {
-    svg_to_png(folder_ / "plot.svg", folder_ / "plot.png", 100);
+    write_svg(plot_svg(growth()), folder_ / "plot.png", 100);
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kInterrupted);

@@ -40,7 +40,7 @@ TEST_F(ReportTest, HoldsTablesPlotsFiguresAndProvenance) {
   const auto files = files_of(folder_ / "report");
   for (const char* file :
        {"index.html", "report.md", "tables/hybrid.table1.csv", "figures/hybrid.table2-growth.svg",
-        "figures/hybrid.table2-growth.png", "figures/hybrid.table1-bytes.svg"}) {
+        "figures/hybrid.table2-growth.webp", "figures/hybrid.table1-bytes.svg"}) {
     EXPECT_TRUE(files.contains(file)) << file;
   }
   const std::string& page = files.at("index.html");
@@ -86,7 +86,7 @@ TEST_F(ReportTest, EveryLinkOfEveryPageLeadsSomewhere) {
   }
   EXPECT_GE(pages, 8);
   EXPECT_GT(links, 500U);
-  EXPECT_THAT(targets_of(files.at("ledger.html"), true), testing::Contains("../figures/hybrid.F3.png"));
+  EXPECT_THAT(targets_of(files.at("ledger.html"), true), testing::Contains("../figures/hybrid.F3.webp"));
 }
 
 TEST_F(ReportTest, WhatDiffersStandsOnAPageOfItsOwn) {
@@ -168,7 +168,7 @@ TEST_F(ReportTest, AlteredResultsCarryAWarning) {
   write_fake_results(folder_, "quick");
   EXPECT_THAT(write_report(folder_).faults, testing::IsEmpty());
   edit(file(), "\"seed\":1", "\"seed\":2");
-  std::filesystem::remove(folder_ / "figures/hybrid.F4.png");
+  std::filesystem::remove(folder_ / "figures/hybrid.F4.webp");
   const WrittenReport report = write_report(folder_);
   EXPECT_THAT(read_file(report.page), HasSubstr("cannot be trusted"));
   EXPECT_THAT(report.faults,
@@ -186,9 +186,9 @@ TEST_F(ReportTest, NothingFromOutsideBecomesMarkup) {
     record.terrain = evil;
     record.parameters = {{evil, evil}};
     add(record, evil, evil, {1, 2, 3});
-    record.figures = {{evil, "figures/xy.png", evil, ""}};
-    write_png(folder_ / "figures/xy.png", Image(9, 9, {1, 2, 3}));
-    record.figures[0].checksum = checksum(read_file(folder_ / "figures/xy.png"));
+    record.figures = {{evil, "figures/xy.webp", evil, ""}};
+    write_picture(folder_ / "figures/xy.webp", Image(9, 9, {1, 2, 3}));
+    record.figures[0].checksum = checksum(read_file(folder_ / "figures/xy.webp"));
     store.append(record);
   }
   write_report(folder_);
@@ -211,9 +211,9 @@ TEST_F(ReportTest, NamesAndCaptionsFromOutsideCannotBreakThePage) {
   write_fake_results(folder_, "quick");
   Store store(folder_);
   Record record = fake_record(fake_provenance(), "<b>x</b>", "\"><script>alert(1)</script>");
-  write_png(folder_ / "figures/x.png", Image(9, 9, {1, 2, 3}));
-  record.figures = {{"../../<script>", "figures/x.png", "</figure><script>alert(2)</script>",
-                     checksum(read_file(folder_ / "figures/x.png"))}};
+  write_picture(folder_ / "figures/x.webp", Image(9, 9, {1, 2, 3}));
+  record.figures = {{"../../<script>", "figures/x.webp", "</figure><script>alert(2)</script>",
+                     checksum(read_file(folder_ / "figures/x.webp"))}};
   store.append(record);
   const std::string page = read_file(write_report(folder_).page);
   EXPECT_THAT(page, HasSubstr("alert(2)"));
@@ -274,11 +274,11 @@ TEST_F(ReportTest, ALinkOutOfTheFolderIsNoPicture) {
   const std::filesystem::path outside = folder_ / "outside", results = folder_ / "results";
   write_fake_results(results, "quick");
   std::filesystem::create_directories(outside);
-  std::filesystem::rename(results / "figures/hybrid.F4.png", outside / "secret.png");
-  std::filesystem::create_symlink(outside / "secret.png", results / "figures/hybrid.F4.png");
+  std::filesystem::rename(results / "figures/hybrid.F4.webp", outside / "secret.png");
+  std::filesystem::create_symlink(outside / "secret.png", results / "figures/hybrid.F4.webp");
   EXPECT_THAT(write_report(results).faults, testing::ElementsAre(HasSubstr("hybrid.F4")));
-  EXPECT_THAT(read_file(results / "report/index.html"), Not(HasSubstr("src=\"../figures/hybrid.F4.png")));
-  EXPECT_THAT(read_file(results / "report/index.html"), HasSubstr("src=\"../figures/hybrid.F3.png"));
+  EXPECT_THAT(read_file(results / "report/index.html"), Not(HasSubstr("src=\"../figures/hybrid.F4.webp")));
+  EXPECT_THAT(read_file(results / "report/index.html"), HasSubstr("src=\"../figures/hybrid.F3.webp"));
   // The whole folder of pictures likewise; a link to the results folder itself is none out of it.
   std::filesystem::rename(results / "figures", outside / "figures");
   std::filesystem::create_directory_symlink(outside / "figures", results / "figures");
@@ -287,7 +287,7 @@ TEST_F(ReportTest, ALinkOutOfTheFolderIsNoPicture) {
   std::filesystem::rename(outside / "figures", results / "figures");
   std::filesystem::create_directory_symlink(results, folder_ / "link");
   EXPECT_EQ(write_report(folder_ / "link").faults.size(), 1U);
-  EXPECT_EQ(Store(folder_ / "new/").path_of("figures/x.png"), folder_ / "new/figures/x.png");
+  EXPECT_EQ(Store(folder_ / "new/").path_of("figures/x.webp"), folder_ / "new/figures/x.webp");
 }
 
 // The renderer of plots is gone: no half report may appear, and the earlier one stays.

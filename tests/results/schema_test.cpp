@@ -29,8 +29,8 @@ Record full_record() {
   record.terrain_notes = {"3 of 24 samples hold no height"};
   record.parameters = {{"n", std::int64_t{3}}, {"x", 0.5}, {"on", true}, {"kind", std::string("a")}};
   add(record, "time", "s", {0.25, 1e-300});
-  record.figures = {
-      {"hybrid.F3", "figures/a.png", "A caption.", checksum("a"), FigureLayout{{{1, 2, 3, 4}}, {"a word"}}}};
+  record.figures = {{"hybrid.F3", "figures/a.png", "A caption.", checksum("a"),
+                     FigureLayout{{{1, 2, 3, 4}, {5, 2, 3, 4}}, {"a word"}, {1, 2}}}};
   record.metrics[0].varies = true;
   record.undefined = {{"ratio", "the ground is flat"}};
   return record;
@@ -97,6 +97,7 @@ TEST(Schema, ThePageListsTheFieldsThatAreWritten) {
   least.terrain_notes.clear();
   least.undefined.clear();
   least.metrics[0].varies = false;
+  least.figures[0].layout.repeats.clear();
   Provenance run = full_run();
   run.timing_warnings.clear();
   Fields written;

@@ -51,7 +51,7 @@ TEST(GreyImage, NothingSaysHowBrightAPixelIsButItsNumber) {
     EXPECT_EQ(read(png_bytes(4, 1, 8, 0, std::string("\0\x40\x80\xFF", 4), chunks)), stored);
     EXPECT_EQ(read(png_bytes(4, 1, 16, 0, wide({0, 64 * 257, 128 * 257, 65535}), chunks)), stored);
     const TemporaryFolder folder;
-    const Image image = read_png(
+    const Image image = read_picture(
         folder.write("a.png", png_bytes(4, 1, 16, 0, wide({0, 64 * 257, 128 * 257, 65535}), chunks)));
     EXPECT_EQ(image.pixel(2, 0), (Rgb{128, 128, 128}));
   }

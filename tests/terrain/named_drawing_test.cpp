@@ -19,7 +19,7 @@ using testing::HasSubstr;
 
 class NamedDrawingTest : public ::testing::Test {
  protected:
-  NamedDrawingTest() { write_png(file_, picture_); }
+  NamedDrawingTest() { write_picture(file_, picture_); }
   std::string named(std::string_view rest = "") const { return "drawing:" + file_ + std::string(rest); }
 
   TemporaryFolder folder_;
@@ -47,7 +47,7 @@ TEST_F(NamedDrawingTest, TakesEveryAdjustment) {
 
 TEST_F(NamedDrawingTest, FileNamesMayHoldCommas) {
   for (const char* name : {"a,b.png", "a,peak=7.png"}) {
-    write_png(folder_ / name, picture_);
+    write_picture(folder_ / name, picture_);
     EXPECT_EQ(parse_drawing(folder_ / name).file, folder_ / name);
   }
   const NamedDrawing adjusted = parse_drawing(folder_ / "a,b.png,peak=7");
@@ -93,7 +93,7 @@ TEST_F(NamedDrawingTest, RefusesWhatIsNoPicture) {
   refused(folder_ / "missing.png", "");
   const std::string whole = read_file(file_);
   refused(folder_.write("cut.png", whole.substr(0, whole.size() / 2)), "");
-  write_png(folder_ / "dot.png", Image(1, 1, {9, 9, 9}));
+  write_picture(folder_ / "dot.png", Image(1, 1, {9, 9, 9}));
   refused(folder_ / "dot.png", "1 × 1");
   // 40,000 × 25,000 grey pixels that are not there.
   const std::string header("\0\0\x9C\x40\0\0\x61\xA8\x08\0\0\0\0", 13);

@@ -93,7 +93,7 @@ class Flight {
     }
     figures::titled_sheet(1, kPanel, 0, panels)
         .write(recorder_.figure(
-            "cross.lod-endless" + suffix, "png",
+            "cross.lod-endless" + suffix,
             fmt::format("Endless ground under a clipmap of {} samples per window, from {:g} m above it; the "
                         "hybrid paper's endless terrain (§3.2). Colours by height from {:.0f} to {:.0f} m.",
                         clipmap_->window(), kPictureHeight, -0.33 * ground_.relief, 0.33 * ground_.relief)));

@@ -119,7 +119,7 @@ void draw_wires(Flight& flight, double pixels, const std::string& options, GlCon
   const figures::Sheet sheet = figures::titled_sheet(kColumns, kPanel, 14, panels);
   const std::string suffix = figures::ground_suffix(flight.route.terrain, kMainGround);
   sheet.write(recorder.figure(
-      "cross.lod-wires" + suffix, "png",
+      "cross.lod-wires" + suffix,
       fmt::format(
           "{}: every method's triangles in the same view, each tuned to {:g} px at the 99th "
           "percentile over the path {}; colours by height from {:.0f} to {:.0f} m, and orange for the "

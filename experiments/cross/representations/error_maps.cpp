@@ -181,7 +181,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const bool far = width >= 1000;
   draw(maps, surface)
       .write(recorder.figure(
-          "cross.error-maps" + figures::ground_suffix(at.terrain, "jacksboro"), "png",
+          "cross.error-maps" + figures::ground_suffix(at.terrain, "jacksboro"),
           fmt::format("Signed error of height of each type on {}, {:.3g} {} across, over its shaded relief: "
                       "blue too low, "
                       "red too high, one scale for all. Each type has the finest setting whose file takes at "
