@@ -66,7 +66,7 @@ TreeSurface tree_surface(const Model& model) {
   const Tree& tree = model.tree;
   TreeSurface surface;
   std::unordered_map<std::uint64_t, std::uint32_t> vertices;  // of a cell in a node's triangles
-  const auto add = [&](const Face& face) {
+  model.surface.each_triangle(tree, [&](const Face& face) {
     NodeId node = 0;
     for (const CellId c : face) node = std::max(node, tree.node_of(c));
     for (const CellId c : face) {
@@ -76,15 +76,7 @@ TreeSurface tree_surface(const Model& model) {
       surface.mesh.indices.push_back(at->second);
     }
     surface.nodes.push_back(node);
-  };
-  const SampleGrid& grid = tree.grid();
-  for (int j = 0; j + 1 < grid.depth; ++j) {
-    for (int i = 0; i + 1 < grid.width; ++i) {
-      if (!model.surface.plain(tree, {i, j})) continue;
-      for (const Face& face : ComposedSurface::plain_faces(ComposedSurface::corners(tree, {i, j}))) add(face);
-    }
-  }
-  model.surface.each_face([&](FaceId f) { add(model.surface.face(f)); });
+  });
   compute_normals(surface.mesh);
   return surface;
 }

@@ -7,7 +7,6 @@
 #include <cassert>
 
 #include "representations/drill/cross_sections.h"
-#include "representations/drill/influence.h"
 #include "terrain/error.h"
 #include "terrain/hydrology/channels.h"
 #include "terrain/memory.h"

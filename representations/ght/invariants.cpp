@@ -10,19 +10,6 @@
 namespace terrabench::ght {
 namespace {
 
-template <class Visit>  // visit(Face) for all triangles of the surface, also of plain squares
-void each_triangle(const Model& model, const Visit& visit) {
-  const SampleGrid& grid = model.tree.grid();
-  for (int j = 0; j + 1 < grid.depth; ++j) {
-    for (int i = 0; i + 1 < grid.width; ++i) {
-      if (!model.surface.plain(model.tree, {i, j})) continue;
-      for (const Face& face : ComposedSurface::plain_faces(ComposedSurface::corners(model.tree, {i, j})))
-        visit(face);
-    }
-  }
-  model.surface.each_face([&](FaceId f) { visit(model.surface.face(f)); });
-}
-
 class Inspector {
  public:
   explicit Inspector(const Model& model) : model_(model), tree_(model.tree), surface_(model.surface) {}
@@ -126,14 +113,14 @@ class Inspector {
   // The ends of the edges from cell c are ends_[first_[c]] … ends_[first_[c + 1] - 1], ascending.
   void list_edges() {
     first_.assign(tree_.cells() + std::size_t{1}, 0);
-    each_triangle(model_, [&](const Face& face) {
+    surface_.each_triangle(tree_, [&](const Face& face) {
       for (const CellId c : face) ++first_[c];
     });
     std::size_t sum = 0;
     for (std::size_t& first : first_) sum += std::exchange(first, sum);
     ends_.resize(sum);
     std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    each_triangle(model_, [&](const Face& face) {
+    surface_.each_triangle(tree_, [&](const Face& face) {
       for (std::size_t k = 0; k < 3; ++k) ends_[next[face[k]]++] = face[(k + 1) % 3];
     });
     for (CellId c = 0; c < tree_.cells(); ++c) {
@@ -202,7 +189,7 @@ LinkReport check_boundary_links(const Model& model) {
     return glm::dot(along, along);
   };
   std::vector<CellId> nearest(tree.cells(), kNone);
-  each_triangle(model, [&](const Face& face) {
+  model.surface.each_triangle(tree, [&](const Face& face) {
     for (const CellId c : face) {
       if (c < tree.nodes()[0].cells()) continue;
       for (const CellId other : face) {
@@ -231,7 +218,7 @@ std::size_t unlinked_boundary_cells(const Model& model) {
   const Tree& tree = model.tree;
   if (tree.events().empty()) return 0;
   std::vector<char> seen(tree.cells(), 0);
-  each_triangle(model, [&](const Face& face) {
+  model.surface.each_triangle(tree, [&](const Face& face) {
     for (const CellId c : face) seen[c] = 1;
   });
   std::size_t unlinked = 0;
@@ -257,7 +244,7 @@ Breaks count_breaks(const Model& model) {
   const Tree& tree = model.tree;
   Breaks found;
   std::vector<char> seen(tree.cells(), 0);
-  each_triangle(model, [&](const Face& face) {
+  model.surface.each_triangle(tree, [&](const Face& face) {
     for (const CellId c : face) {
       seen[c] = 1;
       found.voids_seen += tree.kind(c) != CellKind::kHeight;

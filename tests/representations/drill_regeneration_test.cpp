@@ -4,7 +4,6 @@
 #include <tbb/task_arena.h>
 
 #include "representations/drill/extract.h"
-#include "representations/drill/influence.h"
 #include "representations/drill/pits.h"
 #include "representations/drill/regenerate.h"
 #include "tests/representations/drill_ground.h"
