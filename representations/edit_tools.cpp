@@ -96,21 +96,6 @@ std::size_t fill_sphere(Representation& edited, const Sphere& sphere, Material m
   });
 }
 
-std::size_t fill_cylinder(Representation& edited, const Cylinder& cylinder, Material material) {
-  edited_lines(edited);
-  check_radius(cylinder.radius);
-  if (!std::isfinite(cylinder.x) || !std::isfinite(cylinder.z) || !(cylinder.bottom < cylinder.top)) {
-    throw usage_error(fmt::format("a cylinder at ({}, {}) from {} to {} m", cylinder.x, cylinder.z,
-                                  cylinder.bottom, cylinder.top),
-                      "edit tool", "give a finite position in metres, and a bottom under the top");
-  }
-  const Disc disc{cylinder.x, cylinder.z, cylinder.radius};
-  check_reach(edited.bounds(), disc, cylinder.bottom, cylinder.top);
-  return edit_disc(edited, disc, [&](glm::dvec2, double) {
-    return Span{cylinder.bottom, cylinder.top, material};
-  });
-}
-
 std::size_t erode(Representation& edited, const events::RadialErosion& event) {
   edited_lines(edited);
   for (const double radius : {event.radii.x, event.radii.y, event.radii.z}) check_radius(radius);

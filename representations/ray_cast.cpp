@@ -1,7 +1,6 @@
 #include "representations/ray_cast.h"
 
 #include "representations/column_grid.h"
-#include "representations/ground_caster.h"
 #include "representations/heightmap/heightmap.h"
 #include "representations/plan_square.h"
 #include "representations/ray_walk.h"

@@ -13,11 +13,15 @@
 // Any mesh is cast by Embree: renderers/raytrace/ray_index.h.
 #pragma once
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <cstddef>
 #include <memory>
 #include <span>
 
 #include "representations/representation.h"
+#include "terrain/memory.h"
 #include "terrain/ray.h"
 
 namespace terrabench {
@@ -34,6 +38,30 @@ class RayCaster {
   virtual void closest(std::span<const Ray>, std::span<float> distances) const = 0;
   // Heap bytes held besides the representation's own.
   virtual std::size_t bytes() const = 0;
+};
+
+// A ray caster from a ground that casts single rays.
+// Ground has
+//   double closest(const Ray&) const;     thread-safe; the distance to the first hit, infinite for none
+//   std::size_t bytes() const;            heap bytes that it holds
+template <class Ground>
+class GroundCaster final : public RayCaster {
+ public:
+  template <class... From>
+  explicit GroundCaster(const From&... from) : ground_(from...) {}
+
+  void closest(std::span<const Ray> rays, std::span<float> distances) const override {
+    constexpr std::size_t kGrain = 1024;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), kGrain), [&](const auto& range) {
+      for (std::size_t r = range.begin(); r < range.end(); ++r) {
+        distances[r] = static_cast<float>(ground_.closest(rays[r]));
+      }
+    });
+  }
+  std::size_t bytes() const override { return heap_bytes(this) + ground_.bytes(); }
+
+ private:
+  Ground ground_;
 };
 
 class Heightmap;

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <set>
 
 namespace terrabench::drill {
@@ -36,7 +37,6 @@ Effects main_effects(const std::vector<Outcome>& outcomes, const ErrorOf& error)
   effects.tau = between(kTaus, &Setting::tau, effects.mean_at_tau.data());
   effects.w = between(kWidths, &Setting::w, nullptr);
   effects.k = between(kInfluences, &Setting::k, nullptr);
-  effects.interactions = 1 - effects.tau - effects.w - effects.k;
   return effects;
 }
 
@@ -65,24 +65,16 @@ std::vector<Outcome> without_outliers(const std::vector<Outcome>& outcomes, cons
   return good;
 }
 
-Cases rising_with_tau(const std::vector<Outcome>& outcomes, const ErrorOf& error) {
-  Cases cases;
-  for (const Outcome& first : outcomes) {
-    if (first.setting.tau != kTaus.front()) continue;
-    double before = error(first);
-    bool rises = true;
-    for (std::size_t t = 1; t < kTaus.size(); ++t) {
-      const Setting at{kTaus[t], first.setting.w, first.setting.k};
-      const auto next =
-          std::find_if(outcomes.begin(), outcomes.end(), [&](const Outcome& o) { return o.setting == at; });
-      const double after = next == outcomes.end() ? before : error(*next);
-      rises = rises && after > before;
-      before = after;
+int rising_with_tau(const std::vector<Outcome>& outcomes, const ErrorOf& error) {
+  std::map<Setting, double> at;
+  for (const Outcome& o : outcomes) at[o.setting] = error(o);
+  int rising = 0;
+  for (const int w : kWidths) {
+    for (const int k : kInfluences) {
+      rising += at[{kTaus[0], w, k}] < at[{kTaus[1], w, k}] && at[{kTaus[1], w, k}] < at[{kTaus[2], w, k}];
     }
-    cases.rising += rises;
-    ++cases.all;
   }
-  return cases;
+  return rising;
 }
 
 std::size_t distinct(const std::vector<Outcome>& outcomes, const ErrorOf& error) {
@@ -95,16 +87,6 @@ std::size_t distinct(const std::vector<Outcome>& outcomes, const ErrorOf& error)
 
 namespace {
 
-template <class Add>
-void add_effects(const std::vector<Outcome>& outcomes, const ErrorOf& error, std::string_view where,
-                 const Add& add) {
-  const Effects effects = main_effects(outcomes, error);
-  add(fmt::format("effect_tau{}", where), effects.tau);
-  add(fmt::format("effect_w{}", where), effects.w);
-  add(fmt::format("effect_k{}", where), effects.k);
-  add(fmt::format("effect_interactions{}", where), effects.interactions);
-}
-
 // Of outcomes with an error that passes the test.
 template <class Test>
 double count(const std::vector<Outcome>& outcomes, const ErrorOf& error, const Test& test) {
@@ -112,43 +94,41 @@ double count(const std::vector<Outcome>& outcomes, const ErrorOf& error, const T
       std::count_if(outcomes.begin(), outcomes.end(), [&](const Outcome& o) { return test(error(o)); }));
 }
 
+bool in_range(double error) { return error >= kPaperLeast && error <= kPaperMost; }
+bool above_1(double error) { return error > 1 && std::isfinite(error); }
+
+double good_in_range(const std::vector<Outcome>& outcomes, const ErrorOf& error) {
+  const std::vector<Outcome> good = without_outliers(outcomes, error);
+  return count(good, error, in_range) / static_cast<double>(good.size());
+}
+
 }  // namespace
+
+bool gives_all(const std::vector<Outcome>& outcomes, const ErrorOf& error) {
+  const auto means = main_effects(outcomes, error).mean_at_tau;
+  return good_in_range(outcomes, error) >= 0.5 && count(outcomes, error, above_1) > 0 &&
+         means[0] < means[1] && means[1] < means[2];
+}
 
 void record_error(const std::vector<Outcome>& outcomes, std::string_view prefix, const ErrorOf& error,
                   Recorder& recorder) {
-  const auto add_with_unit = [&](std::string_view what, std::string_view unit, double value) {
-    recorder.add(fmt::format("{}{}", prefix, what), unit, value);
+  const auto add = [&](std::string_view what, double value) {
+    recorder.add(fmt::format("{}{}", prefix, what), "", value);
   };
-  const auto add = [&](std::string_view what, double value) { add_with_unit(what, "", value); };
   const double infinite = count(outcomes, error, [](double e) { return !std::isfinite(e); });
-  add("infinite_sets", infinite);
-  if (infinite > 0) return;
-  const Outcome& best = least(outcomes, error);
-  add("least", error(best));
-  add_with_unit("best_tau", "pixels", best.setting.tau);
-  add_with_unit("best_w", "samples", best.setting.w);
-  add_with_unit("best_k", "samples", best.setting.k);
-  add("best_untouched", best.untouched);
-  const auto in_range = [](double e) { return e >= kPaperLeast && e <= kPaperMost; };
-  const std::vector<Outcome> good = without_outliers(outcomes, error);
+  if (infinite > 0) return add("infinite_sets", infinite);
+  add("least", error(least(outcomes, error)));
   add("sets_in_range", count(outcomes, error, in_range));
-  add("good_sets", static_cast<double>(good.size()));
-  add("good_in_range", count(good, error, in_range) / static_cast<double>(good.size()));
-  add("sets_above_1", count(outcomes, error, [](double e) { return e > 1; }));
-  add("distinct", static_cast<double>(distinct(outcomes, error)));
-  const Cases cases = rising_with_tau(outcomes, error);
-  add("cases_rising_with_tau", cases.rising);
-  add("cases", cases.all);
+  add("good_in_range", good_in_range(outcomes, error));
+  add("sets_above_1", count(outcomes, error, above_1));
+  add("cases_rising_with_tau", rising_with_tau(outcomes, error));
   const Effects effects = main_effects(outcomes, error);
   for (std::size_t t = 0; t < kTaus.size(); ++t) {
     add(fmt::format("mean_at_tau_{}", kTaus[t]), effects.mean_at_tau[t]);
   }
-  add_effects(outcomes, error, "", add);
-  // With the least k much of the ground stays plateau, which dominates the variance.
-  std::vector<Outcome> wide;
-  std::copy_if(outcomes.begin(), outcomes.end(), std::back_inserter(wide),
-               [](const Outcome& o) { return o.setting.k > kInfluences.front(); });
-  add_effects(wide, error, "_k_from_10", add);
+  add("effect_tau", effects.tau);
+  add("effect_w", effects.w);
+  add("effect_k", effects.k);
 }
 
 }  // namespace terrabench::drill

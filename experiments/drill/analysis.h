@@ -10,12 +10,12 @@
 namespace terrabench::drill {
 
 // How the variance of an error over outcomes splits up (analysis of variance with one observation per cell):
-// the share that the mean per level of each factor explains; interactions explain the rest.
+// the share that the mean per level of each factor explains. What is left of 1 are interactions.
 struct Effects {
-  double tau = 0, w = 0, k = 0, interactions = 0;  // shares, sum 1; all 0 when nothing varies
+  double tau = 0, w = 0, k = 0;  // all 0 when nothing varies
   std::array<double, 3> mean_at_tau{};
 };
-// `outcomes`: those of factorial(), or all combinations of some of its levels.
+// `outcomes`: those of all_settings(), or all combinations of some of its levels.
 Effects main_effects(const std::vector<Outcome>& outcomes, const ErrorOf& error);
 
 const Outcome& least(const std::vector<Outcome>& outcomes, const ErrorOf& error);
@@ -24,11 +24,8 @@ const Outcome& least(const std::vector<Outcome>& outcomes, const ErrorOf& error)
 // lie beyond the upper quartile by more than 1.5 times the distance of the quartiles (Tukey 1977).
 std::vector<Outcome> without_outliers(const std::vector<Outcome>& outcomes, const ErrorOf& error);
 
-// In how many (w, k) the error rises at each step of τ, of all (w, k).
-struct Cases {
-  int rising = 0, all = 0;
-};
-Cases rising_with_tau(const std::vector<Outcome>& outcomes, const ErrorOf& error);
+// In how many (w, k), of 18, the error rises at each step of τ.
+int rising_with_tau(const std::vector<Outcome>& outcomes, const ErrorOf& error);
 
 // The number of different values. 54 when each parameter set gave a terrain of its own.
 std::size_t distinct(const std::vector<Outcome>& outcomes, const ErrorOf& error);
@@ -36,8 +33,13 @@ std::size_t distinct(const std::vector<Outcome>& outcomes, const ErrorOf& error)
 // The range that §3.1 reports for both errors under good parameters.
 inline constexpr double kPaperLeast = 0.015, kPaperMost = 0.025;
 
-// Records all of the above and, of the good sets, the share within the paper's range. Names of metrics begin
-// with `prefix`. Errors must be finite in all outcomes; otherwise nothing but `infinite_sets` is recorded.
+// Whether a reading of the AHD gives all that §3.1 says of it: half of the good sets in that range, values
+// above 1, and a mean that rises with τ.
+bool gives_all(const std::vector<Outcome>& outcomes, const ErrorOf& error);
+
+// What every table of an error shows: the least, how many sets and what share of the good ones lie in the
+// paper's range, how many lie above 1, the mean at each τ, in how many cases it rises, and the main effects.
+// Where an error is infinite, that is recorded in place of them. Names of metrics begin with `prefix`.
 void record_error(const std::vector<Outcome>& outcomes, std::string_view prefix, const ErrorOf& error,
                   Recorder& recorder);
 

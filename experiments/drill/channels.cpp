@@ -1,5 +1,6 @@
-// Channel networks of the drill paper's §2.1 and §3.1: channel pixels per threshold, and the largest flow of
-// the whole ground (largest_flow.cpp takes it over crops).
+// Channel networks of the drill paper's §2.1 and §3.1: channel pixels per threshold, and the largest flow
+// through one pixel, of the whole ground and of many crops, since a single one says as much about where it
+// was cut as about the mountains.
 #include "terrain/hydrology/channels.h"
 
 #include <fmt/format.h>
@@ -8,7 +9,9 @@
 
 #include "experiments/drill/ground.h"
 #include "experiments/experiment.h"
+#include "results/store/statistics.h"
 #include "terrain/hydrology/flow.h"
+#include "terrain/hydrology/steepest.h"
 
 namespace terrabench::drill {
 namespace {
@@ -27,23 +30,64 @@ std::vector<Case> cases(const RunOptions& options) {
   return cases;
 }
 
+double pixels_of(const Heightfield& ground) {  // with data
+  return static_cast<double>(ground.heights.size() - height_range(ground).no_data);
+}
+
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const FlowNetwork network = route_flow(*source.heights, &progress);
   const auto channels = channel_pixels(network, static_cast<std::uint32_t>(at.parameters.integer("tau")));
-  const auto largest =
-      static_cast<double>(*std::max_element(network.accumulation.begin(), network.accumulation.end()));
-  const auto pixels = static_cast<double>(source.heights->heights.size()) -
-                      static_cast<double>(height_range(*source.heights).no_data);
+  const auto largest = static_cast<double>(std::ranges::max(network.accumulation));
+  const double pixels = pixels_of(*source.heights);
   recorder.add("channel_pixels", "", channels.size());
   recorder.add("channel_share", "", static_cast<double>(channels.size()) / pixels);
   recorder.add("largest_flow", "", largest);
   recorder.add("largest_flow_share", "", largest / pixels);
 }
 
+const std::array kCropSpecs{
+    ParameterSpec{"side", std::int64_t{200}, "samples", "side of a crop, at most that of the ground", 8,
+                  16384},
+};
+constexpr int kColumns = 6, kRows = 4;  // crops, evenly spaced over the ground; neighbours overlap
+
+std::vector<Case> crop_cases(const RunOptions& options) {
+  std::vector<Case> cases;
+  for (const std::string& ground : grounds(options)) cases.push_back({ground, {kCropSpecs, {}}, ground});
+  return cases;
+}
+
+void measure_crops(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
+  const Heightfield& ground = *source.heights;
+  const int side = std::min({at.integer("side"), ground.width, ground.depth});
+  progress.begin("routing crops", kColumns * kRows);
+  std::vector<double> searched, steepest;  // shares of the pixels that drain through one
+  for (int row = 0; row < kRows; ++row) {
+    for (int column = 0; column < kColumns; ++column) {
+      const Heightfield part = crop(ground, (ground.width - side) * column / (kColumns - 1),
+                                    (ground.depth - side) * row / (kRows - 1), side, side);
+      progress.advance();
+      if (pixels_of(part) == 0) continue;
+      searched.push_back(std::ranges::max(route_flow(part).accumulation) / pixels_of(part));
+      steepest.push_back(std::ranges::max(route_steepest(part).accumulation) / pixels_of(part));
+    }
+  }
+  recorder.add("crops", "", searched.size());
+  if (searched.empty()) return;
+  recorder.add("least_share", "", std::ranges::min(searched));
+  recorder.add("median_share", "", median(searched));
+  recorder.add("largest_share", "", std::ranges::max(searched));
+  recorder.add("steepest_median_share", "", median(steepest));
+  recorder.add("steepest_largest_share", "", std::ranges::max(steepest));
+}
+
 }  // namespace
 
 extern const Experiment kChannels{"drill.channels", "§3.1: channel pixels and the largest flow", kSpecs,
                                   cases, measure};
+extern const Experiment kLargestFlow{"drill.largest-flow", "§3.1: the largest flow over crops of the ground",
+                                     kCropSpecs, crop_cases, measure_crops};
 
 }  // namespace terrabench::drill

@@ -2,47 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <vector>
+#include <numeric>
 
 namespace terrabench::drill {
 namespace {
-
-constexpr std::uint32_t kPlateau = UINT32_MAX;  // no drill shaped the sample
-
-struct Shaped {
-  Heightfield terrain;
-  std::vector<std::uint32_t> by;  // the drill that cut deepest, the first of equal ones, or kPlateau
-};
-
-Shaped shape(const Drills& drills) {
-  Shaped shaped{Heightfield::zeros(drills.width, drills.depth, drills.cell_x, drills.cell_z), {}};
-  std::vector<float>& heights = shaped.terrain.heights;
-  std::fill(heights.begin(), heights.end(), drills.plateau);
-  shaped.by.assign(drills.pixels(), kPlateau);
-  for (std::uint32_t drill = 0; drill < drills.count(); ++drill) {
-    const int x = static_cast<int>(drills.pixel[drill]) % drills.width;
-    const int z = static_cast<int>(drills.pixel[drill]) / drills.width;
-    const int k = drills.influence_of(drill);
-    const int left = std::max(0, x - k), right = std::min(drills.width - 1, x + k);
-    for (int j = std::max(0, z - k); j <= std::min(drills.depth - 1, z + k); ++j) {
-      const std::size_t row = static_cast<std::size_t>(j) * static_cast<std::size_t>(drills.width);
-      for (int i = left; i <= right; ++i) {
-        const float r = std::sqrt(static_cast<float>((i - x) * (i - x) + (j - z) * (j - z)));
-        const float height =
-            drills.elevation[drill] + r * (drills.slope[drill] + drills.curvature[drill] * r);
-        const std::size_t at = row + static_cast<std::size_t>(i);
-        if (height >= heights[at]) continue;
-        heights[at] = height;
-        shaped.by[at] = drill;
-      }
-    }
-  }
-  for (const HoleRun& hole : drills.holes) {
-    std::fill_n(heights.begin() + hole.first, hole.count, Heightfield::kNoData);
-  }
-  return shaped;
-}
 
 // Calls visit(a, b) for all pairs of neighbours with data.
 template <class Visit>
@@ -70,6 +33,40 @@ void finish(Steps& steps) {
 
 }  // namespace
 
+std::vector<std::uint32_t> as_listed(const Drills& drills) {
+  std::vector<std::uint32_t> order(drills.count());
+  std::iota(order.begin(), order.end(), 0U);
+  return order;
+}
+
+Drilled drill_one_by_one(const Drills& drills, std::span<const std::uint32_t> order) {
+  Drilled drilled{Heightfield::zeros(drills.width, drills.depth, drills.cell_x, drills.cell_z),
+                  std::vector(drills.pixels(), Drilled::kPlateau)};
+  std::vector<float>& heights = drilled.terrain.heights;
+  std::fill(heights.begin(), heights.end(), drills.plateau);
+  for (const std::uint32_t drill : order) {
+    const int x = static_cast<int>(drills.pixel[drill]) % drills.width;
+    const int z = static_cast<int>(drills.pixel[drill]) / drills.width;
+    const int k = drills.influence_of(drill);
+    for (int j = std::max(0, z - k); j <= std::min(drills.depth - 1, z + k); ++j) {
+      for (int i = std::max(0, x - k); i <= std::min(drills.width - 1, x + k); ++i) {
+        const float r = std::sqrt(static_cast<float>((i - x) * (i - x) + (j - z) * (j - z)));
+        const float height =
+            drills.elevation[drill] + r * (drills.slope[drill] + drills.curvature[drill] * r);
+        const auto at = static_cast<std::size_t>(j) * static_cast<std::size_t>(drills.width) +
+                        static_cast<std::size_t>(i);
+        if (height >= heights[at]) continue;
+        heights[at] = height;
+        drilled.by[at] = drill;
+      }
+    }
+  }
+  for (const HoleRun& hole : drills.holes) {
+    std::fill_n(heights.begin() + hole.first, hole.count, Heightfield::kNoData);
+  }
+  return drilled;
+}
+
 Steps steps(const Heightfield& field) {
   Steps all;
   each_pair(field, [&](std::size_t a, std::size_t b) { add(field, a, b, all); });
@@ -77,12 +74,11 @@ Steps steps(const Heightfield& field) {
   return all;
 }
 
-EdgeSteps edge_steps(const Drills& drills) {
-  const Shaped shaped = shape(drills);
+EdgeSteps edge_steps(const Drills& drills, const Drilled& drilled) {
   // Whether the window of the drill that shaped one sample leaves out the other.
   const auto leaves_out = [&](std::size_t one, std::size_t other) {
-    const std::uint32_t drill = shaped.by[one];
-    if (drill == kPlateau) return false;
+    const std::uint32_t drill = drilled.by[one];
+    if (drill == Drilled::kPlateau) return false;
     const auto width = static_cast<std::size_t>(drills.width);
     const auto apart = [](std::size_t a, std::size_t b) { return a > b ? a - b : b - a; };
     const std::size_t centre = drills.pixel[drill], away = std::max(apart(other % width, centre % width),
@@ -90,8 +86,8 @@ EdgeSteps edge_steps(const Drills& drills) {
     return away > static_cast<std::size_t>(drills.influence_of(drill));
   };
   EdgeSteps edges;
-  each_pair(shaped.terrain, [&](std::size_t a, std::size_t b) {
-    add(shaped.terrain, a, b, leaves_out(a, b) || leaves_out(b, a) ? edges.across : edges.inside);
+  each_pair(drilled.terrain, [&](std::size_t a, std::size_t b) {
+    add(drilled.terrain, a, b, leaves_out(a, b) || leaves_out(b, a) ? edges.across : edges.inside);
   });
   finish(edges.across);
   finish(edges.inside);

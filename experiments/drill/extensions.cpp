@@ -41,7 +41,7 @@ constexpr std::array kAll{
 struct Extended {
   int k = 0;
   std::size_t bytes = 0;
-  ElevationError error;
+  double rmse = 0;
   std::size_t untouched = 0, pits = 0;
 };
 
@@ -51,8 +51,8 @@ Extended regenerated(const Heightfield& ground, const Drills& drills) {
   const Heightfield terrain = regenerate(drills);
   Drills bare = drills;
   bare.interpolated = false;
-  return {drills.k, bytes.bytes().size(), elevation_error(ground, terrain),
-          count_untouched(drills, regenerate(bare).heights), count_pits(terrain).count};
+  return {drills.k, bytes.bytes().size(), elevation_error(ground, terrain).rmse,
+          count_untouched(drills, regenerate(bare).heights), count_pits(terrain)};
 }
 
 // With the best k of the factorial, unless every drill has its own.
@@ -60,16 +60,14 @@ Extended extended(const Heightfield& ground, const FlowNetwork& network, DrillOp
   if (options.adaptive_k) options.k = kInfluences.back();
   Drills drills = extract_drills(ground, network, options);
   quantise(drills, automatic_quantum(ground));
-  if (options.adaptive_k) return regenerated(ground, drills);
-  choose_influence_of_all(ground, drills);
+  if (!options.adaptive_k) choose_influence_of_all(ground, drills);
   return regenerated(ground, drills);
 }
 
 void record(const Extended& result, Recorder& recorder) {
   recorder.add("k", "samples", result.k);
   recorder.add("drill_bytes", "B", result.bytes);
-  recorder.add("rmse", "m", result.error.rmse);
-  add_share(recorder, "rmse_normalised", result.error.normalised());
+  recorder.add("rmse", "m", result.rmse);
   recorder.add("untouched", "pixels", result.untouched);
   recorder.add("pits", "", result.pits);
 }
@@ -86,14 +84,14 @@ void record_choice(const Heightfield& ground, const FlowNetwork& network, const 
   recorder.add("chosen_w", "samples", choice.options.w);
   recorder.add("k", "samples", choice.options.k);
   recorder.add("rmse", "m", choice.rmse);
-  recorder.add("rmse_unchosen", "m", one.error.rmse);
+  recorder.add("rmse_unchosen", "m", one.rmse);
 }
 
 // Interpolation can only gain where the best single k leaves samples untouched.
 void record_gain(const Extended& interpolated, const Extended& one, Recorder& recorder) {
   recorder.add("untouched_without", "pixels", static_cast<double>(one.untouched));
   recorder.add("untouched_without_gain", "pixels",
-               interpolated.error.rmse < one.error.rmse ? 0 : static_cast<double>(one.untouched));
+               interpolated.rmse < one.rmse ? 0 : static_cast<double>(one.untouched));
 }
 
 void add_cases(const std::string& ground, const Variant& variant, std::vector<Case>& cases) {

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "experiments/drill/ground.h"
 #include "representations/drill/pits.h"
@@ -42,7 +43,7 @@ void add_share(Recorder& recorder, std::string_view metric, double value) {
   if (std::isfinite(value)) recorder.add(metric, "", value);
 }
 
-std::span<const ParameterSpec> fit_specs() {
+std::span<const ParameterSpec> variant_specs() {
   static const std::array specs{variant_parameter()};
   return specs;
 }
@@ -51,15 +52,26 @@ std::string with_variant(std::string_view ground, const Variant& variant) {
   return variant.is_first() ? std::string(ground) : fmt::format("{}/{}", ground, variant.name);
 }
 
-std::vector<Case> fit_cases(const RunOptions& options) {
+std::vector<Case> variant_cases(const RunOptions& options, std::span<const Variant> variants) {
   std::vector<Case> cases;
   for (const std::string& ground : grounds(options)) {
-    for (const Variant& variant : kFits) {
-      cases.push_back(
-          {with_variant(ground, variant), {fit_specs(), {{"variant", std::string(variant.name)}}}, ground});
+    for (const Variant& variant : variants) {
+      cases.push_back({with_variant(ground, variant),
+                       {variant_specs(), {{"variant", std::string(variant.name)}}},
+                       ground});
     }
   }
   return cases;
+}
+
+std::vector<Setting> all_settings() {
+  std::vector<Setting> all;
+  for (const std::uint32_t tau : kTaus) {
+    for (const int w : kWidths) {
+      for (const int k : kInfluences) all.push_back({tau, w, k});
+    }
+  }
+  return all;
 }
 
 FlowNetwork Variant::route(const Heightfield& ground) const {
@@ -68,10 +80,6 @@ FlowNetwork Variant::route(const Heightfield& ground) const {
 
 DrillOptions options_for(const Setting& setting, const Variant& variant) {
   return {.tau = setting.tau, .w = setting.w, .k = setting.k, .fit = variant.fit};
-}
-
-std::string Reading::name() const {
-  return fmt::format("{}-{}", terrabench::name(average), terrabench::name(space));
 }
 
 ElevationError choose_influence_of_all(const Heightfield& ground, Drills& drills) {
@@ -97,6 +105,7 @@ Outcome compare(const Heightfield& ground, const FlowNetwork& network, const Dri
   outcome.rmse = error.normalised();
   outcome.drills = drills.count();
   outcome.untouched = untouched_share(drills, regenerated);
+  outcome.pits = count_pits(regenerated);
   const auto channels = channel_pixels(network, setting.tau);
   const auto others = channel_pixels(variant.route(regenerated), setting.tau);
   constexpr std::size_t kSpaces = 4;  // the readings of one average
@@ -112,31 +121,29 @@ Outcome compare(const Heightfield& ground, const FlowNetwork& network, const Dri
   return outcome;
 }
 
-std::vector<Outcome> factorial(const Heightfield& ground, const FlowNetwork& network, const Variant& variant,
-                               Progress& progress) {
-  std::vector<Outcome> outcomes;
-  for (const std::uint32_t tau : kTaus) {
-    for (const int w : kWidths) {
-      // The shapes do not depend on k.
-      Drills drills =
-          extract_drills(ground, network, options_for({tau, w, kInfluences.front()}, variant), &progress);
-      progress.begin(fmt::format("regenerating at tau={}, w={}", tau, w), kInfluences.size());
-      for (const int k : kInfluences) {
-        drills.k = k;
-        outcomes.push_back(compare(ground, network, drills, regenerate(drills), {tau, w, k}, variant));
-        progress.advance();
-      }
-    }
+const Outcome& outcome_of(const TerrainSource& source, const Variant& variant, const Setting& setting,
+                          std::optional<FlowNetwork>& network) {
+  static std::map<std::tuple<std::string, std::string_view, Setting>, Outcome> kept;
+  const auto [at, is_new] = kept.try_emplace({source.checksum, variant.name, setting});
+  if (is_new) {
+    const Heightfield& ground = *source.heights;
+    if (!network) network = variant.route(ground);
+    const Drills drills = extract_drills(ground, *network, options_for(setting, variant));
+    at->second = compare(ground, *network, drills, regenerate(drills), setting, variant);
   }
-  return outcomes;
+  return at->second;
 }
 
-const std::vector<Outcome>& factorial_of(const TerrainSource& source, const Variant& variant,
-                                         Progress& progress) {
-  static std::map<std::pair<std::string, std::string_view>, std::vector<Outcome>> kept;  // 12 kB each
-  const auto key = std::pair(source.checksum, variant.name);
-  if (const auto at = kept.find(key); at != kept.end()) return at->second;
-  return kept[key] = factorial(*source.heights, variant.route(*source.heights), variant, progress);
+std::vector<Outcome> factorial_of(const TerrainSource& source, const Variant& variant, Progress& progress) {
+  std::optional<FlowNetwork> network;
+  std::vector<Outcome> outcomes;
+  const std::vector<Setting> settings = all_settings();
+  progress.begin("the factorial, " + std::string(variant.words), settings.size());
+  for (const Setting& setting : settings) {
+    outcomes.push_back(outcome_of(source, variant, setting, network));
+    progress.advance();
+  }
+  return outcomes;
 }
 
 namespace {
@@ -144,47 +151,35 @@ namespace {
 std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const std::string& ground : grounds(options)) {
-    for (const std::uint32_t tau : kTaus) {
-      for (const int w : kWidths) {
-        for (const int k : kInfluences) {
-          cases.push_back(
-              {fmt::format("{}/tau={},w={},k={}", ground, tau, w, k),
-               {kSpecs, {{"tau", std::int64_t{tau}}, {"w", std::int64_t{w}}, {"k", std::int64_t{k}}}},
-               ground});
-        }
-      }
+    for (const auto& [tau, w, k] : all_settings()) {
+      cases.push_back({fmt::format("{}/tau={},w={},k={}", ground, tau, w, k),
+                       {kSpecs, {{"tau", std::int64_t{tau}}, {"w", std::int64_t{w}}, {"k", std::int64_t{k}}}},
+                       ground});
     }
   }
   return cases;
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
+void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
-  const Heightfield& ground = *source.heights;
   const Setting setting{static_cast<std::uint32_t>(at.parameters.integer("tau")), at.integer("w"),
                         at.integer("k")};
-  const FlowNetwork network = route_flow(ground, &progress);
+  std::optional<FlowNetwork> network;  // the same for all fits
   for (const Variant& variant : kFits) {
-    const Drills drills = extract_drills(ground, network, options_for(setting, variant), &progress);
-    const Heightfield regenerated = regenerate(drills);
-    const Outcome outcome = compare(ground, network, drills, regenerated, setting, variant);
+    const Outcome& outcome = outcome_of(source, variant, setting, network);
     const auto add = [&](std::string_view metric, double value) {
-      const std::string prefix = variant.is_first() ? "" : fmt::format("{}_", variant.name);
-      add_share(recorder, prefix + std::string(metric), value);
+      add_share(recorder,
+                fmt::format("{}{}", variant.is_first() ? "" : fmt::format("{}_", variant.name), metric),
+                value);
     };
-    add("drills", static_cast<double>(drills.count()));
+    add("drills", static_cast<double>(outcome.drills));
     add("rmse_normalised", outcome.rmse);
-    for (std::size_t r = 0; r < kReadings.size(); ++r) {
-      add(fmt::format("ahd_{}", kReadings[r].name()), outcome.ahd[r]);
+    for (const std::string_view name : {"mean-plane", "mean-space-samples", "largest-plane"}) {
+      add(fmt::format("ahd_{}", name), outcome.ahd[reading(name)]);
     }
     add("untouched_share", outcome.untouched);
-    add("pits", static_cast<double>(count_pits(regenerated).count));
+    add("pits", static_cast<double>(outcome.pits));
   }
-  // A weaker reading of "monotone": shapes may fall beyond the window.
-  DrillOptions in_window = options_for(setting);
-  in_window.fit = DrillFit::kMonotoneInWindow;
-  const Heightfield weaker = regenerate(extract_drills(ground, network, in_window, &progress));
-  add_share(recorder, "rmse_monotone_in_window", elevation_error(ground, weaker).normalised());
 }
 
 }  // namespace

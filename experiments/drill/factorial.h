@@ -3,12 +3,14 @@
 // choice.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "experiments/experiment.h"
+#include "experiments/cases.h"
 #include "representations/drill/extract.h"
 #include "terrain/heightfield.h"
 #include "terrain/hydrology/flow.h"
@@ -44,11 +46,7 @@ inline constexpr std::array kVariants{
     Variant{"vertex-d8", "shapes with their vertex at the pixel, networks by steepest descent",
             DrillFit::kVertex, true},
 };
-inline constexpr auto kVariantNames = [] {
-  std::array<std::string_view, kVariants.size()> names;
-  for (std::size_t i = 0; i < names.size(); ++i) names[i] = kVariants[i].name;
-  return names;
-}();
+inline constexpr std::array kVariantNames = names_of(kVariants);
 inline bool Variant::is_first() const { return name == kVariantNames[0]; }
 // The three fits: the first three variants.
 inline constexpr std::span<const Variant> kFits = std::span<const Variant>(kVariants).first(3);
@@ -56,10 +54,11 @@ inline constexpr std::span<const Variant> kFits = std::span<const Variant>(kVari
 ParameterSpec variant_parameter();
 const Variant& variant_of(const Parameters&);
 
-// For experiments that measure all fits: the parameter, and a case per ground and fit, named "GROUND" for the
-// printed fit, otherwise "GROUND/FIT".
-std::span<const ParameterSpec> fit_specs();
-std::vector<Case> fit_cases(const RunOptions&);
+// For experiments that measure several variants: the parameter, and a case per ground and variant, named
+// "GROUND" for the first variant, otherwise "GROUND/VARIANT".
+std::span<const ParameterSpec> variant_specs();
+std::vector<Case> variant_cases(const RunOptions&, std::span<const Variant>);
+inline std::vector<Case> fit_cases(const RunOptions& options) { return variant_cases(options, kFits); }
 // `ground`, or with "/monotone" or the like behind it for another than the first variant.
 std::string with_variant(std::string_view ground, const Variant&);
 
@@ -74,27 +73,34 @@ void add_share(Recorder&, std::string_view metric, double value);
 struct Setting {
   std::uint32_t tau = 25;
   int w = 10, k = 20;
-  bool operator==(const Setting&) const = default;
+  auto operator<=>(const Setting&) const = default;
 };
+std::vector<Setting> all_settings();  // 54: k varies fastest, then w, then τ
 DrillOptions options_for(const Setting&, const Variant& = kVariants[0]);
 
 // The ways to read equation 3 and its divisor.
 struct Reading {
+  std::string_view name;  // the value of the parameter "reading"
   ChannelAverage average;
   ChannelSpace space;
-  std::string name() const;  // such as "mean-plane"
 };
-inline constexpr std::array kReadings = [] {
-  std::array<Reading, 12> all{};
-  std::size_t at = 0;
-  for (const auto average : {ChannelAverage::kMean, ChannelAverage::kLargest, ChannelAverage::kSum}) {
-    for (const auto space : {ChannelSpace::kPlane, ChannelSpace::kPlaneSamples, ChannelSpace::kSpace,
-                             ChannelSpace::kSpaceSamples}) {
-      all[at++] = {average, space};
-    }
-  }
-  return all;
-}();
+inline constexpr std::array kReadings{
+    Reading{"mean-plane", ChannelAverage::kMean, ChannelSpace::kPlane},
+    Reading{"mean-plane-samples", ChannelAverage::kMean, ChannelSpace::kPlaneSamples},
+    Reading{"mean-space", ChannelAverage::kMean, ChannelSpace::kSpace},
+    Reading{"mean-space-samples", ChannelAverage::kMean, ChannelSpace::kSpaceSamples},
+    Reading{"largest-plane", ChannelAverage::kLargest, ChannelSpace::kPlane},
+    Reading{"largest-plane-samples", ChannelAverage::kLargest, ChannelSpace::kPlaneSamples},
+    Reading{"largest-space", ChannelAverage::kLargest, ChannelSpace::kSpace},
+    Reading{"largest-space-samples", ChannelAverage::kLargest, ChannelSpace::kSpaceSamples},
+    Reading{"sum-plane", ChannelAverage::kSum, ChannelSpace::kPlane},
+    Reading{"sum-plane-samples", ChannelAverage::kSum, ChannelSpace::kPlaneSamples},
+    Reading{"sum-space", ChannelAverage::kSum, ChannelSpace::kSpace},
+    Reading{"sum-space-samples", ChannelAverage::kSum, ChannelSpace::kSpaceSamples},
+};
+constexpr std::size_t reading(std::string_view name) {
+  return static_cast<std::size_t>(std::ranges::find(kReadings, name, &Reading::name) - kReadings.begin());
+}
 
 // Sets the factorial's k of least RMSE in `drills`, and returns its error.
 ElevationError choose_influence_of_all(const Heightfield& ground, Drills& drills);
@@ -106,18 +112,22 @@ struct Outcome {
   std::array<double, kReadings.size()> ahd{};  // infinite where one of the networks is empty
   std::size_t drills = 0;
   double untouched = 0;  // share of the samples with data that no drill touches
+  std::size_t pits = 0;  // of the regenerated terrain
 };
 using ErrorOf = std::function<double(const Outcome&)>;
+inline ErrorOf ahd(std::size_t reading) {
+  return [=](const Outcome& o) { return o.ahd[reading]; };
+}
 
 // The errors of the terrain that drills regenerate. `network` is variant.route(ground).
 Outcome compare(const Heightfield& ground, const FlowNetwork& network, const Drills& drills,
                 const Heightfield& regenerated, const Setting& setting, const Variant& variant);
 
-// All 54, extracting once per τ and w. k varies fastest, then w, then τ.
-std::vector<Outcome> factorial(const Heightfield& ground, const FlowNetwork& network, const Variant& variant,
-                               Progress& progress);
-// The same, kept until the program ends: many cases read the same 54. Not thread-safe.
-const std::vector<Outcome>& factorial_of(const TerrainSource& source, const Variant& variant,
-                                         Progress& progress);
+// The outcome of drills that are extracted for one setting alone. It is kept until the program ends, as three
+// experiments read the same ones. `network` is routed at the first that is not kept. Not thread-safe.
+const Outcome& outcome_of(const TerrainSource& source, const Variant& variant, const Setting& setting,
+                          std::optional<FlowNetwork>& network);
+// Those of all settings, in their order.
+std::vector<Outcome> factorial_of(const TerrainSource& source, const Variant& variant, Progress& progress);
 
 }  // namespace terrabench::drill

@@ -3,13 +3,14 @@
 // the same heights unrounded (heaps). Shapes are fitted as printed.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <optional>
+#include <string>
+#include <utility>
 
 #include "experiments/drill/factorial.h"
 #include "experiments/drill/ground.h"
 #include "experiments/experiment.h"
 #include "experiments/ground.h"
+#include "experiments/samples.h"
 #include "experiments/stopwatch.h"
 #include "representations/drill/extract.h"
 #include "representations/drill/regenerate.h"
@@ -22,10 +23,6 @@ namespace {
 const std::array kSpecs{
     ParameterSpec{"n", std::int64_t{1024}, "samples", "side of the ground", 64, 16384},
 };
-
-// Small grounds are measured more often; the largest take seconds, and one sample is enough.
-constexpr double kSampledPixels = 1 << 25;
-constexpr int kMostSamples = 9;
 
 std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
@@ -41,33 +38,34 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const double pixels = static_cast<double>(n) * n;
   const Heightfield fine = noise_hills(n, options.seed), whole = whole_metres(fine);
   recorder.terrain("noise-hills", checksum(whole));
-  recorder.add("pixels", "", pixels);
 
-  const int samples = std::clamp(static_cast<int>(kSampledPixels / pixels), 1, kMostSamples);
-  const int warming = samples > 1 ? 1 : 0;  // rounds that are not recorded
-  progress.begin(fmt::format("{0} × {0} samples", n), samples + warming);
-  std::size_t drilled = 0;
-  for (int sample = -warming; sample < samples; ++sample) {
-    std::optional<FlowNetwork> network;
-    const double routing_fine = seconds([&] { network = route_flow(fine); });
-    network.reset();  // one at a time, to bound memory: a network takes as much as the ground
-    const double routing = seconds([&] { network = route_flow(whole); });
-    Drills drills;
-    const double extraction = seconds([&] { drills = extract_drills(whole, *network, options_for({})); });
-    network.reset();
-    const double regeneration = seconds([&] { regenerate(drills); });
-    drilled = drills.count();
-    progress.advance();
-    if (sample < 0) continue;
-    recorder.add("routing_time", "s", routing);
-    recorder.add("routing_time_unrounded", "s", routing_fine);
-    recorder.add("extraction_time", "s", extraction);
-    recorder.add("regeneration_time", "s", regeneration);
-    recorder.add("routed_pixels_per_second", "1/s", pixels / routing);
-    recorder.add("routed_pixels_per_second_unrounded", "1/s", pixels / routing_fine);
-    recorder.add("drills_per_second", "1/s", static_cast<double>(drills.count()) / extraction);
-  }
-  recorder.add("drills", "", drilled);
+  FlowNetwork network;  // one at a time, to bound memory: it takes as much as the ground
+  Drills drills;
+  Samples samples;
+  const auto time = [&](std::string metric, std::string_view rate, const auto& work) {
+    samples.add(std::move(metric), "s", [&recorder, rate, work] {
+      double done = 0;
+      const double spent = seconds([&] { done = work(); });
+      if (!rate.empty()) recorder.add(rate, "1/s", done / spent);
+      return spent;
+    });
+  };
+  const auto route = [&](const Heightfield& ground) {
+    network = {};
+    network = route_flow(ground);
+    return pixels;
+  };
+  time("routing_time_unrounded", "routed_pixels_per_second_unrounded", [&] { return route(fine); });
+  time("routing_time", "routed_pixels_per_second", [&] { return route(whole); });
+  time("extraction_time", "drills_per_second", [&] {
+    drills = extract_drills(whole, network, options_for({}));
+    return static_cast<double>(drills.count());
+  });
+  time("regeneration_time", "", [&] { return regenerate(drills).heights[0]; });
+  progress.begin(fmt::format("{0} × {0} samples", n), 1);
+  samples.take(recorder);
+  progress.advance();
+  recorder.add("drills", "", drills.count());
 }
 
 }  // namespace

@@ -92,7 +92,6 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const FlowNetwork network = variant.route(ground);
   const Setting setting;
   const Drills drills = extract_drills(ground, network, options_for(setting, variant), &progress);
-  recorder.add("drills", "", drills.count());
   if (channel_pixels(network, kChannelTau).empty()) throw SkippedCase("no channel of 100 pixels' flow");
   const Channels channels(ground, network);
   channels.record(regenerated_at_best_k(ground, drills), "", recorder);
@@ -106,6 +105,6 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 }  // namespace
 
 extern const Experiment kHydrography{"drill.hydrography", "§4: channels of the regenerated terrain",
-                                     fit_specs(), fit_cases, measure};
+                                     variant_specs(), fit_cases, measure};
 
 }  // namespace terrabench::drill

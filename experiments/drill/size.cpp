@@ -149,8 +149,6 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const std::uint32_t tau = threshold_for(network, wanted);
   const Stored stored = store(ground, network, variant, tau);
   const auto drills = static_cast<double>(stored.drills.count());
-  recorder.add("tau", "pixels", tau);
-  recorder.add("k", "samples", stored.drills.k);
   recorder.add("drills", "", drills);
   recorder.add("drills_per_160000", "", drills * 160000 / samples);
   recorder.add("values_to_samples", "",
@@ -162,19 +160,16 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   // Whether so many drills are required: with a quarter of them.
   add_share(recorder, "quarter_rmse_normalised",
             store(ground, network, variant, threshold_for(network, wanted / 4)).error.normalised());
-  const auto add = [&](std::string_view metric, const CompressedSize& size) {
-    recorder.add(fmt::format("{}_bytes", metric), "B", size.bytes);
-    recorder.add(fmt::format("{}_rmse", metric), "m", size.rmse);
-  };
   // The other compressors do not support holes.
   const Heightfield filled = fill_no_data(ground);
-  add("zstd_metres", compressed_size(filled, RasterCodec::kZstd, 1));
-  add("jpeg2000_lossless", compressed_size(filled, RasterCodec::kJpeg2000, 100));
-  const double rmse = stored.error.rmse;
-  add("zstd", compressed_size_at(filled, RasterCodec::kZstdDifferences, rmse));
-  add("jpeg2000", compressed_size_at(filled, RasterCodec::kJpeg2000, rmse));
-  add("lerc", compressed_size_at(filled, RasterCodec::kLerc, rmse));
-  add("lerc_deflate", compressed_size_at(filled, RasterCodec::kLercDeflate, rmse));
+  recorder.add("zstd_metres_bytes", "B", compressed_size(filled, RasterCodec::kZstd, 1).bytes);
+  recorder.add("jpeg2000_lossless_bytes", "B", compressed_size(filled, RasterCodec::kJpeg2000, 100).bytes);
+  for (const auto& [metric, codec] : {std::pair("zstd_bytes", RasterCodec::kZstdDifferences),
+                                      {"jpeg2000_bytes", RasterCodec::kJpeg2000},
+                                      {"lerc_bytes", RasterCodec::kLerc},
+                                      {"lerc_deflate_bytes", RasterCodec::kLercDeflate}}) {
+    recorder.add(metric, "B", compressed_size_at(filled, codec, stored.error.rmse).bytes);
+  }
   if (variant.is_first())
     draw_rate_distortion(source, network, figures::ground_suffix(at.terrain, kMainGround), recorder,
                          progress);
@@ -182,6 +177,6 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kSize{"drill.size", "§4.1: values and bytes", fit_specs(), fit_cases, measure};
+extern const Experiment kSize{"drill.size", "§4.1: values and bytes", variant_specs(), fit_cases, measure};
 
 }  // namespace terrabench::drill

@@ -222,10 +222,8 @@ void record(const Sweep& sweep, const std::string& prefix, Recorder& recorder) {
   add("best_tau", "pixels", kTaus[least.tau]);
   add("best_w", "samples", kSweptWidths[least.width]);
   add("best_k", "samples", least.k);
-  const double paper = std::min({sweep.at(0, kPaperWidth, kPaperK), sweep.at(1, kPaperWidth, kPaperK),
-                                 sweep.at(2, kPaperWidth, kPaperK)});
-  add_error("at_w10_k20", paper);
-  if (least.rmse > 0) add_error("at_w10_k20_to_least", paper / least.rmse);
+  add_error("at_w10_k20", std::min({sweep.at(0, kPaperWidth, kPaperK), sweep.at(1, kPaperWidth, kPaperK),
+                                    sweep.at(2, kPaperWidth, kPaperK)}));
   const Held held = drill::held(sweep);
   add("factorials", "", held.all);
   const auto add_held = [&](std::string_view metric, int count) {

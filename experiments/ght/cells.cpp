@@ -54,8 +54,7 @@ NodeId host_of(const Tree& tree, const RadialErosion& bowl) {
 void measure_hosts(const RunOptions& options, Recorder& recorder) {
   constexpr int kBowls = 400;
   constexpr double kFar = 26;  // cells from the border
-  const Site site = event_site(128, 32, options.seed);
-  record_site(site, options.seed, recorder);
+  const Site site = recorded_site(128, 32, options.seed, recorder);
   Ght tree = plain_tree(site.ground);
   Dice dice(options.seed);
   const double cell = site.ground.cell_x;
@@ -121,8 +120,7 @@ struct OverLinks {
 void measure_links(const RunOptions& options, Recorder& recorder) {
   constexpr int kPairs = 40;
   constexpr double kRadius = 8, kFar = 26;  // cells
-  const Site site = event_site(128, 32, options.seed);
-  record_site(site, options.seed, recorder);
+  const Site site = recorded_site(128, 32, options.seed, recorder);
   const Ght fresh = plain_tree(site.ground);
   const double cell = site.ground.cell_x;
   Dice dice(options.seed);
@@ -141,8 +139,7 @@ void measure_links(const RunOptions& options, Recorder& recorder) {
 
 // Cells with heights of the heightmaps at an angle, and the host's cells that they replaced.
 void measure_inclined(const RunOptions& options, Recorder& recorder) {
-  const Site site = event_site(128, 32, options.seed);
-  record_site(site, options.seed, recorder);
+  const Site site = recorded_site(128, 32, options.seed, recorder);
   for (const Kind kind : {Kind::kLinearErosion, Kind::kNormalFault, Kind::kInverseFault}) {
     Ght ght = plain_tree(site.ground);
     ght.apply(single_event(site, kind));
@@ -153,10 +150,8 @@ void measure_inclined(const RunOptions& options, Recorder& recorder) {
       replaced += c < host && tree.kind(c) == CellKind::kLink;
       cells += c >= host && tree.kind(c) == CellKind::kHeight;
     }
-    std::string what(events::name(kind));
-    std::replace(what.begin(), what.end(), '-', '_');
-    recorder.add("cells_" + what, "", cells);
-    recorder.add("host_cells_" + what, "", replaced);
+    recorder.add(metric_of("cells", kind), "", cells);
+    recorder.add(metric_of("host_cells", kind), "", replaced);
   }
 }
 

@@ -60,8 +60,7 @@ std::vector<Case> cases(const RunOptions&) {
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const int n = at.integer("n");
-  const Site site = event_site(n, n / kEventsAlong, options.seed);
-  record_site(site, options.seed, recorder);
+  const Site site = recorded_site(n, n / kEventsAlong, options.seed, recorder);
   const bool rains = at.parameters.text("events") == "rain";
   std::vector<Event> events;
   if (!rains) events = overlapping_events(site);

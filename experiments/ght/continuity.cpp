@@ -49,11 +49,10 @@ class Inspection {
   }
   // Tries a random event after those that the tree took; appends it to them if the tree takes it too.
   void try_random(Ght& tree, const Site& site, const Event& event, std::vector<Event>& before) {
-    ++tried_[static_cast<std::size_t>(kind(event))];
     const bool meets = meets_fold(site, tree, event, before);
     meeting_ += meets;
     if (play(tree, event)) {
-      ++taken_[static_cast<std::size_t>(kind(event))];
+      tunnels_ += kind(event) == Kind::kTunnel;
       before.push_back(event);
       return;
     }
@@ -89,27 +88,21 @@ class Inspection {
     }
   }
 
-  // Of random events: those tried and taken by kind, and the reasons of the others.
+  // Of random events: the reasons of those that were refused.
   void write_refusals() const {
-    for (std::size_t k = 0; k < tried_.size(); ++k) {
-      std::string what(event_names()[k]);
-      std::replace(what.begin(), what.end(), '-', '_');
-      recorder_.add("tried_" + what, "", tried_[k]);
-      recorder_.add("taken_" + what, "", taken_[k]);
-    }
+    recorder_.add("taken_tunnel", "", tunnels_);
     std::size_t refused = 0;
     for (std::size_t k = 0; k < why_.size(); ++k) {
       recorder_.add("refused_" + std::string(kRefusals[k]), "", why_[k]);
       refused += why_[k];
     }
-    const std::size_t by_tree = refused - why_[static_cast<std::size_t>(Refusal::kImpossible)],
-                      possible = applied_ + by_tree;
-    recorder_.add("possible_events", "", possible);
-    recorder_.add("refused_share", "", static_cast<double>(by_tree) / static_cast<double>(possible));
+    const std::size_t by_tree = refused - why_[static_cast<std::size_t>(Refusal::kImpossible)];
+    const auto possible = static_cast<double>(applied_ + by_tree);
+    recorder_.add("refused_share", "", static_cast<double>(by_tree) / possible);
     recorder_.add("meeting_share", "",
                   static_cast<double>(meeting_) / static_cast<double>(applied_ + refused));
     recorder_.add("unexplained_refusals", "", unexplained_);
-    recorder_.add("unexplained_share", "", static_cast<double>(unexplained_) / static_cast<double>(possible));
+    recorder_.add("unexplained_share", "", static_cast<double>(unexplained_) / possible);
   }
 
  private:
@@ -117,9 +110,8 @@ class Inspection {
   std::size_t applied_ = 0, refused_ = 0, broken_ = 0, unlinked_ = 0, open_ = 0, boundary_links_ = 0,
               dangling_ = 0, voids_seen_ = 0, derived_links_ = 0, wrong_links_ = 0;
   std::string error_;  // of the last refusal
-  std::array<std::size_t, kKinds> tried_{}, taken_{};
   std::array<std::size_t, std::size(kRefusals)> why_{};
-  std::size_t unexplained_ = 0;
+  std::size_t tunnels_ = 0, unexplained_ = 0;
   std::size_t meeting_ = 0;  // events near an overhang or carving, taken or not
   std::uint32_t deepest_ = 0;
 };
@@ -157,38 +149,6 @@ void play_random(int sequences, std::uint64_t seed, bool wild, Inspection& inspe
   }
 }
 
-}  // namespace
-
-Breaks count_breaks(const Model& model) {
-  const Tree& tree = model.tree;
-  Breaks found;
-  std::vector<char> seen(tree.cells(), 0);
-  const auto see = [&](CellId c) {
-    seen[c] = 1;
-    found.voids_seen += tree.kind(c) != CellKind::kHeight;
-  };
-  for (int j = 0; j + 1 < tree.grid().depth; ++j) {
-    for (int i = 0; i + 1 < tree.grid().width; ++i) {
-      if (!model.surface.plain(tree, {i, j})) continue;
-      for (const CellId c : ComposedSurface::corners(tree, {i, j})) see(c);
-    }
-  }
-  model.surface.each_face([&](FaceId f) {
-    for (const CellId c : model.surface.face(f)) see(c);
-  });
-  for (CellId c = 0; c < tree.cells(); ++c) {
-    if (tree.kind(c) != CellKind::kLink) continue;
-    const CellId end = tree.resolve(c);
-    // The paper's null links, over the mouth of a carving, end in a void cell of its border.
-    const bool null =
-        tree.kind(end) == CellKind::kVoid && tree.nodes()[tree.node_of(end)].area == Area::kBorder;
-    found.dangling += !null && seen[end] == 0;
-  }
-  return found;
-}
-
-namespace {
-
 std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
   return cases_by(
@@ -198,8 +158,7 @@ std::vector<Case> cases(const RunOptions& options) {
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const std::string& what = at.parameters.text("events");
-  const Site site = event_site(kEventsAlong * kSize, kSize, options.seed);
-  record_site(site, options.seed, recorder);
+  const Site site = recorded_site(kEventsAlong * kSize, kSize, options.seed, recorder);
   Inspection inspection(recorder);
   if (what == "single-events") {
     for (int k = 0; k < kKinds; ++k) {

@@ -90,15 +90,13 @@ Added added_by_last(const Model& model) {
   return added;
 }
 
-// What the last event did, from the tree's nodes and its list of events.
-void record(const Tree& tree, std::size_t nodes_before, std::string_view where, Recorder& recorder) {
-  const Applied& last = tree.events().back();
-  recorder.add(fmt::format("added_{}", where), "", tree.nodes().size() - nodes_before);
-  recorder.add(fmt::format("host_depth_{}", where), "", tree.nodes()[last.host].depth);
+// Of the last event, from the tree's nodes and its list of events.
+void record_host(const Tree& tree, std::string_view where, Recorder& recorder) {
+  recorder.add(fmt::format("host_depth_{}", where), "", tree.nodes()[tree.events().back().host].depth);
 }
 
 Added record_added(const Model& model, std::size_t nodes_before, std::string_view where, Recorder& recorder) {
-  record(model.tree, nodes_before, where, recorder);
+  recorder.add(fmt::format("added_{}", where), "", model.tree.nodes().size() - nodes_before);
   const Added added = added_by_last(model);
   recorder.add(fmt::format("empty_{}", where), "", added.empty);
   recorder.add(fmt::format("unlinked_{}", where), "", added.unlinked);
@@ -109,10 +107,14 @@ Added record_added(const Model& model, std::size_t nodes_before, std::string_vie
 // On the root. Also, which the paper does not count, on a block of a fault so large that a smaller event lies
 // wholly in it.
 void measure_geotectonic(const Site& site, Kind kind, Recorder& recorder) {
+  const auto record = [&](const Ght& tree, std::size_t nodes_before, std::string_view where) {
+    const Added added = record_added(tree.model(), nodes_before, where, recorder);
+    recorder.add(fmt::format("largest_share_{}", where), "", added.largest_share);
+    record_host(tree.model().tree, where, recorder);
+  };
   Ght fresh = plain_tree(site.ground);
   fresh.apply(single_event(site, kind));
-  recorder.add("largest_share_on_root", "",
-               record_added(fresh.model(), 1, "on_root", recorder).largest_share);
+  record(fresh, 1, "on_root");
 
   Ght faulted = plain_tree(site.ground);
   const events::Event fault = geotectonic_event(site, Kind::kNormalFault, site.middle, 1.2 * site.size);
@@ -121,8 +123,7 @@ void measure_geotectonic(const Site& site, Kind kind, Recorder& recorder) {
   const glm::dvec2 block = line.plan({0.5 * line.length, 0.3 * site.size});
   const std::size_t before = faulted.model().tree.nodes().size();
   faulted.apply(geotectonic_event(site, kind, block, 0.3 * site.size));
-  recorder.add("largest_share_on_block", "",
-               record_added(faulted.model(), before, "on_block", recorder).largest_share);
+  record(faulted, before, "on_block");
 }
 
 // Trees of one carving with sections of 3 to 12 sides, each in fresh ground; fewer if the mountains have no
@@ -171,7 +172,8 @@ void measure_hosts(Recorder& recorder) {
   tree.apply(events::DipFault{false, {12, 32}, {52, 32}, 24, 14, 55});
   const std::size_t before = tree.model().tree.nodes().size();
   tree.apply(square_cave({32, 20, 28}, {32, 20, 18}));
-  record(tree.model().tree, before, "in_wall", recorder);
+  recorder.add("added_in_wall", "", tree.model().tree.nodes().size() - before);
+  record_host(tree.model().tree, "in_wall", recorder);
   recorder.add("broken_in_wall", "", broken_invariants(tree.model()).size());
   bool named = false;
   try {
@@ -203,15 +205,6 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 }
 
 }  // namespace
-
-std::span<const std::string_view> event_names() {
-  static const auto names = [] {
-    std::array<std::string_view, events::kKinds> all;
-    for (int k = 0; k < events::kKinds; ++k) all[k] = events::name(static_cast<Kind>(k));
-    return all;
-  }();
-  return names;
-}
 
 extern const Experiment kCounts{"ght.counts", "§3.2: heightmaps that each event adds", kSpecs, cases,
                                 measure};

@@ -12,7 +12,9 @@
 
 #include "experiments/experiment.h"
 #include "experiments/ght/site.h"
+#include "experiments/samples.h"
 #include "experiments/stopwatch.h"
+#include "results/store/statistics.h"
 #include "terrain/events/evaluate.h"
 
 namespace terrabench::ght {
@@ -30,18 +32,15 @@ const std::array kReachSpecs{
     ParameterSpec{"size", std::int64_t{32}, "cells", "length of the events", 32, 4096},
 };
 
-// At most kMostSamples samples; sampling stops once they add up to kSecondsOfSamples.
-constexpr int kMostSamples = 7;
-constexpr double kSecondsOfSamples = 0.1;
-
-// Calls sample(), which returns seconds. Returns their median.
+// Calls sample(), which returns seconds: kSamples times, or fewer once they add up to a tenth of a second.
+// Returns their median.
 template <class Sample>
 double sample_times(const Sample& sample) {
   std::vector<double> times;
-  double sum = 0;
-  while (times.size() < kMostSamples && sum < kSecondsOfSamples) sum += times.emplace_back(sample());
-  std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
-  return times[times.size() / 2];
+  for (Repetitions repetitions(0.1); repetitions.more(); repetitions.add(times.back())) {
+    times.push_back(sample());
+  }
+  return median(times);
 }
 
 double used(const Memory& memory) { return static_cast<double>(memory.payload + memory.index); }
@@ -130,31 +129,28 @@ class Peer {
     structure_ = method.build(source, Parameters(method.parameters), progress);
   }
 
+  // Records the whole time as a metric with this suffix; without one, all else too.
   void measure(const Strokes& strokes, std::span<const double> tree_lengths, double tree_time, double cell,
                std::string_view suffix, Recorder& recorder) {
-    bool first = true;
-    const double median = sample_times([&] {
-      const double before = used(structure_->memory());
-      const double columns_time = strokes.time_columns();
+    bool first = suffix.empty();
+    const double whole = sample_times([&] {
+      const double before = used(structure_->memory()), columns_time = strokes.time_columns();
       const double time = processor_seconds([&] { strokes.edit.paint(*structure_); });
-      recorder.add(fmt::format("{}_time{}", name_, suffix), "s", time);
+      if (suffix.empty()) recorder.add(fmt::format("{}_time", name_), "s", time);
       recorder.add(fmt::format("{}_whole_time{}", name_, suffix), "s", columns_time + time);
-      if (std::exchange(first, false)) {
-        // On the untouched structure only: an undone edit leaves nodes behind.
-        if (suffix.empty()) {
-          recorder.add(fmt::format("{}_bytes", name_), "B", used(structure_->memory()) - before);
-        }
+      if (std::exchange(first, false)) {  // on the untouched structure: an undone edit leaves nodes behind
+        recorder.add(fmt::format("{}_bytes", name_), "B", used(structure_->memory()) - before);
         const std::vector<double> lengths = solid_lengths(*structure_, strokes);
         double differences = 0;
         for (std::size_t c = 0; c < lengths.size(); ++c)
           differences += std::abs(lengths[c] - tree_lengths[c]);
-        recorder.add(fmt::format("{}_difference{}", name_, suffix), "cells",
+        recorder.add(fmt::format("{}_difference", name_), "cells",
                      differences / static_cast<double>(lengths.size()) / cell);
       }
       strokes.undo.paint(*structure_);
       return columns_time + time;
     });
-    recorder.add_varying(fmt::format("ght_per_{}_time{}", name_, suffix), "", tree_time / median);
+    if (suffix.empty()) recorder.add_varying(fmt::format("ght_per_{}_time", name_), "", tree_time / whole);
   }
 
  private:
@@ -166,37 +162,39 @@ class Comparison {
  public:
   Comparison(const Site& site, Recorder& recorder, Progress& progress)
       : site_(site), recorder_(recorder), tree_(plain_tree(site.ground)) {
-    TerrainSource source;
-    source.name = "diamond-square";
-    source.checksum = checksum(site.ground);
-    source.heights = site.ground;
+    const TerrainSource source = source_of("diamond-square", site.ground);
     peers_.emplace_back("layered_stack", "stack", source, progress);
     peers_.emplace_back("voxel", "voxel", source, progress);
   }
 
-  void measure(Kind kind, std::string_view suffix) {
+  // Records times as metrics with this suffix, those of the peers if asked for; without a suffix, all else
+  // too.
+  void measure(Kind kind, std::string_view suffix, bool peers) {
+    const bool alone = suffix.empty();
     const Event event = single_event(site_, kind);
+    Strokes strokes;
+    if (peers) strokes = strokes_of(site_, event);
+    if (alone) recorder_.add("columns", "", strokes.x.size());
     std::vector<double> lengths;
-    const Strokes strokes = strokes_of(site_, event);
-    recorder_.add(fmt::format("columns{}", suffix), "", strokes.x.size());
     const double tree_time = sample_times([&] {
       const auto held = std::make_unique<Ght>(tree_);  // on the heap, as memory() counts the tree's own block
       Ght& tree = *held;
       // The tree's arrays start without spare capacity. The first event pays for their growth, so it is timed
       // separately.
-      recorder_.add(fmt::format("first_event_time{}", suffix), "s",
-                    processor_seconds([&] { tree.apply(pebble()); }));
+      const double first = processor_seconds([&] { tree.apply(pebble()); });
+      if (alone) recorder_.add("first_event_time", "s", first);
       const double before = used(tree.memory());
       const std::uint32_t cells = tree.model().tree.cells();
       const double time = processor_seconds([&] { tree.apply(event); });
       recorder_.add(fmt::format("ght_time{}", suffix), "s", time);
-      if (lengths.empty()) {
-        recorder_.add(fmt::format("ght_bytes{}", suffix), "B", used(tree.memory()) - before);
-        recorder_.add(fmt::format("ght_cells{}", suffix), "", tree.model().tree.cells() - cells);
+      if (alone && lengths.empty()) {
+        recorder_.add("ght_bytes", "B", used(tree.memory()) - before);
+        recorder_.add("ght_cells", "", tree.model().tree.cells() - cells);
         lengths = solid_lengths(tree, strokes);
       }
       return time;
     });
+    if (!peers) return;
     for (Peer& peer : peers_)
       peer.measure(strokes, lengths, tree_time, site_.ground.cell_x, suffix, recorder_);
   }
@@ -215,9 +213,7 @@ class Comparison {
 };
 
 Site site_of(const Case& at, const RunOptions& options, Recorder& recorder) {
-  Site site = event_site(at.integer("n"), at.integer("size"), options.seed);
-  record_site(site, options.seed, recorder);
-  return site;
+  return recorded_site(at.integer("n"), at.integer("size"), options.seed, recorder);
 }
 
 std::vector<Case> edit_cases(const RunOptions& options) {
@@ -234,7 +230,7 @@ std::vector<Case> edit_cases(const RunOptions& options) {
 
 void measure_edit(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const Site site = site_of(at, options, recorder);
-  Comparison(site, recorder, progress).measure(static_cast<Kind>(at.parameters.choice("event")), "");
+  Comparison(site, recorder, progress).measure(static_cast<Kind>(at.parameters.choice("event")), "", true);
 }
 
 std::vector<Case> reach_cases(const RunOptions&) {
@@ -253,11 +249,11 @@ void measure_reach(const Case& at, const RunOptions& options, Recorder& recorder
   progress.begin(at.name, kKinds);
   for (int k = 0; k < kKinds; ++k) {
     progress.advance();
+    const auto kind = static_cast<Kind>(k);
     // Finer mountains are rougher around a mouth, and the tree refuses the carving.
-    if (is_carving(static_cast<Kind>(k))) continue;
-    std::string suffix = fmt::format("_{}", name(static_cast<Kind>(k)));
-    std::replace(suffix.begin(), suffix.end(), '-', '_');
-    comparison.measure(static_cast<Kind>(k), suffix);
+    if (is_carving(kind)) continue;
+    // The plot shows two of the events in all structures.
+    comparison.measure(kind, metric_of("", kind), kind == Kind::kRadialErosion || kind == Kind::kNormalFault);
   }
 }
 

@@ -5,13 +5,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "experiments/cases.h"
 #include "experiments/ght/figures.h"
 #include "experiments/ght/shown.h"
 #include "experiments/ght/site.h"
-#include "experiments/ght/textured.h"
 #include "experiments/ght/tree_view.h"
-#include "experiments/ght/trimmed.h"
 #include "renderers/landscape/style.h"
 #include "results/store/format.h"
 #include "terrain/events/scripts.h"
@@ -347,14 +344,6 @@ constexpr std::array<figures::Figure, 10> kFigures{{
      "of 1025 × 1025, with 2,500 of 10,000 particles, whose craters are four times as wide in metres",
      draw_rain},
 }};
-constexpr std::array kNames = names_of(kFigures);
-const std::array kSpecs{choice("figure", kNames, "figure of the paper")};
-
-std::vector<Case> cases(const RunOptions&) { return cases_by("figure", kSpecs); }
-
-void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  draw_figure(kFigures, "ght", at, options, recorder);
-}
 
 }  // namespace
 
@@ -379,7 +368,7 @@ Ght sequence_tree(std::uint64_t seed) {
 
 std::span<const figures::Figure> event_figures() { return kFigures; }
 
-extern const Experiment kEventFigures{"ght.event-figures", "Figures 13, 15 and 17-24: events and their trees",
-                                      kSpecs, cases, draw};
+extern const Experiment kEventFigures = figures::figure_experiment<kFigures>(
+    "ght.event-figures", "Figures 13, 15 and 17-24: events and their trees");
 
 }  // namespace terrabench::ght

@@ -74,7 +74,6 @@ void measure_diamond_square(int side, int, std::uint64_t seed, Recorder& recorde
     }
     before = sum;
   }
-  recorder.add("side_exponent", "", levels);
   recorder.add("open_border_samples", "", open);
   recorder.add("corner_differences", "", corners);
   recorder.add("beyond_range", "", beyond);

@@ -75,8 +75,7 @@ struct Interpolation {
 }  // namespace
 
 void measure_interpolated(const RunOptions& options, Recorder& recorder) {
-  const Site site = event_site(128, 32, options.seed);
-  record_site(site, options.seed, recorder);
+  const Site site = recorded_site(128, 32, options.seed, recorder);
   Interpolation all;
   for (const Kind kind : {Kind::kLinearErosion, Kind::kNormalFault, Kind::kInverseFault}) {
     Ght ght = plain_tree(site.ground);

@@ -104,8 +104,7 @@ struct NullLinks {
 }  // namespace
 
 void measure_null_links(const RunOptions& options, Recorder& recorder) {
-  const Site site = event_site(128, 32, options.seed);
-  record_site(site, options.seed, recorder);
+  const Site site = recorded_site(128, 32, options.seed, recorder);
   NullLinks all;
   for (const Kind kind : {Kind::kTunnel, Kind::kCave}) all.add(site, single_event(site, kind));
   for (const Event& tunnel : two_tunnels(site)) all.add(site, tunnel);

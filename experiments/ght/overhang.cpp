@@ -45,7 +45,6 @@ const std::array kSpecs{
 struct Hollow {
   std::size_t overhangs = 0;  // columns with more than one interval
   std::size_t most = 0;       // intervals
-  std::size_t manifold = 0;   // columns with more than two
   double air = 0;             // metres below the top, summed over all columns
 
   // intervals(k) is the bottom and top of the k-th of `count` intervals, from below. Returns the air between.
@@ -53,7 +52,6 @@ struct Hollow {
   double column(const Intervals& intervals, std::size_t count) {
     const double before = air;
     overhangs += count > 1;
-    manifold += count > 2;
     most = std::max(most, count);
     for (std::size_t k = 1; k < count; ++k) air += intervals(k).first - intervals(k - 1).second;
     return air - before;
@@ -154,13 +152,12 @@ std::vector<Case> cases(const RunOptions& options) {
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   const int size = at.integer("size");
   const int per_cell = at.integer("columns_per_cell");
-  const Site site = event_site(kEventsAlong * size, size, options.seed);
+  const Site site = recorded_site(kEventsAlong * size, size, options.seed, recorder);
   const auto sculpture = std::make_shared<Sculpture>(
       Sculpture{site.ground, kTerrains[at.parameters.choice("events")].events(site)});
   Ght tree = plain_tree(site.ground);
   for (const Event& event : sculpture->events) tree.apply(event);
   const Evaluation evaluation(sculpture);
-  record_site(site, options.seed, recorder);
 
   Hollow found, truth;
   Change change;
@@ -193,9 +190,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
                     stretches.front().top - floor - evaluated_air, site.ground.cell_x);
     }
   }
-  const double all = static_cast<double>(columns) * columns;
-  recorder.add("events", "", sculpture->events.size());
-  recorder.add("columns", "", all);
+  recorder.add("columns", "", static_cast<double>(columns) * columns);
   recorder.add("changed_columns", "", change.columns);
   if (change.columns > 0) {
     const double cells = static_cast<double>(change.columns) * site.ground.cell_x;
@@ -204,12 +199,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     recorder.add("missed_share", "", change.missed / change.changed);
   }
   recorder.add("overhang_columns", "", found.overhangs);
-  recorder.add("overhang_share", "", static_cast<double>(found.overhangs) / all);
   recorder.add("most_intervals", "", found.most);
   recorder.add("lost_volume", "m³", found.air * step * step);
-  recorder.add("columns_of_three", "", found.manifold);
-  recorder.add("evaluated_columns_of_three", "", truth.manifold);
-  recorder.add("evaluated_most_intervals", "", truth.most);
   recorder.add("evaluated_overhang_columns", "", truth.overhangs);
   recorder.add("evaluated_lost_volume", "m³", truth.air * step * step);
   const Core core = comparison.core();

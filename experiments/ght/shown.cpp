@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "experiments/ght/site.h"
 #include "experiments/ght/tree_view.h"
 
 namespace terrabench::ght {
@@ -139,13 +140,6 @@ double slip_between(const Ght& ght, const Line& line) {
   return best;
 }
 
-// The name of a metric of an event: "planes_linear_erosion".
-std::string of(std::string_view metric, Kind event) {
-  std::string all = fmt::format("{}_{}", metric, name(event));
-  std::ranges::replace(all, '-', '_');
-  return all;
-}
-
 }  // namespace
 
 double blue_share(const Image& image) {
@@ -182,33 +176,33 @@ void record_event(Drawing& drawing, const Event& event, const Ght& before, const
                   const Image& wires) {
   const Kind which = kind(event);
   const Change shape = change(before, after);
-  drawing.record(of("planes", which), planes_of_events(after));
-  drawing.record(of("blue", which), blue_share(wires));
+  drawing.record(metric_of("planes", which), planes_of_events(after));
+  drawing.record(metric_of("blue", which), blue_share(wires));
   if (const auto* const trench = std::get_if<LinearErosion>(&event)) {
     const auto drop = [&](glm::dvec2 plan, double) { return trench->drop(trench->line().local(plan)); };
-    drawing.record(of("defined", which), defined_volume(before, drop));
+    drawing.record(metric_of("defined", which), defined_volume(before, drop));
   } else if (const auto* const bowl = std::get_if<RadialErosion>(&event)) {
     const auto drop = [&](glm::dvec2 plan, double height) { return height - bowl->bottom(plan); };
-    drawing.record(of("defined", which), defined_volume(before, drop));
+    drawing.record(metric_of("defined", which), defined_volume(before, drop));
   } else if (const auto* const fault = std::get_if<DipFault>(&event)) {
-    drawing.record(of("overhang", which), shape.overhang);
+    drawing.record(metric_of("overhang", which), shape.overhang);
     if (fault->inverse) drawing.record("overlap_inverse_fault", fault->offset() * fault->line().length);
-    drawing.record(of("step", which), shape.deepest + shape.highest);
+    drawing.record(metric_of("step", which), shape.deepest + shape.highest);
     return;
   } else {
-    drawing.record(of("slip", which), slip_between(after, std::get<LateralFault>(event).line()));
+    drawing.record(metric_of("slip", which), slip_between(after, std::get<LateralFault>(event).line()));
     return;
   }
-  drawing.record(of("removed", which), shape.removed);
-  drawing.record(of("added", which), shape.added);
+  drawing.record(metric_of("removed", which), shape.removed);
+  drawing.record(metric_of("added", which), shape.added);
 }
 
 void record_carving(Drawing& drawing, const Carving& carving, const Ght& before, const Ght& after) {
   const Kind which = carving.cave ? Kind::kCave : Kind::kTunnel;
   const Axis axis = axis_of(before, after, carving);
-  drawing.record(of("planes", which), planes_of_events(after));
-  drawing.record(of("rock_before", which), axis.rock_before);
-  drawing.record(of("rock_after", which), axis.rock_after);
+  drawing.record(metric_of("planes", which), planes_of_events(after));
+  drawing.record(metric_of("rock_before", which), axis.rock_before);
+  drawing.record(metric_of("rock_after", which), axis.rock_after);
   if (carving.cave) drawing.record("rock_beyond_cave", axis.rock_before - axis.dug);
 }
 

@@ -166,6 +166,12 @@ void record_site(const Site& site, std::uint64_t asked, Recorder& recorder) {
   if (site.seed != asked) recorder.add("site_seed", "", site.seed);
 }
 
+Site recorded_site(int side, int size, std::uint64_t seed, Recorder& recorder) {
+  Site site = event_site(side, size, seed);
+  record_site(site, seed, recorder);
+  return site;
+}
+
 Ght plain_tree(const Heightfield& ground) {
   return Ght({ground.width, ground.depth, ground.cell_x, ground.cell_z, 0, 0}, ground.heights,
              height_range(ground).lowest - ground.cell_x);
@@ -283,6 +289,21 @@ std::vector<Event> overlapping_events(const Site& site) {
   for (const bool cave : {false, true}) {
     if (const auto carving = carve(tree, site, cave, cave ? 6 : 8)) all.push_back(*carving);
   }
+  return all;
+}
+
+std::span<const std::string_view> event_names() {
+  static const auto names = [] {
+    std::array<std::string_view, kKinds> all;
+    for (int k = 0; k < kKinds; ++k) all[k] = name(static_cast<Kind>(k));
+    return all;
+  }();
+  return names;
+}
+
+std::string metric_of(std::string_view metric, Kind kind) {
+  std::string all = fmt::format("{}_{}", metric, name(kind));
+  std::ranges::replace(all, '-', '_');
   return all;
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <random>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -45,6 +46,8 @@ Site event_site(int side, int size, std::uint64_t seed);
 // The record's ground, and as "site_seed" the seed of the mountains where `asked` had no place for all
 // events.
 void record_site(const Site&, std::uint64_t asked, Recorder&);
+// event_site(), recorded.
+Site recorded_site(int side, int size, std::uint64_t seed, Recorder&);
 
 // The ground as a tree of one node.
 Ght plain_tree(const Heightfield& ground);
@@ -103,13 +106,7 @@ std::vector<events::Event> overlapping_events(const Site&);
 
 // The names of all kinds of event, in the order of events::Kind: the values of a parameter "event".
 std::span<const std::string_view> event_names();
-
-// Defects that broken_invariants() does not count.
-struct Breaks {
-  std::size_t dangling = 0;    // links that end in no cell of the surface
-  std::size_t voids_seen = 0;  // corners of the surface that hold no height
-};
-// O(cells + faces)
-Breaks count_breaks(const Model&);
+// "METRIC_linear_erosion": a metric of one kind of event.
+std::string metric_of(std::string_view metric, events::Kind);
 
 }  // namespace terrabench::ght

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "experiments/cases.h"
 #include "experiments/figures/ground.h"
 #include "experiments/figures/views.h"
 #include "experiments/ght/figures.h"
@@ -381,20 +380,12 @@ constexpr std::array<figures::Figure, 9> kFigures{{
     {10, "F10", "an isolated hill, and the terrain after 60 of them; heights are (r² − d²) / 20",
      draw_hills_one_and_many},
 }};
-constexpr std::array kNames = names_of(kFigures);
-const std::array kSpecs{choice("figure", kNames, "figure of the paper")};
-
-std::vector<Case> cases(const RunOptions&) { return cases_by("figure", kSpecs); }
-
-void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  draw_figure(kFigures, "ght", at, options, recorder);
-}
 
 }  // namespace
 
 std::span<const figures::Figure> stage_figures() { return kFigures; }
 
-extern const Experiment kStages{"ght.stages", "Figures 1 and 3-10: the generators, step by step", kSpecs,
-                                cases, draw};
+extern const Experiment kStages =
+    figures::figure_experiment<kFigures>("ght.stages", "Figures 1 and 3-10: the generators, step by step");
 
 }  // namespace terrabench::ght

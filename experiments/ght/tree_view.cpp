@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "experiments/figures/ground.h"
+#include "experiments/figures/mesh_frame.h"
+#include "renderers/landscape/landscape.h"
 
 namespace terrabench::ght {
 namespace {
@@ -64,7 +66,7 @@ TreeSurface tree_surface(const Model& model) {
   const Tree& tree = model.tree;
   TreeSurface surface;
   std::unordered_map<std::uint64_t, std::uint32_t> vertices;  // of a cell in a node's triangles
-  const auto add = [&](const Face& face) {
+  model.surface.each_triangle(tree, [&](const Face& face) {
     NodeId node = 0;
     for (const CellId c : face) node = std::max(node, tree.node_of(c));
     for (const CellId c : face) {
@@ -74,15 +76,7 @@ TreeSurface tree_surface(const Model& model) {
       surface.mesh.indices.push_back(at->second);
     }
     surface.nodes.push_back(node);
-  };
-  const SampleGrid& grid = tree.grid();
-  for (int j = 0; j + 1 < grid.depth; ++j) {
-    for (int i = 0; i + 1 < grid.width; ++i) {
-      if (!model.surface.plain(tree, {i, j})) continue;
-      for (const Face& face : ComposedSurface::plain_faces(ComposedSurface::corners(tree, {i, j}))) add(face);
-    }
-  }
-  model.surface.each_face([&](FaceId f) { add(model.surface.face(f)); });
+  });
   compute_normals(surface.mesh);
   return surface;
 }
@@ -186,6 +180,41 @@ Image solid_view(GlContext& gl, const Ght& ght, const Look& look) {
   scene.meshes.emplace_back().mesh = &surface.mesh;
   for (const TriangleMesh& mesh : rocks) scene.meshes.push_back(figures::rock(mesh));
   return render_scene(gl, scene, look.at(surface_bounds(ght, surface.mesh)));
+}
+
+Image textured_view(GlContext& gl, const Ght& ght, const View& view, const Parameters& style) {
+  TriangleMesh mesh = tree_surface(ght.model()).mesh;
+  LandscapeRenderer renderer(gl, make_style(style, bounds_of(mesh)));
+  const figures::MeshFrame ground(std::move(mesh));
+  renderer.draw(ground.frame(), view);
+  return renderer.image();
+}
+
+// All that is not ground is drawn as a scene, in which the ground has one colour; its pixels are then
+// replaced by textured ones. At its outline that colour is mixed with what lies behind.
+Image textured_block(GlContext& gl, const Ght& ght, const View& view, const Parameters& style,
+                     const TriangleMesh& particles) {
+  constexpr Rgb kGround{118, 112, 88}, kYellow{240, 200, 20};
+  const TriangleMesh surface = tree_surface(ght.model()).mesh, sides = sides_of(ght);
+  Scene scene;
+  SceneMesh& ground = scene.meshes.emplace_back();
+  ground.mesh = &surface;
+  ground.shading = Shading::kFlat;
+  ground.fill = kGround;
+  scene.meshes.push_back(figures::rock(sides));
+  if (particles.triangles() > 0) {
+    scene.meshes.push_back(
+        figures::wired(particles, std::vector<std::uint8_t>(particles.triangles(), 0), 0.8F));
+    scene.meshes.back().fill = kYellow;
+  }
+  Image picture = render_scene(gl, scene, view);
+  const Image textured = textured_view(gl, ght, view, style);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      if (picture.pixel(x, y) == kGround) picture.set(x, y, textured.pixel(x, y));
+    }
+  }
+  return picture;
 }
 
 std::vector<CutPlane> around(const Ght& ght, glm::ivec2 low, glm::ivec2 high) {

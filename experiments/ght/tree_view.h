@@ -1,5 +1,5 @@
-// How "ght" draws a tree: its ground planes, the surface with the node of each triangle, and the three views
-// of these, whole or cut open.
+// How "ght" draws a tree: its ground planes, the surface with the node of each triangle, and the views of
+// these, whole or cut open, as wires, solid or textured.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -8,6 +8,7 @@
 #include "experiments/figures/views.h"
 #include "renderers/scene.h"
 #include "representations/ght/ght.h"
+#include "terrain/parameters.h"
 
 namespace terrabench::ght {
 
@@ -31,6 +32,13 @@ Image wires_view(GlContext&, const Ght&, const figures::Look&);
 Image wires_view(GlContext&, const Ght&, const View&);
 // Lit and coloured by height, as a block of ground.
 Image solid_view(GlContext&, const Ght&, const figures::Look&);
+
+// The surface with textures by height and slope, lit and shadowed, under a sky. `style` holds
+// landscape_parameters() (renderers/landscape/style.h).
+Image textured_view(GlContext&, const Ght&, const View&, const Parameters& style);
+// As a block of ground on white, with yellow particles above it.
+Image textured_block(GlContext&, const Ght&, const View&, const Parameters& style,
+                     const TriangleMesh& particles);
 
 // The upright sides of the tree as a block of ground.
 TriangleMesh sides_of(const Ght&);

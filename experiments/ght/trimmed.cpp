@@ -1,8 +1,9 @@
-#include "experiments/ght/trimmed.h"
-
+// Panels without the white around their pictures, so that a sheet is filled by what it shows.
 #include <algorithm>
 #include <cstddef>
 #include <map>
+
+#include "experiments/ght/figures.h"
 
 namespace terrabench::ght {
 namespace {

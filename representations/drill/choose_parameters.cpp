@@ -23,46 +23,29 @@ std::pair<double, double> cost(const DrillChoice& choice, const DrillBudget& bud
   return {std::max(0.0, choice.rmse - budget.rmse), bytes};
 }
 
-class Search {
- public:
-  Search(const Heightfield& field, const FlowNetwork& network, DrillOptions options)
-      : field_(field), network_(network), options_(options) {
-    // Shapes are compared under one k for all drills; the chosen one then gets a k per drill.
-    options_.adaptive_k = false;
-  }
-
-  // The w and k of least error for a τ.
-  DrillOptions best_shape(std::uint32_t tau) {
-    // The answer for terrains smaller than the shortest cross-section.
-    DrillOptions best = options_;
-    best.tau = tau;
-    best.w = std::min(options_.w, std::max(field_.width, field_.depth));
-    double least = std::numeric_limits<double>::infinity();
-    for (const int w : kCrossSections) {
-      if (w > std::max(field_.width, field_.depth)) continue;
-      DrillOptions at = options_;
-      at.tau = tau;
-      at.w = w;
-      at.k = *std::max_element(std::begin(kInfluences), std::end(kInfluences));
-      Drills drills = extract_drills(field_, network_, at);
-      for (const int k : kInfluences) {
-        at.k = drills.k = k;
-        // The shapes depend on k in this reading only.
-        if (at.fit == DrillFit::kMonotoneInWindow) drills = extract_drills(field_, network_, at);
-        const double error = elevation_error(field_, regenerate(drills)).rmse;
-        if (error >= least) continue;
-        least = error;
-        best = at;
-      }
+// The w and k of least error for a τ, under one k for all drills.
+DrillOptions best_shape(const Heightfield& field, const FlowNetwork& network, DrillOptions options) {
+  options.adaptive_k = false;
+  const int longest = std::max(field.width, field.depth);
+  // The answer for terrains smaller than the shortest cross-section.
+  DrillOptions best = options;
+  best.w = std::min(options.w, longest);
+  double least = std::numeric_limits<double>::infinity();
+  for (const int w : kCrossSections) {
+    if (w > longest) continue;
+    options.w = w;
+    options.k = std::ranges::max(kInfluences);
+    Drills drills = extract_drills(field, network, options);
+    for (const int k : kInfluences) {
+      options.k = drills.k = k;  // on which the shapes do not depend
+      const double error = elevation_error(field, regenerate(drills)).rmse;
+      if (error >= least) continue;
+      least = error;
+      best = options;
     }
-    return best;
   }
-
- private:
-  const Heightfield& field_;
-  const FlowNetwork& network_;
-  DrillOptions options_;
-};
+  return best;
+}
 
 }  // namespace
 
@@ -72,14 +55,15 @@ DrillChoice choose_parameters(const Heightfield& field, const FlowNetwork& netwo
     throw usage_error("expected one budget, of bytes or of error", "drill",
                       "set either budget_bytes or max_rmse above 0");
   }
-  Search search(field, network, options);
   const float automatic = automatic_quantum(field);
   if (progress != nullptr) progress->begin("parameters for the budget", std::size(kTaus));
   DrillChoice best;
   std::pair<double, double> least{std::numeric_limits<double>::infinity(), 0};
   for (const std::uint32_t tau : kTaus) {
     DrillChoice choice;
-    choice.options = search.best_shape(tau);
+    choice.options = options;
+    choice.options.tau = tau;
+    choice.options = best_shape(field, network, choice.options);
     choice.options.adaptive_k = options.adaptive_k;
     const Drills exact = extract_drills(field, network, choice.options);
     for (const float factor : kQuanta) {

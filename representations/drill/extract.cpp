@@ -5,10 +5,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <numbers>
 
 #include "representations/drill/cross_sections.h"
-#include "representations/drill/influence.h"
 #include "terrain/error.h"
 #include "terrain/hydrology/channels.h"
 #include "terrain/memory.h"
@@ -42,16 +40,10 @@ std::vector<float> monotone_elevations(const Heightfield& field, const FlowNetwo
   return elevation;
 }
 
-// How far shapes of kMonotoneInWindow must not fall: to the window's corners and the cross-section's end.
-double window_of(const DrillOptions& options) {
-  return std::max(static_cast<double>(options.w), options.k * std::numbers::sqrt2);
-}
-
 void shape_drills(const CrossSections& sections, const DrillOptions& options, Drills& drills,
                   Progress* progress) {
   const std::size_t count = drills.count();
   if (progress != nullptr) progress->begin("drill shapes", (count + kDrillsPerTask - 1) / kDrillsPerTask);
-  const double window = window_of(options);
   drills.slope.resize(count);
   drills.curvature.resize(count);
   tbb::parallel_for(std::size_t{0}, (count + kDrillsPerTask - 1) / kDrillsPerTask, [&](std::size_t step) {
@@ -59,7 +51,7 @@ void shape_drills(const CrossSections& sections, const DrillOptions& options, Dr
     for (std::size_t i = step * kDrillsPerTask; i < std::min(count, (step + 1) * kDrillsPerTask); ++i) {
       sections.join(drills.pixel[i], joined);
       const float centre = drills.elevation[i];
-      FittedProfile profile = fit_profile(joined, centre, options.fit, window);
+      FittedProfile profile = fit_profile(joined, centre, options.fit);
       // A drill that sees no ground around it digs its own pixel only: the plateau is one sample away.
       if (!profile.determined) {
         (options.fit == DrillFit::kVertex ? profile.curvature : profile.slope) = drills.plateau - centre;

@@ -24,7 +24,7 @@ struct DrillOptions {
   DrillFit fit = DrillFit::kMonotone;
   // §4.1: elevations never rise downstream. With monotone shapes no pit can be left (pits.h).
   bool monotone_profiles = false;
-  bool adaptive_k = false;             // §4.1: a k per drill, up to `k` (influence.h)
+  bool adaptive_k = false;             // §4.1: a k per drill, up to `k`: choose_influence()
   bool interpolate_untouched = false;  // §4.1: see regenerate.h
 };
 
@@ -36,5 +36,12 @@ void check_options(const DrillOptions&, int width, int depth);
 // throws, and environment_error when the cross-sections do not fit the memory.
 Drills extract_drills(const Heightfield& field, const FlowNetwork& network, const DrillOptions& options,
                       Progress* progress = nullptr);
+
+// §4.1: "every operator will store its own value for k".
+// Chooses from about ten influences between 2 and drills.k: the terrain is regenerated with each for all
+// drills, and every drill takes the one with the least squared error in the drill's largest window. Sets
+// drills.influence. Costs one regeneration and O(pixels) per influence; holds 12 bytes per pixel.
+// Deterministic.
+void choose_influence(const Heightfield& field, Drills& drills, Progress* progress = nullptr);
 
 }  // namespace terrabench

@@ -1,10 +1,10 @@
-#include "representations/drill/influence.h"
-
+// An influence for every drill (Stuetzle & Franklin 2012, §4.1).
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <vector>
 
+#include "representations/drill/extract.h"
 #include "representations/drill/regenerate.h"
 
 namespace terrabench {

@@ -14,13 +14,8 @@
 
 namespace terrabench {
 
-struct Pits {
-  std::size_t count =
-      0;  // flats (single pixels included) of which no pixel has a lower neighbour or drains out
-  std::size_t pixels = 0;  // pixels of these flats
-};
-
-// Water leaves over the grid's edge and into pixels without data. O(pixels).
-Pits count_pits(const Heightfield& field);
+// The number of flats (single pixels included) of which no pixel has a lower neighbour or drains out. Water
+// leaves over the grid's edge and into pixels without data. O(pixels).
+std::size_t count_pits(const Heightfield& field);
 
 }  // namespace terrabench

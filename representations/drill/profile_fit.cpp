@@ -34,32 +34,20 @@ FittedProfile profile(double slope, double curvature) {
 
 }  // namespace
 
-FittedProfile fit_profile(std::span<const float> joined, float centre, DrillFit fit, double window) {
+FittedProfile fit_profile(std::span<const float> joined, float centre, DrillFit fit) {
   const Sums s = sum(joined, centre);
   if (s.samples == 0) return {};
   if (fit == DrillFit::kVertex) return profile(0, s.r2y / s.r4);
   const double determinant = s.r2 * s.r4 - s.r3 * s.r3;
   const double slope = s.samples == 1 ? s.ry / s.r2 : (s.ry * s.r4 - s.r2y * s.r3) / determinant;
   const double curvature = s.samples == 1 ? 0 : (s.r2y * s.r2 - s.ry * s.r3) / determinant;
-  if (fit == DrillFit::kPrinted) return profile(slope, curvature);
-
-  // The derivative, slope + 2r·curvature, must not be negative at either end: two constraints on two
-  // unknowns. The least squares solution lies inside, or on one of the bounds.
-  const bool everywhere = fit == DrillFit::kMonotone;
-  if (slope >= 0 && (everywhere ? curvature >= 0 : slope + 2 * window * curvature >= 0)) {
-    return profile(slope, curvature);
-  }
-  // Level at the centre: curvature·r². The squared error falls by curvature·Σr²y below the flat drill's.
+  if (fit == DrillFit::kPrinted || (slope >= 0 && curvature >= 0)) return profile(slope, curvature);
+  // Two constraints on two unknowns: the least squares solution lies inside, or on one of the bounds. Level
+  // at the centre, curvature·r², or straight, slope·r; the squared error falls by the gain below the flat
+  // drill's.
   const double bowl = std::max(s.r2y, 0.0) / s.r4, bowl_gain = bowl * s.r2y;
-  if (everywhere) {  // straight: slope·r
-    const double line = std::max(s.ry, 0.0) / s.r2;
-    return line * s.ry >= bowl_gain ? profile(line, 0) : profile(0, bowl);
-  }
-  // Level at the window's end: bend·(2·window·r - r²).
-  const double y = 2 * window * s.ry - s.r2y;
-  const double square = 4 * window * (window * s.r2 - s.r3) + s.r4;
-  const double bend = std::max(y, 0.0) / square;
-  return bend * y >= bowl_gain ? profile(2 * window * bend, -bend) : profile(0, bowl);
+  const double line = std::max(s.ry, 0.0) / s.r2;
+  return line * s.ry >= bowl_gain ? profile(line, 0) : profile(0, bowl);
 }
 
 }  // namespace terrabench

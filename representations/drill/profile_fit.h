@@ -7,11 +7,10 @@ namespace terrabench {
 
 // Which quadratic function is fitted. All pass through the centre.
 enum class DrillFit {
-  kPrinted,   // §2.2: free but for the centre; may bend down, and then falls without end beyond w
-  kVertex,    // curvature·r², with its vertex at the pixel: position, elevation and curvature are the
-              // four values that §4.1 counts
-  kMonotone,  // as §4 says of the shapes: slope and curvature ≥ 0
-  kMonotoneInWindow  // does not fall within `window` samples
+  kPrinted,  // §2.2: free but for the centre; may bend down, and then falls without end beyond w
+  kVertex,   // curvature·r², with its vertex at the pixel: position, elevation and curvature are the
+             // four values that §4.1 counts
+  kMonotone  // as §4 says of the shapes: slope and curvature ≥ 0
 };
 
 struct FittedProfile {
@@ -22,6 +21,6 @@ struct FittedProfile {
 // Least squares of slope·r + curvature·r² against joined[r - 1] - centre for r = 1 … w, under the fit's
 // constraint. Distances without a sample are ignored; with a single sample the curve is a line, that of
 // kVertex still a parabola. O(w).
-FittedProfile fit_profile(std::span<const float> joined, float centre, DrillFit fit, double window = 0);
+FittedProfile fit_profile(std::span<const float> joined, float centre, DrillFit fit);
 
 }  // namespace terrabench

@@ -40,16 +40,16 @@ bool inside_convex(std::span<const glm::dvec2> region, glm::dvec2 p) {
 
 bool holds(const Tree& tree, const GroundedHeightmap& node, std::span<const glm::dvec2> region) {
   constexpr double kSlip = 1e-4;  // tolerance, in columns and rows
-  glm::dvec2 low(HUGE_VAL), high(-HUGE_VAL);
+  PlanBounds box;
   for (const glm::dvec2 p : region) {
     const glm::dvec2 at = locate(tree.grid(), node, p);
     if (!(at.x >= -kSlip && at.y >= -kSlip && at.x <= node.columns - 1 + kSlip &&
           at.y <= node.rows - 1 + kSlip)) {
       return false;
     }
-    low = glm::min(low, at);
-    high = glm::max(high, at);
+    box.add(at);
   }
+  const auto [low, high] = box;
   const auto whole = [](double v) { return static_cast<int>(v); };
   for (int j = whole(std::ceil(low.y - kSlip)); j <= whole(high.y + kSlip); ++j) {
     for (int i = whole(std::ceil(low.x - kSlip)); i <= whole(high.x + kSlip); ++i) {

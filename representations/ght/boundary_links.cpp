@@ -31,11 +31,6 @@ std::size_t linkable_around(const Tree& tree, Square sample) {
   }));
 }
 
-void sort_unique(std::vector<CellId>& cells) {
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-}
-
 class Linker {
  public:
   explicit Linker(Model& model)
@@ -167,16 +162,7 @@ void BoundaryLinks::erase(CellId c) noexcept {
 RimChange rim_change(const Model& model, std::span<const Square> covered, std::span<const FaceId> removed,
                      std::span<const CellId> superseded, std::span<const Face> added, NodeId first_new) {
   const Tree& tree = model.tree;
-  std::vector<CellId> corners;
-  for (const Square s : covered) {
-    const auto at = ComposedSurface::corners(tree, s);
-    corners.insert(corners.end(), at.begin(), at.end());
-  }
-  for (const FaceId f : removed) {
-    const Face& face = model.surface.face(f);
-    corners.insert(corners.end(), face.begin(), face.end());
-  }
-  sort_unique(corners);
+  std::vector<CellId> corners = model.surface.cells_at(tree, covered, removed);
   RimChange change;
   std::set_difference(corners.begin(), corners.end(), superseded.begin(), superseded.end(),
                       std::back_inserter(change.rim));

@@ -34,12 +34,9 @@ double mean_u(const Tree& tree, const events::Line& line, const Loop& loop) {
 // The rectangle of the root's samples around a hole, as an empty heightmap.
 GroundedHeightmap border_around(const Edit& edit, const Loop& loop) {
   const SampleGrid& grid = edit.grid();
-  glm::dvec2 low(HUGE_VAL), high(-HUGE_VAL);
-  for (const CellId c : loop) {
-    const glm::dvec2 at = grid.samples_to(edit.tree().plan(c));
-    low = glm::min(low, at);
-    high = glm::max(high, at);
-  }
+  PlanBounds box;
+  for (const CellId c : loop) box.add(grid.samples_to(edit.tree().plan(c)));
+  const auto [low, high] = box;
   const int i0 = static_cast<int>(std::floor(low.x)), j0 = static_cast<int>(std::floor(low.y));
   return {.columns = std::min(static_cast<int>(std::ceil(high.x)), grid.width - 1) - i0 + 1,
           .rows = std::min(static_cast<int>(std::ceil(high.y)), grid.depth - 1) - j0 + 1,
@@ -125,11 +122,9 @@ void open_mouth(Edit& edit, const Loop& rim, std::vector<GroundedHeightmap>& bor
 
 // An upright heightmap across the axis at `to`. Its cells well inside the section hold the height 0.
 GroundedHeightmap append_end(Edit& edit, const CarvingWalls& walls, std::span<const glm::dvec2> section) {
-  glm::dvec2 low(HUGE_VAL), high(-HUGE_VAL);
-  for (const glm::dvec2 p : section) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
+  PlanBounds box;
+  for (const glm::dvec2 p : section) box.add(p);
+  const auto [low, high] = box;
   const double spacing = edit.grid().spacing();
   const glm::ivec2 steps = glm::max(glm::ivec2(glm::ceil((high - low) / spacing)), glm::ivec2(4));
   const glm::dvec2 pitch = (high - low) / glm::dvec2(steps);

@@ -31,15 +31,15 @@ double side_length(const events::Carving& e, std::size_t side) {
 CarvingWalls divide(const Edit& edit, const events::Carving& e) {
   const double spacing = edit.grid().spacing();
   const double rows = std::max(1.0, std::ceil(kRowsPerSpacing * glm::length(e.to - e.from) / spacing));
-  glm::dvec2 low(HUGE_VAL), high(-HUGE_VAL);
+  PlanBounds box;
   double columns = 0;
   for (std::size_t k = 0; k < e.section.size(); ++k) {
-    low = glm::min(low, e.section[k]);
-    high = glm::max(high, e.section[k]);
+    box.add(e.section[k]);
     columns += std::ceil(side_length(e, k) / spacing);
   }
   const double smallest = std::min(e.scale_from, e.scale_to);
-  if (!(std::min(high.x - low.x, high.y - low.y) * smallest >= kLeastSection * spacing)) {
+  const glm::dvec2 size = box.high - box.low;
+  if (!(std::min(size.x, size.y) * smallest >= kLeastSection * spacing)) {
     edit.refuse("has a section less than two sample spacings wide or high", "take a larger section or scale");
   }
   if (!(rows * columns < kMostWallCells)) {

@@ -41,6 +41,12 @@ float height_at(const std::array<glm::vec3, 3>& p, double x, double z) {
   return static_cast<float>(std::clamp(y, static_cast<double>(low), static_cast<double>(high)));
 }
 
+PlanBounds bounds_of(const Tree& tree, const Face& face) {
+  PlanBounds box;
+  for (const CellId c : face) box.add(tree.plan(c));
+  return box;
+}
+
 }  // namespace
 
 ComposedSurface::ComposedSurface(const SampleGrid& grid)
@@ -82,6 +88,18 @@ std::array<CellId, 4> ComposedSurface::corners(const Tree& tree, Square s) {
           tree.at_sample(s.i + 1, s.j)};
 }
 
+std::vector<CellId> ComposedSurface::cells_at(const Tree& tree, std::span<const Square> squares,
+                                              std::span<const FaceId> faces) const {
+  std::vector<CellId> cells;
+  for (const Square s : squares) {
+    const auto at = corners(tree, s);
+    cells.insert(cells.end(), at.begin(), at.end());
+  }
+  for (const FaceId f : faces) cells.insert(cells.end(), faces_[f].begin(), faces_[f].end());
+  sort_unique(cells);
+  return cells;
+}
+
 SquareRange ComposedSurface::range(glm::dvec2 low, glm::dvec2 high) const {
   const auto clip = [](double at, int squares) {
     return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(std::max(squares - 1, 0))));
@@ -93,23 +111,13 @@ SquareRange ComposedSurface::range(glm::dvec2 low, glm::dvec2 high) const {
           clip(last.x + kSlip, grid_.width - 1), clip(last.y + kSlip, grid_.depth - 1)};
 }
 
-ComposedSurface::Corners ComposedSurface::corners_of(const Tree& tree, const Face& face) {
-  Corners box{glm::dvec2(HUGE_VAL), glm::dvec2(-HUGE_VAL)};
-  for (const CellId c : face) {
-    const glm::dvec2 p = tree.plan(c);
-    box.low = glm::min(box.low, p);
-    box.high = glm::max(box.high, p);
-  }
-  return box;
-}
-
 SquareRange ComposedSurface::range(const Tree& tree, const Face& face) const {
-  const Corners box = corners_of(tree, face);
+  const PlanBounds box = bounds_of(tree, face);
   return range(box.low, box.high);
 }
 
 // One step wider than the face on each side, which is more than rounding amounts to.
-std::uint32_t ComposedSurface::box_in(Square s, const Corners& face) const {
+std::uint32_t ComposedSurface::box_in(Square s, const PlanBounds& face) const {
   const auto step = [](double at, double wider) {
     return static_cast<std::uint32_t>(std::clamp(std::floor(at * kBoxSteps) + wider, 0.0, kBoxSteps - 1));
   };
@@ -238,19 +246,12 @@ void ComposedSurface::enter(Square s, FaceId face, std::uint32_t box) noexcept {
   ++entry_count_;
 }
 
-FaceId ComposedSurface::add(const Tree& tree, const Face& face) noexcept {
-  const FaceId f = number(face);
-  const Corners corners = corners_of(tree, face);
-  range(corners.low, corners.high).each([&](Square s) { enter(s, f, box_in(s, corners)); });
-  return f;
-}
-
 std::vector<ComposedSurface::Placed> ComposedSurface::place(const Tree& tree,
                                                             std::span<const Face> faces) const {
   std::vector<Placed> placed;
   for (std::uint32_t k = 0; k < faces.size(); ++k) {
-    const Corners corners = corners_of(tree, faces[k]);
-    range(corners.low, corners.high).each([&](Square s) { placed.push_back({s, k, box_in(s, corners)}); });
+    const PlanBounds box = bounds_of(tree, faces[k]);
+    range(box.low, box.high).each([&](Square s) { placed.push_back({s, k, box_in(s, box)}); });
   }
   std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
     return a.square != b.square ? a.square < b.square : a.face < b.face;

@@ -8,7 +8,9 @@
 // A vertical line costs O(faces over its square), and O(1) on a plain square.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
@@ -43,6 +45,18 @@ struct SquareRange {
     }
   }
 };
+
+// The box around points in plan.
+struct PlanBounds {
+  glm::dvec2 low{HUGE_VAL}, high{-HUGE_VAL};
+  void add(glm::dvec2 p) { low = glm::min(low, p), high = glm::max(high, p); }
+};
+
+template <class T>
+void sort_unique(std::vector<T>& v) {
+  std::sort(v.begin(), v.end());
+  v.erase(std::unique(v.begin(), v.end()), v.end());
+}
 
 // Where a vertical line, followed from above, meets the surface: weight +1 into the ground, -1 out of it.
 struct Crossing {
@@ -113,6 +127,20 @@ class ComposedSurface {
       if (faces_[f][0] != kNone) visit(f);
     }
   }
+  // Calls visit(Face) for all triangles: the two of every plain square, then the faces. O(samples + faces)
+  template <class Visit>
+  void each_triangle(const Tree& tree, const Visit& visit) const {
+    for (int j = 0; j + 1 < grid_.depth; ++j) {
+      for (int i = 0; i + 1 < grid_.width; ++i) {
+        if (!plain(tree, {i, j})) continue;
+        for (const Face& face : plain_faces(corners(tree, {i, j}))) visit(face);
+      }
+    }
+    each_face([&](FaceId f) { visit(faces_[f]); });
+  }
+  // The cells at the corners of plain squares and faces, ascending.
+  std::vector<CellId> cells_at(const Tree& tree, std::span<const Square> squares,
+                               std::span<const FaceId> faces) const;
   // The squares that a face lies over or touches, clipped to the terrain.
   SquareRange range(const Tree& tree, const Face& face) const;
   SquareRange range(glm::dvec2 low, glm::dvec2 high) const;  // (x, z)
@@ -132,8 +160,7 @@ class ComposedSurface {
   // Changes take two steps: prepare() allocates and may throw, the others cannot.
   void prepare(const Tree& tree, std::span<const Square> covered, std::span<const Face> added);
   void set_covered(Square s, bool covered) noexcept;
-  FaceId add(const Tree& tree, const Face& face) noexcept;
-  // Adds all faces, with the entries of each square side by side, so that a line reads them in order.
+  // Adds faces, with the entries of each square side by side, so that a line reads them in order.
   struct Placed {
     Square square;
     std::uint32_t face, box;  // number in the list
@@ -161,16 +188,12 @@ class ComposedSurface {
   };
   // The side of a box counts in steps of 1/256 of a square.
   static constexpr double kBoxSteps = 256;
-  struct Corners {  // of a face, in plan
-    glm::dvec2 low, high;
-  };
   // Of a point in plan, from the square's first corner.
   glm::dvec2 steps_in(Square s, glm::dvec2 plan) const {
     return kBoxSteps *
            glm::dvec2((plan.x - grid_.origin_x) * per_x_ - s.i, (plan.y - grid_.origin_z) * per_z_ - s.j);
   }
-  static Corners corners_of(const Tree& tree, const Face& face);
-  std::uint32_t box_in(Square s, const Corners& face) const;
+  std::uint32_t box_in(Square s, const PlanBounds& face) const;
 
   std::size_t tile_index(Square s) const {
     return static_cast<std::size_t>(s.j / kSide) * tiles_x_ + static_cast<std::size_t>(s.i / kSide);

@@ -12,12 +12,6 @@ namespace {
 // How often a part may grow until its rim is one loop.
 constexpr int kMostWidenings = 8;
 
-template <class T>
-void sort_unique(std::vector<T>& v) {
-  std::sort(v.begin(), v.end());
-  v.erase(std::unique(v.begin(), v.end()), v.end());
-}
-
 // Collects squares and faces of the surface, and refuses those that an event may not change.
 class Collector {
  public:
@@ -27,8 +21,9 @@ class Collector {
   template <class Shape>
   void add_touched(const Shape& shape, RemovedPart& part) const {
     const auto corners = shape.corners();
-    glm::dvec2 low = corners[0], high = corners[0];
-    for (const glm::dvec2 p : corners) low = glm::min(low, p), high = glm::max(high, p);
+    PlanBounds box;
+    for (const glm::dvec2 p : corners) box.add(p);
+    const auto [low, high] = box;
     if (!(low.x >= grid_.x(0) && low.y >= grid_.z(0) && high.x <= grid_.x(grid_.width - 1) &&
           high.y <= grid_.z(grid_.depth - 1))) {
       at_border();
@@ -165,16 +160,8 @@ std::vector<Edge> edges_of(const Model& model, const RemovedPart& part) {
 }
 
 std::vector<CellId> cells_inside(const Model& model, const RemovedPart& part) {
-  std::vector<CellId> cells, loop = part.loop, inside;
-  for (const Square s : part.squares) {
-    const auto c = ComposedSurface::corners(model.tree, s);
-    cells.insert(cells.end(), c.begin(), c.end());
-  }
-  for (const FaceId f : part.faces) {
-    const Face& face = model.surface.face(f);
-    cells.insert(cells.end(), face.begin(), face.end());
-  }
-  sort_unique(cells);
+  const std::vector<CellId> cells = model.surface.cells_at(model.tree, part.squares, part.faces);
+  std::vector<CellId> loop = part.loop, inside;
   std::sort(loop.begin(), loop.end());
   std::set_difference(cells.begin(), cells.end(), loop.begin(), loop.end(), std::back_inserter(inside));
   return inside;

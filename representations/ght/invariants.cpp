@@ -10,19 +10,6 @@
 namespace terrabench::ght {
 namespace {
 
-template <class Visit>  // visit(Face) for all triangles of the surface, also of plain squares
-void each_triangle(const Model& model, const Visit& visit) {
-  const SampleGrid& grid = model.tree.grid();
-  for (int j = 0; j + 1 < grid.depth; ++j) {
-    for (int i = 0; i + 1 < grid.width; ++i) {
-      if (!model.surface.plain(model.tree, {i, j})) continue;
-      for (const Face& face : ComposedSurface::plain_faces(ComposedSurface::corners(model.tree, {i, j})))
-        visit(face);
-    }
-  }
-  model.surface.each_face([&](FaceId f) { visit(model.surface.face(f)); });
-}
-
 class Inspector {
  public:
   explicit Inspector(const Model& model) : model_(model), tree_(model.tree), surface_(model.surface) {}
@@ -92,14 +79,7 @@ class Inspector {
   }
 
   void faces() {
-    std::size_t empty = 0, elsewhere = 0, unindexed = 0;
-    used_.assign(tree_.cells(), 0);
-    each_triangle(model_, [&](const Face& face) {
-      for (const CellId c : face) {
-        empty += tree_.kind(c) != CellKind::kHeight;
-        used_[c] = 1;
-      }
-    });
+    std::size_t elsewhere = 0, unindexed = 0;
     const SampleGrid& grid = tree_.grid();
     for (int j = 0; j < grid.depth; ++j) {
       for (int i = 0; i < grid.width; ++i) {
@@ -115,40 +95,32 @@ class Inspector {
         unindexed += !found;
       });
     });
-    expect(empty, "corners of the surface without a height");
     expect(elsewhere, "corners of plain squares that are elsewhere");
     expect(unindexed, "faces that are not in the index of a square");
   }
 
   void links() {
-    std::size_t backwards = 0, dangling = 0;
+    std::size_t backwards = 0;
     for (CellId c = 0; c < tree_.cells(); ++c) {
-      if (tree_.kind(c) != CellKind::kLink) continue;
-      if (tree_.target(c) <= c) {
-        ++backwards;
-        continue;
-      }
-      const CellId end = tree_.resolve(c);
-      // Over the mouth of a carving the paper's links are null; here they end in a void cell of the border.
-      const bool null =
-          tree_.kind(end) == CellKind::kVoid && tree_.nodes()[tree_.node_of(end)].area == Area::kBorder;
-      dangling += !null && used_[end] == 0;
+      backwards += tree_.kind(c) == CellKind::kLink && tree_.target(c) <= c;
     }
     expect(backwards, "links that do not lead to later cells");
-    expect(dangling, "links that do not lead to the surface");
+    const Breaks breaks = count_breaks(model_);
+    expect(breaks.voids_seen, "corners of the surface without a height");
+    expect(breaks.dangling, "links that do not lead to the surface");
   }
 
   // The ends of the edges from cell c are ends_[first_[c]] … ends_[first_[c + 1] - 1], ascending.
   void list_edges() {
     first_.assign(tree_.cells() + std::size_t{1}, 0);
-    each_triangle(model_, [&](const Face& face) {
+    surface_.each_triangle(tree_, [&](const Face& face) {
       for (const CellId c : face) ++first_[c];
     });
     std::size_t sum = 0;
     for (std::size_t& first : first_) sum += std::exchange(first, sum);
     ends_.resize(sum);
     std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    each_triangle(model_, [&](const Face& face) {
+    surface_.each_triangle(tree_, [&](const Face& face) {
       for (std::size_t k = 0; k < 3; ++k) ends_[next[face[k]]++] = face[(k + 1) % 3];
     });
     for (CellId c = 0; c < tree_.cells(); ++c) {
@@ -189,7 +161,6 @@ class Inspector {
   const Model& model_;
   const Tree& tree_;
   const ComposedSurface& surface_;
-  std::vector<char> used_;  // of each cell: whether the surface uses it
   std::vector<std::size_t> first_;
   std::vector<CellId> ends_;
   std::vector<std::string> problems_;
@@ -218,7 +189,7 @@ LinkReport check_boundary_links(const Model& model) {
     return glm::dot(along, along);
   };
   std::vector<CellId> nearest(tree.cells(), kNone);
-  each_triangle(model, [&](const Face& face) {
+  model.surface.each_triangle(tree, [&](const Face& face) {
     for (const CellId c : face) {
       if (c < tree.nodes()[0].cells()) continue;
       for (const CellId other : face) {
@@ -247,7 +218,7 @@ std::size_t unlinked_boundary_cells(const Model& model) {
   const Tree& tree = model.tree;
   if (tree.events().empty()) return 0;
   std::vector<char> seen(tree.cells(), 0);
-  each_triangle(model, [&](const Face& face) {
+  model.surface.each_triangle(tree, [&](const Face& face) {
     for (const CellId c : face) seen[c] = 1;
   });
   std::size_t unlinked = 0;
@@ -267,6 +238,26 @@ std::size_t unlinked_boundary_cells(const Model& model) {
     }
   }
   return unlinked;
+}
+
+Breaks count_breaks(const Model& model) {
+  const Tree& tree = model.tree;
+  Breaks found;
+  std::vector<char> seen(tree.cells(), 0);
+  model.surface.each_triangle(tree, [&](const Face& face) {
+    for (const CellId c : face) {
+      seen[c] = 1;
+      found.voids_seen += tree.kind(c) != CellKind::kHeight;
+    }
+  });
+  for (CellId c = 0; c < tree.cells(); ++c) {
+    if (tree.kind(c) != CellKind::kLink || tree.target(c) <= c) continue;
+    const CellId end = tree.resolve(c);
+    const bool null =
+        tree.kind(end) == CellKind::kVoid && tree.nodes()[tree.node_of(end)].area == Area::kBorder;
+    found.dangling += !null && seen[end] == 0;
+  }
+  return found;
 }
 
 std::vector<std::string> broken_invariants(const Model& model) { return Inspector(model).run(); }

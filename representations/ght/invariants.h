@@ -28,6 +28,13 @@ LinkReport check_boundary_links(const Model& model);
 // another heightmap").
 std::size_t unlinked_boundary_cells(const Model& model);
 
+// Links that end in no cell of the surface, and corners of its triangles that hold no height. The paper's
+// null links, over the mouth of a carving, end in a void cell of its border, and are none of them.
+struct Breaks {
+  std::size_t dangling = 0, voids_seen = 0;
+};
+Breaks count_breaks(const Model& model);
+
 // One line per kind of violation: links that dangle or do not reach the surface, an event with a wrong number
 // of heightmaps, nodes whose parent is not an earlier one, faces with corners without a height, plain squares
 // with a corner elsewhere, edges without an opposite one, boundary cells without a link, wrong boundary

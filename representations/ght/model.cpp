@@ -36,16 +36,15 @@ void Model::index_node(NodeId n) {
 
 SquareRange Model::range(const GroundedHeightmap& map) const {
   const SampleGrid& grid = tree.grid();
-  glm::dvec2 low(HUGE_VAL), high(-HUGE_VAL);
+  PlanBounds box;
   for (const int j : {0, map.rows - 1}) {
     for (const int i : {0, map.columns - 1}) {
       const glm::dvec3 p =
           map.aligned ? glm::dvec3(grid.x(map.i0 + i), 0, grid.z(map.j0 + j)) : map.plane.at(i, j, 0);
-      low = glm::min(low, glm::dvec2(p.x, p.z));
-      high = glm::max(high, glm::dvec2(p.x, p.z));
+      box.add({p.x, p.z});
     }
   }
-  return surface.range(low, high);
+  return surface.range(box.low, box.high);
 }
 
 }  // namespace terrabench::ght

@@ -16,7 +16,6 @@
 #include <limits>
 #include <vector>
 
-#include "representations/ght/ground_plane.h"
 #include "representations/ght/two_part_array.h"
 #include "terrain/events/event.h"
 #include "terrain/files.h"
@@ -47,6 +46,28 @@ struct SampleGrid {
   }
   float spacing() const { return std::min(spacing_x, spacing_z); }  // the smaller one
   std::size_t samples() const { return static_cast<std::size_t>(width) * depth; }
+};
+
+// The ground plane of a grounded heightmap (Alonso, Joan-Arinyo & Solano, figure 11): where its cells are and
+// in which direction their heights are measured. Locating a cell is O(1).
+//
+// The paper gives a plane by a point and a normal vector, with an axis-aligned array. Here the two directions
+// of the array are stored too, because events run in any direction, and heights need not be measured at right
+// angles to them: all outdoor planes measure heights vertically, so that a cell keeps the height of the
+// ground it was taken from and only the plane moves it. Measured along the plane's normal, a cell of height r
+// would shift sideways by r·sin(inclination), and neighbouring planes would overlap or gape by that much.
+struct GroundPlane {
+  glm::vec3 origin{0};
+  glm::vec3 u{1, 0, 0};       // from column to column, metres
+  glm::vec3 v{0, 0, 1};       // from row to row, metres
+  glm::vec3 taper{0};         // added to u per row: the rows of a trapezium have equally many cells
+  glm::vec3 height{0, 1, 0};  // unit vector of heights
+
+  glm::dvec3 at(double i, double j, double h) const {
+    return glm::dvec3(origin) + i * (glm::dvec3(u) + j * glm::dvec3(taper)) + j * glm::dvec3(v) +
+           h * glm::dvec3(height);
+  }
+  bool operator==(const GroundPlane&) const = default;
 };
 
 struct GroundedHeightmap {

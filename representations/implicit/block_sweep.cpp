@@ -16,10 +16,25 @@ FieldLattice::FieldLattice(const Bounds& bounds, float cell_size)
   }
 }
 
+std::optional<FieldLattice::Levels> FieldLattice::levels(const SampledField& field, glm::ivec2 begin,
+                                                         glm::ivec2 end) const {
+  const auto [solid, air] =
+      field.heights({position(0, begin.x), position(2, begin.y)}, {position(0, end.x), position(2, end.y)});
+  if (!(solid < air)) return std::nullopt;
+  const auto point = [&](double y) {
+    return std::clamp((y - low.y) / cell, 0.0, static_cast<double>(cells.y));
+  };
+  const int last = static_cast<int>(std::ceil(point(air)));
+  return Levels{std::min(last, static_cast<int>(std::floor(point(solid)))), last};
+}
+
 BlockSweep::BlockSweep(const BlockTask& task)
     : task_(task), z_(task.begin.y), width_(static_cast<std::size_t>(task.end.x - task.begin.x) + 3) {
-  choose_levels();
-  if (empty()) return;
+  const auto levels = task.lattice.levels(task.field, task.begin - 1, task.end + 1);
+  if (!levels) return;
+  const int first = task.closed ? 0 : levels->first;
+  first_y_ = first - 1;
+  points_ = levels->last - first + 3;
   for (int i = task.begin.x - 1; i <= task.end.x + 1; ++i) xs_.push_back(task.lattice.position(0, i));
   for (int n = 0; n < points_; ++n) ys_.push_back(task.lattice.position(1, first_y_ + n));
   for (int j = task.begin.y - 1; j <= task.end.y + 1; ++j) zs_.push_back(task.lattice.position(2, j));
@@ -34,22 +49,6 @@ BlockSweep::BlockSweep(const BlockTask& task)
   bits_.resize(4 * width_ * words_);
   planes_ = task.field.planes(xs_, ys_);
   for (int j = z_ - 1; j <= std::min(z_ + 2, task.end.y + 1); ++j) load(j);
-}
-
-// Leaves out the heights below which all is solid and above which all is air.
-void BlockSweep::choose_levels() {
-  const FieldLattice& lattice = task_.lattice;
-  const auto [solid, air] =
-      task_.field.heights({lattice.position(0, task_.begin.x - 1), lattice.position(2, task_.begin.y - 1)},
-                          {lattice.position(0, task_.end.x + 1), lattice.position(2, task_.end.y + 1)});
-  if (!(solid < air)) return;
-  const auto point = [&](double y) {
-    return std::clamp((y - lattice.low.y) / lattice.cell, 0.0, static_cast<double>(lattice.cells.y));
-  };
-  const int last = static_cast<int>(std::ceil(point(air)));
-  const int first = task_.closed ? 0 : std::min(last, static_cast<int>(std::floor(point(solid))));
-  first_y_ = first - 1;
-  points_ = last - first + 3;
 }
 
 void BlockSweep::load(int j) {

@@ -9,6 +9,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -36,6 +37,13 @@ struct FieldLattice {
     const auto at = [](int index) { return static_cast<std::uint64_t>(index + 1); };
     return ((at(j) * n(0) + at(i)) * n(1) + at(k)) * 4 + static_cast<std::uint64_t>(axis);
   }
+
+  // Numbers of points along y, from `first` to `last`, between which the surface can lie over the rectangle
+  // between two points in plan: all is solid below them, and all is air above them. Nothing if there is none.
+  struct Levels {
+    int first, last;
+  };
+  std::optional<Levels> levels(const SampledField&, glm::ivec2 begin, glm::ivec2 end) const;
 
   glm::ivec3 cells{1};
   glm::vec3 low, high;
@@ -121,7 +129,6 @@ class BlockSweep {
   bool outside(glm::ivec3 point) const;
   glm::vec3 gradient(glm::ivec3 point) const;  // from the samples; (i, n, j)
   glm::vec3 gradient_at(glm::vec3) const;
-  void choose_levels();
   void load(int j);
   void set_bits(int j);
   glm::vec3 place(glm::ivec3 point) const {

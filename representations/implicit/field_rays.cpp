@@ -6,7 +6,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "representations/ground_caster.h"
 #include "representations/ray_walk.h"
 
 namespace terrabench {
@@ -58,10 +57,12 @@ class RangeSweep {
         end_(end),
         margin_(static_cast<float>(margin)),
         per_change_(static_cast<float>(1 / of.field().steepest({0, 1, 0}))) {
-    choose_levels();
+    const auto levels = lattice_.levels(field_, begin, end);
     for (int i = begin.x; i <= end.x; ++i) xs_.push_back(lattice_.position(0, i));
-    for (int k = first_; k <= last_ && first_ < last_; ++k) ys_.push_back(lattice_.position(1, k));
-    if (!ys_.empty()) planes_ = field_.planes(xs_, ys_);
+    if (!levels || levels->first == levels->last) return;
+    first_ = levels->first;
+    for (int k = first_; k <= levels->last; ++k) ys_.push_back(lattice_.position(1, k));
+    planes_ = field_.planes(xs_, ys_);
   }
 
   RangeBlock run() {
@@ -85,19 +86,6 @@ class RangeSweep {
   struct Free {
     float down, up;
   };
-
-  // Limits the points along y to the heights at which the surface can lie: all is solid below them, and all
-  // is air above them.
-  void choose_levels() {
-    const auto [solid, air] = field_.heights({lattice_.position(0, begin_.x), lattice_.position(2, begin_.y)},
-                                             {lattice_.position(0, end_.x), lattice_.position(2, end_.y)});
-    if (!(solid < air)) return;
-    const auto point = [&](double y) {
-      return std::clamp((y - lattice_.low.y) / lattice_.cell, 0.0, static_cast<double>(lattice_.cells.y));
-    };
-    last_ = static_cast<int>(std::ceil(point(air)));
-    first_ = std::min(last_, static_cast<int>(std::floor(point(solid))));
-  }
 
   void load(int j, std::vector<Free>& free) {
     planes_->sample(lattice_.position(2, j), values_);
@@ -157,7 +145,7 @@ class RangeSweep {
   const FieldLattice& lattice_;
   glm::ivec2 begin_, end_;     // cells along x and z
   float margin_, per_change_;  // the least |field| that proves a sign nearby; metres per unit of field
-  int first_ = 0, last_ = 0;   // points along y
+  int first_ = 0;              // point along y
   std::vector<float> xs_, ys_, values_;
   std::vector<Free> free_[2];  // of the planes at j and j + 1
   std::unique_ptr<FieldPlanes> planes_;

@@ -195,16 +195,14 @@ double StackField::sphere_volumes(double x, double z, std::span<const float> y, 
         return static_cast<int>(std::clamp<std::int64_t>(at, 0, count - 1));
       };
       const ColumnRuns runs = stack_.column(column_at(i0 + dx, grid.width), column_at(j0 + dz, grid.depth));
-      int bottom = 0;
-      for (std::size_t r = 0; r < runs.count; bottom = runs.tops[r++]) {
-        if (runs.materials[r] == Material::kAir) continue;
-        add(chords, grid.origin_y + runs.tops[r] * grid.step, 1);
+      runs.each_solid([&](int bottom, int top, Material) {
+        add(chords, grid.origin_y + top * grid.step, 1);
         if (bottom > 0) {
           add(chords, grid.origin_y + bottom * grid.step, -1);
         } else {
           steps[0] += chords.back();  // the lowest level continues downward
         }
-      }
+      });
     }
   }
   double whole = 0;
@@ -302,21 +300,18 @@ StackField::Reach StackField::reach(glm::dvec2 low, glm::dvec2 high) const {
 double StackField::highest(glm::dvec2 low, glm::dvec2 high, const ColumnTops& tops) const {
   const ColumnGrid& grid = stack_.grid();
   const Reach columns = reach(low, high);
-  int highest = -1;
+  int highest = 0;
   for (int j = columns.first_j; j <= columns.last_j; ++j) {
     const std::uint16_t* const row = tops.row(j);
     for (int i = columns.first_i; i <= columns.last_i; ++i) {
       int top = row[i];
       if (top == ColumnTops::kOther) [[unlikely]] {
-        const ColumnRuns runs = stack_.column(i, j);
-        std::size_t solid = runs.count;
-        while (solid > 0 && runs.materials[solid - 1] == Material::kAir) --solid;
-        top = solid == 0 ? -1 : runs.tops[solid - 1];
+        top = stack_.column(i, j).highest();
       }
       highest = std::max(highest, top);
     }
   }
-  if (highest < 0) return -std::numeric_limits<double>::infinity();
+  if (highest == 0) return -std::numeric_limits<double>::infinity();
   return grid.origin_y + (highest + 1) * grid.step;  // a level more than rounding along y
 }
 
@@ -327,10 +322,9 @@ SampledField::Heights StackField::heights(glm::dvec2 low, glm::dvec2 high) const
   for (int j = columns.first_j; j <= columns.last_j; ++j) {
     for (int i = columns.first_i; i <= columns.last_i; ++i) {
       const ColumnRuns runs = stack_.column(i, j);
-      std::size_t solid = 0;
-      while (solid < runs.count && runs.materials[solid] != Material::kAir) ++solid;
+      const std::size_t solid = runs.grounded();
       lowest_air = std::min<int>(lowest_air, solid == 0 ? 0 : runs.tops[solid - 1]);
-      highest_solid = std::max<int>(highest_solid, runs.count == 0 ? 0 : runs.tops[runs.count - 1]);
+      highest_solid = std::max(highest_solid, runs.highest());
     }
   }
   if (highest_solid == 0) return {0, 0};

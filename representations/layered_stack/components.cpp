@@ -25,16 +25,13 @@ struct StretchRow {
     starts.assign(1, 0);
     first_id = id;
     for (int i = 0; i < stack.grid().width; ++i) {
-      const ColumnRuns runs = stack.column(i, j);
-      std::uint16_t bottom = 0;
-      for (std::size_t r = 0; r < runs.count; bottom = runs.tops[r++]) {
-        if (runs.materials[r] == Material::kAir) continue;
+      stack.column(i, j).each_solid([&](std::uint16_t bottom, std::uint16_t top, Material) {
         if (stretches.size() > starts.back() && stretches.back().top == bottom) {
-          stretches.back().top = runs.tops[r];
+          stretches.back().top = top;
         } else {
-          stretches.push_back({bottom, runs.tops[r]});
+          stretches.push_back({bottom, top});
         }
-      }
+      });
       starts.push_back(static_cast<std::uint32_t>(stretches.size()));
     }
   }

@@ -12,15 +12,10 @@ namespace {
 
 // Levels of material under the top of the highest solid run, or only those that are solid.
 int levels_of(const ColumnRuns& runs, ColumnHeight reading) {
-  int top = 0, sum = 0, bottom = 0;
-  for (std::size_t r = 0; r < runs.count; ++r) {
-    if (runs.materials[r] != Material::kAir) {
-      top = runs.tops[r];
-      sum += runs.tops[r] - bottom;
-    }
-    bottom = runs.tops[r];
-  }
-  return reading == ColumnHeight::kTop ? top : sum;
+  if (reading == ColumnHeight::kTop) return runs.highest();
+  int sum = 0;
+  runs.each_solid([&](int bottom, int top, Material) { sum += top - bottom; });
+  return sum;
 }
 
 // Between which columns a sample lies, and its share of the second.

@@ -78,12 +78,9 @@ void LayeredStack::spans(Columns where, SpanSink& out) const {
   for (std::size_t c = 0; c < where.size(); ++c) {
     int i, j;
     if (lookup.column(where.x[c], where.z[c], i, j)) {
-      const ColumnRuns runs = column(i, j);
-      int bottom = 0;
-      for (std::size_t r = 0; r < runs.count; bottom = runs.tops[r++]) {
-        if (runs.materials[r] == Material::kAir) continue;
-        out.add({grid_.edge_y(bottom), grid_.edge_y(runs.tops[r]), runs.materials[r]});
-      }
+      column(i, j).each_solid([&](int bottom, int top, Material material) {
+        out.add({grid_.edge_y(bottom), grid_.edge_y(top), material});
+      });
     }
     out.end_column();
   }
@@ -202,11 +199,7 @@ void LayeredStack::edit(Columns where, std::span<const Span> what) {
 TriangleMesh LayeredStack::mesh(MeshDetail detail) const {
   return block_mesh(grid_, detail, [&](int j, SurfaceRow& row) {
     for (int i = 0; i < grid_.width; ++i) {
-      const ColumnRuns runs = column(i, j);
-      int bottom = 0;
-      for (std::size_t r = 0; r < runs.count; bottom = runs.tops[r++]) {
-        if (runs.materials[r] != Material::kAir) row.add_solid(bottom, runs.tops[r]);
-      }
+      column(i, j).each_solid([&](int bottom, int top, Material) { row.add_solid(bottom, top); });
       row.end_column();
     }
   });

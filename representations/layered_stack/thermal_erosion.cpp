@@ -208,12 +208,9 @@ class Eroder {
   void read(int j, Row& row) const {
     row.clear();
     for (int i = 0; i < width_; ++i) {
-      const ColumnRuns column = stack_.column(i, j);
-      std::uint16_t bottom = 0;
-      for (std::size_t r = 0; r < column.count; bottom = column.tops[r++]) {
-        if (column.materials[r] != Material::kAir)
-          row.runs.push_back({bottom, column.tops[r], column.materials[r]});
-      }
+      stack_.column(i, j).each_solid([&](std::uint16_t bottom, std::uint16_t top, Material material) {
+        row.runs.push_back({bottom, top, material});
+      });
       row.end_column();
     }
   }

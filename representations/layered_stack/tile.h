@@ -3,6 +3,7 @@
 // tile.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -19,6 +20,20 @@ struct ColumnRuns {
   const std::uint16_t* tops;
   const Material* materials;
   std::size_t count;
+
+  int highest() const { return count == 0 ? 0 : tops[count - 1]; }  // solid level; 0 if all is air
+  // How many runs lie on one another from the floor up without air.
+  std::size_t grounded() const {
+    return static_cast<std::size_t>(std::find(materials, materials + count, Material::kAir) - materials);
+  }
+  // Calls visit(bottom, top, material) for each run that is not air, upward.
+  template <class Visit>
+  void each_solid(const Visit& visit) const {
+    std::uint16_t bottom = 0;
+    for (std::size_t r = 0; r < count; bottom = tops[r++]) {
+      if (materials[r] != Material::kAir) visit(bottom, tops[r], materials[r]);
+    }
+  }
 };
 
 class StackTile {

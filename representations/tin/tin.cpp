@@ -129,6 +129,12 @@ void Tin::spans(Columns where, SpanSink& out) const {
   }
 }
 
+glm::vec3 Tin::position(std::uint32_t vertex) const {
+  const tin::Sample s = surface_.vertices()[vertex];
+  return {static_cast<float>(grid_.origin_x + s.i * grid_.cell_x), heights_[vertex],
+          static_cast<float>(grid_.origin_z + s.j * grid_.cell_z)};
+}
+
 TriangleMesh Tin::mesh(MeshDetail detail) const {
   if (detail.cell > 0) {
     const auto evenly = [&](float low, float high) {
@@ -151,26 +157,32 @@ TriangleMesh Tin::mesh(MeshDetail detail) const {
   }
   std::vector<glm::vec3> positions;
   positions.reserve(heights_.size());
-  for (std::size_t v = 0; v < heights_.size(); ++v) {
-    const tin::Sample s = surface_.vertices()[v];
-    positions.emplace_back(static_cast<float>(grid_.origin_x + s.i * grid_.cell_x), heights_[v],
-                           static_cast<float>(grid_.origin_z + s.j * grid_.cell_z));
-  }
   std::vector<glm::u32vec3> triangles;
   triangles.reserve(surface_.triangles().size());
+  std::vector<std::uint32_t> numbers(heights_.size(), tin::Delaunay::kNone);
+  const auto number = [&](std::uint32_t v) {  // vertices of holes alone have none
+    if (numbers[v] == tin::Delaunay::kNone) {
+      numbers[v] = static_cast<std::uint32_t>(positions.size());
+      positions.push_back(position(v));
+    }
+    return numbers[v];
+  };
   for (std::size_t t = 0; t < surface_.triangles().size(); ++t) {
     if (!holes_.empty() && holes_[t] != 0) continue;
     const auto [a, b, c] = surface_.triangles()[t].vertex;
-    triangles.emplace_back(a, c, b);  // seen from above: the second axis points south
+    const std::uint32_t first = number(a), second = number(b), third = number(c);
+    triangles.emplace_back(first, third, second);  // seen from above: the second axis points south
   }
-  add_margin(positions, triangles);
+  add_margin(numbers, positions, triangles);
   return close_down(std::move(positions), std::move(triangles), grid_.bounds.low.y);
 }
 
 // Between the outermost samples and the bounds, half a cell for solids, the border's height continues.
-void Tin::add_margin(std::vector<glm::vec3>& positions, std::vector<glm::u32vec3>& triangles) const {
+void Tin::add_margin(std::span<const std::uint32_t> numbers, std::vector<glm::vec3>& positions,
+                     std::vector<glm::u32vec3>& triangles) const {
   const Bounds& bounds = grid_.bounds;
-  const glm::vec3 first = positions.front(), last = positions.back();  // in order: two corners
+  const auto last_vertex = static_cast<std::uint32_t>(heights_.size() - 1);
+  const glm::vec3 first = position(0), last = position(last_vertex);  // in order: two corners
   const auto outward = [&](glm::vec3 p) {
     const bool west = p.x <= first.x, east = p.x >= last.x, north = p.z <= first.z, south = p.z >= last.z;
     return glm::vec3(west   ? bounds.low.x
@@ -190,7 +202,7 @@ void Tin::add_margin(std::vector<glm::vec3>& positions, std::vector<glm::u32vec3
       for (std::size_t k = 0; k < 3; ++k) {
         const bool hole = !holes_.empty() && holes_[t] != 0;
         if (at.neighbour[k] == tin::Delaunay::kNone && !hole)
-          edges.push_back({at.vertex[(k + 2) % 3], at.vertex[(k + 1) % 3]});
+          edges.push_back({numbers[at.vertex[(k + 2) % 3]], numbers[at.vertex[(k + 1) % 3]]});
       }
     }
     return edges;

@@ -41,7 +41,10 @@ class Tin final : public Representation {
  private:
   Tin(const HeightGrid& grid, tin::Approximation);
   float height_in(const tin::Triangle&, double i, double j) const;
-  void add_margin(std::vector<glm::vec3>& positions, std::vector<glm::u32vec3>& triangles) const;
+  glm::vec3 position(std::uint32_t vertex) const;
+  // `numbers`: of the vertices among the positions.
+  void add_margin(std::span<const std::uint32_t> numbers, std::vector<glm::vec3>& positions,
+                  std::vector<glm::u32vec3>& triangles) const;
 
   HeightGrid grid_;
   tin::Delaunay surface_;

@@ -197,12 +197,6 @@ std::unique_ptr<Representation> Voxel::build(const TerrainSource& source, const 
   return built;
 }
 
-std::size_t Voxel::openvdb_bytes() const {
-  std::size_t bytes = 0;
-  for (const auto& layer : layers_->layers) bytes += layer.tree->memUsage();
-  return bytes;
-}
-
 void Voxel::spans(Columns where, SpanSink& out) const {
   const ColumnLookup lookup(grid_);
   std::vector<Reader> readers;

@@ -22,8 +22,6 @@ class Voxel final : public Representation {
   ~Voxel() override;
 
   const ColumnGrid& grid() const { return grid_; }
-  // The bytes of the trees by OpenVDB's memUsage(); memory() counts more.
-  std::size_t openvdb_bytes() const;
 
   void spans(Columns where, SpanSink& out) const override;
   void materials(Points where, std::span<Material> out) const override;

@@ -60,16 +60,6 @@ Way in_space(const Heightfield& field, std::span<const std::uint32_t> from, cons
 
 }  // namespace
 
-std::string_view name(ChannelSpace space) {
-  constexpr std::string_view kNames[] = {"plane", "plane-samples", "space", "space-samples"};
-  return kNames[static_cast<std::size_t>(space)];
-}
-
-std::string_view name(ChannelAverage average) {
-  constexpr std::string_view kNames[] = {"mean", "largest", "sum"};
-  return kNames[static_cast<std::size_t>(average)];
-}
-
 double ChannelDistance::normalised(ChannelAverage average) const {
   const double distance = hausdorff(average);
   if (distance == 0) return 0;

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
-#include <string_view>
 
 #include "terrain/heightfield.h"
 
@@ -26,10 +25,8 @@ enum class ChannelSpace {
   kSpace,         // with each pixel's elevation on its own terrain, all in metres
   kSpaceSamples,  // with elevation in metres but positions in samples, as in a program without a cell size
 };
-std::string_view name(ChannelSpace);
 
 enum class ChannelAverage { kMean, kLargest, kSum };  // over the pixels of one network
-std::string_view name(ChannelAverage);
 
 struct ChannelDistance {
   struct Way {

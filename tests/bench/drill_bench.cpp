@@ -5,7 +5,6 @@
 
 #include "representations/drill/drill_codec.h"
 #include "representations/drill/extract.h"
-#include "representations/drill/influence.h"
 #include "representations/drill/pits.h"
 #include "representations/drill/quantum.h"
 #include "representations/drill/regenerate.h"

@@ -202,16 +202,12 @@ TEST(DrillFigures, TerrainsOfLeastErrorAndTheirDifference) {
 std::vector<Outcome> numbered_outcomes() {
   std::vector<Outcome> outcomes;
   double number = 1;
-  for (const std::uint32_t tau : kTaus) {
-    for (const int w : kWidths) {
-      for (const int k : kInfluences) {
-        Outcome& outcome = outcomes.emplace_back();
-        outcome.setting = {tau, w, k};
-        outcome.rmse = 0.0101 * number;
-        outcome.ahd[0] = 0.0001001 * (100 - number);
-        ++number;
-      }
-    }
+  for (const Setting& setting : all_settings()) {
+    Outcome& outcome = outcomes.emplace_back();
+    outcome.setting = setting;
+    outcome.rmse = 0.0101 * number;
+    outcome.ahd[0] = 0.0001001 * (100 - number);
+    ++number;
   }
   return outcomes;
 }
@@ -261,11 +257,8 @@ TEST(DrillFigures, MatricesHoldTheErrorsOfTheirSets) {
   std::vector<Outcome> repeated = outcomes;  // the second width has the errors of the first
   for (Outcome& o : repeated) {
     if (o.setting.w != kWidths[1]) continue;
-    const auto first = std::ranges::find_if(outcomes, [&](const Outcome& other) {
-      return other.setting.w == kWidths[0] && other.setting.tau == o.setting.tau &&
-             other.setting.k == o.setting.k;
-    });
-    o.rmse = first->rmse;
+    const Setting first{o.setting.tau, kWidths[0], o.setting.k};
+    o.rmse = std::ranges::find(outcomes, first, &Outcome::setting)->rmse;
   }
   EXPECT_EQ(read(error_matrices_sheet(repeated)).fault_of_panels(matrices), "panels 1 and 2 show the same");
   std::vector<Outcome> swapped = outcomes;

@@ -12,6 +12,7 @@
 #include "experiments/figures/maps.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/hydrology/channels.h"
+#include "tests/experiments/value.h"
 
 namespace terrabench::drill {
 namespace {
@@ -20,57 +21,45 @@ namespace {
 template <class Error>
 std::vector<Outcome> outcomes(const Error& error) {
   std::vector<Outcome> all;
-  for (const std::uint32_t tau : kTaus) {
-    for (const int w : kWidths) {
-      for (const int k : kInfluences) {
-        Outcome outcome;
-        outcome.setting = {tau, w, k};
-        outcome.rmse = error(outcome.setting);
-        all.push_back(outcome);
-      }
-    }
+  for (const Setting& setting : all_settings()) {
+    Outcome& outcome = all.emplace_back();
+    outcome.setting = setting;
+    outcome.rmse = error(setting);
   }
   return all;
 }
 
 double rmse(const Outcome& outcome) { return outcome.rmse; }
 
-TEST(DrillEffects, OneFactorExplainsAll) {
-  const Effects effects = main_effects(outcomes([](const Setting& s) { return 0.5 * s.w; }), rmse);
-  EXPECT_NEAR(effects.w, 1, 1e-12);
-  EXPECT_NEAR(effects.tau, 0, 1e-12);
-  EXPECT_NEAR(effects.k, 0, 1e-12);
-  EXPECT_NEAR(effects.interactions, 0, 1e-12);
-}
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-TEST(DrillEffects, SumsOfFactorsShareTheVariance) {
+TEST(DrillEffects, ShareTheVarianceOfTheLevelMeans) {
+  const Effects one = main_effects(outcomes([](const Setting& s) { return 0.5 * s.w; }), rmse);
+  EXPECT_NEAR(one.w, 1, 1e-12);
+  EXPECT_NEAR(one.tau + one.k, 0, 1e-12);
   // Variances of the level means: 2/9 for 0, 1, 1 over three τ; 1 for 0 and 2 over six k.
   const auto all =
       outcomes([](const Setting& s) { return (s.tau > 25 ? 1.0 : 0.0) + (s.k > 15 ? 2.0 : 0.0); });
-  const Effects effects = main_effects(all, rmse);
-  EXPECT_NEAR(effects.tau, (2.0 / 9) / (2.0 / 9 + 1), 1e-12);
-  EXPECT_NEAR(effects.k, 1 / (2.0 / 9 + 1), 1e-12);
-  EXPECT_NEAR(effects.interactions, 0, 1e-12);
-  EXPECT_NEAR(effects.mean_at_tau[0], 1, 1e-12);
-  EXPECT_NEAR(effects.mean_at_tau[2], 2, 1e-12);
-}
-
-TEST(DrillEffects, WhatNoFactorExplainsIsInteraction) {
-  // The sign changes with τ and with k, so that all level means are equal.
-  const auto all = outcomes([](const Setting& s) {
-    const double tau = s.tau == 25 ? 1 : s.tau == 100 ? -1 : 0;
-    return tau * (s.k > 15 ? 1 : -1);
-  });
-  EXPECT_NEAR(main_effects(all, rmse).interactions, 1, 1e-12);
+  const Effects two = main_effects(all, rmse);
+  EXPECT_NEAR(two.tau, (2.0 / 9) / (2.0 / 9 + 1), 1e-12);
+  EXPECT_NEAR(two.k, 1 / (2.0 / 9 + 1), 1e-12);
+  EXPECT_NEAR(two.mean_at_tau[0], 1, 1e-12);
+  EXPECT_NEAR(two.mean_at_tau[2], 2, 1e-12);
+  // The sign changes with τ and with k, so that all level means are equal: no factor explains it.
+  const Effects none = main_effects(outcomes([](const Setting& s) {
+                                      const double tau = s.tau == 25 ? 1 : s.tau == 100 ? -1 : 0;
+                                      return tau * (s.k > 15 ? 1 : -1);
+                                    }),
+                                    rmse);
+  EXPECT_NEAR(none.tau + none.w + none.k, 0, 1e-12);
 }
 
 TEST(DrillEffects, SomeLevelsAloneAndNoVarianceAtAll) {
   auto all = outcomes([](const Setting& s) { return s.k == 5 ? 100.0 : s.tau; });
-  all.erase(std::remove_if(all.begin(), all.end(), [](const Outcome& o) { return o.setting.k == 5; }),
-            all.end());
+  std::erase_if(all, [](const Outcome& o) { return o.setting.k == 5; });
   EXPECT_NEAR(main_effects(all, rmse).tau, 1, 1e-12);
   const Effects none = main_effects(outcomes([](const Setting&) { return 3.0; }), rmse);
-  EXPECT_EQ(none.tau + none.w + none.k + none.interactions, 0);
+  EXPECT_EQ(none.tau + none.w + none.k, 0);
 }
 
 TEST(DrillAnalysis, OutliersLieBeyondTheUpperFence) {
@@ -84,55 +73,44 @@ TEST(DrillAnalysis, OutliersLieBeyondTheUpperFence) {
   EXPECT_EQ(without_outliers(all, rmse).size(), 53U);
 }
 
-TEST(DrillAnalysis, CountsTheCasesThatRise) {
-  const Cases all = rising_with_tau(outcomes([](const Setting& s) { return s.tau; }), rmse);
-  EXPECT_EQ(all.rising, 18);
-  EXPECT_EQ(all.all, 18);
-  EXPECT_EQ(rising_with_tau(outcomes([](const Setting&) { return 1; }), rmse).rising, 0);
+TEST(DrillAnalysis, CountsTheCasesThatRiseAndDifferentFiniteValues) {
+  EXPECT_EQ(rising_with_tau(outcomes([](const Setting& s) { return s.tau; }), rmse), 18);
+  EXPECT_EQ(rising_with_tau(outcomes([](const Setting&) { return 1; }), rmse), 0);
   // Rises to 100 and falls to 200, at w = 5 alone.
   const auto some = outcomes([](const Setting& s) { return s.w == 5 && s.tau == 200 ? 0.0 : s.tau; });
-  EXPECT_EQ(rising_with_tau(some, rmse).rising, 12);
-}
-
-TEST(DrillAnalysis, CountsDifferentFiniteValues) {
+  EXPECT_EQ(rising_with_tau(some, rmse), 12);
   EXPECT_EQ(distinct(outcomes([](const Setting& s) { return s.tau + 1000 * s.w; }), rmse), 9U);
   auto all = outcomes([](const Setting& s) { return s.k; });
-  all[0].rmse = std::numeric_limits<double>::infinity();
+  all[0].rmse = kInfinite;
   EXPECT_EQ(distinct(all, rmse), 6U);
 }
 
 TEST(DrillAnalysis, RecordsSharesOfGoodSetsAndSetsAboveOne) {
   // 18 sets at 0.02, 18 at 0.026 and 18 at 1.5: no outliers.
-  const auto all = outcomes([](const Setting& s) { return s.tau == 25 ? 0.02 : s.tau == 100 ? 0.026 : 1.5; });
+  auto all = outcomes([](const Setting& s) { return s.tau == 25 ? 0.02 : s.tau == 100 ? 0.026 : 1.5; });
   Record record;
   Recorder recorder(record, "out");
   record_error(all, "x_", rmse, recorder);
-  const auto value = [&](std::string_view metric) { return record.find(metric)->samples.at(0); };
-  EXPECT_EQ(value("x_sets_in_range"), 18);
-  EXPECT_EQ(value("x_good_sets"), 54);
-  EXPECT_DOUBLE_EQ(value("x_good_in_range"), 1.0 / 3);
-  EXPECT_EQ(value("x_sets_above_1"), 18);
-  EXPECT_EQ(value("x_cases_rising_with_tau"), 18);
-  EXPECT_EQ(value("x_best_tau"), 25);
-}
-
-TEST(DrillAnalysis, RecordsNothingElseWhereAnErrorIsInfinite) {
-  auto all = outcomes([](const Setting& s) { return s.k; });
-  all[7].rmse = std::numeric_limits<double>::infinity();
-  Record record;
-  Recorder recorder(record, "out");
-  record_error(all, "", rmse, recorder);
-  ASSERT_EQ(record.metrics.size(), 1U);
-  EXPECT_EQ(record.find("infinite_sets")->samples.at(0), 1);
-  add_share(recorder, "share", all[7].rmse);
-  EXPECT_EQ(record.metrics.size(), 1U);
+  EXPECT_EQ(value(record, "x_least"), 0.02);
+  EXPECT_EQ(value(record, "x_sets_in_range"), 18);
+  EXPECT_DOUBLE_EQ(value(record, "x_good_in_range"), 1.0 / 3);
+  EXPECT_EQ(value(record, "x_sets_above_1"), 18);
+  EXPECT_EQ(value(record, "x_cases_rising_with_tau"), 18);
+  EXPECT_FALSE(gives_all(all, rmse));
+  for (Outcome& o : all) o.rmse = o.rmse == 0.026 ? 0.021 : o.rmse;
+  EXPECT_TRUE(gives_all(all, rmse));
+  // Nothing else where an error is infinite.
+  all[7].rmse = kInfinite;
+  Record other;
+  Recorder infinite(other, "out");
+  record_error(all, "", rmse, infinite);
+  add_share(infinite, "share", all[7].rmse);
+  ASSERT_EQ(other.metrics.size(), 1U);
+  EXPECT_EQ(value(other, "infinite_sets"), 1);
 }
 
 TEST(DrillFactorial, ReadsEquationThreeInTwelveWays) {
-  std::set<std::string> names;
-  for (const Reading& reading : kReadings) names.insert(reading.name());
-  EXPECT_EQ(names.size(), 12U);
-  EXPECT_EQ(kReadings[0].name(), "mean-plane");
+  static_assert(kReadings[reading("mean-plane")].space == ChannelSpace::kPlane && reading("sum-plane") == 8);
   const Heightfield ground = crop(noise_hills(90, 3), 0, 0, 90, 70);
   for (const Variant& variant : kVariants) {
     const FlowNetwork network = variant.route(ground);
@@ -144,7 +122,7 @@ TEST(DrillFactorial, ReadsEquationThreeInTwelveWays) {
       const ChannelDistance distance =
           channel_distance(ground, channel_pixels(network, 25), regenerated,
                            channel_pixels(variant.route(regenerated), 25), kReadings[r].space);
-      EXPECT_EQ(outcome.ahd[r], distance.normalised(kReadings[r].average)) << kReadings[r].name();
+      EXPECT_EQ(outcome.ahd[r], distance.normalised(kReadings[r].average)) << kReadings[r].name;
     }
     std::size_t plateau = 0;
     for (const float h : regenerated.heights) plateau += h >= height_range(ground).highest;
@@ -156,8 +134,7 @@ TEST(DrillFactorial, ReadsEquationThreeInTwelveWays) {
 TEST(DrillFactorial, AllReadingsAndVariantsAreCases) {
   const std::vector<Case> cases = experiment("drill.readings").cases({});
   EXPECT_EQ(cases.size(), 72U);
-  for (const Case& at : cases)
-    EXPECT_EQ(kReadings[at.parameters.choice("reading")].name(), at.parameters.text("reading"));
+  EXPECT_EQ(kReadings[cases[17].parameters.choice("reading")].name, cases[17].parameters.text("reading"));
 }
 
 // A sweep with the RMSE that `error` gives.
@@ -204,45 +181,41 @@ TEST(DrillSweep, CountsTheFactorialsInWhichStatementsHold) {
 }
 
 TEST(DrillSweep, AgreesWithTheFactorial) {
-  const Heightfield ground = crop(noise_hills(70, 3), 0, 0, 60, 50);
+  const TerrainSource source = source_of("hills", crop(noise_hills(70, 3), 0, 0, 60, 50));
   Progress progress;
-  const Sweep all = sweep(ground, kVariants[2].route(ground), kVariants[2], progress);
-  for (const Outcome& o : factorial(ground, kVariants[2].route(ground), kVariants[2], progress)) {
+  const Sweep all = sweep(*source.heights, kVariants[2].route(*source.heights), kVariants[2], progress);
+  for (const Outcome& o : factorial_of(source, kVariants[2], progress)) {
     const auto w = std::ranges::find(kSweptWidths, o.setting.w) - kSweptWidths.begin();
     const auto t = std::ranges::find(kTaus, o.setting.tau) - kTaus.begin();
     EXPECT_EQ(all.at(static_cast<std::size_t>(t), static_cast<std::size_t>(w), o.setting.k), o.rmse);
   }
 }
 
-// One drill that rises by 2 m per sample in a window of 5 × 5 on a plateau of 100 m.
-Drills one_drill() {
+// Of one drill that rises by 2 m per sample in a window of 2k + 1 samples on a plateau.
+EdgeSteps steps_of_one_drill(float plateau, int k, Heightfield* terrain = nullptr) {
   Drills drills;
   drills.width = drills.depth = 9;
-  drills.plateau = 100;
-  drills.k = 2;
+  drills.plateau = plateau;
+  drills.k = k;
   drills.pixel = {40};  // the centre
   drills.direction = {FlowNetwork::kOutlet};
   drills.elevation = {50};
   drills.slope = {2};
   drills.curvature = {0};
-  return drills;
+  if (terrain != nullptr) *terrain = regenerate(drills);
+  return edge_steps(drills, drill_one_by_one(drills, as_listed(drills)));
 }
 
 TEST(DrillEdges, AreWhereAWindowEnds) {
-  const EdgeSteps edges = edge_steps(one_drill());
+  Heightfield terrain;
+  const EdgeSteps edges = steps_of_one_drill(100, 2, &terrain);
   EXPECT_EQ(edges.across.pairs, 20U);  // 5 per side
   EXPECT_EQ(edges.across.pairs + edges.inside.pairs, 2U * 9 * 8);
   EXPECT_FLOAT_EQ(static_cast<float>(edges.across.largest), 46);  // beside the middle of a side
   EXPECT_FLOAT_EQ(static_cast<float>(edges.inside.largest), 2);
-  EXPECT_EQ(edges.across.largest, steps(regenerate(one_drill())).largest);
-}
-
-TEST(DrillEdges, AHigherPlateauMakesHigherSteps) {
-  Drills drills = one_drill();
-  drills.plateau = 200;
-  EXPECT_GT(edge_steps(drills).across.largest, edge_steps(one_drill()).across.largest + 99);
-  drills.k = 8;  // the window covers all: no border
-  EXPECT_EQ(edge_steps(drills).across.pairs, 0U);
+  EXPECT_EQ(edges.across.largest, steps(terrain).largest);
+  EXPECT_GT(steps_of_one_drill(200, 2).across.largest, edges.across.largest + 99);
+  EXPECT_EQ(steps_of_one_drill(200, 8).across.pairs, 0U);  // the window covers all: no border
 }
 
 TEST(DrillGround, NoiseIsWholeMetresAndItsSeeds) {

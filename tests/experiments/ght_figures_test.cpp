@@ -12,7 +12,6 @@
 #include "experiments/ght/shown.h"
 #include "experiments/ght/stage_numbers.h"
 #include "experiments/ght/tree_view.h"
-#include "experiments/ght/trimmed.h"
 #include "representations/ght/invariants.h"
 #include "terrain/error.h"
 #include "terrain/events/scripts.h"

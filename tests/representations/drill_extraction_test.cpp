@@ -52,7 +52,7 @@ double squared_error(const std::vector<std::pair<double, double>>& samples, doub
 }
 
 // The least error under the bounds, by nested ternary search: the error is convex in both unknowns.
-double least_error(const std::vector<std::pair<double, double>>& samples, DrillFit fit, double window) {
+double least_error(const std::vector<std::pair<double, double>>& samples, DrillFit fit) {
   const auto search = [](double low, double high, const std::function<double(double)>& f) {
     for (int i = 0; i < 200; ++i) {
       const double p = low + (high - low) / 3, q = high - (high - low) / 3;
@@ -61,13 +61,10 @@ double least_error(const std::vector<std::pair<double, double>>& samples, DrillF
     return f(low);
   };
   constexpr double kFar = 3000;
-  const bool everywhere = fit == DrillFit::kMonotone;
-  return search(everywhere ? 0 : -kFar, kFar, [&](double b) {
-    const double least_slope = fit == DrillFit::kPrinted ? -kFar * 20
-                               : everywhere              ? 0
-                                                         : std::max(0.0, -2 * b * window);
+  const bool monotone = fit == DrillFit::kMonotone;
+  return search(monotone ? 0 : -kFar, kFar, [&](double b) {
     if (fit == DrillFit::kVertex) return squared_error(samples, 0, b);
-    return search(least_slope, least_slope + kFar * 40,
+    return search(monotone ? 0 : -kFar * 20, kFar * 20,
                   [&](double a) { return squared_error(samples, a, b); });
   });
 }
@@ -124,22 +121,19 @@ TEST(ProfileFit, IsTheLeastSquaresUnderItsBounds) {
       if (CrossSections::is_sample(joined[i])) samples.emplace_back(r, joined[i] - 300.0);
     }
     if (samples.size() < 2) continue;
-    const double window = static_cast<double>(w) * 1.5;
-    for (const DrillFit fit_to :
-         {DrillFit::kPrinted, DrillFit::kVertex, DrillFit::kMonotone, DrillFit::kMonotoneInWindow}) {
-      const FittedProfile fit = fit_profile(joined, 300, fit_to, window);
+    for (const DrillFit fit_to : {DrillFit::kPrinted, DrillFit::kVertex, DrillFit::kMonotone}) {
+      const FittedProfile fit = fit_profile(joined, 300, fit_to);
       ASSERT_TRUE(fit.determined);
       const double error = squared_error(samples, fit.slope, fit.curvature);
-      const double expected = least_error(samples, fit_to, window);
+      const double expected = least_error(samples, fit_to);
       EXPECT_NEAR(error, expected, 1e-3 * (1 + expected))
           << "fit " << static_cast<int>(fit_to) << ", w " << w;
       if (fit_to == DrillFit::kVertex) {
         EXPECT_EQ(fit.slope, 0);
       }
-      if (fit_to == DrillFit::kPrinted || fit_to == DrillFit::kVertex) continue;
-      EXPECT_GE(fit.slope, 0);
-      const double end = fit_to == DrillFit::kMonotone ? 1e6 : window;
-      EXPECT_GE(fit.slope + 2 * end * fit.curvature, -1e-4);
+      if (fit_to == DrillFit::kMonotone) {
+        EXPECT_GE(std::min(fit.slope, fit.curvature), 0);
+      }
     }
   }
 }
@@ -147,8 +141,8 @@ TEST(ProfileFit, IsTheLeastSquaresUnderItsBounds) {
 TEST(ProfileFit, FollowsAnExactParabola) {
   std::vector<float> joined;
   for (int r = 1; r <= 10; ++r) joined.push_back(static_cast<float>(100 + 4 * r + 0.5 * r * r));
-  for (const DrillFit fit_to : {DrillFit::kPrinted, DrillFit::kMonotone, DrillFit::kMonotoneInWindow}) {
-    const FittedProfile fit = fit_profile(joined, 100, fit_to, 14);
+  for (const DrillFit fit_to : {DrillFit::kPrinted, DrillFit::kMonotone}) {
+    const FittedProfile fit = fit_profile(joined, 100, fit_to);
     EXPECT_NEAR(fit.slope, 4, 1e-4);
     EXPECT_NEAR(fit.curvature, 0.5, 1e-5);
   }

@@ -24,6 +24,11 @@ class PlantedFault : public testing::Test {
   void expect_one(std::string_view what) const {
     EXPECT_THAT(broken_invariants(model_), ElementsAre(HasSubstr(std::string(what))));
   }
+  void add_faces(const std::vector<Face>& faces) {
+    std::vector<FaceId> ids(faces.size());
+    model_.surface.prepare(model_.tree, {}, faces);
+    model_.surface.add(faces, model_.surface.place(model_.tree, faces), ids);
+  }
   // A node that nothing refers to, part of no event.
   NodeId spare() {
     GroundedHeightmap node;
@@ -66,9 +71,7 @@ TEST_F(PlantedFault, AMissingFace) {
 }
 
 TEST_F(PlantedFault, AFaceTwice) {
-  const Face face = model_.surface.face(some_face());
-  model_.surface.prepare(model_.tree, {}, {&face, 1});
-  model_.surface.add(model_.tree, face);
+  add_faces({model_.surface.face(some_face())});
   expect_one("edges that two faces have in the same direction");
 }
 
@@ -88,9 +91,7 @@ TEST_F(PlantedFault, AnUnlinkedBoundaryCell) {
   const NodeId n = spare();
   const CellId c = model_.tree.nodes()[n].first;
   for (CellId k = c; k < c + 4; ++k) model_.tree.set_height(k, 20);
-  const std::array faces = {Face{c, c + 1, c + 2}, Face{c, c + 2, c + 1}};
-  model_.surface.prepare(model_.tree, {}, faces);
-  for (const Face& face : faces) model_.surface.add(model_.tree, face);
+  add_faces({{c, c + 1, c + 2}, {c, c + 2, c + 1}});
   model_.tree.append(Applied{events::Kind::kRadialErosion, 0, n, 1});
   expect_one("without a link to another one: 3");
   EXPECT_EQ(unlinked_boundary_cells(model_), 3U);
