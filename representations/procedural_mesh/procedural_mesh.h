@@ -38,13 +38,12 @@ struct MeshDescription {
   int leave_out = 0;  // of the last subdivisions, of the plane and of the model
 
   bool has_ground() const { return !ground.x.empty(); }
+  // Expanded; so many more of the last levels are left out, as far as there are levels. `origin` names the
+  // model in errors. Throws what parse_model() and growing::expand() throw.
+  FaceMesh polygons(const std::string& origin, int leave_out_more = 0) const;
   void save(ByteSink&) const;
   static MeshDescription load(ByteSource&);
 };
-
-// The polygons that a description gives; `leave_out` more of the last levels are left out, as far as there
-// are levels. `origin` names the model in errors. Throws what parse_model() and expand() throw.
-FaceMesh expand(const MeshDescription&, const std::string& origin, int leave_out = 0);
 
 class ProceduralMesh final : public Representation {
  public:
@@ -52,7 +51,7 @@ class ProceduralMesh final : public Representation {
   // A source that was opened from a model (model_terrain.h) is expanded again from its own description.
   static std::unique_ptr<Representation> build(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<Representation> load(ByteSource&);
-  // Throws as expand(), and bad_input for a model whose open sheets look down.
+  // Throws as polygons(), and bad_input for a model whose open sheets look down.
   ProceduralMesh(MeshDescription, const std::string& origin);
 
   const MeshDescription& description() const { return description_; }
@@ -60,7 +59,7 @@ class ProceduralMesh final : public Representation {
   std::size_t expanded_bytes() const { return columns_.memory().total(); }
   const TriangleColumns& columns() const { return columns_; }
   // The polygons, expanded once more.
-  FaceMesh polygons() const override { return expand(description_, "model"); }
+  FaceMesh polygons() const override { return description_.polygons("model"); }
 
   void spans(Columns where, SpanSink& out) const override;
   // The triangles that spans() crosses; sheets are closed by walls and a floor. Watertight, but parts that
