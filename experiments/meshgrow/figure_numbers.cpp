@@ -13,7 +13,6 @@
 
 #include "experiments/figures/measures.h"
 #include "experiments/meshgrow/growing_pictures.h"
-#include "experiments/meshgrow/root_mean_square.h"
 #include "experiments/meshgrow/subdivision_reference.h"
 
 namespace terrabench::meshgrow {
@@ -59,13 +58,13 @@ double last_displacement(const FaceMesh& base, std::vector<subdivision::Placemen
 }
 
 glm::dvec3 face_normal(const FaceMesh& mesh, std::uint32_t face) {
-  return figures::face_normal(mesh.positions, corners_of(mesh, face));
+  return figures::face_normal(mesh.positions, mesh.face(face));
 }
 
 glm::dvec3 mean_normal(const FaceMesh& mesh, std::uint32_t vertex) {
   glm::dvec3 sum(0);
   for (std::uint32_t face = 0; face < mesh.faces(); ++face) {
-    const auto corners = corners_of(mesh, face);
+    const auto corners = mesh.face(face);
     if (std::ranges::find(corners, vertex) != corners.end()) sum += face_normal(mesh, face);
   }
   return glm::normalize(sum);
@@ -73,8 +72,7 @@ glm::dvec3 mean_normal(const FaceMesh& mesh, std::uint32_t vertex) {
 
 namespace {
 
-double stretch_of(const FaceMesh& mesh, std::uint32_t face) {
-  const auto corners = corners_of(mesh, face);
+double stretch_of(const FaceMesh& mesh, std::span<const std::uint32_t> corners) {
   double shortest = std::numeric_limits<double>::infinity(), longest = 0;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const auto length = static_cast<double>(
@@ -87,17 +85,17 @@ double stretch_of(const FaceMesh& mesh, std::uint32_t face) {
 
 }  // namespace
 
-void record_stretch(figures::Drawing& drawing, std::string_view panel, const FaceMesh& mesh, float reach) {
-  double largest = 0, count = 0;
-  for (std::uint32_t face = 0; face < mesh.faces(); ++face) {
+Stretch stretch_within(const FaceMesh& mesh, float reach) {
+  Stretch stretch;
+  for (std::size_t face = 0; face < mesh.faces(); ++face) {
     glm::vec2 middle(0);
-    for (const std::uint32_t v : corners_of(mesh, face)) middle += 0.25F * mesh.texture[v];
+    for (const std::uint32_t v : mesh.face(face)) middle += 0.25F * mesh.texture[v];
     if (std::max(std::abs(middle.x - 0.5F), std::abs(middle.y - 0.5F)) > reach) continue;
-    largest = std::max(largest, stretch_of(mesh, face));
-    count += stretch_of(mesh, face) > 1.01 ? 1 : 0;
+    const double of_face = stretch_of(mesh, mesh.face(face));
+    stretch.largest = std::max(stretch.largest, of_face);
+    stretch.faces += of_face > 1.01 ? 1 : 0;
   }
-  drawing.record(fmt::format("stretch_{}", panel), largest);
-  drawing.record(fmt::format("stretched_faces_{}", panel), count);
+  return stretch;
 }
 
 Bends bends_of(const FaceMesh& mesh) {
@@ -105,7 +103,7 @@ Bends bends_of(const FaceMesh& mesh) {
   Bends bends;
   double edges = 0;
   for (std::uint32_t face = 0; face < mesh.faces(); ++face) {
-    const auto corners = corners_of(mesh, face);
+    const auto corners = mesh.face(face);
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const auto edge = std::minmax(corners[k], corners[(k + 1) % corners.size()]);
       const auto [other, is_first] = first_face.try_emplace(edge, face);
@@ -135,7 +133,7 @@ void record_frame(figures::Drawing& drawing, const growing::GrownMesh& before,
   constexpr double kMove = 0.9;
   const growing::Frame& frame = before.states.front().shape.frame;
   const glm::dvec3 normal = face_normal(before.mesh, base);
-  const auto corners = corners_of(before.mesh, base);
+  const auto corners = before.mesh.face(base);
   double cube_off = 0;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const glm::dvec3 made(after.mesh.positions[before.mesh.positions.size() + k]);
@@ -158,7 +156,7 @@ void record_frame(figures::Drawing& drawing, const growing::GrownMesh& before,
 namespace {
 
 double cycles_around(const FaceMesh& mesh, std::uint32_t face) {
-  const auto corners = corners_of(mesh, face);
+  const auto corners = mesh.face(face);
   double way = 0;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     way += std::abs(static_cast<double>(mesh.texture[corners[k]].x) -
@@ -189,14 +187,16 @@ void record_coordinates(figures::Drawing& drawing, const growing::Model& model, 
 
 growing::GrownMesh without_displacements(growing::Model model, std::string_view step) {
   for (growing::Step& each : model.steps) {
-    if (each.name == step) each.displacements.clear();
+    if (each.name != step) continue;
+    each.placement.displacements.clear();
+    each.amounts.clear();
   }
   return growing::expand(model);
 }
 
 std::vector<double> heights_over(const FaceMesh& mesh, const FaceMesh& other) {
   const subdivision::LocalSurface surface =
-      subdivision::local_surface(subdivision::make_topology(other), other.positions, {}, {}, false);
+      subdivision::local_surface(subdivision::make_topology(other), other.positions, {}, false);
   std::vector<double> heights;
   for (std::size_t v = 0; v < other.positions.size(); ++v) {
     const glm::vec3 by = mesh.positions[v] - other.positions[v];

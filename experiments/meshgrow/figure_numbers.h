@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "experiments/figures/figure.h"
-#include "experiments/meshgrow/growing_steps.h"
+#include "experiments/meshgrow/fork.h"
 #include "representations/procedural_mesh/model.h"
-#include "representations/procedural_mesh/subdivision/refinement.h"
+#include "representations/procedural_mesh/subdivision/subdivide.h"
 
 namespace terrabench::meshgrow {
 
@@ -31,7 +31,10 @@ glm::dvec3 face_normal(const FaceMesh&, std::uint32_t face);
 
 // Figure 5: the longest edge per shortest edge of the face that is stretched most, and the number of faces
 // that are stretched, among those with textures at most `reach` away from the middle, 0.5.
-void record_stretch(figures::Drawing&, std::string_view panel, const FaceMesh&, float reach);
+struct Stretch {
+  double largest = 0, faces = 0;
+};
+Stretch stretch_within(const FaceMesh&, float reach);
 
 // The angles between the faces at an edge, in degrees: over all edges with two faces.
 struct Bends {

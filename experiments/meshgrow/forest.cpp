@@ -192,7 +192,7 @@ CoherentPicture traced(const LazyForest& lazy, const View& view, const Case& at,
   return picture;
 }
 
-void record(const Expanded& expanded, const Forest& forest, Recorder& recorder) {
+void record(const growing::Expanded& expanded, const Forest& forest, Recorder& recorder) {
   const auto total = static_cast<double>(forest.plants().total_faces());
   recorder.add("instances", "", static_cast<double>(forest.plants().instances().size()));
   recorder.add("faces_total", "", total);
@@ -208,11 +208,9 @@ void record(const Expanded& expanded, const Forest& forest, Recorder& recorder) 
 }
 
 void measure_lazy(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  Stopwatch planting;
   const auto instances = static_cast<std::uint64_t>(at.parameters.integer("instances"));
   const auto forest = forest_of(
       {.instances = instances, .area = at.parameters.number("area"), .seed = options.seed}, progress);
-  recorder.add("planting_seconds", "s", planting.seconds());
   const View view =
       view_from_the_air(*forest, at.integer("width"), static_cast<float>(at.parameters.number("shown")));
   const auto bound = static_cast<std::size_t>(at.parameters.integer("cache")) << 20U;
@@ -230,7 +228,6 @@ void measure_lazy(const Case& at, const RunOptions& options, Recorder& recorder,
   const double pictures = 16.0 * static_cast<double>(picture.radiance.size());
   recorder.add_varying("heap_held", "B", static_cast<double>(heap.held()) - pictures);
   recorder.add_varying("memory", "B", static_cast<double>(memory.total()));
-  recorder.add_varying("embree_held", "B", static_cast<double>(lazy.embree_bytes()));
   recorder.add("cache_bound", "B", static_cast<double>(bound));
   recorder.add("faces_chosen", "", static_cast<double>(lazy.faces_chosen()));
   record(lazy.expanded(), *forest, recorder);
@@ -262,7 +259,7 @@ Image eager(const Forest& forest, const View& view, const Case& at, std::uint64_
   RayScene scene;
   scene.light = model_daylight();
   for (std::uint32_t i = 0; i < meshes.size(); ++i) {
-    meshes[i] = triangles_of(plants.expand(i, 0).mesh);
+    meshes[i] = triangles_of(plants.mesh(i, 0).mesh);
     const auto material = [&forest, &mesh = meshes[i], i](SurfacePoint point) {
       point.instance = i;
       point.mesh = mesh.symbols[point.triangle];

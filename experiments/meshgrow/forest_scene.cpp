@@ -1,8 +1,5 @@
 #include "experiments/meshgrow/forest_scene.h"
 
-#include <tbb/task_arena.h>
-#include <tbb/task_group.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -150,79 +147,42 @@ RayMaterial Forest::material(const SurfacePoint& at) const {
   return material;
 }
 
+namespace {
+
+std::unique_ptr<RayPart> ray_part(const FaceMesh& faces) {
+  ModelMesh triangles = triangles_of(faces);
+  triangles.mesh.positions.shrink_to_fit();
+  triangles.mesh.normals.shrink_to_fit();
+  triangles.mesh.indices.shrink_to_fit();
+  triangles.texture.shrink_to_fit();
+  triangles.symbols.shrink_to_fit();
+  return std::make_unique<RayPart>(std::move(triangles.mesh), std::move(triangles.texture),
+                                   std::move(triangles.symbols));
+}
+
+}  // namespace
+
 LazyForest::LazyForest(const Forest& forest, std::vector<std::uint8_t> levels, std::size_t cache_bytes)
-    : forest_(forest), levels_(std::move(levels)), cache_(cache_bytes), seen_(levels_.size()) {
+    : plants_(forest.plants(), std::move(levels), cache_bytes, ray_part) {
   RayPart::index_objects();  // measured while this thread is alone
-  const growing::PlantedScene& plants = forest.plants();
-  for (std::size_t i = 0; i < levels_.size(); ++i) {
-    parts_.parts.push_back({plants.box(i), growing::to_world(plants.instances()[i])});
+  const std::span<const growing::Instance> instances = forest.plants().instances();
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    parts_.parts.push_back({forest.plants().box(i), growing::to_world(instances[i])});
   }
   parts_.parts.push_back({forest.ground_box()});
   parts_.light = model_daylight();
-  parts_.open = [this](std::uint32_t part, const std::function<void(const RayPart&)>& use) {
-    open(part, use);
+  parts_.open = [&, plants = instances.size()](std::uint32_t part,
+                                               const std::function<void(const RayPart&)>& use) {
+    if (part < plants) return plants_.open(part, use);
+    use(forest.ground());
   };
-  parts_.material = [this](const SurfacePoint& at) { return forest_.material(at); };
-}
-
-void LazyForest::open(std::uint32_t part, const std::function<void(const RayPart&)>& use) {
-  if (part >= levels_.size()) {
-    use(forest_.ground());
-    return;
-  }
-  cache_.with(
-      part, [&] { return make(part); }, use);
-}
-
-std::unique_ptr<RayPart> LazyForest::make(std::uint32_t instance) {
-  std::unique_ptr<RayPart> part;
-  // Isolated: a thread that waits for the end of a parallel loop in here must not begin another task, which
-  // may wait for this very part; and when the picture is cancelled, the loops in here must not end half-way.
-  tbb::task_group_context own(tbb::task_group_context::isolated);
-  tbb::task_group group(own);
-  const auto expand = [&] {
-    const FaceMesh faces = forest_.plants().expand(instance, levels_[instance]).mesh;
-    ModelMesh triangles = triangles_of(faces);
-    if (growing::beyond(growing::box_of(faces.positions), forest_.plants().local_box(instance)) > 0)
-      ++outside_;
-    if (seen_[instance].exchange(1) == 0) {
-      ++distinct_;
-      faces_ += faces.faces();
-    } else {
-      again_ += faces.faces();
-    }
-    triangles.mesh.positions.shrink_to_fit();
-    triangles.mesh.normals.shrink_to_fit();
-    triangles.mesh.indices.shrink_to_fit();
-    triangles.texture.shrink_to_fit();
-    triangles.symbols.shrink_to_fit();
-    part = std::make_unique<RayPart>(std::move(triangles.mesh), std::move(triangles.texture),
-                                     std::move(triangles.symbols));
-  };
-  tbb::this_task_arena::isolate([&] { group.run_and_wait(expand); });
-  return part;
-}
-
-Expanded LazyForest::expanded() const { return {distinct_, faces_, again_, outside_, cache_.counts()}; }
-
-std::uint64_t LazyForest::faces_chosen() const {
-  std::uint64_t faces = 0;
-  for (std::size_t i = 0; i < levels_.size(); ++i) faces += forest_.plants().faces(i, levels_[i]);
-  return faces;
+  parts_.material = [&forest](const SurfacePoint& at) { return forest.material(at); };
 }
 
 Memory LazyForest::memory() const {
-  Memory memory = payload_memory(levels_);
+  Memory memory = plants_.memory();
   memory += index_memory(parts_.parts);
-  memory.index += heap_bytes(seen_.data());
-  cache_.each([&](const RayPart& part) { memory += part.memory(); });
   return memory;
-}
-
-std::uint64_t LazyForest::embree_bytes() const {
-  std::uint64_t bytes = 0;
-  cache_.each([&](const RayPart& part) { bytes += part.index.bytes(); });
-  return bytes;
 }
 
 }  // namespace terrabench::meshgrow

@@ -1,13 +1,11 @@
 // A forest of the models of "meshgrow" on a fractal plane, expanded lazily for the ray tracer.
 #pragma once
 
-#include <atomic>
 #include <memory>
 
 #include "experiments/meshgrow/models.h"
 #include "renderers/raytrace/coherent/coherent_picture.h"
-#include "representations/procedural_mesh/lazy/part_cache.h"
-#include "representations/procedural_mesh/lazy/planted_scene.h"
+#include "representations/procedural_mesh/lazy/lazy_scene.h"
 
 namespace terrabench::meshgrow {
 
@@ -38,14 +36,6 @@ class Forest {
   growing::PlantedScene plants_;
 };
 
-// What was expanded for a picture.
-struct Expanded {
-  std::uint64_t parts = 0, faces = 0;  // different instances, at their levels
-  std::uint64_t again = 0;             // faces expanded again after they were dropped
-  std::uint64_t outside = 0;           // parts that left the box foreseen for them
-  growing::CacheCounts cache;
-};
-
 // The forest as parts for one view; parts are numbered as the instances, then the ground.
 class LazyForest {
  public:
@@ -53,21 +43,14 @@ class LazyForest {
   LazyForest(const Forest&, std::vector<std::uint8_t> levels, std::size_t cache_bytes);
 
   const PartScene& parts() const { return parts_; }
-  Expanded expanded() const;
-  std::uint64_t faces_chosen() const;  // if every instance were expanded at its level
-  Memory memory() const;               // on the heap: parts held and tables, without Embree's bytes
-  std::uint64_t embree_bytes() const;
+  growing::Expanded expanded() const { return plants_.expanded(); }
+  std::uint64_t faces_chosen() const { return plants_.faces_chosen(); }
+  // On the heap: parts held and tables, without Embree's bytes.
+  Memory memory() const;
 
  private:
-  std::unique_ptr<RayPart> make(std::uint32_t instance);
-  void open(std::uint32_t part, const std::function<void(const RayPart&)>& use);
-
-  const Forest& forest_;
-  std::vector<std::uint8_t> levels_;
-  growing::PartCache<RayPart> cache_;
+  growing::LazyScene<RayPart> plants_;
   PartScene parts_;
-  std::vector<std::atomic<std::uint8_t>> seen_;  // per instance, whether it was expanded
-  std::atomic<std::uint64_t> distinct_{0}, faces_{0}, again_{0}, outside_{0};
 };
 
 }  // namespace terrabench::meshgrow

@@ -8,8 +8,8 @@
 #include "experiments/cases.h"
 #include "experiments/figures/figure.h"
 #include "experiments/meshgrow/figure_numbers.h"
+#include "experiments/meshgrow/fork.h"
 #include "experiments/meshgrow/growing_pictures.h"
-#include "experiments/meshgrow/growing_steps.h"
 #include "experiments/meshgrow/models.h"
 #include "renderers/raytrace/raytraced_picture.h"
 #include "results/store/format.h"
@@ -61,12 +61,10 @@ cap = "t"
 grow = "all"
 )";
 
-// The base and the mesh after each growing step of the schedule's first part.
+// The base and the mesh after each growing step of a model that only grows.
 std::vector<GrownMesh> stages_of(const Model& model) {
   std::vector<GrownMesh> stages;
-  expand_in_steps(model, [&](const GrownMesh&, const GrownMesh& after, int subdivisions) {
-    if (subdivisions == 0) stages.push_back(after);
-  });
+  expand(model, {.after_step = [&](const GrownMesh& mesh, std::uint32_t) { stages.push_back(mesh); }});
   return stages;
 }
 
@@ -82,7 +80,7 @@ bool grows(const Model& model, const GrownMesh& mesh, std::uint32_t face) {
 
 // Whether a face is seen at an angle at which words on it can be read.
 bool faces_eye(const FaceMesh& mesh, std::uint32_t face, const View& view) {
-  const FaceShape shape = face_shape(corners_of(mesh, face), mesh.positions);
+  const FaceShape shape = face_shape(mesh.face(face), mesh.positions);
   return glm::dot(shape.frame.z, glm::normalize(glm::dvec3(view.eye) - shape.frame.origin)) > 0.25;
 }
 
@@ -126,7 +124,7 @@ constexpr Stroke kDashed{.colour = kHidden, .thickness = 1, .dashes = "4 4"};
 // Each edge that the surface hides, once.
 void add_hidden_edges(Sheet& sheet, const OverPicture& over, const FaceMesh& mesh) {
   for (std::uint32_t face = 0; face < mesh.faces(); ++face) {
-    const auto corners = corners_of(mesh, face);
+    const auto corners = mesh.face(face);
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const glm::vec3 a = mesh.positions[corners[k]], b = mesh.positions[corners[(k + 1) % corners.size()]];
       if (corners[k] > corners[(k + 1) % corners.size()] || over.visible(0.5F * (a + b))) continue;
@@ -160,22 +158,17 @@ void add_axes(Sheet& sheet, const OverPicture& over, const Frame& frame, double 
 FaceMesh template_of(const GrownMesh& before, const GrownMesh& after, std::uint32_t base) {
   const Frame& frame = before.states.front().shape.frame;
   const auto first = static_cast<std::uint32_t>(before.mesh.positions.size());
-  const auto corners = corners_of(before.mesh, base);
+  const auto corners = before.mesh.face(base);
   const std::uint32_t end = first + static_cast<std::uint32_t>(corners.size());
   FaceMesh mesh;
   for (const glm::vec3& p : after.mesh.positions) {
     const glm::dvec3 local = frame.to_local(p);
     mesh.positions.emplace_back(local.x, local.z, -local.y);
   }
-  mesh.first_corner = {0};
-  const auto add = [&](std::span<const std::uint32_t> face) {
-    mesh.corners.insert(mesh.corners.end(), face.begin(), face.end());
-    mesh.first_corner.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
-  };
-  add(std::vector<std::uint32_t>(corners.rbegin(), corners.rend()));
+  mesh.add_face(std::vector<std::uint32_t>(corners.rbegin(), corners.rend()));
   for (std::uint32_t face = 0; face < after.mesh.faces(); ++face) {
-    const auto at = corners_of(after.mesh, face);
-    if (std::any_of(at.begin(), at.end(), [&](std::uint32_t v) { return v >= first && v < end; })) add(at);
+    const auto at = after.mesh.face(face);
+    if (std::ranges::any_of(at, [&](std::uint32_t v) { return v >= first && v < end; })) mesh.add_face(at);
   }
   // Only what the faces use, so that the box fits.
   std::vector<std::uint32_t> used(mesh.corners.begin(), mesh.corners.end());
@@ -292,9 +285,7 @@ constexpr int kTracedWidth = 800, kTracedHeight = 1000;
 
 Sheet draw_trunk(Drawing& drawing) {
   const Model model = parse_model(model_text("forking_trunk"), "forking_trunk");
-  ExpandOptions growth;
-  growth.leave_out = {"smooth"};
-  const GrownMesh grown = expand(model, growth), smooth = expand(model);
+  const GrownMesh grown = expand(model, {.leave_out = {"smooth"}}), smooth = expand(model);
   const View view = view_of(grown.mesh, kTracedWidth, kTracedHeight, kTrunkFrom);
   drawing.record("grown_faces", static_cast<double>(grown.mesh.faces()));
   drawing.record("smooth_faces", static_cast<double>(smooth.mesh.faces()));

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "experiments/figures/projection.h"
-#include "experiments/meshgrow/growing_steps.h"
+#include "experiments/meshgrow/fork.h"
 #include "renderers/scene.h"
 
 namespace terrabench::meshgrow {
@@ -14,15 +14,15 @@ using namespace figures;
 
 glm::vec3 middle_of(const FaceMesh& mesh, std::uint32_t face) {
   glm::vec3 sum(0);
-  for (const std::uint32_t corner : corners_of(mesh, face)) sum += mesh.positions[corner];
-  return sum / static_cast<float>(corners_of(mesh, face).size());
+  for (const std::uint32_t corner : mesh.face(face)) sum += mesh.positions[corner];
+  return sum / static_cast<float>(mesh.face(face).size());
 }
 
 Fans fans_of(const FaceMesh& mesh) {
   Fans fans;
   fans.mesh.positions = mesh.positions;
   for (std::uint32_t f = 0; f < mesh.faces(); ++f) {
-    const auto corners = corners_of(mesh, f);
+    const auto corners = mesh.face(f);
     for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
       fans.mesh.indices.insert(fans.mesh.indices.end(), {corners[0], corners[k], corners[k + 1]});
       fans.wires.push_back(

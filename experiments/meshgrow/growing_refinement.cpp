@@ -2,9 +2,7 @@
 // Nothing is copied inside a timed call but what a library itself copies. Times on one thread are the
 // processor's, so that other work of the machine counts as little as possible; the shortest of several runs.
 #include <fmt/format.h>
-#include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/stencilTableFactory.h>
-#include <opensubdiv/far/topologyDescriptor.h>
 #include <opensubdiv/osd/cpuEvaluator.h>
 #include <opensubdiv/osd/ompEvaluator.h>
 
@@ -18,9 +16,10 @@
 
 #include "experiments/cases.h"
 #include "experiments/experiment.h"
-#include "experiments/meshgrow/growing_steps.h"
+#include "experiments/meshgrow/subdivision_peer.h"
 #include "experiments/stopwatch.h"
-#include "representations/procedural_mesh/subdivision/refinement.h"
+#include "representations/procedural_mesh/model.h"
+#include "representations/procedural_mesh/subdivision/subdivide.h"
 #include "terrain/memory.h"
 
 namespace terrabench::meshgrow {
@@ -28,7 +27,6 @@ namespace {
 
 namespace Far = OpenSubdiv::Far;
 namespace Osd = OpenSubdiv::Osd;
-namespace Sdc = OpenSubdiv::Sdc;
 using Polygons = OpenMesh::PolyMesh_ArrayKernelT<>;
 using subdivision::Refinement;
 using Points = std::vector<glm::vec3>;
@@ -62,25 +60,7 @@ void place_ours(const Refinement& refinement, std::vector<Points>& points) {
   }
 }
 
-using Refiner = std::unique_ptr<Far::TopologyRefiner>;
-
-Refiner refiner_of(const FaceMesh& base, int levels) {
-  std::vector<int> sizes, corners(base.corners.begin(), base.corners.end());
-  for (std::uint32_t f = 0; f < base.faces(); ++f) {
-    sizes.push_back(static_cast<int>(corners_of(base, f).size()));
-  }
-  Far::TopologyDescriptor d;
-  d.numVertices = static_cast<int>(base.positions.size());
-  d.numFaces = static_cast<int>(sizes.size());
-  d.numVertsPerFace = sizes.data();
-  d.vertIndicesPerFace = corners.data();
-  Sdc::Options options;
-  options.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
-  using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-  Refiner refiner(Factory::Create(d, Factory::Options(Sdc::SCHEME_CATMARK, options)));
-  refiner->RefineUniform(Far::TopologyRefiner::UniformOptions(levels));
-  return refiner;
-}
+constexpr auto kBoundary = subdivision::Boundary::kEdge;
 
 using Table = std::unique_ptr<const Far::StencilTable>;
 
@@ -105,7 +85,7 @@ Polygons polygons_of(const FaceMesh& base) {
   for (const glm::vec3& p : base.positions) handles.push_back(mesh.add_vertex({p.x, p.y, p.z}));
   for (std::uint32_t f = 0; f < base.faces(); ++f) {
     std::vector<Polygons::VertexHandle> face;
-    for (const std::uint32_t corner : corners_of(base, f)) face.push_back(handles[corner]);
+    for (const std::uint32_t corner : base.face(f)) face.push_back(handles[corner]);
     mesh.add_face(face);
   }
   return mesh;
@@ -144,13 +124,10 @@ double difference(const Points& a, const Points& b) {
 // Ours, from face arrays to face arrays: on one thread, and the peak of its memory on all.
 void measure_whole(const FaceMesh& base, int levels, int runs, Recorder& recorder) {
   const std::vector<subdivision::PlacementRule> rules(static_cast<std::size_t>(levels));
-  subdivision::RefinementOptions options;
-  options.keep = subdivision::Keep::kStencils;
   Shortest ours, openmesh;
   Points mine, theirs;
-  double bytes = 0, peak = 0;
   for (int run = 0; run < runs; ++run) {
-    ours.add(processor_seconds([&] { mine = subdivision::subdivide(base, rules, options).positions; }));
+    ours.add(processor_seconds([&] { mine = subdivision::subdivide(base, rules).positions; }));
     Polygons mesh = polygons_of(base);
     OpenMesh::Subdivider::Uniform::CatmullClarkT<Polygons> subdivider;
     subdivider.attach(mesh);
@@ -158,18 +135,12 @@ void measure_whole(const FaceMesh& base, int levels, int runs, Recorder& recorde
     subdivider.detach();
     if (run == 0) theirs = points_of(mesh);
   }
-  {
-    const std::int64_t before = HeapCounter::live();
-    HeapCounter::reset_peak();
-    const FaceMesh mesh = subdivision::subdivide(base, rules, options);
-    peak = static_cast<double>(HeapCounter::peak() - before);
-    bytes = static_cast<double>(mesh.positions.size() * sizeof(glm::vec3) + mesh.corners.size() * 4);
-    recorder.add("faces", "", static_cast<double>(mesh.faces()));
-    recorder.add("triangles", "", 2 * static_cast<double>(mesh.faces()));
-    recorder.add("triangles_per_second", "1/s", 2 * static_cast<double>(mesh.faces()) / ours.time);
-    recorder.add("openmesh_triangles_per_second", "1/s",
-                 2 * static_cast<double>(mesh.faces()) / openmesh.time);
-  }
+  const std::int64_t before = HeapCounter::live();
+  HeapCounter::reset_peak();
+  const FaceMesh mesh = subdivision::subdivide(base, rules);
+  const auto peak = static_cast<double>(HeapCounter::peak() - before);
+  const auto bytes = static_cast<double>(mesh.positions.size() * sizeof(glm::vec3) + mesh.corners.size() * 4);
+  recorder.add("faces", "", static_cast<double>(mesh.faces()));
   recorder.add("whole_time", "s", ours.time);
   recorder.add("openmesh_time", "s", openmesh.time);
   recorder.add_varying("openmesh_over_ours", "", openmesh.time / ours.time);
@@ -180,7 +151,7 @@ void measure_whole(const FaceMesh& base, int levels, int runs, Recorder& recorde
 // Tables apart from positions that are computed with tables that exist.
 void measure_tables(const FaceMesh& base, int levels, int runs, Recorder& recorder) {
   const subdivision::RefinementOptions least{.keep = subdivision::Keep::kStencils};
-  const Refiner refiner = refiner_of(base, levels);
+  const auto refiner = opensubdiv_refiner(base, levels, kBoundary, false);
   const Table table = table_of(*refiner);
   const Refinement refinement(base, levels, least);
   std::vector<Points> points{base.positions};
@@ -189,13 +160,13 @@ void measure_tables(const FaceMesh& base, int levels, int runs, Recorder& record
   Shortest tables, their_tables, one, their_one, all, their_all;
   for (int run = 0; run < runs; ++run) {
     tables.add(processor_seconds([&] { const Refinement again(base, levels, least); }));
-    their_tables.add(processor_seconds([&] { const Table again = table_of(*refiner_of(base, levels)); }));
+    their_tables.add(processor_seconds(
+        [&] { const Table again = table_of(*opensubdiv_refiner(base, levels, kBoundary, false)); }));
     one.add(processor_seconds([&] { place_ours(refinement, points); }));
     their_one.add(processor_seconds([&] { evaluate<Osd::CpuEvaluator>(*table, base.positions, theirs); }));
     all.add(seconds([&] { place_ours(refinement, points); }));
     their_all.add(seconds([&] { evaluate<Osd::OmpEvaluator>(*table, base.positions, theirs); }));
   }
-  recorder.add("vertices", "", static_cast<double>(theirs.size()));
   recorder.add("tables_time", "s", tables.time);
   recorder.add("opensubdiv_tables_time", "s", their_tables.time);
   recorder.add_varying("tables_over_opensubdiv", "", tables.time / their_tables.time);
@@ -210,9 +181,7 @@ void measure_tables(const FaceMesh& base, int levels, int runs, Recorder& record
 
 void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress&) {
   const growing::Model model = growing::parse_model(growing::model_text("forking_trunk"), "forking_trunk");
-  growing::ExpandOptions growth;
-  growth.leave_out = {"smooth"};
-  const FaceMesh base = growing::expand(model, growth).mesh;
+  const FaceMesh base = growing::expand(model, {.leave_out = {"smooth"}}).mesh;
   const int levels = at.integer("levels"), runs = at.integer("runs");
   measure_whole(base, levels, runs, recorder);
   measure_tables(base, levels, runs, recorder);

@@ -12,81 +12,47 @@
 #include "experiments/figures/figure.h"
 #include "experiments/figures/measures.h"
 #include "experiments/meshgrow/figure_numbers.h"
-#include "experiments/meshgrow/growing_steps.h"
+#include "experiments/meshgrow/fork.h"
 #include "experiments/meshgrow/models.h"
-#include "experiments/meshgrow/root_mean_square.h"
+#include "experiments/meshgrow/subdivision_reference.h"
 #include "renderers/raytrace/raytraced_picture.h"
 #include "results/store/format.h"
 
 namespace terrabench::meshgrow {
 namespace {
 
+// What the second picture shows: the mesh before the subdivision, or the model without its leaves.
+enum class Beside : std::uint8_t { kWires, kBare };
+
 struct ModelFigure {
-  std::string_view name;
-  int number;
-  std::string_view model, caption;
+  std::string_view name, model, caption;
   glm::vec3 from;                   // direction towards the eye
   float aspect;                     // width of the picture per height
   std::optional<glm::vec3> ground;  // albedo; none: the model stands before white
-  // What the second picture shows: the mesh before the subdivision, or the model without its leaves.
-  enum class Beside : std::uint8_t { kWires, kBare } beside;
+  Beside beside;
 };
 
-constexpr std::array kFigures{
-    ModelFigure{"F11",
-                11,
-                "chair",
-                "a chair with folds in the cushion, and its mesh before subdivision",
-                {0.85F, 0.42F, 0.62F},
-                0.85F,
-                glm::vec3(0.55F, 0.53F, 0.5F),
-                ModelFigure::Beside::kWires},
-    ModelFigure{
-        "F12",
-        12,
-        "cactus",
-        "a cactus, grown by alternating growing and subdivision steps, and its mesh before subdivision",
-        {0.3F, 0.38F, 1.0F},
-        0.85F,
-        glm::vec3(0.62F, 0.5F, 0.34F),
-        ModelFigure::Beside::kWires},
-    ModelFigure{"F13",
-                13,
-                "fork_ridges_random",
-                "the ridges on a forking branch, and its mesh before subdivision",
-                {0.25F, 0.38F, 1.0F},
-                0.8F,
-                glm::vec3(0.4F, 0.42F, 0.34F),
-                ModelFigure::Beside::kWires},
-    ModelFigure{
-        "F14",
-        14,
-        "branch_aspen",
-        "a branch of a tree on a piece of its trunk, with and without its leaves: quaking aspen, by the "
-        "parameters of Weber and Penn",
-        {0.1F, 0.1F, 1.0F},
-        1.0F,
-        std::nullopt,
-        ModelFigure::Beside::kBare},
-    ModelFigure{
-        "F15",
-        15,
-        "bush_tupelo",
-        "dense foliage: a whole young black tupelo, by the parameters of Weber and Penn, with and without "
-        "its leaves. The paper's caption says \"a branch\", its §6 \"the bush\"",
-        {0.4F, 0.38F, 1.0F},
-        0.78F,
-        glm::vec3(0.42F, 0.44F, 0.34F),
-        ModelFigure::Beside::kBare},
-    ModelFigure{"F16",
-                16,
-                "candle_holder",
-                "a wrought-iron candle holder with rust stains, and its mesh before subdivision",
-                {0.35F, 0.38F, 1.0F},
-                0.8F,
-                glm::vec3(0.55F, 0.53F, 0.5F),
-                ModelFigure::Beside::kWires},
-};
+constexpr glm::vec3 kStone(0.55F, 0.53F, 0.5F), kSand(0.62F, 0.5F, 0.34F), kMoss(0.4F, 0.42F, 0.34F),
+    kGrass(0.42F, 0.44F, 0.34F);
+constexpr auto kFigures = std::to_array<ModelFigure>({
+    {"F11", "chair", "a chair with folds in the cushion, and its mesh before subdivision",
+     glm::vec3(0.85F, 0.42F, 0.62F), 0.85F, kStone, Beside::kWires},
+    {"F12", "cactus",
+     "a cactus, grown by alternating growing and subdivision steps, and its mesh before subdivision",
+     glm::vec3(0.3F, 0.38F, 1.0F), 0.85F, kSand, Beside::kWires},
+    {"F13", "fork_ridges_random", "the ridges on a forking branch, and its mesh before subdivision",
+     glm::vec3(0.25F, 0.38F, 1.0F), 0.8F, kMoss, Beside::kWires},
+    {"F14", "branch_aspen",
+     "a branch of a tree on a piece of its trunk, with and without its leaves: quaking aspen, by the "
+     "parameters of Weber and Penn",
+     glm::vec3(0.1F, 0.1F, 1.0F), 1.0F, std::nullopt, Beside::kBare},
+    {"F15", "bush_tupelo",
+     "dense foliage: a whole young black tupelo, by the parameters of Weber and Penn, with and without "
+     "its leaves. The paper's caption says \"a branch\", its §6 \"the bush\"",
+     glm::vec3(0.4F, 0.38F, 1.0F), 0.78F, kGrass, Beside::kBare},
+    {"F16", "candle_holder", "a wrought-iron candle holder with rust stains, and its mesh before subdivision",
+     glm::vec3(0.35F, 0.38F, 1.0F), 0.8F, kStone, Beside::kWires},
+});
 constexpr auto kFigureNames = names_of(kFigures);
 
 const std::array kSpecs{
@@ -186,7 +152,7 @@ void record_folds(const growing::Model& model, const FaceMesh& mesh, Recorder& r
   RootMeanSquare cloth, rest;
   for (std::uint32_t face = 0; face < mesh.faces(); ++face) {
     const bool is_cloth = model.system.symbols[mesh.symbols[face]].name == "cloth";
-    for (const std::uint32_t v : corners_of(mesh, face)) (is_cloth ? cloth : rest).add(heights[v]);
+    for (const std::uint32_t v : mesh.face(face)) (is_cloth ? cloth : rest).add(heights[v]);
   }
   recorder.add("folds_of_cloth", "m", cloth.value());
   recorder.add("folds_elsewhere", "m", rest.value());
@@ -195,11 +161,8 @@ void record_folds(const growing::Model& model, const FaceMesh& mesh, Recorder& r
 // The cactus: its spikes, of four triangles each, and what they add to the model without them. A spike's
 // template puts four quadrilaterals and the spike in the place of a quadrilateral.
 void record_spikes(const growing::Model& model, const ModelMesh& mesh, Recorder& recorder) {
-  growing::ExpandOptions bare, grown;
-  bare.leave_out = {"spikes"};
-  grown.most_steps = 1;
-  const ModelMesh without = triangles_of(growing::expand(model, bare).mesh);
-  const ModelMesh before = triangles_of(growing::expand(model, grown).mesh);
+  const ModelMesh without = triangles_of(growing::expand(model, {.leave_out = {"spikes"}}).mesh);
+  const ModelMesh before = triangles_of(growing::expand(model, {.most_steps = 1}).mesh);
   const double spikes = amount_of(mesh, model.system, "spike").triangles / 4;
   recorder.add("spikes", "", spikes);
   recorder.add("triangles_of_spikes", "", (4 * 2 + 4 - 2) * spikes);
@@ -217,7 +180,7 @@ void record_rust(const growing::Model& model, const FaceMesh& mesh, const Painte
   for (std::uint32_t face = 0; face < mesh.faces(); ++face) {
     const std::string_view symbol = model.system.symbols[mesh.symbols[face]].name;
     if (symbol == "wax") continue;
-    const auto corners = corners_of(mesh, face);
+    const auto corners = mesh.face(face);
     double height = 0;
     glm::vec3 middle(0);
     for (const std::uint32_t v : corners) {
@@ -278,26 +241,22 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
                         progress);
 
   std::vector<figures::Panel> panels{picture.in_daylight(mesh, model.system, "")};
-  if (figure.beside == ModelFigure::Beside::kWires) {
-    growing::ExpandOptions first;
-    first.most_steps = 1;
-    panels.push_back(picture.in_wires(triangles_of(growing::expand(model, first).mesh)));
+  if (figure.beside == Beside::kWires) {
+    panels.push_back(picture.in_wires(triangles_of(growing::expand(model, {.most_steps = 1}).mesh)));
   } else {
-    growing::ExpandOptions bare;
-    bare.leave_out = {"leaves"};
-    const ModelMesh without = triangles_of(growing::expand(model, bare).mesh);
+    const ModelMesh without = triangles_of(growing::expand(model, {.leave_out = {"leaves"}}).mesh);
     panels.push_back(picture.in_daylight(without, model.system, "without leaves: "));
     record_leaves(model, mesh, without, panels, recorder);
   }
-  if (figure.number == 11) record_folds(model, faces, recorder);
-  if (figure.number == 12) record_spikes(model, mesh, recorder);
-  if (figure.number == 13) recorder.add("ridges", "", ridges_along_u(model, faces));
-  if (figure.number == 16) record_rust(model, faces, painted(figure.model), recorder);
-  recorder.add("figure", "", figure.number);
+  if (figure.name == "F11") record_folds(model, faces, recorder);
+  if (figure.name == "F12") record_spikes(model, mesh, recorder);
+  if (figure.name == "F13") recorder.add("ridges", "", ridges_along_u(model, faces));
+  if (figure.name == "F16") record_rust(model, faces, painted(figure.model), recorder);
   recorder.add("triangles", "", static_cast<double>(mesh.mesh.triangles()));
   figures::Sheet sheet = figures::panel_sheet({std::move(panels)});
-  sheet.write(recorder.figure(fmt::format("meshgrow.{}", figure.name),
-                              fmt::format("Figure {} of the paper: {}", figure.number, figure.caption)));
+  sheet.write(
+      recorder.figure(fmt::format("meshgrow.{}", figure.name),
+                      fmt::format("Figure {} of the paper: {}", figure.name.substr(1), figure.caption)));
 }
 
 }  // namespace

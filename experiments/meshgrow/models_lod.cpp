@@ -176,13 +176,10 @@ const Pictures& pictures_of_whole(const ModelMesh& mesh, const growing::Model& m
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   const std::string name = at.parameters.text("model");
   const growing::Model model = growing::parse_model(growing::model_text(name), name);
-  growing::ExpandOptions without;
-  without.leave_out = names_in(at.parameters.text("left_out"));
+  const growing::ExpandOptions without{.leave_out = names_in(at.parameters.text("left_out"))};
   const ModelMesh full = triangles_of(growing::expand(model).mesh);
   const ModelMesh level = triangles_of(growing::expand(model, without).mesh);
   recorder.add("triangles", "", static_cast<double>(level.mesh.triangles()));
-  recorder.add("share_of_triangles", "",
-               static_cast<double>(level.mesh.triangles()) / static_cast<double>(full.mesh.triangles()));
   const Pictures& whole = pictures_of_whole(full, model, at, options);
   const Pictures reduced =
       without.leave_out.empty() ? whole : pictures_of(level, bounds_of(full.mesh), model, at, options);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <set>
 
 #include "experiments/cases.h"
@@ -15,7 +16,8 @@
 #include "experiments/meshgrow/subdivision_reference.h"
 #include "renderers/scene.h"
 #include "representations/procedural_mesh/base_mesh.h"
-#include "representations/procedural_mesh/subdivision/refinement.h"
+#include "representations/procedural_mesh/subdivision/subdivide.h"
+#include "terrain/sources/noise/program.h"
 
 namespace terrabench::meshgrow {
 namespace {
@@ -27,28 +29,13 @@ using namespace subdivision;
 constexpr Rgb kBlue{0, 90, 178}, kOrange{213, 94, 0}, kGreen{0, 120, 90}, kGrey{150, 150, 155},
     kInk{25, 25, 30}, kClay{222, 206, 182};
 
-// Faces cut into triangles from their first corners; the wires are the faces' edges.
-struct Drawn {
-  TriangleMesh mesh;
-  std::vector<std::uint8_t> wires;
-};
-
-Drawn drawn(const FaceMesh& mesh) {
-  Drawn result;
-  result.mesh.positions = mesh.positions;
-  for (std::size_t f = 0; f < mesh.faces(); ++f) {
-    const std::uint32_t* corners = &mesh.corners[mesh.first_corner[f]];
-    const std::uint32_t count = mesh.first_corner[f + 1] - mesh.first_corner[f];
-    for (std::uint32_t k = 2; k < count; ++k) {
-      result.mesh.indices.insert(result.mesh.indices.end(), {corners[0], corners[k - 1], corners[k]});
-      result.wires.push_back(static_cast<std::uint8_t>((k == 2 ? 1U : 0U) | 2U | (k + 1 == count ? 4U : 0U)));
-    }
-  }
-  compute_normals(result.mesh);
-  return result;
+Fans drawn(const FaceMesh& mesh) {
+  Fans fans = fans_of(mesh);
+  compute_normals(fans.mesh);
+  return fans;
 }
 
-SceneMesh lit(const Drawn& from, float wire_width) {
+SceneMesh lit(const Fans& from, float wire_width) {
   SceneMesh item;
   item.mesh = &from.mesh;
   item.colors.assign(from.mesh.positions.size(), kClay);
@@ -126,25 +113,23 @@ Sheet draw_step(Drawing& drawing) {
 
 constexpr RefinementOptions kCornersStay{.boundary = Boundary::kEdgeAndCorner};
 
-std::vector<PlacementRule> fractal_rules(int steps, float amplitude, std::uint64_t seed) {
-  PlacementRule rule;
-  rule.displacements.resize(1);
-  rule.displacements[0].amount = {.kind = Signal::Kind::kUniform, .amplitude = amplitude, .seed = seed};
-  return std::vector(static_cast<std::size_t>(steps), rule);
-}
-
 Sheet draw_fractal(Drawing& drawing) {
   PanelRows rows(2);
   for (const bool sphere : {false, true}) {
     const FaceMesh base = sphere ? growing::sphere(1, 2).mesh : growing::plane({4, 4}, 4, 4).mesh;
     for (const int steps : {0, 1, 2, 6}) {
-      const auto rules = fractal_rules(steps, sphere ? 0.14F : 0.16F, drawing.seed() + 3);
+      const std::vector rules(static_cast<std::size_t>(steps),
+                              fractal_rule(sphere ? 0.14F : 0.16F, drawing.seed() + 3));
       const FaceMesh displaced = subdivide(base, rules, kCornersStay);
       const std::string_view name = sphere ? "sphere" : "plane";
-      drawing.record(fmt::format("{}_faces_{}", name, steps), static_cast<double>(displaced.faces()));
-      drawing.record(fmt::format("{}_displacement_{}", name, steps),
-                     last_displacement(base, rules, kCornersStay, displaced));
-      const Drawn mesh = drawn(displaced);
+      if (steps == 0 || steps == 6) {
+        drawing.record(fmt::format("{}_faces_{}", name, steps), static_cast<double>(displaced.faces()));
+      }
+      if (steps > 0) {
+        drawing.record(fmt::format("{}_displacement_{}", name, steps),
+                       last_displacement(base, rules, kCornersStay, displaced));
+      }
+      const Fans mesh = drawn(displaced);
       Scene scene;
       scene.meshes.push_back(lit(mesh, steps < 3 ? 1.6F : 0));
       if (sphere) scene.sun = {-0.5F, 0.7F, 0.6F};  // seen from the south, it shows the lit side
@@ -179,8 +164,7 @@ std::uint32_t nearest(const FaceMesh& mesh, const glm::vec3& at) {
 
 Sheet draw_frame(Drawing& drawing) {
   const FaceMesh mesh = hill(13);
-  const LocalSurface surface =
-      local_surface(make_topology(mesh), mesh.positions, mesh.texture, FrameRule{}, true);
+  const LocalSurface surface = local_surface(make_topology(mesh), mesh.positions, mesh.texture, true);
   const std::uint32_t v = nearest(mesh, {0.6F, 0.9F, 0.3F});
   const glm::vec3 p = mesh.positions[v], n = surface.normals[v], t = surface.tangents[v],
                   b = glm::cross(n, t);
@@ -189,7 +173,7 @@ Sheet draw_frame(Drawing& drawing) {
   drawing.record("largest_cosine",
                  static_cast<double>(std::max(
                      {std::abs(glm::dot(n, t)), std::abs(glm::dot(t, b)), std::abs(glm::dot(b, n))})));
-  const Drawn hill_mesh = drawn(mesh);
+  const Fans hill_mesh = drawn(mesh);
   Scene scene;
   scene.meshes.push_back(lit(hill_mesh, 1.8F));
   const View view = overview({{-2, 0, -2}, {2, 1.3F, 2}}, 1600, 1060, {1.0F, 0.75F, 0.25F});
@@ -218,27 +202,35 @@ Sheet draw_frame(Drawing& drawing) {
   return sheet;
 }
 
+// Noise over the texture coordinates, of three cells per unit.
+Signal smooth_noise(float amplitude, std::uint64_t seed) {
+  noise::Graph graph;
+  const noise::Node node = graph.fbm({.seed = seed, .frequency = 1, .octaves = 1});
+  return [amplitude, program = std::make_shared<noise::Program>(graph, node)](const VertexBatch& batch,
+                                                                              std::span<float> out) {
+    std::vector<float> x, y;
+    for (const glm::vec2& at : batch.texture) {
+      x.push_back(3 * at.x);
+      y.push_back(3 * at.y);
+    }
+    program->points(x, y, std::vector<float>(out.size()), out);
+    for (float& value : out) value *= amplitude;
+  };
+}
+
 Sheet draw_shift(Drawing& drawing) {
   const FaceMesh base = hill(9);
-  PlacementRule shifting;
-  for (const Axis axis : {Axis::kTangent, Axis::kBitangent}) {
-    Displacement shift;
-    shift.axis = axis;
-    shift.amount.kind = Signal::Kind::kTextureNoise;
-    shift.amount.frequency = {3, 3, 0};
-    shift.amount.amplitude = 1.6F;
-    shift.amount.seed = drawing.seed() + (axis == Axis::kTangent ? 1 : 2);
-    shifting.displacements.push_back(shift);
-  }
+  const PlacementRule shifting{
+      .displacements = {{.axis = Axis::kTangent, .amount = smooth_noise(1.6F, drawing.seed() + 1)},
+                        {.axis = Axis::kBitangent, .amount = smooth_noise(1.6F, drawing.seed() + 2)}}};
   const FaceMesh smooth = subdivide(base, std::array{PlacementRule{}}, kCornersStay),
                  shifted = subdivide(base, std::array{shifting}, kCornersStay);
-  const LocalSurface surface =
-      local_surface(make_topology(smooth), smooth.positions, smooth.texture, FrameRule{}, false);
+  const LocalSurface surface = local_surface(make_topology(smooth), smooth.positions, smooth.texture, false);
   double moved = 0, out_of_plane = 0;
   const View view = overview({{-2, 0, -2}, {2, 1, 2}}, 1000, 760, {0.25F, 1.1F, 1.0F});
   PanelRows rows(1);
   for (const bool after : {false, true}) {
-    const Drawn mesh = drawn(after ? shifted : smooth);
+    const Fans mesh = drawn(after ? shifted : smooth);
     Scene scene;
     scene.meshes.push_back(lit(mesh, 1.4F));
     for (std::size_t v = 0; !after && v < smooth.positions.size(); ++v) {
@@ -252,7 +244,6 @@ Sheet draw_shift(Drawing& drawing) {
     rows[0].push_back({render_scene(drawing.gl(), scene, view),
                        after ? "the vertices after the shift" : "standard placement, and the shifts"});
   }
-  drawing.record("arrows", moved);
   drawing.record("arrows_per_vertex", moved / static_cast<double>(smooth.positions.size()));
   drawing.record("out_of_plane", out_of_plane);
   return panel_sheet(rows);
@@ -262,7 +253,7 @@ Sheet draw_stretched(Drawing& drawing) {
   constexpr std::uint32_t kCells = 8;
   const FaceMesh flat = growing::plane({4, 4}, kCells, kCells).mesh;
   const std::uint32_t centre = nearest(flat, glm::vec3(0));
-  const LocalSurface surface = local_surface(make_topology(flat), flat.positions, {}, FrameRule{}, false);
+  const LocalSurface surface = local_surface(make_topology(flat), flat.positions, {}, false);
   const float times = 4;
   FaceMesh moved = flat;
   moved.positions[centre] += times * surface.scales[centre] * surface.normals[centre];
@@ -315,9 +306,11 @@ Sheet draw_stretched(Drawing& drawing) {
   smooth.texture = Base::kLinear;
   const FaceMesh smoothed = subdivide(moved, std::vector(3, smooth));
   panel(smoothed, 3, "after three standard steps");
-  record_stretch(drawing, "before", flat, 1);
-  record_stretch(drawing, "after", moved, 1);
-  record_stretch(drawing, "smoothed", smoothed, 1.0F / kCells);
+  const Stretch after = stretch_within(moved, 1);
+  drawing.record("stretched_faces_before", stretch_within(flat, 1).faces);
+  drawing.record("stretched_faces_after", after.faces);
+  drawing.record("stretch_after", after.largest);
+  drawing.record("stretch_smoothed", stretch_within(smoothed, 1.0F / kCells).largest);
   return panel_sheet(rows);
 }
 

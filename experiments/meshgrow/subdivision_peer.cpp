@@ -20,44 +20,6 @@ struct Point {
   void AddWithWeight(const Point& p, double w) { at += p.at * w; }
 };
 
-std::unique_ptr<Far::TopologyRefiner> refiner_of(const FaceMesh& mesh, Boundary boundary, int levels) {
-  std::vector<int> sizes, corners(mesh.corners.begin(), mesh.corners.end()), pairs, points;
-  std::vector<float> weights, point_weights;
-  for (std::size_t f = 0; f < mesh.faces(); ++f) {
-    sizes.push_back(static_cast<int>(mesh.first_corner[f + 1] - mesh.first_corner[f]));
-  }
-  for (const Crease& c : mesh.creases) {
-    pairs.insert(pairs.end(), {static_cast<int>(c.a), static_cast<int>(c.b)});
-    weights.push_back(static_cast<float>(c.sharpness));
-  }
-  for (const SharpVertex& p : mesh.sharp_vertices) {
-    points.push_back(static_cast<int>(p.vertex));
-    point_weights.push_back(static_cast<float>(p.sharpness));
-  }
-  Far::TopologyDescriptor d;
-  d.numVertices = static_cast<int>(mesh.positions.size());
-  d.numFaces = static_cast<int>(sizes.size());
-  d.numVertsPerFace = sizes.data();
-  d.vertIndicesPerFace = corners.data();
-  d.numCreases = static_cast<int>(weights.size());
-  d.creaseVertexIndexPairs = pairs.data();
-  d.creaseWeights = weights.data();
-  d.numCorners = static_cast<int>(points.size());
-  d.cornerVertexIndices = points.data();
-  d.cornerWeights = point_weights.data();
-  Sdc::Options options;
-  options.SetVtxBoundaryInterpolation(boundary == Boundary::kEdge
-                                          ? Sdc::Options::VTX_BOUNDARY_EDGE_ONLY
-                                          : Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
-  using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-  std::unique_ptr<Far::TopologyRefiner> refiner(
-      Factory::Create(d, Factory::Options(Sdc::SCHEME_CATMARK, options)));
-  Far::TopologyRefiner::UniformOptions uniform(levels);
-  uniform.fullTopologyInLastLevel = true;
-  refiner->RefineUniform(uniform);
-  return refiner;
-}
-
 // The partners of one level, from which those of the next follow.
 struct Partners {
   std::vector<std::uint32_t> vertices, faces;
@@ -122,9 +84,46 @@ std::size_t mismatches(const Far::TopologyLevel& level, const Topology& t, const
 
 }  // namespace
 
+std::unique_ptr<Far::TopologyRefiner> opensubdiv_refiner(const FaceMesh& mesh, int levels, Boundary boundary,
+                                                         bool complete) {
+  std::vector<int> sizes, corners(mesh.corners.begin(), mesh.corners.end()), pairs, points;
+  std::vector<float> weights, point_weights;
+  for (std::size_t f = 0; f < mesh.faces(); ++f) sizes.push_back(static_cast<int>(mesh.face(f).size()));
+  for (const Crease& c : mesh.creases) {
+    pairs.insert(pairs.end(), {static_cast<int>(c.a), static_cast<int>(c.b)});
+    weights.push_back(static_cast<float>(c.sharpness));
+  }
+  for (const SharpVertex& p : mesh.sharp_vertices) {
+    points.push_back(static_cast<int>(p.vertex));
+    point_weights.push_back(static_cast<float>(p.sharpness));
+  }
+  Far::TopologyDescriptor d;
+  d.numVertices = static_cast<int>(mesh.positions.size());
+  d.numFaces = static_cast<int>(sizes.size());
+  d.numVertsPerFace = sizes.data();
+  d.vertIndicesPerFace = corners.data();
+  d.numCreases = static_cast<int>(weights.size());
+  d.creaseVertexIndexPairs = pairs.data();
+  d.creaseWeights = weights.data();
+  d.numCorners = static_cast<int>(points.size());
+  d.cornerVertexIndices = points.data();
+  d.cornerWeights = point_weights.data();
+  Sdc::Options options;
+  options.SetVtxBoundaryInterpolation(boundary == Boundary::kEdge
+                                          ? Sdc::Options::VTX_BOUNDARY_EDGE_ONLY
+                                          : Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
+  using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
+  std::unique_ptr<Far::TopologyRefiner> refiner(
+      Factory::Create(d, Factory::Options(Sdc::SCHEME_CATMARK, options)));
+  Far::TopologyRefiner::UniformOptions uniform(levels);
+  uniform.fullTopologyInLastLevel = complete;
+  refiner->RefineUniform(uniform);
+  return refiner;
+}
+
 std::vector<PeerLevel> opensubdiv_levels(const FaceMesh& base, const subdivision::Refinement& refinement,
                                          Boundary boundary) {
-  const auto refiner = refiner_of(base, boundary, refinement.levels());
+  const auto refiner = opensubdiv_refiner(base, refinement.levels(), boundary, true);
   const Far::PrimvarRefinerReal<double> primvar(*refiner);
   std::vector<Point> points(base.positions.size());
   for (std::size_t v = 0; v < points.size(); ++v) points[v].at = base.positions[v];

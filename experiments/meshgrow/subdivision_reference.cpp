@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include "representations/procedural_mesh/base_mesh.h"
 
@@ -24,11 +25,7 @@ FaceMesh face_mesh(const std::vector<glm::vec3>& points,
                    const std::vector<std::vector<std::uint32_t>>& faces) {
   FaceMesh mesh;
   mesh.positions = points;
-  mesh.first_corner.push_back(0);
-  for (const auto& face : faces) {
-    mesh.corners.insert(mesh.corners.end(), face.begin(), face.end());
-    mesh.first_corner.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
-  }
+  for (const auto& face : faces) mesh.add_face(face);
   return mesh;
 }
 
@@ -39,20 +36,19 @@ glm::vec3 on_circle(double turn, double radius, double height) {
 
 // Without the vertices that only the top has.
 FaceMesh without_top(const growing::Primitive& box) {
-  const PlainMesh all = plain(box.mesh);
-  std::vector<glm::vec3> points;
-  std::vector<std::vector<std::uint32_t>> faces;
+  FaceMesh mesh;
   std::map<std::uint32_t, std::uint32_t> kept;
-  for (std::size_t f = 0; f < all.faces.size(); ++f) {
+  for (std::size_t f = 0; f < box.mesh.faces(); ++f) {
     if (box.parts[f] == growing::Part::kTop) continue;
-    auto& face = faces.emplace_back();
-    for (const std::uint32_t v : all.faces[f]) {
-      const auto [at, added] = kept.try_emplace(v, static_cast<std::uint32_t>(points.size()));
-      if (added) points.push_back(box.mesh.positions[v]);
+    std::vector<std::uint32_t> face;
+    for (const std::uint32_t v : box.mesh.face(f)) {
+      const auto [at, added] = kept.try_emplace(v, static_cast<std::uint32_t>(mesh.positions.size()));
+      if (added) mesh.positions.push_back(box.mesh.positions[v]);
       face.push_back(at->second);
     }
+    mesh.add_face(face);
   }
-  return face_mesh(points, faces);
+  return mesh;
 }
 
 FaceMesh fan() {
@@ -76,10 +72,10 @@ FaceMesh patch() {
 
 // The edges of a face, with these sharpnesses, cyclically; 0 gives none.
 void crease_face(FaceMesh& mesh, std::size_t face, std::initializer_list<int> sharpness) {
-  const std::uint32_t first = mesh.first_corner[face], n = mesh.first_corner[face + 1] - first;
-  for (std::uint32_t i = 0; i < n; ++i) {
+  const auto corners = mesh.face(face);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
     const int s = sharpness.begin()[i % sharpness.size()];
-    if (s > 0) mesh.creases.push_back({mesh.corners[first + i], mesh.corners[first + (i + 1) % n], s});
+    if (s > 0) mesh.creases.push_back({corners[i], corners[(i + 1) % corners.size()], s});
   }
 }
 
@@ -111,8 +107,7 @@ PlainMesh plain(const FaceMesh& mesh) {
   PlainMesh result;
   for (const glm::vec3& p : mesh.positions) result.points.emplace_back(p);
   for (std::size_t f = 0; f < mesh.faces(); ++f) {
-    result.faces.emplace_back(mesh.corners.begin() + mesh.first_corner[f],
-                              mesh.corners.begin() + mesh.first_corner[f + 1]);
+    result.faces.emplace_back(mesh.face(f).begin(), mesh.face(f).end());
   }
   return result;
 }
@@ -211,6 +206,58 @@ Comparison compare(std::span<const std::uint32_t> quads, std::span<const glm::dv
   }
   result.mismatches += points.size() - partner.size();
   return result;
+}
+
+namespace {
+
+// One step of a vertex with n faces and its ring: values[0] is the vertex, then the ends of its edges, then
+// the far corners of its faces, face k between edges k and k + 1.
+std::vector<double> step_of_ring(const std::vector<double>& values) {
+  const std::size_t n = (values.size() - 1) / 2;
+  const double v = values[0];
+  std::vector<double> next(values.size());
+  const auto edge = [&](std::size_t k) { return values[1 + k % n]; };
+  const auto face_point = [&](std::size_t k) {
+    return (v + edge(k) + edge(k + 1) + values[1 + n + k % n]) / 4;
+  };
+  double edges = 0, faces = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    edges += (v + edge(k)) / 2;
+    faces += face_point(k);
+    next[1 + k] = (v + edge(k) + face_point(k + n - 1) + face_point(k)) / 4;
+    next[1 + n + k] = face_point(k);
+  }
+  const auto count = static_cast<double>(n);
+  next[0] = (faces / count + 2 * edges / count + (count - 3) * v) / count;
+  return next;
+}
+
+// Takes the constant vector out, whose eigenvalue is 1. Rounding brings it back at each step.
+void remove_constant(std::vector<double>& values) {
+  for (std::size_t k = values.size(); k-- > 0;) values[k] -= values[0];
+}
+
+}  // namespace
+
+double ring_eigenvalue(std::size_t n, int turns) {
+  std::vector<double> x(1 + 2 * n);
+  x[0] = turns == 0 ? 1 : 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double angle = 2 * std::numbers::pi * turns / static_cast<double>(n);
+    x[1 + k] = turns == 0 ? 0.3 : std::cos(angle * static_cast<double>(k));
+    x[1 + n + k] = turns == 0 ? -0.2 : 1.5 * std::cos(angle * (static_cast<double>(k) + 0.5));
+  }
+  remove_constant(x);
+  double factor = 0;
+  for (int i = 0; i < 100; ++i) {
+    std::vector<double> y = step_of_ring(x);
+    remove_constant(y);
+    factor = y[1] / x[1];
+    const double scale = y[1];
+    for (double& value : y) value /= scale;
+    x = std::move(y);
+  }
+  return factor;
 }
 
 }  // namespace terrabench::meshgrow

@@ -1,9 +1,10 @@
-// Catmull–Clark subdivision as textbooks state it (Catmull and Clark 1978), with adjacency lists and in
-// double precision, and the small meshes on which it is compared with the library's. Shares no code with
-// representations/procedural_mesh/subdivision.
+// What subdivision is compared with. Catmull–Clark subdivision as textbooks state it (Catmull and Clark
+// 1978), with adjacency lists and in double precision; the eigenvalues by which it contracts the ring of a
+// vertex; and small meshes. Shares no code with representations/procedural_mesh/subdivision.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
@@ -43,5 +44,19 @@ struct Comparison {
 };
 Comparison compare(std::span<const std::uint32_t> quads, std::span<const glm::dvec3> points,
                    const PlainMesh& reference);
+
+// Of a vertex with n ≥ 3 faces: the largest eigenvalue below 1 of its subdivision matrix, among vectors that
+// are constant around the vertex (turns = 0), or that turn once around it (turns = 1), by the power method.
+// O(n).
+double ring_eigenvalue(std::size_t n, int turns);
+
+struct RootMeanSquare {
+  double sum = 0, count = 0;
+  void add(double value) {
+    sum += value * value;
+    ++count;
+  }
+  double value() const { return std::sqrt(sum / count); }
+};
 
 }  // namespace terrabench::meshgrow

@@ -10,7 +10,7 @@
 #include "experiments/cases.h"
 #include "experiments/meshgrow/subdivision_peer.h"
 #include "experiments/meshgrow/subdivision_reference.h"
-#include "representations/procedural_mesh/subdivision/refinement.h"
+#include "representations/procedural_mesh/subdivision/subdivide.h"
 
 namespace terrabench::meshgrow {
 namespace {
@@ -34,9 +34,15 @@ double diagonal_of(const FaceMesh& mesh) {
   return glm::distance(low, high);
 }
 
+// Against one other construction, over all levels.
 struct Worst {
   std::size_t mismatches = 0;
   double single = 0, in_double = 0;  // largest distances, as shares of the base mesh's diagonal
+  void record(Recorder& recorder, std::string_view prefix) const {
+    recorder.add(fmt::format("{}mismatches", prefix), "", static_cast<double>(mismatches));
+    recorder.add(fmt::format("{}difference", prefix), "", single);
+    recorder.add(fmt::format("{}difference_in_double", prefix), "", in_double);
+  }
 };
 
 double farthest(const std::vector<glm::dvec3>& points, const PeerLevel& peer) {
@@ -47,70 +53,44 @@ double farthest(const std::vector<glm::dvec3>& points, const PeerLevel& peer) {
   return worst;
 }
 
-// Vertex for vertex, at every level and for one of the two rules for corners of a boundary.
-Worst beside_opensubdiv(const FaceMesh& base, int levels, subdivision::Boundary boundary) {
-  using namespace subdivision;
-  const Refinement refinement(base, levels, {boundary});
-  const std::vector<PeerLevel> peers = opensubdiv_levels(base, refinement, boundary);
-  std::vector<glm::dvec3> points = in_double(base.positions);
-  const double diagonal = diagonal_of(base);
-  Worst worst;
-  for (int level = 1; level <= levels; ++level) {
-    if (static_cast<std::size_t>(level) >= peers.size()) break;
-    const PeerLevel& peer = peers[static_cast<std::size_t>(level)];
-    worst.mismatches += peer.mismatches;
-    if (peer.ours.empty()) break;
-    const std::vector<PlacementRule> rules(static_cast<std::size_t>(level));
-    const FaceMesh refined = subdivide(base, rules, {boundary});
-    std::vector<glm::dvec3> finer(child_vertices(refinement.topology(level - 1)));
-    place_standard<glm::dvec3>(refinement.topology(level - 1), refinement.stencils(level - 1), points, finer);
-    points = std::move(finer);
-    worst.single = std::max(worst.single, farthest(in_double(refined.positions), peer) / diagonal);
-    worst.in_double = std::max(worst.in_double, farthest(points, peer) / diagonal);
-  }
-  return worst;
-}
-
-// Beside the plain reference, which knows no creases.
-void beside_textbook(const FaceMesh& base, int levels, Recorder& recorder) {
-  using namespace subdivision;
-  const Refinement refinement(base, levels);
-  PlainMesh reference = plain(base);
-  std::vector<glm::dvec3> points = in_double(base.positions);
-  Worst worst;
-  for (int level = 1; level <= levels; ++level) {
-    reference = catmull_clark(reference);
-    // The whole step as models take it, in single precision, and its stencils in double precision.
-    const std::vector<PlacementRule> rules(static_cast<std::size_t>(level));
-    const FaceMesh refined = subdivide(base, rules);
-    std::vector<glm::dvec3> finer(child_vertices(refinement.topology(level - 1)));
-    place_standard<glm::dvec3>(refinement.topology(level - 1), refinement.stencils(level - 1), points, finer);
-    points = std::move(finer);
-    const Comparison single = compare(refined.corners, in_double(refined.positions), reference),
-                     doubles = compare(refinement.topology(level).corners, points, reference);
-    recorder.add(fmt::format("difference_level_{}", level), "", single.largest);
-    worst.single = std::max(worst.single, single.largest);
-    worst.in_double = std::max(worst.in_double, doubles.largest);
-    worst.mismatches += single.mismatches + doubles.mismatches;
-  }
-  recorder.add("mismatches", "", static_cast<double>(worst.mismatches));
-  recorder.add("difference", "", worst.single);
-  recorder.add("difference_in_double", "", worst.in_double);
-}
-
+// Vertex for vertex, at every level and for both rules for corners of a boundary; the plain reference, which
+// knows no creases, has the first.
 void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress&) {
-  using subdivision::Boundary;
+  using namespace subdivision;
   const FaceMesh base = shape(at.parameters.text("shape"));
   const int levels = at.integer("levels");
-  const Worst edge = beside_opensubdiv(base, levels, Boundary::kEdge),
-              corner = beside_opensubdiv(base, levels, Boundary::kEdgeAndCorner);
-  recorder.add("opensubdiv_mismatches", "", static_cast<double>(edge.mismatches + corner.mismatches));
-  recorder.add("opensubdiv_difference", "", std::max(edge.single, corner.single));
-  recorder.add("opensubdiv_difference_in_double", "", std::max(edge.in_double, corner.in_double));
-  const subdivision::Refinement refinement(base, levels);
-  recorder.add("vertices", "", static_cast<double>(refinement.topology(levels).vertices));
-  recorder.add("faces", "", static_cast<double>(refinement.topology(levels).faces()));
-  if (!has_creases(base)) beside_textbook(base, levels, recorder);
+  const double diagonal = diagonal_of(base);
+  Worst opensubdiv, textbook;
+  for (const Boundary boundary : {Boundary::kEdge, Boundary::kEdgeAndCorner}) {
+    const Refinement refinement(base, levels, {boundary});
+    const std::vector<PeerLevel> peers = opensubdiv_levels(base, refinement, boundary);
+    const std::vector<std::vector<glm::dvec3>> doubles =
+        standard_points(refinement, in_double(base.positions));
+    LevelPoints single{base.positions, {}};
+    PlainMesh reference = plain(base);
+    const bool plain_too = boundary == Boundary::kEdge && !has_creases(base);
+    for (int level = 1; level <= levels; ++level) {
+      const auto l = static_cast<std::size_t>(level);
+      single = next_points(refinement, level - 1, single, PlacementRule{}, 0);
+      const std::vector<glm::dvec3> singles = in_double(single.positions);
+      if (l < peers.size()) opensubdiv.mismatches += peers[l].mismatches;
+      if (l < peers.size() && !peers[l].ours.empty()) {
+        opensubdiv.single = std::max(opensubdiv.single, farthest(singles, peers[l]) / diagonal);
+        opensubdiv.in_double = std::max(opensubdiv.in_double, farthest(doubles[l], peers[l]) / diagonal);
+      }
+      if (!plain_too) continue;
+      reference = catmull_clark(reference);
+      const std::vector<std::uint32_t>& quads = refinement.topology(level).corners;
+      const Comparison by_single = compare(quads, singles, reference),
+                       by_double = compare(quads, doubles[l], reference);
+      textbook.single = std::max(textbook.single, by_single.largest);
+      textbook.in_double = std::max(textbook.in_double, by_double.largest);
+      textbook.mismatches += by_single.mismatches + by_double.mismatches;
+    }
+    if (plain_too) textbook.record(recorder, "");
+    if (boundary == Boundary::kEdge) recorder.add("vertices", "", static_cast<double>(doubles.back().size()));
+  }
+  opensubdiv.record(recorder, "opensubdiv_");
 }
 
 }  // namespace

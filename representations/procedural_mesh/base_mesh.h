@@ -1,4 +1,4 @@
-// The meshes from which models start: named primitives, and a check of those that are given face by face.
+// The meshes from which models start: named primitives.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -25,10 +25,5 @@ Primitive sphere(double radius, std::uint32_t cells);  // a cube's, moved to the
 // A polygon as bottom, another as top, and one quadrilateral per side; cells: along the height.
 Primitive prism(std::uint32_t sides, double bottom_radius, double top_radius, double height,
                 std::uint32_t cells);
-
-// Throws bad_input if a face has fewer than 3 corners, one of them twice, no area, or a vertex that does not
-// exist; if an edge has more than two faces, or two in the same direction; if a vertex joins two fans of
-// faces, or has no face. `where` begins the message's place. O(corners log corners).
-void check_base(const FaceMesh&, const std::string& where);
 
 }  // namespace terrabench::growing

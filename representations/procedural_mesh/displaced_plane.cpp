@@ -6,12 +6,10 @@
 #include <bit>
 #include <cmath>
 
-#include "representations/procedural_mesh/subdivision/refinement.h"
+#include "representations/procedural_mesh/subdivision/subdivide.h"
 
 namespace terrabench {
 namespace {
-
-using subdivision::Array;
 
 struct Texel {
   std::size_t i, j;
@@ -35,11 +33,9 @@ class Plane {
       for (std::size_t i = 0; i < cells_x; ++i) {
         const auto north = static_cast<std::uint32_t>(j * (cells_x + 1) + i);
         const auto south = static_cast<std::uint32_t>(north + cells_x + 1);
-        mesh.first_corner.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
-        mesh.corners.insert(mesh.corners.end(), {north, south, south + 1, north + 1});
+        mesh.add_face({north, south, south + 1, north + 1});
       }
     }
-    mesh.first_corner.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
     return mesh;
   }
 
@@ -48,18 +44,14 @@ class Plane {
     using namespace subdivision;
     PlacementRule rule;
     rule.base = rule.texture = Base::kLinear;
-    Displacement up;
-    up.axis = Axis::kFixed;
-    up.by_scale = false;
-    up.where = Where::kNewVertices;
-    up.amount.kind = Signal::Kind::kFunction;
-    up.amount.function = [this](const VertexBatch& batch, std::span<float> out) {
+    const Signal up = [this](const VertexBatch& batch, std::span<float> out) {
       for (std::size_t v = 0; v < out.size(); ++v) {
         const float height = position(batch.texture[v]).y;
         out[v] = std::isnan(height) ? 0 : height - batch.positions[v].y;
       }
     };
-    rule.displacements.push_back(std::move(up));
+    rule.displacements.push_back(
+        {.axis = Axis::kFixed, .by_scale = false, .where = Where::kNewVertices, .amount = up});
     return rule;
   }
 
@@ -90,24 +82,20 @@ FaceMesh faces_with_heights(FaceMesh&& mesh, const Plane& plane) {
   FaceMesh kept;
   std::vector<std::uint32_t> number(mesh.positions.size(), kUnused);
   for (std::size_t f = 0; f < mesh.faces(); ++f) {
-    const std::uint32_t* const corners = mesh.corners.data() + 4 * f;
+    const auto corners = mesh.face(f);
     const bool flat = plane.at_one_place(mesh.texture[corners[0]], mesh.texture[corners[1]]) ||
                       plane.at_one_place(mesh.texture[corners[1]], mesh.texture[corners[2]]);
     const bool full =
-        std::all_of(corners, corners + 4, [&](std::uint32_t v) { return !std::isnan(mesh.positions[v].y); });
+        std::ranges::none_of(corners, [&](std::uint32_t v) { return std::isnan(mesh.positions[v].y); });
     if (flat || !full) continue;
-    kept.first_corner.push_back(static_cast<std::uint32_t>(kept.corners.size()));
-    for (std::size_t k = 0; k < 4; ++k) {
-      std::uint32_t& v = number[corners[k]];
-      if (v == kUnused) {
-        v = static_cast<std::uint32_t>(kept.positions.size());
-        kept.positions.push_back(mesh.positions[corners[k]]);
-        kept.texture.push_back(mesh.texture[corners[k]]);
-      }
-      kept.corners.push_back(v);
+    for (const std::uint32_t corner : corners) {
+      if (number[corner] != kUnused) continue;
+      number[corner] = static_cast<std::uint32_t>(kept.positions.size());
+      kept.positions.push_back(mesh.positions[corner]);
+      kept.texture.push_back(mesh.texture[corner]);
     }
+    kept.add_face({number[corners[0]], number[corners[1]], number[corners[2]], number[corners[3]]});
   }
-  kept.first_corner.push_back(static_cast<std::uint32_t>(kept.corners.size()));
   return kept;
 }
 

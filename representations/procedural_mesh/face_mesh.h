@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <initializer_list>
+#include <span>
 #include <vector>
 
 namespace terrabench {
@@ -33,6 +35,17 @@ struct FaceMesh {
   std::vector<SharpVertex> sharp_vertices;
 
   std::size_t faces() const { return first_corner.empty() ? 0 : first_corner.size() - 1; }
+  std::span<const std::uint32_t> face(std::size_t f) const {
+    return {corners.data() + first_corner[f], corners.data() + first_corner[f + 1]};
+  }
+  void add_face(std::span<const std::uint32_t> vertices) {
+    if (first_corner.empty()) first_corner.push_back(0);
+    corners.insert(corners.end(), vertices.begin(), vertices.end());
+    first_corner.push_back(static_cast<std::uint32_t>(corners.size()));
+  }
+  void add_face(std::initializer_list<std::uint32_t> vertices) {
+    add_face(std::span(vertices.begin(), vertices.size()));
+  }
 };
 
 }  // namespace terrabench

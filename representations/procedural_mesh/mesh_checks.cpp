@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <limits>
 #include <numeric>
-#include <string_view>
-
-#include "representations/procedural_mesh/boundary_search.h"
 
 namespace terrabench {
 namespace {
 
 constexpr std::size_t kNamed = 16;
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+
+bool finite(glm::vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 // One face's passage through an edge, from `corner` to the next.
 struct Half {
@@ -47,8 +47,7 @@ class Check {
 
   void positions() {
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
-      const glm::vec3 p = mesh_.positions[v];
-      if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+      if (finite(mesh_.positions[v])) continue;
       fault(MeshFault::kNotFinite, [&] { return fmt::format("vertex {}: its position is not finite", v); });
     }
   }
@@ -131,9 +130,6 @@ class Check {
     for (const Half& h : halves_) sorted[first[h.low + 1]++] = h;
     halves_ = std::move(sorted);
     twin_.assign(mesh_.corners.size(), kNone);
-    meant_.clear();
-    for (const Crease& c : options_.meant) meant_.push_back({std::min(c.a, c.b), std::max(c.a, c.b)});
-    std::sort(meant_.begin(), meant_.end());
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
       const auto begin = halves_.begin() + first[v], end = halves_.begin() + first[v + 1];
       std::sort(begin, end, [](const Half& a, const Half& b) {
@@ -161,8 +157,7 @@ class Check {
     } else {
       ++report_.boundary_edges;
       boundary_.push_back({a, b});
-      if (options_.boundary_meant || std::binary_search(meant_.begin(), meant_.end(), std::pair(a, b)))
-        return;
+      if (options_.boundary_meant) return;
       fault(MeshFault::kUnmeantBoundary, [&] { return fmt::format("edge {}–{}: a hole", a, b); });
     }
   }
@@ -206,19 +201,10 @@ class Check {
   std::vector<bool> used_;
   std::uint32_t next_corner_ = 0;
   std::vector<std::uint32_t> sorted_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> meant_, boundary_;
+  std::vector<VertexPair> boundary_;
 };
 
 }  // namespace
-
-std::string_view name_of(MeshFault fault) {
-  constexpr std::string_view kNames[] = {
-      "bad index",    "few corners", "repeated vertex",  "position not finite",
-      "zero area",    "zero edge",   "directed twice",   "many faces",
-      "several fans", "T-vertex",    "unmeant boundary", "unused vertex"};
-  static_assert(std::size(kNames) == static_cast<std::size_t>(MeshFault::kCount));
-  return kNames[static_cast<std::size_t>(fault)];
-}
 
 std::size_t MeshReport::faults() const {
   return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
@@ -226,6 +212,43 @@ std::size_t MeshReport::faults() const {
 
 MeshReport check_mesh(const FaceMesh& mesh, const MeshCheckOptions& options) {
   return Check(mesh, options).run();
+}
+
+// The ends are sorted along x, and each edge is compared with those beside it.
+std::vector<VertexInEdge> vertices_in_edges(std::span<const glm::vec3> positions,
+                                            std::span<const VertexPair> edges, float tolerance) {
+  std::vector<std::pair<double, std::uint32_t>> ends;
+  for (const auto& [a, b] : edges) {
+    for (const std::uint32_t v : {a, b}) {
+      if (finite(positions[v])) ends.emplace_back(positions[v].x, v);
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  std::vector<VertexInEdge> found;
+  for (const VertexPair& edge : edges) {
+    if (!finite(positions[edge.first]) || !finite(positions[edge.second])) continue;
+    const glm::dvec3 a(positions[edge.first]), b(positions[edge.second]), along = b - a;
+    // Half a unit in the last place along each axis, for the result and for a sum or a product before it.
+    const double rounding =
+        glm::length(glm::max(glm::abs(a), glm::abs(b))) * double{std::numeric_limits<float>::epsilon()};
+    const double distance = std::max(double{tolerance} * glm::length(along), rounding);
+    const std::size_t before = found.size();
+    const double last = std::max(a.x, b.x) + distance;
+    for (auto at = std::lower_bound(ends.begin(), ends.end(), std::pair(std::min(a.x, b.x) - distance, 0U));
+         at != ends.end() && at->first <= last; ++at) {
+      const glm::dvec3 p(positions[at->second]);
+      const double square = glm::dot(along, along);
+      const double t = square > 0 ? std::clamp(glm::dot(p - a, along) / square, 0.0, 1.0) : 0;
+      if (glm::distance(p, a + along * t) <= distance && glm::distance(p, a) > distance &&
+          glm::distance(p, b) > distance) {
+        found.push_back({at->second, edge});
+      }
+    }
+    std::sort(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(),
+              [](const VertexInEdge& v, const VertexInEdge& w) { return v.vertex < w.vertex; });
+  }
+  return found;
 }
 
 }  // namespace terrabench

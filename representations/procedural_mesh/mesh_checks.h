@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "representations/procedural_mesh/face_mesh.h"
@@ -28,7 +29,6 @@ enum class MeshFault : std::uint8_t {
   kUnusedVertex,     // a vertex of no face
   kCount
 };
-std::string_view name_of(MeshFault);
 
 struct MeshReport {
   std::array<std::size_t, static_cast<std::size_t>(MeshFault::kCount)> counts{};
@@ -41,8 +41,6 @@ struct MeshReport {
 
 struct MeshCheckOptions {
   bool boundary_meant = true;  // otherwise every boundary edge is a fault
-  // The edges, by their vertices, that may be a boundary when it is not meant elsewhere.
-  std::span<const Crease> meant{};
   // A vertex is inside an edge when it is nearer than this, as a share of the edge's length, or than the
   // rounding of single precision at the edge's place. Edges of a few roundings cannot be looked into.
   float tolerance = 1e-5F;
@@ -51,7 +49,20 @@ struct MeshCheckOptions {
 };
 
 // Any mesh may be given. T-vertices are sought among vertices that lie on a boundary, since the edges of a
-// mesh without cracks have two faces. O(corners), and O(b log b) for b boundary edges of similar lengths.
+// mesh without cracks have two faces. O(corners), and for b boundary edges O(b log b + b · those beside along
+// x).
 MeshReport check_mesh(const FaceMesh&, const MeshCheckOptions& = {});
+
+using VertexPair = std::pair<std::uint32_t, std::uint32_t>;
+struct VertexInEdge {
+  std::uint32_t vertex;
+  VertexPair edge;
+};
+// T-vertices: the ends of the edges that are nearer to another edge than `tolerance` times its length or the
+// rounding of a point that was computed inside it in single precision (the larger of both), and farther than
+// that from the edge's ends; sorted by edge as given, then by vertex. Edges with an end that is not finite
+// are skipped.
+std::vector<VertexInEdge> vertices_in_edges(std::span<const glm::vec3> positions,
+                                            std::span<const VertexPair> edges, float tolerance);
 
 }  // namespace terrabench

@@ -80,17 +80,6 @@ void load_ground(ByteSource& in, bool encoded, MeshDescription& out) {
   }
 }
 
-// Fewer subdivisions at the end of the schedule.
-void leave_out_last(growing::Model& model, int levels) {
-  while (levels > 0 && !model.steps.empty() && model.steps.back().levels > 0) {
-    growing::Step& last = model.steps.back();
-    const std::uint32_t fewer = std::min(last.levels, static_cast<std::uint32_t>(levels));
-    levels -= static_cast<int>(fewer);
-    last.levels -= fewer;
-    if (last.levels == 0) model.steps.pop_back();  // it would be a growing step
-  }
-}
-
 FaceMesh expand_model(const MeshDescription& description, const std::string& origin, int leave_out) {
   growing::Model model = growing::parse_model({description.model.data(), description.model.size()}, origin);
   model.limits.faces = std::min(model.limits.faces, kMostFaces);
@@ -98,7 +87,7 @@ FaceMesh expand_model(const MeshDescription& description, const std::string& ori
   if (model.base.faces() > kMostFaces) {
     throw bad_input("the base mesh has too many faces for a terrain", origin, "use at most 2^24");
   }
-  leave_out_last(model, leave_out);
+  growing::leave_out_last(model, static_cast<std::uint32_t>(leave_out));
   FaceMesh mesh = growing::expand(model).mesh;
   for (glm::vec3& p : mesh.positions) {
     p = p * description.scale + description.offset;
@@ -107,20 +96,18 @@ FaceMesh expand_model(const MeshDescription& description, const std::string& ori
   return mesh;
 }
 
+// Texture coordinates stay where both meshes have them.
 void append(FaceMesh& to, const FaceMesh& from) {
-  const auto vertices = static_cast<std::uint32_t>(to.positions.size()),
-             corners = static_cast<std::uint32_t>(to.corners.size());
+  const auto vertices = static_cast<std::uint32_t>(to.positions.size());
   const bool texture =
       to.texture.size() == to.positions.size() && from.texture.size() == from.positions.size();
   to.positions.insert(to.positions.end(), from.positions.begin(), from.positions.end());
-  if (texture) {
-    to.texture.insert(to.texture.end(), from.texture.begin(), from.texture.end());
-  } else {
-    to.texture.clear();
-  }
-  for (const std::uint32_t v : from.corners) to.corners.push_back(vertices + v);
-  for (std::size_t f = 1; f < from.first_corner.size(); ++f) {
-    to.first_corner.push_back(corners + from.first_corner[f]);
+  to.texture.insert(to.texture.end(), from.texture.begin(), from.texture.end());
+  if (!texture) to.texture.clear();
+  for (std::size_t f = 0; f < from.faces(); ++f) {
+    to.add_face(from.face(f));
+    for (std::size_t c = to.first_corner[to.faces() - 1]; c < to.corners.size(); ++c)
+      to.corners[c] += vertices;
   }
 }
 
@@ -170,15 +157,14 @@ MeshDescription MeshDescription::load(ByteSource& in, bool encoded) {
   return description;
 }
 
-FaceMesh expand(const MeshDescription& description, const std::string& origin, int leave_out) {
-  leave_out += description.leave_out;
+FaceMesh MeshDescription::polygons(const std::string& origin, int leave_out_more) const {
+  const int out = leave_out + leave_out_more;
   FaceMesh mesh;
-  if (description.has_ground()) mesh = displaced_plane(description.ground, description.levels, leave_out);
-  if (description.model.empty()) return mesh;
-  FaceMesh model = expand_model(description, origin, leave_out);
-  if (!description.has_ground()) return model;
-  if (mesh.first_corner.empty()) mesh.first_corner.push_back(0);
-  append(mesh, model);
+  if (has_ground()) mesh = displaced_plane(ground, levels, out);
+  if (model.empty()) return mesh;
+  FaceMesh expanded = expand_model(*this, origin, out);
+  if (!has_ground()) return expanded;
+  append(mesh, expanded);
   return mesh;
 }
 

@@ -96,10 +96,9 @@ class Exporter final : Empty, public om::IO::ExporterT<NoMesh> {
     return {t.x, t.y};
   }
   unsigned int get_vhandles(FaceHandle f, std::vector<VertexHandle>& out) const override {
-    const auto face = static_cast<std::size_t>(f.idx());
     out.clear();
-    for (std::uint32_t c = mesh_.first_corner[face]; c < mesh_.first_corner[face + 1]; ++c) {
-      out.emplace_back(static_cast<int>(mesh_.corners[c]));
+    for (const std::uint32_t v : mesh_.face(static_cast<std::size_t>(f.idx()))) {
+      out.emplace_back(static_cast<int>(v));
     }
     return static_cast<unsigned int>(out.size());
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "representations/procedural_mesh/model_reader.h"
 #include "terrain/embedded.h"
@@ -20,20 +21,31 @@ namespace {
 constexpr std::size_t kMostParameters = 64;
 
 // Numbers, lists of numbers, or expressions of the constants before.
-void read_constants(ModelReader& models, const toml::node* node) {
-  if (node == nullptr) return;
-  for (const auto& [name, value] : Table(*node, models.file, "constants").entries()) {
+void read_constants(ModelReader& models, const toml::node* node, std::span<const ConstantChange> changes) {
+  std::vector<std::pair<std::string, const toml::node*>> entries;
+  if (node != nullptr) entries = Table(*node, models.file, "constants").entries();
+  std::vector<std::string_view> single;
+  for (const auto& [name, value] : entries) {
+    if (value->is_number()) single.push_back(name);
+  }
+  for (const ConstantChange& change : changes) {
+    if (std::ranges::count(single, change.name) == 0) throw unknown_name("constant", change.name, single);
+  }
+  for (const auto& [name, value] : entries) {
+    const auto change = std::ranges::find(changes, name, &ConstantChange::name);
     std::vector<double> numbers;
-    if (const toml::array* const list = value->as_array()) {
+    if (change != changes.end()) {
+      numbers.push_back(change->value);
+    } else if (const toml::array* const list = value->as_array()) {
       for (const toml::node& entry : *list) numbers.push_back(number_of(entry, models.file, name));
       if (numbers.empty())
         fail_at(*value, models.file, fmt::format("'{}' is empty", name), "give it a number");
     } else {
       const Expression e = models.expression(*value, models.constants);
       numbers.push_back(evaluate(e, {{}, models.constants.tables(), models.model.system.seed}));
-      if (!std::isfinite(numbers[0]))
-        fail_at(*value, models.file, fmt::format("'{}' is not finite", name), "correct it");
     }
+    if (!std::isfinite(numbers[0]))
+      fail_at(*value, models.file, fmt::format("'{}' is not finite", name), "correct it");
     models.constants.add_table(name, std::move(numbers), models.file, place_of(*value));
   }
 }
@@ -84,7 +96,7 @@ void read_limits(ModelReader& models, const toml::node* node) {
 
 }  // namespace
 
-Model parse_model(std::string_view text, const std::string& origin) {
+Model parse_model(std::string_view text, const std::string& origin, std::span<const ConstantChange> changes) {
   if (text.size() > kMostModelBytes) {
     throw bad_input(fmt::format("a model must have at most {} bytes, got {}", kMostModelBytes, text.size()),
                     origin, "remove rules or vertices");
@@ -98,7 +110,7 @@ Model parse_model(std::string_view text, const std::string& origin) {
   model.system.seed = static_cast<std::uint64_t>(table.integer_or("seed", 0, 0, INT64_MAX));
   ModelReader models{model, model.system.file};
   read_limits(models, table.find("limits"));
-  read_constants(models, table.find("constants"));
+  read_constants(models, table.find("constants"), changes);
   read_symbols(models, table.find("symbols"));
   read_rules(models, table.find("rule"));
   read_base(models, table.get("base"));
@@ -116,26 +128,19 @@ Model parse_model(std::string_view text, const std::string& origin) {
 
 namespace {
 
-struct NamedText {
-  std::string name, text;
-};
+using Texts = std::map<std::string, std::string, std::less<>>;
 
-// The rules of the tree model follow each species file beside them.
-const std::vector<NamedText>& built_in_models() {
-  static const std::vector<NamedText> all = [] {
-    constexpr std::string_view kRules = "rules", kTrees = "weber_penn";
-    std::string rules;
-    for (const EmbeddedFile& file : embedded_models()) {
-      if (std::filesystem::path(file.name).stem() == kRules) rules = fmt::format("\n{}", file.text);
-    }
-    std::vector<NamedText> models;
+const Texts& built_in_models() {
+  static const Texts all = [] {
+    Texts models, rules;  // rules: by folder
     for (const EmbeddedFile& file : embedded_models()) {
       const std::filesystem::path path(file.name);
-      if (path.stem() == kRules) continue;
-      const bool tree = path.parent_path().filename() == kTrees;
-      models.push_back({path.stem().string(), std::string(file.text) + (tree ? rules : "")});
+      if (path.stem() == "rules") rules[path.parent_path()] = fmt::format("\n{}", file.text);
     }
-    std::sort(models.begin(), models.end(), [](auto& a, auto& b) { return a.name < b.name; });
+    for (const EmbeddedFile& file : embedded_models()) {
+      const std::filesystem::path path(file.name);
+      if (path.stem() != "rules") models[path.stem()] = std::string(file.text) + rules[path.parent_path()];
+    }
     return models;
   }();
   return all;
@@ -145,54 +150,15 @@ const std::vector<NamedText>& built_in_models() {
 
 std::vector<std::string> model_names() {
   std::vector<std::string> names;
-  for (const NamedText& model : built_in_models()) names.push_back(model.name);
+  for (const auto& [name, text] : built_in_models()) names.push_back(name);
   return names;
 }
 
 std::string_view model_text(std::string_view name) {
-  for (const NamedText& model : built_in_models()) {
-    if (model.name == name) return model.text;
-  }
+  const auto found = built_in_models().find(name);
+  if (found != built_in_models().end()) return found->second;
   const std::vector<std::string> names = model_names();
   throw unknown_name("model", name, std::vector<std::string_view>(names.begin(), names.end()));
-}
-
-namespace {
-
-void check_subdivision(const Model& model, const Step& step, const GrownMesh& mesh) {
-  // Each level has one face per corner of the level before.
-  if (mesh.mesh.corners.size() <= model.limits.faces) return;
-  throw bad_input(fmt::format("the subdivision gives {} faces, more than {}", mesh.mesh.corners.size(),
-                              model.limits.faces),
-                  fmt::format("{}:{}:{}", model.system.file, step.place.line, step.place.column),
-                  "subdivide less, or raise the limit of faces, to 100,000,000 at most");
-}
-
-}  // namespace
-
-GrownMesh expand(const Model& model, const ExpandOptions& options) {
-  GrownMesh mesh = plant(model.system, model.base, model.arguments);
-  const auto report = [&] {
-    if (options.after_step) options.after_step(mesh);
-  };
-  report();
-  std::uint32_t level = 0;
-  for (std::size_t s = 0; s < std::min(options.most_steps, model.steps.size()); ++s) {
-    const Step& step = model.steps[s];
-    const auto& out = options.leave_out;
-    if (!step.name.empty() && std::find(out.begin(), out.end(), step.name) != out.end()) continue;
-    if (step.levels == 0) {
-      grow(model.system, mesh, step.growth);
-      report();
-      continue;
-    }
-    for (std::uint32_t i = 0; i < step.levels; ++i) {
-      check_subdivision(model, step, mesh);
-      mesh = subdivide(model, step, mesh, ++level);
-      report();
-    }
-  }
-  return mesh;
 }
 
 }  // namespace growing

@@ -2,11 +2,11 @@
 // a schedule in which growing and subdivision steps alternate in any order (§5). docs/models.md is the
 // grammar.
 //
-// To follow a model from its text to faces: parse_model() and expand() in model.cpp; of the parts that they
-// read, RuleReader in model_rules.cpp; growing/rules.h, what a rule is; growing/grow.h and grow();
-// Wave::run() in growing/wave.cpp and what it calls, in that order; growing/expansion.h, the new elements of
-// one face. What can wait: expressions (growing/expression.h), templates and their check, textures, limits,
-// and subdivision (model_subdivide.cpp, subdivision/refine.h).
+// To follow a model from its text to faces: growing/rules.h, what a rule is; parse_model() in model.cpp;
+// RuleReader in model_rules.cpp; expand() in expand.cpp; growing/grow.h, then grow() in growing/grow.cpp and
+// what it calls; apply_rule() in growing/apply_rule.cpp, the new elements of one face. What can wait:
+// expressions (growing/expression.h), checks of what is written down (growing/well_formed.h), limits,
+// textures, and subdivision (subdivision/subdivide.h).
 #pragma once
 
 #include <functional>
@@ -15,28 +15,20 @@
 #include <vector>
 
 #include "representations/procedural_mesh/growing/grow.h"
+#include "representations/procedural_mesh/subdivision/placement.h"
 
 namespace terrabench::growing {
 
-// What a subdivision step adds to the standard placement of its vertices (§3): expressions of kVertexNames.
-struct Displace {
-  enum class Along : std::uint8_t { kNormal, kTangent, kBitangent, kFixed } along = Along::kNormal;
-  glm::vec3 direction{0, 1, 0};  // of kFixed
-  bool by_scale = true;          // times the local scale factor; otherwise in metres
-  bool new_vertices = false;     // those of faces and edges alone
-  Expression amount;
-};
+// Names in the expressions of displacements (§3): the vertex, placed but not displaced.
 inline constexpr std::string_view kVertexNames[] = {"x",  "y",  "z",  "u",     "v",
                                                     "nx", "ny", "nz", "scale", "level"};
 
 struct Step {
   Place place;
-  std::string name;          // for leaving it out; may be empty
-  std::uint32_t levels = 0;  // subdivisions; 0: a growing step
-  bool linear = false;       // keep the vertices, put new ones in the middle
-  bool linear_texture = false;
-  double bound = 0;  // of displacements, in local scale factors; 0: none
-  std::vector<Displace> displacements;
+  std::string name;                      // for leaving it out; may be empty
+  std::uint32_t levels = 0;              // subdivisions; 0: a growing step
+  subdivision::PlacementRule placement;  // of a subdivision; the amounts are those below
+  std::vector<Expression> amounts;       // per displacement, with kVertexNames
   GrowOptions growth;
 };
 
@@ -52,26 +44,34 @@ struct Model {
 
 inline constexpr std::size_t kMostModelBytes = std::size_t{1} << 20U;
 
-// `origin` names the text in errors, which give line and column. Throws bad_input for anything that is no
-// model.
-Model parse_model(std::string_view text, const std::string& origin);
+struct ConstantChange {
+  std::string name;  // of a number among the model's constants
+  double value = 0;
+};
 
-// The models of the paper, which travel inside the program: models/*.toml, without the extension; and the
-// species of models/weber_penn, each followed by the rules that they share.
+// `origin` names the text in errors, which give line and column. Throws bad_input for anything that is no
+// model, and unknown_name for a change of a constant that the model does not have, or not as a number.
+Model parse_model(std::string_view text, const std::string& origin,
+                  std::span<const ConstantChange> changes = {});
+
+// The models of the paper, which travel inside the program: models/*.toml and those of its folders, without
+// the extension. The rules.toml of a folder follows each of its models.
 std::vector<std::string> model_names();
 std::string_view model_text(std::string_view name);  // throws unknown_name
 
 struct ExpandOptions {
-  std::vector<std::string> leave_out{};                // names of steps
-  std::size_t most_steps = SIZE_MAX;                   // of the schedule; the rest is left out
-  std::function<void(const GrownMesh&)> after_step{};  // also called for the base
+  std::vector<std::string> leave_out{};  // names of steps
+  std::size_t most_steps = SIZE_MAX;     // of the schedule; the rest is left out
+  // Called for the base and after every growing step and every subdivision, with the number of subdivisions
+  // so far.
+  std::function<void(const GrownMesh&, std::uint32_t subdivisions)> after_step{};
 };
 
 // Runs the schedule. The same for any number of threads. Throws bad_input as grow() does, and where a
 // subdivision exceeds the limit of faces.
 GrownMesh expand(const Model&, const ExpandOptions& = {});
 
-// One level of a subdivision step; `level` counts from 1 over the whole schedule.
-GrownMesh subdivide(const Model&, const Step&, const GrownMesh&, std::uint32_t level);
+// Takes so many subdivisions from the end of the schedule; returns how many it does not have.
+std::uint32_t leave_out_last(Model&, std::uint32_t subdivisions);
 
 }  // namespace terrabench::growing

@@ -8,25 +8,20 @@
 
 namespace terrabench::growing {
 
-EdgeSet::EdgeSet(std::span<const std::uint32_t> first_corner, std::span<const std::uint32_t> corners) {
-  edges_.reserve(corners.size());
-  for (std::size_t f = 0; f + 1 < first_corner.size(); ++f) {
-    const std::uint32_t first = first_corner[f], last = first_corner[f + 1];
-    for (std::uint32_t c = first; c < last; ++c) {
-      edges_.push_back(std::minmax({corners[c], corners[c + 1 < last ? c + 1 : first]}));
-    }
-  }
-  std::sort(edges_.begin(), edges_.end());
-}
-
-bool EdgeSet::contains(std::uint32_t a, std::uint32_t b) const {
-  const std::pair<std::uint32_t, std::uint32_t> edge = std::minmax({a, b});
-  return std::binary_search(edges_.begin(), edges_.end(), edge);
-}
-
 std::optional<std::uint32_t> ModelReader::symbol(std::string_view name) const {
   const auto found = symbol_numbers.find(name);
   return found == symbol_numbers.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::uint32_t ModelReader::symbol(const toml::node& node, std::string_view what) const {
+  const std::string name = text_of(node, file, what);
+  const std::optional<std::uint32_t> number = symbol(name);
+  if (number && *number != kNoSymbol) return *number;
+  fail_at(node, file, fmt::format("unknown symbol '{}'", name), "list it in [symbols]");
+}
+
+std::string ModelReader::where(const toml::node& node) const {
+  return fmt::format("{}:{}:{}", file, place_of(node).line, place_of(node).column);
 }
 
 namespace {
@@ -113,6 +108,30 @@ std::uint32_t ModelReader::vertex_index(const toml::node& node, std::string_view
     fail_at(node, file, fmt::format("'{}' must be numbers of vertices, from 0", what), "correct the number");
   }
   return static_cast<std::uint32_t>(*value);
+}
+
+void ModelReader::read_faces(const toml::node& node, FaceMesh& mesh) const {
+  mesh.first_corner = {0};
+  for (const toml::node& face : list_of(node, file, "faces", 0)) {
+    std::vector<std::uint32_t> corners;
+    for (const toml::node& corner : list_of(face, file, "faces", 0)) {
+      corners.push_back(vertex_index(corner, "faces"));
+    }
+    mesh.add_face(corners);
+  }
+}
+
+std::vector<Crease> ModelReader::read_creases(const toml::node& node, const subdivision::Topology& t) const {
+  std::vector<Crease> creases;
+  for (const toml::node& entry : list_of(node, file, "creases", 0)) {
+    const toml::array& three = list_of(entry, file, "creases", 3);
+    const std::uint32_t a = vertex_index(three[0], "creases"), b = vertex_index(three[1], "creases"),
+                        sharpness = vertex_index(three[2], "creases");
+    if (subdivision::edge_between(t, a, b) == subdivision::kNone)
+      fail_at(entry, file, fmt::format("no face has an edge from {} to {}", a, b), "name an edge");
+    creases.push_back({a, b, static_cast<int>(std::min(sharpness, 100U))});
+  }
+  return creases;
 }
 
 }  // namespace terrabench::growing

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "representations/procedural_mesh/growing/well_formed.h"
 #include "representations/procedural_mesh/model_reader.h"
 #include "terrain/error.h"
 
@@ -26,16 +27,13 @@ class RuleReader {
   Rule run() {
     rule_.place = place_of(table_.node());
     name_variables();
-    if (const toml::node* const node = table_.find("when")) rule_.when = models_.expression(*node, names_);
-    if (const toml::node* const node = table_.find("probability")) {
-      rule_.probability = models_.expression(*node, names_);
-    }
+    rule_.when = optional(table_, "when");
+    rule_.probability = optional(table_, "probability");
     if (const toml::node* const node = table_.find("let")) locals(*node);
     const toml::node* const sections = table_.find("sections");
     const toml::node* const faces = table_.find("faces");
     if ((sections == nullptr) == (faces == nullptr)) {
-      fail_at(table_.node(), file_, "a rule without a template",
-              "give it either 'sections' or 'corners' and 'faces'");
+      table_.fail("a rule without a template", "give it either 'sections' or 'corners' and 'faces'");
     }
     if (sections != nullptr) {
       extruded(*sections);
@@ -50,13 +48,8 @@ class RuleReader {
   void name_variables() {
     for (const std::string_view name : kSharedNames) names_.add_variable(name, file_, rule_.place);
     const toml::node& node = table_.get("symbol");
-    const std::string name = text_of(node, file_, "symbol");
-    const std::optional<std::uint32_t> symbol = models_.symbol(name);
-    if (!symbol || *symbol == kNoSymbol) {
-      fail_at(node, file_, fmt::format("unknown symbol '{}'", name), "list it in [symbols]");
-    }
-    rule_.symbol = *symbol;
-    for (const std::string& parameter : models_.model.system.symbols[*symbol].parameters) {
+    rule_.symbol = models_.symbol(node, "symbol");
+    for (const std::string& parameter : models_.model.system.symbols[rule_.symbol].parameters) {
       names_.add_variable(parameter, file_, place_of(node));
     }
     rule_.first_local = names_.variables();
@@ -67,55 +60,60 @@ class RuleReader {
       if (models_.symbol(name)) {
         fail_at(*value, file_, fmt::format("'{}' is a symbol", name), "choose another name");
       }
-      rule_.locals.push_back(models_.expression(*value, names_));
+      rule_.locals.push_back(expression(*value));
       if (names_.add_variable(name, file_, place_of(*value)) >= kMostSlots) {
         fail_at(*value, file_, fmt::format("a rule must have at most {} names", kMostSlots), "remove some");
       }
     }
   }
 
-  std::array<Expression, 3> three(const toml::node& node, std::string_view what) {
-    std::array<Expression, 3> result;
-    const toml::array& list = list_of(node, file_, what, 3);
-    for (std::size_t i = 0; i < 3; ++i) result[i] = models_.expression(list[i], names_);
+  Expression expression(const toml::node& node) { return models_.expression(node, names_); }
+
+  Expression optional(Table& table, std::string_view key) {
+    const toml::node* const node = table.find(key);
+    return node == nullptr ? Expression() : expression(*node);
+  }
+
+  template <std::size_t n>
+  std::array<Expression, n> several(const toml::node& node, std::string_view what) {
+    std::array<Expression, n> result;
+    const toml::array& list = list_of(node, file_, what, n);
+    for (std::size_t i = 0; i < n; ++i) result[i] = expression(list[i]);
     return result;
   }
 
-  // One expression for all corners, or one per corner.
-  std::vector<Expression> per_corner(const toml::node& node) {
-    std::vector<Expression> result;
-    if (const toml::array* const list = node.as_array()) {
-      for (const toml::node& entry : *list) result.push_back(models_.expression(entry, names_));
-      require_corners(node, result.size());
-    } else {
-      result.push_back(models_.expression(node, names_));
+  // One value for all corners, or a list with one per corner.
+  template <class Read>
+  auto per_corner(const toml::node& node, const Read& read) {
+    std::vector<decltype(read(node))> result;
+    const toml::array* const list = node.as_array();
+    if (list == nullptr) {
+      result.push_back(read(node));
+      return result;
     }
-    return result;
-  }
-
-  // A list per corner says how many corners the base has.
-  void require_corners(const toml::node& node, std::size_t count) {
+    for (const toml::node& entry : *list) result.push_back(read(entry));
     std::uint32_t& corners = rule_.replacement.corners;
-    if (count < 3 || (corners != 0 && corners != count)) {
-      fail_at(node, file_, fmt::format("a list of {} for a base of {} corners", count, corners),
+    if (result.size() < 3 || (corners != 0 && corners != result.size())) {
+      fail_at(node, file_, fmt::format("a list of {} for a base of {} corners", result.size(), corners),
               "give one value per corner, and the same number in the whole rule");
     }
-    corners = static_cast<std::uint32_t>(count);
+    corners = static_cast<std::uint32_t>(result.size());
+    return result;
   }
 
   std::vector<TextureAt> texture(Table& table) {
     const toml::node* const u = table.find("u");
     const toml::node* const v = table.find("v");
     if (u == nullptr && v == nullptr) return {};
-    if (u == nullptr || v == nullptr)
-      fail_at(table.node(), file_, "'u' needs 'v', and 'v' needs 'u'", "give both");
-    const std::vector<Expression> us = per_corner(*u), vs = per_corner(*v);
+    if (u == nullptr || v == nullptr) table.fail("'u' needs 'v', and 'v' needs 'u'", "give both");
+    const auto read = [this](const toml::node& node) { return expression(node); };
+    const std::vector<Expression> us = per_corner(*u, read), vs = per_corner(*v, read);
+    const std::vector<Expression>& shorter = us.size() < vs.size() ? us : vs;
     std::vector<TextureAt> result(std::max(us.size(), vs.size()));
-    const std::size_t written = us.size() == 1 ? us[0].code.size() : vs.size() == 1 ? vs[0].code.size() : 0;
-    if (us.size() != vs.size()) models_.count_copies(table.node(), result.size(), written);
-    for (std::size_t i = 0; i < result.size(); ++i) {
-      result[i] = {us.size() == 1 ? us[0] : us[i], vs.size() == 1 ? vs[0] : vs[i]};
+    if (us.size() != vs.size()) {
+      models_.count_copies(table.node(), result.size(), shorter[0].code.size());
     }
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = {us[i % us.size()], vs[i % vs.size()]};
     return result;
   }
 
@@ -124,33 +122,25 @@ class RuleReader {
     Section result;
     if (const toml::node* const move = table.find("move")) {
       if (move->is_array()) {
-        result.move = three(*move, "move");
+        result.move = several<3>(*move, "move");
       } else {
-        result.move[2] = models_.expression(*move, names_);
+        result.move[2] = expression(*move);
       }
     }
-    if (const toml::node* const turned = table.find("turn")) result.turn = three(*turned, "turn");
-    const auto optional = [&](std::string_view key, Expression& to) {
-      if (const toml::node* const value = table.find(key)) to = models_.expression(*value, names_);
-    };
-    optional("tropism", result.tropism);
-    optional("scale", result.scale);
-    optional("radius", result.radius);
+    if (const toml::node* const turned = table.find("turn")) result.turn = several<3>(*turned, "turn");
+    result.tropism = optional(table, "tropism");
+    result.scale = optional(table, "scale");
+    result.radius = optional(table, "radius");
     if (result.scale.given() && result.radius.given()) {
-      fail_at(table.node(), file_, "a section has both 'scale' and 'radius'",
-              "leave out one: both set its size");
+      table.fail("a section has both 'scale' and 'radius'", "leave out one: both set its size");
     }
-    if (const toml::node* const stretch = table.find("stretch")) {
-      const toml::array& pair = list_of(*stretch, file_, "stretch", 2);
-      result.stretch = {models_.expression(pair[0], names_), models_.expression(pair[1], names_)};
-    }
+    if (const toml::node* const by = table.find("stretch")) result.stretch = several<2>(*by, "stretch");
     result.texture = texture(table);
     result.crease = static_cast<int>(table.integer_or("crease", 0, 0, 100));
-    if (const toml::node* const sides = table.find("sides"); sides != nullptr && sides->is_array()) {
-      for (const toml::node& side : *sides->as_array()) result.sides.push_back(models_.choice(side, names_));
-      require_corners(*sides, result.sides.size());
+    if (const toml::node* const sides = table.find("sides")) {
+      result.sides = per_corner(*sides, [this](const toml::node& n) { return models_.choice(n, names_); });
     } else {
-      result.sides.push_back(sides == nullptr ? SymbolChoice{} : models_.choice(*sides, names_));
+      result.sides.emplace_back();
     }
     table.done();
     return result;
@@ -164,90 +154,60 @@ class RuleReader {
       rule_.replacement.cap = models_.choice(*cap, names_);
     if (const toml::node* const base = table_.find("base")) {
       Table table(*base, file_, "base");
-      rule_.replacement.base_texture = texture(table);
+      rule_.replacement.texture = texture(table);
       table.done();
     }
   }
 
   void mesh(const toml::node& faces) {
     Template& t = rule_.replacement;
-    t.corners = static_cast<std::uint32_t>(table_.find("corners") == nullptr
-                                               ? (fail_at(table_.node(), file_, "a rule without base",
-                                                          "say how many 'corners' its first face has"),
-                                                  0)
-                                               : table_.integer_or("corners", 0, 3, 1000));
+    table_.get("corners");
+    t.corners = static_cast<std::uint32_t>(table_.integer_or("corners", 0, 3, 1000));
     if (const toml::node* const vertices = table_.find("vertices")) {
       for (const toml::node& v : list_of(*vertices, file_, "vertices", 0)) t.vertices.push_back(vertex(v));
     }
-    t.first_corner.push_back(0);
-    for (const toml::node& face : list_of(faces, file_, "faces", 0)) {
-      for (const toml::node& corner : list_of(face, file_, "faces", 0)) {
-        t.face_corners.push_back(models_.vertex_index(corner, "faces"));
-      }
-      t.first_corner.push_back(static_cast<std::uint32_t>(t.face_corners.size()));
-    }
+    models_.read_faces(faces, t.mesh);
     face_symbols();
-    mesh_texture();
-    mesh_creases();
-    check_template(t, file_, place_of(faces));
+    if (const toml::node* const node = table_.find("texture")) {
+      for (const toml::node& at : list_of(*node, file_, "texture", t.corners + t.vertices.size())) {
+        const auto [u, v] = several<2>(at, "texture");
+        t.texture.push_back({u, v});
+      }
+    }
+    const subdivision::Topology topology = check_template(t, models_.where(faces));
+    if (const toml::node* const creases = table_.find("creases")) {
+      t.mesh.creases = models_.read_creases(*creases, topology);
+    }
   }
 
   TemplateVertex vertex(const toml::node& node) {
     TemplateVertex result;
     if (node.is_array()) {
-      result.offset = three(node, "vertices");
+      result.offset = several<3>(node, "vertices");
       return result;
     }
     Table table(node, file_, "vertices");
-    const toml::node& mix = table.get("mix");
-    for (const toml::node& weight : list_of(mix, file_, "mix", rule_.replacement.corners)) {
-      result.weights.push_back(models_.expression(weight, names_));
+    for (const toml::node& weight : table.list("mix", rule_.replacement.corners)) {
+      result.weights.push_back(expression(weight));
     }
-    if (const toml::node* const move = table.find("move")) result.offset = three(*move, "move");
+    if (const toml::node* const move = table.find("move")) result.offset = several<3>(*move, "move");
     table.done();
     return result;
   }
 
   void face_symbols() {
     Template& t = rule_.replacement;
-    const std::size_t faces = t.first_corner.size() - 1;
     const toml::node* const symbols = table_.find("symbols");
     if (symbols == nullptr) {
-      t.faces.resize(faces);
+      t.symbols.resize(t.mesh.faces());
     } else if (symbols->is_string()) {
       const SymbolChoice choice = models_.choice(*symbols, names_);
-      models_.count_copies(*symbols, faces, operations_of(choice));
-      t.faces.assign(faces, choice);
+      models_.count_copies(*symbols, t.mesh.faces(), operations_of(choice));
+      t.symbols.assign(t.mesh.faces(), choice);
     } else {
-      for (const toml::node& symbol : list_of(*symbols, file_, "symbols", faces)) {
-        t.faces.push_back(models_.choice(symbol, names_));
+      for (const toml::node& symbol : list_of(*symbols, file_, "symbols", t.mesh.faces())) {
+        t.symbols.push_back(models_.choice(symbol, names_));
       }
-      if (t.faces.size() != faces) fail_at(*symbols, file_, "'symbols' needs one per face", "add faces");
-    }
-  }
-
-  void mesh_texture() {
-    Template& t = rule_.replacement;
-    const toml::node* const node = table_.find("texture");
-    if (node == nullptr) return;
-    for (const toml::node& at : list_of(*node, file_, "texture", t.corners + t.vertices.size())) {
-      const toml::array& pair = list_of(at, file_, "texture", 2);
-      t.texture.push_back({models_.expression(pair[0], names_), models_.expression(pair[1], names_)});
-    }
-  }
-
-  void mesh_creases() {
-    Template& t = rule_.replacement;
-    const toml::node* const node = table_.find("creases");
-    if (node == nullptr) return;
-    const EdgeSet edges(t.first_corner, t.face_corners);
-    for (const toml::node& crease : list_of(*node, file_, "creases", 0)) {
-      const toml::array& three = list_of(crease, file_, "creases", 3);
-      std::uint32_t v[3];
-      for (std::size_t i = 0; i < 3; ++i) v[i] = models_.vertex_index(three[i], "creases");
-      if (!edges.contains(v[0], v[1]))
-        fail_at(crease, file_, fmt::format("no face has an edge from {} to {}", v[0], v[1]), "name an edge");
-      t.creases.push_back({v[0], v[1], static_cast<int>(std::min(v[2], 100U))});
     }
   }
 
@@ -266,8 +226,7 @@ void read_rules(ModelReader& models, const toml::node* node) {
   for (const toml::node& entry : list_of(*node, models.file, "rule", 0)) {
     rules.push_back(RuleReader(models, entry).run());
   }
-  std::stable_sort(rules.begin(), rules.end(),
-                   [](const Rule& a, const Rule& b) { return a.symbol < b.symbol; });
+  std::ranges::stable_sort(rules, {}, &Rule::symbol);
   for (std::uint32_t r = 0; r < rules.size(); ++r) {
     Symbol& symbol = models.model.system.symbols[rules[r].symbol];
     if (symbol.rules++ == 0) symbol.first_rule = r;

@@ -5,67 +5,54 @@
 #include <glm/geometric.hpp>
 
 #include "representations/procedural_mesh/model_reader.h"
-#include "terrain/error.h"
 
 namespace terrabench::growing {
 namespace {
 
-bool linear(Table& table, std::string_view key, const std::string& file) {
-  const std::string text = table.text_or(key, "standard");
-  if (text == "linear" || text == "standard") return text == "linear";
-  fail_at(*table.find(key), file, fmt::format("'{}' must be standard or linear, got '{}'", key, text),
-          "write one");
+// The index of a word; 0 where there is none.
+std::size_t word_or_first(Table& table, std::string_view key, std::span<const std::string_view> words) {
+  return table.has(key) ? table.word(key, words) : 0;
 }
 
-Displace displacement(ModelReader& models, const toml::node& node, const Names& names) {
+subdivision::Base placement(Table& table, std::string_view key) {
+  constexpr std::string_view kWords[] = {"standard", "linear"};
+  return static_cast<subdivision::Base>(word_or_first(table, key, kWords));
+}
+
+void displacement(ModelReader& models, const toml::node& node, const Names& names, Step& step) {
+  using namespace subdivision;
+  constexpr std::string_view kAxes[] = {"normal", "tangent", "bitangent"}, kUnits[] = {"scale", "metre"};
   Table table(node, models.file, "displace");
-  Displace result;
+  Displacement& result = step.placement.displacements.emplace_back();
   if (const toml::node* const along = table.find("along"); along != nullptr && along->is_array()) {
-    result.along = Displace::Along::kFixed;
-    result.direction = glm::vec3(table.vector_or("along", {0, 1, 0}));
+    result.axis = Axis::kFixed;
+    result.direction = table.vector<glm::vec3>("along");
     if (!(glm::length(result.direction) > 0))
       fail_at(*along, models.file, "'along' has no direction", "correct it");
   } else {
-    const std::string text = table.text_or("along", "normal");
-    constexpr std::string_view kAxes[] = {"normal", "tangent", "bitangent"};
-    const auto* const found = std::find(std::begin(kAxes), std::end(kAxes), text);
-    if (found == std::end(kAxes)) {
-      fail_at(*along, models.file, fmt::format("unknown direction '{}'", text),
-              "write normal, tangent, bitangent or [x, y, z]");
-    }
-    result.along = static_cast<Displace::Along>(found - std::begin(kAxes));
+    result.axis = static_cast<Axis>(word_or_first(table, "along", kAxes));
   }
-  const std::string unit = table.text_or("unit", "scale");
-  if (unit != "scale" && unit != "metre") {
-    fail_at(*table.find("unit"), models.file, fmt::format("unknown unit '{}'", unit), "write scale or metre");
-  }
-  result.by_scale = unit == "scale";
-  result.new_vertices = table.flag_or("new_only", false);
-  result.amount = models.expression(table.get("amount"), names);
+  result.by_scale = word_or_first(table, "unit", kUnits) == 0;
+  result.where = table.flag_or("new_only", false) ? Where::kNewVertices : Where::kEveryVertex;
+  step.amounts.push_back(models.expression(table.get("amount"), names));
   table.done();
-  return result;
 }
 
-void subdivision(ModelReader& models, Table& table, Step& step) {
+void read_subdivision(ModelReader& models, Table& table, Step& step) {
   step.levels = static_cast<std::uint32_t>(table.integer_or("subdivide", 1, 1, 20));
-  step.linear = linear(table, "place", models.file);
-  step.linear_texture = linear(table, "texture", models.file);
-  step.bound = table.number_or("bound", 0);
-  if (step.bound < 0) fail_at(*table.find("bound"), models.file, "'bound' must be 0 or more", "correct it");
+  step.placement.base = placement(table, "place");
+  step.placement.texture = placement(table, "texture");
+  const double bound = table.number_or("bound", 0, 0);
+  if (bound > 0) step.placement.bound = static_cast<float>(bound);
   const toml::node* const displace = table.find("displace");
   if (displace == nullptr) return;
   Names names(&models.constants);
   for (const std::string_view name : kVertexNames) names.add_variable(name, models.file, place_of(*displace));
-  if (displace->is_array()) {
-    for (const toml::node& entry : *displace->as_array()) {
-      step.displacements.push_back(displacement(models, entry, names));
-    }
-  } else {
-    step.displacements.push_back(displacement(models, *displace, names));
-  }
+  if (!displace->is_array()) return displacement(models, *displace, names, step);
+  for (const toml::node& entry : *displace->as_array()) displacement(models, entry, names, step);
 }
 
-void growth(ModelReader& models, Table& table, const toml::node& grow, Step& step) {
+void read_growth(ModelReader& models, Table& table, const toml::node& grow, Step& step) {
   if (grow.is_string()) {
     step.growth.to_the_end = text_of(grow, models.file, "grow") == "all";
     if (!step.growth.to_the_end)
@@ -73,17 +60,9 @@ void growth(ModelReader& models, Table& table, const toml::node& grow, Step& ste
   } else {
     step.growth.steps = static_cast<std::uint32_t>(table.integer_or("grow", 1, 1, 1'000'000));
   }
-  if (const toml::node* const only = table.find("only")) {
-    step.growth.only.assign(models.model.system.symbols.size(), false);
-    for (const toml::node& node : list_of(*only, models.file, "only", 0)) {
-      const std::string name = text_of(node, models.file, "only");
-      const std::optional<std::uint32_t> symbol = models.symbol(name);
-      if (!symbol || *symbol == kNoSymbol) {
-        fail_at(node, models.file, fmt::format("unknown symbol '{}'", name), "list it in [symbols]");
-      }
-      step.growth.only[*symbol] = true;
-    }
-  }
+  if (!table.has("only")) return;
+  step.growth.only.assign(models.model.system.symbols.size(), false);
+  for (const toml::node& node : table.list("only")) step.growth.only[models.symbol(node, "only")] = true;
 }
 
 }  // namespace
@@ -96,14 +75,13 @@ void read_steps(ModelReader& models, const toml::node* node) {
     step.place = place_of(entry);
     step.name = table.text_or("name", "");
     const toml::node* const grow = table.find("grow");
-    const toml::node* const levels = table.find("subdivide");
-    if ((grow == nullptr) == (levels == nullptr)) {
-      fail_at(entry, models.file, "a step must either grow or subdivide", "give it 'grow' or 'subdivide'");
+    if ((grow == nullptr) == !table.has("subdivide")) {
+      table.fail("a step must either grow or subdivide", "give it 'grow' or 'subdivide'");
     }
     if (grow != nullptr) {
-      growth(models, table, *grow, step);
+      read_growth(models, table, *grow, step);
     } else {
-      subdivision(models, table, step);
+      read_subdivision(models, table, step);
     }
     table.done();
     step.growth.limits = models.model.limits;

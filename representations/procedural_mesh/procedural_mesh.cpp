@@ -85,9 +85,9 @@ float spacing_of(const MeshDescription& description, const FaceMesh& mesh) {
   }
   double sum = 0;
   for (std::size_t f = 0; f < mesh.faces(); ++f) {
-    for (std::uint32_t c = mesh.first_corner[f]; c < mesh.first_corner[f + 1]; ++c) {
-      const std::uint32_t next = c + 1 < mesh.first_corner[f + 1] ? c + 1 : mesh.first_corner[f];
-      sum += glm::distance(mesh.positions[mesh.corners[c]], mesh.positions[mesh.corners[next]]);
+    const auto face = mesh.face(f);
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      sum += glm::distance(mesh.positions[face[k]], mesh.positions[face[(k + 1) % face.size()]]);
     }
   }
   return static_cast<float>(sum / static_cast<double>(std::max<std::size_t>(1, mesh.corners.size())));
@@ -144,7 +144,7 @@ ProceduralMesh::ProceduralMesh(MeshDescription description, const std::string& o
     : description_(std::move(description)), bounds_(description_.ground_bounds) {
   description_.model.shrink_to_fit();
   description_.ground.heights.shrink_to_fit();
-  FaceMesh polygons = expand(description_, origin);
+  FaceMesh polygons = description_.polygons(origin);
   spacing_ = spacing_of(description_, polygons);
   std::vector<Triangle> triangles = triangulate(polygons);
   columns_ = TriangleColumns(std::move(polygons.positions), std::move(triangles));
@@ -191,7 +191,8 @@ TriangleMesh ProceduralMesh::mesh(MeshDetail detail) const {
   if (columns_.triangles().empty()) return {};
   const double coarser = spacing_ > 0 && detail.cell > 0 ? std::log2(detail.cell / spacing_) : 0;
   if (!(coarser >= 1)) return close_down(columns_.positions(), columns_.triangles(), bounds_.low.y);
-  FaceMesh polygons = expand(description_, "model", static_cast<int>(std::min(coarser, double{kMostLevels})));
+  FaceMesh polygons =
+      description_.polygons("model", static_cast<int>(std::min(coarser, double{kMostLevels})));
   std::vector<Triangle> triangles = triangulate(polygons);
   return close_down(std::move(polygons.positions), std::move(triangles), bounds_.low.y);
 }

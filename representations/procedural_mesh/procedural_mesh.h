@@ -38,14 +38,13 @@ struct MeshDescription {
   int leave_out = 0;  // of the last subdivisions, of the plane and of the model
 
   bool has_ground() const { return !ground.x.empty(); }
+  // Expanded; so many more of the last levels are left out, as far as there are levels. `origin` names the
+  // model in errors. Throws what parse_model() and growing::expand() throw.
+  FaceMesh polygons(const std::string& origin, int leave_out_more = 0) const;
   // With `largest_error` as Representation::encode() does.
   void save(ByteSink&, std::optional<double> largest_error = {}) const;
   static MeshDescription load(ByteSource&, bool encoded = false);
 };
-
-// The polygons that a description gives; `leave_out` more of the last levels are left out, as far as there
-// are levels. `origin` names the model in errors. Throws what parse_model() and expand() throw.
-FaceMesh expand(const MeshDescription&, const std::string& origin, int leave_out = 0);
 
 class ProceduralMesh final : public Representation {
  public:
@@ -54,7 +53,7 @@ class ProceduralMesh final : public Representation {
   static std::unique_ptr<Representation> build(const TerrainSource&, const Parameters&, Progress&);
   static std::unique_ptr<Representation> load(ByteSource&);
   static std::unique_ptr<Representation> decode(ByteSource&);
-  // Throws as expand(), and bad_input for a model whose open sheets look down.
+  // Throws as polygons(), and bad_input for a model whose open sheets look down.
   ProceduralMesh(MeshDescription, const std::string& origin);
 
   const MeshDescription& description() const { return description_; }
@@ -62,7 +61,7 @@ class ProceduralMesh final : public Representation {
   std::size_t expanded_bytes() const { return columns_.memory().total(); }
   const TriangleColumns& columns() const { return columns_; }
   // The polygons, expanded once more.
-  FaceMesh polygons() const override { return expand(description_, "model"); }
+  FaceMesh polygons() const override { return description_.polygons("model"); }
 
   void spans(Columns where, SpanSink& out) const override;
   // The triangles that spans() crosses; sheets are closed by walls and a floor. Watertight, but parts that

@@ -3,7 +3,6 @@
 // Arguments: quadrilaterals along the side of the base, levels. vs_opensubdiv is the ratio of the fastest
 // wall times in the same run, for positions beside its OpenMP evaluator: above 1 we are faster.
 #include <benchmark/benchmark.h>
-#include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/stencilTableFactory.h>
 #include <opensubdiv/far/topologyDescriptor.h>
 #include <opensubdiv/osd/cpuEvaluator.h>
@@ -19,7 +18,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "representations/procedural_mesh/subdivision/refinement.h"
+#include "representations/procedural_mesh/base_mesh.h"
+#include "representations/procedural_mesh/subdivision/subdivide.h"
 #include "terrain/memory.h"
 
 namespace {
@@ -30,27 +30,12 @@ namespace Far = OpenSubdiv::Far;
 namespace Osd = OpenSubdiv::Osd;
 using OpenMeshPolygons = OpenMesh::PolyMesh_ArrayKernelT<>;
 
-FaceMesh bumpy_grid(std::uint32_t n) {
-  FaceMesh mesh;
-  for (std::uint32_t j = 0; j <= n; ++j) {
-    for (std::uint32_t i = 0; i <= n; ++i) {
-      const auto x = static_cast<float>(i), z = static_cast<float>(j);
-      mesh.positions.push_back({x, std::sin(x * 0.7F) * std::cos(z * 0.9F), z});
-    }
-  }
-  mesh.first_corner = {0};
-  for (std::uint32_t j = 0; j < n; ++j) {
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const std::uint32_t a = j * (n + 1) + i, b = a + n + 1;
-      mesh.corners.insert(mesh.corners.end(), {a, b, b + 1, a + 1});
-      mesh.first_corner.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
-    }
-  }
-  return mesh;
-}
-
 FaceMesh base_of(const benchmark::State& state) {
-  return bumpy_grid(static_cast<std::uint32_t>(state.range(0)));
+  const auto n = static_cast<std::uint32_t>(state.range(0));
+  FaceMesh mesh = growing::plane(glm::dvec2(n), n, n).mesh;
+  mesh.texture.clear();
+  for (glm::vec3& p : mesh.positions) p.y = std::sin(p.x * 0.7F) * std::cos(p.z * 0.9F);
+  return mesh;
 }
 int levels_of(const benchmark::State& state) { return static_cast<int>(state.range(1)); }
 
@@ -151,16 +136,6 @@ std::unique_ptr<const Far::StencilTable> stencils_of(const Far::TopologyRefiner&
   return std::unique_ptr<const Far::StencilTable>(Far::StencilTableFactory::Create(refiner, options));
 }
 
-void opensubdiv_topology(benchmark::State& state) {
-  const FaceMesh base = base_of(state);
-  std::size_t vertices = 0;
-  for (auto _ : state) {
-    const auto refiner = refine_by_opensubdiv(base, levels_of(state));
-    vertices = static_cast<std::size_t>(refiner->GetLevel(levels_of(state)).GetNumVertices());
-  }
-  count(state, vertices, quads_of(state));
-}
-
 void opensubdiv_tables(benchmark::State& state) {
   const FaceMesh base = base_of(state);
   std::size_t vertices = 0;
@@ -187,32 +162,6 @@ void opensubdiv_positions(benchmark::State& state) {
     g_opensubdiv_positions[{state.range(0), state.range(1)}] = best;
   }
   count(state, out.size(), quads_of(state));
-}
-
-struct PrimvarPoint {
-  glm::vec3 at{0};
-  void Clear() { at = glm::vec3(0); }
-  void AddWithWeight(const PrimvarPoint& p, float w) { at += p.at * w; }
-};
-
-// Level by level from the topology alone, as ours, on one thread.
-void opensubdiv_primvar_refiner(benchmark::State& state) {
-  const FaceMesh base = base_of(state);
-  const int levels = levels_of(state);
-  const auto refiner = refine_by_opensubdiv(base, levels);
-  const Far::PrimvarRefiner primvar(*refiner);
-  std::vector<std::vector<PrimvarPoint>> points(1);
-  for (const glm::vec3& p : base.positions) points[0].push_back({p});
-  for (int l = 1; l <= levels; ++l) {
-    points.emplace_back(static_cast<std::size_t>(refiner->GetLevel(l).GetNumVertices()));
-  }
-  for (auto _ : state) {
-    for (int l = 1; l <= levels; ++l) {
-      primvar.Interpolate(l, points[static_cast<std::size_t>(l - 1)], points[static_cast<std::size_t>(l)]);
-    }
-    benchmark::ClobberMemory();
-  }
-  count(state, points.back().size(), quads_of(state));
 }
 
 void openmesh(benchmark::State& state) {
@@ -242,9 +191,7 @@ void sizes(benchmark::internal::Benchmark* bench) {
 }
 BENCHMARK(opensubdiv_positions<Osd::CpuEvaluator>)->Apply(sizes);
 BENCHMARK(opensubdiv_positions<Osd::OmpEvaluator>)->Apply(sizes);
-BENCHMARK(opensubdiv_primvar_refiner)->Apply(sizes);
 BENCHMARK(positions)->Apply(sizes);
-BENCHMARK(opensubdiv_topology)->Apply(sizes);
 BENCHMARK(opensubdiv_tables)->Apply(sizes);
 BENCHMARK(tables)->Apply(sizes);
 BENCHMARK(whole)->Apply(sizes);

@@ -28,7 +28,7 @@ TEST(LazyForest, ACacheForOnePartAtATimeGivesTheSamePicture) {
   const HeapScope heap;
   LazyForest large(forest, levels, std::size_t{1} << 30);
   const CoherentPicture picture = trace_coherent(large.parts(), view, {.samples = 2, .bounces = 1});
-  const Expanded all = large.expanded();
+  const growing::Expanded all = large.expanded();
   EXPECT_EQ(all.cache.evictions, 0U);
   EXPECT_EQ(all.cache.misses, all.parts);
   EXPECT_EQ(all.again, 0U);
@@ -81,7 +81,7 @@ TEST(ForestPlants, KeepTheirCoverWithFewerLeaves) {
     if (seen[model]) continue;
     seen[model] = true;
     auto covered = [&, view = View{}](std::size_t level) mutable {
-      const ModelMesh mesh = triangles_of(plants.expand(i, level).mesh);
+      const ModelMesh mesh = triangles_of(plants.mesh(i, level).mesh);
       if (view.target.y == 0) view = overview(bounds_of(mesh.mesh), 96, 96, {0, 0.3F, 1});
       RayScene scene;
       scene.add_placed({.mesh = &mesh.mesh});

@@ -1,25 +1,53 @@
-// The models of "meshgrow" as triangles, and the levels that leave out steps.
-#include <gmock/gmock.h>
+// The models of "meshgrow" as triangles, the fork of a trunk, and the levels that leave out steps.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <set>
 #include <string>
 
 #include "experiments/experiment.h"
+#include "experiments/meshgrow/fork.h"
 #include "experiments/meshgrow/models.h"
 #include "terrain/error.h"
 
 namespace terrabench::meshgrow {
 namespace {
 
+growing::Model model(const std::string& name) {
+  return growing::parse_model(growing::model_text(name), name);
+}
+
+TEST(Fork, SharedVerticesGetTheMeanOfBothBranches) {
+  const Fork fork = find_fork(model("fork_ridges"), "branch");
+  ASSERT_EQ(fork.faces.size(), 2U);
+  ASSERT_EQ(fork.shared.size(), 2U);
+  EXPECT_EQ(fork.shared[0].alone, (std::array{0.0, 0.5}));
+  EXPECT_EQ(fork.shared[1].alone, (std::array{0.5, 1.0}));
+  EXPECT_EQ(fork.shared[0].u, 0.25);
+  EXPECT_EQ(fork.shared[1].u, 0.75);
+  EXPECT_EQ(fork.others, 4);
+  EXPECT_EQ(fork.others_changed, 0);
+}
+
+TEST(Fork, SectionsAreAsLongAsTheirRulesSay) {
+  constexpr std::array<std::string_view, 2> kStems{"trunk", "branch"};
+  const std::vector<StemSection> sections = sections_along(model("forking_trunk"), kStems);
+  ASSERT_EQ(sections.size(), 12U);  // 3 of the trunk, then 5 and 4 of the branches
+  for (const StemSection& section : sections) {
+    EXPECT_NEAR(section.length, section.symbol == "trunk" ? 0.7 : 0.55, 1e-5);
+    EXPECT_NEAR(section.end_v - section.v, section.length, 1e-5);
+  }
+  EXPECT_TRUE(sections_along(model("cactus"), std::span(kStems).last(1)).empty());
+}
+
+TEST(Fork, IsMissingWithoutBranches) { EXPECT_THROW(find_fork(model("cactus"), "none such"), Error); }
+
 TEST(MeshgrowModelFigures, PolygonsKeepTheirEdgesAsWires) {
   FaceMesh faces;  // a kite, whose diagonal from corner 1 to 3 is the shorter one, and a triangle
   faces.positions = {{0, 0, 0}, {2, 0, 1}, {6, 0, 0}, {2, 0, -1}, {7, 0, -3}};
-  faces.first_corner = {0, 4, 7};
-  faces.corners = {0, 1, 2, 3, 3, 2, 4};
+  faces.add_face({0, 1, 2, 3});
+  faces.add_face({3, 2, 4});
   faces.symbols = {5, 6};
   const ModelMesh mesh = triangles_of(faces);
   EXPECT_EQ(mesh.mesh.indices, (std::vector<std::uint32_t>{1, 2, 3, 1, 3, 0, 3, 2, 4}));
@@ -34,8 +62,8 @@ TEST(MeshgrowModelFigures, OnlySharpEdgesHaveSeveralNormals) {
     FaceMesh ridge;  // two quadrilaterals that meet at an edge
     ridge.positions = {{-1, 0, 0}, {-1, 0, 1}, {0, rise, 1}, {0, rise, 0}, {1, 0, 1}, {1, 0, 0}};
     ridge.texture.assign(6, glm::vec2(0));
-    ridge.first_corner = {0, 4, 8};
-    ridge.corners = {0, 1, 2, 3, 3, 2, 4, 5};
+    ridge.add_face({0, 1, 2, 3});
+    ridge.add_face({3, 2, 4, 5});
     const ModelMesh mesh = triangles_of(ridge);
     EXPECT_EQ(mesh.texture.size(), mesh.mesh.positions.size());
     return mesh.mesh.normals;
@@ -47,22 +75,6 @@ TEST(MeshgrowModelFigures, OnlySharpEdgesHaveSeveralNormals) {
   EXPECT_NEAR(flat[0].y, 1 / std::sqrt(1.04F), 1e-6F);
   ASSERT_EQ(sharp.size(), 8U);
   for (const glm::vec3& normal : sharp) EXPECT_NEAR(normal.y, 1 / std::sqrt(5.0F), 1e-6F);
-}
-
-TEST(MeshgrowModelFigures, LeavingOutTheSpikesRemovesThemAlone) {
-  const growing::Model model = growing::parse_model(growing::model_text("cactus"), "cactus");
-  const auto symbols = [&](const growing::ExpandOptions& options) {
-    std::multiset<std::string> names;
-    for (const std::uint32_t symbol : triangles_of(growing::expand(model, options).mesh).symbols) {
-      names.insert(model.system.symbols[symbol].name);
-    }
-    return names;
-  };
-  growing::ExpandOptions without;
-  without.leave_out = {"spikes"};
-  EXPECT_GT(symbols({}).count("spike"), 1000U);
-  EXPECT_EQ(symbols(without).count("spike"), 0U);
-  EXPECT_GT(symbols(without).count("skin"), 1000U);
 }
 
 TEST(MeshgrowModelFigures, EveryLevelLeavesOutStepsOfAPaintedModel) {

@@ -1,56 +1,16 @@
-// Models of mesh growing as terrain: columns beside rays that Embree traces, and the command line.
+// Models of mesh growing as terrain, by the command line.
 #include <gmock/gmock.h>
 
 #include <filesystem>
 #include <fstream>
-#include <random>
 
-#include "renderers/raytrace/ray_index.h"
 #include "representations/procedural_mesh/mesh_files.h"
-#include "representations/procedural_mesh/model.h"
-#include "representations/procedural_mesh/procedural_mesh.h"
 #include "tests/experiments/command_line.h"
 
 namespace terrabench {
 namespace {
 
 using ::testing::HasSubstr;
-
-// Rays along an edge or past a silhouette may go either way.
-TEST(ProceduralTerrain, ColumnsBeginAndEndWhereEmbreesRaysHit) {
-  for (const char* const name : {"fractal_plane", "cactus", "forking_trunk"}) {
-    MeshDescription description;
-    const std::string_view text = growing::model_text(name);
-    description.model.assign(text.begin(), text.end());
-    description.leave_out = 1;
-    const ProceduralMesh built(std::move(description), name);
-    const TriangleMesh mesh = built.mesh({});
-    const RayIndex index(mesh);
-    const Bounds bounds = built.bounds();
-    const float above = bounds.high.y + 1, below = bounds.low.y - 1, near = 1e-4F * bounds.size().y;
-    std::mt19937 random(4);
-    std::uniform_real_distribution<float> unit(-0.02F, 1.02F);
-    int alike = 0, solid = 0;
-    constexpr int kColumns = 4000;
-    for (int n = 0; n < kColumns; ++n) {
-      const float x = bounds.low.x + unit(random) * bounds.size().x,
-                  z = bounds.low.z + unit(random) * bounds.size().z;
-      SpanSink sink;
-      built.spans({{&x, 1}, {&z, 1}}, sink);
-      const RayHit down = index.closest({.origin = {x, above, z}, .direction = {0, -1, 0}}),
-                   up = index.closest({.origin = {x, below, z}, .direction = {0, 1, 0}});
-      if (sink.all().empty() || !down.hit() || !up.hit()) {
-        alike += sink.all().empty() && !down.hit() && !up.hit();
-        continue;
-      }
-      ++solid;
-      alike += std::abs(sink.all().back().top - (above - down.distance)) < near &&
-               std::abs(sink.all().front().bottom - (below + up.distance)) < near;
-    }
-    EXPECT_GE(alike, kColumns - 8) << name;
-    EXPECT_GT(solid, kColumns / 20) << name;
-  }
-}
 
 class ProceduralCommands : public CommandLine {};
 

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <cmath>
-#include <initializer_list>
+#include <numbers>
 #include <string>
 #include <vector>
 
-#include "representations/procedural_mesh/face_mesh.h"
+#include "representations/procedural_mesh/base_mesh.h"
 
 namespace terrabench {
 
@@ -20,52 +20,40 @@ inline FaceMesh mesh_of(std::vector<glm::vec3> positions, const Faces& faces) {
     positions[i] += 0.2F * glm::vec3(std::sin(1 + 7 * x), std::sin(2 + 5 * x), std::sin(3 + 3 * x));
   }
   mesh.positions = std::move(positions);
-  mesh.first_corner = {0};
-  for (const auto& face : faces) {
-    mesh.corners.insert(mesh.corners.end(), face.begin(), face.end());
-    mesh.first_corner.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
-  }
+  for (const auto& face : faces) mesh.add_face(face);
   return mesh;
 }
+inline FaceMesh shaken(const FaceMesh& mesh) {
+  Faces faces;
+  for (std::size_t f = 0; f < mesh.faces(); ++f) faces.emplace_back(mesh.face(f).begin(), mesh.face(f).end());
+  return mesh_of(mesh.positions, faces);
+}
+inline glm::vec3 on_circle(double turn, double radius, double height) {
+  const double angle = 2 * std::numbers::pi * turn;
+  return {radius * std::cos(angle), height, radius * std::sin(angle)};
+}
 
-inline std::vector<glm::vec3> cube_corners() {
-  return {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
-}
-inline FaceMesh cube() {
-  return mesh_of(cube_corners(),
-                 {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}});
-}
-inline FaceMesh open_box() {
-  return mesh_of(cube_corners(), {{0, 3, 2, 1}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}});
+inline FaceMesh cube(bool open = false) {
+  Faces faces{{0, 3, 2, 1}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  if (!open) faces.insert(faces.begin() + 1, {4, 5, 6, 7});
+  return mesh_of(
+      {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}},
+      faces);
 }
 inline FaceMesh tetrahedron() {
   return mesh_of({{0, 1, 0}, {1, -1, 1}, {-1, -1, 1}, {0, -1, -1}},
                  {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}});
 }
-// Quadrilaterals over x and z, facing up, `n` by `n`.
-inline FaceMesh grid(std::uint32_t n) {
-  std::vector<glm::vec3> positions;
-  Faces faces;
-  for (std::uint32_t j = 0; j <= n; ++j) {
-    for (std::uint32_t i = 0; i <= n; ++i) positions.push_back({i, 0, j});
-  }
-  for (std::uint32_t j = 0; j < n; ++j) {
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const std::uint32_t a = j * (n + 1) + i, b = a + n + 1;
-      faces.push_back({a, b, b + 1, a + 1});
-    }
-  }
-  return mesh_of(std::move(positions), faces);
-}
+// Quadrilaterals over x and z, facing up, `n` by `n`, a metre wide.
+inline FaceMesh grid(std::uint32_t n) { return shaken(growing::plane(glm::dvec2(n), n, n).mesh); }
 // Closed and regular: every vertex has four faces.
 inline FaceMesh torus(std::uint32_t n, std::uint32_t m) {
   std::vector<glm::vec3> positions;
   Faces faces;
   for (std::uint32_t i = 0; i < n; ++i) {
-    const double a = 6.283185307179586 * i / n;
     for (std::uint32_t j = 0; j < m; ++j) {
-      const double b = 6.283185307179586 * j / m, r = 3 + std::cos(b);
-      positions.push_back({r * std::cos(a), std::sin(b), r * std::sin(a)});
+      const glm::vec3 around = on_circle(1.0 * j / m, 1, 0);
+      positions.push_back(on_circle(1.0 * i / n, 3 + around.x, around.z));
       const std::uint32_t k = (i + 1) % n, l = (j + 1) % m;
       faces.push_back({i * m + j, i * m + l, k * m + l, k * m + j});
     }
@@ -77,8 +65,7 @@ inline FaceMesh pyramid(std::uint32_t n) {
   std::vector<glm::vec3> positions;
   Faces faces(1);
   for (std::uint32_t i = 0; i < n; ++i) {
-    const double a = 6.283185307179586 * i / n;
-    positions.push_back({2 * std::cos(a), 0, 2 * std::sin(a)});
+    positions.push_back(on_circle(1.0 * i / n, 2, 0));
     faces[0].push_back(i);
     faces.push_back({i, n, (i + 1) % n});
   }
@@ -89,10 +76,8 @@ inline FaceMesh pyramid(std::uint32_t n) {
 inline FaceMesh star(std::uint32_t n) {
   std::vector<glm::vec3> positions{{0, 1, 0}};
   Faces faces;
-  for (std::uint32_t i = 0; i < 2 * n; ++i) {
-    const double a = 3.141592653589793 * i / n, r = i % 2 == 0 ? 1 : 1.5;
-    positions.push_back({r * std::cos(a), 0, -r * std::sin(a)});
-  }
+  for (std::uint32_t i = 0; i < 2 * n; ++i)
+    positions.push_back(on_circle(-0.5 * i / n, i % 2 == 0 ? 1 : 1.5, 0));
   for (std::uint32_t i = 0; i < n; ++i) faces.push_back({0, 2 * i + 1, 2 * i + 2, (2 * i + 2) % (2 * n) + 1});
   return mesh_of(std::move(positions), faces);
 }
@@ -118,7 +103,7 @@ inline std::vector<Shape> shapes() {
           {"tetrahedron", tetrahedron()},
           {"one face", grid(1)},
           {"grid", grid(3)},
-          {"open box", open_box()},
+          {"open box", cube(true)},
           {"torus", torus(5, 4)},
           {"pyramid", pyramid(7)},
           {"star", star(5)},

@@ -25,9 +25,7 @@ inline std::string error_of(const std::string& text) {
 inline GrownMesh grown(const std::string& text) { return expand(parse_model(text, "m")); }
 
 inline std::string faults(const FaceMesh& mesh, bool closed = true) {
-  MeshCheckOptions options;
-  options.boundary_meant = !closed;
-  const MeshReport report = check_mesh(mesh, options);
+  const MeshReport report = check_mesh(mesh, {.boundary_meant = !closed});
   return report.faults() == 0 ? "" : report.first.at(0);
 }
 

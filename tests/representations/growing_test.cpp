@@ -42,19 +42,6 @@ TEST(Growing, ATemplateIsAlignedWithItsFace) {
   EXPECT_EQ(std::count(mesh.mesh.symbols.begin(), mesh.mesh.symbols.end(), 2U), 1);
 }
 
-TEST(Growing, FigureNineTextureCoordinatesAtTheForkAreExact) {
-  Model model = parse_model(model_text("forking_trunk"), "forking_trunk");
-  int quarters = 0, three_quarters = 0, others = 0;
-  for (const glm::vec2 t : expand(model, {.leave_out = {"smooth"}}).mesh.texture) {
-    quarters += t.x == (0.0F + 0.5F) / 2;
-    three_quarters += t.x == (0.5F + 1.0F) / 2;
-    others += t.x != 0 && t.x != 0.5F && t.x != 1 && t.x != 0.25F && t.x != 0.75F;
-  }
-  EXPECT_EQ(quarters, 1);
-  EXPECT_EQ(three_quarters, 1);
-  EXPECT_EQ(others, 0);
-}
-
 TEST(Growing, TropismBendsTowardsTheWorldsUpAndStopsThere) {
   for (const auto& [degrees, expected] : {std::pair{30, 0.5}, {400, 1.0}, {-30, -0.5}, {0, 0.0}}) {
     const GrownMesh mesh =
@@ -115,10 +102,13 @@ bool same(const GrownMesh& a, const GrownMesh& b) {
          a.mesh.symbols == b.mesh.symbols && a.parameters == b.parameters;
 }
 
-TEST(Growing, IsTheSameForEveryNumberOfThreadsAndDependsOnTheSeed) {
-  for (const char* const name : {"bush_tupelo", "cactus", "fractal_plane"}) {
+TEST(Growing, IsTheSameForEveryNumberOfThreadsAndStepByStepAndDependsOnTheSeed) {
+  for (const char* const name : {"branch_aspen", "bush_tupelo", "cactus", "fractal_plane"}) {
     Model model = parse_model(model_text(name), name);
     const GrownMesh many = expand(model);
+    std::size_t steps = 0;
+    EXPECT_TRUE(same(expand(model, {.after_step = [&](const GrownMesh&, auto) { ++steps; }}), many)) << name;
+    EXPECT_GT(steps, model.steps.size() + 1) << name;
     {
       const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
       EXPECT_TRUE(same(expand(model), many)) << name;
@@ -184,8 +174,9 @@ TEST(Growing, AThousandRandomRuleSystemsStayWellFormedAtEveryStep) {
     const Model model = parse_model(text, "random");
     const bool closed = text.find("plane") == std::string::npos;
     try {
-      const GrownMesh mesh = expand(
-          model, {.after_step = [&](const GrownMesh& m) { ASSERT_EQ(faults(m.mesh, closed), "") << text; }});
+      const GrownMesh mesh = expand(model, {.after_step = [&](const GrownMesh& m, auto) {
+                                      ASSERT_EQ(faults(m.mesh, closed), "") << text;
+                                    }});
       grew += mesh.mesh.faces() > model.base.faces() + 4;
     } catch (const Error& e) {
       EXPECT_THAT(e.what(), testing::AnyOf(testing::HasSubstr("20000"), testing::HasSubstr("degenerate")))

@@ -8,34 +8,29 @@
 #include <random>
 #include <stdexcept>
 
+#include "tests/terrain/errors.h"
+
 namespace terrabench::growing {
 namespace {
 
-// What exists of all parts of a test, in and out of the cache.
-struct Living {
-  std::atomic<std::size_t> bytes{0}, made{0};
-};
+std::size_t bytes_of(std::uint64_t key) { return 10 + key * 7 % 23; }
 
-class Part {
- public:
-  Part(Living& living, std::uint64_t key, std::size_t bytes) : key(key), living_(living), bytes_(bytes) {}
+std::atomic<std::size_t> g_living{0};  // bytes of the parts that were used and still exist
+
+struct Part {
+  explicit Part(std::uint64_t key) : key(key) {}
   ~Part() {
-    if (counted_) living_.bytes -= bytes_;
+    if (used) g_living -= bytes();
   }
-  // The cache asks when the part is complete, before it makes room.
-  std::size_t bytes() const { return bytes_; }
-  void count() const {
-    if (!counted_.exchange(true)) living_.bytes += bytes_;
+  std::size_t bytes() const { return bytes_of(key); }
+  void use() const {
+    if (!used.exchange(true)) g_living += bytes();
   }
   const std::uint64_t key;
-
- private:
-  Living& living_;
-  std::size_t bytes_;
-  mutable std::atomic<bool> counted_{false};
+  mutable std::atomic<bool> used{false};
 };
 
-std::size_t bytes_of(std::uint64_t key) { return 10 + key * 7 % 23; }
+std::unique_ptr<Part> part_of(std::uint64_t key) { return std::make_unique<Part>(key); }
 
 // A plain list of keys, from the one used last.
 class Oracle {
@@ -68,7 +63,6 @@ class Oracle {
 };
 
 TEST(PartCache, DropsWhatWasUsedLeastRecently) {
-  Living living;
   PartCache<Part> cache(200);
   Oracle oracle(200);
   std::mt19937 random(3);
@@ -76,8 +70,7 @@ TEST(PartCache, DropsWhatWasUsedLeastRecently) {
     const std::uint64_t key = random() % (step % 1000 < 500 ? 12 : 60);
     oracle.use(key);
     cache.with(
-        key, [&] { return std::make_unique<Part>(living, key, bytes_of(key)); },
-        [&](const Part& part) { EXPECT_EQ(part.key, key); });
+        key, [&] { return part_of(key); }, [&](const Part& part) { EXPECT_EQ(part.key, key); });
     ASSERT_EQ(cache.order(), oracle.order) << "step " << step;
     ASSERT_EQ(cache.bytes(), oracle.bytes());
   }
@@ -88,20 +81,19 @@ TEST(PartCache, DropsWhatWasUsedLeastRecently) {
   EXPECT_LE(cache.counts().peak_bytes, 200U);
 }
 
-// Parts in use count themselves: the sum of those that exist in the cache never exceeds the bound, and a part
-// lives while it is used.
+// Parts in use count: those that exist in the cache never exceed the bound, and a part lives while it is
+// used.
 TEST(PartCache, HoldsItsBoundAtEveryMomentWithManyThreads) {
-  Living living;
   constexpr std::size_t kMost = 100;
   PartCache<Part> cache(kMost);
   std::atomic<std::size_t> over{0}, wrong{0};
   tbb::parallel_for(0, 8000, [&](int i) {
     const std::uint64_t key = static_cast<std::uint64_t>(i) * 2654435761U % 40;
     cache.with(
-        key, [&] { return std::make_unique<Part>(living, key, bytes_of(key)); },
+        key, [&] { return part_of(key); },
         [&](const Part& part) {
-          part.count();
-          if (living.bytes > kMost || cache.bytes() > kMost) ++over;
+          part.use();
+          if (g_living > kMost || cache.bytes() > kMost) ++over;
           if (part.key != key) ++wrong;
         });
   });
@@ -112,53 +104,41 @@ TEST(PartCache, HoldsItsBoundAtEveryMomentWithManyThreads) {
 }
 
 TEST(PartCache, MakesAPartOnceForAllThreadsThatWait) {
-  Living living;
   PartCache<Part> cache(1000);
-  tbb::parallel_for(0, 64, [&](int) {
-    cache.with(
-        7,
-        [&] {
-          ++living.made;
-          return std::make_unique<Part>(living, 7, 10);
-        },
-        [](const Part&) {});
-  });
-  EXPECT_EQ(living.made, 1U);
+  std::atomic<int> made{0};
+  const auto make = [&] { return ++made, part_of(7); };
+  tbb::parallel_for(0, 64, [&](int) { cache.with(7, make, [](const Part&) {}); });
+  EXPECT_EQ(made, 1);
 }
 
 TEST(PartCache, APartThatExceedsTheBoundIsAnError) {
-  Living living;
-  PartCache<Part> cache(9);
+  PartCache<Part> cache(bytes_of(0));
   bool used = false;
-  try {
+  const auto use = [&](const Part&) { used = true; };
+  const Failure failure = failure_of([&] {
     cache.with(
-        1, [&] { return std::make_unique<Part>(living, 1, 10); }, [&](const Part&) { used = true; });
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("10 bytes does not fit into a cache of 9 bytes"),
-              std::string::npos)
-        << error.what();
-  }
+        1, [] { return part_of(1); }, use);
+  });
+  EXPECT_NE(failure.what.find("a part of 17 bytes does not fit into a cache of 10 bytes"), std::string::npos)
+      << failure.what;
   EXPECT_FALSE(used);
   EXPECT_EQ(cache.bytes(), 0U);
   cache.with(
-      1, [&] { return std::make_unique<Part>(living, 1, 9); }, [&](const Part&) { used = true; });
+      0, [] { return part_of(0); }, use);
   EXPECT_TRUE(used);
 }
 
 TEST(PartCache, AFailureLeavesNoTrace) {
-  Living living;
-  PartCache<Part> cache(100);
+  PartCache<Part> cache(20);
   const auto fails = []() -> std::unique_ptr<Part> { throw std::runtime_error("no"); };
+  const auto make = [] { return part_of(1); };
   EXPECT_THROW(cache.with(1, fails, [](const Part&) {}), std::runtime_error);
-  EXPECT_FALSE(cache.holds(1));
-  const auto make = [&] { return std::make_unique<Part>(living, 1, 60); };
+  EXPECT_TRUE(cache.order().empty());
   EXPECT_THROW(cache.with(1, make, [](const Part&) { throw std::runtime_error("no"); }), std::runtime_error);
   // It is no longer in use, so it makes room.
   cache.with(
-      2, [&] { return std::make_unique<Part>(living, 2, 60); }, [](const Part&) {});
-  EXPECT_FALSE(cache.holds(1));
-  EXPECT_TRUE(cache.holds(2));
+      0, [] { return part_of(0); }, [](const Part&) {});
+  EXPECT_EQ(cache.order(), std::vector<std::uint64_t>{0});
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <regex>
 
 #include "terrain/error.h"
 
@@ -28,18 +29,11 @@ DetailModel cactus() { return make_detail_model(model_text("cactus"), "cactus", 
 float flat(float, float) { return 0; }
 
 PlantedScene planted(std::uint64_t count) {
-  Planting planting;
-  planting.count = count;
-  planting.shares = {1, 1};
-  return {{fork(), cactus()}, scatter(planting, flat)};
+  return {{fork(), cactus()}, scatter({.count = count, .shares = {1, 1}}, flat)};
 }
 
 void expect_equal(const GrownMesh& a, const GrownMesh& b) {
-  ASSERT_EQ(a.mesh.positions.size(), b.mesh.positions.size());
-  for (std::size_t v = 0; v < a.mesh.positions.size(); ++v) {
-    ASSERT_EQ(a.mesh.positions[v], b.mesh.positions[v]) << v;
-    ASSERT_EQ(a.mesh.texture[v], b.mesh.texture[v]) << v;
-  }
+  EXPECT_TRUE(a.mesh.positions == b.mesh.positions && a.mesh.texture == b.mesh.texture);
   EXPECT_EQ(a.mesh.corners, b.mesh.corners);
   EXPECT_EQ(a.mesh.first_corner, b.mesh.first_corner);
   EXPECT_EQ(a.mesh.symbols, b.mesh.symbols);
@@ -53,10 +47,8 @@ TEST(PlantedScene, ExpandsAnInstanceAsTheEagerExpansionDoesBitForBit) {
     const std::string_view name = instance.model == 0 ? "fork_ridges_random" : "cactus";
     Model model = parse_model(model_text(name), std::string(name));
     model.system.seed = instance.seed;
-    expect_equal(scene.expand(i, 0), expand(model));
-    ExpandOptions options;
-    options.leave_out = {instance.model == 0 ? "ridges" : "spikes"};
-    expect_equal(scene.expand(i, 1), expand(model, options));
+    expect_equal(scene.mesh(i, 0), expand(model));
+    expect_equal(scene.mesh(i, 1), expand(model, {.leave_out = {instance.model == 0 ? "ridges" : "spikes"}}));
   }
 }
 
@@ -65,7 +57,7 @@ TEST(PlantedScene, ForeseesTheFacesAndABoxOfEveryExpansion) {
   std::uint64_t total = 0;
   for (std::size_t i = 0; i < 24; ++i) {
     for (std::size_t l = 0; l < scene.levels(i); ++l) {
-      const GrownMesh mesh = scene.expand(i, l);
+      const GrownMesh mesh = scene.mesh(i, l);
       EXPECT_EQ(mesh.mesh.faces(), scene.faces(i, l)) << i << " " << l;
       EXPECT_EQ(beyond(box_of(mesh.mesh.positions), scene.local_box(i)), 0) << i << " " << l;
       if (l == 0) total += mesh.mesh.faces();
@@ -80,18 +72,14 @@ TEST(PlantedScene, ForeseesTheFacesAndABoxOfEveryExpansion) {
   EXPECT_NE(scene.instances()[0].seed, scene.instances()[1].seed);
 }
 
-// The model's own constants are exchanged in its text; a model written with them must agree.
+// A model that is written with these constants must agree.
 TEST(PlantedScene, ALevelWithOtherConstantsIsTheModelWithThem) {
   const std::string text(model_text("branch_aspen"));
   const std::array levels{DetailLevel{}, DetailLevel{.constants = {{"Leaves", 6}, {"LeafScale", 0.5}}}};
   const DetailModel model = make_detail_model(text, "branch_aspen", levels);
-  std::string changed = text;
-  for (const auto& [from, to] : {std::pair<std::string, std::string>{"\nLeaves = ", "\nLeaves = 6 # "},
-                                 {"\nLeafScale = ", "\nLeafScale = 0.5 # "}}) {
-    const std::size_t at = changed.find(from);
-    ASSERT_NE(at, std::string::npos);
-    changed.replace(at, from.size(), to);
-  }
+  const std::string changed =
+      std::regex_replace(std::regex_replace(text, std::regex("\nLeaves = "), "\nLeaves = 6 # "),
+                         std::regex("\nLeafScale = "), "\nLeafScale = 0.5 # ");
   const GrownMesh mesh = expand_seed(model.levels[1], 5);
   expect_equal(mesh, expand_seed(parse_model(changed, "changed"), 5));
   EXPECT_LT(mesh.mesh.faces(), expand_seed(model.levels[0], 5).mesh.faces());
@@ -112,11 +100,7 @@ TEST(PlantedScene, IsTheSameForEveryNumberOfThreads) {
 }
 
 TEST(PlantedScene, LevelsGetCoarserWithDistance) {
-  Planting planting;
-  planting.count = 1;
-  planting.side = 1;
-  planting.shares = {1};
-  const PlantedScene scene({fork()}, scatter(planting, flat));
+  const PlantedScene scene({fork()}, scatter({.count = 1, .side = 1, .shares = {1}}, flat));
   View view;
   view.height = 600;
   view.far = 1e6F;
@@ -142,58 +126,51 @@ TEST(PlantedScene, LevelsGetCoarserWithDistance) {
 
 TEST(PlantedScene, TheCoarsestLevelThatHasEnoughFacesIsChosen) {
   const std::array<std::uint32_t, 3> faces{1000, 100, 10};
-  EXPECT_EQ(coarsest_level(faces, 10, 1), 2U);
-  EXPECT_EQ(coarsest_level(faces, 10.5, 1), 1U);
-  EXPECT_EQ(coarsest_level(faces, 101, 1), 0U);
-  EXPECT_EQ(coarsest_level(faces, 5000, 1), 0U);
-  EXPECT_EQ(coarsest_level(faces, 400, 2), 1U);
-  EXPECT_EQ(coarsest_level(faces, std::numeric_limits<double>::infinity(), 1), 0U);
-  EXPECT_EQ(coarsest_level(faces, std::numeric_limits<double>::quiet_NaN(), 1), 0U);
+  const std::tuple<double, double, std::size_t> known[] = {{10, 1, 2},
+                                                           {10.5, 1, 1},
+                                                           {101, 1, 0},
+                                                           {5000, 1, 0},
+                                                           {400, 2, 1},
+                                                           {std::numeric_limits<double>::infinity(), 1, 0},
+                                                           {std::numeric_limits<double>::quiet_NaN(), 1, 0}};
+  for (const auto& [disc, spacing, level] : known)
+    EXPECT_EQ(coarsest_level(faces, disc, spacing), level) << disc;
 }
 
 TEST(PlantedScene, RefusesWhatItCannotPlant) {
-  Planting planting;
-  planting.shares = {1};
-  planting.count = 1'000'000'000;
-  EXPECT_THROW(scatter(planting, flat), Error);  // before it allocates: this takes no time
-  planting.count = UINT64_MAX;
-  EXPECT_THROW(scatter(planting, flat), Error);
-  planting.count = 0;
-  EXPECT_TRUE(scatter(planting, flat).empty());
+  const auto refused = [](std::uint64_t count, std::vector<double> shares, float side = 100) {
+    EXPECT_THROW(scatter({.count = count, .side = side, .shares = std::move(shares)}, flat), Error);
+  };
+  refused(1'000'000'000, {1});  // before it allocates: this takes no time
+  refused(UINT64_MAX, {1});
+  refused(1, {-1, 1});
+  refused(1, {});
+  refused(1, {1}, std::numeric_limits<float>::quiet_NaN());
+  EXPECT_TRUE(scatter({.count = 0, .shares = {1}}, flat).empty());
   const PlantedScene empty({fork()}, {});
   EXPECT_EQ(empty.total_faces(), 0U);
   EXPECT_TRUE(empty.choose_levels({}, {}).empty());
-  planting.count = 1;
-  planting.shares = {-1, 1};
-  EXPECT_THROW(scatter(planting, flat), Error);
-  planting.shares = {};
-  EXPECT_THROW(scatter(planting, flat), Error);
-  planting.shares = {1};
-  planting.side = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THROW(scatter(planting, flat), Error);
-  EXPECT_THROW(PlantedScene({fork()}, {{.model = 1}}), Error);
-  EXPECT_THROW(PlantedScene({fork()}, {{.scale = 0}}), Error);
-  EXPECT_THROW(PlantedScene({fork()}, {{.position = glm::vec3(NAN)}}), Error);
+  for (const Instance& wrong : {Instance{.model = 1}, {.scale = 0}, {.position = glm::vec3(NAN)}}) {
+    EXPECT_THROW(PlantedScene({fork()}, {wrong}), Error);
+  }
 }
 
 TEST(PlantedScene, RefusesLevelsThatTheModelDoesNotHave) {
-  const auto make = [](const DetailLevel& level) {
-    make_detail_model(model_text("cactus"), "cactus", std::array{level});
+  const std::string cactus(model_text("cactus")), prism = "\n[base]\nshape = \"prism\"\n";
+  const auto make = [](const std::string& text, const DetailLevel& level) {
+    make_detail_model(text, "m", std::array{level});
   };
-  EXPECT_THROW(make({.leave_out = {"needles"}}), Error);
-  EXPECT_THROW(make({.fewer_subdivisions = 1}), Error);  // its last step grows
-  EXPECT_THROW(make({.constants = {{"Leaves", 3}}}), Error);
-  EXPECT_THROW(make_detail_model(model_text("cactus"), "cactus", {}), Error);
-  const auto set_leaves = [](const std::string& constants, double to) {
-    const std::array levels{DetailLevel{.constants = {{"Leaves", to}}}};
-    make_detail_model(constants + "\n[base]\nshape = \"prism\"\nsides = 4\nradius = 1\nheight = 1\n", "m",
-                      levels);
-  };
-  EXPECT_NO_THROW(set_leaves("[constants]\na = 1\nLeaves = 8 # of a twig", 3));
-  EXPECT_NO_THROW(set_leaves("constants = { a = 2, Leaves = 8.5, b = 3 }", 3.25));
-  EXPECT_THROW(set_leaves("[constants]\nLeaves = \"2*4\"", 3), Error);  // an expression
-  EXPECT_THROW(set_leaves("[constants]\nLeaves = [8, 9]", 3), Error);
-  EXPECT_THROW(set_leaves("[constants]\nLeaves = 8", NAN), Error);
+  EXPECT_THROW(make(cactus, {.leave_out = {"needles"}}), Error);
+  EXPECT_THROW(make(cactus, {.fewer_subdivisions = 1}), Error);  // its last step grows
+  EXPECT_THROW(make_detail_model(cactus, "m", {}), Error);
+  const DetailLevel three{.constants = {{"Leaves", 3}}};
+  EXPECT_NO_THROW(make("[constants]\na = 1\nLeaves = 8 # of a twig" + prism, three));
+  EXPECT_NO_THROW(make("constants = { a = 2, Leaves = 8.5, b = 3 }" + prism, three));
+  for (const std::string& text :
+       {cactus, "[constants]\nLeaves = \"2*4\"" + prism, "[constants]\nLeaves = [8, 9]" + prism}) {
+    EXPECT_THROW(make(text, three), Error) << text;
+  }
+  EXPECT_THROW(make("[constants]\nLeaves = 8" + prism, {.constants = {{"Leaves", NAN}}}), Error);
   // From coarse to fine.
   const std::array wrong{kForkLevels[1], kForkLevels[0]};
   const std::string name = "fork_ridges_random";

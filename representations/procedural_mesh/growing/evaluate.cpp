@@ -1,9 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include "representations/procedural_mesh/growing/expression.h"
-#include "representations/procedural_mesh/growing/operations.h"
 #include "terrain/splitmix.h"
 
 namespace terrabench::growing {
@@ -11,88 +11,6 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-double one(Code code, double a) {
-  switch (code) {
-    case Code::kTruth:
-      return a != 0 ? 1 : 0;
-    case Code::kNegate:
-      return -a;
-    case Code::kNot:
-      return a == 0 ? 1 : 0;
-    case Code::kSin:
-      return std::sin(a * kDegree);
-    case Code::kCos:
-      return std::cos(a * kDegree);
-    case Code::kTan:
-      return std::tan(a * kDegree);
-    case Code::kAsin:
-      return std::asin(a) / kDegree;
-    case Code::kAcos:
-      return std::acos(a) / kDegree;
-    case Code::kSqrt:
-      return std::sqrt(a);
-    case Code::kAbs:
-      return std::abs(a);
-    case Code::kFloor:
-      return std::floor(a);
-    case Code::kCeil:
-      return std::ceil(a);
-    case Code::kRound:
-      return std::round(a);
-    case Code::kSign:
-      return a > 0 ? 1 : a < 0 ? -1 : 0;
-    case Code::kExp:
-      return std::exp(a);
-    case Code::kLog:
-      return std::log(a);
-    default:
-      return kNaN;
-  }
-}
-
-double two(Code code, double a, double b) {
-  switch (code) {
-    case Code::kAdd:
-      return a + b;
-    case Code::kSubtract:
-      return a - b;
-    case Code::kMultiply:
-      return a * b;
-    case Code::kDivide:
-      return b == 0 ? kNaN : a / b;
-    case Code::kModulo:
-      return b == 0 ? kNaN : a - b * std::floor(a / b);
-    case Code::kPower:
-      return std::pow(a, b);
-    case Code::kLess:
-      return a < b ? 1 : 0;
-    case Code::kLessOrEqual:
-      return a <= b ? 1 : 0;
-    case Code::kGreater:
-      return a > b ? 1 : 0;
-    case Code::kGreaterOrEqual:
-      return a >= b ? 1 : 0;
-    case Code::kEqual:
-      return a == b ? 1 : 0;
-    case Code::kNotEqual:
-      return a != b ? 1 : 0;
-    case Code::kAtan2:
-      return std::atan2(a, b) / kDegree;
-    case Code::kMin:
-      return std::min(a, b);
-    case Code::kMax:
-      return std::max(a, b);
-    default:
-      return kNaN;
-  }
-}
-
-double three(Code code, double a, double b, double c) {
-  if (code == Code::kClamp) return b > c ? kNaN : std::min(std::max(a, b), c);
-  if (code == Code::kMix) return a + (b - a) * c;
-  return gradient_noise(a, b, c);
-}
 
 double gradient(std::uint64_t hash, double x, double y, double z) {
   // The 12 edges of a cube, four of them twice.
@@ -123,6 +41,54 @@ double gradient_noise(double x, double y, double z) {
   return std::lerp(plane(0), plane(1), w);
 }
 
+std::span<const Function> functions() {
+  using Arguments = const double*;
+  static constexpr Function kAll[] = {
+      {"sin", 1, [](Arguments a) { return std::sin(a[0] * kDegree); }},
+      {"cos", 1, [](Arguments a) { return std::cos(a[0] * kDegree); }},
+      {"tan", 1, [](Arguments a) { return std::tan(a[0] * kDegree); }},
+      {"asin", 1, [](Arguments a) { return std::asin(a[0]) / kDegree; }},
+      {"acos", 1, [](Arguments a) { return std::acos(a[0]) / kDegree; }},
+      {"atan2", 2, [](Arguments a) { return std::atan2(a[0], a[1]) / kDegree; }},
+      {"sqrt", 1, [](Arguments a) { return std::sqrt(a[0]); }},
+      {"abs", 1, [](Arguments a) { return std::abs(a[0]); }},
+      {"floor", 1, [](Arguments a) { return std::floor(a[0]); }},
+      {"ceil", 1, [](Arguments a) { return std::ceil(a[0]); }},
+      {"round", 1, [](Arguments a) { return std::round(a[0]); }},
+      {"sign", 1, [](Arguments a) { return a[0] > 0   ? 1.0
+                                           : a[0] < 0 ? -1.0
+                                                      : 0.0; }},
+      {"exp", 1, [](Arguments a) { return std::exp(a[0]); }},
+      {"log", 1, [](Arguments a) { return std::log(a[0]); }},
+      {"min", 2, [](Arguments a) { return std::min(a[0], a[1]); }},
+      {"max", 2, [](Arguments a) { return std::max(a[0], a[1]); }},
+      {"clamp", 3, [](Arguments a) { return a[1] > a[2] ? kNaN : std::min(std::max(a[0], a[1]), a[2]); }},
+      {"mix", 3, [](Arguments a) { return a[0] + (a[1] - a[0]) * a[2]; }},
+      {"noise", 3, [](Arguments a) { return gradient_noise(a[0], a[1], a[2]); }},
+      {"random", 0, nullptr, Code::kRandom},
+      {"random", 2, nullptr, Code::kRandomBetween}};
+  return kAll;
+}
+
+// A sign that begins with another one comes first.
+std::span<const Function> signs() {
+  using Arguments = const double*;
+  static constexpr Function kAll[] = {
+      {"<=", 2, [](Arguments a) { return a[0] <= a[1] ? 1.0 : 0.0; }, Code::kCall, 0},
+      {">=", 2, [](Arguments a) { return a[0] >= a[1] ? 1.0 : 0.0; }, Code::kCall, 0},
+      {"==", 2, [](Arguments a) { return a[0] == a[1] ? 1.0 : 0.0; }, Code::kCall, 0},
+      {"!=", 2, [](Arguments a) { return a[0] != a[1] ? 1.0 : 0.0; }, Code::kCall, 0},
+      {"<", 2, [](Arguments a) { return a[0] < a[1] ? 1.0 : 0.0; }, Code::kCall, 0},
+      {">", 2, [](Arguments a) { return a[0] > a[1] ? 1.0 : 0.0; }, Code::kCall, 0},
+      {"+", 2, [](Arguments a) { return a[0] + a[1]; }, Code::kCall, 1},
+      {"-", 2, [](Arguments a) { return a[0] - a[1]; }, Code::kCall, 1},
+      {"*", 2, [](Arguments a) { return a[0] * a[1]; }, Code::kCall, 2},
+      {"/", 2, [](Arguments a) { return a[1] == 0 ? kNaN : a[0] / a[1]; }, Code::kCall, 2},
+      {"%", 2, [](Arguments a) { return a[1] == 0 ? kNaN : a[0] - a[1] * std::floor(a[0] / a[1]); },
+       Code::kCall, 2}};
+  return kAll;
+}
+
 double evaluate(const Expression& expression, const Values& values) {
   std::array<double, kMostStack> stack;
   double* top = stack.data();  // the next free entry
@@ -130,7 +96,7 @@ double evaluate(const Expression& expression, const Values& values) {
   const std::size_t size = expression.code.size();
   for (std::size_t at = 0; at < size; ++at) {
     const Operation& operation = code[at];
-    switch (static_cast<Code>(operation.code)) {
+    switch (operation.code) {
       case Code::kNumber:
         *top++ = operation.value;
         continue;
@@ -156,16 +122,9 @@ double evaluate(const Expression& expression, const Values& values) {
         --top;
         top[-1] += (*top - top[-1]) * random_share(values.random, operation.where);
         break;
-      default:
-        if (operation.arguments == 1) {
-          top[-1] = one(static_cast<Code>(operation.code), top[-1]);
-        } else if (operation.arguments == 2) {
-          --top;
-          top[-1] = two(static_cast<Code>(operation.code), top[-1], *top);
-        } else {
-          top -= 2;
-          top[-1] = three(static_cast<Code>(operation.code), top[-1], top[0], top[1]);
-        }
+      case Code::kCall:
+        top -= operation.arguments - 1;
+        top[-1] = operation.call(top - 1);
     }
     if (!std::isfinite(top[-1])) return kNaN;
   }

@@ -42,7 +42,6 @@ class Names {
   void add_table(std::string_view name, std::vector<double> values, const std::string& file, Place place);
 
   struct Entry {
-    std::string name;
     bool table;
     std::uint32_t first, count;  // the slot, or where the table lies in tables()
   };
@@ -54,17 +53,43 @@ class Names {
  private:
   void check(std::string_view name, const std::string& file, Place place) const;
   const Names* outer_ = nullptr;
-  std::vector<Entry> entries_;  // in the order in which they were added
-  std::map<std::string, std::size_t, std::less<>> numbers_;
+  std::map<std::string, Entry, std::less<>> entries_;
   std::vector<double> tables_;
   std::uint32_t variables_ = 0;
 };
 
-struct Operation {
-  std::uint16_t code = 0, arguments = 0;
-  std::uint32_t where = 0;  // slot, first entry of a table, jump target or number of a random()
-  double value = 0;         // a number; the size of a table
+enum class Code : std::uint16_t {
+  kNumber,
+  kVariable,
+  kTable,      // replaces an index by the entry
+  kJump,       // always
+  kJumpIfNot,  // pops
+  kRandom,
+  kRandomBetween,
+  kCall,  // of a function of the topmost numbers, which its value replaces
 };
+struct Operation {
+  Code code = Code::kNumber;
+  std::uint16_t arguments = 0;
+  std::uint32_t where = 0;  // slot, first entry of a table, jump target or number of a random()
+  union {
+    double value = 0;  // a number; the size of a table
+    double (*call)(const double* arguments);
+  };
+};
+
+// What an expression may call, by a name or by a sign between two numbers. Signs of a higher level bind
+// first; those of a level from left to right.
+struct Function {
+  std::string_view name;
+  std::uint16_t arguments;
+  double (*call)(const double* arguments);
+  Code code = Code::kCall;
+  int level = -1;  // of a sign: 0 to kLevels - 1
+};
+inline constexpr int kLevels = 3;
+std::span<const Function> functions();
+std::span<const Function> signs();
 
 struct Expression {
   std::vector<Operation> code;  // empty: not given
@@ -79,6 +104,10 @@ struct Values {
   std::span<const double> variables, tables;
   std::uint64_t random = 0;
 };
+
+// What is said of a value that is none.
+inline constexpr std::string_view kNotFinite = "the value is not a finite number",
+                                  kKeepInRange = "check the divisors, and keep every value in its range";
 
 // The value, or NaN where any operation on the way divides by zero, overflows, leaves a function's domain or
 // a table's range. O(operations), no allocation.
@@ -115,14 +144,15 @@ class Reader {
   void choice();
   void either();
   void both();
-  void comparison();
-  void sum();
-  void product();
+  void binary(int level);
   void unary();
   void primary();
   void number();
   void function(std::string_view name, std::size_t begin);
-  std::uint32_t emit(Operation, int pushes);
+  std::size_t emit(Operation, int pushes);
+  void call(double (*)(const double*), std::uint16_t arguments);
+  std::size_t jump(Code code) { return emit({.code = code, .value = 0}, -1); }
+  void jump_here(std::size_t from) { code_[from].where = static_cast<std::uint32_t>(code_.size()); }
   Expression read(void (Reader::*rule)());
   void skip_space();
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "representations/procedural_mesh/growing/expression.h"
-#include "representations/procedural_mesh/growing/operations.h"
 #include "terrain/error.h"
 
 namespace terrabench::growing {
@@ -24,48 +23,39 @@ void Names::check(std::string_view name, const std::string& file, Place place) c
   if (!identifier) {
     throw bad_input(fmt::format("'{}' cannot be a name", name), where, "use letters, digits and underscores");
   }
-  const bool function = std::any_of(std::begin(kFunctions), std::end(kFunctions),
-                                    [&](const FunctionName& f) { return f.name == name; });
-  if (function || find(name) != nullptr) {
+  if (std::ranges::count(functions(), name, &Function::name) > 0 || find(name) != nullptr) {
     throw bad_input(fmt::format("the name '{}' is already in use", name), where, "choose another name");
   }
 }
 
 std::uint32_t Names::add_variable(std::string_view name, const std::string& file, Place place) {
   check(name, file, place);
-  numbers_.emplace(name, entries_.size());
-  entries_.push_back({std::string(name), false, variables_, 1});
+  entries_.emplace(name, Entry{false, variables_, 1});
   return variables_++;
 }
 
 void Names::add_table(std::string_view name, std::vector<double> values, const std::string& file,
                       Place place) {
   check(name, file, place);
-  numbers_.emplace(name, entries_.size());
-  entries_.push_back({std::string(name), true, static_cast<std::uint32_t>(tables_.size()),
-                      static_cast<std::uint32_t>(values.size())});
+  entries_.emplace(name, Entry{true, static_cast<std::uint32_t>(tables_.size()),
+                               static_cast<std::uint32_t>(values.size())});
   tables_.insert(tables_.end(), values.begin(), values.end());
 }
 
 const Names::Entry* Names::find(std::string_view name) const {
-  const auto found = numbers_.find(name);
-  if (found != numbers_.end()) return &entries_[found->second];
+  const auto found = entries_.find(name);
+  if (found != entries_.end()) return &found->second;
   return outer_ == nullptr ? nullptr : outer_->find(name);
 }
 
 std::vector<std::string_view> Names::known() const {
   std::vector<std::string_view> names;
   if (outer_ != nullptr) names = outer_->known();
-  for (const Entry& entry : entries_) names.push_back(entry.name);
+  for (const auto& [name, entry] : entries_) names.push_back(name);
   return names;
 }
 
-Expression constant(double value, Place place) {
-  Expression result;
-  result.code.push_back({static_cast<std::uint16_t>(Code::kNumber), 0, 0, value});
-  result.place = place;
-  return result;
-}
+Expression constant(double value, Place place) { return {{{.value = value}}, place}; }
 
 void Reader::fail(std::string_view what, std::string_view advice) const {
   const Place here = place();
@@ -108,14 +98,18 @@ std::string_view Reader::identifier() {
 }
 
 // The stack's depth is followed in the order of the code; both ways of a choice leave one number.
-std::uint32_t Reader::emit(Operation operation, int pushes) {
+std::size_t Reader::emit(Operation operation, int pushes) {
   if (code_.size() == kMostOperations) {
     fail(fmt::format("an expression must have at most {} operations", kMostOperations), "shorten it");
   }
   stack_ += pushes;
   if (stack_ > kMostStack) fail("the expression is nested too deeply", "shorten it");
   code_.push_back(operation);
-  return static_cast<std::uint32_t>(code_.size() - 1);
+  return code_.size() - 1;
+}
+
+void Reader::call(double (*function)(const double*), std::uint16_t arguments) {
+  emit({.code = Code::kCall, .arguments = arguments, .call = function}, 1 - arguments);
 }
 
 Expression Reader::read(void (Reader::*rule)()) {
@@ -132,89 +126,65 @@ Expression Reader::read(void (Reader::*rule)()) {
 Expression Reader::expression() { return read(&Reader::choice); }
 Expression Reader::condition() { return read(&Reader::either); }
 
-namespace {
-
-Operation operation(Code code, int arguments = 0, std::uint32_t where = 0, double value = 0) {
-  return {static_cast<std::uint16_t>(code), static_cast<std::uint16_t>(arguments), where, value};
-}
-
-}  // namespace
-
 void Reader::choice() {
   if (++nesting_ > kMostNesting) fail("the expression is nested too deeply", "shorten it");
   either();
   if (take("?")) {
-    const std::uint32_t to_second = emit(operation(Code::kJumpIfNot), -1);
+    const std::size_t to_second = jump(Code::kJumpIfNot);
     choice();
-    const std::uint32_t to_end = emit(operation(Code::kJump), -1);
+    const std::size_t to_end = jump(Code::kJump);
     expect(":");
-    code_[to_second].where = static_cast<std::uint32_t>(code_.size());
+    jump_here(to_second);
     choice();
-    code_[to_end].where = static_cast<std::uint32_t>(code_.size());
+    jump_here(to_end);
   }
   --nesting_;
 }
 
+namespace {
+
+double truth(const double* a) { return a[0] != 0 ? 1 : 0; }
+
+}  // namespace
+
 void Reader::either() {
   both();
   while (take("||")) {
-    const std::uint32_t to_second = emit(operation(Code::kJumpIfNot), -1);
-    emit(operation(Code::kNumber, 0, 0, 1), 1);
-    const std::uint32_t to_end = emit(operation(Code::kJump), -1);
-    code_[to_second].where = static_cast<std::uint32_t>(code_.size());
+    const std::size_t to_second = jump(Code::kJumpIfNot);
+    emit({.value = 1}, 1);
+    const std::size_t to_end = jump(Code::kJump);
+    jump_here(to_second);
     both();
-    emit(operation(Code::kTruth, 1), 0);
-    code_[to_end].where = static_cast<std::uint32_t>(code_.size());
+    call(truth, 1);
+    jump_here(to_end);
   }
 }
 
 void Reader::both() {
-  comparison();
+  binary(0);
   while (take("&&")) {
-    const std::uint32_t to_false = emit(operation(Code::kJumpIfNot), -1);
-    comparison();
-    emit(operation(Code::kTruth, 1), 0);
-    const std::uint32_t to_end = emit(operation(Code::kJump), -1);
-    code_[to_false].where = static_cast<std::uint32_t>(code_.size());
-    emit(operation(Code::kNumber), 1);
-    code_[to_end].where = static_cast<std::uint32_t>(code_.size());
+    const std::size_t to_false = jump(Code::kJumpIfNot);
+    binary(0);
+    call(truth, 1);
+    const std::size_t to_end = jump(Code::kJump);
+    jump_here(to_false);
+    emit({.value = 0}, 1);
+    jump_here(to_end);
   }
 }
 
-void Reader::comparison() {
-  sum();
-  constexpr std::pair<std::string_view, Code> kSigns[] = {
-      {"<=", Code::kLessOrEqual}, {">=", Code::kGreaterOrEqual},
-      {"==", Code::kEqual},       {"!=", Code::kNotEqual},
-      {"<", Code::kLess},         {">", Code::kGreater}};
-  for (const auto& [sign, code] : kSigns) {
-    if (!take(sign)) continue;
-    sum();
-    emit(operation(code, 2), -1);
-    return;
-  }
-}
-
-void Reader::sum() {
-  product();
-  while (true) {
-    const bool plus = take("+");
-    if (!plus && !take("-")) return;
-    product();
-    emit(operation(plus ? Code::kAdd : Code::kSubtract, 2), -1);
-  }
-}
-
-void Reader::product() {
-  unary();
-  while (true) {
-    const Code code = take("*")   ? Code::kMultiply
-                      : take("/") ? Code::kDivide
-                      : take("%") ? Code::kModulo
-                                  : Code::kNumber;
-    if (code == Code::kNumber) return;
-    unary();
-    emit(operation(code, 2), -1);
+// What is joined by the signs of this level or higher ones. Comparisons, of level 0, do not follow one
+// another.
+void Reader::binary(int level) {
+  if (level == kLevels) return unary();
+  binary(level + 1);
+  const auto next = [&] {
+    return std::ranges::find_if(signs(), [&](const Function& s) { return s.level == level && take(s.name); });
+  };
+  for (auto sign = next(); sign != signs().end(); sign = next()) {
+    binary(level + 1);
+    call(sign->call, 2);
+    if (level == 0) return;
   }
 }
 
@@ -223,15 +193,15 @@ void Reader::unary() {
   skip_space();
   if (take("-")) {
     unary();
-    emit(operation(Code::kNegate, 1), 0);
+    call([](const double* a) { return -a[0]; }, 1);
   } else if (!text_.substr(at_).starts_with("!=") && take("!")) {
     unary();
-    emit(operation(Code::kNot, 1), 0);
+    call([](const double* a) { return a[0] == 0 ? 1.0 : 0.0; }, 1);
   } else {
     primary();
     if (take("^")) {
       unary();
-      emit(operation(Code::kPower, 2), -1);
+      call([](const double* a) { return std::pow(a[0], a[1]); }, 2);
     }
   }
   --nesting_;
@@ -244,7 +214,7 @@ void Reader::number() {
   if (error != std::errc() || !std::isfinite(value))
     fail("the number is not valid", "correct the expression");
   at_ += static_cast<std::size_t>(end - begin);
-  emit(operation(Code::kNumber, 0, 0, value), 1);
+  emit({.value = value}, 1);
 }
 
 void Reader::function(std::string_view name, std::size_t begin) {
@@ -257,18 +227,18 @@ void Reader::function(std::string_view name, std::size_t begin) {
     expect(")");
   }
   bool known = false;
-  for (const FunctionName& f : kFunctions) {
+  for (const Function& f : functions()) {
     if (f.name != name) continue;
     known = true;
     if (f.arguments != arguments) continue;
-    const bool random = f.code == Code::kRandom || f.code == Code::kRandomBetween;
-    emit(operation(f.code, f.arguments, random ? random_number_++ : 0), 1 - arguments);
+    if (f.code == Code::kCall) return call(f.call, f.arguments);
+    emit({.code = f.code, .where = random_number_++, .value = 0}, 1 - arguments);
     return;
   }
   at_ = begin;
   if (known) fail(fmt::format("'{}' does not take {} arguments", name, arguments), "see docs/models.md");
   std::vector<std::string_view> names;
-  for (const FunctionName& f : kFunctions) names.push_back(f.name);
+  for (const Function& f : functions()) names.push_back(f.name);
   fail(fmt::format("unknown function '{}'", name), fmt::format("known: {}", fmt::join(names, ", ")));
 }
 
@@ -290,14 +260,14 @@ void Reader::primary() {
     fail(fmt::format("unknown name '{}'", name), fmt::format("known: {}", fmt::join(names_.known(), ", ")));
   }
   if (!entry->table) {
-    emit(operation(Code::kVariable, 0, entry->first), 1);
+    emit({.code = Code::kVariable, .where = entry->first, .value = 0}, 1);
   } else if (entry->count == 1 && !text_.substr(at_).starts_with("[")) {
-    emit(operation(Code::kNumber, 0, 0, names_.tables()[entry->first]), 1);
+    emit({.value = names_.tables()[entry->first]}, 1);
   } else {
     expect("[");
     choice();
     expect("]");
-    emit(operation(Code::kTable, 1, entry->first, entry->count), 0);
+    emit({.code = Code::kTable, .where = entry->first, .value = static_cast<double>(entry->count)}, 0);
   }
 }
 

@@ -37,8 +37,8 @@ struct Limits {
   std::size_t made() const { return 100 * faces + 1'000'000; }
 };
 
-// A mesh whose faces have not grown yet. `mesh.symbols` is per face; arguments[f] are those of its symbol.
-// Throws bad_input if a growing face is degenerate.
+// A mesh whose faces have not grown yet and have areas. `mesh.symbols` is per face; arguments[f] are those of
+// its symbol.
 GrownMesh plant(const RuleSystem&, FaceMesh mesh, const std::vector<std::vector<double>>& arguments);
 
 struct GrowOptions {
@@ -52,10 +52,5 @@ struct GrowOptions {
 // is not a finite number, a new face would be degenerate, a template does not fit its face, or a limit is
 // exceeded; the mesh is then unusable. O(new faces + old faces). In parallel.
 std::size_t grow(const RuleSystem&, GrownMesh&, const GrowOptions&);
-
-// After a refinement gave each face of `before` one quadrilateral per corner, in the order of faces and
-// corners: the state of each new face. It keeps the symbol and its parameters; its frame is that of its own
-// shape. `refined.symbols` and `refined.texture` are set where they are empty.
-GrownMesh refined_states(const RuleSystem&, const GrownMesh& before, FaceMesh refined);
 
 }  // namespace terrabench::growing

@@ -70,13 +70,12 @@ struct Template {
   // Either sections and a cap,
   std::vector<Section> sections;
   SymbolChoice cap;
-  std::vector<TextureAt> base_texture;  // none, or one per corner
-  // or a mesh: vertices 0 … corners - 1 are those of the base.
+  // or a mesh: faces and creases among vertices, of which 0 … corners - 1 are those of the base.
   std::vector<TemplateVertex> vertices;
-  std::vector<std::uint32_t> first_corner, face_corners;
-  std::vector<SymbolChoice> faces;
-  std::vector<TextureAt> texture;  // none, or one per vertex, the base's first
-  std::vector<Crease> creases;
+  FaceMesh mesh;
+  std::vector<SymbolChoice> symbols;  // of its faces
+  // Of the vertices, the base's first: none, or one per vertex; for sections, of the base alone.
+  std::vector<TextureAt> texture;
   bool extruded() const { return !sections.empty(); }
 };
 
@@ -84,7 +83,7 @@ struct Rule {
   std::uint32_t symbol = kNoSymbol;
   Expression when, probability;    // not given: always, 1
   std::vector<Expression> locals;  // stored in slots first_local, first_local + 1, …
-  std::uint32_t first_local = 0, slots = 0;
+  std::uint32_t first_local = 0;
   Template replacement;
   Place place;
 };
@@ -126,11 +125,5 @@ struct RuleSystem {
   std::vector<double> tables;   // constants that expressions index
   std::uint64_t seed = 0;
 };
-
-// Checks what a mesh template of a rule needs so that growing keeps a mesh well formed (§4): no degenerate
-// face; every edge of the base is used once, in its direction; every other edge by two faces in opposite
-// directions and not between two corners of the base; the faces around every vertex form one fan. Then an
-// expansion adds no T-vertex, no hole and no non-manifold edge. Throws bad_input with the rule's place.
-void check_template(const Template&, const std::string& file, Place place);
 
 }  // namespace terrabench::growing

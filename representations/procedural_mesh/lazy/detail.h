@@ -12,11 +12,6 @@
 
 namespace terrabench::growing {
 
-struct ConstantChange {
-  std::string name;  // of a number among the model's constants
-  double value = 0;
-};
-
 // How a level differs from the whole model.
 struct DetailLevel {
   std::vector<std::string> leave_out{};  // names of steps
@@ -34,8 +29,8 @@ struct DetailModel {
   std::vector<std::uint32_t> growth;  // per level, the first level with the same growing steps and constants
 };
 
-// Parses the model once per level. Throws as parse_model(); unknown_name for a step or a constant that the
-// model does not have; usage_error for no level, or more subdivisions left out than there are.
+// Parses the model once per level. Throws as parse_model(); unknown_name for a step that the model does not
+// have; usage_error for no level, or more subdivisions left out than there are.
 DetailModel make_detail_model(std::string_view text, const std::string& name, std::span<const DetailLevel>);
 
 // A model's expansion with another seed. Same for every number of threads. Throws as expand().

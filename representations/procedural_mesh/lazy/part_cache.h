@@ -45,16 +45,10 @@ class PartCache {
     use(std::as_const(pin.value()));
   }
 
-  bool holds(Key key) const {
-    const std::lock_guard lock(mutex_);
-    const auto found = entries_.find(key);
-    return found != entries_.end() && found->second.value != nullptr;
-  }
   std::size_t bytes() const {
     const std::lock_guard lock(mutex_);
     return bytes_;
   }
-  std::size_t most_bytes() const { return most_bytes_; }
   CacheCounts counts() const {
     const std::lock_guard lock(mutex_);
     return counts_;

@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <numeric>
 
 #include "terrain/error.h"
 #include "terrain/frustum.h"
@@ -21,6 +22,8 @@ constexpr std::size_t kMostLevels = 16;
 constexpr std::uint64_t kInstanceBytes =
     sizeof(Instance) + 2 * sizeof(Bounds) + (kMostLevels + 1) * sizeof(std::uint32_t);
 
+double total(std::span<const double> shares) { return std::accumulate(shares.begin(), shares.end(), 0.0); }
+
 void check(const Planting& planting) {
   const std::uint64_t most = planting.most_bytes / kInstanceBytes;
   if (planting.count > most) {
@@ -28,13 +31,8 @@ void check(const Planting& planting) {
                                 planting.most_bytes),
                     "planted scene", fmt::format("plant at most {}, or raise the budget", most));
   }
-  double sum = 0;
-  bool good = true;
-  for (const double share : planting.shares) {
-    good = good && share >= 0 && std::isfinite(share);
-    sum += share;
-  }
-  if (!good || !(sum > 0)) {
+  const auto is_share = [](double share) { return share >= 0 && std::isfinite(share); };
+  if (!std::ranges::all_of(planting.shares, is_share) || !(total(planting.shares) > 0)) {
     throw bad_input("the shares of the models must be 0 or more, and one above 0", "planted scene",
                     "give one share per model");
   }
@@ -46,10 +44,8 @@ void check(const Planting& planting) {
 }
 
 std::uint32_t chosen(std::span<const double> shares, double at) {
-  double sum = 0;
-  for (const double share : shares) sum += share;
   std::uint32_t model = 0;
-  for (double left = at * sum; model + 1 < shares.size() && left >= shares[model]; ++model) {
+  for (double left = at * total(shares); model + 1 < shares.size() && left >= shares[model]; ++model) {
     left -= shares[model];
   }
   while (shares[model] == 0) --model;  // rounding took it past the last with a share
@@ -161,7 +157,7 @@ PlantedScene::PlantedScene(std::vector<DetailModel> models, std::vector<Instance
   if (progress != nullptr) progress->end();
 }
 
-GrownMesh PlantedScene::expand(std::size_t instance, std::size_t level) const {
+GrownMesh PlantedScene::mesh(std::size_t instance, std::size_t level) const {
   const Instance& at = instances_[instance];
   return expand_seed(models_[at.model].levels[level], at.seed);
 }

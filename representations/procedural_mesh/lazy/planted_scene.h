@@ -30,8 +30,8 @@ glm::mat4 to_world(const Instance&);
 // Instances in a square, one per cell of a grid, at a random place in it.
 struct Planting {
   std::uint64_t count = 0;
-  float side = 100;            // metres, of the square from (0, 0)
-  std::vector<double> shares;  // per model, how often it occurs; at least 0, not all 0
+  float side = 100;              // metres, of the square from (0, 0)
+  std::vector<double> shares{};  // per model, how often it occurs; at least 0, not all 0
   float least_scale = 0.8F, most_scale = 1.2F;
   std::uint64_t seed = 1;
   std::uint64_t most_bytes = std::uint64_t{1} << 28;  // that the scene may take
@@ -45,8 +45,7 @@ struct DetailSettings {
   // A level has at least one face per so many pixels of the disc that the instance's bounding sphere covers:
   // the square of `spacing`. 0: always the finest level.
   double spacing = 1.5;
-  double out_of_view =
-      4;  // factor of `spacing` for instances outside the frustum, which rays may still reach
+  double out_of_view = 4;  // factor of `spacing` outside the frustum, which rays may still reach
 };
 
 class PlantedScene {
@@ -67,7 +66,7 @@ class PlantedScene {
   const Bounds& box(std::size_t instance) const { return boxes_[instance]; }  // in the world, of all levels
   const Bounds& local_box(std::size_t instance) const { return local_boxes_[instance]; }
 
-  GrownMesh expand(std::size_t instance, std::size_t level) const;
+  GrownMesh mesh(std::size_t instance, std::size_t level) const;  // expands it
 
   // The level of every instance. O(instances · levels).
   std::vector<std::uint8_t> choose_levels(const View&, const DetailSettings&) const;

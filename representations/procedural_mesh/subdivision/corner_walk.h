@@ -1,10 +1,21 @@
 // Steps among the corners of a topology: by arithmetic where all faces are quadrilaterals, by tables in a
-// base mesh of polygons.
+// base mesh of polygons. And loops over its parts on all threads.
 #pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "representations/procedural_mesh/subdivision/topology.h"
 
 namespace terrabench::subdivision {
+
+// Calls work(i) for 0 … count - 1 on all threads, in blocks that are worth a task.
+template <class Work>
+void for_all(std::uint32_t count, const Work& work) {
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 4096), [&](const auto& range) {
+    for (std::uint32_t i = range.begin(); i != range.end(); ++i) work(i);
+  });
+}
 
 struct QuadCorners {
   static std::uint32_t next(std::uint32_t c) { return (c & ~3U) | ((c + 1) & 3U); }

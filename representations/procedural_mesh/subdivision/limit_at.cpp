@@ -1,12 +1,10 @@
-#include "representations/procedural_mesh/subdivision/limit_at.h"
-
 #include <algorithm>
 #include <array>
 #include <cassert>
 
 #include "representations/procedural_mesh/subdivision/corner_walk.h"
 #include "representations/procedural_mesh/subdivision/limit.h"
-#include "representations/procedural_mesh/subdivision/refinement.h"
+#include "representations/procedural_mesh/subdivision/subdivide.h"
 
 namespace terrabench::subdivision {
 namespace {
@@ -38,17 +36,17 @@ Patch patch_around(const Topology& t, const Walk& walk, std::span<const glm::dve
     patch.mesh.positions.emplace_back(points[v]);
     return static_cast<std::uint32_t>(vertices.size() - 1);
   };
-  patch.mesh.first_corner = {0};
   for (const std::uint32_t f : faces) {
+    std::vector<std::uint32_t> corners;
     for (std::uint32_t c = walk.first(f); c < walk.first(f + 1); ++c) {
-      patch.mesh.corners.push_back(local(t.corners[c]));
+      corners.push_back(local(t.corners[c]));
       const std::uint32_t edge = t.corner_edge[c];
       if (t.sharpness[edge] > 0 && t.edges[edge].half[0] == c && t.edges[edge].half[1] != kNone) {
         patch.mesh.creases.push_back(
             {local(t.corners[c]), local(t.corners[walk.next(c)]), t.sharpness[edge]});
       }
     }
-    patch.mesh.first_corner.push_back(static_cast<std::uint32_t>(patch.mesh.corners.size()));
+    patch.mesh.add_face(corners);
   }
   for (const SharpVertex& sharp : t.sharp_points) {
     const auto found = std::ranges::find(vertices, sharp.vertex);
@@ -141,16 +139,14 @@ glm::dvec3 limit_at(const Topology& topology, std::span<const glm::dvec3> points
     const Topology& t = refinement.topology(0);
     if (is_regular(t)) return spline_at(t, patch.points, at);
     if (step == kMostSteps) {
-      std::vector<glm::dvec3> limits(t.vertices);
-      limit_points<glm::dvec3>(t, patch.points, limits);
+      const std::vector<glm::dvec3> limits = limit_points(t, patch.points);
       const auto corner = [&](std::uint32_t k) { return limits[t.corners[k]]; };
       return (1 - at.y) * ((1 - at.x) * corner(0) + at.x * corner(1)) +
              at.y * ((1 - at.x) * corner(3) + at.x * corner(2));
     }
-    std::vector<glm::dvec3> finer(child_vertices(t));
-    place_standard<glm::dvec3>(t, refinement.stencils(0), patch.points, finer);
     const int child = child_at(at);
-    patch = around(refinement.topology(1), finer, static_cast<std::uint32_t>(child));
+    patch = around(refinement.topology(1), standard_points(refinement, patch.points)[1],
+                   static_cast<std::uint32_t>(child));
   }
 }
 

@@ -1,8 +1,5 @@
 #include "representations/procedural_mesh/subdivision/local_surface.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <cassert>
 #include <glm/glm.hpp>
 
@@ -12,16 +9,9 @@ namespace terrabench::subdivision {
 namespace {
 
 struct FaceSurface {
-  glm::vec3 normal;  // times its weight
+  glm::vec3 normal;
   float diagonal;
 };
-
-template <class Work>
-void for_all(std::uint32_t count, const Work& work) {
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 2048), [&](const auto& range) {
-    for (std::uint32_t i = range.begin(); i != range.end(); ++i) work(i);
-  });
-}
 
 glm::vec3 unit_or(glm::vec3 v, glm::vec3 otherwise) {
   const float length = glm::length(v);
@@ -56,7 +46,7 @@ glm::vec3 along_u(std::uint32_t n, const Point& point, const Texture& texture) {
   return determinant == 0 ? glm::vec3(0) : (d * t.y - e * s.y) / determinant;
 }
 
-// Projects `wish` onto the plane of the normal; when it is (nearly) along the normal, x or z instead.
+// Projects `wish` onto the plane of the normal; when it is zero or (nearly) along the normal, x or z instead.
 glm::vec3 tangent_of(glm::vec3 normal, glm::vec3 wish) {
   const auto project = [&](glm::vec3 v) { return v - normal * glm::dot(v, normal); };
   const float length = glm::length(wish);
@@ -70,9 +60,9 @@ glm::vec3 tangent_of(glm::vec3 normal, glm::vec3 wish) {
 }  // namespace
 
 LocalSurface local_surface(const Topology& t, std::span<const glm::vec3> positions,
-                           std::span<const glm::vec2> texture, const FrameRule& rule, bool with_tangents) {
+                           std::span<const glm::vec2> texture, bool with_tangents) {
   assert(t.uses.size() == t.corners.size() && positions.size() == t.vertices);
-  const bool by_texture = with_tangents && rule.tangent == TangentFrom::kTexture && !texture.empty();
+  const bool by_texture = with_tangents && !texture.empty();
   Array<FaceSurface> faces(t.faces());
   Array<glm::vec3> along(by_texture ? t.faces() : 0);
   LocalSurface out;
@@ -83,9 +73,7 @@ LocalSurface local_surface(const Topology& t, std::span<const glm::vec3> positio
     for_all(t.faces(), [&](std::uint32_t f) {
       const std::uint32_t first = walk.first(f), n = walk.first(f + 1) - first;
       const auto point = [&](std::uint32_t i) { return positions[t.corners[first + i]]; };
-      glm::vec3 normal = area_normal(n, point);
-      if (rule.normals == NormalWeights::kEqual) normal = unit_or(normal, glm::vec3(0));
-      faces[f] = {normal, diagonal_length(n, point)};
+      faces[f] = {unit_or(area_normal(n, point), glm::vec3(0)), diagonal_length(n, point)};
       if (by_texture) {
         along[f] = along_u(n, point, [&](std::uint32_t i) { return texture[t.corners[first + i]]; });
       }
@@ -102,7 +90,7 @@ LocalSurface local_surface(const Topology& t, std::span<const glm::vec3> positio
       }
       out.normals[v] = unit_or(normal, glm::vec3(0, 1, 0));
       out.scales[v] = uses.empty() ? 0 : diagonals / static_cast<float>(uses.size());
-      if (with_tangents) out.tangents[v] = tangent_of(out.normals[v], by_texture ? wish : rule.axis);
+      if (with_tangents) out.tangents[v] = tangent_of(out.normals[v], wish);
     });
   });
   return out;

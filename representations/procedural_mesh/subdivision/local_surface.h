@@ -3,9 +3,10 @@
 // average diagonal length of all faces meeting at the vertex", and two tangents, which make a local frame
 // (figure 3).
 //
-// Readings of the paper: the average of unit normals (kEqual), or of normals times area (kArea). The diagonal
-// length of a quadrilateral is the mean of its two; of a triangle, which has none, the mean edge length; of a
-// polygon of n corners, the mean distance between corners that are n/2 steps apart.
+// Readings of the paper: the average is that of unit normals. The diagonal length of a quadrilateral is the
+// mean of its two; of a triangle, which has none, the mean edge length; of a polygon of n corners, the mean
+// distance between corners that are n/2 steps apart. The first tangent points as u of the texture coordinates
+// grows, projected onto the tangent plane; where that gives no direction, as an axis of the world.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -14,18 +15,6 @@
 #include "representations/procedural_mesh/subdivision/topology.h"
 
 namespace terrabench::subdivision {
-
-enum class NormalWeights : std::uint8_t { kEqual, kArea };
-
-// Where the first tangent points: as u of the texture coordinates grows, or along a given axis; projected
-// onto the tangent plane. Where that gives no direction, an axis of the world is taken instead.
-enum class TangentFrom : std::uint8_t { kTexture, kAxis };
-
-struct FrameRule {
-  NormalWeights normals = NormalWeights::kEqual;
-  TangentFrom tangent = TangentFrom::kTexture;
-  glm::vec3 axis{1, 0, 0};
-};
 
 // One entry per vertex. Normals and tangents have unit length and tangents are at right angles to normals;
 // the normal is +y and the scale 0 where no face gives them. The second tangent is cross(normal, tangent).
@@ -37,6 +26,6 @@ struct LocalSurface {
 
 // `texture` may be empty. The topology needs `uses`. O(corners) on all threads.
 LocalSurface local_surface(const Topology&, std::span<const glm::vec3> positions,
-                           std::span<const glm::vec2> texture, const FrameRule&, bool with_tangents);
+                           std::span<const glm::vec2> texture, bool with_tangents);
 
 }  // namespace terrabench::subdivision

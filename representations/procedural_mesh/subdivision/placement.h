@@ -25,25 +25,11 @@ struct VertexBatch {
   std::span<const float> scales;
 };
 
-// A number per vertex: offset + amplitude · value.
-struct Signal {
-  enum class Kind : std::uint8_t {
-    kConstant,      // 1
-    kUniform,       // random in [-1, 1), of (seed, level, vertex)
-    kNormal,        // random with variance 1, likewise
-    kNoise,         // gradient noise at the position: `frequency` in cells per metre
-    kTextureNoise,  // gradient noise at (u, v): `frequency` x and y in cells per unit
-    kTextureWave,   // cos 2π(frequency.x u + frequency.y v)
-    kFunction       // `function`, which is called for batches by several threads at once
-  };
-  Kind kind = Kind::kConstant;
-  float amplitude = 1, offset = 0;
-  std::uint64_t seed = 0;
-  glm::vec3 frequency{1};
-  int octaves = 1;  // of noise, 1 … 24; each has twice the frequency and `gain` times the weight
-  float gain = 0.5F;
-  std::function<void(const VertexBatch&, std::span<float>)> function{};
-};
+// A number per vertex of a batch. Called by several threads at once.
+using Signal = std::function<void(const VertexBatch&, std::span<float> values)>;
+
+// Random numbers in [-amplitude, amplitude), each a function of (seed, level, vertex) alone.
+Signal uniform_signal(float amplitude, std::uint64_t seed);
 
 enum class Axis : std::uint8_t { kNormal, kTangent, kBitangent, kFixed };
 enum class Where : std::uint8_t { kEveryVertex, kNewVertices };  // new: of faces and edges
@@ -53,7 +39,7 @@ struct Displacement {
   glm::vec3 direction{0, 1, 0};  // of kFixed; need not have unit length
   bool by_scale = true;          // times the local scale factor; otherwise in metres
   Where where = Where::kEveryVertex;
-  Signal amount{};
+  Signal amount{};  // must be set
 };
 
 enum class Base : std::uint8_t { kStandard, kLinear };  // linear: vertices stay, means on edges and faces
@@ -61,22 +47,20 @@ enum class Base : std::uint8_t { kStandard, kLinear };  // linear: vertices stay
 struct PlacementRule {
   Base base = Base::kStandard;
   Base texture = Base::kStandard;             // of the texture coordinates
-  FrameRule frame{};                          // of M(n+1) before displacement
   std::vector<Displacement> displacements{};  // they add up
-  // The longest sum of displacements, in local scale factors: longer ones are shortened to it.
+  // The longest sum of displacements, in local scale factors, at least 0: longer ones are shortened to it.
   float bound = std::numeric_limits<float>::infinity();
 };
 
-// Throws usage_error, naming the displacement by its index, for a number that is not finite, octaves outside
-// 1 … 24, a bound below 0, a function signal without function, and texture signals without coordinates.
-void check_rule(const PlacementRule&, bool has_texture);
+// Standard placement and random displacements along the normals, up to `amplitude` scale factors (figure 2).
+PlacementRule fractal_rule(float amplitude, std::uint64_t seed);
 
 // Whether displace() has anything to do.
 inline bool displaces(const PlacementRule& rule) { return !rule.displacements.empty(); }
 
 // Adds the rule's displacements to the positions of M(level). All of them see the positions as given. The
-// topology, that of M(level), needs `uses`; `old_vertices` is the number of vertices of M(level - 1). The
-// rule was checked. Throws bad_input when a displaced position is not finite. O(corners) on all threads.
+// topology, that of M(level), needs `uses`; `old_vertices` is the number of vertices of M(level - 1).
+// Throws bad_input when a displaced position is not finite. O(corners) on all threads.
 void displace(const PlacementRule&, const Topology&, std::uint32_t level, std::uint32_t old_vertices,
               std::span<const glm::vec2> texture, std::span<glm::vec3> positions);
 

@@ -132,21 +132,13 @@ void make_uses(Topology& t) {
   for (std::uint32_t c = 0; c < t.corners.size(); ++c) t.uses[next[t.corners[c]]++] = c;
 }
 
-// The corner of each crease's edge; creases are few, so a search around one end suffices.
-template <class Walk>
-void set_creases(Topology& t, const Walk& walk, std::span<const Crease> creases) {
+void set_creases(Topology& t, std::span<const Crease> creases) {
   for (const Crease& crease : creases) {
     const std::string where = fmt::format("crease {}–{}", crease.a, crease.b);
     if (crease.sharpness < 0) {
       throw bad_input(fmt::format("sharpness {} of a crease", crease.sharpness), where, "use 0 or more");
     }
-    std::uint32_t edge = kNone;
-    if (crease.a < t.vertices && crease.b < t.vertices) {
-      for (const std::uint32_t c : t.uses_of(crease.a)) {
-        if (t.corners[walk.next(c)] == crease.b) edge = t.corner_edge[c];
-        if (t.corners[walk.previous(c)] == crease.b) edge = t.corner_edge[walk.previous(c)];
-      }
-    }
+    const std::uint32_t edge = edge_between(t, crease.a, crease.b);
     if (edge == kNone) {
       throw bad_input("a crease is not an edge of the mesh", where, "name two neighbouring vertices");
     }
@@ -200,6 +192,18 @@ void set_sharp_points(Topology& t, const Walk& walk, const FaceMesh& mesh, Bound
 
 }  // namespace
 
+std::uint32_t edge_between(const Topology& t, std::uint32_t a, std::uint32_t b) {
+  if (std::max(a, b) >= t.vertices) return kNone;
+  return with_corners(t, [&](const auto& walk) {
+    for (const std::uint32_t c : t.uses_of(a)) {
+      const std::uint32_t before = walk.previous(c);
+      if (t.corners[walk.next(c)] == b) return t.corner_edge[c];
+      if (t.corners[before] == b) return t.corner_edge[before];
+    }
+    return kNone;
+  });
+}
+
 Topology make_topology(const FaceMesh& mesh, Boundary boundary) {
   check_arrays(mesh);
   Topology t;
@@ -216,7 +220,7 @@ Topology make_topology(const FaceMesh& mesh, Boundary boundary) {
   const PolygonCorners walk{t.first_corner.data(), t.corner_face.data()};
   make_edges(t, find_twins(t, walk));
   make_uses(t);
-  set_creases(t, walk, mesh.creases);
+  set_creases(t, mesh.creases);
   set_sharp_points(t, walk, mesh, boundary);
   if (quads) {
     release(t.first_corner);

@@ -9,13 +9,42 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "representations/procedural_mesh/face_mesh.h"
-#include "representations/procedural_mesh/subdivision/array.h"
 
 namespace terrabench::subdivision {
+
+// A vector whose elements are not set to zero when it is sized: tables are filled by several threads, and a
+// pass over hundreds of megabytes only to clear them would cost as much as filling them.
+template <class T>
+struct UninitialisedAllocator : std::allocator<T> {
+  static_assert(std::is_trivially_copyable_v<T>);
+  template <class U>
+  struct rebind {
+    using other = UninitialisedAllocator<U>;
+  };
+  template <class U>
+  void construct(U* at) noexcept {
+    ::new (static_cast<void*>(at)) U;
+  }
+  template <class U, class... Args>
+  void construct(U* at, Args&&... args) {
+    ::new (static_cast<void*>(at)) U(std::forward<Args>(args)...);
+  }
+};
+
+template <class T>
+using Array = std::vector<T, UninitialisedAllocator<T>>;
+
+// Frees the block of a vector; assigning {} would keep it.
+template <class Vector>
+void release(Vector& v) {
+  Vector().swap(v);
+}
 
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 inline constexpr int kInfinitelySharp = 10;
@@ -57,6 +86,9 @@ struct Topology {
 // not read. A vertex where several fans of faces meet becomes a corner, as in OpenSubdiv.
 // O(corners · log valence).
 Topology make_topology(const FaceMesh&, Boundary = Boundary::kEdge);
+
+// The edge with these ends, or kNone. The vertices need not exist. O(valence): creases are few.
+std::uint32_t edge_between(const Topology&, std::uint32_t a, std::uint32_t b);
 
 // The sharpness after one refinement.
 constexpr int sharpness_after(int s) { return s >= kInfinitelySharp ? s : s > 0 ? s - 1 : 0; }

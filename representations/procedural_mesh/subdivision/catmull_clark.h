@@ -1,5 +1,5 @@
-// One step of Catmull–Clark refinement: the connectivity of the finer mesh, and the stencils of the standard
-// placement (Catmull and Clark 1978; "meshgrow" §3, figure 1).
+// One step of Catmull–Clark refinement: the connectivity of the finer mesh, the stencils of the standard
+// placement, and values placed by them (Catmull and Clark 1978; "meshgrow" §3, figure 1).
 //
 // A mesh of V vertices, F faces, E edges and C corners becomes one of C quadrilaterals with V + F + E
 // vertices: those of the vertices come first, then one per face, then one per edge. So a vertex keeps its
@@ -49,5 +49,16 @@ Topology refine(const Topology&, Detail);
 Stencils make_stencils(const Topology&);
 
 std::uint32_t child_vertices(const Topology&);
+
+// Values at the vertices of the finer mesh from those of the coarser one: positions, texture coordinates or
+// any other attribute. Standard placement is that of Catmull and Clark; linear placement keeps the vertices
+// and takes means on edges and faces. `in` has one value per vertex of the coarser mesh, `out` one per vertex
+// of the finer one; they do not overlap. T: glm::vec2, glm::vec3 or glm::dvec3. O(C) on all threads; every
+// value is summed in a fixed order, so the number of threads changes nothing. Of the topology, the corners
+// are used.
+template <class T>
+void place_standard(const Topology&, const Stencils&, std::span<const T> in, std::span<T> out);
+template <class T>
+void place_linear(const Topology&, const Stencils&, std::span<const T> in, std::span<T> out);
 
 }  // namespace terrabench::subdivision

@@ -1,8 +1,7 @@
-// A model's expansion one growing step or subdivision at a time, and the fork of a trunk.
+// The fork of a trunk, and the sections of trunk and branches.
 #pragma once
 
 #include <array>
-#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -10,17 +9,6 @@
 #include "representations/procedural_mesh/model.h"
 
 namespace terrabench::meshgrow {
-
-// The vertices of a face.
-std::span<const std::uint32_t> corners_of(const FaceMesh&, std::uint32_t face);
-
-// The mesh before and after one step, and how many subdivisions came before the second. For the base mesh
-// both are the base.
-using AtStep =
-    std::function<void(const growing::GrownMesh& before, const growing::GrownMesh& after, int subdivisions)>;
-
-// Gives the same mesh as expand(), which reports a growing step of the schedule only when all growth is done.
-growing::GrownMesh expand_in_steps(const growing::Model&, const AtStep&);
 
 // Where several faces with this symbol that share vertices grow in the same step for the first time.
 struct Fork {

@@ -1,4 +1,4 @@
-#include "experiments/meshgrow/growing_steps.h"
+#include "experiments/meshgrow/fork.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,36 +13,18 @@ namespace terrabench::meshgrow {
 
 using namespace growing;
 
-std::span<const std::uint32_t> corners_of(const FaceMesh& mesh, std::uint32_t face) {
-  return {mesh.corners.data() + mesh.first_corner[face], mesh.corners.data() + mesh.first_corner[face + 1]};
-}
-
-GrownMesh expand_in_steps(const Model& model, const AtStep& visit) {
-  GrownMesh mesh = plant(model.system, model.base, model.arguments);
-  visit(mesh, mesh, 0);
-  int subdivisions = 0;
-  for (const Step& step : model.steps) {
-    if (step.levels > 0) {
-      for (std::uint32_t k = 0; k < step.levels; ++k) {
-        GrownMesh finer = subdivide(model, step, mesh, static_cast<std::uint32_t>(++subdivisions));
-        visit(mesh, finer, subdivisions);
-        mesh = std::move(finer);
-      }
-      continue;
-    }
-    GrowOptions once = step.growth;
-    once.steps = 1;
-    once.to_the_end = false;
-    for (std::uint32_t k = 0; step.growth.to_the_end || k < step.growth.steps; ++k) {
-      const GrownMesh before = mesh;
-      if (grow(model.system, mesh, once) == 0) break;  // which counts as a step in expand(), too
-      visit(before, mesh, subdivisions);
-    }
-  }
-  return mesh;
-}
-
 namespace {
+
+// Calls visit(before, after) for every growing step before the first subdivision.
+template <class Visit>
+void each_growing_step(const Model& model, const Visit& visit) {
+  GrownMesh before;
+  expand(model, {.after_step = [&](const GrownMesh& after, std::uint32_t subdivisions) {
+           if (subdivisions > 0) return;
+           if (after.steps > 0) visit(before, after);
+           before = after;
+         }});
+}
 
 // One step in which, of the given faces, only one grows; the others lose their symbols.
 GrownMesh grown_alone(const RuleSystem& system, const GrownMesh& before,
@@ -71,7 +53,7 @@ std::optional<Fork> fork_in(const RuleSystem& system, const GrownMesh& before, c
   for (std::uint32_t f = 0; f < before.mesh.faces(); ++f) {
     if (system.symbols[before.mesh.symbols[f]].name != symbol) continue;
     fork.faces.push_back(f);
-    for (const std::uint32_t vertex : corners_of(before.mesh, f)) faces_at[vertex].push_back(f);
+    for (const std::uint32_t vertex : before.mesh.face(f)) faces_at[vertex].push_back(f);
   }
   for (const auto& [vertex, faces] : faces_at) {
     if (faces.size() == 2) {
@@ -95,9 +77,8 @@ std::optional<Fork> fork_in(const RuleSystem& system, const GrownMesh& before, c
 }
 
 bool has_face(const FaceMesh& mesh, std::span<const std::uint32_t> corners) {
-  for (std::uint32_t face = 0; face < mesh.faces(); ++face) {
-    const auto own = corners_of(mesh, face);
-    if (std::equal(own.begin(), own.end(), corners.begin(), corners.end())) return true;
+  for (std::size_t face = 0; face < mesh.faces(); ++face) {
+    if (std::ranges::equal(mesh.face(face), corners)) return true;
   }
   return false;
 }
@@ -121,16 +102,15 @@ std::vector<StemSection> sections_along(const Model& model, std::span<const std:
     return at == symbols.end() ? std::string_view() : *at;
   };
   std::vector<StemSection> sections;
-  expand_in_steps(model, [&](const GrownMesh& before, const GrownMesh& after, int subdivisions) {
-    if (subdivisions > 0) return;
+  each_growing_step(model, [&](const GrownMesh& before, const GrownMesh& after) {
     for (std::uint32_t from = 0; from < before.mesh.faces(); ++from) {
       const std::string_view symbol = symbol_of(before.mesh, from);
-      const auto base = corners_of(before.mesh, from);
+      const auto base = before.mesh.face(from);
       if (symbol.empty() || has_face(after.mesh, base)) continue;
       const auto [start, v] = middle_of(after.mesh, base);
       StemSection section{symbol, std::numeric_limits<double>::infinity(), v, 0};
       for (std::uint32_t to = 0; to < after.mesh.faces(); ++to) {
-        const auto corners = corners_of(after.mesh, to);
+        const auto corners = after.mesh.face(to);
         const bool is_cap = std::all_of(corners.begin(), corners.end(), [&](std::uint32_t vertex) {
           return vertex >= before.mesh.positions.size();
         });
@@ -148,9 +128,8 @@ std::vector<StemSection> sections_along(const Model& model, std::span<const std:
 
 Fork find_fork(const Model& model, std::string_view symbol) {
   std::optional<Fork> fork;
-  expand_in_steps(model, [&](const GrownMesh& before, const GrownMesh& after, int subdivisions) {
-    if (fork || subdivisions > 0 || after.steps == 0) return;
-    fork = fork_in(model.system, before, after, symbol);
+  each_growing_step(model, [&](const GrownMesh& before, const GrownMesh& after) {
+    if (!fork) fork = fork_in(model.system, before, after, symbol);
   });
   if (!fork) {
     throw bad_input("no two growing faces share a vertex", model.system.file, "give the model a fork");

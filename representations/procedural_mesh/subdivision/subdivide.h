@@ -1,8 +1,8 @@
-// All levels of a refinement ("meshgrow" §3): topologies and stencils built once, positions computed as often
-// as wanted, with the same or other rules.
+// Meshes subdivided several times ("meshgrow" §3): topologies and stencils of all levels, built once, and
+// positions, computed as often as wanted, by the same or by other rules.
 #pragma once
 
-#include "representations/procedural_mesh/subdivision/interpolate.h"
+#include "representations/procedural_mesh/subdivision/catmull_clark.h"
 #include "representations/procedural_mesh/subdivision/placement.h"
 
 namespace terrabench::subdivision {
@@ -24,12 +24,9 @@ class Refinement {
   Refinement(const FaceMesh& base, int levels, const RefinementOptions& = {});
 
   int levels() const { return static_cast<int>(stencils_.size()); }
-  const Topology& topology(int level) const {
-    return topologies_[static_cast<std::size_t>(level)];
-  }  // 0 … levels
-  const Stencils& stencils(int level) const {
-    return stencils_[static_cast<std::size_t>(level)];
-  }  // to level + 1
+  const Topology& topology(int level) const { return topologies_[static_cast<std::size_t>(level)]; }
+  // From `level`, below levels(), to the next.
+  const Stencils& stencils(int level) const { return stencils_[static_cast<std::size_t>(level)]; }
 
   // Gives the last level away and frees everything else.
   Topology release_last() &&;
@@ -47,9 +44,12 @@ struct LevelPoints {
 
 // The points of level + 1 from those of `level`, by one rule. `seed_level` is the level that random numbers
 // see (level + 1 unless the refinement is one of several in a schedule). Displacements need
-// Keep::kEverything. Throws what check_rule() and displace() throw.
+// Keep::kEverything. Throws what displace() throws.
 LevelPoints next_points(const Refinement&, int level, const LevelPoints&, const PlacementRule&,
                         std::uint32_t seed_level);
+
+// The points of all levels, from those of the base on, by the standard rule alone. In double precision.
+std::vector<std::vector<glm::dvec3>> standard_points(const Refinement&, std::vector<glm::dvec3> base);
 
 // One refinement per rule. The result carries the creases that are still sharp; each face has its parent's
 // symbol. With `level` as the number of refinements that came before, a schedule that alternates refinement
@@ -57,9 +57,5 @@ LevelPoints next_points(const Refinement&, int level, const LevelPoints&, const 
 // Throws as above, and bad_input for texture coordinates or symbols of the wrong number.
 FaceMesh subdivide(const FaceMesh&, std::span<const PlacementRule>, const RefinementOptions& = {},
                    std::uint32_t level = 0);
-
-// The mesh of the last level with the given points; symbols as above. `symbols` are those of level 0. Frees
-// the refinement's tables before it allocates; to keep them, pass a copy.
-FaceMesh make_mesh(Refinement&&, LevelPoints, std::span<const std::uint32_t> symbols);
 
 }  // namespace terrabench::subdivision

@@ -1,4 +1,4 @@
-#include "representations/procedural_mesh/growing/expansion.h"
+#include "representations/procedural_mesh/growing/apply_rule.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,21 +10,23 @@ namespace terrabench::growing {
 namespace {
 
 constexpr glm::dvec3 kUp{0, 1, 0};
+// A face is degenerate if its area is below this share of the square of its size; a needle 1e6 long passes.
+constexpr double kLeastArea = 1e-9;
 
-class Expander {
+class RuleApplier {
  public:
-  explicit Expander(const Expansion& e)
-      : e_(e),
-        mesh_(e.grown.mesh),
-        value_(e.system, e.grown, e.face, e.state),
-        base_(mesh_.corners.data() + mesh_.first_corner[e.face]),
-        n_(mesh_.first_corner[e.face + 1] - mesh_.first_corner[e.face]),
-        to_(e.to) {}
+  explicit RuleApplier(const Replacement& r)
+      : r_(r),
+        mesh_(r.grown.mesh),
+        value_(r.system, r.grown, r.face, r.state),
+        base_(mesh_.face(r.face).data()),
+        n_(static_cast<std::uint32_t>(mesh_.face(r.face).size())),
+        to_(r.to) {}
 
   Failure run() {
-    const Rule& rule = e_.rule;
+    const Rule& rule = r_.rule;
     for (std::size_t i = 0; i < rule.locals.size(); ++i) {
-      value_.set(rule.first_local + static_cast<std::uint32_t>(i), value_(rule.locals[i]));
+      value_.set(rule.first_local + i, value_(rule.locals[i]));
     }
     if (rule.replacement.corners != 0 && rule.replacement.corners != n_) {
       value_.fail(Failure::kCorners, rule.place);
@@ -47,40 +49,43 @@ class Expander {
   }
 
   void base_texture(const std::vector<TextureAt>& given) {
-    for (std::uint32_t i = 0; i < n_; ++i) {
-      e_.base_texture[i].vertex = kNoVertex;
-      if (given.empty()) continue;
+    for (std::uint32_t i = 0; i < n_ && !given.empty(); ++i) {
       value_.set(kSide, i);
       const TextureAt& at = given.size() == 1 ? given[0] : given[i];
-      if (!at.given()) continue;
-      e_.base_texture[i] = {base_[i], {value_(at.u), value_(at.v)}};
+      if (at.given()) r_.base_texture[i] = {base_[i], {value_(at.u), value_(at.v)}};
     }
   }
 
   void symbol(const SymbolChoice& choice) {
-    const std::uint32_t face = to_.face;
     for (const SymbolChoice::Option& option : choice.options) {
       if (option.condition.given() && value_(option.condition) == 0) continue;
-      mesh_.symbols[face] = option.symbol;
-      double* const arguments =
-          e_.arguments.values.data() +
-          static_cast<std::size_t>(face - e_.arguments.first_face) * e_.arguments.stride;
-      for (std::size_t a = 0; a < option.arguments.size(); ++a) arguments[a] = value_(option.arguments[a]);
+      mesh_.symbols[to_.faces] = option.symbol;
+      double* arguments = r_.made.arguments_of(to_.faces);
+      for (const Expression& e : option.arguments) *arguments++ = value_(e);
       return;
     }
-    mesh_.symbols[face] = kNoSymbol;
+    mesh_.symbols[to_.faces] = kNoSymbol;
   }
 
-  void corner(std::uint32_t vertex) { mesh_.corners[to_.corner++] = vertex; }
-  // The first corner of the next expansion's faces is not ours to write: another thread may read it.
+  void corner(std::uint32_t vertex) { mesh_.corners[to_.corners++] = vertex; }
+
   void end_face() {
-    if (++to_.face < e_.end_face) mesh_.first_corner[to_.face] = to_.corner;
+    const std::uint32_t first = mesh_.first_corner[to_.faces];
+    const FaceShape shape = face_shape({&mesh_.corners[first], to_.corners - first}, mesh_.positions);
+    if (!(shape.area > kLeastArea * shape.size * shape.size)) {
+      value_.fail(Failure::kDegenerate, r_.rule.place);
+    }
+    r_.made.shapes[to_.faces - r_.made.first] = shape;
+    // The first corner of the next rule's faces is not ours to write: another thread may read it.
+    if (++to_.faces < r_.end_face) {
+      mesh_.first_corner[to_.faces] = static_cast<std::uint32_t>(to_.corners);
+    }
   }
 
   // Of corner i, in the section's plane, before scaling.
   glm::dvec2 outline(std::uint32_t i, bool regular) const {
     if (!regular) {
-      const glm::dvec3 p = e_.state.shape.frame.to_local(glm::dvec3(mesh_.positions[base_[i]]));
+      const glm::dvec3 p = r_.state.shape.frame.to_local(glm::dvec3(mesh_.positions[base_[i]]));
       return {p.x, p.y};
     }
     // Edge 0 along x, as the frame of the base has it.
@@ -90,10 +95,10 @@ class Expander {
   }
 
   void extrude() {
-    const Template& t = e_.rule.replacement;
-    base_texture(t.base_texture);
+    const Template& t = r_.rule.replacement;
+    base_texture(t.texture);
     value_.set(kSide, 0);
-    Frame frame = e_.state.shape.frame;
+    Frame frame = r_.state.shape.frame;
     bool regular = false;
     double scale = 1;
     std::uint32_t below = kNoVertex;  // first vertex of the section below; the base's has none
@@ -107,11 +112,11 @@ class Expander {
         scale = value_(section.radius);
       }
       scale *= value_.optional(section.scale, 1);
-      const std::uint32_t first = to_.vertex;
+      const auto first = static_cast<std::uint32_t>(to_.vertices);
       ring(section, frame, regular, scale, below);
       sides(section, s, first, below);
       for (std::uint32_t i = 0; section.crease > 0 && i < n_; ++i) {
-        mesh_.creases[to_.crease++] = {first + i, first + (i + 1) % n_, section.crease};
+        mesh_.creases[to_.creases++] = {first + i, first + (i + 1) % n_, section.crease};
       }
       below = first;
     }
@@ -123,15 +128,15 @@ class Expander {
   }
 
   void ring(const Section& section, const Frame& frame, bool regular, double scale, std::uint32_t below) {
-    for (std::uint32_t i = 0; i < n_; ++i, ++to_.vertex) {
+    for (std::uint32_t i = 0; i < n_; ++i, ++to_.vertices) {
       value_.set(kSide, i);
       const glm::dvec2 stretch(value_.optional(section.stretch[0], 1),
                                value_.optional(section.stretch[1], 1));
       const glm::dvec2 at = outline(i, regular) * (scale * stretch);
-      mesh_.positions[to_.vertex] = glm::vec3(frame.to_world({at, 0}));
-      mesh_.texture[to_.vertex] = mesh_.texture[below == kNoVertex ? base_[i] : below + i];
+      mesh_.positions[to_.vertices] = glm::vec3(frame.to_world({at, 0}));
+      mesh_.texture[to_.vertices] = mesh_.texture[below == kNoVertex ? base_[i] : below + i];
       if (section.texture.empty()) continue;
-      mesh_.texture[to_.vertex] =
+      mesh_.texture[to_.vertices] =
           texture(section.texture.size() == 1 ? section.texture[0] : section.texture[i]);
     }
   }
@@ -153,12 +158,12 @@ class Expander {
   }
 
   void place_mesh() {
-    const Template& t = e_.rule.replacement;
+    const Template& t = r_.rule.replacement;
     base_texture(t.texture);
-    const std::uint32_t first = to_.vertex;
-    for (std::size_t v = 0; v < t.vertices.size(); ++v, ++to_.vertex) {
+    const auto first = static_cast<std::uint32_t>(to_.vertices);
+    for (std::size_t v = 0; v < t.vertices.size(); ++v, ++to_.vertices) {
       const TemplateVertex& vertex = t.vertices[v];
-      const Frame& frame = e_.state.shape.frame;
+      const Frame& frame = r_.state.shape.frame;
       glm::dvec3 at = vertex.weights.empty() ? frame.origin : glm::dvec3(0);
       glm::dvec2 texture_at(0);
       for (std::size_t i = 0; i < vertex.weights.size(); ++i) {
@@ -167,44 +172,39 @@ class Expander {
         texture_at += weight * glm::dvec2(mesh_.texture[base_[i]]);
       }
       const glm::dvec3 offset = three(vertex.offset);
-      mesh_.positions[to_.vertex] =
+      mesh_.positions[to_.vertices] =
           glm::vec3(at + frame.x * offset.x + frame.y * offset.y + frame.z * offset.z);
       const bool given = !t.texture.empty() && t.texture[n_ + v].given();
-      mesh_.texture[to_.vertex] = given ? texture(t.texture[n_ + v]) : glm::vec2(texture_at);
+      mesh_.texture[to_.vertices] = given ? texture(t.texture[n_ + v]) : glm::vec2(texture_at);
     }
-    for (std::size_t f = 0; f < t.faces.size(); ++f) {
+    const auto global = [&](std::uint32_t v) { return v < n_ ? base_[v] : first + v - n_; };
+    for (std::size_t f = 0; f < t.mesh.faces(); ++f) {
       value_.set(kSide, static_cast<double>(f));
       value_.salt(f + 1);
-      symbol(t.faces[f]);
-      for (std::uint32_t c = t.first_corner[f]; c < t.first_corner[f + 1]; ++c) {
-        const std::uint32_t v = t.face_corners[c];
-        corner(v < n_ ? base_[v] : first + v - n_);
-      }
+      symbol(t.symbols[f]);
+      for (const std::uint32_t v : t.mesh.face(f)) corner(global(v));
       end_face();
     }
-    for (const Crease& c : t.creases) {
-      const auto global = [&](std::uint32_t v) { return v < n_ ? base_[v] : first + v - n_; };
-      mesh_.creases[to_.crease++] = {global(c.a), global(c.b), c.sharpness};
+    for (const Crease& c : t.mesh.creases) {
+      mesh_.creases[to_.creases++] = {global(c.a), global(c.b), c.sharpness};
     }
   }
 
-  const Expansion& e_;
+  const Replacement& r_;
   FaceMesh& mesh_;
   FaceValues value_;
   const std::uint32_t* base_;
   std::uint32_t n_;
-  Slots to_;
+  Sizes to_;
 };
 
 }  // namespace
 
-Counts counts_of(const Template& t, std::uint32_t n) {
-  if (!t.extruded()) {
-    return {t.vertices.size(), t.faces.size(), t.face_corners.size(), t.creases.size()};
-  }
+Sizes added_by(const Template& t, std::uint32_t n) {
+  if (!t.extruded()) return {t.vertices.size(), t.mesh.faces(), t.mesh.corners.size(), t.mesh.creases.size()};
   const std::size_t sections = t.sections.size();
   const auto creased = static_cast<std::size_t>(
-      std::count_if(t.sections.begin(), t.sections.end(), [](const Section& s) { return s.crease > 0; }));
+      std::ranges::count_if(t.sections, [](const Section& s) { return s.crease > 0; }));
   return {sections * n, sections * n + 1, sections * n * 4 + n, creased * n};
 }
 
@@ -212,26 +212,25 @@ FaceValues::FaceValues(const RuleSystem& system, const GrownMesh& grown, std::ui
                        const FaceState& state)
     : values_{{slots_, kMostSlots}, system.tables, 0},
       key_(combine(combine(system.seed, state.path), grown.steps)) {
-  const FaceMesh& mesh = grown.mesh;
   const Frame& f = state.shape.frame;
   const double shared[kShared] = {f.origin.x,
                                   f.origin.y,
-                                  f.origin.z,
+                                  f.origin.z,  // px, py, pz
                                   f.x.y,
                                   f.y.y,
-                                  f.z.y,
+                                  f.z.y,  // up_x, up_y, up_z
                                   state.shape.size,
-                                  state.shape.area,
-                                  static_cast<double>(mesh.first_corner[face + 1] - mesh.first_corner[face]),
-                                  0,
+                                  state.shape.area,  //
+                                  static_cast<double>(grown.mesh.face(face).size()),
+                                  0,  // side
                                   static_cast<double>(grown.steps)};
   std::copy(std::begin(shared), std::end(shared), slots_);
-  const std::size_t parameters = system.symbols[mesh.symbols[face]].parameters.size();
+  const std::size_t parameters = system.symbols[grown.mesh.symbols[face]].parameters.size();
   std::copy_n(grown.parameters.begin() + state.first_parameter, parameters, slots_ + kShared);
   salt(0);
 }
 
-std::uint64_t FaceValues::combine_key(std::uint64_t number) const { return combine(key_, number); }
+void FaceValues::salt(std::uint64_t number) { values_.random = combine(key_, number); }
 
 double FaceValues::operator()(const Expression& e) {
   const double value = evaluate(e, values_);
@@ -240,10 +239,6 @@ double FaceValues::operator()(const Expression& e) {
   return 0;
 }
 
-double FaceValues::optional(const Expression& e, double otherwise) {
-  return e.given() ? (*this)(e) : otherwise;
-}
-
-Failure expand(const Expansion& e) { return Expander(e).run(); }
+Failure apply_rule(const Replacement& r) { return RuleApplier(r).run(); }
 
 }  // namespace terrabench::growing

@@ -1,6 +1,8 @@
-#include "representations/procedural_mesh/subdivision/refinement.h"
+#include "representations/procedural_mesh/subdivision/subdivide.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "representations/procedural_mesh/subdivision/corner_walk.h"
 #include "terrain/error.h"
@@ -29,13 +31,6 @@ void keep_corners(Topology& t) {
   release(t.uses);
 }
 
-bool any_displacement(std::span<const PlacementRule> rules) {
-  for (const PlacementRule& rule : rules) {
-    if (displaces(rule)) return true;
-  }
-  return false;
-}
-
 void carry_sharpness(const Topology& t, FaceMesh& mesh) {
   with_corners(t, [&](const auto& walk) {
     for (std::size_t e = 0; e < t.edges.size(); ++e) {
@@ -47,52 +42,8 @@ void carry_sharpness(const Topology& t, FaceMesh& mesh) {
   mesh.sharp_vertices = t.sharp_points;
 }
 
-}  // namespace
-
-Refinement::Refinement(const FaceMesh& base, int levels, const RefinementOptions& options) {
-  check_size(base.corners.size(), levels, options.most_faces);
-  topologies_.reserve(static_cast<std::size_t>(levels) + 1);
-  stencils_.reserve(static_cast<std::size_t>(levels));
-  topologies_.push_back(make_topology(base, options.boundary));
-  const bool everything = options.keep == Keep::kEverything;
-  for (int level = 0; level < levels; ++level) {
-    Topology& parent = topologies_.back();
-    stencils_.push_back(make_stencils(parent));
-    const bool leaf = level + 1 == levels;
-    Topology child = refine(parent, leaf && !everything ? Detail::kCorners : Detail::kAll);
-    if (!everything) keep_corners(parent);
-    topologies_.push_back(std::move(child));
-  }
-}
-
-LevelPoints next_points(const Refinement& refinement, int level, const LevelPoints& points,
-                        const PlacementRule& rule, std::uint32_t seed_level) {
-  check_rule(rule, !points.texture.empty());
-  const Topology& parent = refinement.topology(level);
-  const Topology& child = refinement.topology(level + 1);
-  const Stencils& stencils = refinement.stencils(level);
-  LevelPoints out;
-  const auto place = [&]<class T>(Base base, const std::vector<T>& from, std::vector<T>& to) {
-    to.resize(child.vertices);
-    if (base == Base::kStandard) {
-      place_standard<T>(parent, stencils, from, to);
-    } else {
-      place_linear<T>(parent, stencils, from, to);
-    }
-  };
-  place(rule.base, points.positions, out.positions);
-  if (!points.texture.empty()) place(rule.texture, points.texture, out.texture);
-  displace(rule, child, seed_level, parent.vertices, out.texture, out.positions);
-  return out;
-}
-
-Topology Refinement::release_last() && {
-  Topology last = std::move(topologies_.back());
-  release(topologies_);
-  release(stencils_);
-  return last;
-}
-
+// The mesh of the last level; `symbols` are those of level 0. Frees the refinement's tables before it
+// allocates.
 FaceMesh make_mesh(Refinement&& refinement, LevelPoints points, std::span<const std::uint32_t> symbols) {
   FaceMesh mesh;
   const int levels = refinement.levels();
@@ -121,9 +72,64 @@ FaceMesh make_mesh(Refinement&& refinement, LevelPoints points, std::span<const 
   return mesh;
 }
 
+}  // namespace
+
+Refinement::Refinement(const FaceMesh& base, int levels, const RefinementOptions& options) {
+  check_size(base.corners.size(), levels, options.most_faces);
+  topologies_.reserve(static_cast<std::size_t>(levels) + 1);
+  stencils_.reserve(static_cast<std::size_t>(levels));
+  topologies_.push_back(make_topology(base, options.boundary));
+  const bool everything = options.keep == Keep::kEverything;
+  for (int level = 0; level < levels; ++level) {
+    Topology& parent = topologies_.back();
+    stencils_.push_back(make_stencils(parent));
+    const bool leaf = level + 1 == levels;
+    Topology child = refine(parent, leaf && !everything ? Detail::kCorners : Detail::kAll);
+    if (!everything) keep_corners(parent);
+    topologies_.push_back(std::move(child));
+  }
+}
+
+LevelPoints next_points(const Refinement& refinement, int level, const LevelPoints& points,
+                        const PlacementRule& rule, std::uint32_t seed_level) {
+  const Topology& parent = refinement.topology(level);
+  const Topology& child = refinement.topology(level + 1);
+  const Stencils& stencils = refinement.stencils(level);
+  LevelPoints out;
+  const auto place = [&]<class T>(Base base, const std::vector<T>& from, std::vector<T>& to) {
+    to.resize(child.vertices);
+    if (base == Base::kStandard) {
+      place_standard<T>(parent, stencils, from, to);
+    } else {
+      place_linear<T>(parent, stencils, from, to);
+    }
+  };
+  place(rule.base, points.positions, out.positions);
+  if (!points.texture.empty()) place(rule.texture, points.texture, out.texture);
+  displace(rule, child, seed_level, parent.vertices, out.texture, out.positions);
+  return out;
+}
+
+Topology Refinement::release_last() && {
+  Topology last = std::move(topologies_.back());
+  release(topologies_);
+  release(stencils_);
+  return last;
+}
+
+std::vector<std::vector<glm::dvec3>> standard_points(const Refinement& refinement,
+                                                     std::vector<glm::dvec3> base) {
+  std::vector<std::vector<glm::dvec3>> points{std::move(base)};
+  for (int level = 0; level < refinement.levels(); ++level) {
+    std::vector<glm::dvec3> finer(refinement.topology(level + 1).vertices);
+    place_standard<glm::dvec3>(refinement.topology(level), refinement.stencils(level), points.back(), finer);
+    points.push_back(std::move(finer));
+  }
+  return points;
+}
+
 FaceMesh subdivide(const FaceMesh& base, std::span<const PlacementRule> rules,
                    const RefinementOptions& options, std::uint32_t level) {
-  for (const PlacementRule& rule : rules) check_rule(rule, !base.texture.empty());
   if (!base.texture.empty() && base.texture.size() != base.positions.size()) {
     throw bad_input(
         fmt::format("{} texture coordinates for {} vertices", base.texture.size(), base.positions.size()),
@@ -135,7 +141,7 @@ FaceMesh subdivide(const FaceMesh& base, std::span<const PlacementRule> rules,
   }
   RefinementOptions own = options;
   const bool sharp = !base.creases.empty() || !base.sharp_vertices.empty();
-  own.keep = sharp || any_displacement(rules) ? Keep::kEverything : Keep::kStencils;
+  own.keep = sharp || std::ranges::any_of(rules, displaces) ? Keep::kEverything : Keep::kStencils;
   Refinement refinement(base, static_cast<int>(rules.size()), own);
   LevelPoints points{base.positions, base.texture};
   for (int i = 0; i < refinement.levels(); ++i) {

@@ -1,22 +1,13 @@
-#include "representations/procedural_mesh/subdivision/refine.h"
-
-#include <tbb/parallel_for.h>
+#include "representations/procedural_mesh/subdivision/catmull_clark.h"
 
 #include <algorithm>
 #include <cassert>
+#include <glm/glm.hpp>
 
 #include "representations/procedural_mesh/subdivision/corner_walk.h"
 
 namespace terrabench::subdivision {
 namespace {
-
-// Calls work(i) for 0 … count - 1 on all threads, in blocks that are worth a task.
-template <class Work>
-void for_all(std::uint32_t count, const Work& work) {
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 4096), [&](const auto& range) {
-    for (std::uint32_t i = range.begin(); i != range.end(); ++i) work(i);
-  });
-}
 
 struct Sizes {
   std::uint32_t vertices, faces, edges, corners;
@@ -179,5 +170,95 @@ Stencils make_stencils(const Topology& t) {
   });
   return s;
 }
+
+namespace {
+
+template <class T>
+using Scalar = typename T::value_type;
+
+template <class T>
+void place_faces(const Topology& t, const T* in, T* out) {
+  const std::uint32_t* const corners = t.corners.data();
+  if (t.first_corner.empty()) {
+    for_all(t.faces(), [=](std::uint32_t f) {
+      const std::uint32_t* const c = corners + std::size_t{f} * 4;
+      out[f] = ((in[c[0]] + in[c[1]]) + (in[c[2]] + in[c[3]])) * Scalar<T>(0.25);
+    });
+    return;
+  }
+  for_all(t.faces(), [&](std::uint32_t f) {
+    T sum(0);
+    for (std::uint32_t c = t.first_corner[f]; c < t.first_corner[f + 1]; ++c) sum += in[corners[c]];
+    out[f] = sum * (1 / static_cast<Scalar<T>>(t.first_corner[f + 1] - t.first_corner[f]));
+  });
+}
+
+// A ring entry below `vertices` is a vertex of the coarser mesh, one above it a face point.
+template <class T>
+void place_edges(const Stencils& s, std::uint32_t vertices, const T* in, const T* points, T* out) {
+  const std::uint32_t* const parents = s.edges.data();
+  for_all(static_cast<std::uint32_t>(s.edges.size() / 4), [=](std::uint32_t e) {
+    const std::uint32_t* const p = parents + std::size_t{e} * 4;
+    const T* const from = p[2] < vertices ? in : points;  // a sharp edge has its ends twice
+    out[e] = ((in[p[0]] + in[p[1]]) + (from[p[2]] + from[p[3]])) * Scalar<T>(0.25);
+  });
+}
+
+template <class T>
+void place_vertices(const Stencils& s, std::uint32_t vertices, const T* in, const T* points, T* out) {
+  struct Weights {
+    Scalar<T> own, ring;
+  };
+  std::vector<Weights> weights;
+  for (std::uint32_t count = 0; count <= s.longest_ring; ++count) {
+    const RingWeights w = ring_weights(count);
+    weights.push_back({static_cast<Scalar<T>>(w.own), static_cast<Scalar<T>>(w.ring)});
+  }
+  for_all(vertices, [&, rings = s.rings.data(), first = s.first_ring.data()](std::uint32_t v) {
+    const std::uint32_t* const p = rings + first[v];
+    const std::uint32_t count = first[v + 1] - first[v];
+    const Weights w = weights[count];
+    T sum(0);
+    if (count == 8) {
+      sum = ((in[p[0]] + in[p[2]]) + (in[p[4]] + in[p[6]])) +
+            ((points[p[1]] + points[p[3]]) + (points[p[5]] + points[p[7]]));
+    } else if (count == 2) {
+      sum = in[p[0]] + in[p[1]];
+    } else {
+      for (std::uint32_t i = 0; i < count; i += 2) sum += in[p[i]] + points[p[i + 1]];
+    }
+    out[v] = in[v] * w.own + sum * w.ring;
+  });
+}
+
+}  // namespace
+
+template <class T>
+void place_standard(const Topology& t, const Stencils& s, std::span<const T> in, std::span<T> out) {
+  assert(in.size() == t.vertices && out.size() == child_vertices(t));
+  place_faces(t, in.data(), out.data() + t.vertices);
+  place_edges(s, t.vertices, in.data(), out.data(), out.data() + t.vertices + t.faces());
+  place_vertices(s, t.vertices, in.data(), out.data(), out.data());
+}
+
+template <class T>
+void place_linear(const Topology& t, const Stencils& s, std::span<const T> in, std::span<T> out) {
+  assert(in.size() == t.vertices && out.size() == child_vertices(t));
+  place_faces(t, in.data(), out.data() + t.vertices);
+  std::copy(in.begin(), in.end(), out.begin());
+  T* const edges = out.data() + t.vertices + t.faces();
+  for_all(static_cast<std::uint32_t>(s.edges.size() / 4), [&](std::uint32_t e) {
+    const std::uint32_t* const ends = &s.edges[std::size_t{e} * 4];
+    edges[e] = (in[ends[0]] + in[ends[1]]) * Scalar<T>(0.5);
+  });
+}
+
+#define TERRABENCH_INSTANTIATE(T)                                                                      \
+  template void place_standard<T>(const Topology&, const Stencils&, std::span<const T>, std::span<T>); \
+  template void place_linear<T>(const Topology&, const Stencils&, std::span<const T>, std::span<T>)
+TERRABENCH_INSTANTIATE(glm::vec2);
+TERRABENCH_INSTANTIATE(glm::vec3);
+TERRABENCH_INSTANTIATE(glm::dvec3);
+#undef TERRABENCH_INSTANTIATE
 
 }  // namespace terrabench::subdivision
