@@ -3,13 +3,14 @@
 // name as the parameter "figure". (A figure that a record holds is RecordedFigure, results/store/record.h.)
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "experiments/experiment.h"
+#include "experiments/cases.h"
 #include "experiments/figures/sheet.h"
 #include "renderers/context.h"
 
@@ -43,6 +44,18 @@ struct Figure {
 
 // Draws the case's figure as "PAPER.NAME.png", and records its number as the metric "figure".
 void draw_figure(std::span<const Figure>, std::string_view paper, const Case&, const RunOptions&, Recorder&);
+
+// An experiment that draws the figures of a table, such as `constexpr std::array kFigures{Figure{…}, …}`.
+template <const auto& kFigures>
+Experiment figure_experiment(std::string_view id, std::string_view title) {
+  static const std::array kNames = names_of(kFigures);
+  static const std::array kSpecs{choice("figure", kNames, "figure of the paper")};
+  static const std::string_view paper = id.substr(0, id.find('.'));
+  return {id, title, kSpecs, [](const RunOptions&) { return cases_by("figure", kSpecs); },
+          [](const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
+            draw_figure(kFigures, paper, at, options, recorder);
+          }};
+}
 
 using PanelRows = std::vector<std::vector<Panel>>;  // rows are not empty
 
