@@ -13,29 +13,6 @@
 namespace terrabench {
 namespace {
 
-// Rows in parallel.
-Heightfield from_noise(const noise::Graph& graph, noise::Node root, int size, float lift, float relief) {
-  Heightfield field;
-  field.width = field.depth = size;
-  field.cell_x = field.cell_z = 30;
-  const auto length = static_cast<std::size_t>(size);
-  field.heights.resize(length * length);
-  const noise::Program program(graph, root);
-  std::vector<float> x(length);
-  for (int i = 0; i < size; ++i) x[i] = static_cast<float>(i) * field.cell_x;
-  tbb::parallel_for(tbb::blocked_range<int>(0, size), [&](const tbb::blocked_range<int>& rows) {
-    const std::vector<float> y(length, 0.0F);
-    std::vector<float> z(length);
-    for (int j = rows.begin(); j < rows.end(); ++j) {
-      std::fill(z.begin(), z.end(), static_cast<float>(j) * field.cell_z);
-      const std::span row(field.heights.data() + static_cast<std::size_t>(j) * length, length);
-      program.points(x, y, z, row);
-      for (float& h : row) h = lift + relief * h;
-    }
-  });
-  return field;
-}
-
 constexpr float kFrequency = 1.0F / 4000;  // of the first octave: a third of the drill paper's ground
 
 }  // namespace
@@ -61,16 +38,39 @@ TerrainSource open_filled_heights(std::string_view name, std::uint64_t seed) {
   return source;
 }
 
+Heightfield noise_heights(const noise::Graph& graph, noise::Node root, int size, float cell, float lift,
+                          float relief) {
+  Heightfield field;
+  field.width = field.depth = size;
+  field.cell_x = field.cell_z = cell;
+  const auto length = static_cast<std::size_t>(size);
+  field.heights.resize(length * length);
+  const noise::Program program(graph, root);
+  std::vector<float> x(length);
+  for (int i = 0; i < size; ++i) x[i] = static_cast<float>(i) * field.cell_x;
+  tbb::parallel_for(tbb::blocked_range<int>(0, size), [&](const tbb::blocked_range<int>& rows) {
+    const std::vector<float> y(length, 0.0F);
+    std::vector<float> z(length);
+    for (int j = rows.begin(); j < rows.end(); ++j) {
+      std::fill(z.begin(), z.end(), static_cast<float>(j) * field.cell_z);
+      const std::span row(field.heights.data() + static_cast<std::size_t>(j) * length, length);
+      program.points(x, y, z, row);
+      for (float& h : row) h = lift + relief * h;
+    }
+  });
+  return field;
+}
+
 Heightfield noise_ridges(int size, std::uint64_t seed) {
   noise::Graph graph;
   const noise::Node root = graph.ridged_multifractal({.seed = seed, .frequency = kFrequency, .octaves = 8});
-  return from_noise(graph, root, size, 200, 1600);
+  return noise_heights(graph, root, size, 30, 200, 1600);
 }
 
 Heightfield noise_hills(int size, std::uint64_t seed) {
   noise::Graph graph;
   const noise::Node root = graph.fbm({.seed = seed, .frequency = kFrequency, .octaves = 8});
-  return from_noise(graph, root, size, 800, 800);
+  return noise_heights(graph, root, size, 30, 800, 800);
 }
 
 Heightfield whole_metres(Heightfield field) {

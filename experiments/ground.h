@@ -8,6 +8,7 @@
 
 #include "experiments/experiment.h"
 #include "terrain/source.h"
+#include "terrain/sources/noise/graph.h"
 
 namespace terrabench {
 
@@ -18,8 +19,11 @@ std::vector<std::string> grounds(const RunOptions&, std::vector<std::string> own
 TerrainSource open_heights(std::string_view name, std::uint64_t seed);
 TerrainSource open_filled_heights(std::string_view name, std::uint64_t seed);  // without holes
 
-// Height fields of noise, size × size samples, 30 m apart. The largest features are about 4 km wide.
-// O(samples), parallel; the same for any thread count.
+// A height field of size × size samples, `cell` metres apart: lift + relief · noise, metres. O(samples),
+// parallel; the same for any thread count.
+Heightfield noise_heights(const noise::Graph&, noise::Node root, int size, float cell, float lift = 0,
+                          float relief = 1);
+// 30 m apart. The largest features are about 4 km wide.
 Heightfield noise_ridges(int size, std::uint64_t seed);  // ridged multifractal
 Heightfield noise_hills(int size, std::uint64_t seed);   // fractal Brownian motion
 Heightfield whole_metres(Heightfield);                   // rounded, as elevation models are

@@ -10,12 +10,11 @@
 #include <tuple>
 
 #include "experiments/build_at.h"
-#include "experiments/cases.h"
 #include "experiments/figures/figure.h"
 #include "experiments/figures/ground.h"
 #include "experiments/figures/maps.h"
 #include "experiments/figures/projection.h"
-#include "experiments/hybrid/macro_heights.h"
+#include "experiments/hybrid/grounds.h"
 #include "lod/clipmap/clipmap.h"
 #include "renderers/scene.h"
 #include "representations/layered_stack/height_map.h"
@@ -238,18 +237,10 @@ constexpr std::array<figures::Figure, 2> kFigures{{
      "stack, and bilinearly interpolated at ten samples per stack; the windows below have greys of their own",
      draw_height_map},
 }};
-constexpr std::array kNames = names_of(kFigures);
-const std::array kSpecs{choice("figure", kNames, "figure of the paper")};
-
-std::vector<Case> cases(const RunOptions&) { return cases_by("figure", kSpecs); }
-
-void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  draw_figure(kFigures, "hybrid", at, options, recorder);
-}
 
 }  // namespace
 
-extern const Experiment kClipmapFigures{
-    "hybrid.clipmap-figures", "Figures 14 and 22: the clipmap and its height map", kSpecs, cases, draw};
+extern const Experiment kClipmapFigures = figures::figure_experiment<kFigures>(
+    "hybrid.clipmap-figures", "Figures 14 and 22: the clipmap and its height map");
 
 }  // namespace terrabench::hybrid

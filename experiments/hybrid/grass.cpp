@@ -9,7 +9,7 @@
 
 #include "experiments/cases.h"
 #include "experiments/experiment.h"
-#include "experiments/hybrid/grassland.h"
+#include "experiments/hybrid/grounds.h"
 #include "renderers/frame_timer.h"
 #include "renderers/grass/grass_scene.h"
 #include "renderers/grass/strand.h"
@@ -39,6 +39,12 @@ std::vector<Case> table3_cases(const RunOptions& options) {
   return cases_by("technique", kTable3Specs, {{"frames", std::int64_t{3}}, {"warm_up", std::int64_t{1}}});
 }
 
+TriangleMesh recorded_ground(Recorder& recorder, const RunOptions& options, int cells) {
+  const Heightfield field = grassland(options.seed, cells, 0.7F);
+  recorder.terrain("grassland", checksum(field));
+  return grassland_mesh(field);
+}
+
 // All grass is in view, so that every technique draws every billboard.
 View whole(const TriangleMesh& mesh, int width, int height) {
   return overview(bounds_of(mesh), width, height, {0.35F, 0.45F, 1.0F});
@@ -54,9 +60,7 @@ double share_of_differing_pixels(const Image& a, const Image& b) {
 }
 
 void measure_table3(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const Heightfield field = grassland(options.seed, at.integer("cells"), 0.7F);
-  recorder.terrain("grassland", checksum(field));
-  const TriangleMesh mesh = grassland_mesh(field);
+  const TriangleMesh mesh = recorded_ground(recorder, options, at.integer("cells"));
   const View view = whole(mesh, at.integer("width"), at.integer("height"));
   const auto technique = kGrassTechniques[at.parameters.choice("technique")];
   const auto gl = open_context(options.renderer, view.width, view.height);
@@ -94,7 +98,6 @@ void measure_table3(const Case& at, const RunOptions& options, Recorder& recorde
   for (std::size_t i = 0; i + kCounts <= seconds.size(); i += kCounts) {
     recorder.add_varying("time_growth", "", seconds[i + 2] / std::max(seconds[i], 1e-9));
   }
-  recorder.add("growing_triangles", "", static_cast<double>(scenes[2]->patch().growing_triangles()));
   recorder.add("bytes_3n", "B", static_cast<double>(scenes[2]->patch().bytes()));
 }
 
@@ -126,8 +129,10 @@ Difference largest_difference() {
   return most;
 }
 
+using Corners = std::array<glm::dvec3, 3>;
+
 // A point's distance from a triangle, in metres.
-double distance_to(const glm::dvec3& p, const std::array<glm::dvec3, 3>& corner) {
+double distance_to(const glm::dvec3& p, const Corners& corner) {
   const glm::dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
   bool inside = true;
   double nearest = glm::distance(p, corner[0]);
@@ -140,6 +145,16 @@ double distance_to(const glm::dvec3& p, const std::array<glm::dvec3, 3>& corner)
   return inside ? std::abs(glm::dot(p - corner[0], normal)) / glm::length(normal) : nearest;
 }
 
+// Calls use(number of the strand, its triangle in the plan, the triangle's corners) for every strand.
+template <class Use>
+void each_strand(const GrassPlan& plan, const TriangleMesh& mesh, const Use& use) {
+  for (std::size_t t = 0; t < plan.growing(); ++t) {
+    const glm::uvec4& at = plan.triangles[t];
+    const Corners corners{mesh.positions[at.x], mesh.positions[at.y], mesh.positions[at.z]};
+    for (std::uint32_t k = at.w; k < plan.triangles[t + 1].w; ++k) use(k, at, corners);
+  }
+}
+
 // The largest angle, as printed, of a triangle on which the GPU grew a strand.
 double steepest_with_grass(GlContext& gl, const TriangleMesh& mesh, float limit) {
   GrassGrowth growth{.steepest = limit};
@@ -147,15 +162,11 @@ double steepest_with_grass(GlContext& gl, const TriangleMesh& mesh, float limit)
   const std::vector<GrassStrand> strands = GrassScene(gl, grass_ground(mesh), growth).strands();
   const GrassPlan plan = plan_grass(grass_ground(mesh), growth);
   double steepest = 0;
-  for (std::size_t t = 0; t < plan.growing(); ++t) {
-    const glm::uvec4& at = plan.triangles[t];
-    const std::array<glm::dvec3, 3> corner{mesh.positions[at.x], mesh.positions[at.y], mesh.positions[at.z]};
+  each_strand(plan, mesh, [&](std::uint32_t k, const glm::uvec4&, const Corners& corner) {
+    if (distance_to(glm::dvec3(strands[k].root), corner) >= 1e-3) return;
     const glm::dvec3 normal = glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
-    for (std::uint32_t k = at.w; k < plan.triangles[t + 1].w; ++k) {
-      if (distance_to(glm::dvec3(strands[k].root), corner) < 1e-3)
-        steepest = std::max(steepest, slope_angle(normal.y, SlopeAngle::kPrinted));
-    }
-  }
+    steepest = std::max(steepest, slope_angle(normal.y, SlopeAngle::kPrinted));
+  });
   return steepest;
 }
 
@@ -192,18 +203,10 @@ const std::array kBarySpecs{
                   GrassGrowth::kMostStrands},
 };
 
-std::vector<Case> bary_cases(const RunOptions&) {
-  std::vector<Case> cases;
-  for (const std::string_view point : kPoints) {
-    cases.push_back({std::string(point), {kBarySpecs, {{"point", std::string(point)}}}});
-  }
-  return cases;
-}
+std::vector<Case> bary_cases(const RunOptions&) { return cases_by("point", kBarySpecs); }
 
 void measure_bary(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const Heightfield field = grassland(options.seed, 64, 0.7F);
-  recorder.terrain("grassland", checksum(field));
-  const TriangleMesh mesh = grassland_mesh(field);
+  const TriangleMesh mesh = recorded_ground(recorder, options, 64);
   const GrassGrowth growth{.strands = at.parameters.integer("strands"),
                            .point = static_cast<PointReading>(at.parameters.choice("point"))};
   const auto gl = open_context(options.renderer, 16, 16);
@@ -214,16 +217,10 @@ void measure_bary(const Case& at, const RunOptions& options, Recorder& recorder,
   // Rounding of 32-bit coordinates moves a root by less than this.
   constexpr double kRounding = 1e-3;  // metres
   std::vector<double> distances;
-  std::size_t on_triangle = 0;
-  for (std::size_t t = 0; t < plan.growing(); ++t) {
-    const glm::uvec4& triangle = plan.triangles[t];
-    const std::array<glm::dvec3, 3> corners{mesh.positions[triangle.x], mesh.positions[triangle.y],
-                                            mesh.positions[triangle.z]};
-    for (std::uint32_t k = triangle.w; k < plan.triangles[t + 1].w; ++k) {
-      distances.push_back(distance_to(glm::dvec3(strands[k].root), corners));
-      on_triangle += distances.back() <= kRounding ? 1 : 0;
-    }
-  }
+  each_strand(plan, mesh, [&](std::uint32_t k, const glm::uvec4&, const Corners& corners) {
+    distances.push_back(distance_to(glm::dvec3(strands[k].root), corners));
+  });
+  const auto on_triangle = std::ranges::count_if(distances, [](double d) { return d <= kRounding; });
   std::sort(distances.begin(), distances.end());
   recorder.add("share_on_the_triangle", "",
                static_cast<double>(on_triangle) / static_cast<double>(distances.size()));
@@ -242,9 +239,7 @@ std::vector<Case> random_cases(const RunOptions&) { return cases_by("random", kR
 
 // The renderer's strands against those of a second growth there, and against the processor's.
 void measure_random(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const Heightfield field = grassland(options.seed, 64, 0.7F);
-  recorder.terrain("grassland", checksum(field));
-  const TriangleMesh mesh = grassland_mesh(field);
+  const TriangleMesh mesh = recorded_ground(recorder, options, 64);
   const GrassGround ground = grass_ground(mesh);
   const GrassGrowth growth{.strands = at.parameters.integer("strands"),
                            .random = static_cast<RandomReading>(at.parameters.choice("random"))};
@@ -257,16 +252,13 @@ void measure_random(const Case& at, const RunOptions& options, Recorder& recorde
   std::vector<double> moves;
   std::set<std::array<float, 3>> places;
   std::size_t moved = 0, redrawn_elsewhere = 0;
-  for (std::size_t t = 0; t < plan.growing(); ++t) {
-    const glm::uvec4& triangle = plan.triangles[t];
-    for (std::uint32_t k = triangle.w; k < plan.triangles[t + 1].w; ++k) {
-      const GrassStrand here = grow_strand(ground, growth, triangle, k - triangle.w + 1);
-      moves.push_back(glm::distance(glm::dvec3(here.root), glm::dvec3(strands[k].root)));
-      moved += moves.back() > kMoved ? 1 : 0;
-      redrawn_elsewhere += strands[k].root != again[k].root ? 1 : 0;
-      places.insert({strands[k].root.x, strands[k].root.y, strands[k].root.z});
-    }
-  }
+  each_strand(plan, mesh, [&](std::uint32_t k, const glm::uvec4& triangle, const Corners&) {
+    const GrassStrand here = grow_strand(ground, growth, triangle, k - triangle.w + 1);
+    moves.push_back(glm::distance(glm::dvec3(here.root), glm::dvec3(strands[k].root)));
+    moved += moves.back() > kMoved ? 1 : 0;
+    redrawn_elsewhere += strands[k].root != again[k].root ? 1 : 0;
+    places.insert({strands[k].root.x, strands[k].root.y, strands[k].root.z});
+  });
   std::sort(moves.begin(), moves.end());
   const auto all = static_cast<double>(moves.size());
   recorder.add("strands", "", all);

@@ -5,12 +5,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "experiments/cases.h"
 #include "experiments/figures/figure.h"
 #include "experiments/figures/ground.h"
 #include "experiments/figures/projection.h"
 #include "experiments/hybrid/grass_measures.h"
-#include "experiments/hybrid/grassland.h"
+#include "experiments/hybrid/grounds.h"
 #include "renderers/grass/grass_scene.h"
 #include "renderers/scene.h"
 #include "results/store/format.h"
@@ -312,18 +311,10 @@ constexpr std::array<Figure, 5> kFigures{{
      "the printed formula lets grass grow on steeper ground than the true angle does",
      draw_limit},
 }};
-constexpr std::array kNames = names_of(kFigures);
-const std::array kSpecs{choice("figure", kNames, "figure of the paper")};
-
-std::vector<Case> cases(const RunOptions&) { return cases_by("figure", kSpecs); }
-
-void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  draw_figure(kFigures, "hybrid", at, options, recorder);
-}
 
 }  // namespace
 
-extern const Experiment kGrassFigures{"hybrid.grass-figures", "Figures 15-19: grass, step by step", kSpecs,
-                                      cases, draw};
+extern const Experiment kGrassFigures =
+    figures::figure_experiment<kFigures>("hybrid.grass-figures", "Figures 15-19: grass, step by step");
 
 }  // namespace terrabench::hybrid

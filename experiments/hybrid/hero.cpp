@@ -9,7 +9,7 @@
 
 #include "experiments/experiment.h"
 #include "experiments/figures/sheet.h"
-#include "experiments/hybrid/noise_ground.h"
+#include "experiments/hybrid/grounds.h"
 #include "experiments/near_ground.h"
 #include "experiments/scene.h"
 

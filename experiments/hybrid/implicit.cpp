@@ -1,15 +1,18 @@
 // §3.1.2 of "hybrid": the field's values where the paper states them, that it is linear in the material, and
 // two extractors of its zero set.
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <glm/common.hpp>
+#include <numeric>
 #include <random>
 
 #include "experiments/experiment.h"
-#include "experiments/hybrid/surface_distance.h"
 #include "experiments/samples.h"
 #include "experiments/stopwatch.h"
+#include "renderers/raytrace/ray_index.h"
 #include "representations/implicit/implicit_surface.h"
 #include "terrain/memory.h"
 #include "terrain/sources/noise/cave_terrain.h"
@@ -60,7 +63,6 @@ struct Values {
     most = std::max(most, value);
   }
   void record(Recorder& recorder, std::string_view kind) const {
-    recorder.add(fmt::format("{}_positions", kind), "", static_cast<double>(positions));
     recorder.add(fmt::format("{}_least", kind), "", least);
     recorder.add(fmt::format("{}_most", kind), "", most);
   }
@@ -202,6 +204,8 @@ void measure_values(const Case& at, const ImplicitSurface& surface, std::uint64_
   }
   recorder.add("divided_supports", "", divided);
   recorder.add("off_the_parts_sum", "", off_sum);
+  recorder.add("full_positions", "", static_cast<double>(full.positions));
+  recorder.add("empty_positions", "", static_cast<double>(empty.positions));
   full.record(recorder, "full");
   empty.record(recorder, "empty");
   partial.record(recorder, "partial");
@@ -222,6 +226,31 @@ TriangleMesh open_surface(const ImplicitSurface& surface, glm::ivec2 begin, glm:
     }
   }
   return all;
+}
+
+// How far a surface lies from another: the one-sided Hausdorff distance, from the vertices and the triangles'
+// centroids of `from` to the nearest point of a triangle of `to`. Metres, over the points, not by area.
+struct SurfaceDistance {
+  double largest = 0, common = 0, mean = 0;  // `common`: 99 % of the points are nearer
+};
+
+SurfaceDistance distance_to(const TriangleMesh& from, const TriangleMesh& to) {
+  const RayIndex index(to);
+  const std::size_t vertices = from.positions.size();
+  std::vector<float> distances(vertices + from.triangles());
+  tbb::parallel_for(std::size_t{0}, distances.size(), [&](std::size_t k) {
+    const auto corner = [&](std::size_t c) { return from.positions[from.indices[3 * (k - vertices) + c]]; };
+    distances[k] =
+        index.distance(k < vertices ? from.positions[k] : (corner(0) + corner(1) + corner(2)) / 3.0F, to);
+  });
+  SurfaceDistance found;
+  found.largest = *std::ranges::max_element(distances);
+  found.mean =
+      std::accumulate(distances.begin(), distances.end(), 0.0) / static_cast<double>(distances.size());
+  const auto rank = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() * 99 / 100);
+  std::nth_element(distances.begin(), rank, distances.end());
+  found.common = *rank;
+  return found;
 }
 
 void measure_surface(const Case& at, const TerrainSource& source, const ImplicitSurface& surface,
@@ -250,10 +279,9 @@ void measure_surface(const Case& at, const TerrainSource& source, const Implicit
                           static_cast<double>(cell) / kFiner, progress);
   const glm::ivec2 begin = surface.chunks() / 2 - 1, end = begin + 2;
   const SurfaceDistance from_mesh = distance_to(open_surface(surface, begin, end),
-                                                open_surface(*fine, kFiner * begin - 1, kFiner * end + 1),
-                                                cell / kFiner),
+                                                open_surface(*fine, kFiner * begin - 1, kFiner * end + 1)),
                         to_mesh = distance_to(open_surface(*fine, kFiner * begin, kFiner * end),
-                                              open_surface(surface, begin - 1, end + 1), cell);
+                                              open_surface(surface, begin - 1, end + 1));
   recorder.add("hausdorff", "cells", std::max(from_mesh.largest, to_mesh.largest) / cell);
   recorder.add("common_distance", "cells", std::max(from_mesh.common, to_mesh.common) / cell);
   recorder.add("mean_distance", "cells", std::max(from_mesh.mean, to_mesh.mean) / cell);

@@ -7,7 +7,6 @@
 #include <glm/common.hpp>
 #include <numbers>
 
-#include "experiments/cases.h"
 #include "experiments/figures/figure.h"
 #include "experiments/figures/maps.h"
 #include "experiments/figures/views.h"
@@ -245,17 +244,10 @@ constexpr auto kFigures = std::to_array<Figure>({
      "support",
      [](Drawing& drawing) { return draw_kernel(drawing, Kernel::kCube); }},
 });
-constexpr std::array kNames = names_of(kFigures);
-const std::array kSpecs{choice("figure", kNames, "figure of the paper")};
-
-std::vector<Case> cases(const RunOptions&) { return cases_by("figure", kSpecs); }
-
-void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  draw_figure(kFigures, "hybrid", at, options, recorder);
-}
 
 }  // namespace
 
-extern const Experiment kKernels{"hybrid.kernels", "Figures 1 and 2: the kernels", kSpecs, cases, draw};
+extern const Experiment kKernels =
+    figures::figure_experiment<kFigures>("hybrid.kernels", "Figures 1 and 2: the kernels");
 
 }  // namespace terrabench::hybrid

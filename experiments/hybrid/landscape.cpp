@@ -8,10 +8,9 @@
 #include <memory>
 #include <utility>
 
-#include "experiments/cases.h"
 #include "experiments/figures/figure.h"
+#include "experiments/hybrid/grounds.h"
 #include "experiments/hybrid/landscape_measures.h"
-#include "experiments/hybrid/noise_ground.h"
 #include "experiments/hybrid/pixels.h"
 #include "experiments/scene.h"
 #include "renderers/landscape/textures.h"
@@ -274,18 +273,10 @@ constexpr std::array<Figure, 5> kFigures{{
      "with time; ground as in figure 21",
      draw_clouds},
 }};
-constexpr std::array kNames = names_of(kFigures);
-const std::array kSpecs{choice("figure", kNames, "figure of the paper")};
-
-std::vector<Case> cases(const RunOptions&) { return cases_by("figure", kSpecs); }
-
-void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  draw_figure(kFigures, "hybrid", at, options, recorder);
-}
 
 }  // namespace
 
-extern const Experiment kLandscape{"hybrid.landscape", "Figures 20, 21 and 23-25: water, fog and sky", kSpecs,
-                                   cases, draw};
+extern const Experiment kLandscape =
+    figures::figure_experiment<kFigures>("hybrid.landscape", "Figures 20, 21 and 23-25: water, fog and sky");
 
 }  // namespace terrabench::hybrid

@@ -1,7 +1,5 @@
 // §3.5 of "hybrid": the height map of the far ground, made from the stacks by both readings of "the sum of
 // the heights of all layers".
-#include "experiments/hybrid/macro_heights.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,21 +7,10 @@
 
 #include "experiments/build_at.h"
 #include "experiments/cases.h"
-#include "experiments/experiment.h"
+#include "experiments/hybrid/grounds.h"
 #include "representations/layered_stack/height_map.h"
 
 namespace terrabench::hybrid {
-
-double largest_step(const Heightfield& field) {
-  float largest = 0;
-  for (int j = 0; j < field.depth; ++j) {
-    for (int i = 0; i < field.width; ++i) {
-      if (i > 0) largest = std::max(largest, std::abs(field.at(i, j) - field.at(i - 1, j)));
-      if (j > 0) largest = std::max(largest, std::abs(field.at(i, j) - field.at(i, j - 1)));
-    }
-  }
-  return largest;
-}
 
 namespace {
 

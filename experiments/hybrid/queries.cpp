@@ -23,7 +23,6 @@ namespace {
 constexpr std::array kSpecs{
     ParameterSpec{"n", std::int64_t{128}, "cells", "cells along each side of the cube", 2, 1024},
     ParameterSpec{"coherent", false, "", "queries along straight lines instead of random positions"},
-    ParameterSpec{"rounds", std::int64_t{kSamples}, "", "turns of each structure", 3, 1000},
 };
 
 constexpr std::size_t kQueries = 1 << 19, kLine = 256;  // a line has this many queries
@@ -105,8 +104,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   std::array<std::vector<Material>, 3> materials;
   std::array<SpanSink, 3> spans;
   for (std::vector<Material>& all : materials) all.resize(kQueries);
-  const int rounds = at.integer("rounds");
-  for (int r = -1; r < rounds; ++r) {  // the first warms the caches and the sinks, and is not recorded
+  for (int r = -1; r < kSamples; ++r) {  // the first warms the caches and the sinks, and is not recorded
     Round round{};
     for (std::size_t k = 0; k < built.size(); ++k) {
       const std::size_t s = (k + static_cast<std::size_t>(r + 1)) % built.size();  // each goes first in turn

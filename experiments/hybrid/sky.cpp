@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "experiments/experiment.h"
+#include "experiments/hybrid/landscape_measures.h"
 #include "renderers/landscape/landscape.h"
 #include "renderers/landscape/probe.h"
-#include "renderers/landscape/textures.h"
 
 namespace terrabench::hybrid {
 namespace {
@@ -39,20 +39,10 @@ void measure_blend(GlContext& context, int samples, Recorder& recorder) {
   recorder.add("largest_difference", "", largest);
 }
 
-// The largest difference between neighbouring columns x and x + 1; `last` is followed by column 0.
-double largest_step(const Texels& map, int x) {
-  double largest = 0;
-  for (int y = 0; y < map.height; ++y) {
-    largest = std::max(largest, std::abs(double{map.at(x, y)} - map.at((x + 1) % map.width, y)));
-  }
-  return largest;
-}
-
 void measure_map(const Texels& map, Recorder& recorder) {
-  double inside = 0;
-  for (int x = 0; x + 1 < map.width; ++x) inside = std::max(inside, largest_step(map, x));
-  recorder.add("seam_step", "", largest_step(map, map.width - 1));
-  recorder.add("largest_step", "", inside);
+  const Seam seam = measure_seam(map);
+  recorder.add("seam_step", "", seam.at_seam);
+  recorder.add("largest_step", "", seam.elsewhere);
   const auto [least, most] = std::minmax_element(map.values.begin(), map.values.begin() + map.width);
   recorder.add("zenith_spread", "", *most - *least);
 }

@@ -7,6 +7,7 @@
 
 #include "experiments/build_at.h"
 #include "experiments/experiment.h"
+#include "experiments/samples.h"
 #include "experiments/stopwatch.h"
 #include "representations/layered_stack/layered_stack.h"
 #include "terrain/memory.h"
@@ -81,7 +82,6 @@ Bytes paper_layout(const TerrainSource& source, std::int64_t n, Progress& progre
 // Queries per second of one thread at random positions: the material of a point, all spans of a column.
 void measure_queries(const Representation& structure, const Bounds& bounds, Recorder& recorder) {
   constexpr std::size_t kQueries = 1 << 20;
-  constexpr int kSamples = 7;
   std::mt19937 random(1);
   const auto positions = [&](float low, float high) {
     std::uniform_real_distribution<float> position(low, high);
@@ -94,12 +94,15 @@ void measure_queries(const Representation& structure, const Bounds& bounds, Reco
   const std::vector<float> z = positions(bounds.low.z, bounds.high.z);
   std::vector<Material> materials(kQueries);
   SpanSink sink;
-  const auto rate = [&](const auto& query) { return static_cast<double>(kQueries) / seconds(query); };
-  for (int i = 0; i < kSamples; ++i) {
-    recorder.add("point_queries_per_second", "1/s", rate([&] { structure.materials({x, y, z}, materials); }));
+  Samples rates;
+  rates.add("point_queries_per_second", "1/s", [&] {
+    return kQueries / seconds([&] { structure.materials({x, y, z}, materials); });
+  });
+  rates.add("column_queries_per_second", "1/s", [&] {
     sink.clear();
-    recorder.add("column_queries_per_second", "1/s", rate([&] { structure.spans({x, z}, sink); }));
-  }
+    return kQueries / seconds([&] { structure.spans({x, z}, sink); });
+  });
+  rates.take(recorder);
 }
 
 std::vector<Case> table1_cases(const RunOptions& options) {
@@ -157,25 +160,18 @@ void measure_table2(const Case& at, const RunOptions& options, Recorder& recorde
       recorder.terrain(noise::cave_source({.seed = options.seed, .every_cell = every_cell}));
   build_at_resolution("layered_stack", source, std::min<std::int64_t>(n, 64),
                       progress);  // warm caches, pool and clock
-  const int samples = n >= 512 ? (every_cell ? 3 : 7) : (every_cell && n >= 256 ? 5 : 11);
-  for (int i = 0; i < samples; ++i) {
-    const Stopwatch watch;
-    const auto stack = build_at_resolution("layered_stack", source, n, progress);
-    const double seconds = watch.seconds();
-    recorder.add("generation_time", "s", seconds);
-    recorder.add("samples_per_second", "1/s", static_cast<double>(n * n * n) / seconds);
+  for (Repetitions builds(20); builds.more();) {
+    const double time =
+        seconds_to_make([&] { return build_at_resolution("layered_stack", source, n, progress); });
+    builds.add(time);
+    recorder.add("generation_time", "s", time);
+    recorder.add("samples_per_second", "1/s", static_cast<double>(n * n * n) / time);
   }
 }
 
-constexpr std::array kReuseSpecs{
-    kSizeSpecs[0],
-    ParameterSpec{"rounds", std::int64_t{11}, "", "turns of each terrain", 1, 1000},
-};
+std::vector<Case> reuse_cases(const RunOptions&) { return size_cases({128}); }
 
-std::vector<Case> reuse_cases(const RunOptions&) { return {{"n=128", Parameters(kReuseSpecs)}}; }
-
-// One fractal distorts both cave maps, or each has its own. The two terrains take turns, and the ratios are
-// those of one turn.
+// One fractal distorts both cave maps, or each has its own. The ratios are those of one turn.
 void measure_reuse(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const std::int64_t n = at.parameters.integer("n");
   const auto terrain = [&](bool shared) {
@@ -186,10 +182,9 @@ void measure_reuse(const Case& at, const RunOptions& options, Recorder& recorder
     return seconds([&] { build_at_resolution("layered_stack", source, n, progress); });
   };
   time(five);  // warm caches, pool and clock
-  for (int round = 0; round < at.integer("rounds"); ++round) {
-    const bool six_first = round % 2 != 0;
-    const double first = time(six_first ? six : five), second = time(six_first ? five : six);
-    const double shared = six_first ? second : first, own = six_first ? first : second;
+  for (Repetitions turns; turns.more();) {
+    const double shared = time(five), own = time(six);
+    turns.add(shared + own);
     recorder.add("time_five", "s", shared);
     recorder.add("time_six", "s", own);
     recorder.add_varying("six_to_five", "", own / shared);
@@ -205,7 +200,7 @@ extern const Experiment kTable2{"hybrid.table2", "Table 2: terrain generation ti
                                 kTimeSpecs,      table2_cases,
                                 measure_table2,  Experiment::kTimed};
 extern const Experiment kReuse{"hybrid.reuse", "§3.1.3.3: a fractal that is used twice, or a sixth",
-                               kReuseSpecs,    reuse_cases,
+                               kSizeSpecs,     reuse_cases,
                                measure_reuse,  Experiment::kTimed};
 
 }  // namespace terrabench::hybrid

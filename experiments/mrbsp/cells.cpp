@@ -13,7 +13,6 @@ namespace {
 constexpr std::array kSpecs{
     ParameterSpec{"views", std::int64_t{36}, "views", "timed, evenly spaced over the walk of table 2", 0,
                   240},
-    ParameterSpec{"rounds", std::int64_t{4}, "rounds", "times that each view is drawn", 1, 100},
 };
 constexpr int kViews = 240;
 
@@ -49,18 +48,10 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   }
   if (!times(at)) return;
   const std::vector<View> views = some_of(all, static_cast<std::size_t>(at.parameters.integer("views")));
-  const std::vector<RoundTimes> rounds =
-      time_rounds(lods, ground, views, at.integer("rounds"), options, progress);
-  const std::vector<double> least = least_times(rounds);
+  const std::vector<FrameTimes> times = time_frames(lods, ground, views, options, progress);
   for (std::size_t k = 0; k < kCells.size(); ++k) {
-    recorder.add_varying(fmt::format("least_time_share_{}", kCells[k]), "", least[k + 1] / least[0]);
-  }
-  for (const RoundTimes& round : rounds) {
-    for (std::size_t k = 0; k < kCells.size(); ++k) {
-      recorder.add(fmt::format("frame_time_{}", kCells[k]), "s",
-                   round.of(k + 1) / static_cast<double>(views.size()));
-      recorder.add_varying(fmt::format("time_share_{}", kCells[k]), "", round.of(k + 1) / round.of(0));
-    }
+    recorder.add_varying(fmt::format("least_time_share_{}", kCells[k]), "",
+                         times[k + 1].least / times[0].least);
   }
 }
 

@@ -49,8 +49,6 @@ void measure_land(const Case& at, const RunOptions& options, Recorder& recorder,
   lod.tune(1);
   const double printed = mean_triangles(lod, views);
   recorder.add("triangles_all", "", lod.tree().triangles());
-  recorder.add("triangles_brute", "", all);
-  recorder.add("triangles_lod", "", some);
   recorder.add("gain", "", all / some);
   recorder.add("gain_as_printed", "", all / printed);
 }
@@ -68,7 +66,7 @@ std::vector<Case> roughness_cases(const RunOptions&) {
 
 void measure_roughness(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   using visibility::Mode;
-  constexpr std::array kWays{Mode::kSampled, Mode::kConservative, Mode::kInterior};
+  constexpr std::array kWays{Mode::kSampled, Mode::kConservative};
   double without = 0;
   std::array<double, kWays.size()> with{};
   for (int k = 0; k < kSeeds; ++k) {
@@ -92,11 +90,8 @@ void measure_roughness(const Case& at, const RunOptions& options, Recorder& reco
       with[way] += mean_drawn() / kSeeds;
     }
   }
-  recorder.add("triangles_brute", "", without);
-  for (std::size_t way = 0; way < kWays.size(); ++way) {
-    recorder.add(fmt::format("triangles_{}", name_of(kWays[way])), "", with[way]);
+  for (std::size_t way = 0; way < kWays.size(); ++way)
     recorder.add(fmt::format("gain_{}", name_of(kWays[way])), "", without / with[way]);
-  }
 }
 
 }  // namespace

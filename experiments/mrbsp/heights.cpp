@@ -86,7 +86,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     recorder.add(fmt::format("torn_share{}", suffix), "", share(gaps.torn, gaps.vertices));
     recorder.add(fmt::format("mean_gap{}", suffix), "m", gaps.mean);
     recorder.add(fmt::format("largest_gap{}", suffix), "m", gaps.largest);
-    recorder.add(fmt::format("starved_share{}", suffix), "", share(subsets.starved, tree.triangles()));
+    if (!shared) recorder.add("starved_share", "", share(subsets.starved, tree.triangles()));
   }
 }
 

@@ -41,8 +41,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
              .holes = at.parameters.flag("conforming") ? HoleRule::kConforming : HoleRule::kPrinted},
             progress);
   const std::vector<View> views = walk(ground, options.profile == Profile::kPaper ? 240 : 40);
-  CrackReport all;
-  std::size_t torn = 0, drawn = 0;
+  std::size_t holes = 0, torn = 0, drawn = 0;
+  double largest_gap = 0;
   progress.begin("looking for holes", kSizes.size() * views.size());
   for (const double size : kSizes) {
     lod.tune(size);
@@ -51,26 +51,18 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
       const CrackReport report = find_cracks(frame, ground.width, ground.depth, view);
       drawn += frame.stats.triangles;
       torn += !report.tight();
-      all.t_junctions += report.t_junctions;
-      all.gaps += report.gaps;
-      all.bare_edges += report.bare_edges;
-      all.overlaps += report.overlaps;
-      all.largest_gap_m = std::max(all.largest_gap_m, report.largest_gap_m);
-      all.largest_gap_px = std::max(all.largest_gap_px, report.largest_gap_px);
+      holes += report.gaps + report.bare_edges + report.overlaps;
+      largest_gap = std::max(largest_gap, report.largest_gap_m);
       progress.advance();
     }
   }
   progress.end();
   const auto frames = static_cast<double>(kSizes.size() * views.size());
-  const std::size_t holes = all.gaps + all.bare_edges + all.overlaps;
   recorder.add("frames", "", frames);
   recorder.add("triangles_per_frame", "", static_cast<double>(drawn) / frames);
   recorder.add("holes", "", holes);
-  recorder.add("holes_per_frame", "", static_cast<double>(holes) / frames);
-  recorder.add("t_junctions", "", all.t_junctions);
   recorder.add("frames_with_holes", "", torn);
-  recorder.add("largest_gap", "m", all.largest_gap_m);
-  recorder.add("largest_gap_on_screen", "pixels", all.largest_gap_px);
+  recorder.add("largest_gap", "m", largest_gap);
 }
 
 }  // namespace

@@ -82,72 +82,54 @@ std::vector<View> some_of(const std::vector<View>& views, std::size_t count) {
   return some;
 }
 
-double RoundTimes::of(std::size_t method) const {
-  return std::accumulate(frames[method].begin(), frames[method].end(), 0.0);
-}
-
-double RoundTimes::choosing_of(std::size_t method) const {
-  return std::accumulate(choices[method].begin(), choices[method].end(), 0.0);
-}
-
-std::vector<RoundTimes> time_rounds(std::vector<Mrbsp>& lods, const Heightfield& ground,
-                                    const std::vector<View>& views, int rounds, const RunOptions& options,
+std::vector<FrameTimes> time_frames(std::vector<Mrbsp>& lods, const Heightfield& ground,
+                                    const std::vector<View>& views, const RunOptions& options,
                                     Progress& progress) {
+  constexpr int kRounds = 4;
   const auto context = open_context(options.renderer, views[0].width, views[0].height);
   std::vector<std::unique_ptr<FrameRenderer>> renderers(lods.size());
   const HeightRange range = height_range(ground);
   const FrameStyle style{.lowest = range.lowest, .highest = range.highest};
+  std::vector<FrameTimes> times(lods.size());
+  std::vector<double> choosing(lods.size());
+  // Seconds of the choice and of the whole frame.
   const auto draw = [&](std::size_t m, const View& view) {
-    const Frame* frame = nullptr;
-    const double choice = seconds([&] { frame = &lods[m].update(view); });
-    const double drawing = seconds([&] {
-      renderers[m]->draw(*frame, view, style);
-      renderers[m]->finish();
-    });
-    return std::pair(choice, choice + drawing);
+    const Stopwatch watch;
+    const Frame& frame = lods[m].update(view);
+    const double choice = watch.seconds();
+    renderers[m]->draw(frame, view, style);
+    renderers[m]->finish();
+    return std::pair(choice, watch.seconds());
   };
-  // The first frame uploads heights and compiles shaders.
-  const auto renew = [&](std::size_t first) {
+  progress.begin("drawing frames", kRounds * views.size());
+  for (std::size_t round = 0; round < kRounds; ++round) {
     for (auto& renderer : renderers) renderer.reset();
     for (std::size_t k = 0; k < lods.size(); ++k) {
-      const std::size_t m = (first + k) % lods.size();
+      const std::size_t m = (round + k) % lods.size();
       renderers[m] = std::make_unique<FrameRenderer>(*context);
-      draw(m, views[0]);
+      draw(m, views[0]);  // uploads heights and compiles shaders
     }
-  };
-  std::vector<RoundTimes> all;
-  progress.begin("drawing frames", static_cast<std::uint64_t>(rounds) * views.size());
-  for (int round = 0; round < rounds; ++round) {
-    RoundTimes& times = all.emplace_back();
-    times.frames.resize(lods.size());
-    times.choices.resize(lods.size());
-    renew(round);
     for (const View& view : views) {
       for (std::size_t turn = 0; turn < lods.size(); ++turn) {
         const std::size_t m = round % 2 == 0 ? turn : lods.size() - 1 - turn;
         const auto [choice, frame] = draw(m, view);
-        times.choices[m].push_back(choice);
-        times.frames[m].push_back(frame);
+        choosing[m] += choice;
+        times[m].frames.push_back(frame);
       }
       progress.advance();
     }
   }
   progress.end();
-  return all;
-}
-
-std::vector<double> least_times(const std::vector<RoundTimes>& rounds) {
-  std::vector<double> sums;
-  for (std::size_t m = 0; !rounds.empty() && m < rounds[0].frames.size(); ++m) {
-    double sum = 0;
-    for (std::size_t v = 0; v < rounds[0].frames[m].size(); ++v) {
-      double least = rounds[0].frames[m][v];
-      for (const RoundTimes& round : rounds) least = std::min(least, round.frames[m][v]);
-      sum += least;
+  for (std::size_t m = 0; m < lods.size(); ++m) {
+    const std::vector<double>& all = times[m].frames;
+    times[m].choosing_share = choosing[m] / std::accumulate(all.begin(), all.end(), 0.0);
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      double least = all[v];
+      for (std::size_t k = v; k < all.size(); k += views.size()) least = std::min(least, all[k]);
+      times[m].least += least;
     }
-    sums.push_back(sum);
   }
-  return sums;
+  return times;
 }
 
 }  // namespace terrabench::mrbsp

@@ -35,23 +35,19 @@ double fitted_size(Methods&, const std::vector<View>&);
 // `count` views, evenly spaced; at most all of them.
 std::vector<View> some_of(const std::vector<View>& views, std::size_t count);
 
-// Seconds of one round, by method and view.
-struct RoundTimes {
-  std::vector<std::vector<double>> frames;  // choice of triangles and drawing
-  std::vector<std::vector<double>> choices;
-  double of(std::size_t method) const;  // all frames
-  double choosing_of(std::size_t method) const;
+// Of one method, with the choice of triangles and the drawing.
+struct FrameTimes {
+  std::vector<double> frames;  // seconds, round by round
+  // Of all views, each in its fastest round: other work of the machine only ever makes a frame slower, so
+  // this is the least disturbed time.
+  double least = 0;
+  double choosing_share = 0;  // of all frames' time
 };
-// Draws every view with every method, `rounds` times. Methods alternate at every view, so that a slow period
-// of the machine affects all alike; every second round reverses their order, so that none always follows the
-// same other one and inherits its caches. Every round has new renderers, made in another order: all frames
-// of one can take a third longer than those of another that draws the same. Compare methods within a round: a
-// whole round may be slow without changing its ratios.
-std::vector<RoundTimes> time_rounds(std::vector<Mrbsp>& lods, const Heightfield&, const std::vector<View>&,
-                                    int rounds, const RunOptions&, Progress&);
-
-// By method: all views, each in its fastest round. Other work of the machine only ever makes a frame slower,
-// so this is the least disturbed time.
-std::vector<double> least_times(const std::vector<RoundTimes>&);
+// Draws every view with every method, four times. Methods alternate at every view, so that a slow period of
+// the machine affects all alike; every second round reverses their order, so that none always follows the
+// same other one and inherits its caches. Every round has new renderers, made in another order: all frames of
+// one can take a third longer than those of another that draws the same.
+std::vector<FrameTimes> time_frames(std::vector<Mrbsp>& lods, const Heightfield&, const std::vector<View>&,
+                                    const RunOptions&, Progress&);
 
 }  // namespace terrabench::mrbsp

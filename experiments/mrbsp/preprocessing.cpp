@@ -1,12 +1,11 @@
 // §4: the time to find the visible sets against the number of cells and the coarseness of their triangles.
-// All settings take turns; times are processor times on one thread, so that a busy machine does not change
-// their ratios.
+// Processor times on one thread, so that a busy machine does not change their ratios.
 #include <fmt/format.h>
 
 #include <array>
 
-#include "experiments/experiment.h"
 #include "experiments/mrbsp/ground.h"
+#include "experiments/samples.h"
 #include "experiments/stopwatch.h"
 #include "lod/mrbsp/bisection_tree.h"
 #include "lod/mrbsp/visibility/sets.h"
@@ -14,9 +13,6 @@
 namespace terrabench::mrbsp {
 namespace {
 
-constexpr std::array kSpecs{
-    ParameterSpec{"samples", std::int64_t{6}, "samples", "times that each setting is measured", 1, 100},
-};
 struct Setting {
   int cells, coarseness;
 };
@@ -26,7 +22,7 @@ constexpr std::array kSettings{Setting{16, 4}, Setting{16, 6}, Setting{16, 8}, S
 std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const std::string& ground : grounds(options, options.profile == Profile::kPaper)) {
-    cases.push_back({ground, Parameters(kSpecs), ground});
+    cases.push_back({ground, Parameters(), ground});
   }
   return cases;
 }
@@ -35,20 +31,20 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   const BisectionTree tree = BisectionTree::over(ground.width, ground.depth, depth_over(ground));
-  const int samples = at.integer("samples");
-  for (int sample = 0; sample < samples; ++sample) {
-    for (const auto& [cells, coarseness] : kSettings) {
-      const visibility::Options how{
-          .mode = visibility::Mode::kSampled, .cells = cells, .coarseness = coarseness};
-      recorder.add(fmt::format("time_cells_{}_coarseness_{}", cells, coarseness), "s",
-                   processor_seconds([&] { find_sets(grid_of(ground), tree, how, progress); }));
-    }
+  Samples times;
+  for (const auto& [cells, coarseness] : kSettings) {
+    const visibility::Options how{
+        .mode = visibility::Mode::kSampled, .cells = cells, .coarseness = coarseness};
+    times.add(fmt::format("time_cells_{}_coarseness_{}", cells, coarseness), "s", [&, how] {
+      return processor_seconds([&] { find_sets(grid_of(ground), tree, how, progress); });
+    });
   }
+  times.take(recorder);
 }
 
 }  // namespace
 
 extern const Experiment kPreprocessing{
-    "mrbsp.preprocessing", "§4: time to find the visible sets", kSpecs, cases, measure, Experiment::kTimed};
+    "mrbsp.preprocessing", "§4: time to find the visible sets", {}, cases, measure, Experiment::kTimed};
 
 }  // namespace terrabench::mrbsp

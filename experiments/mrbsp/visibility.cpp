@@ -170,7 +170,6 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   std::size_t visible = 0;
   for (int cell = 0; cell < sets.cells.count(); ++cell) visible += sets.count(cell);
   recorder.add("cells", "", sets.cells.count());
-  recorder.add("coarse_triangles", "", std::uint64_t{1} << sets.depth);
   recorder.add("visible_share", "",
                static_cast<double>(visible) / sets.cells.count() / std::exp2(sets.depth));
   const visibility::ChangeTable changes = changes_of(sets);
@@ -179,8 +178,6 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("bytes_lists", "B", bytes.lists);
   recorder.add("bytes_bits", "B", bytes.bits);
   recorder.add("changes_to_lists", "", static_cast<double>(bytes.changes) / static_cast<double>(bytes.lists));
-  recorder.add("changes_to_bits", "", static_cast<double>(bytes.changes) / static_cast<double>(bytes.bits));
-
   record_tables(ground, changes, recorder, progress);
   record_misses(ground, full, sets, options, recorder, progress);
 }

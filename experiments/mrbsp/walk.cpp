@@ -30,7 +30,7 @@ const std::array kSpecs{
                   0, 256},
 };
 
-constexpr int kViews = 240, kRounds = 4;
+constexpr int kViews = 240;
 constexpr std::int64_t kCellsAlong = 16;  // our choice: the paper gives no number
 // Few views would not represent the walk: of 12, LOD and VIS draw almost the same number of triangles.
 constexpr int kTimedViews = 36;
@@ -46,29 +46,12 @@ std::size_t triangles_unculled(const Heightfield& ground, const View& view, Prog
 
 void count_triangles(Methods& methods, const std::vector<View>& views, Recorder& recorder) {
   std::array<double, kMethods> sums{};
-  // Numbers of views in which brute force draws more than every other method; in which both together draw
-  // fewer than either alone; in which they draw as many as the lesser of the two.
-  std::size_t brute_most = 0, both_least = 0, tied = 0;
-  for (const View& view : views) {
-    std::array<std::size_t, kMethods> drawn{};
-    for (std::size_t m = 0; m < kMethods; ++m) {
-      drawn[m] = methods.lods[m].update(view).stats.triangles;
-      sums[m] += static_cast<double>(drawn[m]);
-      recorder.add(fmt::format("triangles_{}", kMethodNames[m]), "", drawn[m]);
-    }
-    const auto [less, more] = std::minmax(drawn[kLod], drawn[kVis]);
-    brute_most += more < drawn[kBrute];
-    both_least += drawn[kBoth] < less;
-    tied += drawn[kBoth] == less;
-  }
-  for (std::size_t m = 0; m < kMethods; ++m) {
-    recorder.add(fmt::format("mean_{}", kMethodNames[m]), "", sums[m] / static_cast<double>(views.size()));
-    recorder.add(fmt::format("share_{}", kMethodNames[m]), "", sums[m] / sums[kBrute]);
-  }
   recorder.add("views", "", views.size());
-  recorder.add("views_brute_most", "", brute_most);
-  recorder.add("views_both_least", "", both_least);
-  recorder.add("views_tied", "", tied);
+  for (std::size_t m = 0; m < kMethods; ++m) {
+    for (const View& view : views) sums[m] += methods.lods[m].update(view).stats.triangles;
+    recorder.add(fmt::format("mean_{}", kMethodNames[m]), "", sums[m] / views.size());
+    if (m != kBrute) recorder.add(fmt::format("share_{}", kMethodNames[m]), "", sums[m] / sums[kBrute]);
+  }
 }
 
 // Counts pixels lost because visibility leaves out triangles, with level of detail and without.
@@ -99,7 +82,7 @@ void count_lost_pixels(Methods& methods, const std::vector<View>& views, const R
     const auto add = [&](std::string_view metric, std::string_view unit, double value) {
       recorder.add(fmt::format("{}_{}", metric, kMethodNames[hiding]), unit, value);
     };
-    add("ground_share", "", static_cast<double>(ground) / all);
+    if (hiding == kVis) add("ground_share", "", static_cast<double>(ground) / all);
     add("lost_share", "", share(lost, ground));
     add("most_lost_share", "", most_share);
     add("apparent_share", "", share(apparent, views.size()));
@@ -125,31 +108,19 @@ void time_flags(Methods& methods, const Heightfield& ground, const std::vector<V
   const double lod_time = processor_seconds([&] {
     for (const View& view : views) methods.lods[kLod].update(view);
   });
-  const auto frames = static_cast<double>(views.size());
-  recorder.add("toggled_per_view", "", static_cast<double>(toggled) / frames);
-  recorder.add("toggle_time", "s", flag_time / frames);
+  recorder.add("toggled_per_view", "", static_cast<double>(toggled) / static_cast<double>(views.size()));
   recorder.add_varying("toggle_to_lod_time", "", flag_time / lod_time);
 }
 
-void time_frames(Methods& methods, const Heightfield& ground, const std::vector<View>& views,
-                 const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const std::vector<RoundTimes> rounds = time_rounds(methods.lods, ground, views, kRounds, options, progress);
-  const std::vector<double> least = least_times(rounds);
+void record_times(Methods& methods, const Heightfield& ground, const std::vector<View>& views,
+                  const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const std::vector<FrameTimes> times = time_frames(methods.lods, ground, views, options, progress);
   for (std::size_t m = 0; m < kMethods; ++m) {
-    recorder.add_varying(fmt::format("least_time_share_{}", kMethodNames[m]), "", least[m] / least[kBrute]);
+    const std::string_view name = kMethodNames[m];
+    for (const double time : times[m].frames) recorder.add(fmt::format("frame_time_{}", name), "s", time);
+    recorder.add_varying(fmt::format("least_time_share_{}", name), "", times[m].least / times[kBrute].least);
   }
-  for (const RoundTimes& round : rounds) {
-    for (std::size_t m = 0; m < kMethods; ++m) {
-      const std::string_view name = kMethodNames[m];
-      for (const double time : round.frames[m]) recorder.add(fmt::format("frame_time_{}", name), "s", time);
-      recorder.add_varying(fmt::format("time_share_{}", name), "", round.of(m) / round.of(kBrute));
-    }
-    recorder.add_varying("lod_frame_share", "", round.choosing_of(kLod) / round.of(kLod));
-    for (const auto& [of, to] : {std::pair{kVis, kLod}, {kBoth, kLod}, {kBoth, kVis}}) {
-      recorder.add_varying(fmt::format("time_{}_to_{}", kMethodNames[of], kMethodNames[to]), "",
-                           round.of(of) / round.of(to));
-    }
-  }
+  recorder.add_varying("lod_frame_share", "", times[kLod].choosing_share);
 }
 
 // A picture from above, in which every triangle covers some pixels: the number of triangles that it shows.
@@ -224,10 +195,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("cells", "", std::max(sets.cells.columns, sets.cells.rows));
   recorder.add("triangles_all", "", triangles_unculled(ground, views[0], progress));
   count_triangles(methods, views, recorder);
-  for (const View& view : views) {
+  for (const View& view : views)
     recorder.add("lod_time", "s", seconds([&] { methods.lods[kLod].update(view); }));
-    recorder.add("both_time", "s", seconds([&] { methods.lods[kBoth].update(view); }));
-  }
   time_flags(methods, ground, views, recorder);
   const auto pictures = static_cast<std::size_t>(at.parameters.integer("pictures"));
   if (pictures > 0) {
@@ -235,7 +204,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     count_lost_pixels(methods, some_of(views, pictures), options, recorder, progress);
   }
   const auto frames = static_cast<std::size_t>(at.parameters.integer("frames"));
-  if (frames > 0) time_frames(methods, ground, some_of(views, frames), options, recorder, progress);
+  if (frames > 0) record_times(methods, ground, some_of(views, frames), options, recorder, progress);
 }
 
 }  // namespace

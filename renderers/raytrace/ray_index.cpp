@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <mutex>
 #include <utility>
@@ -208,6 +209,24 @@ void check_placement(const MeshPlacement& placement, std::size_t id, std::size_t
                   "use translations, rotations and scales other than zero");
 }
 
+// Nearest point of a triangle by the regions around it (Ericson 2005, Real-Time Collision Detection, §5.1.5).
+float squared_distance(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+  const auto squared = [](glm::vec3 v) { return glm::dot(v, v); };
+  const auto to_edge = [&](glm::vec3 from, glm::vec3 to) {
+    const float length = squared(to - from);
+    const float t = length > 0 ? std::clamp(glm::dot(p - from, to - from) / length, 0.0F, 1.0F) : 0;
+    return squared(p - from - t * (to - from));
+  };
+  const glm::vec3 normal = glm::cross(b - a, c - a);
+  const float area = squared(normal);
+  if (area > 0 && glm::dot(glm::cross(b - a, p - a), normal) >= 0 &&
+      glm::dot(glm::cross(c - b, p - b), normal) >= 0 && glm::dot(glm::cross(a - c, p - c), normal) >= 0) {
+    const float height = glm::dot(p - a, normal);
+    return height * height / area;
+  }
+  return std::min({to_edge(a, b), to_edge(b, c), to_edge(c, a)});
+}
+
 RTCRay to_embree(const Ray& ray) {
   return {ray.origin.x,
           ray.origin.y,
@@ -300,6 +319,29 @@ void RayIndex::closest(std::span<const Ray> rays, std::span<RayHit> hits) const 
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), kGrain), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) hits[i] = closest(rays[i]);
   });
+}
+
+float RayIndex::distance(const glm::vec3& point, const TriangleMesh& mesh) const {
+  struct Nearest {
+    glm::vec3 point;
+    const TriangleMesh& mesh;
+    float squared = std::numeric_limits<float>::infinity();
+  } nearest{point, mesh};
+  const auto visit = [](RTCPointQueryFunctionArguments* at) {
+    auto& nearest = *static_cast<Nearest*>(at->userPtr);
+    const std::uint32_t* const k = &nearest.mesh.indices[3 * std::size_t{at->primID}];
+    const std::vector<glm::vec3>& p = nearest.mesh.positions;
+    const float squared = squared_distance(nearest.point, p[k[0]], p[k[1]], p[k[2]]);
+    if (squared >= nearest.squared) return false;
+    nearest.squared = squared;
+    at->query->radius = std::sqrt(squared) * 1.00001F;  // so that rounding leaves no nearer one out
+    return true;
+  };
+  RTCPointQuery query{point.x, point.y, point.z, 0, nearest.squared};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(embree_->top, &query, &context, visit, &nearest);
+  return std::sqrt(nearest.squared);
 }
 
 std::uint64_t RayIndex::bytes() const {

@@ -56,6 +56,10 @@ class RayIndex {
   // A batch, in parallel. Both spans have the same size.
   void closest(std::span<const Ray>, std::span<RayHit>) const;
 
+  // Metres from a point to the nearest triangle of `mesh`, the only one of this index. Thread-safe. O(log
+  // triangles) near the mesh.
+  float distance(const glm::vec3& point, const TriangleMesh& mesh) const;
+
   std::uint64_t bytes() const;          // held by Embree
   static std::string embree_version();  // "3.13.5"
 

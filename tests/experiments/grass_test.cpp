@@ -5,62 +5,37 @@
 #include <glm/geometric.hpp>
 
 #include "experiments/experiment.h"
-#include "experiments/hybrid/grassland.h"
-#include "tests/terrain/temporary_folder.h"
+#include "experiments/hybrid/grounds.h"
+#include "tests/experiments/value.h"
 
 namespace terrabench::hybrid {
 namespace {
 
-class GrassExperiments : public testing::Test {
- protected:
-  Record run(std::string_view id, std::initializer_list<std::pair<std::string_view, Value>> given) {
-    const Experiment& measured = experiment(id);
-    Record record;
-    Recorder recorder(record, folder_.path());
-    Progress progress;
-    measured.measure({"tiny", {measured.parameters, given}}, RunOptions{}, recorder, progress);
-    return record;
-  }
-  static const std::vector<double>& samples(const Record& record, std::string_view metric) {
-    static const std::vector<double> none{std::nan("")};
-    const Metric* const found = record.find(metric);
-    if (found == nullptr || found->samples.empty()) {
-      ADD_FAILURE() << metric << " was not measured";
-      return none;
-    }
-    return found->samples;
-  }
-  static double value(const Record& record, std::string_view metric) {
-    return samples(record, metric).front();
-  }
-
-  TemporaryFolder folder_;
-};
-
-TEST_F(GrassExperiments, Table3TimesTheThreeNumbersWithEveryTechnique) {
+TEST(GrassExperiments, Table3TimesTheThreeNumbersWithEveryTechnique) {
   for (const char* const technique : {"geometry-shader", "instancing", "indirect"}) {
-    const Record record = run("hybrid.table3", {{"technique", std::string(technique)},
-                                                {"billboards", std::int64_t{600}},
-                                                {"frames", std::int64_t{4}},
-                                                {"warm_up", std::int64_t{1}},
-                                                {"width", std::int64_t{96}},
-                                                {"height", std::int64_t{64}},
-                                                {"cells", std::int64_t{16}}});
+    const Record record = measured("hybrid.table3", {{"technique", std::string(technique)},
+                                                     {"billboards", std::int64_t{600}},
+                                                     {"frames", std::int64_t{4}},
+                                                     {"warm_up", std::int64_t{1}},
+                                                     {"width", std::int64_t{96}},
+                                                     {"height", std::int64_t{64}},
+                                                     {"cells", std::int64_t{16}}});
     SCOPED_TRACE(technique);
     EXPECT_EQ(value(record, "billboards_1n"), 600);
     EXPECT_EQ(value(record, "billboards_2n"), 1200);
     EXPECT_EQ(value(record, "billboards_3n"), 1800);
     EXPECT_GE(value(record, "ssim_to_geometry_shader"), 0.999);
     for (const char* const metric : {"frame_time_1n", "frame_time_2n", "frame_time_3n", "time_growth"}) {
-      EXPECT_EQ(samples(record, metric).size(), 4U) << metric;
-      for (const double each : samples(record, metric)) EXPECT_GT(each, 0) << metric;
+      ASSERT_NE(record.find(metric), nullptr) << metric;
+      EXPECT_EQ(record.find(metric)->samples.size(), 4U) << metric;
+      for (const double each : record.find(metric)->samples) EXPECT_GT(each, 0) << metric;
     }
-    EXPECT_NEAR(value(record, "frame_time_3n") / value(record, "frame_time_1n"), value(record, "time_growth"),
-                1e-9);
+    const auto first = [&](const char* metric) { return record.find(metric)->samples.front(); };
+    EXPECT_NEAR(first("frame_time_3n") / first("frame_time_1n"), first("time_growth"), 1e-9);
   }
 }
 
-TEST_F(GrassExperiments, TheProfilesTimeThePapersNumbers) {
+TEST(GrassExperiments, TheProfilesTimeThePapersNumbers) {
   RunOptions options;
   for (const Profile profile : {Profile::kQuick, Profile::kPaper}) {
     options.profile = profile;
@@ -74,7 +49,7 @@ TEST_F(GrassExperiments, TheProfilesTimeThePapersNumbers) {
   }
 }
 
-TEST_F(GrassExperiments, SlopeCountsTheTrianglesOfEachReading) {
+TEST(GrassExperiments, SlopeCountsTheTrianglesOfEachReading) {
   const TriangleMesh mesh = grassland_mesh(grassland(RunOptions{}.seed, 128, 0.9F));
   const auto triangles = [&](double limit, bool printed) {
     std::int64_t count = 0;
@@ -86,7 +61,7 @@ TEST_F(GrassExperiments, SlopeCountsTheTrianglesOfEachReading) {
     }
     return static_cast<double>(count);
   };
-  const Record record = run("hybrid.slope", {{"limit", 35.0}});
+  const Record record = measured("hybrid.slope", {{"limit", 35.0}});
   EXPECT_EQ(value(record, "billboards_printed"), 2 * triangles(35, true));
   EXPECT_EQ(value(record, "billboards_by_true_angle"), 2 * triangles(35, false));
   EXPECT_GT(value(record, "billboards_printed"), value(record, "billboards_by_true_angle"));
@@ -95,9 +70,9 @@ TEST_F(GrassExperiments, SlopeCountsTheTrianglesOfEachReading) {
   EXPECT_NEAR(value(record, "true_angle_there"), 39.54, 0.01);
 }
 
-TEST_F(GrassExperiments, OnlyTheSumKeepsStrandsOnTheGround) {
+TEST(GrassExperiments, OnlyTheSumKeepsStrandsOnTheGround) {
   const auto share = [&](const char* point, const char* metric) {
-    return value(run("hybrid.bary", {{"point", std::string(point)}, {"strands", std::int64_t{9000}}}),
+    return value(measured("hybrid.bary", {{"point", std::string(point)}, {"strands", std::int64_t{9000}}}),
                  metric);
   };
   EXPECT_EQ(share("sum", "share_on_the_triangle"), 1);
