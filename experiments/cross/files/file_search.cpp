@@ -62,11 +62,7 @@ class Search {
     for (std::size_t k = 0; k < type_.file_knobs.size(); ++k)
       set(type_.file_knobs[k], at[k + 2], file.parameters);
     try {
-      const auto built = type_.build(scene_.source, file.parameters, progress_);
-      const TemporaryFolder folder;
-      const std::filesystem::path path = folder.path() / "scratch";
-      file.bytes = save_representation(path, type_, *built, file.within);
-      const auto read = load_representation(path).representation;
+      const auto read = through_file(scene_, type_, file.parameters, file.within, file.bytes, progress_);
       const Differences found = top_and_volume_differences(*read, scene_.source, scene_.lines);
       if (found.columns == 0) return {};
       file.largest = found.largest;
@@ -202,6 +198,16 @@ class Variation {
 };
 
 }  // namespace
+
+std::unique_ptr<Representation> through_file(const Scene& scene, const RepresentationType& type,
+                                             const Parameters& parameters, double within, std::size_t& bytes,
+                                             Progress& progress) {
+  const auto built = type.build(scene.source, parameters, progress);
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "scratch";
+  bytes = save_representation(path, type, *built, within);
+  return load_representation(path).representation;
+}
 
 std::vector<BuiltFile> best_files(std::vector<BuiltFile> files, FileError error) {
   std::vector<Made> all;

@@ -9,7 +9,8 @@
 // and compared.
 #pragma once
 
-#include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "experiments/cross/representations/scenes.h"
@@ -24,6 +25,10 @@ struct BuiltFile {
   double largest = 0, rmse = 0;
   double volume_error = 0;  // 1 - IoU
 };
+
+// Builds, saves and loads; `bytes`: on disk.
+std::unique_ptr<Representation> through_file(const Scene&, const RepresentationType&, const Parameters&,
+                                             double within, std::size_t& bytes, Progress&);
 
 using FileError = double BuiltFile::*;
 // Those of which no other has both fewer bytes and less error, the smallest first. O(n log n).

@@ -43,8 +43,7 @@ constexpr std::array kGdalFormats{
 std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
   std::vector<Case> cases;
-  for (const std::string& terrain :
-       grounds(options, paper ? own_grounds() : std::vector{own_grounds().front()})) {
+  for (const std::string& terrain : compared_scenes(options)) {
     const auto add = [&](std::string_view representation) {
       cases.push_back({fmt::format("{}/{}", terrain, representation),
                        {kSpecs,
@@ -61,17 +60,6 @@ std::vector<Case> cases(const RunOptions& options) {
   return cases;
 }
 
-// The bytes of the ground as it came: 16-bit samples where whole metres fit them, else floats; of a solid the
-// heights of its columns as floats.
-double own_bytes(const Scene& scene) {
-  if (!scene.source.heights) return static_cast<double>(scene.heightmap_bytes);
-  const Heightfield& field = *scene.source.heights;
-  const bool whole = std::ranges::all_of(field.heights, [](float h) {
-    return Heightfield::is_no_data(h) || (h == std::round(h) && std::abs(h) < 32768);
-  });
-  return static_cast<double>(field.heights.size()) * (whole ? 2 : 4);
-}
-
 void record_smallest(const std::vector<BuiltFile>& files, FileError error, double percent, double unit,
                      double own, Recorder& recorder) {
   const std::string bytes = fmt::format("bytes_within_{:g}%", percent),
@@ -84,17 +72,16 @@ void record_smallest(const std::vector<BuiltFile>& files, FileError error, doubl
   }
 }
 
-void record_closest(const std::vector<BuiltFile>& files, double percent, double own, Recorder& recorder) {
-  const auto add = [&](std::string_view metric, std::string_view unit, FileError error) {
+void record_closest(const std::vector<BuiltFile>& files, FileError error, std::string_view metric,
+                    std::string_view unit, double own, Recorder& recorder) {
+  for (const double percent : kShares) {
     const std::string name = fmt::format("{}_at_{:g}%", metric, percent);
-    const BuiltFile* file = closest_within(files, error, percent / 100 * own);
-    if (file != nullptr)
+    if (const BuiltFile* file = closest_within(files, error, percent / 100 * own)) {
       recorder.add(name, unit, file->*error);
-    else
+    } else {
       recorder.undefined({name}, "no file that the search made is so small");
-  };
-  add("rmse", "m", &BuiltFile::rmse);
-  add("volume_error", "", &BuiltFile::volume_error);
+    }
+  }
 }
 
 void measure_type(const Scene& scene, const RepresentationType& type, int builds, Recorder& recorder,
@@ -112,12 +99,13 @@ void measure_type(const Scene& scene, const RepresentationType& type, int builds
     recorder.add("best_bytes", "B", static_cast<double>(file.bytes));
     recorder.add("best_error", heights ? "m" : "", file.*error);
   }
+  for (const double percent : percents) record_smallest(files, error, percent, unit, own, recorder);
+  if (!heights) return record_closest(files, error, "volume_error", "", own, recorder);
+  record_closest(files, &BuiltFile::rmse, "rmse", "m", own, recorder);
   for (const BuiltFile& file : best_files(files, &BuiltFile::rmse)) {
     recorder.add("best_rmse_bytes", "B", static_cast<double>(file.bytes));
     recorder.add("best_rmse", "m", file.rmse);
   }
-  for (const double percent : percents) record_smallest(files, error, percent, unit, own, recorder);
-  for (const double percent : kShares) record_closest(files, percent, own, recorder);
 }
 
 // GDAL's formats have no holes: these are filled first, and take no part in the error.
@@ -150,7 +138,6 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
             progress);
   recorder.terrain(ground.source);
   if (relief_of(ground) == 0) throw SkippedCase("the ground is flat: an error has no share of its relief");
-  recorder.add("own_bytes", "B", own_bytes(ground));
   const std::string& name = at.parameters.text("representation");
   if (name == kFormats) return measure_formats(ground, recorder);
   measure_type(ground, representation(name), at.integer("builds"), recorder, progress);

@@ -234,19 +234,20 @@ std::vector<std::uint64_t> hashes(const TriangleMesh& mesh) {
 struct Baseline {
   const Scene& scene;
   const RepresentationType& type;
+  const Parameters& parameters;
   const Representation& built;
   const TriangleMesh& mesh;  // of `built`
   Progress& progress;
 
-  std::unique_ptr<Representation> build() const { return scene.build(type, progress); }
+  std::unique_ptr<Representation> build() const { return type.build(scene.source, parameters, progress); }
   // From a changed ground. It no longer lists its events, so that a tree would sample it as it does any
   // solid, at 128 columns by default; it gets the columns that the other types have.
   std::unique_ptr<Representation> build_from(const TerrainSource& ground) const {
-    Parameters parameters = scene.parameters(type);
-    if (scene.source.events && parameters.has("resolution")) {
-      parameters.set("resolution", std::int64_t{scene.options.resolution});
+    Parameters changed = parameters;
+    if (scene.source.events && changed.has("resolution") && changed.integer("resolution") == 0) {
+      changed.set("resolution", std::int64_t{scene.options.resolution});
     }
-    return type.build(ground, parameters, progress);
+    return type.build(ground, changed, progress);
   }
 };
 
@@ -310,8 +311,9 @@ std::size_t new_triangles(const TriangleMesh& before, const TriangleMesh& after)
   return found;
 }
 
-void measure_edit(const Scene& scene, const RepresentationType& type, const Representation& built,
-                  const TriangleMesh& mesh, Recorder& recorder, Progress& progress) {
+void measure_edit(const Scene& scene, const RepresentationType& type, const Parameters& parameters,
+                  const Representation& built, const TriangleMesh& mesh, Recorder& recorder,
+                  Progress& progress) {
   const Sphere sphere = place_of_edit(scene);
   if (!(sphere.radius >= scene.cell)) {
     return recorder.undefined(
@@ -323,7 +325,7 @@ void measure_edit(const Scene& scene, const RepresentationType& type, const Repr
   const bool digs = type.traits.editable, erodes = digs || (place.taken && type.traits.events);
   recorder.add("rebuilt", "", digs ? 0 : 1);
   recorder.add("event_rebuilt", "", erodes ? 0 : 1);
-  const Baseline baseline{scene, type, built, mesh, progress};
+  const Baseline baseline{scene, type, parameters, built, mesh, progress};
   const auto sphere_step = [&](const char* name, Material material) {
     return Step{name, [=](Representation& on) { fill_sphere(on, sphere, material); },
                 [&, material] { return with_sphere(scene.source, sphere, material); }};

@@ -39,8 +39,9 @@ void measure_rays(const Scene&, const Representation&, const TriangleMesh&, int 
 // relief below two cells or a side below 16: the sphere could lie between the samples. `event_misplaced`: of
 // the ground that the event should remove, how much is still there, plus by how much the ground below
 // changes, as a share.
-void measure_edit(const Scene&, const RepresentationType&, const Representation&, const TriangleMesh& mesh,
-                  Recorder&, Progress&);
+// `parameters`: with which the structure was built.
+void measure_edit(const Scene&, const RepresentationType&, const Parameters& parameters,
+                  const Representation&, const TriangleMesh& mesh, Recorder&, Progress&);
 // The triangles of `after` that `before` does not have, by the bits of their corners: the least that anything
 // drawn must take over after the edit. O(n log n) of all triangles, 8 bytes each.
 std::size_t new_triangles(const TriangleMesh& before, const TriangleMesh& after);

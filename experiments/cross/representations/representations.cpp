@@ -1,5 +1,5 @@
-// Every type of representation on the same grounds, at the same resolution, at the same bytes and at the same
-// error: what each costs, how closely it keeps the ground, and how fast it answers.
+// Every type of representation on the same grounds, at the same resolution and at the same error: what each
+// costs, how closely it keeps the ground, and how fast it answers.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,8 +18,6 @@ namespace {
 const std::array kSpecs{
     ParameterSpec{"representation", std::string("heightmap"), "",
                   "a name of `terrabench list representations`"},
-    ParameterSpec{"share", 0.0, "",
-                  "of the heightmap's bytes in memory, for the file; 0: the same resolution instead", 0, 1},
     ParameterSpec{"error", 0.0, "",
                   "of the ground's relief: the RMSE of the tops for which the type is tuned; 0: not tuned", 0,
                   1},
@@ -29,11 +27,10 @@ const std::array kSpecs{
     ParameterSpec{"rays", std::int64_t{8192}, "", "of each kind", 1, 1 << 24},
 };
 
-constexpr double kLeastShare = 0.01, kQuickError = 0.02;
-constexpr std::array kShares{kLeastShare, 0.05, 0.2};
+constexpr double kRankedError = 0.02;  // at which types are ranked, and the only one in quick
 // Of the relief. A cliff or the lip of an overhang lies somewhere between two columns, so that few types come
 // within 0.5 % of a solid's top.
-constexpr std::array kErrorsOfHeights{0.001, 0.005, kQuickError}, kErrorsOfSolids{0.01, kQuickError, 0.05};
+constexpr std::array kErrorsOfHeights{0.001, 0.005, kRankedError}, kErrorsOfSolids{0.01, kRankedError, 0.05};
 // Cells between the core of a cavity and what is solid. The centre of the cell around a point is less than
 // 0.87 cells away, so that cells sampled at their centres keep a core as air.
 constexpr float kMargin = 1;
@@ -45,11 +42,10 @@ std::vector<Case> cases(const RunOptions& options) {
     const std::int64_t resolution = solid_resolution(terrain, paper);
     const auto& errors = is_solid(terrain) ? kErrorsOfSolids : kErrorsOfHeights;
     for (const RepresentationType& type : representations()) {
-      const auto add = [&](const std::string& suffix, double share, double error) {
+      const auto add = [&](const std::string& suffix, double error) {
         cases.push_back({fmt::format("{}/{}{}", terrain, type.name, suffix),
                          {kSpecs,
                           {{"representation", std::string(type.name)},
-                           {"share", share},
                            {"error", error},
                            {"size", std::int64_t{paper ? 1025 : 257}},
                            {"resolution", resolution},
@@ -57,12 +53,9 @@ std::vector<Case> cases(const RunOptions& options) {
                            {"rays", std::int64_t{paper ? 1 << 17 : 1 << 13}}}},
                          terrain});
       };
-      add("", 0, 0);
-      for (const double share : kShares) {
-        if (paper || share != kLeastShare) add(fmt::format("/{:.0f}%", 100 * share), share, 0);
-      }
+      add("", 0);
       for (const double error : errors) {
-        if (paper || error == kQuickError) add(fmt::format("/rmse={:g}%", 100 * error), 0, error);
+        if (paper || error == kRankedError) add(fmt::format("/rmse={:g}%", 100 * error), error);
       }
     }
   }
@@ -100,44 +93,27 @@ void record(const Differences& found, const TerrainSource& source, Recorder& rec
   recorder.add("cavities", "m³", found.cavities);
   recorder.add("cores", "m³", found.cores);
   recorder.add_ratio("cavities_lost", found.cavities_filled, found.cavities, "the ground has no cavities");
+  if (found.cavities > 0) recorder.add("cavities_kept", "", 1 - found.cavities_filled / found.cavities);
   recorder.add_ratio("cores_lost", found.cores_filled, found.cores, "no cavity is deep enough for a core");
 }
 
-// Every setting that was tried, for the plot of error against bytes.
-void record_trials(const SettingSearch& search, Recorder& recorder) {
-  for (const Trial& trial : search.trials()) {
-    recorder.add("tried_bytes", "B", static_cast<double>(trial.file_bytes));
-    recorder.add("tried_rmse", "m", trial.rmse);
-    recorder.add("tried_volume_error", "", trial.volume_error);
-  }
-}
-
-void measure_at_bytes(const Scene& scene, const RepresentationType& type, double share, Recorder& recorder,
-                      Progress& progress) {
-  const double budget = share * static_cast<double>(scene.heightmap_bytes);
-  SettingSearch search(scene, type, progress);
-  const std::optional<FoundSetting> chosen = search.for_bytes(budget);
-  recorder.add("fits", "", chosen ? 1 : 0);
-  const double used = chosen ? static_cast<double>(chosen->trial.file_bytes) / budget : 0;
-  recorder.add("same_bytes", "", used >= kLeastOfBytes ? 1 : 0);
-  record_trials(search, recorder);
-  if (!chosen) {
-    if (const auto trials = search.trials(); !trials.empty()) {
-      const Trial& smallest = *std::ranges::min_element(trials, {}, &Trial::file_bytes);
-      recorder.add("smallest_of_budget", "", static_cast<double>(smallest.file_bytes) / budget);
-    }
-    return;
-  }
-  const auto built = type.build(scene.source, chosen->parameters, progress);
-  recorder.add("setting", "", static_cast<double>(chosen->trial.setting));
-  recorder.add("file_bytes", "B", chosen->trial.file_bytes);
-  recorder.add("of_budget", "", used);
-  recorder.add("bytes", "B", built->memory().total());
+// `rays`: of each kind; 0: neither meshes nor rays nor edits.
+void measure_costs(const Scene& scene, const RepresentationType& type, const Parameters& parameters, int rays,
+                   Recorder& recorder, Progress& progress) {
+  Samples samples;
+  const auto built = measure_build(scene, type, parameters, recorder, samples, progress);
+  measure_file(scene, type, *built, recorder, samples);
+  measure_queries(scene, *built, samples);
   record(differences(*built, scene.source, scene.lines, kMargin * scene.cell), scene.source, recorder);
+  if (rays == 0) return samples.take(recorder);
+  const TriangleMesh mesh = measure_mesh(*built, recorder, samples);
+  measure_rays(scene, *built, mesh, rays, recorder, samples);
+  samples.take(recorder);
+  measure_edit(scene, type, parameters, *built, mesh, recorder, progress);
 }
 
-void measure_at_error(const Scene& scene, const RepresentationType& type, double share, Recorder& recorder,
-                      Progress& progress) {
+void measure_at_error(const Scene& scene, const RepresentationType& type, double share, int rays,
+                      Recorder& recorder, Progress& progress) {
   const double relief = relief_of(scene), asked = share * relief;
   if (relief == 0) {
     return recorder.undefined({"same_error", "least_of_relief", "of_asked"},
@@ -147,24 +123,15 @@ void measure_at_error(const Scene& scene, const RepresentationType& type, double
   const std::optional<FoundSetting> chosen = search.for_error(asked);
   const double used = chosen ? chosen->trial.rmse / asked : 0;
   recorder.add("same_error", "", used >= kLeastOfError ? 1 : 0);
-  record_trials(search, recorder);
   if (const auto trials = search.trials(); !trials.empty()) {
     const Trial& best = *std::ranges::min_element(trials, {}, &Trial::rmse);
     recorder.add("least_of_relief", "", best.rmse / relief);
   }
   if (!chosen) return;
-  if (chosen->trial.setting > 0) recorder.add("setting", "", static_cast<double>(chosen->trial.setting));
+  if (chosen->trial.setting > 0) recorder.add("setting", "", chosen->trial.setting);
   recorder.add("of_asked", "", used);
-  Samples samples;
-  const auto built = measure_build(scene, type, chosen->parameters, recorder, samples, progress);
-  measure_file(scene, type, *built, recorder, samples);
-  measure_queries(scene, *built, samples);
-  samples.take(recorder);
-  record(differences(*built, scene.source, scene.lines, kMargin * scene.cell), scene.source, recorder);
+  measure_costs(scene, type, chosen->parameters, rays, recorder, progress);
 }
-
-// Times are measured at the same resolution and at the same error, not at the same bytes.
-bool times(const Case& at) { return at.parameters.number("share") == 0; }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const Scene& ground =
@@ -172,34 +139,20 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
             progress);
   recorder.terrain(ground.source);
   const RepresentationType& type = representation(at.parameters.text("representation"));
-  if (const double share = at.parameters.number("share"); share > 0) {
-    measure_at_bytes(ground, type, share, recorder, progress);
-    return;
-  }
-  if (const double share = at.parameters.number("error"); share > 0) {
-    measure_at_error(ground, type, share, recorder, progress);
-    return;
-  }
-  Samples samples;
-  const auto built = measure_build(ground, type, ground.parameters(type), recorder, samples, progress);
-  measure_file(ground, type, *built, recorder, samples);
-  measure_queries(ground, *built, samples);
-  record(differences(*built, ground.source, ground.lines, kMargin * ground.cell), ground.source, recorder);
-  const TriangleMesh mesh = measure_mesh(*built, recorder, samples);
-  measure_rays(ground, *built, mesh, at.integer("rays"), recorder, samples);
-  samples.take(recorder);
-  measure_edit(ground, type, *built, mesh, recorder, progress);
+  const double error = at.parameters.number("error");
+  const int rays = at.integer("rays");
+  if (error == 0) return measure_costs(ground, type, ground.parameters(type), rays, recorder, progress);
+  measure_at_error(ground, type, error, error == kRankedError ? rays : 0, recorder, progress);
 }
 
 }  // namespace
 
 extern const Experiment kRepresentations{
     .id = "cross.representations",
-    .title = "Representations on the same ground, at the same bytes, at the same error",
+    .title = "Representations on the same ground, at the same resolution, at the same error",
     .parameters = kSpecs,
     .cases = cases,
     .measure = measure,
-    .kind = Experiment::kTimed,
-    .times = times};
+    .kind = Experiment::kTimed};
 
 }  // namespace terrabench::cross

@@ -62,10 +62,13 @@ double relief_of(const Scene& scene) {
   return static_cast<double>(highest) - lowest;
 }
 
-std::size_t file_bytes(const RepresentationType& type, const Representation& built) {
-  const TemporaryFolder folder;
-  const std::filesystem::path file = folder.path() / "scratch";
-  return save_representation(file, type, built);
+double own_bytes(const Scene& scene) {
+  if (!scene.source.heights) return static_cast<double>(scene.heightmap_bytes);
+  const Heightfield& field = *scene.source.heights;
+  const bool whole = std::ranges::all_of(field.heights, [](float h) {
+    return Heightfield::is_no_data(h) || (h == std::round(h) && std::abs(h) < 32768);
+  });
+  return static_cast<double>(field.heights.size()) * (whole ? 2 : 4);
 }
 
 std::vector<std::string> compared_scenes(const RunOptions& options) {

@@ -51,7 +51,8 @@ bool is_solid(const std::string& terrain);
 // Kept until another one is asked for.
 const Scene& scene(const SceneOptions&, Progress&);
 
-// Bytes of the file that save_representation() writes.
-std::size_t file_bytes(const RepresentationType&, const Representation&);
+// The ground as it came: 16-bit samples where whole metres fit them, else floats; of a solid the heights of
+// its columns as floats.
+double own_bytes(const Scene&);
 
 }  // namespace terrabench::cross

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/cross/lod/knob_search.h"
 #include "terrain/error.h"
 #include "terrain/events/event.h"
 
@@ -34,10 +33,9 @@ Knob resolution_knob(const Scene& scene) {
   return {"resolution", "", most, coarsest, std::max(coarsest, first), true};
 }
 
-Parameters with(Parameters parameters, std::string_view name, std::int64_t setting) {
-  parameters.set(name, setting);
-  return parameters;
-}
+// In 4096ths of the relief, so that it comes in steps as a resolution does.
+constexpr double kErrorSteps = 4096;
+Knob error_knob() { return {"max_error", "", 1, kErrorSteps / 4, kErrorSteps / 128, true}; }
 
 }  // namespace
 
@@ -45,84 +43,45 @@ SettingSearch::SettingSearch(const Scene& scene, const RepresentationType& type,
     : scene_(scene), type_(type), progress_(progress), parameters_(scene.parameters(type)) {}
 
 // Nothing where the type refuses the setting, or keeps no column whose top could be compared.
-std::optional<Trial> SettingSearch::attempt(const Parameters& parameters, std::int64_t setting) {
+std::optional<Trial> SettingSearch::attempt(const Parameters& parameters, double setting) {
   try {
     const auto built = type_.build(scene_.source, parameters, progress_);
     const Differences found = top_and_volume_differences(*built, scene_.source, scene_.lines);
     if (found.columns == 0) return {};
-    return trials_.emplace_back(
-        Trial{setting, file_bytes(type_, *built), found.rmse, 1 - found.volume_iou.value_or(1)});
+    return trials_.emplace_back(Trial{setting, built->memory().total(), found.rmse});
   } catch (const Error& error) {
     if (!refuses(error)) throw;
     return {};
   }
 }
 
-// For types that choose their settings for a budget. The budget excludes the file's own head, which the first
-// attempt tells.
-std::optional<FoundSetting> SettingSearch::within_budget(double budget) {
-  double asked = budget;
-  for (int k = 0; k < 2 && asked >= 1; ++k) {
-    const auto setting = static_cast<std::int64_t>(std::llround(asked));
-    const Parameters parameters = with(parameters_, "budget_bytes", setting);
-    const std::optional<Trial> trial = attempt(parameters, setting);
-    if (!trial) return {};
-    const double excess = static_cast<double>(trial->file_bytes) - budget;
-    if (excess <= 0) return FoundSetting{parameters, *trial};
-    asked = budget - excess;
-  }
-  return {};
-}
-
-// Bytes grow about as the square of the columns; their square root is searched, because search_knob() expects
-// an error proportional to the knob. Its finest end is here the fewest columns, whose file is the smallest.
-std::optional<FoundSetting> SettingSearch::finest_within(double budget) {
-  std::optional<FoundSetting> best;
-  const double most = most_columns(scene_);
-  const double own = scene_.source.heights ? most : static_cast<double>(scene_.options.resolution);
-  const double guess = std::round(own * std::sqrt(budget / static_cast<double>(scene_.heightmap_bytes))),
-               first = scene_.source.events && has("events") ? columns_of_events(scene_) : guess;
-  const double least = std::min<double>(kCoarsest, most);
-  const Knob knob{"resolution", "", least, most, std::clamp(first, least, most), true};
-  search_knob(knob, std::sqrt(budget), [&](double value) {
-    const auto columns = static_cast<std::int64_t>(value);
-    const Parameters parameters = scene_.parameters(type_, columns);
-    const std::optional<Trial> trial = attempt(parameters, columns);
-    if (!trial) return -std::numeric_limits<double>::infinity();
-    const auto bytes = static_cast<double>(trial->file_bytes);
-    if (bytes <= budget && (!best || trial->file_bytes > best->trial.file_bytes)) {
-      best = FoundSetting{parameters, *trial};
-    }
-    return std::sqrt(bytes);
-  });
-  return best;
-}
-
-std::optional<FoundSetting> SettingSearch::for_bytes(double budget) {
-  if (has("budget_bytes")) return within_budget(budget);
-  return has("resolution") ? finest_within(budget) : std::nullopt;
-}
-
 std::optional<FoundSetting> SettingSearch::drills_for_error(double rmse) {
-  constexpr double kNoLimit = 1e12;  // bytes
+  constexpr std::int64_t kNoLimit = 1'000'000'000'000;  // bytes
   Parameters parameters = parameters_;
   parameters.set("max_rmse", rmse);
   const std::optional<Trial> trial = attempt(parameters, 0);
-  if (!trial) attempt(with(parameters_, "budget_bytes", static_cast<std::int64_t>(kNoLimit)), 0);
+  if (!trial) {
+    Parameters unlimited = parameters_;
+    unlimited.set("budget_bytes", kNoLimit);
+    attempt(unlimited, 0);
+  }
   // On a solid the drills' own error is that of the columns, to which that of sampling them is added.
   return trial && trial->rmse <= rmse ? std::optional(FoundSetting{parameters, *trial}) : std::nullopt;
 }
 
-std::optional<FoundSetting> SettingSearch::coarsest_for_error(double rmse) {
+std::optional<FoundSetting> SettingSearch::coarsest_for_error(const Knob& knob, double rmse) {
   std::optional<FoundSetting> best;
-  const Tuned tuned = search_knob(resolution_knob(scene_), rmse, [&](double value) {
-    const auto setting = static_cast<std::int64_t>(value);
-    const Parameters parameters = scene_.parameters(type_, setting);
-    const std::optional<Trial> trial = attempt(parameters, setting);
-    if (!trial) return std::numeric_limits<double>::infinity();
-    if (trial->rmse <= rmse && (!best || trial->file_bytes < best->trial.file_bytes)) {
-      best = FoundSetting{parameters, *trial};
+  const Tuned tuned = search_knob(knob, rmse, [&](double value) {
+    Parameters parameters = parameters_;
+    if (knob.name == "max_error") {
+      parameters.set(knob.name, value / kErrorSteps * relief_of(scene_));
+    } else {
+      parameters = scene_.parameters(type_, static_cast<std::int64_t>(value));
     }
+    const std::optional<Trial> trial = attempt(parameters, value);
+    if (!trial) return std::numeric_limits<double>::infinity();
+    if (trial->rmse <= rmse && (!best || trial->bytes < best->trial.bytes))
+      best = FoundSetting{parameters, *trial};
     return trial->rmse;
   });
   return tuned.reached ? best : std::nullopt;
@@ -130,7 +89,8 @@ std::optional<FoundSetting> SettingSearch::coarsest_for_error(double rmse) {
 
 std::optional<FoundSetting> SettingSearch::for_error(double rmse) {
   if (has("max_rmse")) return drills_for_error(rmse);
-  return has("resolution") ? coarsest_for_error(rmse) : std::nullopt;
+  if (has("max_error")) return coarsest_for_error(error_knob(), rmse);
+  return has("resolution") ? coarsest_for_error(resolution_knob(scene_), rmse) : std::nullopt;
 }
 
 }  // namespace terrabench::cross
