@@ -13,6 +13,7 @@
 #include "terrain/image.h"
 #include "tests/results/fake_results.h"
 #include "tests/terrain/dead_process.h"
+#include "tests/terrain/errors.h"
 #include "tests/terrain/temporary_of.h"
 
 namespace terrabench {
@@ -224,13 +225,9 @@ TEST_F(ReportTest, NamesAndCaptionsFromOutsideCannotBreakThePage) {
 }
 
 TEST_F(ReportTest, EmptyFolderIsBadInput) {
-  try {
-    write_report(folder_);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kBadInput);
-    EXPECT_THAT(error.what(), HasSubstr("holds no measurements"));
-  }
+  const Failure failure = failure_of([&] { write_report(folder_); });
+  EXPECT_EQ(failure.code, ExitCode::kBadInput);
+  EXPECT_THAT(failure.what, HasSubstr("holds no measurements"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "report"));
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <string_view>
 
 #include "terrain/heightfield.h"
@@ -17,7 +16,6 @@ enum class RasterCodec {
   kLerc,             // the one block of GDAL's GeoTIFF with LERC compression, of floats
   kLercDeflate,      // the same block through DEFLATE: LERC itself packs bits without entropy coding
 };
-std::span<const RasterCodec> raster_codecs();
 std::string_view name(RasterCodec);
 
 struct CompressedSize {
