@@ -1,16 +1,14 @@
 #include "results/store/store.h"
 
 #include <gmock/gmock.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <limits>
 #include <thread>
 
 #include "results/store/record_json.h"
 #include "terrain/error.h"
 #include "tests/results/fake_results.h"
-#include "tests/terrain/errors.h"
+#include "tests/terrain/small_files.h"
 
 namespace terrabench {
 namespace {
@@ -224,20 +222,11 @@ TEST_F(StoreTest, RefusesNumbersThatAreNotFinite) {
   EXPECT_EQ(content(), before);
 }
 
-// A file size limit stands in for a full disk: the write stops in the middle of the line.
 TEST_F(StoreTest, FullDiskLeavesNoHalfLine) {
   write_two(folder_);
   const std::string before = content();
-  rlimit old{};
-  getrlimit(RLIMIT_FSIZE, &old);
-  auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small{before.size() + 20, old.rlim_max};
-  setrlimit(RLIMIT_FSIZE, &small);
-  const ExitCode code =
-      failure_of([&] { Store(folder_).append(timed(fake_provenance(), "n=256", 20)); }).code;
-  setrlimit(RLIMIT_FSIZE, &old);
-  std::signal(SIGXFSZ, handler);
-  EXPECT_EQ(code, ExitCode::kEnvironment);
+  const auto append = [&] { Store(folder_).append(timed(fake_provenance(), "n=256", 20)); };
+  EXPECT_EQ(failure_with_small_files(before.size() + 20, append).code, ExitCode::kEnvironment);
   EXPECT_EQ(content(), before);
 }
 
