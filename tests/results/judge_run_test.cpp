@@ -53,10 +53,10 @@ TEST_F(JudgeTest, PictureAlteredByHandIsAFault) {
   write_fake_results(folder_, "quick");
   // Even one that no claim is about.
   Image image(8, 8, {10, 20, 30});
-  write_picture(folder_ / "figures/relief.jacksboro.heightmap.png", image);
+  write_picture(folder_ / "figures/relief.jacksboro.heightmap.webp", image);
   const JudgedResults results = judge(folder_);
   ASSERT_EQ(results.faults.size(), 1U);
-  EXPECT_THAT(results.faults[0], HasSubstr("relief.jacksboro.heightmap.png: picture altered"));
+  EXPECT_THAT(results.faults[0], HasSubstr("relief.jacksboro.heightmap.webp: picture altered"));
   EXPECT_FALSE(results.passed());
 }
 
