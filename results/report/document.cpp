@@ -97,8 +97,7 @@ struct MarkdownWriter {
     for (const Picture& picture : gallery.pictures) {
       if (!picture.anchor.empty()) text += fmt::format("<a id=\"{}\"></a>", escape_html(picture.anchor));
       text += fmt::format("![{0}]({1})\n\n**{0}.** {2}\n\n", escape_markdown(picture.title),
-                          escape_markdown_target(picture.bitmap.empty() ? picture.file : picture.bitmap),
-                          escape_markdown(picture.caption));
+                          escape_markdown_target(picture.file), escape_markdown(picture.caption));
       links(picture.links);
     }
   }

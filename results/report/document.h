@@ -42,8 +42,7 @@ struct TableBlock {
   bool filter = false;      // HTML: with a field that filters the rows by text
 };
 struct Picture {
-  std::string title, caption, file;  // file: for HTML; a click leads to it
-  std::string bitmap;                // for Markdown, when it differs
+  std::string title, caption, file;  // a click leads to the file
   std::vector<Link> links;
   std::string anchor = {};  // id of the picture, for links to it; empty: none
 };

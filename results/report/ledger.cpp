@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <utility>
+#include <tuple>
 #include <variant>
 
 #include "results/report/fill.h"
@@ -21,7 +21,6 @@ class WhereShown {
  public:
   struct Place {
     std::string_view id, title, page;
-    bool same_quantity = true;  // false: it shows a case that the claim reads, but other metrics of it
   };
 
   // Tables come before plots, both in the papers' order.
@@ -35,43 +34,39 @@ class WhereShown {
       for (const PlotLayout& plot : paper.plots) {
         if (!links.shown.contains(plot.id)) continue;
         for (const PlotLayout::Series& series : plot.series) {
-          for (const auto& [x, name] : series.cases)
-            by_case_[{series.experiment, name}].push_back(
-                {{series.metric, series.x_metric}, {plot.id, plot.title, plot.page}});
-        }
-      }
-    }
-  }
-
-  // The first with a row that names the claim; otherwise the first that shows one of the metrics that the
-  // claim reads; otherwise that with the metric of a case it reads whose name starts most alike, such as
-  // rmse_mean for rmse_largest. Nothing if no such case was measured and is shown.
-  std::optional<Place> find(const Claim& claim, const Store& store, std::string_view profile) const {
-    if (const auto named = by_claim_.find(claim.id); named != by_claim_.end()) return named->second;
-    std::optional<Place> best;
-    std::ptrdiff_t most = -1;  // letters alike
-    for (const Condition& condition : claim.conditions) {
-      for (const Operand& read : condition.operands) {
-        const auto of_case = by_case_.find({read.experiment, read.case_name});
-        const Record* const record = store.find(read.experiment, read.case_name, profile);
-        if (record == nullptr || of_case == by_case_.end()) continue;
-        for (const auto& [metrics, place] : of_case->second) {
-          for (const std::string& metric : metrics) {
-            const auto alike = std::ranges::mismatch(metric, read.metric).in1 - metric.begin();
-            const bool same = metric == read.metric;
-            if (record->find(metric) == nullptr || (best && best->same_quantity)) continue;
-            if (!same && alike <= most) continue;
-            best = place;
-            best->same_quantity = same;
-            most = alike;
+          for (const auto& [x, name] : series.cases) {
+            for (const std::string& metric : {series.metric, series.x_metric})
+              add(series.experiment, name, metric, {plot.id, plot.title, plot.page});
           }
         }
       }
     }
-    return best;
+  }
+
+  // The first with a row that names the claim; otherwise the first that shows a metric that the claim reads;
+  // otherwise the first that shows other metrics of a case that it reads, with whether it is this. Nothing if
+  // no such case was measured and is shown.
+  std::optional<std::pair<Place, bool>> find(const Claim& claim, const Store& store,
+                                             std::string_view profile) const {
+    if (const auto named = by_claim_.find(claim.id); named != by_claim_.end())
+      return std::pair(named->second, false);
+    for (const bool of_case : {false, true}) {
+      for (const Condition& condition : claim.conditions) {
+        for (const Operand& read : condition.operands) {
+          const auto shown =
+              places_.find({read.experiment, read.case_name, of_case ? kAnyMetric : read.metric});
+          const Record* const record = store.find(read.experiment, read.case_name, profile);
+          if (shown != places_.end() && record != nullptr && record->find(read.metric) != nullptr)
+            return std::pair(shown->second, of_case);
+        }
+      }
+    }
+    return std::nullopt;
   }
 
  private:
+  static constexpr const char* kAnyMetric = "";
+
   void add(const TableLayout& table) {
     const Place place{table.id, table.title, table.page};
     for (const TableLayout::Row& row : table.rows) {
@@ -79,18 +74,18 @@ class WhereShown {
         // Other texts of a row do no harm.
         if (const auto* const text = std::get_if<std::string>(&value)) by_claim_.try_emplace(*text, place);
       }
-      std::vector<std::string> metrics;
-      for (const TableLayout::Column& column : table.columns) metrics.push_back(for_row(column, row).metric);
-      by_case_[{table.experiment, row.case_name}].push_back({std::move(metrics), place});
+      for (const TableLayout::Column& column : table.columns)
+        add(table.experiment, row.case_name, for_row(column, row).metric, place);
     }
   }
+  void add(std::string_view experiment, std::string_view name, const std::string& metric,
+           const Place& place) {
+    for (const std::string& of : {metric, std::string(kAnyMetric)})
+      places_.try_emplace({experiment, name, of}, place);
+  }
 
-  struct Shown {
-    std::vector<std::string> metrics;
-    Place place;
-  };
   std::map<std::string_view, Place> by_claim_;
-  std::map<std::pair<std::string_view, std::string_view>, std::vector<Shown>> by_case_;
+  std::map<std::tuple<std::string_view, std::string_view, std::string>, Place> places_;
 };
 
 class Rows {
@@ -131,8 +126,9 @@ class Rows {
     }
     const auto place = where_shown_.find(*j.claim, store_, results_.profile);
     if (!place) return {"–"};
-    const auto& [id, title, page, same_quantity] = *place;
-    return {.text = fmt::format("{}{}", title, same_quantity ? "" : " (same case, other quantities)"),
+    const auto& [shown, other_metrics] = *place;
+    const auto& [id, title, page] = shown;
+    return {.text = fmt::format("{}{}", title, other_metrics ? " (same case, other quantities)" : ""),
             .link = (page.empty() ? "main" : ground_page(page) + ".*") + fmt::format("#{}", id)};
   }
 

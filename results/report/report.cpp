@@ -62,7 +62,11 @@ class Report {
     add_other_pictures();
     add_section({2, "Pending", "pending"}, pending_table(results_));
     add(provenance(store_));
-    add_table(input_table(store_, results_.profile), {});
+    write_file(out_ / "tables/inputs.csv", csv(input_table(store_, results_.profile)));
+    document_.push_back(
+        Paragraph{"Every case with its seed, its terrain, that terrain's checksum and its parameters:",
+                  false,
+                  {{"CSV", "tables/inputs.csv"}}});
     write_ledger();
     write_page(out_, kMainPage, document_, fmt::format("{}\n", kMark.line));
   }

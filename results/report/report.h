@@ -18,7 +18,7 @@ struct WrittenReport {
 };
 
 // DIR/report/: index.html, report.md, ground-*.{html,md}, ledger.{html,md},
-// tables/*.csv, figures/*.{svg,webp} of plots; pictures are shown where they lie, in DIR/figures/. Replaces
+// tables/*.csv, figures/*.svg of plots; pictures are shown where they lie, in DIR/figures/. Replaces
 // an earlier report as a whole or not at all; equal measurements give equal bytes. Throws bad_input when the
 // folder holds no results, environment_error when `report` in it is no earlier report, or when the report
 // cannot be written. Not thread-safe. `reference`: another results folder, with whose grounds further ones

@@ -4,15 +4,12 @@
 #include <iterator>
 
 #include "results/plot/plot.h"
-#include "results/plot/rasterise.h"
 #include "results/report/fill.h"
 #include "results/report/report_tables.h"
 #include "terrain/files.h"
 
 namespace terrabench {
 namespace {
-
-constexpr int kBitmapWidth = 1760;  // twice the plots' own size: sharp in print
 
 std::vector<Link> run_links(const std::vector<std::string>& runs) {
   std::vector<Link> links;
@@ -49,15 +46,10 @@ Document ReportParts::plots(const Paper& paper, std::string_view page) {
     if (layout.page != page) continue;
     const FilledPlot filled = fill(layout, store_, results_.profile);
     if (filled.runs.empty()) continue;  // the paper's own curve is not shown alone
-    const std::string stem = "figures/" + file_name(layout.id);
-    const std::string svg = plot_svg(filled.plot);
-    write_file(out_ / (stem + ".svg"), svg);
-    write_svg(svg, out_ / (stem + ".webp"), kBitmapWidth);
+    const std::string file = "figures/" + file_name(layout.id) + ".svg";
+    write_file(out_ / file, plot_svg(filled.plot));
     links_.shown.insert(layout.id);
-    std::vector<Link> links = run_links(filled.runs);
-    links.push_back({"WebP", stem + ".webp"});
-    blocks.push_back(Gallery{
-        {{layout.title, layout.caption, stem + ".svg", stem + ".webp", std::move(links), layout.id}}});
+    blocks.push_back(Gallery{{{layout.title, layout.caption, file, run_links(filled.runs), layout.id}}});
   }
   return blocks;
 }
@@ -68,7 +60,7 @@ Document ReportParts::pictures(const std::vector<ShownPicture>& shown) {
     if (!store_.intact(*figure)) continue;
     const std::string file = picture_file(*figure);
     links_.pictures.insert(file);
-    gallery.pictures.push_back({title, caption, file, "", run_links({record->run})});
+    gallery.pictures.push_back({title, caption, file, run_links({record->run})});
   }
   if (gallery.pictures.empty()) return {};
   return {std::move(gallery)};

@@ -206,8 +206,8 @@ Table absence_table(const JudgedResults& results) {
 Table input_table(const Store& store, std::string_view profile) {
   Table table{
       "inputs",
-      "What was measured",
-      "Every case with its seed, its ground and the checksum of that ground.",
+      "",
+      "",
       {{"Experiment"}, {"Case"}, {"Seed", "", true}, {"Terrain"}, {"Checksum"}, {"Parameters"}, {"Run"}},
       {}};
   for (const Record& record : store.records()) {
@@ -222,7 +222,7 @@ Table input_table(const Store& store, std::string_view profile) {
                           {record.terrain},
                           {record.terrain_checksum},
                           {parameters},
-                          {short_id(record.run), "", "#" + run_anchor(record.run)}});
+                          {short_id(record.run)}});
   }
   return table;
 }

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <vector>
 
+#include "terrain/splitmix.h"
+
 namespace terrabench {
 namespace {
 
@@ -17,21 +19,7 @@ constexpr int kResamples = 2000;
 // own.
 constexpr std::size_t kDrawEach = 1000;
 
-// splitmix64: gives the same numbers everywhere, unlike the distributions of the standard library.
-class Random {
- public:
-  std::uint64_t next() {
-    std::uint64_t z = state_ += 0x9E3779B97F4A7C15ULL;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    return z ^ (z >> 31);
-  }
-  std::size_t below(std::size_t n) { return static_cast<std::size_t>(next() % n); }
-  double unit() { return static_cast<double>(next() >> 11) * 0x1p-53; }
-
- private:
-  std::uint64_t state_ = 20240229;
-};
+constexpr std::uint64_t kSeed = 20240229;  // the same interval for the same samples, on every machine
 
 std::vector<double> sorted(std::span<const double> samples) {
   std::vector<double> values(samples.begin(), samples.end());
@@ -50,16 +38,16 @@ class Resampler {
   explicit Resampler(std::span<const double> samples) : values_(sorted(samples)), ranks_(values_.size()) {}
   double median() const { return median_of_sorted(values_); }
 
-  double draw(Random& random) {
+  double draw(SplitMix& random) {
     const std::size_t n = values_.size();
     if (n == 1) return values_[0];
     if (n > kDrawEach) {
-      const double normal =
-          std::sqrt(-2 * std::log(1 - random.unit())) * std::cos(2 * std::numbers::pi * random.unit());
+      const double normal = std::sqrt(-2 * std::log(1 - unit_of(random.next()))) *
+                            std::cos(2 * std::numbers::pi * unit_of(random.next()));
       const double rank = static_cast<double>(n) * (0.5 + normal / (2 * std::sqrt(static_cast<double>(n))));
       return values_[static_cast<std::size_t>(std::clamp(rank, 0.0, static_cast<double>(n - 1)))];
     }
-    for (std::size_t& rank : ranks_) rank = random.below(n);
+    for (std::size_t& rank : ranks_) rank = random.next() % n;
     const auto middle = ranks_.begin() + static_cast<long>(n / 2);
     std::nth_element(ranks_.begin(), middle, ranks_.end());
     if (n % 2 == 1) return values_[*middle];
@@ -88,7 +76,7 @@ Summary summarise(std::span<const double> samples) {
   assert(!samples.empty());
   if (samples.size() == 1) return {1, samples[0], samples[0], samples[0]};
   Resampler resampler(samples);
-  Random random;
+  SplitMix random(kSeed);
   std::vector<double> draws(kResamples);
   for (double& draw : draws) draw = resampler.draw(random);
   return with_interval(samples.size(), resampler.median(), draws);
@@ -101,7 +89,7 @@ Summary summarise_ratio(std::span<const double> numerator, std::span<const doubl
     return {1, ratio, ratio, ratio};
   }
   Resampler above(numerator), below(denominator);
-  Random random;
+  SplitMix random(kSeed);
   std::vector<double> draws(kResamples);
   const double ratio = above.median() / below.median();
   for (double& draw : draws) {

@@ -5,6 +5,7 @@
 #include "terrain/error.h"
 #include "terrain/events/evaluate.h"
 #include "terrain/events/event_file.h"
+#include "terrain/events/scripts.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {
@@ -37,59 +38,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 }
 
 FuzzSeeds fuzz_seeds() {
-  constexpr std::string_view kSeeds[] = {
-      R"(terrain = "t"
-seed = 1
-size = 65
-[[event]]
-kind = "linear-erosion"
-from = [10, 20.5]
-to = [30, 40]
-depth = 3
-slope = 40
-[[event]]
-kind = "radial-erosion"
-centre = [30, 20, 30]
-radii = [8, 2e0, 6]
-[[event]]
-kind = "normal-fault"
-from = [20, 20]
-to = [40, 30]
-extent = 9
-throw = 2
-dip = 60
-)",
-      R"(terrain = "t"
-[[event]]
-kind = "inverse-fault"
-from = [20, 20]
-to = [40, 30]
-extent = 9
-throw = 2
-[[event]]
-kind = "lateral-fault"
-from = [20, 20]
-to = [40, 30]
-extent = 9
-slip = 3
-)",
-      R"(terrain = "t"
-[[event]]
-kind = "tunnel"
-from = [31.5, 30, 20]
-to = [32.5, 30, 20]
-section = [[-1, 0], [1, 0], [0, 1]]
-scale_to = 0.9
-roughness = 0.01
-seed = 7
-[[event]]
-kind = "cave"
-from = [31.5, 30, 40]
-to = [32.5, 30, 41]
-section = [[-1, 0], [1, 0], [0, 1]]
-)",
+  std::vector<std::string_view> seeds = {
       "\"t\u00e9\" = 1\n",  // beyond ASCII: toml++ 3.3.0 alone has undefined behaviour for some of them
-      "t\u00e9 = 1\n",     "terrain = \u03c4\n",
-      "seed = 1\u00a1\n",  "terrain = \"\"\"\\\n \u00e9\"\"\" # \u03c4\nsize = 65\n"};
-  return seeds_of(kSeeds);
+      "t\u00e9 = 1\n", "terrain = \u03c4\n", "seed = 1\u00a1\n",
+      "terrain = \"\"\"\\\n \u00e9\"\"\" # \u03c4\nsize = 65\n"};
+  for (const char* const name : {"canyon", "cave", "inverse-fault", "lateral-fault", "linear-erosion",
+                                 "normal-fault", "radial-erosion", "tunnel"})
+    seeds.push_back(script_text(name));
+  return seeds_of(seeds);
 }

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "results/store/format.h"
-#include "terrain/error.h"
+#include "tests/terrain/errors.h"
 
 namespace terrabench {
 namespace {
@@ -20,15 +20,10 @@ constexpr std::string_view kClaim =
     "[[claim]]\nid = \"p.1\"\nwhere = \"w\"\nstatement = \"s\"\nclass = \"E\"\n";
 
 void expect_refused(const std::string& text, const std::string& what, int line) {
-  try {
-    parse_claims(text, "claims.toml");
-    ADD_FAILURE() << "accepted:\n" << text;
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kBadInput);
-    EXPECT_THAT(error.what(), HasSubstr(what));
-    const std::string where = line > 0 ? fmt::format("claims.toml:{}:", line) : "claims.toml";
-    EXPECT_THAT(error.what(), HasSubstr(where));
-  }
+  const Failure failure = failure_of([&] { parse_claims(text, "claims.toml"); });
+  EXPECT_EQ(failure.code, ExitCode::kBadInput) << text;
+  EXPECT_THAT(failure.what, HasSubstr(what));
+  EXPECT_THAT(failure.what, HasSubstr(line > 0 ? fmt::format("claims.toml:{}:", line) : "claims.toml"));
 }
 
 std::vector<const Claim*> claims() {
@@ -111,36 +106,6 @@ constexpr const char* kDrillGrounds[] = {".jacksboro", ".noise-ridges", ".noise-
 bool on_further_ground(const Claim& claim) {
   return std::any_of(std::begin(kDrillGrounds), std::end(kDrillGrounds),
                      [&](const char* ground) { return claim.id.ends_with(ground); });
-}
-
-TEST(Claims, TheLargestSizeAndFurtherGroundsAreMeasuredInThePaperProfileOnly) {
-  for (const Claim* claim : claims()) {
-    const bool large =
-        (claim->id.starts_with("hybrid.T") && claim->id.ends_with(".512")) ||
-        claim->id == "hybrid.stitch.smooth" || claim->id.starts_with("mrbsp.vis-faster") ||
-        claim->id == "drill.time.growth" || claim->id.ends_with("best.levels") ||
-        claim->id.ends_with("tau.rmse.levels") || claim->id == "cross.lod-disk" ||
-        (claim->id.starts_with("cross.lod-frames") &&
-         (claim->id.ends_with(".1025") || claim->id.ends_with(".2049"))) ||
-        claim->id == "meshgrow.lazy.memory" || claim->id == "meshgrow.lazy.visible" ||
-        claim->id == "mrbsp.grow.lod.2049" || claim->id == "mrbsp.vis-safe.conservative.all" ||
-        claim->of_profile_scale() || claim->id == "cross.representations.ray-rate.large" ||
-        claim->id == "cross.representations.ray-rate.grounds" ||
-        // At the quick profile's size voxels are too coarse.
-        claim->id == "cross.representations.equal-error.caves" ||
-        claim->id == "ght.refused.sane" ||  // a share of few events decides nothing
-        claim->id == "cross.representations.ray-rate.least" ||
-        // Grounds that the quick profile does not measure, does not draw, or does not time.
-        (claim->id.starts_with("cross.") &&
-         (claim->id.ends_with(".peak") || claim->id.ends_with(".sequence") ||
-          (claim->id.ends_with(".fractal") && !claim->id.starts_with("cross.lod-")))) ||
-        (claim->id.starts_with("mrbsp.") && claim->id.ends_with(".fractal") &&
-         !claim->id.starts_with("mrbsp.T2.tris") && !claim->id.starts_with("mrbsp.vis-runtime")) ||
-        (claim->id.ends_with(".real") &&
-         (claim->id.starts_with("mrbsp.T2.time") || claim->id.starts_with("mrbsp.vis-faster") ||
-          claim->id == "mrbsp.vis-holes.interior.real"));
-    EXPECT_EQ(claim->profiles.size(), large || on_further_ground(*claim) ? 1U : 2U) << claim->id;
-  }
 }
 
 TEST(Claims, EveryClaimOfTheDrillPaperIsJudgedOnFourGrounds) {

@@ -95,6 +95,28 @@ Paper paper_with_claim(std::string_view type, std::string_view check, std::strin
       check, more));
 }
 
+std::string claim_entry(std::string_view id, std::string_view check, std::string_view more) {
+  return fmt::format(
+      "[[claim]]\nid = \"{0}\"\nwhere = \"w\"\nstatement = \"states {0}\"\nclass = \"E\"\n"
+      "check = [{1}]\n{2}",
+      id, check, more);
+}
+
+std::string table_entry(std::string_view id, std::string_view rows, std::string_view columns,
+                        std::string_view more) {
+  return fmt::format(
+      "[[table]]\nid = \"{0}\"\ntitle = \"{0}\"\ncaption = \"c\"\nexperiment = \"e\"\nrows_title = \"r\"\n"
+      "rows = [{1}]\ncolumns = [{2}]\n{3}",
+      id, rows, columns, more);
+}
+
+std::string plot_entry(std::string_view id, std::string_view series, std::string_view more) {
+  return fmt::format(
+      "[[plot]]\nid = \"{0}\"\ntitle = \"{0}\"\ncaption = \"c\"\nx = {{label = \"x\"}}\n"
+      "y = {{label = \"y\"}}\nseries = [{1}]\n{2}",
+      id, series, more);
+}
+
 Provenance fake_provenance() {
   Provenance p;
   p.time = "2024-02-29T12:00:00Z";

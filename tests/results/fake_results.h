@@ -35,6 +35,13 @@ Paper paper_of(std::string_view entries);
 // The paper with one claim, "p.1", of this class: its `check`, and further lines after it.
 Paper paper_with_claim(std::string_view type, std::string_view check, std::string_view more = "");
 
+// Entries of a claims file, which are titled by their ids; `more`: further lines. A claim's statement is
+// "states ID", at "w"; a table's and a plot's metrics are of the experiment "e".
+std::string claim_entry(std::string_view id, std::string_view check, std::string_view more = "");
+std::string table_entry(std::string_view id, std::string_view rows, std::string_view columns,
+                        std::string_view more = "");
+std::string plot_entry(std::string_view id, std::string_view series, std::string_view more = "");
+
 // The papers that write_fake_results() measures.
 std::span<const Paper> faked_papers();
 

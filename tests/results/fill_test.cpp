@@ -7,31 +7,36 @@
 namespace terrabench {
 namespace {
 
-// One claims file with a plot of these series.
+// One claims file with a plot of these series, along x in px and y in ms.
 Paper with_series(const std::string& series) {
-  return paper_of(
-      "[[plot]]\nid = \"p.plot\"\ntitle = \"t\"\ncaption = \"c\"\nx = {label = \"error\", unit = \"px\"}\n"
-      "y = {label = \"time\", unit = \"ms\"}\n"
-      "series = [" +
-      series + "]\n");
+  Paper paper = paper_of(plot_entry("p.plot", series));
+  paper.plots[0].x.unit = "px";
+  paper.plots[0].y.unit = "ms";
+  return paper;
 }
 
-using LayoutTest = FolderTest;
+class LayoutTest : public FolderTest {
+ protected:
+  LayoutTest() { store_.begin_run(run_); }
+  Table table_of(const std::string& rows, const std::string& columns) {
+    return fill(paper_of(table_entry("p.t", rows, columns)).tables.at(0), store_, judge(store_, {})).table;
+  }
+
+  Provenance run_ = fake_provenance();
+  Store store_{folder_};
+};
 
 TEST_F(LayoutTest, PointsStandAtAGivenXOrAtAMetricOfTheirCase) {
-  const Provenance run = fake_provenance();
-  Store store(folder_);
-  store.begin_run(run);
   for (int i = 1; i <= 3; ++i) {
-    Record record = fake_record(run, "e", "c" + std::to_string(i));
+    Record record = fake_record(run_, "e", "c" + std::to_string(i));
     add(record, "time", "s", {10.0 * i});
     if (i < 3) add(record, "error", "px", {0.5 * i});
-    store.append(record);
+    store_.append(record);
   }
   const Paper paper = with_series(
       R"({label = "given", experiment = "e", metric = "time", cases = [[7, "c1"], [8, "c3"]]},
          {label = "measured", experiment = "e", metric = "time", x_metric = "error", cases = ["c1", "c2", "c3", "c4"]})");
-  const FilledPlot filled = fill(paper.plots.at(0), store, "quick");
+  const FilledPlot filled = fill(paper.plots.at(0), store_, "quick");
   const auto& given = filled.plot.series.at(0).points;
   ASSERT_EQ(given.size(), 2U);
   EXPECT_EQ(given[0].x, 7);
@@ -46,16 +51,13 @@ TEST_F(LayoutTest, PointsStandAtAGivenXOrAtAMetricOfTheirCase) {
 }
 
 TEST_F(LayoutTest, APairedSeriesHasAPointForEachSizeOfItsCase) {
-  const Provenance run = fake_provenance();
-  Store store(folder_);
-  store.begin_run(run);
-  Record record = fake_record(run, "e", "c");
+  Record record = fake_record(run_, "e", "c");
   add(record, "time", "s", {4, 1, 6, 2, 5});
   add(record, "error", "px", {20, 10, 20, 10, 20});
-  store.append(record);
+  store_.append(record);
   const Paper paper = with_series(
       R"({label = "l", experiment = "e", metric = "time", x_metric = "error", paired = true, slope = true, cases = ["c"]})");
-  const FilledPlot filled = fill(paper.plots.at(0), store, "quick");
+  const FilledPlot filled = fill(paper.plots.at(0), store_, "quick");
   const auto& points = filled.plot.series.at(0).points;
   ASSERT_EQ(points.size(), 2U);
   EXPECT_EQ(points[0].x, 10);
@@ -67,36 +69,27 @@ TEST_F(LayoutTest, APairedSeriesHasAPointForEachSizeOfItsCase) {
 }
 
 TEST_F(LayoutTest, RowsMayNameTheMetricOfAColumn) {
-  const Provenance run = fake_provenance();
-  Store store(folder_);
-  store.begin_run(run);
-  Record record = fake_record(run, "e", "c");
+  Record record = fake_record(run_, "e", "c");
   add(record, "build_slope", "", {1.5});
   add(record, "query_slope", "", {0.25});
-  store.append(record);
-  const Paper paper = paper_of(
-      "[[table]]\nid = \"p.t\"\ntitle = \"t\"\ncaption = \"c\"\nexperiment = \"e\"\nrows_title = \"r\"\n"
-      "rows = [{label = \"a\", case = \"c\", cost = \"build\"}, {label = \"b\", case = \"c\", cost = "
-      "\"query\"}, "
-      "{label = \"d\", case = \"c\"}, {label = \"not run\", case = \"x\", cost = \"build\"}]\n"
-      "columns = [{title = \"slope\", metric = \"<cost>_slope\"}]\n");
-  const Table table = fill(paper.tables.at(0), store, {"quick", {}, {}, {}}).table;
+  store_.append(record);
+  const Table table = table_of(
+      R"({label = "a", case = "c", cost = "build"}, {label = "b", case = "c", cost = "query"},
+         {label = "d", case = "c"}, {label = "not run", case = "x", cost = "build"})",
+      R"({title = "slope", metric = "<cost>_slope"})");
   ASSERT_EQ(table.rows.size(), 2U) << "rows without a metric of their case have nothing to show";
   EXPECT_EQ(table.rows[0][1].text, "1.5");
   EXPECT_EQ(table.rows[1][1].text, "0.25");
 }
 
 TEST_F(LayoutTest, StackedBarsStandInGroupsAndNeedAllTheirParts) {
-  const Provenance run = fake_provenance();
-  Store store(folder_);
-  store.begin_run(run);
-  Record record = fake_record(run, "e", "c");
+  Record record = fake_record(run_, "e", "c");
   add(record, "a_choose", "s", {1, 2, 3});
   add(record, "a_draw", "s", {10});
   add(record, "b_choose", "s", {5});
   add(record, "d_choose", "s", {7});
   add(record, "d_draw", "s", {1});
-  store.append(record);
+  store_.append(record);
   const auto with_parts = [](const std::string& parts) {
     return paper_of(
         "[[plot]]\nid = \"p.plot\"\ntitle = \"t\"\ncaption = \"c\"\nexperiment = \"e\"\n"
@@ -110,7 +103,7 @@ TEST_F(LayoutTest, StackedBarsStandInGroupsAndNeedAllTheirParts) {
   };
   const Paper paper = with_parts(
       R"({label = "choosing", metric = "<of>_choose"}, {label = "drawing", metric = "<of>_draw"})");
-  const FilledPlot filled = fill(paper.plots.at(0), store, "quick");
+  const FilledPlot filled = fill(paper.plots.at(0), store_, "quick");
   EXPECT_EQ(filled.plot.rows, (std::vector<std::string>{"low", "A", "high", "D"}));
   EXPECT_EQ(filled.runs.size(), 1U);
   const auto& choosing = filled.plot.series.at(0).points;
@@ -129,20 +122,14 @@ TEST_F(LayoutTest, StackedBarsStandInGroupsAndNeedAllTheirParts) {
 }
 
 TEST_F(LayoutTest, GrowthStartsAnewInEachBlock) {
-  const Provenance run = fake_provenance();
-  Store store(folder_);
-  store.begin_run(run);
   for (int i = 1; i <= 4; ++i) {
-    Record record = fake_record(run, "e", "c" + std::to_string(i));
+    Record record = fake_record(run_, "e", "c" + std::to_string(i));
     add(record, "time", "s", {i == 3 ? 0.5 : 10.0 * i});
-    store.append(record);
+    store_.append(record);
   }
-  const Paper paper = paper_of(
-      "[[table]]\nid = \"p.t\"\ntitle = \"t\"\ncaption = \"c\"\nexperiment = \"e\"\nrows_title = \"r\"\n"
-      "rows = [{label = \"a\", case = \"c1\"}, {label = \"b\", case = \"c2\"}, "
-      "{label = \"c\", case = \"c3\", new_block = true}, {label = \"d\", case = \"c4\"}]\n"
-      "columns = [{title = \"growth\", unit = \"×\", growth = \"time\"}]\n");
-  const Table table = fill(paper.tables.at(0), store, {"quick", {}, {}, {}}).table;
+  const Table table = table_of(R"({label = "a", case = "c1"}, {label = "b", case = "c2"},
+                                  {label = "c", case = "c3", new_block = true}, {label = "d", case = "c4"})",
+                               R"({title = "growth", unit = "×", growth = "time"})");
   ASSERT_EQ(table.rows.size(), 4U);
   EXPECT_EQ(table.rows[0][1].text, "–");
   EXPECT_EQ(table.rows[1][1].text, "2");
@@ -159,24 +146,16 @@ TEST(LayoutFile, CasesWithAMeasuredXAreNamesAlone) {
 }
 
 TEST_F(LayoutTest, ACellWithoutAValueSaysWhatTheRecordSays) {
-  const Provenance run = fake_provenance();
-  Store store(folder_);
-  store.begin_run(run);
-  Record flat = fake_record(run, "e", "flat"), failed = fake_record(run, "e", "failed");
+  Record flat = fake_record(run_, "e", "flat"), failed = fake_record(run_, "e", "failed");
   add(flat, "time", "s", {1});
   flat.undefined = {{"relative", "the ground is flat"}};
   failed.outcome = CaseOutcome::kFailed;
   failed.reason = "out of memory";
-  store.append(flat);
-  store.append(failed);
-  const Paper paper = paper_of(
-      "[[table]]\nid = \"p.t\"\ntitle = \"t\"\ncaption = "
-      "\"c\"\n"
-      "experiment = \"e\"\nrows_title = \"r\"\n"
-      "rows = [{label = \"flat\", case = \"flat\"}, {label = \"failed\", case = \"failed\"}]\n"
-      "columns = [{title = \"a\", metric = \"time\", unit = \"s\"}, {title = \"b\", metric = \"relative\"}, "
-      "{title = \"c\", metric = \"other\"}]\n");
-  const Table table = fill(paper.tables.at(0), store, judge(store, {})).table;
+  store_.append(flat);
+  store_.append(failed);
+  const Table table = table_of(
+      R"({label = "flat", case = "flat"}, {label = "failed", case = "failed"})",
+      R"({title = "a", metric = "time", unit = "s"}, {title = "b", metric = "relative"}, {title = "c", metric = "other"})");
   ASSERT_EQ(table.rows.size(), 2U);
   EXPECT_EQ(table.rows[0][2].text, "not defined");
   EXPECT_EQ(table.rows[0][3].text, "–");

@@ -9,34 +9,13 @@ namespace {
 
 using FurtherCases = FolderTest;
 
-constexpr std::string_view kClaims = R"([[claim]]
-id = "p.1"
-where = "w"
-statement = "s"
-class = "E"
-check = [{equal = ["e/judged/n", 1]}]
-[[claim]]
-id = "p.2"
-where = "w"
-statement = "s"
-class = "F"
-check = [{figure = "p.F1", brightness = "e/compared/n"}]
-[[table]]
-id = "p.t"
-title = "t"
-caption = "c"
-experiment = "e"
-rows_title = "r"
-rows = [{label = "l", case = "shown"}]
-columns = [{title = "Time", unit = "ms", metric = "time"}, {title = "Bytes", unit = "B", metric = "bytes"}]
-[[plot]]
-id = "p.p"
-title = "t"
-caption = "c"
-x = {label = "x"}
-y = {label = "y"}
-series = [{label = "l", experiment = "e", metric = "n", cases = [[1, "plotted"]]}]
-)";
+std::string entries() {
+  return claim_entry("p.1", R"({equal = ["e/judged/n", 1]})") +
+         claim_entry("p.2", R"({figure = "p.F1", brightness = "e/compared/n"})") +
+         table_entry("p.t", R"({label = "l", case = "shown"})",
+                     R"({title = "Time", unit = "ms", metric = "time"}, {title = "B", metric = "bytes"})") +
+         plot_entry("p.p", R"({label = "l", experiment = "e", metric = "n", cases = [[1, "plotted"]]})");
+}
 
 TEST_F(FurtherCases, AreThoseThatNothingElseShows) {
   const Provenance run = fake_provenance();
@@ -58,7 +37,7 @@ TEST_F(FurtherCases, AreThoseThatNothingElseShows) {
   measure("e", "picture", "peaks", "");
   measure("f", "first", "a", "px");
   measure("f", "second", "b", "");
-  const std::vector<Paper> papers{paper_of(kClaims)};
+  const std::vector<Paper> papers{paper_of(entries())};
 
   const std::vector<TableLayout> tables = further_cases(store, papers, {}, "quick");
   ASSERT_EQ(tables.size(), 2U);

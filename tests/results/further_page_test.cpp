@@ -39,7 +39,7 @@ class FurtherPageTest : public FolderTest {
     Record maps = fake_record(run_, "cross.error-maps", ground);
     maps.terrain = ground;
     add(maps, "drill_rmse", "m", {3});
-    const std::string id = "cross.error-maps." + ground_id(ground), file = "figures/" + id + ".png";
+    const std::string id = "cross.error-maps." + ground_id(ground), file = "figures/" + id + ".webp";
     write_picture(folder_ / file, Image(40, 20, {200, 40, 40}));
     maps.figures.push_back({id, file, "Maps of <" + ground + ">.", checksum(read_file(folder_ / file))});
     store_.append(maps);
@@ -70,7 +70,7 @@ TEST_F(FurtherPageTest, HasTheTablesPlotsAndPicturesOfItsGround) {
     for (const std::string& part :
          {std::string("Ground alps.tif"), "id=\"cross.representations-" + id + "\"",
           "id=\"cross.representations-" + id + "-bytes\"", "figures/cross.representations-" + id + "-pareto.",
-          "../figures/cross.error-maps." + id + ".png", std::string("cross.error-maps alps.tif")}) {
+          "../figures/cross.error-maps." + id + ".webp", std::string("cross.error-maps alps.tif")}) {
       EXPECT_THAT(text, HasSubstr(part)) << form.extension;
     }
     EXPECT_THAT(text, Not(HasSubstr("cross.lod-"))) << "nothing of it was measured";
@@ -98,9 +98,9 @@ TEST_F(FurtherPageTest, LeavesCasesToTheMainPageByTheirLabels) {
   Record curve = fake_record(run_, "drill.size", "/x/alps.tif/printed");
   curve.terrain = "/x/alps.tif";
   add(curve, "bits", "", {1000});
-  write_picture(folder_ / "figures/curve.png", Image(40, 20, {200, 40, 40}));
-  curve.figures.push_back({"curve", "figures/curve.png", "Bits for /x/alps.tif",
-                           checksum(read_file(folder_ / "figures/curve.png"))});
+  write_picture(folder_ / "figures/curve.webp", Image(40, 20, {200, 40, 40}));
+  curve.figures.push_back({"curve", "figures/curve.webp", "Bits for /x/alps.tif",
+                           checksum(read_file(folder_ / "figures/curve.webp"))});
   store_.append(curve);
   write();
   const std::string text = written("report.md");

@@ -14,62 +14,29 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr std::string_view kClaims = R"([sets]
-ground = ["hill", "cave"]
-[[claim]]
-id = "p.1"
-where = "w"
-statement = "s"
-class = "E"
-check = [{equal = ["e/hill/n", 3]}]
-[[page]]
+std::string entries() {
+  const std::string page = "each = [\"ground\"]\npage = \"{ground}\"\n",
+                    row = R"({label = "l", case = "{ground}"})",
+                    bytes = R"({title = "Bytes", unit = "B", metric = "bytes"})";
+  return "[sets]\nground = [\"hill\", \"cave\"]\n" + claim_entry("p.1", R"({equal = ["e/hill/n", 3]})") +
+         R"([[page]]
 each = ["ground"]
 id = "{ground}"
 about = "A <{ground}> & more."
 sheets = ["e/{ground}/maps"]
 pictures = ["e/{ground}/view", "e/{ground}/not-drawn"]
-[[table]]
-each = ["ground"]
-id = "p.size-{ground}"
-page = "{ground}"
-title = "Size"
-caption = "c"
-experiment = "e"
-rows_title = "r"
-rows = [{label = "l", case = "{ground}", claim = "p.1"}]
-columns = [{title = "Bytes", unit = "B", metric = "bytes"}, {title = "Verdict", verdict = "claim"}]
-[[table]]
-id = "p.both"
-title = "Both"
-caption = "c"
-experiment = "e"
-rows_title = "r"
-rows = [{each = ["ground"], label = "l", case = "{ground}"}]
-columns = [{title = "Bytes", unit = "B", metric = "bytes"}]
-[[table]]
-each = ["ground"]
-id = "p.time-{ground}"
-page = "{ground}"
-title = "Time"
-caption = "c"
-experiment = "e"
-rows_title = "r"
-rows = [{label = "l", case = "{ground}"}]
-columns = [{title = "Time", unit = "s", metric = "time"}]
-[[plot]]
-each = ["ground"]
-id = "p.plot-{ground}"
-page = "{ground}"
-title = "Plot"
-caption = "c"
-x = {label = "x"}
-y = {label = "y"}
-series = [{label = "l", experiment = "e", metric = "n", cases = [[1, "{ground}"]]}]
-)";
+)" +
+         table_entry("p.size-{ground}", R"({label = "l", case = "{ground}", claim = "p.1"})",
+                     bytes + R"(, {title = "Verdict", verdict = "claim"})", page) +
+         table_entry("p.both", R"({each = ["ground"], label = "l", case = "{ground}"})", bytes) +
+         table_entry("p.time-{ground}", row, R"({title = "Time", unit = "s", metric = "time"})", page) +
+         plot_entry("p.plot-{ground}",
+                    R"({label = "l", experiment = "e", metric = "n", cases = [[1, "{ground}"]]})", page);
+}
 
 class GroundPageTest : public FolderTest {
  protected:
-  GroundPageTest() : store_(folder_), papers_{paper_of(kClaims)} { store_.begin_run(run_); }
+  GroundPageTest() : store_(folder_), papers_{paper_of(entries())} { store_.begin_run(run_); }
 
   void measure(const std::string& ground) {
     Record record = fake_record(run_, "e", ground);

@@ -1,7 +1,5 @@
 #include <gmock/gmock.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <cstdlib>
 #include <sstream>
 
@@ -13,7 +11,7 @@
 #include "terrain/error.h"
 #include "terrain/image.h"
 #include "tests/results/fake_results.h"
-#include "tests/terrain/errors.h"
+#include "tests/terrain/small_files.h"
 
 namespace terrabench {
 namespace {
@@ -220,21 +218,13 @@ TEST_F(LatexBundle, SameMeasurementsSameBytesAndAnEarlierOneIsReplaced) {
   EXPECT_EQ(files(), first);
 }
 
-// A file size limit stands in for a full disk.
 TEST_F(LatexBundle, AFullDiskLeavesTheEarlierOne) {
   write_fake_results(folder_, "quick");
   write_latex_bundle(folder_, bundle());
   const auto before = files();
   const auto entries = [&] { return std::distance(std::filesystem::directory_iterator(folder_), {}); };
   const auto entries_before = entries();
-  rlimit old{};
-  getrlimit(RLIMIT_FSIZE, &old);
-  auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small{2000, old.rlim_max};
-  setrlimit(RLIMIT_FSIZE, &small);
-  const Failure failure = failure_of([&] { write_latex_bundle(folder_, bundle()); });
-  setrlimit(RLIMIT_FSIZE, &old);
-  std::signal(SIGXFSZ, handler);
+  const Failure failure = failure_with_small_files(2000, [&] { write_latex_bundle(folder_, bundle()); });
   EXPECT_EQ(failure.code, ExitCode::kEnvironment);
   EXPECT_EQ(files(), before);
   EXPECT_EQ(entries(), entries_before);

@@ -16,42 +16,13 @@ using testing::HasSubstr;
 using testing::Not;
 
 // Two tables and a plot show metrics of case "c". Nothing shows case "d"; case "absent" is not measured.
-constexpr std::string_view kShown = R"([[claim]]
-each = ["read"]
-id = "p.{read}"
-where = "w"
-statement = "s"
-class = "E"
-check = [{equal = ["e/{read.of}", 1]}]
-[[claim]]
-id = "p.two"
-where = "w"
-statement = "s"
-class = "E"
-check = [{equal = ["e/c/unlike", 1]}, {equal = ["e/c/time", 1]}]
-[[table]]
-each = ["table"]
-id = "p.{table}-table"
-title = "{table}"
-caption = "c"
-experiment = "e"
-rows_title = "r"
-rows = [{label = "l", case = "c", claim = "{table.claim}", method = "{table.method}"}, {label = "l", case = "absent"}]
-columns = [{title = "n", metric = "count"}, {title = "m", metric = "{table.other}"}]
-[[plot]]
-id = "p.plot"
-title = "plot"
-caption = "c"
-x = {label = "x"}
-y = {label = "y"}
-series = [{label = "l", experiment = "e", metric = "bytes", x_metric = "time", cases = ["c"]}]
-[sets]
+std::string shown_entries() {
+  return R"([sets]
 read = [
   {name = "named", of = "c/bytes"},
   {name = "first", of = "c/count"},
   {name = "of-row", of = "c/drill_error"},
   {name = "plotted", of = "c/time"},
-  {name = "similar", of = "c/time_of_all"},
   {name = "unlike", of = "c/unlike"},
   {name = "unshown", of = "d/count"},
   {name = "unmeasured", of = "absent/count"},
@@ -60,7 +31,16 @@ table = [
   {name = "one", claim = "none", other = "<method>", method = "unmeasured"},
   {name = "two", claim = "p.named", other = "<method>_error", method = "drill"},
 ]
-)";
+)" + claim_entry("p.{read}", R"({equal = ["e/{read.of}", 1]})", "each = [\"read\"]\n") +
+         claim_entry("p.two", R"({equal = ["e/c/unlike", 1]}, {equal = ["e/c/time", 1]})") +
+         table_entry("t.{table}",
+                     R"({label = "l", case = "c", claim = "{table.claim}", method = "{table.method}"},
+                        {label = "l", case = "absent"})",
+                     R"({title = "n", metric = "count"}, {title = "m", metric = "{table.other}"})",
+                     "each = [\"table\"]\n") +
+         plot_entry("p.plot",
+                    R"({label = "l", experiment = "e", metric = "bytes", x_metric = "time", cases = ["c"]})");
+}
 
 constexpr std::size_t kVerdict = 1, kPrinted = 3, kMeasured = 4, kTolerance = 5, kWhy = 7, kFigure = 8,
                       kRun = 9;
@@ -160,30 +140,28 @@ TEST_F(LedgerTest, ARowLinksToTheTableOrPlotThatShowsItsNumbers) {
   Store store(folder_);
   for (const char* const name : {"c", "d"}) {
     Record record = fake_record(fake_provenance(), "e", name, "paper");
-    for (const char* const metric : {"bytes", "count", "drill_error", "time", "time_of_all", "unlike"})
+    for (const char* const metric : {"bytes", "count", "drill_error", "time", "unlike"})
       add(record, metric, "", {1});
     store.append(record);
   }
-  const std::vector<Paper> of{paper_of(kShown)};
+  const std::vector<Paper> of{paper_of(shown_entries())};
   using Ids = std::set<std::string, std::less<>>;
-  const auto shown = [&](const std::string& id,
-                         const Ids& in_report = {"p.one-table", "p.two-table", "p.plot"}) {
+  const auto shown = [&](const std::string& id, const Ids& in_report = {"t.one", "t.two", "p.plot"}) {
     return row(ledger_table(store, judge(store, of), of, {.shown = in_report}), id)[kFigure].text;
   };
-  EXPECT_EQ(shown("p.named"), "two") << "the table's row names the claim";
-  EXPECT_EQ(shown("p.first"), "one");
-  EXPECT_EQ(shown("p.first", {"p.two-table"}), "two") << "the report leaves the first out";
-  EXPECT_EQ(shown("p.of-row"), "two") << "the row names the metric";
-  EXPECT_EQ(shown("p.plotted"), "plot");
-  EXPECT_EQ(shown("p.two"), "plot") << "the claim's second number is shown, its first is not";
-  EXPECT_EQ(shown("p.similar"), "plot (same case, other quantities)") << "'time_of_all' starts like 'time'";
-  EXPECT_EQ(shown("p.unlike"), "one (same case, other quantities)");
+  EXPECT_EQ(shown("p.named"), "t.two") << "the table's row names the claim";
+  EXPECT_EQ(shown("p.first"), "t.one");
+  EXPECT_EQ(shown("p.first", {"t.two"}), "t.two") << "the report leaves the first out";
+  EXPECT_EQ(shown("p.of-row"), "t.two") << "the row names the metric";
+  EXPECT_EQ(shown("p.plotted"), "p.plot");
+  EXPECT_EQ(shown("p.two"), "p.plot") << "the claim's second number is shown, its first is not";
+  EXPECT_EQ(shown("p.unlike"), "t.one (same case, other quantities)");
   for (const char* const nowhere : {"p.unshown", "p.unmeasured"}) EXPECT_EQ(shown(nowhere), "–");
   write_report(store, of);
   const auto page = [&](const char* name) { return read_file(folder_ / "report" / name); };
-  EXPECT_THAT(page("ledger.html"), HasSubstr("<a href=\"index.html#p.plot\">plot</a>"));
+  EXPECT_THAT(page("ledger.html"), HasSubstr("<a href=\"index.html#p.plot\">p.plot</a>"));
   EXPECT_THAT(page("index.html"), HasSubstr("<figure id=\"p.plot\">"));
-  EXPECT_THAT(page("ledger.md"), HasSubstr("[plot](report.md#p.plot)"));
+  EXPECT_THAT(page("ledger.md"), HasSubstr("[p.plot](report.md#p.plot)"));
   EXPECT_THAT(page("report.md"), HasSubstr("<a id=\"p.plot\"></a>"));
 }
 

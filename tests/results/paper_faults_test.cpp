@@ -14,68 +14,22 @@ using testing::Not;
 
 // Two statements that differ for one cause, one of which holds in another reading; one with a reason of its
 // own; one that holds; one of ours that differs.
-constexpr std::string_view kText = R"(paper = "p"
-title = "A paper"
-source = "s"
-[[cause]]
-id = "p.S"
-title = "S has two meanings"
-text = "The formula and the table cannot both be right."
-[[claim]]
-id = "p.1"
-where = "Table 1"
-statement = "The first"
-class = "E"
-check = [{equal = ["e/c/m", 1]}]
-fails = ["*"]
-cause = "p.S"
-matches = "p.1.other"
-[[claim]]
-id = "p.1.other"
-reading_of = "p.1"
-where = "Table 1"
-statement = "The first, read otherwise"
-class = "E"
-check = [{equal = ["e/c/m", 2]}]
-[[claim]]
-id = "p.2"
-where = "Table 2"
-statement = "The second"
-class = "E"
-check = [{equal = ["e/c/m", 3]}]
-fails = ["*"]
-cause = "p.S"
-matches = "None does."
-[[claim]]
-id = "p.3"
-where = "Table 3"
-statement = "The third"
-class = "E"
-check = [{equal = ["e/c/m", 4]}]
-fails = ["*"]
-note = "The machine differs. Much."
-matches = "None at all."
-[[claim]]
-id = "p.4"
-where = "Table 4"
-statement = "The fourth"
-class = "E"
-check = [{equal = ["e/c/m", 2]}]
-[[claim]]
-id = "p.5"
-about = "beyond"
-where = "Ours"
-statement = "The fifth"
-class = "E"
-check = [{equal = ["e/c/m", 5]}]
-fails = ["*"]
-note = "It does not."
-matches = "None of ours."
-)";
+std::string entries() {
+  const std::string cause = "fails = [\"*\"]\ncause = \"p.S\"\n",
+                    own = "fails = [\"*\"]\nmatches = \"None.\"\n";
+  return "[[cause]]\nid = \"p.S\"\ntitle = \"S has two meanings\"\ntext = \"They cannot both be right.\"\n" +
+         claim_entry("p.1", R"({equal = ["e/c/m", 1]})", cause + "matches = \"p.1.other\"\n") +
+         claim_entry("p.1.other", R"({equal = ["e/c/m", 2]})", "reading_of = \"p.1\"\n") +
+         claim_entry("p.2", R"({equal = ["e/c/m", 3]})", cause + "matches = \"None does.\"\n") +
+         claim_entry("p.3", R"({equal = ["e/c/m", 4]})", own + "note = \"The machine differs. Much.\"\n") +
+         claim_entry("p.4", R"({equal = ["e/c/m", 2]})") +
+         claim_entry("p.5", R"({equal = ["e/c/m", 5]})",
+                     own + "note = \"It does not.\"\nabout = \"beyond\"\n");
+}
 
 class PaperFaults : public FolderTest {
  protected:
-  PaperFaults() : papers_{parse_claims(kText, "claims.toml")} {
+  PaperFaults() : papers_{paper_of(entries())} {
     Store store(folder_);
     Record record = fake_record(fake_provenance(), "e", "c");
     add(record, "m", "", {2});
@@ -87,17 +41,17 @@ class PaperFaults : public FolderTest {
 
 TEST_F(PaperFaults, ACauseStandsOnceWithAllItsStatements) {
   const std::string text = page();
-  const std::size_t cause = text.find("cannot both be right"), first = text.find("Table 1: The first"),
-                    second = text.find("Table 2: The second"), third = text.find("Table 3: The third");
+  const std::size_t cause = text.find("cannot both be right"), first = text.find("w: states p.1"),
+                    second = text.find("w: states p.2"), third = text.find("w: states p.3");
   EXPECT_EQ(text.find("cannot both be right", cause + 1), text.npos);
   EXPECT_LT(cause, first);
   EXPECT_LT(first, second);
   EXPECT_LT(second, third);
   EXPECT_NE(third, text.npos);
-  EXPECT_THAT(text, HasSubstr("p.1.other, reproduced: The first, read otherwise"));
+  EXPECT_THAT(text, HasSubstr("p.1.other, reproduced: states p.1.other"));
   EXPECT_THAT(text, HasSubstr("The machine differs."));
-  EXPECT_THAT(text, Not(HasSubstr("The fourth")));
-  EXPECT_THAT(text, Not(HasSubstr("The fifth"))) << "what is ours says nothing about the paper";
+  EXPECT_THAT(text, Not(HasSubstr("states p.4")));
+  EXPECT_THAT(text, Not(HasSubstr("states p.5"))) << "what is ours says nothing about the paper";
 }
 
 TEST_F(PaperFaults, StatementsAreCountedOnceAndApartFromOurOwn) {

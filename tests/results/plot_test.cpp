@@ -9,6 +9,7 @@
 #include "terrain/error.h"
 #include "terrain/image.h"
 #include "tests/results/fake_results.h"
+#include "tests/terrain/errors.h"
 
 namespace terrabench {
 namespace {
@@ -145,13 +146,9 @@ TEST_F(RasteriseTest, MissingProgramAndBadInputAreEnvironmentErrors) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "bad.png"));
   const std::string path = std::getenv("PATH");
   setenv("PATH", folder_.c_str(), 1);
-  try {
-    write_svg("<svg", folder_ / "bad.png", 100);
-    ADD_FAILURE();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kEnvironment);
-    EXPECT_THAT(error.advice(), HasSubstr("librsvg2-bin"));
-  }
+  const Failure failure = failure_of([&] { write_svg("<svg", folder_ / "bad.png", 100); });
+  EXPECT_EQ(failure.code, ExitCode::kEnvironment);
+  EXPECT_THAT(failure.advice, HasSubstr("librsvg2-bin"));
   setenv("PATH", path.c_str(), 1);
 }
 
@@ -162,12 +159,8 @@ TEST_F(RasteriseTest, AnInterruptedProgramIsAnInterruption) {
   std::filesystem::permissions(program, std::filesystem::perms::owner_all);
   const std::string path = std::getenv("PATH");
   setenv("PATH", (folder_.string() + ":" + path).c_str(), 1);
-  try {
-    write_svg(plot_svg(growth()), folder_ / "plot.png", 100);
-    ADD_FAILURE();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kInterrupted);
-  }
+  EXPECT_EQ(failure_of([&] { write_svg(plot_svg(growth()), folder_ / "plot.png", 100); }).code,
+            ExitCode::kInterrupted);
   setenv("PATH", path.c_str(), 1);
 }
 

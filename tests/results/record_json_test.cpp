@@ -6,6 +6,7 @@
 
 #include "terrain/error.h"
 #include "tests/results/fake_results.h"
+#include "tests/terrain/errors.h"
 
 namespace terrabench {
 namespace {
@@ -19,14 +20,9 @@ Record sample() {
 }
 
 void expect_bad_input(const std::string& line, const std::string& what) {
-  try {
-    parse_line(line, "there:3");
-    ADD_FAILURE() << "accepted: " << line.substr(0, 100);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kBadInput);
-    EXPECT_THAT(error.what(), HasSubstr("there:3"));
-    EXPECT_THAT(error.what(), HasSubstr(what));
-  }
+  const Failure failure = failure_of([&] { parse_line(line, "there:3"); });
+  EXPECT_EQ(failure.code, ExitCode::kBadInput) << line.substr(0, 100);
+  EXPECT_THAT(failure.what, testing::AllOf(HasSubstr("there:3"), HasSubstr(what)));
 }
 
 TEST(RecordLine, RefusesInvalidLines) {

@@ -1,15 +1,14 @@
 #include "results/store/store.h"
 
 #include <gmock/gmock.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <limits>
 #include <thread>
 
 #include "results/store/record_json.h"
 #include "terrain/error.h"
 #include "tests/results/fake_results.h"
+#include "tests/terrain/small_files.h"
 
 namespace terrabench {
 namespace {
@@ -205,12 +204,7 @@ TEST_F(StoreTest, GarbageIsBadInput) {
   using namespace std::string_literals;
   const std::string noise = "\x89PNG\r\n\x1a\n\0\xff\xfe\n\n{}\n[1]\n"s;
   write_file(file(), std::string_view(noise));
-  try {
-    const Store store(folder_);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kBadInput);
-  }
+  EXPECT_EQ(failure_of([&] { Store{folder_}; }).code, ExitCode::kBadInput);
   std::filesystem::remove(file());
   std::filesystem::create_directory(file());
   EXPECT_THROW(Store{folder_}, Error);
@@ -228,36 +222,18 @@ TEST_F(StoreTest, RefusesNumbersThatAreNotFinite) {
   EXPECT_EQ(content(), before);
 }
 
-// A file size limit stands in for a full disk: the write stops in the middle of the line.
 TEST_F(StoreTest, FullDiskLeavesNoHalfLine) {
   write_two(folder_);
   const std::string before = content();
-  rlimit old{};
-  getrlimit(RLIMIT_FSIZE, &old);
-  auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small{before.size() + 20, old.rlim_max};
-  setrlimit(RLIMIT_FSIZE, &small);
-  ExitCode code = ExitCode::kGood;
-  try {
-    Store(folder_).append(timed(fake_provenance(), "n=256", 20));
-  } catch (const Error& error) {
-    code = error.code();
-  }
-  setrlimit(RLIMIT_FSIZE, &old);
-  std::signal(SIGXFSZ, handler);
-  EXPECT_EQ(code, ExitCode::kEnvironment);
+  const auto append = [&] { Store(folder_).append(timed(fake_provenance(), "n=256", 20)); };
+  EXPECT_EQ(failure_with_small_files(before.size() + 20, append).code, ExitCode::kEnvironment);
   EXPECT_EQ(content(), before);
 }
 
 TEST_F(StoreTest, FolderThatCannotBeMadeIsAnEnvironmentError) {
   write_file(folder_ / "plain", std::string_view("x"));
   Store store(folder_ / "plain" / "inside");
-  try {
-    store.begin_run(fake_provenance());
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kEnvironment);
-  }
+  EXPECT_EQ(failure_of([&] { store.begin_run(fake_provenance()); }).code, ExitCode::kEnvironment);
 }
 
 TEST_F(StoreTest, ResumeKnowsACaseByAllThatDefinesIt) {

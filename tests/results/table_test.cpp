@@ -93,7 +93,7 @@ TEST(DocumentTest, PageNeedsNothingFromOutside) {
                              Paragraph{"a & b", true},
                              Facts{{{"x", "<y>"}}},
                              TableBlock{awkward(), {{"CSV", "a.csv"}}},
-                             Gallery{{{"P", "c", "p.svg", "p.png", {}, "p.p"}}}};
+                             Gallery{{{"P", "c", "p.svg", {}, "p.p"}}}};
   const std::string page = html(document);
   EXPECT_THAT(page, HasSubstr("<html lang=\"en\">"));
   EXPECT_THAT(page, HasSubstr("<li><a href=\"#part\">Part</a></li>"));
@@ -102,7 +102,7 @@ TEST(DocumentTest, PageNeedsNothingFromOutside) {
   EXPECT_THAT(page, Not(HasSubstr("http")));
   EXPECT_THAT(page, Not(HasSubstr("<y>")));
   const std::string text = markdown(document);
-  EXPECT_THAT(text, HasSubstr("<a id=\"p.p\"></a>![P](p.png)"));
+  EXPECT_THAT(text, HasSubstr("<a id=\"p.p\"></a>![P](p.svg)"));
   EXPECT_THAT(text, HasSubstr("[CSV](a.csv)"));
 }
 

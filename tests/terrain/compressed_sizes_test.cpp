@@ -10,6 +10,9 @@
 namespace terrabench {
 namespace {
 
+constexpr RasterCodec kCodecs[] = {RasterCodec::kZstd, RasterCodec::kZstdDifferences, RasterCodec::kJpeg2000,
+                                   RasterCodec::kLerc, RasterCodec::kLercDeflate};
+
 Heightfield waves(int width, int depth, bool whole) {
   const auto height = [](int i, int j) {
     return 300 + 90 * std::sin(0.07F * static_cast<float>(i)) * std::cos(0.05F * static_cast<float>(j)) +
@@ -35,7 +38,7 @@ TEST(CompressedSizes, WholeMetresAreKeptWithoutLoss) {
 
 TEST(CompressedSizes, ShrinkAsTheErrorGrowsAndKeepWithinIt) {
   const Heightfield field = waves(150, 100, false);
-  for (const RasterCodec codec : raster_codecs()) {
+  for (const RasterCodec codec : kCodecs) {
     std::size_t before = field.heights.size() * 5;
     for (const double rmse : {1.0, 4.0, 15.0}) {
       const CompressedSize size = compressed_size_at(field, codec, rmse);
@@ -77,7 +80,7 @@ TEST(CompressedSizes, LercIsCountedWithoutItsContainer) {
 TEST(CompressedSizes, OfFlatAndTinyFields) {
   for (const Heightfield& field :
        {Heightfield{1, 1, 1, 1, {5}, {}}, Heightfield{70, 70, 1, 1, std::vector<float>(4900, -3), {}}}) {
-    for (const RasterCodec codec : raster_codecs()) EXPECT_EQ(compressed_size_at(field, codec, 1).rmse, 0);
+    for (const RasterCodec codec : kCodecs) EXPECT_EQ(compressed_size_at(field, codec, 1).rmse, 0);
   }
 }
 
@@ -95,7 +98,7 @@ TEST(CompressedSizes, SettingsAndHolesThatCannotBeAreRefused) {
   EXPECT_EQ(code(RasterCodec::kLerc, std::nan("")), ExitCode::kUsage);
   EXPECT_EQ(code(RasterCodec::kLercDeflate, -1), ExitCode::kUsage);
   field.heights[3] = Heightfield::kNoData;
-  for (const RasterCodec codec : raster_codecs()) EXPECT_EQ(code(codec, 1), ExitCode::kBadInput);
+  for (const RasterCodec codec : kCodecs) EXPECT_EQ(code(codec, 1), ExitCode::kBadInput);
 }
 
 }  // namespace

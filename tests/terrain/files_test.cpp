@@ -2,11 +2,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
-
-#include "tests/terrain/errors.h"
+#include "tests/terrain/small_files.h"
 #include "tests/terrain/temporary_folder.h"
 
 namespace terrabench {
@@ -27,15 +24,8 @@ TEST(Files, WriteMakesFoldersAndReplacesWholeFiles) {
 TEST(Files, AFailedWriteLeavesTheOldFileAndNothingElse) {
   const TemporaryFolder folder;
   write_file(folder / "kept.txt", "old");
-  // A file size limit stands in for a full disk: the write fails half-way.
-  struct rlimit before {};
-  getrlimit(RLIMIT_FSIZE, &before);
-  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
-  const struct rlimit small { 100000, before.rlim_max };
-  setrlimit(RLIMIT_FSIZE, &small);
-  const Failure failure = failure_of([&] { write_file(folder / "kept.txt", std::string(1 << 20, 'x')); });
-  setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, old_handler);
+  const Failure failure =
+      failure_with_small_files(100'000, [&] { write_file(folder / "kept.txt", std::string(1 << 20, 'x')); });
   EXPECT_EQ(failure.code, ExitCode::kEnvironment);
   EXPECT_THAT(failure.what, HasSubstr("kept.txt"));
   EXPECT_EQ(read_file(folder / "kept.txt"), "old");

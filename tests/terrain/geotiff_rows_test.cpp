@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "terrain/error.h"
 #include "terrain/sources/dem/dem.h"
+#include "tests/terrain/errors.h"
 
 namespace terrabench {
 namespace {
@@ -44,12 +44,8 @@ TEST(GeotiffRows, BandsOfAnySizeMakeTheGround) {
 }
 
 TEST(GeotiffRows, SaysThatItCannotWrite) {
-  try {
-    GeotiffRows("/nowhere/at/all.tif", 10, 10, 1, 1);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kEnvironment);
-  }
+  EXPECT_EQ(failure_of([] { GeotiffRows("/nowhere/at/all.tif", 10, 10, 1, 1); }).code,
+            ExitCode::kEnvironment);
 }
 
 }  // namespace

@@ -17,8 +17,6 @@
 namespace terrabench {
 namespace {
 
-constexpr RasterCodec kCodecs[] = {RasterCodec::kZstd, RasterCodec::kZstdDifferences, RasterCodec::kJpeg2000,
-                                   RasterCodec::kLerc, RasterCodec::kLercDeflate,     RasterCodec::kPng};
 constexpr double kMostSteps = 65535;
 constexpr int kZstdLevel = 19;
 
@@ -213,8 +211,6 @@ std::pair<double, double> setting_range(const Heightfield& field, RasterCodec co
 }
 
 }  // namespace
-
-std::span<const RasterCodec> raster_codecs() { return kCodecs; }
 
 std::string_view name(RasterCodec codec) {
   switch (codec) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <string_view>
 
 #include "terrain/heightfield.h"
@@ -18,7 +17,6 @@ enum class RasterCodec {
   kLercDeflate,      // the same block through DEFLATE: LERC itself packs bits without entropy coding
   kPng,              // GDAL's 16-bit PNG of steps above the lowest height: filtered rows, DEFLATE level 9
 };
-std::span<const RasterCodec> raster_codecs();
 std::string_view name(RasterCodec);
 
 struct CompressedSize {

@@ -10,7 +10,6 @@
 
 #include "terrain/printable.h"
 #include "terrain/sources/dem/network.h"
-#include "terrain/sources/dem/text_grid.h"
 
 namespace terrabench {
 namespace {

@@ -16,6 +16,12 @@ namespace terrabench {
 // Registers the drivers on the first call; cheap and thread-safe afterwards.
 void register_gdal();
 
+// Makes GDAL read nan, null and na in text grids as no height, and refuse them with any other word among
+// their values, saying its line and column. This holds wherever GDAL opens one, also as a source of a .vrt.
+// Opening a grid then reads it once more, O(bytes); one with null, na or a word as its first value is held in
+// memory while it is open. Called once by register_gdal(). (text_grid.cpp)
+void guard_text_grids();
+
 // During its lifetime GDAL's messages on this thread are collected here and do not reach stderr.
 class GdalMessages {
  public:

@@ -1,5 +1,5 @@
-#include "terrain/sources/dem/text_grid.h"
-
+// Grids of numbers as text (Arc/Info and GRASS ASCII grids). GDAL reads a word among the numbers as 0, reads
+// whole numbers as integers, which cannot hold "nan", and takes a word at the beginning for the header's.
 #include <cpl_conv.h>
 #include <cpl_vsi.h>
 #include <fmt/format.h>
@@ -17,6 +17,7 @@
 
 #include "terrain/error.h"
 #include "terrain/memory.h"
+#include "terrain/sources/dem/gdal_session.h"
 
 namespace terrabench {
 namespace {
