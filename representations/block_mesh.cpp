@@ -16,13 +16,10 @@ using Levels = std::span<const std::uint16_t>;  // of one column: begin, end, be
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-bool begins(Levels column, std::uint16_t level) {
+// Whether a solid part of the column begins (or ends) at the level.
+bool changes_at(Levels column, std::uint16_t level, bool begins) {
   const auto at = std::lower_bound(column.begin(), column.end(), level);
-  return at != column.end() && *at == level && (at - column.begin()) % 2 == 0;
-}
-bool ends(Levels column, std::uint16_t level) {
-  const auto at = std::lower_bound(column.begin(), column.end(), level);
-  return at != column.end() && *at == level && (at - column.begin()) % 2 == 1;
+  return at != column.end() && *at == level && (at - column.begin()) % 2 == (begins ? 0 : 1);
 }
 // One row of the vertical lines where four columns meet. Every level at which one of the four begins or ends
 // has a vertex. Where only two diagonal columns are solid between two such levels, four walls share the edge:
@@ -196,12 +193,8 @@ class BlockMesher {
   void side(int i, int j, std::uint16_t bottom, std::uint16_t top, bool south,
             std::vector<std::uint32_t>& points) const {
     const CornerRow& row = corners_[static_cast<std::size_t>(j)];
-    const auto levels = row.levels.begin();
-    auto l = static_cast<std::uint32_t>(std::lower_bound(levels + row.starts[static_cast<std::size_t>(i)],
-                                                         levels + row.starts[static_cast<std::size_t>(i) + 1],
-                                                         bottom) -
-                                        levels);
-    points.assign(1, row.first_vertex + l);
+    points.assign(1, corner(i, j, bottom));
+    std::uint32_t l = points[0] - row.first_vertex;
     for (; row.levels[l] < top; ++l) {
       if (row.middles[l] != kNone) points.push_back(row.first_middle() + row.middles[l] + (south ? 1 : 0));
       points.push_back(row.first_vertex + l + 1);
@@ -286,9 +279,7 @@ class BlockMesher {
   }
 
   void emit_flat(int i, int j, std::uint16_t level, bool top, Emitter& out) const {
-    const auto crossed = [&](int ni, int nj) {
-      return top ? begins(column(ni, nj), level) : ends(column(ni, nj), level);
-    };
+    const auto crossed = [&](int ni, int nj) { return changes_at(column(ni, nj), level, top); };
     const CornerRow& north = corners_[static_cast<std::size_t>(j)];
     const CornerRow& south = corners_[static_cast<std::size_t>(j) + 1];
     const std::size_t edge = 2 * static_cast<std::size_t>(i);

@@ -34,10 +34,11 @@ double pixels_of(const Heightfield& ground) {  // with data
   return static_cast<double>(ground.heights.size() - height_range(ground).no_data);
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = recorder.terrain(open_ground(test_case.terrain, options.seed));
   const FlowNetwork network = route_flow(*source.heights, &progress);
-  const auto channels = channel_pixels(network, static_cast<std::uint32_t>(at.parameters.integer("tau")));
+  const auto channels =
+      channel_pixels(network, static_cast<std::uint32_t>(test_case.parameters.integer("tau")));
   const auto largest = static_cast<double>(std::ranges::max(network.accumulation));
   const double pixels = pixels_of(*source.heights);
   recorder.add("channel_pixels", "", channels.size());
@@ -58,10 +59,10 @@ std::vector<Case> crop_cases(const RunOptions& options) {
   return cases;
 }
 
-void measure_crops(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
+void measure_crops(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = recorder.terrain(open_ground(test_case.terrain, options.seed));
   const Heightfield& ground = *source.heights;
-  const int side = std::min({at.integer("side"), ground.width, ground.depth});
+  const int side = std::min({test_case.integer("side"), ground.width, ground.depth});
   progress.begin("routing crops", kColumns * kRows);
   std::vector<double> searched, steepest;  // shares of the pixels that drain through one
   for (int row = 0; row < kRows; ++row) {

@@ -1,8 +1,8 @@
-#include "experiments/drill/drawn_channels.h"
-
+// Reads back what the maps of figure 1 show.
 #include <algorithm>
 #include <cstdint>
 
+#include "experiments/drill/figures.h"
 #include "experiments/figures/maps.h"
 
 namespace terrabench::drill {

@@ -54,9 +54,9 @@ void draw(const Study& study, const std::vector<Outcome>& outcomes, Recorder& re
   draw_error_matrices(study, outcomes, recorder);
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
-  const Variant& variant = variant_of(at.parameters);
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = recorder.terrain(open_ground(test_case.terrain, options.seed));
+  const Variant& variant = variant_of(test_case.parameters);
   const std::vector<Outcome> outcomes = factorial_of(source, variant, progress);
 
   record_sets(outcomes, "rmse_", kRmse, recorder);
@@ -73,7 +73,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
   if (variant.steepest) return;  // the paper's figures show its own networks
   const FlowNetwork network = variant.route(*source.heights);
-  const std::string ground = figures::ground_suffix(at.terrain, kMainGround);
+  const std::string ground = figures::ground_suffix(test_case.terrain, kMainGround);
   const std::string fit = variant.is_first() ? "" : fmt::format(".{}", variant.name);
   draw({*source.heights, network, variant, source.name, fit + ground}, outcomes, recorder);
 }
@@ -101,10 +101,11 @@ std::vector<Case> reading_cases(const RunOptions& options) {
   return cases;
 }
 
-void measure_reading(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
-  const auto outcomes = factorial_of(source, variant_of(at.parameters), progress);
-  record_error(outcomes, "", ahd(at.parameters.choice("reading")), recorder);
+void measure_reading(const Case& test_case, const RunOptions& options, Recorder& recorder,
+                     Progress& progress) {
+  const TerrainSource source = recorder.terrain(open_ground(test_case.terrain, options.seed));
+  const auto outcomes = factorial_of(source, variant_of(test_case.parameters), progress);
+  record_error(outcomes, "", ahd(test_case.parameters.choice("reading")), recorder);
 }
 
 }  // namespace

@@ -120,17 +120,18 @@ std::vector<Case> cases(const RunOptions& options) {
   return cases;
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = recorder.terrain(open_ground(test_case.terrain, options.seed));
   const Heightfield& ground = *source.heights;
-  const Variant& variant = variant_of(at.parameters);
+  const Variant& variant = variant_of(test_case.parameters);
   const FlowNetwork network = variant.route(ground);
-  const DrillOptions one{.tau = static_cast<std::uint32_t>(at.parameters.integer("tau")), .fit = variant.fit};
-  if (at.parameters.flag("choose")) return record_choice(ground, network, one, recorder, progress);
+  const DrillOptions one{.tau = static_cast<std::uint32_t>(test_case.parameters.integer("tau")),
+                         .fit = variant.fit};
+  if (test_case.parameters.flag("choose")) return record_choice(ground, network, one, recorder, progress);
   DrillOptions extract = one;
-  extract.monotone_profiles = at.parameters.flag("monotone_profiles");
-  extract.adaptive_k = at.parameters.flag("adaptive_k");
-  extract.interpolate_untouched = at.parameters.flag("interpolate_untouched");
+  extract.monotone_profiles = test_case.parameters.flag("monotone_profiles");
+  extract.adaptive_k = test_case.parameters.flag("adaptive_k");
+  extract.interpolate_untouched = test_case.parameters.flag("interpolate_untouched");
   const Extended result = extended(ground, network, extract);
   record(result, recorder);
   if (extract.interpolate_untouched) record_gain(result, extended(ground, network, one), recorder);

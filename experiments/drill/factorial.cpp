@@ -160,10 +160,10 @@ std::vector<Case> cases(const RunOptions& options) {
   return cases;
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
-  const Setting setting{static_cast<std::uint32_t>(at.parameters.integer("tau")), at.integer("w"),
-                        at.integer("k")};
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress&) {
+  const TerrainSource source = recorder.terrain(open_ground(test_case.terrain, options.seed));
+  const Setting setting{static_cast<std::uint32_t>(test_case.parameters.integer("tau")),
+                        test_case.integer("w"), test_case.integer("k")};
   std::optional<FlowNetwork> network;  // the same for all fits
   for (const Variant& variant : kFits) {
     const Outcome& outcome = outcome_of(source, variant, setting, network);

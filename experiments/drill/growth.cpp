@@ -33,8 +33,8 @@ std::vector<Case> cases(const RunOptions& options) {
   return cases;
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const int n = at.integer("n");
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const int n = test_case.integer("n");
   const double pixels = static_cast<double>(n) * n;
   const Heightfield fine = noise_hills(n, options.seed), whole = whole_metres(fine);
   recorder.terrain("noise-hills", checksum(whole));

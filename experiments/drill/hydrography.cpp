@@ -85,10 +85,10 @@ FlowNetwork scattered(FlowNetwork network, std::size_t count, std::uint32_t tau,
   return network;
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = recorder.terrain(open_ground(test_case.terrain, options.seed));
   const Heightfield& ground = *source.heights;
-  const Variant& variant = variant_of(at.parameters);
+  const Variant& variant = variant_of(test_case.parameters);
   const FlowNetwork network = variant.route(ground);
   const Setting setting;
   const Drills drills = extract_drills(ground, network, options_for(setting, variant), &progress);

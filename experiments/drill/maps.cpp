@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/drill/drawn_channels.h"
 #include "experiments/drill/figures.h"
 #include "representations/drill/extract.h"
 #include "representations/drill/regenerate.h"

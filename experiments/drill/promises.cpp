@@ -96,11 +96,11 @@ void record_edges(const Drills& drills, const Drilled& drilled, const Heightfiel
   recorder.add("inside_mean_step", "m", edges.inside.mean);
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = recorder.terrain(open_ground(test_case.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   const FlowNetwork network = route_flow(ground, &progress);
-  DrillOptions extract = options_for({.k = 20}, variant_of(at.parameters));
+  DrillOptions extract = options_for({.k = 20}, variant_of(test_case.parameters));
   const Drills drills = extract_drills(ground, network, extract, &progress);
   const Heightfield regenerated = regenerate(drills);
   const Drilled drilled = record_orders(drills, regenerated, options.seed, recorder, progress);

@@ -139,10 +139,10 @@ void draw_rate_distortion(const TerrainSource& source, const FlowNetwork& networ
       plot, 1200);
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = recorder.terrain(open_ground(test_case.terrain, options.seed));
   const Heightfield& ground = *source.heights;
-  const Variant& variant = variant_of(at.parameters);
+  const Variant& variant = variant_of(test_case.parameters);
   const FlowNetwork network = variant.route(ground);
   const auto samples = static_cast<double>(ground.heights.size());
   const auto wanted = static_cast<std::size_t>(std::lround(kPaperShare * samples));
@@ -171,7 +171,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     recorder.add(metric, "B", compressed_size_at(filled, codec, stored.error.rmse).bytes);
   }
   if (variant.is_first())
-    draw_rate_distortion(source, network, figures::ground_suffix(at.terrain, kMainGround), recorder,
+    draw_rate_distortion(source, network, figures::ground_suffix(test_case.terrain, kMainGround), recorder,
                          progress);
 }
 

@@ -235,9 +235,9 @@ void record(const Sweep& sweep, const std::string& prefix, Recorder& recorder) {
   add_held("every_case_share", held.every_case);
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
-  const int side = at.integer("side");
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = recorder.terrain(open_ground(test_case.terrain, options.seed));
+  const int side = test_case.integer("side");
   const Heightfield ground = crop(*source.heights, 0, 0, std::min(side, source.heights->width),
                                   std::min(side, source.heights->depth));
   if (std::max(ground.width, ground.depth) < kSweptWidths.back()) {
@@ -252,7 +252,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   if (!(range.highest > range.lowest)) return;  // flat ground has no error to colour
   sweep_sheet(sweeps, kFits)
       .write(recorder.figure(
-          "drill.sweep" + figures::ground_suffix(at.terrain, kMainGround),
+          "drill.sweep" + figures::ground_suffix(test_case.terrain, kMainGround),
           fmt::format(
               "RMSE ÷ range of elevations over w and k at τ = 25 on {} × {} samples of {}, for each fit. "
               "Colours are linear from the least error; four times it and more are red.",

@@ -125,10 +125,10 @@ void record_ratios(const Times& times, Recorder& recorder) {
   add_varying_share("union_and_fitting_share", (unions + fitting) / all);
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = recorder.terrain(open_ground(test_case.terrain, options.seed));
   const Heightfield& ground = *source.heights;
-  const Variant& variant = variant_of(at.parameters);
+  const Variant& variant = variant_of(test_case.parameters);
   FlowNetwork network;
   std::vector<Drills> drills(kTimedTaus.size());
   Times times;

@@ -238,8 +238,8 @@ const std::array kSpecs{choice("topic", kNames, "what is measured")};
 
 std::vector<Case> cases(const RunOptions&) { return cases_by("topic", kSpecs); }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  kTopics[at.parameters.choice("topic")].measure(options, recorder);
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress&) {
+  kTopics[test_case.parameters.choice("topic")].measure(options, recorder);
 }
 
 }  // namespace

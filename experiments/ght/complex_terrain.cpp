@@ -58,10 +58,10 @@ std::vector<Case> cases(const RunOptions&) {
   return cases;
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const int n = at.integer("n");
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const int n = test_case.integer("n");
   const Site site = recorded_site(n, n / kEventsAlong, options.seed, recorder);
-  const bool rains = at.parameters.text("events") == "rain";
+  const bool rains = test_case.parameters.text("events") == "rain";
   std::vector<Event> events;
   if (!rains) events = overlapping_events(site);
   // On the heap, as memory() counts the tree's own block.
@@ -74,7 +74,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
       events.clear();
       Rain rain(site.ground, options.seed);
       recorder.add("time", "s", processor_seconds([&] {
-                     for (int k = at.integer("particles"); k > 0; --k) {
+                     for (int k = test_case.integer("particles"); k > 0; --k) {
                        events.push_back(rain.next(tree));
                        tree.apply(events.back());
                      }

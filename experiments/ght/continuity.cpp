@@ -156,8 +156,8 @@ std::vector<Case> cases(const RunOptions& options) {
       {{"sequences", std::int64_t{paper ? 300 : 30}}, {"particles", std::int64_t{paper ? 1000 : 200}}});
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const std::string& what = at.parameters.text("events");
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const std::string& what = test_case.parameters.text("events");
   const Site site = recorded_site(kEventsAlong * kSize, kSize, options.seed, recorder);
   Inspection inspection(recorder);
   if (what == "single-events") {
@@ -174,10 +174,10 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   } else if (what == "rain") {
     Ght tree = plain_tree(site.ground);
     Rain rain(site.ground, options.seed);
-    for (int k = at.integer("particles"); k > 0; --k) inspection.play(tree, rain.next(tree));
+    for (int k = test_case.integer("particles"); k > 0; --k) inspection.play(tree, rain.next(tree));
     inspection.finish(tree);
   } else {
-    play_random(at.integer("sequences"), options.seed, what == "random-wild", inspection, progress);
+    play_random(test_case.integer("sequences"), options.seed, what == "random-wild", inspection, progress);
     inspection.write_refusals();
   }
   inspection.write();

@@ -186,9 +186,9 @@ void measure_hosts(Recorder& recorder) {
 
 std::vector<Case> cases(const RunOptions&) { return cases_by("event", kSpecs); }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const int size = at.integer("size");
-  const auto kind = static_cast<Kind>(at.parameters.choice("event"));
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress&) {
+  const int size = test_case.integer("size");
+  const auto kind = static_cast<Kind>(test_case.parameters.choice("event"));
   std::vector<Ght> trees;
   // Not all mountains have a place for every carving.
   const Site site = first_site(kEventsAlong * size, size, options.seed, [&](const Site& tried) {

@@ -212,8 +212,8 @@ class Comparison {
   std::vector<Peer> peers_;
 };
 
-Site site_of(const Case& at, const RunOptions& options, Recorder& recorder) {
-  return recorded_site(at.integer("n"), at.integer("size"), options.seed, recorder);
+Site site_of(const Case& test_case, const RunOptions& options, Recorder& recorder) {
+  return recorded_site(test_case.integer("n"), test_case.integer("size"), options.seed, recorder);
 }
 
 std::vector<Case> edit_cases(const RunOptions& options) {
@@ -228,9 +228,10 @@ std::vector<Case> edit_cases(const RunOptions& options) {
   return cases;
 }
 
-void measure_edit(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const Site site = site_of(at, options, recorder);
-  Comparison(site, recorder, progress).measure(static_cast<Kind>(at.parameters.choice("event")), "", true);
+void measure_edit(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const Site site = site_of(test_case, options, recorder);
+  Comparison(site, recorder, progress)
+      .measure(static_cast<Kind>(test_case.parameters.choice("event")), "", true);
 }
 
 std::vector<Case> reach_cases(const RunOptions&) {
@@ -243,10 +244,10 @@ std::vector<Case> reach_cases(const RunOptions&) {
   return cases;
 }
 
-void measure_reach(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const Site site = site_of(at, options, recorder);
+void measure_reach(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const Site site = site_of(test_case, options, recorder);
   Comparison comparison(site, recorder, progress);
-  progress.begin(at.name, kKinds);
+  progress.begin(test_case.name, kKinds);
   for (int k = 0; k < kKinds; ++k) {
     progress.advance();
     const auto kind = static_cast<Kind>(k);

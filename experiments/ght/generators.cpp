@@ -190,10 +190,10 @@ std::vector<Case> cases(const RunOptions& options) {
                   {{"side", std::int64_t{options.profile == Profile::kPaper ? 513 : 129}}});
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const int side = at.integer("side");
-  const int steps = at.integer("steps");
-  kGeneratorTable[at.parameters.choice("generator")].measure(side, steps, options.seed, recorder);
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress&) {
+  const int side = test_case.integer("side");
+  const int steps = test_case.integer("steps");
+  kGeneratorTable[test_case.parameters.choice("generator")].measure(side, steps, options.seed, recorder);
 }
 
 }  // namespace

@@ -149,12 +149,12 @@ std::vector<Case> cases(const RunOptions& options) {
                   {{"columns_per_cell", std::int64_t{options.profile == Profile::kPaper ? 8 : 4}}});
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const int size = at.integer("size");
-  const int per_cell = at.integer("columns_per_cell");
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress&) {
+  const int size = test_case.integer("size");
+  const int per_cell = test_case.integer("columns_per_cell");
   const Site site = recorded_site(kEventsAlong * size, size, options.seed, recorder);
   const auto sculpture = std::make_shared<Sculpture>(
-      Sculpture{site.ground, kTerrains[at.parameters.choice("events")].events(site)});
+      Sculpture{site.ground, kTerrains[test_case.parameters.choice("events")].events(site)});
   Ght tree = plain_tree(site.ground);
   for (const Event& event : sculpture->events) tree.apply(event);
   const Evaluation evaluation(sculpture);

@@ -65,9 +65,9 @@ void record(const Fidelity& fidelity, Recorder& recorder) {
   recorder.add("largest_error", "m", fidelity.largest_error);
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const TerrainSource source = recorder.terrain(open_terrain(at.terrain, options.seed));
-  const RepresentationType& type = representation(at.parameters.text("representation"));
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const TerrainSource source = recorder.terrain(open_terrain(test_case.terrain, options.seed));
+  const RepresentationType& type = representation(test_case.parameters.text("representation"));
   std::unique_ptr<Representation> built;
   for (int i = 0; i < kSamples; ++i) {
     built.reset();
@@ -81,11 +81,11 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const TriangleMesh mesh = built->mesh({});
   if (mesh.triangles() == 0) throw SkippedCase("the representation holds no ground to draw");
   recorder.add("triangles", "", mesh.triangles());
-  const View view = overview(bounds_of(mesh), at.integer("width"), at.integer("height"));
+  const View view = overview(bounds_of(mesh), test_case.integer("width"), test_case.integer("height"));
   const auto context = open_context(options.renderer, view.width, view.height);
   const Bounds ground = source.bounds();  // the same colours for every representation of it
   const Image image = render_relief(*context, mesh, view, {.lowest = ground.low.y, .highest = ground.high.y});
-  const std::string id = fmt::format("relief.{}.{}", file_name(at.terrain), type.name);
+  const std::string id = fmt::format("relief.{}.{}", file_name(test_case.terrain), type.name);
   write_picture(
       recorder
           .figure(id,

@@ -41,6 +41,7 @@ struct Drills {
   std::size_t count() const { return pixel.size(); }
   std::size_t pixels() const { return static_cast<std::size_t>(width) * depth; }
   int influence_of(std::size_t drill) const { return influence.empty() ? k : influence[drill]; }
+  bool operator==(const Drills&) const = default;
 };
 
 }  // namespace terrabench

@@ -71,9 +71,9 @@ TriangleMesh join(std::vector<SurfaceBlock>& blocks) {
   return mesh;
 }
 
-// Foresees the mesh of a large lattice by that of a coarse one, since a surface's vertices grow with the
+// Estimates the mesh of a large lattice from that of a coarse one, since a surface's vertices grow with the
 // square of its fineness. Throws environment_error where memory will not hold it.
-void foresee(const SampledField& field, const FieldLattice& lattice, Extractor extractor) {
+void check_memory(const SampledField& field, const FieldLattice& lattice, Extractor extractor) {
   constexpr double kLarge = 0x1p31, kCoarse = 0x1p24;  // cells
   const double cells = 1.0 * lattice.cells.x * lattice.cells.y * lattice.cells.z;
   if (cells < kLarge) return;
@@ -94,7 +94,7 @@ SurfaceBlock extract(Extractor extractor, const BlockTask& task) {
 }
 
 TriangleMesh closed_surface(const SampledField& field, const FieldLattice& lattice, Extractor extractor) {
-  foresee(field, lattice, extractor);
+  check_memory(field, lattice, extractor);
   // Cells -1 … cells, one more than the lattice has on each side.
   const auto tiles = [](int cells, int size) { return (cells + 2 + size - 1) / size; };
   const int across = tiles(lattice.cells.x, kBlockWidth), down = tiles(lattice.cells.z, kBlockDepth);

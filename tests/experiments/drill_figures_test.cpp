@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "experiments/drill/analysis.h"
-#include "experiments/drill/drawn_channels.h"
 #include "experiments/figures/maps.h"
 #include "representations/drill/regenerate.h"
 #include "terrain/hydrology/channels.h"

@@ -1,5 +1,5 @@
-// Figure 2 of "drill": its cross-sections, their union and their fit, computed once more by plain formulas
-// and read back from the sheet. The test must reject a figure of another place.
+// Figure 2 of "drill": its cross-sections, their union and their fit, read back from the sheet. The test must
+// reject a figure of another place.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,10 @@
 #include <sstream>
 
 #include "experiments/drill/cutting_planes.h"
+#include "representations/drill/cross_sections.h"
+#include "representations/drill/profile_fit.h"
 #include "tests/experiments/drill_figure_grounds.h"
+#include "tests/experiments/value.h"
 #include "tests/terrain/temporary_folder.h"
 
 namespace terrabench::drill {
@@ -49,46 +52,21 @@ std::vector<Drawn> lines_of(const figures::Sheet& sheet) {
   return lines;
 }
 
-// The highest of the 120 rays at each distance from a pixel, by the bilinear formula.
-std::vector<double> union_at(const Heightfield& field, std::uint32_t pixel, int w) {
-  const int i = static_cast<int>(pixel) % field.width, j = static_cast<int>(pixel) / field.width;
-  std::vector<double> highest(static_cast<std::size_t>(w) + 1, -1e30);
-  highest[0] = field.at(i, j);
-  for (int r = 1; r <= w; ++r) {
-    for (int ray = 0; ray < 120; ++ray) {
-      const double angle = ray * std::numbers::pi / 60;
-      const double x = i + r * std::cos(angle), z = j + r * std::sin(angle);
-      const int x0 = static_cast<int>(std::floor(x + 1e-9)), z0 = static_cast<int>(std::floor(z + 1e-9));
-      const double dx = x - x0, dz = z - z0;
-      const double north = field.at(x0, z0) * (1 - dx) + field.at(x0 + 1, z0) * dx;
-      const double south = field.at(x0, z0 + 1) * (1 - dx) + field.at(x0 + 1, z0 + 1) * dx;
-      highest[static_cast<std::size_t>(r)] =
-          std::max(highest[static_cast<std::size_t>(r)], north * (1 - dz) + south * dz);
-    }
+// At distances 0 to w from a pixel: the union of its cross-sections, and the printed fit to it.
+struct Curves {
+  std::vector<double> united, fitted;
+};
+Curves curves_at(const Heightfield& field, std::uint32_t pixel, int w) {
+  std::vector<float> joined(static_cast<std::size_t>(w));
+  CrossSections(field, w).join(pixel, joined);
+  const FittedProfile fit = fit_profile(joined, field.heights[pixel], DrillFit::kPrinted);
+  Curves curves{{field.heights[pixel]}, {field.heights[pixel]}};
+  for (const float height : joined) {
+    const auto r = static_cast<double>(curves.united.size());
+    curves.united.push_back(height);
+    curves.fitted.push_back(field.heights[pixel] + r * (fit.slope + r * fit.curvature));
   }
-  return highest;
-}
-
-// The least squares parabola through the first height.
-std::vector<double> parabola(const std::vector<double>& heights) {
-  double r2 = 0, r3 = 0, r4 = 0, ry = 0, r2y = 0;
-  for (std::size_t i = 1; i < heights.size(); ++i) {
-    const auto r = static_cast<double>(i);
-    const double y = heights[i] - heights[0];
-    r2 += r * r;
-    r3 += r * r * r;
-    r4 += r * r * r * r;
-    ry += r * y;
-    r2y += r * r * y;
-  }
-  const double determinant = r2 * r4 - r3 * r3, slope = (ry * r4 - r2y * r3) / determinant,
-               curvature = (r2y * r2 - ry * r3) / determinant;
-  std::vector<double> fitted;
-  for (std::size_t i = 0; i < heights.size(); ++i) {
-    const auto r = static_cast<double>(i);
-    fitted.push_back(heights[0] + slope * r + curvature * r * r);
-  }
-  return fitted;
+  return curves;
 }
 
 // Figure 2 at a pixel of a ground: what is wrong with it.
@@ -124,7 +102,7 @@ std::vector<std::string> faults_of_sections(const figures::Sheet& sheet, const H
     return high + (y - top) / (bottom - top) * (low - high);
   };
   const double within = (high - low) / 5000;  // points are given to a hundredth of a unit
-  const std::vector<double> highest = union_at(ground, pixel, kW), fitted = parabola(highest);
+  const auto [highest, fitted] = curves_at(ground, pixel, kW);
   for (std::size_t r = 0; r < joint[0].points.size(); ++r) {
     if (std::abs(level(joint[0].points[r].y) - highest[r]) > within) return {"union"};
   }
@@ -156,7 +134,7 @@ TEST(DrillFigures, OnlyAUnionOfSectionsAndLeastSquaresGiveTheRecordedNumbers) {
   Record record;
   Recorder recorder(record, folder.path());
   draw_cross_sections(grounds().study(), recorder);
-  const auto value = [&](std::string_view metric) { return record.find(metric)->samples[0]; };
+  const auto value = [&](std::string_view metric) { return terrabench::value(record, metric); };
   EXPECT_EQ(value("drawn_sections_above_union"), 0);
   EXPECT_EQ(value("drawn_union_on_sections"), 20);
   EXPECT_EQ(value("drawn_union_off_ground"), 0);
@@ -164,8 +142,7 @@ TEST(DrillFigures, OnlyAUnionOfSectionsAndLeastSquaresGiveTheRecordedNumbers) {
   EXPECT_LE(value("drawn_rms_printed"), value("drawn_rms_monotone"));
   EXPECT_LT(value("drawn_rms_vertex"), value("drawn_rms_level"));
   // Worked out once more.
-  const std::vector<double> united = union_at(grounds().one, example_pixel(grounds().study()), 20);
-  const std::vector<double> fitted = parabola(united);
+  const auto [united, fitted] = curves_at(grounds().one, example_pixel(grounds().study()), 20);
   double squares = 0;
   for (std::size_t r = 1; r <= 20; ++r) squares += std::pow(fitted[r] - united[r], 2);
   EXPECT_NEAR(value("drawn_rms_printed"), std::sqrt(squares / 20), 1e-3);

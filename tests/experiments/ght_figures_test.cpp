@@ -187,52 +187,41 @@ TEST(GhtFigures, WiresShowWhatEventsMade) {
   EXPECT_EQ(rain.share(rain.pictures.at(5), yellow), 0);
 }
 
+Record drawn(std::string_view which, std::string_view name, const TemporaryFolder& folder) {
+  std::filesystem::create_directories(folder / "figures");
+  Record record;
+  record.profile = "quick";
+  record.case_name = name;
+  Recorder recorder(record, folder.path());
+  Progress progress;
+  const std::vector<Case> cases = experiment(which).cases({});
+  experiment(which).measure(*std::ranges::find(cases, name, &Case::name), {}, recorder, progress);
+  EXPECT_EQ(record.figures.size(), 1U);
+  EXPECT_EQ(record.figures.at(0).id, fmt::format("ght.{}", name));
+  return record;
+}
+
 TEST(GhtFigures, RecordTheNumbersThatTheyPrint) {
-  const auto drawn = [](const char* which, const char* name) {
-    const TemporaryFolder folder;
-    std::filesystem::create_directories(folder / "figures");
-    Record record;
-    record.profile = "quick";
-    Recorder recorder(record, folder.path());
-    Progress progress;
-    const std::vector<Case> cases = experiment(which).cases({});
-    experiment(which).measure(*std::ranges::find(cases, name, &Case::name), {}, recorder, progress);
-    return record;
-  };
+  const TemporaryFolder folder;
   const auto expect_said = [](const Record& record, const char* metric) {
     const double value = record.find(metric)->samples.at(0);
     EXPECT_TRUE(says(record.figures.at(0).layout, value)) << metric << " " << value;
     EXPECT_FALSE(says(record.figures[0].layout, value + 5000)) << metric;
   };
-  const Record six = drawn("ght.stages", "F6"), tree = drawn("ght.event-figures", "F23");
+  const Record six = drawn("ght.stages", "F6", folder), tree = drawn("ght.event-figures", "F23", folder);
   expect_said(six, "height_west");
   expect_said(six, "height_east");
   expect_said(tree, "events");
   expect_said(tree, "heightmaps");
 }
 
-std::filesystem::path draw(const Case& at, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder / "figures");
-  Record record;
-  record.profile = "quick";
-  record.case_name = at.name;
-  Recorder recorder(record, folder);
-  Progress progress;
-  experiment("ght.event-figures").measure(at, {}, recorder, progress);
-  EXPECT_EQ(record.figures.size(), 1U);
-  EXPECT_EQ(record.figures.at(0).id, "ght." + at.name);
-  EXPECT_EQ(record.figures.at(0).caption.find("Figure 15 of the paper: a tunnel"), 0U);
-  EXPECT_EQ(record.find("figure")->samples, std::vector<double>{15});
-  return folder / record.figures.at(0).file;
-}
-
 TEST(GhtFigures, AreTheSameEveryTime) {
-  const TemporaryFolder folder;
-  for (const Case& at : experiment("ght.event-figures").cases({})) {
-    if (at.name != "F15") continue;
-    const std::filesystem::path png = draw(at, folder.path() / "a");
-    EXPECT_EQ(read_file(png), read_file(draw(at, folder.path() / "b")));
-  }
+  const TemporaryFolder one, two;
+  const Record record = drawn("ght.event-figures", "F15", one),
+               again = drawn("ght.event-figures", "F15", two);
+  EXPECT_EQ(record.figures[0].caption.find("Figure 15 of the paper: a tunnel"), 0U);
+  EXPECT_EQ(record.find("figure")->samples, std::vector<double>{15});
+  EXPECT_EQ(read_file(one / record.figures[0].file), read_file(two / again.figures[0].file));
 }
 
 TEST(GhtFigures, OfListingsOfCodeAreRefused) {

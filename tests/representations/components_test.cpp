@@ -1,7 +1,5 @@
 #include "representations/layered_stack/components.h"
 
-#include <map>
-
 #include "tests/representations/ground.h"
 
 namespace terrabench::test {
@@ -10,66 +8,56 @@ namespace {
 // By flooding a byte grid, cell by cell.
 Components flood(const LayeredStack& stack) {
   const ColumnGrid& grid = stack.grid();
-  std::vector<int> label(grid.columns() * static_cast<std::size_t>(grid.levels), -1);
-  const auto at = [&](int i, int j, int level) { return grid.index(i, j) * grid.levels + level; };
-  for (int j = 0; j < grid.depth; ++j) {
-    for (int i = 0; i < grid.width; ++i) {
-      const ColumnRuns runs = stack.column(i, j);
-      int bottom = 0;
-      for (std::size_t r = 0; r < runs.count; bottom = runs.tops[r++]) {
-        for (int level = bottom; level < runs.tops[r]; ++level) {
-          if (runs.materials[r] != Material::kAir) label[at(i, j, level)] = 0;
-        }
-      }
+  enum : char { kAir, kSolid, kSeen };
+  std::vector<char> cells(grid.columns() * static_cast<std::size_t>(grid.levels), kAir);
+  const auto at = [&](int i, int j, int level) -> char& {
+    return cells[grid.index(i, j) * grid.levels + level];
+  };
+  const auto each_column = [&](const auto& visit) {
+    for (int j = 0; j < grid.depth; ++j) {
+      for (int i = 0; i < grid.width; ++i) visit(i, j);
     }
-  }
+  };
   Components found;
+  each_column([&](int i, int j) {
+    stack.column(i, j).each_solid([&](int bottom, int top, Material) {
+      for (int level = bottom; level < top; ++level) at(i, j, level) = kSolid;
+    });
+    bool solid = false, overhang = false;
+    for (int level = 0; level < grid.levels; ++level) {
+      solid = solid || at(i, j, level) == kSolid;
+      overhang = overhang || (level > 0 && at(i, j, level) == kSolid && at(i, j, level - 1) == kAir);
+    }
+    found.solid_columns += solid;
+    found.overhang_columns += overhang;
+  });
   const double cell = grid.cell_x * grid.step * grid.cell_z;
-  for (int j = 0; j < grid.depth; ++j) {
-    for (int i = 0; i < grid.width; ++i) {
-      bool solid = false, overhang = false;
-      for (int level = 0; level < grid.levels; ++level) {
-        const bool here = label[at(i, j, level)] >= 0;
-        overhang = overhang || (here && (level == 0 ? false : label[at(i, j, level - 1)] < 0));
-        solid = solid || here;
+  std::vector<std::array<int, 3>> todo;
+  const auto see = [&](int i, int j, int level) {
+    if (i < 0 || j < 0 || level < 0 || i >= grid.width || j >= grid.depth || level >= grid.levels) return;
+    if (at(i, j, level) != kSolid) return;
+    at(i, j, level) = kSeen;
+    todo.push_back({i, j, level});
+  };
+  each_column([&](int i, int j) {
+    for (int level = 0; level < grid.levels; ++level) {
+      see(i, j, level);
+      if (todo.empty()) continue;
+      double volume = 0;
+      bool grounded = false;
+      while (!todo.empty()) {
+        const auto [a, b, c] = todo.back();
+        todo.pop_back();
+        volume += cell;
+        grounded = grounded || c == 0;
+        for (const int way : {-1, 1}) see(a + way, b, c), see(a, b + way, c), see(a, b, c + way);
       }
-      found.solid_columns += solid;
-      found.overhang_columns += overhang;
+      ++found.total;
+      found.solid_volume += volume;
+      found.floating += grounded ? 0 : 1;
+      found.floating_volume += grounded ? 0 : volume;
     }
-  }
-  for (int j = 0; j < grid.depth; ++j) {
-    for (int i = 0; i < grid.width; ++i) {
-      for (int level = 0; level < grid.levels; ++level) {
-        if (label[at(i, j, level)] != 0) continue;
-        std::vector<std::array<int, 3>> todo{{i, j, level}};
-        label[at(i, j, level)] = 1;
-        std::size_t cells = 0;
-        bool grounded = false;
-        while (!todo.empty()) {
-          const auto [a, b, c] = todo.back();
-          todo.pop_back();
-          ++cells;
-          grounded = grounded || c == 0;
-          for (const auto& [x, z, y] : {std::array{a - 1, b, c},
-                                        {a + 1, b, c},
-                                        {a, b - 1, c},
-                                        {a, b + 1, c},
-                                        {a, b, c - 1},
-                                        {a, b, c + 1}}) {
-            if (x < 0 || z < 0 || y < 0 || x >= grid.width || z >= grid.depth || y >= grid.levels ||
-                label[at(x, z, y)] != 0)
-              continue;
-            label[at(x, z, y)] = 1;
-            todo.push_back({x, z, y});
-          }
-        }
-        ++found.total;
-        found.solid_volume += static_cast<double>(cells) * cell;
-        found.floating += grounded ? 0 : 1;
-        found.floating_volume += grounded ? 0 : static_cast<double>(cells) * cell;
-      }
-    }
-  }
+  });
   return found;
 }
 

@@ -103,7 +103,7 @@ TEST(DrillCodec, GivesBackEveryBit) {
       options.interpolate_untouched = seed == 2;
       Drills drills = drill(field, options);
       quantise(drills, seed == 1 ? 0.3F : 0.5F);
-      EXPECT_TRUE(same_drills(decoded(encoded(drills)), drills)) << seed << " tau " << tau;
+      EXPECT_TRUE(decoded(encoded(drills)) == drills) << seed << " tau " << tau;
     }
   }
 }
@@ -117,7 +117,7 @@ TEST(DrillCodec, OfTheSmallestTerrains) {
         Heightfield{4, 1, 10, 10, {3, 1, 4, Heightfield::kNoData}, {}}}) {
     Drills drills = drill(field, options);
     quantise(drills, 0.25F);
-    EXPECT_TRUE(same_drills(decoded(encoded(drills)), drills));
+    EXPECT_TRUE(decoded(encoded(drills)) == drills);
   }
 }
 
@@ -134,7 +134,7 @@ TEST(DrillCodec, RoundsWithinTheQuantumAndOnlyOnce) {
     }
     Drills twice = drills;
     quantise(twice, quantum);
-    EXPECT_TRUE(same_drills(twice, drills));
+    EXPECT_TRUE(twice == drills);
   }
 }
 
@@ -172,10 +172,10 @@ TEST(DrillCodec, ShapesWithTheirVertexAtThePixelHaveNoSlopeInTheFile) {
   Drills four = drill(field, options);
   for (Drills* drills : {&full, &four}) quantise(*drills, 0.5F);
   EXPECT_LT(static_cast<double>(encoded(four).size()), 0.85 * static_cast<double>(encoded(full).size()));
-  EXPECT_TRUE(same_drills(decoded(encoded(four)), four));
+  EXPECT_TRUE(decoded(encoded(four)) == four);
   four.slope.back() = full.slope.back() + 1;  // a single slope is kept
   quantise(four, 0.5F);
-  EXPECT_TRUE(same_drills(decoded(encoded(four)), four));
+  EXPECT_TRUE(decoded(encoded(four)) == four);
 }
 
 TEST(DrillCodec, RefusesQuantaThatMakeNoSense) {

@@ -1,8 +1,4 @@
 // Channels, cross-sections, their union and the fit, against plain double-precision readings of §2.2.
-#include <hwy/highway.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <functional>
 #include <optional>
 
@@ -247,18 +243,7 @@ TEST(Extraction, IsTheSameForAnyThreadsAndInstructionSet) {
   options.tau = 4;
   options.adaptive_k = true;
   const Drills many = drill(field, options);
-  for (const int threads : {1, 5}) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threads));
-    tbb::task_arena(threads).execute([&] { EXPECT_TRUE(same_drills(drill(field, options), many)); });
-  }
-  const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
-  EXPECT_GT(targets.size(), 1U);
-  for (const std::int64_t target : targets) {
-    hwy::SetSupportedTargetsForTest(target);
-    EXPECT_TRUE(same_drills(drill(field, options), many)) << hwy::TargetName(target);
-  }
-  hwy::SetSupportedTargetsForTest(0);
+  with_any_threads_and_targets([&] { EXPECT_TRUE(drill(field, options) == many); });
 }
 
 TEST(Extraction, RefusesOptionsThatMakeNoSense) {

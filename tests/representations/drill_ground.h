@@ -2,6 +2,9 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <hwy/highway.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -50,12 +53,22 @@ inline bool same_heights(const std::vector<float>& a, const std::vector<float>& 
                     [](float p, float q) { return p == q || (std::isnan(p) && std::isnan(q)); });
 }
 
-inline bool same_drills(const Drills& a, const Drills& b) {
-  return a.width == b.width && a.depth == b.depth && a.cell_x == b.cell_x && a.cell_z == b.cell_z &&
-         a.plateau == b.plateau && a.w == b.w && a.k == b.k && a.quantum == b.quantum &&
-         a.interpolated == b.interpolated && a.pixel == b.pixel && a.direction == b.direction &&
-         a.elevation == b.elevation && a.slope == b.slope && a.curvature == b.curvature &&
-         a.influence == b.influence && a.holes == b.holes;
+// Calls check() with one and with five threads, and with every instruction set.
+template <class Check>
+void with_any_threads_and_targets(const Check& check) {
+  for (const int threads : {1, 5}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    tbb::task_arena(threads).execute([&] { check(); });
+  }
+  const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+  EXPECT_GT(targets.size(), 1U);
+  for (const std::int64_t target : targets) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    check();
+  }
+  hwy::SetSupportedTargetsForTest(0);
 }
 
 }  // namespace terrabench::test

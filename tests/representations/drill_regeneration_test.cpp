@@ -1,8 +1,4 @@
 // Eq. 1, what no drill touches, pits, and a k for every drill.
-#include <hwy/highway.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include "representations/drill/extract.h"
 #include "representations/drill/pits.h"
 #include "representations/drill/regenerate.h"
@@ -90,16 +86,7 @@ TEST(Regeneration, WithoutDrillsIsThePlateau) {
 TEST(Regeneration, IsTheSameForAnyThreadsAndInstructionSet) {
   const Drills drills = drill(hills(130, 170, 2), options_for(15, 6, 11));
   const Heightfield many = regenerate(drills);
-  for (const int threads : {1, 5}) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threads));
-    tbb::task_arena(threads).execute([&] { EXPECT_EQ(regenerate(drills).heights, many.heights); });
-  }
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    EXPECT_EQ(regenerate(drills).heights, many.heights) << hwy::TargetName(target);
-  }
-  hwy::SetSupportedTargetsForTest(0);
+  with_any_threads_and_targets([&] { EXPECT_EQ(regenerate(drills).heights, many.heights); });
 }
 
 TEST(Untouched, PixelsAreCountedAndDrawnFromTheirSurroundings) {

@@ -1,8 +1,6 @@
 // Rays on the implicit surface: against its field, sampled densely along them, and against its mesh.
 #include "representations/implicit/field_rays.h"
 
-#include <tbb/global_control.h>
-
 #include <random>
 
 #include "tests/representations/implicit_ground.h"
@@ -245,14 +243,6 @@ TEST(FieldRays, TopsChangeNoSample) {
 TEST(FieldRays, AKernelBelowACellHasNone) {
   const auto built = implicit(hills(20, 20, 1, 1), {.radius = 0.5});
   EXPECT_EQ(built->ray_caster(), nullptr);
-}
-
-TEST(FieldRays, ThreadsChangeNothing) {
-  const auto built = implicit(caves(), {.resolution = 48});
-  const std::vector<Ray> rays = random_rays(built->bounds(), 19, 20000);
-  const std::vector<float> many = cast(*built, rays);
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  EXPECT_EQ(many, cast(*built, rays));
 }
 
 TEST(FieldRays, FarAwayRaysEnd) {

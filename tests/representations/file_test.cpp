@@ -1,28 +1,19 @@
 // Saved structures come back whole; anything else is refused.
-#include <unistd.h>
-
 #include <filesystem>
 
 #include "terrain/error.h"
 #include "terrain/files.h"
 #include "tests/representations/ground.h"
+#include "tests/terrain/temporary_folder.h"
 
 namespace terrabench::test {
 namespace {
 
-namespace fs = std::filesystem;
-
 class SavedFile : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / ("terrabench_file_" + std::to_string(getpid()));
-    path_ = folder_ / "saved.tb";
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string save(std::string_view name, const Representation& structure) {
     const std::size_t bytes = save_representation(path_, representation(name), structure);
-    EXPECT_EQ(bytes, fs::file_size(path_));
+    EXPECT_EQ(bytes, std::filesystem::file_size(path_));
     return read_file(path_);
   }
   static Loaded load(const std::string& file) {
@@ -42,7 +33,8 @@ class SavedFile : public testing::Test {
     return file + checksum(file);
   }
 
-  fs::path folder_, path_;
+  TemporaryFolder folder_;
+  std::string path_ = folder_ / "saved.tb";
 };
 
 TEST_F(SavedFile, ComesBack) {
@@ -138,7 +130,7 @@ TEST_F(SavedFile, ForeignFilesAreRefused) {
   EXPECT_TRUE(refused("II*\0 a TIFF, or a text"));
   EXPECT_TRUE(refused(std::string(5000, '\xFF')));
   EXPECT_THROW(load_representation(path_), Error);  // there is none yet
-  EXPECT_THROW(load_representation(folder_), Error);
+  EXPECT_THROW(load_representation(folder_.path()), Error);
 }
 
 TEST_F(SavedFile, ClaimsThatCannotBeAreRefused) {
@@ -174,9 +166,7 @@ TEST_F(SavedFile, AnUnwritablePlaceIsAnError) {
 TEST(SavedStructure, OfImpossibleContentIsRefused) {
   for (const RepresentationType& type : representations()) {
     const auto built = build(type.name, random_boxes(8, 12, 20, 3), 12);
-    ByteSink sink;
-    built->save(sink);
-    const std::vector<std::byte> good(sink.bytes().begin(), sink.bytes().end());
+    const std::vector<std::byte> good = saved(*built);
     for (std::size_t at = 0; at < 12; at += 4) {
       for (const std::int32_t size : {0, -1, 1 << 30, 40000}) {
         std::vector<std::byte> bad = good;

@@ -13,21 +13,6 @@ using events::square_tunnel;
 using testing::HasSubstr;
 using testing::SizeIs;
 
-std::string refusal(Ght& ght, const events::Event& event) {
-  const std::vector<std::byte> before = saved(ght);
-  std::string what;
-  try {
-    ght.apply(event);
-    ADD_FAILURE() << "was not refused";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kBadInput);
-    EXPECT_FALSE(error.advice().empty());
-    what = error.what();
-  }
-  EXPECT_EQ(saved(ght), before);
-  return what;
-}
-
 std::vector<Span> column(const Ght& ght, float x, float z) {
   const SpanSink sink = spans_of(ght, {std::span(&x, 1), std::span(&z, 1)});
   return {sink.all().begin(), sink.all().end()};

@@ -9,8 +9,8 @@
 
 #include "representations/ght/ght.h"
 #include "representations/ght/invariants.h"
-#include "terrain/error.h"
 #include "tests/representations/ground.h"
+#include "tests/terrain/errors.h"
 
 namespace terrabench::test {
 
@@ -35,10 +35,14 @@ inline Ght make_ght(const Heightfield& field) {
              height_range(field).lowest - field.cell_x);
 }
 
-inline std::vector<std::byte> saved(const Representation& structure) {
-  ByteSink sink;
-  structure.save(sink);
-  return {sink.bytes().begin(), sink.bytes().end()};
+// What a refused event says; the tree stays as it was, to the bit.
+inline std::string refusal(Ght& ght, const events::Event& event) {
+  const std::vector<std::byte> before = saved(ght);
+  const Failure failure = failure_of([&] { ght.apply(event); });
+  EXPECT_EQ(failure.code, ExitCode::kBadInput);
+  EXPECT_FALSE(failure.advice.empty());
+  EXPECT_EQ(saved(ght), before);
+  return failure.what;
 }
 
 inline void expect_sound(const Ght& ght) {

@@ -63,17 +63,6 @@ TEST(GhtHost, ATunnelFromAFaultToTheRootBelongsToTheRoot) {
 
 // Where it cannot be, the error names what is in the way.
 TEST(GhtHost, RefusalsNameTheGeometry) {
-  const auto refusal = [](Ght& ght, const events::Event& event) -> std::string {
-    const std::vector<std::byte> before = saved(ght);
-    try {
-      ght.apply(event);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kBadInput);
-      EXPECT_EQ(saved(ght), before);
-      return error.what();
-    }
-    return "was not refused";
-  };
   // Down from the floor of a cave, and up into it.
   Ght carved = make_ght(events::ridge());
   Carving cave = square_tunnel({20, 15, 32}, {36, 15, 32});

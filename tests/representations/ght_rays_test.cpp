@@ -136,13 +136,5 @@ TEST(GhtRays, ThreadsChangeNothing) {
   EXPECT_EQ(many, cast(ght, rays));
 }
 
-TEST(GhtRays, BytesAreThoseOfTheAllocator) {
-  const Ght ght = carved_ridge();
-  ght_ray_caster(ght);
-  const HeapScope scope;
-  const auto caster = ght_ray_caster(ght);
-  EXPECT_EQ(static_cast<std::int64_t>(caster->bytes()), scope.held());
-}
-
 }  // namespace
 }  // namespace terrabench::test

@@ -116,6 +116,12 @@ inline std::unique_ptr<Representation> build(std::string_view name, const Terrai
   return type.build(source, with(type, resolution, step), progress);
 }
 
+inline std::vector<std::byte> saved(const Representation& structure) {
+  ByteSink sink;
+  structure.save(sink);
+  return {sink.bytes().begin(), sink.bytes().end()};
+}
+
 // A copy through save() and load().
 inline std::unique_ptr<Representation> reloaded(std::string_view name, const Representation& structure) {
   ByteSink sink;

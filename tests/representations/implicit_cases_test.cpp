@@ -97,9 +97,7 @@ TEST(ImplicitCases, ParametersSurviveTheFile) {
 
 TEST(ImplicitCases, DamagedParametersAreRefused) {
   const auto built = implicit(random_boxes(2, 10, 30, 2), {.resolution = 10});
-  ByteSink sink;
-  built->save(sink);
-  const std::vector<std::byte> good(sink.bytes().begin(), sink.bytes().end());
+  const std::vector<std::byte> good = saved(*built);
   const std::size_t radius = good.size() - 14, cell = good.size() - 6;
   const auto refused = [&](std::size_t at, auto value) {
     std::vector<std::byte> bad = good;

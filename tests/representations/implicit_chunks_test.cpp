@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <atomic>
+#include <glm/geometric.hpp>
 
 #include "terrain/error.h"
 #include "tests/representations/implicit_ground.h"
@@ -87,9 +88,7 @@ TEST_P(Chunks, AreTheWholeSurface) {
     for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
       const glm::dvec3 a = mesh.positions[mesh.indices[t]], b = mesh.positions[mesh.indices[t + 1]],
                        c = mesh.positions[mesh.indices[t + 2]];
-      const glm::dvec3 u = b - a, v = c - a,
-                       n{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
-      const double size = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z) / 2;
+      const double size = glm::length(glm::cross(b - a, c - a)) / 2;
       bool wall = false;
       for (int axis = 0; axis < 3; ++axis) {
         for (const double at : {box.low[axis], box.high[axis]}) {

@@ -1,6 +1,5 @@
 // A structure's memory() is what operator new gave it.
 #include "representations/layered_stack/layered_stack.h"
-#include "representations/voxel/voxel.h"
 #include "tests/representations/ground.h"
 
 namespace terrabench::test {
@@ -58,14 +57,6 @@ TEST(StackMemory, CaveTerrainTakesLessThanThePapers24BytesAColumn) {
 
 TEST(DenseMemory, IsAByteAVoxel) {
   EXPECT_EQ(build("dense_voxel", caves(), 64)->memory().payload, 64U * 64 * 64);
-}
-
-TEST(VoxelMemory, OpenvdbLeavesOutWhatTheAllocatorAdds) {
-  const auto built = build("voxel", caves(), 96);
-  const auto& voxel = dynamic_cast<const Voxel&>(*built);
-  EXPECT_GT(voxel.openvdb_bytes(), 250'000U);
-  EXPECT_LT(voxel.openvdb_bytes(), voxel.memory().total());
-  EXPECT_GT(static_cast<double>(voxel.openvdb_bytes()), 0.8 * static_cast<double>(voxel.memory().total()));
 }
 
 }  // namespace

@@ -159,11 +159,13 @@ TEST(RayCast, MeshesAndGroundWithoutAreaHaveNone) {
 }
 
 TEST(RayCast, ThreadsChangeNothing) {
-  const auto built = build("voxel", random_boxes(30, 30, 50, 1), 30);
-  const std::vector<Ray> rays = random_rays(built->bounds(), 17, 20000);
-  const std::vector<float> many = cast(*built, rays);
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  EXPECT_EQ(many, cast(*built, rays));
+  for (const std::string_view type : types([](const Traits& t) { return t.rays; })) {
+    const auto built = build(type, random_boxes(30, 30, 50, 1), 30);
+    const std::vector<Ray> rays = random_rays(built->bounds(), 17, 20000);
+    const std::vector<float> many = cast(*built, rays);
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(many, cast(*built, rays)) << type;
+  }
 }
 
 TEST(RayCast, BytesAreThoseOfTheAllocator) {

@@ -34,11 +34,9 @@ struct Cells {
     all.resize(static_cast<std::size_t>(width) * depth * levels);
     for (int j = 0; j < depth; ++j) {
       for (int i = 0; i < width; ++i) {
-        const ColumnRuns runs = stack.column(i, j);
-        int y = 0;
-        for (std::size_t r = 0; r < runs.count; ++r) {
-          for (; y < runs.tops[r]; ++y) all[index(i, y, j)] = runs.materials[r];
-        }
+        stack.column(i, j).each_solid([&](int bottom, int top, Material material) {
+          for (int y = bottom; y < top; ++y) all[index(i, y, j)] = material;
+        });
       }
     }
   }
